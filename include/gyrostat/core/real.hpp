@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <concepts>
+#include <limits>
+
+namespace gyrostat {
+
+/// The scalar of every model: float, double and long double are tested.
+template <class T>
+concept Real = std::floating_point<T>;
+
+/// Spacing of the numbers just above one.
+template <Real Scalar>
+inline constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+
+/// What comes back where no number is right.
+template <Real Scalar>
+inline constexpr Scalar nan = std::numeric_limits<Scalar>::quiet_NaN();
+
+template <Real Scalar>
+inline constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+
+template <Real Scalar>
+inline constexpr Scalar pi = Scalar(3.141592653589793238462643383279502884L);
+
+}  // namespace gyrostat

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// Despin of an asymmetric gyrostat in a resistive medium: the carrier with inertia J turns with omega, its rotors hold
+/// the momentum l in the carrier, the total momentum is M = J omega + l, and
+///     dM/dt = M x omega - drag D - control U/|U|,   omega = J^-1 (M - l).
+namespace gyrostat::deceleration {
+
+/// What a torque opposes: the total momentum M, or the carrier's share G = J omega = M - l.
+enum class Law : std::uint8_t { total, carrier };
+
+/// The scene in the principal axes of the carrier, A >= B >= C. SI units. Plain data: whoever fills it has validated it.
+template <Real Scalar>
+struct Problem {
+  Vec3<Scalar> inverse_inertia{1, 1, 1};      ///< a = (1/A, 1/B, 1/C), ascending, 1/(kg m^2)
+  Vec3<Scalar> rotor_momentum{0, 0, 0};       ///< l, constant in the carrier and relative to it, N m s
+  Mat3<Scalar> control = Mat3<Scalar>::Zero();  ///< eps b: symmetric, diagonal if the actuators lie on principal axes, N m
+  Scalar drag = 0;                            ///< eps lambda, 1/s
+  Law law = Law::total;                       ///< U: M or G
+  Law drag_law = Law::total;                  ///< D: M or G
+  Vec3<Scalar> momentum{0, 0, 0};             ///< M at t = 0, N m s
+
+  /// g = J^-1 l, the rate at which the carrier would turn if all of l were its own, rad/s.
+  Vec3<Scalar> gyro_rate() const noexcept { return inverse_inertia.cwiseProduct(rotor_momentum); }
+
+  /// l.J^-1 l; the carrier energy at M = 0 is half of it, J.
+  Scalar rotor_energy_scale() const noexcept { return rotor_momentum.dot(gyro_rate()); }
+
+  /// Carrier energy of the total momentum M, J.
+  Scalar energy(const Vec3<Scalar>& M) const noexcept {
+    const Vec3<Scalar> G = M - rotor_momentum;
+    return G.dot(inverse_inertia.cwiseProduct(G)) / 2;
+  }
+
+  /// omega = J^-1 (M - l), rad/s.
+  Vec3<Scalar> angular_velocity(const Vec3<Scalar>& M) const noexcept {
+    return inverse_inertia.cwiseProduct(M - rotor_momentum);
+  }
+};
+
+}  // namespace gyrostat::deceleration
