@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Install rules: every component is an export set of its own, so that find_package(gyrostat COMPONENTS ...) loads the
+# optional libraries only for who asks for them.
+include(CMakePackageConfigHelpers)
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gyrostat")
+
+install(TARGETS gyrostat_headers EXPORT gyrostat-headers FILE_SET HEADERS)
+install(TARGETS gyrostat EXPORT gyrostat-gyrostat)
+set(components headers gyrostat)
+if(TARGET gyrostat_gsl)
+  install(TARGETS gyrostat_gsl EXPORT gyrostat-gsl FILE_SET HEADERS)
+  list(APPEND components gsl)
+endif()
+if(TARGET gyrostat_cvode)
+  install(TARGETS gyrostat_cvode EXPORT gyrostat-cvode FILE_SET HEADERS)
+  list(APPEND components cvode)
+endif()
+foreach(component IN LISTS components)
+  install(EXPORT gyrostat-${component} NAMESPACE gyrostat:: DESTINATION "${package_dir}")
+endforeach()
+
+configure_package_config_file(cmake/gyrostat-config.cmake.in "${PROJECT_BINARY_DIR}/gyrostat-config.cmake"
+  INSTALL_DESTINATION "${package_dir}"
+)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/gyrostat-config-version.cmake" COMPATIBILITY SameMinorVersion)
+install(
+  FILES
+    "${PROJECT_BINARY_DIR}/gyrostat-config.cmake"
+    "${PROJECT_BINARY_DIR}/gyrostat-config-version.cmake"
+    cmake/FindCVODE.cmake
+  DESTINATION "${package_dir}"
+)
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/licenses/gyrostat")

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Warnings and helpers for the targets of this project.
+
+# Warnings for our own translation units. They are errors only where gyrostat is the top-level project, so that a
+# newer compiler never breaks somebody else's build.
+function(gyrostat_own_target target)
+  target_compile_options(${target} PRIVATE ${GYROSTAT_WARNINGS})
+endfunction()
+
+set(GYROSTAT_WARNINGS)
+if(PROJECT_IS_TOP_LEVEL)
+  set(GYROSTAT_WARNINGS -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # false alarms inside Eigen's fixed-size products when they are inlined
+    list(APPEND GYROSTAT_WARNINGS -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow)
+  endif()
+endif()
+
+# Finds an optional library as its switch (AUTO, ON, OFF) says; sets <package>_FOUND.
+function(gyrostat_find_optional package switch debian_name)
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "VERSION" "")
+  set(value "${${switch}}")
+  if(NOT value OR value STREQUAL "OFF")
+    set(found FALSE)
+  elseif(value STREQUAL "AUTO")
+    find_package(${package} ${arg_VERSION} QUIET)
+    set(found ${${package}_FOUND})
+  else()
+    find_package(${package} ${arg_VERSION} QUIET)
+    set(found ${${package}_FOUND})
+    if(NOT found)
+      message(FATAL_ERROR "${switch}=${value}, but ${package} >= ${arg_VERSION} was not found. "
+        "On Debian: apt-get install ${debian_name}. Or configure with -D${switch}=OFF.")
+    endif()
+  endif()
+  if(found)
+    message(STATUS "gyrostat: ${package} ${${package}_VERSION} is used")
+  else()
+    message(STATUS "gyrostat: ${package} is not used (${switch}=${value})")
+  endif()
+  set(${package}_FOUND ${found} PARENT_SCOPE)
+  set(${package}_VERSION "${${package}_VERSION}" PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#define GYROSTAT_VERSION_MAJOR 0
+#define GYROSTAT_VERSION_MINOR 1
+#define GYROSTAT_VERSION_PATCH 0
+
+namespace gyrostat {
+
+/// Version of these headers, as "major.minor.patch".
+inline constexpr const char* header_version = "0.1.0";
+
+/// Version of the compiled library that is linked (gyrostat::gyrostat); equal to header_version in a sound build.
+const char* library_version() noexcept;
+
+}  // namespace gyrostat
