@@ -25,4 +25,20 @@ struct Quat {
   friend constexpr bool operator==(const Quat&, const Quat&) = default;
 };
 
+/// a x b.
+template <Real Scalar>
+Vec3<Scalar> cross(const Vec3<Scalar>& a, const Vec3<Scalar>& b) noexcept {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// [v]x, the skew tensor with [v]x b = v x b.
+template <Real Scalar>
+Mat3<Scalar> cross_matrix(const Vec3<Scalar>& v) noexcept {
+  Mat3<Scalar> m;
+  m << 0, -v[2], v[1],  //
+      v[2], 0, -v[0],   //
+      -v[1], v[0], 0;
+  return m;
+}
+
 }  // namespace gyrostat
