@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Warnings and helpers for the targets of this project.
+# Warnings, and how an optional library is looked for.
 
-# Warnings for our own translation units. They are errors only where gyrostat is the top-level project, so that a
-# newer compiler never breaks somebody else's build.
-function(gyrostat_own_target target)
-  target_compile_options(${target} PRIVATE ${GYROSTAT_WARNINGS})
-endfunction()
-
-set(GYROSTAT_WARNINGS)
+# Warnings for all our own translation units, the header checks among them. They are on, and errors, only where gyrostat
+# is the top-level project: a newer compiler never breaks somebody else's build.
 if(PROJECT_IS_TOP_LEVEL)
-  set(GYROSTAT_WARNINGS -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+  add_compile_options(-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # false alarms inside Eigen's fixed-size products when they are inlined
-    list(APPEND GYROSTAT_WARNINGS -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow)
+    # false alarms inside Eigen's fixed-size products once they are inlined
+    add_compile_options(-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow)
   endif()
 endif()
 

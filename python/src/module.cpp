@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The extension module gyrostat._core: what the build holds, and the bindings of each family.
+#include <pybind11/typing.h>
+
+#include <Eigen/Core>
+
+#include "bind.hpp"
+#include "gyrostat/version.hpp"
+
+namespace py = pybind11;
+
+namespace {
+
+#ifndef GYROSTAT_GSL_VERSION
+#define GYROSTAT_GSL_VERSION nullptr
+#endif
+#ifndef GYROSTAT_CVODE_VERSION
+#define GYROSTAT_CVODE_VERSION nullptr
+#endif
+
+using BuildInfo = py::typing::Dict<py::str, py::typing::Optional<py::str>>;
+
+py::object text_or_none(const char* text) {
+  return text == nullptr ? py::object(py::none()) : py::object(py::str(text));
+}
+
+BuildInfo build_info() {
+  BuildInfo info;
+  info["version"] = gyrostat::library_version();
+  info["compiler"] = __VERSION__;
+  info["eigen"] = py::str("{}.{}.{}").format(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
+  info["gsl"] = text_or_none(GYROSTAT_GSL_VERSION);
+  info["cvode"] = text_or_none(GYROSTAT_CVODE_VERSION);
+  return info;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "Compiled core of gyrostat.";
+  module.def("build_info", &build_info,
+             "Version of the library, of the compiler, and of each library that is built in (None: it is not).");
+}
