@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/rotation/symmetric.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+namespace gyrostat {
+
+/// The inertia of a rigid body about a point of it, kg m^2: what exists is physical. Principal moments A >= B >= C > 0
+/// with A <= B + C, and the rotation that takes principal components to those in the caller's body axes.
+template <Real Scalar>
+class Inertia {
+ public:
+  /// The unit sphere.
+  Inertia() = default;
+
+  /// Moments about the three body axes, in any order; body axes are principal. Errc::not_finite, not_positive, or
+  /// triangle_inequality where one exceeds the sum of the two others by more than 8 eps (equality is a lamina).
+  static Result<Inertia> from_moments(Scalar about_1, Scalar about_2, Scalar about_3) noexcept {
+    return from_tensor(Vec3<Scalar>(about_1, about_2, about_3).asDiagonal());
+  }
+
+  /// A tensor in body axes, symmetric within 8 eps of its largest entry; its symmetric part is kept. Errors as for
+  /// moments, and Errc::not_symmetric.
+  static Result<Inertia> from_tensor(const Mat3<Scalar>& J_B) noexcept {
+    if (!J_B.allFinite()) return Errc::not_finite;
+    constexpr Scalar tolerance = 8 * epsilon<Scalar>;
+    const Scalar scale = J_B.cwiseAbs().maxCoeff();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < i; ++j)
+        if (std::abs(J_B(i, j) - J_B(j, i)) > tolerance * scale) return Errc::not_symmetric;
+
+    Inertia inertia;
+    inertia.tensor_ = (J_B + J_B.transpose()) / 2;
+    const SymmetricEigen<Scalar> e = symmetric_eigen<Scalar>(-inertia.tensor_);
+    inertia.principal_ = -e.values;
+    inertia.axes_ = e.axes;
+    const Vec3<Scalar>& m = inertia.principal_;
+    if (!(m[2] > 0)) return Errc::not_positive;
+    if (!(m[0] - m[1] <= m[2] + tolerance * m[0])) return Errc::triangle_inequality;
+    return inertia;
+  }
+
+  /// (A, B, C), descending, kg m^2.
+  const Vec3<Scalar>& principal() const noexcept { return principal_; }
+
+  /// (1/A, 1/B, 1/C), ascending, 1/(kg m^2).
+  Vec3<Scalar> inverse_principal() const noexcept { return principal_.cwiseInverse(); }
+
+  /// R_BP: v_B = R_BP v_P, columns are the principal axes 1, 2, 3 in body axes. A proper rotation; for moments and
+  /// diagonal tensors a signed permutation, exact, and the identity where they already descend.
+  const Mat3<Scalar>& R_BP() const noexcept { return axes_; }
+
+  /// J in body axes.
+  const Mat3<Scalar>& tensor() const noexcept { return tensor_; }
+
+ private:
+  Vec3<Scalar> principal_ = Vec3<Scalar>::Ones();
+  Mat3<Scalar> axes_ = Mat3<Scalar>::Identity();
+  Mat3<Scalar> tensor_ = Mat3<Scalar>::Identity();
+};
+
+}  // namespace gyrostat
