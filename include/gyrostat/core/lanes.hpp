@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include "gyrostat/core/real.hpp"
+
+#if defined(__GNUC__) && defined(__FMA__) && defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+#if defined(__GNUC__)
+#define GYROSTAT_INLINE __attribute__((always_inline)) inline
+#else
+#define GYROSTAT_INLINE inline
+#endif
+
+namespace gyrostat {
+
+namespace detail {
+
+/// Four numbers without a vector register of their own (long double, or a compiler without vector extensions).
+template <Real Scalar>
+struct FourNumbers {
+  Scalar value[4];
+  constexpr Scalar& operator[](int i) noexcept { return value[i]; }
+  constexpr const Scalar& operator[](int i) const noexcept { return value[i]; }
+};
+
+template <Real Scalar>
+struct Register {
+  using type = FourNumbers<Scalar>;
+};
+
+#if defined(__GNUC__)
+template <>
+struct Register<double> {
+  using type [[gnu::vector_size(32)]] = double;
+};
+template <>
+struct Register<float> {
+  using type [[gnu::vector_size(16)]] = float;
+};
+#endif
+
+template <Real Scalar>
+inline constexpr bool has_register = !std::is_same_v<typename Register<Scalar>::type, FourNumbers<Scalar>>;
+
+}  // namespace detail
+
+/// Four numbers side by side, worked on at once: a vector register for float and double. Everything is inlined, so no
+/// register type crosses a function call and the ABI does not depend on the instruction set.
+template <Real Scalar>
+struct Lanes {
+  using Register = typename detail::Register<Scalar>::type;
+  static constexpr bool vectorised = detail::has_register<Scalar>;
+
+  Register v;
+
+  GYROSTAT_INLINE Scalar operator[](int i) const noexcept { return v[i]; }
+
+  GYROSTAT_INLINE friend Lanes operator+(const Lanes& a, const Lanes& b) noexcept {
+    if constexpr (vectorised) {
+      return {a.v + b.v};
+    } else {
+      return {{{a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]}}};
+    }
+  }
+  GYROSTAT_INLINE friend Lanes operator-(const Lanes& a, const Lanes& b) noexcept {
+    if constexpr (vectorised) {
+      return {a.v - b.v};
+    } else {
+      return {{{a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]}}};
+    }
+  }
+  GYROSTAT_INLINE friend Lanes operator*(const Lanes& a, const Lanes& b) noexcept {
+    if constexpr (vectorised) {
+      return {a.v * b.v};
+    } else {
+      return {{{a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]}}};
+    }
+  }
+};
+
+template <Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> lanes(Scalar a, Scalar b, Scalar c, Scalar d) noexcept {
+  if constexpr (Lanes<Scalar>::vectorised) {
+    return {typename Lanes<Scalar>::Register{a, b, c, d}};
+  } else {
+    return {{{a, b, c, d}}};
+  }
+}
+
+/// The same number in all lanes.
+template <Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> lanes(Scalar a) noexcept {
+  return lanes(a, a, a, a);
+}
+
+/// Four numbers from memory, aligned or not.
+template <Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> load(const Scalar* from) noexcept {
+  Lanes<Scalar> result;
+  std::memcpy(&result.v, from, 4 * sizeof(Scalar));
+  return result;
+}
+
+template <Real Scalar>
+GYROSTAT_INLINE void store(Scalar* to, const Lanes<Scalar>& a) noexcept {
+  std::memcpy(to, &a.v, 4 * sizeof(Scalar));
+}
+
+/// a b + c, rounded once where the machine has the instruction.
+template <Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> multiply_add(const Lanes<Scalar>& a, const Lanes<Scalar>& b, const Lanes<Scalar>& c) noexcept {
+#if defined(__GNUC__) && defined(__FMA__) && defined(__AVX__)
+  if constexpr (std::is_same_v<Scalar, double>) {
+    return {_mm256_fmadd_pd(a.v, b.v, c.v)};
+  } else if constexpr (std::is_same_v<Scalar, float>) {
+    return {_mm_fmadd_ps(a.v, b.v, c.v)};
+  } else {
+    return a * b + c;
+  }
+#else
+  return a * b + c;
+#endif
+}
+
+/// Lanes (i, j, k, l) of a.
+template <int i, int j, int k, int l, Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> shuffle(const Lanes<Scalar>& a) noexcept {
+#if defined(__GNUC__)
+  if constexpr (Lanes<Scalar>::vectorised) {
+    return {__builtin_shufflevector(a.v, a.v, i, j, k, l)};
+  } else {
+    return lanes(a[i], a[j], a[k], a[l]);
+  }
+#else
+  return lanes(a[i], a[j], a[k], a[l]);
+#endif
+}
+
+/// Lanes 0 to 2 of a and lane 3 of b.
+template <Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> with_last(const Lanes<Scalar>& a, const Lanes<Scalar>& b) noexcept {
+#if defined(__GNUC__)
+  if constexpr (Lanes<Scalar>::vectorised) {
+    return {__builtin_shufflevector(a.v, b.v, 0, 1, 2, 7)};
+  } else {
+    return lanes(a[0], a[1], a[2], b[3]);
+  }
+#else
+  return lanes(a[0], a[1], a[2], b[3]);
+#endif
+}
+
+/// The sum of the four lanes, in all lanes.
+template <Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> sum(const Lanes<Scalar>& a) noexcept {
+  const Lanes<Scalar> pairs = a + shuffle<1, 0, 3, 2>(a);
+  return pairs + shuffle<2, 3, 0, 1>(pairs);
+}
+
+/// The greatest magnitude in the four lanes; NaN if one of them is.
+template <Real Scalar>
+GYROSTAT_INLINE Scalar greatest_magnitude(const Lanes<Scalar>& a) noexcept {
+  const Scalar x = std::abs(a[0]), y = std::abs(a[1]), z = std::abs(a[2]), w = std::abs(a[3]);
+  const Scalar greatest = std::max(std::max(x, y), std::max(z, w));
+  return greatest + 0 * (x + y + z + w);
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "gyrostat/core/lanes.hpp"
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/models/deceleration/problem.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// The full equations (deceleration.md, section 1): right-hand side, Jacobian and Taylor recurrences. The state is U, what the
+/// control opposes (M for law total, G = M - l for law carrier), so that the end of the motion is U = 0 for both laws:
+///     dU/dt = q(U) + L U + c - control U/|U|,   q(U)_i = (a_k - a_j) U_j U_k,  (i, j, k) cyclic.
+namespace gyrostat::deceleration {
+
+/// The constants of the full equations in terms of U.
+template <Real Scalar>
+struct FullCoefficients {
+  Vec3<Scalar> offset;    ///< M - U: zero or l, N m s
+  Vec3<Scalar> rate;      ///< omega - a U: -a l or zero, rad/s
+  Vec3<Scalar> quadratic; ///< a_k - a_j, 1/(kg m^2)
+  Mat3<Scalar> linear;    ///< L, 1/s
+  Vec3<Scalar> constant;  ///< c, N m
+
+  explicit FullCoefficients(const Problem<Scalar>& problem) noexcept {
+    const Vec3<Scalar>& a = problem.inverse_inertia;
+    const Vec3<Scalar>& l = problem.rotor_momentum;
+    const bool total = problem.law == Law::total || problem.control.isZero(0);  // without control U is ours to choose
+    quadratic = {a[2] - a[1], a[0] - a[2], a[1] - a[0]};
+    const Vec3<Scalar> g = problem.gyro_rate();
+    if (total) {
+      // M x a(M - l) = M x aM - M x g
+      offset.setZero();
+      rate = -g;
+      linear << 0, -g[2], g[1],  //
+          g[2], 0, -g[0],        //
+          -g[1], g[0], 0;
+      constant = problem.drag_law == Law::total ? Vec3<Scalar>::Zero().eval() : Vec3<Scalar>(problem.drag * l);
+    } else {
+      // (G + l) x aG = G x aG + l x aG
+      offset = l;
+      rate.setZero();
+      linear << 0, -l[2] * a[1], l[1] * a[2],  //
+          l[2] * a[0], 0, -l[0] * a[2],        //
+          -l[1] * a[0], l[0] * a[1], 0;
+      constant = problem.drag_law == Law::carrier ? Vec3<Scalar>::Zero().eval() : Vec3<Scalar>(-problem.drag * l);
+    }
+    linear.diagonal().array() -= problem.drag;
+  }
+};
+
+/// dM/dt, N m; momentum M in principal axes. Where U = 0 and the control does not vanish the torque has no value: NaN.
+template <Real Scalar>
+Vec3<Scalar> momentum_rate(const Problem<Scalar>& problem, const Vec3<Scalar>& M) noexcept {
+  const Vec3<Scalar> G = M - problem.rotor_momentum;
+  const Vec3<Scalar> omega = problem.inverse_inertia.cwiseProduct(G);
+  const Vec3<Scalar>& U = problem.law == Law::total ? M : G;
+  const Vec3<Scalar>& D = problem.drag_law == Law::total ? M : G;
+  Vec3<Scalar> rate{M[1] * omega[2] - M[2] * omega[1], M[2] * omega[0] - M[0] * omega[2],
+                    M[0] * omega[1] - M[1] * omega[0]};
+  rate -= problem.drag * D;
+  if (!problem.control.isZero(0)) rate -= problem.control * (U / U.norm());
+  return rate;
+}
+
+/// The derivative of momentum_rate by M, 1/s.
+template <Real Scalar>
+Mat3<Scalar> momentum_jacobian(const Problem<Scalar>& problem, const Vec3<Scalar>& M) noexcept {
+  const FullCoefficients<Scalar> f(problem);
+  const Vec3<Scalar> U = M - f.offset;
+  const Vec3<Scalar>& d = f.quadratic;
+  Mat3<Scalar> jacobian = f.linear;
+  jacobian(0, 1) += d[0] * U[2];
+  jacobian(0, 2) += d[0] * U[1];
+  jacobian(1, 0) += d[1] * U[2];
+  jacobian(1, 2) += d[1] * U[0];
+  jacobian(2, 0) += d[2] * U[1];
+  jacobian(2, 1) += d[2] * U[0];
+  if (!problem.control.isZero(0)) {
+    const Scalar norm = U.norm();
+    const Vec3<Scalar> n = U / norm;
+    jacobian -= problem.control * (Mat3<Scalar>::Identity() - n * n.transpose()) / norm;
+  }
+  return jacobian;
+}
+
+/// Taylor recurrences of the full equations, composed of what the scene has. A state is (U1, U2, U3, -) and, with attitude,
+/// (w, x, y, z) of the quaternion from principal to inertial axes, dq/dt = q (0, omega)/2. With control the fourth number of a
+/// row becomes a coefficient of |U|.
+///
+/// One order costs three convolutions for q(U), one (halved by symmetry) for |U|, three for U/|U|. Each is split into the terms
+/// known an order earlier and the newest one, and all newest terms together are one 3x3 matrix, the Jacobian at the start of the
+/// step: so one order waits for the last only through one matrix-vector product.
+template <Real Real_, bool with_control, bool with_attitude>
+class FullSystem {
+ public:
+  using Scalar = Real_;
+  static constexpr int width = with_attitude ? 8 : 4;
+
+  /// By-products of an expansion: rows (U2, U3, U1), (U3, U1, U2), (U, |U|), (control U/|U|, -).
+  template <int Order>
+  struct Work {
+    Lanes<Scalar> forward[Order + 1];
+    Lanes<Scalar> backward[Order + 1];
+    Lanes<Scalar> whole[Order + 1];
+    Lanes<Scalar> torque[Order + 1];
+    Scalar norm[Order + 1];
+    Scalar omega[with_attitude ? Order + 1 : 1][4];
+  };
+
+  explicit FullSystem(const Problem<Scalar>& problem) noexcept;
+
+  template <int Order>
+  void expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept;
+
+  /// 0.3 |U| over the greatest rate at which |U| can shrink: short enough to never jump over U = 0. Infinite without control.
+  Scalar step_limit(const Scalar* x) const noexcept;
+
+  /// Moves a state onto the laws it obeys exactly: |q| = 1; |U| if the control torques are equal or absent; the energy if then
+  /// l = 0, or if nothing acts on the body. t counts from the start of the problem.
+  void project(Scalar t, Scalar* x, Scalar* low) const noexcept;
+
+  /// |U| at t where it obeys its own law, dR/dt = -drag R - b: (R0 + b/drag) exp(-drag t) - b/drag, N m s.
+  Scalar norm_at(Scalar t) const noexcept {
+    const Scalar x = drag_ * t;
+    const Scalar mean = x > 0 ? -std::expm1(-x) / x : Scalar(1);
+    return norm_ * std::exp(-x) - equal_control_ * t * mean;
+  }
+  bool norm_is_known() const noexcept { return norm_is_known_; }
+
+ private:
+  using Row = Lanes<Scalar>;
+
+  static GYROSTAT_INLINE Row row(const Vec3<Scalar>& v, Scalar last = 0) noexcept { return lanes(v[0], v[1], v[2], last); }
+
+  template <int k, int Order>
+  GYROSTAT_INLINE void extend(Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3],
+                              const Row (&turn)[3], const Row& quadratic, const Row& along, const Row& inverse,
+                              const Row& half_inverse, Scalar half_unit) const noexcept;
+
+  /// s0 i + s1 j + s2 k, quaternion products from the right.
+  static GYROSTAT_INLINE Row turned(const Row& s0, const Row& s1, const Row& s2) noexcept {
+    const Scalar one = 1;
+    return multiply_add(shuffle<1, 0, 3, 2>(s0), lanes(-one, one, one, -one),
+                        multiply_add(shuffle<2, 3, 0, 1>(s1), lanes(-one, -one, one, one),
+                                     shuffle<3, 2, 1, 0>(s2) * lanes(-one, one, -one, one)));
+  }
+
+  /// x + low + change, and what rounding leaves over.
+  static void move(Scalar& x, Scalar& low, Scalar change) noexcept {
+    const Scalar y = low + change;
+    const Scalar sum = x + y;
+    const Scalar part = sum - x;
+    low = (x - (sum - part)) + (y - part);
+    x = sum;
+  }
+
+  Row quadratic_, constant_, inverse_inertia_, rate_;
+  Row linear_[3];
+  Row control_[3];
+  Scalar control_bound_, linear_bound_, drag_;
+  // exact laws
+  Vec3<Scalar> rotor_momentum_, a_;
+  Scalar norm_, energy_, equal_control_;
+  bool norm_is_known_, energy_is_known_, energy_is_constant_;
+};
+
+template <Real Real_, bool with_control, bool with_attitude>
+FullSystem<Real_, with_control, with_attitude>::FullSystem(const Problem<Scalar>& problem) noexcept {
+  const FullCoefficients<Scalar> f(problem);
+  quadratic_ = row(f.quadratic);
+  constant_ = row(f.constant);
+  inverse_inertia_ = row(problem.inverse_inertia);
+  rate_ = row(f.rate);
+  for (int j = 0; j < 3; ++j) {
+    linear_[j] = row(f.linear.col(j));
+    control_[j] = row(problem.control.col(j));
+  }
+  control_bound_ = problem.control.cwiseAbs().rowwise().sum().maxCoeff() + f.constant.norm();
+  linear_bound_ = (f.linear + f.linear.transpose()).norm() / 2;
+  drag_ = problem.drag;
+
+  const Mat3<Scalar>& b = problem.control;
+  rotor_momentum_ = problem.rotor_momentum;
+  a_ = problem.inverse_inertia;
+  equal_control_ = b(0, 0);
+  norm_ = (problem.momentum - f.offset).norm();
+  energy_ = problem.energy(problem.momentum);
+  const bool no_rotor = rotor_momentum_.isZero(0);
+  const bool equal = b == Mat3<Scalar>(equal_control_ * Mat3<Scalar>::Identity());
+  const bool turning_only = no_rotor || (f.offset.isZero(0) && f.constant.isZero(0));
+  norm_is_known_ = equal && turning_only && norm_ > 0;
+  energy_is_constant_ = b.isZero(0) && drag_ == 0 && norm_is_known_;
+  energy_is_known_ = norm_is_known_ && (no_rotor || energy_is_constant_);
+}
+
+template <Real Real_, bool with_control, bool with_attitude>
+template <int k, int Order>
+GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
+    Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3], const Row (&turn)[3],
+    const Row& quadratic, const Row& along, const Row& inverse, const Row& half_inverse, Scalar half_unit) const noexcept {
+  constexpr Scalar share = Scalar(1) / (k + 1);
+  const Row u0 = shuffle<0, 0, 0, 0>(newest), u1 = shuffle<1, 1, 1, 1>(newest), u2 = shuffle<2, 2, 2, 2>(newest);
+
+  // terms known since the last order, the youngest last
+  Row product = lanes(Scalar(0)), product_2 = product;
+  if constexpr (k % 2 == 0 && k > 1) product = work.forward[k / 2] * work.backward[k / 2];
+#pragma GCC unroll 32
+  for (int j = (k - 1) / 2; j >= 1; --j) {
+    product = multiply_add(work.forward[j], work.backward[k - j], product);
+    product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
+  }
+  Row known = quadratic * (product + product_2);
+
+  if constexpr (with_control) {
+    Row square = lanes(Scalar(0));
+    Row quotient = square, quotient_2 = square;
+    if constexpr (k % 2 == 0 && k > 1) {
+      square = lanes(Scalar(0.5)) * work.whole[k / 2] * work.whole[k / 2];
+      quotient = lanes(work.norm[k / 2]) * work.torque[k / 2];
+    }
+#pragma GCC unroll 32
+    for (int j = (k - 1) / 2; j >= 1; --j) {
+      square = multiply_add(work.whole[j], work.whole[k - j], square);
+      quotient = multiply_add(lanes(work.norm[j]), work.torque[k - j], quotient);
+      quotient_2 = multiply_add(lanes(work.norm[k - j]), work.torque[j], quotient_2);
+    }
+    const Row norm_known = sum(square * half_inverse);
+    const Row z = multiply_add(norm_known, along, inverse * (quotient + quotient_2));
+    known = known + z;
+    // (control U/|U|, |U|) of this order
+    const Row torque = multiply_add(turn[0], u0, multiply_add(turn[1], u1, turn[2] * u2)) - z;
+    if constexpr (k + 1 < Order) {
+      work.torque[k] = torque;
+      work.norm[k] = torque[3];
+      work.whole[k] = with_last(newest, torque);
+    }
+  }
+
+  const Row next = lanes(share) * (multiply_add(jacobian[0], u0, multiply_add(jacobian[1], u1, multiply_add(jacobian[2], u2, known))));
+
+  if constexpr (with_attitude) {
+    const Row omega = inverse_inertia_ * newest * lanes(half_unit);
+    store(work.omega[k], omega);
+    Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
+#pragma GCC unroll 32
+    for (int j = 1; j < k; ++j) {
+      const Row q = load(&x[k - j][4]);
+      s0 = multiply_add(lanes(work.omega[j][0]), q, s0);
+      s1 = multiply_add(lanes(work.omega[j][1]), q, s1);
+      s2 = multiply_add(lanes(work.omega[j][2]), q, s2);
+    }
+    const Row first = load(&x[0][4]), last = load(&x[k][4]);
+    s0 = multiply_add(lanes(work.omega[0][0]), last, multiply_add(lanes(omega[0]), first, s0));
+    s1 = multiply_add(lanes(work.omega[0][1]), last, multiply_add(lanes(omega[1]), first, s1));
+    s2 = multiply_add(lanes(work.omega[0][2]), last, multiply_add(lanes(omega[2]), first, s2));
+    store(&x[k + 1][4], lanes(share) * turned(s0, s1, s2));
+  }
+
+  newest = next;
+  store(&x[k + 1][0], with_last(next, lanes(Scalar(0))));
+  if constexpr (k + 1 < Order) {
+    work.forward[k + 1] = shuffle<1, 2, 0, 3>(next);
+    work.backward[k + 1] = shuffle<2, 0, 1, 3>(next);
+  }
+}
+
+template <Real Real_, bool with_control, bool with_attitude>
+template <int Order>
+void FullSystem<Real_, with_control, with_attitude>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width],
+                                                            Work<Order>& work) const noexcept {
+  const Row zero = lanes(Scalar(0));
+  const Row scale = lanes(unit);
+  const Row start = with_last(load(x[0]), zero);
+  const Row quadratic = quadratic_ * scale;
+  const Row u[3] = {shuffle<0, 0, 0, 0>(start), shuffle<1, 1, 1, 1>(start), shuffle<2, 2, 2, 2>(start)};
+
+  Row jacobian[3], turn[3] = {zero, zero, zero};
+  Row along = zero, inverse = zero, half_inverse = zero;
+  const Row forward = shuffle<1, 2, 0, 3>(start), backward = shuffle<2, 0, 1, 3>(start);
+  Row first = constant_;
+  for (int j = 0; j < 3; ++j) first = multiply_add(linear_[j], u[j], first);
+  first = scale * first + quadratic * forward * backward;
+  // columns of the derivative of q(U) + L U
+  jacobian[0] = scale * linear_[0] + quadratic * lanes(Scalar(0), start[2], start[1], Scalar(0));
+  jacobian[1] = scale * linear_[1] + quadratic * lanes(start[2], Scalar(0), start[0], Scalar(0));
+  jacobian[2] = scale * linear_[2] + quadratic * lanes(start[1], start[0], Scalar(0), Scalar(0));
+
+  if constexpr (with_control) {
+    const Scalar norm = std::sqrt(sum(start * start)[0]);
+    const Scalar i = 1 / norm;
+    inverse = lanes(i, i, i, Scalar(0));
+    half_inverse = lanes(i, i, i, -i);
+    const Row n = start * inverse;
+    const Row n_part[3] = {shuffle<0, 0, 0, 0>(n), shuffle<1, 1, 1, 1>(n), shuffle<2, 2, 2, 2>(n)};
+    const Row control_scale = scale * inverse;
+    Row torque = zero;
+    for (int j = 0; j < 3; ++j) torque = multiply_add(control_[j], n_part[j], torque);
+    along = control_scale * torque;
+    torque = scale * torque;
+    first = first - torque;
+    for (int j = 0; j < 3; ++j) {
+      const Row column = control_[j] * control_scale - along * n_part[j];
+      jacobian[j] = jacobian[j] - column;
+      turn[j] = with_last(column, n_part[j]);  // fourth row: n, so that the fourth number is |U|
+    }
+    along = with_last(along, lanes(Scalar(-1)));
+    work.torque[0] = with_last(torque, lanes(norm));
+    work.norm[0] = norm;
+  }
+  if constexpr (with_attitude) {
+    const Row omega = (inverse_inertia_ * start + rate_) * lanes(unit / 2);
+    store(work.omega[0], omega);
+    const Row q = load(&x[0][4]);
+    store(&x[1][4], turned(lanes(omega[0]) * q, lanes(omega[1]) * q, lanes(omega[2]) * q));
+  }
+  store(x[1], with_last(first, zero));
+  work.forward[1] = shuffle<1, 2, 0, 3>(first);
+  work.backward[1] = shuffle<2, 0, 1, 3>(first);
+
+  Row newest = first;
+  [&]<int... k>(std::integer_sequence<int, k...>) {
+    (extend<k + 1, Order>(x, work, newest, jacobian, turn, quadratic, along, inverse, half_inverse, unit / 2), ...);
+  }(std::make_integer_sequence<int, Order - 1>{});
+}
+
+template <Real Real_, bool with_control, bool with_attitude>
+Real_ FullSystem<Real_, with_control, with_attitude>::step_limit(const Scalar* x) const noexcept {
+  if constexpr (!with_control) {
+    return infinity<Scalar>;
+  } else {
+    const Scalar norm = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    return Scalar(0.3) * norm / (control_bound_ + linear_bound_ * norm);
+  }
+}
+
+template <Real Real_, bool with_control, bool with_attitude>
+void FullSystem<Real_, with_control, with_attitude>::project(Scalar t, Scalar* x, Scalar* low) const noexcept {
+  if (norm_is_known_) {
+    const Vec3<Scalar> U{x[0], x[1], x[2]};
+    const Vec3<Scalar> rest{low[0], low[1], low[2]};
+    const Scalar target = norm_at(t);
+    const Scalar square = U.squaredNorm();
+    if (target > 0 && square > 0) {
+      const Scalar stretch = ((target * target - square) / 2 - U.dot(rest)) / square;
+      Vec3<Scalar> change = stretch * U;
+      if (energy_is_known_) {
+        // along the part of the gradient omega that leaves |U| alone
+        const Scalar ratio = target / norm_;
+        const Scalar wanted = energy_is_constant_ ? energy_ : energy_ * ratio * ratio;
+        const Vec3<Scalar> G = U - rotor_momentum_;
+        const Vec3<Scalar> omega = a_.cwiseProduct(G);
+        const Scalar missing = wanted - G.dot(omega) / 2 - omega.dot(rest + change);
+        const Vec3<Scalar> across = omega - (omega.dot(U) / square) * U;
+        const Scalar slope = across.squaredNorm();
+        if (slope > Scalar(1e-6L) * omega.squaredNorm()) change += (missing / slope) * across;
+      }
+      for (int i = 0; i < 3; ++i) move(x[i], low[i], change[i]);
+    }
+  }
+  if constexpr (with_attitude) {
+    Scalar missing = 1, along = 0;
+    for (int i = 4; i < 8; ++i) missing -= x[i] * x[i];
+    for (int i = 4; i < 8; ++i) along += x[i] * low[i];
+    const Scalar stretch = missing / 2 - along;
+    for (int i = 4; i < 8; ++i) move(x[i], low[i], stretch * x[i]);
+  }
+}
+
+}  // namespace gyrostat::deceleration
