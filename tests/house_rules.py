@@ -1,0 +1,265 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The rules of the source tree that no compiler checks.
+
+    house_rules.py [--root DIR]     check the tree; one line a breach; exit status 1 if there is any
+    house_rules.py --write          write include/gyrostat/gyrostat.hpp anew from the headers that are there
+    house_rules.py --self-test      break each rule in a scratch tree and see that it is noticed
+
+Layers: core <- math <- rotation <- body <- models <- ladder; ode sees core and math only. core, math and ode know no Eigen;
+GSL is included by math/gsl.hpp alone, SUNDIALS by src/cvode.cpp alone. Needs Python 3.9 and nothing else.
+"""
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+
+LAYERS = {
+    "core": {"core"},
+    "math": {"core", "math"},
+    "rotation": {"core", "math", "rotation"},
+    "body": {"core", "math", "rotation", "body"},
+    "ode": {"core", "math", "ode"},
+    "models": {"core", "math", "rotation", "body", "models"},
+    "ladder": {"core", "math", "rotation", "body", "ode", "models", "ladder"},
+}
+NO_EIGEN = {"core", "math", "ode"}
+HEAVY = {"iostream", "functional", "string"}
+OPTIONAL = {"math/gsl.hpp", "ode/cvode.hpp"}  # headers of gyrostat::gsl and gyrostat::cvode
+UNTESTED = {"gyrostat.hpp", "version.hpp"}  # checked by the noexcept program
+UMBRELLA = "gyrostat.hpp"
+
+SPDX = "SPDX-License-Identifier: BSD-3-Clause"
+SPDX_KINDS = {".hpp", ".cpp", ".py", ".cmake", ".toml", ".in"}
+SPDX_NAMES = {"CMakeLists.txt", "dev", "run", ".clang-format", ".clang-tidy", ".editorconfig", ".gitignore"}
+NOT_OURS = {"build", "demo", "dist", "__pycache__"}  # and every hidden folder but .ci
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^">]+)[">]', re.M)
+
+
+def headers(root):
+    base = root / "include" / "gyrostat"
+    return sorted(path.relative_to(base).as_posix() for path in base.rglob("*.hpp"))
+
+
+def includes(path):
+    return [(kind, name) for kind, name in INCLUDE.findall(path.read_text(encoding="utf-8"))]
+
+
+def family(relative):
+    """The family of models/<family>/x.hpp; None elsewhere."""
+    parts = relative.split("/")
+    return parts[1] if parts[0] == "models" and len(parts) > 2 else None
+
+
+def check_layers(root):
+    known = set(headers(root))
+    for header in sorted(known - {UMBRELLA}):
+        path = root / "include" / "gyrostat" / header
+        layer = header.split("/")[0] if "/" in header else None
+        if layer is not None and layer not in LAYERS:
+            yield f"include/gyrostat/{header}: no layer is called {layer}; there are {', '.join(LAYERS)}"
+            continue
+        for kind, name in includes(path):
+            where = f"include/gyrostat/{header} includes {name}"
+            if kind == '"':
+                target = name[len("gyrostat/"):]
+                if not name.startswith("gyrostat/"):
+                    yield f'{where}: write "gyrostat/..." in full'
+                elif target not in known:
+                    yield f"{where}: there is no such header"
+                elif target == UMBRELLA:
+                    yield f"{where}: include what is used, not everything"
+                elif layer is not None and "/" in target and target.split("/")[0] not in LAYERS[layer]:
+                    yield f"{where}: {layer} may see {', '.join(sorted(LAYERS[layer]))} only"
+                elif family(header) and family(target) and family(header) != family(target):
+                    yield f"{where}: one family of models does not see another"
+            elif name in HEAVY:
+                yield f"{where}: headers stay free of <{name}>"
+            elif name.startswith("Eigen/") and layer in NO_EIGEN:
+                yield f"{where}: {layer} knows no Eigen"
+            elif name.startswith("gsl/") and header != "math/gsl.hpp":
+                yield f"{where}: only math/gsl.hpp includes GSL"
+
+
+def check_sundials(root):
+    for folder in ("include", "src", "python", "tests", "bench"):
+        for path in sorted((root / folder).rglob("*.[ch]pp")):
+            for kind, name in includes(path):
+                if re.match(r"(cvodes?|nvector|sundials|sunmatrix|sunlinsol|sunnonlinsol)/", name) and kind == "<":
+                    relative = path.relative_to(root).as_posix()
+                    if relative != "src/cvode.cpp":
+                        yield f"{relative} includes {name}: only src/cvode.cpp includes SUNDIALS"
+
+
+def umbrella_text(root):
+    lines = [f'#include "gyrostat/{h}"' for h in headers(root) if h != UMBRELLA and h not in OPTIONAL]
+    return (f"// {SPDX}\n"
+            "// Everything but the headers of the optional targets gyrostat::gsl and gyrostat::cvode.\n"
+            "#pragma once\n\n" + "\n".join(lines) + "\n")
+
+
+def check_umbrella(root):
+    path = root / "include" / "gyrostat" / UMBRELLA
+    if not path.is_file() or path.read_text(encoding="utf-8") != umbrella_text(root):
+        yield f"include/gyrostat/{UMBRELLA} does not list the headers that are there: run tests/house_rules.py --write"
+
+
+def check_headers(root):
+    for header in headers(root):
+        text = (root / "include" / "gyrostat" / header).read_text(encoding="utf-8")
+        if "#pragma once" not in text:
+            yield f"include/gyrostat/{header}: no #pragma once"
+        test = "tests/" + header[:-len(".hpp")] + "_test.cpp"
+        if header not in UNTESTED and not (root / test).is_file():
+            yield f"include/gyrostat/{header}: its test {test} is missing"
+
+
+def our_files(root):
+    for path in sorted(root.rglob("*")):
+        parts = path.relative_to(root).parts
+        hidden = any(part.startswith(".") and part != ".ci" for part in parts[:-1])
+        if path.is_file() and not hidden and not NOT_OURS & set(parts[:-1]):
+            yield path
+
+
+def check_spdx(root):
+    for path in our_files(root):
+        if path.suffix in SPDX_KINDS or path.name in SPDX_NAMES:
+            lines = path.read_text(encoding="utf-8").split("\n")
+            first = lines[1] if lines[0].startswith("#!") and len(lines) > 1 else lines[0]
+            if not first.endswith(SPDX):
+                yield f"{path.relative_to(root).as_posix()}: the first line is not the licence line ({SPDX})"
+
+
+VERSIONS = {
+    "CMakeLists.txt": r"project\(gyrostat VERSION ([\d.]+)",
+    "pyproject.toml": r'^version = "([^"]+)"',
+    "include/gyrostat/version.hpp": r'header_version = "([^"]+)"',
+    "CITATION.cff": r"^version: (\S+)",
+    "CHANGELOG.md": r"^## (\d+\.\d+\.\d+)",
+}
+
+
+def check_version(root):
+    found = {}
+    for name, pattern in VERSIONS.items():
+        path = root / name
+        match = re.search(pattern, path.read_text(encoding="utf-8"), re.M) if path.is_file() else None
+        if match is None:
+            yield f"{name}: no version found"
+        else:
+            found[name] = match[1]
+    if len(set(found.values())) > 1:
+        yield "the versions differ: " + ", ".join(f"{name} {version}" for name, version in found.items())
+
+
+CHECKS = [check_layers, check_sundials, check_umbrella, check_headers, check_spdx, check_version]
+
+
+def breaches(root):
+    return [line for check in CHECKS for line in check(root)]
+
+
+# ---- the checker's own test: a small sound tree, then one breach at a time ----
+
+def sound_tree(root):
+    files = {
+        "include/gyrostat/version.hpp": 'inline constexpr const char* header_version = "1.2.3";',
+        "include/gyrostat/core/real.hpp": "#include <concepts>",
+        "include/gyrostat/math/root.hpp": '#include "gyrostat/core/real.hpp"',
+        "include/gyrostat/math/gsl.hpp": "#include <gsl/gsl_sf_ellint.h>",
+        "include/gyrostat/rotation/vector.hpp": "#include <Eigen/Core>",
+        "include/gyrostat/models/heavy/full.hpp": '#include "gyrostat/rotation/vector.hpp"',
+        "include/gyrostat/models/rotor/full.hpp": '#include "gyrostat/version.hpp"',
+        "include/gyrostat/ode/taylor.hpp": '#include "gyrostat/math/root.hpp"',
+        "include/gyrostat/ladder/solve.hpp": '#include "gyrostat/ode/taylor.hpp"\n#include "gyrostat/models/heavy/full.hpp"',
+    }
+    write = {name: f"// {SPDX}\n#pragma once\n{text}\n" for name, text in files.items()}
+    for name in files:
+        short = name[len("include/gyrostat/"):]
+        if short not in UNTESTED:
+            write[f"tests/{short[:-4]}_test.cpp"] = f'// {SPDX}\n#include "gyrostat/{short}"\n'
+    write["src/cvode.cpp"] = f"// {SPDX}\n#include <cvode/cvode.h>\n"
+    write["dev"] = f"#!/usr/bin/env bash\n# {SPDX}\n"
+    write["CMakeLists.txt"] = f"# {SPDX}\nproject(gyrostat VERSION 1.2.3)\n"
+    write["pyproject.toml"] = f'# {SPDX}\nversion = "1.2.3"\n'
+    write["CITATION.cff"] = "version: 1.2.3\n"
+    write["CHANGELOG.md"] = "## 1.2.3\n"
+    for name, text in write.items():
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(text, encoding="utf-8")
+    (root / "include/gyrostat" / UMBRELLA).write_text(umbrella_text(root), encoding="utf-8")
+
+
+def append(name, text):
+    def change(root):
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text((path.read_text(encoding="utf-8") if path.is_file() else "") + text, encoding="utf-8")
+    return change
+
+
+def replace(name, old, new):
+    return lambda root: (root / name).write_text((root / name).read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+
+
+BREACHES = [
+    ("core sees math", append("include/gyrostat/core/real.hpp", '#include "gyrostat/math/root.hpp"\n'), "core may see core only"),
+    ("math sees ode", append("include/gyrostat/math/root.hpp", '#  include "gyrostat/ode/taylor.hpp"\n'), "math may see"),
+    ("ode sees a model", append("include/gyrostat/ode/taylor.hpp", '#include "gyrostat/models/rotor/full.hpp"\n'), "ode may see"),
+    ("a model advances", append("include/gyrostat/models/heavy/full.hpp", '#include "gyrostat/ode/taylor.hpp"\n'), "models may see"),
+    ("family sees family", append("include/gyrostat/models/heavy/full.hpp", '#include "gyrostat/models/rotor/full.hpp"\n'), "does not see another"),
+    ("Eigen in math", append("include/gyrostat/math/root.hpp", "#include <Eigen/Core>\n"), "math knows no Eigen"),
+    ("GSL in a model", append("include/gyrostat/models/heavy/full.hpp", "#include <gsl/gsl_math.h>\n"), "only math/gsl.hpp includes GSL"),
+    ("SUNDIALS in a test", append("tests/ode/taylor_test.cpp", "#include <sundials/sundials_types.h>\n"), "only src/cvode.cpp"),
+    ("iostream", append("include/gyrostat/ladder/solve.hpp", "#include <iostream>\n"), "free of <iostream>"),
+    ("functional", append("include/gyrostat/ladder/solve.hpp", "#include <functional>\n"), "free of <functional>"),
+    ("string", append("include/gyrostat/ladder/solve.hpp", "#include <string>\n"), "free of <string>"),
+    ("short include", append("include/gyrostat/ladder/solve.hpp", '#include "answer.hpp"\n'), "in full"),
+    ("lost include", append("include/gyrostat/ladder/solve.hpp", '#include "gyrostat/core/lost.hpp"\n'), "no such header"),
+    ("umbrella inside", append("include/gyrostat/ladder/solve.hpp", '#include "gyrostat/gyrostat.hpp"\n'), "not everything"),
+    ("stray layer", append("include/gyrostat/extras/x.hpp", f"// {SPDX}\n#pragma once\n"), "no layer is called extras"),
+    ("umbrella stale", append("include/gyrostat/gyrostat.hpp", "// more\n"), "does not list"),
+    ("no pragma once", replace("include/gyrostat/core/real.hpp", "#pragma once", ""), "no #pragma once"),
+    ("no test", lambda root: (root / "tests/math/root_test.cpp").unlink(), "its test tests/math/root_test.cpp is missing"),
+    ("no licence line", replace("src/cvode.cpp", SPDX, "none"), "src/cvode.cpp: the first line is not the licence line"),
+    ("no licence line in a script", replace("dev", SPDX, ""), "dev: the first line is not the licence line"),
+    ("version", replace("CITATION.cff", "1.2.3", "1.2.4"), "the versions differ"),
+    ("version lost", replace("CHANGELOG.md", "1.2.3", "soon"), "no version found"),
+]
+
+
+def self_test():
+    failed = 0
+    for name, change, expected in [("sound tree", lambda root: None, None), *BREACHES]:
+        with tempfile.TemporaryDirectory() as scratch:
+            root = pathlib.Path(scratch)
+            sound_tree(root)
+            change(root)
+            found = breaches(root)
+            right = not found if expected is None else any(expected in line for line in found)
+            failed += not right
+            print(f"{'ok  ' if right else 'FAIL'} {name}" + ("" if right else f": expected {expected!r}, found {found}"))
+    print(f"{len(BREACHES) + 1 - failed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[1])
+    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--self-test", action="store_true")
+    args = parser.parse_args()
+    if args.self_test:
+        return self_test()
+    if args.write:
+        (args.root / "include" / "gyrostat" / UMBRELLA).write_text(umbrella_text(args.root), encoding="utf-8")
+    found = breaches(args.root)
+    print("\n".join(found) if found else f"the rules hold in {len(headers(args.root))} headers")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
