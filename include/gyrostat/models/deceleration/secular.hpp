@@ -202,15 +202,17 @@ class Secular {
       if (y > 0 && y < 1) x = lo + (hi - lo) * (Scalar(.5) - std::sin(std::asin(1 - 2 * y) / 3));
     }
     for (int trip = 0; trip < 100; ++trip) {
-      Scalar rest = constant + R_ * R_ * x, steep = R_ * R_;
+      Scalar rest = constant + R_ * R_ * x, steep = R_ * R_, size = std::abs(constant) + std::abs(R_ * R_ * x);
       for (int i = 0; i < 3; ++i)
         if (i != origin && active(i)) {
           const Scalar inverse = 1 / (gap_[origin][i] - x), term = g2_[i] * inverse;
           rest -= term;
           steep -= term * inverse;
+          size += std::abs(term);
         }
       const Scalar f = rest + (weight > 0 ? weight / x : Scalar(0));
-      if (f == 0) return Point{origin, x};
+      // late trips stop at the rounding of c
+      if (f == 0 || (trip > 12 && std::abs(f) <= 4 * epsilon<Scalar> * size)) return Point{origin, x};
       if ((f > 0) == (slope > 0)) hi = x;
       else lo = x;
       Scalar next;
@@ -223,7 +225,8 @@ class Secular {
       } else {
         next = x - f / (steep - (weight > 0 ? weight / (x * x) : Scalar(0)));
       }
-      if (!(next > lo && next < hi)) {
+      // c may have a hump in the bracket that throws the steps to and fro: beyond ten trips every other one halves it
+      if (!(next > lo && next < hi) || (trip > 10 && trip % 2 == 0)) {
         // both ends on one side of the pole: halving the logarithm where they are far apart
         const Scalar small = std::min(std::abs(lo), std::abs(hi)), large = std::max(std::abs(lo), std::abs(hi));
         next = small > 0 && large > 16 * small ? side * std::sqrt(small * large) : (lo + hi) / 2;
