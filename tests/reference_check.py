@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""High-precision reference cases through the command line: a scene file goes in, the answer is held against the truth.
+
+    reference_check.py [--command gyrostat] [--case TEXT] [--quick]
+
+Each case of tests/data/reference/deceleration.json is solved by
+  full      at tolerance 1e-11: within 1e-9 of the true motion, stop time within 1e-7;
+  averaged  within 1e-9 of the exact first-order averaged motion, stop time within 1e-8;
+  auto      at tolerances 1e-3, 1e-6, 1e-9 (--quick: 1e-3): the true error is within the tolerance where the answer
+            says `met`, and in no column more than three times the error that the answer itself states.
+Errors are relative to the greatest value of the column over the span; of modulus_squared, absolute. What the truth
+itself is good to is allowed on top. Needs Python 3.11 and nothing else. Exit status 1 if any check failed.
+"""
+import argparse
+import json
+import math
+import pathlib
+import shlex
+import subprocess
+import sys
+import tempfile
+
+CASES = pathlib.Path(__file__).resolve().parent / "data" / "reference" / "deceleration.json"
+LAWS = {"M": "total", "G": "carrier"}
+TRUTH_FLOOR = 1e-9
+HONESTY = 3.0
+
+
+def scene_text(case, model, tolerance):
+    """The case as a scene file."""
+    given, slow = case["inputs"], case["inputs"]["eps"]
+    return f"""\
+name = {json.dumps(case["id"])}
+kind = "deceleration"
+source = "reference case"
+[solve]
+times = {case["t"]!r}
+tolerance = {tolerance!r}
+model = "{model}"
+[body]
+inertia = {given["J"]!r}
+rotor_momentum = {given["l"]!r}
+[torque]
+control = {[slow * b for b in given["b"]]!r}
+drag = {slow * given["lambda"]!r}
+law = "{LAWS[given["control_law"]]}"
+drag_law = "{LAWS[given["drag_law"]]}"
+[initial]
+angular_momentum = {given["M_vec0"]!r}
+"""
+
+
+def known(case, model):
+    """Columns and scalars that are known of a model: {name: (values, allowed error)}."""
+    values = case["direct" if model == "full" else "averaged"]
+    columns = {"angular_momentum_norm": values["M"], "energy": values["h"]}
+    if model == "full":
+        columns["angular_momentum"] = values["M_vec"]
+    elif "k2" in values:
+        columns["modulus_squared"] = values["k2"]
+    stop = case.get("stop_time_tau", {}).get("direct" if model == "full" else "averaged")
+    scalars = {"stop_time": (stop / case["inputs"]["eps"], 1e-7 if model == "full" else 1e-8)} if stop else {}
+    return {name: (value, TRUTH_FLOOR) for name, value in columns.items()}, scalars
+
+
+def distance(a, b):
+    return math.dist(a, b) if isinstance(a, list) else abs(a - b)
+
+
+def column_error(name, got, want):
+    """The greatest error of a column as an answer states it; infinite where the answer has no such column."""
+    if got is None or len(got) != len(want):
+        return math.inf
+    worst = max(distance(g, w) for g, w in zip(got, want))
+    size = max(math.hypot(*w) if isinstance(w, list) else abs(w) for w in want)
+    if not math.isfinite(worst):
+        return math.inf
+    return worst if name == "modulus_squared" or size == 0 else worst / size
+
+
+class Check:
+    def __init__(self, command):
+        self.command = shlex.split(command)
+        self.count = {True: 0, False: 0}
+
+    def say(self, right, text):
+        self.count[right] += 1
+        print(f"{'ok  ' if right else 'FAIL'} {text}", flush=True)
+
+    def solve(self, case, model, tolerance):
+        """The answer; None, after a FAIL line, where there is none."""
+        with tempfile.TemporaryDirectory() as scratch:
+            scene = pathlib.Path(scratch) / "scene.toml"
+            scene.write_text(scene_text(case, model, tolerance), encoding="utf-8")
+            run = subprocess.run([*self.command, "solve", str(scene), "--json"], capture_output=True, text=True, timeout=300)
+        if run.returncode in (0, 3):
+            return json.loads(run.stdout)
+        self.say(False, f"{case['id']} {model}: exit {run.returncode}: {(run.stderr or run.stdout).strip()[-300:]}")
+        return None
+
+    def named(self, case, model):
+        answer = self.solve(case, model, 1e-11)
+        if answer is None:
+            return
+        columns, scalars = known(case, model)
+        for name, (want, allowed) in columns.items():
+            error = column_error(name, answer["columns"].get(name), want)
+            self.say(error <= allowed, f"{case['id']} {model} {name}: error {error:.1e}, allowed {allowed:.0e}")
+        for name, (want, allowed) in scalars.items():
+            got = answer["scalars"].get(name)
+            error = math.inf if got is None else abs(got / want - 1)
+            self.say(error <= allowed, f"{case['id']} {model} {name}: error {error:.1e}, allowed {allowed:.0e}")
+
+    def ladder(self, case, tolerance):
+        answer = self.solve(case, "auto", tolerance)
+        if answer is None:
+            return
+        right, seen = True, []
+        for name, (want, _) in known(case, "full")[0].items():
+            if name in answer["columns"]:
+                error, stated = column_error(name, answer["columns"][name], want), answer["error"][name]
+                met = not answer["met"] or error <= tolerance + TRUTH_FLOOR
+                honest = error <= HONESTY * stated + TRUTH_FLOOR
+                right = right and met and honest
+                seen.append(f"{name} {error:.1e} of {stated:.1e}" + ("" if met else " OVER") + ("" if honest else " DISHONEST"))
+        self.say(right and bool(seen), f"{case['id']} auto {tolerance:.0e}: {answer['model']}"
+                 f"{'' if answer['met'] else ' (not met)'}, true of stated: {', '.join(seen)}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--command", default="gyrostat", help="the command line to test")
+    parser.add_argument("--case", default="", help="only cases whose name holds this text")
+    parser.add_argument("--quick", action="store_true", help="auto at the loosest tolerance alone")
+    args = parser.parse_args()
+    check = Check(args.command)
+    for case in json.loads(CASES.read_text(encoding="utf-8"))["cases"]:
+        if args.case in case["id"]:
+            check.named(case, "full")
+            check.named(case, "averaged")
+            for tolerance in [1e-3] if args.quick else [1e-3, 1e-6, 1e-9]:
+                check.ladder(case, tolerance)
+    print(f"{check.count[True]} passed, {check.count[False]} failed")
+    return 1 if check.count[False] or not check.count[True] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
