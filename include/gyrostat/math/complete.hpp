@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 
 #include "gyrostat/core/real.hpp"
+#include "gyrostat/math/associate.hpp"
 #include "gyrostat/math/modulus.hpp"
 #include "gyrostat/math/nome.hpp"
 
@@ -47,20 +50,76 @@ inline Means<Scalar> means_by_nome(Modulus<Scalar> m) noexcept {
 
 }  // namespace detail
 
-/// K, F, W, V of a modulus (deceleration means). F, W, V each to a few eps relative at both ends: W and V like k2/2
-/// at k2 -> 0, F and V like 1/K at kp2 -> 0. Limits: k2 = 0 gives pi/2, 1, 0, 0; kp2 = 0 gives infinity, 0, 1, 0.
-/// Outside [0, 1] or NaN: NaN.
-template <Real Scalar>
-inline Means<Scalar> means(Modulus<Scalar> m) noexcept {
-  return detail::means_by_nome(m);
+namespace detail {
+
+/// K and E of one modulus without a branch; limits and illegal moduli by selection.
+GYROSTAT_FLATTEN Complete<double> complete_of(Modulus<double> m) noexcept {
+  const Associate at = Associate::of(m.kp2);
+  const double K = at.B + at.D;
+  const double E = at.B + m.kp2 * at.D;
+  const double wrong = m.legal() ? 0.0 : nan<double>;
+  const double endless = m.kp2 > 0 ? 0.0 : infinity<double>;
+  return {K + endless + wrong, E + wrong};
 }
 
-/// K and E. Limits: k2 = 0 gives pi/2, pi/2; kp2 = 0 gives infinity, 1. Outside [0, 1] or NaN: NaN.
+}  // namespace detail
+
+/// K, F, W, V of a modulus. F, W, V each to a few eps relative at both ends: W and V like k2/2 at k2 -> 0, F and V like
+/// 1/K at kp2 -> 0. Limits: k2 = 0 gives pi/2, 1, 0, 0; kp2 = 0 gives infinity, 0, 1, 0. Outside [0, 1] or NaN: NaN.
+/// Cost about 15 ns for float and double (polynomials and one logarithm), 10 times that for long double (nome).
+template <Real Scalar>
+inline Means<Scalar> means(Modulus<Scalar> m) noexcept {
+  if constexpr (std::same_as<Scalar, double>) {
+    if (!m.legal()) return {nan<double>, nan<double>, nan<double>, nan<double>};
+    if (m.kp2 == 0) return {infinity<double>, 0, 1, 0};
+    const auto at = detail::Associate::of(m.kp2);
+    const double K = at.B + at.D;
+    return {K, (at.B + m.kp2 * at.D) / K, m.k2 * at.D / K, m.k2 * at.B / K};
+  } else if constexpr (std::same_as<Scalar, float>) {
+    const auto mean = means(Modulus<double>{m.k2, m.kp2});
+    return {float(mean.K), float(mean.F), float(mean.W), float(mean.V)};
+  } else {
+    return detail::means_by_nome(m);
+  }
+}
+
+/// K and E. Limits: k2 = 0 gives pi/2, pi/2; kp2 = 0 gives infinity, 1. Outside [0, 1] or NaN: NaN. Cost as means().
 template <Real Scalar>
 inline Complete<Scalar> complete(Modulus<Scalar> m) noexcept {
-  const auto mean = detail::means_by_nome(m);
-  if (m.kp2 == 0) return {mean.K, mean.F + 1};
-  return {mean.K, mean.K * mean.F};
+  if constexpr (std::same_as<Scalar, double>) {
+    return detail::complete_of(m);
+  } else if constexpr (std::same_as<Scalar, float>) {
+    const auto integral = complete(Modulus<double>{m.k2, m.kp2});
+    return {float(integral.K), float(integral.E)};
+  } else {
+    const auto mean = detail::means_by_nome(m);
+    if (m.kp2 == 0) return {mean.K, mean.F + 1};
+    return {mean.K, mean.K * mean.F};
+  }
 }
+
+namespace detail {
+
+GYROSTAT_FLATTEN void complete_loop(const double* __restrict k2, const double* __restrict kp2, double* __restrict K,
+                                    double* __restrict E, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const Complete<double> integral = complete_of({k2[i], kp2[i]});
+    K[i] = integral.K;
+    E[i] = integral.E;
+  }
+}
+
+}  // namespace detail
+
+/// K and E of n moduli in arrays, the same numbers as one by one: a loop without branch or call, which compilers turn
+/// into vector instructions (-O3; about 1.3 ns a modulus with AVX-512). The compiled library (GYROSTAT_COMPILED) holds
+/// it for several instruction sets and picks one at run time. The outputs must not overlap the inputs.
+#if defined(GYROSTAT_COMPILED)
+void complete(const double* k2, const double* kp2, double* K, double* E, std::size_t n) noexcept;
+#else
+inline void complete(const double* k2, const double* kp2, double* K, double* E, std::size_t n) noexcept {
+  detail::complete_loop(k2, kp2, K, E, n);
+}
+#endif
 
 }  // namespace gyrostat::math

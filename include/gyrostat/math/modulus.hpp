@@ -29,8 +29,8 @@ struct Modulus {
   /// The modulus with k2 and kp2 exchanged.
   constexpr Modulus complement() const noexcept { return {kp2, k2}; }
 
-  /// Both squares lie in [0, 1]; false for NaN.
-  constexpr bool legal() const noexcept { return k2 >= 0 && k2 <= 1 && kp2 >= 0 && kp2 <= 1; }
+  /// Both squares lie in [0, 1]; false for NaN. Without branches, so that loops over it vectorise.
+  constexpr bool legal() const noexcept { return (k2 >= 0) & (k2 <= 1) & (kp2 >= 0) & (kp2 <= 1); }
 };
 
 }  // namespace gyrostat::math
