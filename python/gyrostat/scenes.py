@@ -1,0 +1,540 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scene files: read, checked in full, and handed on as a `Scene`. Whatever is wrong comes back as one `SceneError`."""
+
+import difflib
+import math
+import os
+import re
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gyrostat.errors import Mistake, SceneError
+from gyrostat.fields import (
+    ALTERNATIVES,
+    KINDS,
+    LATER_INTEGRATORS,
+    LATER_KINDS,
+    LIMIT,
+    MOST_SAMPLES,
+    REQUIRED,
+    RUNGS,
+    UNSET,
+    Field,
+)
+
+__all__ = ["Scene", "bundled", "find", "load", "parse_override", "scene_from"]
+
+MOST_BYTES: Final = 64 * 2**20
+# An attitude is taken as a unit quaternion when its norm is 1 within this.
+UNIT_TOLERANCE: Final = 1e-6
+# Off-diagonal pairs, and the triangle inequality, may be off by this share of the largest element.
+TENSOR_TOLERANCE: Final = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A checked scene: what `tables` holds is complete (defaults filled in), finite and physical.
+
+    `path` is the file it came from, or None. Change a value with `replace`, which checks again.
+    """
+
+    name: str
+    kind: str
+    source: str
+    tables: Mapping[str, Mapping[str, Any]]
+    path: Path | None = None
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """Times of the answer (n,) [s]."""
+        solve = self.tables["solve"]
+        if solve["times"] is not UNSET:
+            return np.array(solve["times"], dtype=np.float64)
+        return np.linspace(0.0, solve["duration"], solve["samples"])
+
+    @property
+    def tolerance(self) -> float:
+        """Greatest relative error wanted in any output column."""
+        return float(self.tables["solve"]["tolerance"])
+
+    @property
+    def model(self) -> str:
+        """Rung asked for, or "auto"."""
+        return str(self.tables["solve"]["model"])
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data in the layout of a scene file; keys without a value are left out."""
+        made: dict[str, Any] = {"name": self.name, "kind": self.kind}
+        if self.source:
+            made["source"] = self.source
+        for table, values in self.tables.items():
+            made[table] = {key: _plain(value) for key, value in values.items() if value is not UNSET}
+        return made
+
+    def replace(self, **overrides: Any) -> "Scene":
+        """The same scene with some keys changed: by name (`tolerance=1e-9`) or dotted (`**{"torque.drag": 0.0}`)."""
+        if not overrides:
+            return self
+        return _check(self.to_dict(), _Source(self._label(), path=self.path), overrides)
+
+    def _label(self) -> str:
+        return self.name if self.path is None else str(self.path)
+
+
+@dataclass
+class _Source:
+    """Where the data came from, for messages."""
+
+    label: str
+    text: str = ""
+    path: Path | None = None
+    overridden: frozenset[str] = frozenset()
+
+    def where(self, key: str) -> str:
+        if key in self.overridden:
+            return f"{self.label} (key set from outside)"
+        line = self._line(key)
+        return f"{self.label}:{line}" if line else self.label
+
+    def _line(self, key: str) -> int:
+        table, _, name = key.rpartition(".")
+        inside = ""
+        for number, line in enumerate(self.text.splitlines(), 1):
+            if header := re.match(r"\s*\[+\s*([\w.-]+)\s*\]+", line):
+                inside = header[1]
+                if inside == key:
+                    return number
+            elif (found := re.match(r"\s*([\w-]+)\s*=", line)) and found[1] == name and inside == table:
+                return number
+        return 0
+
+
+class _Wrong(Exception):
+    """A value that does not fit its key: problem and remedy."""
+
+
+def _plain(value: Any) -> Any:
+    """Numpy arrays, tuples and mappings as lists and dicts; other things as they are."""
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value
+
+
+def _show(value: Any) -> str:
+    """A value as it would stand in a scene file, at most about 60 characters."""
+    if isinstance(value, bool):
+        text = "true" if value else "false"
+    elif isinstance(value, int) and value.bit_length() > 200:
+        text = f"an integer of {value.bit_length()} bits"
+    elif isinstance(value, str):
+        text = '"' + (value if len(value) < 60 else value[:57] + "...") + '"'
+    elif isinstance(value, list):
+        shown = []
+        for item in value[:9]:
+            shown.append(_show(item))
+            if sum(map(len, shown)) > 60:
+                break
+        text = "[" + ", ".join(shown) + (", ..." if len(shown) < len(value) else "") + "]"
+    elif isinstance(value, dict):
+        text = "a table" if value else "an empty table"
+    elif isinstance(value, int | float):
+        text = repr(value)
+    else:
+        text = str(value)
+    return "".join(c if c.isprintable() else "?" for c in text)[:90]
+
+
+def _kind_of(value: Any) -> str:
+    names = {bool: "a truth value", str: "text", list: "an array", dict: "a table", int: "an integer", float: "a number"}
+    return names.get(type(value), f"of type {type(value).__name__}")
+
+
+def _near(word: str, words: Iterable[str]) -> str:
+    found = difflib.get_close_matches(word, list(words), 1, 0.6)
+    return found[0] if found else ""
+
+
+# ---- one reader a form; each returns the value to keep or raises _Wrong(problem, remedy) ----
+
+
+def _text(field: Field, value: Any) -> str:
+    if not isinstance(value, str):
+        raise _Wrong(f"this is {_kind_of(value)}, not text", f'write {field.name} = "..." in quotes')
+    if field.default is REQUIRED and not value.strip():
+        raise _Wrong("the text is empty", f"write the {field.meaning}")
+    return value
+
+
+def _choice(field: Field, value: Any) -> str:
+    if value in field.choices and isinstance(value, str):
+        return value
+    allowed = f"use one of {', '.join(field.choices)}"
+    if not isinstance(value, str):
+        raise _Wrong(f"this is {_kind_of(value)}, not text", allowed)
+    if field.name == "integrator" and value in LATER_INTEGRATORS:
+        raise _Wrong("this version has no such integrator for this kind of scene", allowed)
+    near = _near(value, field.choices)
+    raise _Wrong(f"unknown {field.name}", f'did you mean "{near}"? {allowed}' if near else allowed)
+
+
+def _number(field: Field, value: Any, element: str = "") -> float:
+    unit = f" ({field.unit})" if field.unit else ""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise _Wrong(f"{element or 'this'} is {_kind_of(value)}, not a number", f"give a number{unit} without quotes")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    what = f"{element} = {_show(value)}" if element else "this"
+    if not math.isfinite(number):
+        raise _Wrong(f"{what} is not finite", f"give a finite number{unit}")
+    if number < field.low or (field.open_low and number == field.low) or number > field.high:
+        raise _Wrong(f"{what} is out of range", f"give a number {_interval(field)}{unit}")
+    return number
+
+
+def _interval(field: Field) -> str:
+    low = f"{'> ' if field.open_low else '>= '}{field.low:g}" if field.low > -LIMIT else f">= -{LIMIT:g}"
+    if field.high < LIMIT:
+        return f"{low} and <= {field.high:g}"
+    return low if field.low > -LIMIT else f"of size at most {LIMIT:g}"
+
+
+def _count(field: Field, value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise _Wrong(f"this is {_kind_of(value)}, not an integer", f"write an integer, such as {field.name} = 401")
+    if not field.low <= value <= field.high:
+        raise _Wrong("this is out of range", f"give an integer from {field.low:.0f} to {field.high:.0f}")
+    return value
+
+
+def _list(field: Field, value: Any, length: int, example: str) -> list[Any]:
+    if not isinstance(value, list):
+        raise _Wrong(f"this is {_kind_of(value)}, not an array", f"write {length} numbers, such as {example}")
+    if len(value) != length:
+        raise _Wrong(f"the array has {len(value)} elements", f"write {length} numbers, such as {example}")
+    return value
+
+
+def _vector(field: Field, value: Any) -> tuple[float, ...]:
+    items = _list(field, value, 3, "[0.1, 0.2, 0.3]")
+    return tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
+
+
+def _quaternion(field: Field, value: Any) -> tuple[float, ...]:
+    items = _list(field, value, 4, "[0.0, 0.0, 0.0, 1.0] (x, y, z, w)")
+    q = [_number(field, item, f"element {i}") for i, item in enumerate(items, 1)]
+    norm = math.hypot(*q)
+    if norm == 0:
+        raise _Wrong("a zero quaternion is no rotation", "write a unit quaternion [x, y, z, w], such as [0.0, 0.0, 0.0, 1.0]")
+    if abs(norm - 1) > UNIT_TOLERANCE:
+        unit = ", ".join(f"{x / norm:.15g}" for x in q)
+        raise _Wrong(f"the norm is {norm:.9g}, not 1", f"write the unit quaternion [{unit}]")
+    return tuple(x / norm for x in q)
+
+
+def _times(field: Field, value: Any) -> tuple[float, ...]:
+    if not isinstance(value, list):
+        raise _Wrong(f"this is {_kind_of(value)}, not an array", "write times in seconds, such as [0.0, 10.0, 250.0]")
+    if not value:
+        raise _Wrong("there are no times", "write at least one time, or duration and samples instead")
+    if len(value) > MOST_SAMPLES:
+        raise _Wrong(f"there are {len(value)} times", f"give at most {MOST_SAMPLES}")
+    times = tuple(_number(field, item, f"element {i}") for i, item in enumerate(value, 1))
+    for i, (before, after) in enumerate(zip(times, times[1:], strict=False), 2):
+        if not after > before:
+            raise _Wrong(f"element {i} = {after!r} does not come after {before!r}", "put the times in increasing order, each once")
+    return times
+
+
+def _inertia(field: Field, value: Any) -> tuple[Any, ...]:
+    example = "[35.0, 22.0, 16.0]"
+    items = _list(field, value, 3, f"{example}, or three rows of three")
+    if not any(isinstance(item, list) for item in items):
+        moments = tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
+        _triangle(moments)
+        return moments
+    free = Field(field.name, "number", field.meaning, field.unit)
+    rows = []
+    for i, row in enumerate(items, 1):
+        if not isinstance(row, list) or len(row) != 3:
+            raise _Wrong(f"row {i} is not an array of three numbers", "write a symmetric tensor as three rows of three numbers")
+        rows.append([_number(free, item, f"element ({i}, {j})") for j, item in enumerate(row, 1)])
+    tensor = np.array(rows)
+    size = float(np.max(np.abs(tensor)))
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        if abs(tensor[i, j] - tensor[j, i]) > TENSOR_TOLERANCE * size:
+            raise _Wrong(f"the tensor is not symmetric: element ({i + 1}, {j + 1}) = {rows[i][j]!r} but "
+                         f"({j + 1}, {i + 1}) = {rows[j][i]!r}", "make the two equal")
+    tensor = (tensor + tensor.T) / 2
+    moments = tuple(float(x) for x in np.linalg.eigvalsh(tensor))
+    if moments[0] < max(field.low, 1e-12 * size):
+        raise _Wrong(f"the principal moments are {_listed(moments)}", "a body has three positive principal moments")
+    _triangle(moments)
+    return tuple(tuple(float(x) for x in row) for row in tensor)
+
+
+def _listed(numbers: Iterable[float]) -> str:
+    return ", ".join(f"{x:.9g}" for x in numbers)
+
+
+def _triangle(moments: Iterable[float]) -> None:
+    a, b, c = sorted(moments)
+    if a < c * 1e-12:
+        raise _Wrong(f"the smallest moment {a:.9g} is below 1e-12 of the largest {c:.9g}", "check the unit (kg m^2) of each moment")
+    if a + b < c * (1 - TENSOR_TOLERANCE):
+        raise _Wrong(f"the principal moment {c:.9g} exceeds the sum of the two others, {a:.9g} + {b:.9g}",
+                     "no rigid body has these moments (triangle inequality): check the numbers, or the signs of the products of inertia")
+
+
+_READERS: Final = {
+    "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "quaternion": _quaternion,
+    "inertia": _inertia, "times": _times,
+}
+
+
+# ---- the whole scene ----
+
+
+def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any] | None = None) -> Scene:
+    """The scene that `data` describes, or SceneError with every mistake found."""
+    tree: dict[str, Any] = {str(key): _plain(value) for key, value in data.items()}
+    if overrides:
+        source.overridden = frozenset(_override(tree, source, overrides))
+    mistakes: list[Mistake] = []
+
+    def wrong(key: str, value: Any, problem: str, remedy: str, shown: bool = True) -> None:
+        mistakes.append(Mistake(source.where(key), key, _show(value) if shown else "", problem, remedy))
+
+    kind = tree.get("kind")
+    if not isinstance(kind, str) or kind not in KINDS:
+        known = ", ".join(KINDS)
+        if "kind" not in tree:
+            wrong("kind", "", "the key is missing", f'write kind = "{next(iter(KINDS))}" (this version answers: {known})', False)
+        elif kind in LATER_KINDS:
+            wrong("kind", kind, "this kind is not built yet", f"this version answers: {known}")
+        else:
+            near = _near(kind, (*KINDS, *LATER_KINDS)) if isinstance(kind, str) else ""
+            wrong("kind", kind, "unknown kind", (f'did you mean "{near}"? ' if near else "") + f"this version answers: {known}")
+        raise SceneError(*mistakes)
+
+    layout = KINDS[kind]
+    read: dict[str, dict[str, Any]] = {}
+    for key in tree:
+        if key not in layout and all(field.name != key for field in layout[""]):
+            wrong(key, tree[key], "unknown " + ("table" if isinstance(tree[key], dict) else "key"),
+                  _advice(key, "", layout), not isinstance(tree[key], dict))
+    for table, fields in layout.items():
+        given: Any = tree if not table else tree.get(table)
+        if given is None and table not in tree:
+            wrong(table, "", f"the table [{table}] is missing", f"add [{table}] with {_wanted(kind, table)}", False)
+            continue
+        if not isinstance(given, dict):
+            wrong(table, given, f"this is {_kind_of(given)}, not a table", f"write [{table}] on a line of its own, then its keys")
+            continue
+        prefix = table + "." if table else ""
+        if table:
+            for key in given:
+                if all(field.name != key for field in fields):
+                    wrong(prefix + str(key), given[key], "unknown key", _advice(str(key), table, layout))
+        values: dict[str, Any] = {}
+        for field in fields:
+            if field.name not in given:
+                values[field.name] = field.default
+                if field.default is REQUIRED:
+                    wrong(prefix + field.name, "", "the key is missing", f"give the {_meaning(field)}", False)
+                continue
+            try:
+                values[field.name] = _READERS[field.form](field, given[field.name])
+            except _Wrong as error:
+                wrong(prefix + field.name, given[field.name], *error.args)
+        if table in ALTERNATIVES[kind]:
+            _one_of(kind, table, given, wrong)
+        read[table] = values
+    if mistakes:
+        raise SceneError(*mistakes)
+    head = read.pop("")
+    return Scene(head["name"], kind, head["source"], read, source.path)
+
+
+def _meaning(field: Field) -> str:
+    return field.meaning + (f" ({field.unit})" if field.unit else "")
+
+
+def _wanted(kind: str, table: str) -> str:
+    names = [field.name for field in KINDS[kind][table] if field.default is REQUIRED]
+    names += [" or ".join(" and ".join(keys) for keys in ALTERNATIVES[kind][table])] if table in ALTERNATIVES[kind] else []
+    return ", ".join(names)
+
+
+def _one_of(kind: str, table: str, given: Mapping[str, Any], wrong: Any) -> None:
+    choices = ALTERNATIVES[kind][table]
+    text = " or ".join(" and ".join(keys) for keys in choices)
+    started = [keys for keys in choices if any(key in given for key in keys)]
+    if not started:
+        wrong(f"{table}.{choices[0][0]}", "", "the key is missing", f"in [{table}] give {text}", False)
+    elif len(started) > 1:
+        extra = next(key for key in started[1] if key in given)
+        first = next(key for key in started[0] if key in given)
+        wrong(f"{table}.{extra}", given[extra], f"given beside {table}.{first}", f"in [{table}] give either {text}")
+    else:
+        for key in started[0]:
+            if key not in given:
+                wrong(f"{table}.{key}", "", "the key is missing", f"in [{table}] give {text}", False)
+
+
+def _advice(key: str, table: str, layout: Mapping[str, Iterable[Field]]) -> str:
+    """What to do about a key that `table` does not have."""
+    here = [field.name for field in layout[table]] + ([name for name in layout if name] if not table else [])
+    homes = [name for name, fields in layout.items() if any(field.name == key for field in fields)]
+    if homes:
+        return f"{key} belongs in [{homes[0]}]" if homes[0] else f"{key} belongs at the top of the file, before the first table"
+    if near := _near(key, here):
+        return f"did you mean {near}?"
+    for name, fields in layout.items():
+        if near := _near(key, [field.name for field in fields]):
+            return f"did you mean {name + '.' if name else ''}{near}?"
+    return f"the keys here are {', '.join(here)}"
+
+
+def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any]) -> Iterator[str]:
+    """Put each override into the tree (taking out what it is an alternative to); yields the full keys."""
+    kind = overrides.get("kind", tree.get("kind"))
+    layout = KINDS.get(kind, {}) if isinstance(kind, str) else {}
+    full: dict[str, Any] = {}
+    for key, value in overrides.items():
+        table, _, name = key.rpartition(".")
+        if not table:
+            homes = [home for home, fields in layout.items() if any(field.name == name for field in fields)]
+            if not homes and name not in ("kind", "name", "source"):
+                names = [field.name for fields in layout.values() for field in fields]
+                near = _near(name, names)
+                raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)), "unknown key",
+                                         f"did you mean {near}?" if near else f"the keys are {', '.join(names)}"))
+            table = homes[0] if homes else ""
+        full[f"{table}.{name}" if table else name] = _plain(value)
+    for key, value in full.items():
+        table, _, name = key.rpartition(".")
+        home = tree
+        for part in table.split(".") if table else ():
+            home = home.setdefault(part, {})
+            if not isinstance(home, dict):
+                raise SceneError(Mistake(source.label, table, _show(home), "this is not a table", f"write [{table}] and its keys"))
+        choices = ALTERNATIVES.get(str(kind), {}).get(table, ())
+        for keys in choices:
+            if any(name in other for other in choices if other is not keys):
+                for rival in keys:
+                    if f"{table}.{rival}" not in full:
+                        home.pop(rival, None)
+        home[name] = value
+        yield key
+
+
+def parse_override(text: str) -> tuple[str, Any]:
+    """`key=value` of the command line: a dotted key, or the bare name of one, and a TOML value (or a bare word)."""
+
+    def fail(key: str, value: str, problem: str, remedy: str) -> SceneError:
+        return SceneError(Mistake("--set", _show(key)[1:-1], value, problem, remedy))
+
+    key, equals, value = text.partition("=")
+    key, value = key.strip(), value.strip()
+    if not equals:
+        raise fail(key, "", "there is no value", "write --set key=value, such as --set tolerance=1e-9")
+    if not re.fullmatch(r"[A-Za-z0-9_-]+(\.[A-Za-z0-9_-]+)*", key):
+        raise fail(key, _show(value), "this is no key", "write a key such as torque.drag")
+    try:
+        read = tomllib.loads(f"value = {value}\n")
+        if set(read) == {"value"}:
+            return key, read["value"]
+    except (tomllib.TOMLDecodeError, ValueError, RecursionError):
+        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", value):
+            return key, value
+    raise fail(key, _show(value), "this is no TOML value", 'write a number, an array such as [1.0, 2.0, 3.0], or text in quotes')
+
+
+def scene_from(data: Mapping[str, Any], label: str = "scene", **overrides: Any) -> Scene:
+    """The scene that a dict in the layout of a scene file describes. Raises SceneError."""
+    return _check(data, _Source(label), overrides)
+
+
+def load(path: str | os.PathLike[str], **overrides: Any) -> Scene:
+    """Read a scene file (TOML), or a bundled scene by name; overrides as in `Scene.replace`. Raises SceneError."""
+    file = find(path)
+    label = _printable(str(path))
+
+    def fail(problem: str, remedy: str) -> SceneError:
+        return SceneError(Mistake(label, "", "", problem, remedy))
+
+    try:
+        if file.is_dir():
+            raise fail("this is a directory", "name a scene file")
+        if file.stat().st_size > MOST_BYTES:
+            raise fail(f"the file is over {MOST_BYTES // 2**20} MiB", "a scene file is a few lines of TOML")
+        with file.open("rb") as stream:
+            raw = stream.read(MOST_BYTES + 1)
+    except FileNotFoundError:
+        known = [name for name, _ in bundled()]
+        near = _near(str(path), known)
+        raise fail("there is no such file", f"did you mean the bundled scene {near}?" if near else
+                   "name a scene file, or a bundled scene (gyrostat scenes lists them)") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise fail(f"the file cannot be read ({reason})", "name a readable scene file") from None
+    if len(raw) > MOST_BYTES:
+        raise fail(f"the file is over {MOST_BYTES // 2**20} MiB", "a scene file is a few lines of TOML")
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise fail(f"byte {error.start + 1} is not UTF-8", "save the file as UTF-8 text") from None
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        place = re.search(r"\(at line (\d+), column (\d+)\)", str(error))
+        where = f"{label}:{place[1]}" if place else label
+        problem = str(error)
+        if place:
+            line = text.split("\n")[int(place[1]) - 1].strip()[:60]
+            problem = problem.replace(place[0], f"in column {place[2]} of the line '{line}'")
+        raise SceneError(Mistake(where, "", "", f"this is not TOML: {_printable(problem)}", "mend the line")) from None
+    except RecursionError:
+        raise fail("arrays or tables are nested too deep", "a scene file is a few lines of TOML") from None
+    except ValueError as error:
+        raise fail(f"a value cannot be read ({_printable(str(error))[:80]})", "write ordinary numbers") from None
+    return _check(data, _Source(label, text, file), overrides)
+
+
+def _printable(text: str) -> str:
+    return "".join(c if c.isprintable() else "?" for c in text)
+
+
+def _folder() -> Path | None:
+    """Where the bundled scenes are: beside the package, or in the source tree."""
+    here = Path(__file__).resolve().parent
+    return next((folder for folder in (here / "scenes", here.parents[1] / "scenes") if folder.is_dir()), None)
+
+
+def bundled() -> list[tuple[str, Path]]:
+    """Name and file of each scene that comes with gyrostat."""
+    folder = _folder()
+    return [(file.stem, file) for file in sorted(folder.glob("*.toml"))] if folder else []
+
+
+def find(path: str | os.PathLike[str]) -> Path:
+    """The file that a path or the name of a bundled scene stands for; the path itself where there is no such scene."""
+    file = Path(path)
+    try:
+        if file.exists():
+            return file
+    except (OSError, ValueError):
+        return file
+    return dict(bundled()).get(str(path), file)

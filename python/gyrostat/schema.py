@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""JSON Schema of scene files, made from the table that the validator reads."""
+
+from typing import Any
+
+from gyrostat.fields import ALTERNATIVES, KINDS, REQUIRED, UNSET, Field
+
+__all__ = ["schema"]
+
+
+def _number(field: Field) -> dict[str, Any]:
+    return {"type": "number", ("exclusiveMinimum" if field.open_low else "minimum"): field.low, "maximum": field.high}
+
+
+def _array(items: dict[str, Any], length: int | None = None) -> dict[str, Any]:
+    size = {"minItems": 1} if length is None else {"minItems": length, "maxItems": length}
+    return {"type": "array", "items": items, **size}
+
+
+def _form(field: Field) -> dict[str, Any]:
+    match field.form:
+        case "text":
+            return {"type": "string", "minLength": 1} if field.default is REQUIRED else {"type": "string"}
+        case "choice":
+            return {"enum": list(field.choices)}
+        case "number":
+            return _number(field)
+        case "count":
+            return {"type": "integer", "minimum": int(field.low), "maximum": int(field.high)}
+        case "vector":
+            return _array(_number(field), 3)
+        case "quaternion":
+            return _array({"type": "number", "minimum": -1.000001, "maximum": 1.000001}, 4)
+        case "times":
+            return _array(_number(field))
+        case "inertia":
+            tensor = _array(_array({"type": "number", "minimum": -field.high, "maximum": field.high}, 3), 3)
+            return {"oneOf": [_array(_number(field), 3), tensor]}
+
+
+def _property(field: Field) -> dict[str, Any]:
+    made = {"description": field.meaning + (f" [{field.unit}]" if field.unit else ""), **_form(field)}
+    if field.default is not REQUIRED and field.default is not UNSET:
+        made["default"] = list(field.default) if isinstance(field.default, tuple) else field.default
+    return made
+
+
+def _kind(kind: str) -> dict[str, Any]:
+    tables = KINDS[kind]
+    properties: dict[str, Any] = {field.name: _property(field) for field in tables[""]}
+    required = [field.name for field in tables[""] if field.default is REQUIRED]
+    for table, fields in tables.items():
+        if not table:
+            continue
+        made: dict[str, Any] = {
+            "type": "object",
+            "properties": {field.name: _property(field) for field in fields},
+            "required": [field.name for field in fields if field.default is REQUIRED],
+            "additionalProperties": False,
+        }
+        if choices := ALTERNATIVES[kind].get(table):
+            made["oneOf"] = [
+                {"required": list(chosen), "not": {"anyOf": [{"required": [key]} for other in choices
+                                                             if other is not chosen for key in other]}}
+                for chosen in choices
+            ]
+        properties[table] = made
+        required.append(table)
+    return {"type": "object", "properties": properties, "required": required, "additionalProperties": False}
+
+
+def schema() -> dict[str, Any]:
+    """JSON Schema (draft 2020-12) of a scene file, parsed from TOML.
+
+    What a schema cannot say is checked when a scene is loaded: finite numbers, the triangle inequality, a symmetric
+    tensor, increasing times, a unit quaternion.
+    """
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "gyrostat scene",
+        "description": "SI units, radians, seconds",
+        "oneOf": [_kind(kind) for kind in KINDS],
+    }
