@@ -45,7 +45,8 @@ TEST_CASE("the rates are the derivatives of a body turning at a constant rate") 
 TEST_CASE("the tangent maps turn the rate of the rotation vector into the angular velocity") {
   for (const Vec3<S>& v : sample_rotations<S>()) {
     const Vec3<S> rate(0.3L, 0.8L, -0.5L);
-    const auto dq = derivative([&](S t) { return Eigen::Matrix<S, 4, 1>(components(quaternion_from_vector<S>(v + t * rate))); }, 1e-3L);
+    const auto moved = [&](S t) { return components(quaternion_from_vector<S>(v + t * rate)); };
+    const auto dq = derivative(moved, 1e-3L);
     const Quat<S> q = quaternion_from_vector(v);
     const Quat<S> q_rate{dq[0], dq[1], dq[2], dq[3]};
     const Quat<S> body = conjugate(q) * q_rate;

@@ -8,7 +8,7 @@
 
 namespace gyrostat {
 
-/// A rotor, symmetric about an axis fixed in the carrier. Its spin enters the momentum of the gyrostat in one of two ways,
+/// A rotor, symmetric about an axis fixed in the carrier. Its spin enters the momentum of the gyrostat in two ways,
 ///     M = J omega + l              l relative to the carrier, J of the whole with the rotor locked
 ///     M = J* omega + p axis        p absolute, about the axis;  J* = J less the rotor's axial inertia
 /// A motor that holds the rate keeps l constant, a rotor that turns freely keeps p.

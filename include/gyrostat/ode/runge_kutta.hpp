@@ -108,7 +108,10 @@ class RungeKutta {
       if (std::isfinite(error)) {
         next_ = std::abs(h) * factor(error, greatest);
       } else {
-        if (++blind > blind_cap) return status_ = Status::not_finite;
+        // Next to the edge of its domain a state can stand still in rounding while the time creeps on: that is the end.
+        ++blind;
+        if (blind > blind_cap || std::abs(h) <= 1024 * epsilon<Scalar> * std::abs(t_))
+          return status_ = Status::not_finite;
         next_ = std::abs(h) / 5;
       }
     }
@@ -130,8 +133,13 @@ class RungeKutta {
     const Scalar rest = 1 - x;
     State y;
     for (std::size_t i = 0; i < N; ++i) {
-      const Scalar high = dense_terms_[3][i] + x * (dense_terms_[4][i] + rest * (dense_terms_[5][i] + x * dense_terms_[6][i]));
-      y[i] = y_old_[i] + x * (dense_terms_[0][i] + rest * (dense_terms_[1][i] + x * (dense_terms_[2][i] + rest * high)));
+      Scalar sum = x * dense_terms_[6][i];
+      sum = rest * (dense_terms_[5][i] + sum);
+      sum = x * (dense_terms_[4][i] + sum);
+      sum = rest * (dense_terms_[3][i] + sum);
+      sum = x * (dense_terms_[2][i] + sum);
+      sum = rest * (dense_terms_[1][i] + sum);
+      y[i] = y_old_[i] + x * (dense_terms_[0][i] + sum);
     }
     return y;
   }

@@ -56,8 +56,8 @@ Scalar cotangent_defect_ratio(Scalar x) noexcept {
     sum += weight * (y == 0 ? Scalar(1) : std::tan(y) / y);
   }
   const Scalar y2 = y * y;
-  const Scalar series =
-      Scalar(1) / 3 + y2 * (Scalar(1) / 45 + y2 * (Scalar(2) / 945 + y2 * (Scalar(1) / 4725 + y2 * (Scalar(2) / 93555))));
+  const Scalar high = Scalar(2) / 945 + y2 * (Scalar(1) / 4725 + y2 * (Scalar(2) / 93555));
+  const Scalar series = Scalar(1) / 3 + y2 * (Scalar(1) / 45 + y2 * high);
   return (sum + weight * series) / 4;
 }
 

@@ -69,8 +69,8 @@ Scalar torque_balance(math::Modulus<Scalar> m) noexcept {
   return m.kp2 * mean.W / (m.k2 * mean.F);
 }
 
-/// The modulus at which phi has a value in (0, 1/2). k2 and kp2 each to about 1e-14 / (1 - 2 value), which is what the value
-/// determines. Errc::not_finite, out_of_domain.
+/// The modulus at which phi has a value in (0, 1/2): kp2 to full relative accuracy, k2 as far as the value determines
+/// it, a few eps absolute. Errc::not_finite, out_of_domain.
 template <class Elliptic = math::Native, Real Scalar>
 Result<math::Modulus<Scalar>> modulus_of_balance(Scalar value) noexcept {
   using math::Modulus;
