@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/models/deceleration/full.hpp"
+#include "gyrostat/models/deceleration/problem.hpp"
+#include "gyrostat/ode/status.hpp"
+#include "gyrostat/ode/taylor.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// The full motion of a decelerated gyrostat: Taylor series from the start to the last time asked for, through the stop.
+namespace gyrostat::deceleration {
+
+template <Real Scalar>
+struct FullMotionOptions {
+  Scalar tolerance = Scalar(1e-9L);  ///< greatest error wanted in any column, as FullMotionError measures it
+  bool find_stop = true;             ///< go on behind the last time until the stop, if there is one
+  std::uint64_t step_cap = 100'000'000;
+  std::atomic<double>* progress = nullptr;     ///< grows to 1 while the motion is computed
+  const std::atomic<bool>* cancel = nullptr;   ///< set by another thread to end the work
+};
+
+/// Estimated greatest errors over the times, each relative to the greatest norm of its column over the times; attitude: the angle, rad.
+template <Real Scalar>
+struct FullMotionError {
+  Scalar momentum = 0;
+  Scalar momentum_norm = 0;
+  Scalar energy = 0;
+  Scalar angular_velocity = 0;
+  Scalar attitude = 0;
+  Scalar stop_time = 0;
+
+  Scalar greatest() const noexcept {
+    return std::max({momentum, momentum_norm, energy, angular_velocity, attitude, stop_time});
+  }
+};
+
+template <Real Scalar>
+struct FullMotionAnswer {
+  ode::Status status = ode::Status::reached;
+  /// When U = 0 is reached and held, s; infinity if never; NaN if it was not looked for or the integration ended before.
+  Scalar stop_time = nan<Scalar>;
+  bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
+  FullMotionError<Scalar> error;
+  ode::Counts counts;          ///< of all runs, the companion's included
+  Scalar step_tolerance = 0;   ///< of the Taylor steps that gave the answer
+};
+
+/// How the control acts at U = 0, where its torque can be any -control n with |n| <= 1 (Filippov).
+template <Real Scalar>
+struct Hold {
+  bool holds = false;   ///< U = 0 is kept once reached
+  Scalar weakest = 0;   ///< lower bound of the rate at which |U| shrinks near U = 0, N m; 0 if there is none
+
+  explicit Hold(const Problem<Scalar>& problem) noexcept {
+    const Mat3<Scalar>& b = problem.control;
+    if (b.isZero(0)) return;
+    const Vec3<Scalar> c = FullCoefficients<Scalar>(problem).constant;
+    const Mat3<Scalar> cofactor = cofactors(b);
+    const Scalar determinant = b.row(0).dot(cofactor.row(0));
+    const Scalar trace = b.trace();
+    // the two greater eigenvalues have a product of at most (trace/2)^2
+    const Scalar least = std::max(Scalar(0), 4 * determinant / (trace * trace));
+    if (c.isZero(0)) {
+      holds = true;
+      weakest = least > 16 * epsilon<Scalar> * trace ? least : Scalar(0);
+    } else if (least > 16 * epsilon<Scalar> * trace) {
+      const Scalar used = Vec3<Scalar>(cofactor * c).norm() / determinant;
+      holds = used <= 1;
+      weakest = holds ? least * (1 - used) : Scalar(0);
+    }
+  }
+
+  /// Cofactors of a symmetric matrix: determinant times its inverse.
+  static Mat3<Scalar> cofactors(const Mat3<Scalar>& b) noexcept {
+    Mat3<Scalar> m;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+        m(i, j) = b(i1, j1) * b(i2, j2) - b(i1, j2) * b(i2, j1);
+      }
+    }
+    return m;
+  }
+};
+
+/// The full motion at the given times (s from the start, increasing, the first >= 0): the total momentum in principal axes,
+/// and with a start attitude (principal axes to inertial) the attitude. What lies behind a failure is NaN.
+///
+/// The stop is found to 1e-12 of its time: the steps shrink with |U| (FullSystem::step_limit) until the rest of the motion, |U| over the
+/// torque, is below 1e-13 of the time. Behind it law total stays at M = 0, omega = -J^-1 l, and law carrier at M = l, omega = 0.
+/// Where the control cannot hold U = 0 against the drag of the other law there is no stop.
+///
+/// The error is estimated by a second run with steps of a tolerance 64 times looser, whose distance from the answer is some
+/// ten to a hundred times the error of the answer, plus what rounding of the data does to the phase and no second run can show. A
+/// run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
+///
+/// Errors: not_increasing (times), not_finite (problem or times), out_of_domain (a span of the wrong length).
+template <Real Scalar>
+Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
+                                             std::span<Vec3<Scalar>> momentum, const FullMotionOptions<Scalar>& options = {},
+                                             const Quat<Scalar>* start_attitude = nullptr,
+                                             std::span<Quat<Scalar>> attitude = {}) noexcept;
+
+namespace detail {
+
+/// One run: hands (index, M, q) of every time to the sink, in order.
+template <Real Scalar, bool with_control, bool with_attitude>
+class FullRun {
+ public:
+  using System = FullSystem<Scalar, with_control, with_attitude>;
+  using Solver = ode::Taylor<System>;
+  static constexpr int width = System::width;
+
+  FullRun(const Problem<Scalar>& problem, const Quat<Scalar>& attitude, Scalar step_tolerance,
+          const FullMotionOptions<Scalar>& options, double progress_from, double progress_to) noexcept
+      : problem_(problem), coefficients_(problem), hold_(problem), attitude_(attitude), step_tolerance_(step_tolerance),
+        options_(options), progress_from_(progress_from), progress_to_(progress_to) {}
+
+  template <class Sink>
+  ode::Status operator()(std::span<const Scalar> times, Sink&& sink) noexcept {
+    using ode::Status;
+    typename Solver::State state{};
+    Vec3<Scalar> U = problem_.momentum - coefficients_.offset;
+    Scalar t = 0;
+    stop_time_ = with_control && (hold_.weakest > 0 || hold_.holds) ? nan<Scalar> : infinity<Scalar>;
+    std::size_t next = 0;
+    while (next < times.size() && times[next] <= 0) sink(next++, problem_.momentum, attitude_);
+    if constexpr (with_control) {
+      if (U.isZero(0)) {
+        if (hold_.holds) {
+          rest(times, next, 0, attitude_, sink);
+          return Status::reached;
+        }
+        t = leave(U);
+      }
+    }
+    for (int i = 0; i < 3; ++i) state[static_cast<std::size_t>(i)] = U[i];
+    if constexpr (with_attitude) {
+      state[4] = attitude_.w;
+      state[5] = attitude_.x;
+      state[6] = attitude_.y;
+      state[7] = attitude_.z;
+    }
+
+    ode::TaylorOptions<Scalar, width> how;
+    how.tolerance = step_tolerance_;
+    how.step_cap = options_.step_cap;
+    // the carrier's share of the momentum sets the energy; where it is the small part of M it wants its own digits
+    const Scalar whole = std::max(problem_.momentum.norm(), U.norm());
+    const Scalar share = (problem_.momentum - problem_.rotor_momentum).norm();
+    const Scalar size = share > Scalar(1e-4L) * whole ? std::min(share, whole) : whole;
+    for (std::size_t i = 0; i < 3; ++i) how.scale[i] = size > 0 ? size : std::numeric_limits<Scalar>::min();
+    for (std::size_t i = 4; i < width; ++i) how.scale[i] = 1;
+    const System system(problem_);
+    Solver solver(system, t, state, how);
+
+    const bool may_stop = with_control && hold_.holds;
+    const bool seek = may_stop && hold_.weakest > 0 && options_.find_stop;
+    const Scalar start_norm = U.norm();
+    const Scalar rate_scale = coefficients_.quadratic.cwiseAbs().maxCoeff();
+    const Scalar linear_scale = coefficients_.linear.norm() + coefficients_.rate.norm();
+    alignas(32) Scalar x[width];
+    Status status = Status::reached;
+    std::uint32_t trips = 0;
+    while (next < times.size() || seek) {
+      const Scalar before = solver.time();
+      status = solver.step();
+      if (status != Status::reached) break;
+      const Scalar now = solver.time();
+      U = {solver.state()[0], solver.state()[1], solver.state()[2]};
+      const Scalar norm = U.norm();
+      phase_ += (now - before) * (rate_scale * norm + linear_scale);
+      for (; next < times.size() && times[next] <= now; ++next) {
+        solver.at(times[next], x);
+        sink(next, Vec3<Scalar>(Vec3<Scalar>(x[0], x[1], x[2]) + coefficients_.offset), quaternion(x));
+      }
+      if (may_stop) {
+        // the rest of the motion: |U| falls at least at the weakest rate, in the end at the rate of its direction
+        const Scalar fall = falling(U, norm);
+        const Scalar slowest = hold_.weakest > 0 ? std::min(hold_.weakest, fall) : fall;
+        if (!(norm > 0) || norm <= Scalar(1e-13L) * precision_factor * now * slowest) {
+          rest(times, next, now + (norm > 0 ? norm / fall : Scalar(0)), quaternion(solver.state()), sink);
+          break;
+        }
+      }
+      if ((++trips & 255U) == 0) {
+        if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) {
+          status = Status::cancelled;
+          break;
+        }
+        const Scalar done = seek ? 1 - norm / start_norm : now / times.back();
+        report(static_cast<double>(done));
+      }
+    }
+    counts_ = solver.counts();
+    for (; next < times.size(); ++next) {
+      sink(next, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)), Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
+    }
+    report(1);
+    return status;
+  }
+
+  Scalar stop_time() const noexcept { return stop_time_; }
+  const ode::Counts& counts() const noexcept { return counts_; }
+  /// Bound of the angle turned through by U and by the axes, rad.
+  Scalar phase() const noexcept { return phase_; }
+
+ private:
+  /// 1 for double and wider; float cannot resolve 1e-13.
+  static constexpr Scalar precision_factor = std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
+
+  Scalar falling(const Vec3<Scalar>& U, Scalar norm) const noexcept {
+    const Vec3<Scalar> n = U / norm;
+    return n.dot(problem_.control * n) - n.dot(coefficients_.constant);
+  }
+
+  Quat<Scalar> quaternion(const Scalar* x) const noexcept {
+    if constexpr (with_attitude) {
+      const Scalar size = 1 / std::sqrt(x[4] * x[4] + x[5] * x[5] + x[6] * x[6] + x[7] * x[7]);
+      return {x[4] * size, x[5] * size, x[6] * size, x[7] * size};
+    } else {
+      return attitude_;
+    }
+  }
+
+  /// Behind the stop: U = 0.
+  template <class Sink>
+  void rest(std::span<const Scalar> times, std::size_t& next, Scalar stop, const Quat<Scalar>& q, Sink& sink) noexcept {
+    stop_time_ = stop;
+    const Vec3<Scalar>& w = coefficients_.rate;
+    const Scalar rate = w.norm();
+    for (; next < times.size(); ++next) {
+      Quat<Scalar> turned = q;
+      if (with_attitude && rate > 0) {
+        const Scalar half = std::max(Scalar(0), times[next] - stop) * rate / 2;
+        const Scalar c = std::cos(half), s = std::sin(half) / rate;
+        const Scalar x = w[0] * s, y = w[1] * s, z = w[2] * s;
+        turned = {q.w * c - q.x * x - q.y * y - q.z * z, q.w * x + q.x * c + q.y * z - q.z * y,
+                  q.w * y - q.x * z + q.y * c + q.z * x, q.w * z + q.x * y - q.y * x + q.z * c};
+      }
+      sink(next, coefficients_.offset, turned);
+    }
+  }
+
+  /// U = 0 that the control cannot hold: U leaves along the one direction n with (s + control) n = c, s > 0. Sets U a moment later
+  /// and returns that moment; it is so short that the square of it is lost in rounding.
+  Scalar leave(Vec3<Scalar>& U) const noexcept {
+    const Vec3<Scalar>& c = coefficients_.constant;
+    Scalar low = 0, high = c.norm();
+    Vec3<Scalar> n = c / high;
+    for (int trip = 0; trip < 2 * std::numeric_limits<Scalar>::digits; ++trip) {
+      const Scalar s = (low + high) / 2;
+      Mat3<Scalar> m = problem_.control;
+      m.diagonal().array() += s;
+      const Mat3<Scalar> cofactor = Hold<Scalar>::cofactors(m);
+      n = cofactor * c / m.row(0).dot(cofactor.row(0));
+      (n.norm() > 1 ? low : high) = s;
+    }
+    const Scalar s = (low + high) / 2;
+    const Scalar rate = coefficients_.linear.norm() +
+                        coefficients_.quadratic.cwiseAbs().maxCoeff() * problem_.rotor_momentum.norm();
+    const Scalar moment = epsilon<Scalar> / (rate > 0 ? rate : Scalar(1));
+    U = s * moment * n.normalized();
+    return moment;
+  }
+
+  void report(double done) const noexcept {
+    if (options_.progress != nullptr) {
+      options_.progress->store(progress_from_ + std::clamp(done, 0.0, 1.0) * (progress_to_ - progress_from_),
+                               std::memory_order_relaxed);
+    }
+  }
+
+  const Problem<Scalar>& problem_;
+  FullCoefficients<Scalar> coefficients_;
+  Hold<Scalar> hold_;
+  Quat<Scalar> attitude_;
+  Scalar step_tolerance_;
+  const FullMotionOptions<Scalar>& options_;
+  double progress_from_, progress_to_;
+  Scalar stop_time_ = nan<Scalar>;
+  Scalar phase_ = 0;
+  ode::Counts counts_;
+};
+
+/// The answer's run, the companion's run, and their distance.
+template <Real Scalar, bool with_control, bool with_attitude>
+FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, std::span<const Scalar> times,
+                                                std::span<Vec3<Scalar>> momentum, const FullMotionOptions<Scalar>& options,
+                                                const Quat<Scalar>& start_attitude, std::span<Quat<Scalar>> attitude,
+                                                Scalar step_tolerance, double progress_from, double progress_to) noexcept {
+  using Run = FullRun<Scalar, with_control, with_attitude>;
+  constexpr Scalar eps = epsilon<Scalar>;
+  FullMotionAnswer<Scalar> answer;
+  answer.step_tolerance = step_tolerance;
+  const double middle = progress_from + 0.55 * (progress_to - progress_from);
+
+  Scalar momentum_scale = 0, energy_scale = 0, velocity_scale = 0;
+  Run run(problem, start_attitude, step_tolerance, options, progress_from, middle);
+  answer.status = run(times, [&](std::size_t i, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
+    momentum[i] = M;
+    if constexpr (with_attitude) attitude[i] = q;
+    momentum_scale = std::max(momentum_scale, M.norm());
+    energy_scale = std::max(energy_scale, problem.energy(M));
+    velocity_scale = std::max(velocity_scale, problem.angular_velocity(M).norm());
+  });
+  answer.stop_time = run.stop_time();
+  answer.counts = run.counts();
+  if (answer.status != ode::Status::reached) return answer;
+
+  constexpr Scalar looser = 64;
+  Run companion(problem, start_attitude, step_tolerance * looser, options, middle, progress_to);
+  Scalar vector = 0, norm = 0, energy = 0, velocity = 0, angle = 0;
+  const auto status = companion(times, [&](std::size_t i, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
+    const Vec3<Scalar> d = M - momentum[i];
+    const auto worst = [](Scalar& w, Scalar value) noexcept { w = value > w || !(value == value) ? value : w; };
+    worst(vector, d.norm());
+    worst(norm, std::abs(M.norm() - momentum[i].norm()));
+    worst(energy, std::abs(problem.energy(M) - problem.energy(momentum[i])));
+    worst(velocity, problem.inverse_inertia.cwiseProduct(d).norm());
+    if constexpr (with_attitude) {
+      const Quat<Scalar>& p = attitude[i];
+      const Scalar same = std::hypot(std::hypot(p.w - q.w, p.x - q.x), std::hypot(p.y - q.y, p.z - q.z));
+      const Scalar opposite = std::hypot(std::hypot(p.w + q.w, p.x + q.x), std::hypot(p.y + q.y, p.z + q.z));
+      worst(angle, 4 * std::asin(std::min(Scalar(1), std::min(same, opposite) / 2)));
+    }
+  });
+  answer.counts += companion.counts();
+  if (status != ode::Status::reached) {
+    answer.status = status;
+    return answer;
+  }
+
+  // The data are rounded once on their way into the recurrences: a relative change of all rates by a rounding or two, the same in both runs.
+  const Scalar phase_error = eps * (2 + 2 * run.phase());
+  const Scalar rounding = 4 * eps;
+  const auto relative = [](Scalar difference, Scalar scale) noexcept {
+    return difference == 0 ? Scalar(0) : difference / (scale > 0 ? scale : std::numeric_limits<Scalar>::min());
+  };
+  auto& error = answer.error;
+  error.momentum = relative(2 * vector, momentum_scale) + phase_error;
+  error.momentum_norm = relative(2 * norm, momentum_scale) + rounding;
+  error.energy = relative(2 * energy, energy_scale) +
+                 relative(rounding * (momentum_scale + problem.rotor_momentum.norm()) * velocity_scale, energy_scale);
+  error.angular_velocity =
+      relative(2 * velocity, velocity_scale) +
+      relative(phase_error * (momentum_scale + problem.rotor_momentum.norm()) * problem.inverse_inertia[2], velocity_scale);
+  if constexpr (with_attitude) error.attitude = 2 * angle + 2 * phase_error;
+  if (answer.stop_time < infinity<Scalar>) {
+    error.stop_time = answer.stop_time > 0
+                          ? 2 * std::abs(companion.stop_time() - answer.stop_time) / answer.stop_time +
+                                Scalar(1e-12L) * std::max(Scalar(1), eps / Scalar(1e-15L))
+                          : Scalar(0);
+  }
+  answer.met = error.greatest() <= options.tolerance;
+  return answer;
+}
+
+}  // namespace detail
+
+template <Real Scalar>
+Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
+                                             std::span<Vec3<Scalar>> momentum, const FullMotionOptions<Scalar>& options,
+                                             const Quat<Scalar>* start_attitude, std::span<Quat<Scalar>> attitude) noexcept {
+  if (momentum.size() != times.size()) return Errc::out_of_domain;
+  if (start_attitude != nullptr && attitude.size() != times.size()) return Errc::out_of_domain;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
+    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
+  }
+  const auto finite = [](const auto& m) noexcept { return (m - m).isZero(0); };
+  if (!finite(problem.inverse_inertia) || !finite(problem.rotor_momentum) || !finite(problem.control) ||
+      !finite(problem.momentum) || !(std::abs(problem.drag) < infinity<Scalar>) || !(options.tolerance == options.tolerance)) {
+    return Errc::not_finite;
+  }
+
+  // First guess of the step tolerance. The error of |U| grows with the number of turns, that of the phase with its square.
+  const FullCoefficients<Scalar> coefficients(problem);
+  const Hold<Scalar> hold(problem);
+  const Scalar size = (problem.momentum - coefficients.offset).norm();
+  Scalar span = times.empty() ? Scalar(0) : times.back();
+  if (hold.weakest > 0) {
+    const Scalar stop = size / hold.weakest;
+    span = options.find_stop ? stop : std::min(span, stop);
+  }
+  const Scalar phase =
+      span * (coefficients.quadratic.cwiseAbs().maxCoeff() * size + coefficients.linear.norm() + coefficients.rate.norm());
+  constexpr Scalar finest = epsilon<Scalar> / 8;
+  Scalar step_tolerance = options.tolerance / 64 / (4 + Scalar(1e-5L) * phase * phase);
+  step_tolerance = std::clamp(step_tolerance, finest, Scalar(1e-8L));
+  if (!(step_tolerance >= finest)) step_tolerance = finest;
+
+  const bool with_control = !problem.control.isZero(0);
+  const Quat<Scalar> q = start_attitude != nullptr ? *start_attitude : Quat<Scalar>{};
+  ode::Counts counts;
+  constexpr double part[] = {0.0, 0.7, 0.9, 1.0};
+  for (int trial = 0;; ++trial) {
+    const auto once = [&]<bool control, bool turning>() noexcept {
+      return detail::full_motion_with_error<Scalar, control, turning>(problem, times, momentum, options, q, attitude,
+                                                                      step_tolerance, part[trial], part[trial + 1]);
+    };
+    FullMotionAnswer<Scalar> answer;
+    if (start_attitude != nullptr) {
+      answer = with_control ? once.template operator()<true, true>() : once.template operator()<false, true>();
+    } else {
+      answer = with_control ? once.template operator()<true, false>() : once.template operator()<false, false>();
+    }
+    counts += answer.counts;
+    answer.counts = counts;
+    if (answer.met || trial == 2 || answer.status != ode::Status::reached || step_tolerance <= finest) {
+      if (options.progress != nullptr) options.progress->store(1.0, std::memory_order_relaxed);
+      return answer;
+    }
+    const Scalar excess = answer.error.greatest() / options.tolerance;
+    step_tolerance = excess > 1 ? std::max(finest, step_tolerance / (8 * excess)) : finest;
+  }
+}
+
+}  // namespace gyrostat::deceleration
