@@ -59,8 +59,8 @@ class Orbit {
 
   /// The orbit on a level.
   /// @param followed the curve that the motion has followed so far: chooses the lobe where the level has two components.
-  /// From one component through the birth of a second one the motion keeps to the older lobe; a lobe below the energy of
-  /// its own centre (a stage of an integrator that overshoots) and a level outside the energies possible at this R become
+  /// From one component through the birth of a second one the motion keeps to the older lobe (within 1e-9 of the birth it
+  /// is taken as one component still, on the level just before; level() tells). A lobe below the energy of its own centre (a stage of an integrator that overshoots) and a level outside the energies possible at this R become
   /// that equilibrium, regime() == point, and level() is then the clamped one.
   /// Errors: not_finite; zero_vector at R = 0; not_positive; not_applicable for a sphere; separatrix; undetermined where
   /// the lobe is not known; no_convergence.
@@ -188,6 +188,7 @@ class Orbit {
     Orbit o;
     o.level_ = level;
     const Quartic original(a, g, level.R), mirror = original.mirrored();
+    const Scalar close = std::sqrt(epsilon<Scalar>) / 16 * std::max(level.R * a[2], g.norm());
     for (const bool mirrored : {false, true}) {
       const Quartic& q = mirrored ? mirror : original;
       const Scalar eta = mirrored ? -level.eta : level.eta;
@@ -197,7 +198,7 @@ class Orbit {
       const Regime regime = mirrored ? Regime::about_smallest : Regime::about_largest;
       if (below > 0) {  // under the lowest energy of the lobes
         const bool both = !q.active(0);
-        if (both || (followed.regime == regime && followed.branch == younger(q, mirrored)))
+        if (both || (followed.regime == regime && followed.branch == younger(q)))
           return o.rest_at(q, mirrored, rise.lo, followed.branch, M);
         continue;
       }
@@ -207,14 +208,22 @@ class Orbit {
       o.branch_ = 1;
       if (M) o.branch_ = lorentz(o.v_even2_, with_unit(*M)) >= 0 ? 1 : -1;
       else if (followed.regime == regime && followed.branch != 0) o.branch_ = followed.branch;
-      else if (q.active(0) && below * below < above * above) o.branch_ = -younger(q, mirrored);
+      else if (q.active(0) && -below < above) o.branch_ = -younger(q);
       else return Errc::undetermined;
+      if (q.active(0) && o.branch_ == -younger(q) && -below < 2 * level.R * close) {
+        // at the birth of the other lobe this frame is singular and the orbit is not: the mirror image of the level, where
+        // there is one component still
+        const Scalar back = (mirrored ? -1 : 1) * std::max(-below / (2 * level.R), close / 1000);
+        o.level_.eta = (mirrored ? -1 : 1) * q.level(rise.lo) - back;
+        break;
+      }
       o.v_even2_ *= Scalar(o.branch_);
       return o.oriented(original, problem);
     }
     o.regime_ = Regime::one_component;
+    o.branch_ = 0;
     bool outside = false;
-    const auto e = o.one_component(original, level.eta, outside);
+    const auto e = o.one_component(original, o.level_.eta, outside);
     if (e == Errc::ok) return o.oriented(original, problem);
     if (!outside) return e;
     // no oscillation is left: the energy is at or beyond that of an equilibrium
@@ -222,6 +231,7 @@ class Orbit {
     if (!original.turning_point(0, -1, infinity<Scalar>, low) || !mirror.turning_point(0, -1, infinity<Scalar>, high))
       return e;
     const Scalar from_low = level.eta - original.level(low), from_high = -mirror.level(high) - level.eta;
+    if (!(std::min(from_low, from_high) < close)) return Errc::no_convergence;
     return from_low < from_high ? o.rest_at(original, false, low, 0, M) : o.rest_at(mirror, true, high, 0, M);
   }
 
@@ -232,7 +242,7 @@ class Orbit {
   }
 
   /// Branch of the lobe that is born where the two components part; its centre is the secondary equilibrium.
-  static int younger(const Quartic& q, bool) noexcept { return q.g(0) > 0 ? -1 : 1; }
+  static int younger(const Quartic& q) noexcept { return q.g(0) > 0 ? -1 : 1; }
 
   /// Normalised eigenvector of a place, or the axis itself.
   struct Axis {
