@@ -44,20 +44,17 @@ GYROSTAT_FLATTEN double polynomial(const double (&c)[size], const Powers& x) noe
   return polynomial<0, size>(c, x);
 }
 
-/// ln x for 0 < x < infinity, absolute error an eps of max(1, |ln x|). No branch, no call, no division: it vectorises.
-/// A finite number for 0; garbage for a negative x, infinity and NaN.
+/// ln x for 0 < x < 2^960, subnormals too; absolute error an eps of max(1, |ln x|). No branch, no call, no division: it vectorises.
+/// A finite number for 0; garbage for a negative or infinite x and for NaN.
 GYROSTAT_FLATTEN double logarithm_of_positive(double x) noexcept {
-  constexpr double least = 0x1p-1022;
-  const bool subnormal = x < least;
-  const double y = subnormal ? x * 0x1p54 : x;
-  const auto bits = std::bit_cast<std::uint64_t>(y);
-  // y = 2^e m with sqrt(1/2) <= m < sqrt 2
+  const auto bits = std::bit_cast<std::uint64_t>(x * 0x1p54);  // normal for every x > 0
+  // x = 2^e m with sqrt(1/2) <= m < sqrt 2
   constexpr std::uint64_t one = 0x3ff0000000000000;
   constexpr std::uint64_t root_half = 0x3fe6a09e667f3bcd;
-  const std::uint64_t exponent = (bits + (one - root_half)) >> 52;  // e + 1023
+  const std::uint64_t exponent = (bits + (one - root_half)) >> 52;  // e + 54 + 1023
   const double m = std::bit_cast<double>(bits - (exponent << 52) + one);
-  constexpr double shift = 0x1p52 + 1023;
-  const double e = std::bit_cast<double>(exponent | 0x4330000000000000) - (subnormal ? shift + 54 : shift);
+  constexpr double shift = 0x1p52 + 1023 + 54;
+  const double e = std::bit_cast<double>(exponent | 0x4330000000000000) - shift;
   const double r = m - 1;
   const Powers powers = Powers::of(r);
   const double r2 = powers.value[1];
