@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/models/deceleration/orbit_average.hpp"
+#include "gyrostat/models/deceleration/periodic_integral.hpp"
+
+/// Second-order averaging with rotor momentum (deceleration.md, section 4.3). With P the small torque, f = (dR/dt, d eta/dt)
+/// under it and U the antiderivative of f - <f> along the free orbit (zero mean), the mean variables X = X_osc - U obey
+///     dX/dt = <f> + f2,  f2 = -<P.grad U>,      d phase/dt = 1/T + <P.grad phase>.
+/// The gradients are taken in the variables (R, eta, phase): four neighbouring orbits at equal phases do, instead of some
+/// thirty orbits at displaced momenta. The torques carry the small parameter, so U is of first order and f2 of second.
+namespace gyrostat::deceleration {
+
+/// Oscillation of the slow variables on one orbit: U as a Fourier sum in the phase.
+template <Real Scalar, class Elliptic = math::Native>
+class OrbitOscillation {
+ public:
+  static constexpr int capacity = PeriodicPair<Scalar>::capacity;
+
+  OrbitOscillation() = default;
+
+  /// @param nodes points on the orbit: 16, 32, ... 256
+  OrbitOscillation(const Problem<Scalar>& problem, const Orbit<Scalar, Elliptic>& orbit, int nodes) noexcept
+      : level_(orbit.level()) {
+    Vec3<Scalar> M[capacity];
+    Scalar fR[capacity], feta[capacity];
+    orbit_nodes(orbit, nodes, M);
+    const Scalar T = orbit.period();
+    for (int i = 0; i < nodes; ++i) {
+      const auto f = slow_rates(problem, M[i], level_.eta, small_torque(problem, M[i]));
+      fR[i] = T * f.R;
+      feta[i] = T * f.eta;
+    }
+    u_ = PeriodicPair<Scalar>(typename PeriodicPair<Scalar>::Roots(nodes), fR, feta).integral();
+  }
+
+  /// Osculating minus mean, at a phase (turns): R, h and eta.
+  SlowRates<Scalar> at(Scalar phase) const noexcept {
+    const auto u = u_.at(phase);
+    return {u.first, level_.R * u.second + level_.eta * u.first, u.second};
+  }
+
+ private:
+  Level<Scalar> level_;
+  PeriodicPair<Scalar> u_;
+};
+
+/// The mean equations on one level, and the size of what they leave out.
+template <Real Scalar, class Elliptic = math::Native>
+struct SecondOrder {
+  SlowRates<Scalar> first;               ///< <f>
+  SlowRates<Scalar> second;              ///< f2
+  Scalar phase_rate = 0;                 ///< d phase/dt, turns per second: 1/T + <P.grad phase>
+  Scalar phase_drift = 0;                ///< its second part
+  SlowRates<Scalar> oscillation;         ///< greatest |U|: what first order neglects at any one time
+  SlowRates<Scalar> second_oscillation;  ///< greatest oscillation of second order: what second order neglects
+  Scalar phase_oscillation = 0;          ///< greatest oscillation of the phase, turns
+  Orbit<Scalar, Elliptic> orbit;         ///< its phase is the one that phase_rate advances
+  int nodes = 0;
+};
+
+/// M at the phases j/n, n = 16 ... 512 a power of two.
+template <Real Scalar, class Elliptic>
+void orbit_nodes(const Orbit<Scalar, Elliptic>& orbit, int n, Vec3<Scalar>* M) noexcept {
+  PhaseGrid<Scalar> grid(orbit.modulus());
+  while (4 * (grid.size() - 1) < n && grid.refine()) {
+  }
+  const int q = grid.size() - 1, shift = orbit.quarter() * q;
+  for (int j = 0; j < q; ++j) {
+    const int e = grid.entry(j), r = grid.entry(q - j);
+    const Scalar s = grid.sn[e], c = grid.cn[e], d = grid.dn[e];
+    M[(j + 4 * q - shift) % n] = orbit.momentum(s, c, d);
+    M[(j + 6 * q - shift) % n] = orbit.momentum(-s, -c, d);
+    const Scalar s2 = grid.sn[r], c2 = grid.cn[r], d2 = grid.dn[r];  // u = K + j K/q
+    M[(j + 5 * q - shift) % n] = orbit.momentum(s2, -c2, d2);
+    M[(j + 7 * q - shift) % n] = orbit.momentum(-s2, c2, d2);
+  }
+}
+
+namespace detail {
+
+/// f and M on one orbit at equal phases.
+template <Real Scalar>
+struct OrbitSamples {
+  static constexpr int capacity = PeriodicPair<Scalar>::capacity;
+  Scalar period = 0;
+  Vec3<Scalar> M[capacity];
+  Scalar fR[capacity], feta[capacity];
+  SlowRates<Scalar> mean;
+
+  template <class Elliptic>
+  void take(const Problem<Scalar>& problem, const Orbit<Scalar, Elliptic>& orbit, int n) noexcept {
+    period = orbit.period();
+    orbit_nodes(orbit, n, M);
+    mean = {};
+    for (int i = 0; i < n; ++i) {
+      const auto f = slow_rates(problem, M[i], orbit.level().eta, small_torque(problem, M[i]));
+      fR[i] = f.R;
+      feta[i] = f.eta;
+      mean.R += f.R / Scalar(n);
+      mean.eta += f.eta / Scalar(n);
+    }
+  }
+};
+
+}  // namespace detail
+
+/// The second-order mean equations on a level.
+/// @param followed see Orbit::at; @param reference an orbit just before on the path, so that the origin of phase does not
+/// jump (Orbit::aligned_to), or null.
+/// Errors: those of the orbit; not_applicable on an equilibrium; no_convergence where 256 points do not resolve the orbit
+/// or the frames of the neighbours do not agree (an exchange of axes, or a separatrix, within the differences).
+template <class Elliptic = math::Native, Real Scalar>
+Result<SecondOrder<Scalar, Elliptic>> second_order(const Problem<Scalar>& problem, const Level<Scalar>& level,
+                                                   Component followed,
+                                                   const Orbit<Scalar, Elliptic>* reference = nullptr) noexcept {
+  using Samples = detail::OrbitSamples<Scalar>;
+  using Pair = PeriodicPair<Scalar>;
+  auto found = Orbit<Scalar, Elliptic>::at(problem, level, followed);
+  if (!found) return found.error();
+  if (found->regime() == Regime::point) return Errc::not_applicable;
+  const Orbit<Scalar, Elliptic> centre = reference ? found->aligned_to(*reference) : *found;
+  const auto average = deceleration::average(problem, centre);
+  if (!average) return average.error();
+  const int n = average->nodes;
+  if (n > Samples::capacity) return Errc::no_convergence;
+
+  // the step of the differences: small against the way to the nearest equilibrium and separatrix
+  const Level<Scalar> here = centre.level();
+  const Scalar spread = std::max(Scalar(0), 1 - average->momentum.squaredNorm() / (here.R * here.R));
+  const Scalar room = std::min(spread, centre.modulus().kp2);
+  const Scalar share = std::sqrt(std::sqrt(epsilon<Scalar>)) / 8 * room;
+  const auto& a = problem.inverse_inertia;
+  const Scalar dR = share * here.R;
+  const Scalar deta = share * (here.R * (a[2] - a[0]) + problem.gyro_rate().norm());
+
+  Samples mid, up, down;
+  mid.take(problem, centre, n);
+  const Scalar T = mid.period;
+  const Scalar mean_R = mid.mean.R, mean_eta = mid.mean.eta;
+  const typename Pair::Roots roots(n);
+  Scalar uR[Samples::capacity], ueta[Samples::capacity];  // antiderivatives in the phase: U = T u
+  Pair(roots, mid.fR, mid.feta).integral().sample(roots, uR, ueta);
+
+  // Along R and along eta: the derivatives of T f, of M, of T and of <f>
+  Scalar gR[2][Samples::capacity], geta[2][Samples::capacity];
+  Vec3<Scalar> rest[Samples::capacity];  // P less what the changes of R and eta carry
+  for (int i = 0; i < n; ++i) rest[i] = small_torque(problem, mid.M[i]);
+  Scalar dT[2], dmean_R[2], dmean_eta[2];
+  for (int along = 0; along < 2; ++along) {
+    const Scalar step = along == 0 ? dR : deta;
+    if (!(step > 0)) return Errc::no_convergence;
+    Level<Scalar> plus = here, minus = here;
+    (along == 0 ? plus.R : plus.eta) += step;
+    (along == 0 ? minus.R : minus.eta) -= step;
+    const Scalar width = along == 0 ? plus.R - minus.R : plus.eta - minus.eta;
+    const auto above = Orbit<Scalar, Elliptic>::at(problem, plus, centre.component());
+    const auto below = Orbit<Scalar, Elliptic>::at(problem, minus, centre.component());
+    if (!above) return above.error();
+    if (!below) return below.error();
+    if (above->regime() == Regime::point || below->regime() == Regime::point) return Errc::no_convergence;
+    Scalar doubt_above = 0, doubt_below = 0;
+    up.take(problem, above->aligned_to(centre, &doubt_above), n);
+    down.take(problem, below->aligned_to(centre, &doubt_below), n);
+    if (!(std::max(doubt_above, doubt_below) < Scalar(.01))) return Errc::no_convergence;
+    dT[along] = (up.period - down.period) / width;
+    dmean_R[along] = (up.mean.R - down.mean.R) / width;
+    dmean_eta[along] = (up.mean.eta - down.mean.eta) / width;
+    const Scalar* f = along == 0 ? mid.fR : mid.feta;
+    for (int i = 0; i < n; ++i) {
+      gR[along][i] = (up.period * up.fR[i] - down.period * down.fR[i]) / width;
+      geta[along][i] = (up.period * up.feta[i] - down.period * down.feta[i]) / width;
+      rest[i] -= (up.M[i] - down.M[i]) * (f[i] / width);
+    }
+  }
+
+  // the rate of the phase under P, and f2 with the antiderivatives shifted by parts
+  SecondOrder<Scalar, Elliptic> r;
+  Scalar phase[Samples::capacity], f2R = 0, f2eta = 0;
+  for (int i = 0; i < n; ++i) {
+    const Vec3<Scalar> flow = mid.M[i].cross(problem.angular_velocity(mid.M[i]));  // per second; T times it per turn
+    phase[i] = rest[i].dot(flow) / (T * flow.squaredNorm());
+    r.phase_drift += phase[i] / Scalar(n);
+    f2R += uR[i] * gR[0][i] + ueta[i] * gR[1][i] - T * phase[i] * (mid.fR[i] - mean_R);
+    f2eta += uR[i] * geta[0][i] + ueta[i] * geta[1][i] - T * phase[i] * (mid.feta[i] - mean_eta);
+  }
+  f2R /= Scalar(n);
+  f2eta /= Scalar(n);
+
+  // what is left to oscillate: in R and eta at second order, and in the phase at first
+  Scalar sR[Samples::capacity], seta[Samples::capacity], sphase[Samples::capacity], none[Samples::capacity] = {};
+  for (int i = 0; i < n; ++i) {
+    const Scalar UR = T * uR[i], Ueta = T * ueta[i];
+    sR[i] = T * (UR * dmean_R[0] + Ueta * dmean_R[1] - T * phase[i] * (mid.fR[i] - mean_R));
+    seta[i] = T * (UR * dmean_eta[0] + Ueta * dmean_eta[1] - T * phase[i] * (mid.feta[i] - mean_eta));
+    sphase[i] = T * (phase[i] - (UR * dT[0] + Ueta * dT[1]) / (T * T));
+  }
+  for (int along = 0; along < 2; ++along) {
+    Scalar wR[Samples::capacity], weta[Samples::capacity];
+    Pair(roots, gR[along], geta[along]).integral().sample(roots, wR, weta);
+    const Scalar* f = along == 0 ? mid.fR : mid.feta;
+    for (int i = 0; i < n; ++i) {
+      sR[i] -= T * f[i] * wR[i];
+      seta[i] -= T * f[i] * weta[i];
+    }
+  }
+  Scalar u2R[Samples::capacity], u2eta[Samples::capacity], v[Samples::capacity];
+  Pair(roots, sR, seta).integral().sample(roots, u2R, u2eta);
+  Pair(roots, sphase, none).integral().sample(roots, v, none);
+  const auto greatest = [&](const Scalar* x, const Scalar* y) {
+    SlowRates<Scalar> m;
+    for (int i = 0; i < n; ++i) {
+      m.R = std::max(m.R, std::abs(x[i]));
+      m.h = std::max(m.h, std::abs(here.R * y[i] + here.eta * x[i]));
+      m.eta = std::max(m.eta, std::abs(y[i]));
+    }
+    return m;
+  };
+  r.second_oscillation = greatest(u2R, u2eta);
+  for (int i = 0; i < n; ++i) uR[i] *= T, ueta[i] *= T;
+  r.oscillation = greatest(uR, ueta);
+  for (int i = 0; i < n; ++i) r.phase_oscillation = std::max(r.phase_oscillation, std::abs(v[i]));
+
+  r.first = average->rates;
+  r.second = {f2R, here.R * f2eta + here.eta * f2R, f2eta};
+  r.phase_rate = 1 / T + r.phase_drift;
+  r.orbit = centre;
+  r.nodes = n;
+  if (!std::isfinite(f2R) || !std::isfinite(f2eta) || !std::isfinite(r.phase_drift)) return Errc::no_convergence;
+  return r;
+}
+
+/// A state of the mean equations.
+template <Real Scalar>
+struct MeanLevel {
+  Level<Scalar> level;
+  Scalar phase = 0;  ///< turns
+  Component component;
+};
+
+/// The mean state of a momentum M.
+/// @param orbit when not null: receives the orbit through M, whose origin of phase the state uses
+template <class Elliptic = math::Native, Real Scalar>
+Result<MeanLevel<Scalar>> mean_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M,
+                                  Orbit<Scalar, Elliptic>* orbit = nullptr) noexcept {
+  const auto through = Orbit<Scalar, Elliptic>::through(problem, M);
+  if (!through) return through.error();
+  const auto average = deceleration::average(problem, *through);
+  if (!average) return average.error();
+  if (average->nodes > OrbitOscillation<Scalar, Elliptic>::capacity) return Errc::no_convergence;
+  MeanLevel<Scalar> mean{through->level(), through->phase_of(M), through->component()};
+  if (through->regime() != Regime::point) {
+    const auto u = OrbitOscillation<Scalar, Elliptic>(problem, *through, average->nodes).at(mean.phase);
+    mean.level.R -= u.R;
+    mean.level.eta -= u.eta;
+  }
+  if (orbit) *orbit = *through;
+  return mean;
+}
+
+/// The osculating momentum M of a mean state.
+/// @param reference an orbit that fixes the origin of the state's phase (Orbit::aligned_to), or null
+template <class Elliptic = math::Native, Real Scalar>
+Result<Vec3<Scalar>> osculating_of(const Problem<Scalar>& problem, const MeanLevel<Scalar>& mean,
+                                   const Orbit<Scalar, Elliptic>* reference = nullptr) noexcept {
+  const auto found = Orbit<Scalar, Elliptic>::at(problem, mean.level, mean.component);
+  if (!found) return found.error();
+  if (found->regime() == Regime::point) return found->momentum_at(Scalar(0));
+  const auto orbit = reference ? found->aligned_to(*reference) : *found;
+  const auto average = deceleration::average(problem, orbit);
+  if (!average) return average.error();
+  if (average->nodes > OrbitOscillation<Scalar, Elliptic>::capacity) return Errc::no_convergence;
+  const auto u = OrbitOscillation<Scalar, Elliptic>(problem, orbit, average->nodes).at(mean.phase);
+  const Level<Scalar> level{mean.level.R + u.R, mean.level.eta + u.eta};
+  const auto osculating = Orbit<Scalar, Elliptic>::at(problem, level, orbit.component());
+  if (!osculating) return osculating.error();
+  return osculating->aligned_to(orbit).momentum_at(mean.phase);
+}
+
+}  // namespace gyrostat::deceleration
