@@ -14,54 +14,6 @@
 /// thirty orbits at displaced momenta. The torques carry the small parameter, so U is of first order and f2 of second.
 namespace gyrostat::deceleration {
 
-/// Oscillation of the slow variables on one orbit: U as a Fourier sum in the phase.
-template <Real Scalar, class Elliptic = math::Native>
-class OrbitOscillation {
- public:
-  static constexpr int capacity = PeriodicPair<Scalar>::capacity;
-
-  OrbitOscillation() = default;
-
-  /// @param nodes points on the orbit: 16, 32, ... 256
-  OrbitOscillation(const Problem<Scalar>& problem, const Orbit<Scalar, Elliptic>& orbit, int nodes) noexcept
-      : level_(orbit.level()) {
-    Vec3<Scalar> M[capacity];
-    Scalar fR[capacity], feta[capacity];
-    orbit_nodes(orbit, nodes, M);
-    const Scalar T = orbit.period();
-    for (int i = 0; i < nodes; ++i) {
-      const auto f = slow_rates(problem, M[i], level_.eta, small_torque(problem, M[i]));
-      fR[i] = T * f.R;
-      feta[i] = T * f.eta;
-    }
-    u_ = PeriodicPair<Scalar>(typename PeriodicPair<Scalar>::Roots(nodes), fR, feta).integral();
-  }
-
-  /// Osculating minus mean, at a phase (turns): R, h and eta.
-  SlowRates<Scalar> at(Scalar phase) const noexcept {
-    const auto u = u_.at(phase);
-    return {u.first, level_.R * u.second + level_.eta * u.first, u.second};
-  }
-
- private:
-  Level<Scalar> level_;
-  PeriodicPair<Scalar> u_;
-};
-
-/// The mean equations on one level, and the size of what they leave out.
-template <Real Scalar, class Elliptic = math::Native>
-struct SecondOrder {
-  SlowRates<Scalar> first;               ///< <f>
-  SlowRates<Scalar> second;              ///< f2
-  Scalar phase_rate = 0;                 ///< d phase/dt, turns per second: 1/T + <P.grad phase>
-  Scalar phase_drift = 0;                ///< its second part
-  SlowRates<Scalar> oscillation;         ///< greatest |U|: what first order neglects at any one time
-  SlowRates<Scalar> second_oscillation;  ///< greatest oscillation of second order: what second order neglects
-  Scalar phase_oscillation = 0;          ///< greatest oscillation of the phase, turns
-  Orbit<Scalar, Elliptic> orbit;         ///< its phase is the one that phase_rate advances
-  int nodes = 0;
-};
-
 /// M at the phases j/n, n = 16 ... 512 a power of two.
 template <Real Scalar, class Elliptic>
 void orbit_nodes(const Orbit<Scalar, Elliptic>& orbit, int n, Vec3<Scalar>* M) noexcept {
@@ -79,6 +31,44 @@ void orbit_nodes(const Orbit<Scalar, Elliptic>& orbit, int n, Vec3<Scalar>* M) n
     M[(j + 7 * q - shift) % n] = orbit.momentum(-s2, c2, d2);
   }
 }
+
+/// Osculating minus mean on one orbit, as Fourier sums in the phase.
+template <Real Scalar>
+class OrbitOscillation {
+ public:
+  using Pair = PeriodicPair<Scalar>;
+
+  OrbitOscillation() = default;
+  OrbitOscillation(const Level<Scalar>& level, const Pair& slow, const Pair& phase) noexcept
+      : level_(level), slow_(slow), phase_(phase) {}
+
+  /// R, h and eta at a phase (turns).
+  SlowRates<Scalar> slow(Scalar phase) const noexcept {
+    const auto u = slow_.at(phase);
+    return {u.first, level_.R * u.second + level_.eta * u.first, u.second};
+  }
+
+  /// The phase itself, turns.
+  Scalar phase(Scalar phase) const noexcept { return phase_.at(phase).first; }
+
+ private:
+  Level<Scalar> level_;
+  Pair slow_, phase_;
+};
+
+/// The mean equations on one level, and the size of what they leave out.
+template <Real Scalar, class Elliptic = math::Native>
+struct SecondOrder {
+  SlowRates<Scalar> first;               ///< <f>
+  SlowRates<Scalar> second;              ///< f2
+  Scalar phase_rate = 0;                 ///< d phase/dt, turns per second: 1/T + <P.grad phase>
+  Scalar phase_drift = 0;                ///< its second part
+  SlowRates<Scalar> oscillation;         ///< greatest |U|: what first order neglects at any one time
+  SlowRates<Scalar> second_oscillation;  ///< greatest oscillation of second order: what second order neglects
+  Scalar phase_oscillation = 0;          ///< greatest oscillation of the phase, turns
+  Orbit<Scalar, Elliptic> orbit;         ///< its phase is the one that phase_rate advances
+  int nodes = 0;
+};
 
 namespace detail {
 
@@ -110,13 +100,14 @@ struct OrbitSamples {
 
 /// The second-order mean equations on a level.
 /// @param followed see Orbit::at; @param reference an orbit just before on the path, so that the origin of phase does not
-/// jump (Orbit::aligned_to), or null.
+/// jump (Orbit::aligned_to), or null; @param oscillation when not null: receives the oscillation of first order.
 /// Errors: those of the orbit; not_applicable on an equilibrium; no_convergence where 256 points do not resolve the orbit
 /// or the frames of the neighbours do not agree (an exchange of axes, or a separatrix, within the differences).
 template <class Elliptic = math::Native, Real Scalar>
 Result<SecondOrder<Scalar, Elliptic>> second_order(const Problem<Scalar>& problem, const Level<Scalar>& level,
                                                    Component followed,
-                                                   const Orbit<Scalar, Elliptic>* reference = nullptr) noexcept {
+                                                   const Orbit<Scalar, Elliptic>* reference = nullptr,
+                                                   OrbitOscillation<Scalar>* oscillation = nullptr) noexcept {
   using Samples = detail::OrbitSamples<Scalar>;
   using Pair = PeriodicPair<Scalar>;
   auto found = Orbit<Scalar, Elliptic>::at(problem, level, followed);
@@ -143,7 +134,8 @@ Result<SecondOrder<Scalar, Elliptic>> second_order(const Problem<Scalar>& proble
   const Scalar mean_R = mid.mean.R, mean_eta = mid.mean.eta;
   const typename Pair::Roots roots(n);
   Scalar uR[Samples::capacity], ueta[Samples::capacity];  // antiderivatives in the phase: U = T u
-  Pair(roots, mid.fR, mid.feta).integral().sample(roots, uR, ueta);
+  const Pair u = Pair(roots, mid.fR, mid.feta).integral();
+  u.sample(roots, uR, ueta);
 
   // Along R and along eta: the derivatives of T f, of M, of T and of <f>
   Scalar gR[2][Samples::capacity], geta[2][Samples::capacity];
@@ -209,7 +201,9 @@ Result<SecondOrder<Scalar, Elliptic>> second_order(const Problem<Scalar>& proble
   }
   Scalar u2R[Samples::capacity], u2eta[Samples::capacity], v[Samples::capacity];
   Pair(roots, sR, seta).integral().sample(roots, u2R, u2eta);
-  Pair(roots, sphase, none).integral().sample(roots, v, none);
+  const Pair phase_integral = Pair(roots, sphase, none).integral();
+  phase_integral.sample(roots, v, none);
+  if (oscillation) *oscillation = {here, u.times(T), phase_integral};
   const auto greatest = [&](const Scalar* x, const Scalar* y) {
     SlowRates<Scalar> m;
     for (int i = 0; i < n; ++i) {
@@ -241,27 +235,27 @@ struct MeanLevel {
   Component component;
 };
 
-/// The mean state of a momentum M.
+/// The mean state of a momentum M. Errors as second_order; an equilibrium is its own mean.
 /// @param orbit when not null: receives the orbit through M, whose origin of phase the state uses
 template <class Elliptic = math::Native, Real Scalar>
 Result<MeanLevel<Scalar>> mean_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M,
                                   Orbit<Scalar, Elliptic>* orbit = nullptr) noexcept {
   const auto through = Orbit<Scalar, Elliptic>::through(problem, M);
   if (!through) return through.error();
-  const auto average = deceleration::average(problem, *through);
-  if (!average) return average.error();
-  if (average->nodes > OrbitOscillation<Scalar, Elliptic>::capacity) return Errc::no_convergence;
-  MeanLevel<Scalar> mean{through->level(), through->phase_of(M), through->component()};
-  if (through->regime() != Regime::point) {
-    const auto u = OrbitOscillation<Scalar, Elliptic>(problem, *through, average->nodes).at(mean.phase);
-    mean.level.R -= u.R;
-    mean.level.eta -= u.eta;
-  }
   if (orbit) *orbit = *through;
+  MeanLevel<Scalar> mean{through->level(), through->phase_of(M), through->component()};
+  if (through->regime() == Regime::point) return mean;
+  OrbitOscillation<Scalar> u;
+  const auto order = second_order<Elliptic>(problem, mean.level, mean.component, &*through, &u);
+  if (!order) return order.error();
+  const auto slow = u.slow(mean.phase);
+  mean.level.R -= slow.R;
+  mean.level.eta -= slow.eta;
+  mean.phase -= u.phase(mean.phase);
   return mean;
 }
 
-/// The osculating momentum M of a mean state.
+/// The osculating momentum M of a mean state. Errors as second_order.
 /// @param reference an orbit that fixes the origin of the state's phase (Orbit::aligned_to), or null
 template <class Elliptic = math::Native, Real Scalar>
 Result<Vec3<Scalar>> osculating_of(const Problem<Scalar>& problem, const MeanLevel<Scalar>& mean,
@@ -269,15 +263,14 @@ Result<Vec3<Scalar>> osculating_of(const Problem<Scalar>& problem, const MeanLev
   const auto found = Orbit<Scalar, Elliptic>::at(problem, mean.level, mean.component);
   if (!found) return found.error();
   if (found->regime() == Regime::point) return found->momentum_at(Scalar(0));
-  const auto orbit = reference ? found->aligned_to(*reference) : *found;
-  const auto average = deceleration::average(problem, orbit);
-  if (!average) return average.error();
-  if (average->nodes > OrbitOscillation<Scalar, Elliptic>::capacity) return Errc::no_convergence;
-  const auto u = OrbitOscillation<Scalar, Elliptic>(problem, orbit, average->nodes).at(mean.phase);
-  const Level<Scalar> level{mean.level.R + u.R, mean.level.eta + u.eta};
-  const auto osculating = Orbit<Scalar, Elliptic>::at(problem, level, orbit.component());
+  OrbitOscillation<Scalar> u;
+  const auto order = second_order<Elliptic>(problem, mean.level, mean.component, reference, &u);
+  if (!order) return order.error();
+  const auto slow = u.slow(mean.phase);
+  const Level<Scalar> level{mean.level.R + slow.R, mean.level.eta + slow.eta};
+  const auto osculating = Orbit<Scalar, Elliptic>::at(problem, level, order->orbit.component());
   if (!osculating) return osculating.error();
-  return osculating->aligned_to(orbit).momentum_at(mean.phase);
+  return osculating->aligned_to(order->orbit).momentum_at(mean.phase + u.phase(mean.phase));
 }
 
 }  // namespace gyrostat::deceleration

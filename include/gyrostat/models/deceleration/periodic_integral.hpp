@@ -31,7 +31,7 @@ class PeriodicPair {
     }
   };
 
-  PeriodicPair() = default;
+  PeriodicPair() = default;  ///< zero
 
   PeriodicPair(const Roots& roots, const Scalar* first, const Scalar* second) noexcept : n_(roots.n) {
     for (int i = 0; i < n_; ++i) {
@@ -42,7 +42,7 @@ class PeriodicPair {
     re_[n_ / 2] = im_[n_ / 2] = 0;
   }
 
-  Value mean() const noexcept { return {re_[0], im_[0]}; }
+  Value mean() const noexcept { return n_ > 1 ? Value{re_[0], im_[0]} : Value{0, 0}; }
 
   /// Antiderivative of the function less its mean, itself of zero mean.
   PeriodicPair integral() const noexcept {
@@ -56,6 +56,12 @@ class PeriodicPair {
       r.re_[n_ - k] = -im_[n_ - k] * w;
       r.im_[n_ - k] = re_[n_ - k] * w;
     }
+    return r;
+  }
+
+  PeriodicPair times(Scalar factor) const noexcept {
+    PeriodicPair r = *this;
+    for (int k = 0; k < n_; ++k) r.re_[k] *= factor, r.im_[k] *= factor;
     return r;
   }
 
@@ -107,8 +113,8 @@ class PeriodicPair {
     }
   }
 
-  int n_ = 2;
-  Scalar re_[capacity], im_[capacity];
+  int n_ = 1;
+  Scalar re_[capacity], im_[capacity];  // the first n_ count
 };
 
 }  // namespace gyrostat::deceleration
