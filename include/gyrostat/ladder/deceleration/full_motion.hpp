@@ -101,9 +101,9 @@ struct Hold {
 /// torque, is below 1e-13 of the time. Behind it law total stays at M = 0, omega = -J^-1 l, and law carrier at M = l, omega = 0.
 /// Where the control cannot hold U = 0 against the drag of the other law there is no stop.
 ///
-/// The error is estimated by a second run with steps of a tolerance 64 times looser, whose distance from the answer is some
-/// ten to a hundred times the error of the answer, plus what rounding of the data does to the phase and no second run can show. A
-/// run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
+/// The error is estimated by a second run with a step tolerance 64 times looser, whose distance from the answer is some ten to a
+/// hundred times the error of the answer, plus what rounding of the data does to the phase and no second run can show. So the
+/// estimate is safe rather than sharp. A run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
 ///
 /// Errors: not_increasing (times), not_finite (problem or times), out_of_domain (a span of the wrong length).
 template <Real Scalar>
@@ -122,10 +122,10 @@ class FullRun {
   using Solver = ode::Taylor<System>;
   static constexpr int width = System::width;
 
-  FullRun(const Problem<Scalar>& problem, const Quat<Scalar>& attitude, Scalar step_tolerance,
+  FullRun(const Problem<Scalar>& problem, const Quat<Scalar>& attitude, Scalar step_tolerance, Scalar reach,
           const FullMotionOptions<Scalar>& options, double progress_from, double progress_to) noexcept
       : problem_(problem), coefficients_(problem), hold_(problem), attitude_(attitude), step_tolerance_(step_tolerance),
-        options_(options), progress_from_(progress_from), progress_to_(progress_to) {}
+        reach_(reach), options_(options), progress_from_(progress_from), progress_to_(progress_to) {}
 
   template <class Sink>
   ode::Status operator()(std::span<const Scalar> times, Sink&& sink) noexcept {
@@ -162,7 +162,7 @@ class FullRun {
     const Scalar size = share > Scalar(1e-4L) * whole ? std::min(share, whole) : whole;
     for (std::size_t i = 0; i < 3; ++i) how.scale[i] = size > 0 ? size : std::numeric_limits<Scalar>::min();
     for (std::size_t i = 4; i < width; ++i) how.scale[i] = 1;
-    const System system(problem_);
+    const System system(problem_, reach_);
     Solver solver(system, t, state, how);
 
     const bool may_stop = with_control && hold_.holds;
@@ -180,7 +180,7 @@ class FullRun {
       const Scalar now = solver.time();
       U = {solver.state()[0], solver.state()[1], solver.state()[2]};
       const Scalar norm = U.norm();
-      phase_ += (now - before) * (rate_scale * norm + linear_scale);
+      if (next < times.size()) phase_ += (now - before) * (rate_scale * norm + linear_scale);
       for (; next < times.size() && times[next] <= now; ++next) {
         solver.at(times[next], x);
         sink(next, Vec3<Scalar>(Vec3<Scalar>(x[0], x[1], x[2]) + coefficients_.offset), quaternion(x));
@@ -213,7 +213,7 @@ class FullRun {
 
   Scalar stop_time() const noexcept { return stop_time_; }
   const ode::Counts& counts() const noexcept { return counts_; }
-  /// Bound of the angle turned through by U and by the axes, rad.
+  /// Bound of the angle turned through by U and by the axes up to the last time, rad.
   Scalar phase() const noexcept { return phase_; }
 
  private:
@@ -286,7 +286,7 @@ class FullRun {
   FullCoefficients<Scalar> coefficients_;
   Hold<Scalar> hold_;
   Quat<Scalar> attitude_;
-  Scalar step_tolerance_;
+  Scalar step_tolerance_, reach_;
   const FullMotionOptions<Scalar>& options_;
   double progress_from_, progress_to_;
   Scalar stop_time_ = nan<Scalar>;
@@ -307,7 +307,7 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
   const double middle = progress_from + 0.55 * (progress_to - progress_from);
 
   Scalar momentum_scale = 0, energy_scale = 0, velocity_scale = 0;
-  Run run(problem, start_attitude, step_tolerance, options, progress_from, middle);
+  Run run(problem, start_attitude, step_tolerance, Scalar(0.3L), options, progress_from, middle);
   answer.status = run(times, [&](std::size_t i, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
     momentum[i] = M;
     if constexpr (with_attitude) attitude[i] = q;
@@ -319,8 +319,8 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
   answer.counts = run.counts();
   if (answer.status != ode::Status::reached) return answer;
 
-  constexpr Scalar looser = 64;
-  Run companion(problem, start_attitude, step_tolerance * looser, options, middle, progress_to);
+  constexpr Scalar looser = 64, margin = 3;
+  Run companion(problem, start_attitude, std::max(step_tolerance * looser, 32 * eps), Scalar(0.45L), options, middle, progress_to);
   Scalar vector = 0, norm = 0, energy = 0, velocity = 0, angle = 0;
   const auto status = companion(times, [&](std::size_t i, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
     const Vec3<Scalar> d = M - momentum[i];
@@ -342,25 +342,27 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
     return answer;
   }
 
-  // The data are rounded once on their way into the recurrences: a relative change of all rates by a rounding or two, the same in both runs.
-  const Scalar phase_error = eps * (2 + 2 * run.phase());
-  const Scalar rounding = 4 * eps;
+  // Rounding in every step adds up like a random walk, which the second run may miss by chance.
+  const Scalar walk = eps * std::sqrt(static_cast<Scalar>(run.counts().steps));
+  // What both runs share: the polynomial of a step that both take, good to the step tolerance; and the rounding of the data on their
+  // way into the recurrences, a relative change of all rates by about a rounding, which turns the phase.
+  const Scalar rounding = 4 * eps + walk + 2 * step_tolerance;
+  const Scalar phase_error = rounding + eps * run.phase();
+  const Scalar momentum_size = momentum_scale + problem.rotor_momentum.norm();
   const auto relative = [](Scalar difference, Scalar scale) noexcept {
     return difference == 0 ? Scalar(0) : difference / (scale > 0 ? scale : std::numeric_limits<Scalar>::min());
   };
   auto& error = answer.error;
-  error.momentum = relative(2 * vector, momentum_scale) + phase_error;
-  error.momentum_norm = relative(2 * norm, momentum_scale) + rounding;
-  error.energy = relative(2 * energy, energy_scale) +
-                 relative(rounding * (momentum_scale + problem.rotor_momentum.norm()) * velocity_scale, energy_scale);
+  error.momentum = relative(margin * vector + phase_error * momentum_size, momentum_scale);
+  error.momentum_norm = relative(margin * norm + rounding * momentum_size, momentum_scale);
+  error.energy = relative(margin * energy + rounding * momentum_size * velocity_scale, energy_scale);
   error.angular_velocity =
-      relative(2 * velocity, velocity_scale) +
-      relative(phase_error * (momentum_scale + problem.rotor_momentum.norm()) * problem.inverse_inertia[2], velocity_scale);
-  if constexpr (with_attitude) error.attitude = 2 * angle + 2 * phase_error;
+      relative(margin * velocity + phase_error * momentum_size * problem.inverse_inertia[2], velocity_scale);
+  if constexpr (with_attitude) error.attitude = margin * angle + 2 * phase_error;
   if (answer.stop_time < infinity<Scalar>) {
     error.stop_time = answer.stop_time > 0
-                          ? 2 * std::abs(companion.stop_time() - answer.stop_time) / answer.stop_time +
-                                Scalar(1e-12L) * std::max(Scalar(1), eps / Scalar(1e-15L))
+                          ? margin * std::abs(companion.stop_time() - answer.stop_time) / answer.stop_time +
+                                2 * step_tolerance + Scalar(2e-13L) * std::max(Scalar(1), eps / Scalar(1e-15L))
                           : Scalar(0);
   }
   answer.met = error.greatest() <= options.tolerance;

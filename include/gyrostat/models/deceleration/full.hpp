@@ -110,12 +110,13 @@ class FullSystem {
     Scalar omega[with_attitude ? Order + 1 : 1][4];
   };
 
-  explicit FullSystem(const Problem<Scalar>& problem) noexcept;
+  /// reach < 1: part of the way to U = 0 that one step may go at most.
+  explicit FullSystem(const Problem<Scalar>& problem, Scalar reach = Scalar(0.3L)) noexcept;
 
   template <int Order>
   void expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept;
 
-  /// 0.3 |U| over the greatest rate at which |U| can shrink: short enough to never jump over U = 0. Infinite without control.
+  /// reach |U| over the greatest rate at which |U| can shrink: short enough to never jump over U = 0. Infinite without control.
   Scalar step_limit(const Scalar* x) const noexcept;
 
   /// Moves a state onto the laws it obeys exactly: |q| = 1; |U| if the control torques are equal or absent; the energy if then
@@ -160,7 +161,7 @@ class FullSystem {
   Row quadratic_, constant_, inverse_inertia_, rate_;
   Row linear_[3];
   Row control_[3];
-  Scalar control_bound_, linear_bound_, drag_;
+  Scalar reach_, control_bound_, linear_bound_, drag_;
   // exact laws
   Vec3<Scalar> rotor_momentum_, a_;
   Scalar norm_, energy_, equal_control_;
@@ -168,7 +169,8 @@ class FullSystem {
 };
 
 template <Real Real_, bool with_control, bool with_attitude>
-FullSystem<Real_, with_control, with_attitude>::FullSystem(const Problem<Scalar>& problem) noexcept {
+FullSystem<Real_, with_control, with_attitude>::FullSystem(const Problem<Scalar>& problem, Scalar reach) noexcept
+    : reach_(reach) {
   const FullCoefficients<Scalar> f(problem);
   quadratic_ = row(f.quadratic);
   constant_ = row(f.constant);
@@ -332,7 +334,7 @@ Real_ FullSystem<Real_, with_control, with_attitude>::step_limit(const Scalar* x
     return infinity<Scalar>;
   } else {
     const Scalar norm = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-    return Scalar(0.3) * norm / (control_bound_ + linear_bound_ * norm);
+    return reach_ * norm / (control_bound_ + linear_bound_ * norm);
   }
 }
 

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/math/root.hpp"
+#include "gyrostat/models/deceleration/averaged.hpp"
+#include "gyrostat/ode/runge_kutta.hpp"
+
+namespace gyrostat::deceleration {
+
+/// The averaged motion without rotor momentum at one moment.
+template <Real Scalar>
+struct MeanState {
+  Scalar norm;              ///< |M|, N m s; 0 from the stop on
+  Polhode<Scalar> polhode;
+  Scalar phase;             ///< u/K, unwrapped; meaningless once the motion has crossed the separatrix
+};
+
+/// Advances the averaged equations forward in time, through the separatrix and down to rest. No heap, no throw, at most
+/// `step_cap` steps.
+template <class Elliptic, Real Scalar>
+class AveragedMotion {
+  using Equations = AveragedEquations<Elliptic, Scalar>;
+  using State = typename Equations::State;
+
+ public:
+  static constexpr std::uint64_t step_cap = 20000;
+
+  /// @param start     polhode at t = 0: through M for first order, the mean one for second order
+  /// @param norm      |M| at t = 0, > 0
+  /// @param phase     u/K at t = 0
+  /// @param tolerance local error of ln|M|, of -ln kp2 and, relative to the despin time, of the time
+  /// @param phase_error local error of the phase, in quarter periods; infinite where the phase is not wanted
+  AveragedMotion(const Problem<Scalar>& problem, const Polhode<Scalar>& start, Scalar norm, Scalar phase,
+                 Scalar tolerance, Scalar phase_error) noexcept
+      : problem_(problem),
+        norm0_(norm),
+        equations_(start, problem.control, problem.drag, norm),
+        solver_(equations_, Scalar(0), equations_.state_of(start, norm, Scalar(0), phase),
+                control_of(tolerance, phase_error)) {}
+
+  /// Moves on to time t, or to where |M| sinks to `floor` if that is sooner (see floored); earlier times are not reached
+  /// again. `visit(polhode, |M|)` sees
+  /// every step's end.
+  template <class Visitor>
+  ode::Status advance(Scalar t, Scalar floor, Visitor visit) noexcept {
+    const Scalar goal = std::log(floor / norm0_);
+    const auto& y = solver_.state();
+    while (!at_rest_ && !stuck_ && y[Equations::time] < t && y[Equations::log_norm] > goal) {
+      if (const auto status = step(); status != ode::Status::reached) return status;
+      visit(solver_.rhs().polhode(y), solver_.rhs().norm(y));
+    }
+    now_ = t;
+    floored_ = false;
+    if (y[Equations::log_norm] <= goal) {
+      const Scalar when = solver_.at(locate(Equations::log_norm, goal))[Equations::time];
+      floored_ = when < t;
+      now_ = std::min(now_, when);
+    }
+    return ode::Status::reached;
+  }
+
+  bool floored() const noexcept { return floored_; }  ///< the last advance() ended at its floor
+  Scalar time() const noexcept { return now_; }
+
+  /// The state at time().
+  MeanState<Scalar> state() noexcept {
+    const State& end = solver_.state();
+    if (now_ < end[Equations::time]) {
+      const State y = solver_.at(locate(Equations::time, now_));
+      return {solver_.rhs().norm(y), solver_.rhs().polhode(y), y[Equations::phase]};
+    }
+    const Polhode<Scalar> p = solver_.rhs().polhode(end);
+    const Scalar M = solver_.rhs().norm(end), D = solver_.rhs().torque(p).deceleration;
+    return {std::max(Scalar(0), decayed(M, D, now_ - end[Equations::time])), p, end[Equations::phase]};
+  }
+
+  /// Time at which |M| vanishes, s; infinite where no control torque acts.
+  Result<Scalar> stop_time() noexcept {
+    while (!at_rest_ && !stuck_)
+      if (step() != ode::Status::reached)
+        return solver_.status() == ode::Status::step_limit ? Errc::step_limit : Errc::no_convergence;
+    const State& end = solver_.state();
+    const Scalar M = solver_.rhs().norm(end);
+    const Scalar D = solver_.rhs().torque(solver_.rhs().polhode(end)).deceleration;
+    if (!(D > 0)) return infinity<Scalar>;
+    const Scalar drag = problem_.drag;
+    return end[Equations::time] + (drag > 0 ? std::log1p(drag * M / D) / drag : M / D);
+  }
+
+  bool crossed() const noexcept { return crossing_norm_ > 0; }  ///< has passed through the separatrix
+  Scalar crossing_norm() const noexcept { return crossing_norm_; }  ///< |M| where it did, N m s; 0 if it did not
+  bool stuck() const noexcept { return stuck_; }      ///< the separatrix attracts from both sides and holds it
+  const ode::Counts& counts() const noexcept { return solver_.counts(); }
+
+ private:
+  static constexpr Scalar far_away = Scalar(1e9);
+  /// |M|/|M(0)| from which the mean torque is taken as constant.
+  static constexpr Scalar rest = std::numeric_limits<Scalar>::epsilon() * 64;
+
+  static ode::StepControl<Scalar, 4> control_of(Scalar tolerance, Scalar phase_error) noexcept {
+    ode::StepControl<Scalar, 4> control;
+    control.relative = tolerance;
+    control.absolute = {tolerance, tolerance, 0, phase_error};
+    control.first_step = Scalar(.05);
+    control.step_cap = step_cap;
+    return control;
+  }
+
+  /// |M| a time dt after M under the constant mean torque D.
+  Scalar decayed(Scalar M, Scalar D, Scalar dt) const noexcept {
+    const Scalar drag = problem_.drag;
+    const Scalar lost = -std::expm1(-drag * dt);
+    return drag > 0 ? M - lost * (M + D / drag) : M - D * dt;
+  }
+
+  ode::Status step() noexcept {
+    if (const auto status = solver_.step(far_away); status != ode::Status::reached) return status;
+    const State& y = solver_.state();
+    if (y[Equations::log_norm] < std::log(rest)) at_rest_ = true;
+    if (y[Equations::spread] > Equations::crossing && !solver_.rhs().polhode(y).axes.axisymmetric()) cross();
+    return ode::Status::reached;
+  }
+
+  /// Point of the last step where component i, monotone there, has the given value; the nearer end if it has not.
+  Scalar locate(std::size_t i, Scalar value) noexcept {
+    const auto root = math::bracketed_root([&](Scalar sigma) { return solver_.at(sigma)[i] - value; },
+                                           solver_.previous_time(), solver_.time());
+    if (root) return *root;
+    const bool before = std::abs(solver_.previous_state()[i] - value) < std::abs(solver_.state()[i] - value);
+    return before ? solver_.previous_time() : solver_.time();
+  }
+
+  /// Through the separatrix: the same spread and |M|, the other regime.
+  void cross() noexcept {
+    const Scalar sigma = locate(Equations::spread, Equations::crossing);
+    State y = solver_.at(sigma);
+    y[Equations::spread] = Equations::crossing;
+    Polhode<Scalar> p = solver_.rhs().polhode(y);
+    const Polhode<Scalar> here = p;
+    p.regime = p.regime == Regime::about_largest ? Regime::about_smallest : Regime::about_largest;
+    p.axes = PolhodeAxes<Scalar>::of(problem_.inverse_inertia, p.regime);
+    p = at_modulus(p, p.modulus);
+    crossing_norm_ = solver_.rhs().norm(y);
+    equations_ = Equations(p, problem_.control, problem_.drag, norm0_);
+    if (equations_.torque(p).escape >= 0) {
+      stuck_ = true;
+      equations_ = Equations(here, problem_.control, problem_.drag, norm0_);
+    }
+    solver_.rhs() = equations_;
+    solver_.restart(sigma, y);
+  }
+
+  Problem<Scalar> problem_;
+  Scalar norm0_;
+  Equations equations_;
+  ode::RungeKutta<Scalar, 4, Equations> solver_;
+  Scalar now_ = 0;
+  Scalar crossing_norm_ = 0;
+  bool stuck_ = false, at_rest_ = false, floored_ = false;
+};
+
+}  // namespace gyrostat::deceleration

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "gyrostat/ladder/deceleration/averaged_motion.hpp"
+#include "gyrostat/ladder/deceleration/hand_over.hpp"
+#include "gyrostat/models/deceleration/averaging_error.hpp"
+
+/// Rungs `averaged` and `averaged-2` without rotor momentum.
+namespace gyrostat::deceleration {
+
+/// |M| at which the body turns once while the control stops it, N m s: below, averaging has no meaning.
+inline double breakdown_momentum(const Problem<double>& problem, double greatest_control) noexcept {
+  return std::sqrt(greatest_control / problem.inverse_inertia[1]);
+}
+
+/// The averaged motion without rotor momentum and what its error is made of.
+template <class Elliptic>
+class AveragedRun {
+ public:
+  AveragedRun(const Scene& scene, const Polhode<double>& start, double norm, double phase, double phase_error) noexcept
+      : problem_(scene.problem()),
+        greatest_(scene.greatest_control()),
+        motion_(problem_, start, norm, phase, tolerance_of(scene), phase_error) {
+    visit(start, norm);
+  }
+
+  ode::Status advance(double t, double floor = 0) noexcept {
+    const auto status = motion_.advance(t, floor, [this](const Polhode<double>& p, double norm) { visit(p, norm); });
+    if (motion_.crossed()) error_.cross(motion_.crossing_norm(), greatest_, problem_.inverse_inertia);
+    return status;
+  }
+
+  AveragedMotion<Elliptic, double>& motion() noexcept { return motion_; }
+  const AveragingError<double>& error() const noexcept { return error_; }
+
+  /// Local error of the mean equations: far below what is asked, no smaller than rounding allows.
+  static double tolerance_of(const Scene& scene) noexcept {
+    return std::max(1e-13, std::min(1e-9, scene.data().tolerance * 1e-3));
+  }
+
+ private:
+  void visit(const Polhode<double>& p, double norm) noexcept {
+    const auto b = ControlTorques<double>::of(problem_.control, p.axes);
+    error_.visit(p, b, mean_torque<Elliptic>(p, b), problem_.drag, norm);
+  }
+
+  Problem<double> problem_;
+  double greatest_;
+  AveragedMotion<Elliptic, double> motion_;
+  AveragingError<double> error_;
+};
+
+namespace detail {
+
+/// Why no averaged rung of this file answers the scene, or nullptr.
+inline const char* not_averaged(const Scene& scene) noexcept {
+  if (scene.data().wants_attitude) return "averaging does not know the attitude";
+  if (scene.sphere()) return "a sphere has no fast polhode to average over";
+  if (!(scene.problem().momentum.norm() > 0)) return "the body is at rest at the start";
+  return nullptr;
+}
+
+inline void warn_of_start(Track& track, const Scene& scene, const Polhode<double>& p) {
+  const auto& a = scene.problem().inverse_inertia;
+  const double M = scene.problem().momentum.norm();
+  const double breakdown = breakdown_momentum(scene.problem(), scene.greatest_control());
+  const double mu = breakdown * breakdown / (M * M);
+  if (mu > 0.1) track.warn("not-slow", "the torque stops the body within a few turns: averaging has no meaning", mu);
+  const double gap = std::min(a[1] - a[0], a[2] - a[1]) / (a[2] - a[0]);
+  if (gap < std::max(1e-3, 10 * mu) && !scene.equal_control())
+    track.warn("near-symmetric", "two moments of inertia are nearly equal: the libration is slow", gap);
+  if (p.modulus.kp2 < std::max(1e-2, 10 * mu))
+    track.warn("near-separatrix", "the polhode starts near the separatrix", p.modulus.kp2);
+}
+
+inline void warn_of_motion(Track& track, const AveragingError<double>& error, bool crossed, bool stuck) {
+  if (crossed)
+    track.warn("crosses-separatrix",
+               "the motion crosses the separatrix: the sign of the momentum about its new axis is not determined");
+  if (stuck) track.warn("sticks-to-separatrix", "the separatrix attracts from both sides and holds the mean motion");
+  if (error.greatest_squeeze() > 0.1)
+    track.warn("near-separatrix", "one oscillation changes 1 - k2 by a large part of itself",
+               error.greatest_squeeze());
+}
+
+inline void keep_sample(Track& track, const MeanState<double>& s) {
+  track.norm.push_back(s.norm);
+  track.energy.push_back(s.norm * s.norm * s.polhode.energy_ratio() / 2);
+  track.k2.push_back(s.polhode.modulus.k2);
+  track.regime.push_back(s.norm > 0 ? s.polhode.regime : Regime::rest);
+}
+
+}  // namespace detail
+
+/// First order: started from the osculating polhode, carried down to rest.
+template <class Elliptic>
+Track averaged_track(const Scene& scene) {
+  if (const char* why = detail::not_averaged(scene)) return Track::refused(Errc::not_applicable, why);
+  const auto& problem = scene.problem();
+  const Vec3<double>& M0 = problem.momentum;
+  const double norm0 = M0.norm();
+  const auto start = polhode_through<double>(problem.inverse_inertia, M0);
+  if (!std::isfinite(start.modulus.k2) || !std::isfinite(start.modulus.kp2))
+    return Track::refused(Errc::not_applicable, "M lies across an axis of symmetry: there is no polhode to average over");
+  if (!(start.modulus.kp2 > 0)) return Track::refused(Errc::separatrix, "the motion starts on the separatrix");
+
+  Track track;
+  AveragedRun<Elliptic> run(scene, start, norm0, 0, infinity<double>);
+  const double energy0 = problem.energy(M0);
+  if (scene.data().model == Model::any) {
+    const auto least = run.error().first_order(norm0, energy0);
+    const double error = std::max({least.norm / norm0, least.energy / energy0, least.k2});
+    if (error > scene.data().tolerance) return Track::over(error);
+  }
+  for (const double t : scene.data().times) {
+    if (run.advance(t) != ode::Status::reached)
+      return Track::refused(Errc::no_convergence, "the mean equations could not be integrated");
+    detail::keep_sample(track, run.motion().state());
+  }
+  const auto error = run.error().first_order(norm0, energy0);
+  const double breakdown = breakdown_momentum(problem, scene.greatest_control());
+
+  // Below a few breakdown momenta the body falls to the axis of the weakest control, the averaged one need not.
+  const double low = 3 * breakdown;
+  double late = 1;
+  if (low < norm0 / 2 && run.advance(infinity<double>, low) == ode::Status::reached) {
+    const auto s = run.motion().state();
+    const auto b = ControlTorques<double>::of(problem.control, s.polhode.axes);
+    const double D = mean_torque<Elliptic>(s.polhode, b).deceleration;
+    const double tail = low * std::abs(1 / scene.least_control() - 1 / D);
+    const double drift = run.error().first_order(norm0, energy0).norm / D;
+    const auto stop = run.motion().stop_time();
+    if (!stop) return Track::refused(stop.error(), "the mean equations could not be integrated to rest");
+    late = scene.greatest_control() > 0 ? (tail + drift) / *stop : 0;
+  }
+  if (const auto stop = run.motion().stop_time()) track.stop_time = *stop;
+  track.stop_error = std::isfinite(track.stop_time) ? late : 0;
+
+  const double least = track.norm.back();
+  track.norm_error = error.norm;
+  track.energy_error = error.energy;
+  track.k2_error = error.k2;
+  if (least < low) {
+    track.norm_error += std::min(low, norm0) * std::min(1.0, late * track.stop_time * scene.greatest_control() / low);
+    track.k2_error = 1;
+  }
+  track.in_domain = breakdown < norm0 / 3;
+  track.counts = run.motion().counts();
+  detail::warn_of_start(track, scene, start);
+  detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());
+  return track;
+}
+
+/// Second order: started from the mean polhode, answered with the osculating one and so with M itself; below
+/// `hand_over` breakdown momenta the full equations take over.
+template <class Elliptic>
+Track averaged_2_track(const Scene& scene, Monitor* monitor) {
+  if (const char* why = detail::not_averaged(scene)) return Track::refused(Errc::not_applicable, why);
+  const auto& problem = scene.problem();
+  const Vec3<double>& M0 = problem.momentum;
+  const double norm0 = M0.norm();
+  const auto start = polhode_through<double>(problem.inverse_inertia, M0);
+  if (!std::isfinite(start.modulus.k2) || !std::isfinite(start.modulus.kp2))
+    return Track::refused(Errc::not_applicable, "M lies across an axis of symmetry: there is no polhode to average over");
+  const auto b = ControlTorques<double>::of(problem.control, start.axes);
+  const double u0 = argument_of<Elliptic>(start, M0);
+  const auto away = oscillation<Elliptic>(start, b, norm0, u0);
+  const auto mean = shifted(start, -away.spread);
+  if (!mean.valid || !(std::abs(away.norm) < .5))
+    return Track::refused(Errc::separatrix, "one oscillation reaches the separatrix: there is no mean polhode");
+
+  // The later the full equations take over, the less the mean ones err there and the more turns the full ones make.
+  const double last_norm = hand_over_share(scene) * breakdown_momentum(problem, scene.greatest_control());
+  if (!(last_norm < norm0 / 2))
+    return Track::refused(Errc::not_applicable, "the motion is too fast: averaging would hand over at the start");
+
+  Track track;
+  AveragedRun<Elliptic> run(scene, mean.polhode, norm0 * (1 - away.norm), u0 / Elliptic::complete(start.modulus).K,
+                            std::max(1e-7, scene.data().tolerance * 1e-2));
+  // The osculating state, if there still is a second order.
+  struct Osculating {
+    MeanState<double> state;
+    Vec3<double> momentum;
+    bool valid;
+  };
+  const auto osculating = [&](const MeanState<double>& s) -> Osculating {
+    const double K = Elliptic::complete(s.polhode.modulus).K;
+    const auto torques = ControlTorques<double>::of(problem.control, s.polhode.axes);
+    const auto o = oscillation<Elliptic>(s.polhode, torques, s.norm, s.phase * K);
+    const auto p = shifted(s.polhode, o.spread);
+    const double norm = s.norm * (1 + o.norm);
+    const double u = s.phase * Elliptic::complete(p.polhode.modulus).K;
+    return {{norm, p.polhode, s.phase}, momentum_on<Elliptic>(p.polhode, norm, u), p.valid};
+  };
+
+  const auto& times = scene.data().times;
+  std::size_t done = 0;
+  constexpr const char* lost = "the motion comes so near the separatrix that the second order is lost";
+  for (; done < times.size(); ++done) {
+    if (run.advance(times[done], last_norm) != ode::Status::reached)
+      return Track::refused(Errc::no_convergence, "the mean equations could not be integrated");
+    if (run.motion().crossed() || run.motion().stuck()) return Track::refused(Errc::separatrix, lost);
+    if (run.motion().floored()) break;
+    const auto now = osculating(run.motion().state());
+    if (!now.valid) return Track::refused(Errc::separatrix, lost);
+    detail::keep_sample(track, now.state);
+    track.momentum.push_back(now.momentum);
+  }
+  const double energy0 = problem.energy(M0);
+  const auto in_span = run.error().second_order();
+  const double local = 10 * AveragedRun<Elliptic>::tolerance_of(scene);
+  track.norm_error = in_span.norm + local * norm0;
+  track.energy_error = in_span.energy + 2 * local * energy0;
+  track.k2_error = in_span.k2 + local;
+  track.momentum_error = in_span.vector + local * norm0;
+  track.counts = run.motion().counts();
+  detail::warn_of_start(track, scene, start);
+
+  // The tail, for the stop time and for the samples beyond the hand-over.
+  if (!(scene.greatest_control() > 0)) {
+    track.stop_time = infinity<double>;
+  } else {
+    const bool reached = run.advance(infinity<double>, last_norm) == ode::Status::reached;
+    if (!reached || run.motion().crossed() || run.motion().stuck()) {
+      if (done < times.size()) return Track::refused(Errc::separatrix, lost);
+      track.warn("crosses-separatrix", "after the asked times the motion crosses the separatrix: no stop time");
+    } else {
+      const auto at_end = osculating(run.motion().state());
+      if (!at_end.valid) return Track::refused(Errc::separatrix, lost);
+      const Errc failure = hand_over(track, scene, at_end.momentum, run.motion().time(), run.error().second_order(), monitor);
+      if (failure != Errc::ok) return Track::refused(failure, "the full equations could not take over near rest");
+    }
+  }
+  detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());
+  return track;
+}
+
+}  // namespace gyrostat::deceleration

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "gyrostat/math/root.hpp"
+#include "gyrostat/models/deceleration/orbit_second_order.hpp"
+#include "gyrostat/ode/runge_kutta.hpp"
+
+namespace gyrostat::deceleration {
+
+/// Mean rates on a level.
+template <Real Scalar>
+struct MeanRates {
+  SlowRates<Scalar> rates;
+  Scalar phase_rate = 0;  ///< turns per second
+};
+
+/// Right-hand side of the mean equations over free orbits with rotor momentum, in a clock that slows down towards the
+/// stop: dt/dsigma = 1/(drag + b/|U|). State: ln(R/R0), eta [rad/s], t [s], phase [turns].
+/// `rates.at(problem, level, component)` gives a Result of MeanRates, `rates.accept(problem, level, component)` tells it
+/// of every accepted step.
+template <class Rates, Real Scalar>
+struct OrbitEquations {
+  using State = std::array<Scalar, 4>;
+  enum Index : int { log_norm, eta, time, phase };
+
+  Problem<Scalar> problem;
+  Scalar reference;      ///< R0, N m s
+  Component followed;    ///< the curve that the last accepted step was on
+  Rates rates{};
+  Errc failure = Errc::ok;  ///< of the last evaluation that had no value
+
+  Level<Scalar> level(const State& y) const noexcept { return {reference * std::exp(y[log_norm]), y[eta]}; }
+
+  /// What the control opposes: |M|, or about |J omega|, N m s.
+  Scalar opposed(const Level<Scalar>& at) const noexcept {
+    if (problem.law == Law::total) return at.R;
+    return std::sqrt(2 * std::max(Scalar(0), energy_of(problem, at)) / problem.inverse_inertia[1]);
+  }
+
+  void operator()(Scalar, const State& y, State& dy) noexcept {
+    const Level<Scalar> at = level(y);
+    const auto mean = rates.at(problem, at, followed);
+    if (!mean) {
+      failure = mean.error();
+      dy.fill(nan<Scalar>);
+      return;
+    }
+    const Scalar b = problem.control.diagonal().maxCoeff(), U = opposed(at);
+    const Scalar fading = problem.drag + (b > 0 ? b / U : Scalar(0));
+    const Scalar dt = fading > 0 ? 1 / fading : 1 / std::abs(mean->phase_rate);
+    dy[log_norm] = mean->rates.R / at.R * dt;
+    dy[eta] = mean->rates.eta * dt;
+    dy[time] = dt;
+    dy[phase] = mean->phase_rate * dt;
+  }
+};
+
+/// First order: the averages over the free orbit.
+template <class Elliptic>
+struct FirstOrderRates {
+  template <Real Scalar>
+  Result<MeanRates<Scalar>> at(const Problem<Scalar>& problem, const Level<Scalar>& level,
+                               Component followed) const noexcept {
+    const auto mean = average<Elliptic>(problem, level, followed);
+    if (!mean) return mean.error();
+    return MeanRates<Scalar>{mean->rates, 1 / mean->period};
+  }
+  template <Real Scalar>
+  void accept(const Problem<Scalar>&, const Level<Scalar>&, Component) noexcept {}
+};
+
+/// Second order: f2 and the drift of the phase. Keeps the orbit of the last accepted step, so that the origin of the
+/// phase goes on without a jump.
+template <class Elliptic, Real Scalar>
+struct SecondOrderRates {
+  Orbit<Scalar, Elliptic> reference;
+  bool phase_lost = false;  ///< the orbits of two steps differ too much to compare their phases
+
+  Result<MeanRates<Scalar>> at(const Problem<Scalar>& problem, const Level<Scalar>& level,
+                               Component followed) const noexcept {
+    const auto mean = second_order<Elliptic>(problem, level, followed, &reference);
+    if (!mean) return mean.error();
+    SlowRates<Scalar> rates = mean->first;
+    rates.R += mean->second.R;
+    rates.h += mean->second.h;
+    rates.eta += mean->second.eta;
+    return MeanRates<Scalar>{rates, mean->phase_rate};
+  }
+  void accept(const Problem<Scalar>& problem, const Level<Scalar>& level, Component component) noexcept {
+    const auto orbit = Orbit<Scalar, Elliptic>::at(problem, level, component);
+    if (!orbit || orbit->regime() != reference.regime()) {
+      phase_lost = true;
+      if (orbit) reference = *orbit;
+      return;
+    }
+    Scalar doubt = 0;
+    reference = orbit->aligned_to(reference, &doubt);
+    phase_lost = phase_lost || !(doubt < Scalar(.2));
+  }
+};
+
+/// Advances mean equations over free orbits forward in time. No heap, no throw, at most `step_cap` steps. A motion whose
+/// further way the averages do not determine (capture from one component into one of two lobes) ends with
+/// failure() == undetermined.
+template <class Rates, Real Scalar>
+class OrbitMotion {
+  using Equations = OrbitEquations<Rates, Scalar>;
+  using State = typename Equations::State;
+
+ public:
+  static constexpr std::uint64_t step_cap = 20000;
+
+  struct Sample {
+    Level<Scalar> level;
+    Component component;
+    Scalar phase;  ///< turns
+    bool at_rest;  ///< the control has reached its goal
+  };
+
+  /// @param tolerance local error of ln R, of eta relative to its scale and of the time
+  /// @param phase_error local error of the phase in turns; infinite where the phase is not wanted
+  OrbitMotion(const Problem<Scalar>& problem, const Level<Scalar>& start, Component component, Scalar phase,
+              Scalar tolerance, Scalar phase_error, const Rates& rates = {}) noexcept
+      : start_opposed_(Equations{problem, start.R, component}.opposed(start)),
+        solver_(Equations{problem, start.R, component, rates}, Scalar(0), State{0, start.eta, 0, phase},
+                control_of(problem, start, tolerance, phase_error)),
+        component_(component) {}
+
+  /// Moves on to time t, or to the step in which the control comes to oppose no more than `floor` [N m s] if that is
+  /// sooner (see floored). `visit(level, component, t)` sees every step's end.
+  template <class Visitor>
+  ode::Status advance(Scalar t, Scalar floor, Visitor visit) noexcept {
+    const auto& y = solver_.state();
+    while (!at_rest_ && y[Equations::time] < t && opposed() > floor)
+      if (const auto status = step(visit); status != ode::Status::reached) return status;
+    floored_ = opposed() <= floor && y[Equations::time] < t;
+    now_ = floored_ ? y[Equations::time] : t;
+    return ode::Status::reached;
+  }
+  bool floored() const noexcept { return floored_; }
+
+  Scalar time() const noexcept { return now_; }
+
+  Sample sample() noexcept {
+    const State& end = solver_.state();
+    if (now_ < end[Equations::time]) {
+      const State y = solver_.at(locate(now_));
+      return {solver_.rhs().level(y), component_, y[Equations::phase], false};
+    }
+    return {solver_.rhs().level(end), component_, end[Equations::phase],
+            at_rest_ && now_ >= end[Equations::time] + remainder()};
+  }
+
+  /// Time at which the control reaches its goal, s; infinite where no control acts.
+  template <class Visitor>
+  Result<Scalar> stop_time(Visitor visit) noexcept {
+    if (!(solver_.rhs().problem.control.diagonal().maxCoeff() > 0)) return infinity<Scalar>;
+    while (!at_rest_)
+      if (step(visit) != ode::Status::reached) return failure();
+    return solver_.state()[Equations::time] + remainder();
+  }
+
+  /// |U| at the end of the last step.
+  Scalar opposed() const noexcept { return solver_.rhs().opposed(solver_.rhs().level(solver_.state())); }
+
+  /// Why the motion could not go on.
+  Errc failure() const noexcept {
+    if (solver_.status() == ode::Status::step_limit) return Errc::step_limit;
+    return solver_.rhs().failure == Errc::ok ? Errc::no_convergence : solver_.rhs().failure;
+  }
+  const Rates& rates() const noexcept { return solver_.rhs().rates; }
+  bool changed_component() const noexcept { return changed_; }
+  const ode::Counts& counts() const noexcept { return solver_.counts(); }
+
+ private:
+  static constexpr Scalar far_away = Scalar(1e9), longest = Scalar(2);
+
+  static ode::StepControl<Scalar, 4> control_of(const Problem<Scalar>& problem, const Level<Scalar>& start,
+                                                Scalar tolerance, Scalar phase_error) noexcept {
+    ode::StepControl<Scalar, 4> control;
+    control.relative = 0;
+    const Scalar swing = problem.inverse_inertia[2] * start.R + problem.gyro_rate().norm();
+    const Scalar b = problem.control.diagonal().maxCoeff();
+    const Scalar fading = problem.drag + (b > 0 ? b / start.R : Scalar(0));
+    control.absolute = {tolerance, tolerance * swing, fading > 0 ? tolerance / fading : infinity<Scalar>, phase_error};
+    control.first_step = Scalar(.02);
+    control.longest_step = longest;
+    control.step_cap = step_cap;
+    return control;
+  }
+
+  template <class Visitor>
+  ode::Status step(Visitor visit) noexcept {
+    if (const auto status = solver_.step(far_away); status != ode::Status::reached) return status;
+    const Level<Scalar> at = solver_.rhs().level(solver_.state());
+    const auto orbit = Orbit<Scalar>::at(solver_.rhs().problem, at, component_);
+    if (orbit) {
+      const Component now = orbit->component();
+      const bool to_point = now.regime == Regime::point || component_.regime == Regime::point;
+      changed_ = changed_ || (!to_point && (now.regime != component_.regime || now.branch != component_.branch));
+      component_ = now;
+      solver_.rhs().followed = now;
+      solver_.rhs().rates.accept(solver_.rhs().problem, at, now);
+    }
+    visit(at, component_, solver_.state()[Equations::time]);
+    // the energy near rest is a difference of numbers of size S0: below its rounding nothing is left to follow
+    const Scalar floor = solver_.rhs().problem.law == Law::carrier
+                             ? 64 * std::sqrt(epsilon<Scalar> * solver_.rhs().problem.rotor_energy_scale() /
+                                              solver_.rhs().problem.inverse_inertia[1])
+                             : Scalar(0);
+    at_rest_ = opposed() <= std::max(Scalar(1e-10) * start_opposed_, floor);
+    return ode::Status::reached;
+  }
+
+  /// Time from the end of the last step to the stop, with |U| falling at its present mean rate.
+  Scalar remainder() const noexcept {
+    const auto& f = solver_.rhs();
+    const State &y = solver_.state(), &dy = solver_.derivative();
+    const Scalar dt = dy[Equations::time];
+    if (f.problem.law == Law::total) return -dt / dy[Equations::log_norm];
+    const Level<Scalar> at = f.level(y);
+    const Scalar dh = at.R * (dy[Equations::eta] + at.eta * dy[Equations::log_norm]) / dt;
+    return -2 * energy_of(f.problem, at) / dh;
+  }
+
+  /// Place of a time inside the last step.
+  Scalar locate(Scalar t) noexcept {
+    const auto root = math::bracketed_root([&](Scalar sigma) { return solver_.at(sigma)[Equations::time] - t; },
+                                           solver_.previous_time(), solver_.time());
+    return root ? *root : solver_.previous_time();
+  }
+
+  Scalar start_opposed_;
+  ode::RungeKutta<Scalar, 4, Equations> solver_;
+  Component component_;
+  Scalar now_ = 0;
+  bool at_rest_ = false, changed_ = false, floored_ = false;
+};
+
+}  // namespace gyrostat::deceleration
