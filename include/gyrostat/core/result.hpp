@@ -25,6 +25,7 @@ enum class Errc : std::uint8_t {
   undetermined,         ///< the averaged motion does not fix the outcome (capture)
   not_applicable,       ///< the model does not cover this scene
   unavailable,          ///< the build lacks an optional library
+  cancelled,            ///< the caller stopped the work
 };
 
 /// One English sentence a failure, for a message at the edge.
@@ -47,6 +48,7 @@ constexpr const char* message(Errc code) noexcept {
     case Errc::undetermined: return "the averaged motion does not determine the outcome";
     case Errc::not_applicable: return "the model does not cover this scene";
     case Errc::unavailable: return "the build lacks an optional library";
+    case Errc::cancelled: return "the caller stopped the work";
   }
   return "unknown error";
 }

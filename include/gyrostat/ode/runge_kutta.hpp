@@ -153,6 +153,7 @@ class RungeKutta {
   Status status() const noexcept { return status_; }
   const Counts& counts() const noexcept { return counts_; }
   F& rhs() noexcept { return rhs_; }
+  const F& rhs() const noexcept { return rhs_; }
 
  private:
   static constexpr int blind_cap = 40;  // 5^-40 of the step: beyond that it is no matter of length

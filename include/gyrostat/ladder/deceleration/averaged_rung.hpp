@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "gyrostat/ladder/deceleration/averaged_motion.hpp"
 #include "gyrostat/ladder/deceleration/hand_over.hpp"
@@ -140,9 +140,10 @@ Track averaged_track(const Scene& scene) {
   track.stop_error = std::isfinite(track.stop_time) ? late : 0;
 
   const double least = track.norm.back();
-  track.norm_error = error.norm;
-  track.energy_error = error.energy;
-  track.k2_error = error.k2;
+  const double local = 10 * AveragedRun<Elliptic>::tolerance_of(scene);
+  track.norm_error = error.norm + local * norm0;
+  track.energy_error = error.energy + local * energy0;
+  track.k2_error = error.k2 + local;
   if (least < low) {
     track.norm_error += std::min(low, norm0) * std::min(1.0, late * track.stop_time * scene.greatest_control() / low);
     track.k2_error = 1;
@@ -235,6 +236,7 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
     }
   }
   detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());
+  withhold_vector(track, scene);
   return track;
 }
 

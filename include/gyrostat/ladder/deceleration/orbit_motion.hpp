@@ -61,6 +61,8 @@ struct OrbitEquations {
 /// First order: the averages over the free orbit.
 template <class Elliptic>
 struct FirstOrderRates {
+  static constexpr double longest_step = 2;
+
   template <Real Scalar>
   Result<MeanRates<Scalar>> at(const Problem<Scalar>& problem, const Level<Scalar>& level,
                                Component followed) const noexcept {
@@ -76,6 +78,8 @@ struct FirstOrderRates {
 /// phase goes on without a jump.
 template <class Elliptic, Real Scalar>
 struct SecondOrderRates {
+  static constexpr Scalar longest_step = Scalar(.25);  // neighbouring orbits must resemble each other
+
   Orbit<Scalar, Elliptic> reference;
   bool phase_lost = false;  ///< the orbits of two steps differ too much to compare their phases
 
@@ -176,7 +180,7 @@ class OrbitMotion {
   const ode::Counts& counts() const noexcept { return solver_.counts(); }
 
  private:
-  static constexpr Scalar far_away = Scalar(1e9), longest = Scalar(2);
+  static constexpr Scalar far_away = Scalar(1e9);
 
   static ode::StepControl<Scalar, 4> control_of(const Problem<Scalar>& problem, const Level<Scalar>& start,
                                                 Scalar tolerance, Scalar phase_error) noexcept {
@@ -187,7 +191,7 @@ class OrbitMotion {
     const Scalar fading = problem.drag + (b > 0 ? b / start.R : Scalar(0));
     control.absolute = {tolerance, tolerance * swing, fading > 0 ? tolerance / fading : infinity<Scalar>, phase_error};
     control.first_step = Scalar(.02);
-    control.longest_step = longest;
+    control.longest_step = Rates::longest_step;
     control.step_cap = step_cap;
     return control;
   }

@@ -4,11 +4,12 @@
 #include <array>
 
 #include "gyrostat/ladder/deceleration/averaged_rung.hpp"
-#include "gyrostat/ladder/deceleration/equal_torque.hpp"
+#include "gyrostat/ladder/deceleration/equal_torque_rung.hpp"
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 #include "gyrostat/ladder/deceleration/orbit_rung.hpp"
 #include "gyrostat/ladder/rung.hpp"
 #include "gyrostat/math/elliptic.hpp"
+#include "gyrostat/models/deceleration/capture.hpp"
 
 namespace gyrostat::deceleration {
 
@@ -31,14 +32,11 @@ Track equal_torque(const Scene& scene, Monitor*) {
   return equal_torque_track<Elliptic>(scene);
 }
 
-/// Least distance of the start's energy from a separatrix of its |M|, over half the difference of the extreme energies
-/// of the body alone, |M|^2 (a3 - a1)/2. NaN where there is none.
+/// Distance of the start's energy from the next separatrix at its |M|, over the range of energies there; NaN where there
+/// is none (a sphere, M = 0, a rotor that leaves one component only).
 inline double separatrix_distance(const Scene& scene) noexcept {
-  const auto& problem = scene.problem();
-  const double R = problem.momentum.norm();
-  const double unit = R * (problem.inverse_inertia[2] - problem.inverse_inertia[0]) / 2;
-  if (!(unit > 0)) return nan<double>;
-  return nan<double>;
+  const auto band = band_of(scene.problem(), level_of(scene.problem(), scene.problem().momentum));
+  return band ? band->separatrix_distance() : nan<double>;
 }
 
 /// Numbers and warnings that belong to the scene, whichever rung answers.
@@ -81,5 +79,9 @@ Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr) {
   if (refusal.code == Errc::ok) detail::describe<Elliptic>(answer, scene);
   return answer;
 }
+
+#ifdef GYROSTAT_COMPILED
+extern template Answer solve<math::Native>(const Scene&, Refusal&, Monitor*);
+#endif
 
 }  // namespace gyrostat::deceleration

@@ -62,6 +62,22 @@ inline double relative(double error, double size) { return size > 0 ? error / si
 
 }  // namespace detail
 
+/// Leaves out M, and with it omega, where only they miss the tolerance: the slow columns are then still worth having.
+inline void withhold_vector(Track& track, const Scene& scene) {
+  if (track.momentum.empty() || scene.data().model != Model::any || scene.data().wants_attitude) return;
+  double size = 0, spin = 0;
+  for (const Vec3<double>& M : track.momentum) {
+    size = std::max(size, M.norm());
+    spin = std::max(spin, scene.problem().angular_velocity(M).norm());
+  }
+  const double error = std::max(detail::relative(track.momentum_error, size),
+                                detail::relative(track.momentum_error * scene.problem().inverse_inertia[2], spin));
+  if (error <= scene.data().tolerance) return;
+  track.momentum.clear();
+  track.warn("phase-withheld",
+             "the vectors are left out: their error is over the tolerance, that of the slow columns need not be", error);
+}
+
 /// The columns of SCENES.md, in the caller's axes. The answer's error is the greatest of all columns and of the stop time.
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   const auto& problem = scene.problem();

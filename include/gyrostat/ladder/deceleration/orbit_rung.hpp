@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/ladder/deceleration/averaged_rung.hpp"
+#include "gyrostat/ladder/deceleration/orbit_motion.hpp"
+
+/// Rungs `averaged` and `averaged-2` with rotor momentum, or with actuators off the principal axes.
+namespace gyrostat::deceleration {
+
+/// Collects at some levels along a mean motion what its error is made of (SecondOrder), and says how large it is.
+/// First order leaves out the oscillation and f2; second order leaves out the oscillation of second order and, in the
+/// phase, that of first. The factors are measured (docs/errors.md).
+template <class Elliptic>
+class OrbitError {
+ public:
+  static constexpr double first_factor = 3, second_factor = 6;
+
+  explicit OrbitError(const Problem<double>& problem) noexcept : problem_(problem) {}
+
+  /// Looks at a level of the motion; `until` is the time it stands for, s.
+  void visit(const Level<double>& level, Component component, double t) noexcept {
+    if (t - last_ < spacing_ * t) return;
+    const double span = t - last_;
+    last_ = t;
+    const auto s = second_order<Elliptic>(problem_, level, component);
+    if (!s) {
+      known_ = known_ && s.error() == Errc::not_applicable;  // on an equilibrium nothing oscillates
+      return;
+    }
+    drift_R_ += std::abs(s->second.R) * span;
+    drift_h_ += std::abs(s->second.h) * span;
+    keep(first_.norm, s->oscillation.R);
+    keep(first_.energy, s->oscillation.h);
+    keep(second_.norm, s->second_oscillation.R);
+    keep(second_.energy, s->second_oscillation.h);
+    keep(first_.k2, k2_swing(*s, level, component, s->oscillation.R, s->oscillation.eta));
+    keep(second_.k2, k2_swing(*s, level, component, s->second_oscillation.R, s->second_oscillation.eta));
+    const double size = std::sqrt(std::max(0.0, transverse(*s)));
+    keep(second_.vector, 2 * pi<double> * size * s->phase_oscillation);
+    keep(change_, s->phase_oscillation);
+  }
+
+  /// False where some level had no second order: the errors below are then not bounds.
+  bool known() const noexcept { return known_; }
+  double phase_oscillation() const noexcept { return change_; }
+
+  SlowError<double> first_order() const noexcept {
+    const double f = first_factor;
+    return {f * (first_.norm + drift_R_), f * (first_.energy + drift_h_), std::min(1.0, f * first_.k2), 0};
+  }
+  SlowError<double> second_order_error() const noexcept {
+    const double f = second_factor;
+    return {f * second_.norm, f * second_.energy, std::min(1.0, f * second_.k2), f * (second_.vector + second_.norm)};
+  }
+
+ private:
+  static constexpr double spacing_ = 0.25;
+
+  static void keep(double& greatest, double value) noexcept {
+    if (!(value <= greatest)) greatest = value;
+  }
+
+  /// Mean square distance of M from its mean over the orbit.
+  double transverse(const SecondOrder<double, Elliptic>& s) const noexcept {
+    Vec3<double> M[4];
+    s.orbit.quarter_points(M);
+    const Vec3<double> centre = (M[0] + M[1] + M[2] + M[3]) / 4;
+    double most = 0;
+    for (const auto& m : M) most = std::max(most, (m - centre).squaredNorm());
+    return most;
+  }
+
+  /// Change of k2 when the level moves by (dR, deta).
+  double k2_swing(const SecondOrder<double, Elliptic>& s, const Level<double>& level, Component component, double dR,
+                  double deta) const noexcept {
+    const double k2 = s.orbit.modulus().k2;
+    double swing = 0;
+    for (const auto& moved : {Level<double>{level.R + dR, level.eta}, Level<double>{level.R, level.eta + deta},
+                              Level<double>{level.R, level.eta - deta}}) {
+      const auto orbit = Orbit<double, Elliptic>::at(problem_, moved, component);
+      swing += orbit ? std::abs(orbit->modulus().k2 - k2) : 1.0;
+    }
+    return std::min(1.0, swing);
+  }
+
+  const Problem<double>& problem_;
+  SlowError<double> first_{}, second_{};
+  double drift_R_ = 0, drift_h_ = 0, last_ = 0, change_ = 0;
+  bool known_ = true;
+};
+
+namespace detail {
+
+/// |U| below which a turn of the body takes as long as the rest of the braking, N m s.
+inline double orbit_breakdown(const Problem<double>& problem, double greatest_control) noexcept {
+  const double turn = problem.gyro_rate().norm();
+  const double free = breakdown_momentum(problem, greatest_control);
+  return turn > 0 ? std::min(free, greatest_control / turn) : free;
+}
+
+inline void keep_sample(Track& track, const Problem<double>& problem, const Level<double>& level, Component component,
+                        bool at_rest) {
+  if (at_rest) {
+    const double R = problem.law == Law::total ? 0.0 : problem.rotor_momentum.norm();
+    track.norm.push_back(R);
+    track.energy.push_back(problem.law == Law::total ? problem.rotor_energy_scale() / 2 : 0.0);
+    track.k2.push_back(0);
+    track.regime.push_back(Regime::rest);
+    return;
+  }
+  const auto orbit = Orbit<double>::at(problem, level, component);
+  track.norm.push_back(level.R);
+  track.energy.push_back(std::max(0.0, energy_of(problem, level)));
+  track.k2.push_back(orbit ? orbit->modulus().k2 : nan<double>);
+  track.regime.push_back(orbit ? orbit->regime() : component.regime);
+}
+
+inline void keep_osculating(Track& track, const Problem<double>& problem, const Vec3<double>& M) {
+  const OrbitKind kind = orbit_kind(problem, M);
+  track.norm.push_back(M.norm());
+  track.energy.push_back(problem.energy(M));
+  track.k2.push_back(kind.k2);
+  track.regime.push_back(kind.regime);
+  track.momentum.push_back(M);
+}
+
+inline void warn_of_orbit(Track& track, const Scene& scene, const Orbit<double>& orbit) {
+  const auto& a = scene.problem().inverse_inertia;
+  const double mu = small_parameter(scene);
+  if (mu > 0.1) track.warn("not-slow", "the torque stops the body within a few turns: averaging has no meaning", mu);
+  const double gap = std::min(a[1] - a[0], a[2] - a[1]) / (a[2] - a[0]);
+  if (gap < 1e-3) track.warn("near-symmetric", "two moments of inertia are nearly equal: the libration is slow", gap);
+  if (orbit.modulus().kp2 < std::max(1e-2, 10 * mu))
+    track.warn("near-separatrix", "the orbit starts near a separatrix", orbit.modulus().kp2);
+}
+
+inline Track not_followed(Errc failure) {
+  if (failure == Errc::undetermined)
+    return Track::refused(failure, "the motion is captured into one of two lobes, and averaging does not tell which");
+  if (failure == Errc::separatrix) return Track::refused(failure, "the motion comes to a separatrix");
+  if (failure == Errc::step_limit) return Track::refused(failure, "the mean equations need too many steps");
+  return Track::refused(failure, "the mean equations could not be integrated");
+}
+
+}  // namespace detail
+
+/// First order over the free gyrostat orbit.
+template <class Elliptic>
+Track orbit_averaged_track(const Scene& scene, Monitor*) {
+  if (const char* why = detail::not_averaged(scene)) return Track::refused(Errc::not_applicable, why);
+  const auto& problem = scene.problem();
+  const auto orbit = Orbit<double>::through(problem, problem.momentum);
+  if (!orbit) return detail::not_followed(orbit.error());
+
+  Track track;
+  OrbitError<Elliptic> error(problem);
+  const auto visit = [&](const Level<double>& level, Component component, double t) { error.visit(level, component, t); };
+  OrbitMotion<FirstOrderRates<Elliptic>, double> motion(problem, orbit->level(), orbit->component(), 0,
+                                                        AveragedRun<Elliptic>::tolerance_of(scene), infinity<double>);
+  for (const double t : scene.data().times) {
+    if (motion.advance(t, 0, visit) != ode::Status::reached) return detail::not_followed(motion.failure());
+    const auto now = motion.sample();
+    detail::keep_sample(track, problem, now.level, now.component, now.at_rest);
+  }
+  const double end = scene.data().times.back();
+  const auto in_span = error.first_order();
+  const double local = 10 * AveragedRun<Elliptic>::tolerance_of(scene);
+  track.norm_error = in_span.norm + local * problem.momentum.norm();
+  track.energy_error = in_span.energy + local * *std::max_element(track.energy.begin(), track.energy.end());
+  track.k2_error = in_span.k2 + local;
+
+  const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
+  const auto stop = motion.stop_time(visit);
+  if (!stop && stop.error() != Errc::undetermined && stop.error() != Errc::separatrix)
+    return detail::not_followed(stop.error());
+  if (!stop) {
+    track.warn("capture-undetermined", "after the asked times the motion is captured into one of two lobes: no stop time");
+  } else {
+    track.stop_time = *stop;
+    const double floor = 3 * breakdown * (1 / scene.least_control() - 1 / scene.greatest_control());
+    if (std::isfinite(*stop))
+      track.stop_error = (floor + error.first_order().norm / std::max(scene.least_control(), 1e-300)) / *stop;
+  }
+  if (end >= track.stop_time || motion.changed_component()) track.k2_error = 1;
+  if (motion.changed_component())
+    track.warn("crosses-separatrix", "the motion passes from one kind of orbit to another");
+  track.in_domain = error.known() && small_parameter(scene) < 0.1;
+  track.counts = motion.counts();
+  detail::warn_of_orbit(track, scene, *orbit);
+  return track;
+}
+
+/// Second order over the free gyrostat orbit: M itself to first order in the torques.
+template <class Elliptic>
+Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
+  if (const char* why = detail::not_averaged(scene)) return Track::refused(Errc::not_applicable, why);
+  const auto& problem = scene.problem();
+  Orbit<double, Elliptic> orbit;
+  const auto mean = mean_of<Elliptic>(problem, problem.momentum, &orbit);
+  if (!mean) return detail::not_followed(mean.error());
+  if (orbit.regime() == Regime::point)
+    return Track::refused(Errc::not_applicable, "the motion starts on an equilibrium: there is nothing to average over");
+
+  const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
+  const double floor = hand_over_share(scene) * breakdown;
+  const Vec3<double> U = problem.law == Law::total ? problem.momentum
+                                                   : Vec3<double>(problem.momentum - problem.rotor_momentum);
+  if (!(floor < U.norm() / 2))
+    return Track::refused(Errc::not_applicable, "the motion is too fast: averaging would hand over at the start");
+  const double turns = U.norm() / std::max(scene.greatest_control(), 1e-300) / orbit.period();
+  if (scene.data().model == Model::any && turns < 1000)
+    return Track::refused(Errc::not_applicable, "the full equations are cheaper: the braking takes few turns");
+
+  Track track;
+  OrbitError<Elliptic> error(problem);
+  const auto visit = [&](const Level<double>& level, Component component, double t) {
+    error.visit(level, component, t);
+    if (monitor) monitor->fraction.store(std::min(1.0, t / scene.data().times.back()), std::memory_order_relaxed);
+  };
+  using Rates = SecondOrderRates<Elliptic, double>;
+  OrbitMotion<Rates, double> motion(problem, mean->level, mean->component, mean->phase,
+                                    std::max(1e-11, AveragedRun<Elliptic>::tolerance_of(scene)),
+                                    std::max(1e-6, scene.data().tolerance * 1e-2), Rates{orbit});
+  const auto& times = scene.data().times;
+  std::size_t done = 0;
+  for (; done < times.size(); ++done) {
+    if (motion.advance(times[done], floor, visit) != ode::Status::reached) return detail::not_followed(motion.failure());
+    if (motion.floored()) break;
+    const auto now = motion.sample();
+    const auto M = osculating_of<Elliptic>(problem, {now.level, now.phase, now.component}, &motion.rates().reference);
+    if (!M) return detail::not_followed(M.error());
+    detail::keep_osculating(track, problem, *M);
+  }
+  const auto in_span = error.second_order_error();
+  const double local = 10 * AveragedRun<Elliptic>::tolerance_of(scene);
+  track.norm_error = in_span.norm + local * problem.momentum.norm();
+  track.energy_error = in_span.energy + local * problem.energy(problem.momentum);
+  track.k2_error = in_span.k2 + local;
+  track.momentum_error = in_span.vector + local * problem.momentum.norm();
+  track.counts = motion.counts();
+  if (motion.rates().phase_lost || motion.changed_component())
+    return Track::refused(Errc::not_applicable, "the kind of orbit changes: the phase is lost, and M with it");
+  if (!error.known()) return Track::refused(Errc::no_convergence, "the size of the second order is not known");
+  detail::warn_of_orbit(track, scene, Orbit<double>::through(problem, problem.momentum).value());
+
+  if (!(scene.greatest_control() > 0)) {
+    track.stop_time = infinity<double>;
+    return track;
+  }
+  const bool in_time = done == times.size();
+  const auto reached = motion.advance(infinity<double>, floor, visit);
+  const bool lost = motion.rates().phase_lost || motion.changed_component();
+  if (reached != ode::Status::reached || lost) {
+    if (!in_time) return reached != ode::Status::reached ? detail::not_followed(motion.failure()) : detail::not_followed(Errc::separatrix);
+    track.warn("crosses-separatrix", "after the asked times the kind of orbit changes: no stop time");
+    return track;
+  }
+  const auto now = motion.sample();
+  const auto M = osculating_of<Elliptic>(problem, {now.level, now.phase, now.component}, &motion.rates().reference);
+  if (!M) return detail::not_followed(M.error());
+  const Errc failure = hand_over(track, scene, *M, motion.time(), error.second_order_error(), monitor);
+  if (failure != Errc::ok) return Track::refused(failure, "the full equations could not take over near rest");
+  withhold_vector(track, scene);
+  return track;
+}
+
+}  // namespace gyrostat::deceleration

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/deceleration/solve.hpp"
+
+namespace gyrostat::deceleration {
+
+template Answer solve<math::Native>(const Scene&, Refusal&, Monitor*);
+
+}  // namespace gyrostat::deceleration
