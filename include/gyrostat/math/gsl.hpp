@@ -41,36 +41,37 @@ struct Gsl {
     return {K, F, 1 - F, legendre - v};
   }
 
-  /// gsl_sf_elljac_e with the argument brought into |u| <= K first. It takes k2 alone, so near k2 = 1 it answers for a
-  /// rounded modulus; am is atan2(sn, cn) and the turns.
+  /// gsl_sf_elljac_e of the argument brought within half a quarter period, and the shift by quarter periods with k'. It
+  /// takes k2 alone: where kp2 is near or below eps, cn and dn are good to some eps / sqrt(kp2) only.
   static Jacobi<double> jacobi(double u, Modulus<double> m) noexcept {
-    Jacobi<double> f{nan<double>, nan<double>, nan<double>, nan<double>};
-    if (!m.legal() || !std::isfinite(u)) return f;
-    const double half = 2 * complete(m).K;
-    const double n = std::nearbyint(u / half);
-    const double r = n == 0 ? u : std::fma(-n, half, u);
-    if (!std::isfinite(r) || gsl_sf_elljac_e(r, m.k2, &f.sn, &f.cn, &f.dn) != GSL_SUCCESS)
-      return {nan<double>, nan<double>, nan<double>, nan<double>};
-    f.am = std::fma(n, pi<double>, std::atan2(f.sn, f.cn));
-    if (n - 2 * std::floor(n / 2) == 1) {
+    const Jacobi<double> wrong{nan<double>, nan<double>, nan<double>, nan<double>};
+    if (!m.legal() || !std::isfinite(u)) return wrong;
+    const auto [n, r] = reduce(u, complete(m).K);
+    Jacobi<double> f;
+    if (!std::isfinite(r) || gsl_sf_elljac_e(r, m.k2, &f.sn, &f.cn, &f.dn) != GSL_SUCCESS) return wrong;
+    if (odd(n)) {
+      const double kp = std::sqrt(m.kp2);
+      f = {f.cn / f.dn, -kp * f.sn / f.dn, kp / f.dn, 0};
+    }
+    f.am = n * (pi<double> / 2) + (odd(n) ? std::atan2(-f.cn, f.sn) : std::atan2(f.sn, f.cn));
+    if (n - 4 * std::floor(n / 4) >= 2) {
       f.sn = -f.sn;
       f.cn = -f.cn;
     }
     return f;
   }
 
-  /// E(am u) = u - k2 sn^3 R_D(cn^2, dn^2, 1)/3, hence zeta = W u - k2 sn^3 R_D/3, with u brought into |u| <= K first.
-  /// A difference: absolute accuracy only, some eps of W K.
+  /// E(am u) = u - k2 sn^3 R_D(cn^2, dn^2, 1)/3, hence zeta = W u - k2 sn^3 R_D/3, within half a quarter period, and
+  /// zeta(u + K) = zeta(u) - k2 sn cd. A difference: absolute accuracy only, some eps of W K.
   static double zeta(double u, Modulus<double> m) noexcept {
     if (!m.legal() || !std::isfinite(u)) return nan<double>;
     const Means<double> mean = means(m);
-    const double half = 2 * mean.K;
-    const double n = std::nearbyint(u / half);
-    const double r = n == 0 ? u : std::fma(-n, half, u);
+    const auto [n, r] = reduce(u, mean.K);
     const Jacobi<double> f = jacobi(r, m);
     const double s2 = f.sn * f.sn;
-    const double d2 = f.cn * f.cn + m.kp2 * s2;
-    return mean.W * r - m.k2 * f.sn * s2 * rd(f.cn * f.cn, d2, 1) / 3;
+    const double c2 = f.cn * f.cn;
+    const double near = mean.W * r - m.k2 * f.sn * s2 * rd(c2, c2 + m.kp2 * s2, 1) / 3;
+    return odd(n) ? near - m.k2 * f.sn * f.cn / f.dn : near;
   }
 
   static double incomplete_F(double phi, Modulus<double> m) noexcept {
@@ -111,6 +112,17 @@ struct Gsl {
   static constexpr double least_rd = 1e-205;  // R_D: z, x + y
   static constexpr double least_rj = 1e-101;  // R_J: p, the sum of any two
   static constexpr double most = 1e98;
+
+  struct Reduced {
+    double n, r;  // u = n K + r, |r| <= K/2
+  };
+
+  static Reduced reduce(double u, double K) noexcept {
+    const double n = std::nearbyint(u / K);
+    return n == 0 ? Reduced{n, u} : Reduced{n, std::fma(-n, K, u)};
+  }
+
+  static bool odd(double n) noexcept { return n - 2 * std::floor(n / 2) == 1; }
 
   static double value(int status, const gsl_sf_result& result) noexcept {
     return status == GSL_SUCCESS ? result.val : nan<double>;

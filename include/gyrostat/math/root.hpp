@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
@@ -21,8 +20,8 @@ inline constexpr int root_calls = 200;
 
 namespace detail {
 
-/// A point well inside (a, b): the middle, or the middle of the exponents where the ends have one sign and lie far
-/// apart, so that a root near 1e-300 costs no more halvings than one near 1.
+/// A point well inside (a, b): the middle, or where the ends have one sign and lie far apart the middle of the exponents
+/// (but at most 2^60 times closer to zero than the far end), so that a root near 1e-300 is reached too.
 template <Real Scalar>
 inline Scalar middle(Scalar a, Scalar b) noexcept {
   const Scalar x = std::abs(a);
@@ -30,8 +29,7 @@ inline Scalar middle(Scalar a, Scalar b) noexcept {
   const Scalar least = std::min(x, y);
   const Scalar most = std::max(x, y);
   if (a * b < 0 || std::signbit(a) != std::signbit(b) || most <= 8 * least) return a / 2 + b / 2;
-  const Scalar floor = std::max(least, std::numeric_limits<Scalar>::min());
-  const Scalar root = std::sqrt(floor) * std::sqrt(most);
+  const Scalar root = std::max(std::sqrt(least) * std::sqrt(most), most * Scalar(0x1p-60));
   if (!(root > least && root < most)) return a / 2 + b / 2;
   return a + b < 0 ? -root : root;
 }
@@ -47,7 +45,7 @@ template <Real Scalar, class Function>
 [[nodiscard]] inline Result<Scalar> newton_root(const Function& f, Scalar low, Scalar high, bool rising, Scalar start,
                                                 Scalar tolerance = 0) noexcept {
   if (!(low < high)) return low == high ? Result<Scalar>(low) : Result<Scalar>(Errc::not_increasing);
-  Scalar x = start > low && start < high ? start : detail::middle(low, high);
+  Scalar x = start > low && start < high ? start : low / 2 + high / 2;
   Scalar last = high - low;    // length of the last step
   Scalar before = high - low;  // and of the one before it
   for (int call = 0; call < root_calls; ++call) {
@@ -59,7 +57,8 @@ template <Real Scalar, class Function>
     if (high - low <= reach) return x;
     Scalar next = x - at.f / at.df;
     if (std::abs(next - x) <= reach) return std::min(std::max(next, low), high);
-    if (!(next > low && next < high) || std::abs(next - x) > before / 2) next = detail::middle(low, high);
+    const bool slow = std::abs(next - x) > before / 2 || call % 8 == 7;  // at a multiple root Newton's steps stay slow
+    if (!(next > low && next < high) || slow) next = detail::middle(low, high);
     before = last;
     last = std::abs(next - x);
     x = next;
@@ -70,7 +69,7 @@ template <Real Scalar, class Function>
 /// The same from the middle of the bracket.
 template <Real Scalar, class Function>
 [[nodiscard]] inline Result<Scalar> newton_root(const Function& f, Scalar low, Scalar high, bool rising) noexcept {
-  return newton_root(f, low, high, rising, detail::middle(low, high));
+  return newton_root(f, low, high, rising, low / 2 + high / 2);
 }
 
 /// Root of a continuous f between low and high without derivatives: inverse quadratic interpolation where it is safe,
@@ -87,7 +86,7 @@ template <Real Scalar, class Function>
   if (fa == 0) return a;
   if (fb == 0) return b;
   if ((fa < 0) == (fb < 0)) return Errc::no_bracket;
-  Scalar x = detail::middle(a, b);
+  Scalar x = a / 2 + b / 2;
   for (int call = 2; call < root_calls; ++call) {
     const Scalar fx = f(x);
     if (std::isnan(fx)) return Errc::not_finite;

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/math/carlson.hpp"
+
+#include "catch.hpp"
+
+using namespace gyrostat::math;
+
+// values of Carlson 1995 ("Numerical computation of real or complex elliptic integrals"), section 3
+TEMPLATE_TEST_CASE("Carlson's own examples", "[math]", float, double, long double) {
+  using S = TestType;
+  const double eps = 8 * static_cast<double>(gyrostat::epsilon<S>) + 1e-13;
+  CHECK(carlson_RF<S>(1, 2, 0) == Approx(1.3110287771461).epsilon(eps));
+  CHECK(carlson_RF<S>(S(0.5), 1, 0) == Approx(1.8540746773014).epsilon(eps));
+  CHECK(carlson_RF<S>(2, 3, 4) == Approx(0.58408284167715).epsilon(eps));
+  CHECK(carlson_RC<S>(0, S(0.25)) == Approx(3.1415926535898).epsilon(eps));
+  CHECK(carlson_RC<S>(S(2.25), 2) == Approx(0.69314718055995).epsilon(eps));
+  CHECK(carlson_RJ<S>(0, 1, 2, 3) == Approx(0.77688623778582).epsilon(eps));
+  CHECK(carlson_RJ<S>(2, 3, 4, 5) == Approx(0.14297579667157).epsilon(eps));
+  CHECK(carlson_RD<S>(0, 2, 1) == Approx(1.7972103521034).epsilon(eps));
+  CHECK(carlson_RD<S>(2, 3, 4) == Approx(0.16510527294261).epsilon(eps));
+}
+
+TEMPLATE_TEST_CASE("laws of Carlson's integrals", "[math]", float, double, long double) {
+  using S = TestType;
+  const S eps = gyrostat::epsilon<S>;
+  const S x = S(0.02), y = S(1.3), z = S(40), p = S(0.7);
+  const auto near = [&](S a, S b) { return std::abs(a - b) <= 12 * eps * std::abs(b); };
+  CHECK(near(carlson_RF(x, y, z), carlson_RF(z, x, y)));
+  CHECK(near(carlson_RF<S>(16 * x, 16 * y, 16 * z), carlson_RF(x, y, z) / 4));
+  CHECK(near(carlson_RD<S>(4 * x, 4 * y, 4 * z), carlson_RD(x, y, z) / 8));
+  CHECK(near(carlson_RJ(x, y, z, z), carlson_RD(x, y, z)));
+  CHECK(near(carlson_RJ(x, y, z, p), carlson_RJ(z, y, x, p)));
+  // DLMF 19.21.8
+  CHECK(near(carlson_RD(x, y, z) + carlson_RD(y, z, x) + carlson_RD(z, x, y), 3 / std::sqrt(x * y * z)));
+  CHECK(near(carlson_RC(x, y), std::acos(std::sqrt(x / y)) / std::sqrt(y - x)));
+  CHECK(near(carlson_RF(z, z, z), 1 / std::sqrt(z)));
+}
+
+TEMPLATE_TEST_CASE("Carlson's integrals outside their domain", "[math]", float, double, long double) {
+  using S = TestType;
+  const S bad = gyrostat::nan<S>, endless = gyrostat::infinity<S>;
+  CHECK(carlson_RF<S>(0, 0, 1) == endless);
+  CHECK(carlson_RD<S>(0, 0, 1) == endless);
+  CHECK(carlson_RD<S>(1, 1, 0) == endless);
+  CHECK(carlson_RJ<S>(1, 2, 3, 0) == endless);
+  CHECK(std::isnan(carlson_RF<S>(-1, 1, 1)));
+  CHECK(std::isnan(carlson_RF<S>(bad, 1, 1)));
+  CHECK(std::isnan(carlson_RD<S>(1, bad, 1)));
+  CHECK(std::isnan(carlson_RD<S>(1, 1, -1)));
+  CHECK(std::isnan(carlson_RJ<S>(1, 1, 1, -1)));
+  CHECK(std::isnan(carlson_RJ<S>(1, 1, bad, 1)));
+}
