@@ -26,7 +26,7 @@ LAYERS = {
 }
 NO_EIGEN = {"core", "math", "ode"}
 HEAVY = {"iostream", "functional", "string"}
-OPTIONAL = {"math/gsl.hpp", "ode/cvode.hpp"}  # headers of gyrostat::gsl and gyrostat::cvode
+OPTIONAL = {"math/gsl.hpp", "ode/cvode.hpp", "ladder/deceleration/cvode_motion.hpp"}  # headers of gyrostat::gsl and gyrostat::cvode
 UNTESTED = {"gyrostat.hpp", "version.hpp"}  # checked by the noexcept program
 UMBRELLA = "gyrostat.hpp"
 

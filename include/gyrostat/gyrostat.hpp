@@ -25,6 +25,7 @@
 #include "gyrostat/math/carlson.hpp"
 #include "gyrostat/math/complete.hpp"
 #include "gyrostat/math/complete_coefficients.hpp"
+#include "gyrostat/math/elementary.hpp"
 #include "gyrostat/math/elliptic.hpp"
 #include "gyrostat/math/incomplete.hpp"
 #include "gyrostat/math/jacobi.hpp"

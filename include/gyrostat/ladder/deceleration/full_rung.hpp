@@ -18,7 +18,7 @@ struct OrbitKind {
 };
 
 inline OrbitKind orbit_kind(const Problem<double>& problem, const Vec3<double>& M) noexcept {
-  if (M.isZero(0)) return {};
+  if (M.isZero(0) || M == problem.rotor_momentum) return {};
   if (problem.rotor_momentum.isZero(0)) {
     const auto p = polhode_through<double>(problem.inverse_inertia, M);
     if (!std::isfinite(p.modulus.k2)) return {Regime::point, 0};
@@ -53,7 +53,8 @@ inline double k2_uncertainty(const Problem<double>& problem, const Vec3<double>&
   for (const auto& moved : {Level<double>{R + norm, level.eta}, Level<double>{R, level.eta + eta},
                             Level<double>{R, level.eta - eta}}) {
     const auto orbit = Orbit<double>::at(problem, moved, {at.regime, 1});
-    most += orbit && orbit->regime() == at.regime ? std::abs(orbit->modulus().k2 - at.k2) : 1;
+    const bool same = orbit && (orbit->regime() == at.regime || at.regime == Regime::point);
+    most += same ? std::abs(orbit->modulus().k2 - at.k2) : 1;
   }
   return std::min(1.0, most);
 }

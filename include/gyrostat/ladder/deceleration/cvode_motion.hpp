@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "gyrostat/ladder/deceleration/full_rung.hpp"
+#include "gyrostat/ode/cvode.hpp"
+#include "gyrostat/rotation/exp_log.hpp"
+#include "gyrostat/rotation/kinematics.hpp"
+
+/// The full equations by CVODE (Adams), the trusted outsider. Needs the library gyrostat::cvode.
+namespace gyrostat::deceleration {
+
+namespace detail {
+
+/// One CVODE run: M and, with attitude, q at the times, and the stop.
+struct CvodeRun {
+  std::vector<Vec3<double>> momentum;
+  std::vector<Quat<double>> attitude;
+  double stop_time = infinity<double>;
+  Errc failure = Errc::ok;
+  ode::Counts counts;
+};
+
+struct CvodeProblem {
+  const Problem<double>& problem;
+  Vec3<double> offset;      ///< M - U
+  double greatest_control;  ///< N m
+
+  static Vec3<double> momentum(const double* y) noexcept { return {y[0], y[1], y[2]}; }
+  double opposed(const double* y) const noexcept { return (momentum(y) - offset).norm(); }
+
+  static bool rhs(double, const double* y, double* rate, void* user) {
+    const auto& self = *static_cast<const CvodeProblem*>(user);
+    const Vec3<double> dM = momentum_rate(self.problem, momentum(y));
+    std::copy(dM.begin(), dM.end(), rate);
+    return dM.allFinite();
+  }
+  static bool rhs_with_attitude(double t, const double* y, double* rate, void* user) {
+    const auto& self = *static_cast<const CvodeProblem*>(user);
+    const auto dq = quaternion_rate<double>({y[3], y[4], y[5], y[6]}, self.problem.angular_velocity(momentum(y)));
+    rate[3] = dq.w, rate[4] = dq.x, rate[5] = dq.y, rate[6] = dq.z;
+    return rhs(t, y, rate, user);
+  }
+  static bool jacobian(double, const double* y, double* columns, void* user) {
+    const auto& self = *static_cast<const CvodeProblem*>(user);
+    const Mat3<double> J = momentum_jacobian(self.problem, momentum(y));
+    std::copy(J.data(), J.data() + 9, columns);
+    return J.allFinite();
+  }
+  static double step_limit(double, const double* y, void* user) {
+    const auto& self = *static_cast<const CvodeProblem*>(user);
+    const double U = self.opposed(y);
+    const double rate = self.greatest_control + self.problem.drag * (U + self.problem.rotor_momentum.norm());
+    return self.greatest_control > 0 ? 0.3 * U / rate : infinity<double>;
+  }
+};
+
+inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor) {
+  const auto& problem = scene.problem();
+  const auto& times = scene.data().times;
+  const bool turning = scene.data().wants_attitude;
+  const bool total = problem.law == Law::total;
+  CvodeProblem user{problem, total ? Vec3<double>::Zero().eval() : problem.rotor_momentum, scene.greatest_control()};
+  const Hold<double> hold(problem);
+  const double scale = std::max(problem.momentum.norm(), user.offset.norm());
+
+  Quat<double> q = scene.data().attitude * from_matrix(scene.R_BP());
+  std::array<double, 7> y{problem.momentum[0], problem.momentum[1], problem.momentum[2], q.w, q.x, q.y, q.z};
+  const std::size_t n = turning ? 7 : 3;
+  ode::CvodeSystem system;
+  system.dimension = int(n);
+  system.rhs = turning ? &CvodeProblem::rhs_with_attitude : &CvodeProblem::rhs;
+  if (!turning) system.jacobian = &CvodeProblem::jacobian;
+  system.step_limit = &CvodeProblem::step_limit;
+  system.user = &user;
+
+  CvodeRun run;
+  const auto keep = [&](const double* at) {
+    run.momentum.push_back(CvodeProblem::momentum(at));
+    if (turning) run.attitude.push_back(normalised(Quat<double>{at[3], at[4], at[5], at[6]}));
+  };
+  std::size_t next = 0;
+  while (next < times.size() && times[next] <= 0) keep(y.data()), ++next;
+  bool at_rest = user.opposed(y.data()) <= 0 && hold.holds;
+  double stop = 0;
+  if (!at_rest) {
+    auto solver = ode::Cvode::create(system, 0, std::span(y).first(n), {ode::CvodeMethod::adams, tolerance, tolerance * scale});
+    if (!solver) return run.failure = solver.error(), run;
+    auto cvode = std::move(solver).value();
+    while (next < times.size() && !at_rest) {
+      const auto status = cvode.step(times.back());
+      run.counts = cvode.counts();
+      if (status != ode::Status::reached) {
+        run.failure = status == ode::Status::step_limit ? Errc::step_limit : Errc::no_convergence;
+        return run;
+      }
+      for (; next < times.size() && times[next] <= cvode.time(); ++next) {
+        std::array<double, 7> at{};
+        cvode.at(times[next], std::span(at).first(n));
+        keep(at.data());
+      }
+      std::copy(cvode.state().begin(), cvode.state().end(), y.begin());
+      const double U = user.opposed(y.data());
+      if (hold.holds && U <= std::max(1e-9, 30 * tolerance) * scale) {
+        at_rest = true;
+        const Vec3<double> toward = (CvodeProblem::momentum(y.data()) - user.offset) / U;
+        stop = cvode.time() + U / toward.dot(problem.control * toward);
+      }
+      if (monitor) {
+        if (monitor->cancel.load(std::memory_order_relaxed)) return run.failure = Errc::cancelled, run;
+        monitor->fraction.store(cvode.time() / times.back(), std::memory_order_relaxed);
+      }
+    }
+  }
+  if (at_rest) run.stop_time = stop;
+  const Vec3<double> rate = problem.angular_velocity(user.offset);
+  q = {y[3], y[4], y[5], y[6]};
+  for (; next < times.size(); ++next) {
+    run.momentum.push_back(user.offset);
+    if (turning) run.attitude.push_back(normalised(q * quaternion_from_vector<double>(rate * (times[next] - stop))));
+  }
+  return run;
+}
+
+}  // namespace detail
+
+/// Rung `full` by CVODE. The error is twice the distance to a second run at a tolerance ten times looser. Finds the stop
+/// only where it lies within the times asked for.
+inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
+  const auto& problem = scene.problem();
+  const double tolerance = std::max(1e-13, scene.data().tolerance * 1e-3);
+  const auto run = detail::cvode_run(scene, tolerance, monitor);
+  if (run.failure != Errc::ok) return Track::refused(run.failure, message(run.failure));
+  const auto looser = detail::cvode_run(scene, 10 * tolerance, monitor);
+  if (looser.failure != Errc::ok) return Track::refused(looser.failure, message(looser.failure));
+
+  Track track;
+  track.momentum = run.momentum;
+  track.attitude = run.attitude;
+  track.counts = run.counts;
+  track.counts += looser.counts;
+  FullMotionError<double> error;
+  double size = 0, energy = 0, spin = 0;
+  for (std::size_t i = 0; i < run.momentum.size(); ++i) {
+    const Vec3<double>&M = run.momentum[i], &L = looser.momentum[i];
+    size = std::max(size, M.norm());
+    energy = std::max(energy, problem.energy(M));
+    spin = std::max(spin, problem.angular_velocity(M).norm());
+    error.momentum = std::max(error.momentum, (M - L).norm());
+    error.momentum_norm = std::max(error.momentum_norm, std::abs(M.norm() - L.norm()));
+    error.energy = std::max(error.energy, std::abs(problem.energy(M) - problem.energy(L)));
+    error.angular_velocity = std::max(error.angular_velocity, (problem.angular_velocity(M) - problem.angular_velocity(L)).norm());
+    if (!run.attitude.empty())
+      error.attitude = std::max(error.attitude, vector_from_quaternion<double>(conjugate(run.attitude[i]) * looser.attitude[i]).norm());
+  }
+  error.momentum = 2 * detail::relative(error.momentum, size) + tolerance;
+  error.momentum_norm = 2 * detail::relative(error.momentum_norm, size) + tolerance;
+  error.energy = 2 * detail::relative(error.energy, energy) + tolerance;
+  error.angular_velocity = 2 * detail::relative(error.angular_velocity, spin) + tolerance;
+  if (std::isfinite(run.stop_time)) {
+    track.stop_time = run.stop_time;
+    error.stop_time = 2 * detail::relative(std::abs(run.stop_time - looser.stop_time), run.stop_time) + 1e-8 + 1e3 * tolerance;
+  }
+  detail::complete_full_track(track, problem, error);
+  return track;
+}
+
+}  // namespace gyrostat::deceleration
