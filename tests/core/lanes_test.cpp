@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/core/lanes.hpp"
+
+#include "catch.hpp"
+
+#include <limits>
+
+using namespace gyrostat;
+
+TEMPLATE_TEST_CASE("four numbers side by side", "", float, double, long double) {
+  using S = TestType;
+  const S from[5] = {7, 1, 2, 3, -4};
+  const auto a = load(from + 1);
+  const auto b = lanes(S(10), S(20), S(30), S(40));
+  S to[4];
+  store(to, multiply_add(a, b, lanes(S(1))));
+  CHECK((to[0] == 11 && to[1] == 41 && to[2] == 91 && to[3] == -159));
+  store(to, a + b - a * b);
+  CHECK((to[0] == 1 && to[1] == -18 && to[2] == -57 && to[3] == 196));
+  store(to, shuffle<3, 2, 1, 0>(a));
+  CHECK((to[0] == -4 && to[1] == 3 && to[2] == 2 && to[3] == 1));
+  store(to, with_last(a, b));
+  CHECK((to[0] == 1 && to[1] == 2 && to[2] == 3 && to[3] == 40));
+  store(to, sum(a));
+  CHECK((to[0] == 2 && to[1] == 2 && to[2] == 2 && to[3] == 2));
+  CHECK(greatest_magnitude(a) == 4);
+  constexpr S bad = std::numeric_limits<S>::quiet_NaN();
+  for (int i = 0; i < 4; ++i) {
+    S with[4] = {1, 2, 3, 4};
+    with[i] = bad;
+    CHECK(!(greatest_magnitude(load(with)) == greatest_magnitude(load(with))));
+  }
+}
