@@ -6,7 +6,8 @@ The associate complete integrals of x = kp2,
     B = int cos^2/sqrt(1 - k2 sin^2),   D = int sin^2/sqrt(1 - k2 sin^2)   over [0, pi/2],
 are fitted on 0 < x <= 1 as P(x) - ln(x) Q(x), both polynomials of one degree, with P(0) and Q(0) exact, so that the
 greatest relative error is least (Remez exchange in 60 digits; the basis x^i, x^i ln x is a Chebyshev system). The
-logarithm 1/r^3 (ln(1+r) - r + r^2/2) is fitted on the binade around 1 with the greatest absolute error of ln least.
+logarithm 1/r^3 (ln(1+r) - r + r^2/2) is fitted on the binade around 1 with the greatest absolute error of ln least,
+and (atan t - t)/t^3 as a polynomial of t^2 up to tan(pi/8) with the greatest relative error of atan least.
 """
 
 import sys
@@ -97,6 +98,17 @@ def logarithm(terms):
     return remez(rest, [lambda r, i=i: r ** i for i in range(terms)], lambda r: abs(r) ** 3 + mp.mpf("1e-4"), points)
 
 
+def arctangent(terms):
+    high = mp.tan(mp.pi / 8) ** 2
+    points = [high * (1 - mp.cos(mp.pi * mp.mpf(i) / 1200)) / 2 for i in range(1, 1201)]
+
+    def rest(x):
+        t = mp.sqrt(x)
+        return (mp.atan(t) / t - 1) / x
+
+    return remez(rest, [lambda x, i=i: x ** i for i in range(terms)], lambda x: x + mp.mpf("1e-6"), points)
+
+
 def row(name, values):
     body = ",\n    ".join(", ".join(mp.nstr(v, 20) for v in values[i:i + 4]) for i in range(0, len(values), 4))
     return f"inline constexpr double {name}[] = {{\n    {body}}};\n"
@@ -104,7 +116,7 @@ def row(name, values):
 
 def main():
     degree = int(sys.argv[1]) if len(sys.argv) > 1 else 10
-    terms = int(sys.argv[2]) if len(sys.argv) > 2 else 18
+    terms = int(sys.argv[2]) if len(sys.argv) > 2 else 17
     text = ""
     for name in "BD":
         p, q, worst = associate(name, degree)
@@ -113,6 +125,9 @@ def main():
     c, worst = logarithm(terms)
     print(f"ln: absolute error {mp.nstr(worst, 3)}", file=sys.stderr)
     text += row("logarithm", c)
+    c, worst = arctangent(10)
+    print(f"atan: relative error {mp.nstr(worst, 3)}", file=sys.stderr)
+    text += row("arctangent", c)
     head = f"""// SPDX-License-Identifier: BSD-3-Clause
 // Written by tools/elliptic_coefficients.py {degree} {terms}; what the numbers are is said there.
 #pragma once

@@ -29,7 +29,7 @@ TEMPLATE_TEST_CASE("Jacobi's functions and zeta against the table", "[math]", fl
       INFO("small " << static_cast<double>(row.small) << (row.of_k2 ? " k2" : " kp2") << " u "
                     << static_cast<double>(row.value[0]) << " column " << i << " got " << static_cast<double>(got[i])
                     << " for " << static_cast<double>(row.value[i + 1]));
-      CHECK(error < (sizeof(TestType) == 4 ? 2.5 : 8.0));
+      CHECK(error < (sizeof(TestType) == 4 ? 1.0 : sizeof(TestType) == 8 ? 8.0 : 12.0));
       worst.see(i, error);
     }
   }
@@ -101,7 +101,7 @@ TEMPLATE_TEST_CASE("Jacobi's functions at the ends and outside", "[math]", float
     CHECK(zeta(u, Modulus<S>{0, 1}) == 0);
     const auto separatrix = jacobi(u, Modulus<S>{1, 0});
     CHECK(std::abs(separatrix.sn - std::tanh(u)) <= 2 * eps);
-    CHECK(std::abs(separatrix.cn - 1 / std::cosh(u)) <= slack * separatrix.cn);
+    CHECK(std::abs(separatrix.cn - 1 / std::cosh(u)) <= slack * separatrix.cn + 2 * std::numeric_limits<S>::min());
     CHECK(separatrix.dn == separatrix.cn);
     CHECK(std::abs(zeta(u, Modulus<S>{1, 0}) - std::tanh(u)) <= 2 * eps);
   }

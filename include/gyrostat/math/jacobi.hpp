@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
 
 #include "gyrostat/core/real.hpp"
+#include "gyrostat/math/elementary.hpp"
 #include "gyrostat/math/modulus.hpp"
 #include "gyrostat/math/nome.hpp"
 
@@ -22,109 +26,110 @@ struct Jacobi {
 template <Real Scalar>
 class JacobiAt {
  public:
-  explicit JacobiAt(Modulus<Scalar> m) noexcept : modulus_(m) {
-    if (!m.legal()) {
-      q_ = scale_ = quarter_ = nan<Scalar>;
-      theta_ = {nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>};
-      return;
-    }
-    circular_ = m.k2 <= m.kp2;
-    q_ = nome(circular_ ? m : m.complement());
-    theta_ = ThetaConstants<Scalar>::of(q_);
+  explicit JacobiAt(Modulus<Scalar> m) noexcept : k2_(m.k2), kp2_(m.kp2) {
+    const Modulus<Work> wide{k2_, kp2_};
+    circular_ = k2_ <= kp2_;
+    q_ = wide.legal() ? nome(circular_ ? wide : wide.complement()) : nan<Work>;
+    theta_ = ThetaConstants<Work>::of(q_);
     scale_ = theta_.three * theta_.three;
-    quarter_ = scale_ * (circular_ ? pi<Scalar> / 2 : -std::log(q_) / 2);
-    tiny_ = q_ < epsilon<Scalar> * epsilon<Scalar> / 64;
+    inverse_ = 1 / scale_;
+    if (circular_) {
+      constexpr Work half = pi<Work> / 2;
+      const Work more = half * (theta_.three - 1) * (theta_.three + 1);
+      quarter_ = half + more;
+      quarter_low_ = (half - quarter_) + more + half_pi_low;
+    } else {
+      tiny_ = q_ < epsilon<Work> * epsilon<Work> / 64;
+      quarter_ = q_ > 0 ? scale_ * (detail::logarithm_of(q_) / -2) : std::isnan(q_) ? q_ : infinity<Work>;
+    }
   }
 
-  Modulus<Scalar> modulus() const noexcept { return modulus_; }
+  Modulus<Scalar> modulus() const noexcept { return {Scalar(k2_), Scalar(kp2_)}; }
 
   /// The quarter period K; infinity at kp2 = 0.
-  Scalar quarter_period() const noexcept { return quarter_; }
+  Scalar quarter_period() const noexcept { return Scalar(quarter_); }
 
   /// sn, cn, dn, am at u. Error a few eps in each where |u| <= K, relative also at the zero of sn; beyond it that of an
-  /// argument wrong by a few eps of itself. u infinite or NaN: NaN (sn = +-1, cn = dn = 0 at kp2 = 0).
+  /// argument wrong by an eps of itself. u infinite or NaN: NaN (sn = +-1, cn = dn = 0 at kp2 = 0).
   Jacobi<Scalar> operator()(Scalar u) const noexcept {
-    const auto [n, r] = reduce(u);
-    const bool odd = n - 2 * std::floor(n / 2) == 1;
-    const bool back = n - 4 * std::floor(n / 4) >= 2;
-    Jacobi<Scalar> f = circular_ ? real_argument(r, odd) : imaginary_argument(r, odd);
-    const Scalar from_quarter = odd ? std::atan2(-f.cn, f.sn) : std::atan2(f.sn, f.cn);
-    f.am = n * (pi<Scalar> / 2) + from_quarter;
-    if (back) {
-      f.sn = -f.sn;
-      f.cn = -f.cn;
-    }
-    return f;
+    const Reduced at = reduce(u);
+    const bool odd = at.quadrant & 1;
+    Jacobi<Work> f = circular_ ? real_argument(at.r, odd) : imaginary_argument(at.r, odd);
+    f.am = at.n * (pi<Work> / 2) + (odd ? detail::angle(-f.cn, f.sn) : detail::angle(f.sn, f.cn));
+    const Work sign = at.quadrant & 2 ? -1 : 1;
+    return {Scalar(sign * f.sn), Scalar(sign * f.cn), Scalar(f.dn), Scalar(f.am)};
   }
 
   /// Jacobi's zeta E(am u) - (E/K) u, of period 2K. Relative accuracy also as k2 -> 0, where it vanishes like
   /// (k2/4) sin 2u, and near u = 0 and u = K.
   Scalar zeta(Scalar u) const noexcept {
-    const auto [n, r] = reduce(u);
-    const bool odd = n - 2 * std::floor(n / 2) == 1;
-    const Scalar y = r / scale_;
+    const Reduced at = reduce(u);
+    const bool odd = at.quadrant & 1;
+    const Work y = at.r * inverse_;
     if (circular_) {
-      const auto t = Thetas<Scalar>::of(q_, std::cos(2 * y));
-      return 4 * std::sin(2 * y) / scale_ * (odd ? -t.slope_three / t.three : t.slope_four / t.four);
+      const auto z = detail::sine_cosine(y);
+      const auto t = Thetas<Work>::of(q_, 1 - 2 * (z.s * z.s));
+      return Scalar(8 * (z.s * z.c) * inverse_ * (odd ? -t.slope_three / t.three : t.slope_four / t.four));
     }
-    const Scalar linear = r / quarter_;  // y over its value at K
-    if (tiny_) {
-      const Scalar rise = odd ? 4 * q_ * std::sinh(2 * r) : std::tanh(r);
-      return rise - linear;
-    }
-    const auto t = Thetas<Scalar>::of(q_, std::cosh(2 * y));
-    const Scalar rise = odd ? 4 * std::sinh(2 * y) * t.slope_three / t.three : std::tanh(y) * t.slope_two / t.two;
-    return (rise - linear) / scale_;
+    const Work linear = at.r / quarter_;
+    if (tiny_) return Scalar((odd ? 4 * q_ * std::sinh(2 * at.r) : std::tanh(at.r)) - linear);
+    const auto z = detail::sinh_cosh(y);
+    const auto t = Thetas<Work>::of(q_, 1 + 2 * (z.s * z.s));
+    const Work rise = odd ? 8 * (z.s * z.c) * t.slope_three / t.three : z.s * t.slope_two / (z.c * t.two);
+    return Scalar((rise - linear) * inverse_);
   }
 
  private:
+  using Work = std::conditional_t<std::same_as<Scalar, float>, double, Scalar>;
+
+  /// pi/2 beyond its rounding, so that a large argument loses nothing at small k2.
+  static constexpr Work half_pi_low = std::same_as<Work, double> ? Work(6.123233995736766036e-17L) : Work(0);
+
   struct Reduced {
-    Scalar n, r;  // u = n K + r, |r| <= K/2
+    Work n, r;     // u = n K + r, |r| <= K/2
+    int quadrant;  // n modulo 4
   };
 
-  Reduced reduce(Scalar u) const noexcept {
-    const Scalar n = std::nearbyint(u / quarter_);
-    return n == 0 ? Reduced{n, u} : Reduced{n, std::fma(-n, quarter_, u)};
+  Reduced reduce(Work u) const noexcept {
+    const Work x = u / quarter_;
+    if (std::abs(x) <= Work(0.5)) return {0, u, 0};
+    const Work n = std::nearbyint(x);
+    const int quadrant = std::abs(n) < Work(0x1p62) ? static_cast<int>(static_cast<std::int64_t>(n) & 3) : 0;
+    return {n, std::fma(-n, quarter_, u) - n * quarter_low_, quadrant};
   }
 
-  Jacobi<Scalar> real_argument(Scalar r, bool odd) const noexcept {
-    const Scalar z = r / scale_;
-    const Scalar s = std::sin(z);
-    const Scalar c = std::cos(z);
-    const auto t = Thetas<Scalar>::of(q_, 1 - 2 * s * s);
-    const Scalar below = odd ? t.three : t.four;
-    const Scalar common = 1 / (theta_.two * theta_.three * below);
-    const Scalar along_sn = theta_.three * theta_.three * common;
-    const Scalar along_cn = theta_.three * theta_.four * common;
-    const Scalar dn = theta_.four * theta_.two * common * (odd ? t.four : t.three);
-    return odd ? Jacobi<Scalar>{along_sn * t.two * c, -along_cn * t.one * s, dn, 0}
-               : Jacobi<Scalar>{along_sn * t.one * s, along_cn * t.two * c, dn, 0};
+  Jacobi<Work> real_argument(Work r, bool odd) const noexcept {
+    const auto z = detail::sine_cosine(r * inverse_);
+    const auto t = Thetas<Work>::of(q_, 1 - 2 * (z.s * z.s));
+    const Work common = 1 / (theta_.two * theta_.three * (odd ? t.three : t.four));
+    const Work along_sn = scale_ * common;
+    const Work along_cn = theta_.three * theta_.four * common;
+    const Work dn = theta_.four * theta_.two * common * (odd ? t.four : t.three);
+    return odd ? Jacobi<Work>{along_sn * (t.two * z.c), -along_cn * (t.one * z.s), dn, 0}
+               : Jacobi<Work>{along_sn * (t.one * z.s), along_cn * (t.two * z.c), dn, 0};
   }
 
-  Jacobi<Scalar> imaginary_argument(Scalar r, bool odd) const noexcept {
+  Jacobi<Work> imaginary_argument(Work r, bool odd) const noexcept {
+    const Work kp = std::sqrt(kp2_);
     if (tiny_) {  // the theta functions differ from 1 by less than rounding
-      const Scalar kp = std::sqrt(modulus_.kp2);
-      const Scalar ch = std::cosh(r);
-      return odd ? Jacobi<Scalar>{1, -kp * std::sinh(r), kp * ch, 0} : Jacobi<Scalar>{std::tanh(r), 1 / ch, 1 / ch, 0};
+      const Work c = std::cosh(r);
+      return odd ? Jacobi<Work>{1, -kp * std::sinh(r), kp * c, 0} : Jacobi<Work>{std::tanh(r), 1 / c, 1 / c, 0};
     }
-    const Scalar y = r / scale_;
-    const Scalar sh = std::sinh(y);
-    const Scalar ch = std::cosh(y);
-    const auto t = Thetas<Scalar>::of(q_, 1 + 2 * sh * sh);
+    const auto z = detail::sinh_cosh(r * inverse_);
+    const auto t = Thetas<Work>::of(q_, 1 + 2 * (z.s * z.s));
     if (odd) {
-      const Scalar kp = std::sqrt(modulus_.kp2);
-      const Scalar common = theta_.three / (theta_.four * theta_.two * t.three);
-      return {common * theta_.two * t.four, -kp * common * theta_.three * t.one * sh,
-              kp * common * theta_.four * t.two * ch, 0};
+      const Work common = theta_.three / (theta_.four * theta_.two * t.three);
+      return {common * theta_.two * t.four, -kp * common * theta_.three * (t.one * z.s),
+              kp * common * theta_.four * (t.two * z.c), 0};
     }
-    const Scalar common = 1 / (theta_.four * theta_.three * t.two * ch);
-    return {common * theta_.three * theta_.three * t.one * sh, common * theta_.two * theta_.three * t.four,
+    const Work common = 1 / (theta_.four * theta_.three * (t.two * z.c));
+    return {common * scale_ * (t.one * z.s), common * theta_.two * theta_.three * t.four,
             common * theta_.two * theta_.four * t.three, 0};
   }
 
-  Modulus<Scalar> modulus_;
-  Scalar q_, scale_, quarter_;
-  ThetaConstants<Scalar> theta_;
+  Work k2_, kp2_, q_, scale_, inverse_, quarter_;
+  Work quarter_low_ = 0;
+  ThetaConstants<Work> theta_;
   bool circular_ = false;
   bool tiny_ = false;
 };

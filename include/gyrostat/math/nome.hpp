@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gyrostat/core/real.hpp"
+#include "gyrostat/math/associate.hpp"
 #include "gyrostat/math/modulus.hpp"
 
 namespace gyrostat::math {
@@ -20,7 +21,7 @@ inline constexpr int theta_terms = epsilon<Scalar> > Scalar(1e-17) ? 3 : epsilon
 /// With l = (1 - sqrt k') / (2 (1 + sqrt k')), formed without the difference, q = l + 2 l^5 + 15 l^9 + ...
 /// (DLMF 20.9.5, coefficients OEIS A002103); relative error 3 eps down to the smallest k2.
 template <Real Scalar>
-inline Scalar nome(Modulus<Scalar> m) noexcept {
+GYROSTAT_FLATTEN Scalar nome(Modulus<Scalar> m) noexcept {
   const Scalar kp = std::sqrt(m.kp2);
   const Scalar root = 1 + std::sqrt(kp);
   const Scalar l = m.k2 / (2 * (1 + kp) * (root * root));
@@ -40,7 +41,7 @@ template <Real Scalar>
 struct ThetaConstants {
   Scalar two, three, four, curvature;
 
-  static ThetaConstants of(Scalar q) noexcept {
+  GYROSTAT_FLATTEN static ThetaConstants of(Scalar q) noexcept {
     const Scalar q2 = q * q;
     const Scalar q3 = q2 * q;
     const Scalar q4 = q2 * q2;
@@ -70,36 +71,53 @@ struct Thetas {
   Scalar one, two, three, four, slope_two, slope_three, slope_four;
 
   /// C = cos 2z, |z| <= pi/4; or C = cosh 2y, exp(2 |y|) <= q^(-1/2).
-  static Thetas of(Scalar q, Scalar C) noexcept {
+  GYROSTAT_FLATTEN static Thetas of(Scalar q, Scalar C) noexcept {
     const Scalar q2 = q * q;
-    Scalar before = 1, cosine = C;             // cos 2(n-1)z, cos 2nz
-    Scalar power = q, step = q2 * q;           // q^(n^2), q^(2n+1)
-    Scalar between = q2, gap = q2 * q2;        // q^(n(n+1)), q^(2n+2)
-    Scalar sine_ratio = 1, cosine_ratio = 1;   // sin (2n+1)z / sin z, cos (2n+1)z / cos z
-    Scalar double_before = 0, double_ratio = 1;  // sin 2(n-1)z / sin 2z, sin 2nz / sin 2z
-    Scalar sign = -1;
-    Scalar one = 0, two = 0, even = 0, odd = 0, slope_two = 0, slope_even = 0, slope_odd = 0;
-    for (int n = 1; n <= detail::theta_terms<Scalar>; ++n) {
-      sine_ratio = 2 * cosine + sine_ratio;
-      cosine_ratio = 2 * cosine - cosine_ratio;
-      one += sign * (between * sine_ratio);
-      two += between * cosine_ratio;
-      slope_two += Scalar(2 * n + 1) * (between * sine_ratio);
-      (sign < 0 ? odd : even) += power * cosine;
-      (sign < 0 ? slope_odd : slope_even) += Scalar(n) * (power * double_ratio);
-      const Scalar next = 2 * C * cosine - before;
-      before = cosine;
-      cosine = next;
-      const Scalar double_next = 2 * C * double_ratio - double_before;
-      double_before = double_ratio;
-      double_ratio = double_next;
-      power *= step;
-      step *= q2;
-      between *= gap;
-      gap *= q2;
-      sign = -sign;
+    const Scalar q4 = q2 * q2;
+    const Scalar C2 = 2 * C;           // 2 cos 2z
+    const Scalar C4 = C2 * C2 - 2;     // 2 cos 4z
+    const Scalar C6 = C2 * C4 - C2;    // 2 cos 6z
+    const Scalar s3 = C2 + 1;          // sin 3z / sin z, 5z, 7z
+    const Scalar s5 = C4 + s3;
+    const Scalar s7 = C6 + s5;
+    const Scalar c3 = C2 - 1;          // cos 3z / cos z, 5z, 7z
+    const Scalar c5 = C4 - c3;
+    const Scalar c7 = C6 - c5;
+    const Scalar q6 = q4 * q2;
+    const Scalar q9 = q4 * q4 * q;
+    const Scalar q12 = q6 * q6;
+    Scalar even = q4 * C4;             // 2 sum of q^(n^2) cos 2nz, n even
+    Scalar odd = q * C2 + q9 * C6;     // the same, n odd
+    Scalar one = q6 * s5 - (q2 * s3 + q12 * s7);
+    Scalar two = q2 * c3 + q6 * c5 + q12 * c7;
+    Scalar slope_two = 3 * (q2 * s3) + 5 * (q6 * s5) + 7 * (q12 * s7);
+    Scalar slope_odd = q + 3 * (q9 * (C2 * C2 - 1));  // sum of n q^(n^2) sin 2nz / sin 2z, n odd
+    Scalar slope_even = 2 * (q4 * C2);
+    if constexpr (detail::theta_terms<Scalar> > 3) {
+      Scalar before = C4, cosine = C6;                    // 2 cos 2(n-1)z, 2 cos 2nz
+      Scalar sine_ratio = s7, cosine_ratio = c7;
+      Scalar double_before = C2, double_ratio = C2 * C2 - 1;  // sin 2(n-1)z / sin 2z, sin 2nz / sin 2z
+      Scalar power = 0, between = q12, step = q2 * q;         // q^(n^2), q^(n(n+1)), q^n
+      for (int n = 4; n <= detail::theta_terms<Scalar>; ++n) {
+        step *= q;
+        power = between * step;
+        between = power * step;
+        const Scalar next = C2 * cosine - before;
+        before = cosine;
+        cosine = next;
+        const Scalar double_next = C2 * double_ratio - double_before;
+        double_before = double_ratio;
+        double_ratio = double_next;
+        sine_ratio = cosine + sine_ratio;
+        cosine_ratio = cosine - cosine_ratio;
+        one += n % 2 ? -between * sine_ratio : between * sine_ratio;
+        two += between * cosine_ratio;
+        slope_two += Scalar(2 * n + 1) * (between * sine_ratio);
+        (n % 2 ? odd : even) += power * cosine;
+        (n % 2 ? slope_odd : slope_even) += Scalar(n) * (power * double_ratio);
+      }
     }
-    return {1 + one,       1 + two,  1 + 2 * (even + odd), 1 + 2 * (even - odd),
+    return {1 + one,       1 + two,  1 + (even + odd), 1 + (even - odd),
             1 + slope_two, slope_odd + slope_even, slope_odd - slope_even};
   }
 };
