@@ -44,7 +44,7 @@ class Secular {
     const Scalar scale = std::max(g_.cwiseAbs().maxCoeff(), R * a_.cwiseAbs().maxCoeff());
     const Scalar floor = epsilon<Scalar> * scale;
     for (int i = 0; i < 2; ++i)
-      if (R * (a_[i + 1] - a_[i]) <= 4 * floor) merge(i);
+      if (a_[i + 1] - a_[i] <= 4 * epsilon<Scalar> * a_[2]) merge(i);
     for (int i = 0; i < 3; ++i) {
       if (std::abs(g_[i]) <= floor) g_[i] = 0;
       g2_[i] = g_[i] * g_[i];
@@ -198,6 +198,8 @@ class Secular {
     if (slope > 0) {
       // c is close to a cubic that is level at both ends of a rise
       const Scalar clo = value({origin, lo}, eta), chi = value({origin, hi}, eta);
+      if (clo >= 0) return Point{origin, lo};
+      if (chi <= 0) return Point{origin, hi};
       const Scalar y = -clo / (chi - clo);
       if (y > 0 && y < 1) x = lo + (hi - lo) * (Scalar(.5) - std::sin(std::asin(1 - 2 * y) / 3));
     }
