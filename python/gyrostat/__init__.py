@@ -1,8 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Attitude motion of bodies that carry rotors, by the cheapest model that meets a tolerance."""
+"""Attitude motion of bodies that carry rotors, by the cheapest model that meets a tolerance.
+
+`load` reads a scene file, `solve` answers it, `chart` shows what accuracy costs; `gyrostat.deceleration`,
+`gyrostat.elliptic` and `gyrostat.rotation` hold the functions behind them, over arrays.
+"""
 
 from gyrostat._core import build_info
+from gyrostat.answer import Answer
+from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError
+from gyrostat.ladder import chart, solve
+from gyrostat.scenes import Scene, load
 
 __version__: str = build_info()["version"]
 
-__all__ = ["__version__", "build_info"]
+__all__ = [
+    "Answer",
+    "Cancelled",
+    "ConvergenceError",
+    "DomainError",
+    "Scene",
+    "SceneError",
+    "__version__",
+    "build_info",
+    "chart",
+    "load",
+    "solve",
+]

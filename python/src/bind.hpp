@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One function a family of models, each defined in its own translation unit and called by module.cpp.
+// One function a translation unit of bindings, called by module.cpp.
 #pragma once
 
 #include <pybind11/pybind11.h>
+
+void bind_elliptic(pybind11::module_& module);
+void bind_rotation(pybind11::module_& module);
+void bind_deceleration(pybind11::module_& module);
+void bind_deceleration_integrators(pybind11::module_& module);

@@ -40,4 +40,8 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "Compiled core of gyrostat.";
   module.def("build_info", &build_info,
              "Version of the library, of the compiler, and of each library that is built in (None: it is not).");
+  bind_elliptic(module);
+  bind_rotation(module);
+  bind_deceleration(module);
+  bind_deceleration_integrators(module);
 }

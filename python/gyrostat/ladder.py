@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a scene to its answer and to its chart."""
+
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from gyrostat import deceleration
+from gyrostat.answer import Answer
+from gyrostat.scenes import Scene, load, scene_from
+
+if TYPE_CHECKING:
+    from gyrostat.chart import Chart
+    from gyrostat.deceleration import Monitor
+
+__all__ = ["chart", "solve"]
+
+SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
+
+
+def scene_of(scene: SceneLike, overrides: Mapping[str, Any]) -> Scene:
+    """The checked scene behind a scene, a dict, a file or the name of a bundled scene."""
+    if isinstance(scene, Scene):
+        return scene.replace(**overrides)
+    if isinstance(scene, Mapping):
+        return scene_from(scene, **overrides)
+    return load(scene, **overrides)
+
+
+def solve(scene: SceneLike, *, monitor: "Monitor | None" = None, **overrides: Any) -> Answer:
+    """Answer a scene by the cheapest rung whose error estimate meets the tolerance.
+
+    scene : a `Scene`, a dict in the layout of a scene file, a file, or the name of a bundled scene.
+    monitor : tells the progress of long work and can cancel it from another thread.
+    overrides : keys of the scene file to change, such as tolerance=1e-9 or model="full".
+
+    Raises SceneError for a scene that cannot be used, DomainError where the rung asked for by name cannot compute it,
+    ConvergenceError where a computation hits its cap. Over the tolerance it still answers, with `met` False.
+    """
+    checked = scene_of(scene, overrides)
+    made = deceleration.solve(**deceleration.arguments(checked), monitor=monitor)
+    return Answer.of(checked.to_dict(), checked.times, checked.tolerance, made)
+
+
+def chart(scene: SceneLike, **overrides: Any) -> "Chart":
+    """Error against cost of every rung and integrator on one scene; see `gyrostat.chart.Chart`."""
+    from gyrostat.chart import make_chart
+
+    return make_chart(scene_of(scene, overrides))

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of answers and charts. Needs matplotlib."""
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gyrostat.answer import Answer
+from gyrostat.errors import DomainError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gyrostat.chart import Chart
+
+__all__ = ["plot_answer", "plot_chart", "save"]
+
+COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31")
+REGIMES: Final = {
+    "A": ("#56B4E9", "A: about the axis of largest inertia"),
+    "C": ("#E69F00", "C: about the axis of smallest inertia"),
+    "1": ("#009E73", "1: one component"),
+    "point": ("#999999", "steady rotation"),
+    "separatrix": ("#D55E00", "separatrix"),
+    "rest": ("#444444", "at rest"),
+}
+TIME_UNITS: Final = ((1.0, "s"), (3600.0, "h"), (86400.0, "days"), (31557600.0, "years"))
+
+
+def _figure(width: float, height: float) -> "Figure":
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise ImportError("matplotlib is not installed: pip install 'gyrostat[cli]'") from error
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def save(figure: "Figure", file: Path) -> None:
+    """Write a figure in the format of the file's ending."""
+    known = figure.canvas.get_supported_filetypes()
+    if file.suffix[1:].lower() not in known:
+        raise DomainError(f"plot file {file}: unknown ending {file.suffix or '(none)'!r}; use one of {', '.join(sorted(known))}")
+    figure.savefig(file, dpi=150)
+
+
+def _time_unit(span: float) -> tuple[float, str]:
+    return next((pair for pair in reversed(TIME_UNITS) if span >= 4 * pair[0]), TIME_UNITS[0])
+
+
+def _error_text(answer: Answer, *columns: str) -> str:
+    parts = [f"{answer.error[c]:.1e}" for c in columns if c in answer.error and math.isfinite(answer.error[c])]
+    return "estimated error " + ", ".join(parts) if parts else "no error estimate"
+
+
+def _note(axes: "Axes", text: str) -> None:
+    axes.set_title(text, loc="right", fontsize=8, color="#555555")
+
+
+def _runs(names: NDArray[Any]) -> Iterator[tuple[str, int, int]]:
+    """Stretches of one regime as (name, first index, last index)."""
+    start = 0
+    for i in range(1, len(names) + 1):
+        if i == len(names) or names[i] != names[start]:
+            yield str(names[start]), start, i - 1
+            start = i
+
+
+def _size_and_energy(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+    axes.plot(t, answer["angular_momentum_norm"], color=COLOURS[0], label="|M|")
+    axes.set_ylabel("|M| [N m s]", color=COLOURS[0])
+    axes.set_ylim(bottom=0)
+    lines = list(axes.lines)
+    if "energy" in answer.columns:
+        right = axes.twinx()
+        right.plot(t, answer["energy"], color=COLOURS[1], linestyle="--", label="carrier energy h")
+        right.set_ylabel("h [J]", color=COLOURS[1])
+        right.set_ylim(bottom=0)
+        lines += right.lines
+    axes.legend(lines, [str(line.get_label()) for line in lines], loc="best", fontsize=8)
+    axes.set_title("Angular momentum and energy", loc="left", fontsize=10)
+    _note(axes, _error_text(answer, "angular_momentum_norm", "energy"))
+
+
+def _modulus(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+    if "modulus_squared" in answer.columns:
+        axes.plot(t, answer["modulus_squared"], color="black", linewidth=1.4)
+        _note(axes, _error_text(answer, "modulus_squared"))
+    if "regime" in answer.columns:
+        named = set()
+        for name, first, last in _runs(answer["regime"]):
+            colour, meaning = REGIMES.get(name, ("#CCCCCC", name))
+            end = t[min(last + 1, len(t) - 1)]
+            axes.axvspan(t[first], end, color=colour, alpha=0.25, linewidth=0, label=None if name in named else meaning)
+            named.add(name)
+        axes.legend(loc="best", fontsize=8)
+    axes.set_ylim(-0.03, 1.03)
+    axes.set_ylabel("k² [1]")
+    axes.set_title("Squared modulus and regime of the orbit", loc="left", fontsize=10)
+
+
+def _vector(axes: "Axes", answer: Answer, t: NDArray[Any], column: str, symbol: str, unit: str, title: str) -> None:
+    values = answer[column]
+    names = "xyzw"[: values.shape[1]]
+    dense = len(t) > 1 and np.mean(np.abs(np.diff(np.sign(values), axis=0)) > 0) > 0.2
+    for i, name in enumerate(names):
+        # An orbit sampled less than a few times a turn draws no curve: show the samples.
+        axes.plot(t, values[:, i], color=COLOURS[i], label=f"{symbol}{name}", linewidth=0.9,
+                  linestyle="none" if dense else "-", marker="." if dense else "", markersize=2)
+    axes.set_ylabel(f"{symbol} [{unit}]" if unit else symbol)
+    axes.legend(loc="upper right", fontsize=8, ncols=len(names))
+    axes.set_title(title, loc="left", fontsize=10)
+    _note(axes, _error_text(answer, column))
+
+
+def plot_answer(answer: Answer) -> "Figure":
+    """|M| and energy, k2 with the regimes, and the vectors where the rung gives them, over time."""
+    panels: list[Any] = []
+    if "angular_momentum_norm" in answer.columns:
+        panels.append(_size_and_energy)
+    if "modulus_squared" in answer.columns or "regime" in answer.columns:
+        panels.append(_modulus)
+    for column, symbol, unit, title in (
+        ("angular_momentum", "M", "N m s", "Total angular momentum, body axes"),
+        ("angular_velocity", "ω", "rad/s", "Angular velocity, body axes"),
+        ("attitude", "q", "", "Attitude, body to inertial"),
+    ):
+        if column in answer.columns:
+            panels.append(lambda axes, answer, t, rest=(column, symbol, unit, title): _vector(axes, answer, t, *rest))
+    figure = _figure(9, 1.0 + 2.2 * len(panels))
+    scale, unit = _time_unit(float(answer.t[-1] - answer.t[0]))
+    t = answer.t / scale
+    stop = answer.scalars.get("stop_time")
+    all_axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, panel in zip(all_axes, panels, strict=True):
+        panel(axes, answer, t)
+        axes.grid(alpha=0.3)
+        if stop is not None and np.isfinite(stop) and t[0] <= stop / scale <= t[-1]:
+            axes.axvline(stop / scale, color="#555555", linestyle=":", linewidth=1)
+    all_axes[-1].set_xlabel(f"time [{unit}]")
+    verdict = "met" if answer.met else "NOT met"
+    title = f"{answer.scene.get('name', '')}: rung {answer.model}, estimated error {answer.greatest_error:.1e}"
+    title += f" (tolerance {answer.tolerance:g} {verdict})"
+    if stop is not None and np.isfinite(stop):
+        title += f"\nstops at {stop:.6g} s"
+    figure.suptitle(title, fontsize=11)
+    return figure
+
+
+CHART_STYLE: Final = {  # group -> marker
+    "rung": "*", "taylor": "o", "dop853": "v", "cvode": "s", "rival": "D",
+}
+
+
+def plot_chart(chart: "Chart") -> "Figure":
+    """True error against time per solution, on log axes: |M| and, beside it, the momentum vector."""
+    figure = _figure(13, 6.2)
+    left, right = figure.subplots(1, 2, sharex=True, sharey=True)
+    floor = 1e-17
+    for axes, column, title in ((left, "angular_momentum_norm", "|M|"), (right, "angular_momentum", "vector M, body axes")):
+        for colour, (label, points) in zip(_colours(), chart.by_label().items(), strict=False):
+            shown = [(p.seconds, max(p.error[column], floor)) for p in points if math.isfinite(p.error.get(column, math.nan))]
+            if not shown:
+                continue
+            x, y = zip(*shown, strict=True)
+            group = points[0].group
+            axes.loglog(x, y, marker=CHART_STYLE[group], color=colour, linestyle="-" if len(shown) > 1 else "none",
+                        markersize=13 if group == "rung" else 5, linewidth=1, label=label,
+                        markeredgecolor="black" if group == "rung" else colour, markeredgewidth=0.6, zorder=3 if group == "rung" else 2)
+        axes.set_title(f"Greatest true error of {title}, relative to its greatest size", fontsize=10)
+        axes.set_xlabel("time per solution [s]")
+        axes.set_ylabel("true error [1]")
+        axes.grid(alpha=0.3, which="both", linewidth=0.4)
+    handles: dict[str, Any] = {}
+    for axes in (left, right):
+        handles |= {str(label): handle for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)}
+    figure.legend(handles.values(), handles.keys(), loc="outside right upper", fontsize=8)
+    figure.suptitle(f"{chart.name}: {chart.title}", fontsize=11)
+    return figure
+
+
+def _colours() -> Iterator[str]:
+    while True:
+        yield from COLOURS

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rotations over arrays: quaternion, rotation tensor, rotation vector, each to each.
+
+A rotation takes body components to inertial components, v_I = R v_B. Quaternions (..., 4) are [x, y, z, w], or with
+scalar_first=True [w, x, y, z], as in SciPy's Rotation; tensors are (..., 3, 3); rotation vectors (..., 3) are axis times angle
+[rad]. Leading axes are free and the GIL is released. Exact through zero and half a turn: no small-angle branch. A quaternion need
+not have unit norm but must not vanish; a tensor that is not orthogonal within 1e-6 raises DomainError.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gyrostat import _core
+from gyrostat.broadcast import Floats, rows, shaped
+from gyrostat.errors import DomainError
+
+__all__ = [
+    "matrix_from_quaternion", "matrix_from_vector", "quaternion_from_matrix", "quaternion_from_vector",
+    "vector_from_matrix", "vector_from_quaternion",
+]
+
+ORTHOGONAL_TOLERANCE = 1e-6
+
+
+def _quaternions(quaternion: ArrayLike, scalar_first: bool) -> tuple[tuple[int, ...], Floats]:
+    lead, (q,) = rows([("quaternion", quaternion, (4,))])
+    if not np.all(np.linalg.norm(q, axis=1) > 0):
+        row = int(np.argmin(np.linalg.norm(q, axis=1) > 0))
+        raise DomainError(f"quaternion, row {row} = {q[row].tolist()}: not finite, or zero")
+    return lead, np.ascontiguousarray(np.roll(q, -1, axis=1)) if scalar_first else q
+
+
+def _tensors(matrix: ArrayLike) -> tuple[tuple[int, ...], Floats]:
+    lead, (m,) = rows([("matrix", matrix, (3, 3))])
+    off = np.abs(np.einsum("nij,nkj->nik", m, m) - np.eye(3)).max(axis=(1, 2), initial=0.0)
+    good = (off <= ORTHOGONAL_TOLERANCE) & (np.linalg.det(m) > 0)
+    if not np.all(good):
+        row = int(np.argmin(good))
+        raise DomainError(f"matrix, row {row} = {m[row].tolist()}: not a proper rotation within {ORTHOGONAL_TOLERANCE:g}")
+    return lead, m.reshape(-1, 9)
+
+
+def _ordered(q: Floats, lead: tuple[int, ...], scalar_first: bool) -> Floats:
+    made: Floats = shaped(np.roll(q, 1, axis=1) if scalar_first else q, lead, 4)
+    return made
+
+
+def matrix_from_quaternion(quaternion: ArrayLike, *, scalar_first: bool = False) -> Floats:
+    """(..., 4) -> (..., 3, 3)."""
+    lead, q = _quaternions(quaternion, scalar_first)
+    made: Floats = shaped(_core.matrix_from_quaternion(q), lead, 3, 3)
+    return made
+
+
+def quaternion_from_matrix(matrix: ArrayLike, *, scalar_first: bool = False) -> Floats:
+    """(..., 3, 3) -> (..., 4), of unit norm; the sign is free."""
+    lead, m = _tensors(matrix)
+    return _ordered(_core.quaternion_from_matrix(m), lead, scalar_first)
+
+
+def vector_from_quaternion(quaternion: ArrayLike, *, scalar_first: bool = False) -> Floats:
+    """(..., 4) -> (..., 3): the shortest rotation vector, at most pi long."""
+    lead, q = _quaternions(quaternion, scalar_first)
+    made: Floats = shaped(_core.vector_from_quaternion(q), lead, 3)
+    return made
+
+
+def quaternion_from_vector(vector: ArrayLike, *, scalar_first: bool = False) -> Floats:
+    """(..., 3) -> (..., 4); any length."""
+    lead, (v,) = rows([("vector", vector, (3,))])
+    return _ordered(_core.quaternion_from_vector(v), lead, scalar_first)
+
+
+def vector_from_matrix(matrix: ArrayLike) -> Floats:
+    """(..., 3, 3) -> (..., 3): the shortest rotation vector, at most pi long."""
+    lead, m = _tensors(matrix)
+    made: Floats = shaped(_core.vector_from_matrix(m), lead, 3)
+    return made
+
+
+def matrix_from_vector(vector: ArrayLike) -> Floats:
+    """(..., 3) -> (..., 3, 3); any length."""
+    lead, (v,) = rows([("vector", vector, (3,))])
+    made: Floats = shaped(_core.matrix_from_vector(v), lead, 3, 3)
+    return made

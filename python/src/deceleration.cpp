@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ladder of the deceleration family, and its functions over arrays; gyrostat/deceleration.py wraps them.
+#include "gyrostat/ladder/deceleration/solve.hpp"
+
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bind.hpp"
+#include "gyrostat/models/deceleration/stability.hpp"
+#include "scene_arguments.hpp"
+#ifdef GYROSTAT_HAVE_GSL
+#include "gyrostat/math/gsl.hpp"
+#endif
+
+namespace {
+
+using namespace gyrostat;
+using namespace gyrostat::python;
+using namespace gyrostat::deceleration;
+
+Model model(const std::string& name) {
+  static constexpr const char* names[] = {"auto", "equal-torque", "averaged", "averaged-2", "full"};
+  for (int i = 0; i < 5; ++i)
+    if (name == names[i]) return Model(i);
+  raise("DomainError", "model = '" + name + "': use auto, equal-torque, averaged, averaged-2 or full");
+}
+
+/// Checks the name of an integrator: the full equations go by Taylor series.
+void require_integrator(const std::string& name) {
+  if (name != "auto" && name != "taylor") raise("DomainError", "integrator = '" + name + "': use auto or taylor");
+}
+
+/// Whether the elliptic functions are GSL's.
+bool uses_gsl(const std::string& name) {
+  if (name == "auto" || name == "native") return false;
+#ifdef GYROSTAT_HAVE_GSL
+  if (name == "gsl") return true;
+#endif
+  raise("DomainError", "elliptic = '" + name + "': " +
+                           (name == "gsl" ? "this build has no GSL" : "unknown; use auto, native or gsl"));
+}
+
+Answer climb_with([[maybe_unused]] bool gsl, const Scene& scene, Refusal& refusal, Monitor* monitor) {
+#ifdef GYROSTAT_HAVE_GSL
+  if (gsl) return solve<math::Gsl>(scene, refusal, monitor);
+#endif
+  return solve(scene, refusal, monitor);
+}
+
+py::object values_of(Column& column) {
+  const auto n = py::ssize_t(column.values.size()) / column.width;
+  if (column.name == std::string_view("regime")) {
+    py::list names;
+    for (const double r : column.values) names.append(symbol(Regime(int(r))));
+    return names;
+  }
+  if (column.width == 1) return array(std::move(column.values), {n});
+  return array(std::move(column.values), {n, column.width});
+}
+
+py::dict to_python(Answer& answer, double seconds) {
+  py::dict columns, error, scalars, counts;
+  for (Column& column : answer.columns) {
+    const std::string name = column.name;
+    if (name != "regime") error[column.name] = column.error;
+    columns[column.name] = values_of(column);
+  }
+  for (const Quantity& q : answer.quantities) {
+    if (q.width == 1)
+      scalars[q.name] = q.values[0];
+    else
+      scalars[q.name] = array(std::vector<double>(q.values, q.values + q.width), {q.width});
+  }
+  py::list warnings, tried;
+  for (const Warning& w : answer.warnings) {
+    py::dict item;
+    item["code"] = w.code;
+    item["message"] = std::isnan(w.value) ? std::string(w.text) : w.text + (" (" + text(w.value) + ")");
+    warnings.append(item);
+  }
+  for (const Attempt& a : answer.tried) {
+    py::dict item;
+    item["model"] = a.model;
+    item["error"] = std::isnan(a.error) ? py::object(py::none()) : py::object(py::float_(a.error));
+    item["accepted"] = a.accepted;
+    std::string why = a.why ? a.why : "";
+    char over[80];
+    std::snprintf(over, sizeof over, "error %.2g over tolerance %.2g", a.error, answer.tolerance);
+    if (a.error > answer.tolerance) why += (why.empty() ? "" : "; ") + std::string(over);
+    item["why"] = why;
+    tried.append(item);
+  }
+  counts["rhs"] = answer.counts.rhs;
+  counts["steps"] = answer.counts.steps;
+  counts["rejected"] = answer.counts.rejected;
+  py::dict made;
+  made["model"] = answer.model;
+  made["met"] = answer.met;
+  made["error"] = error;
+  made["warnings"] = warnings;
+  made["columns"] = columns;
+  made["scalars"] = scalars;
+  made["counts"] = counts;
+  made["seconds"] = seconds;
+  made["tried"] = tried;
+  return made;
+}
+
+Scene checked(const Inertia<double>& body, const SceneData& data) {
+  const auto scene = Scene::make(body, data);
+  if (!scene) raise("DomainError", std::string("scene: ") + message(scene.error()));
+  return *scene;
+}
+
+py::dict solve_scene(const Array& inertia, const Array& rotor_momentum, const Array& control, double drag,
+                     const std::string& control_law, const std::string& drag_law, const Array& angular_momentum,
+                     const std::optional<Array>& attitude, const Array& at, double tolerance, const std::string& rung,
+                     const std::string& method, const std::string& elliptic, const std::shared_ptr<Monitor>& monitor) {
+  SceneData data;
+  data.rotor_momentum = vector("rotor_momentum", rotor_momentum);
+  data.control = vector("control", control);
+  require_not_negative("control", control);
+  data.drag = drag_rate(drag);
+  data.law = law("law", control_law);
+  data.drag_law = law("drag_law", drag_law);
+  data.momentum = vector("angular_momentum", angular_momentum);
+  if (attitude) {
+    require_shape("attitude", *attitude, {4});
+    require_finite("attitude", *attitude);
+    const double* q = attitude->data();
+    data.wants_attitude = true;
+    data.attitude = {q[3], q[0], q[1], q[2]};
+    if (std::abs(norm(data.attitude) - 1) > 1e-6)
+      raise("DomainError", "attitude = " + text(*attitude) + ": not a unit quaternion");
+    data.attitude = normalised(data.attitude);
+  }
+  data.times = times(at);
+  if (!(tolerance > 0 && tolerance < 1)) raise("DomainError", "tolerance = " + text(tolerance) + ": give a number in (0, 1)");
+  data.tolerance = tolerance;
+  data.model = model(rung);
+  require_integrator(method);
+  const bool gsl = uses_gsl(elliptic);
+  const Scene scene = checked(body(inertia), data);
+
+  Refusal refusal;
+  Answer answer;
+  double seconds = 0;
+  {
+    const py::gil_scoped_release free;
+    const auto began = std::chrono::steady_clock::now();
+    answer = climb_with(gsl, scene, refusal, monitor.get());
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  }
+  if (refusal.code != Errc::ok)
+    raise(refusal.code, refusal.code == Errc::cancelled ? "cancelled" : std::string("model ") + refusal.model + ": " + refusal.why);
+  return to_python(answer, seconds);
+}
+
+/// The rung `averaged` for many bodies: rows of inertia, rotor_momentum, control, momentum (n, 3) and drag (n).
+py::dict averaged_rows(const Array& inertia, const Array& rotor_momentum, const Array& control, const Array& drag,
+                       const Array& momentum, const std::string& control_law, const std::string& drag_law, const Array& at,
+                       double tolerance, const std::string& elliptic) {
+  const py::ssize_t rows = drag.size();
+  const bool gsl = uses_gsl(elliptic);
+  SceneData data;
+  data.law = law("law", control_law);
+  data.drag_law = law("drag_law", drag_law);
+  data.times = times(at);
+  data.tolerance = tolerance;
+  data.model = Model::averaged;
+  const std::size_t n = data.times.size();
+  std::vector<double> norm(std::size_t(rows) * n), energy(norm.size()), k2(norm.size()), regime(norm.size());
+  std::vector<double> errors(std::size_t(rows) * 3), stop(static_cast<std::size_t>(rows));
+  for (py::ssize_t row = 0; row < rows; ++row) {
+    const auto row_text = [&](const std::string& what) { return "row " + std::to_string(row) + ": " + what; };
+    const auto v = [&](const Array& a) { return Vec3<double>(a.data()[3 * row], a.data()[3 * row + 1], a.data()[3 * row + 2]); };
+    const Vec3<double> J = v(inertia);
+    const auto body = Inertia<double>::from_moments(J[0], J[1], J[2]);
+    if (!body)
+      raise("DomainError", row_text("inertia = [" + text(J[0]) + ", " + text(J[1]) + ", " + text(J[2]) + "]: " + message(body.error())));
+    data.rotor_momentum = v(rotor_momentum);
+    data.control = v(control);
+    data.drag = drag.data()[row];
+    data.momentum = v(momentum);
+    const auto scene = Scene::make(*body, data);
+    if (!scene) raise("DomainError", row_text(message(scene.error())));
+    Refusal refusal;
+    Answer answer;
+    {
+      const py::gil_scoped_release free;
+      answer = climb_with(gsl, *scene, refusal, nullptr);
+    }
+    if (refusal.code != Errc::ok) raise(refusal.code, row_text(refusal.why));
+    const auto take = [&](const char* name, std::vector<double>& into, int place) {
+      const Column* column = answer.find(name);
+      for (std::size_t i = 0; i < n; ++i) into[std::size_t(row) * n + i] = column ? column->values[i] : missing;
+      if (place >= 0) errors[std::size_t(3 * row + place)] = column ? column->error : missing;
+    };
+    take("angular_momentum_norm", norm, 0);
+    take("energy", energy, 1);
+    take("modulus_squared", k2, 2);
+    take("regime", regime, -1);
+    stop[std::size_t(row)] = missing;
+    for (const Quantity& q : answer.quantities)
+      if (q.name == std::string_view("stop_time")) stop[std::size_t(row)] = q.values[0];
+  }
+  const auto width = py::ssize_t(n);
+  py::dict made;
+  made["momentum_norm"] = array(std::move(norm), {rows, width});
+  made["energy"] = array(std::move(energy), {rows, width});
+  made["modulus_squared"] = array(std::move(k2), {rows, width});
+  made["regime"] = array(std::move(regime), {rows, width});
+  made["error"] = array(std::move(errors), {rows, 3});
+  made["stop_time"] = array(std::move(stop), {rows});
+  return made;
+}
+
+/// Rows of control torques about the principal axes (n, 3): region, tendencies of axis, interior and separatrix, k2, kp2.
+py::array_t<double> stability_rows(const Array& control, const std::string& regime) {
+  require_shape("control", control, {-1, 3});
+  if (regime != "A" && regime != "C") raise("DomainError", "regime = '" + regime + "': use A or C");
+  const Regime about = regime == "A" ? Regime::about_largest : Regime::about_smallest;
+  const py::ssize_t rows = control.shape(0);
+  std::vector<double> out(std::size_t(rows) * 6);
+  py::ssize_t bad = -1;
+  Errc why = Errc::ok;
+  {
+    const py::gil_scoped_release free;
+    for (py::ssize_t row = 0; row < rows && bad < 0; ++row) {
+      const double* b = control.data() + 3 * row;
+      const auto table = regime_stability(Vec3<double>(b[0], b[1], b[2]), about);
+      if (!table) {
+        bad = row;
+        why = table.error();
+        break;
+      }
+      const double values[] = {double(table->region), double(table->axis), double(table->interior), double(table->separatrix),
+                               table->quasi_stationary.k2, table->quasi_stationary.kp2};
+      std::copy(values, values + 6, &out[std::size_t(row) * 6]);
+    }
+  }
+  if (bad >= 0) raise("DomainError", "control, row " + std::to_string(bad) + ": " + message(why));
+  return array(std::move(out), {rows, 6});
+}
+
+py::list regime_symbols() {
+  py::list names;
+  for (int i = 0; i <= int(Regime::rest); ++i) names.append(symbol(Regime(i)));
+  return names;
+}
+
+}  // namespace
+
+void bind_deceleration(py::module_& module) {
+  py::class_<Monitor, std::shared_ptr<Monitor>>(module, "Monitor", "Watches and stops long work from another thread.")
+      .def(py::init<>())
+      .def_property_readonly(
+          "progress", [](const Monitor& m) { return m.fraction.load(); }, "Share of the work done, from 0 to 1.")
+      .def_property_readonly(
+          "cancelled", [](const Monitor& m) { return m.cancel.load(); }, "Whether cancel() was called.")
+      .def("cancel", [](Monitor& m) { m.cancel.store(true); }, "Ask the work to stop: it raises Cancelled soon after.");
+  module.def("deceleration_solve", &solve_scene, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"),
+             py::arg("control"), py::arg("drag"), py::arg("law"), py::arg("drag_law"), py::arg("angular_momentum"),
+             py::arg("attitude"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),
+             py::arg("elliptic"), py::arg("monitor"), "Answer of the ladder as plain data.");
+  module.def("deceleration_averaged", &averaged_rows, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"),
+             py::arg("control"), py::arg("drag"), py::arg("angular_momentum"), py::arg("law"), py::arg("drag_law"),
+             py::arg("times"), py::arg("tolerance"), py::arg("elliptic"), "The rung averaged over rows of bodies.");
+  module.def("deceleration_stability", &stability_rows, py::arg("control"), py::arg("regime"),
+             "(n, 6): region, tendency of the axis, of k*2 and of the separatrix, k*2, 1 - k*2.");
+  module.def("deceleration_regimes", &regime_symbols, "Symbols of the regimes, in the order of their numbers.");
+}
