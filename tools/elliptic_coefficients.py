@@ -7,6 +7,7 @@ The associate complete integrals of x = kp2,
 are fitted on 0 < x <= 1 as P(x) - ln(x) Q(x), both polynomials of one degree, with P(0) and Q(0) exact, so that the
 greatest relative error is least (Remez exchange in 60 digits; the basis x^i, x^i ln x is a Chebyshev system). The
 logarithm 1/r^3 (ln(1+r) - r + r^2/2) is fitted on the binade around 1 with the greatest absolute error of ln least,
+q/k2 of the nome q is fitted on 0 <= k2 <= 1/2 as a polynomial of k2 with the greatest relative error least,
 and (atan t - t)/t^3 as a polynomial of t^2 up to tan(pi/8) with the greatest relative error of atan least.
 """
 
@@ -109,6 +110,12 @@ def arctangent(terms):
     return remez(rest, [lambda x, i=i: x ** i for i in range(terms)], lambda x: x + mp.mpf("1e-6"), points)
 
 
+def nome(terms):
+    points = [mp.mpf("0.5") * (1 - mp.cos(mp.pi * mp.mpf(i) / 1200)) / 2 for i in range(1201)]
+    cache = {x: mp.qfrom(m=x) / x if x else mp.mpf(1) / 16 for x in points}
+    return remez(cache.get, [lambda x, i=i: x ** i for i in range(terms)], lambda x: 1 / cache[x], points)
+
+
 def row(name, values):
     body = ",\n    ".join(", ".join(mp.nstr(v, 20) for v in values[i:i + 4]) for i in range(0, len(values), 4))
     return f"inline constexpr double {name}[] = {{\n    {body}}};\n"
@@ -125,6 +132,9 @@ def main():
     c, worst = logarithm(terms)
     print(f"ln: absolute error {mp.nstr(worst, 3)}", file=sys.stderr)
     text += row("logarithm", c)
+    c, worst = nome(20)
+    print(f"nome: relative error {mp.nstr(worst, 3)}", file=sys.stderr)
+    text += row("nome_over_k2", c)
     c, worst = arctangent(10)
     print(f"atan: relative error {mp.nstr(worst, 3)}", file=sys.stderr)
     text += row("arctangent", c)

@@ -30,17 +30,25 @@ class JacobiAt {
     const Modulus<Work> wide{k2_, kp2_};
     circular_ = k2_ <= kp2_;
     q_ = wide.legal() ? nome(circular_ ? wide : wide.complement()) : nan<Work>;
-    theta_ = ThetaConstants<Work>::of(q_);
-    scale_ = theta_.three * theta_.three;
-    inverse_ = 1 / scale_;
+    const auto [two, three, four, curvature] = ThetaConstants<Work>::of(q_);
+    const Work inverse = 1 / (two * three * four);
+    const Work square = three * three;
+    inverse_ = (two * four * inverse) * (two * four * inverse);
     if (circular_) {
       constexpr Work half = pi<Work> / 2;
-      const Work more = half * (theta_.three - 1) * (theta_.three + 1);
+      const Work more = half * (three - 1) * (three + 1);
       quarter_ = half + more;
       quarter_low_ = (half - quarter_) + more + half_pi_low;
+      per_quarter_ = inverse_ / half;
+      even_ = {square * four * inverse, three * (four * four) * inverse, two * (four * four) * inverse};
+      odd_ = even_;
     } else {
+      const Work kp = std::sqrt(kp2_);
       tiny_ = q_ < epsilon<Work> * epsilon<Work> / 64;
-      quarter_ = q_ > 0 ? scale_ * (detail::logarithm_of(q_) / -2) : std::isnan(q_) ? q_ : infinity<Work>;
+      quarter_ = q_ > 0 ? square * (detail::logarithm_of(q_) / -2) : std::isnan(q_) ? q_ : infinity<Work>;
+      per_quarter_ = 1 / quarter_;
+      even_ = {square * two * inverse, three * (two * two) * inverse, four * (two * two) * inverse};
+      odd_ = {even_.sn, kp * (square * three) * inverse, kp * (square * four) * inverse};
     }
   }
 
@@ -71,7 +79,7 @@ class JacobiAt {
       const auto t = Thetas<Work>::of(q_, 1 - 2 * (z.s * z.s));
       return Scalar(8 * (z.s * z.c) * inverse_ * (odd ? -t.slope_three / t.three : t.slope_four / t.four));
     }
-    const Work linear = at.r / quarter_;
+    const Work linear = at.r * per_quarter_;
     if (tiny_) return Scalar((odd ? 4 * q_ * std::sinh(2 * at.r) : std::tanh(at.r)) - linear);
     const auto z = detail::sinh_cosh(y);
     const auto t = Thetas<Work>::of(q_, 1 + 2 * (z.s * z.s));
@@ -91,7 +99,7 @@ class JacobiAt {
   };
 
   Reduced reduce(Work u) const noexcept {
-    const Work x = u / quarter_;
+    const Work x = u * per_quarter_;
     if (std::abs(x) <= Work(0.5)) return {0, u, 0};
     const Work n = std::nearbyint(x);
     const int quadrant = std::abs(n) < Work(0x1p62) ? static_cast<int>(static_cast<std::int64_t>(n) & 3) : 0;
@@ -101,35 +109,38 @@ class JacobiAt {
   Jacobi<Work> real_argument(Work r, bool odd) const noexcept {
     const auto z = detail::sine_cosine(r * inverse_);
     const auto t = Thetas<Work>::of(q_, 1 - 2 * (z.s * z.s));
-    const Work common = 1 / (theta_.two * theta_.three * (odd ? t.three : t.four));
-    const Work along_sn = scale_ * common;
-    const Work along_cn = theta_.three * theta_.four * common;
-    const Work dn = theta_.four * theta_.two * common * (odd ? t.four : t.three);
-    return odd ? Jacobi<Work>{along_sn * (t.two * z.c), -along_cn * (t.one * z.s), dn, 0}
-               : Jacobi<Work>{along_sn * (t.one * z.s), along_cn * (t.two * z.c), dn, 0};
+    const Work along_s = t.one * z.s;
+    const Work along_c = t.two * z.c;
+    const Work below = 1 / (odd ? t.three : t.four);
+    return {even_.sn * (odd ? along_c : along_s) * below, even_.cn * (odd ? -along_s : along_c) * below,
+            even_.dn * (odd ? t.four : t.three) * below, 0};
   }
 
   Jacobi<Work> imaginary_argument(Work r, bool odd) const noexcept {
-    const Work kp = std::sqrt(kp2_);
     if (tiny_) {  // the theta functions differ from 1 by less than rounding
+      const Work kp = std::sqrt(kp2_);
       const Work c = std::cosh(r);
       return odd ? Jacobi<Work>{1, -kp * std::sinh(r), kp * c, 0} : Jacobi<Work>{std::tanh(r), 1 / c, 1 / c, 0};
     }
     const auto z = detail::sinh_cosh(r * inverse_);
     const auto t = Thetas<Work>::of(q_, 1 + 2 * (z.s * z.s));
-    if (odd) {
-      const Work common = theta_.three / (theta_.four * theta_.two * t.three);
-      return {common * theta_.two * t.four, -kp * common * theta_.three * (t.one * z.s),
-              kp * common * theta_.four * (t.two * z.c), 0};
-    }
-    const Work common = 1 / (theta_.four * theta_.three * (t.two * z.c));
-    return {common * scale_ * (t.one * z.s), common * theta_.two * theta_.three * t.four,
-            common * theta_.two * theta_.four * t.three, 0};
+    const Work along_s = t.one * z.s;
+    const Work along_c = t.two * z.c;
+    const Work below = 1 / (odd ? t.three : along_c);
+    const Factors& by = odd ? odd_ : even_;
+    return {by.sn * (odd ? t.four : along_s) * below, by.cn * (odd ? -along_s : t.four) * below,
+            by.dn * (odd ? along_c : t.three) * below, 0};
   }
 
-  Work k2_, kp2_, q_, scale_, inverse_, quarter_;
-  Work quarter_low_ = 0;
-  ThetaConstants<Work> theta_;
+  struct Factors {
+    Work sn, cn, dn;
+  };
+
+  Work k2_, kp2_, q_;
+  Work inverse_;                 // 1/theta_3^2(0)
+  Work quarter_, per_quarter_;   // K and 1/K
+  Work quarter_low_ = 0;         // what the rounding of K left
+  Factors even_, odd_;           // ratios of theta constants before sn, cn, dn at u = n K + r, n even and odd
   bool circular_ = false;
   bool tiny_ = false;
 };
