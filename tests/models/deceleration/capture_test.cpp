@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/models/deceleration/capture.hpp"
+
+#include <cmath>
+#include <random>
+
+#include "catch.hpp"
+#include "gyrostat/ode/runge_kutta.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::deceleration;
+
+namespace {
+
+using V = Vec3<double>;
+
+/// Enters the lobes around axis 1 from one component: found at random.
+Problem<double> entering(double eps) {
+  Problem<double> p;
+  p.inverse_inertia = {1 / .533504, 1 / .426988, 1 / .180226};
+  p.rotor_momentum = {.0114535, .00899714, .0519957};
+  p.control = (eps * V(.219935, .587234, .648088)).asDiagonal();
+  p.drag = .3 * eps;
+  return p;
+}
+
+const CriticalLevel<double>* find(const CriticalLevels<double>& all, Critical kind, Regime lobes) {
+  for (int i = 0; i < all.count; ++i) {
+    const auto& c = all.level[std::size_t(i)];
+    if (c.kind == kind && c.lobes == lobes) return &c;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("critical levels are in order, and equilibria lie on them", "[deceleration]") {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> z;
+  std::uniform_real_distribution<double> u(0, 1);
+  int six = 0, two = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    Problem<double> p;
+    p.inverse_inertia = {1 + u(random), 2.5 + u(random), 4 + u(random)};
+    p.rotor_momentum = std::pow(10, .5 - 2 * u(random)) * V(z(random), z(random), z(random));
+    const double R = .5 + u(random);
+    const auto all = critical_levels(p, R);
+    REQUIRE(all);
+    CHECK((all->count == 2 || all->count == 4 || all->count == 6));
+    six += all->count == 6;
+    two += all->count == 2;
+    for (int i = 1; i < all->count; ++i) CHECK(all->level[std::size_t(i)].eta >= all->level[std::size_t(i - 1)].eta);
+    // no momentum has less or more energy
+    for (int k = 0; k < 20; ++k) {
+      const V M = R * V(z(random), z(random), z(random)).normalized();
+      const double eta = level_of(p, M).eta;
+      CHECK(eta >= all->level[0].eta - 1e-12);
+      CHECK(eta <= all->level[0].eta + all->range() + 1e-12);
+    }
+    const double d = 1e-5 * R;
+    for (int i = 0; i < all->count; ++i) {
+      const auto& c = all->level[std::size_t(i)];
+      // omega = sigma M
+      V M;
+      for (int j = 0; j < 3; ++j) M[j] = p.gyro_rate()[j] / (p.inverse_inertia[j] - c.sigma);
+      if (std::abs(M.norm() - R) < 1e-6) CHECK(level_of(p, M).eta == Approx(c.eta).margin(1e-8));
+      const auto up = critical_levels(p, R + d), down = critical_levels(p, R - d);
+      if (up->count == all->count && down->count == all->count) {
+        const auto k = std::size_t(i);
+        CHECK(c.slope(R) == Approx((up->level[k].eta - down->level[k].eta) / (2 * d)).epsilon(1e-4).margin(1e-4));
+      }
+    }
+    // the type of an orbit is that of its band
+    const double eta = all->level[0].eta + u(random) * all->range();
+    const auto band = band_of(p, Level<double>{R, eta});
+    REQUIRE(band);
+    CHECK(band->below.eta <= eta);
+    CHECK(band->above.eta >= eta);
+    const bool lobes = band->below.lobes == band->above.lobes && band->below.lobes != Regime::one_component;
+    const auto o = Orbit<double>::at(p, {R, eta}, lobes ? Component{band->below.lobes, 1} : Component{});
+    REQUIRE(o);
+    CHECK(o->regime() == (lobes ? band->below.lobes : Regime::one_component));
+  }
+  CHECK(six > 50);
+  CHECK(two > 50);
+}
+
+TEST_CASE("without rotor momentum both pairs share the saddle", "[deceleration]") {
+  Problem<double> p;
+  p.inverse_inertia = {1, 2, 4};
+  const auto all = critical_levels(p, 3.);
+  REQUIRE(all);
+  REQUIRE(all->count == 6);
+  CHECK(all->level[0].eta == Approx(1.5));
+  CHECK(all->level[1].eta == Approx(1.5));
+  CHECK(all->level[2].eta == Approx(3));
+  CHECK(all->level[3].eta == Approx(3));
+  CHECK(all->level[5].eta == Approx(6));
+  CHECK(band_of(p, Level<double>{3., 2.9})->separatrix_distance() == Approx(.1 / 4.5));
+  CHECK(capture(p, 3., Regime::about_smallest, Component{Regime::about_largest, 1}).error() == Errc::not_applicable);
+}
+
+TEST_CASE("capture probabilities are those of motions spread over the energy", "[deceleration]") {
+  const double eps = 1e-3;
+  const auto p = entering(eps);
+  const auto predicted = capture(p, 1., Regime::about_largest, Component{});
+  REQUIRE(predicted);
+  CHECK(predicted->plus == Approx(.6067).margin(1e-3));
+  CHECK(predicted->plus + predicted->minus == Approx(1));
+  CHECK_FALSE(predicted->determined());
+  // the probabilities do not depend on the size of the torques
+  CHECK(capture(entering(1e-5), 1., Regime::about_largest, Component{})->plus == Approx(predicted->plus).epsilon(1e-6));
+
+  const auto levels = critical_levels(p, 1.);
+  const auto* saddle = find(*levels, Critical::saddle, Regime::about_largest);
+  REQUIRE(saddle);
+  const double turn = predicted->inflow_plus + predicted->inflow_minus;
+  const auto full = [&](double, const std::array<double, 3>& y, std::array<double, 3>& d) noexcept {
+    const V M(y[0], y[1], y[2]);
+    const V f = M.cross(p.angular_velocity(M)) + small_torque(p, M);
+    d = {f[0], f[1], f[2]};
+  };
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> u(0, 1);
+  const int runs = 600;
+  int caught[2] = {0, 0};
+  for (int run = 0; run < runs; ++run) {
+    const auto o = Orbit<double>::at(p, {1., saddle->eta + turn * (2 + 2 * u(random))}, Component{});
+    REQUIRE(o);
+    const V M = o->momentum_at(u(random));
+    ode::StepControl<double, 3> control;
+    control.relative = 1e-9;
+    control.absolute.fill(1e-11);
+    ode::RungeKutta<double, 3, decltype(full)> solver(full, 0., {M[0], M[1], M[2]}, control);
+    for (int step = 0; step < 5000; ++step) {
+      REQUIRE(solver.step(1e9) == ode::Status::reached);
+      const V m(solver.state()[0], solver.state()[1], solver.state()[2]);
+      const auto level = level_of(p, m);
+      const auto band = band_of(p, level);
+      REQUIRE(band);
+      if (band->above.kind != Critical::saddle || band->above.lobes != Regime::about_largest) continue;
+      if (band->above.eta - level.eta < .7 * turn) continue;
+      ++caught[Orbit<double>::through(p, m)->branch() > 0];
+      break;
+    }
+  }
+  CHECK(caught[0] + caught[1] == runs);
+  CHECK(double(caught[1]) / runs == Approx(predicted->plus).margin(3.5 * .5 / std::sqrt(runs)));
+}
+
+TEST_CASE("leaving the lobes is determined", "[deceleration]") {
+  // torques of the opposite sign run the entering scene backwards
+  auto p = entering(1e-3);
+  p.control *= -1;
+  p.drag *= -1;
+  for (const int branch : {1, -1}) {
+    const auto c = capture(p, 1., Regime::about_largest, Component{Regime::about_largest, branch});
+    REQUIRE(c);
+    CHECK(c->determined());
+    CHECK(c->outside == 1);
+  }
+  // and from outside the separatrix is not reached
+  CHECK(capture(p, 1., Regime::about_largest, Component{}).error() == Errc::undetermined);
+}
+
+TEST_CASE("inflow is the loss of energy against the saddle over a loop", "[deceleration]") {
+  // by time integration over the lobe's orbit close to the separatrix
+  const auto p = entering(1e-3);
+  const auto c = capture(p, 1., Regime::about_largest, Component{});
+  REQUIRE(c);
+  const auto levels = critical_levels(p, 1.);
+  const auto* saddle = find(*levels, Critical::saddle, Regime::about_largest);
+  for (const int branch : {1, -1}) {
+    const auto o = Orbit<double>::at(p, {1., saddle->eta - 1e-6}, {Regime::about_largest, branch});
+    REQUIRE(o);
+    double sum = 0;
+    const int n = 4000;
+    for (int i = 0; i < n; ++i) {
+      const V M = o->momentum_at(double(i) / n), P = small_torque(p, M);
+      sum -= (p.angular_velocity(M) - saddle->sigma * M).dot(P) * o->period() / n;
+    }
+    CHECK(sum == Approx(branch > 0 ? c->inflow_plus : c->inflow_minus).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("no lobes, no capture", "[deceleration]") {
+  auto p = entering(1e-3);
+  p.rotor_momentum *= 100;
+  CHECK(critical_levels(p, 1.)->count == 2);
+  CHECK(capture(p, 1., Regime::about_largest, Component{}).error() == Errc::not_applicable);
+  CHECK(critical_levels(p, 0.).error() == Errc::not_positive);
+  CHECK(critical_levels(p, gyrostat::nan<double>).error() == Errc::not_finite);
+  p.inverse_inertia = {1, 1, 1};
+  CHECK(critical_levels(p, 1.).error() == Errc::not_applicable);
+}
