@@ -6,7 +6,7 @@
 find_path(CVODE_INCLUDE_DIR cvode/cvode.h)
 set(_cvode_required CVODE_INCLUDE_DIR)
 set(_cvode_libraries)
-foreach(_name cvode nvecserial sunmatrixdense sunlinsoldense)
+foreach(_name cvode nvecserial sunmatrixdense sunlinsoldense sunnonlinsolfixedpoint)
   find_library(CVODE_${_name}_LIBRARY sundials_${_name})
   list(APPEND _cvode_required CVODE_${_name}_LIBRARY)
   list(APPEND _cvode_libraries "${CVODE_${_name}_LIBRARY}")
