@@ -14,8 +14,10 @@
 
 #if defined(__GNUC__)
 #define GYROSTAT_INLINE __attribute__((always_inline)) inline
+#define GYROSTAT_NOINLINE __attribute__((noinline))
 #else
 #define GYROSTAT_INLINE inline
+#define GYROSTAT_NOINLINE
 #endif
 
 namespace gyrostat {

@@ -87,7 +87,7 @@ class Taylor {
 
   /// One step, at most up to t_max; reached if the time is t_max already or now.
   /// Returns reached with time() < t_max after an ordinary step.
-  Status step(Scalar t_max = infinity<Scalar>) noexcept;
+  GYROSTAT_NOINLINE Status step(Scalar t_max = infinity<Scalar>) noexcept;
 
   /// Steps until t_end exactly.
   Status advance(Scalar t_end) noexcept {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "gyrostat/core/lanes.hpp"
@@ -136,8 +137,20 @@ class FullSystem {
 
   static GYROSTAT_INLINE Row row(const Vec3<Scalar>& v, Scalar last = 0) noexcept { return lanes(v[0], v[1], v[2], last); }
 
-  template <int k, int Order>
-  GYROSTAT_INLINE void extend(Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3],
+  /// term(from), ..., term(1): unrolled where the number of turns is known to the compiler.
+  template <class Term>
+  static GYROSTAT_INLINE void down(int from, const Term& term) noexcept {
+    if constexpr (Row::vectorised) {
+#pragma GCC unroll 32
+      for (int j = from; j >= 1; --j) term(j);
+    } else {
+      for (int j = from; j >= 1; --j) term(j);
+    }
+  }
+
+  /// Order k + 1 from the orders up to k. Index: an integral constant, so that everything unrolls, or an int.
+  template <class Index, int Order>
+  GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3],
                               const Row (&turn)[3], const Row& quadratic, const Row& along, const Row& inverse,
                               const Row& half_inverse, Scalar half_unit) const noexcept;
 
@@ -199,42 +212,40 @@ FullSystem<Real_, with_control, with_attitude>::FullSystem(const Problem<Scalar>
 }
 
 template <Real Real_, bool with_control, bool with_attitude>
-template <int k, int Order>
+template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
-    Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3], const Row (&turn)[3],
+    Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3], const Row (&turn)[3],
     const Row& quadratic, const Row& along, const Row& inverse, const Row& half_inverse, Scalar half_unit) const noexcept {
-  constexpr Scalar share = Scalar(1) / (k + 1);
+  const Scalar share = Scalar(1) / static_cast<Scalar>(k + 1);
   const Row u0 = shuffle<0, 0, 0, 0>(newest), u1 = shuffle<1, 1, 1, 1>(newest), u2 = shuffle<2, 2, 2, 2>(newest);
 
   // terms known since the last order, the youngest last
   Row product = lanes(Scalar(0)), product_2 = product;
-  if constexpr (k % 2 == 0 && k > 1) product = work.forward[k / 2] * work.backward[k / 2];
-#pragma GCC unroll 32
-  for (int j = (k - 1) / 2; j >= 1; --j) {
+  if (k % 2 == 0) product = work.forward[k / 2] * work.backward[k / 2];
+  down((k - 1) / 2, [&](int j) {
     product = multiply_add(work.forward[j], work.backward[k - j], product);
     product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
-  }
+  });
   Row known = quadratic * (product + product_2);
 
   if constexpr (with_control) {
     Row square = lanes(Scalar(0));
     Row quotient = square, quotient_2 = square;
-    if constexpr (k % 2 == 0 && k > 1) {
+    if (k % 2 == 0) {
       square = lanes(Scalar(0.5)) * work.whole[k / 2] * work.whole[k / 2];
       quotient = lanes(work.norm[k / 2]) * work.torque[k / 2];
     }
-#pragma GCC unroll 32
-    for (int j = (k - 1) / 2; j >= 1; --j) {
+    down((k - 1) / 2, [&](int j) {
       square = multiply_add(work.whole[j], work.whole[k - j], square);
       quotient = multiply_add(lanes(work.norm[j]), work.torque[k - j], quotient);
       quotient_2 = multiply_add(lanes(work.norm[k - j]), work.torque[j], quotient_2);
-    }
+    });
     const Row norm_known = sum(square * half_inverse);
     const Row z = multiply_add(norm_known, along, inverse * (quotient + quotient_2));
     known = known + z;
     // (control U/|U|, |U|) of this order
     const Row torque = multiply_add(turn[0], u0, multiply_add(turn[1], u1, turn[2] * u2)) - z;
-    if constexpr (k + 1 < Order) {
+    if (k + 1 < Order) {
       work.torque[k] = torque;
       work.norm[k] = torque[3];
       work.whole[k] = with_last(newest, torque);
@@ -247,13 +258,12 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
     const Row omega = inverse_inertia_ * newest * lanes(half_unit);
     store(work.omega[k], omega);
     Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-#pragma GCC unroll 32
-    for (int j = 1; j < k; ++j) {
+    down(k - 1, [&](int j) {
       const Row q = load(&x[k - j][4]);
       s0 = multiply_add(lanes(work.omega[j][0]), q, s0);
       s1 = multiply_add(lanes(work.omega[j][1]), q, s1);
       s2 = multiply_add(lanes(work.omega[j][2]), q, s2);
-    }
+    });
     const Row first = load(&x[0][4]), last = load(&x[k][4]);
     s0 = multiply_add(lanes(work.omega[0][0]), last, multiply_add(lanes(omega[0]), first, s0));
     s1 = multiply_add(lanes(work.omega[0][1]), last, multiply_add(lanes(omega[1]), first, s1));
@@ -263,7 +273,7 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
 
   newest = next;
   store(&x[k + 1][0], with_last(next, lanes(Scalar(0))));
-  if constexpr (k + 1 < Order) {
+  if (k + 1 < Order) {
     work.forward[k + 1] = shuffle<1, 2, 0, 3>(next);
     work.backward[k + 1] = shuffle<2, 0, 1, 3>(next);
   }
@@ -323,9 +333,16 @@ void FullSystem<Real_, with_control, with_attitude>::expand(Scalar, Scalar unit,
   work.backward[1] = shuffle<2, 0, 1, 3>(first);
 
   Row newest = first;
-  [&]<int... k>(std::integer_sequence<int, k...>) {
-    (extend<k + 1, Order>(x, work, newest, jacobian, turn, quadratic, along, inverse, half_inverse, unit / 2), ...);
-  }(std::make_integer_sequence<int, Order - 1>{});
+  const auto next = [&](auto k) {
+    extend(k, x, work, newest, jacobian, turn, quadratic, along, inverse, half_inverse, unit / 2);
+  };
+  if constexpr (Row::vectorised) {
+    [&]<int... k>(std::integer_sequence<int, k...>) {
+      (next(std::integral_constant<int, k + 1>{}), ...);
+    }(std::make_integer_sequence<int, Order - 1>{});
+  } else {
+    for (int k = 1; k < Order; ++k) next(k);
+  }
 }
 
 template <Real Real_, bool with_control, bool with_attitude>
