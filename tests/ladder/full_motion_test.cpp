@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/deceleration/full_motion.hpp"
+
+#include "catch.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "allocations.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::deceleration;
+using ode::Status;
+
+namespace {
+
+struct Case {
+  std::string id;
+  Problem<double> problem;
+  double small = 0;
+  double stop_tau = gyrostat::nan<double>;
+  std::vector<double> times;
+  std::vector<Vec3<double>> momentum;
+};
+
+std::vector<Case> reference_cases() {
+  std::ifstream file(GYROSTAT_TEST_DATA "/deceleration_full_motion.txt");
+  REQUIRE(file);
+  std::vector<Case> cases;
+  std::string line;
+  while (std::getline(file, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    Case c;
+    std::string law, drag_law, stop;
+    Vec3<double> inertia, b;
+    std::istringstream in(line);
+    in >> c.id >> law >> drag_law;
+    for (int i = 0; i < 3; ++i) in >> inertia[i];
+    for (int i = 0; i < 3; ++i) in >> c.problem.rotor_momentum[i];
+    for (int i = 0; i < 3; ++i) in >> b[i];
+    in >> c.problem.drag >> c.small;
+    for (int i = 0; i < 3; ++i) in >> c.problem.momentum[i];
+    in >> stop;
+    REQUIRE(in);
+    c.stop_tau = std::stod(stop);
+    c.problem.inverse_inertia = inertia.cwiseInverse();
+    c.problem.control.diagonal() = c.small * b;
+    c.problem.drag *= c.small;
+    c.problem.law = law == "M" ? Law::total : Law::carrier;
+    c.problem.drag_law = drag_law == "M" ? Law::total : Law::carrier;
+    for (int k = 0; k < 6; ++k) {
+      std::getline(file, line);
+      std::istringstream row(line);
+      double t = 0;
+      Vec3<double> M;
+      row >> t >> M[0] >> M[1] >> M[2];
+      REQUIRE(row);
+      c.times.push_back(t);
+      c.momentum.push_back(M);
+    }
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+template <Real S>
+Problem<S> cast(const Problem<double>& p) {
+  Problem<S> q;
+  q.inverse_inertia = p.inverse_inertia.cast<S>();
+  q.rotor_momentum = p.rotor_momentum.cast<S>();
+  q.control = p.control.cast<S>();
+  q.drag = static_cast<S>(p.drag);
+  q.law = p.law;
+  q.drag_law = p.drag_law;
+  q.momentum = p.momentum.cast<S>();
+  return q;
+}
+
+template <Real S>
+struct Solved {
+  FullMotionAnswer<S> answer;
+  std::vector<Vec3<S>> momentum;
+  std::vector<Quat<S>> attitude;
+};
+
+template <Real S>
+Solved<S> solve(const Problem<S>& problem, const std::vector<S>& times, S tolerance, bool with_attitude = false,
+                FullMotionOptions<S> options = {}) {
+  Solved<S> solved;
+  solved.momentum.resize(times.size());
+  solved.attitude.resize(times.size());
+  options.tolerance = tolerance;
+  const Quat<S> start{S(0.5), S(0.5), S(-0.5), S(0.5)};
+  const auto result = full_motion<S>(problem, times, solved.momentum, options, with_attitude ? &start : nullptr,
+                                     with_attitude ? std::span<Quat<S>>(solved.attitude) : std::span<Quat<S>>());
+  REQUIRE(result);
+  solved.answer = *result;
+  return solved;
+}
+
+template <Real S>
+Vec3<S> inertial(const Quat<S>& q, const Vec3<S>& v) {
+  const Vec3<S> u{q.x, q.y, q.z};
+  const Vec3<S> t = 2 * Vec3<S>(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+  return v + q.w * t + Vec3<S>(u[1] * t[2] - u[2] * t[1], u[2] * t[0] - u[0] * t[2], u[0] * t[1] - u[1] * t[0]);
+}
+
+Problem<double> simple(double control = 1e-2) {
+  Problem<double> problem;
+  problem.inverse_inertia = {1 / 1.4, 1, 1 / 0.7};
+  problem.control.diagonal() = control * Vec3<double>(0.6, 0.9, 1);
+  problem.drag = 0.3 * control;
+  problem.momentum = {0.8, 0.5, 0.33};
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("the full motion of the reference cases") {
+  const auto cases = reference_cases();
+  REQUIRE(cases.size() == 12);
+  for (const Case& c : cases) {
+    CAPTURE(c.id);
+    for (const double tolerance : {1e-6, 1e-9, 1e-11}) {
+      CAPTURE(tolerance);
+      const auto solved = solve(c.problem, c.times, tolerance, c.id == "P01_l0_A_generic");
+      REQUIRE(solved.answer.status == Status::reached);
+      double error = 0;
+      for (std::size_t i = 0; i < c.times.size(); ++i) {
+        error = std::max(error, (solved.momentum[i] - c.momentum[i]).norm() / c.problem.momentum.norm());
+      }
+      CHECK(error <= solved.answer.error.momentum);
+      CHECK(error < std::max(tolerance, 1e-11));
+      if (tolerance >= 1e-9) CHECK(solved.answer.met);
+      if (!std::isnan(c.stop_tau)) {
+        CHECK(solved.answer.stop_time * c.small == Approx(c.stop_tau).epsilon(1e-8 / c.stop_tau));
+      }
+    }
+  }
+}
+
+TEST_CASE("equal torques stop after the logarithmic time") {
+  for (const double drag : {0.0, 0.003, 0.3, 30.0}) {
+    for (const bool rotor : {false, true}) {
+      CAPTURE(drag, rotor);
+      auto problem = simple();
+      problem.control = 0.01 * Mat3<double>::Identity();
+      problem.drag = drag;
+      if (rotor) problem.rotor_momentum = {0.3, -0.1, 0.2};
+      const double size = problem.momentum.norm();
+      const double wanted = drag > 0 ? std::log1p(drag * size / 0.01) / drag : size / 0.01;
+      const auto solved = solve(problem, {0.0, wanted / 2}, 1e-10);
+      REQUIRE(solved.answer.status == Status::reached);
+      CHECK(solved.answer.stop_time == Approx(wanted).epsilon(1e-12));
+      CHECK(solved.momentum[0] == problem.momentum);
+    }
+  }
+}
+
+TEST_CASE("the stop time of unequal torques is right to 1e-12") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int i = 0; i < 30; ++i) {
+    auto problem = simple(std::pow(10.0, -2 + any(random)));
+    problem.momentum = {any(random), any(random), any(random)};
+    problem.control(2, 2) *= 1 + 0.8 * any(random);
+    if (i % 2 == 1) problem.rotor_momentum = {any(random), any(random), any(random)};
+    if (i % 3 == 1) problem.law = problem.drag_law = Law::carrier;
+    const double stop = solve(problem, {1.0}, 1e-12).answer.stop_time;
+    const long double truth = solve(cast<long double>(problem), {1.0L}, 1e-17L).answer.stop_time;
+    CHECK(std::abs(stop - truth) < 1e-12L * truth);
+  }
+}
+
+TEST_CASE("behind the stop the target is kept and the attitude goes on") {
+  auto problem = simple(0.1);
+  problem.rotor_momentum = {0.3, -0.1, 0.2};
+  problem.drag_law = Law::total;
+  const auto end = solve(problem, {1.0}, 1e-9).answer.stop_time;
+  const std::vector<double> times = {0, end, end + 1, end + 1 + 1e-3, end + 50};
+
+  SECTION("law total: M = 0, the carrier turns at -J^-1 l") {
+    const auto solved = solve(problem, times, 1e-9, true);
+    for (std::size_t i = 1; i < times.size(); ++i) CHECK(solved.momentum[i].norm() < 1e-11);
+    CHECK(solved.momentum.back().isZero(0));
+    const Vec3<double> rate = -problem.gyro_rate();
+    // dR/dt = R [omega x]: a vector along omega stands still, others turn about it
+    const Vec3<double> axis = rate.normalized();
+    CHECK((inertial(solved.attitude[4], axis) - inertial(solved.attitude[2], axis)).norm() < 1e-13);
+    const Vec3<double> e = Vec3<double>(1, 2, 3).normalized();
+    const Vec3<double> moved = (inertial(solved.attitude[3], e) - inertial(solved.attitude[2], e)) / 1e-3;
+    const Vec3<double> turning{rate[1] * e[2] - rate[2] * e[1], rate[2] * e[0] - rate[0] * e[2],
+                               rate[0] * e[1] - rate[1] * e[0]};
+    CHECK((moved - inertial(solved.attitude[2], turning)).norm() < 1e-3);
+  }
+  SECTION("law carrier: omega = 0, M = l") {
+    problem.law = problem.drag_law = Law::carrier;
+    const double stop = solve(problem, {1.0}, 1e-9).answer.stop_time;
+    const auto solved = solve(problem, {0.0, stop + 1, stop + 50}, 1e-9, true);
+    CHECK(solved.momentum[2] == problem.rotor_momentum);
+    CHECK(solved.attitude[1] == solved.attitude[2]);
+  }
+}
+
+TEST_CASE("the control holds the target only against a drag it can match") {
+  auto problem = simple(0.1);
+  problem.rotor_momentum = {0.3, -0.1, 0.2};
+  problem.law = Law::carrier;
+  problem.drag_law = Law::total;
+  const std::vector<double> times = {0, 5, 20, 100};
+
+  problem.drag = 0.1;  // |control^-1 drag l| = 0.55: held
+  CHECK(solve(problem, times, 1e-8).answer.stop_time < 100);
+  CHECK(solve(problem, times, 1e-8).momentum[3] == problem.rotor_momentum);
+
+  problem.drag = 0.3;  // 1.6: torn off
+  const auto torn = solve(problem, times, 1e-8);
+  CHECK(torn.answer.status == Status::reached);
+  CHECK(std::isinf(torn.answer.stop_time));
+  CHECK((torn.momentum[3] - problem.rotor_momentum).norm() > 0.05);
+
+  // started at rest: held, or leaving at once into the same steady motion
+  problem.momentum = problem.rotor_momentum;
+  const auto leaving = solve(problem, times, 1e-8);
+  CHECK(std::isinf(leaving.answer.stop_time));
+  CHECK((leaving.momentum[3] - torn.momentum[3]).norm() < 1e-7);
+  problem.drag = 0.1;
+  const auto held = solve(problem, times, 1e-8);
+  CHECK(held.answer.stop_time == 0);
+  CHECK(held.momentum[1] == problem.rotor_momentum);
+}
+
+TEST_CASE("scenes that lack terms") {
+  const std::vector<double> times = {0, 1, 10, 200};
+  auto problem = simple();
+
+  SECTION("no torque: |M| and the energy stay") {
+    problem.control.setZero();
+    problem.drag = 0;
+    const auto solved = solve(problem, times, 1e-10);
+    CHECK(std::isinf(solved.answer.stop_time));
+    CHECK(solved.momentum[3].norm() == Approx(problem.momentum.norm()).epsilon(1e-15));
+    CHECK(problem.energy(solved.momentum[3]) == Approx(problem.energy(problem.momentum)).epsilon(1e-15));
+  }
+  SECTION("drag alone: an exponential, no stop") {
+    problem.control.setZero();
+    problem.drag = 1;
+    const auto solved = solve(problem, times, 1e-10);
+    CHECK(std::isinf(solved.answer.stop_time));
+    CHECK(solved.momentum[2].norm() == Approx(problem.momentum.norm() * std::exp(-10.0)).epsilon(1e-9));
+    CHECK(solved.momentum[3].norm() < 1e-10 * problem.momentum.norm());
+  }
+  SECTION("a sphere: the direction of M stays") {
+    problem.inverse_inertia = {0.5, 0.5, 0.5};
+    problem.control = 0.001 * Mat3<double>::Identity();
+    const auto solved = solve(problem, times, 1e-10);
+    CHECK((solved.momentum[3].normalized() - problem.momentum.normalized()).norm() < 1e-14);
+  }
+  SECTION("one axis without control: what lies on it is not stopped") {
+    problem.control(2, 2) = 0;
+    problem.drag = 0;
+    const auto solved = solve(problem, times, 1e-8);
+    CHECK(solved.answer.status == Status::reached);
+    problem.momentum = {0.5, 0, 0};
+    CHECK(solve(problem, times, 1e-8).answer.stop_time == Approx(0.5 / 0.006).epsilon(1e-12));
+  }
+  SECTION("no times: the stop alone") {
+    CHECK(solve(problem, {}, 1e-8).answer.stop_time == Approx(solve(problem, times, 1e-8).answer.stop_time).epsilon(1e-8));
+  }
+  SECTION("the stop not looked for") {
+    FullMotionOptions<double> options;
+    options.find_stop = false;
+    const auto solved = solve(problem, {0, 1}, 1e-8, false, options);
+    CHECK(std::isnan(solved.answer.stop_time));
+    CHECK(solved.answer.counts.steps < 20);
+    CHECK(solved.answer.met);
+  }
+}
+
+TEST_CASE("the momentum in inertial axes follows the torque") {
+  // without torque it stands still
+  auto problem = simple();
+  problem.control.setZero();
+  problem.drag = 0;
+  problem.rotor_momentum = {0.3, -0.1, 0.2};
+  const auto solved = solve(problem, {0.0, 3.0, 70.0}, 1e-12, true);
+  const Vec3<double> start = inertial(solved.attitude[0], solved.momentum[0]);
+  CHECK((inertial(solved.attitude[1], solved.momentum[1]) - start).norm() < 1e-14);
+  CHECK((inertial(solved.attitude[2], solved.momentum[2]) - start).norm() < 1e-13);
+}
+
+TEST_CASE("the stated errors are honest") {
+  std::mt19937_64 random(20);
+  const auto any = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  const auto log_any = [&](double a, double b) { return std::exp(any(std::log(a), std::log(b))); };
+  for (int i = 0; i < 60; ++i) {
+    CAPTURE(i);
+    Problem<double> problem;
+    const double c = log_any(0.5, 2), b = c * log_any(1.0001, 1.6), a = std::min(b * log_any(1.0001, 1.6), 0.99 * (b + c));
+    problem.inverse_inertia = {1 / std::max(a, b), 1 / std::min(a, b), 1 / c};
+    problem.momentum = Vec3<double>(any(-1, 1), any(-1, 1), any(-1, 1)) * log_any(1e-2, 1e2);
+    const double size = problem.momentum.norm();
+    const double torque = size * size * log_any(1e-3, 1);
+    problem.control.diagonal() = torque * Vec3<double>(log_any(0.3, 2), log_any(0.3, 2), log_any(0.3, 2));
+    if (i % 7 == 0) problem.control = torque * Mat3<double>::Identity();
+    problem.drag = torque / size * log_any(0.1, 10);
+    if (i % 2 == 0) problem.rotor_momentum = Vec3<double>(any(-1, 1), any(-1, 1), any(-1, 1)) * size;
+    if (i % 4 < 2) problem.law = Law::carrier;
+    if (i % 8 < 4) problem.drag_law = Law::carrier;
+    const bool turning = i % 3 == 0;
+    std::vector<double> times;
+    for (int k = 0; k <= 10; ++k) times.push_back(0.08 * k * size / torque);
+    const auto truth = solve(cast<long double>(problem), std::vector<long double>(times.begin(), times.end()), 1e-16L, turning);
+    for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+      CAPTURE(tolerance);
+      const auto solved = solve(problem, times, tolerance, turning);
+      REQUIRE(solved.answer.status == Status::reached);
+      CHECK(solved.answer.met);
+      long double vector = 0, norm = 0, energy = 0, attitude = 0, size_M = 0, size_h = 0;
+      for (std::size_t k = 0; k < times.size(); ++k) {
+        const Vec3<long double> M = solved.momentum[k].cast<long double>();
+        const long double h = static_cast<long double>(problem.energy(solved.momentum[k]));
+        const long double true_h = cast<long double>(problem).energy(truth.momentum[k]);
+        vector = std::max(vector, (M - truth.momentum[k]).norm());
+        norm = std::max(norm, std::abs(M.norm() - truth.momentum[k].norm()));
+        energy = std::max(energy, std::abs(h - true_h));
+        size_M = std::max(size_M, truth.momentum[k].norm());
+        size_h = std::max(size_h, true_h);
+        if (turning) {
+          const Quat<double>& p = solved.attitude[k];
+          const Quat<long double>& q = truth.attitude[k];
+          const long double sign = p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z < 0 ? -1 : 1;
+          attitude = std::max(attitude, 2 * std::hypot(std::hypot(p.w - sign * q.w, p.x - sign * q.x),
+                                                       std::hypot(p.y - sign * q.y, p.z - sign * q.z)));
+        }
+      }
+      const auto& stated = solved.answer.error;
+      CHECK(vector <= stated.momentum * size_M);
+      CHECK(norm <= stated.momentum_norm * size_M);
+      CHECK(energy <= stated.energy * size_h);
+      CHECK(attitude <= stated.attitude);
+      if (truth.answer.stop_time < infinity<long double>) {
+        CHECK(std::abs(solved.answer.stop_time - truth.answer.stop_time) <= stated.stop_time * truth.answer.stop_time);
+      }
+    }
+  }
+}
+
+TEST_CASE("float works within its digits") {
+  const auto problem = cast<float>(simple());
+  const auto solved = solve<float>(problem, {0.0F, 10.0F, 40.0F}, 1e-3F);
+  CHECK(solved.answer.met);
+  const auto truth = solve(simple(), {0.0, 10.0, 40.0}, 1e-10);
+  CHECK((solved.momentum[2].cast<double>() - truth.momentum[2]).norm() < 1e-4);
+  CHECK(solved.answer.stop_time == Approx(truth.answer.stop_time).epsilon(1e-4));
+}
+
+TEST_CASE("a motion can be watched, stopped and capped") {
+  const auto problem = simple(1e-4);
+  const std::vector<double> times = {0, 100};
+  std::atomic<double> progress{0};
+  std::atomic<bool> cancel{false};
+  FullMotionOptions<double> options;
+  options.progress = &progress;
+  options.cancel = &cancel;
+  CHECK(solve(problem, times, 1e-8, false, options).answer.status == Status::reached);
+  CHECK(progress == 1.0);
+  cancel = true;
+  const auto cancelled = solve(problem, times, 1e-8, false, options);
+  CHECK(cancelled.answer.status == Status::cancelled);
+  CHECK(!cancelled.answer.met);
+
+  options.cancel = nullptr;
+  options.step_cap = 20;
+  const auto capped = solve(problem, {0.0, 1.0, 4000.0}, 1e-8, false, options);
+  CHECK(capped.answer.status == Status::step_limit);
+  CHECK(std::isnan(capped.answer.stop_time));
+  CHECK(capped.momentum[1].allFinite());
+  CHECK(!capped.momentum[2].allFinite());
+  CHECK(!capped.answer.met);
+}
+
+TEST_CASE("bad requests are refused") {
+  const auto problem = simple();
+  std::vector<Vec3<double>> momentum(2);
+  const auto error = [&](const Problem<double>& p, std::vector<double> times) {
+    return full_motion<double>(p, times, momentum).error();
+  };
+  CHECK(error(problem, {0.0, 1.0}) == Errc::ok);
+  CHECK(error(problem, {1.0, 0.0}) == Errc::not_increasing);
+  CHECK(error(problem, {-1.0, 0.0}) == Errc::not_increasing);
+  CHECK(error(problem, {0.0, gyrostat::nan<double>}) == Errc::not_finite);
+  CHECK(error(problem, {0.0}) == Errc::out_of_domain);
+  auto bad = problem;
+  bad.momentum[1] = gyrostat::nan<double>;
+  CHECK(error(bad, {0.0, 1.0}) == Errc::not_finite);
+  bad = problem;
+  bad.control(0, 1) = infinity<double>;
+  CHECK(error(bad, {0.0, 1.0}) == Errc::not_finite);
+}
+
+TEST_CASE("the full motion does not touch the heap") {
+  const auto problem = simple();
+  const std::vector<double> times = {0, 1, 10, 50};
+  std::vector<Vec3<double>> momentum(times.size());
+  std::vector<Quat<double>> attitude(times.size());
+  const Quat<double> start;
+  const auto before = allocations();
+  const auto result = full_motion<double>(problem, times, momentum, {}, &start, attitude);
+  CHECK(allocations() == before);
+  CHECK(result);
+}
