@@ -107,7 +107,8 @@ void add() {
   };
   with("K+E native", [](const Sample& s, std::size_t i) { return sum(complete(s.modulus[i])); });
   benchmark::RegisterBenchmark("K+E native array", array_native)->Repetitions(3);
-  with("K+E std", [](const Sample& s, std::size_t i) { return std::comp_ellint_1(s.k[i]) + std::comp_ellint_2(s.k[i]); });
+  with("K+E std",
+       [](const Sample& s, std::size_t i) { return std::comp_ellint_1(s.k[i]) + std::comp_ellint_2(s.k[i]); });
   with("means native", [](const Sample& s, std::size_t i) { return sum(means(s.modulus[i])); });
   with("sn cn dn native", [](const Sample& s, std::size_t i) { return sum(jacobi(s.u[i], s.modulus[i])); });
   with("zeta native", [](const Sample& s, std::size_t i) { return zeta(s.u[i], s.modulus[i]); });
@@ -115,7 +116,9 @@ void add() {
   with("F(phi) std", [](const Sample& s, std::size_t i) { return std::ellint_1(s.k[i], s.u[i]); });
   for (double k2 : {0.3, 0.7}) {
     const std::string name = "sn cn dn native, k2 = " + std::to_string(k2).substr(0, 3);
-    benchmark::RegisterBenchmark(name.c_str(), [k2](benchmark::State& state) { fixed_modulus(state, k2); })->Repetitions(3);
+    benchmark::RegisterBenchmark(name.c_str(), [k2](benchmark::State& state) {
+      fixed_modulus(state, k2);
+    })->Repetitions(3);
   }
 #if defined(GYROSTAT_HAVE_GSL)
   with("K+E GSL", [](const Sample& s, std::size_t i) {

@@ -30,7 +30,7 @@ TEMPLATE_TEST_CASE("complete integrals and means against the table", "[math]", f
   CHECK(rows > 30);
   CHECK(worst.of(0) < (sizeof(TestType) == 4 ? 0.8 : sizeof(TestType) == 8 ? 2.0 : 3.0));  // K
   CHECK(worst.of(1) < (sizeof(TestType) == 4 ? 0.8 : sizeof(TestType) == 8 ? 2.0 : 8.0));  // E
-  WARN("ulp: " << worst.text());
+  SUCCEED("ulp: " << worst.text());
   CHECK(worst.of(0) > 0);  // the table is not the function itself
 }
 

@@ -19,15 +19,16 @@ namespace {
 std::atomic<long> allocations{0};
 }
 
-void* operator new(std::size_t size) {
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-TEMPLATE_TEST_CASE("the native backend is the free functions and never allocates", "[math]", float, double, long double) {
+TEMPLATE_TEST_CASE("the native backend is the free functions and never allocates", "[math]", float, double,
+                   long double) {
   using S = TestType;
   const auto m = Modulus<S>::from_k2(S(0.3));
   const long before = allocations;
@@ -47,6 +48,7 @@ TEMPLATE_TEST_CASE("the native backend is the free functions and never allocates
   CHECK(f == incomplete_F(S(0.6), m));
   CHECK(e == incomplete_E(S(0.6), m));
   CHECK(p == incomplete_Pi(S(0.6), S(0.2), m));
-  ::operator delete(::operator new(sizeof(S)));
+  void* volatile memory = ::operator new(sizeof(S));
+  ::operator delete(memory);
   CHECK(allocations > after);  // the counter counts
 }

@@ -27,7 +27,8 @@ TEST_CASE("GSL's functions and the native ones are the same", "[math]") {
     const auto m = row.modulus<double>();
     const double u = static_cast<double>(row.value[0]);
     // gsl_sf_elljac_e sees k2 alone: near k2 = 1 it answers for the rounded one
-    const double slack = 4e-15 * (1 + std::abs(u)) + (row.of_k2 ? 0.0 : 4e-16 * std::exp(std::min(2 * complete(m).K, 30.0)));
+    const double slack =
+        4e-15 * (1 + std::abs(u)) + (row.of_k2 ? 0.0 : 4e-16 * std::exp(std::min(2 * complete(m).K, 30.0)));
     INFO("small " << static_cast<double>(row.small) << (row.of_k2 ? " k2" : " kp2") << " u " << u);
     const auto a = Gsl::jacobi(u, m);
     const auto b = Native::jacobi(u, m);

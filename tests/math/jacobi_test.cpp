@@ -34,7 +34,7 @@ TEMPLATE_TEST_CASE("Jacobi's functions and zeta against the table", "[math]", fl
     }
   }
   CHECK(rows > 150);
-  WARN(worst.text());
+  SUCCEED(worst.text());
   CHECK(worst.of(0) < 6);
 }
 
@@ -60,7 +60,8 @@ TEMPLATE_TEST_CASE("laws of Jacobi's functions", "[math]", float, double, long d
     const auto c = jacobi(u + v, m);
     const S below = 1 - m.k2 * a.sn * a.sn * b.sn * b.sn;
     CHECK(std::abs(c.sn * below - (a.sn * b.cn * b.dn + b.sn * a.cn * a.dn)) <= 40 * eps * std::max(S(1), K));
-    CHECK(std::abs(zeta(u + v, m) - zeta(u, m) - zeta(v, m) + m.k2 * a.sn * b.sn * c.sn) <= 40 * eps * std::max(S(1), K));
+    CHECK(std::abs(zeta(u + v, m) - zeta(u, m) - zeta(v, m) + m.k2 * a.sn * b.sn * c.sn) <=
+          40 * eps * std::max(S(1), K));
     // symmetry and period
     const auto r = jacobi(-u, m);
     CHECK(r.sn == -a.sn);
@@ -107,8 +108,9 @@ TEMPLATE_TEST_CASE("Jacobi's functions at the ends and outside", "[math]", float
   }
   const S bad = gyrostat::nan<S>, endless = gyrostat::infinity<S>;
   const Modulus<S> half{S(0.5), S(0.5)};
-  for (const auto& f : {jacobi(bad, half), jacobi(endless, half), jacobi(-endless, half), jacobi(S(1), {bad, S(0.5)}),
-                        jacobi(S(1), {S(0.5), bad}), jacobi(S(1), {S(1.5), S(-0.5)}), jacobi(S(1), {S(-0.5), S(1.5)})}) {
+  for (const auto& f :
+       {jacobi(bad, half), jacobi(endless, half), jacobi(-endless, half), jacobi(S(1), {bad, S(0.5)}),
+        jacobi(S(1), {S(0.5), bad}), jacobi(S(1), {S(1.5), S(-0.5)}), jacobi(S(1), {S(-0.5), S(1.5)})}) {
     CHECK(std::isnan(f.sn));
     CHECK(std::isnan(f.cn));
     CHECK(std::isnan(f.dn));

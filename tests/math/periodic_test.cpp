@@ -16,7 +16,8 @@ TEMPLATE_TEST_CASE("a periodic mean converges exponentially", "[math]", float, d
   // each doubling squares the error
   double before = 0;
   for (int nodes : {16, 32, 64}) {
-    const auto rule = periodic_mean<double>([](double x) { return 1 / (1.1 + std::cos(2 * gyrostat::pi<double> * x)); }, 0.0, nodes / 2, nodes);
+    const auto rule = periodic_mean<double>([](double x) { return 1 / (1.1 + std::cos(2 * gyrostat::pi<double> * x)); },
+                                            0.0, nodes / 2, nodes);
     const double error = std::abs(rule.value - 1 / std::sqrt(1.1 * 1.1 - 1));
     CHECK_FALSE(rule.converged);
     CHECK(rule.nodes == nodes);
@@ -46,13 +47,23 @@ TEST_CASE("means of Jacobi's functions over an orbit", "[math]") {
 
 TEST_CASE("a mean that does not converge says so", "[math]") {
   int calls = 0;
-  const auto rough = periodic_mean<double>([&](double x) { ++calls; return std::sqrt(x); }, 1e-14, 16, 1024);
+  const auto rough = periodic_mean<double>(
+      [&](double x) {
+        ++calls;
+        return std::sqrt(x);
+      },
+      1e-14, 16, 1024);
   CHECK_FALSE(rough.converged);
   CHECK(rough.nodes == 1024);
   CHECK(calls == 1024);
   CHECK(rough.error > 1e-6);
   calls = 0;
-  const auto bad = periodic_mean<double>([&](double x) { ++calls; return x > 0.5 ? gyrostat::nan<double> : x; }, 1e-14);
+  const auto bad = periodic_mean<double>(
+      [&](double x) {
+        ++calls;
+        return x > 0.5 ? gyrostat::nan<double> : x;
+      },
+      1e-14);
   CHECK_FALSE(bad.converged);
   CHECK(std::isnan(bad.value));
   CHECK(calls == 32);

@@ -36,13 +36,19 @@ TEST_CASE("roots at any exponent, at poles, flat and at an end", "[math]") {
   };
   CHECK(*newton_root(tiny, 0.0, 10.0, true) == Approx(std::cbrt(2.0) * 1e-20).epsilon(1e-15));
   CHECK(calls < 60);
-  CHECK(*newton_root([](double x) { return Slope<double>{x * x - 1e-300, 2 * x}; }, 0.0, 1.0, true) ==
-        Approx(1e-150).epsilon(1e-15).margin(0));
+  CHECK(*newton_root(
+            [](double x) {
+              return Slope<double>{x * x - 1e-300, 2 * x};
+            },
+            0.0, 1.0, true) == Approx(1e-150).epsilon(1e-15).margin(0));
   calls = 0;
-  CHECK(*bracketed_root([&](double x) { return tiny(x).f; }, 0.0, 10.0) == Approx(std::cbrt(2.0) * 1e-20).epsilon(1e-15));
+  CHECK(*bracketed_root([&](double x) { return tiny(x).f; }, 0.0, 10.0) ==
+        Approx(std::cbrt(2.0) * 1e-20).epsilon(1e-15));
   CHECK(calls < 60);
   // poles at both ends, with the signs known
-  const auto poles = [](double x) { return Slope<double>{1 / x - 1e3 / (1 - x), -1 / (x * x) - 1e3 / ((1 - x) * (1 - x))}; };
+  const auto poles = [](double x) {
+    return Slope<double>{1 / x - 1e3 / (1 - x), -1 / (x * x) - 1e3 / ((1 - x) * (1 - x))};
+  };
   CHECK(*newton_root(poles, 0.0, 1.0, false) == Approx(1 / 1001.0).epsilon(1e-15));
   // Newton alone diverges here
   const auto far = [](double x) { return Slope<double>{std::atan(x - 50), 1 / (1 + (x - 50) * (x - 50))}; };
@@ -67,7 +73,8 @@ TEST_CASE("searches that fail say why", "[math]") {
   CHECK(bracketed_root(value, bad, 1.0).error() == Errc::not_increasing);
   CHECK(bracketed_root(value, 1.0, 2.0).error() == Errc::no_bracket);
   CHECK(newton_root([&](double) { return Slope<double>{bad, 1}; }, 0.0, 1.0, true).error() == Errc::not_finite);
-  CHECK(bracketed_root([&](double x) { return x > 0.3 && x < 0.7 ? bad : x - 0.5; }, 0.0, 1.0).error() == Errc::not_finite);
+  CHECK(bracketed_root([&](double x) { return x > 0.3 && x < 0.7 ? bad : x - 0.5; }, 0.0, 1.0).error() ==
+        Errc::not_finite);
   // no root at all: the search ends at the step, within its cap
   int calls = 0;
   const auto jump = [&](double x) {

@@ -44,7 +44,8 @@ GYROSTAT_FLATTEN double polynomial(const double (&c)[size], const Powers& x) noe
   return polynomial<0, size>(c, x);
 }
 
-/// ln x for 0 < x < 2^960, subnormals too; absolute error an eps of max(1, |ln x|). No branch, no call, no division: it vectorises.
+/// ln x for 0 < x < 2^960, subnormals too; absolute error an eps of max(1, |ln x|). No branch, call or division: it
+/// vectorises.
 /// A finite number for 0; garbage for a negative or infinite x and for NaN.
 GYROSTAT_FLATTEN double logarithm_of_positive(double x) noexcept {
   const auto bits = std::bit_cast<std::uint64_t>(x * 0x1p54);  // normal for every x > 0

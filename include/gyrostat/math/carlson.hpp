@@ -105,8 +105,7 @@ inline Scalar carlson_RD(Scalar x, Scalar y, Scalar z) noexcept {
   const Scalar Z = -(X + Y) / 3;
   const Scalar XY = X * Y;
   const Scalar Z2 = Z * Z;
-  const Scalar series =
-      detail::series_RD<Scalar>(XY - 6 * Z2, (3 * XY - 8 * Z2) * Z, 3 * (XY - Z2) * Z2, XY * Z2 * Z);
+  const Scalar series = detail::series_RD<Scalar>(XY - 6 * Z2, (3 * XY - 8 * Z2) * Z, 3 * (XY - Z2) * Z2, XY * Z2 * Z);
   return 3 * sum + power * series / (mean * std::sqrt(mean));
 }
 

@@ -66,7 +66,7 @@ GYROSTAT_FLATTEN Complete<double> complete_of(Modulus<double> m) noexcept {
 
 /// K, F, W, V of a modulus. F, W, V each to a few eps relative at both ends: W and V like k2/2 at k2 -> 0, F and V like
 /// 1/K at kp2 -> 0. Limits: k2 = 0 gives pi/2, 1, 0, 0; kp2 = 0 gives infinity, 0, 1, 0. Outside [0, 1] or NaN: NaN.
-/// Cost about 15 ns for float and double (polynomials and one logarithm), 10 times that for long double (nome).
+/// For float and double polynomials and one logarithm (10 to 15 ns), for long double the nome.
 template <Real Scalar>
 inline Means<Scalar> means(Modulus<Scalar> m) noexcept {
   if constexpr (std::same_as<Scalar, double>) {

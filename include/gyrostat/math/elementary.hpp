@@ -23,10 +23,10 @@ struct SineCosine {
 template <Real Scalar>
 GYROSTAT_FLATTEN SineCosine<Scalar> sine_cosine(Scalar z) noexcept {
   if constexpr (std::same_as<Scalar, double>) {
-    constexpr double sine[] = {-1. / 6, 1. / 120, -1. / 5040, 1. / 362880, -1. / 39916800, 1. / 6227020800.,
-                               -1. / 1307674368000., 1. / 355687428096000.};
-    constexpr double cosine[] = {1. / 24, -1. / 720, 1. / 40320, -1. / 3628800, 1. / 479001600, -1. / 87178291200.,
-                                 1. / 20922789888000.};
+    constexpr double sine[] = {-1. / 6,        1. / 120,         -1. / 5040,           1. / 362880,
+                               -1. / 39916800, 1. / 6227020800., -1. / 1307674368000., 1. / 355687428096000.};
+    constexpr double cosine[] = {1. / 24,        -1. / 720,          1. / 40320,          -1. / 3628800,
+                                 1. / 479001600, -1. / 87178291200., 1. / 20922789888000.};
     const Powers x = Powers::of(z * z);
     return {z + z * (x.value[0] * polynomial(sine, x)), 1 - (0.5 * x.value[0] - x.value[1] * polynomial(cosine, x))};
   } else {
@@ -44,8 +44,9 @@ GYROSTAT_FLATTEN SineCosine<Scalar> sinh_cosh(Scalar y) noexcept {
     const double shifted = a * 0x1.71547652b82fep0 + shift;
     const double k = shifted - shift;
     const double r = (a - k * 0x1.62e42feep-1) - k * 0x1.a39ef35793c76p-33;
-    constexpr double rest[] = {1. / 6,       1. / 24,       1. / 120,      1. / 720,       1. / 5040,        1. / 40320,
-                               1. / 362880., 1. / 3628800., 1. / 39916800., 1. / 479001600., 1. / 6227020800.};
+    constexpr double rest[] = {1. / 6,         1. / 24,         1. / 120,        1. / 720,
+                               1. / 5040,      1. / 40320,      1. / 362880.,    1. / 3628800.,
+                               1. / 39916800., 1. / 479001600., 1. / 6227020800.};
     const Powers x = Powers::of(r);
     const double p = r + x.value[1] * (0.5 + r * polynomial(rest, x));
     const double scale = std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) + 1023) << 52);
@@ -62,8 +63,8 @@ template <Real Scalar>
 GYROSTAT_FLATTEN Scalar angle(Scalar y, Scalar x) noexcept {
   if constexpr (std::same_as<Scalar, double>) {
     const double a = std::abs(y);
-    const bool low = a <= 0.41421356237309503 * x;   // tan(pi/8)
-    const bool high = a > 2.414213562373095 * x;     // tan(3 pi/8)
+    const bool low = a <= 0.41421356237309503 * x;  // tan(pi/8)
+    const bool high = a > 2.414213562373095 * x;    // tan(3 pi/8)
     const double above = low ? a : high ? -x : a - x;
     const double below = low ? x : high ? a : a + x;
     const double base = low ? 0.0 : high ? pi<double> / 2 : pi<double> / 4;

@@ -48,9 +48,10 @@ inline Scalar incomplete_E(Scalar phi, Modulus<Scalar> m) noexcept {
   Scalar part = at.s;
   if (m.kp2 > 0) {
     const Scalar s2 = at.s * at.s;
-    part = at.s * (m.kp2 * (carlson_RF<Scalar>(at.c2, at.delta2, 1) +
-                            m.k2 * s2 / 3 * carlson_RD<Scalar>(at.c2, 1, at.delta2)) +
-                   m.k2 * at.c / std::sqrt(at.delta2));
+    part =
+        at.s *
+        (m.kp2 * (carlson_RF<Scalar>(at.c2, at.delta2, 1) + m.k2 * s2 / 3 * carlson_RD<Scalar>(at.c2, 1, at.delta2)) +
+         m.k2 * at.c / std::sqrt(at.delta2));
   }
   return at.n == 0 ? part : 2 * at.n * complete(m).E + part;
 }
@@ -70,14 +71,13 @@ inline Scalar incomplete_Pi(Scalar phi, Scalar n, Modulus<Scalar> m) noexcept {
   };
   const auto part = [&](Scalar s, Scalar c, Scalar c2, Scalar delta2) {
     if (!(n < 0)) return positive(n, 1 - n, s, c2, delta2);
-    const Scalar rest = m.kp2 / (1 - n);                 // 1 - N
-    const Scalar image = (m.k2 - n) / (1 - n);           // N, between k2 and 1
-    const Scalar step = -n * rest;                       // N - k2
+    const Scalar rest = m.kp2 / (1 - n);        // 1 - N
+    const Scalar image = (m.k2 - n) / (1 - n);  // N, between k2 and 1
+    const Scalar step = -n * rest;              // N - k2
     const Scalar s2 = s * s;
     const Scalar first = m.k2 * s * carlson_RF<Scalar>(c2, delta2, 1);
     const Scalar second = step * positive(image, rest, s, c2, delta2);
-    const Scalar third = -n * image * s * c *
-        carlson_RC<Scalar>(delta2, (1 - n * s2) * (c2 + rest * s2));
+    const Scalar third = -n * image * s * c * carlson_RC<Scalar>(delta2, (1 - n * s2) * (c2 + rest * s2));
     return (first + second + third) / (m.k2 - n);
   };
   const Scalar inside = part(at.s, at.c, at.c2, at.delta2);

@@ -137,10 +137,10 @@ class JacobiAt {
   };
 
   Work k2_, kp2_, q_;
-  Work inverse_;                 // 1/theta_3^2(0)
-  Work quarter_, per_quarter_;   // K and 1/K
-  Work quarter_low_ = 0;         // what the rounding of K left
-  Factors even_, odd_;           // ratios of theta constants before sn, cn, dn at u = n K + r, n even and odd
+  Work inverse_;                // 1/theta_3^2(0)
+  Work quarter_, per_quarter_;  // K and 1/K
+  Work quarter_low_ = 0;        // what the rounding of K left
+  Factors even_, odd_;          // ratios of theta constants before sn, cn, dn at u = n K + r, n even and odd
   bool circular_ = false;
   bool tiny_ = false;
 };

@@ -14,7 +14,9 @@ namespace detail {
 
 /// Terms of the theta series that reach rounding at q <= exp(-pi), half a quarter period away from the origin.
 template <Real Scalar>
-inline constexpr int theta_terms = epsilon<Scalar> > Scalar(1e-17) ? 3 : epsilon<Scalar> > Scalar(1e-20) ? 4 : 6;
+inline constexpr int theta_terms = epsilon<Scalar> > Scalar(1e-17)   ? 3
+                                   : epsilon<Scalar> > Scalar(1e-20) ? 4
+                                                                     : 6;
 
 }  // namespace detail
 
@@ -31,8 +33,10 @@ GYROSTAT_FLATTEN Scalar nome(Modulus<Scalar> m) noexcept {
     const Scalar l = m.k2 / (2 * (1 + kp) * (root * root));
     const Scalar l2 = l * l;
     const Scalar x = l2 * l2;
-    return l + l * (x * (2 + x * (15 + x * (150 + x * (1707 + x * (20910 + x * (268616 + x * (3567400 +
-                    x * Scalar(48555069)))))))));
+    return l +
+           l * (x *
+                (2 + x * (15 +
+                          x * (150 + x * (1707 + x * (20910 + x * (268616 + x * (3567400 + x * Scalar(48555069)))))))));
   }
 }
 
@@ -47,11 +51,11 @@ struct ThetaConstants {
     const Scalar q3 = q2 * q;
     const Scalar q4 = q2 * q2;
     const Scalar q6 = q3 * q3;
-    Scalar even = q4;              // sum of q^(n^2), n even
-    Scalar odd = q + q6 * q3;      // the same, n odd
+    Scalar even = q4;          // sum of q^(n^2), n even
+    Scalar odd = q + q6 * q3;  // the same, n odd
     Scalar two = q2 + q6 + q6 * q6;
     Scalar bend = 9 * (q4 * q4) - 4 * q3;
-    if constexpr (detail::theta_terms<Scalar> > 3) {
+    if constexpr (detail::theta_terms < Scalar >> 3) {
       const Scalar q8 = q4 * q4;
       const Scalar q16 = q8 * q8;
       even += q16 + q16 * q16 * q4;
@@ -75,27 +79,27 @@ struct Thetas {
   GYROSTAT_FLATTEN static Thetas of(Scalar q, Scalar C) noexcept {
     const Scalar q2 = q * q;
     const Scalar q4 = q2 * q2;
-    const Scalar C2 = 2 * C;           // 2 cos 2z
-    const Scalar C4 = C2 * C2 - 2;     // 2 cos 4z
-    const Scalar C6 = C2 * C4 - C2;    // 2 cos 6z
-    const Scalar s3 = C2 + 1;          // sin 3z / sin z, 5z, 7z
+    const Scalar C2 = 2 * C;         // 2 cos 2z
+    const Scalar C4 = C2 * C2 - 2;   // 2 cos 4z
+    const Scalar C6 = C2 * C4 - C2;  // 2 cos 6z
+    const Scalar s3 = C2 + 1;        // sin 3z / sin z, 5z, 7z
     const Scalar s5 = C4 + s3;
     const Scalar s7 = C6 + s5;
-    const Scalar c3 = C2 - 1;          // cos 3z / cos z, 5z, 7z
+    const Scalar c3 = C2 - 1;  // cos 3z / cos z, 5z, 7z
     const Scalar c5 = C4 - c3;
     const Scalar c7 = C6 - c5;
     const Scalar q6 = q4 * q2;
     const Scalar q9 = q4 * q4 * q;
     const Scalar q12 = q6 * q6;
-    Scalar even = q4 * C4;             // 2 sum of q^(n^2) cos 2nz, n even
-    Scalar odd = q * C2 + q9 * C6;     // the same, n odd
+    Scalar even = q4 * C4;          // 2 sum of q^(n^2) cos 2nz, n even
+    Scalar odd = q * C2 + q9 * C6;  // the same, n odd
     Scalar one = q6 * s5 - (q2 * s3 + q12 * s7);
     Scalar two = q2 * c3 + q6 * c5 + q12 * c7;
     Scalar slope_two = 3 * (q2 * s3) + 5 * (q6 * s5) + 7 * (q12 * s7);
     Scalar slope_odd = q + 3 * (q9 * (C2 * C2 - 1));  // sum of n q^(n^2) sin 2nz / sin 2z, n odd
     Scalar slope_even = 2 * (q4 * C2);
-    if constexpr (detail::theta_terms<Scalar> > 3) {
-      Scalar before = C4, cosine = C6;                    // 2 cos 2(n-1)z, 2 cos 2nz
+    if constexpr (detail::theta_terms < Scalar >> 3) {
+      Scalar before = C4, cosine = C6;  // 2 cos 2(n-1)z, 2 cos 2nz
       Scalar sine_ratio = s7, cosine_ratio = c7;
       Scalar double_before = C2, double_ratio = C2 * C2 - 1;  // sin 2(n-1)z / sin 2z, sin 2nz / sin 2z
       Scalar power = 0, between = q12, step = q2 * q;         // q^(n^2), q^(n(n+1)), q^n
@@ -118,8 +122,13 @@ struct Thetas {
         (n % 2 ? slope_odd : slope_even) += Scalar(n) * (power * double_ratio);
       }
     }
-    return {1 + one,       1 + two,  1 + (even + odd), 1 + (even - odd),
-            1 + slope_two, slope_odd + slope_even, slope_odd - slope_even};
+    return {1 + one,
+            1 + two,
+            1 + (even + odd),
+            1 + (even - odd),
+            1 + slope_two,
+            slope_odd + slope_even,
+            slope_odd - slope_even};
   }
 };
 

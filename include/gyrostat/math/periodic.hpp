@@ -75,7 +75,8 @@ struct PeriodicMean {
 template <Real Scalar, class Function>
 [[nodiscard]] inline PeriodicMean<Scalar> periodic_mean(const Function& f, Scalar tolerance, int first = 16,
                                                         int most = 4096) noexcept {
-  const auto means = periodic_means<Scalar, 1>([&](Scalar x) { return std::array<Scalar, 1>{f(x)}; }, tolerance, first, most);
+  const auto means =
+      periodic_means<Scalar, 1>([&](Scalar x) { return std::array<Scalar, 1>{f(x)}; }, tolerance, first, most);
   return {means.value[0], means.error[0], means.nodes, means.converged};
 }
 
