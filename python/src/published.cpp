@@ -59,8 +59,12 @@ pub::Reading reading(const std::string& symbol) {
 
 pub::Data<double> data(const Array& inertia, const Array& rotor_momentum, const Array& angular_velocity,
                        const Array& control, double drag, double sigma) {
-  return {vector("inertia", inertia), vector("rotor_momentum", rotor_momentum),
-          vector("angular_velocity", angular_velocity), vector("control", control), drag, sigma};
+  return {vector("inertia", inertia),
+          vector("rotor_momentum", rotor_momentum),
+          vector("angular_velocity", angular_velocity),
+          vector("control", control),
+          drag,
+          sigma};
 }
 
 struct Run {
@@ -132,8 +136,9 @@ void bind_published(py::module_& module) {
       .def_readonly("momentum", &Run::momentum, "|M|/M0")
       .def_readonly("modulus_squared", &Run::modulus_squared, "k2")
       .def_readonly("ended", &Run::ended, "whether the equations ended before the time asked for");
-  module.def("published_run", &integrate, py::arg("data"), py::kw_only(), py::arg("reading"), py::arg("modulus_squared"),
-             py::arg("end"), py::arg("samples"), "The system (27) from (28), printed or mended.");
+  module.def("published_run", &integrate, py::arg("data"), py::kw_only(), py::arg("reading"),
+             py::arg("modulus_squared"), py::arg("end"), py::arg("samples"),
+             "The system (27) from (28), printed or mended.");
   module.def("published_stationary_ratio", py::vectorize(printed_ratio), py::arg("kappa2"), py::arg("modulus_squared"),
              "b1/b3 of (22) as printed, for b2/b3 and k2.");
 }

@@ -48,9 +48,9 @@ TEMPLATE_TEST_CASE("a turned tensor has the same moments and gives itself back",
   using S = TestType;
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> coordinate(-3, 3);
-  for (const Vec3<S>& moments : {Vec3<S>(35, 22, 16), Vec3<S>(3, 2, S(1.5)), Vec3<S>(2, 2, 1), Vec3<S>(2, 1, 1),
-                                 Vec3<S>(1 + 8 * epsilon<S>, 1, 1), Vec3<S>(S(1e-9), S(8e-10), S(5e-10)),
-                                 Vec3<S>(S(1e12), S(1e12), S(1e6))}) {
+  for (const Vec3<S>& moments :
+       {Vec3<S>(35, 22, 16), Vec3<S>(3, 2, S(1.5)), Vec3<S>(2, 2, 1), Vec3<S>(2, 1, 1),
+        Vec3<S>(1 + 8 * epsilon<S>, 1, 1), Vec3<S>(S(1e-9), S(8e-10), S(5e-10)), Vec3<S>(S(1e12), S(1e12), S(1e6))}) {
     for (int i = 0; i < 50; ++i) {
       const Mat3<S> R = matrix_from_vector<S>({S(coordinate(random)), S(coordinate(random)), S(coordinate(random))});
       Mat3<S> J = R * moments.asDiagonal() * R.transpose();

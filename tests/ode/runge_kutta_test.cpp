@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "allocations.hpp"
 #include "catch.hpp"
 
 using gyrostat::infinity;
@@ -201,4 +202,13 @@ TEST_CASE("a problem at rest is crossed in a few steps") {
   RungeKutta solver(rest, 0.0, std::array<double, 2>{0, 0});
   REQUIRE(solver.advance(1e6) == Status::reached);
   CHECK(solver.counts().steps < 20);
+}
+
+TEST_CASE("an integration with dense output allocates nothing") {
+  const std::size_t before = allocations();
+  RungeKutta solver(Chirp{}, 0.0, Vec2<double>{1, 0}, {.relative = 1e-10});
+  double sum = 0;
+  while (solver.time() < 5 && solver.step(5) == Status::reached) sum += solver.at(solver.time() / 2)[0];
+  CHECK(allocations() == before);
+  CHECK(std::isfinite(sum));
 }

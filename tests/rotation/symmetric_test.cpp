@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cmath>
+#include <cstddef>
 
 #include "catch.hpp"
 #include "gyrostat/rotation/exp_log.hpp"

@@ -66,10 +66,10 @@ TEST_CASE("(11): the mended modulus is that of the momentum, the printed one is 
     Vec l;
     double right, printed;
   };
-  for (const Row& row : {Row{{100, 150, 50}, 0.650, 0.359}, Row{{150, 150, 50}, 0.410, 0.573},
-                         Row{{200, 150, 50}, 0.271, 0.873}, Row{{200, 50, 50}, 0.093, 3.59},
-                         Row{{200, 100, 50}, 0.169, 1.54}, Row{{200, 150, 100}, 0.419, 0.0},
-                         Row{{200, 150, 150}, 0.665, 0.0}}) {
+  for (const Row& row :
+       {Row{{100, 150, 50}, 0.650, 0.359}, Row{{150, 150, 50}, 0.410, 0.573}, Row{{200, 150, 50}, 0.271, 0.873},
+        Row{{200, 50, 50}, 0.093, 3.59}, Row{{200, 100, 50}, 0.169, 1.54}, Row{{200, 150, 100}, 0.419, 0.0},
+        Row{{200, 150, 150}, 0.665, 0.0}}) {
     const auto d = figure(row.l);
     CHECK(modulus_squared(d, Reading::mended) == Approx(true_modulus(d)).epsilon(1e-10));
     CHECK(modulus_squared(d, Reading::mended) == Approx(row.right).margin(6e-4));
@@ -110,8 +110,7 @@ TEST_CASE("(17): the printed factor M^2 belongs to M") {
 
   const double bracket =
       (A - B) * bottom * (b[1] * mean.W + b[2] * mean.V) - (B - C) * top * (b[0] * mean.F + b[1] * mean.W);
-  const double printed =
-      -(A - B) * (B - C) / std::pow((A - B) * bottom, 2) * 2 * M * M / alpha * (A - C) * bracket;
+  const double printed = -(A - B) * (B - C) / std::pow((A - B) * bottom, 2) * 2 * M * M / alpha * (A - C) * bracket;
   CHECK(printed == Approx(M * chain).epsilon(1e-11));
 
   // The mended (27c) is the same in its units.
@@ -196,10 +195,10 @@ TEST_CASE("(27) mended, without rotors: the stop times of figures 14 to 25") {
   struct Row {
     double sigma, kappa1, kappa2, stop, k2;
   };
-  for (const Row& row : {Row{1.3, 0.75, 0.9, 0.8125, 0.021}, Row{1.3, 0.8, 1, 0.7531, 0.036},
-                         Row{1.3, 0.89, 1.11, 0.6868, 0.149}, Row{1.8, 0.89, 1.3, 0.457, 0.048},
-                         Row{1.8, 0.76, 1.25, 0.498, 0.0015}, Row{0.7, 0.5, 0.8, 1.749, -1},
-                         Row{1.3, 0.5, 0.8, 1.017, -1}, Row{1.8, 0.5, 0.8, 0.754, -1}, Row{1.3, 1, 1, 0.71550, 0.99}}) {
+  for (const Row& row :
+       {Row{1.3, 0.75, 0.9, 0.8125, 0.021}, Row{1.3, 0.8, 1, 0.7531, 0.036}, Row{1.3, 0.89, 1.11, 0.6868, 0.149},
+        Row{1.8, 0.89, 1.3, 0.457, 0.048}, Row{1.8, 0.76, 1.25, 0.498, 0.0015}, Row{0.7, 0.5, 0.8, 1.749, -1},
+        Row{1.3, 0.5, 0.8, 1.017, -1}, Row{1.8, 0.5, 0.8, 0.754, -1}, Row{1.3, 1, 1, 0.71550, 0.99}}) {
     const Run end = run(figure({0, 0, 0}, {row.kappa1, row.kappa2, 1}, row.sigma), Reading::mended);
     CHECK(end.status != ode::Status::reached);
     CHECK(end.time == Approx(row.stop).margin(6e-4));

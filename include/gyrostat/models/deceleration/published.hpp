@@ -126,19 +126,16 @@ class System {
     const Scalar third = printed ? F - k2 - 1 : V;
     const Scalar stored = printed ? y[energy] : y[energy] + L_[0] / (2 * C * sigma_);
     const Scalar inertia_scale = alpha(k2);
-    dydt[energy] = -2 * drag_ * stored -
-                   M / inertia_scale * (kappa_[0] * (B - C) * F + kappa_[1] * (A - C) * W + (A - B) * third);
-    dydt[momentum] =
-        -drag_ * M -
-        sigma_ / inertia_scale * (kappa_[0] * A * (B - C) * F + kappa_[1] * B * (A - C) * W + C * (A - B) * V);
+    dydt[energy] =
+        -2 * drag_ * stored - M / inertia_scale * (kappa_[0] * (B - C) * F + kappa_[1] * (A - C) * W + (A - B) * third);
+    dydt[momentum] = -drag_ * M - sigma_ / inertia_scale *
+                                      (kappa_[0] * A * (B - C) * F + kappa_[1] * B * (A - C) * W + C * (A - B) * V);
     const Scalar growth = kappa_[0] * k2 * F + kappa_[1] * W * (k2 - 1) - V;
     dydt[modulus] = printed ? 2 * sigma_ / denominator(M) * growth : 2 * sigma_ / M * growth;
   }
 
   /// The printed denominator of dk2/dt. It vanishes at some |M| above M0 for the data of figures 5 to 13.
-  Scalar denominator(Scalar M) const noexcept {
-    return M * M * (J_[0] - J_[2]) - J_[0] * L_[1] + J_[2] * L_[0];
-  }
+  Scalar denominator(Scalar M) const noexcept { return M * M * (J_[0] - J_[2]) - J_[0] * L_[1] + J_[2] * L_[0]; }
 
  private:
   Scalar alpha(Scalar k2) const noexcept { return J_[0] * (J_[1] - J_[2]) + J_[2] * (J_[0] - J_[1]) * k2; }

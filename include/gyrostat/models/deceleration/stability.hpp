@@ -19,29 +19,29 @@ namespace gyrostat::deceleration {
 
 /// What the flow does at a fixed point of k2.
 enum class Tendency : std::uint8_t {
-  none,      ///< there is no such point
+  none,  ///< there is no such point
   attracts,
   repels,
-  neutral,   ///< k2 stands still: the three torques are equal
+  neutral,  ///< k2 stands still: the three torques are equal
 };
 
 /// The four open regions of the torque ratios in one regime, and the point where they meet. A boundary belongs to the
 /// region whose flow it shares.
 enum class Region : std::uint8_t {
-  to_axis,         ///< k2 falls to 0: steady rotation about the near axis
-  to_separatrix,   ///< k2 grows to 1
-  to_interior,     ///< k2 tends to k*2
-  from_interior,   ///< k2 leaves k*2, for 0 below it and for 1 above
-  neutral,         ///< equal torques: k2 is constant
+  to_axis,        ///< k2 falls to 0: steady rotation about the near axis
+  to_separatrix,  ///< k2 grows to 1
+  to_interior,    ///< k2 tends to k*2
+  from_interior,  ///< k2 leaves k*2, for 0 below it and for 1 above
+  neutral,        ///< equal torques: k2 is constant
 };
 
 /// The stability table of one regime.
 template <Real Scalar>
 struct RegimeStability {
   Region region = Region::neutral;
-  Tendency axis = Tendency::neutral;        ///< of k2 = 0
-  Tendency interior = Tendency::none;       ///< of k*2
-  Tendency separatrix = Tendency::neutral;  ///< of k2 = 1
+  Tendency axis = Tendency::neutral;                                 ///< of k2 = 0
+  Tendency interior = Tendency::none;                                ///< of k*2
+  Tendency separatrix = Tendency::neutral;                           ///< of k2 = 1
   math::Modulus<Scalar> quasi_stationary{nan<Scalar>, nan<Scalar>};  ///< k*2; NaN where there is none
 
   /// The point that k2 tends to from `start`.
@@ -123,7 +123,7 @@ Result<RegimeStability<Scalar>> regime_stability(const Vec3<Scalar>& b, Regime r
   table.interior = grows_at_axis ? Tendency::attracts : Tendency::repels;
   const auto balance = modulus_of_balance<Elliptic>(near_far / mid_far);
   // A ratio that rounds to 0 or 1/2 puts k*2 at that end to rounding.
-  table.quasi_stationary = balance                                    ? *balance
+  table.quasi_stationary = balance                             ? *balance
                            : near_far / mid_far < Scalar(0.25) ? math::Modulus<Scalar>{1, 0}
                                                                : math::Modulus<Scalar>{0, 1};
   return table;
