@@ -24,6 +24,7 @@ struct Quantity {
   const char* name;
   int width;
   double values[3];
+  double error = nan<double>;  ///< estimated, relative; NaN where it is a definition and has none
 };
 
 /// Something the user should know; `value` is the number that raised it, NaN if there is none.

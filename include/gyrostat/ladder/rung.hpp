@@ -37,7 +37,7 @@ struct Refusal {
 };
 
 /// The answer of the first rung, cheapest first, whose own error estimate meets the tolerance; failing that the most
-/// accurate of those that answered, with met false. `only` names a single rung, which then answers wherever it can.
+/// accurate of those that answered, one in its domain before any outside, with met false. `only` names a single rung, which then answers wherever it can.
 /// On failure the answer's `tried` still tells what was looked at.
 template <class Scene, class Track, class Monitor>
   requires RungResult<Track, Scene>
@@ -45,7 +45,7 @@ Answer climb(std::span<const Rung<Scene, Track, Monitor>> rungs, const Scene& sc
              Monitor* monitor, Refusal& refusal) {
   Answer best;
   std::vector<Attempt> tried;
-  bool answered = false;
+  bool answered = false, best_in_domain = false;
   for (std::size_t i = 0; i < rungs.size(); ++i) {
     if (only >= 0 && i != std::size_t(only)) continue;
     const Track track = rungs[i].answer(scene, monitor);
@@ -62,8 +62,11 @@ Answer climb(std::span<const Rung<Scene, Track, Monitor>> rungs, const Scene& sc
     answer.met = track.in_domain && answer.error <= tolerance;
     tried.push_back({rungs[i].name, answer.error, answer.met || only >= 0,
                      track.in_domain ? nullptr : "the scene leaves its domain"});
-    const bool better = !answered || answer.met || answer.error < best.error;
-    if (better) best = std::move(answer);
+    const bool same_kind = track.in_domain == best_in_domain;
+    if (!answered || answer.met || (same_kind ? answer.error < best.error : track.in_domain)) {
+      best = std::move(answer);
+      best_in_domain = track.in_domain;
+    }
     answered = true;
     if (best.met) break;
   }

@@ -89,7 +89,7 @@ inline void warn_of_motion(Track& track, const AveragingError<double>& error, bo
 inline void keep_sample(Track& track, const MeanState<double>& s) {
   track.norm.push_back(s.norm);
   track.energy.push_back(s.norm * s.norm * s.polhode.energy_ratio() / 2);
-  track.k2.push_back(s.polhode.modulus.k2);
+  track.k2.push_back(s.norm > 0 ? s.polhode.modulus.k2 : 0);
   track.regime.push_back(s.norm > 0 ? s.polhode.regime : Regime::rest);
 }
 
@@ -137,7 +137,7 @@ Track averaged_track(const Scene& scene) {
     late = scene.greatest_control() > 0 ? (tail + drift) / *stop : 0;
   }
   if (const auto stop = run.motion().stop_time()) track.stop_time = *stop;
-  track.stop_error = std::isfinite(track.stop_time) ? late : 0;
+  track.stop_error = std::isfinite(track.stop_time) ? late + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene) : 0;
 
   const double least = track.norm.back();
   const double local = 10 * AveragedRun<Elliptic>::tolerance_of(scene);
@@ -179,8 +179,9 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
     return Track::refused(Errc::not_applicable, "the motion is too fast: averaging would hand over at the start");
 
   Track track;
+  const double phase_error = std::max(1e-7, scene.data().tolerance * 1e-2);
   AveragedRun<Elliptic> run(scene, mean.polhode, norm0 * (1 - away.norm), u0 / Elliptic::complete(start.modulus).K,
-                            std::max(1e-7, scene.data().tolerance * 1e-2));
+                            phase_error);
   // The osculating state, if there still is a second order.
   struct Osculating {
     MeanState<double> state;
@@ -216,7 +217,7 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   track.norm_error = in_span.norm + local * norm0;
   track.energy_error = in_span.energy + 2 * local * energy0;
   track.k2_error = in_span.k2 + local;
-  track.momentum_error = in_span.vector + local * norm0;
+  track.momentum_error = in_span.vector + (local + 10 * phase_error) * norm0;
   track.counts = run.motion().counts();
   detail::warn_of_start(track, scene, start);
 

@@ -25,7 +25,7 @@ Track equal_torque_track(const Scene& scene) {
     const auto now = motion.at(t);
     track.norm.push_back(now.norm);
     track.energy.push_back(now.norm * now.norm * motion.energy_ratio() / 2);
-    track.k2.push_back(motion.modulus().k2);
+    track.k2.push_back(now.norm > 0 ? motion.modulus().k2 : 0);
     track.regime.push_back(now.norm > 0 ? motion.regime() : Regime::rest);
     track.momentum.push_back(now.momentum);
     rounding = std::max(rounding, motion.rounding(t));

@@ -401,7 +401,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   const Scalar phase =
       span * (coefficients.quadratic.cwiseAbs().maxCoeff() * size + coefficients.linear.norm() + coefficients.rate.norm());
   constexpr Scalar finest = epsilon<Scalar> / 8;
-  Scalar step_tolerance = options.tolerance / 64 / (4 + Scalar(1e-5L) * phase * phase);
+  Scalar step_tolerance = options.tolerance / 64 / (4 + Scalar(2e-4L) * phase * phase);
   step_tolerance = std::clamp(step_tolerance, finest, Scalar(1e-8L));
   if (!(step_tolerance >= finest)) step_tolerance = finest;
 

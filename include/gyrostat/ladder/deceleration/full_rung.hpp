@@ -37,6 +37,7 @@ namespace detail {
 inline double k2_uncertainty(const Problem<double>& problem, const Vec3<double>& M, const OrbitKind& at, double norm,
                              double energy) noexcept {
   if (at.regime == Regime::rest) return 0;
+  if (at.regime == Regime::point && problem.rotor_momentum.isZero(0)) return 4 * epsilon<double>;
   const double R = M.norm();
   norm = std::max(norm, 2 * epsilon<double> * R);
   if (problem.rotor_momentum.isZero(0)) {
@@ -126,8 +127,18 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   const double longest = U.norm() / scene.least_control();
   const bool find_stop = longest <= 20 * span || longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
   const Quat<double> q_IP = data.attitude * from_matrix(scene.R_BP());
-  return full_motion_track(problem, data.times, data.tolerance, find_stop, data.wants_attitude ? &q_IP : nullptr,
-                           monitor);
+  const auto at_tolerance = [&](double tolerance) {
+    return full_motion_track(problem, data.times, tolerance, find_stop, data.wants_attitude ? &q_IP : nullptr, monitor);
+  };
+  Track track = at_tolerance(data.tolerance);
+  // The modulus may need more digits of M than M itself was asked for.
+  const double excess = 2 * track.k2_error / data.tolerance;
+  if (track.failure == Errc::ok && excess > 2 && excess < 1e4) {
+    Track finer = at_tolerance(std::max(1e-14, data.tolerance / excess));
+    finer.counts += track.counts;
+    return finer;
+  }
+  return track;
 }
 
 }  // namespace gyrostat::deceleration

@@ -16,6 +16,17 @@ inline double hand_over_share(const Scene& scene) noexcept {
   return std::clamp(std::pow(scene.data().tolerance, -0.25), 8.0, 100.0);
 }
 
+namespace detail {
+
+/// Error of what the control opposes, N m s: |M|, or |J omega| = `carrier`, which the energy tells.
+inline double opposed_error(const Problem<double>& problem, const SlowError<double>& error, double carrier) noexcept {
+  if (problem.law == Law::total) return error.norm;
+  return std::min(std::sqrt(2 * error.energy / problem.inverse_inertia[0]),
+                  error.energy / (problem.inverse_inertia[0] * carrier));
+}
+
+}  // namespace detail
+
 /// Goes on from M (principal axes) at time `begin` with the full equations: appends the samples that the track still
 /// lacks, finds the stop, and adds to the track's errors what `error` at the hand-over grows to, as a neighbour shows
 /// that starts as far away along its orbit as the phase may be wrong.
@@ -37,10 +48,8 @@ inline Errc hand_over(Track& track, const Scene& scene, const Vec3<double>& M, d
   track.stop_time = begin + full.stop_time;
   if (std::isfinite(full.stop_time)) {
     // What the control opposes is late by its own error over the weakest control.
-    const Vec3<double> G = M - problem.rotor_momentum;
-    const bool total = problem.law == Law::total;
-    const double late = total ? error.norm : error.energy / (problem.inverse_inertia[0] * G.norm());
-    track.stop_error = (late / std::max(scene.least_control(), 1e-300) + 2 * std::abs(full.stop_time - near.stop_time) +
+    const double late = detail::opposed_error(problem, error, (M - problem.rotor_momentum).norm());
+    track.stop_error = (late / final_torque(scene).least + 2 * std::abs(full.stop_time - near.stop_time) +
                         full.stop_error * full.stop_time) /
                        track.stop_time;
   }

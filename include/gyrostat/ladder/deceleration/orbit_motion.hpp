@@ -62,6 +62,7 @@ struct OrbitEquations {
 template <class Elliptic>
 struct FirstOrderRates {
   static constexpr double longest_step = 2;
+  static constexpr std::uint64_t step_cap = 5000;
 
   template <Real Scalar>
   Result<MeanRates<Scalar>> at(const Problem<Scalar>& problem, const Level<Scalar>& level,
@@ -79,6 +80,7 @@ struct FirstOrderRates {
 template <class Elliptic, Real Scalar>
 struct SecondOrderRates {
   static constexpr Scalar longest_step = Scalar(.25);  // neighbouring orbits must resemble each other
+  static constexpr std::uint64_t step_cap = 600;
 
   Orbit<Scalar, Elliptic> reference;
   bool phase_lost = false;  ///< the orbits of two steps differ too much to compare their phases
@@ -106,7 +108,8 @@ struct SecondOrderRates {
   }
 };
 
-/// Advances mean equations over free orbits forward in time. No heap, no throw, at most `step_cap` steps. A motion whose
+/// Advances mean equations over free orbits forward in time. No heap, no throw, at most Rates::step_cap
+/// steps. A motion whose
 /// further way the averages do not determine (capture from one component into one of two lobes) ends with
 /// failure() == undetermined.
 template <class Rates, Real Scalar>
@@ -115,8 +118,6 @@ class OrbitMotion {
   using State = typename Equations::State;
 
  public:
-  static constexpr std::uint64_t step_cap = 20000;
-
   struct Sample {
     Level<Scalar> level;
     Component component;
@@ -152,7 +153,7 @@ class OrbitMotion {
     const State& end = solver_.state();
     if (now_ < end[Equations::time]) {
       const State y = solver_.at(locate(now_));
-      return {solver_.rhs().level(y), component_, y[Equations::phase], false};
+      return {solver_.rhs().level(y), solver_.rhs().followed, y[Equations::phase], false};
     }
     return {solver_.rhs().level(end), component_, end[Equations::phase],
             at_rest_ && now_ >= end[Equations::time] + remainder()};
@@ -192,12 +193,13 @@ class OrbitMotion {
     control.absolute = {tolerance, tolerance * swing, fading > 0 ? tolerance / fading : infinity<Scalar>, phase_error};
     control.first_step = Scalar(.02);
     control.longest_step = Rates::longest_step;
-    control.step_cap = step_cap;
+    control.step_cap = Rates::step_cap;
     return control;
   }
 
   template <class Visitor>
   ode::Status step(Visitor visit) noexcept {
+    solver_.rhs().followed = component_;  // and no sooner: the dense output of the last step still needs the old one
     if (const auto status = solver_.step(far_away); status != ode::Status::reached) return status;
     const Level<Scalar> at = solver_.rhs().level(solver_.state());
     const auto orbit = Orbit<Scalar>::at(solver_.rhs().problem, at, component_);
@@ -206,7 +208,6 @@ class OrbitMotion {
       const bool to_point = now.regime == Regime::point || component_.regime == Regime::point;
       changed_ = changed_ || (!to_point && (now.regime != component_.regime || now.branch != component_.branch));
       component_ = now;
-      solver_.rhs().followed = now;
       solver_.rhs().rates.accept(solver_.rhs().problem, at, now);
     }
     visit(at, component_, solver_.state()[Equations::time]);

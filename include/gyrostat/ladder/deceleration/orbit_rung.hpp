@@ -16,7 +16,7 @@ namespace gyrostat::deceleration {
 template <class Elliptic>
 class OrbitError {
  public:
-  static constexpr double first_factor = 3, second_factor = 6;
+  static constexpr double first_factor = 4, second_factor = 10;
 
   explicit OrbitError(const Problem<double>& problem) noexcept : problem_(problem) {}
 
@@ -27,15 +27,20 @@ class OrbitError {
     last_ = t;
     const auto s = second_order<Elliptic>(problem_, level, component);
     if (!s) {
-      known_ = known_ && s.error() == Errc::not_applicable;  // on an equilibrium nothing oscillates
+      const bool on_equilibrium = s.error() == Errc::not_applicable;
+      known_ = known_ && on_equilibrium;
+      if (on_equilibrium) visit_equilibrium(level, component);
       return;
     }
+    // What second order leaves out: its own oscillation, or that of first order times the change during it.
+    const double shift = 2 * pi<double> * s->phase_oscillation +
+                         s->orbit.period() * std::abs(s->first.R) / level.R;
     drift_R_ += std::abs(s->second.R) * span;
     drift_h_ += std::abs(s->second.h) * span;
     keep(first_.norm, s->oscillation.R);
     keep(first_.energy, s->oscillation.h);
-    keep(second_.norm, s->second_oscillation.R);
-    keep(second_.energy, s->second_oscillation.h);
+    keep(second_.norm, std::max(s->second_oscillation.R, s->oscillation.R * shift));
+    keep(second_.energy, std::max(s->second_oscillation.h, s->oscillation.h * shift));
     keep(first_.k2, k2_swing(*s, level, component, s->oscillation.R, s->oscillation.eta));
     keep(second_.k2, k2_swing(*s, level, component, s->second_oscillation.R, s->second_oscillation.eta));
     const double size = std::sqrt(std::max(0.0, transverse(*s)));
@@ -61,6 +66,22 @@ class OrbitError {
 
   static void keep(double& greatest, double value) noexcept {
     if (!(value <= greatest)) greatest = value;
+  }
+
+  /// On an equilibrium nothing oscillates, but the torque holds the body a little beside it.
+  void visit_equilibrium(const Level<double>& level, Component component) noexcept {
+    const auto orbit = Orbit<double, Elliptic>::at(problem_, level, component);
+    if (!orbit) return;
+    const Vec3<double> M = orbit->momentum_at(0.0);
+    const double rate = level.R * (problem_.inverse_inertia[2] - problem_.inverse_inertia[0]) + problem_.gyro_rate().norm();
+    const double turn = std::isfinite(orbit->period()) ? orbit->period() / (2 * pi<double>) : 1 / rate;
+    const double beside = small_torque(problem_, M).norm() * turn;
+    keep(first_.norm, beside);
+    keep(first_.energy, beside * problem_.angular_velocity(M).norm() + beside * beside * problem_.inverse_inertia[2]);
+    const auto away = Orbit<double, Elliptic>::through(
+        problem_, (M + beside * M.cross(Vec3<double>(1, 1, 1)).stableNormalized()).eval());
+    keep(first_.k2, away ? 4 * away->modulus().k2 : 1.0);
+    keep(second_.vector, beside);
   }
 
   /// Mean square distance of M from its mean over the orbit.
@@ -163,6 +184,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   for (const double t : scene.data().times) {
     if (motion.advance(t, 0, visit) != ode::Status::reached) return detail::not_followed(motion.failure());
     const auto now = motion.sample();
+    if (!std::isfinite(now.level.R)) return detail::not_followed(Errc::separatrix);
     detail::keep_sample(track, problem, now.level, now.component, now.at_rest);
   }
   const double end = scene.data().times.back();
@@ -173,16 +195,19 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   track.k2_error = in_span.k2 + local;
 
   const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
-  const auto stop = motion.stop_time(visit);
-  if (!stop && stop.error() != Errc::undetermined && stop.error() != Errc::separatrix)
-    return detail::not_followed(stop.error());
-  if (!stop) {
+  if (!Hold<double>(problem).holds) {
+    track.stop_time = infinity<double>;
+  } else if (const auto stop = motion.stop_time(visit)) {
+    track.stop_time = *stop;
+    const auto torque = final_torque(scene);
+    const double carrier = (problem.momentum - problem.rotor_momentum).norm();
+    const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
+    const double late = detail::opposed_error(problem, error.first_order(), carrier) / torque.least;
+    track.stop_error = (tail + late) / *stop + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene);
+  } else if (stop.error() == Errc::undetermined) {
     track.warn("capture-undetermined", "after the asked times the motion is captured into one of two lobes: no stop time");
   } else {
-    track.stop_time = *stop;
-    const double floor = 3 * breakdown * (1 / scene.least_control() - 1 / scene.greatest_control());
-    if (std::isfinite(*stop))
-      track.stop_error = (floor + error.first_order().norm / std::max(scene.least_control(), 1e-300)) / *stop;
+    track.warn("stop-unknown", "after the asked times the mean equations do not reach the stop");
   }
   if (end >= track.stop_time || motion.changed_component()) track.k2_error = 1;
   if (motion.changed_component())
@@ -221,9 +246,12 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
     if (monitor) monitor->fraction.store(std::min(1.0, t / scene.data().times.back()), std::memory_order_relaxed);
   };
   using Rates = SecondOrderRates<Elliptic, double>;
+  // f2 is a difference of neighbouring orbits: below its noise a tighter tolerance only costs steps.
+  const double tolerance = std::max(1e-9, AveragedRun<Elliptic>::tolerance_of(scene));
+  const double phase_error = std::max(1e-6, scene.data().tolerance * 1e-2);
   OrbitMotion<Rates, double> motion(problem, mean->level, mean->component, mean->phase,
-                                    std::max(1e-11, AveragedRun<Elliptic>::tolerance_of(scene)),
-                                    std::max(1e-6, scene.data().tolerance * 1e-2), Rates{orbit});
+                                    tolerance, 
+                                    phase_error, Rates{orbit});
   const auto& times = scene.data().times;
   std::size_t done = 0;
   for (; done < times.size(); ++done) {
@@ -235,11 +263,11 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
     detail::keep_osculating(track, problem, *M);
   }
   const auto in_span = error.second_order_error();
-  const double local = 10 * AveragedRun<Elliptic>::tolerance_of(scene);
+  const double local = 10 * tolerance;
   track.norm_error = in_span.norm + local * problem.momentum.norm();
   track.energy_error = in_span.energy + local * problem.energy(problem.momentum);
   track.k2_error = in_span.k2 + local;
-  track.momentum_error = in_span.vector + local * problem.momentum.norm();
+  track.momentum_error = in_span.vector + (local + 10 * phase_error) * problem.momentum.norm();
   track.counts = motion.counts();
   if (motion.rates().phase_lost || motion.changed_component())
     return Track::refused(Errc::not_applicable, "the kind of orbit changes: the phase is lost, and M with it");

@@ -98,6 +98,18 @@ class Scene {
   Mat3<double> R_BP_ = Mat3<double>::Identity();
 };
 
+/// Bounds of the rate at which the control brings down what it opposes near the goal, N m: a drag that acts on the other
+/// momentum helps or hinders by drag |l|. The lower bound is 0 where the control may not get there.
+struct FinalTorque {
+  double least, greatest;
+};
+
+inline FinalTorque final_torque(const Scene& scene) noexcept {
+  const auto& p = scene.problem();
+  const double other = p.law == p.drag_law ? 0 : p.drag * p.rotor_momentum.norm();
+  return {std::max(0.0, scene.least_control() - other), scene.greatest_control() + other};
+}
+
 /// mu = max(b, drag R) over the rotation rate times R (deceleration.md, section 1): relative change of M in one radian.
 inline double small_parameter(const Scene& scene) noexcept {
   const auto& p = scene.problem();

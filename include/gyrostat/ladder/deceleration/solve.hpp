@@ -55,6 +55,9 @@ void describe(Answer& answer, const Scene& scene) {
   };
   if (!control)
     warn("no-control", "no control torque acts: the motion decays at best, and never stops", nan<double>);
+  else if (!Hold<double>(problem).holds)
+    warn("does-not-stop", "the control cannot hold the carrier at rest against the drag of the stored momentum",
+         problem.drag * problem.rotor_momentum.norm());
   else if (total && scene.has_rotor())
     warn("does-not-stop", "the law brings M to zero, not the carrier to rest: it ends turning at -J^-1 l",
          problem.gyro_rate().norm());

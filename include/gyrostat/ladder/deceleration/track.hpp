@@ -58,7 +58,7 @@ inline double greatest(const std::vector<double>& values) {
   return most;
 }
 
-inline double relative(double error, double size) { return size > 0 ? error / size : error; }
+inline double relative(double error, double size) { return size > 0 ? error / size : error > 0 ? 1.0 : 0.0; }
 
 }  // namespace detail
 
@@ -85,7 +85,7 @@ inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   answer.times = scene.data().times;
   answer.warnings = track.warnings;
   answer.counts = track.counts;
-  if (!std::isnan(track.stop_time)) answer.quantities.push_back({"stop_time", 1, {track.stop_time}});
+  if (!std::isnan(track.stop_time)) answer.quantities.push_back({"stop_time", 1, {track.stop_time}, track.stop_error});
   const auto scalars = [&](const char* name, const std::vector<double>& values, double error) {
     if (!values.empty()) answer.columns.push_back({name, 1, values, error});
   };

@@ -35,24 +35,30 @@ class AveragingError {
     const Scalar tilt = p.tilt, k2 = p.modulus.k2, kp2 = p.modulus.kp2;
     const Scalar k2_swing = std::min(Scalar(1), o.spread * k2);
     const Scalar tilt_swing = std::min(Scalar(1), o.spread * tilt * (p.axes.axisymmetric() ? Scalar(1) : 1 - tilt));
-    // M changes slowly also through the k2 that its torque sees.
-    const Scalar norm_swing = norm * std::min(Scalar(1), o.norm + Scalar(.3) * tilt_swing_weight(b) * o.spread * tilt);
+    // |M| errs also through the torque of the wrong k2.
+    const Scalar most = std::max({b.near, b.mid, b.far}), least = std::min({b.near, b.mid, b.far});
+    const auto moved = shifted(p, o.spread);
+    const Scalar torque = moved.valid ? std::abs(mean_torque(moved.polhode, b).deceleration - mean.deceleration)
+                                      : (most - least) * std::min(Scalar(1), o.spread);
+    const Scalar fall = drag * norm + mean.deceleration;
+    const Scalar norm_swing = norm * std::min(Scalar(1), o.norm + (fall > 0 ? torque / fall : Scalar(0)) / 2);
     const Scalar turn = p.rate_per_momentum() / mean.K * norm * norm;
-    const Scalar change =
-        (drag * norm + mean.deceleration + 2 * std::abs(mean.escape)) / turn;  // in one quarter period
+    const Scalar change = (fall + 2 * std::abs(mean.escape)) / turn;  // in one quarter period
     const Scalar squeeze = k2_swing / kp2;
     const Scalar shift = change + 3 * squeeze;
     const Scalar energy = norm * norm * p.energy_ratio() / 2;
-    const Scalar energy_swing = std::min(energy, 2 * energy * norm_swing / norm +
-                                                     norm * norm / 2 * std::abs(p.axes.a_far - p.axes.a_near) * tilt_swing);
-    keep(first_.norm, norm_swing * (1 + std::min(Scalar(1), squeeze)));
-    keep(first_.k2, k2_swing * (1 + std::min(Scalar(1), squeeze)));
-    keep(first_.energy, energy_swing * (1 + std::min(Scalar(1), squeeze)));
+    const Scalar energy_swing = std::min(energy, 2 * energy * norm_swing / norm + norm * norm / 2 * p.axes.near_far * tilt_swing);
+    const Scalar nonlinear = 1 + std::min(Scalar(1), squeeze);
+    keep(first_.norm, norm_swing * nonlinear);
+    keep(first_.k2, k2_swing * nonlinear);
+    keep(first_.energy, energy_swing * nonlinear);
     keep(second_.norm, norm_swing * shift);
     keep(second_.k2, k2_swing * shift);
     keep(second_.energy, energy_swing * shift);
-    keep(second_.vector,
-         norm * ((Scalar(.3) * spread(b) * change * std::min(Scalar(1), 3 * std::sqrt(tilt)) + 3 * squeeze)));
+    // The phase oscillates by the part of `change` in which the axes differ; M moves by as much of its own swing.
+    const Scalar uneven = most > 0 ? (most - least) / most : Scalar(0);
+    const Scalar swing = std::min(Scalar(1), 3 * std::sqrt(tilt * p.axes.near_far / p.axes.near_mid));
+    keep(second_.vector, norm * (Scalar(.3) * uneven * change * swing + 3 * squeeze));
     keep(change_, change);
     keep(squeeze_, squeeze);
   }
@@ -86,12 +92,6 @@ class AveragingError {
   static void keep(Scalar& greatest, Scalar value) noexcept {
     if (!(value <= greatest)) greatest = value;  // NaN stays
   }
-  static Scalar spread(const ControlTorques<Scalar>& b) noexcept {
-    const Scalar hi = std::max({b.near, b.mid, b.far}), lo = std::min({b.near, b.mid, b.far});
-    return hi > 0 ? (hi - lo) / hi : 0;
-  }
-  static Scalar tilt_swing_weight(const ControlTorques<Scalar>& b) noexcept { return spread(b); }
-
   SlowError<Scalar> first_{}, second_{};
   Scalar crossing_ = 0, crossing_norm_ = 0, change_ = 0, squeeze_ = 0;
 };

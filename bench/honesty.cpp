@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How honest the answers are: random scenes of the deceleration family, solved at two tolerances, against the full
+// equations at 1e-12. Prints the fraction of answers whose true error is within the stated one in every column and in
+// the stop time, the median of stated over true, and the worst cases with their scenes.
+//
+//     honesty [SCENES = 10000] [SEED = 1] [RUNG = auto] [DECADES = 5]     eps from 10^-DECADES to 1
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "gyrostat/ladder/deceleration/solve.hpp"
+
+namespace {
+
+using namespace gyrostat;
+using namespace gyrostat::deceleration;
+
+/// Bodies, rotors, torques and starts of every kind the family knows, the degenerate ones well represented.
+class Scenes {
+ public:
+  Scenes(unsigned seed, double decades) : decades_(decades), random_(seed) {}
+
+  struct Made {
+    Inertia<double> body;
+    SceneData data;
+  };
+
+  Made next() {
+    for (;;) {
+      const double A = 1 + unit(), C = 0.3 + 0.7 * unit();
+      double B = C + (A - C) * unit();
+      const double kind = unit();
+      if (kind < 0.1) B = A - (A - C) * std::pow(10, -1 - 4 * unit());
+      else if (kind < 0.2) B = C + (A - C) * std::pow(10, -1 - 4 * unit());
+      else if (kind < 0.22) B = A;
+      else if (kind < 0.24) B = C;
+      const auto body = Inertia<double>::from_moments(A, B, C);
+      if (!body) continue;
+      Made made{*body, {}};
+      SceneData& d = made.data;
+      d.momentum = direction();
+      const double eps = std::pow(10, -decades_ * unit());
+      for (int i = 0; i < 3; ++i) d.control[i] = eps * std::pow(10, -1.5 * unit());
+      if (unit() < 0.05) d.control.setConstant(eps * unit());
+      d.drag = unit() < 0.4 ? 0 : eps * unit();
+      if (unit() < 0.5) {
+        d.rotor_momentum = direction() * std::pow(10, -3 + 4 * unit());
+        if (unit() < 0.2) d.rotor_momentum[int(3 * unit())] = 0;
+        if (unit() < 0.1) d.rotor_momentum = Vec3<double>(0, 0, d.rotor_momentum.norm());
+        d.law = unit() < 0.6 ? Law::total : Law::carrier;
+        d.drag_law = unit() < 0.6 ? d.law : Law::total;
+      } else if (unit() < 0.2 && B < A && C < B) {
+        const auto polhode = polhode_through<double>(Vec3<double>(1 / A, 1 / B, 1 / C), d.momentum);
+        const double kp2 = std::pow(10, -1 - 9 * unit());
+        const auto near = at_modulus<double>(polhode, {1 - kp2, kp2});
+        d.momentum = momentum_on(near, 1.0, 4 * unit() * math::Native::complete(near.modulus).K);
+      }
+      const Vec3<double> U = d.law == Law::total ? d.momentum : Vec3<double>(d.momentum - d.rotor_momentum);
+      const double mean = d.control.mean();
+      const double braking = d.drag > 0 ? std::log1p(d.drag * U.norm() / mean) / d.drag : U.norm() / mean;
+      const double span = braking * std::pow(10, -1.2 * unit()) * 1.2;
+      for (int i = 1; i <= 12; ++i) d.times.push_back(span * i / 12);
+      return made;
+    }
+  }
+
+ private:
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+  Vec3<double> direction() {
+    std::normal_distribution<double> normal;
+    Vec3<double> v(normal(random_), normal(random_), normal(random_));
+    return v.normalized();
+  }
+  double decades_;
+  std::mt19937_64 random_;
+};
+
+struct Case {
+  double ratio;  ///< true over stated
+  std::string text;
+};
+
+double column_error(const Column& column, const Column& truth) {
+  double most = 0, size = 0;
+  const std::size_t w = std::size_t(column.width);
+  for (std::size_t i = 0; i < column.values.size(); i += w) {
+    double difference = 0, norm = 0;
+    for (std::size_t j = i; j < i + w; ++j) {
+      difference += (column.values[j] - truth.values[j]) * (column.values[j] - truth.values[j]);
+      norm += truth.values[j] * truth.values[j];
+    }
+    most = std::max(most, std::sqrt(difference));
+    size = std::max(size, std::sqrt(norm));
+    if (std::isnan(difference)) return infinity<double>;
+  }
+  return column.name == std::string_view("modulus_squared") || size == 0 ? most : most / size;
+}
+
+std::string describe(const SceneData& d, const Inertia<double>& body, const Answer& answer) {
+  char line[600];
+  std::snprintf(line, sizeof line,
+                "%s tol %.0e J %.17g %.17g %.17g l %.17g %.17g %.17g b %.17g %.17g %.17g drag %.17g law %d %d M %.17g "
+                "%.17g %.17g T %.17g",
+                answer.model, d.tolerance, body.principal()[0], body.principal()[1], body.principal()[2],
+                d.rotor_momentum[0], d.rotor_momentum[1], d.rotor_momentum[2], d.control[0], d.control[1], d.control[2],
+                d.drag, int(d.law), int(d.drag_law), d.momentum[0], d.momentum[1], d.momentum[2], d.times.back());
+  return line;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int count = argc > 1 ? std::atoi(argv[1]) : 10000;
+  const unsigned seed = argc > 2 ? unsigned(std::atoi(argv[2])) : 1;
+  Model rung = Model::any;
+  static constexpr const char* names[] = {"auto", "equal-torque", "averaged", "averaged-2", "full"};
+  for (int i = 0; argc > 3 && i < 5; ++i)
+    if (std::strcmp(argv[3], names[i]) == 0) rung = Model(i);
+
+  const double decades = argc > 4 ? std::atof(argv[4]) : 5;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  for (const double tolerance : {1e-3, 1e-6}) {
+    Scenes scenes(seed, decades);
+    std::map<std::string, int> by_model;
+    std::map<std::string, std::vector<double>> ratios;
+    std::vector<Case> worst;
+    std::vector<std::string> refusals;
+    int answered = 0, honest = 0, met = 0, over = 0, refused = 0, outside = 0;
+    double slowest = 0;
+    std::string slow;
+    for (int i = 0; i < count; ++i) {
+      auto made = scenes.next();
+      made.data.tolerance = tolerance;
+      made.data.model = rung;
+      const auto scene = Scene::make(made.body, made.data);
+      made.data.tolerance = 1e-12;
+      made.data.model = Model::full;
+      const auto reference = Scene::make(made.body, made.data);
+      made.data.tolerance = tolerance;
+      Refusal refusal, failed;
+      const auto begin = std::chrono::steady_clock::now();
+      const Answer answer = solve(*scene, refusal);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      if (seconds > slowest) slowest = seconds, slow = describe(made.data, made.body, answer);
+      if (refusal.code != Errc::ok) {
+        ++refused;
+        if (by_model[std::string("refused: ") + refusal.why]++ < 2) refusals.push_back(describe(made.data, made.body, answer));
+        continue;
+      }
+      if (rung != Model::any && answer.tried.back().why) {
+        ++outside;
+        continue;
+      }
+      const Answer truth = solve(*reference, failed);
+      if (failed.code != Errc::ok) {
+        std::printf("no truth: %s\n", describe(made.data, made.body, answer).c_str());
+        continue;
+      }
+      ++answered;
+      by_model[answer.model]++;
+      bool good = true, within = true;
+      double most = 0;
+      std::string which;
+      const auto compare = [&](const char* name, double error, double stated, double own) {
+        error = std::max(0.0, error - own);  // what the truth itself may be off by
+        const double ratio = error == 0 ? 0 : error / stated;
+        if (error > 0) ratios[std::string(answer.model) + " " + name].push_back(stated / error);
+        good = good && error <= stated;
+        within = within && error <= tolerance;
+        if (!(ratio <= most)) most = ratio, which = name;
+      };
+      for (const Column& column : answer.columns) {
+        if (column.name == std::string_view("regime")) continue;
+        const Column* right = truth.find(column.name);
+        compare(column.name, column_error(column, *right), column.error, right->error);
+      }
+      const auto stop_of = [](const Answer& a) {
+        for (const Quantity& q : a.quantities)
+          if (q.name == std::string_view("stop_time")) return q;
+        return Quantity{"stop_time", 1, {gyrostat::nan<double>}};
+      };
+      const Quantity stop = stop_of(answer), right = stop_of(truth);
+      if (std::isfinite(stop.values[0]) && std::isfinite(right.values[0]))
+        compare("stop_time", std::abs(stop.values[0] / right.values[0] - 1), stop.error, right.error);
+      honest += good;
+      met += answer.met;
+      over += answer.met && !within;
+      if (!good) worst.push_back({most, which + " " + describe(made.data, made.body, answer)});
+    }
+    std::printf("tolerance %.0e: %d answered, %d refused, %d outside the rung's domain; slowest %.3f s\n", tolerance,
+                answered, refused, outside, slowest);
+    std::printf("  slowest: %s\n", slow.c_str());
+    for (const auto& [name, n] : by_model) std::printf("  %6d %s\n", n, name.c_str());
+    std::printf("  true <= stated in %.4f %%; met in %d, of which over the tolerance %d\n",
+                100.0 * honest / std::max(1, answered), met, over);
+    for (auto& [name, values] : ratios) {
+      std::sort(values.begin(), values.end());
+      std::printf("  stated/true %-36s n %6zu  least %9.3g  1 %% %9.3g  median %9.3g\n", name.c_str(), values.size(),
+                  values.front(), values[values.size() / 100], values[values.size() / 2]);
+    }
+    for (const auto& text : refusals) std::printf("  refused: %s\n", text.c_str());
+    std::sort(worst.begin(), worst.end(), [](const Case& a, const Case& b) { return a.ratio > b.ratio; });
+    for (std::size_t i = 0; i < std::min<std::size_t>(8, worst.size()); ++i)
+      std::printf("  true/stated %.3g: %s\n", worst[i].ratio, worst[i].text.c_str());
+  }
+}
