@@ -431,4 +431,10 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   }
 }
 
+#if defined(GYROSTAT_COMPILED)
+extern template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
+                                                                     std::span<Vec3<double>>, const FullMotionOptions<double>&,
+                                                                     const Quat<double>*, std::span<Quat<double>>) noexcept;
+#endif
+
 }  // namespace gyrostat::deceleration

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/deceleration/full_motion.hpp"
+
+namespace gyrostat::deceleration {
+
+template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
+                                                              std::span<Vec3<double>>, const FullMotionOptions<double>&,
+                                                              const Quat<double>*, std::span<Quat<double>>) noexcept;
+
+}  // namespace gyrostat::deceleration
