@@ -19,6 +19,7 @@ Track equal_torque_track(const Scene& scene) {
     return Track::refused(Errc::not_applicable, "the body is at rest at the start");
 
   const EqualTorqueMotion<double, Elliptic> motion(scene.problem());
+  if (!(motion.modulus().kp2 > 0)) return Track::refused(Errc::separatrix, "the motion starts on the separatrix");
   Track track;
   double rounding = 0;
   for (const double t : scene.data().times) {

@@ -176,6 +176,9 @@ class OrbitMotion {
     if (solver_.status() == ode::Status::step_limit) return Errc::step_limit;
     return solver_.rhs().failure == Errc::ok ? Errc::no_convergence : solver_.rhs().failure;
   }
+  /// Level and curve at the end of the last accepted step.
+  Level<Scalar> last_level() const noexcept { return solver_.rhs().level(solver_.state()); }
+  Component last_component() const noexcept { return component_; }
   const Rates& rates() const noexcept { return solver_.rhs().rates; }
   bool changed_component() const noexcept { return changed_; }
   const ode::Counts& counts() const noexcept { return solver_.counts(); }

@@ -6,6 +6,7 @@
 
 #include "gyrostat/ladder/deceleration/averaged_rung.hpp"
 #include "gyrostat/ladder/deceleration/orbit_motion.hpp"
+#include "gyrostat/models/deceleration/capture.hpp"
 
 /// Rungs `averaged` and `averaged-2` with rotor momentum, or with actuators off the principal axes.
 namespace gyrostat::deceleration {
@@ -65,7 +66,7 @@ class OrbitError {
   static constexpr double spacing_ = 0.25;
 
   static void keep(double& greatest, double value) noexcept {
-    if (!(value <= greatest)) greatest = value;
+    if (!(value <= greatest) && greatest == greatest) greatest = value;  // NaN stays
   }
 
   /// On an equilibrium nothing oscillates, but the torque holds the body a little beside it.
@@ -158,6 +159,29 @@ inline void warn_of_orbit(Track& track, const Scene& scene, const Orbit<double>&
     track.warn("near-separatrix", "the orbit starts near a separatrix", orbit.modulus().kp2);
 }
 
+/// Why a mean motion cannot be followed on, and the chance of the likelier lobe where it is captured (NaN elsewhere).
+struct Impasse {
+  Errc code;
+  double chance = nan<double>;
+};
+
+/// From one component a motion that nears a separatrix is captured into one of two lobes.
+inline Impasse impasse(const Problem<double>& problem, const Level<double>& level, Component component, Errc failure) {
+  if (failure == Errc::step_limit || component.regime != Regime::one_component) return {failure};
+  const auto band = band_of(problem, level);
+  if (!band || !(band->separatrix_distance() < 1e-4)) return {failure};
+  const bool below = band->below.kind == Critical::saddle && !(band->above.kind == Critical::saddle && band->to_above < band->to_below);
+  const auto next = capture(problem, level.R, below ? band->below.lobes : band->above.lobes, component);
+  if (!next) return {next.error() == Errc::undetermined ? Errc::separatrix : failure};
+  if (next->determined()) return {Errc::separatrix};
+  return {Errc::undetermined, std::max({next->plus, next->minus, next->outside})};
+}
+
+template <class Motion>
+Impasse impasse(const Problem<double>& problem, const Motion& motion) {
+  return impasse(problem, motion.last_level(), motion.last_component(), motion.failure());
+}
+
 inline Track not_followed(Errc failure) {
   if (failure == Errc::undetermined)
     return Track::refused(failure, "the motion is captured into one of two lobes, and averaging does not tell which");
@@ -182,7 +206,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   OrbitMotion<FirstOrderRates<Elliptic>, double> motion(problem, orbit->level(), orbit->component(), 0,
                                                         AveragedRun<Elliptic>::tolerance_of(scene), infinity<double>);
   for (const double t : scene.data().times) {
-    if (motion.advance(t, 0, visit) != ode::Status::reached) return detail::not_followed(motion.failure());
+    if (motion.advance(t, 0, visit) != ode::Status::reached) return detail::not_followed(detail::impasse(problem, motion).code);
     const auto now = motion.sample();
     if (!std::isfinite(now.level.R)) return detail::not_followed(Errc::separatrix);
     detail::keep_sample(track, problem, now.level, now.component, now.at_rest);
@@ -204,8 +228,11 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
     const double late = detail::opposed_error(problem, error.first_order(), carrier) / torque.least;
     track.stop_error = (tail + late) / *stop + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene);
-  } else if (stop.error() == Errc::undetermined) {
-    track.warn("capture-undetermined", "after the asked times the motion is captured into one of two lobes: no stop time");
+  } else if (const auto why = detail::impasse(problem, motion); why.code == Errc::undetermined) {
+    track.warn("capture-undetermined",
+               "after the asked times the motion is captured into one of two lobes, the likelier one with this chance: "
+               "no stop time",
+               why.chance);
   } else {
     track.warn("stop-unknown", "after the asked times the mean equations do not reach the stop");
   }
@@ -255,7 +282,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   const auto& times = scene.data().times;
   std::size_t done = 0;
   for (; done < times.size(); ++done) {
-    if (motion.advance(times[done], floor, visit) != ode::Status::reached) return detail::not_followed(motion.failure());
+    if (motion.advance(times[done], floor, visit) != ode::Status::reached) return detail::not_followed(detail::impasse(problem, motion).code);
     if (motion.floored()) break;
     const auto now = motion.sample();
     const auto M = osculating_of<Elliptic>(problem, {now.level, now.phase, now.component}, &motion.rates().reference);
@@ -282,7 +309,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   const auto reached = motion.advance(infinity<double>, floor, visit);
   const bool lost = motion.rates().phase_lost || motion.changed_component();
   if (reached != ode::Status::reached || lost) {
-    if (!in_time) return reached != ode::Status::reached ? detail::not_followed(motion.failure()) : detail::not_followed(Errc::separatrix);
+    if (!in_time) return reached != ode::Status::reached ? detail::not_followed(detail::impasse(problem, motion).code) : detail::not_followed(Errc::separatrix);
     track.warn("crosses-separatrix", "after the asked times the kind of orbit changes: no stop time");
     return track;
   }

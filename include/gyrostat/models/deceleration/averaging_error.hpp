@@ -90,7 +90,7 @@ class AveragingError {
 
  private:
   static void keep(Scalar& greatest, Scalar value) noexcept {
-    if (!(value <= greatest)) greatest = value;  // NaN stays
+    if (!(value <= greatest) && greatest == greatest) greatest = value;  // NaN stays
   }
   SlowError<Scalar> first_{}, second_{};
   Scalar crossing_ = 0, crossing_norm_ = 0, change_ = 0, squeeze_ = 0;

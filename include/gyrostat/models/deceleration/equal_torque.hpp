@@ -18,7 +18,8 @@ class EqualTorqueMotion {
     Vec3<Scalar> momentum;  ///< M in principal axes, N m s
   };
 
-  /// @param problem momentum != 0, rotor momentum 0, control b times the unit tensor
+  /// @param problem momentum != 0, rotor momentum 0, control b times the unit tensor; exactly
+  /// on the separatrix (modulus().kp2 = 0) M is NaN
   explicit EqualTorqueMotion(const Problem<Scalar>& problem) noexcept
       : b_(problem.control(0, 0)), drag_(problem.drag), start_(problem.momentum), norm_(start_.norm()) {
     polhode_ = polhode_through<Scalar>(problem.inverse_inertia, start_);
