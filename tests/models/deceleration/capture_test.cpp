@@ -193,3 +193,84 @@ TEST_CASE("no lobes, no capture", "[deceleration]") {
   p.inverse_inertia = {1, 1, 1};
   CHECK(critical_levels(p, 1.).error() == Errc::not_applicable);
 }
+
+TEST_CASE("averaged motions pass births and separatrices and stay with the full equations", "[deceleration]") {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> z;
+  std::uniform_real_distribution<double> u(0, 1);
+  int entered = 0, changes = 0, compared = 0;
+  for (int trial = 0; trial < 80; ++trial) {
+    Problem<double> p;
+    p.inverse_inertia = {1 + u(random), 2.5 + u(random), 4 + u(random)};
+    p.rotor_momentum = std::pow(10, -.5 - 1.5 * u(random)) * V(z(random), z(random), z(random));
+    p.control = (2e-4 * V(.2 + u(random), .2 + u(random), .2 + u(random))).asDiagonal();
+    p.drag = 1e-4;
+    if (trial % 2 == 1) p.law = p.drag_law = Law::carrier;
+    p.momentum = V(z(random), z(random), z(random)).normalized();
+
+    const auto start = Orbit<double>::through(p, p.momentum);
+    REQUIRE(start);
+    Component component = start->component();
+    bool determined = true;
+    const auto rhs = [&](double, const std::array<double, 2>& y, std::array<double, 2>& d) noexcept {
+      const auto a = average(p, Level<double>{y[0], y[1]}, component);
+      if (a) d = {a->rates.R, a->rates.eta};
+      else d.fill(gyrostat::nan<double>);
+    };
+    const double R0 = start->level().R, h0 = p.energy(p.momentum);
+    ode::StepControl<double, 2> control;
+    control.relative = 1e-8;
+    control.absolute = {1e-9 * R0, 1e-9};
+    ode::RungeKutta<double, 2, decltype(rhs)> solver(rhs, 0., {R0, start->level().eta}, control);
+    for (int step = 0; step < 2000; ++step) {
+      const auto status = solver.step(1e9);
+      Level<double> level{solver.state()[0], solver.state()[1]};
+      if (status != ode::Status::reached) {
+        // no step leads into the lobes: the separatrix
+        const auto band = band_of(p, level);
+        REQUIRE(band);
+        REQUIRE(band->separatrix_distance() < 1e-3);
+        const bool under = band->below.kind == Critical::saddle && !(band->above.kind == Critical::saddle && band->to_above < band->to_below);
+        const auto& saddle = under ? band->below : band->above;
+        const auto c = capture(p, level.R, saddle.lobes, component);
+        REQUIRE(c);
+        determined = determined && c->determined();
+        const double inwards = saddle.lobes == Regime::about_largest ? -1 : 1;
+        component = c->outside == 1 ? Component{} : Component{saddle.lobes, c->plus > c->minus ? 1 : -1};
+        level.eta = saddle.eta + (c->outside == 1 ? -inwards : inwards) * std::abs(level.eta - saddle.eta);
+        solver.restart(solver.time(), {level.R, level.eta});
+        ++entered;
+        continue;
+      }
+      const auto o = Orbit<double>::at(p, level, component);
+      REQUIRE(o);
+      if (o->regime() == Regime::point) continue;
+      changes += o->regime() != component.regime;
+      component = o->component();
+      if (level.R < .1 * R0 || energy_of(p, level) < .05 * h0) break;
+    }
+    CHECK((solver.state()[0] < .1 * R0 || energy_of(p, Level<double>{solver.state()[0], solver.state()[1]}) < .05 * h0));
+    if (!determined) continue;
+
+    ++compared;
+    const auto full = [&](double, const std::array<double, 3>& y, std::array<double, 3>& d) noexcept {
+      const V M(y[0], y[1], y[2]);
+      const V f = M.cross(p.angular_velocity(M)) + small_torque(p, M);
+      d = {f[0], f[1], f[2]};
+    };
+    ode::StepControl<double, 3> fine;
+    fine.relative = 1e-9;
+    fine.absolute.fill(1e-11);
+    fine.step_cap = 1000000;
+    ode::RungeKutta<double, 3, decltype(full)> direct(full, 0., {p.momentum[0], p.momentum[1], p.momentum[2]}, fine);
+    REQUIRE(direct.advance(solver.time()) == ode::Status::reached);
+    const V M(direct.state()[0], direct.state()[1], direct.state()[2]);
+    INFO(trial << " R " << solver.state()[0] / R0);
+    CHECK(std::abs(M.norm() - solver.state()[0]) < .02 * R0);
+    CHECK(std::abs(p.energy(M) - energy_of(p, Level<double>{solver.state()[0], solver.state()[1]})) < .03 * h0);
+  }
+  CAPTURE(entered, changes, compared);
+  CHECK(entered >= 3);
+  CHECK(changes > 20);
+  CHECK(compared > 10);
+}
