@@ -81,8 +81,7 @@ TEST_CASE("equal torques: drag alone, and nothing at all", "[deceleration]") {
       CHECK(free.at(t).norm == R);
       // under drag alone M runs along the free motion in the clock (1 - e^-drag t)/drag
       const double clock = (1 - std::exp(-.3 * t)) / .3;
-      CHECK((drag.at(t).momentum * std::exp(.3 * t) - free.at(clock).momentum).norm() <
-            R * 1e-11 / free.modulus().kp2);
+      CHECK((drag.at(t).momentum * std::exp(.3 * t) - free.at(clock).momentum).norm() < R * 1e-11 / free.modulus().kp2);
     }
   }
 }

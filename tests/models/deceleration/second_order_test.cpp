@@ -90,11 +90,11 @@ TEST_CASE("a shift that leaves [0, 1] is refused", "[deceleration]") {
   CHECK(small.polhode.modulus.k2 == Approx(.909).epsilon(1e-14));
   CHECK(small.polhode.modulus.kp2 == Approx(.091).epsilon(1e-14));
   CHECK(shifted(p, .0555).valid);
-  CHECK_FALSE(shifted(p, .0556).valid);   // over half of kp2
+  CHECK_FALSE(shifted(p, .0556).valid);  // over half of kp2
   CHECK_FALSE(shifted(p, -.0556).valid);
   const auto low = at_modulus(p, {.1, .9});
   CHECK(shifted(low, .5).valid);
-  CHECK_FALSE(shifted(low, .51).valid);   // over half of k2
+  CHECK_FALSE(shifted(low, .51).valid);  // over half of k2
   CHECK_FALSE(shifted(low, gyrostat::nan<double>).valid);
   CHECK(shifted(at_modulus(p, {0, 1}), .1).polhode.modulus.k2 == 0);
   const auto round = polhode_through<double>(V(1, 1, 2), V(.3, .4, .5));

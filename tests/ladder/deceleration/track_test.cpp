@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/deceleration/track.hpp"
+
+#include "catch.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::deceleration;
+using V = Vec3<double>;
+
+namespace {
+
+Scene scene_of(V moments, Model model = Model::any, double tolerance = 1e-6) {
+  SceneData d;
+  d.control = V(1, 1, 1);
+  d.momentum = V(1, 2, 3);
+  d.times = {1, 2};
+  d.model = model;
+  d.tolerance = tolerance;
+  return *Scene::make(*Inertia<double>::from_moments(moments[0], moments[1], moments[2]), d);
+}
+
+Track track_of(const Scene& scene) {
+  Track t;
+  t.momentum = {V(3, 4, 0), V(0, 0, 1)};
+  t.norm = {5, 1};
+  t.energy = {scene.problem().energy(t.momentum[0]), scene.problem().energy(t.momentum[1])};
+  t.k2 = {.5, .4};
+  t.regime = {Regime::about_largest, Regime::about_smallest};
+  t.norm_error = 1e-6;
+  t.momentum_error = 1e-5;
+  t.energy_error = 1e-8;
+  t.k2_error = 1e-4;
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE("columns come in the caller's axes with relative errors", "[deceleration]") {
+  const Scene scene = scene_of(V(.7, 1.4, 1));  // the caller's order is C, A, B
+  const Track track = track_of(scene);
+  Answer answer;
+  fill(answer, scene, track);
+  REQUIRE(answer.columns.size() == 6);
+  const Column& M = *answer.find("angular_momentum");
+  const Column& w = *answer.find("angular_velocity");
+  for (std::size_t row = 0; row < 2; ++row) {
+    const Eigen::Map<const V> M_B(&M.values[3 * row]), w_B(&w.values[3 * row]);
+    CHECK((M_B - scene.R_BP() * track.momentum[row]).norm() == 0);
+    CHECK((V(.7, 1.4, 1).cwiseProduct(w_B) - M_B).norm() < 1e-15);
+  }
+  CHECK(M.error == Approx(1e-5 / 5));
+  CHECK(answer.find("angular_momentum_norm")->error == Approx(1e-6 / 5));
+  CHECK(answer.find("energy")->error == Approx(1e-8 / std::max(track.energy[0], track.energy[1])));
+  CHECK(answer.find("modulus_squared")->error == 1e-4);
+  CHECK(answer.find("regime")->values[1] == double(Regime::about_smallest));
+  CHECK(std::isnan(answer.find("regime")->error));
+  CHECK(answer.error == 1e-4);
+  CHECK(answer.times == scene.data().times);
+}
+
+TEST_CASE("the stop time counts among the errors", "[deceleration]") {
+  const Scene scene = scene_of(V(1.4, 1, .7));
+  Track track = track_of(scene);
+  Answer answer;
+  fill(answer, scene, track);
+  CHECK(answer.quantities.empty());
+  track.stop_time = 7;
+  track.stop_error = 1e-2;
+  Answer with;
+  fill(with, scene, track);
+  CHECK(with.error == 1e-2);
+  REQUIRE(with.quantities.size() == 1);
+  CHECK(with.quantities[0].values[0] == 7);
+}
+
+TEST_CASE("an attitude of principal axes becomes one of body axes", "[deceleration]") {
+  const Scene scene = scene_of(V(.7, 1.4, 1));
+  Track track = track_of(scene);
+  const Quat<double> q_IP = normalised(Quat<double>{.9, .1, -.3, .2});
+  track.attitude = {q_IP, q_IP};
+  track.attitude_error = 1e-3;
+  Answer answer;
+  fill(answer, scene, track);
+  const Column& q = *answer.find("attitude");
+  CHECK(q.width == 4);
+  CHECK(q.error == 1e-3);
+  const Quat<double> back{q.values[3], q.values[0], q.values[1], q.values[2]};  // scalar last
+  const Quat<double> body = q_IP * conjugate(from_matrix(scene.R_BP()));
+  CHECK(std::abs(back.w * body.w + back.x * body.x + back.y * body.y + back.z * body.z) == Approx(1).epsilon(1e-14));
+}
+
+TEST_CASE("vectors that miss the tolerance alone are left out, unless asked for", "[deceleration]") {
+  const auto left = [](Model model, double tolerance) {
+    const Scene scene = scene_of(V(1.4, 1, .7), model, tolerance);
+    Track track = track_of(scene);
+    withhold_vector(track, scene);
+    CHECK(track.norm.size() == 2);
+    CHECK(track.momentum.empty() == (track.warnings.size() == 1));
+    return !track.momentum.empty();
+  };
+  CHECK(left(Model::any, 1e-3));
+  CHECK_FALSE(left(Model::any, 1e-7));
+  CHECK(left(Model::averaged_2, 1e-7));
+}
+
+TEST_CASE("a warning is given once", "[deceleration]") {
+  Track track;
+  track.warn("not-slow", "first", 1);
+  track.warn("not-slow", "second", 2);
+  track.warn("near-separatrix", "third", 3);
+  REQUIRE(track.warnings.size() == 2);
+  CHECK(track.warnings[0].value == 1);
+}
+
+TEST_CASE("refusals carry their reason or their error", "[deceleration]") {
+  const Track refused = Track::refused(Errc::separatrix, "why");
+  CHECK(refused.failure == Errc::separatrix);
+  CHECK(refused.refusal != nullptr);
+  const Track over = Track::over(.1);
+  CHECK(over.failure == Errc::not_applicable);
+  CHECK(over.refusal == nullptr);
+  CHECK(over.known_error == .1);
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/rung.hpp"
+
+#include <array>
+#include <cstring>
+
+#include "catch.hpp"
+
+using namespace gyrostat;
+
+namespace {
+
+/// A ladder of four invented rungs over a scene of their errors.
+struct Scene {
+  std::array<double, 4> error;
+  std::array<Errc, 4> failure{};
+  std::array<bool, 4> in_domain{true, true, true, true};
+};
+struct Track {
+  Errc failure;
+  const char* refusal;
+  double known_error;
+  bool in_domain;
+  double error;
+};
+struct Monitor {
+  int looked_at = 0;
+};
+
+void fill(Answer& answer, const Scene&, const Track& track) { answer.error = track.error; }
+
+template <std::size_t i>
+Track answer(const Scene& scene, Monitor* monitor) {
+  ++monitor->looked_at;
+  return {scene.failure[i], scene.failure[i] == Errc::ok ? nullptr : "it does not apply", gyrostat::nan<double>,
+          scene.in_domain[i], scene.error[i]};
+}
+
+constexpr std::array<Rung<Scene, Track, Monitor>, 4> ladder{
+    {{"first", &answer<0>}, {"second", &answer<1>}, {"third", &answer<2>}, {"fourth", &answer<3>}}};
+
+struct Climb {
+  Answer answer;
+  Refusal refusal;
+  Monitor monitor;
+
+  explicit Climb(const Scene& scene, double tolerance, int only = -1) {
+    answer = climb<Scene, Track, Monitor>(ladder, scene, tolerance, only, &monitor, refusal);
+  }
+  bool is(const char* model) const { return std::strcmp(answer.model, model) == 0; }
+};
+
+}  // namespace
+
+TEST_CASE("the climb ends at the first rung that meets the tolerance", "[ladder]") {
+  const Scene scene{{1e-2, 1e-4, 1e-6, 1e-8}};
+  const Climb coarse(scene, 1e-1), middle(scene, 1e-4), fine(scene, 1e-7);
+  CHECK(coarse.is("first"));
+  CHECK(coarse.monitor.looked_at == 1);
+  CHECK(middle.is("second"));
+  CHECK(fine.is("fourth"));
+  for (const Climb* c : {&coarse, &middle, &fine}) {
+    CHECK(c->answer.met);
+    CHECK(c->refusal.code == Errc::ok);
+    CHECK(c->answer.tried.size() == std::size_t(c->monitor.looked_at));
+    for (const Attempt& a : c->answer.tried) CHECK(a.accepted == (std::strcmp(a.model, c->answer.model) == 0));
+  }
+  CHECK(fine.answer.tried[1].error == 1e-4);
+  CHECK(fine.answer.tolerance == 1e-7);
+}
+
+TEST_CASE("no rung meets the tolerance: the most accurate answers and says so", "[ladder]") {
+  const Climb c(Scene{{1e-2, 1e-6, 1e-4, 1e-3}}, 1e-9);
+  CHECK(c.is("second"));
+  CHECK_FALSE(c.answer.met);
+  CHECK(c.refusal.code == Errc::ok);
+  CHECK(c.answer.tried.size() == 4);
+  CHECK(c.answer.tried[1].accepted);
+  CHECK_FALSE(c.answer.tried[3].accepted);
+}
+
+TEST_CASE("rungs that do not apply are passed over with their reason", "[ladder]") {
+  const Climb c(Scene{{1e-9, 1e-9, 1e-9, 1e-9}, {Errc::not_applicable, Errc::separatrix, Errc::ok, Errc::ok}}, 1e-3);
+  CHECK(c.is("third"));
+  CHECK(c.answer.met);
+  REQUIRE(c.answer.tried.size() == 3);
+  CHECK(std::strcmp(c.answer.tried[0].why, "it does not apply") == 0);
+  CHECK(std::isnan(c.answer.tried[1].error));
+  CHECK(c.answer.tried[2].why == nullptr);
+
+  const auto no = Errc::not_applicable;
+  const Climb none(Scene{{0, 0, 0, 0}, {no, no, no, Errc::step_limit}}, 1e-3);
+  CHECK(none.refusal.code == Errc::step_limit);
+  CHECK(std::strcmp(none.refusal.model, "fourth") == 0);
+  CHECK(none.answer.tried.size() == 4);
+  CHECK_FALSE(none.answer.met);
+}
+
+TEST_CASE("outside its domain a rung never meets a tolerance", "[ladder]") {
+  Scene scene{{1e-9, 1e-3, 1e-3, 1e-3}};
+  scene.in_domain[0] = false;
+  const Climb c(scene, 1e-2);
+  CHECK(c.is("second"));
+  CHECK(c.answer.tried[0].why != nullptr);
+  const Climb named(scene, 1e-2, 0);  // by name it answers all the same
+  CHECK(named.is("first"));
+  CHECK_FALSE(named.answer.met);
+  CHECK(named.answer.tried[0].accepted);
+}
+
+TEST_CASE("a rung asked for by name stands alone", "[ladder]") {
+  const Climb c(Scene{{1e-2, 1e-4, 1e-6, 1e-8}}, 1e-5, 1);
+  CHECK(c.is("second"));
+  CHECK_FALSE(c.answer.met);
+  CHECK(c.monitor.looked_at == 1);
+  CHECK(Climb(Scene{{1e-2, 1e-4, 1e-6, 1e-8}}, 1e-5, 2).answer.met);
+}
+
+TEST_CASE("cancelled work ends the climb", "[ladder]") {
+  const Climb c(Scene{{0, 0, 0, 0}, {Errc::not_applicable, Errc::cancelled, Errc::ok, Errc::ok}}, 1e-5);
+  CHECK(c.refusal.code == Errc::cancelled);
+  CHECK(c.monitor.looked_at == 2);
+}
