@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "gyrostat/models/deceleration/orbit.hpp"
 #include "gyrostat/models/deceleration/phase_grid.hpp"
