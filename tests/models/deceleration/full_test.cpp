@@ -199,12 +199,14 @@ TEST_CASE("carried sums and the projection shrink the phase error of a long free
       options.scale = {1, 1, 1, 0};
       options.compensated = options.projected = on;
       ode::Taylor<System> solver(System(problem), 0, {problem.momentum[0], problem.momentum[1], problem.momentum[2], 0}, options);
-      REQUIRE(solver.advance(20000) == Status::reached);
+      REQUIRE(solver.advance(50000) == Status::reached);
       return Vec3<long double>(solver.state()[0], solver.state()[1], solver.state()[2]);
     };
     static const Vec3<long double> truth = end.template operator()<long double>(1e-20L, true);
     return static_cast<double>((end.template operator()<double>(1e-16, careful) - truth).norm());
   };
-  CHECK(error(true) < 1e-12);
-  CHECK(error(false) > 20 * error(true));
+  const double careful = error(true) / epsilon<double>, plain = error(false) / epsilon<double>;
+  CAPTURE(careful, plain);
+  CHECK(careful < 5000);
+  CHECK(plain > 5 * careful);
 }
