@@ -271,7 +271,8 @@ TEST_CASE("scenes that lack terms") {
     CHECK(solve(problem, times, 1e-8).answer.stop_time == Approx(0.5 / 0.006).epsilon(1e-12));
   }
   SECTION("no times: the stop alone") {
-    CHECK(solve(problem, {}, 1e-8).answer.stop_time == Approx(solve(problem, times, 1e-8).answer.stop_time).epsilon(1e-8));
+    CHECK(solve(problem, {}, 1e-8).answer.stop_time ==
+          Approx(solve(problem, times, 1e-8).answer.stop_time).epsilon(1e-8));
   }
   SECTION("the stop not looked for") {
     FullMotionOptions<double> options;
@@ -302,7 +303,8 @@ TEST_CASE("the stated errors are honest") {
   for (int i = 0; i < 60; ++i) {
     CAPTURE(i);
     Problem<double> problem;
-    const double c = log_any(0.5, 2), b = c * log_any(1.0001, 1.6), a = std::min(b * log_any(1.0001, 1.6), 0.99 * (b + c));
+    const double c = log_any(0.5, 2), b = c * log_any(1.0001, 1.6),
+                 a = std::min(b * log_any(1.0001, 1.6), 0.99 * (b + c));
     problem.inverse_inertia = {1 / std::max(a, b), 1 / std::min(a, b), 1 / c};
     problem.momentum = Vec3<double>(any(-1, 1), any(-1, 1), any(-1, 1)) * log_any(1e-2, 1e2);
     const double size = problem.momentum.norm();
@@ -316,7 +318,8 @@ TEST_CASE("the stated errors are honest") {
     const bool turning = i % 3 == 0;
     std::vector<double> times;
     for (int k = 0; k <= 10; ++k) times.push_back(0.08 * k * size / torque);
-    const auto truth = solve(cast<long double>(problem), std::vector<long double>(times.begin(), times.end()), 1e-16L, turning);
+    const auto truth =
+        solve(cast<long double>(problem), std::vector<long double>(times.begin(), times.end()), 1e-16L, turning);
     for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
       CAPTURE(tolerance);
       const auto solved = solve(problem, times, tolerance, turning);
