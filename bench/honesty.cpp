@@ -104,16 +104,91 @@ double column_error(const Column& column, const Column& truth) {
   return column.name == std::string_view("modulus_squared") || size == 0 ? most : most / size;
 }
 
-std::string describe(const SceneData& d, const Inertia<double>& body, const Answer& answer) {
+std::string describe(const Scenes::Made& made, const Answer& answer) {
+  const SceneData& d = made.data;
+  const Vec3<double> J = made.body.principal();
   char line[600];
   std::snprintf(line, sizeof line,
-                "%s tol %.0e J %.17g %.17g %.17g l %.17g %.17g %.17g b %.17g %.17g %.17g drag %.17g law %d %d M %.17g "
-                "%.17g %.17g T %.17g",
-                answer.model, d.tolerance, body.principal()[0], body.principal()[1], body.principal()[2],
-                d.rotor_momentum[0], d.rotor_momentum[1], d.rotor_momentum[2], d.control[0], d.control[1], d.control[2],
-                d.drag, int(d.law), int(d.drag_law), d.momentum[0], d.momentum[1], d.momentum[2], d.times.back());
+                "%s J %.17g %.17g %.17g l %.17g %.17g %.17g b %.17g %.17g %.17g drag %.17g law %d %d M %.17g %.17g "
+                "%.17g T %.17g",
+                answer.model, J[0], J[1], J[2], d.rotor_momentum[0], d.rotor_momentum[1], d.rotor_momentum[2],
+                d.control[0], d.control[1], d.control[2], d.drag, int(d.law), int(d.drag_law), d.momentum[0],
+                d.momentum[1], d.momentum[2], d.times.back());
   return line;
 }
+
+Quantity stop_of(const Answer& answer) {
+  for (const Quantity& q : answer.quantities)
+    if (q.name == std::string_view("stop_time")) return q;
+  return {"stop_time", 1, {gyrostat::nan<double>}};
+}
+
+/// What is seen at one tolerance.
+struct Tally {
+  int answered = 0, honest = 0, met = 0, over = 0, refused = 0, outside = 0, unknown = 0;
+  std::map<std::string, int> outcomes;
+  std::map<std::string, std::vector<double>> ratios;  ///< stated over true
+  std::vector<Case> worst;
+  std::vector<std::string> examples;
+  double slowest = 0;
+  std::string slow;
+
+  void time(double seconds, const Scenes::Made& made, const Answer& answer) {
+    if (seconds > slowest) slowest = seconds, slow = describe(made, answer);
+  }
+  void refuse(const Refusal& refusal, const Scenes::Made& made, const Answer& answer) {
+    ++refused;
+    if (outcomes[std::string("refused: ") + refusal.why]++ < 2) examples.push_back(describe(made, answer));
+  }
+  void compare(const Answer& answer, const Answer& truth, const Scenes::Made& made) {
+    ++answered;
+    ++outcomes[answer.model];
+    bool good = true, within = true;
+    double most = 0;
+    std::string which;
+    const auto one = [&](const char* name, double error, double stated, double own) {
+      error = std::max(0.0, error - own);  // what the truth itself may be off by
+      if (error > 0) ratios[std::string(answer.model) + " " + name].push_back(stated / error);
+      good = good && error <= stated;
+      within = within && error <= answer.tolerance;
+      const double ratio = error == 0 ? 0 : error / stated;
+      if (!(ratio <= most)) most = ratio, which = name;
+    };
+    for (const Column& column : answer.columns) {
+      if (column.name == std::string_view("regime")) continue;
+      const Column* right = truth.find(column.name);
+      one(column.name, column_error(column, *right), column.error, right->error);
+    }
+    const Quantity stop = stop_of(answer), right = stop_of(truth);
+    if (std::isfinite(stop.values[0]) && std::isfinite(right.values[0]))
+      one("stop_time", std::abs(stop.values[0] / right.values[0] - 1), stop.error, right.error);
+    honest += good;
+    met += answer.met;
+    over += answer.met && !within;
+    if (!good) worst.push_back({most, which + " " + describe(made, answer)});
+  }
+  void print(double tolerance) {
+    std::printf("tolerance %.0e: %d answered, %d refused, %d outside the rung's domain, %d without a truth\n", tolerance,
+                answered, refused, outside, unknown);
+    std::printf("  slowest %.3f s: %s\n", slowest, slow.c_str());
+    for (const auto& [name, n] : outcomes) std::printf("  %6d %s\n", n, name.c_str());
+    std::printf("  true <= stated in %.4f %%; met in %d, of which over the tolerance %d\n",
+                100.0 * honest / std::max(1, answered), met, over);
+    std::vector<double> all;
+    for (auto& [name, values] : ratios) {
+      std::sort(values.begin(), values.end());
+      std::printf("  stated/true %-36s n %6zu  least %9.3g  1 %% %9.3g  median %9.3g\n", name.c_str(), values.size(),
+                  values.front(), values[values.size() / 100], values[values.size() / 2]);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    std::sort(all.begin(), all.end());
+    if (!all.empty()) std::printf("  stated/true of all: least %.3g, median %.3g\n", all.front(), all[all.size() / 2]);
+    for (const auto& text : examples) std::printf("  refused: %s\n", text.c_str());
+    std::sort(worst.begin(), worst.end(), [](const Case& a, const Case& b) { return a.ratio > b.ratio; });
+    for (std::size_t i = 0; i < std::min<std::size_t>(8, worst.size()); ++i)
+      std::printf("  true/stated %.3g: %s\n", worst[i].ratio, worst[i].text.c_str());
+  }
+};
 
 }  // namespace
 
@@ -127,88 +202,43 @@ int main(int argc, char** argv) {
 
   const double decades = argc > 4 ? std::atof(argv[4]) : 5;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  for (const double tolerance : {1e-3, 1e-6}) {
-    Scenes scenes(seed, decades);
-    std::map<std::string, int> by_model;
-    std::map<std::string, std::vector<double>> ratios;
-    std::vector<Case> worst;
-    std::vector<std::string> refusals;
-    int answered = 0, honest = 0, met = 0, over = 0, refused = 0, outside = 0;
-    double slowest = 0;
-    std::string slow;
-    for (int i = 0; i < count; ++i) {
-      auto made = scenes.next();
-      made.data.tolerance = tolerance;
-      made.data.model = rung;
-      const auto scene = Scene::make(made.body, made.data);
-      made.data.tolerance = 1e-12;
-      made.data.model = Model::full;
-      const auto reference = Scene::make(made.body, made.data);
-      made.data.tolerance = tolerance;
-      Refusal refusal, failed;
+
+  static constexpr double tolerances[] = {1e-3, 1e-6};
+  Tally tallies[2];
+  Scenes scenes(seed, decades);
+  for (int i = 0; i < count; ++i) {
+    const auto made = scenes.next();
+    const auto posed = [&](double tolerance, Model model) {
+      SceneData data = made.data;
+      data.tolerance = tolerance;
+      data.model = model;
+      return *Scene::make(made.body, data);
+    };
+    Refusal failed;
+    Answer truth;
+    bool known = false;
+    for (int k = 0; k < 2; ++k) {
+      Refusal refusal;
       const auto begin = std::chrono::steady_clock::now();
-      const Answer answer = solve(*scene, refusal);
+      const Answer answer = solve(posed(tolerances[k], rung), refusal);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      if (seconds > slowest) slowest = seconds, slow = describe(made.data, made.body, answer);
+      tallies[k].time(seconds, made, answer);
       if (refusal.code != Errc::ok) {
-        ++refused;
-        if (by_model[std::string("refused: ") + refusal.why]++ < 2) refusals.push_back(describe(made.data, made.body, answer));
+        tallies[k].refuse(refusal, made, answer);
         continue;
       }
       if (rung != Model::any && answer.tried.back().why) {
-        ++outside;
+        ++tallies[k].outside;
         continue;
       }
-      const Answer truth = solve(*reference, failed);
-      if (failed.code != Errc::ok) {
-        std::printf("no truth: %s\n", describe(made.data, made.body, answer).c_str());
-        continue;
-      }
-      ++answered;
-      by_model[answer.model]++;
-      bool good = true, within = true;
-      double most = 0;
-      std::string which;
-      const auto compare = [&](const char* name, double error, double stated, double own) {
-        error = std::max(0.0, error - own);  // what the truth itself may be off by
-        const double ratio = error == 0 ? 0 : error / stated;
-        if (error > 0) ratios[std::string(answer.model) + " " + name].push_back(stated / error);
-        good = good && error <= stated;
-        within = within && error <= tolerance;
-        if (!(ratio <= most)) most = ratio, which = name;
-      };
-      for (const Column& column : answer.columns) {
-        if (column.name == std::string_view("regime")) continue;
-        const Column* right = truth.find(column.name);
-        compare(column.name, column_error(column, *right), column.error, right->error);
-      }
-      const auto stop_of = [](const Answer& a) {
-        for (const Quantity& q : a.quantities)
-          if (q.name == std::string_view("stop_time")) return q;
-        return Quantity{"stop_time", 1, {gyrostat::nan<double>}};
-      };
-      const Quantity stop = stop_of(answer), right = stop_of(truth);
-      if (std::isfinite(stop.values[0]) && std::isfinite(right.values[0]))
-        compare("stop_time", std::abs(stop.values[0] / right.values[0] - 1), stop.error, right.error);
-      honest += good;
-      met += answer.met;
-      over += answer.met && !within;
-      if (!good) worst.push_back({most, which + " " + describe(made.data, made.body, answer)});
+      if (!known) truth = solve(posed(1e-12, Model::full), failed);
+      known = true;
+      if (failed.code != Errc::ok)
+        ++tallies[k].unknown;
+      else
+        tallies[k].compare(answer, truth, made);
     }
-    std::printf("tolerance %.0e: %d answered, %d refused, %d outside the rung's domain; slowest %.3f s\n", tolerance,
-                answered, refused, outside, slowest);
-    std::printf("  slowest: %s\n", slow.c_str());
-    for (const auto& [name, n] : by_model) std::printf("  %6d %s\n", n, name.c_str());
-    std::printf("  true <= stated in %.4f %%; met in %d, of which over the tolerance %d\n",
-                100.0 * honest / std::max(1, answered), met, over);
-    for (auto& [name, values] : ratios) {
-      std::sort(values.begin(), values.end());
-      std::printf("  stated/true %-36s n %6zu  least %9.3g  1 %% %9.3g  median %9.3g\n", name.c_str(), values.size(),
-                  values.front(), values[values.size() / 100], values[values.size() / 2]);
-    }
-    for (const auto& text : refusals) std::printf("  refused: %s\n", text.c_str());
-    std::sort(worst.begin(), worst.end(), [](const Case& a, const Case& b) { return a.ratio > b.ratio; });
-    for (std::size_t i = 0; i < std::min<std::size_t>(8, worst.size()); ++i)
-      std::printf("  true/stated %.3g: %s\n", worst[i].ratio, worst[i].text.c_str());
+    if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
   }
+  for (int k = 0; k < 2; ++k) tallies[k].print(tolerances[k]);
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "gyrostat/ladder/deceleration/full_motion.hpp"
 #include "gyrostat/ladder/deceleration/track.hpp"
@@ -37,7 +38,9 @@ namespace detail {
 inline double k2_uncertainty(const Problem<double>& problem, const Vec3<double>& M, const OrbitKind& at, double norm,
                              double energy) noexcept {
   if (at.regime == Regime::rest) return 0;
-  if (at.regime == Regime::point && problem.rotor_momentum.isZero(0)) return 4 * epsilon<double>;
+  const auto& a = problem.inverse_inertia;
+  if (at.regime == Regime::point && (problem.rotor_momentum.isZero(0) || a[2] - a[0] <= 8 * epsilon<double> * a[2]))
+    return 4 * epsilon<double>;
   const double R = M.norm();
   norm = std::max(norm, 2 * epsilon<double> * R);
   if (problem.rotor_momentum.isZero(0)) {
@@ -54,8 +57,9 @@ inline double k2_uncertainty(const Problem<double>& problem, const Vec3<double>&
   for (const auto& moved : {Level<double>{R + norm, level.eta}, Level<double>{R, level.eta + eta},
                             Level<double>{R, level.eta - eta}}) {
     const auto orbit = Orbit<double>::at(problem, moved, {at.regime, 1});
-    const bool same = orbit && (orbit->regime() == at.regime || at.regime == Regime::point);
-    most += same ? std::abs(orbit->modulus().k2 - at.k2) : 1;
+    most += orbit                               ? std::abs(orbit->modulus().k2 - at.k2)
+            : orbit.error() == Errc::separatrix ? 1 - at.k2
+                                                : 1.0;
   }
   return std::min(1.0, most);
 }
@@ -132,11 +136,14 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   };
   Track track = at_tolerance(data.tolerance);
   // The modulus may need more digits of M than M itself was asked for.
-  const double excess = 2 * track.k2_error / data.tolerance;
-  if (track.failure == Errc::ok && excess > 2 && excess < 1e4) {
-    Track finer = at_tolerance(std::max(1e-14, data.tolerance / excess));
+  double tolerance = data.tolerance;
+  for (int trial = 0; trial < 3 && track.failure == Errc::ok && track.k2_error > data.tolerance; ++trial) {
+    const double excess = 4 * track.k2_error / data.tolerance;
+    if (excess > 1e5 || tolerance <= 1e-13) break;
+    tolerance = std::max(1e-13, tolerance / excess);
+    Track finer = at_tolerance(tolerance);
     finer.counts += track.counts;
-    return finer;
+    track = std::move(finer);
   }
   return track;
 }

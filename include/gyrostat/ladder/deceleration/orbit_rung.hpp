@@ -17,7 +17,7 @@ namespace gyrostat::deceleration {
 template <class Elliptic>
 class OrbitError {
  public:
-  static constexpr double first_factor = 4, second_factor = 10;
+  static constexpr double first_factor = 4, second_factor = 15;
 
   explicit OrbitError(const Problem<double>& problem) noexcept : problem_(problem) {}
 
@@ -227,7 +227,9 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     const double carrier = (problem.momentum - problem.rotor_momentum).norm();
     const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
     const double late = detail::opposed_error(problem, error.first_order(), carrier) / torque.least;
-    track.stop_error = (tail + late) / *stop + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene);
+    // The law of the carrier ends where its averages are differences of large numbers.
+    const double doubt = problem.law == Law::total ? 1 : 4;
+    track.stop_error = doubt * (tail + late) / *stop + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene);
   } else if (const auto why = detail::impasse(problem, motion); why.code == Errc::undetermined) {
     track.warn("capture-undetermined",
                "after the asked times the motion is captured into one of two lobes, the likelier one with this chance: "

@@ -26,7 +26,7 @@ struct SlowError {
 template <Real Scalar>
 class AveragingError {
  public:
-  static constexpr Scalar first_order_factor = 3, second_order_factor = Scalar(3.5);
+  static constexpr Scalar first_order_factor = 3, second_order_factor = 5, phase_factor = 3;
   static constexpr Scalar crossing_norm_factor = 1, crossing_k2_factor = 6;
 
   void visit(const Polhode<Scalar>& p, const ControlTorques<Scalar>& b, const MeanTorque<Scalar>& mean, Scalar drag,
@@ -82,7 +82,7 @@ class AveragingError {
   SlowError<Scalar> second_order() const noexcept {
     const Scalar f = second_order_factor;
     return {f * second_.norm, f * second_.energy, std::min(Scalar(1), f * second_.k2),
-            f * (second_.vector + second_.norm)};
+            f * (phase_factor * second_.vector + second_.norm)};
   }
 
   Scalar greatest_change() const noexcept { return change_; }    ///< relative, in one quarter period
