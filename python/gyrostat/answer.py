@@ -31,7 +31,7 @@ MEANINGS: Final = {
     "regime": "A: about the axis of largest inertia, C: about the smallest, 1: one component",
     "angular_velocity": "angular velocity of the carrier, body axes", "attitude": "attitude, body to inertial, [x, y, z, w]",
     "stop_time": "time at which the deceleration ends", "final_angular_velocity": "angular velocity at the stop",
-    "small_parameter": "rate of damping over rate of rotation", "separatrix_distance": "1 - k2 at the start",
+    "small_parameter": "rate of damping over rate of rotation", "separatrix_distance": "energy from the nearest separatrix at the start, over the range of energies at that |M|; infinite: there is none",
 }
 _AXES: Final = ("x", "y", "z", "w")
 

@@ -42,5 +42,5 @@ def rows(named: Sequence[tuple[str, ArrayLike, tuple[int, ...]]]) -> tuple[tuple
 
 def shaped(values: Any, lead: tuple[int, ...], *core: int) -> Any:
     """Rows back in their leading shape; a scalar where nothing is left."""
-    made = np.asarray(values).reshape(*lead, *core)
+    made = np.asarray(values).reshape((*lead, *core))
     return made[()] if made.ndim == 0 else made

@@ -182,7 +182,7 @@ def _short(value: Any) -> str:
         return "(" + ", ".join(_short(float(v)) for v in value) + ")"
     if math.isnan(value):
         return "-"
-    return "never" if math.isinf(value) else f"{value:.9g}"
+    return "infinite" if math.isinf(value) else f"{value:.9g}"
 
 
 def _small(error: float | None) -> str:
@@ -202,7 +202,8 @@ def _report(answer: "Answer", out: Any) -> None:
     rows = [[a.model, _small(a.error), "answered" if a.accepted else "passed over", a.why or ""] for a in answer.tried]
     show_table("What was tried", ["rung", "estimated error", "", "why"], rows, out)
     show_table("Scalars", ["name", "value", "unit"],
-               [[key, _short(value), UNITS.get(key, "")] for key, value in answer.scalars.items()], out)
+               [[key, "never" if key == "stop_time" and value == math.inf else _short(value), UNITS.get(key, "")]
+                for key, value in answer.scalars.items()], out)
     rows = []
     for column, values in answer.columns.items():
         first, last = values[0], values[-1]
@@ -214,7 +215,7 @@ def _report(answer: "Answer", out: Any) -> None:
 
 
 def _chart(arguments: argparse.Namespace) -> int:
-    from gyrostat.chart import make_chart
+    from gyrostat.charts import make_chart
 
     scene = _scene(arguments)
     with Progress(f"chart of {scene.name}") as progress:
@@ -239,9 +240,16 @@ def _stability(arguments: argparse.Namespace) -> int:
 
 
 def _reproduce(arguments: argparse.Namespace) -> int:
-    from gyrostat.gallery import reproduce
+    from gyrostat.gallery import figures, papers, reproduce
 
-    return int(reproduce(arguments.paper, arguments.figure, arguments.output))
+    if arguments.paper is None:
+        rows = [[paper, ", ".join(str(number) for number in figures(paper))] for paper in papers()]
+        show_table("Papers", ["paper", "figures"], rows, sys.stdout)
+        return MET
+    with Progress(f"figures of {arguments.paper}") as progress:
+        for file in reproduce(arguments.paper, arguments.figure, arguments.output, progress.update):
+            say(f"wrote {file}", sys.stdout)
+    return MET
 
 
 def _scenes(_: argparse.Namespace) -> int:

@@ -10,7 +10,7 @@ from gyrostat.answer import Answer
 from gyrostat.scenes import Scene, load, scene_from
 
 if TYPE_CHECKING:
-    from gyrostat.chart import Chart
+    from gyrostat.charts import Chart
     from gyrostat.deceleration import Monitor
 
 __all__ = ["chart", "solve"]
@@ -43,7 +43,7 @@ def solve(scene: SceneLike, *, monitor: "Monitor | None" = None, **overrides: An
 
 
 def chart(scene: SceneLike, **overrides: Any) -> "Chart":
-    """Error against cost of every rung and integrator on one scene; see `gyrostat.chart.Chart`."""
-    from gyrostat.chart import make_chart
+    """Error against cost of every rung and integrator on one scene; see `gyrostat.charts.Chart`."""
+    from gyrostat.charts import make_chart
 
     return make_chart(scene_of(scene, overrides))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gyrostat.chart import Chart
+    from gyrostat.charts import Chart
 
 __all__ = ["plot_answer", "plot_chart", "save"]
 
@@ -88,7 +88,10 @@ def _size_and_energy(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
 
 def _modulus(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
     if "modulus_squared" in answer.columns:
-        axes.plot(t, answer["modulus_squared"], color="black", linewidth=1.4)
+        k2 = np.array(answer["modulus_squared"], dtype=float)
+        if "regime" in answer.columns:
+            k2[answer["regime"] == "rest"] = np.nan  # a body at rest is on no orbit
+        axes.plot(t, k2, color="black", linewidth=1.4)
         _note(axes, _error_text(answer, "modulus_squared"))
     if "regime" in answer.columns:
         named = set()
@@ -112,7 +115,7 @@ def _vector(axes: "Axes", answer: Answer, t: NDArray[Any], column: str, symbol: 
         axes.plot(t, values[:, i], color=COLOURS[i], label=f"{symbol}{name}", linewidth=0.9,
                   linestyle="none" if dense else "-", marker="." if dense else "", markersize=2)
     axes.set_ylabel(f"{symbol} [{unit}]" if unit else symbol)
-    axes.legend(loc="upper right", fontsize=8, ncols=len(names))
+    axes.legend(loc="upper right", fontsize=8, ncols=len(names), markerscale=4 if dense else 1)
     axes.set_title(title, loc="left", fontsize=10)
     _note(axes, _error_text(answer, column))
 
@@ -151,34 +154,40 @@ def plot_answer(answer: Answer) -> "Figure":
     return figure
 
 
-CHART_STYLE: Final = {  # group -> marker
-    "rung": "*", "taylor": "o", "dop853": "v", "cvode": "s", "rival": "D",
+CHART_STYLE: Final = {  # group -> marker, size, dashes
+    "rung": ("*", 14, "-"), "taylor": ("o", 5, "-"), "dop853": ("v", 6, "-"), "cvode": ("s", 5, "--"), "rival": ("D", 5, ":"),
 }
+RUNG_MARKERS: Final = {"rung equal-torque": "P", "rung averaged": "^", "rung averaged-2": "X", "rung full": "*"}
+CHART_FLOOR: Final = 1e-17  # an error of zero is drawn here
 
 
 def plot_chart(chart: "Chart") -> "Figure":
-    """True error against time per solution, on log axes: |M| and, beside it, the momentum vector."""
-    figure = _figure(13, 6.2)
-    left, right = figure.subplots(1, 2, sharex=True, sharey=True)
-    floor = 1e-17
-    for axes, column, title in ((left, "angular_momentum_norm", "|M|"), (right, "angular_momentum", "vector M, body axes")):
+    """True error against time per solution, on log axes: of |M| and, beside it, of the momentum vector."""
+    figure = _figure(14, 6.5)
+    left, right, key = figure.subplots(1, 3, width_ratios=(1, 1, 0.42))
+    key.axis("off")
+    right.sharex(left)
+    right.sharey(left)
+    handles: dict[str, Any] = {}
+    for axes, column, title in ((left, "angular_momentum_norm", "|M|"), (right, "angular_momentum", "the vector M, body axes")):
         for colour, (label, points) in zip(_colours(), chart.by_label().items(), strict=False):
-            shown = [(p.seconds, max(p.error[column], floor)) for p in points if math.isfinite(p.error.get(column, math.nan))]
+            shown = [(p.seconds, max(p.error[column], CHART_FLOOR)) for p in points
+                     if math.isfinite(p.error.get(column, math.nan))]
             if not shown:
                 continue
             x, y = zip(*shown, strict=True)
-            group = points[0].group
-            axes.loglog(x, y, marker=CHART_STYLE[group], color=colour, linestyle="-" if len(shown) > 1 else "none",
-                        markersize=13 if group == "rung" else 5, linewidth=1, label=label,
-                        markeredgecolor="black" if group == "rung" else colour, markeredgewidth=0.6, zorder=3 if group == "rung" else 2)
-        axes.set_title(f"Greatest true error of {title}, relative to its greatest size", fontsize=10)
+            rung = points[0].group == "rung"
+            marker, size, dashes = CHART_STYLE[points[0].group]
+            handles[label], = axes.loglog(
+                x, y, marker=RUNG_MARKERS.get(label, marker), color=colour, linestyle=dashes if len(shown) > 1 else "none",
+                markersize=size if not rung or label == "rung full" else 11, linewidth=1.1, label=label,
+                markeredgecolor="black" if rung else colour, markeredgewidth=0.7, zorder=4 if rung else 2)
+        axes.set_title(f"Error of {title}", fontsize=10)
         axes.set_xlabel("time per solution [s]")
-        axes.set_ylabel("true error [1]")
-        axes.grid(alpha=0.3, which="both", linewidth=0.4)
-    handles: dict[str, Any] = {}
-    for axes in (left, right):
-        handles |= {str(label): handle for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)}
-    figure.legend(handles.values(), handles.keys(), loc="outside right upper", fontsize=8)
+        axes.set_ylabel("greatest true error, relative to the greatest |M| [1]")
+        axes.grid(alpha=0.35, which="major", linewidth=0.6)
+        axes.grid(alpha=0.15, which="minor", linewidth=0.4)
+    key.legend(handles.values(), handles.keys(), loc="upper left", fontsize=8, borderaxespad=0, title="median of repeats")
     figure.suptitle(f"{chart.name}: {chart.title}", fontsize=11)
     return figure
 

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 
 void bind_elliptic(pybind11::module_& module);
+void bind_published(pybind11::module_& module);
 void bind_rotation(pybind11::module_& module);
 void bind_deceleration(pybind11::module_& module);
 void bind_deceleration_integrators(pybind11::module_& module);

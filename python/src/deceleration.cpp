@@ -71,10 +71,12 @@ py::dict to_python(Answer& answer, double seconds) {
     columns[column.name] = values_of(column);
   }
   for (const Quantity& q : answer.quantities) {
+    std::vector<double> values;
+    for (int i = 0; i < q.width; ++i) values.push_back(q.values[i] + 0.0);  // no -0
     if (q.width == 1)
-      scalars[q.name] = q.values[0];
+      scalars[q.name] = values[0];
     else
-      scalars[q.name] = array(std::vector<double>(q.values, q.values + q.width), {q.width});
+      scalars[q.name] = array(std::move(values), {q.width});
   }
   py::list warnings, tried;
   for (const Warning& w : answer.warnings) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The full equations under one integrator at one setting, for charts of error against cost.
+#include <array>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -94,6 +95,48 @@ Run<double> by_dop853(const Problem<double>& problem, const std::vector<double>&
   return run;
 }
 
+#ifdef GYROSTAT_HAVE_CVODE
+Run<double> by_cvode(const Problem<double>& problem, const std::vector<double>& at, double tolerance, ode::CvodeMethod method) {
+  ode::CvodeSystem system;
+  system.dimension = 3;
+  system.rhs = [](double, const double* y, double* rate, void* user) {
+    const Vec3<double> r = momentum_rate(*static_cast<const Problem<double>*>(user), Vec3<double>(y[0], y[1], y[2]));
+    for (int i = 0; i < 3; ++i) rate[i] = r[i];
+    return r.allFinite();
+  };
+  system.jacobian = [](double, const double* y, double* columns, void* user) {
+    const Mat3<double> J = momentum_jacobian(*static_cast<const Problem<double>*>(user), Vec3<double>(y[0], y[1], y[2]));
+    for (int i = 0; i < 9; ++i) columns[i] = J(i % 3, i / 3);
+    return J.allFinite();
+  };
+  Problem<double> copy = problem;
+  system.user = &copy;
+  const Vec3<double>& M = problem.momentum;
+  const std::array<double, 3> start{M[0], M[1], M[2]};
+  ode::CvodeOptions options;
+  options.method = method;
+  options.relative = tolerance;
+  options.absolute = tolerance * M.norm();
+  Run<double> run;
+  auto made = ode::Cvode::create(system, 0, start, options);
+  if (!made) {
+    run.status = Status::not_finite;
+    return run;
+  }
+  ode::Cvode solver = std::move(made).value();
+  run.momentum.reserve(at.size());
+  std::array<double, 3> y = start;
+  for (const double t : at) {
+    while (solver.time() < t && run.status == Status::reached) run.status = solver.step(at.back());
+    if (run.status != Status::reached) break;
+    if (t > 0 && !solver.at(t, y)) run.status = Status::not_finite;
+    run.momentum.emplace_back(y[0], y[1], y[2]);
+  }
+  run.counts = solver.counts();
+  return run;
+}
+#endif
+
 template <Real Scalar>
 Problem<Scalar> problem_of(const Inertia<Scalar>& body, const Array& rotor_momentum, const Array& control, double drag,
                            Law law, Law drag_law, const Array& momentum) {
@@ -170,6 +213,12 @@ py::dict integrate(const Array& inertia, const Array& rotor_momentum, const Arra
     return timed(made, t.size(), [&] { return by_taylor_of<double, 8, 12, 16, 20, 26>(order, problem, t, tolerance); });
   }
   if (method == "dop853") return timed(made, t.size(), [&] { return by_dop853(problem, t, tolerance); });
+#ifdef GYROSTAT_HAVE_CVODE
+  if (method == "cvode-adams" || method == "cvode-bdf") {
+    const auto kind = method == "cvode-bdf" ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams;
+    return timed(made, t.size(), [&] { return by_cvode(problem, t, tolerance, kind); });
+  }
+#endif
   raise("DomainError", "method = '" + method + "': unknown, or not in this build");
 }
 

@@ -44,4 +44,5 @@ PYBIND11_MODULE(_core, module) {
   bind_rotation(module);
   bind_deceleration(module);
   bind_deceleration_integrators(module);
+  bind_published(module);
 }

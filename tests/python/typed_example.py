@@ -2,6 +2,8 @@
 """A small program of a user; mypy --strict reads it in test_package.py."""
 
 import gyrostat
+import numpy as np
+from gyrostat import deceleration, elliptic, rotation
 
 
 def libraries() -> list[str]:
@@ -10,4 +12,16 @@ def libraries() -> list[str]:
     return [f"{name} {info[name]}" for name in ("gsl", "cvode") if info[name] is not None]
 
 
-print(gyrostat.__version__, *libraries())
+def despin_times(scene: str, torques: list[float]) -> list[float]:
+    """Stop time of a scene for several equal control torques, s."""
+    return [float(gyrostat.solve(scene, control=[torque] * 3).scalars["stop_time"]) for torque in torques]
+
+
+answer = gyrostat.solve(gyrostat.load("tiangong-1"), tolerance=1e-2)
+largest: float = answer.greatest_error
+momentum = np.asarray(answer["angular_momentum_norm"])
+star = deceleration.quasi_stationary_modulus(control=[0.95, 0.8, 1.0])
+sweep = deceleration.averaged(inertia=[3.0, 2.0, 1.5], control=np.ones((4, 3)), drag=0.1, angular_momentum=[1.0, 2.0, 3.0], t=[0.0, 1.0])
+K = elliptic.complete(star).K
+turn = rotation.matrix_from_vector([0.0, 0.0, 1.0])
+print(gyrostat.__version__, *libraries(), despin_times("tiangong-1", [0.4, 0.5]), largest, momentum[-1], sweep.stop_time, K, turn)

@@ -1,0 +1,306 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What accuracy costs on one scene: every rung, every integrator, and rivals where they are installed."""
+
+import csv
+import io
+import math
+import statistics
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gyrostat import deceleration
+from gyrostat.errors import ConvergenceError, DomainError
+from gyrostat.fields import RUNGS
+from gyrostat.scenes import Scene
+
+__all__ = ["Chart", "ChartPoint", "make_chart"]
+
+REPEATS: Final = 7
+TAYLOR_ORDERS: Final = (8, 12, 16, 20, 26)
+TOLERANCES: Final = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
+# Repeats end after this time [s].
+LONG: Final = 0.5
+# A method that took longer than this for a solution [s] is not asked for a more accurate one.
+TOO_LONG: Final = 3.0
+# The integrators of others step over M = 0: the chart ends before the stop.
+STOP_SHARE: Final = 0.95
+
+Vectors = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class ChartPoint:
+    """One method at one setting. `error` holds true errors (NaN: the method does not give the column)."""
+
+    group: str  # rung, taylor, dop853, cvode or rival
+    label: str
+    setting: str
+    error: dict[str, float]
+    seconds: float
+    rhs: int
+    note: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Chart:
+    """Error against cost on one scene.
+
+    Errors are true ones, greatest over the times and relative to the greatest size, against a Taylor integration in long
+    double. Cost is the median time of one solution [s] and its count of right-hand-side evaluations.
+    """
+
+    name: str
+    title: str
+    points: tuple[ChartPoint, ...]
+
+    def by_label(self) -> dict[str, list[ChartPoint]]:
+        """Points of each line of the figure, in the order of the settings."""
+        lines: dict[str, list[ChartPoint]] = {}
+        for point in self.points:
+            lines.setdefault(point.label, []).append(point)
+        return lines
+
+    def to_csv(self) -> str:
+        """One row a point."""
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(["group", "method", "setting", "error_angular_momentum_norm", "error_angular_momentum", "seconds", "rhs", "note"])
+        for p in self.points:
+            errors = [p.error.get(c, math.nan) for c in ("angular_momentum_norm", "angular_momentum")]
+            writer.writerow([p.group, p.label, p.setting, *("" if math.isnan(e) else e for e in errors), p.seconds, p.rhs, p.note])
+        return text.getvalue()
+
+    def plot(self) -> Any:
+        """The figure. Needs matplotlib."""
+        from gyrostat.plots import plot_chart
+
+        return plot_chart(self)
+
+    def save(self, folder: str | Path) -> list[Path]:
+        """Write chart.png, chart.svg and chart.csv into a folder (made where it is missing)."""
+        from gyrostat.plots import save
+
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        figure = self.plot()
+        files = [folder / f"chart.{ending}" for ending in ("png", "svg", "csv")]
+        for file in files[:2]:
+            save(figure, file)
+        files[2].write_text(self.to_csv())
+        return files
+
+
+def true_errors(got: Vectors | None, norm: Vectors | None, want: Vectors) -> dict[str, float]:
+    """Greatest error of the vector and of its size, each relative to the greatest size of `want` (n, 3)."""
+    size = np.linalg.norm(want, axis=1)
+    scale = float(np.max(size))
+    if got is not None and norm is None:
+        norm = np.linalg.norm(got, axis=1)
+    errors = {"angular_momentum": math.nan, "angular_momentum_norm": math.nan}
+    if got is not None:
+        errors["angular_momentum"] = float(np.max(np.linalg.norm(got - want, axis=1))) / scale
+    if norm is not None:
+        errors["angular_momentum_norm"] = float(np.max(np.abs(norm - size))) / scale
+    return errors
+
+
+def _timed(work: Callable[[], float], repeats: int) -> float:
+    """Median of what `work` says it took; work that is long runs once."""
+    taken = [work()]
+    while len(taken) < repeats and sum(taken) < LONG:
+        taken.append(work())
+    return statistics.median(taken)
+
+
+def make_chart(scene: Scene, *, repeats: int = REPEATS, progress: Callable[[int, int, str], None] | None = None) -> Chart:
+    """Measure every method on the scene. `progress` is told (done, all, what) before each."""
+    given = deceleration.arguments(scene)
+    times, cut = _before_the_stop(given)
+    given["times"] = times
+    given["attitude"] = None
+    reference = deceleration.integrate(**_physics(given), method="taylor", order=30, tolerance=1e-18, precision="long double")
+    want = np.asarray(reference["angular_momentum"])
+    jobs = [*_rungs(scene, given, want, repeats), *_integrators(given, want, repeats), *_rivals(given, want, repeats)]
+    points: list[ChartPoint] = []
+    slow: set[str] = set()
+    for done, (method, setting, job) in enumerate(jobs):
+        if method in slow:
+            continue
+        if progress:
+            progress(done, len(jobs), f"{method} {setting}")
+        if (point := job()) is not None:
+            points.append(point)
+            if point.seconds > TOO_LONG:
+                slow.add(method)
+    if progress:
+        progress(len(jobs), len(jobs), "")
+    title = f"true error against cost, {len(times)} times to {times[-1]:.6g} s{cut}"
+    return Chart(scene.name, title, tuple(points))
+
+
+def _physics(given: dict[str, Any]) -> dict[str, Any]:
+    keys = ("inertia", "rotor_momentum", "control", "drag", "law", "drag_law", "angular_momentum", "times")
+    return {key: given[key] for key in keys}
+
+
+def _before_the_stop(given: dict[str, Any]) -> tuple[Vectors, str]:
+    """The scene's times that lie before the stop, and a remark where some were left out."""
+    times = given["times"]
+    stop = deceleration.solve(**{**given, "model": "full", "times": times[-1:], "tolerance": 1e-6})["scalars"].get("stop_time")
+    if stop is None or not math.isfinite(stop) or times[-1] <= STOP_SHARE * stop:
+        return times, ""
+    kept = times[times <= STOP_SHARE * stop]
+    if len(kept) < 2:
+        kept = np.linspace(0.0, STOP_SHARE * stop, 51)
+    return kept, f" (the motion stops at {stop:.6g} s)"
+
+
+Job = tuple[str, str, Callable[[], ChartPoint | None]]
+
+
+def _rungs(scene: Scene, given: dict[str, Any], want: Vectors, repeats: int) -> Iterator[Job]:
+    for model in RUNGS[scene.kind]:
+        for tolerance in TOLERANCES if model == "full" else (given["tolerance"],):
+
+            def job(model: str = model, tolerance: float = tolerance) -> ChartPoint | None:
+                made: dict[str, Any] = {}
+
+                def once() -> float:
+                    made.update(deceleration.solve(**{**given, "model": model, "tolerance": tolerance}))
+                    return float(made["seconds"])
+
+                try:
+                    seconds = _timed(once, repeats)
+                except (DomainError, ConvergenceError):
+                    return None
+                columns = made["columns"]
+                errors = true_errors(columns.get("angular_momentum"), columns.get("angular_momentum_norm"), want)
+                stated = max((e for e in made["error"].values() if math.isfinite(e)), default=math.nan)
+                setting = f"tolerance {tolerance:g}" if model == "full" else ""
+                return ChartPoint("rung", f"rung {model}", setting, errors, seconds, made["counts"]["rhs"], f"stated error {stated:.2g}")
+
+            yield f"rung {model}", f"{tolerance:g}", job
+
+
+def _integrators(given: dict[str, Any], want: Vectors, repeats: int) -> Iterator[Job]:
+    settings: list[tuple[str, str, str, int]] = [("taylor", f"Taylor, order {order}", "taylor", order) for order in TAYLOR_ORDERS]
+    settings.append(("dop853", "Runge-Kutta DOP853", "dop853", 0))
+    if deceleration.has_cvode():
+        settings += [("cvode", "CVODE Adams", "cvode-adams", 0), ("cvode", "CVODE BDF", "cvode-bdf", 0)]
+    for group, label, method, order in settings:
+        for tolerance in TOLERANCES:
+
+            def job(group: str = group, label: str = label, method: str = method, order: int = order,
+                    tolerance: float = tolerance) -> ChartPoint | None:
+                made: dict[str, Any] = {}
+
+                def once() -> float:
+                    made.update(deceleration.integrate(**_physics(given), method=method, order=order, tolerance=tolerance))
+                    return float(made["seconds"])
+
+                seconds = _timed(once, repeats)
+                if made["status"] != "reached":
+                    return None
+                return ChartPoint(group, label, f"tolerance {tolerance:g}", true_errors(made["angular_momentum"], None, want),
+                                  seconds, made["rhs"])
+
+            yield label, f"{tolerance:g}", job
+
+
+# ---- rivals ----
+
+
+def _rivals(given: dict[str, Any], want: Vectors, repeats: int) -> Iterator[Job]:
+    try:
+        from scipy.integrate import solve_ivp
+    except ImportError:
+        pass
+    else:
+        right = _right_hand_side(given)
+        start = np.asarray(given["angular_momentum"])
+        times = given["times"]
+        for tolerance in TOLERANCES:
+
+            def scipy_job(tolerance: float = tolerance) -> ChartPoint | None:
+                made: dict[str, Any] = {}
+
+                def once() -> float:
+                    began = time.perf_counter()
+                    made["run"] = solve_ivp(right, (0.0, times[-1]), start, method="DOP853", t_eval=times, rtol=tolerance,
+                                            atol=tolerance * float(np.linalg.norm(start)))
+                    return time.perf_counter() - began
+
+                seconds = _timed(once, repeats)
+                run = made["run"]
+                if not run.success:
+                    return None
+                return ChartPoint("rival", "SciPy DOP853 (Python right-hand side)", f"tolerance {tolerance:g}",
+                                  true_errors(run.y.T, None, want), seconds, int(run.nfev))
+
+            yield "SciPy DOP853", f"{tolerance:g}", scipy_job
+    try:
+        import heyoka
+    except ImportError:
+        return
+    for tolerance in TOLERANCES:
+
+        def heyoka_job(tolerance: float = tolerance) -> ChartPoint | None:
+            start, times = np.asarray(given["angular_momentum"]), given["times"]
+            integrator = heyoka.taylor_adaptive(_heyoka_system(heyoka, given), list(start), tol=tolerance)
+            grid = times if times[0] == 0 else np.concatenate([[0.0], times])
+            made: dict[str, Any] = {}
+
+            def once() -> float:
+                integrator.time = 0.0
+                integrator.state[:] = start
+                began = time.perf_counter()
+                made["out"] = integrator.propagate_grid(grid)
+                return time.perf_counter() - began
+
+            seconds = _timed(once, repeats)
+            outcome, steps, states = made["out"][0], made["out"][3], made["out"][5]
+            if outcome != heyoka.taylor_outcome.time_limit or len(states) != len(grid):
+                return None
+            return ChartPoint("rival", "heyoka (compile time left out)", f"tolerance {tolerance:g}",
+                              true_errors(states[len(grid) - len(times):], None, want), seconds, int(steps))
+
+        yield "heyoka", f"{tolerance:g}", heyoka_job
+
+
+def _tensor(given: dict[str, Any]) -> Vectors:
+    inertia = np.asarray(given["inertia"], dtype=float)
+    return np.diag(inertia) if inertia.ndim == 1 else inertia
+
+
+def _right_hand_side(given: dict[str, Any]) -> Callable[[float, Vectors], Vectors]:
+    inverse = np.linalg.inv(_tensor(given))
+    rotor, control, drag = np.asarray(given["rotor_momentum"]), np.asarray(given["control"]), given["drag"]
+    total, total_drag = given["law"] == "total", given["drag_law"] == "total"
+
+    def right(_: float, momentum: Vectors) -> Vectors:
+        carrier = momentum - rotor
+        opposed = momentum if total else carrier
+        dragged = momentum if total_drag else carrier
+        rate = inverse @ carrier
+        made: Vectors = np.cross(momentum, rate) - drag * dragged - control * opposed / math.sqrt(opposed @ opposed)
+        return made
+
+    return right
+
+
+def _heyoka_system(heyoka: Any, given: dict[str, Any]) -> list[Any]:
+    names = heyoka.make_vars("x", "y", "z")
+    inverse = np.linalg.inv(_tensor(given))
+    carrier = [m - l if l else m for m, l in zip(names, np.asarray(given["rotor_momentum"]).tolist(), strict=True)]
+    rate = [heyoka.sum([float(inverse[i, j]) * carrier[j] for j in range(3) if inverse[i, j] != 0]) for i in range(3)]
+    opposed = names if given["law"] == "total" else carrier
+    dragged = names if given["drag_law"] == "total" else carrier
+    size = heyoka.sqrt(heyoka.sum([u * u for u in opposed]))
+    cross = [names[1] * rate[2] - names[2] * rate[1], names[2] * rate[0] - names[0] * rate[2], names[0] * rate[1] - names[1] * rate[0]]
+    return [(names[i], cross[i] - given["drag"] * dragged[i] - float(given["control"][i]) * opposed[i] / size) for i in range(3)]

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Quick checks that the installed package answers right: laws and closed forms, no stored numbers but constants."""
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from gyrostat import deceleration, elliptic, rotation
+from gyrostat._core import build_info
+from gyrostat.errors import DomainError
+from gyrostat.ladder import solve
+from gyrostat.scenes import bundled, load
+
+__all__ = ["checks"]
+
+# A slow brake without rotors: everything from the closed form to the full equations can answer it.
+SLOW = {
+    "name": "selftest", "kind": "deceleration", "solve": {"duration": 4000.0, "samples": 41, "tolerance": 1e-9},
+    "body": {"inertia": [35.0, 22.0, 16.0]}, "torque": {"control": [5e-4, 8e-4, 1e-3], "drag": 2e-5},
+    "initial": {"angular_momentum": [40.0, 25.0, 16.5]},
+}
+
+
+def _verdict(what: str, error: float, allowed: float) -> str:
+    return f"{'' if error <= allowed else 'FAILED '}{what} {error:.2g} (allowed {allowed:.2g})"
+
+
+def _equal_torque() -> str:
+    torque, drag = 7e-4, 2e-5
+    answers = [solve(SLOW, control=[torque] * 3, model=model) for model in ("equal-torque", "full")]
+    start = math.sqrt(40.0**2 + 25.0**2 + 16.5**2)
+    law = (start + torque / drag) * np.exp(-drag * answers[0].t) - torque / drag
+    error = max(float(np.max(np.abs(a["angular_momentum_norm"] - law))) / start for a in answers)
+    return _verdict("|M| of closed form and full motion, off the exponential law by", error, 1e-11)
+
+
+def _second_order() -> str:
+    rung, full = solve(SLOW, model="averaged-2", tolerance=1e-3), solve(SLOW, model="full")
+    column = "angular_momentum_norm"
+    error = float(np.max(np.abs(rung[column] - full[column]))) / float(full[column][0])
+    return _verdict("averaged-2 against full motion, error over stated error", error / rung.error[column], 1.0)
+
+
+def _integrators() -> str:
+    given = {key: value for key, value in deceleration.arguments(load("cubesat-wheel", duration=300.0, samples=4)).items()
+             if key not in ("attitude", "tolerance", "model", "integrator", "elliptic")}
+    methods = ["taylor", "dop853"] + (["cvode-adams", "cvode-bdf"] if deceleration.has_cvode() else [])
+    made = [np.asarray(deceleration.integrate(**given, method=method, tolerance=1e-11)["angular_momentum"]) for method in methods]
+    error = max(float(np.max(np.abs(m - made[0]))) for m in made) / float(np.max(np.abs(made[0])))
+    return _verdict(f"{', '.join(methods)} differ by", error, 1e-7)
+
+
+def _elliptic() -> str:
+    k2 = np.array([1e-9, 0.3, 0.5, 0.9, 1 - 1e-9])
+    complete, other = elliptic.complete(k2), elliptic.complete(1 - k2, kp2=k2)
+    legendre = complete.E * other.K + other.E * complete.K - complete.K * other.K
+    error = float(np.max(np.abs(legendre - math.pi / 2)))
+    if build_info()["gsl"]:
+        error = max(error, float(np.max(np.abs(elliptic.complete(k2, elliptic="gsl").K / complete.K - 1))))
+    return _verdict("Legendre's relation (and GSL, if built in) off by", error, 1e-13)
+
+
+def _rotations() -> str:
+    vectors = np.array([[0.0, 0.0, 0.0], [1e-12, 0.0, 0.0], [0.3, -0.2, 0.9], [0.0, math.pi - 1e-9, 0.0]])
+    back = rotation.vector_from_matrix(rotation.matrix_from_quaternion(rotation.quaternion_from_vector(vectors)))
+    return _verdict("rotation vector, quaternion, tensor and back: off by", float(np.max(np.abs(back - vectors))), 1e-14)
+
+
+def _refusals() -> str:
+    try:
+        deceleration.averaged(inertia=[[3.0, 2.0, 2.0], [9.0, 2.0, 2.0]], control=[1.0, 1.0, 1.0], drag=0.1,
+                              angular_momentum=[1.0, 2.0, 3.0], t=[1.0])
+    except DomainError as error:
+        return f"{'' if 'row 1' in str(error) else 'FAILED '}an impossible body is refused"
+    return "FAILED an impossible body was answered"
+
+
+def _scenes() -> str:
+    found = [load(name) for name, _ in bundled()]
+    return f"{'' if found else 'FAILED '}{len(found)} bundled scenes load"
+
+
+def checks() -> Iterator[tuple[str, Callable[[], str]]]:
+    """Label and check; a check returns what it found, beginning with FAILED where it is wrong."""
+    yield "scenes", _scenes
+    yield "elliptic", _elliptic
+    yield "rotation", _rotations
+    yield "integrators", _integrators
+    yield "equal torques", _equal_torque
+    yield "second order", _second_order
+    yield "refusals", _refusals

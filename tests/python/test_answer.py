@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Answers and their forms: JSON, CSV, NetCDF, xarray, figure."""
+
+import csv
+import io
+import json
+import math
+import threading
+import time
+from pathlib import Path
+
+import gyrostat
+import numpy as np
+import pytest
+from gyrostat.answer import UNITS, Answer
+from gyrostat.deceleration import Monitor
+
+BRAKE = {
+    "name": "brake", "kind": "deceleration", "solve": {"duration": 4000.0, "samples": 41, "tolerance": 1e-3},
+    "body": {"inertia": [35.0, 22.0, 16.0]}, "torque": {"control": [5e-4, 8e-4, 1e-3], "drag": 2e-5},
+    "initial": {"angular_momentum": [40.0, 25.0, 16.5]},
+}
+
+
+@pytest.fixture(scope="module")
+def full() -> Answer:
+    return gyrostat.solve(BRAKE, model="full", attitude=[0.0, 0.0, 0.0, 1.0])
+
+
+def test_an_answer_says_how_it_was_found(full: Answer) -> None:
+    assert full.model == "full" and full.met and full.greatest_error <= full.tolerance
+    assert [attempt.model for attempt in full.tried if attempt.accepted] == ["full"]
+    assert full.seconds > 0 and full.counts["rhs"] > 0
+    assert "brake" in repr(full) and "full" in repr(full)
+
+
+def test_columns_have_the_shapes_and_names_of_the_contract(full: Answer) -> None:
+    n = len(full.t)
+    shapes = {name: values.shape for name, values in full.columns.items()}
+    assert shapes == {"angular_momentum": (n, 3), "angular_velocity": (n, 3), "attitude": (n, 4), "angular_momentum_norm": (n,),
+                      "energy": (n,), "modulus_squared": (n,), "regime": (n,)}
+    averaged = gyrostat.solve(BRAKE, model="averaged")
+    assert set(averaged.scalars) == {"stop_time", "final_angular_velocity", "small_parameter", "separatrix_distance"}
+    assert set(full.scalars) >= set(averaged.scalars) - {"stop_time"}  # the full equations seek a stop that is not far off
+    assert set(full.error) == set(full.columns) - {"regime"}
+    assert set(full.columns) | set(full.scalars) <= set(UNITS)
+    assert full["t"] is full.t and full["energy"] is full.columns["energy"]
+
+
+def test_columns_agree_with_each_other(full: Answer) -> None:
+    J = np.array([35.0, 22.0, 16.0])
+    M, omega = full["angular_momentum"], full["angular_velocity"]
+    assert np.allclose(M, J * omega, rtol=1e-13, atol=1e-12)
+    assert np.allclose(np.linalg.norm(M, axis=1), full["angular_momentum_norm"], rtol=1e-13)
+    assert np.allclose((M * omega).sum(axis=1) / 2, full["energy"], rtol=1e-12)
+    assert np.allclose(np.linalg.norm(full["attitude"], axis=1), 1, rtol=1e-14)
+
+
+def test_the_cheapest_rung_that_is_good_enough_answers() -> None:
+    coarse, fine = gyrostat.solve(BRAKE, tolerance=1e-2), gyrostat.solve(BRAKE, tolerance=1e-10)
+    assert coarse.model == "averaged" and fine.model == "full"
+    assert gyrostat.solve(BRAKE, control=[1e-3] * 3).model == "equal-torque"
+    assert np.max(np.abs(coarse["angular_momentum_norm"] - fine["angular_momentum_norm"])) / fine["angular_momentum_norm"][0] \
+        <= coarse.error["angular_momentum_norm"]
+
+
+def test_axes_may_come_in_any_order() -> None:
+    order = [2, 0, 1]  # a cyclic exchange is a proper rotation
+    turned = gyrostat.solve(BRAKE, model="full", inertia=np.array([35.0, 22.0, 16.0])[order],
+                            control=np.array([5e-4, 8e-4, 1e-3])[order], angular_momentum=np.array([40.0, 25.0, 16.5])[order])
+    straight = gyrostat.solve(BRAKE, model="full")
+    size = straight["angular_momentum_norm"][0]
+    assert np.max(np.abs(turned["angular_momentum"] - straight["angular_momentum"][:, order])) / size < 1e-6
+
+
+def test_json_reads_back_to_the_same_numbers(full: Answer) -> None:
+    read = json.loads(full.to_json())
+    assert list(read) == ["scene", "model", "tolerance", "met", "error", "warnings", "t", "columns", "scalars", "counts",
+                          "seconds", "tried"]
+    assert read["t"] == full.t.tolist()
+    for name, values in full.columns.items():
+        assert read["columns"][name] == values.tolist()
+    assert gyrostat.solve(read["scene"]).columns["energy"].tolist() == read["columns"]["energy"]
+
+
+def test_numbers_that_are_not_finite_become_null() -> None:
+    answer = gyrostat.solve(BRAKE, control=[0.0, 0.0, 0.0])
+    assert math.isinf(answer.scalars["stop_time"])
+    assert json.loads(answer.to_json())["scalars"]["stop_time"] is None
+    assert [warning.code for warning in answer.warnings] == ["no-control"]
+
+
+def test_csv_reads_back_to_the_same_numbers(full: Answer) -> None:
+    rows = list(csv.DictReader(io.StringIO(full.to_csv())))
+    assert len(rows) == len(full.t)
+    assert [float(row["angular_momentum_y"]) for row in rows] == full["angular_momentum"][:, 1].tolist()
+    assert [float(row["attitude_w"]) for row in rows] == full["attitude"][:, 3].tolist()
+    assert [row["regime"] for row in rows] == full["regime"].tolist()
+
+
+def test_xarray_and_netcdf_keep_values_and_units(full: Answer, tmp_path: Path) -> None:
+    xarray = pytest.importorskip("xarray")
+    dataset = full.to_xarray()
+    assert dataset["angular_momentum"].dims == ("t", "axis") and dataset["energy"].attrs["units"] == "J"
+    assert dataset.attrs["model"] == "full"
+    file = tmp_path / "answer.nc"
+    full.to_netcdf(file)
+    with xarray.open_dataset(file, engine="scipy") as read:
+        assert np.array_equal(read["angular_velocity"].values, full["angular_velocity"])
+        assert read["attitude"].attrs["estimated_error"] == full.error["attitude"]
+        assert [str(name) for name in np.char.decode(read["regime"].values.astype("S"))] == full["regime"].tolist()
+
+
+@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
+def test_a_figure_is_written(full: Answer, tmp_path: Path, ending: str) -> None:
+    pytest.importorskip("matplotlib")
+    file = tmp_path / f"answer.{ending}"
+    figure = full.plot(file)
+    assert file.stat().st_size > 5000
+    labels = [axes.get_ylabel() for axes in figure.axes]
+    assert any("N m s" in label for label in labels) and any("rad/s" in label for label in labels)
+    assert "full" in figure.get_suptitle() and "s]" in figure.axes[4].get_xlabel()
+
+
+def test_a_figure_of_averages_and_of_one_time(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    gyrostat.solve(BRAKE, model="averaged").plot(tmp_path / "a.png")
+    gyrostat.solve(BRAKE, times=[5.0]).plot(tmp_path / "b.png")
+    with pytest.raises(gyrostat.DomainError, match="unknown ending"):
+        gyrostat.solve(BRAKE).plot(tmp_path / "c.xyz")
+
+
+def test_what_a_rung_cannot_compute_is_refused() -> None:
+    with pytest.raises(gyrostat.DomainError, match="equal-torque"):
+        gyrostat.solve(BRAKE, model="equal-torque")
+
+
+def test_over_the_tolerance_it_answers_with_met_false() -> None:
+    answer = gyrostat.solve(BRAKE, model="averaged", tolerance=1e-12)
+    assert not answer.met and answer.model == "averaged" and answer.greatest_error > 1e-12
+
+
+def test_a_monitor_cancels_long_work() -> None:
+    monitor = Monitor()
+    long = {**BRAKE, "torque": {"control": [5e-13, 8e-13, 1e-12], "drag": 0.0}, "solve": {"times": [1e10], "model": "full"}}
+    caught: list[BaseException] = []
+
+    def work() -> None:
+        try:
+            gyrostat.solve(long, monitor=monitor)
+        except gyrostat.Cancelled as error:
+            caught.append(error)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    time.sleep(0.3)
+    assert thread.is_alive() and 0 <= monitor.progress < 1
+    monitor.cancel()
+    thread.join(20)
+    assert not thread.is_alive() and monitor.cancelled and len(caught) == 1

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command line: what it prints, where it writes, its exit statuses, and that it never shows a traceback."""
+
+import csv
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from gyrostat.cli import main
+from gyrostat.scenes import bundled
+
+GYROSTAT = [sys.executable, "-m", "gyrostat"]
+
+
+def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    status = main(list(arguments))
+    out = capsys.readouterr()
+    assert "Traceback" not in out.out + out.err
+    return status, out.out, out.err
+
+
+def test_solve_prints_an_answer_for_people(scene_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = run(capsys, "solve", str(scene_file))
+    assert status == 0 and err == ""
+    for part in ("answered by", "tolerance 1e-06 met", "What was tried", "equal-torque", "small_parameter", "angular_momentum_norm",
+                 "N m s", "estimated error"):
+        assert part in out
+
+
+def test_solve_json_and_csv(scene_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "solve", str(scene_file), "--json")
+    answer = json.loads(out)
+    assert status == 0 and answer["met"] and answer["scene"]["name"] == "test" and len(answer["t"]) == 11
+    status, out, _ = run(capsys, "solve", str(scene_file), "--csv")
+    rows = list(csv.DictReader(io.StringIO(out)))
+    assert status == 0 and [float(row["t"]) for row in rows] == answer["t"]
+
+
+def test_solve_writes_files(scene_file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("matplotlib")
+    report, plot = tmp_path / "answer.txt", tmp_path / "plot.png"
+    assert run(capsys, "solve", str(scene_file), "-o", str(report), "--plot", str(plot)) == (0, "", "")
+    assert "answered by" in report.read_text() and plot.read_bytes()[:4] == b"\x89PNG"
+    pytest.importorskip("xarray")
+    netcdf = tmp_path / "answer.nc"
+    assert run(capsys, "solve", str(scene_file), "--netcdf", "-o", str(netcdf))[0] == 0
+    assert netcdf.read_bytes()[:3] == b"CDF"
+    status, _, err = run(capsys, "solve", str(scene_file), "--netcdf")
+    assert status == 2 and "-o FILE" in err
+
+
+def test_set_changes_keys(scene_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _, out, _ = run(capsys, "solve", str(scene_file), "--json", "--set", "torque.control=[0.1, 0.1, 0.1]", "--set", "drag=0",
+                    "--set", "attitude=[0.0, 0.0, 0.6, 0.8]", "--set", "times=[0, 1]", "--set", "model=full")
+    answer = json.loads(out)
+    assert answer["scene"]["torque"]["control"] == [0.1, 0.1, 0.1] and answer["t"] == [0.0, 1.0]
+    assert answer["columns"]["attitude"][0] == [0.0, 0.0, 0.6, 0.8]
+
+
+def test_exit_status_3_over_the_tolerance(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "solve", "tiangong-1", "--set", "model=averaged", "--set", "tolerance=1e-12")
+    assert status == 3 and "NOT met" in out
+
+
+@pytest.mark.parametrize(("arguments", "text"), [
+    (["solve", "absent.toml"], "no such file"),
+    (["solve", "tiangong1"], "did you mean"),
+    (["solve", "tiangong-1", "--set", "drag"], "--set"),
+    (["solve", "tiangong-1", "--set", "drag=-1"], "torque.drag"),
+    (["solve", "tiangong-1", "--set", "kind=rotor"], "not built yet"),
+    (["solve", "tiangong-1", "--set", "model=averaged", "--set", "attitude=[0, 0, 0, 1]"], "attitude"),
+    (["solve", "tiangong-1", "--set", "model=equal-torque"], "the control torques are not equal"),
+    (["solve", "tiangong-1", "--plot", "x.xyz"], "unknown ending"),
+    (["solve", "tiangong-1", "-o", "/no/such/folder/x"], "No such file"),
+    (["chart", "tiangong-1", "--set", "samples=1"], "solve.samples"),
+    (["stability", "cubesat-wheel"], "rotor_momentum"),
+    (["reproduce", "no-such-paper"], "no-such-paper"),
+    (["reproduce", "deceleration", "99"], "99"),
+])
+def test_exit_status_2_where_the_input_is_bad(arguments: list[str], text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    status, _, err = run(capsys, *arguments)
+    assert status == 2 and text in err and err.startswith("gyrostat: ")
+
+
+@pytest.mark.parametrize("arguments", [[], ["sove"], ["solve"], ["solve", "a", "--json", "--csv"], ["solve", "a", "--what"]])
+def test_exit_status_2_for_a_bad_command(arguments: list[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(arguments)
+    assert caught.value.code == 2
+
+
+def test_exit_status_1_for_an_internal_failure(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object, **__: object) -> None:
+        raise RuntimeError("broken\ninside")
+
+    monkeypatch.setattr("gyrostat.ladder.solve", broken)
+    status, _, err = run(capsys, "solve", "tiangong-1")
+    assert status == 1 and err == "gyrostat: internal failure: RuntimeError: broken (GYROSTAT_DEBUG=1 shows where)\n"
+
+
+@pytest.mark.parametrize("name", [name for name, _ in bundled()])
+def test_every_bundled_scene_is_answered(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "solve", name)
+    assert status == 0, out
+
+
+def test_lists(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "scenes")
+    assert status == 0 and all(name in out for name, _ in bundled())
+    status, out, _ = run(capsys, "schema")
+    assert status == 0 and json.loads(out)["title"] == "gyrostat scene"
+    status, out, _ = run(capsys, "info")
+    assert status == 0 and "licence of this build" in out and "GSL" in out
+    status, out, _ = run(capsys, "reproduce")
+    assert status == 0 and "deceleration" in out
+
+
+def test_selftest(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "selftest")
+    assert status == 0 and out.count("ok    ") >= 7 and "FAILED" not in out
+
+
+def test_stability(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("matplotlib")
+    plot = tmp_path / "regions.png"
+    status, out, _ = run(capsys, "stability", "tiangong-1", "--json", "--plot", str(plot))
+    assert status == 0 and set(json.loads(out)["regimes"]) == {"A", "C"} and plot.stat().st_size > 5000
+
+
+def test_a_closed_pipe_is_no_failure() -> None:
+    made = subprocess.run([*GYROSTAT[:1], "-c", "import sys; from gyrostat.cli import main; sys.exit(main(['schema']))"],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
+    assert made.returncode == 0 and not made.stderr
+    reader, writer = os.pipe()
+    os.close(reader)
+    process = subprocess.run([*GYROSTAT, "solve", "tiangong-1", "--csv"], stdout=writer, stderr=subprocess.PIPE, timeout=60)
+    os.close(writer)
+    assert b"Traceback" not in process.stderr and process.returncode in (0, 3)
+
+
+def test_ctrl_c_stops_long_work(tmp_path: Path) -> None:
+    process = subprocess.Popen(
+        [*GYROSTAT, "solve", "tiangong-1", "--set", "model=full", "--set", "control=[1e-13, 2e-13, 3e-13]", "--set",
+         "times=[1e12]"],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    time.sleep(2.0)
+    assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=20)
+    assert process.returncode == 130 and err == "gyrostat: interrupted\n"
