@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/deceleration/full_rung.hpp"
+
+#include "reference_table.hpp"
+#include "scenes.hpp"
+
+using namespace scenes;
+
+TEST_CASE("full rung: the reference cases, within the stated error", "[deceleration]") {
+  for (auto c : reference::cases()) {
+    CAPTURE(c.id);
+    for (const double tolerance : {1e-5, 1e-9}) {
+      c.data.model = Model::full;
+      c.data.tolerance = tolerance;
+      Refusal refusal;
+      const Answer answer = deceleration::solve<>(c.scene(), refusal);
+      REQUIRE(refusal.code == Errc::ok);
+      double vector = 0, norm = 0, energy = 0, size = 0, most = 0;
+      for (std::size_t i = 0; i < c.norm.size(); ++i) {
+        const Eigen::Map<const V> M(&answer.find("angular_momentum")->values[3 * i]);
+        vector = std::max(vector, (M - c.full_momentum[i]).norm());
+        norm = std::max(norm, std::abs(answer.find("angular_momentum_norm")->values[i] - c.full_norm[i]));
+        energy = std::max(energy, std::abs(answer.find("energy")->values[i] - c.full_energy[i]));
+        size = std::max(size, c.full_norm[i]);
+        most = std::max(most, c.full_energy[i]);
+      }
+      CHECK(vector / size <= answer.find("angular_momentum")->error);
+      CHECK(norm / size <= answer.find("angular_momentum_norm")->error);
+      CHECK(energy / most <= answer.find("energy")->error);
+      CHECK(answer.find("angular_momentum")->error <= tolerance);
+      if (!std::isnan(c.full_stop) && !std::isnan(quantity(answer, "stop_time")))
+        CHECK(quantity(answer, "stop_time") == Approx(c.full_stop).epsilon(answer.error + 3e-8));
+    }
+  }
+}
+
+TEST_CASE("full rung: a free body keeps its momentum in space", "[deceleration]") {
+  Case c(1e-3, 60);
+  c.data.control.setZero();
+  c.data.drag = 0;
+  c.data.rotor_momentum = V(.1, -.2, .15);
+  c.data.wants_attitude = true;
+  c.data.attitude = normalised(Quat<double>{.8, .3, -.2, .4});
+  c.moments = V(.7, 1.4, 1);  // the caller's order
+  c.data.tolerance = 1e-9;
+  const Answer answer = c.solve();
+  CHECK(std::strcmp(answer.model, "full") == 0);
+  const auto& q = answer.find("attitude")->values;
+  const auto& M = answer.find("angular_momentum")->values;
+  const V M0 = to_matrix(c.data.attitude) * c.data.momentum;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Quat<double> R_IB{q[4 * i + 3], q[4 * i], q[4 * i + 1], q[4 * i + 2]};
+    const V M_I = to_matrix(R_IB) * V(M[3 * i], M[3 * i + 1], M[3 * i + 2]);
+    CHECK((M_I - M0).norm() < 1e-8);
+  }
+}
+
+TEST_CASE("kind of the free orbit through M", "[deceleration]") {
+  Problem<double> p;
+  p.inverse_inertia = V(1, 1.5, 2);
+  CHECK(orbit_kind(p, V(0, 0, 0)).regime == Regime::rest);
+  CHECK(orbit_kind(p, V(1, .1, .1)).regime == Regime::about_largest);
+  CHECK(orbit_kind(p, V(.1, .1, 1)).regime == Regime::about_smallest);
+  CHECK(orbit_kind(p, V(.5, .3, .5)).regime == Regime::separatrix);
+  CHECK(orbit_kind(p, V(.5, .3, .5)).k2 == 1);
+  p.inverse_inertia = V(1, 1, 1);
+  CHECK(orbit_kind(p, V(1, 2, 3)).regime == Regime::point);
+  p.inverse_inertia = V(1, 1.5, 2);
+  const OrbitKind bare = orbit_kind(p, V(.9, .3, .2));
+  p.rotor_momentum = V(1e-9, 2e-9, -1e-9);
+  const OrbitKind with = orbit_kind(p, V(.9, .3, .2));
+  CHECK(with.regime == bare.regime);
+  CHECK(with.k2 == Approx(bare.k2).epsilon(1e-7));
+  p.rotor_momentum = V(3, 2, 1);
+  CHECK(orbit_kind(p, V(.9, .3, .2)).regime == Regime::one_component);
+}
+
+TEST_CASE("uncertainty of k2 covers what an error of M does to it", "[deceleration]") {
+  Problem<double> p;
+  p.inverse_inertia = V(1, 1.5, 2);
+  for (const V& l : {V(0, 0, 0), V(.2, .1, .15)})
+    for (const V& M : {V(.9, .3, .2), V(.2, .4, .8), V(1, .01, .02)}) {
+      p.rotor_momentum = l;
+      CAPTURE(l.transpose(), M.transpose());
+      const OrbitKind at = orbit_kind(p, M);
+      for (const double d : {1e-6, 1e-9})
+        for (const V& off : {V(1, 0, 0), V(0, -1, 0), V(0, 0, 1)}) {
+          const V moved = M + d * off;
+          const double norm = std::abs(moved.norm() - M.norm()), energy = std::abs(p.energy(moved) - p.energy(M));
+          const double bound = deceleration::detail::k2_uncertainty(p, M, at, norm, energy);
+          CHECK(std::abs(orbit_kind(p, moved).k2 - at.k2) <= bound * 1.01 + 1e-14);
+        }
+    }
+}
