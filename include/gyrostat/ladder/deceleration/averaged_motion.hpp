@@ -39,7 +39,7 @@ class AveragedMotion {
         norm0_(norm),
         equations_(start, problem.control, problem.drag, norm),
         solver_(equations_, Scalar(0), equations_.state_of(start, norm, Scalar(0), phase),
-                control_of(tolerance, phase_error)) {}
+                control_of(tolerance * time_scale(start), tolerance, phase_error)) {}
 
   /// Moves on to time t, or to where |M| sinks to `floor` if that is sooner (see floored); earlier times are not reached
   /// again. `visit(polhode, |M|)` sees
@@ -100,13 +100,19 @@ class AveragedMotion {
   /// |M|/|M(0)| from which the mean torque is taken as constant.
   static constexpr Scalar rest = std::numeric_limits<Scalar>::epsilon() * 64;
 
-  static ode::StepControl<Scalar, 4> control_of(Scalar tolerance, Scalar phase_error) noexcept {
+  static ode::StepControl<Scalar, 4> control_of(Scalar time_error, Scalar tolerance, Scalar phase_error) noexcept {
     ode::StepControl<Scalar, 4> control;
-    control.relative = tolerance;
-    control.absolute = {tolerance, tolerance, 0, phase_error};
+    control.relative = 0;
+    control.absolute = {tolerance, tolerance, time_error, phase_error};
     control.first_step = Scalar(.05);
     control.step_cap = step_cap;
     return control;
+  }
+
+  /// About the time in which |M| falls by e at the start, s; infinite where nothing brakes it.
+  Scalar time_scale(const Polhode<Scalar>& start) const noexcept {
+    const Scalar fall = problem_.drag * norm0_ + equations_.torque(start).deceleration;
+    return fall > 0 ? norm0_ / fall : infinity<Scalar>;
   }
 
   /// |M| a time dt after M under the constant mean torque D.

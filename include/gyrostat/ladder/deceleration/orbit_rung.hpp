@@ -21,11 +21,13 @@ class OrbitError {
 
   explicit OrbitError(const Problem<double>& problem) noexcept : problem_(problem) {}
 
-  /// Looks at a level of the motion; `until` is the time it stands for, s.
+  /// Looks at a level of the motion at time t, s, unless one like it was seen just before.
   void visit(const Level<double>& level, Component component, double t) noexcept {
-    if (t - last_ < spacing_ * t) return;
+    const double opposed = problem_.law == Law::total ? level.R : std::sqrt(std::max(0.0, energy_of(problem_, level)));
+    if (t - last_ < spacing_ * t && opposed > (1 - spacing_) * last_opposed_) return;
     const double span = t - last_;
     last_ = t;
+    last_opposed_ = opposed;
     const auto s = second_order<Elliptic>(problem_, level, component);
     if (!s) {
       const bool on_equilibrium = s.error() == Errc::not_applicable;
@@ -110,7 +112,7 @@ class OrbitError {
 
   const Problem<double>& problem_;
   SlowError<double> first_{}, second_{};
-  double drift_R_ = 0, drift_h_ = 0, last_ = 0, change_ = 0;
+  double drift_R_ = 0, drift_h_ = 0, last_ = 0, last_opposed_ = 0, change_ = 0;
   bool known_ = true;
 };
 
