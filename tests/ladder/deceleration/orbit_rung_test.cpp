@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/deceleration/orbit_rung.hpp"
+
+#include "reference_table.hpp"
+#include "scenes.hpp"
+
+using namespace scenes;
+
+namespace {
+
+struct Errors {
+  double norm, energy, vector;
+};
+
+/// A gyrostat with rotor momentum along all axes, far from any separatrix, up to where a third of |U| is gone.
+Case gyrostat_case(double eps, Law law, double end = .35) {
+  Case c(eps, end / eps);
+  c.data.rotor_momentum = V(.2, .15, .3);
+  c.data.law = c.data.drag_law = law;
+  c.data.times = until(end / eps, 40);
+  return c;
+}
+
+Errors errors_of(Model model, double eps, Law law) {
+  const Case c = gyrostat_case(eps, law);
+  const Answer truth = c.truth(1e-11), answer = c.with(model, 1e-5).solve();
+  check_honest(answer, truth);
+  return {distance(answer, truth, "angular_momentum_norm"), distance(answer, truth, "energy"),
+          model == Model::averaged_2 ? distance(answer, truth, "angular_momentum") : 0};
+}
+
+double slope(double coarse, double fine) { return std::log(coarse / fine) / std::log(4); }
+
+}  // namespace
+
+TEST_CASE("orbit rung: orders with rotor momentum, under both laws", "[deceleration]") {
+  for (const Law law : {Law::total, Law::carrier}) {
+    CAPTURE(int(law));
+    const Errors a = errors_of(Model::averaged, 4e-4, law), b = errors_of(Model::averaged, 1e-4, law);
+    CHECK(slope(a.norm, b.norm) == Approx(1).margin(.15));
+    CHECK(slope(a.energy, b.energy) == Approx(1).margin(.15));
+    const Errors c = errors_of(Model::averaged_2, 4e-4, law), d = errors_of(Model::averaged_2, 1e-4, law);
+    CHECK(slope(c.norm, d.norm) == Approx(2).margin(.15));
+    CHECK(slope(c.energy, d.energy) == Approx(2).margin(.15));
+    CHECK(slope(c.vector, d.vector) == Approx(1).margin(.15));
+    CHECK(d.norm < b.norm / 50);
+  }
+}
+
+TEST_CASE("orbit rung: the reference cases through the ladder", "[deceleration]") {
+  int checked = 0;
+  for (auto c : reference::cases()) {
+    if (!c.has_rotor()) continue;
+    CAPTURE(c.id);
+    c.data.model = Model::averaged;
+    c.data.tolerance = 1e-9;
+    Refusal refusal;
+    const Answer answer = deceleration::solve<>(c.scene(), refusal);
+    INFO((refusal.why ? refusal.why : ""));
+    REQUIRE(refusal.code == Errc::ok);
+    double norm = 0, energy = 0, size = 0, most = 0;
+    for (std::size_t i = 0; i < c.norm.size(); ++i) {
+      const double R = answer.find("angular_momentum_norm")->values[i], h = answer.find("energy")->values[i];
+      CHECK(R == Approx(c.norm[i]).epsilon(1e-8));
+      CHECK(h == Approx(c.energy[i]).epsilon(1e-8));
+      norm = std::max(norm, std::abs(R - c.full_norm[i]));
+      energy = std::max(energy, std::abs(h - c.full_energy[i]));
+      size = std::max(size, c.full_norm[i]);
+      most = std::max(most, c.full_energy[i]);
+    }
+    if (c.id != "P10") CHECK(norm / size <= answer.find("angular_momentum_norm")->error);
+    CHECK(energy / most <= answer.find("energy")->error);
+    ++checked;
+  }
+  CHECK(checked == 6);
+}
+
+TEST_CASE("orbit rung: actuators off the principal axes", "[deceleration]") {
+  Mat3<double> J;
+  J << 1.4, .1, .02, .1, 1, .05, .02, .05, .7;
+  SceneData data = Case(1e-4, 4000).data;
+  const auto body = Inertia<double>::from_tensor(J);
+  const auto solved = [&](Model model, double tolerance) {
+    data.model = model;
+    data.tolerance = tolerance;
+    Refusal refusal;
+    const Answer answer = deceleration::solve<>(*Scene::make(*body, data), refusal);
+    REQUIRE(refusal.code == Errc::ok);
+    return answer;
+  };
+  const Answer truth = solved(Model::full, 1e-11);
+  for (const Model model : {Model::averaged, Model::averaged_2}) check_honest(solved(model, 1e-3), truth);
+  for (const double tolerance : {1e-2, 1e-3, 1e-5}) {
+    const Answer answer = solved(Model::any, tolerance);
+    CHECK(answer.met);
+    check_honest(answer, truth);
+  }
+}
+
+TEST_CASE("orbit rung: honest with rotor momentum, to the stop and behind it", "[deceleration]") {
+  for (const Law law : {Law::total, Law::carrier})
+    for (const double eps : {1e-2, 1e-3}) {
+      CAPTURE(int(law), eps);
+      const Case c = gyrostat_case(eps, law, 3);
+      const Answer truth = c.truth();
+      for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-6}) {
+        CAPTURE(tolerance);
+        const Answer answer = c.with(Model::any, tolerance).solve();
+        check_honest(answer, truth);
+        CHECK(answer.met);
+        CHECK(answer.find("energy")->values.back() ==
+              Approx(law == Law::total ? c.scene().problem().rotor_energy_scale() / 2 : 0).margin(tolerance));
+      }
+    }
+}
+
+TEST_CASE("orbit rung: refusals and the size of breakdown", "[deceleration]") {
+  Case c = gyrostat_case(1e-3, Law::total);
+  Case attitude = c, sphere = c, rest = c;
+  attitude.data.wants_attitude = true;
+  sphere.moments = V(1, 1, 1);
+  rest.data.momentum.setZero();
+  for (const Case* bad : {&attitude, &sphere, &rest}) {
+    Refusal refusal;
+    bad->with(Model::averaged, 1e-3).solve(refusal);
+    CHECK(refusal.code != Errc::ok);
+    CHECK(refusal.why != nullptr);
+    bad->with(Model::averaged_2, 1e-3).solve(refusal);
+    CHECK(refusal.code != Errc::ok);
+    CHECK(refusal.why != nullptr);
+  }
+  // with turning rotors the body turns to the end: the breakdown is linear in the torque, not its root
+  const auto p = c.scene().problem();
+  const double far = deceleration::detail::orbit_breakdown(p, 1e-3),
+               near = deceleration::detail::orbit_breakdown(p, 1e-5);
+  CHECK(far / near == Approx(100));
+  CHECK(far < breakdown_momentum(p, 1e-3));
+}

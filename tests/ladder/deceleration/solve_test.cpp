@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/deceleration/solve.hpp"
+
+#include <array>
+
+#include "reference_table.hpp"
+#include "scenes.hpp"
+
+using namespace scenes;
+
+namespace {
+
+Mat3<double> rotation(double angle, const V& axis) {
+  const V n = std::sin(angle / 2) * axis.normalized();
+  return to_matrix(Quat<double>{std::cos(angle / 2), n[0], n[1], n[2]});
+}
+
+V row(const Answer& answer, const char* name, std::size_t i) {
+  const auto& x = answer.find(name)->values;
+  return {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
+}
+
+}  // namespace
+
+TEST_CASE("solve: moments in another order give the same answer in that order", "[deceleration]") {
+  for (const double l : {0., .1})
+    for (const double tolerance : {1e-2, 1e-5}) {
+      Case c(1e-4, 3000);
+      c.data.rotor_momentum = l * V(1, 2, -1);
+      c.data.tolerance = tolerance;
+      const Answer plain = c.solve();
+      std::array<int, 3> order{0, 1, 2};
+      do {
+        CAPTURE(l, tolerance, order[0], order[1]);
+        Case d = c;
+        for (int i = 0; i < 3; ++i) {
+          d.moments[i] = c.moments[order[std::size_t(i)]];
+          d.data.control[i] = c.data.control[order[std::size_t(i)]];
+          d.data.momentum[i] = c.data.momentum[order[std::size_t(i)]];
+          d.data.rotor_momentum[i] = c.data.rotor_momentum[order[std::size_t(i)]];
+        }
+        // an odd exchange mirrors the axes: the mirror image of a motion is one with M and l turned round
+        const bool odd = ((order[1] - order[0] + 3) % 3) != 1;
+        if (odd) d.data.momentum = -d.data.momentum, d.data.rotor_momentum = -d.data.rotor_momentum;
+        const Answer other = d.solve();
+        CHECK(std::strcmp(plain.model, other.model) == 0);
+        for (const char* name : {"angular_momentum_norm", "energy", "modulus_squared"})
+          CHECK(distance(other, plain, name) < 1e-8);
+        if (!plain.find("angular_momentum") || !other.find("angular_momentum")) continue;
+        for (std::size_t i = 0; i < 6; ++i) {
+          const V a = row(plain, "angular_momentum", i), b = row(other, "angular_momentum", i);
+          const V back(a[order[0]], a[order[1]], a[order[2]]);
+          CHECK((b - (odd ? -back : back)).norm() < 2 * tolerance * c.data.momentum.norm());
+        }
+      } while (std::next_permutation(order.begin(), order.end()));
+    }
+}
+
+TEST_CASE("solve: turned body axes turn the answer", "[deceleration]") {
+  const Mat3<double> R = rotation(.9, V(1, -2, .5));
+  SceneData data = Case(1e-3, 300).data;
+  data.control.setConstant(1e-3);  // the same along any axes
+  data.rotor_momentum = V(.1, .05, -.2);
+  data.tolerance = 1e-9;
+  const Mat3<double> J = V(1.4, 1, .7).asDiagonal();
+  Refusal refusal;
+  const Answer plain = deceleration::solve<>(*Scene::make(*Inertia<double>::from_tensor(J), data), refusal);
+  REQUIRE(refusal.code == Errc::ok);
+  data.momentum = R * data.momentum;
+  data.rotor_momentum = R * data.rotor_momentum;
+  const Answer turned =
+      deceleration::solve<>(*Scene::make(*Inertia<double>::from_tensor(R * J * R.transpose()), data), refusal);
+  REQUIRE(refusal.code == Errc::ok);
+  CHECK(distance(turned, plain, "angular_momentum_norm") < 1e-9);
+  CHECK(distance(turned, plain, "energy") < 1e-9);
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK((row(turned, "angular_momentum", i) - R * row(plain, "angular_momentum", i)).norm() < 3e-9);
+    CHECK((row(turned, "angular_velocity", i) - R * row(plain, "angular_velocity", i)).norm() < 3e-9);
+  }
+}
+
+TEST_CASE("solve: climbs from the cheapest rung as the tolerance tightens", "[deceleration]") {
+  Case c(1e-5, 3e4);
+  const Answer truth = c.truth();
+  int before = 0;
+  for (const double tolerance : {1e-1, 1e-3, 1e-5, 1e-7, 1e-9}) {
+    CAPTURE(tolerance);
+    c.data.tolerance = tolerance;
+    const Answer answer = c.solve();
+    CHECK(answer.met);
+    CHECK(answer.tolerance == tolerance);
+    CHECK(int(answer.tried.size()) >= before);
+    before = int(answer.tried.size());
+    CHECK(std::strcmp(answer.tried.back().model, answer.model) == 0);
+    CHECK(std::strcmp(answer.tried.front().model, "equal-torque") == 0);
+    CHECK(answer.tried.front().why != nullptr);
+    check_honest(answer, truth);
+    CHECK(answer.counts.rhs > 0);
+  }
+  CHECK(before == 4);
+}
+
+TEST_CASE("solve: the models answer by their names", "[deceleration]") {
+  Case c(1e-4, 3000);
+  for (const auto& [model, name] : {std::pair{Model::averaged, "averaged"}, std::pair{Model::averaged_2, "averaged-2"},
+                                    std::pair{Model::full, "full"}}) {
+    const Answer answer = c.with(model, 1e-3).solve();
+    CHECK(std::strcmp(answer.model, name) == 0);
+    CHECK(answer.tried.size() == 1);
+    CHECK(answer.tried[0].accepted);
+  }
+  Refusal refusal;
+  const Answer none = c.with(Model::equal_torque, 1e-3).solve(refusal);
+  CHECK(refusal.code == Errc::not_applicable);
+  CHECK(std::strcmp(refusal.model, "equal-torque") == 0);
+  CHECK(none.columns.empty());
+  CHECK(rung_of(Model::any) == -1);
+}
+
+TEST_CASE("solve: what an answer says of its scene", "[deceleration]") {
+  Case c(1e-4, 3000);
+  const Answer plain = c.solve();
+  CHECK(quantity(plain, "small_parameter") == Approx(1e-4).epsilon(1e-12));
+  CHECK(quantity(plain, "separatrix_distance") > 0);
+  CHECK(quantity(plain, "final_angular_velocity") == 0);
+  CHECK_FALSE(warns(plain, "does-not-stop"));
+  CHECK_FALSE(warns(plain, "no-control"));
+  Case rotor = c;
+  rotor.moments = V(.7, 1.4, 1);
+  rotor.data.rotor_momentum = V(.1, .2, .3);
+  const Answer turning = rotor.solve();
+  CHECK(warns(turning, "does-not-stop"));
+  for (const Quantity& q : turning.quantities)
+    if (std::strcmp(q.name, "final_angular_velocity") == 0)
+      for (int i = 0; i < 3; ++i)
+        CHECK(q.values[i] == Approx(-rotor.data.rotor_momentum[i] / rotor.moments[i]).epsilon(1e-13));
+  rotor.data.law = rotor.data.drag_law = Law::carrier;
+  CHECK_FALSE(warns(rotor.solve(), "does-not-stop"));
+}
+
+TEST_CASE("solve: attitude comes from the full equations alone", "[deceleration]") {
+  Case c(1e-3, 100);
+  c.data.wants_attitude = true;
+  const Answer answer = c.solve();
+  CHECK(std::strcmp(answer.model, "full") == 0);
+  REQUIRE(answer.find("attitude"));
+  for (std::size_t i = 0; i < answer.times.size(); ++i) {
+    const double* q = &answer.find("attitude")->values[4 * i];
+    CHECK(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] == Approx(1).epsilon(1e-14));
+  }
+  CHECK(passed_over(answer, "averaged").find("attitude") != std::string::npos);
+}
+
+TEST_CASE("solve: units scale out, down to the tiny and up to the huge", "[deceleration]") {
+  Case c(1e-4, 3000);
+  c.data.tolerance = 1e-4;
+  const Answer plain = c.solve();
+  for (const double s : {1e-6, 1e6}) {  // the body and all momenta and torques times s
+    Case d = c;
+    d.moments *= s;
+    d.data.momentum *= s;
+    d.data.control *= s;
+    const Answer scaled = d.solve();
+    CHECK(std::strcmp(plain.model, scaled.model) == 0);
+    for (std::size_t i = 0; i < 6; ++i) {
+      CHECK(scaled.find("angular_momentum_norm")->values[i] ==
+            Approx(s * plain.find("angular_momentum_norm")->values[i]).epsilon(1e-9));
+      CHECK(scaled.find("modulus_squared")->values[i] ==
+            Approx(plain.find("modulus_squared")->values[i]).epsilon(1e-7));
+    }
+    Case e = c;  // time
+    e.data.momentum *= s;
+    e.data.control *= s * s;
+    e.data.drag *= s;
+    for (double& t : e.data.times) t /= s;
+    const Answer faster = e.solve();
+    CHECK(std::strcmp(plain.model, faster.model) == 0);
+    CHECK(quantity(faster, "stop_time") * s == Approx(quantity(plain, "stop_time")).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("solve: a monitor sees the work and can end it", "[deceleration]") {
+  Case c(1e-5, 5e4);
+  c.data.model = Model::full;
+  c.data.tolerance = 1e-10;
+  Monitor monitor;
+  Refusal refusal;
+  deceleration::solve<>(c.scene(), refusal, &monitor);
+  CHECK(refusal.code == Errc::ok);
+  CHECK(monitor.fraction.load() == Approx(1).margin(.01));
+  Monitor stopped;
+  stopped.cancel = true;
+  deceleration::solve<>(c.scene(), refusal, &stopped);
+  CHECK(refusal.code == Errc::cancelled);
+}
+
+TEST_CASE("solve: the reference cases at many tolerances", "[deceleration]") {
+  for (auto c : reference::cases()) {
+    for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
+      CAPTURE(c.id, tolerance);
+      c.data.tolerance = tolerance;
+      Refusal refusal;
+      const Answer answer = deceleration::solve<>(c.scene(), refusal);
+      REQUIRE(refusal.code == Errc::ok);
+      INFO(stated(answer));
+      CHECK(answer.met);
+      double norm = 0, energy = 0, size = 0, most = 0;
+      for (std::size_t i = 0; i < c.full_norm.size(); ++i) {
+        norm = std::max(norm, std::abs(answer.find("angular_momentum_norm")->values[i] - c.full_norm[i]));
+        energy = std::max(energy, std::abs(answer.find("energy")->values[i] - c.full_energy[i]));
+        size = std::max(size, c.full_norm[i]);
+        most = std::max(most, c.full_energy[i]);
+      }
+      if (c.id != "P10" || tolerance < .1) CHECK(norm / size <= answer.find("angular_momentum_norm")->error);
+      CHECK(energy / most <= answer.find("energy")->error);
+      const double stop = quantity(answer, "stop_time");
+      if (!std::isnan(c.full_stop) && !std::isnan(stop)) CHECK(std::abs(stop / c.full_stop - 1) <= answer.error + 3e-8);
+    }
+  }
+}
