@@ -120,7 +120,7 @@ TEST_CASE("failure map: M -> 0, a tiny start", "[deceleration]") {
 
 TEST_CASE("failure map: M -> 0, times behind the stop", "[deceleration]") {
   // the weakest control along the axis of middle inertia is the worst place: the bodies fall to it in the end
-  for (const V& b : {V(.6, .9, 1), V(.9, .4, 1), V(1, .9, .6), V(1, 1, 1)}) {
+  for (const V& b : {V(.6, .9, 1), V(.9, .2, 1), V(1, .9, .6), V(1, 1, 1)}) {
     CAPTURE(b.transpose());
     Case c(1e-3, 8000);
     c.data.control = 1e-3 * b;
@@ -174,7 +174,7 @@ TEST_CASE("failure map: A -> B", "[deceleration]") {
 }
 
 TEST_CASE("failure map: B -> C", "[deceleration]") {
-  for (const double gap : {.1, 2e-2, 1e-3, 1e-4, 1e-6, 1e-10, 0.})
+  for (const double gap : {.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-10, 0.})
     for (const V& M : {V(.1, .2, .95), V(.6, .5, .4)}) {
       CAPTURE(gap, M.transpose());
       Case c(1e-3, 400);
@@ -194,6 +194,8 @@ TEST_CASE("failure map: A = B = C", "[deceleration]") {
   CHECK(passed_over(answer, "averaged").find("sphere") != std::string::npos);
   CHECK(passed_over(answer, "averaged-2").find("sphere") != std::string::npos);
   c.data.control.setConstant(1e-3);  // the closed form has M decay along itself
+  check_everywhere(c);
+  c.data.rotor_momentum = V(.1, .2, .3);
   check_everywhere(c);
 }
 
@@ -260,7 +262,7 @@ TEST_CASE("failure map: the start is a relative equilibrium", "[deceleration]") 
   // with rotor momentum: omega = sigma M, M_i = g_i/(a_i - sigma)
   c.data.rotor_momentum = V(.2, .15, .3);
   const V a = c.moments.cwiseInverse(), g = a.cwiseProduct(c.data.rotor_momentum);
-  for (const double sigma : {.3, -.5}) {
+  for (const double sigma : {.3, -.5, 1.8, 2.2}) {
     CAPTURE(sigma);
     c.data.momentum = g.cwiseQuotient(a - V::Constant(sigma));
     const Answer truth = c.truth();

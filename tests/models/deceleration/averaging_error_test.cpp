@@ -72,3 +72,12 @@ TEST_CASE("a crossing adds mu |ln mu|", "[deceleration]") {
   CHECK(e.k2 <= 1);
   CHECK(AveragingError<double>().first_order(1, .5).norm == 0);
 }
+TEST_CASE("NaN is not lost", "[deceleration]") {
+  const V a(1 / 1.4, 1, 1 / .7);
+  const auto q = polhode_through<double>(a, V(1, .2, .3));
+  const ControlTorques<double> b{gyrostat::nan<double>, 1, 1};
+  AveragingError<double> error;
+  error.visit(q, b, mean_torque<>(q, b), .1, 1.);
+  error.visit(q, {1, 1, 1}, mean_torque<>(q, ControlTorques<double>{1, 1, 1}), .1, 1.);
+  CHECK(std::isnan(error.second_order().vector));
+}
