@@ -37,6 +37,10 @@ TEST_CASE("equal-torque rung: says why it does not apply", "[deceleration]") {
   CHECK(why(attitude).find("attitude") != std::string::npos);
   rest.data.momentum.setZero();
   CHECK(why(rest).find("rest") != std::string::npos);
+  Case separatrix = c;  // exactly: 1/J = (1, 1.5, 2)
+  separatrix.moments = V(1, 1 / 1.5, .5);
+  separatrix.data.momentum = V(.5, .3, .5);
+  CHECK(equal_torque_track<math::Native>(separatrix.scene()).failure == Errc::separatrix);
 }
 
 TEST_CASE("equal-torque rung: also under actuators off the principal axes", "[deceleration]") {
