@@ -11,7 +11,7 @@ from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError
 from gyrostat.ladder import chart, solve
 from gyrostat.scenes import Scene, load
 
-__version__: str = build_info()["version"]
+__version__: str = str(build_info()["version"])
 
 __all__ = [
     "Answer",

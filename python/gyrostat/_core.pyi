@@ -2,9 +2,164 @@
 Compiled core of gyrostat.
 """
 from __future__ import annotations
+import numpy
+import numpy.typing
 import typing
-__all__: list[str] = ['build_info']
+__all__: list[str] = ['Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_matrix', 'quaternion_from_vector', 'vector_from_matrix', 'vector_from_quaternion']
+class Monitor:
+    """
+    Watches and stops long work from another thread.
+    """
+    def __init__(self) -> None:
+        ...
+    def cancel(self) -> None:
+        """
+        Ask the work to stop: it raises Cancelled soon after.
+        """
+    @property
+    def cancelled(self) -> bool:
+        """
+        Whether cancel() was called.
+        """
+    @property
+    def progress(self) -> float:
+        """
+        Share of the work done, from 0 to 1.
+        """
+class PolhodeStart:
+    """
+    A scene without rotor momentum in principal axes 1, 2, 3, A > B > C.
+    """
+    @property
+    def modulus_squared(self) -> float:
+        """
+        k2 at the start
+        """
+    @property
+    def moments(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) [kg m2]
+        """
+    @property
+    def regime(self) -> str:
+        """
+        A or C
+        """
+    @property
+    def torques(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (3,) about the principal axes [N m]
+        """
+class PublishedData:
+    """
+    Data of a figure of the deceleration paper, principal axes, A > B > C.
+    """
+    def __init__(self, *, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, sigma: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def momentum_unit(self) -> float:
+        """
+        |M| at the start [N m s].
+        """
+    @property
+    def time_unit(self) -> float:
+        """
+        T of slow time [s].
+        """
+class PublishedRun:
+    """
+    A solution of (27), until k2 leaves [0, 1) or |M| vanishes.
+    """
+    @property
+    def ended(self) -> bool:
+        """
+        whether the equations ended before the time asked for
+        """
+    @property
+    def energy(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        H/b3
+        """
+    @property
+    def modulus_squared(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        k2
+        """
+    @property
+    def momentum(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        |M|/M0
+        """
+    @property
+    def t(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        t/T
+        """
 def build_info() -> dict[str, str | None]:
     """
     Version of the library, of the compiler, and of each library that is built in (None: it is not).
     """
+def deceleration_averaged(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], law: str, drag_law: str, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, elliptic: str) -> dict[str, typing.Any]:
+    """
+    The rung averaged over rows of bodies.
+    """
+def deceleration_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, law: str, drag_law: str, angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+    """
+    The full equations under one integrator, timed.
+    """
+def deceleration_polhode_start(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> PolhodeStart:
+    """
+    Regime and k2 of a start; inertia (3,) or (3, 3), control (3,), angular_momentum (3,), body axes.
+    """
+def deceleration_regimes() -> list[str]:
+    """
+    Symbols of the regimes, in the order of their numbers.
+    """
+def deceleration_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, law: str, drag_law: str, angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, elliptic: str, monitor: Monitor | None) -> dict[str, typing.Any]:
+    """
+    Answer of the ladder as plain data.
+    """
+def deceleration_stability(control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], regime: str) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (n, 6): region, tendency of the axis, of k*2 and of the separatrix, k*2, 1 - k*2.
+    """
+def deceleration_torque_balance(modulus_squared: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+    """
+    phi(k2) = kp2 W/(k2 F): falls from 1/2 at k2 = 0 to 0 at k2 = 1.
+    """
+def elliptic_complete(k2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], kp2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], backend: str) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (n, 2): K, E.
+    """
+def elliptic_incomplete(phi: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], n: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], k2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], kp2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], backend: str) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (n, 3): F, E, Pi.
+    """
+def elliptic_jacobi(u: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], k2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], kp2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], backend: str) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (n, 4): sn, cn, dn, am.
+    """
+def elliptic_zeta(u: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], k2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], kp2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], backend: str) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (n, 1): Z.
+    """
+def matrix_from_quaternion(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    ...
+def matrix_from_vector(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    ...
+def published_run(data: PublishedData, *, reading: str, modulus_squared: typing.SupportsFloat | typing.SupportsIndex, end: typing.SupportsFloat | typing.SupportsIndex, samples: typing.SupportsInt | typing.SupportsIndex) -> PublishedRun:
+    """
+    The system (27) from (28), printed or mended.
+    """
+def published_stationary_ratio(kappa2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], modulus_squared: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+    """
+    b1/b3 of (22) as printed, for b2/b3 and k2.
+    """
+def quaternion_from_matrix(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    ...
+def quaternion_from_vector(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    ...
+def vector_from_matrix(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    ...
+def vector_from_quaternion(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    ...

@@ -116,6 +116,7 @@ def _in_thread(work: Callable[[Any], T], title: str) -> T:
     from gyrostat.deceleration import Monitor
 
     monitor = Monitor()
+    done = threading.Event()  # Thread.join, once interrupted, takes a running thread for a finished one
     result: list[T] = []
     failure: list[BaseException] = []
 
@@ -124,19 +125,18 @@ def _in_thread(work: Callable[[Any], T], title: str) -> T:
             result.append(work(monitor))
         except BaseException as error:
             failure.append(error)
+        finally:
+            done.set()
 
-    thread = threading.Thread(target=run, daemon=True)
-    thread.start()
+    threading.Thread(target=run, daemon=True).start()
     try:
-        thread.join(0.4)
-        if thread.is_alive():
+        if not done.wait(0.4):
             with Progress(title) as progress:
-                while thread.is_alive():
-                    thread.join(0.1)
+                while not done.wait(0.1):
                     progress.update(monitor.progress)
     except KeyboardInterrupt:
         monitor.cancel()
-        thread.join(10)
+        done.wait(10)
         raise
     if failure:
         raise failure[0]
@@ -174,15 +174,15 @@ def _write(text: str, file: Path | None) -> None:
         file.write_text(text)
 
 
-def _short(value: Any) -> str:
+def _short(value: Any, digits: int = 9) -> str:
     """A number or vector for reading."""
     if value is None:
         return "-"
     if hasattr(value, "__len__"):
-        return "(" + ", ".join(_short(float(v)) for v in value) + ")"
+        return "(" + ", ".join(_short(float(v), 6) for v in value) + ")"
     if math.isnan(value):
         return "-"
-    return "infinite" if math.isinf(value) else f"{value:.9g}"
+    return "infinite" if math.isinf(value) else f"{value:.{digits}g}"
 
 
 def _small(error: float | None) -> str:

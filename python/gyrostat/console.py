@@ -37,8 +37,8 @@ def show_table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]], 
         from rich.table import Table
 
         table = Table(title=escape(title) or None, title_justify="left", box=box.SIMPLE_HEAD, show_header=any(heads))
-        for head in heads:
-            table.add_column(escape(head))
+        for i, head in enumerate(heads):
+            table.add_column(escape(head), no_wrap=i == 0, overflow="fold")
         for row in rows:
             table.add_row(*(escape(cell) for cell in row))
         Console(file=out).print(table)

@@ -112,8 +112,9 @@ def averaged(*, inertia: ArrayLike, control: ArrayLike, drag: ArrayLike, angular
     """
     lead, (J, b, d, M, l) = rows([("inertia", inertia, (3,)), ("control", control, (3,)), ("drag", drag, ()),
                                   ("angular_momentum", angular_momentum, (3,)), ("rotor_momentum", rotor_momentum, (3,))])
-    made = _core.deceleration_averaged(inertia=J, rotor_momentum=l, control=b, drag=d, angular_momentum=M, law=law,
-                                       drag_law=drag_law, times=np.asarray(t, dtype=float), tolerance=tolerance, elliptic=elliptic)
+    made: dict[str, Any] = _core.deceleration_averaged(
+        inertia=J, rotor_momentum=l, control=b, drag=d, angular_momentum=M, law=law, drag_law=drag_law,
+        times=np.asarray(t, dtype=float), tolerance=tolerance, elliptic=elliptic)
     n = made["momentum_norm"].shape[1]
     symbols = np.array(_core.deceleration_regimes())
     names = ("momentum_norm", "energy", "modulus_squared")
@@ -143,9 +144,9 @@ def stability(*, control: ArrayLike, regime: str = "A") -> Stability:
     lead, (b,) = rows([("control", control, (3,))])
     made = _core.deceleration_stability(b, regime)
     regions, tendencies = np.array(REGIONS), np.array(TENDENCIES)
-    return Stability(shaped(regions[made[:, 0].astype(int)], lead),
-                     *(shaped(tendencies[made[:, i].astype(int)], lead) for i in (1, 2, 3)),
-                     shaped(made[:, 4], lead), shaped(made[:, 5], lead))
+    axis, interior, separatrix = (shaped(tendencies[made[:, i].astype(int)], lead) for i in (1, 2, 3))
+    return Stability(region=shaped(regions[made[:, 0].astype(int)], lead), axis=axis, interior=interior, separatrix=separatrix,
+                     quasi_stationary=shaped(made[:, 4], lead), quasi_stationary_complement=shaped(made[:, 5], lead))
 
 
 def quasi_stationary_modulus(*, control: ArrayLike, regime: str = "A") -> Floats:

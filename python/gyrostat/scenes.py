@@ -6,7 +6,7 @@ import math
 import os
 import re
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -170,6 +170,8 @@ def _near(word: str, words: Iterable[str]) -> str:
 def _text(field: Field, value: Any) -> str:
     if not isinstance(value, str):
         raise _Wrong(f"this is {_kind_of(value)}, not text", f'write {field.name} = "..." in quotes')
+    if any("\ud800" <= c <= "\udfff" for c in value):
+        raise _Wrong("the text holds half a character", "write valid Unicode text")
     if field.default is REQUIRED and not value.strip():
         raise _Wrong("the text is empty", f"write the {field.meaning}")
     return value
@@ -297,7 +299,7 @@ def _triangle(moments: Iterable[float]) -> None:
                      "no rigid body has these moments (triangle inequality): check the numbers, or the signs of the products of inertia")
 
 
-_READERS: Final = {
+_READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
     "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "quaternion": _quaternion,
     "inertia": _inertia, "times": _times,
 }

@@ -4,6 +4,7 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/typing.h>
 
 #include <cmath>
 #include <cstdio>
@@ -20,6 +21,9 @@ namespace gyrostat::python {
 namespace py = pybind11;
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Plain data by name.
+using Data = py::typing::Dict<py::str, py::object>;
 
 /// A number that is not known.
 inline constexpr double missing = gyrostat::nan<double>;

@@ -16,6 +16,9 @@
 #ifdef GYROSTAT_HAVE_GSL
 #include "gyrostat/math/gsl.hpp"
 #endif
+#ifdef GYROSTAT_HAVE_CVODE
+#include "gyrostat/ladder/deceleration/cvode_motion.hpp"
+#endif
 
 namespace {
 
@@ -30,9 +33,14 @@ Model model(const std::string& name) {
   raise("DomainError", "model = '" + name + "': use auto, equal-torque, averaged, averaged-2 or full");
 }
 
-/// Checks the name of an integrator: the full equations go by Taylor series.
-void require_integrator(const std::string& name) {
-  if (name != "auto" && name != "taylor") raise("DomainError", "integrator = '" + name + "': use auto or taylor");
+/// What solves the full equations; nullptr stands for Taylor series.
+auto full_equations(const std::string& name) -> decltype(SceneData::full_equations) {
+  if (name == "auto" || name == "taylor") return nullptr;
+#ifdef GYROSTAT_HAVE_CVODE
+  if (name == "cvode") return &full_by_cvode;
+#endif
+  raise("DomainError", "integrator = '" + name + "': " +
+                           (name == "cvode" ? "this build has no CVODE" : "unknown; use auto, taylor or cvode"));
 }
 
 /// Whether the elliptic functions are GSL's.
@@ -63,7 +71,7 @@ py::object values_of(Column& column) {
   return array(std::move(column.values), {n, column.width});
 }
 
-py::dict to_python(Answer& answer, double seconds) {
+Data to_python(Answer& answer, double seconds) {
   py::dict columns, error, scalars, counts;
   for (Column& column : answer.columns) {
     const std::string name = column.name;
@@ -100,7 +108,7 @@ py::dict to_python(Answer& answer, double seconds) {
   counts["rhs"] = answer.counts.rhs;
   counts["steps"] = answer.counts.steps;
   counts["rejected"] = answer.counts.rejected;
-  py::dict made;
+  Data made;
   made["model"] = answer.model;
   made["met"] = answer.met;
   made["error"] = error;
@@ -119,10 +127,11 @@ Scene checked(const Inertia<double>& body, const SceneData& data) {
   return *scene;
 }
 
-py::dict solve_scene(const Array& inertia, const Array& rotor_momentum, const Array& control, double drag,
+Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array& control, double drag,
                      const std::string& control_law, const std::string& drag_law, const Array& angular_momentum,
                      const std::optional<Array>& attitude, const Array& at, double tolerance, const std::string& rung,
-                     const std::string& method, const std::string& elliptic, const std::shared_ptr<Monitor>& monitor) {
+                     const std::string& method, const std::string& elliptic,
+                     const std::optional<std::shared_ptr<Monitor>>& monitor) {
   SceneData data;
   data.rotor_momentum = vector("rotor_momentum", rotor_momentum);
   data.control = vector("control", control);
@@ -145,7 +154,7 @@ py::dict solve_scene(const Array& inertia, const Array& rotor_momentum, const Ar
   if (!(tolerance > 0 && tolerance < 1)) raise("DomainError", "tolerance = " + text(tolerance) + ": give a number in (0, 1)");
   data.tolerance = tolerance;
   data.model = model(rung);
-  require_integrator(method);
+  data.full_equations = full_equations(method);
   const bool gsl = uses_gsl(elliptic);
   const Scene scene = checked(body(inertia), data);
 
@@ -155,7 +164,7 @@ py::dict solve_scene(const Array& inertia, const Array& rotor_momentum, const Ar
   {
     const py::gil_scoped_release free;
     const auto began = std::chrono::steady_clock::now();
-    answer = climb_with(gsl, scene, refusal, monitor.get());
+    answer = climb_with(gsl, scene, refusal, monitor ? monitor->get() : nullptr);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   }
   if (refusal.code != Errc::ok)
@@ -164,7 +173,7 @@ py::dict solve_scene(const Array& inertia, const Array& rotor_momentum, const Ar
 }
 
 /// The rung `averaged` for many bodies: rows of inertia, rotor_momentum, control, momentum (n, 3) and drag (n).
-py::dict averaged_rows(const Array& inertia, const Array& rotor_momentum, const Array& control, const Array& drag,
+Data averaged_rows(const Array& inertia, const Array& rotor_momentum, const Array& control, const Array& drag,
                        const Array& momentum, const std::string& control_law, const std::string& drag_law, const Array& at,
                        double tolerance, const std::string& elliptic) {
   const py::ssize_t rows = drag.size();
@@ -212,7 +221,7 @@ py::dict averaged_rows(const Array& inertia, const Array& rotor_momentum, const 
       if (q.name == std::string_view("stop_time")) stop[std::size_t(row)] = q.values[0];
   }
   const auto width = py::ssize_t(n);
-  py::dict made;
+  Data made;
   made["momentum_norm"] = array(std::move(norm), {rows, width});
   made["energy"] = array(std::move(energy), {rows, width});
   made["modulus_squared"] = array(std::move(k2), {rows, width});
@@ -250,8 +259,8 @@ py::array_t<double> stability_rows(const Array& control, const std::string& regi
   return array(std::move(out), {rows, 6});
 }
 
-py::list regime_symbols() {
-  py::list names;
+py::typing::List<py::str> regime_symbols() {
+  py::typing::List<py::str> names;
   for (int i = 0; i <= int(Regime::rest); ++i) names.append(symbol(Regime(i)));
   return names;
 }

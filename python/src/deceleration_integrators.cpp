@@ -166,7 +166,7 @@ const char* symbol_of(Status status) {
 
 /// Runs `work` without the GIL, and hands its result back in body axes.
 template <Real Scalar, class Work>
-py::dict timed(const Inertia<Scalar>& body, std::size_t n, Work&& work) {
+Data timed(const Inertia<Scalar>& body, std::size_t n, Work&& work) {
   Run<Scalar> run;
   double seconds = 0;
   {
@@ -180,7 +180,7 @@ py::dict timed(const Inertia<Scalar>& body, std::size_t n, Work&& work) {
     const Vec3<Scalar> M_B = body.R_BP() * run.momentum[i];
     for (int j = 0; j < 3; ++j) momentum[3 * i + std::size_t(j)] = double(M_B[j]);
   }
-  py::dict made;
+  Data made;
   made["angular_momentum"] = array(std::move(momentum), {py::ssize_t(n), 3});
   made["seconds"] = seconds;
   made["rhs"] = run.counts.rhs;
@@ -189,7 +189,7 @@ py::dict timed(const Inertia<Scalar>& body, std::size_t n, Work&& work) {
   return made;
 }
 
-py::dict integrate(const Array& inertia, const Array& rotor_momentum, const Array& control, double drag,
+Data integrate(const Array& inertia, const Array& rotor_momentum, const Array& control, double drag,
                    const std::string& control_law, const std::string& drag_law, const Array& angular_momentum, const Array& at,
                    const std::string& method, int order, double tolerance, const std::string& precision) {
   const std::vector<double> t = times(at);

@@ -146,7 +146,7 @@ def test_a_closed_pipe_is_no_failure() -> None:
 
 def test_ctrl_c_stops_long_work(tmp_path: Path) -> None:
     process = subprocess.Popen(
-        [*GYROSTAT, "solve", "tiangong-1", "--set", "model=full", "--set", "control=[1e-13, 2e-13, 3e-13]", "--set",
+        [*GYROSTAT, "solve", "tiangong-1", "--set", "model=full", "--set", "control=[1e-13, 2e-13, 3e-13]", "--set", "drag=0", "--set",
          "times=[1e12]"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     time.sleep(2.0)
