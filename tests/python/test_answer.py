@@ -64,6 +64,31 @@ def test_the_cheapest_rung_that_is_good_enough_answers() -> None:
         <= coarse.error["angular_momentum_norm"]
 
 
+@pytest.mark.parametrize("law", ["total", "carrier"])
+def test_the_integrator_can_be_chosen(law: str) -> None:
+    given = {"model": "full", "law": law, "rotor_momentum": [1.0, 0.5, 0.0], "tolerance": 1e-5, "duration": 400.0, "samples": 5}
+    taylor = gyrostat.solve(BRAKE, integrator="taylor", **given)
+    if gyrostat.build_info()["cvode"] is None:
+        with pytest.raises(gyrostat.DomainError, match="no CVODE"):
+            gyrostat.solve(BRAKE, integrator="cvode", **given)
+        return
+    cvode = gyrostat.solve(BRAKE, integrator="cvode", **given)
+    assert cvode.model == "full" and cvode.counts["rhs"] > 2 * taylor.counts["rhs"]
+    distance = np.max(np.linalg.norm(cvode["angular_momentum"] - taylor["angular_momentum"], axis=1))
+    assert distance / 50 <= cvode.error["angular_momentum"] + taylor.error["angular_momentum"]
+
+
+@pytest.mark.parametrize("model", ["averaged", "averaged-2"])
+def test_the_elliptic_backend_can_be_chosen(model: str) -> None:
+    native = gyrostat.solve(BRAKE, model=model, elliptic="native")
+    if gyrostat.build_info()["gsl"] is None:
+        with pytest.raises(gyrostat.DomainError, match="no GSL"):
+            gyrostat.solve(BRAKE, model=model, elliptic="gsl")
+        return
+    gsl = gyrostat.solve(BRAKE, model=model, elliptic="gsl")
+    assert np.max(np.abs(gsl["modulus_squared"] - native["modulus_squared"])) < 1e-9
+
+
 def test_axes_may_come_in_any_order() -> None:
     order = [2, 0, 1]  # a cyclic exchange is a proper rotation
     turned = gyrostat.solve(BRAKE, model="full", inertia=np.array([35.0, 22.0, 16.0])[order],
