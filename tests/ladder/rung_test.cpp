@@ -121,3 +121,10 @@ TEST_CASE("cancelled work ends the climb", "[ladder]") {
   CHECK(c.refusal.code == Errc::cancelled);
   CHECK(c.monitor.looked_at == 2);
 }
+
+TEST_CASE("a NaN error never meets a tolerance and loses against any number", "[ladder]") {
+  const Climb c(Scene{{gyrostat::nan<double>, 1e-2, gyrostat::nan<double>, 1e-1}}, 1e-5);
+  CHECK(c.is("second"));
+  CHECK_FALSE(c.answer.met);
+}
+

@@ -70,6 +70,7 @@ TEST_CASE("orbit motion: without rotor it is the averaged motion", "[deceleratio
       CHECK(energy_of(p, orbits.sample().level) ==
             Approx(s.norm * s.norm * s.polhode.energy_ratio() / 2).epsilon(1e-9));
     }
+    CHECK(*orbits.stop_time(nobody) == Approx(*polhodes.stop_time()).epsilon(1e-6));
   }
 }
 

@@ -154,7 +154,9 @@ TEST_CASE("solve: attitude comes from the full equations alone", "[deceleration]
 TEST_CASE("solve: units scale out, down to the tiny and up to the huge", "[deceleration]") {
   Case c(1e-4, 3000);
   c.data.tolerance = 1e-4;
+  c.data.model = Model::averaged_2;  // named, so that it also tells the stop behind the times asked for
   const Answer plain = c.solve();
+  REQUIRE(std::isfinite(quantity(plain, "stop_time")));
   for (const double s : {1e-6, 1e6}) {  // the body and all momenta and torques times s
     Case d = c;
     d.moments *= s;
@@ -211,7 +213,7 @@ TEST_CASE("solve: the reference cases at many tolerances", "[deceleration]") {
         size = std::max(size, c.full_norm[i]);
         most = std::max(most, c.full_energy[i]);
       }
-      if (c.id != "P10" || tolerance < .1) CHECK(norm / size <= answer.find("angular_momentum_norm")->error);
+      CHECK(norm / size <= answer.find("angular_momentum_norm")->error);
       CHECK(energy / most <= answer.find("energy")->error);
       const double stop = quantity(answer, "stop_time");
       if (!std::isnan(c.full_stop) && !std::isnan(stop)) CHECK(std::abs(stop / c.full_stop - 1) <= answer.error + 3e-8);

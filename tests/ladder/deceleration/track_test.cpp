@@ -93,7 +93,7 @@ TEST_CASE("vectors that miss the tolerance alone are left out, unless asked for"
   const auto left = [](Model model, double tolerance) {
     const Scene scene = scene_of(V(1.4, 1, .7), model, tolerance);
     Track track = track_of(scene);
-    withhold_vector(track, scene);
+    withhold(track, scene);
     CHECK(track.norm.size() == 2);
     CHECK(track.momentum.empty() == (track.warnings.size() == 1));
     return !track.momentum.empty();
@@ -121,3 +121,13 @@ TEST_CASE("refusals carry their reason or their error", "[deceleration]") {
   CHECK(over.refusal == nullptr);
   CHECK(over.known_error == .1);
 }
+
+TEST_CASE("a NaN among the errors is the answer's error", "[deceleration]") {
+  const Scene scene = scene_of(V(1.4, 1, .7));
+  Track track = track_of(scene);
+  track.energy_error = gyrostat::nan<double>;
+  Answer answer;
+  fill(answer, scene, track);
+  CHECK_FALSE(answer.error <= 1);
+}
+

@@ -104,7 +104,7 @@ class AveragedMotion {
     ode::StepControl<Scalar, 4> control;
     control.relative = 0;
     control.absolute = {tolerance, tolerance, time_error, phase_error};
-    control.first_step = Scalar(.05);
+    control.first_step = Scalar(.2);
     control.step_cap = step_cap;
     return control;
   }

@@ -152,6 +152,7 @@ Track averaged_track(const Scene& scene) {
   track.counts = run.motion().counts();
   detail::warn_of_start(track, scene, start);
   detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());
+  withhold(track, scene);
   return track;
 }
 
@@ -237,7 +238,7 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
     }
   }
   detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());
-  withhold_vector(track, scene);
+  withhold(track, scene);
   return track;
 }
 

@@ -37,6 +37,13 @@ inline Errc hand_over(Track& track, const Scene& scene, const Vec3<double>& M, d
   problem.momentum = M;
   std::vector<double> rest(times.begin() + std::ptrdiff_t(track.momentum.size()), times.end());
   for (double& t : rest) t = std::max(0.0, t - begin);
+  // What the control opposes is late by its own error over the weakest control.
+  const double late =
+      detail::opposed_error(problem, error, (M - problem.rotor_momentum).norm()) / final_torque(scene).least;
+  if (rest.empty() && scene.data().model == Model::any && late > scene.data().tolerance * 2 * begin) {
+    track.warn("stop-withheld", "the stop lies behind the times asked for and its time would miss the tolerance");
+    return Errc::ok;
+  }
   const auto solve = [&] { return full_motion_track(problem, rest, scene.data().tolerance, true, nullptr, monitor); };
   const Track full = solve();
   if (full.failure != Errc::ok) return full.failure;
@@ -47,10 +54,7 @@ inline Errc hand_over(Track& track, const Scene& scene, const Vec3<double>& M, d
 
   track.stop_time = begin + full.stop_time;
   if (std::isfinite(full.stop_time)) {
-    // What the control opposes is late by its own error over the weakest control.
-    const double late = detail::opposed_error(problem, error, (M - problem.rotor_momentum).norm());
-    track.stop_error = (late / final_torque(scene).least + 2 * std::abs(full.stop_time - near.stop_time) +
-                        full.stop_error * full.stop_time) /
+    track.stop_error = (late + 2 * std::abs(full.stop_time - near.stop_time) + full.stop_error * full.stop_time) /
                        track.stop_time;
   }
   if (!rest.empty()) {

@@ -219,7 +219,7 @@ class OrbitMotion {
                              ? 64 * std::sqrt(epsilon<Scalar> * solver_.rhs().problem.rotor_energy_scale() /
                                               solver_.rhs().problem.inverse_inertia[1])
                              : Scalar(0);
-    at_rest_ = opposed() <= std::max(Scalar(1e-10) * start_opposed_, floor);
+    at_rest_ = opposed() <= std::max(Scalar(1e-8) * start_opposed_, floor);
     return ode::Status::reached;
   }
 

@@ -17,7 +17,7 @@ namespace gyrostat::deceleration {
 template <class Elliptic>
 class OrbitError {
  public:
-  static constexpr double first_factor = 4, second_factor = 15;
+  static constexpr double first_factor = 6, second_factor = 15;
 
   explicit OrbitError(const Problem<double>& problem) noexcept : problem_(problem) {}
 
@@ -246,6 +246,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   track.in_domain = error.known() && small_parameter(scene) < 0.1;
   track.counts = motion.counts();
   detail::warn_of_orbit(track, scene, *orbit);
+  withhold(track, scene);
   return track;
 }
 
@@ -322,7 +323,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   if (!M) return detail::not_followed(M.error());
   const Errc failure = hand_over(track, scene, *M, motion.time(), error.second_order_error(), monitor);
   if (failure != Errc::ok) return Track::refused(failure, "the full equations could not take over near rest");
-  withhold_vector(track, scene);
+  withhold(track, scene);
   return track;
 }
 

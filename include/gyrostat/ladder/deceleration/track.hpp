@@ -62,9 +62,18 @@ inline double relative(double error, double size) { return size > 0 ? error / si
 
 }  // namespace detail
 
-/// Leaves out M, and with it omega, where only they miss the tolerance: the slow columns are then still worth having.
-inline void withhold_vector(Track& track, const Scene& scene) {
-  if (track.momentum.empty() || scene.data().model != Model::any || scene.data().wants_attitude) return;
+/// Leaves out what alone would miss the tolerance, where the rest is worth having and nobody named the rung: M and with it
+/// omega, whose phase is the hardest; and a stop that lies behind the times asked for.
+inline void withhold(Track& track, const Scene& scene) {
+  const double tolerance = scene.data().tolerance;
+  if (scene.data().model != Model::any || scene.data().wants_attitude) return;
+  if (track.stop_error > tolerance && track.stop_time > scene.data().times.back()) {
+    track.warn("stop-withheld",
+               "the stop lies behind the times asked for and its time misses the tolerance; ask for times up to it",
+               track.stop_time);
+    track.stop_time = nan<double>;
+  }
+  if (track.momentum.empty()) return;
   double size = 0, spin = 0;
   for (const Vec3<double>& M : track.momentum) {
     size = std::max(size, M.norm());
@@ -72,7 +81,7 @@ inline void withhold_vector(Track& track, const Scene& scene) {
   }
   const double error = std::max(detail::relative(track.momentum_error, size),
                                 detail::relative(track.momentum_error * scene.problem().inverse_inertia[2], spin));
-  if (error <= scene.data().tolerance) return;
+  if (error <= tolerance) return;
   track.momentum.clear();
   track.warn("phase-withheld",
              "the vectors are left out: their error is over the tolerance, that of the slow columns need not be", error);
@@ -126,11 +135,14 @@ inline void fill(Answer& answer, const Scene& scene, const Track& track) {
     answer.columns.push_back(std::move(q));
   }
 
+  // The greatest of all, NaN if any is.
   answer.error = 0;
+  const auto count = [&](double error) {
+    if (!(error <= answer.error) && !std::isnan(answer.error)) answer.error = error;
+  };
   for (const Column& column : answer.columns)
-    if (!std::isnan(column.error) || column.name != std::string_view("regime"))
-      answer.error = column.error <= answer.error ? answer.error : column.error;
-  if (!std::isnan(track.stop_time) && !(track.stop_error <= answer.error)) answer.error = track.stop_error;
+    if (column.name != std::string_view("regime")) count(column.error);
+  if (!std::isnan(track.stop_time)) count(track.stop_error);
 }
 
 }  // namespace gyrostat::deceleration

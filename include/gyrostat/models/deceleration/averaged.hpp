@@ -69,11 +69,12 @@ class AveragedEquations {
 
   Polhode<Scalar> polhode(const State& y) const noexcept {
     Polhode<Scalar> p = family_;
-    if (p.axes.axisymmetric())
+    if (p.axes.axisymmetric()) {
       p.tilt = y[spread];
-    else
-      p = at_modulus(p, {-std::expm1(-y[spread]), std::exp(-y[spread])});
-    return p;
+      return p;
+    }
+    const Scalar minus_k2 = std::expm1(-y[spread]);
+    return at_modulus(p, {-minus_k2, y[spread] < Scalar(.7) ? 1 + minus_k2 : std::exp(-y[spread])});
   }
   Scalar norm(const State& y) const noexcept { return reference_ * std::exp(y[log_norm]); }
   const ControlTorques<Scalar>& control() const noexcept { return control_; }
