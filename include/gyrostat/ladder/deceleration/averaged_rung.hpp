@@ -137,6 +137,7 @@ Track averaged_track(const Scene& scene) {
     late = scene.greatest_control() > 0 ? (tail + drift) / *stop : 0;
   }
   if (const auto stop = run.motion().stop_time()) track.stop_time = *stop;
+  if (late > 1) late = infinity<double>;  // not an estimate any more
   track.stop_error = std::isfinite(track.stop_time) ? late + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene) : 0;
 
   const double least = track.norm.back();
@@ -177,7 +178,7 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   // The later the full equations take over, the less the mean ones err there and the more turns the full ones make.
   const double last_norm = hand_over_share(scene) * breakdown_momentum(problem, scene.greatest_control());
   if (!(last_norm < norm0 / 2))
-    return Track::refused(Errc::not_applicable, "the motion is too fast: averaging would hand over at the start");
+    return Track::refused(Errc::not_applicable, "the braking is too fast: averaging would hand over to the full equations at the start");
 
   Track track;
   const double phase_error = std::max(1e-7, scene.data().tolerance * 1e-2);

@@ -133,7 +133,7 @@ inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor
 /// only where it lies within the times asked for.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto& problem = scene.problem();
-  const double tolerance = std::max(1e-13, scene.data().tolerance * 1e-3);
+  const double tolerance = std::max(1e-13, scene.data().tolerance * 1e-5);
   const auto run = detail::cvode_run(scene, tolerance, monitor);
   if (run.failure != Errc::ok) return Track::refused(run.failure, message(run.failure));
   const auto looser = detail::cvode_run(scene, 10 * tolerance, monitor);

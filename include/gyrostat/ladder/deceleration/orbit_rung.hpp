@@ -266,7 +266,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   const Vec3<double> U = problem.law == Law::total ? problem.momentum
                                                    : Vec3<double>(problem.momentum - problem.rotor_momentum);
   if (!(floor < U.norm() / 2))
-    return Track::refused(Errc::not_applicable, "the motion is too fast: averaging would hand over at the start");
+    return Track::refused(Errc::not_applicable, "the braking is too fast: averaging would hand over to the full equations at the start");
   const double turns = U.norm() / std::max(scene.greatest_control(), 1e-300) / orbit.period();
   if (scene.data().model == Model::any && turns < 1000)
     return Track::refused(Errc::not_applicable, "the full equations are cheaper: the braking takes few turns");
