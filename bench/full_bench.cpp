@@ -94,7 +94,8 @@ void measure(benchmark::State& state, const Solve& solve) {
 template <int Order, bool with_attitude>
 void taylor_series(benchmark::State& state) {
   measure(state, [](double epsilon, double tolerance, double t_end) {
-    return Vec3<double>(taylor<double, Order, with_attitude>(epsilon, tolerance, t_end).momentum.template cast<double>());
+    return Vec3<double>(
+        taylor<double, Order, with_attitude>(epsilon, tolerance, t_end).momentum.template cast<double>());
   });
 }
 BENCHMARK(taylor_series<16, false>)->Apply(arguments);

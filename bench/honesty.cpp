@@ -168,8 +168,8 @@ struct Tally {
     if (!good) worst.push_back({most, which + " " + describe(made, answer)});
   }
   void print(double tolerance) {
-    std::printf("tolerance %.0e: %d answered, %d refused, %d outside the rung's domain, %d without a truth\n", tolerance,
-                answered, refused, outside, unknown);
+    std::printf("tolerance %.0e: %d answered, %d refused, %d outside the rung's domain, %d without a truth\n",
+                tolerance, answered, refused, outside, unknown);
     std::printf("  slowest %.3f s: %s\n", slowest, slow.c_str());
     for (const auto& [name, n] : outcomes) std::printf("  %6d %s\n", n, name.c_str());
     std::printf("  true <= stated in %.4f %%; met in %d, of which over the tolerance %d\n",
@@ -233,10 +233,8 @@ int main(int argc, char** argv) {
       }
       if (!known) truth = solve(posed(1e-12, Model::full), failed);
       known = true;
-      if (failed.code != Errc::ok)
-        ++tallies[k].unknown;
-      else
-        tallies[k].compare(answer, truth, made);
+      if (failed.code != Errc::ok) ++tallies[k].unknown;
+      else tallies[k].compare(answer, truth, made);
     }
     if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
   }

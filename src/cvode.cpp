@@ -165,7 +165,7 @@ Status Cvode::step(double t_max) noexcept {
   }
   const double* y = N_VGetArrayPointer(body.y);
   return std::all_of(y, y + body.system.dimension, [](double x) { return std::isfinite(x); }) ? Status::reached
-                                                                                           : Status::not_finite;
+                                                                                              : Status::not_finite;
 }
 
 Status Cvode::advance(double t_end) noexcept {

@@ -76,7 +76,8 @@ inline void require_shape(const char* name, const Array& values, std::initialize
 /// DomainError unless all elements are finite.
 inline void require_finite(const char* name, const Array& values) {
   for (py::ssize_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values.data()[i])) raise("DomainError", std::string(name) + " = " + text(values) + ": not finite");
+    if (!std::isfinite(values.data()[i]))
+      raise("DomainError", std::string(name) + " = " + text(values) + ": not finite");
 }
 
 inline Vec3<double> vector(const char* name, const Array& values) {

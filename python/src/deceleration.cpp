@@ -49,8 +49,8 @@ bool uses_gsl(const std::string& name) {
 #ifdef GYROSTAT_HAVE_GSL
   if (name == "gsl") return true;
 #endif
-  raise("DomainError", "elliptic = '" + name + "': " +
-                           (name == "gsl" ? "this build has no GSL" : "unknown; use auto, native or gsl"));
+  raise("DomainError",
+        "elliptic = '" + name + "': " + (name == "gsl" ? "this build has no GSL" : "unknown; use auto, native or gsl"));
 }
 
 Answer climb_with([[maybe_unused]] bool gsl, const Scene& scene, Refusal& refusal, Monitor* monitor) {
@@ -81,10 +81,8 @@ Data to_python(Answer& answer, double seconds) {
   for (const Quantity& q : answer.quantities) {
     std::vector<double> values;
     for (int i = 0; i < q.width; ++i) values.push_back(q.values[i] + 0.0);  // no -0
-    if (q.width == 1)
-      scalars[q.name] = values[0];
-    else
-      scalars[q.name] = array(std::move(values), {q.width});
+    if (q.width == 1) scalars[q.name] = values[0];
+    else scalars[q.name] = array(std::move(values), {q.width});
   }
   py::list warnings, tried;
   for (const Warning& w : answer.warnings) {
@@ -128,10 +126,10 @@ Scene checked(const Inertia<double>& body, const SceneData& data) {
 }
 
 Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array& control, double drag,
-                     const std::string& control_law, const std::string& drag_law, const Array& angular_momentum,
-                     const std::optional<Array>& attitude, const Array& at, double tolerance, const std::string& rung,
-                     const std::string& method, const std::string& elliptic,
-                     const std::optional<std::shared_ptr<Monitor>>& monitor) {
+                 const std::string& control_law, const std::string& drag_law, const Array& angular_momentum,
+                 const std::optional<Array>& attitude, const Array& at, double tolerance, const std::string& rung,
+                 const std::string& method, const std::string& elliptic,
+                 const std::optional<std::shared_ptr<Monitor>>& monitor) {
   SceneData data;
   data.rotor_momentum = vector("rotor_momentum", rotor_momentum);
   data.control = vector("control", control);
@@ -151,7 +149,8 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
     data.attitude = normalised(data.attitude);
   }
   data.times = times(at);
-  if (!(tolerance > 0 && tolerance < 1)) raise("DomainError", "tolerance = " + text(tolerance) + ": give a number in (0, 1)");
+  if (!(tolerance > 0 && tolerance < 1))
+    raise("DomainError", "tolerance = " + text(tolerance) + ": give a number in (0, 1)");
   data.tolerance = tolerance;
   data.model = model(rung);
   data.full_equations = full_equations(method);
@@ -168,14 +167,15 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   }
   if (refusal.code != Errc::ok)
-    raise(refusal.code, refusal.code == Errc::cancelled ? "cancelled" : std::string("model ") + refusal.model + ": " + refusal.why);
+    raise(refusal.code,
+          refusal.code == Errc::cancelled ? "cancelled" : std::string("model ") + refusal.model + ": " + refusal.why);
   return to_python(answer, seconds);
 }
 
 /// The rung `averaged` for many bodies: rows of inertia, rotor_momentum, control, momentum (n, 3) and drag (n).
 Data averaged_rows(const Array& inertia, const Array& rotor_momentum, const Array& control, const Array& drag,
-                       const Array& momentum, const std::string& control_law, const std::string& drag_law, const Array& at,
-                       double tolerance, const std::string& elliptic) {
+                   const Array& momentum, const std::string& control_law, const std::string& drag_law, const Array& at,
+                   double tolerance, const std::string& elliptic) {
   const py::ssize_t rows = drag.size();
   const bool gsl = uses_gsl(elliptic);
   SceneData data;
@@ -189,11 +189,14 @@ Data averaged_rows(const Array& inertia, const Array& rotor_momentum, const Arra
   std::vector<double> errors(std::size_t(rows) * 3), stop(static_cast<std::size_t>(rows));
   for (py::ssize_t row = 0; row < rows; ++row) {
     const auto row_text = [&](const std::string& what) { return "row " + std::to_string(row) + ": " + what; };
-    const auto v = [&](const Array& a) { return Vec3<double>(a.data()[3 * row], a.data()[3 * row + 1], a.data()[3 * row + 2]); };
+    const auto v = [&](const Array& a) {
+      return Vec3<double>(a.data()[3 * row], a.data()[3 * row + 1], a.data()[3 * row + 2]);
+    };
     const Vec3<double> J = v(inertia);
     const auto body = Inertia<double>::from_moments(J[0], J[1], J[2]);
     if (!body)
-      raise("DomainError", row_text("inertia = [" + text(J[0]) + ", " + text(J[1]) + ", " + text(J[2]) + "]: " + message(body.error())));
+      raise("DomainError", row_text("inertia = [" + text(J[0]) + ", " + text(J[1]) + ", " + text(J[2]) +
+                                    "]: " + message(body.error())));
     data.rotor_momentum = v(rotor_momentum);
     data.control = v(control);
     data.drag = drag.data()[row];
@@ -250,8 +253,8 @@ py::array_t<double> stability_rows(const Array& control, const std::string& regi
         why = table.error();
         break;
       }
-      const double values[] = {double(table->region), double(table->axis), double(table->interior), double(table->separatrix),
-                               table->quasi_stationary.k2, table->quasi_stationary.kp2};
+      const double values[] = {double(table->region),     double(table->axis),        double(table->interior),
+                               double(table->separatrix), table->quasi_stationary.k2, table->quasi_stationary.kp2};
       std::copy(values, values + 6, &out[std::size_t(row) * 6]);
     }
   }

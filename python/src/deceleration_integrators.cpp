@@ -96,7 +96,8 @@ Run<double> by_dop853(const Problem<double>& problem, const std::vector<double>&
 }
 
 #ifdef GYROSTAT_HAVE_CVODE
-Run<double> by_cvode(const Problem<double>& problem, const std::vector<double>& at, double tolerance, ode::CvodeMethod method) {
+Run<double> by_cvode(const Problem<double>& problem, const std::vector<double>& at, double tolerance,
+                     ode::CvodeMethod method) {
   ode::CvodeSystem system;
   system.dimension = 3;
   system.rhs = [](double, const double* y, double* rate, void* user) {
@@ -105,7 +106,8 @@ Run<double> by_cvode(const Problem<double>& problem, const std::vector<double>& 
     return r.allFinite();
   };
   system.jacobian = [](double, const double* y, double* columns, void* user) {
-    const Mat3<double> J = momentum_jacobian(*static_cast<const Problem<double>*>(user), Vec3<double>(y[0], y[1], y[2]));
+    const Mat3<double> J =
+        momentum_jacobian(*static_cast<const Problem<double>*>(user), Vec3<double>(y[0], y[1], y[2]));
     for (int i = 0; i < 9; ++i) columns[i] = J(i % 3, i / 3);
     return J.allFinite();
   };
@@ -190,8 +192,8 @@ Data timed(const Inertia<Scalar>& body, std::size_t n, Work&& work) {
 }
 
 Data integrate(const Array& inertia, const Array& rotor_momentum, const Array& control, double drag,
-                   const std::string& control_law, const std::string& drag_law, const Array& angular_momentum, const Array& at,
-                   const std::string& method, int order, double tolerance, const std::string& precision) {
+               const std::string& control_law, const std::string& drag_law, const Array& angular_momentum,
+               const Array& at, const std::string& method, int order, double tolerance, const std::string& precision) {
   const std::vector<double> t = times(at);
   require_not_negative("control", control);
   const Law opposed = law("law", control_law), dragged = law("drag_law", drag_law);
@@ -202,7 +204,8 @@ Data integrate(const Array& inertia, const Array& rotor_momentum, const Array& c
       raise("DomainError", "precision = 'long double': only method taylor of order 30 has it");
     const auto made = body<long double>(inertia);
     const auto problem = problem_of(made, rotor_momentum, control, drag, opposed, dragged, angular_momentum);
-    return timed(made, t.size(), [&] { return by_taylor_of<long double, 30>(30, problem, t, static_cast<long double>(tolerance)); });
+    return timed(made, t.size(),
+                 [&] { return by_taylor_of<long double, 30>(30, problem, t, static_cast<long double>(tolerance)); });
   }
   if (precision != "double") raise("DomainError", "precision = '" + precision + "': use double or long double");
   const auto made = body<double>(inertia);
@@ -227,6 +230,6 @@ Data integrate(const Array& inertia, const Array& rotor_momentum, const Array& c
 void bind_deceleration_integrators(py::module_& module) {
   module.def("deceleration_integrate", &integrate, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"),
              py::arg("control"), py::arg("drag"), py::arg("law"), py::arg("drag_law"), py::arg("angular_momentum"),
-             py::arg("times"), py::arg("method"), py::arg("order") = 20, py::arg("tolerance"), py::arg("precision") = "double",
-             "The full equations under one integrator, timed.");
+             py::arg("times"), py::arg("method"), py::arg("order") = 20, py::arg("tolerance"),
+             py::arg("precision") = "double", "The full equations under one integrator, timed.");
 }

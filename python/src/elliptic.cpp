@@ -31,8 +31,8 @@ void with_backend(const std::string& name, Work&& work) {
     return;
   }
 #endif
-  raise("DomainError", "elliptic = '" + name + "': " +
-                           (name == "gsl" ? "this build has no GSL" : "unknown; use auto, native or gsl"));
+  raise("DomainError",
+        "elliptic = '" + name + "': " + (name == "gsl" ? "this build has no GSL" : "unknown; use auto, native or gsl"));
 }
 
 /// f<Backend>(i, out) fills `width` results of element i.
@@ -70,7 +70,8 @@ py::array_t<double> zeta(const Array& u, const Array& k2, const Array& kp2, cons
   });
 }
 
-py::array_t<double> incomplete(const Array& phi, const Array& n, const Array& k2, const Array& kp2, const std::string& backend) {
+py::array_t<double> incomplete(const Array& phi, const Array& n, const Array& k2, const Array& kp2,
+                               const std::string& backend) {
   return each(k2, 3, backend, [&]<class B>(py::ssize_t i, double* out) {
     const Modulus<double> m{k2.data()[i], kp2.data()[i]};
     out[0] = B::incomplete_F(phi.data()[i], m);

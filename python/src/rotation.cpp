@@ -51,11 +51,15 @@ auto rows(Convert convert) {
 void bind_rotation(py::module_& module) {
   module.def("matrix_from_quaternion", rows<4, 9>([](const double* p) { return to_matrix(normalised(quaternion(p))); }),
              py::arg("rows"));
-  module.def("quaternion_from_matrix", rows<9, 4>([](const double* p) { return from_matrix(matrix(p)); }), py::arg("rows"));
+  module.def("quaternion_from_matrix", rows<9, 4>([](const double* p) { return from_matrix(matrix(p)); }),
+             py::arg("rows"));
   module.def("vector_from_quaternion",
-             rows<4, 3>([](const double* p) { return vector_from_quaternion(normalised(quaternion(p))); }), py::arg("rows"));
+             rows<4, 3>([](const double* p) { return vector_from_quaternion(normalised(quaternion(p))); }),
+             py::arg("rows"));
   module.def("quaternion_from_vector", rows<3, 4>([](const double* p) { return quaternion_from_vector(vector3(p)); }),
              py::arg("rows"));
-  module.def("vector_from_matrix", rows<9, 3>([](const double* p) { return vector_from_matrix(matrix(p)); }), py::arg("rows"));
-  module.def("matrix_from_vector", rows<3, 9>([](const double* p) { return matrix_from_vector(vector3(p)); }), py::arg("rows"));
+  module.def("vector_from_matrix", rows<9, 3>([](const double* p) { return vector_from_matrix(matrix(p)); }),
+             py::arg("rows"));
+  module.def("matrix_from_vector", rows<3, 9>([](const double* p) { return matrix_from_vector(vector3(p)); }),
+             py::arg("rows"));
 }

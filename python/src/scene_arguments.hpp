@@ -43,18 +43,21 @@ inline std::vector<double> times(const Array& values) {
     const double t = values.data()[i];
     if (t < 0) raise("DomainError", "times: element " + std::to_string(i) + " = " + text(t) + " is negative");
     if (i > 0 && !(t > values.data()[i - 1]))
-      raise("DomainError", "times: element " + std::to_string(i) + " = " + text(t) + " does not come after the one before");
+      raise("DomainError",
+            "times: element " + std::to_string(i) + " = " + text(t) + " does not come after the one before");
   }
   return {values.data(), values.data() + values.size()};
 }
 
 inline void require_not_negative(const char* name, const Array& values) {
   for (py::ssize_t i = 0; i < values.size(); ++i)
-    if (!(values.data()[i] >= 0)) raise("DomainError", std::string(name) + " = " + text(values) + ": an element is negative");
+    if (!(values.data()[i] >= 0))
+      raise("DomainError", std::string(name) + " = " + text(values) + ": an element is negative");
 }
 
 inline double drag_rate(double drag) {
-  if (!(drag >= 0) || !std::isfinite(drag)) raise("DomainError", "drag = " + text(drag) + ": give a finite number >= 0");
+  if (!(drag >= 0) || !std::isfinite(drag))
+    raise("DomainError", "drag = " + text(drag) + ": give a finite number >= 0");
   return drag;
 }
 

@@ -24,8 +24,7 @@ TEST_CASE("every failure has its own sentence") {
   constexpr int last = static_cast<int>(Errc::cancelled);
   for (int i = 0; i <= last; ++i) {
     CHECK(std::strcmp(message(static_cast<Errc>(i)), "unknown error") != 0);
-    for (int j = 0; j < i; ++j)
-      CHECK(std::strcmp(message(static_cast<Errc>(i)), message(static_cast<Errc>(j))) != 0);
+    for (int j = 0; j < i; ++j) CHECK(std::strcmp(message(static_cast<Errc>(i)), message(static_cast<Errc>(j))) != 0);
   }
   CHECK(std::strcmp(message(static_cast<Errc>(last + 1)), "unknown error") == 0);
 }

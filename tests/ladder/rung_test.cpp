@@ -127,4 +127,3 @@ TEST_CASE("a NaN error never meets a tolerance and loses against any number", "[
   CHECK(c.is("second"));
   CHECK_FALSE(c.answer.met);
 }
-

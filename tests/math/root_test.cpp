@@ -36,11 +36,8 @@ TEST_CASE("roots at any exponent, at poles, flat and at an end", "[math]") {
   };
   CHECK(*newton_root(tiny, 0.0, 10.0, true) == Approx(std::cbrt(2.0) * 1e-20).epsilon(1e-15));
   CHECK(calls < 60);
-  CHECK(*newton_root(
-            [](double x) {
-              return Slope<double>{x * x - 1e-300, 2 * x};
-            },
-            0.0, 1.0, true) == Approx(1e-150).epsilon(1e-15).margin(0));
+  CHECK(*newton_root([](double x) { return Slope<double>{x * x - 1e-300, 2 * x}; }, 0.0, 1.0, true) ==
+        Approx(1e-150).epsilon(1e-15).margin(0));
   calls = 0;
   CHECK(*bracketed_root([&](double x) { return tiny(x).f; }, 0.0, 10.0) ==
         Approx(std::cbrt(2.0) * 1e-20).epsilon(1e-15));

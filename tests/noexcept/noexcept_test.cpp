@@ -36,12 +36,15 @@ bool despins() {
   return answer.met && norm != nullptr && norm->values[0] > norm->values[1] && norm->values[1] > norm->values[2];
 }
 
-bool refuses() { return gyrostat::Inertia<double>::from_moments(1, 1, 3).error() == gyrostat::Errc::triangle_inequality; }
+bool refuses() {
+  return gyrostat::Inertia<double>::from_moments(1, 1, 3).error() == gyrostat::Errc::triangle_inequality;
+}
 
 }  // namespace
 
 int main() {
-  check(std::strcmp(gyrostat::library_version(), gyrostat::header_version) == 0, "library and headers are of one version");
+  check(std::strcmp(gyrostat::library_version(), gyrostat::header_version) == 0,
+        "library and headers are of one version");
   check(despins(), "the ladder answers a scene");
   check(refuses(), "a failure comes back as a value");
   return failures == 0 ? 0 : 1;

@@ -117,7 +117,8 @@ GYROSTAT_INLINE void store(Scalar* to, const Lanes<Scalar>& a) noexcept {
 
 /// a b + c, rounded once where the machine has the instruction.
 template <Real Scalar>
-GYROSTAT_INLINE Lanes<Scalar> multiply_add(const Lanes<Scalar>& a, const Lanes<Scalar>& b, const Lanes<Scalar>& c) noexcept {
+GYROSTAT_INLINE Lanes<Scalar> multiply_add(const Lanes<Scalar>& a, const Lanes<Scalar>& b,
+                                           const Lanes<Scalar>& c) noexcept {
 #if defined(__GNUC__) && defined(__FMA__) && defined(__AVX__)
   if constexpr (std::is_same_v<Scalar, double>) {
     return {_mm256_fmadd_pd(a.v, b.v, c.v)};

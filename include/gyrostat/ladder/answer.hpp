@@ -37,7 +37,7 @@ struct Warning {
 /// A rung that was looked at.
 struct Attempt {
   const char* model;
-  double error;     ///< its own estimate; NaN where it was passed over unsolved
+  double error;  ///< its own estimate; NaN where it was passed over unsolved
   bool accepted;
   const char* why;  ///< why it was passed over; nullptr where only the error decided
 };

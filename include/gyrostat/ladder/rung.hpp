@@ -63,8 +63,8 @@ Answer climb(std::span<const Rung<Scene, Track, Monitor>> rungs, const Scene& sc
     tried.push_back({rungs[i].name, answer.error, answer.met || only >= 0,
                      track.in_domain ? nullptr : "the scene leaves its domain"});
     const bool same_kind = track.in_domain == best_in_domain;
-    if (!answered || answer.met || (same_kind ? answer.error < best.error || best.error != best.error
-                                                : track.in_domain)) {
+    if (!answered || answer.met ||
+        (same_kind ? answer.error < best.error || best.error != best.error : track.in_domain)) {
       best = std::move(answer);
       best_in_domain = track.in_domain;
     }

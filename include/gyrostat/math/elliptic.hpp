@@ -15,20 +15,13 @@ namespace gyrostat::math {
 /// argument. Native serves every scalar, Gsl (gsl.hpp) double only.
 template <class Backend, class Scalar>
 concept EllipticBackend = Real<Scalar> && requires(Scalar x, Modulus<Scalar> m) {
-  { Backend::complete(m) }
-  noexcept->std::same_as<Complete<Scalar>>;
-  { Backend::means(m) }
-  noexcept->std::same_as<Means<Scalar>>;
-  { Backend::jacobi(x, m) }
-  noexcept->std::same_as<Jacobi<Scalar>>;
-  { Backend::zeta(x, m) }
-  noexcept->std::same_as<Scalar>;
-  { Backend::incomplete_F(x, m) }
-  noexcept->std::same_as<Scalar>;
-  { Backend::incomplete_E(x, m) }
-  noexcept->std::same_as<Scalar>;
-  { Backend::incomplete_Pi(x, x, m) }
-  noexcept->std::same_as<Scalar>;
+  { Backend::complete(m) } noexcept -> std::same_as<Complete<Scalar>>;
+  { Backend::means(m) } noexcept -> std::same_as<Means<Scalar>>;
+  { Backend::jacobi(x, m) } noexcept -> std::same_as<Jacobi<Scalar>>;
+  { Backend::zeta(x, m) } noexcept -> std::same_as<Scalar>;
+  { Backend::incomplete_F(x, m) } noexcept -> std::same_as<Scalar>;
+  { Backend::incomplete_E(x, m) } noexcept -> std::same_as<Scalar>;
+  { Backend::incomplete_Pi(x, x, m) } noexcept -> std::same_as<Scalar>;
 };
 
 /// The library's own functions: any scalar, no dependency, bounded loops.

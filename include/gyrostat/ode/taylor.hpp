@@ -27,8 +27,8 @@ using TaylorRows = Scalar[Order + 1][Width];
 template <class System>
 concept TaylorSystem =
     Real<typename System::Scalar> && (System::width > 0) && (System::width % 4 == 0) &&
-    requires(const System& system, typename System::Scalar t,
-             TaylorRows<typename System::Scalar, System::width, 2>& x, typename System::template Work<2>& work) {
+    requires(const System& system, typename System::Scalar t, TaylorRows<typename System::Scalar, System::width, 2>& x,
+             typename System::template Work<2>& work) {
       { system.expand(t, t, x, work) } noexcept;
     };
 
@@ -194,7 +194,8 @@ Status Taylor<System, Order>::step(Scalar t_max) noexcept {
     if (last < large && last_but_one < large) {
       if (last > small || last_but_one > small) {
         const float a = last > small ? std::log2(static_cast<float>(last)) * (-1.0F / Order) : 1e3F;
-        const float b = last_but_one > small ? std::log2(static_cast<float>(last_but_one)) * (-1.0F / (Order - 1)) : 1e3F;
+        const float b =
+            last_but_one > small ? std::log2(static_cast<float>(last_but_one)) * (-1.0F / (Order - 1)) : 1e3F;
         theta = static_cast<Scalar>(std::exp2(std::min(a, b)));
         flat_ = false;
         break;

@@ -70,8 +70,7 @@ TEST_CASE("averaged rung: the reference cases through the ladder", "[deceleratio
       CHECK(answer.find("energy")->values[i] == Approx(c.energy[i]).epsilon(1e-9));
     }
     CHECK(answer.find("angular_momentum") == nullptr);  // first order does not know the phase
-    if (!std::isnan(c.averaged_stop))
-      CHECK(quantity(answer, "stop_time") == Approx(c.averaged_stop).epsilon(1e-9));
+    if (!std::isnan(c.averaged_stop)) CHECK(quantity(answer, "stop_time") == Approx(c.averaged_stop).epsilon(1e-9));
     // and the truth lies within the errors
     double norm = 0;
     for (std::size_t i = 0; i < c.norm.size(); ++i)

@@ -130,4 +130,3 @@ TEST_CASE("a NaN among the errors is the answer's error", "[deceleration]") {
   fill(answer, scene, track);
   CHECK_FALSE(answer.error <= 1);
 }
-

@@ -230,7 +230,8 @@ TEST_CASE("averaged motions pass births and separatrices and stay with the full 
         const auto band = band_of(p, level);
         REQUIRE(band);
         REQUIRE(band->separatrix_distance() < 1e-3);
-        const bool under = band->below.kind == Critical::saddle && !(band->above.kind == Critical::saddle && band->to_above < band->to_below);
+        const bool under = band->below.kind == Critical::saddle &&
+                           !(band->above.kind == Critical::saddle && band->to_above < band->to_below);
         const auto& saddle = under ? band->below : band->above;
         const auto c = capture(p, level.R, saddle.lobes, component);
         REQUIRE(c);
@@ -249,7 +250,8 @@ TEST_CASE("averaged motions pass births and separatrices and stay with the full 
       component = o->component();
       if (level.R < .1 * R0 || energy_of(p, level) < .05 * h0) break;
     }
-    CHECK((solver.state()[0] < .1 * R0 || energy_of(p, Level<double>{solver.state()[0], solver.state()[1]}) < .05 * h0));
+    CHECK(
+        (solver.state()[0] < .1 * R0 || energy_of(p, Level<double>{solver.state()[0], solver.state()[1]}) < .05 * h0));
     if (!determined) continue;
 
     ++compared;

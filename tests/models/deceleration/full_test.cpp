@@ -70,9 +70,9 @@ TEST_CASE("the Jacobian is the derivative") {
     const long double step = 1e-6L;
     for (int j = 0; j < 3; ++j) {
       const Vec3<long double> e = step * Vec3<long double>::Unit(j);
-      const Vec3<long double> column =
-          (momentum_rate<long double>(problem, problem.momentum + e) - momentum_rate<long double>(problem, problem.momentum - e)) /
-          (2 * step);
+      const Vec3<long double> column = (momentum_rate<long double>(problem, problem.momentum + e) -
+                                        momentum_rate<long double>(problem, problem.momentum - e)) /
+                                       (2 * step);
       CHECK((jacobian.col(j) - column).norm() < 1e-11L);
     }
   }
@@ -198,7 +198,8 @@ TEST_CASE("carried sums and the projection shrink the phase error of a long free
       options.tolerance = tolerance;
       options.scale = {1, 1, 1, 0};
       options.compensated = options.projected = on;
-      ode::Taylor<System> solver(System(problem), 0, {problem.momentum[0], problem.momentum[1], problem.momentum[2], 0}, options);
+      ode::Taylor<System> solver(System(problem), 0, {problem.momentum[0], problem.momentum[1], problem.momentum[2], 0},
+                                 options);
       REQUIRE(solver.advance(50000) == Status::reached);
       return Vec3<long double>(solver.state()[0], solver.state()[1], solver.state()[2]);
     };

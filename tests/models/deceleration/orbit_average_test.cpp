@@ -127,11 +127,13 @@ TEST_CASE("averages agree with time integrals of the rates in long double", "[de
     ode::StepControl<long double, 5> control;
     control.relative = 1e-14L;
     control.absolute.fill(1e-17L);
-    ode::RungeKutta<long double, 5, decltype(rhs)> solver(rhs, 0.L, {p.momentum[0], p.momentum[1], p.momentum[2], 0, 0}, control);
+    ode::RungeKutta<long double, 5, decltype(rhs)> solver(rhs, 0.L, {p.momentum[0], p.momentum[1], p.momentum[2], 0, 0},
+                                                          control);
     REQUIRE(solver.advance(orbit->period()) == ode::Status::reached);
     const double T = orbit->period(), force = p.control.norm() + p.drag * p.momentum.norm();
     CHECK(std::abs(double(solver.state()[3]) / T - a->rates.R) < 1e-9 * force);
-    CHECK(std::abs(double(solver.state()[4]) / T - a->rates.h) < 1e-9 * force * p.angular_velocity(p.momentum).norm() + 1e-9 * force);
+    CHECK(std::abs(double(solver.state()[4]) / T - a->rates.h) <
+          1e-9 * force * p.angular_velocity(p.momentum).norm() + 1e-9 * force);
   }
 }
 

@@ -64,7 +64,8 @@ Gaps gaps(Problem<double> p, double eps, double tau) {
   ode::StepControl<double, 3> with_phase;
   with_phase.relative = 1e-11;
   with_phase.absolute = {1e-12, 1e-12, 1e-7};
-  ode::RungeKutta<double, 3, decltype(second)> two(second, 0., {mean->level.R, mean->level.eta, mean->phase}, with_phase);
+  ode::RungeKutta<double, 3, decltype(second)> two(second, 0., {mean->level.R, mean->level.eta, mean->phase},
+                                                   with_phase);
 
   Gaps g;
   double h0 = 0;
@@ -81,7 +82,8 @@ Gaps gaps(Problem<double> p, double eps, double tau) {
     REQUIRE(v);
     track = Orbit<double>::at(p, level, component)->aligned_to(track);
     g.first_M = std::max(g.first_M, std::abs(one.state()[0] - M.norm()) / R0);
-    g.first_h = std::max(g.first_h, std::abs(energy_of(p, Level<double>{one.state()[0], one.state()[1]}) - p.energy(M)));
+    g.first_h =
+        std::max(g.first_h, std::abs(energy_of(p, Level<double>{one.state()[0], one.state()[1]}) - p.energy(M)));
     g.second_M = std::max(g.second_M, std::abs(v->norm() - M.norm()) / R0);
     g.second_h = std::max(g.second_h, std::abs(p.energy(*v) - p.energy(M)));
     g.vector = std::max(g.vector, (*v - M).norm() / R0);
@@ -165,7 +167,8 @@ TEST_CASE("f2 by gradients along the torque", "[deceleration]") {
   CHECK(r->phase_drift == Approx(-0.09033966).epsilon(1e-5));
 }
 
-TEST_CASE("without rotor momentum along one axis f2 and the drift vanish, or change sign with the lobe", "[deceleration]") {
+TEST_CASE("without rotor momentum along one axis f2 and the drift vanish, or change sign with the lobe",
+          "[deceleration]") {
   std::mt19937_64 random(5);
   std::normal_distribution<double> z;
   int compared = 0, exchanged = 0;
@@ -183,7 +186,9 @@ TEST_CASE("without rotor momentum along one axis f2 and the drift vanish, or cha
     // against the size of what is averaged
     const double scale = r->second_oscillation.R / r->orbit.period(), turns = r->phase_oscillation / r->orbit.period();
     const auto component = orbit->component();
-    const int around = component.regime == Regime::about_largest ? 0 : component.regime == Regime::about_smallest ? 2 : -1;
+    const int around = component.regime == Regime::about_largest    ? 0
+                       : component.regime == Regime::about_smallest ? 2
+                                                                    : -1;
     if (around != trial % 3) {
       ++compared;
       CHECK(std::abs(r->second.R) < 1e-5 * scale);

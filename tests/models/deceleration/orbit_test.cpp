@@ -161,7 +161,8 @@ TEST_CASE("rounding: double against long double", "[deceleration]") {
     REQUIRE(o->branch() == w->branch());
     const double e = double((mean(*o, 64).cast<long double>() - mean(*w, 64)).norm()) / M.norm();
     const double t = double(std::abs(o->period() / w->period() - 1));
-    INFO(trial << " " << symbol(o->regime()) << " kp2 " << o->modulus().kp2 << " l " << p.rotor_momentum.transpose() << " T " << t);
+    INFO(trial << " " << symbol(o->regime()) << " kp2 " << o->modulus().kp2 << " l " << p.rotor_momentum.transpose()
+               << " T " << t);
     CHECK(e < 1e-9);
     if (e > 1e-12 || t > 1e-12) ++bad;
   }
@@ -212,7 +213,8 @@ TEST_CASE("vanishing rotor momentum: no jump at the way to l = 0", "[deceleratio
 TEST_CASE("symmetric bodies", "[deceleration]") {
   SECTION("oblate and prolate, with and without rotor momentum, along and across the axis") {
     for (const V& J : {V(1.2, 1.2, .7), V(1.2, .8, .8)})
-      for (const V& l : {V(0, 0, 0), V(.1, 0, 0), V(0, .1, 0), V(0, 0, .1), V(.1, -.2, .3), V(30, 20, 10), V(1e-9, 2e-9, 0)}) {
+      for (const V& l :
+           {V(0, 0, 0), V(.1, 0, 0), V(0, .1, 0), V(0, 0, .1), V(.1, -.2, .3), V(30, 20, 10), V(1e-9, 2e-9, 0)}) {
         const auto p = body(J, l);
         const V M(.5, -.6, .7);
         const auto o = Orbit<double>::through(p, M);
@@ -376,7 +378,8 @@ TEST_CASE("bad arguments", "[deceleration]") {
   CHECK(Orbit<double>::through(p, {gyrostat::nan<double>, 0, 0}).error() == Errc::not_finite);
   CHECK(Orbit<double>::at(p, {1., infinity<double>}, {}).error() == Errc::not_finite);
   CHECK(Orbit<double>::at(p, {-1., .1}, {}).error() == Errc::not_positive);
-  CHECK(Orbit<double>::through(body({1.4, -1, .7}, {0, 0, gyrostat::nan<double>}), {1, 1, 1}).error() == Errc::not_finite);
+  CHECK(Orbit<double>::through(body({1.4, -1, .7}, {0, 0, gyrostat::nan<double>}), {1, 1, 1}).error() ==
+        Errc::not_finite);
 }
 
 TEST_CASE("alignment moves the origin of phase by quarters", "[deceleration]") {

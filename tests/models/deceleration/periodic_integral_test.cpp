@@ -10,7 +10,9 @@ using Pair = gyrostat::deceleration::PeriodicPair<double>;
 
 namespace {
 double f(double x) { return std::exp(std::sin(2 * pi<double> * x)); }
-double g(double x) { return std::sin(2 * pi<double> * x) * std::exp(std::sin(2 * pi<double> * x)) * std::cos(2 * pi<double> * x); }
+double g(double x) {
+  return std::sin(2 * pi<double> * x) * std::exp(std::sin(2 * pi<double> * x)) * std::cos(2 * pi<double> * x);
+}
 }  // namespace
 
 TEST_CASE("a periodic pair knows its means, its values and its integrals", "[deceleration]") {
@@ -39,7 +41,8 @@ TEST_CASE("a periodic pair knows its means, its values and its integrals", "[dec
     const double x = double(i) / n, h = 1e-4;
     CHECK(a[i] == Approx(integral.at(x).first).margin(1e-14));
     CHECK(b[i] == Approx(integral.at(x).second).margin(1e-14));
-    CHECK((integral.at(x + h).first - integral.at(x - h).first) / (2 * h) == Approx(f(x) - pair.mean().first).margin(1e-5));
+    CHECK((integral.at(x + h).first - integral.at(x - h).first) / (2 * h) ==
+          Approx(f(x) - pair.mean().first).margin(1e-5));
     CHECK((integral.at(x + h).second - integral.at(x - h).second) / (2 * h) == Approx(g(x)).margin(1e-5));
   }
 }

@@ -10,8 +10,9 @@ using gyrostat::deceleration::PhaseGrid;
 using gyrostat::math::Modulus;
 
 TEST_CASE("the phase grid holds the Jacobi functions at equal parts of a quarter period", "[deceleration]") {
-  const auto m = GENERATE(Modulus<double>::from_k2(0.), Modulus<double>::from_k2(1e-14), Modulus<double>::from_k2(.3),
-                          Modulus<double>::from_kp2(.01), Modulus<double>::from_kp2(1e-8), Modulus<double>::from_kp2(1e-15));
+  const auto m =
+      GENERATE(Modulus<double>::from_k2(0.), Modulus<double>::from_k2(1e-14), Modulus<double>::from_k2(.3),
+               Modulus<double>::from_kp2(.01), Modulus<double>::from_kp2(1e-8), Modulus<double>::from_kp2(1e-15));
   PhaseGrid<double> grid(m);
   int depth = 0;
   while (grid.refine()) ++depth;

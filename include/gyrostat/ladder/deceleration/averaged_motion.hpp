@@ -13,9 +13,9 @@ namespace gyrostat::deceleration {
 /// The averaged motion without rotor momentum at one moment.
 template <Real Scalar>
 struct MeanState {
-  Scalar norm;              ///< |M|, N m s; 0 from the stop on
+  Scalar norm;  ///< |M|, N m s; 0 from the stop on
   Polhode<Scalar> polhode;
-  Scalar phase;             ///< u/K, unwrapped; meaningless once the motion has crossed the separatrix
+  Scalar phase;  ///< u/K, unwrapped; meaningless once the motion has crossed the separatrix
 };
 
 /// Advances the averaged equations forward in time, through the separatrix and down to rest. No heap, no throw, at most
@@ -90,9 +90,9 @@ class AveragedMotion {
     return end[Equations::time] + (drag > 0 ? std::log1p(drag * M / D) / drag : M / D);
   }
 
-  bool crossed() const noexcept { return crossing_norm_ > 0; }  ///< has passed through the separatrix
+  bool crossed() const noexcept { return crossing_norm_ > 0; }      ///< has passed through the separatrix
   Scalar crossing_norm() const noexcept { return crossing_norm_; }  ///< |M| where it did, N m s; 0 if it did not
-  bool stuck() const noexcept { return stuck_; }      ///< the separatrix attracts from both sides and holds it
+  bool stuck() const noexcept { return stuck_; }  ///< the separatrix attracts from both sides and holds it
   const ode::Counts& counts() const noexcept { return solver_.counts(); }
 
  private:

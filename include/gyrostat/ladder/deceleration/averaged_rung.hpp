@@ -82,8 +82,7 @@ inline void warn_of_motion(Track& track, const AveragingError<double>& error, bo
                "the motion crosses the separatrix: the sign of the momentum about its new axis is not determined");
   if (stuck) track.warn("sticks-to-separatrix", "the separatrix attracts from both sides and holds the mean motion");
   if (error.greatest_squeeze() > 0.1)
-    track.warn("near-separatrix", "one oscillation changes 1 - k2 by a large part of itself",
-               error.greatest_squeeze());
+    track.warn("near-separatrix", "one oscillation changes 1 - k2 by a large part of itself", error.greatest_squeeze());
 }
 
 inline void keep_sample(Track& track, const MeanState<double>& s) {
@@ -104,7 +103,8 @@ Track averaged_track(const Scene& scene) {
   const double norm0 = M0.norm();
   const auto start = polhode_through<double>(problem.inverse_inertia, M0);
   if (!std::isfinite(start.modulus.k2) || !std::isfinite(start.modulus.kp2))
-    return Track::refused(Errc::not_applicable, "M lies across an axis of symmetry: there is no polhode to average over");
+    return Track::refused(Errc::not_applicable,
+                          "M lies across an axis of symmetry: there is no polhode to average over");
   if (!(start.modulus.kp2 > 0)) return Track::refused(Errc::separatrix, "the motion starts on the separatrix");
 
   Track track;
@@ -167,7 +167,8 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   const double norm0 = M0.norm();
   const auto start = polhode_through<double>(problem.inverse_inertia, M0);
   if (!std::isfinite(start.modulus.k2) || !std::isfinite(start.modulus.kp2))
-    return Track::refused(Errc::not_applicable, "M lies across an axis of symmetry: there is no polhode to average over");
+    return Track::refused(Errc::not_applicable,
+                          "M lies across an axis of symmetry: there is no polhode to average over");
   const auto b = ControlTorques<double>::of(problem.control, start.axes);
   const double u0 = argument_of<Elliptic>(start, M0);
   const auto away = oscillation<Elliptic>(start, b, norm0, u0);
@@ -178,7 +179,8 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   // The later the full equations take over, the less the mean ones err there and the more turns the full ones make.
   const double last_norm = hand_over_share(scene) * breakdown_momentum(problem, scene.greatest_control());
   if (!(last_norm < norm0 / 2))
-    return Track::refused(Errc::not_applicable, "the braking is too fast: averaging would hand over to the full equations at the start");
+    return Track::refused(Errc::not_applicable,
+                          "the braking is too fast: averaging would hand over to the full equations at the start");
 
   Track track;
   const double phase_error = std::max(1e-7, scene.data().tolerance * 1e-2);
@@ -234,7 +236,8 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
     } else {
       const auto at_end = osculating(run.motion().state());
       if (!at_end.valid) return Track::refused(Errc::separatrix, lost);
-      const Errc failure = hand_over(track, scene, at_end.momentum, run.motion().time(), run.error().second_order(), monitor);
+      const Errc failure =
+          hand_over(track, scene, at_end.momentum, run.motion().time(), run.error().second_order(), monitor);
       if (failure != Errc::ok) return Track::refused(failure, "the full equations could not take over near rest");
     }
   }

@@ -89,7 +89,8 @@ inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor
   bool at_rest = user.opposed(y.data()) <= 0 && hold.holds;
   double stop = 0;
   if (!at_rest) {
-    auto solver = ode::Cvode::create(system, 0, std::span(y).first(n), {ode::CvodeMethod::adams, tolerance, tolerance * scale});
+    auto solver =
+        ode::Cvode::create(system, 0, std::span(y).first(n), {ode::CvodeMethod::adams, tolerance, tolerance * scale});
     if (!solver) return run.failure = solver.error(), run;
     auto cvode = std::move(solver).value();
     while (next < times.size() && !at_rest) {
@@ -154,9 +155,11 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
     error.momentum = std::max(error.momentum, (M - L).norm());
     error.momentum_norm = std::max(error.momentum_norm, std::abs(M.norm() - L.norm()));
     error.energy = std::max(error.energy, std::abs(problem.energy(M) - problem.energy(L)));
-    error.angular_velocity = std::max(error.angular_velocity, (problem.angular_velocity(M) - problem.angular_velocity(L)).norm());
+    error.angular_velocity =
+        std::max(error.angular_velocity, (problem.angular_velocity(M) - problem.angular_velocity(L)).norm());
     if (!run.attitude.empty())
-      error.attitude = std::max(error.attitude, vector_from_quaternion<double>(conjugate(run.attitude[i]) * looser.attitude[i]).norm());
+      error.attitude = std::max(error.attitude,
+                                vector_from_quaternion<double>(conjugate(run.attitude[i]) * looser.attitude[i]).norm());
   }
   error.momentum = 2 * detail::relative(error.momentum, size) + tolerance;
   error.momentum_norm = 2 * detail::relative(error.momentum_norm, size) + tolerance;
@@ -164,7 +167,8 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   error.angular_velocity = 2 * detail::relative(error.angular_velocity, spin) + tolerance;
   if (std::isfinite(run.stop_time)) {
     track.stop_time = run.stop_time;
-    error.stop_time = 2 * detail::relative(std::abs(run.stop_time - looser.stop_time), run.stop_time) + 1e-8 + 1e3 * tolerance;
+    error.stop_time =
+        2 * detail::relative(std::abs(run.stop_time - looser.stop_time), run.stop_time) + 1e-8 + 1e3 * tolerance;
   }
   detail::complete_full_track(track, problem, error);
   return track;

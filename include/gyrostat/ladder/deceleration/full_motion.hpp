@@ -26,8 +26,8 @@ struct FullMotionOptions {
   Scalar tolerance = Scalar(1e-9L);  ///< greatest error wanted in any column, as FullMotionError measures it
   bool find_stop = true;             ///< go on behind the last time until the stop, if there is one
   std::uint64_t step_cap = 100'000'000;
-  std::atomic<double>* progress = nullptr;     ///< grows to 1 while the motion is computed
-  const std::atomic<bool>* cancel = nullptr;   ///< set by another thread to end the work
+  std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
+  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
 };
 
 /// Estimated greatest errors over the times, each relative to the greatest norm of its column over the times; attitude: the angle, rad.
@@ -52,15 +52,15 @@ struct FullMotionAnswer {
   Scalar stop_time = nan<Scalar>;
   bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
   FullMotionError<Scalar> error;
-  ode::Counts counts;          ///< of all runs, the companion's included
-  Scalar step_tolerance = 0;   ///< of the Taylor steps that gave the answer
+  ode::Counts counts;         ///< of all runs, the companion's included
+  Scalar step_tolerance = 0;  ///< of the Taylor steps that gave the answer
 };
 
 /// How the control acts at U = 0, where its torque can be any -control n with |n| <= 1 (Filippov).
 template <Real Scalar>
 struct Hold {
-  bool holds = false;   ///< U = 0 is kept once reached
-  Scalar weakest = 0;   ///< lower bound of the rate at which |U| shrinks near U = 0, N m; 0 if there is none
+  bool holds = false;  ///< U = 0 is kept once reached
+  Scalar weakest = 0;  ///< lower bound of the rate at which |U| shrinks near U = 0, N m; 0 if there is none
 
   explicit Hold(const Problem<Scalar>& problem) noexcept {
     const Mat3<Scalar>& b = problem.control;
@@ -108,7 +108,8 @@ struct Hold {
 /// Errors: not_increasing (times), not_finite (problem or times), out_of_domain (a span of the wrong length).
 template <Real Scalar>
 Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
-                                             std::span<Vec3<Scalar>> momentum, const FullMotionOptions<Scalar>& options = {},
+                                             std::span<Vec3<Scalar>> momentum,
+                                             const FullMotionOptions<Scalar>& options = {},
                                              const Quat<Scalar>* start_attitude = nullptr,
                                              std::span<Quat<Scalar>> attitude = {}) noexcept;
 
@@ -124,8 +125,15 @@ class FullRun {
 
   FullRun(const Problem<Scalar>& problem, const Quat<Scalar>& attitude, Scalar step_tolerance, Scalar reach,
           const FullMotionOptions<Scalar>& options, double progress_from, double progress_to) noexcept
-      : problem_(problem), coefficients_(problem), hold_(problem), attitude_(attitude), step_tolerance_(step_tolerance),
-        reach_(reach), options_(options), progress_from_(progress_from), progress_to_(progress_to) {}
+      : problem_(problem),
+        coefficients_(problem),
+        hold_(problem),
+        attitude_(attitude),
+        step_tolerance_(step_tolerance),
+        reach_(reach),
+        options_(options),
+        progress_from_(progress_from),
+        progress_to_(progress_to) {}
 
   template <class Sink>
   ode::Status operator()(std::span<const Scalar> times, Sink&& sink) noexcept {
@@ -205,7 +213,8 @@ class FullRun {
     }
     counts_ = solver.counts();
     for (; next < times.size(); ++next) {
-      sink(next, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)), Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
+      sink(next, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)),
+           Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
     }
     report(1);
     return status;
@@ -268,8 +277,8 @@ class FullRun {
       (n.norm() > 1 ? low : high) = s;
     }
     const Scalar s = (low + high) / 2;
-    const Scalar rate = coefficients_.linear.norm() +
-                        coefficients_.quadratic.cwiseAbs().maxCoeff() * problem_.rotor_momentum.norm();
+    const Scalar rate =
+        coefficients_.linear.norm() + coefficients_.quadratic.cwiseAbs().maxCoeff() * problem_.rotor_momentum.norm();
     const Scalar moment = epsilon<Scalar> / (rate > 0 ? rate : Scalar(1));
     U = s * moment * n.normalized();
     return moment;
@@ -297,9 +306,11 @@ class FullRun {
 /// The answer's run, the companion's run, and their distance.
 template <Real Scalar, bool with_control, bool with_attitude>
 FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, std::span<const Scalar> times,
-                                                std::span<Vec3<Scalar>> momentum, const FullMotionOptions<Scalar>& options,
+                                                std::span<Vec3<Scalar>> momentum,
+                                                const FullMotionOptions<Scalar>& options,
                                                 const Quat<Scalar>& start_attitude, std::span<Quat<Scalar>> attitude,
-                                                Scalar step_tolerance, double progress_from, double progress_to) noexcept {
+                                                Scalar step_tolerance, double progress_from,
+                                                double progress_to) noexcept {
   using Run = FullRun<Scalar, with_control, with_attitude>;
   constexpr Scalar eps = epsilon<Scalar>;
   FullMotionAnswer<Scalar> answer;
@@ -322,7 +333,8 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
   constexpr Scalar looser = 64;
   // where rounding rules both runs err alike and their distance may be small by chance
   const Scalar margin = step_tolerance < 16 * eps ? 6 : 3;
-  Run companion(problem, start_attitude, std::max(step_tolerance * looser, 32 * eps), Scalar(0.45L), options, middle, progress_to);
+  Run companion(problem, start_attitude, std::max(step_tolerance * looser, 32 * eps), Scalar(0.45L), options, middle,
+                progress_to);
   Scalar vector = 0, norm = 0, energy = 0, velocity = 0, angle = 0;
   const auto status = companion(times, [&](std::size_t i, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
     const Vec3<Scalar> d = M - momentum[i];
@@ -376,7 +388,8 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
 template <Real Scalar>
 Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
                                              std::span<Vec3<Scalar>> momentum, const FullMotionOptions<Scalar>& options,
-                                             const Quat<Scalar>* start_attitude, std::span<Quat<Scalar>> attitude) noexcept {
+                                             const Quat<Scalar>* start_attitude,
+                                             std::span<Quat<Scalar>> attitude) noexcept {
   if (momentum.size() != times.size()) return Errc::out_of_domain;
   if (start_attitude != nullptr && attitude.size() != times.size()) return Errc::out_of_domain;
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -385,7 +398,8 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   }
   const auto finite = [](const auto& m) noexcept { return (m - m).isZero(0); };
   if (!finite(problem.inverse_inertia) || !finite(problem.rotor_momentum) || !finite(problem.control) ||
-      !finite(problem.momentum) || !(std::abs(problem.drag) < infinity<Scalar>) || !(options.tolerance == options.tolerance)) {
+      !finite(problem.momentum) || !(std::abs(problem.drag) < infinity<Scalar>) ||
+      !(options.tolerance == options.tolerance)) {
     return Errc::not_finite;
   }
 
@@ -398,8 +412,8 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
     const Scalar stop = size / hold.weakest;
     span = options.find_stop ? stop : std::min(span, stop);
   }
-  const Scalar phase =
-      span * (coefficients.quadratic.cwiseAbs().maxCoeff() * size + coefficients.linear.norm() + coefficients.rate.norm());
+  const Scalar phase = span * (coefficients.quadratic.cwiseAbs().maxCoeff() * size + coefficients.linear.norm() +
+                               coefficients.rate.norm());
   constexpr Scalar finest = epsilon<Scalar> / 8;
   Scalar step_tolerance = options.tolerance / 64 / (4 + Scalar(2e-4L) * phase * phase);
   step_tolerance = std::clamp(step_tolerance, finest, Scalar(1e-8L));
@@ -433,8 +447,10 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
 
 #if defined(GYROSTAT_COMPILED)
 extern template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
-                                                                     std::span<Vec3<double>>, const FullMotionOptions<double>&,
-                                                                     const Quat<double>*, std::span<Quat<double>>) noexcept;
+                                                                     std::span<Vec3<double>>,
+                                                                     const FullMotionOptions<double>&,
+                                                                     const Quat<double>*,
+                                                                     std::span<Quat<double>>) noexcept;
 #endif
 
 }  // namespace gyrostat::deceleration

@@ -54,12 +54,10 @@ inline double k2_uncertainty(const Problem<double>& problem, const Vec3<double>&
   const auto level = level_of(problem, M);
   const double eta = (energy + (std::abs(level.eta) + problem.angular_velocity(M).norm()) * norm) / R;
   double most = 4 * epsilon<double>;
-  for (const auto& moved : {Level<double>{R + norm, level.eta}, Level<double>{R, level.eta + eta},
-                            Level<double>{R, level.eta - eta}}) {
+  for (const auto& moved :
+       {Level<double>{R + norm, level.eta}, Level<double>{R, level.eta + eta}, Level<double>{R, level.eta - eta}}) {
     const auto orbit = Orbit<double>::at(problem, moved, {at.regime, 1});
-    most += orbit                               ? std::abs(orbit->modulus().k2 - at.k2)
-            : orbit.error() == Errc::separatrix ? 1 - at.k2
-                                                : 1.0;
+    most += orbit ? std::abs(orbit->modulus().k2 - at.k2) : orbit.error() == Errc::separatrix ? 1 - at.k2 : 1.0;
   }
   return std::min(1.0, most);
 }
@@ -69,8 +67,7 @@ inline const char* why_stopped(ode::Status status) noexcept {
 }
 
 /// Fills the columns from momentum and attitude already in the track.
-inline void complete_full_track(Track& track, const Problem<double>& problem,
-                                const FullMotionError<double>& error) {
+inline void complete_full_track(Track& track, const Problem<double>& problem, const FullMotionError<double>& error) {
   double size = 0, energy = 0;
   for (const auto& M : track.momentum) {
     size = std::max(size, M.norm());
@@ -89,9 +86,8 @@ inline void complete_full_track(Track& track, const Problem<double>& problem,
   track.stop_error = error.stop_time;
   const std::size_t stride = 1 + track.momentum.size() / 64;  // the modulus varies slowly: some of the points tell
   for (std::size_t i = 0; i < track.momentum.size(); i += stride)
-    track.k2_error = std::max(track.k2_error,
-                              k2_uncertainty(problem, track.momentum[i], {track.regime[i], track.k2[i]},
-                                             track.norm_error, track.energy_error));
+    track.k2_error = std::max(track.k2_error, k2_uncertainty(problem, track.momentum[i], {track.regime[i], track.k2[i]},
+                                                             track.norm_error, track.energy_error));
 }
 
 }  // namespace detail
@@ -127,7 +123,8 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   if (data.full_equations) return data.full_equations(scene, monitor);
   // A stop far behind the last time asked for is not worth its cost.
   const double span = data.times.back();
-  const Vec3<double> U = data.law == Law::total ? problem.momentum : Vec3<double>(problem.momentum - problem.rotor_momentum);
+  const Vec3<double> U =
+      data.law == Law::total ? problem.momentum : Vec3<double>(problem.momentum - problem.rotor_momentum);
   const double longest = U.norm() / scene.least_control();
   const bool find_stop = longest <= 20 * span || longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
   const Quat<double> q_IP = data.attitude * from_matrix(scene.R_BP());

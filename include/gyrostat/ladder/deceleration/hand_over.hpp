@@ -54,8 +54,8 @@ inline Errc hand_over(Track& track, const Scene& scene, const Vec3<double>& M, d
 
   track.stop_time = begin + full.stop_time;
   if (std::isfinite(full.stop_time)) {
-    track.stop_error = (late + 2 * std::abs(full.stop_time - near.stop_time) + full.stop_error * full.stop_time) /
-                       track.stop_time;
+    track.stop_error =
+        (late + 2 * std::abs(full.stop_time - near.stop_time) + full.stop_error * full.stop_time) / track.stop_time;
   }
   if (!rest.empty()) {
     double vector = 0, norm = 0, energy = 0, k2 = 0;
@@ -67,7 +67,8 @@ inline Errc hand_over(Track& track, const Scene& scene, const Vec3<double>& M, d
     }
     const double spin = problem.angular_velocity(M).norm();
     track.norm_error = std::max(track.norm_error, error.norm + 2 * norm + full.norm_error);
-    track.energy_error = std::max(track.energy_error, error.norm * spin + error.energy + 2 * energy + full.energy_error);
+    track.energy_error =
+        std::max(track.energy_error, error.norm * spin + error.energy + 2 * energy + full.energy_error);
     track.k2_error = std::min(1.0, std::max(track.k2_error, error.k2 + 2 * k2 + full.k2_error));
     track.momentum_error = std::max(track.momentum_error, error.vector + 2 * vector + full.momentum_error);
   }

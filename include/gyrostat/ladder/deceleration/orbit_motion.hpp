@@ -27,8 +27,8 @@ struct OrbitEquations {
   enum Index : int { log_norm, eta, time, phase };
 
   Problem<Scalar> problem;
-  Scalar reference;      ///< R0, N m s
-  Component followed;    ///< the curve that the last accepted step was on
+  Scalar reference;    ///< R0, N m s
+  Component followed;  ///< the curve that the last accepted step was on
   Rates rates{};
   Errc failure = Errc::ok;  ///< of the last evaluation that had no value
 

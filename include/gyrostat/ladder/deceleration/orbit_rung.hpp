@@ -36,8 +36,7 @@ class OrbitError {
       return;
     }
     // What second order leaves out: its own oscillation, or that of first order times the change during it.
-    const double shift = 2 * pi<double> * s->phase_oscillation +
-                         s->orbit.period() * std::abs(s->first.R) / level.R;
+    const double shift = 2 * pi<double> * s->phase_oscillation + s->orbit.period() * std::abs(s->first.R) / level.R;
     drift_R_ += std::abs(s->second.R) * span;
     drift_h_ += std::abs(s->second.h) * span;
     keep(first_.norm, s->oscillation.R);
@@ -76,7 +75,8 @@ class OrbitError {
     const auto orbit = Orbit<double, Elliptic>::at(problem_, level, component);
     if (!orbit) return;
     const Vec3<double> M = orbit->momentum_at(0.0);
-    const double rate = level.R * (problem_.inverse_inertia[2] - problem_.inverse_inertia[0]) + problem_.gyro_rate().norm();
+    const double rate =
+        level.R * (problem_.inverse_inertia[2] - problem_.inverse_inertia[0]) + problem_.gyro_rate().norm();
     const double turn = std::isfinite(orbit->period()) ? orbit->period() / (2 * pi<double>) : 1 / rate;
     const double beside = small_torque(problem_, M).norm() * turn;
     keep(first_.norm, beside);
@@ -172,7 +172,8 @@ inline Impasse impasse(const Problem<double>& problem, const Level<double>& leve
   if (failure == Errc::step_limit || component.regime != Regime::one_component) return {failure};
   const auto band = band_of(problem, level);
   if (!band || !(band->separatrix_distance() < 1e-4)) return {failure};
-  const bool below = band->below.kind == Critical::saddle && !(band->above.kind == Critical::saddle && band->to_above < band->to_below);
+  const bool below = band->below.kind == Critical::saddle &&
+                     !(band->above.kind == Critical::saddle && band->to_above < band->to_below);
   const auto next = capture(problem, level.R, below ? band->below.lobes : band->above.lobes, component);
   if (!next) return {next.error() == Errc::undetermined ? Errc::separatrix : failure};
   if (next->determined()) return {Errc::separatrix};
@@ -204,11 +205,14 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
 
   Track track;
   OrbitError<Elliptic> error(problem);
-  const auto visit = [&](const Level<double>& level, Component component, double t) { error.visit(level, component, t); };
+  const auto visit = [&](const Level<double>& level, Component component, double t) {
+    error.visit(level, component, t);
+  };
   OrbitMotion<FirstOrderRates<Elliptic>, double> motion(problem, orbit->level(), orbit->component(), 0,
                                                         AveragedRun<Elliptic>::tolerance_of(scene), infinity<double>);
   for (const double t : scene.data().times) {
-    if (motion.advance(t, 0, visit) != ode::Status::reached) return detail::not_followed(detail::impasse(problem, motion).code);
+    if (motion.advance(t, 0, visit) != ode::Status::reached)
+      return detail::not_followed(detail::impasse(problem, motion).code);
     const auto now = motion.sample();
     if (!std::isfinite(now.level.R)) return detail::not_followed(Errc::separatrix);
     detail::keep_sample(track, problem, now.level, now.component, now.at_rest);
@@ -259,14 +263,16 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   const auto mean = mean_of<Elliptic>(problem, problem.momentum, &orbit);
   if (!mean) return detail::not_followed(mean.error());
   if (orbit.regime() == Regime::point)
-    return Track::refused(Errc::not_applicable, "the motion starts on an equilibrium: there is nothing to average over");
+    return Track::refused(Errc::not_applicable,
+                          "the motion starts on an equilibrium: there is nothing to average over");
 
   const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
   const double floor = hand_over_share(scene) * breakdown;
-  const Vec3<double> U = problem.law == Law::total ? problem.momentum
-                                                   : Vec3<double>(problem.momentum - problem.rotor_momentum);
+  const Vec3<double> U =
+      problem.law == Law::total ? problem.momentum : Vec3<double>(problem.momentum - problem.rotor_momentum);
   if (!(floor < U.norm() / 2))
-    return Track::refused(Errc::not_applicable, "the braking is too fast: averaging would hand over to the full equations at the start");
+    return Track::refused(Errc::not_applicable,
+                          "the braking is too fast: averaging would hand over to the full equations at the start");
   const double turns = U.norm() / std::max(scene.greatest_control(), 1e-300) / orbit.period();
   if (scene.data().model == Model::any && turns < 1000)
     return Track::refused(Errc::not_applicable, "the full equations are cheaper: the braking takes few turns");
@@ -281,13 +287,13 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   // f2 is a difference of neighbouring orbits: below its noise a tighter tolerance only costs steps.
   const double tolerance = std::max(1e-9, AveragedRun<Elliptic>::tolerance_of(scene));
   const double phase_error = std::max(1e-6, scene.data().tolerance * 1e-2);
-  OrbitMotion<Rates, double> motion(problem, mean->level, mean->component, mean->phase,
-                                    tolerance, 
-                                    phase_error, Rates{orbit});
+  OrbitMotion<Rates, double> motion(problem, mean->level, mean->component, mean->phase, tolerance, phase_error,
+                                    Rates{orbit});
   const auto& times = scene.data().times;
   std::size_t done = 0;
   for (; done < times.size(); ++done) {
-    if (motion.advance(times[done], floor, visit) != ode::Status::reached) return detail::not_followed(detail::impasse(problem, motion).code);
+    if (motion.advance(times[done], floor, visit) != ode::Status::reached)
+      return detail::not_followed(detail::impasse(problem, motion).code);
     if (motion.floored()) break;
     const auto now = motion.sample();
     const auto M = osculating_of<Elliptic>(problem, {now.level, now.phase, now.component}, &motion.rates().reference);
@@ -314,7 +320,9 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   const auto reached = motion.advance(infinity<double>, floor, visit);
   const bool lost = motion.rates().phase_lost || motion.changed_component();
   if (reached != ode::Status::reached || lost) {
-    if (!in_time) return reached != ode::Status::reached ? detail::not_followed(detail::impasse(problem, motion).code) : detail::not_followed(Errc::separatrix);
+    if (!in_time)
+      return reached != ode::Status::reached ? detail::not_followed(detail::impasse(problem, motion).code)
+                                             : detail::not_followed(Errc::separatrix);
     track.warn("crosses-separatrix", "after the asked times the kind of orbit changes: no stop time");
     return track;
   }

@@ -26,10 +26,10 @@ struct SceneData {
   Vec3<double> control{0, 0, 0};         ///< eps b along the body axes, >= 0, N m
   double drag = 0;                       ///< eps lambda, >= 0, 1/s
   Law law = Law::total, drag_law = Law::total;
-  Vec3<double> momentum{0, 0, 0};        ///< M at t = 0, N m s
+  Vec3<double> momentum{0, 0, 0};  ///< M at t = 0, N m s
   bool wants_attitude = false;
-  Quat<double> attitude{};               ///< body to inertial at t = 0, of unit norm
-  std::vector<double> times;             ///< s, increasing, the first >= 0
+  Quat<double> attitude{};    ///< body to inertial at t = 0, of unit norm
+  std::vector<double> times;  ///< s, increasing, the first >= 0
   double tolerance = 1e-6;
   Model model = Model::any;
   /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.

@@ -53,8 +53,7 @@ void describe(Answer& answer, const Scene& scene) {
   const auto warn = [&](const char* code, const char* text, double value) {
     answer.warnings.push_back({code, text, value});
   };
-  if (!control)
-    warn("no-control", "no control torque acts: the motion decays at best, and never stops", nan<double>);
+  if (!control) warn("no-control", "no control torque acts: the motion decays at best, and never stops", nan<double>);
   else if (!Hold<double>(problem).holds)
     warn("does-not-stop", "the control cannot hold the carrier at rest against the drag of the stored momentum",
          problem.drag * problem.rotor_momentum.norm());
@@ -77,8 +76,8 @@ Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr) {
                                                           {"averaged", &detail::averaged<Elliptic>},
                                                           {"averaged-2", &detail::averaged_2<Elliptic>},
                                                           {"full", &full_track}}};
-  Answer answer = climb<Scene, Track, Monitor>(rungs, scene, scene.data().tolerance, rung_of(scene.data().model),
-                                               monitor, refusal);
+  Answer answer =
+      climb<Scene, Track, Monitor>(rungs, scene, scene.data().tolerance, rung_of(scene.data().model), monitor, refusal);
   if (refusal.code == Errc::ok) detail::describe<Elliptic>(answer, scene);
   return answer;
 }

@@ -26,10 +26,10 @@ struct Track {
 
   std::vector<Warning> warnings;
   ode::Counts counts;
-  Errc failure = Errc::ok;       ///< why there is no track
-  const char* refusal = nullptr;  ///< why the rung cannot answer, in words; nullptr where only known_error decided
+  Errc failure = Errc::ok;           ///< why there is no track
+  const char* refusal = nullptr;     ///< why the rung cannot answer, in words; nullptr where only known_error decided
   double known_error = nan<double>;  ///< the error seen before the rung gave up
-  bool in_domain = true;         ///< false: computed outside the rung's domain, the errors are not to be trusted
+  bool in_domain = true;             ///< false: computed outside the rung's domain, the errors are not to be trusted
 
   static Track refused(Errc code, const char* why) {
     Track track;
@@ -84,7 +84,8 @@ inline void withhold(Track& track, const Scene& scene) {
   if (error <= tolerance) return;
   track.momentum.clear();
   track.warn("phase-withheld",
-             "the vectors are left out: their error is over the tolerance, that of the slow columns need not be", error);
+             "the vectors are left out: their error is over the tolerance, that of the slow columns need not be",
+             error);
 }
 
 /// The columns of SCENES.md, in the caller's axes. The answer's error is the greatest of all columns and of the stop time.

@@ -24,8 +24,8 @@ struct ControlTorques {
 template <Real Scalar>
 struct MeanTorque {
   Scalar deceleration;  ///< D, N m
-  Scalar escape;        ///< G/kp2 (of the tilt equation where the near axis is one of symmetry: G = tilt (1 - tilt) g), N m
-  Scalar K;             ///< quarter period in u
+  Scalar escape;  ///< G/kp2 (of the tilt equation where the near axis is one of symmetry: G = tilt (1 - tilt) g), N m
+  Scalar K;       ///< quarter period in u
 };
 
 /// Orbit means of the control torque on the polhode p. NaN in, NaN out.

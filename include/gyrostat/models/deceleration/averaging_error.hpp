@@ -47,7 +47,8 @@ class AveragingError {
     const Scalar squeeze = k2_swing / kp2;
     const Scalar shift = change + 3 * squeeze;
     const Scalar energy = norm * norm * p.energy_ratio() / 2;
-    const Scalar energy_swing = std::min(energy, 2 * energy * norm_swing / norm + norm * norm / 2 * p.axes.near_far * tilt_swing);
+    const Scalar energy_swing =
+        std::min(energy, 2 * energy * norm_swing / norm + norm * norm / 2 * p.axes.near_far * tilt_swing);
     const Scalar nonlinear = 1 + std::min(Scalar(1), squeeze);
     keep(first_.norm, norm_swing * nonlinear);
     keep(first_.k2, k2_swing * nonlinear);

@@ -14,9 +14,9 @@ namespace gyrostat::deceleration {
 /// What a critical level is. The energies at one R, in order: lowest, then the birth and the saddle of the lobes around the
 /// largest moment, then the saddle and the birth of those around the smallest, then highest; either pair may be missing.
 enum class Critical : std::uint8_t {
-  lowest,   ///< stable equilibrium of least energy
-  birth,    ///< centre of the younger lobe: it appears or vanishes (k2 -> 0 for all other orbits of the level: no event)
-  saddle,   ///< unstable equilibrium: the separatrix of two lobes (k2 -> 1)
+  lowest,  ///< stable equilibrium of least energy
+  birth,   ///< centre of the younger lobe: it appears or vanishes (k2 -> 0 for all other orbits of the level: no event)
+  saddle,  ///< unstable equilibrium: the separatrix of two lobes (k2 -> 1)
   highest,  ///< stable equilibrium of greatest energy
 };
 
@@ -54,7 +54,8 @@ Result<CriticalLevels<Scalar>> critical_levels(const Problem<Scalar>& problem, S
 
   const Secular<Scalar> original(a, g, R), mirror = original.mirrored();
   CriticalLevels<Scalar> all;
-  const auto put = [&](Critical kind, Regime lobes, const Secular<Scalar>& q, Scalar sign, const SecularPoint<Scalar>& p) {
+  const auto put = [&](Critical kind, Regime lobes, const Secular<Scalar>& q, Scalar sign,
+                       const SecularPoint<Scalar>& p) {
     all.level[std::size_t(all.count++)] = {kind, lobes, sign * q.level(p), sign * q.sigma(p)};
   };
   SecularPoint<Scalar> end;
@@ -104,8 +105,10 @@ Result<LevelBand<Scalar>> band_of(const Problem<Scalar>& problem, const Level<Sc
 /// Where a motion that reaches a separatrix goes on: into one of its two lobes (branch +1, -1) or outside (one component).
 template <Real Scalar>
 struct Capture {
-  Scalar plus = 0, minus = 0, outside = 0;  ///< probabilities over initial values spread by the size of the small torques
-  Scalar inflow_plus = 0, inflow_minus = 0; ///< Theta: energy, J, that a turn along the lobe's loop moves the motion inwards
+  Scalar plus = 0, minus = 0,
+         outside = 0;  ///< probabilities over initial values spread by the size of the small torques
+  Scalar inflow_plus = 0,
+         inflow_minus = 0;  ///< Theta: energy, J, that a turn along the lobe's loop moves the motion inwards
 
   bool determined() const noexcept { return plus == 1 || minus == 1 || outside == 1; }
 };
@@ -139,7 +142,8 @@ Result<Capture<Scalar>> capture(const Problem<Scalar>& problem, Scalar R, Regime
   const Scalar inwards = lobes == Regime::about_largest ? Scalar(-1) : Scalar(1);
   Capture<Scalar> r;
   for (const int branch : {1, -1}) {
-    const auto loop = average<Elliptic>(problem, Level<Scalar>{R, saddle->eta + inwards * away}, Component{lobes, branch});
+    const auto loop =
+        average<Elliptic>(problem, Level<Scalar>{R, saddle->eta + inwards * away}, Component{lobes, branch});
     if (!loop) return loop.error();
     if (loop->component.regime != lobes) return Errc::not_applicable;
     (branch > 0 ? r.inflow_plus : r.inflow_minus) =

@@ -14,7 +14,7 @@ template <Real Scalar, class Elliptic = math::Native>
 class EqualTorqueMotion {
  public:
   struct Sample {
-    Scalar norm;          ///< |M|, N m s; 0 from the stop on
+    Scalar norm;            ///< |M|, N m s; 0 from the stop on
     Vec3<Scalar> momentum;  ///< M in principal axes, N m s
   };
 
@@ -49,9 +49,7 @@ class EqualTorqueMotion {
     return 8 * epsilon<Scalar> * (2 + turn(far)) / polhode_.modulus.kp2;
   }
 
-  math::Modulus<Scalar> modulus() const noexcept {
-    return steady_ ? math::Modulus<Scalar>{0, 1} : polhode_.modulus;
-  }
+  math::Modulus<Scalar> modulus() const noexcept { return steady_ ? math::Modulus<Scalar>{0, 1} : polhode_.modulus; }
   Regime regime() const noexcept { return steady_ ? Regime::point : polhode_.regime; }
   Scalar energy_ratio() const noexcept { return ratio_; }  ///< 2h/M^2, constant, 1/(kg m^2)
 

@@ -15,9 +15,9 @@ namespace gyrostat::deceleration {
 /// Principal axes as a regime sees them.
 template <Real Scalar>
 struct PolhodeAxes {
-  int near, far;                          ///< indices of the principal axes; the middle one is 1
-  Scalar a_near, a_far;                   ///< 1/J of the axes, 1/(kg m^2)
-  Scalar near_mid, mid_far, near_far;     ///< |a_i - a_j|, 1/(kg m^2)
+  int near, far;                       ///< indices of the principal axes; the middle one is 1
+  Scalar a_near, a_far;                ///< 1/J of the axes, 1/(kg m^2)
+  Scalar near_mid, mid_far, near_far;  ///< |a_i - a_j|, 1/(kg m^2)
 
   /// @param a ascending inverse moments; @param regime about_largest or about_smallest
   static PolhodeAxes of(const Vec3<Scalar>& a, Regime regime) noexcept {
@@ -44,9 +44,7 @@ struct Polhode {
   /// 2H/M^2, 1/(kg m^2).
   Scalar energy_ratio() const noexcept { return axes.a_near + (axes.a_far - axes.a_near) * tilt; }
   /// du/dt per unit |M|, where u is the argument of the Jacobi functions: n/M of the sheet.
-  Scalar rate_per_momentum() const noexcept {
-    return std::sqrt(axes.near_mid * axes.near_far * (1 - tilt));
-  }
+  Scalar rate_per_momentum() const noexcept { return std::sqrt(axes.near_mid * axes.near_far * (1 - tilt)); }
 };
 
 /// Polhode through M, from the components (never from M^2 and H, which cancel). M must not vanish; a sphere has none.
@@ -57,12 +55,14 @@ Polhode<Scalar> polhode_through(const Vec3<Scalar>& a, const Vec3<Scalar>& M) no
   const Regime regime = d21 * m[0] >= d32 * m[2] ? Regime::about_largest : Regime::about_smallest;
   const auto x = PolhodeAxes<Scalar>::of(a, regime);
   const Scalar near = m[x.near], mid = m[1], far = m[x.far];
-  const Scalar across = x.near_mid * mid + x.near_far * far;   // tilt of M^2 near_far
-  const Scalar along = x.near_far * near + x.mid_far * mid;    // 1 - tilt of the same
+  const Scalar across = x.near_mid * mid + x.near_far * far;  // tilt of M^2 near_far
+  const Scalar along = x.near_far * near + x.mid_far * mid;   // 1 - tilt of the same
   const Scalar whole = x.near_mid * along;
-  return {regime, x,
+  return {regime,
+          x,
           {x.mid_far * across / whole, x.near_far * (x.near_mid * near - x.mid_far * far) / whole},
-          across / (across + along), M[x.near] < 0 ? -1 : 1};
+          across / (across + along),
+          M[x.near] < 0 ? -1 : 1};
 }
 
 /// The same polhode family at another modulus.

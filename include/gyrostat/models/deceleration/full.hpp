@@ -19,11 +19,11 @@ namespace gyrostat::deceleration {
 /// The constants of the full equations in terms of U.
 template <Real Scalar>
 struct FullCoefficients {
-  Vec3<Scalar> offset;    ///< M - U: zero or l, N m s
-  Vec3<Scalar> rate;      ///< omega - a U: -a l or zero, rad/s
-  Vec3<Scalar> quadratic; ///< a_k - a_j, 1/(kg m^2)
-  Mat3<Scalar> linear;    ///< L, 1/s
-  Vec3<Scalar> constant;  ///< c, N m
+  Vec3<Scalar> offset;     ///< M - U: zero or l, N m s
+  Vec3<Scalar> rate;       ///< omega - a U: -a l or zero, rad/s
+  Vec3<Scalar> quadratic;  ///< a_k - a_j, 1/(kg m^2)
+  Mat3<Scalar> linear;     ///< L, 1/s
+  Vec3<Scalar> constant;   ///< c, N m
 
   explicit FullCoefficients(const Problem<Scalar>& problem) noexcept {
     const Vec3<Scalar>& a = problem.inverse_inertia;
@@ -135,7 +135,9 @@ class FullSystem {
  private:
   using Row = Lanes<Scalar>;
 
-  static GYROSTAT_INLINE Row row(const Vec3<Scalar>& v, Scalar last = 0) noexcept { return lanes(v[0], v[1], v[2], last); }
+  static GYROSTAT_INLINE Row row(const Vec3<Scalar>& v, Scalar last = 0) noexcept {
+    return lanes(v[0], v[1], v[2], last);
+  }
 
   /// term(from), ..., term(1): unrolled where the number of turns is known to the compiler.
   template <class Term>
@@ -150,9 +152,9 @@ class FullSystem {
 
   /// Order k + 1 from the orders up to k. Index: an integral constant, so that everything unrolls, or an int.
   template <class Index, int Order>
-  GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3],
-                              const Row (&turn)[3], const Row& quadratic, const Row& along, const Row& inverse,
-                              const Row& half_inverse, Scalar half_unit) const noexcept;
+  GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
+                              const Row (&jacobian)[3], const Row (&turn)[3], const Row& quadratic, const Row& along,
+                              const Row& inverse, const Row& half_inverse, Scalar half_unit) const noexcept;
 
   /// s0 i + s1 j + s2 k, quaternion products from the right.
   static GYROSTAT_INLINE Row turned(const Row& s0, const Row& s1, const Row& s2) noexcept {
@@ -214,8 +216,9 @@ FullSystem<Real_, with_control, with_attitude>::FullSystem(const Problem<Scalar>
 template <Real Real_, bool with_control, bool with_attitude>
 template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
-    Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3], const Row (&turn)[3],
-    const Row& quadratic, const Row& along, const Row& inverse, const Row& half_inverse, Scalar half_unit) const noexcept {
+    Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3],
+    const Row (&turn)[3], const Row& quadratic, const Row& along, const Row& inverse, const Row& half_inverse,
+    Scalar half_unit) const noexcept {
   const Scalar share = Scalar(1) / static_cast<Scalar>(k + 1);
   const Row u0 = shuffle<0, 0, 0, 0>(newest), u1 = shuffle<1, 1, 1, 1>(newest), u2 = shuffle<2, 2, 2, 2>(newest);
 
@@ -252,7 +255,8 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
     }
   }
 
-  const Row next = lanes(share) * (multiply_add(jacobian[0], u0, multiply_add(jacobian[1], u1, multiply_add(jacobian[2], u2, known))));
+  const Row next = lanes(share) *
+                   (multiply_add(jacobian[0], u0, multiply_add(jacobian[1], u1, multiply_add(jacobian[2], u2, known))));
 
   if constexpr (with_attitude) {
     const Row omega = inverse_inertia_ * newest * lanes(half_unit);

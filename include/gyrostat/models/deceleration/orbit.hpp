@@ -79,9 +79,9 @@ class Orbit {
   int branch() const noexcept { return branch_; }
   Component component() const noexcept { return {regime_, branch_}; }
   math::Modulus<Scalar> modulus() const noexcept { return modulus_; }
-  Scalar rate() const noexcept { return rate_; }                    ///< du/dt, rad/s
-  Scalar quarter_period() const noexcept { return K_; }             ///< of u: K
-  Scalar period() const noexcept { return 4 * K_ / rate_; }         ///< s
+  Scalar rate() const noexcept { return rate_; }             ///< du/dt, rad/s
+  Scalar quarter_period() const noexcept { return K_; }      ///< of u: K
+  Scalar period() const noexcept { return 4 * K_ / rate_; }  ///< s
 
   /// M at a phase (turns), N m s.
   Vec3<Scalar> momentum_at(Scalar phase) const noexcept {
@@ -147,8 +147,7 @@ class Orbit {
     int shift = 0;
     for (int s = 0; s < 4; ++s) {
       Scalar sum = 0;
-      for (int i = 0; i < 4; ++i)
-        sum += (here[(i + s) % 4] / level_.R - there[i] / neighbour.level_.R).squaredNorm();
+      for (int i = 0; i < 4; ++i) sum += (here[(i + s) % 4] / level_.R - there[i] / neighbour.level_.R).squaredNorm();
       if (sum < best) next = best, best = sum, shift = s;
       else next = std::min(next, sum);
     }
@@ -263,9 +262,7 @@ class Orbit {
     return r;
   }
 
-  static Vec4 unmirrored(const Vec4& x, bool mirrored) noexcept {
-    return mirrored ? Vec4(x[2], x[1], x[0], x[3]) : x;
-  }
+  static Vec4 unmirrored(const Vec4& x, bool mirrored) noexcept { return mirrored ? Vec4(x[2], x[1], x[0], x[3]) : x; }
 
   /// Frame and modulus around axis 0 of q, which has three roots in its first gap.
   Errc two_components(const Quartic& q, bool mirrored, const SecularRise<Scalar>& rise, Scalar eta) noexcept {
@@ -421,7 +418,8 @@ class Orbit {
   /// The vector that is Lorentz orthogonal to three others.
   static Vec4 cross(const Vec4& x, const Vec4& y, const Vec4& z) noexcept {
     const auto minor = [&](int i, int j, int k) {
-      return x[i] * (y[j] * z[k] - y[k] * z[j]) - x[j] * (y[i] * z[k] - y[k] * z[i]) + x[k] * (y[i] * z[j] - y[j] * z[i]);
+      return x[i] * (y[j] * z[k] - y[k] * z[j]) - x[j] * (y[i] * z[k] - y[k] * z[i]) +
+             x[k] * (y[i] * z[j] - y[j] * z[i]);
     };
     return {minor(1, 2, 3), -minor(0, 2, 3), minor(0, 1, 3), minor(0, 1, 2)};
   }
@@ -454,7 +452,8 @@ class Orbit {
   }
 
   /// The equilibrium omega = sigma M at a zero of c', with the period of small oscillations about it.
-  Result<Orbit> rest_at(const Quartic& q, bool mirrored, const Point& place, int branch, const Vec3<Scalar>* M) noexcept {
+  Result<Orbit> rest_at(const Quartic& q, bool mirrored, const Point& place, int branch,
+                        const Vec3<Scalar>* M) noexcept {
     Vec3<Scalar> v = q.vertex(place) / q.radius();
     if (place.offset == 0 && !q.active(place.origin)) {
       const int i = place.origin;

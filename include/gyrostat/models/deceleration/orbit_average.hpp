@@ -41,15 +41,15 @@ SlowRates<Scalar> slow_rates(const Problem<Scalar>& problem, const Vec3<Scalar>&
 /// Averages over one free orbit.
 template <Real Scalar>
 struct OrbitAverage {
-  SlowRates<Scalar> rates;          ///< what the averaged equations need
-  Vec3<Scalar> momentum{0, 0, 0};   ///< <M>, N m s
+  SlowRates<Scalar> rates;                            ///< what the averaged equations need
+  Vec3<Scalar> momentum{0, 0, 0};                     ///< <M>, N m s
   Mat3<Scalar> second_moment = Mat3<Scalar>::Zero();  ///< <M M^T>, (N m s)^2
-  Level<Scalar> level;              ///< of the orbit taken: differs from the one asked where that was clamped
+  Level<Scalar> level;  ///< of the orbit taken: differs from the one asked where that was clamped
   Component component;
   math::Modulus<Scalar> modulus;
-  Scalar period = 0;                ///< s
-  int nodes = 0;                    ///< points on the orbit, uniform in time
-  Scalar error = 0;                 ///< estimate from node doubling, relative to R and R^2
+  Scalar period = 0;  ///< s
+  int nodes = 0;      ///< points on the orbit, uniform in time
+  Scalar error = 0;   ///< estimate from node doubling, relative to R and R^2
 };
 
 namespace detail {
@@ -121,7 +121,8 @@ Result<OrbitAverage<Scalar>> average(const Problem<Scalar>& problem, const Orbit
   const Scalar wanted = 256 * epsilon<Scalar>;
   while (grid.refine()) {
     const int end = grid.size();
-    for (int i = (end - 1) / 2 + 1; i < end; ++i) sums.add(problem, orbit, grid.sn[i], grid.cn[i], grid.dn[i], Scalar(1));
+    for (int i = (end - 1) / 2 + 1; i < end; ++i)
+      sums.add(problem, orbit, grid.sn[i], grid.cn[i], grid.dn[i], Scalar(1));
     const auto finer = sums.total(Scalar(.25) / Scalar(end - 1));
     Scalar change = 0;
     for (int i = 0; i < Sums::count; ++i) {

@@ -17,13 +17,14 @@ enum class Law : std::uint8_t { total, carrier };
 /// The scene in the principal axes of the carrier, A >= B >= C. SI units. Plain data: whoever fills it has validated it.
 template <Real Scalar>
 struct Problem {
-  Vec3<Scalar> inverse_inertia{1, 1, 1};      ///< a = (1/A, 1/B, 1/C), ascending, 1/(kg m^2)
-  Vec3<Scalar> rotor_momentum{0, 0, 0};       ///< l, constant in the carrier and relative to it, N m s
-  Mat3<Scalar> control = Mat3<Scalar>::Zero();  ///< eps b: symmetric, diagonal if the actuators lie on principal axes, N m
-  Scalar drag = 0;                            ///< eps lambda, 1/s
-  Law law = Law::total;                       ///< U: M or G
-  Law drag_law = Law::total;                  ///< D: M or G
-  Vec3<Scalar> momentum{0, 0, 0};             ///< M at t = 0, N m s
+  Vec3<Scalar> inverse_inertia{1, 1, 1};  ///< a = (1/A, 1/B, 1/C), ascending, 1/(kg m^2)
+  Vec3<Scalar> rotor_momentum{0, 0, 0};   ///< l, constant in the carrier and relative to it, N m s
+  Mat3<Scalar> control =
+      Mat3<Scalar>::Zero();        ///< eps b: symmetric, diagonal if the actuators lie on principal axes, N m
+  Scalar drag = 0;                 ///< eps lambda, 1/s
+  Law law = Law::total;            ///< U: M or G
+  Law drag_law = Law::total;       ///< D: M or G
+  Vec3<Scalar> momentum{0, 0, 0};  ///< M at t = 0, N m s
 
   /// g = J^-1 l, the rate at which the carrier would turn if all of l were its own, rad/s.
   Vec3<Scalar> gyro_rate() const noexcept { return inverse_inertia.cwiseProduct(rotor_momentum); }
