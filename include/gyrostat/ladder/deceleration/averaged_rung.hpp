@@ -63,6 +63,39 @@ inline const char* not_averaged(const Scene& scene) noexcept {
   return nullptr;
 }
 
+/// The polhode of the start; where there is none the refusal is not ok.
+struct Start {
+  Polhode<double> polhode{};
+  Track refusal;
+};
+
+inline Start start_of(const Scene& scene) {
+  if (const char* why = not_averaged(scene)) return {{}, Track::refused(Errc::not_applicable, why)};
+  const auto p = polhode_through<double>(scene.problem().inverse_inertia, scene.problem().momentum);
+  if (!std::isfinite(p.modulus.k2) || !std::isfinite(p.modulus.kp2))
+    return {p, Track::refused(Errc::not_applicable, "M lies across an axis of symmetry: there is no polhode to average over")};
+  if (!(p.modulus.kp2 > 0)) return {p, Track::refused(Errc::separatrix, "the motion starts on the separatrix")};
+  return {p, {}};
+}
+
+/// The osculating state of a mean one, and whether it has one.
+struct Osculating {
+  MeanState<double> state;
+  Vec3<double> momentum;
+  bool valid;
+};
+
+template <class Elliptic>
+Osculating osculating(const Problem<double>& problem, const MeanState<double>& mean) noexcept {
+  const auto b = ControlTorques<double>::of(problem.control, mean.polhode.axes);
+  const double u = mean.phase * Elliptic::complete(mean.polhode.modulus).K;
+  const auto o = oscillation<Elliptic>(mean.polhode, b, mean.norm, u);
+  const auto p = shifted(mean.polhode, o.spread);
+  const double norm = mean.norm * (1 + o.norm);
+  const double argument = mean.phase * Elliptic::complete(p.polhode.modulus).K;
+  return {{norm, p.polhode, mean.phase}, momentum_on<Elliptic>(p.polhode, norm, argument), p.valid};
+}
+
 inline void warn_of_start(Track& track, const Scene& scene, const Polhode<double>& p) {
   const auto& a = scene.problem().inverse_inertia;
   const double M = scene.problem().momentum.norm();
@@ -97,15 +130,11 @@ inline void keep_sample(Track& track, const MeanState<double>& s) {
 /// First order: started from the osculating polhode, carried down to rest.
 template <class Elliptic>
 Track averaged_track(const Scene& scene) {
-  if (const char* why = detail::not_averaged(scene)) return Track::refused(Errc::not_applicable, why);
+  const auto [start, refusal] = detail::start_of(scene);
+  if (refusal.failure != Errc::ok) return refusal;
   const auto& problem = scene.problem();
   const Vec3<double>& M0 = problem.momentum;
   const double norm0 = M0.norm();
-  const auto start = polhode_through<double>(problem.inverse_inertia, M0);
-  if (!std::isfinite(start.modulus.k2) || !std::isfinite(start.modulus.kp2))
-    return Track::refused(Errc::not_applicable,
-                          "M lies across an axis of symmetry: there is no polhode to average over");
-  if (!(start.modulus.kp2 > 0)) return Track::refused(Errc::separatrix, "the motion starts on the separatrix");
 
   Track track;
   AveragedRun<Elliptic> run(scene, start, norm0, 0, infinity<double>);
@@ -161,14 +190,11 @@ Track averaged_track(const Scene& scene) {
 /// `hand_over` breakdown momenta the full equations take over.
 template <class Elliptic>
 Track averaged_2_track(const Scene& scene, Monitor* monitor) {
-  if (const char* why = detail::not_averaged(scene)) return Track::refused(Errc::not_applicable, why);
+  const auto [start, refusal] = detail::start_of(scene);
+  if (refusal.failure != Errc::ok) return refusal;
   const auto& problem = scene.problem();
   const Vec3<double>& M0 = problem.momentum;
   const double norm0 = M0.norm();
-  const auto start = polhode_through<double>(problem.inverse_inertia, M0);
-  if (!std::isfinite(start.modulus.k2) || !std::isfinite(start.modulus.kp2))
-    return Track::refused(Errc::not_applicable,
-                          "M lies across an axis of symmetry: there is no polhode to average over");
   const auto b = ControlTorques<double>::of(problem.control, start.axes);
   const double u0 = argument_of<Elliptic>(start, M0);
   const auto away = oscillation<Elliptic>(start, b, norm0, u0);
@@ -186,22 +212,6 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   const double phase_error = std::max(1e-7, scene.data().tolerance * 1e-2);
   AveragedRun<Elliptic> run(scene, mean.polhode, norm0 * (1 - away.norm), u0 / Elliptic::complete(start.modulus).K,
                             phase_error);
-  // The osculating state, if there still is a second order.
-  struct Osculating {
-    MeanState<double> state;
-    Vec3<double> momentum;
-    bool valid;
-  };
-  const auto osculating = [&](const MeanState<double>& s) -> Osculating {
-    const double K = Elliptic::complete(s.polhode.modulus).K;
-    const auto torques = ControlTorques<double>::of(problem.control, s.polhode.axes);
-    const auto o = oscillation<Elliptic>(s.polhode, torques, s.norm, s.phase * K);
-    const auto p = shifted(s.polhode, o.spread);
-    const double norm = s.norm * (1 + o.norm);
-    const double u = s.phase * Elliptic::complete(p.polhode.modulus).K;
-    return {{norm, p.polhode, s.phase}, momentum_on<Elliptic>(p.polhode, norm, u), p.valid};
-  };
-
   const auto& times = scene.data().times;
   std::size_t done = 0;
   constexpr const char* lost = "the motion comes so near the separatrix that the second order is lost";
@@ -210,7 +220,7 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
       return Track::refused(Errc::no_convergence, "the mean equations could not be integrated");
     if (run.motion().crossed() || run.motion().stuck()) return Track::refused(Errc::separatrix, lost);
     if (run.motion().floored()) break;
-    const auto now = osculating(run.motion().state());
+    const auto now = detail::osculating<Elliptic>(problem, run.motion().state());
     if (!now.valid) return Track::refused(Errc::separatrix, lost);
     detail::keep_sample(track, now.state);
     track.momentum.push_back(now.momentum);
@@ -234,7 +244,7 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
       if (done < times.size()) return Track::refused(Errc::separatrix, lost);
       track.warn("crosses-separatrix", "after the asked times the motion crosses the separatrix: no stop time");
     } else {
-      const auto at_end = osculating(run.motion().state());
+      const auto at_end = detail::osculating<Elliptic>(problem, run.motion().state());
       if (!at_end.valid) return Track::refused(Errc::separatrix, lost);
       const Errc failure =
           hand_over(track, scene, at_end.momentum, run.motion().time(), run.error().second_order(), monitor);
