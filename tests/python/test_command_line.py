@@ -148,7 +148,8 @@ def test_ctrl_c_stops_long_work(tmp_path: Path) -> None:
     process = subprocess.Popen(
         [*GYROSTAT, "solve", "tiangong-1", "--set", "model=full", "--set", "control=[1e-13, 2e-13, 3e-13]", "--set", "drag=0", "--set",
          "times=[1e12]"],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # a job in the background may be deaf to Ctrl-C
     time.sleep(2.0)
     assert process.poll() is None
     process.send_signal(signal.SIGINT)

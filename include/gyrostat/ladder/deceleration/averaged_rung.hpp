@@ -20,10 +20,11 @@ inline double breakdown_momentum(const Problem<double>& problem, double greatest
 template <class Elliptic>
 class AveragedRun {
  public:
-  AveragedRun(const Scene& scene, const Polhode<double>& start, double norm, double phase, double phase_error) noexcept
+  AveragedRun(const Scene& scene, const Polhode<double>& start, double norm, double phase, double tolerance,
+              double phase_error) noexcept
       : problem_(scene.problem()),
         greatest_(scene.greatest_control()),
-        motion_(problem_, start, norm, phase, tolerance_of(scene), phase_error) {
+        motion_(problem_, start, norm, phase, tolerance, phase_error) {
     visit(start, norm);
   }
 
@@ -73,7 +74,8 @@ inline Start start_of(const Scene& scene) {
   if (const char* why = not_averaged(scene)) return {{}, Track::refused(Errc::not_applicable, why)};
   const auto p = polhode_through<double>(scene.problem().inverse_inertia, scene.problem().momentum);
   if (!std::isfinite(p.modulus.k2) || !std::isfinite(p.modulus.kp2))
-    return {p, Track::refused(Errc::not_applicable, "M lies across an axis of symmetry: there is no polhode to average over")};
+    return {p, Track::refused(Errc::not_applicable,
+                              "M lies across an axis of symmetry: there is no polhode to average over")};
   if (!(p.modulus.kp2 > 0)) return {p, Track::refused(Errc::separatrix, "the motion starts on the separatrix")};
   return {p, {}};
 }
@@ -137,7 +139,8 @@ Track averaged_track(const Scene& scene) {
   const double norm0 = M0.norm();
 
   Track track;
-  AveragedRun<Elliptic> run(scene, start, norm0, 0, infinity<double>);
+  const double tolerance = AveragedRun<Elliptic>::tolerance_of(scene);
+  AveragedRun<Elliptic> run(scene, start, norm0, 0, tolerance, infinity<double>);
   const double energy0 = problem.energy(M0);
   if (scene.data().model == Model::any) {
     const auto least = run.error().first_order(norm0, energy0);
@@ -167,10 +170,10 @@ Track averaged_track(const Scene& scene) {
   }
   if (const auto stop = run.motion().stop_time()) track.stop_time = *stop;
   if (late > 1) late = infinity<double>;  // not an estimate any more
-  track.stop_error = std::isfinite(track.stop_time) ? late + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene) : 0;
+  track.stop_error = std::isfinite(track.stop_time) ? late + 1e3 * tolerance : 0;
 
   const double least = track.norm.back();
-  const double local = 10 * AveragedRun<Elliptic>::tolerance_of(scene);
+  const double local = 10 * tolerance;
   track.norm_error = error.norm + local * norm0;
   track.energy_error = error.energy + local * energy0;
   track.k2_error = error.k2 + local;
@@ -209,9 +212,11 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
                           "the braking is too fast: averaging would hand over to the full equations at the start");
 
   Track track;
+  // A relative error of the mean orbit becomes one of the phase, times the turns made.
+  const double tolerance = 1e-3 * AveragedRun<Elliptic>::tolerance_of(scene) + 1e-13;
   const double phase_error = std::max(1e-7, scene.data().tolerance * 1e-2);
   AveragedRun<Elliptic> run(scene, mean.polhode, norm0 * (1 - away.norm), u0 / Elliptic::complete(start.modulus).K,
-                            phase_error);
+                            tolerance, phase_error);
   const auto& times = scene.data().times;
   std::size_t done = 0;
   constexpr const char* lost = "the motion comes so near the separatrix that the second order is lost";
@@ -227,11 +232,13 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   }
   const double energy0 = problem.energy(M0);
   const auto in_span = run.error().second_order();
-  const double local = 10 * AveragedRun<Elliptic>::tolerance_of(scene);
-  track.norm_error = in_span.norm + local * norm0;
-  track.energy_error = in_span.energy + 2 * local * energy0;
-  track.k2_error = in_span.k2 + local;
-  track.momentum_error = in_span.vector + (local + 10 * phase_error) * norm0;
+  const auto oscillating = run.error().first_order(norm0, energy0);
+  const double local = 10 * tolerance;
+  const double lag = 10 * phase_error + local * std::abs(run.motion().state().phase);  // quarter periods
+  track.norm_error = in_span.norm + local * norm0 + lag * oscillating.norm;
+  track.energy_error = in_span.energy + 2 * local * energy0 + lag * oscillating.energy;
+  track.k2_error = in_span.k2 + local + lag * oscillating.k2;
+  track.momentum_error = in_span.vector + (local + 2 * lag) * norm0;
   track.counts = run.motion().counts();
   detail::warn_of_start(track, scene, start);
 
@@ -249,6 +256,7 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
       const Errc failure =
           hand_over(track, scene, at_end.momentum, run.motion().time(), run.error().second_order(), monitor);
       if (failure != Errc::ok) return Track::refused(failure, "the full equations could not take over near rest");
+      track.stop_error += 100 * tolerance;
     }
   }
   detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());

@@ -234,7 +234,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
     const double late = detail::opposed_error(problem, error.first_order(), carrier) / torque.least;
     // The law of the carrier ends where its averages are differences of large numbers.
-    const double doubt = problem.law == Law::total ? 1 : 4;
+    const double doubt = problem.law == Law::total ? 1 : 20;
     track.stop_error = doubt * (tail + late) / *stop + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene);
   } else if (const auto why = detail::impasse(problem, motion); why.code == Errc::undetermined) {
     track.warn("capture-undetermined",
@@ -300,12 +300,13 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
     if (!M) return detail::not_followed(M.error());
     detail::keep_osculating(track, problem, *M);
   }
-  const auto in_span = error.second_order_error();
-  const double local = 10 * tolerance;
-  track.norm_error = in_span.norm + local * problem.momentum.norm();
-  track.energy_error = in_span.energy + local * problem.energy(problem.momentum);
-  track.k2_error = in_span.k2 + local;
-  track.momentum_error = in_span.vector + (local + 10 * phase_error) * problem.momentum.norm();
+  const auto in_span = error.second_order_error(), oscillating = error.first_order();
+  const double local = 10 * tolerance, norm0 = problem.momentum.norm();
+  const double lag = 10 * phase_error + local * std::abs(motion.sample().phase);  // turns
+  track.norm_error = in_span.norm + local * norm0 + lag * oscillating.norm;
+  track.energy_error = in_span.energy + local * problem.energy(problem.momentum) + lag * oscillating.energy;
+  track.k2_error = in_span.k2 + local + lag * oscillating.k2;
+  track.momentum_error = in_span.vector + (local + 6 * lag) * norm0;
   track.counts = motion.counts();
   if (motion.rates().phase_lost || motion.changed_component())
     return Track::refused(Errc::not_applicable, "the kind of orbit changes: the phase is lost, and M with it");
@@ -331,6 +332,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   if (!M) return detail::not_followed(M.error());
   const Errc failure = hand_over(track, scene, *M, motion.time(), error.second_order_error(), monitor);
   if (failure != Errc::ok) return Track::refused(failure, "the full equations could not take over near rest");
+  track.stop_error += 100 * tolerance;
   withhold(track, scene);
   return track;
 }

@@ -42,11 +42,14 @@ class EqualTorqueMotion {
     return {norm, momentum_on<Elliptic>(polhode_, norm, argument_ + turn(t))};
   }
 
-  /// Relative rounding error of M at t: the rounding of the start grows with the turn, and as 1/kp2 near the separatrix.
+  /// Relative rounding error of M at t: the rounding of the start grows with the turn, and as 1/kp2 near the separatrix;
+  /// that of the moments tells the more the nearer two of them are.
   Scalar rounding(Scalar t) const noexcept {
     const Scalar far = std::min(t, stop_time());
     if (steady_) return 8 * epsilon<Scalar>;
-    return 8 * epsilon<Scalar> * (2 + turn(far)) / polhode_.modulus.kp2;
+    const auto& x = polhode_.axes;
+    const Scalar gap = x.axisymmetric() ? x.near_mid : std::min(x.near_mid, x.mid_far);
+    return 4 * epsilon<Scalar> * (1 + std::sqrt(x.near_far / gap)) * (2 + turn(far)) / polhode_.modulus.kp2;
   }
 
   math::Modulus<Scalar> modulus() const noexcept { return steady_ ? math::Modulus<Scalar>{0, 1} : polhode_.modulus; }
