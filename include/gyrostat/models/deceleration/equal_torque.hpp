@@ -49,7 +49,7 @@ class EqualTorqueMotion {
     if (steady_) return 8 * epsilon<Scalar>;
     const auto& x = polhode_.axes;
     const Scalar gap = x.axisymmetric() ? x.near_mid : std::min(x.near_mid, x.mid_far);
-    return 4 * epsilon<Scalar> * (1 + std::sqrt(x.near_far / gap)) * (2 + turn(far)) / polhode_.modulus.kp2;
+    return 3 * epsilon<Scalar> * (1 + std::sqrt(x.near_far / gap)) * (2 + turn(far)) / polhode_.modulus.kp2;
   }
 
   math::Modulus<Scalar> modulus() const noexcept { return steady_ ? math::Modulus<Scalar>{0, 1} : polhode_.modulus; }
