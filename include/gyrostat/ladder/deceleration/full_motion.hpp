@@ -375,7 +375,7 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
   if constexpr (with_attitude) error.attitude = margin * angle + 4 * phase_error;
   if (answer.stop_time < infinity<Scalar>) {
     error.stop_time = answer.stop_time > 0
-                          ? 3 * margin * std::abs(companion.stop_time() - answer.stop_time) / answer.stop_time +
+                          ? 4 * margin * std::abs(companion.stop_time() - answer.stop_time) / answer.stop_time +
                                 2 * step_tolerance + Scalar(2e-13L) * std::max(Scalar(1), eps / Scalar(1e-15L))
                           : Scalar(0);
   }

@@ -151,12 +151,19 @@ inline void keep_osculating(Track& track, const Problem<double>& problem, const 
   track.momentum.push_back(M);
 }
 
+/// Two moments so near each other that the body librates slowly.
+inline bool nearly_symmetric(const Problem<double>& problem) noexcept {
+  const auto& a = problem.inverse_inertia;
+  return std::min(a[1] - a[0], a[2] - a[1]) < 1e-3 * (a[2] - a[0]);
+}
+
 inline void warn_of_orbit(Track& track, const Scene& scene, const Orbit<double>& orbit) {
   const auto& a = scene.problem().inverse_inertia;
   const double mu = small_parameter(scene);
   if (mu > 0.1) track.warn("not-slow", "the torque stops the body within a few turns: averaging has no meaning", mu);
   const double gap = std::min(a[1] - a[0], a[2] - a[1]) / (a[2] - a[0]);
-  if (gap < 1e-3) track.warn("near-symmetric", "two moments of inertia are nearly equal: the libration is slow", gap);
+  if (nearly_symmetric(scene.problem()))
+    track.warn("near-symmetric", "two moments of inertia are nearly equal: the libration is slow", gap);
   if (orbit.modulus().kp2 < std::max(1e-2, 10 * mu))
     track.warn("near-separatrix", "the orbit starts near a separatrix", orbit.modulus().kp2);
 }
@@ -233,8 +240,10 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     const double carrier = (problem.momentum - problem.rotor_momentum).norm();
     const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
     const double late = detail::opposed_error(problem, error.first_order(), carrier) / torque.least;
-    // The law of the carrier ends where its averages are differences of large numbers.
-    const double doubt = problem.law == Law::total ? 1 : 20;
+    // The law of the carrier ends where its averages are differences of large numbers; with a slow libration as well
+    // they tell nothing of the stop.
+    const bool slow = detail::nearly_symmetric(problem);
+    const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
     track.stop_error = doubt * (tail + late) / *stop + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene);
   } else if (const auto why = detail::impasse(problem, motion); why.code == Errc::undetermined) {
     track.warn("capture-undetermined",
