@@ -7,6 +7,7 @@
 
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/answer.hpp"
+#include "gyrostat/ladder/monitor.hpp"
 
 namespace gyrostat {
 
@@ -23,7 +24,7 @@ concept RungResult = requires(const Track& track, const Scene& scene, Answer& an
 
 /// A model of a scene: a name and a function that says whether it applies, answers, estimates its own error and counts
 /// its work.
-template <class Scene, class Track, class Monitor>
+template <class Scene, class Track>
 struct Rung {
   const char* name;
   Track (*answer)(const Scene&, Monitor*);
@@ -39,9 +40,9 @@ struct Refusal {
 /// The answer of the first rung, cheapest first, whose own error estimate meets the tolerance; failing that the most
 /// accurate of those that answered, one in its domain before any outside, with met false. `only` names a single rung, which then answers wherever it can.
 /// On failure the answer's `tried` still tells what was looked at.
-template <class Scene, class Track, class Monitor>
+template <class Scene, class Track>
   requires RungResult<Track, Scene>
-Answer climb(std::span<const Rung<Scene, Track, Monitor>> rungs, const Scene& scene, double tolerance, int only,
+Answer climb(std::span<const Rung<Scene, Track>> rungs, const Scene& scene, double tolerance, int only,
              Monitor* monitor, Refusal& refusal) {
   Answer best;
   std::vector<Attempt> tried;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "gyrostat/body/inertia.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 
@@ -17,7 +17,6 @@ namespace gyrostat::deceleration {
 enum class Model : std::uint8_t { any, equal_torque, averaged, averaged_2, full };
 
 struct Track;
-struct Monitor;
 class Scene;
 
 /// The user's view of a scene, in body axes and SI units. Defaults describe a body left alone.
@@ -117,11 +116,5 @@ inline double small_parameter(const Scene& scene) noexcept {
   const double rate = std::max(R * p.inverse_inertia[1], p.gyro_rate().norm());
   return std::max(scene.greatest_control(), p.drag * R) / (R * rate);
 }
-
-/// Lets a caller watch and stop long work from another thread.
-struct Monitor {
-  std::atomic<double> fraction{0};  ///< of the work, in [0, 1]
-  std::atomic<bool> cancel{false};
-};
 
 }  // namespace gyrostat::deceleration

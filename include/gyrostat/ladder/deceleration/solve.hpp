@@ -71,13 +71,13 @@ inline int rung_of(Model model) noexcept { return int(model) - 1; }
 /// refusal says why and the answer holds only what was tried.
 template <class Elliptic = math::Native>
 Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr) {
-  using DecelerationRung = Rung<Scene, Track, Monitor>;
+  using DecelerationRung = Rung<Scene, Track>;
   static constexpr std::array<DecelerationRung, 4> rungs{{{"equal-torque", &detail::equal_torque<Elliptic>},
                                                           {"averaged", &detail::averaged<Elliptic>},
                                                           {"averaged-2", &detail::averaged_2<Elliptic>},
                                                           {"full", &full_track}}};
   Answer answer =
-      climb<Scene, Track, Monitor>(rungs, scene, scene.data().tolerance, rung_of(scene.data().model), monitor, refusal);
+      climb<Scene, Track>(rungs, scene, scene.data().tolerance, rung_of(scene.data().model), monitor, refusal);
   if (refusal.code == Errc::ok) detail::describe<Elliptic>(answer, scene);
   return answer;
 }

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/body/rotor.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/rotation/symmetric.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// A free gyrostat whose rotor is driven by a motor of limited power (docs/rotor.md, section 2). A carrier turns with Omega; a
+/// rotor symmetric about the axis e, fixed in the carrier, turns with the rate omega relative to it; the motor acts on the rotor with
+/// the moment -S (omega - omega*) e. No torque acts from outside:
+///     H = theta Omega + lambda omega e,   dH/dt = H x Omega,   lambda d/dt(omega + e.Omega) = -S (omega - omega*).
+namespace gyrostat::rotor {
+
+/// What moves, in body axes. SI units.
+template <Real Scalar>
+struct State {
+  Quat<Scalar> attitude{};         ///< body to inertial, unit
+  Vec3<Scalar> momentum{0, 0, 0};  ///< H, of the whole gyrostat about its mass centre, N m s
+  Scalar axial_momentum = 0;       ///< p = lambda (omega + e.Omega), absolute, of the rotor about its axis, N m s
+  Scalar rotor_angle = 0;          ///< integral of omega, rad
+};
+
+/// Body, rotor and motor, validated. Body axes, SI units.
+template <Real Scalar>
+class Gyrostat {
+ public:
+  /// A unit sphere with a free rotor of inertia 1/4 about axis 3.
+  Gyrostat() { *this = make(Mat3<Scalar>::Identity(), Vec3<Scalar>::UnitZ(), Scalar(0.25L), 0, 0).value(); }
+
+  /// inertia_B: theta, of the whole gyrostat about its mass centre, kg m^2, symmetric within 8 eps; axis_B: e, unit within
+  /// 1e-8 (it is normalised); axial_inertia: lambda, of the rotor, kg m^2; slope: S >= 0, N m s/rad; no_load_rate: omega*,
+  /// relative to the carrier, rad/s.
+  /// Errc::not_finite; not_symmetric; not_positive: theta or lambda; zero_vector or out_of_domain: the axis; negative: S;
+  /// triangle_inequality: the rotor has more inertia about its axis than the whole can hold, theta - lambda e e^T is not
+  /// positive (k <= 0). A body that no mass distribution has, but whose equations can be solved, is told by realisability().
+  static Result<Gyrostat> make(const Mat3<Scalar>& inertia_B, const Vec3<Scalar>& axis_B, Scalar axial_inertia,
+                               Scalar slope, Scalar no_load_rate) noexcept {
+    if (!inertia_B.allFinite() || !std::isfinite(slope) || !std::isfinite(no_load_rate)) return Errc::not_finite;
+    const auto rotor = Rotor<Scalar>::from_axis(axis_B, axial_inertia);
+    if (!rotor) return rotor.error();
+    if (slope < 0) return Errc::negative;
+    const Scalar size = inertia_B.cwiseAbs().maxCoeff();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < i; ++j)
+        if (std::abs(inertia_B(i, j) - inertia_B(j, i)) > 8 * epsilon<Scalar> * size) return Errc::not_symmetric;
+
+    Gyrostat made{Unset{}};
+    made.inertia_ = (inertia_B + inertia_B.transpose()) / 2;
+    made.axis_ = rotor->axis();
+    made.axial_inertia_ = axial_inertia;
+    made.slope_ = slope;
+    made.no_load_rate_ = no_load_rate;
+    constexpr Scalar least = 64 * epsilon<Scalar>;
+    const SymmetricEigen<Scalar> whole = symmetric_eigen<Scalar>(made.inertia_);
+    if (!(whole.values[0] > least * whole.values[2])) return Errc::not_positive;
+    const SymmetricEigen<Scalar> free = symmetric_eigen<Scalar>(rotor->inertia_without(made.inertia_));
+    if (!(free.values[0] > least * whole.values[2])) return Errc::triangle_inequality;
+    made.principal_ = whole.values;
+    made.R_BP_ = whole.axes;
+    made.free_principal_ = free.values;
+    made.R_BF_ = free.axes;
+    made.inverse_ = whole.axes * whole.values.cwiseInverse().asDiagonal() * whole.axes.transpose();
+    made.free_inverse_ = free.axes * free.values.cwiseInverse().asDiagonal() * free.axes.transpose();
+    // k = 1 - lambda e.J e without the cancellation
+    made.coupling_ = 1 / (1 + axial_inertia * made.axis_.dot(made.free_inverse_ * made.axis_));
+    return made;
+  }
+
+  const Mat3<Scalar>& inertia() const noexcept { return inertia_; }         ///< theta, kg m^2
+  const Mat3<Scalar>& inverse_inertia() const noexcept { return inverse_; }  ///< J = theta^-1, 1/(kg m^2)
+  /// R^-1, R = theta - lambda e e^T: the inertia with the rotor free to turn about its axis, 1/(kg m^2).
+  const Mat3<Scalar>& free_inverse() const noexcept { return free_inverse_; }
+  const Vec3<Scalar>& principal() const noexcept { return principal_; }  ///< of theta, ascending, kg m^2
+  const Mat3<Scalar>& R_BP() const noexcept { return R_BP_; }            ///< principal axes of theta to body axes
+  const Vec3<Scalar>& free_principal() const noexcept { return free_principal_; }  ///< of R, ascending, kg m^2
+  const Mat3<Scalar>& R_BF() const noexcept { return R_BF_; }                      ///< principal axes of R to body axes
+
+  const Vec3<Scalar>& axis() const noexcept { return axis_; }            ///< e
+  Scalar axial_inertia() const noexcept { return axial_inertia_; }       ///< lambda, kg m^2
+  Scalar slope() const noexcept { return slope_; }                       ///< S, N m s/rad
+  Scalar no_load_rate() const noexcept { return no_load_rate_; }         ///< omega*, rad/s
+  Scalar coupling() const noexcept { return coupling_; }                 ///< k = 1 - lambda e.J e, in (0, 1)
+  Scalar relaxation_rate() const noexcept { return slope_ / (axial_inertia_ * coupling_); }  ///< S/(lambda k), 1/s
+  Scalar target_momentum() const noexcept { return axial_inertia_ * no_load_rate_; }         ///< h = lambda omega*, N m s
+
+  /// Omega of H and p, rad/s.
+  Vec3<Scalar> angular_velocity(const Vec3<Scalar>& H, Scalar p) const noexcept {
+    return free_inverse_ * (H - p * axis_);
+  }
+  /// omega of p and Omega, relative to the carrier, rad/s.
+  Scalar rotor_rate(Scalar p, const Vec3<Scalar>& Omega) const noexcept {
+    return p / axial_inertia_ - axis_.dot(Omega);
+  }
+  /// The state in which the carrier turns with Omega and the rotor with the rate omega relative to it. Where the two parts of H
+  /// cancel to rounding, H = 0 exactly.
+  State<Scalar> state(const Quat<Scalar>& attitude, const Vec3<Scalar>& Omega, Scalar omega) const noexcept {
+    const Vec3<Scalar> carrier = inertia_ * Omega;
+    Vec3<Scalar> H = carrier + axial_inertia_ * omega * axis_;
+    const Scalar lost = 8 * epsilon<Scalar> * (carrier.norm() + axial_inertia_ * std::abs(omega));
+    if (H.norm() <= lost) H.setZero();
+    return {attitude, H, axial_inertia_ * (omega + axis_.dot(Omega)), 0};
+  }
+
+  /// Rotational energy about the mass centre, J.
+  Scalar energy(const Vec3<Scalar>& H, Scalar p) const noexcept {
+    const Vec3<Scalar> G = H - p * axis_;
+    return G.dot(free_inverse_ * G) / 2 + p * p / (2 * axial_inertia_);
+  }
+  /// F(H) = (H - h e).J (H - h e)/2, J: the Lyapunov function at omega = omega*. Its critical points on |H| = l are the steady
+  /// rotations.
+  Scalar steady_level(const Vec3<Scalar>& H) const noexcept {
+    const Vec3<Scalar> y = H - target_momentum() * axis_;
+    return y.dot(inverse_ * y) / 2;
+  }
+  /// V = energy - omega* p + lambda omega*^2/2 = F(H) + lambda k (omega - omega*)^2/2 >= 0, J. dV/dt = -S (omega - omega*)^2.
+  Scalar lyapunov(const Vec3<Scalar>& H, Scalar p) const noexcept {
+    const Scalar x = rotor_rate(p, angular_velocity(H, p)) - no_load_rate_;
+    return steady_level(H) + axial_inertia_ * coupling_ * x * x / 2;
+  }
+
+  /// Least eigenvalue of tr(theta)/2 E - theta - lambda/2 (E - e e^T), kg m^2: negative where no mass distribution has this
+  /// theta and this rotor (the thinnest disc is assumed for the rotor). Stronger than the triangle inequality.
+  Scalar realisability() const noexcept {
+    const Mat3<Scalar> E = Mat3<Scalar>::Identity();
+    const Mat3<Scalar> second_moments =
+        inertia_.trace() / 2 * E - inertia_ - axial_inertia_ / 2 * (E - axis_ * axis_.transpose());
+    return symmetric_eigen<Scalar>(second_moments).values[0];
+  }
+  /// Whether realisability() >= 0, to rounding.
+  bool realisable() const noexcept { return realisability() >= -8 * epsilon<Scalar> * principal_[2]; }
+
+ private:
+  struct Unset {};
+  explicit Gyrostat(Unset) noexcept {}
+
+  Mat3<Scalar> inertia_, inverse_, free_inverse_, R_BP_, R_BF_;
+  Vec3<Scalar> principal_, free_principal_, axis_;
+  Scalar axial_inertia_, slope_, no_load_rate_, coupling_;
+};
+
+}  // namespace gyrostat::rotor
