@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/rotor/column_errors.hpp"
+
+#include "../../models/rotor/bodies.hpp"
+#include "catch.hpp"
+#include "gyrostat/rotation/exp_log.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::rotor;
+
+TEST_CASE("the greatest of the errors is NaN if any is", "[rotor]") {
+  ColumnErrors<double> errors{1, 2, 3, 4, 6, 5};
+  CHECK(errors.greatest() == 6);
+  errors.angular_velocity = gyrostat::nan<double>;
+  CHECK(std::isnan(errors.greatest()));
+  errors.attitude = infinity<double>;
+  CHECK(std::isnan(errors.greatest()));
+}
+
+TEST_CASE("the angle between attitudes keeps its digits and ignores the signs of quaternions", "[rotor]") {
+  Bodies bodies(5);
+  for (double angle = 3.1; angle > 1e-15; angle /= 7) {
+    const Quat<double> q = bodies.attitude();
+    const Quat<double> turned = q * quaternion_from_vector<double>(bodies.direction() * angle);
+    CHECK(angle_between(q, turned) == Approx(angle).epsilon(1e-9).margin(4e-16));
+    CHECK(angle_between(q, Quat<double>{-turned.w, -turned.x, -turned.y, -turned.z}) ==
+          Approx(angle).epsilon(1e-9).margin(4e-16));
+  }
+}
+
+TEST_CASE("a comparison measures each column by its own size", "[rotor]") {
+  const auto body = reference_body(0.05, 30);
+  const Vec3<double> Omega(0.1, -0.2, 0.3);
+  const State<double> a = body.state({}, Omega, 5);
+  State<double> b = body.state(quaternion_from_vector<double>({0, 0, 0.01}), Omega * 1.001, 5.002);
+  State<double> c = a;
+  c.rotor_angle = 10;
+  b.rotor_angle = 10.5;
+  Comparison<double> comparison(body);
+  comparison.add(a, a);
+  CHECK(comparison.difference().greatest() == 0);
+  CHECK(comparison.relative(comparison.difference()).greatest() == 0);
+  comparison.add(c, b);
+  const auto relative = comparison.relative(comparison.difference());
+  CHECK(relative.attitude == Approx(0.01));
+  CHECK(relative.angular_velocity == Approx(0.001));
+  CHECK(relative.rotor_rate == Approx(0.002 / 5));
+  CHECK(relative.rotor_angle == Approx(0.05));
+  CHECK(relative.angular_momentum == Approx((b.momentum - a.momentum).norm() / a.momentum.norm()));
+  b.axial_momentum = gyrostat::nan<double>;
+  comparison.add(a, b);
+  CHECK(std::isnan(comparison.difference().rotor_rate));
+}
