@@ -4,19 +4,18 @@
 // the stop time, the median of stated over true, and the worst cases with their scenes.
 //
 //     honesty [SCENES = 10000] [SEED = 1] [RUNG = auto] [DECADES = 5]     eps from 10^-DECADES to 1
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <map>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "gyrostat/ladder/deceleration/solve.hpp"
+#include "honesty.hpp"
 
 namespace {
 
@@ -83,27 +82,6 @@ class Scenes {
   std::mt19937_64 random_;
 };
 
-struct Case {
-  double ratio;  ///< true over stated
-  std::string text;
-};
-
-double column_error(const Column& column, const Column& truth) {
-  double most = 0, size = 0;
-  const std::size_t w = std::size_t(column.width);
-  for (std::size_t i = 0; i < column.values.size(); i += w) {
-    double difference = 0, norm = 0;
-    for (std::size_t j = i; j < i + w; ++j) {
-      difference += (column.values[j] - truth.values[j]) * (column.values[j] - truth.values[j]);
-      norm += truth.values[j] * truth.values[j];
-    }
-    most = std::max(most, std::sqrt(difference));
-    size = std::max(size, std::sqrt(norm));
-    if (std::isnan(difference)) return infinity<double>;
-  }
-  return column.name == std::string_view("modulus_squared") || size == 0 ? most : most / size;
-}
-
 std::string describe(const Scenes::Made& made, const Answer& answer) {
   const SceneData& d = made.data;
   const Vec3<double> J = made.body.principal();
@@ -116,79 +94,6 @@ std::string describe(const Scenes::Made& made, const Answer& answer) {
                 d.momentum[1], d.momentum[2], d.times.back());
   return line;
 }
-
-Quantity stop_of(const Answer& answer) {
-  for (const Quantity& q : answer.quantities)
-    if (q.name == std::string_view("stop_time")) return q;
-  return {"stop_time", 1, {gyrostat::nan<double>}};
-}
-
-/// What is seen at one tolerance.
-struct Tally {
-  int answered = 0, honest = 0, met = 0, over = 0, refused = 0, outside = 0, unknown = 0;
-  std::map<std::string, int> outcomes;
-  std::map<std::string, std::vector<double>> ratios;  ///< stated over true
-  std::vector<Case> worst;
-  std::vector<std::string> examples;
-  double slowest = 0;
-  std::string slow;
-
-  void time(double seconds, const Scenes::Made& made, const Answer& answer) {
-    if (seconds > slowest) slowest = seconds, slow = describe(made, answer);
-  }
-  void refuse(const Refusal& refusal, const Scenes::Made& made, const Answer& answer) {
-    ++refused;
-    if (outcomes[std::string("refused: ") + refusal.why]++ < 2) examples.push_back(describe(made, answer));
-  }
-  void compare(const Answer& answer, const Answer& truth, const Scenes::Made& made) {
-    ++answered;
-    ++outcomes[answer.model];
-    bool good = true, within = true;
-    double most = 0;
-    std::string which;
-    const auto one = [&](const char* name, double error, double stated, double own) {
-      error = std::max(0.0, error - own);  // what the truth itself may be off by
-      if (error > 0) ratios[std::string(answer.model) + " " + name].push_back(stated / error);
-      good = good && error <= stated;
-      within = within && error <= answer.tolerance;
-      const double ratio = error == 0 ? 0 : error / stated;
-      if (!(ratio <= most)) most = ratio, which = name;
-    };
-    for (const Column& column : answer.columns) {
-      if (column.name == std::string_view("regime")) continue;
-      const Column* right = truth.find(column.name);
-      one(column.name, column_error(column, *right), column.error, right->error);
-    }
-    const Quantity stop = stop_of(answer), right = stop_of(truth);
-    if (std::isfinite(stop.values[0]) && std::isfinite(right.values[0]))
-      one("stop_time", std::abs(stop.values[0] / right.values[0] - 1), stop.error, right.error);
-    honest += good;
-    met += answer.met;
-    over += answer.met && !within;
-    if (!good) worst.push_back({most, which + " " + describe(made, answer)});
-  }
-  void print(double tolerance) {
-    std::printf("tolerance %.0e: %d answered, %d refused, %d outside the rung's domain, %d without a truth\n",
-                tolerance, answered, refused, outside, unknown);
-    std::printf("  slowest %.3f s: %s\n", slowest, slow.c_str());
-    for (const auto& [name, n] : outcomes) std::printf("  %6d %s\n", n, name.c_str());
-    std::printf("  true <= stated in %.4f %%; met in %d, of which over the tolerance %d\n",
-                100.0 * honest / std::max(1, answered), met, over);
-    std::vector<double> all;
-    for (auto& [name, values] : ratios) {
-      std::sort(values.begin(), values.end());
-      std::printf("  stated/true %-36s n %6zu  least %9.3g  1 %% %9.3g  median %9.3g\n", name.c_str(), values.size(),
-                  values.front(), values[values.size() / 100], values[values.size() / 2]);
-      all.insert(all.end(), values.begin(), values.end());
-    }
-    std::sort(all.begin(), all.end());
-    if (!all.empty()) std::printf("  stated/true of all: least %.3g, median %.3g\n", all.front(), all[all.size() / 2]);
-    for (const auto& text : examples) std::printf("  refused: %s\n", text.c_str());
-    std::sort(worst.begin(), worst.end(), [](const Case& a, const Case& b) { return a.ratio > b.ratio; });
-    for (std::size_t i = 0; i < std::min<std::size_t>(8, worst.size()); ++i)
-      std::printf("  true/stated %.3g: %s\n", worst[i].ratio, worst[i].text.c_str());
-  }
-};
 
 }  // namespace
 
@@ -204,7 +109,7 @@ int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
 
   static constexpr double tolerances[] = {1e-3, 1e-6};
-  Tally tallies[2];
+  honesty::Tally tallies[2];
   Scenes scenes(seed, decades);
   for (int i = 0; i < count; ++i) {
     const auto made = scenes.next();
@@ -222,9 +127,9 @@ int main(int argc, char** argv) {
       const auto begin = std::chrono::steady_clock::now();
       const Answer answer = solve(posed(tolerances[k], rung), refusal);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      tallies[k].time(seconds, made, answer);
+      tallies[k].time(seconds, describe(made, answer));
       if (refusal.code != Errc::ok) {
-        tallies[k].refuse(refusal, made, answer);
+        tallies[k].refuse(refusal, describe(made, answer));
         continue;
       }
       if (rung != Model::any && answer.tried.back().why) {
@@ -234,7 +139,7 @@ int main(int argc, char** argv) {
       if (!known) truth = solve(posed(1e-12, Model::full), failed);
       known = true;
       if (failed.code != Errc::ok) ++tallies[k].unknown;
-      else tallies[k].compare(answer, truth, made);
+      else tallies[k].compare(answer, truth, describe(made, answer), "stop_time");
     }
     if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
   }

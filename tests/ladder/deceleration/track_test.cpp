@@ -113,10 +113,10 @@ TEST_CASE("a warning is given once", "[deceleration]") {
 }
 
 TEST_CASE("refusals carry their reason or their error", "[deceleration]") {
-  const Track refused = Track::refused(Errc::separatrix, "why");
-  CHECK(refused.failure == Errc::separatrix);
-  CHECK(refused.refusal != nullptr);
-  const Track over = Track::over(.1);
+  const Track why = gyrostat::refused<Track>(Errc::separatrix, "why");
+  CHECK(why.failure == Errc::separatrix);
+  CHECK(why.refusal != nullptr);
+  const Track over = over_tolerance<Track>(.1);
   CHECK(over.failure == Errc::not_applicable);
   CHECK(over.refusal == nullptr);
   CHECK(over.known_error == .1);

@@ -50,8 +50,8 @@ TEST_CASE("theta of carrier and rotor is that of all their points", "[rotor]") {
     for (const double height : {-0.1, 0.1}) {
       for (int i = 0; i < 12; ++i) {
         const double angle = i * pi<double> / 6;
-        wheel.emplace_back(0.05, c1 + parts.offset + 0.4 * (std::cos(angle) * a + std::sin(angle) * b) +
-                                     height * parts.axis);
+        wheel.emplace_back(0.05,
+                           c1 + parts.offset + 0.4 * (std::cos(angle) * a + std::sin(angle) * b) + height * parts.axis);
         m2 += 0.05;
       }
     }

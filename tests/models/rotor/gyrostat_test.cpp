@@ -88,8 +88,8 @@ TEST_CASE("state, rates and the two forms of V agree", "[rotor]") {
     const Vec3<double> back = body.angular_velocity(s.momentum, s.axial_momentum);
     CHECK((back - Omega).norm() < 1e-13 * (Omega.norm() + std::abs(omega)));
     CHECK(body.rotor_rate(s.axial_momentum, back) == Approx(omega).margin(1e-12));
-    const double T = Omega.dot(body.inertia() * Omega) / 2 + lambda * omega * Omega.dot(body.axis()) +
-                     lambda * omega * omega / 2;
+    const double T =
+        Omega.dot(body.inertia() * Omega) / 2 + lambda * omega * Omega.dot(body.axis()) + lambda * omega * omega / 2;
     CHECK(body.energy(s.momentum, s.axial_momentum) == Approx(T).epsilon(1e-12));
     const double rate = body.no_load_rate();
     CHECK(body.lyapunov(s.momentum, s.axial_momentum) ==
@@ -111,8 +111,8 @@ TEST_CASE("rotating the body axes changes no scalar", "[rotor]") {
     const Mat3<double> R = to_matrix(bodies.attitude());
     Mat3<double> theta = R * body.inertia() * R.transpose();
     theta = ((theta + theta.transpose()) / 2).eval();
-    const auto turned = Gyrostat<double>::make(theta, (R * body.axis()).normalized(), body.axial_inertia(), body.slope(),
-                                               body.no_load_rate());
+    const auto turned = Gyrostat<double>::make(theta, (R * body.axis()).normalized(), body.axial_inertia(),
+                                               body.slope(), body.no_load_rate());
     REQUIRE(turned);
     CHECK(turned->coupling() == Approx(body.coupling()).epsilon(1e-13));
     CHECK(turned->realisability() == Approx(body.realisability()).margin(1e-12));

@@ -71,12 +71,12 @@ struct Start {
 };
 
 inline Start start_of(const Scene& scene) {
-  if (const char* why = not_averaged(scene)) return {{}, Track::refused(Errc::not_applicable, why)};
+  if (const char* why = not_averaged(scene)) return {{}, refused<Track>(Errc::not_applicable, why)};
   const auto p = polhode_through<double>(scene.problem().inverse_inertia, scene.problem().momentum);
   if (!std::isfinite(p.modulus.k2) || !std::isfinite(p.modulus.kp2))
-    return {p, Track::refused(Errc::not_applicable,
+    return {p, refused<Track>(Errc::not_applicable,
                               "M lies across an axis of symmetry: there is no polhode to average over")};
-  if (!(p.modulus.kp2 > 0)) return {p, Track::refused(Errc::separatrix, "the motion starts on the separatrix")};
+  if (!(p.modulus.kp2 > 0)) return {p, refused<Track>(Errc::separatrix, "the motion starts on the separatrix")};
   return {p, {}};
 }
 
@@ -145,11 +145,11 @@ Track averaged_track(const Scene& scene) {
   if (scene.data().model == Model::any) {
     const auto least = run.error().first_order(norm0, energy0);
     const double error = std::max({least.norm / norm0, least.energy / energy0, least.k2});
-    if (error > scene.data().tolerance) return Track::over(error);
+    if (error > scene.data().tolerance) return over_tolerance<Track>(error);
   }
   for (const double t : scene.data().times) {
     if (run.advance(t) != ode::Status::reached)
-      return Track::refused(Errc::no_convergence, "the mean equations could not be integrated");
+      return refused<Track>(Errc::no_convergence, "the mean equations could not be integrated");
     detail::keep_sample(track, run.motion().state());
   }
   const auto error = run.error().first_order(norm0, energy0);
@@ -165,7 +165,7 @@ Track averaged_track(const Scene& scene) {
     const double tail = low * std::abs(1 / scene.least_control() - 1 / D);
     const double drift = run.error().first_order(norm0, energy0).norm / D;
     const auto stop = run.motion().stop_time();
-    if (!stop) return Track::refused(stop.error(), "the mean equations could not be integrated to rest");
+    if (!stop) return refused<Track>(stop.error(), "the mean equations could not be integrated to rest");
     late = scene.greatest_control() > 0 ? (tail + drift) / *stop : 0;
   }
   if (const auto stop = run.motion().stop_time()) track.stop_time = *stop;
@@ -203,12 +203,12 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   const auto away = oscillation<Elliptic>(start, b, norm0, u0);
   const auto mean = shifted(start, -away.spread);
   if (!mean.valid || !(std::abs(away.norm) < .5))
-    return Track::refused(Errc::separatrix, "one oscillation reaches the separatrix: there is no mean polhode");
+    return refused<Track>(Errc::separatrix, "one oscillation reaches the separatrix: there is no mean polhode");
 
   // The later the full equations take over, the less the mean ones err there and the more turns the full ones make.
   const double last_norm = hand_over_share(scene) * breakdown_momentum(problem, scene.greatest_control());
   if (!(last_norm < norm0 / 2))
-    return Track::refused(Errc::not_applicable,
+    return refused<Track>(Errc::not_applicable,
                           "the braking is too fast: averaging would hand over to the full equations at the start");
 
   Track track;
@@ -222,11 +222,11 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   constexpr const char* lost = "the motion comes so near the separatrix that the second order is lost";
   for (; done < times.size(); ++done) {
     if (run.advance(times[done], last_norm) != ode::Status::reached)
-      return Track::refused(Errc::no_convergence, "the mean equations could not be integrated");
-    if (run.motion().crossed() || run.motion().stuck()) return Track::refused(Errc::separatrix, lost);
+      return refused<Track>(Errc::no_convergence, "the mean equations could not be integrated");
+    if (run.motion().crossed() || run.motion().stuck()) return refused<Track>(Errc::separatrix, lost);
     if (run.motion().floored()) break;
     const auto now = detail::osculating<Elliptic>(problem, run.motion().state());
-    if (!now.valid) return Track::refused(Errc::separatrix, lost);
+    if (!now.valid) return refused<Track>(Errc::separatrix, lost);
     detail::keep_sample(track, now.state);
     track.momentum.push_back(now.momentum);
   }
@@ -248,14 +248,14 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   } else {
     const bool reached = run.advance(infinity<double>, last_norm) == ode::Status::reached;
     if (!reached || run.motion().crossed() || run.motion().stuck()) {
-      if (done < times.size()) return Track::refused(Errc::separatrix, lost);
+      if (done < times.size()) return refused<Track>(Errc::separatrix, lost);
       track.warn("crosses-separatrix", "after the asked times the motion crosses the separatrix: no stop time");
     } else {
       const auto at_end = detail::osculating<Elliptic>(problem, run.motion().state());
-      if (!at_end.valid) return Track::refused(Errc::separatrix, lost);
+      if (!at_end.valid) return refused<Track>(Errc::separatrix, lost);
       const Errc failure =
           hand_over(track, scene, at_end.momentum, run.motion().time(), run.error().second_order(), monitor);
-      if (failure != Errc::ok) return Track::refused(failure, "the full equations could not take over near rest");
+      if (failure != Errc::ok) return refused<Track>(failure, "the full equations could not take over near rest");
       track.stop_error += 100 * tolerance;
     }
   }

@@ -136,9 +136,9 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto& problem = scene.problem();
   const double tolerance = std::max(1e-13, scene.data().tolerance * 1e-5);
   const auto run = detail::cvode_run(scene, tolerance, monitor);
-  if (run.failure != Errc::ok) return Track::refused(run.failure, message(run.failure));
+  if (run.failure != Errc::ok) return refused<Track>(run.failure, message(run.failure));
   const auto looser = detail::cvode_run(scene, 10 * tolerance, monitor);
-  if (looser.failure != Errc::ok) return Track::refused(looser.failure, message(looser.failure));
+  if (looser.failure != Errc::ok) return refused<Track>(looser.failure, message(looser.failure));
 
   Track track;
   track.momentum = run.momentum;

@@ -11,15 +11,15 @@ namespace gyrostat::deceleration {
 /// Rung `equal-torque`: one control torque for all axes and no rotor momentum; exact.
 template <class Elliptic>
 Track equal_torque_track(const Scene& scene) {
-  if (!scene.equal_control()) return Track::refused(Errc::not_applicable, "the control torques are not equal");
+  if (!scene.equal_control()) return refused<Track>(Errc::not_applicable, "the control torques are not equal");
   if (scene.has_rotor())
-    return Track::refused(Errc::not_applicable, "with rotor momentum only |M| has a closed form, not the energy");
-  if (scene.data().wants_attitude) return Track::refused(Errc::not_applicable, "the closed form has no attitude");
+    return refused<Track>(Errc::not_applicable, "with rotor momentum only |M| has a closed form, not the energy");
+  if (scene.data().wants_attitude) return refused<Track>(Errc::not_applicable, "the closed form has no attitude");
   if (!(scene.problem().momentum.norm() > 0))
-    return Track::refused(Errc::not_applicable, "the body is at rest at the start");
+    return refused<Track>(Errc::not_applicable, "the body is at rest at the start");
 
   const EqualTorqueMotion<double, Elliptic> motion(scene.problem());
-  if (!(motion.modulus().kp2 > 0)) return Track::refused(Errc::separatrix, "the motion starts on the separatrix");
+  if (!(motion.modulus().kp2 > 0)) return refused<Track>(Errc::separatrix, "the motion starts on the separatrix");
   Track track;
   double rounding = 0;
   for (const double t : scene.data().times) {

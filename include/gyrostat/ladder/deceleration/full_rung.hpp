@@ -103,12 +103,12 @@ inline Track full_motion_track(const Problem<double>& problem, std::span<const d
   options.find_stop = find_stop;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(problem, times, track.momentum, options, attitude, track.attitude);
-  if (!answer) return Track::refused(answer.error(), message(answer.error()));
+  if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached) {
     const Errc code = answer->status == ode::Status::cancelled    ? Errc::cancelled
                       : answer->status == ode::Status::step_limit ? Errc::step_limit
                                                                   : Errc::no_convergence;
-    return Track::refused(code, detail::why_stopped(answer->status));
+    return refused<Track>(code, detail::why_stopped(answer->status));
   }
   track.stop_time = answer->stop_time;
   track.counts = answer->counts;

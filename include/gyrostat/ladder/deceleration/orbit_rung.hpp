@@ -194,10 +194,10 @@ Impasse impasse(const Problem<double>& problem, const Motion& motion) {
 
 inline Track not_followed(Errc failure) {
   if (failure == Errc::undetermined)
-    return Track::refused(failure, "the motion is captured into one of two lobes, and averaging does not tell which");
-  if (failure == Errc::separatrix) return Track::refused(failure, "the motion comes to a separatrix");
-  if (failure == Errc::step_limit) return Track::refused(failure, "the mean equations need too many steps");
-  return Track::refused(failure, "the mean equations could not be integrated");
+    return refused<Track>(failure, "the motion is captured into one of two lobes, and averaging does not tell which");
+  if (failure == Errc::separatrix) return refused<Track>(failure, "the motion comes to a separatrix");
+  if (failure == Errc::step_limit) return refused<Track>(failure, "the mean equations need too many steps");
+  return refused<Track>(failure, "the mean equations could not be integrated");
 }
 
 }  // namespace detail
@@ -205,7 +205,7 @@ inline Track not_followed(Errc failure) {
 /// First order over the free gyrostat orbit.
 template <class Elliptic>
 Track orbit_averaged_track(const Scene& scene, Monitor*) {
-  if (const char* why = detail::not_averaged(scene)) return Track::refused(Errc::not_applicable, why);
+  if (const char* why = detail::not_averaged(scene)) return refused<Track>(Errc::not_applicable, why);
   const auto& problem = scene.problem();
   const auto orbit = Orbit<double>::through(problem, problem.momentum);
   if (!orbit) return detail::not_followed(orbit.error());
@@ -266,13 +266,13 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
 /// Second order over the free gyrostat orbit: M itself to first order in the torques.
 template <class Elliptic>
 Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
-  if (const char* why = detail::not_averaged(scene)) return Track::refused(Errc::not_applicable, why);
+  if (const char* why = detail::not_averaged(scene)) return refused<Track>(Errc::not_applicable, why);
   const auto& problem = scene.problem();
   Orbit<double, Elliptic> orbit;
   const auto mean = mean_of<Elliptic>(problem, problem.momentum, &orbit);
   if (!mean) return detail::not_followed(mean.error());
   if (orbit.regime() == Regime::point)
-    return Track::refused(Errc::not_applicable,
+    return refused<Track>(Errc::not_applicable,
                           "the motion starts on an equilibrium: there is nothing to average over");
 
   const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
@@ -280,11 +280,11 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   const Vec3<double> U =
       problem.law == Law::total ? problem.momentum : Vec3<double>(problem.momentum - problem.rotor_momentum);
   if (!(floor < U.norm() / 2))
-    return Track::refused(Errc::not_applicable,
+    return refused<Track>(Errc::not_applicable,
                           "the braking is too fast: averaging would hand over to the full equations at the start");
   const double turns = U.norm() / std::max(scene.greatest_control(), 1e-300) / orbit.period();
   if (scene.data().model == Model::any && turns < 1000)
-    return Track::refused(Errc::not_applicable, "the full equations are cheaper: the braking takes few turns");
+    return refused<Track>(Errc::not_applicable, "the full equations are cheaper: the braking takes few turns");
 
   Track track;
   OrbitError<Elliptic> error(problem);
@@ -318,8 +318,8 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   track.momentum_error = in_span.vector + (local + 6 * lag) * norm0;
   track.counts = motion.counts();
   if (motion.rates().phase_lost || motion.changed_component())
-    return Track::refused(Errc::not_applicable, "the kind of orbit changes: the phase is lost, and M with it");
-  if (!error.known()) return Track::refused(Errc::no_convergence, "the size of the second order is not known");
+    return refused<Track>(Errc::not_applicable, "the kind of orbit changes: the phase is lost, and M with it");
+  if (!error.known()) return refused<Track>(Errc::no_convergence, "the size of the second order is not known");
   detail::warn_of_orbit(track, scene, Orbit<double>::through(problem, problem.momentum).value());
 
   if (!(scene.greatest_control() > 0)) {
@@ -340,7 +340,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   const auto M = osculating_of<Elliptic>(problem, {now.level, now.phase, now.component}, &motion.rates().reference);
   if (!M) return detail::not_followed(M.error());
   const Errc failure = hand_over(track, scene, *M, motion.time(), error.second_order_error(), monitor);
-  if (failure != Errc::ok) return Track::refused(failure, "the full equations could not take over near rest");
+  if (failure != Errc::ok) return refused<Track>(failure, "the full equations could not take over near rest");
   track.stop_error += 100 * tolerance;
   withhold(track, scene);
   return track;

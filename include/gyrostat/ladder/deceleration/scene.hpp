@@ -8,6 +8,7 @@
 #include "gyrostat/body/inertia.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/monitor.hpp"
+#include "gyrostat/ladder/times.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 
@@ -40,21 +41,13 @@ class Scene {
  public:
   Scene() = default;
 
-  /// not_finite, negative (control, drag, a time), not_increasing (times), out_of_domain (no times, tolerance outside
-  /// (0, 1)), zero_vector (an attitude without length).
+  /// not_finite, negative (control, drag), zero_vector (an attitude without length), and what check_times finds.
   static Result<Scene> make(const Inertia<double>& body, const SceneData& data) {
     if (!data.rotor_momentum.allFinite() || !data.control.allFinite() || !std::isfinite(data.drag) ||
-        !data.momentum.allFinite() || !std::isfinite(data.tolerance))
+        !data.momentum.allFinite())
       return Errc::not_finite;
     if (data.control.minCoeff() < 0 || data.drag < 0) return Errc::negative;
-    if (!(data.tolerance > 0 && data.tolerance < 1) || data.times.empty()) return Errc::out_of_domain;
-    double last = -1;
-    for (const double t : data.times) {
-      if (!std::isfinite(t)) return Errc::not_finite;
-      if (t < 0) return Errc::negative;
-      if (!(t > last)) return Errc::not_increasing;
-      last = t;
-    }
+    if (const Errc wrong = check_times(data.times, data.tolerance); wrong != Errc::ok) return wrong;
     const double length = norm(data.attitude);
     if (!std::isfinite(length)) return Errc::not_finite;
     if (!(length > 0)) return Errc::zero_vector;

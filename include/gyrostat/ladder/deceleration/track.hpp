@@ -5,14 +5,14 @@
 #include <string_view>
 #include <vector>
 
-#include "gyrostat/ladder/answer.hpp"
 #include "gyrostat/ladder/deceleration/scene.hpp"
+#include "gyrostat/ladder/outcome.hpp"
 #include "gyrostat/models/deceleration/regime.hpp"
 
 namespace gyrostat::deceleration {
 
 /// What a rung finds at the asked times, in principal axes. Empty columns are not known to the rung.
-struct Track {
+struct Track : Outcome {
   std::vector<double> norm, energy, k2;
   std::vector<Regime> regime;
   std::vector<Vec3<double>> momentum;
@@ -23,31 +23,6 @@ struct Track {
   double norm_error = 0, energy_error = 0, k2_error = 0, momentum_error = 0, attitude_error = 0;
   double velocity_error = nan<double>;  ///< relative; NaN: as momentum_error implies
   double stop_error = 0;                ///< relative
-
-  std::vector<Warning> warnings;
-  ode::Counts counts;
-  Errc failure = Errc::ok;           ///< why there is no track
-  const char* refusal = nullptr;     ///< why the rung cannot answer, in words; nullptr where only known_error decided
-  double known_error = nan<double>;  ///< the error seen before the rung gave up
-  bool in_domain = true;             ///< false: computed outside the rung's domain, the errors are not to be trusted
-
-  static Track refused(Errc code, const char* why) {
-    Track track;
-    track.failure = code;
-    track.refusal = why;
-    return track;
-  }
-  /// The error is over the tolerance already before the motion is computed.
-  static Track over(double error) {
-    Track track = refused(Errc::not_applicable, nullptr);
-    track.known_error = error;
-    return track;
-  }
-  void warn(const char* code, const char* text, double value = nan<double>) {
-    for (const Warning& w : warnings)
-      if (w.code == code) return;
-    warnings.push_back({code, text, value});
-  }
 };
 
 namespace detail {

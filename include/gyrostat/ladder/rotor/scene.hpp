@@ -7,6 +7,7 @@
 
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/monitor.hpp"
+#include "gyrostat/ladder/times.hpp"
 #include "gyrostat/models/rotor/gyrostat.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 
@@ -23,10 +24,10 @@ class Scene;
 
 /// The user's view of a scene, in body axes and SI units.
 struct SceneData {
-  Quat<double> attitude{};                  ///< body to inertial at t = 0, of unit norm
-  Vec3<double> angular_velocity{0, 0, 0};   ///< Omega of the carrier at t = 0, rad/s
-  double rotor_rate = 0;                    ///< omega at t = 0, relative to the carrier, rad/s
-  std::vector<double> times;                ///< s, increasing, the first >= 0
+  Quat<double> attitude{};                 ///< body to inertial at t = 0, of unit norm
+  Vec3<double> angular_velocity{0, 0, 0};  ///< Omega of the carrier at t = 0, rad/s
+  double rotor_rate = 0;                   ///< omega at t = 0, relative to the carrier, rad/s
+  std::vector<double> times;               ///< s, increasing, the first >= 0
   double tolerance = 1e-6;
   Model model = Model::any;
   Integrator integrator = Integrator::any;
@@ -39,19 +40,10 @@ class Scene {
  public:
   Scene() = default;
 
-  /// not_finite; negative (a time); not_increasing (times); out_of_domain (no times, tolerance outside (0, 1));
-  /// zero_vector (an attitude without length).
+  /// not_finite; zero_vector (an attitude without length); and what check_times finds.
   static Result<Scene> make(const Gyrostat<double>& gyrostat, const SceneData& data) {
-    if (!data.angular_velocity.allFinite() || !std::isfinite(data.rotor_rate) || !std::isfinite(data.tolerance))
-      return Errc::not_finite;
-    if (!(data.tolerance > 0 && data.tolerance < 1) || data.times.empty()) return Errc::out_of_domain;
-    double last = -1;
-    for (const double t : data.times) {
-      if (!std::isfinite(t)) return Errc::not_finite;
-      if (t < 0) return Errc::negative;
-      if (!(t > last)) return Errc::not_increasing;
-      last = t;
-    }
+    if (!data.angular_velocity.allFinite() || !std::isfinite(data.rotor_rate)) return Errc::not_finite;
+    if (const Errc wrong = check_times(data.times, data.tolerance); wrong != Errc::ok) return wrong;
     const double length = norm(data.attitude);
     if (!std::isfinite(length)) return Errc::not_finite;
     if (!(length > 0)) return Errc::zero_vector;

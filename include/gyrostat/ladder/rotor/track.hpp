@@ -4,37 +4,17 @@
 #include <cmath>
 #include <vector>
 
-#include "gyrostat/ladder/answer.hpp"
+#include "gyrostat/ladder/outcome.hpp"
 #include "gyrostat/ladder/rotor/column_errors.hpp"
 #include "gyrostat/ladder/rotor/scene.hpp"
 
 namespace gyrostat::rotor {
 
 /// What a rung finds at the asked times.
-struct Track {
+struct Track : Outcome {
   std::vector<State<double>> states;
   /// Estimated greatest errors over the times, each relative to the greatest norm of its column; attitude: the angle, rad.
   ColumnErrors<double> error;
-
-  std::vector<Warning> warnings;
-  ode::Counts counts;
-  Errc failure = Errc::ok;           ///< why there is no track
-  const char* refusal = nullptr;     ///< why the rung cannot answer, in words; nullptr where only known_error decided
-  double known_error = nan<double>;  ///< the error seen before the rung gave up
-  bool in_domain = true;             ///< false: computed outside the rung's domain, the errors are not to be trusted
-
-  static Track refused(Errc code, const char* why) {
-    Track track;
-    track.failure = code;
-    track.refusal = why;
-    return track;
-  }
-  /// The error is over the tolerance already before the motion is computed.
-  static Track over(double error) {
-    Track track = refused(Errc::not_applicable, nullptr);
-    track.known_error = error;
-    return track;
-  }
 };
 
 /// The columns of SCENES.md. The answer's error is the greatest of all columns.

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an honesty run counts: answers whose true error is within the stated one, and the ratio of the two.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gyrostat/ladder/rung.hpp"
+
+namespace gyrostat::honesty {
+
+struct Case {
+  double ratio;  ///< true over stated
+  std::string text;
+};
+
+/// As the contract measures it: relative to the greatest norm; modulus_squared absolute; attitude by the angle, rad.
+inline double column_error(const Column& column, const Column& truth) {
+  double most = 0, size = 0;
+  const std::size_t w = std::size_t(column.width);
+  const bool attitude = column.name == std::string_view("attitude");
+  for (std::size_t i = 0; i < column.values.size(); i += w) {
+    double difference = 0, opposite = 0, norm = 0;
+    for (std::size_t j = i; j < i + w; ++j) {
+      difference += (column.values[j] - truth.values[j]) * (column.values[j] - truth.values[j]);
+      opposite += (column.values[j] + truth.values[j]) * (column.values[j] + truth.values[j]);
+      norm += truth.values[j] * truth.values[j];
+    }
+    if (attitude) most = std::max(most, 4 * std::asin(std::min(1.0, std::sqrt(std::min(difference, opposite)) / 2)));
+    else most = std::max(most, std::sqrt(difference));
+    size = std::max(size, std::sqrt(norm));
+    if (std::isnan(difference)) return infinity<double>;
+  }
+  return column.name == std::string_view("modulus_squared") || attitude || size == 0 ? most : most / size;
+}
+
+/// What is seen at one tolerance.
+struct Tally {
+  int answered = 0, honest = 0, met = 0, over = 0, refused = 0, outside = 0, unknown = 0;
+  std::map<std::string, int> outcomes;
+  std::map<std::string, std::vector<double>> ratios;  ///< stated over true
+  std::vector<Case> worst;
+  std::vector<std::string> examples;
+  double slowest = 0;
+  std::string slow;
+
+  void time(double seconds, const std::string& scene) {
+    if (seconds > slowest) slowest = seconds, slow = scene;
+  }
+  void refuse(const Refusal& refusal, const std::string& scene) {
+    ++refused;
+    if (outcomes[std::string("refused: ") + refusal.why]++ < 2) examples.push_back(scene);
+  }
+  /// Each column of the answer, and the scalar of that name where both have it.
+  void compare(const Answer& answer, const Answer& truth, const std::string& scene, const char* scalar = "") {
+    ++answered;
+    ++outcomes[answer.model];
+    bool good = true, within = true;
+    double most = 0;
+    std::string which;
+    const auto one = [&](const char* name, double error, double stated, double own) {
+      error = std::max(0.0, error - own);  // what the truth itself may be off by
+      if (error > 0) ratios[std::string(answer.model) + " " + name].push_back(stated / error);
+      good = good && error <= stated;
+      within = within && error <= answer.tolerance;
+      const double ratio = error == 0 ? 0 : error / stated;
+      if (!(ratio <= most)) most = ratio, which = name;
+    };
+    for (const Column& column : answer.columns) {
+      if (column.name == std::string_view("regime")) continue;
+      const Column* right = truth.find(column.name);
+      one(column.name, column_error(column, *right), column.error, right->error);
+    }
+    for (const Quantity& q : answer.quantities)
+      for (const Quantity& right : truth.quantities)
+        if (q.name == std::string_view(scalar) && right.name == std::string_view(scalar) &&
+            std::isfinite(q.values[0]) && std::isfinite(right.values[0]))
+          one(scalar, std::abs(q.values[0] / right.values[0] - 1), q.error, right.error);
+    honest += good;
+    met += answer.met;
+    over += answer.met && !within;
+    if (!good) worst.push_back({most, which + " " + scene});
+  }
+  void print(double tolerance) {
+    std::printf("tolerance %.0e: %d answered, %d refused, %d outside the rung's domain, %d without a truth\n",
+                tolerance, answered, refused, outside, unknown);
+    std::printf("  slowest %.3f s: %s\n", slowest, slow.c_str());
+    for (const auto& [name, n] : outcomes) std::printf("  %6d %s\n", n, name.c_str());
+    std::printf("  true <= stated in %.4f %%; met in %d, of which over the tolerance %d\n",
+                100.0 * honest / std::max(1, answered), met, over);
+    std::vector<double> all;
+    for (auto& [name, values] : ratios) {
+      std::sort(values.begin(), values.end());
+      std::printf("  stated/true %-36s n %6zu  least %9.3g  1 %% %9.3g  median %9.3g\n", name.c_str(), values.size(),
+                  values.front(), values[values.size() / 100], values[values.size() / 2]);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    std::sort(all.begin(), all.end());
+    if (!all.empty()) std::printf("  stated/true of all: least %.3g, median %.3g\n", all.front(), all[all.size() / 2]);
+    for (const auto& text : examples) std::printf("  refused: %s\n", text.c_str());
+    std::sort(worst.begin(), worst.end(), [](const Case& a, const Case& b) { return a.ratio > b.ratio; });
+    for (std::size_t i = 0; i < std::min<std::size_t>(8, worst.size()); ++i)
+      std::printf("  true/stated %.3g: %s\n", worst[i].ratio, worst[i].text.c_str());
+  }
+};
+
+}  // namespace gyrostat::honesty

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How honest the answers are: random scenes of the rotor family, solved at three tolerances, against the full equations in long
+// double. Prints the fraction of answers whose true error is within the stated one in every column, the median of stated over true, and
+// the worst cases with their scenes.
+//
+//     rotor_honesty [SCENES = 5000] [SEED = 1] [RUNG = auto]
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <string>
+
+#include "gyrostat/ladder/rotor/full_motion.hpp"
+#include "gyrostat/ladder/rotor/solve.hpp"
+#include "gyrostat/models/rotor/steady.hpp"
+#include "honesty.hpp"
+
+namespace {
+
+using namespace gyrostat;
+using namespace gyrostat::rotor;
+
+/// Bodies, motors and starts of every kind the family knows, the degenerate ones well represented.
+class Scenes {
+ public:
+  explicit Scenes(unsigned seed) : random_(seed) {}
+
+  struct Made {
+    Gyrostat<double> body;
+    SceneData data;
+    const char* kind;
+  };
+
+  Made next() {
+    for (;;) {
+      const char* kind = "generic";
+      Vec3<double> second(scale(0.2, 3), scale(0.2, 3), scale(0.2, 3));
+      Mat3<double> turn = to_matrix(attitude());
+      Vec3<double> e = direction();
+      const double which = unit();
+      double h_over_l = std::copysign(scale(1e-2, 10), unit() - 0.5);
+      if (which < 0.06) {
+        kind = "axisymmetric";
+        second[1] = second[0];
+        e = turn.col(2);
+      } else if (which < 0.1) {
+        kind = "nearly axisymmetric";
+        second[1] = second[0] * (1 + scale(1e-14, 1e-3));
+        e = (turn.col(2) + scale(1e-14, 1e-3) * direction()).normalized();
+      } else if (which < 0.16) {
+        kind = "principal axis";
+        e = turn.col(int(3 * unit()));
+      } else if (which < 0.2) {
+        kind = "near a principal axis";
+        e = (turn.col(int(3 * unit())) + scale(1e-12, 1e-2) * direction()).normalized();
+      } else if (which < 0.24) {
+        kind = "sphere";
+        second[1] = second[2] = second[0];
+      } else if (which < 0.28) {
+        kind = "target at rest";
+        h_over_l = 0;
+      }
+      const double lambda = scale(1e-3, 1);
+      const double mu = lambda * (0.5 + unit());
+      const Mat3<double> E = Mat3<double>::Identity();
+      const Mat3<double> carrier = turn * (second.sum() * E - Mat3<double>(second.asDiagonal())) * turn.transpose();
+      Mat3<double> theta = carrier + lambda * e * e.transpose() + mu * (E - e * e.transpose());
+      theta = ((theta + theta.transpose()) / 2).eval();
+      const double l = scale(1e-1, 1e2);
+      const double spin = l / theta.trace();
+      // relaxation from far slower to far faster than the turn
+      double slope = lambda * spin * scale(1e-5, 30);
+      if (unit() < 0.05) slope = lambda * spin * scale(30, 1e3), kind = "stiff";
+      if (unit() < 0.04) slope = 0, kind = "free rotor";
+      auto made = Gyrostat<double>::make(theta, e, lambda, slope, h_over_l * l / lambda);
+      if (!made) continue;
+
+      Made scene{*made, {}, kind};
+      SceneData& d = scene.data;
+      d.attitude = attitude();
+      Vec3<double> H = l * direction();
+      double omega = unit() < 0.3   ? made->no_load_rate()
+                     : unit() < 0.5 ? 0
+                                    : std::copysign(scale(1e-2, 3), unit() - 0.5) * l / lambda;
+      const double start = unit();
+      if (start < 0.05) {
+        scene.kind = "at rest";
+        H.setZero();
+      } else if (start < 0.09) {
+        scene.kind = "nearly at rest";
+        H *= scale(1e-14, 1e-4);
+      } else if (start < 0.4) {
+        // at, or near, a steady rotation
+        const auto steady = steady_rotations(*made, l);
+        if (steady.count > 0) {
+          const auto& near = steady.at[std::size_t(int(unit() * steady.count))];
+          const double off = start < 0.15 ? 0 : scale(1e-10, 0.3);
+          H = l * (near.direction + off * direction()).normalized();
+          omega = made->no_load_rate() + off * spin * (2 * unit() - 1);
+          scene.kind = off == 0                           ? "steady"
+                       : near.type == SteadyType::minimum ? "near a minimum"
+                                                          : "near a saddle or maximum";
+        }
+      } else if (start < 0.46) {
+        scene.kind = "momentum along the rotor";
+        H = std::copysign(l, unit() - 0.5) * e;
+      }
+      d.angular_velocity = made->inverse_inertia() * (H - lambda * omega * e);
+      d.rotor_rate = omega;
+      const double rate = std::max({l / theta.trace(), d.angular_velocity.norm(), 1e-3 * std::abs(omega)});
+      const double span = 2 * pi<double> / rate * scale(0.3, 200);
+      for (int i = 1; i <= 12; ++i) d.times.push_back(span * i / 12);
+      return scene;
+    }
+  }
+
+ private:
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+  double scale(double low, double high) { return std::exp(std::log(low) + unit() * std::log(high / low)); }
+  double normal() { return std::normal_distribution<double>()(random_); }
+  Vec3<double> direction() {
+    const double x = normal(), y = normal(), z = normal();
+    return Vec3<double>(x, y, z).normalized();
+  }
+  Quat<double> attitude() {
+    const double w = normal(), x = normal(), y = normal(), z = normal();
+    return normalised(Quat<double>{w, x, y, z});
+  }
+  std::mt19937_64 random_;
+};
+
+std::string describe(const Scenes::Made& made, const Answer& answer) {
+  const auto& b = made.body;
+  const auto& d = made.data;
+  const auto& J = b.inertia();
+  char line[900];
+  std::snprintf(
+      line, sizeof line,
+      "%s, %s: theta %.17g %.17g %.17g %.17g %.17g %.17g e %.17g %.17g %.17g lambda %.17g S %.17g target %.17g "
+      "Omega %.17g %.17g %.17g rate %.17g q %.17g %.17g %.17g %.17g T %.17g",
+      answer.model, made.kind, J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(0, 2), J(1, 2), b.axis()[0], b.axis()[1],
+      b.axis()[2], b.axial_inertia(), b.slope(), b.no_load_rate(), d.angular_velocity[0], d.angular_velocity[1],
+      d.angular_velocity[2], d.rotor_rate, d.attitude.w, d.attitude.x, d.attitude.y, d.attitude.z, d.times.back());
+  return line;
+}
+
+/// The motion in long double, as an answer; false where it cannot be had.
+bool exact(const Scene& scene, Answer& truth) {
+  using Long = long double;
+  const auto& b = scene.gyrostat();
+  const auto& d = scene.data();
+  const auto body = Gyrostat<Long>::make(b.inertia().cast<Long>(), b.axis().cast<Long>(), b.axial_inertia(), b.slope(),
+                                         b.no_load_rate());
+  if (!body) return false;
+  const Quat<Long> q{d.attitude.w, d.attitude.x, d.attitude.y, d.attitude.z};
+  State<Long> start = body->state(normalised(q), d.angular_velocity.cast<Long>(), d.rotor_rate);
+  if (scene.start().momentum.isZero(0)) start.momentum.setZero();  // what is zero to the rounding of the data
+  std::vector<Long> times(d.times.begin(), d.times.end());
+  std::vector<State<Long>> states(times.size());
+  FullMotionOptions<Long> options;
+  options.tolerance = 1e-15L;
+  options.integrator = Integrator::taylor;
+  options.step_cap = 2'000'000;
+  const auto made = full_motion<Long>(*body, start, times, states, options);
+  if (!made || made->status != ode::Status::reached) return false;
+  Track track;
+  for (const auto& s : states)
+    track.states.push_back({{double(s.attitude.w), double(s.attitude.x), double(s.attitude.y), double(s.attitude.z)},
+                            s.momentum.cast<double>(),
+                            double(s.axial_momentum),
+                            double(s.rotor_angle)});
+  const auto& e = made->error;
+  track.error = {double(e.attitude),   double(e.angular_velocity), double(e.angular_momentum),
+                 double(e.rotor_rate), double(e.rotor_angle),      double(e.lyapunov)};
+  fill(truth, scene, track);
+  for (Column& column : truth.columns) column.error += 4e-16;
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int count = argc > 1 ? std::atoi(argv[1]) : 5000;
+  const unsigned seed = argc > 2 ? unsigned(std::atoi(argv[2])) : 1;
+  Model rung = Model::any;
+  static constexpr const char* names[] = {"auto", "closed-form", "linear-tail", "full"};
+  for (int i = 0; argc > 3 && i < 4; ++i)
+    if (std::strcmp(argv[3], names[i]) == 0) rung = Model(i);
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+
+  static constexpr double tolerances[] = {1e-3, 1e-6, 1e-9};
+  honesty::Tally tallies[3];
+  Scenes scenes(seed);
+  for (int i = 0; i < count; ++i) {
+    const auto made = scenes.next();
+    const auto posed = [&](double tolerance) {
+      SceneData data = made.data;
+      data.tolerance = tolerance;
+      data.model = rung;
+      return *Scene::make(made.body, data);
+    };
+    Answer truth;
+    bool known = false, has_truth = false;
+    for (int k = 0; k < 3; ++k) {
+      Refusal refusal;
+      const Scene scene = posed(tolerances[k]);
+      const auto begin = std::chrono::steady_clock::now();
+      const Answer answer = solve(scene, refusal);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const std::string text = describe(made, answer);
+      tallies[k].time(seconds, text);
+      if (refusal.code != Errc::ok) {
+        tallies[k].refuse(refusal, text);
+        continue;
+      }
+      if (rung != Model::any && answer.tried.back().why) {
+        ++tallies[k].outside;
+        continue;
+      }
+      if (!known) has_truth = exact(scene, truth);
+      known = true;
+      if (!has_truth) ++tallies[k].unknown;
+      else tallies[k].compare(answer, truth, text);
+    }
+    if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
+  }
+  for (int k = 0; k < 3; ++k) tallies[k].print(tolerances[k]);
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/answer.hpp"
+
+namespace gyrostat {
+
+/// What every rung tells beside the motion itself.
+struct Outcome {
+  std::vector<Warning> warnings;
+  ode::Counts counts;
+  Errc failure = Errc::ok;           ///< why there is no motion
+  const char* refusal = nullptr;     ///< why the rung cannot answer, in words; nullptr where only known_error decided
+  double known_error = nan<double>;  ///< the error seen before the rung gave up
+  bool in_domain = true;             ///< false: computed outside the rung's domain, the errors are not to be trusted
+
+  /// Adds a warning, once a code.
+  void warn(const char* code, const char* text, double value = nan<double>) {
+    for (const Warning& w : warnings)
+      if (w.code == code) return;
+    warnings.push_back({code, text, value});
+  }
+};
+
+/// The outcome of a rung that cannot answer.
+template <class Track>
+Track refused(Errc code, const char* why) {
+  Track track;
+  track.failure = code;
+  track.refusal = why;
+  return track;
+}
+
+/// The outcome of a rung whose error is over the tolerance already before the motion is computed.
+template <class Track>
+Track over_tolerance(double error) {
+  Track track = refused<Track>(Errc::not_applicable, nullptr);
+  track.known_error = error;
+  return track;
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/outcome.hpp"
+
+#include <cmath>
+#include <string_view>
+
+#include "catch.hpp"
+
+using namespace gyrostat;
+
+namespace {
+struct Track : Outcome {
+  int value = 3;
+};
+}  // namespace
+
+TEST_CASE("an outcome warns once a code", "[ladder]") {
+  Track track;
+  static const char code[] = "far";
+  track.warn(code, "it is far", 2);
+  track.warn(code, "it is far", 3);
+  track.warn("near", "it is near");
+  REQUIRE(track.warnings.size() == 2);
+  CHECK(track.warnings[0].value == 2);
+  CHECK(std::isnan(track.warnings[1].value));
+}
+
+TEST_CASE("a refusal says why, an error over the tolerance says how much", "[ladder]") {
+  const auto why = refused<Track>(Errc::separatrix, "too near");
+  CHECK(why.failure == Errc::separatrix);
+  CHECK(why.refusal == std::string_view("too near"));
+  CHECK(std::isnan(why.known_error));
+  const auto much = over_tolerance<Track>(0.25);
+  CHECK(much.failure == Errc::not_applicable);
+  CHECK(much.refusal == nullptr);
+  CHECK(much.known_error == 0.25);
+  CHECK(Track{}.failure == Errc::ok);
+  CHECK(Track{}.in_domain);
+}
