@@ -59,10 +59,10 @@ def _arguments() -> argparse.ArgumentParser:
     takes_scene(chart)
     chart.add_argument("-o", "--output", type=Path, default=Path("."), metavar="DIR", help="folder to write into (default: here)")
 
-    stability = command("stability", _stability, "list the quasi-stationary orbits of a scene and their stability")
+    stability = command("stability", _stability, "list the steady motions of a scene, their stability, and where it goes")
     takes_scene(stability)
     stability.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
-    stability.add_argument("--plot", type=Path, metavar="FILE", help="write a figure of the regions (PNG, SVG or PDF)")
+    stability.add_argument("--plot", type=Path, metavar="FILE", help="write a figure (PNG, SVG or PDF)")
 
     reproduce = command("reproduce", _reproduce, "draw the published figures again: as printed, right, and the full motion")
     reproduce.add_argument("paper", nargs="?", metavar="PAPER", help="such as deceleration; left out: list what there is")
@@ -225,9 +225,9 @@ def _chart(arguments: argparse.Namespace) -> int:
 
         chart = make_chart(scene, progress=told)
     files = chart.save(arguments.output)
-    rows = [[p.label, p.setting, _small(p.error.get("angular_momentum_norm")), _small(p.error.get("angular_momentum")),
-             f"{p.seconds:.3g}", str(p.rhs), p.note] for p in chart.points]
-    show_table(f"{chart.name}: {chart.title}", ["method", "setting", "error of |M|", "error of M", "seconds", "rhs", ""], rows, sys.stdout)
+    rows = [[p.label, p.setting, *(_small(p.error.get(m.key)) for m in chart.measures), f"{p.seconds:.3g}", str(p.rhs), p.note]
+            for p in chart.points]
+    show_table(f"{chart.name}: {chart.title}", ["method", "setting", *(m.head for m in chart.measures), "seconds", "rhs", ""], rows, sys.stdout)
     for file in files:
         say(f"wrote {file}", sys.stdout)
     return MET
@@ -243,7 +243,7 @@ def _reproduce(arguments: argparse.Namespace) -> int:
     from gyrostat.gallery import figures, papers, reproduce
 
     if arguments.paper is None:
-        rows = [[paper, ", ".join(str(number) for number in figures(paper))] for paper in papers()]
+        rows = [[paper, ", ".join(figures(paper))] for paper in papers()]
         show_table("Papers", ["paper", "figures"], rows, sys.stdout)
         return MET
     with Progress(f"figures of {arguments.paper}") as progress:

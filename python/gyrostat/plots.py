@@ -162,17 +162,17 @@ CHART_FLOOR: Final = 1e-17  # an error of zero is drawn here
 
 
 def plot_chart(chart: "Chart") -> "Figure":
-    """True error against time per solution, on log axes: of |M| and, beside it, of the momentum vector."""
+    """True error against time per solution, on log axes: a panel for each of the two errors."""
     figure = _figure(14, 6.5)
     left, right, key = figure.subplots(1, 3, width_ratios=(1, 1, 0.42))
     key.axis("off")
     right.sharex(left)
     right.sharey(left)
     handles: dict[str, Any] = {}
-    for axes, column, title in ((left, "angular_momentum_norm", "|M|"), (right, "angular_momentum", "the vector M, body axes")):
+    for axes, measure in zip((left, right), chart.measures, strict=True):
         for colour, (label, points) in zip(_colours(), chart.by_label().items(), strict=False):
-            shown = [(p.seconds, max(p.error[column], CHART_FLOOR)) for p in points
-                     if math.isfinite(p.error.get(column, math.nan))]
+            shown = [(p.seconds, max(p.error[measure.key], CHART_FLOOR)) for p in points
+                     if math.isfinite(p.error.get(measure.key, math.nan))]
             if not shown:
                 continue
             x, y = zip(*shown, strict=True)
@@ -182,9 +182,9 @@ def plot_chart(chart: "Chart") -> "Figure":
                 x, y, marker=RUNG_MARKERS.get(label, marker), color=colour, linestyle=dashes if len(shown) > 1 else "none",
                 markersize=size if not rung or label == "rung full" else 11, linewidth=1.1, label=label,
                 markeredgecolor="black" if rung else colour, markeredgewidth=0.7, zorder=4 if rung else 2)
-        axes.set_title(f"Error of {title}", fontsize=10)
+        axes.set_title(f"Error of {measure.title}", fontsize=10)
         axes.set_xlabel("time per solution [s]")
-        axes.set_ylabel("greatest true error, relative to the greatest |M| [1]")
+        axes.set_ylabel(measure.axis)
         axes.grid(alpha=0.35, which="major", linewidth=0.6)
         axes.grid(alpha=0.15, which="minor", linewidth=0.4)
     key.legend(handles.values(), handles.keys(), loc="upper left", fontsize=8, borderaxespad=0, title="median of repeats")

@@ -9,7 +9,8 @@ from pathlib import Path
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat.charts import Chart, true_errors
+from gyrostat.charts import Chart
+from gyrostat.charts.deceleration import true_errors
 from gyrostat.cli import main
 
 

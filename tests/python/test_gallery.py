@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 
 import gyrostat
-from gyrostat import _core, gallery
+from gyrostat import _core
+from gyrostat import gallery as galleries
 from gyrostat.cli import main
+from gyrostat.gallery import deceleration as gallery
 
 
 def test_all_figures_from_3_to_25_are_there() -> None:
-    assert gallery.papers() == ["deceleration"]
-    assert gallery.figures() == list(range(3, 26))
+    assert galleries.papers() == ["deceleration"]
+    assert galleries.figures("deceleration") == [str(number) for number in range(3, 26)]
 
 
 @pytest.mark.parametrize("case", [case for group in gallery.GROUPS if not group.gyrostat for case in group.cases],
@@ -68,7 +70,7 @@ def test_a_figure_is_drawn(figure: int, name: str, tmp_path: Path, capsys: pytes
                                                         ("deceleration", "all", "figure = 'all'")])
 def test_what_is_not_there_is_refused(paper: str, figure: str | None, words: str, tmp_path: Path) -> None:
     with pytest.raises(gyrostat.DomainError, match=words):
-        gallery.reproduce(paper, figure, tmp_path)
+        galleries.reproduce(paper, figure, tmp_path)
 
 
 def test_bad_arguments_of_the_published_equations_are_refused() -> None:

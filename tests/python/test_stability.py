@@ -11,7 +11,8 @@ import pytest
 import gyrostat
 from gyrostat.cli import main
 from gyrostat.scenes import scene_from
-from gyrostat.stability import plot_regions, quasi_stationary_line, report_stability, stability_report
+from gyrostat.stability import plot_stability, report_stability, stability_report
+from gyrostat.stability.deceleration import quasi_stationary_line
 
 # Torques about axes 1, 2, 3 and what they do in regime A: one row for each region.
 ROWS = [((0.5, 0.8, 1.0), "to-axis"), ((1.5, 1.2, 1.0), "to-separatrix"), ((0.9, 0.6, 1.0), "to-interior"),
@@ -117,7 +118,7 @@ def test_the_figure_draws_in_every_region(control: tuple[float, ...], region: st
     pytest.importorskip("matplotlib")
     report = stability_report(scene(control))
     assert report["regimes"]["A"]["region"] == region
-    figure = plot_regions(report)
+    figure = plot_stability(report)
     assert [axes.get_xlabel() for axes in figure.axes] == ["κ₁ = b₁/b₃ [1]", "κ₁ = b₁/b₃ [1]", "k² [1]"]
     if region == "to-axis":
         file = tmp_path / "regions.png"

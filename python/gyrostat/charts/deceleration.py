@@ -1,99 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What accuracy costs on one scene: every rung, every integrator, and rivals where they are installed."""
+"""What accuracy costs on a deceleration scene, against a Taylor integration in long double."""
 
-import csv
-import io
 import math
-import statistics
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gyrostat import deceleration
+from gyrostat.charts.point import TAYLOR_ORDERS, TOLERANCES, ChartPoint, Job, Measure, Plan, Vectors, timed
 from gyrostat.errors import ConvergenceError, DomainError
 from gyrostat.fields import RUNGS
 from gyrostat.scenes import Scene
 
-__all__ = ["Chart", "ChartPoint", "make_chart"]
+__all__ = ["plan", "true_errors"]
 
-REPEATS: Final = 7
-TAYLOR_ORDERS: Final = (8, 12, 16, 20, 26)
-TOLERANCES: Final = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
-# Repeats end after this time [s].
-LONG: Final = 0.5
-# A method that took longer than this for a solution [s] is not asked for a more accurate one.
-TOO_LONG: Final = 3.0
 # The integrators of others step over M = 0: the chart ends before the stop.
 STOP_SHARE: Final = 0.95
 
-Vectors = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class ChartPoint:
-    """One method at one setting. `error` holds true errors (NaN: the method does not give the column)."""
-
-    group: str  # rung, taylor, dop853, cvode or rival
-    label: str
-    setting: str
-    error: dict[str, float]
-    seconds: float
-    rhs: int
-    note: str = ""
-
-
-@dataclass(frozen=True, eq=False)
-class Chart:
-    """Error against cost on one scene.
-
-    Errors are true ones, greatest over the times and relative to the greatest size, against a Taylor integration in long
-    double. Cost is the median time of one solution [s] and its count of right-hand-side evaluations.
-    """
-
-    name: str
-    title: str
-    points: tuple[ChartPoint, ...]
-
-    def by_label(self) -> dict[str, list[ChartPoint]]:
-        """Points of each line of the figure, in the order of the settings."""
-        lines: dict[str, list[ChartPoint]] = {}
-        for point in self.points:
-            lines.setdefault(point.label, []).append(point)
-        return lines
-
-    def to_csv(self) -> str:
-        """One row a point."""
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(["group", "method", "setting", "error_angular_momentum_norm", "error_angular_momentum", "seconds", "rhs", "note"])
-        for p in self.points:
-            errors = [p.error.get(c, math.nan) for c in ("angular_momentum_norm", "angular_momentum")]
-            writer.writerow([p.group, p.label, p.setting, *("" if math.isnan(e) else e for e in errors), p.seconds, p.rhs, p.note])
-        return text.getvalue()
-
-    def plot(self) -> Any:
-        """The figure. Needs matplotlib."""
-        from gyrostat.plots import plot_chart
-
-        return plot_chart(self)
-
-    def save(self, folder: str | Path) -> list[Path]:
-        """Write chart.png, chart.svg and chart.csv into a folder (made where it is missing)."""
-        from gyrostat.plots import save
-
-        folder = Path(folder)
-        folder.mkdir(parents=True, exist_ok=True)
-        figure = self.plot()
-        files = [folder / f"chart.{ending}" for ending in ("png", "svg", "csv")]
-        for file in files[:2]:
-            save(figure, file)
-        files[2].write_text(self.to_csv())
-        return files
+_AXIS: Final = "greatest true error, relative to the greatest |M| [1]"
+MEASURES: Final = (Measure("angular_momentum_norm", "error of |M|", "|M|", _AXIS),
+                   Measure("angular_momentum", "error of M", "the vector M, body axes", _AXIS))
 
 
 def true_errors(got: Vectors | None, norm: Vectors | None, want: Vectors) -> dict[str, float]:
@@ -110,38 +38,16 @@ def true_errors(got: Vectors | None, norm: Vectors | None, want: Vectors) -> dic
     return errors
 
 
-def _timed(work: Callable[[], float], repeats: int) -> float:
-    """Median of what `work` says it took; work that is long runs once."""
-    taken = [work()]
-    while len(taken) < repeats and sum(taken) < LONG:
-        taken.append(work())
-    return statistics.median(taken)
-
-
-def make_chart(scene: Scene, *, repeats: int = REPEATS, progress: Callable[[int, int, str], None] | None = None) -> Chart:
-    """Measure every method on the scene. `progress` is told (done, all, what) before each."""
+def plan(scene: Scene, repeats: int) -> Plan:
+    """Every method on the scene, up to just before the stop."""
     given = deceleration.arguments(scene)
     times, cut = _before_the_stop(given)
     given["times"] = times
     given["attitude"] = None
     reference = deceleration.integrate(**_physics(given), method="taylor", order=30, tolerance=1e-18, precision="long double")
     want = np.asarray(reference["angular_momentum"])
-    jobs = [*_rungs(scene, given, want, repeats), *_integrators(given, want, repeats), *_rivals(given, want, repeats)]
-    points: list[ChartPoint] = []
-    slow: set[str] = set()
-    for done, (method, setting, job) in enumerate(jobs):
-        if method in slow:
-            continue
-        if progress:
-            progress(done, len(jobs), f"{method} {setting}")
-        if (point := job()) is not None:
-            points.append(point)
-            if point.seconds > TOO_LONG:
-                slow.add(method)
-    if progress:
-        progress(len(jobs), len(jobs), "")
-    title = f"true error against cost, {len(times)} times to {times[-1]:.6g} s{cut}"
-    return Chart(scene.name, title, tuple(points))
+    jobs = (*_rungs(scene, given, want, repeats), *_integrators(given, want, repeats), *_rivals(given, want, repeats))
+    return Plan(f"true error against cost, {len(times)} times to {times[-1]:.6g} s{cut}", MEASURES, jobs)
 
 
 def _physics(given: dict[str, Any]) -> dict[str, Any]:
@@ -161,9 +67,6 @@ def _before_the_stop(given: dict[str, Any]) -> tuple[Vectors, str]:
     return kept, f" (the motion stops at {stop:.6g} s)"
 
 
-Job = tuple[str, str, Callable[[], ChartPoint | None]]
-
-
 def _rungs(scene: Scene, given: dict[str, Any], want: Vectors, repeats: int) -> Iterator[Job]:
     for model in RUNGS[scene.kind]:
         for tolerance in TOLERANCES if model == "full" else (given["tolerance"],):
@@ -176,7 +79,7 @@ def _rungs(scene: Scene, given: dict[str, Any], want: Vectors, repeats: int) -> 
                     return float(made["seconds"])
 
                 try:
-                    seconds = _timed(once, repeats)
+                    seconds = timed(once, repeats)
                 except (DomainError, ConvergenceError):
                     return None
                 columns = made["columns"]
@@ -204,7 +107,7 @@ def _integrators(given: dict[str, Any], want: Vectors, repeats: int) -> Iterator
                     made.update(deceleration.integrate(**_physics(given), method=method, order=order, tolerance=tolerance))
                     return float(made["seconds"])
 
-                seconds = _timed(once, repeats)
+                seconds = timed(once, repeats)
                 if made["status"] != "reached":
                     return None
                 return ChartPoint(group, label, f"tolerance {tolerance:g}", true_errors(made["angular_momentum"], None, want),
@@ -236,7 +139,7 @@ def _rivals(given: dict[str, Any], want: Vectors, repeats: int) -> Iterator[Job]
                                             atol=tolerance * float(np.linalg.norm(start)))
                     return time.perf_counter() - began
 
-                seconds = _timed(once, repeats)
+                seconds = timed(once, repeats)
                 run = made["run"]
                 if not run.success:
                     return None
@@ -263,7 +166,7 @@ def _rivals(given: dict[str, Any], want: Vectors, repeats: int) -> Iterator[Job]
                 made["out"] = integrator.propagate_grid(grid)
                 return time.perf_counter() - began
 
-            seconds = _timed(once, repeats)
+            seconds = timed(once, repeats)
             outcome, steps, states = made["out"][0], made["out"][3], made["out"][5]
             if outcome != heyoka.taylor_outcome.time_limit or len(states) != len(grid):
                 return None

@@ -1,29 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of the papers again: as printed, right, and by the full motion. Needs matplotlib."""
+"""The figures of the paper on deceleration: as printed, right, and by the full motion."""
 
 import math
-import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from gyrostat import _core
 from gyrostat.answer import Answer
-from gyrostat.errors import DomainError
+from gyrostat.gallery.drawing import Drawing, finish
 from gyrostat.ladder import solve
-from gyrostat.stability import draw_regions, quasi_stationary_line
+from gyrostat.stability.deceleration import draw_regions, quasi_stationary_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["figures", "papers", "reproduce"]
+__all__ = ["drawings", "figures"]
 
-Progress = Callable[[float, str], None]
 Vector = tuple[float, float, float]
 
 PAPER: Final = "deceleration"
@@ -111,54 +108,19 @@ GROUPS: Final = (
 )
 
 
-def papers() -> list[str]:
-    """Names of the papers that can be reproduced."""
-    return [PAPER]
+def figures() -> list[str]:
+    """Numbers of the figures that can be drawn again."""
+    return [str(number) for number in (3, 4, *(number for group in GROUPS for number in group.numbers))]
 
 
-def figures(paper: str = PAPER) -> list[int]:
-    """Numbers of the figures of a paper that can be reproduced."""
-    _known(paper)
-    return [3, 4, *(number for group in GROUPS for number in group.numbers)]
-
-
-def reproduce(paper: str, figure: int | str | None, directory: Path, progress: Progress | None = None) -> list[Path]:
-    """Draw one figure of a paper, or all, into a folder; the files written. Figures of the same runs share a file.
-
-    progress is called with the share done, from 0 to 1, and the name of the file at hand.
-    Raises DomainError for a paper or a figure that is not among `papers` and `figures`.
-    """
-    numbers = figures(paper)
-    if figure is not None:
-        try:
-            wanted = int(figure)
-        except ValueError:
-            wanted = -1
-        if wanted not in numbers:
-            raise DomainError(f"figure = {figure!r}: use a number from {numbers[0]} to {numbers[-1]}")
-        numbers = [wanted]
-    jobs: list[tuple[str, Callable[[], Figure]]] = []
-    if 3 in numbers:
-        jobs.append((f"{PAPER}-figure-3", _figure_3))
-    if 4 in numbers:
-        jobs.append((f"{PAPER}-figure-4", _figure_4))
-    jobs += [(group.name, partial(_draw, group)) for group in GROUPS if set(group.numbers) & set(numbers)]
-    directory.mkdir(parents=True, exist_ok=True)
-    files = []
-    for done, (name, draw) in enumerate(jobs):
-        if progress is not None:
-            progress(done / len(jobs), name)
-        file = directory / f"{name}.png"
-        draw().savefig(file, dpi=130)
-        files.append(file)
-    if progress is not None:
-        progress(1.0, "")
-    return files
-
-
-def _known(paper: str) -> None:
-    if paper != PAPER:
-        raise DomainError(f"paper = {paper!r}: use one of {', '.join(papers())}")
+def drawings(wanted: Sequence[str]) -> list[Drawing]:
+    """What draws these figures; those of the same runs share a file."""
+    made: list[Drawing] = []
+    if "3" in wanted:
+        made.append((f"{PAPER}-figure-3", _figure_3))
+    if "4" in wanted:
+        made.append((f"{PAPER}-figure-4", _figure_4))
+    return made + [(group.name, partial(_draw, group)) for group in GROUPS if {str(n) for n in group.numbers} & set(wanted)]
 
 
 def _polhode_start(norm: float, modulus_squared: float) -> Vector:
@@ -220,7 +182,7 @@ def _draw(group: Group) -> "Figure":
     if group.gyrostat:
         for axes in (*panels[0, 1:], *panels[2, 1:]):
             axes.set_yscale("log")
-    _finish(figure, group.title, group.seen)
+    finish(figure, group.title, group.seen)
     return figure
 
 
@@ -245,12 +207,6 @@ def _curves(panels: Sequence["Axes"], case: Case, answer: Answer, small: float, 
     panels[2].plot(t, np.where(regime != "C", k2, np.nan), color=colour, label=label)
     if np.any(regime == "C"):
         panels[2].plot(t, np.where(regime == "C", k2, np.nan), color=colour, linestyle="--")
-
-
-def _finish(figure: "Figure", title: str, seen: Sequence[str]) -> None:
-    figure.suptitle(title, fontsize=13)
-    width = round(12.5 * figure.get_figwidth())
-    figure.supxlabel("\n".join(textwrap.fill(text, width) for text in seen), fontsize=9, x=0.01, ha="left")
 
 
 def _figure_3() -> "Figure":
@@ -278,7 +234,7 @@ def _figure_3() -> "Figure":
         axes.set_xlabel("κ₁ = b₁/b₃ [1]")
         axes.set_ylabel("κ₂ = b₂/b₃ [1]")
         axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2)
-    _finish(figure, "Figure 3: where quasi-stationary orbits exist", (
+    finish(figure, "Figure 3: where quasi-stationary orbits exist", (
         "(22) as printed misses the point (1, 1) of equal torques, where every k² is stationary, and line 4 bounds nothing: it is "
         "a zero of a denominator. Right, quasi-stationary orbits lie between κ₁ = 1 and κ₁ = (1 + κ₂)/2: green, they attract; "
         "pink, they repel.",
@@ -348,7 +304,7 @@ def _figure_4() -> "Figure":
     panels[0].set_title("linear axes", loc="left", fontsize=11)
     panels[1].set_title("logarithmic time: an exponential would be straight", loc="left", fontsize=11)
     panels[1].set_yscale("log")
-    _finish(figure, "Figure 4: deceleration time against torque, A, B, C = 10, 8, 5 kg m², l = (40, 30, 20) N m s, λ = 0.2 (not printed)", (
+    finish(figure, "Figure 4: deceleration time against torque, A, B, C = 10, 8, 5 kg m², l = (40, 30, 20) N m s, λ = 0.2 (not printed)", (
         f"M₀ = {norm:.2f} N m s. The time follows a logarithm, like 1/b for strong torques, not the exponential of the paper; with "
         "equal torques the closed form is exact, and the full motion lies on it.",))
     return figure

@@ -1,26 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where unequal control torques drive the orbit of a body without rotor momentum: table, report and figure."""
 
-import json
 import math
-import sys
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat import _core, deceleration
-from gyrostat.console import say, show_table
 from gyrostat.errors import DomainError
-from gyrostat.scenes import Scene, scene_from
+from gyrostat.scenes import Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw_regions", "plot_regions", "quasi_stationary_line", "report_stability", "stability_report"]
+__all__ = ["draw_regions", "plot", "quasi_stationary_line", "report", "sentence", "table"]
 
 REGIONS: Final = {
     "to-axis": ("#56B4E9", "to the axis (k² = 0)"),
@@ -32,7 +28,7 @@ REGIONS: Final = {
 AXES: Final = {"A": "the axis of largest inertia", "C": "the axis of smallest inertia"}
 
 
-def stability_report(scene: Scene | Mapping[str, Any]) -> dict[str, Any]:
+def report(scene: Scene) -> dict[str, Any]:
     """Stability table of a deceleration scene without rotor momentum, as plain data.
 
     principal_moments : A > B > C [kg m2]; control : torques about these axes [N m]; torque_ratios : b1/b3 and b2/b3
@@ -40,20 +36,17 @@ def stability_report(scene: Scene | Mapping[str, Any]) -> dict[str, Any]:
     the region, what k2 = 0, the quasi-stationary k2 and the separatrix do, and that k2 (None where there is none).
     Drag moves no k2. Raises DomainError with rotor momentum, with two equal moments, or at rest.
     """
-    checked = scene if isinstance(scene, Scene) else scene_from(scene)
-    if checked.kind != "deceleration":
-        raise DomainError(f"kind = {checked.kind!r}: the stability table is one of the kind deceleration")
-    given = deceleration.arguments(checked)
+    given = deceleration.arguments(scene)
     if np.any(given["rotor_momentum"] != 0):
         raise DomainError(f"body.rotor_momentum = {given['rotor_momentum'].tolist()}: the stability table holds without "
                           "rotor momentum only; set it to zero, or solve the scene")
     start = _core.deceleration_polhode_start(inertia=given["inertia"], control=given["control"],
                                              angular_momentum=given["angular_momentum"])
-    tables = {regime: _table(start.torques, regime) for regime in AXES}
+    tables = {regime: _tendencies(start.torques, regime) for regime in AXES}
     b1, b2, b3 = start.torques.tolist()
     regime, k2 = _attractor(start.regime, start.modulus_squared, tables)
     return {
-        "scene": checked.name,
+        "scene": scene.name,
         "principal_moments": start.moments.tolist(),
         "control": [b1, b2, b3],
         "torque_ratios": [b1 / b3, b2 / b3] if b3 > 0 else None,
@@ -63,7 +56,7 @@ def stability_report(scene: Scene | Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _table(torques: NDArray[np.float64], regime: str) -> dict[str, Any]:
+def _tendencies(torques: NDArray[np.float64], regime: str) -> dict[str, Any]:
     made = deceleration.stability(control=torques[None, :], regime=regime)
     star = float(made.quasi_stationary[0])
     return {"region": str(made.region[0]), "axis": str(made.axis[0]), "interior": str(made.interior[0]),
@@ -89,7 +82,8 @@ def _attractor(regime: str, k2: float, tables: Mapping[str, Mapping[str, Any]]) 
     return "separatrix", 1.0
 
 
-def _sentence(report: Mapping[str, Any]) -> str:
+def sentence(report: Mapping[str, Any]) -> str:
+    """Where the start is and where the torques drive it."""
     start = report["start"]
     end = start["tends_to"]
     where = f"The start has k² = {start['modulus_squared']:.6g} in regime {start['regime']} (about {AXES[start['regime']]}); "
@@ -103,24 +97,13 @@ def _sentence(report: Mapping[str, Any]) -> str:
     return where + f"the torques drive it {crosses}to the quasi-stationary k² = {end['modulus_squared']:.6g} of regime {end['regime']}."
 
 
-def report_stability(scene: Scene, *, as_json: bool = False, plot: Path | None = None) -> int:
-    """Print the stability table of a scene and write its figure; the exit status."""
-    report = stability_report(scene)
-    if as_json:
-        say(json.dumps(report), sys.stdout)
-    else:
-        rows = [[name, AXES[name], t["region"].replace("-", " "), t["axis"],
-                 "none" if t["quasi_stationary"] is None else f"{t['quasi_stationary']:.9g} {t['interior']}", t["separatrix"]]
-                for name, t in report["regimes"].items()]
-        show_table(f"{report['scene']}: what k² of the orbit does",
-                   ["regime", "about", "flow", "k² = 0", "quasi-stationary k²", "separatrix"], rows, sys.stdout)
-        say(_sentence(report), sys.stdout)
-    if plot is not None:
-        from gyrostat.plots import save
-
-        save(plot_regions(report), plot)
-        say(f"wrote {plot}", sys.stderr if as_json else sys.stdout)
-    return 0
+def table(report: Mapping[str, Any]) -> tuple[str, list[str], list[list[str]]]:
+    """Title, heads and rows for reading."""
+    rows = [[name, AXES[name], t["region"].replace("-", " "), t["axis"],
+             "none" if t["quasi_stationary"] is None else f"{t['quasi_stationary']:.9g} {t['interior']}", t["separatrix"]]
+            for name, t in report["regimes"].items()]
+    return (f"{report['scene']}: what k² of the orbit does",
+            ["regime", "about", "flow", "k² = 0", "quasi-stationary k²", "separatrix"], rows)
 
 
 def draw_regions(axes: "Axes", regime: str, extent: float) -> None:
@@ -152,7 +135,7 @@ def quasi_stationary_line(regime: str, modulus_squared: float, kappa2: NDArray[n
     return (1.0 - kappa2 * phi) / (1.0 - phi)
 
 
-def plot_regions(report: Mapping[str, Any]) -> "Figure":
+def plot(report: Mapping[str, Any]) -> "Figure":
     """Regions of both regimes with the scene's point, and the torque balance that gives the quasi-stationary k2."""
     from gyrostat.plots import COLOURS, _figure
 
@@ -194,5 +177,5 @@ def plot_regions(report: Mapping[str, Any]) -> "Figure":
     panels[2].set_ylabel("φ [1]")
     panels[2].set_title("torque balance: k*² where φ meets the level", loc="left", fontsize=10, pad=14)
     panels[2].legend(loc="upper right", fontsize=7)
-    figure.suptitle(f"{report['scene']}: {_sentence(report)}", fontsize=9)
+    figure.suptitle(f"{report['scene']}: {sentence(report)}", fontsize=9)
     return figure
