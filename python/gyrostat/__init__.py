@@ -2,10 +2,10 @@
 """Attitude motion of bodies that carry rotors, by the cheapest model that meets a tolerance.
 
 `load` reads a scene file, `solve` answers it, `chart` shows what accuracy costs; `gyrostat.deceleration`,
-`gyrostat.elliptic` and `gyrostat.rotation` hold the functions behind them, over arrays.
+`gyrostat.rotor`, `gyrostat.elliptic` and `gyrostat.rotation` hold the functions behind them, over arrays.
 """
 
-from gyrostat._core import build_info
+from gyrostat._core import Monitor, build_info
 from gyrostat.answer import Answer
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError
 from gyrostat.ladder import chart, solve
@@ -18,6 +18,7 @@ __all__ = [
     "Cancelled",
     "ConvergenceError",
     "DomainError",
+    "Monitor",
     "Scene",
     "SceneError",
     "__version__",

@@ -23,7 +23,8 @@ __all__ = ["Answer", "Attempt", "Warning_", "UNITS"]
 UNITS: Final = {
     "t": "s", "angular_momentum": "N m s", "angular_momentum_norm": "N m s", "energy": "J", "modulus_squared": "1",
     "regime": "", "angular_velocity": "rad/s", "attitude": "1", "stop_time": "s", "final_angular_velocity": "rad/s",
-    "small_parameter": "1", "separatrix_distance": "1",
+    "small_parameter": "1", "separatrix_distance": "1", "rotor_rate": "rad/s", "rotor_angle": "rad", "lyapunov": "J",
+    "attractor": "", "decay_rate": "1/s",
 }
 MEANINGS: Final = {
     "t": "time", "angular_momentum": "total angular momentum, body axes", "angular_momentum_norm": "size of the total angular momentum",
@@ -32,6 +33,10 @@ MEANINGS: Final = {
     "angular_velocity": "angular velocity of the carrier, body axes", "attitude": "attitude, body to inertial, [x, y, z, w]",
     "stop_time": "time at which the deceleration ends", "final_angular_velocity": "angular velocity at the stop",
     "small_parameter": "rate of damping over rate of rotation", "separatrix_distance": "energy from the nearest separatrix at the start, over the range of energies at that |M|; infinite: there is none",
+    "rotor_rate": "rate of the rotor relative to the carrier", "rotor_angle": "angle of the rotor in the carrier, from 0 at t = 0",
+    "lyapunov": "Lyapunov function V: energy less no_load_rate times the rotor's axial momentum, plus a constant; it never grows",
+    "attractor": "place of the steady rotation that the motion tends to, by level; None: not certified",
+    "decay_rate": "rate at which the motion comes to its attractor in the end",
 }
 _AXES: Final = ("x", "y", "z", "w")
 

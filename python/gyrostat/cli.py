@@ -113,7 +113,7 @@ def _scene(arguments: argparse.Namespace) -> Scene:
 
 def _in_thread(work: Callable[[Any], T], title: str) -> T:
     """Run `work(monitor)` beside a progress bar, so that Ctrl-C reaches us and cancels it."""
-    from gyrostat.deceleration import Monitor
+    from gyrostat._core import Monitor
 
     monitor = Monitor()
     done = threading.Event()  # Thread.join, once interrupted, takes a running thread for a finished one
@@ -185,6 +185,13 @@ def _short(value: Any, digits: int = 9) -> str:
     return "infinite" if math.isinf(value) else f"{value:.{digits}g}"
 
 
+def _word(scalar: str, value: Any) -> str:
+    """What a scalar without a number means; empty where it has one."""
+    if scalar == "stop_time" and value == math.inf:
+        return "never"
+    return "not certified" if scalar == "attractor" and value is None else ""
+
+
 def _small(error: float | None) -> str:
     return "-" if error is None or math.isnan(error) else f"{error:.2g}"
 
@@ -202,8 +209,7 @@ def _report(answer: "Answer", out: Any) -> None:
     rows = [[a.model, _small(a.error), "answered" if a.accepted else "passed over", a.why or ""] for a in answer.tried]
     show_table("What was tried", ["rung", "estimated error", "", "why"], rows, out)
     show_table("Scalars", ["name", "value", "unit"],
-               [[key, "never" if key == "stop_time" and value == math.inf else _short(value), UNITS.get(key, "")]
-                for key, value in answer.scalars.items()], out)
+               [[key, _word(key, value) or _short(value), UNITS.get(key, "")] for key, value in answer.scalars.items()], out)
     rows = []
     for column, values in answer.columns.items():
         first, last = values[0], values[-1]

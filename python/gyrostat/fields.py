@@ -4,9 +4,10 @@
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
-__all__ = ["ALTERNATIVES", "Field", "KINDS", "LATER_KINDS", "LIMIT", "REQUIRED", "RUNGS", "Table", "UNSET"]
+__all__ = ["ALTERNATIVES", "Choice", "Field", "INTEGRATORS", "KINDS", "LATER_KINDS", "LIMIT", "MOST_SAMPLES", "REQUIRED", "RUNGS",
+           "Table", "UNSET", "needed", "table_of"]
 
-Form = Literal["text", "choice", "number", "count", "vector", "quaternion", "inertia", "times"]
+Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "times"]
 
 REQUIRED: Final = "required"  # the key must be given
 UNSET: Final = None  # the key may be left out and then has no value
@@ -35,11 +36,14 @@ Table = tuple[Field, ...]
 
 RUNGS: Final[dict[str, tuple[str, ...]]] = {
     "deceleration": ("equal-torque", "averaged", "averaged-2", "full"),
+    "rotor": ("closed-form", "linear-tail", "full"),
+}
+INTEGRATORS: Final[dict[str, tuple[str, ...]]] = {
+    "deceleration": ("taylor", "cvode"),
+    "rotor": ("taylor", "radau", "cvode"),
 }
 # Kinds that the scene format knows and this version does not answer.
-LATER_KINDS: Final = ("rotor", "spinning", "heavy")
-# Integrators that the scene format knows and no kind of this version uses.
-LATER_INTEGRATORS: Final = ("radau",)
+LATER_KINDS: Final = ("spinning", "heavy")
 
 
 def _head(kind: str) -> Table:
@@ -57,7 +61,7 @@ def _solve(kind: str) -> Table:
         Field("times", "times", "times of the answer, increasing, first >= 0", "s", UNSET, low=0),
         Field("tolerance", "number", "greatest relative error wanted in any output column", "", 1e-6, low=1e-15, high=0.5),
         Field("model", "choice", "rung of the ladder, or auto", "", "auto", ("auto", *RUNGS[kind])),
-        Field("integrator", "choice", "for rungs that integrate", "", "auto", ("auto", "taylor", "cvode")),
+        Field("integrator", "choice", "for rungs that integrate", "", "auto", ("auto", *INTEGRATORS[kind])),
         Field("elliptic", "choice", "for rungs that use elliptic integrals", "", "auto", ("auto", "native", "gsl")),
     )
 
@@ -87,12 +91,61 @@ KINDS: Final[dict[str, dict[str, Table]]] = {
                   "", UNSET),
         ),
     },
-}
-
-# Table -> sets of keys of which exactly one must be given, whole.
-ALTERNATIVES: Final[dict[str, dict[str, tuple[tuple[str, ...], ...]]]] = {
-    "deceleration": {
-        "solve": (("duration", "samples"), ("times",)),
-        "initial": (("angular_velocity",), ("angular_momentum",)),
+    "rotor": {
+        "": _head("rotor"),
+        "solve": _solve("rotor"),
+        "body": (
+            Field("inertia", "inertia", "inertia of the whole gyrostat, rotor locked, about its mass centre: three principal moments "
+                  "along the body axes, or a symmetric 3x3 tensor", "kg m^2", UNSET, low=1e-40),
+        ),
+        "carrier": (
+            Field("inertia", "inertia", "inertia of the carrier alone about its own centroid: three principal moments along the body "
+                  "axes, or a symmetric 3x3 tensor", "kg m^2", UNSET, low=1e-40),
+            Field("mass", "number", "mass of the carrier", "kg", UNSET, low=0, open_low=True),
+        ),
+        "rotor": (
+            Field("axis", "direction", "axis of the rotor, body axes, of unit length"),
+            Field("axial_inertia", "number", "inertia of the rotor about its axis", "kg m^2", low=1e-40),
+            Field("mass", "number", "mass of the rotor", "kg", UNSET, low=0, open_low=True),
+            Field("equatorial_inertia", "number", "inertia of the rotor across its axis, about its own centroid", "kg m^2", UNSET,
+                  low=1e-40),
+            Field("offset", "vector", "from the carrier's centroid to the rotor's, body axes", "m", UNSET),
+        ),
+        "motor": (
+            Field("slope", "number", "moment on the rotor lost for each rad/s: the moment is -slope (rate - no_load_rate)",
+                  "N m s/rad", low=0),
+            Field("no_load_rate", "number", "rate of the rotor, relative to the carrier, at which the motor gives no moment", "rad/s"),
+        ),
+        "initial": (
+            Field("angular_velocity", "vector", "angular velocity of the carrier at t = 0, body axes", "rad/s"),
+            Field("rotor_rate", "number", "rate of the rotor at t = 0, relative to the carrier", "rad/s"),
+            Field("attitude", "quaternion", "attitude at t = 0, body to inertial, [x, y, z, w]", "", (0.0, 0.0, 0.0, 1.0)),
+        ),
     },
 }
+
+# A way to give something: full keys ("table.key"), wanted together.
+Choice = tuple[str, ...]
+
+# Sets of ways of which exactly one must be taken, whole.
+ALTERNATIVES: Final[dict[str, tuple[tuple[Choice, ...], ...]]] = {
+    "deceleration": (
+        (("solve.duration", "solve.samples"), ("solve.times",)),
+        (("initial.angular_velocity",), ("initial.angular_momentum",)),
+    ),
+    "rotor": (
+        (("solve.duration", "solve.samples"), ("solve.times",)),
+        (("body.inertia",), ("carrier.inertia", "carrier.mass", "rotor.mass", "rotor.equatorial_inertia", "rotor.offset")),
+    ),
+}
+
+
+def table_of(key: str) -> str:
+    """The table of a full key; empty at the top."""
+    return key.rpartition(".")[0]
+
+
+def needed(kind: str, table: str) -> bool:
+    """No scene of the kind can do without the table."""
+    return any(field.default is REQUIRED for field in KINDS[kind][table]) or any(
+        all(any(table_of(key) == table for key in choice) for choice in choices) for choices in ALTERNATIVES[kind])

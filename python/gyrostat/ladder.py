@@ -3,17 +3,21 @@
 
 import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Final
 
-from gyrostat import deceleration
+from gyrostat import deceleration, rotor
+from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.scenes import Scene, load, scene_from
 
 if TYPE_CHECKING:
     from gyrostat.charts import Chart
-    from gyrostat.deceleration import Monitor
 
-__all__ = ["chart", "solve"]
+__all__ = ["Monitor", "chart", "solve"]
+
+# What answers a kind of scene: `arguments(scene)` and `solve(**arguments, monitor=...)`.
+FAMILIES: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor}
 
 SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
 
@@ -27,7 +31,7 @@ def scene_of(scene: SceneLike, overrides: Mapping[str, Any]) -> Scene:
     return load(scene, **overrides)
 
 
-def solve(scene: SceneLike, *, monitor: "Monitor | None" = None, **overrides: Any) -> Answer:
+def solve(scene: SceneLike, *, monitor: Monitor | None = None, **overrides: Any) -> Answer:
     """Answer a scene by the cheapest rung whose error estimate meets the tolerance.
 
     scene : a `Scene`, a dict in the layout of a scene file, a file, or the name of a bundled scene.
@@ -38,7 +42,8 @@ def solve(scene: SceneLike, *, monitor: "Monitor | None" = None, **overrides: An
     ConvergenceError where a computation hits its cap. Over the tolerance it still answers, with `met` False.
     """
     checked = scene_of(scene, overrides)
-    made = deceleration.solve(**deceleration.arguments(checked), monitor=monitor)
+    family = FAMILIES[checked.kind]
+    made = family.solve(**family.arguments(checked), monitor=monitor)
     return Answer.of(checked.to_dict(), checked.times, checked.tolerance, made)
 
 

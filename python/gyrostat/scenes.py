@@ -17,15 +17,17 @@ from numpy.typing import NDArray
 from gyrostat.errors import Mistake, SceneError
 from gyrostat.fields import (
     ALTERNATIVES,
+    INTEGRATORS,
     KINDS,
-    LATER_INTEGRATORS,
     LATER_KINDS,
     LIMIT,
     MOST_SAMPLES,
     REQUIRED,
-    RUNGS,
     UNSET,
+    Choice,
     Field,
+    needed,
+    table_of,
 )
 
 __all__ = ["Scene", "bundled", "find", "load", "parse_override", "scene_from"]
@@ -33,6 +35,10 @@ __all__ = ["Scene", "bundled", "find", "load", "parse_override", "scene_from"]
 MOST_BYTES: Final = 64 * 2**20
 # An attitude is taken as a unit quaternion when its norm is 1 within this.
 UNIT_TOLERANCE: Final = 1e-6
+# An axis is taken as a unit vector when its length is 1 within this.
+AXIS_TOLERANCE: Final = 1e-8
+# What is of unit length within this is left as it stands.
+ROUNDING: Final = 1e-15
 # Off-diagonal pairs, and the triangle inequality, may be off by this share of the largest element.
 TENSOR_TOLERANCE: Final = 1e-9
 
@@ -74,7 +80,8 @@ class Scene:
         if self.source:
             made["source"] = self.source
         for table, values in self.tables.items():
-            made[table] = {key: _plain(value) for key, value in values.items() if value is not UNSET}
+            if given := {key: _plain(value) for key, value in values.items() if value is not UNSET}:
+                made[table] = given
         return made
 
     def replace(self, **overrides: Any) -> "Scene":
@@ -183,8 +190,8 @@ def _choice(field: Field, value: Any) -> str:
     allowed = f"use one of {', '.join(field.choices)}"
     if not isinstance(value, str):
         raise _Wrong(f"this is {_kind_of(value)}, not text", allowed)
-    if field.name == "integrator" and value in LATER_INTEGRATORS:
-        raise _Wrong("this version has no such integrator for this kind of scene", allowed)
+    if field.name == "integrator" and any(value in names for names in INTEGRATORS.values()):
+        raise _Wrong("this kind of scene has no such integrator", allowed)
     near = _near(value, field.choices)
     raise _Wrong(f"unknown {field.name}", f'did you mean "{near}"? {allowed}' if near else allowed)
 
@@ -233,16 +240,27 @@ def _vector(field: Field, value: Any) -> tuple[float, ...]:
     return tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
 
 
+def _unit(numbers: tuple[float, ...], tolerance: float, what: str) -> tuple[float, ...]:
+    norm = math.hypot(*numbers)
+    if abs(norm - 1) > tolerance:
+        unit = ", ".join(f"{x / norm:.15g}" for x in numbers)
+        raise _Wrong(f"the norm is {norm:.9g}, not 1", f"write the unit {what} [{unit}]")
+    return numbers if abs(norm - 1) <= ROUNDING else tuple(x / norm for x in numbers)
+
+
 def _quaternion(field: Field, value: Any) -> tuple[float, ...]:
     items = _list(field, value, 4, "[0.0, 0.0, 0.0, 1.0] (x, y, z, w)")
-    q = [_number(field, item, f"element {i}") for i, item in enumerate(items, 1)]
-    norm = math.hypot(*q)
-    if norm == 0:
+    q = tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
+    if not any(q):
         raise _Wrong("a zero quaternion is no rotation", "write a unit quaternion [x, y, z, w], such as [0.0, 0.0, 0.0, 1.0]")
-    if abs(norm - 1) > UNIT_TOLERANCE:
-        unit = ", ".join(f"{x / norm:.15g}" for x in q)
-        raise _Wrong(f"the norm is {norm:.9g}, not 1", f"write the unit quaternion [{unit}]")
-    return tuple(x / norm for x in q)
+    return _unit(q, UNIT_TOLERANCE, "quaternion")
+
+
+def _direction(field: Field, value: Any) -> tuple[float, ...]:
+    axis = _vector(field, value)
+    if not any(axis):
+        raise _Wrong("a zero vector has no direction", "write a unit vector, such as [0.0, 0.0, 1.0]")
+    return _unit(axis, AXIS_TOLERANCE, "vector")
 
 
 def _times(field: Field, value: Any) -> tuple[float, ...]:
@@ -300,9 +318,32 @@ def _triangle(moments: Iterable[float]) -> None:
 
 
 _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
-    "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "quaternion": _quaternion,
-    "inertia": _inertia, "times": _times,
+    "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "direction": _direction,
+    "quaternion": _quaternion, "inertia": _inertia, "times": _times,
 }
+
+
+# ---- what no single key tells: each yields full key, value, problem and remedy ----
+
+Found = Iterator[tuple[str, Any, str, str]]
+
+
+def _gyrostat(tables: Mapping[str, Mapping[str, Any]]) -> Found:
+    """A rotor that its own mass, or the whole gyrostat, can hold."""
+    rotor, whole = tables["rotor"], tables["body"]["inertia"]
+    axial, equatorial = rotor["axial_inertia"], rotor["equatorial_inertia"]
+    if equatorial is not UNSET and axial > 2 * equatorial * (1 + ROUNDING):
+        yield ("rotor.axial_inertia", axial, f"this exceeds twice rotor.equatorial_inertia = {equatorial!r}",
+               f"no rotor has more than {2 * equatorial:.9g} kg m^2, the value of a thin disc: check both")
+    if whole is not UNSET:
+        tensor, axis = np.array(whole), np.array(rotor["axis"])
+        most = 1 / float(axis @ np.linalg.solve(np.diag(tensor) if tensor.ndim == 1 else tensor, axis))
+        if axial >= most * (1 - ROUNDING):
+            yield ("rotor.axial_inertia", axial, f"the whole gyrostat of body.inertia holds less than {most:.9g} kg m^2 about this axis",
+                   f"give less than {most:.9g} kg m^2 (1/(e.theta^-1.e)), or the inertia of the whole, rotor included")
+
+
+_PHYSICS: Final[dict[str, Callable[[Mapping[str, Mapping[str, Any]]], Found]]] = {"rotor": _gyrostat}
 
 
 # ---- the whole scene ----
@@ -332,16 +373,19 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
 
     layout = KINDS[kind]
     read: dict[str, dict[str, Any]] = {}
+    unread: set[str] = set()
     for key in tree:
         if key not in layout and all(field.name != key for field in layout[""]):
             wrong(key, tree[key], "unknown " + ("table" if isinstance(tree[key], dict) else "key"),
                   _advice(key, "", layout), not isinstance(tree[key], dict))
     for table, fields in layout.items():
-        given: Any = tree if not table else tree.get(table)
-        if given is None and table not in tree:
+        given: Any = tree.get(table, {}) if table else tree
+        if table and table not in tree and needed(kind, table):
             wrong(table, "", f"the table [{table}] is missing", f"add [{table}] with {_wanted(kind, table)}", False)
+            unread.add(table)
             continue
         if not isinstance(given, dict):
+            unread.add(table)
             wrong(table, given, f"this is {_kind_of(given)}, not a table", f"write [{table}] on a line of its own, then its keys")
             continue
         prefix = table + "." if table else ""
@@ -360,9 +404,13 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
                 values[field.name] = _READERS[field.form](field, given[field.name])
             except _Wrong as error:
                 wrong(prefix + field.name, given[field.name], *error.args)
-        if table in ALTERNATIVES[kind]:
-            _one_of(kind, table, given, wrong)
         read[table] = values
+    for choices in ALTERNATIVES[kind]:
+        if not any(table_of(key) in unread for choice in choices for key in choice):
+            _one_of(choices, tree, wrong)
+    if not mistakes:
+        for found in _PHYSICS[kind](read) if kind in _PHYSICS else ():
+            wrong(*found)
     if mistakes:
         raise SceneError(*mistakes)
     head = read.pop("")
@@ -373,34 +421,46 @@ def _meaning(field: Field) -> str:
     return field.meaning + (f" ({field.unit})" if field.unit else "")
 
 
+def _ways(choices: tuple[Choice, ...]) -> str:
+    """The alternatives for reading: "in [solve] give either duration and samples or times"."""
+    tables = {table_of(key) for choice in choices for key in choice}
+    if len(tables) == 1:
+        return f"in [{tables.pop()}] give either {_bare(choices)}"
+    return "give either " + ", or ".join(" and ".join(filter(None, (", ".join(choice[:-1]), choice[-1]))) for choice in choices)
+
+
+def _bare(choices: tuple[Choice, ...]) -> str:
+    return " or ".join(" and ".join(key.rpartition(".")[2] for key in choice) for choice in choices)
+
+
 def _wanted(kind: str, table: str) -> str:
     names = [field.name for field in KINDS[kind][table] if field.default is REQUIRED]
-    names += [" or ".join(" and ".join(keys) for keys in ALTERNATIVES[kind][table])] if table in ALTERNATIVES[kind] else []
+    names += [_bare(choices) for choices in ALTERNATIVES[kind] if all(table_of(key) == table for choice in choices for key in choice)]
     return ", ".join(names)
 
 
-def _one_of(kind: str, table: str, given: Mapping[str, Any], wrong: Any) -> None:
-    choices = ALTERNATIVES[kind][table]
-    text = " or ".join(" and ".join(keys) for keys in choices)
-    started = [keys for keys in choices if any(key in given for key in keys)]
+def _one_of(choices: tuple[Choice, ...], tree: Mapping[str, Any], wrong: Callable[..., None]) -> None:
+    given = {f"{table}.{name}": value for table, values in tree.items() if isinstance(values, dict) for name, value in values.items()}
+    started = [choice for choice in choices if any(key in given for key in choice)]
     if not started:
-        wrong(f"{table}.{choices[0][0]}", "", "the key is missing", f"in [{table}] give {text}", False)
+        wrong(choices[0][0], "", "the key is missing", _ways(choices), False)
     elif len(started) > 1:
-        extra = next(key for key in started[1] if key in given)
-        first = next(key for key in started[0] if key in given)
-        wrong(f"{table}.{extra}", given[extra], f"given beside {table}.{first}", f"in [{table}] give either {text}")
+        first, extra = (next(key for key in choice if key in given) for choice in started[:2])
+        wrong(extra, given[extra], f"given beside {first}", _ways(choices))
     else:
         for key in started[0]:
             if key not in given:
-                wrong(f"{table}.{key}", "", "the key is missing", f"in [{table}] give {text}", False)
+                wrong(key, "", "the key is missing", _ways(choices), False)
 
 
 def _advice(key: str, table: str, layout: Mapping[str, Iterable[Field]]) -> str:
     """What to do about a key that `table` does not have."""
     here = [field.name for field in layout[table]] + ([name for name in layout if name] if not table else [])
     homes = [name for name, fields in layout.items() if any(field.name == key for field in fields)]
+    if homes and not homes[0]:
+        return f"{key} belongs at the top of the file, before the first table"
     if homes:
-        return f"{key} belongs in [{homes[0]}]" if homes[0] else f"{key} belongs at the top of the file, before the first table"
+        return f"{key} belongs in {' or '.join(f'[{home}]' for home in homes)}"
     if near := _near(key, here):
         return f"did you mean {near}?"
     for name, fields in layout.items():
@@ -423,6 +483,13 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
                 near = _near(name, names)
                 raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)), "unknown key",
                                          f"did you mean {near}?" if near else f"the keys are {', '.join(names)}"))
+            if len(homes) > 1:
+                given = [home for home in homes if isinstance(there := tree.get(home), dict) and name in there]
+                if len(given) != 1:
+                    full_keys = " or ".join(f"{home}.{name}" for home in homes)
+                    raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)),
+                                             f"several tables have a key {name}", f"write {full_keys}"))
+                homes = given
             table = homes[0] if homes else ""
         full[f"{table}.{name}" if table else name] = _plain(value)
     for key, value in full.items():
@@ -432,12 +499,11 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
             home = home.setdefault(part, {})
             if not isinstance(home, dict):
                 raise SceneError(Mistake(source.label, table, _show(home), "this is not a table", f"write [{table}] and its keys"))
-        choices = ALTERNATIVES.get(str(kind), {}).get(table, ())
-        for keys in choices:
-            if any(name in other for other in choices if other is not keys):
-                for rival in keys:
-                    if f"{table}.{rival}" not in full:
-                        home.pop(rival, None)
+        for choices in ALTERNATIVES.get(str(kind), ()):
+            for rival in (rival for choice in choices if key not in choice and any(key in other for other in choices) for rival in choice):
+                beside = tree.get(table_of(rival))
+                if rival not in full and isinstance(beside, dict):
+                    beside.pop(rival.rpartition(".")[2], None)
         home[name] = value
         yield key
 

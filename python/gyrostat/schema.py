@@ -3,7 +3,7 @@
 
 from typing import Any
 
-from gyrostat.fields import ALTERNATIVES, KINDS, REQUIRED, UNSET, Field
+from gyrostat.fields import ALTERNATIVES, KINDS, REQUIRED, UNSET, Choice, Field, needed, table_of
 
 __all__ = ["schema"]
 
@@ -29,6 +29,8 @@ def _form(field: Field) -> dict[str, Any]:
             return {"type": "integer", "minimum": int(field.low), "maximum": int(field.high)}
         case "vector":
             return _array(_number(field), 3)
+        case "direction":
+            return _array({"type": "number", "minimum": -1.00000001, "maximum": 1.00000001}, 3)
         case "quaternion":
             return _array({"type": "number", "minimum": -1.000001, "maximum": 1.000001}, 4)
         case "times":
@@ -45,35 +47,46 @@ def _property(field: Field) -> dict[str, Any]:
     return made
 
 
+def _given(keys: Choice) -> dict[str, Any]:
+    """All of the full keys are there."""
+    tables = {table: [key.rpartition(".")[2] for key in keys if table_of(key) == table] for table in map(table_of, keys)}
+    return {"required": list(tables), "properties": {table: {"required": names} for table, names in tables.items()}}
+
+
+def _one_of(choices: tuple[Choice, ...]) -> dict[str, Any]:
+    """One way is taken whole, and nothing of another."""
+    return {"oneOf": [
+        {**_given(chosen), "not": {"anyOf": [_given((key,)) for other in choices if other is not chosen for key in other]}}
+        for chosen in choices
+    ]}
+
+
 def _kind(kind: str) -> dict[str, Any]:
     tables = KINDS[kind]
     properties: dict[str, Any] = {field.name: _property(field) for field in tables[""]}
-    required = [field.name for field in tables[""] if field.default is REQUIRED]
     for table, fields in tables.items():
-        if not table:
-            continue
-        made: dict[str, Any] = {
-            "type": "object",
-            "properties": {field.name: _property(field) for field in fields},
-            "required": [field.name for field in fields if field.default is REQUIRED],
-            "additionalProperties": False,
-        }
-        if choices := ALTERNATIVES[kind].get(table):
-            made["oneOf"] = [
-                {"required": list(chosen), "not": {"anyOf": [{"required": [key]} for other in choices
-                                                             if other is not chosen for key in other]}}
-                for chosen in choices
-            ]
-        properties[table] = made
-        required.append(table)
-    return {"type": "object", "properties": properties, "required": required, "additionalProperties": False}
+        if table:
+            properties[table] = {
+                "type": "object",
+                "properties": {field.name: _property(field) for field in fields},
+                "required": [field.name for field in fields if field.default is REQUIRED],
+                "additionalProperties": False,
+            }
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": [field.name for field in tables[""] if field.default is REQUIRED]
+                    + [table for table in tables if table and needed(kind, table)],
+        "additionalProperties": False,
+        "allOf": [_one_of(choices) for choices in ALTERNATIVES[kind]],
+    }
 
 
 def schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of a scene file, parsed from TOML.
 
     What a schema cannot say is checked when a scene is loaded: finite numbers, the triangle inequality, a symmetric
-    tensor, increasing times, a unit quaternion.
+    tensor, increasing times, a unit quaternion or axis, a rotor that the body can hold.
     """
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -9,3 +9,5 @@ void bind_published(pybind11::module_& module);
 void bind_rotation(pybind11::module_& module);
 void bind_deceleration(pybind11::module_& module);
 void bind_deceleration_integrators(pybind11::module_& module);
+void bind_rotor(pybind11::module_& module);
+void bind_rotor_integrators(pybind11::module_& module);

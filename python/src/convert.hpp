@@ -14,6 +14,7 @@
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/ode/status.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 namespace gyrostat::python {
@@ -56,6 +57,19 @@ inline std::string text(const Array& values) {
   std::string made = "[";
   for (py::ssize_t i = 0; i < values.size() && i < 9; ++i) made += (i ? ", " : "") + text(values.data()[i]);
   return made + (values.size() > 9 ? ", ...]" : "]");
+}
+
+/// How an integration ended.
+inline const char* symbol(ode::Status status) {
+  switch (status) {
+    case ode::Status::reached: return "reached";
+    case ode::Status::event: return "event";
+    case ode::Status::step_limit: return "step_limit";
+    case ode::Status::step_underflow: return "step_underflow";
+    case ode::Status::not_finite: return "not_finite";
+    case ode::Status::cancelled: return "cancelled";
+  }
+  return "";
 }
 
 /// DomainError unless the array has the shape.

@@ -4,12 +4,11 @@
 
 #include <pybind11/stl.h>
 
-#include <chrono>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "answer.hpp"
 #include "bind.hpp"
 #include "gyrostat/models/deceleration/stability.hpp"
 #include "scene_arguments.hpp"
@@ -61,62 +60,10 @@ Answer climb_with([[maybe_unused]] bool gsl, const Scene& scene, Refusal& refusa
 }
 
 py::object values_of(Column& column) {
-  const auto n = py::ssize_t(column.values.size()) / column.width;
-  if (column.name == std::string_view("regime")) {
-    py::list names;
-    for (const double r : column.values) names.append(symbol(Regime(int(r))));
-    return names;
-  }
-  if (column.width == 1) return array(std::move(column.values), {n});
-  return array(std::move(column.values), {n, column.width});
-}
-
-Data to_python(Answer& answer, double seconds) {
-  py::dict columns, error, scalars, counts;
-  for (Column& column : answer.columns) {
-    const std::string name = column.name;
-    if (name != "regime") error[column.name] = column.error;
-    columns[column.name] = values_of(column);
-  }
-  for (const Quantity& q : answer.quantities) {
-    std::vector<double> values;
-    for (int i = 0; i < q.width; ++i) values.push_back(q.values[i] + 0.0);  // no -0
-    if (q.width == 1) scalars[q.name] = values[0];
-    else scalars[q.name] = array(std::move(values), {q.width});
-  }
-  py::list warnings, tried;
-  for (const Warning& w : answer.warnings) {
-    py::dict item;
-    item["code"] = w.code;
-    item["message"] = std::isnan(w.value) ? std::string(w.text) : w.text + (" (" + text(w.value) + ")");
-    warnings.append(item);
-  }
-  for (const Attempt& a : answer.tried) {
-    py::dict item;
-    item["model"] = a.model;
-    item["error"] = std::isnan(a.error) ? py::object(py::none()) : py::object(py::float_(a.error));
-    item["accepted"] = a.accepted;
-    std::string why = a.why ? a.why : "";
-    char over[80];
-    std::snprintf(over, sizeof over, "error %.2g over tolerance %.2g", a.error, answer.tolerance);
-    if (a.error > answer.tolerance) why += (why.empty() ? "" : "; ") + std::string(over);
-    item["why"] = why;
-    tried.append(item);
-  }
-  counts["rhs"] = answer.counts.rhs;
-  counts["steps"] = answer.counts.steps;
-  counts["rejected"] = answer.counts.rejected;
-  Data made;
-  made["model"] = answer.model;
-  made["met"] = answer.met;
-  made["error"] = error;
-  made["warnings"] = warnings;
-  made["columns"] = columns;
-  made["scalars"] = scalars;
-  made["counts"] = counts;
-  made["seconds"] = seconds;
-  made["tried"] = tried;
-  return made;
+  if (column.name != std::string_view("regime")) return numbers(column);
+  py::list names;
+  for (const double r : column.values) names.append(symbol(Regime(int(r))));
+  return names;
 }
 
 Scene checked(const Inertia<double>& body, const SceneData& data) {
@@ -139,37 +86,20 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
   data.drag_law = law("drag_law", drag_law);
   data.momentum = vector("angular_momentum", angular_momentum);
   if (attitude) {
-    require_shape("attitude", *attitude, {4});
-    require_finite("attitude", *attitude);
-    const double* q = attitude->data();
     data.wants_attitude = true;
-    data.attitude = {q[3], q[0], q[1], q[2]};
-    if (std::abs(norm(data.attitude) - 1) > 1e-6)
-      raise("DomainError", "attitude = " + text(*attitude) + ": not a unit quaternion");
-    data.attitude = normalised(data.attitude);
+    data.attitude = quaternion("attitude", *attitude);
   }
   data.times = times(at);
-  if (!(tolerance > 0 && tolerance < 1))
-    raise("DomainError", "tolerance = " + text(tolerance) + ": give a number in (0, 1)");
-  data.tolerance = tolerance;
+  data.tolerance = relative_tolerance(tolerance);
   data.model = model(rung);
   data.full_equations = full_equations(method);
   const bool gsl = uses_gsl(elliptic);
   const Scene scene = checked(body(inertia), data);
 
   Refusal refusal;
-  Answer answer;
-  double seconds = 0;
-  {
-    const py::gil_scoped_release free;
-    const auto began = std::chrono::steady_clock::now();
-    answer = climb_with(gsl, scene, refusal, monitor ? monitor->get() : nullptr);
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  }
-  if (refusal.code != Errc::ok)
-    raise(refusal.code,
-          refusal.code == Errc::cancelled ? "cancelled" : std::string("model ") + refusal.model + ": " + refusal.why);
-  return to_python(answer, seconds);
+  auto [answer, seconds] = timed([&] { return climb_with(gsl, scene, refusal, monitor ? monitor->get() : nullptr); });
+  require_answer(refusal);
+  return to_python(answer, seconds, &values_of);
 }
 
 /// The rung `averaged` for many bodies: rows of inertia, rotor_momentum, control, momentum (n, 3) and drag (n).
@@ -271,13 +201,6 @@ py::typing::List<py::str> regime_symbols() {
 }  // namespace
 
 void bind_deceleration(py::module_& module) {
-  py::class_<Monitor, std::shared_ptr<Monitor>>(module, "Monitor", "Watches and stops long work from another thread.")
-      .def(py::init<>())
-      .def_property_readonly(
-          "progress", [](const Monitor& m) { return m.fraction.load(); }, "Share of the work done, from 0 to 1.")
-      .def_property_readonly(
-          "cancelled", [](const Monitor& m) { return m.cancel.load(); }, "Whether cancel() was called.")
-      .def("cancel", [](Monitor& m) { m.cancel.store(true); }, "Ask the work to stop: it raises Cancelled soon after.");
   module.def("deceleration_solve", &solve_scene, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"),
              py::arg("control"), py::arg("drag"), py::arg("law"), py::arg("drag_law"), py::arg("angular_momentum"),
              py::arg("attitude"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),

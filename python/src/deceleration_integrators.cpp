@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The full equations under one integrator at one setting, for charts of error against cost.
 #include <array>
-#include <chrono>
 #include <string>
 #include <utility>
 
+#include "answer.hpp"
 #include "bind.hpp"
 #include "gyrostat/models/deceleration/full.hpp"
 #include "gyrostat/ode/runge_kutta.hpp"
@@ -154,29 +154,10 @@ Problem<Scalar> problem_of(const Inertia<Scalar>& body, const Array& rotor_momen
   return problem;
 }
 
-const char* symbol_of(Status status) {
-  switch (status) {
-    case Status::reached: return "reached";
-    case Status::event: return "event";
-    case Status::step_limit: return "step_limit";
-    case Status::step_underflow: return "step_underflow";
-    case Status::not_finite: return "not_finite";
-    case Status::cancelled: return "cancelled";
-  }
-  return "";
-}
-
 /// Runs `work` without the GIL, and hands its result back in body axes.
 template <Real Scalar, class Work>
-Data timed(const Inertia<Scalar>& body, std::size_t n, Work&& work) {
-  Run<Scalar> run;
-  double seconds = 0;
-  {
-    const py::gil_scoped_release free;
-    const auto began = std::chrono::steady_clock::now();
-    run = work();
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  }
+Data in_body_axes(const Inertia<Scalar>& body, std::size_t n, Work&& work) {
+  const auto [run, seconds] = timed(std::forward<Work>(work));
   std::vector<double> momentum(3 * n, missing);
   for (std::size_t i = 0; i < run.momentum.size(); ++i) {
     const Vec3<Scalar> M_B = body.R_BP() * run.momentum[i];
@@ -187,7 +168,7 @@ Data timed(const Inertia<Scalar>& body, std::size_t n, Work&& work) {
   made["seconds"] = seconds;
   made["rhs"] = run.counts.rhs;
   made["steps"] = run.counts.steps;
-  made["status"] = symbol_of(run.status);
+  made["status"] = symbol(run.status);
   return made;
 }
 
@@ -204,8 +185,9 @@ Data integrate(const Array& inertia, const Array& rotor_momentum, const Array& c
       raise("DomainError", "precision = 'long double': only method taylor of order 30 has it");
     const auto made = body<long double>(inertia);
     const auto problem = problem_of(made, rotor_momentum, control, drag, opposed, dragged, angular_momentum);
-    return timed(made, t.size(),
-                 [&] { return by_taylor_of<long double, 30>(30, problem, t, static_cast<long double>(tolerance)); });
+    return in_body_axes(made, t.size(), [&] {
+      return by_taylor_of<long double, 30>(30, problem, t, static_cast<long double>(tolerance));
+    });
   }
   if (precision != "double") raise("DomainError", "precision = '" + precision + "': use double or long double");
   const auto made = body<double>(inertia);
@@ -213,13 +195,14 @@ Data integrate(const Array& inertia, const Array& rotor_momentum, const Array& c
   if (method == "taylor") {
     if (order != 8 && order != 12 && order != 16 && order != 20 && order != 26)
       raise("DomainError", "order = " + std::to_string(order) + ": use 8, 12, 16, 20 or 26");
-    return timed(made, t.size(), [&] { return by_taylor_of<double, 8, 12, 16, 20, 26>(order, problem, t, tolerance); });
+    return in_body_axes(made, t.size(),
+                        [&] { return by_taylor_of<double, 8, 12, 16, 20, 26>(order, problem, t, tolerance); });
   }
-  if (method == "dop853") return timed(made, t.size(), [&] { return by_dop853(problem, t, tolerance); });
+  if (method == "dop853") return in_body_axes(made, t.size(), [&] { return by_dop853(problem, t, tolerance); });
 #ifdef GYROSTAT_HAVE_CVODE
   if (method == "cvode-adams" || method == "cvode-bdf") {
     const auto kind = method == "cvode-bdf" ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams;
-    return timed(made, t.size(), [&] { return by_cvode(problem, t, tolerance, kind); });
+    return in_body_axes(made, t.size(), [&] { return by_cvode(problem, t, tolerance, kind); });
   }
 #endif
   raise("DomainError", "method = '" + method + "': unknown, or not in this build");

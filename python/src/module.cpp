@@ -3,8 +3,10 @@
 #include <pybind11/typing.h>
 
 #include <Eigen/Core>
+#include <memory>
 
 #include "bind.hpp"
+#include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/version.hpp"
 
 namespace py = pybind11;
@@ -40,6 +42,17 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "Compiled core of gyrostat.";
   module.def("build_info", &build_info,
              "Version of the library, of the compiler, and of each library that is built in (None: it is not).");
+  py::class_<gyrostat::Monitor, std::shared_ptr<gyrostat::Monitor>>(module, "Monitor",
+                                                                    "Watches and stops long work from another thread.")
+      .def(py::init<>())
+      .def_property_readonly(
+          "progress", [](const gyrostat::Monitor& m) { return m.fraction.load(); },
+          "Share of the work done, from 0 to 1.")
+      .def_property_readonly(
+          "cancelled", [](const gyrostat::Monitor& m) { return m.cancel.load(); }, "Whether cancel() was called.")
+      .def(
+          "cancel", [](gyrostat::Monitor& m) { m.cancel.store(true); },
+          "Ask the work to stop: it raises Cancelled soon after.");
   bind_elliptic(module);
   bind_rotation(module);
   bind_deceleration(module);

@@ -33,6 +33,45 @@ angular_momentum = [40.0, 25.0, 16.5]
 attitude = [0.0, 0.0, 0.0, 1.0]
 """
 
+ROTOR = """\
+name = "test"
+kind = "rotor"
+source = "a test"
+
+[solve]
+duration = 100.0
+samples = 11
+tolerance = 1e-6
+model = "auto"
+integrator = "auto"
+
+[body]
+inertia = [[3.2, 0.1, -0.15], [0.1, 4.1, 0.2], [-0.15, 0.2, 5.0]]
+
+[rotor]
+axis = [0.36, 0.48, 0.8]
+axial_inertia = 0.35
+
+[motor]
+slope = 0.05
+no_load_rate = 30.0
+
+[initial]
+angular_velocity = [0.1, 0.2, 0.3]
+rotor_rate = -1.0
+attitude = [0.0, 0.0, 0.0, 1.0]
+"""
+
+# The same kind with carrier and rotor given apart.
+ASSEMBLED = ROTOR.replace("[body]\ninertia = [[3.2, 0.1, -0.15], [0.1, 4.1, 0.2], [-0.15, 0.2, 5.0]]", """\
+[carrier]
+inertia = [2.1, 2.6, 3.2]
+mass = 12.0""").replace("axial_inertia = 0.35", """\
+axial_inertia = 0.35
+mass = 3.0
+equatorial_inertia = 0.3
+offset = [0.2, -0.15, 0.3]""")
+
 
 @pytest.fixture
 def good() -> str:
@@ -45,4 +84,12 @@ def scene_file(tmp_path: Path) -> Path:
     """That text in a file."""
     file = tmp_path / "scene.toml"
     file.write_text(GOOD)
+    return file
+
+
+@pytest.fixture
+def rotor_file(tmp_path: Path) -> Path:
+    """A rotor scene in a file."""
+    file = tmp_path / "rotor.toml"
+    file.write_text(ROTOR)
     return file

@@ -5,11 +5,12 @@ import math
 import random
 import re
 import string
+import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import GOOD
+from conftest import ASSEMBLED, GOOD, ROTOR
 from gyrostat.errors import SceneError
 from gyrostat.fields import KINDS, RUNGS
 from gyrostat.scenes import bundled, load, parse_override, scene_from
@@ -17,9 +18,17 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 
-def swap(old: str, new: str) -> str:
-    assert old in GOOD
-    return GOOD.replace(old, new)
+def swap(old: str, new: str, text: str = GOOD) -> str:
+    assert old in text
+    return text.replace(old, new)
+
+
+def in_rotor(old: str, new: str) -> str:
+    return swap(old, new, ROTOR)
+
+
+def in_assembled(old: str, new: str) -> str:
+    return swap(old, new, ASSEMBLED)
 
 
 # A scene text, and what the message about it must contain: key, value, and the remedy.
@@ -27,7 +36,7 @@ MISTAKES: dict[str, tuple[str, list[str]]] = {
     "not TOML": (swap("duration = 100.0", "duration = "), [":6", "not TOML"]),
     "duplicate key": (swap("drag = 2.0e-4", "drag = 2.0e-4\ndrag = 1.0"), ["not TOML", "drag"]),
     "unknown kind": (swap('"deceleration"', '"decelaration"'), ["kind", "decelaration", 'did you mean "deceleration"']),
-    "kind of a later version": (swap('"deceleration"', '"rotor"'), ["kind", "rotor", "not built yet", "deceleration"]),
+    "kind of a later version": (swap('"deceleration"', '"spinning"'), ["kind", "spinning", "not built yet", "deceleration", "rotor"]),
     "kind missing": (swap('kind = "deceleration"\n', ""), ["kind", "missing", 'kind = "deceleration"']),
     "kind not text": (swap('"deceleration"', "3"), ["kind = 3", "deceleration"]),
     "name missing": (swap('name = "test"\n', ""), ["name", "missing"]),
@@ -70,7 +79,8 @@ MISTAKES: dict[str, tuple[str, list[str]]] = {
     "unknown drag law": (swap('drag_law = "total"', 'drag_law = "both"'), ["torque.drag_law", '"both"', "total, carrier"]),
     "unknown model": (swap('model = "auto"', 'model = "averaged-3"'), ["solve.model", "averaged-3", "averaged-2"]),
     "unknown integrator": (swap('integrator = "auto"', 'integrator = "euler"'), ["solve.integrator", "euler", "taylor"]),
-    "integrator of a later kind": (swap('integrator = "auto"', 'integrator = "radau"'), ["solve.integrator", "radau", "taylor"]),
+    "integrator of another kind": (swap('integrator = "auto"', 'integrator = "radau"'),
+                                   ["solve.integrator", "radau", "this kind of scene has no such integrator", "taylor"]),
     "unknown elliptic backend": (swap('elliptic = "auto"', 'elliptic = "boost"'), ["solve.elliptic", "boost", "native"]),
     "list for a choice": (swap('model = "auto"', 'model = ["full"]'), ["solve.model", "an array, not text"]),
     "two starts": (swap("[initial]", "[initial]\nangular_velocity = [1.0, 0.0, 0.0]"), ["initial.angular_momentum", "either"]),
@@ -93,6 +103,42 @@ MISTAKES: dict[str, tuple[str, list[str]]] = {
     "samples without end": (swap("samples = 11", "samples = 2000000000"), ["solve.samples", "1000000"]),
     "zero tolerance": (swap("tolerance = 1e-6", "tolerance = 0.0"), ["solve.tolerance = 0.0", "1e-15"]),
     "tolerance of one": (swap("tolerance = 1e-6", "tolerance = 1.0"), ["solve.tolerance = 1.0", "0.5"]),
+    # rotor
+    "unknown rung of a rotor": (in_rotor('model = "auto"', 'model = "averaged"'), ["solve.model", "averaged", "closed-form", "linear-tail"]),
+    "no motor": (in_rotor("[motor]\nslope = 0.05\nno_load_rate = 30.0\n", ""), ["[motor] is missing", "slope, no_load_rate"]),
+    "no rotor": (ROTOR.split("[rotor]")[0] + "[motor]" + ROTOR.split("[motor]")[1], ["[rotor] is missing", "axis, axial_inertia"]),
+    "no body": (in_rotor("[body]\ninertia = [[3.2, 0.1, -0.15], [0.1, 4.1, 0.2], [-0.15, 0.2, 5.0]]\n", ""),
+                ["body.inertia", "missing", "either body.inertia, or carrier.inertia, carrier.mass, rotor.mass"]),
+    "an empty body": (in_rotor("inertia = [[3.2, 0.1, -0.15], [0.1, 4.1, 0.2], [-0.15, 0.2, 5.0]]\n", ""),
+                      ["body.inertia", "missing", "carrier.inertia"]),
+    "carrier beside body": (in_rotor("[rotor]", "[carrier]\ninertia = [1, 1, 1]\nmass = 2.0\n[rotor]"),
+                            [":16", "carrier.inertia = [1, 1, 1]", "given beside body.inertia", "either body.inertia, or carrier.inertia"]),
+    "mass of the rotor beside body": (in_rotor("[rotor]", "[rotor]\nmass = 2.0"), ["rotor.mass = 2.0", "given beside body.inertia", "offset"]),
+    "carrier without the rotor's mass": (in_assembled("mass = 3.0\n", ""), ["rotor.mass", "missing", "equatorial_inertia and rotor.offset"]),
+    "carrier without its mass": (in_assembled("mass = 12.0\n", ""), ["carrier.mass", "missing", "carrier.inertia"]),
+    "carrier without offset": (in_assembled("offset = [0.2, -0.15, 0.3]\n", ""), ["rotor.offset", "missing"]),
+    "carrier as a number": (in_assembled("[carrier]\ninertia = [2.1, 2.6, 3.2]\nmass = 12.0\n", "").replace("[solve]", "carrier = 3\n[solve]"),
+                            ["carrier = 3", "an integer, not a table", "[carrier]"]),
+    "mass in the body": (in_rotor("[body]", "[body]\nmass = 3.0"), ["body.mass", "unknown key", "mass belongs in [carrier] or [rotor]"]),
+    "massless carrier": (in_assembled("mass = 12.0", "mass = 0.0"), ["carrier.mass = 0.0", "> 0", "kg"]),
+    "impossible carrier": (in_assembled("[2.1, 2.6, 3.2]", "[2.1, 2.6, 9.2]"), ["carrier.inertia", "9.2", "triangle"]),
+    "rotor against its own mass": (in_assembled("axial_inertia = 0.35", "axial_inertia = 0.61"),
+                                   ["rotor.axial_inertia = 0.61", "twice rotor.equatorial_inertia = 0.3", "0.6 kg m^2"]),
+    "rotor too great for the body": (in_rotor("axial_inertia = 0.35", "axial_inertia = 4.7"),
+                                     ["rotor.axial_inertia = 4.7", "less than 4.44", "1/(e.theta^-1.e)"]),
+    "body against the triangle": (in_rotor("[[3.2, 0.1, -0.15], [0.1, 4.1, 0.2], [-0.15, 0.2, 5.0]]", "[3.2, 4.1, 8.0]"),
+                                  ["body.inertia", "8", "triangle"]),
+    "axis that is no unit": (in_rotor("[0.36, 0.48, 0.8]", "[3, 0, 4.0]"), ["rotor.axis = [3, 0, 4.0]", "norm is 5", "unit vector [0.6, 0, 0.8]"]),
+    "axis that is nearly a unit": (in_rotor("[0.36, 0.48, 0.8]", "[0.36, 0.48, 0.80001]"), ["rotor.axis", "write the unit vector [0.35999"]),
+    "axis without direction": (in_rotor("[0.36, 0.48, 0.8]", "[0.0, 0.0, 0.0]"), ["rotor.axis", "zero vector", "[0.0, 0.0, 1.0]"]),
+    "axis of two numbers": (in_rotor("[0.36, 0.48, 0.8]", "[0.6, 0.8]"), ["rotor.axis", "2 elements", "3 numbers"]),
+    "rotor without inertia": (in_rotor("axial_inertia = 0.35", "axial_inertia = 0.0"), ["rotor.axial_inertia = 0.0", "out of range", "kg m^2"]),
+    "motor that drives itself": (in_rotor("slope = 0.05", "slope = -0.05"), ["motor.slope = -0.05", ">= 0", "N m s/rad"]),
+    "endless rate": (in_rotor("no_load_rate = 30.0", "no_load_rate = inf"), ["motor.no_load_rate = inf", "finite", "rad/s"]),
+    "no rotor rate": (in_rotor("rotor_rate = -1.0\n", ""), ["initial.rotor_rate", "missing", "rad/s"]),
+    "momentum at the start of a rotor": (in_rotor("rotor_rate = -1.0", "rotor_rate = -1.0\nangular_momentum = [1, 2, 3]"),
+                                         ["initial.angular_momentum", "unknown key", "angular_velocity"]),
+    "torque on a rotor scene": (ROTOR + "[torque]\ndrag = 1.0\n", ["torque", "unknown table"]),
 }
 
 
@@ -184,6 +230,55 @@ def test_a_scene_survives_its_dict(scene_file: Path) -> None:
     assert scene_from(scene.to_dict()).to_dict() == scene.to_dict()
 
 
+@pytest.mark.parametrize("text", [ROTOR, ASSEMBLED])
+def test_rotor_scenes_are_read(text: str, tmp_path: Path) -> None:
+    file = tmp_path / "rotor.toml"
+    file.write_text(text.replace("attitude = [0.0, 0.0, 0.0, 1.0]\n", ""))
+    scene = load(file)
+    assert scene.kind == "rotor" and scene.tables["rotor"]["axis"] == (0.36, 0.48, 0.8)
+    assert scene.tables["initial"]["attitude"] == (0.0, 0.0, 0.0, 1.0)
+    assert (scene.tables["body"]["inertia"] is None) == (text is ASSEMBLED) != (scene.tables["carrier"]["mass"] is None)
+    assert ("carrier" in scene.to_dict()) == (text is ASSEMBLED) != ("body" in scene.to_dict())
+    assert scene_from(scene.to_dict()).to_dict() == scene.to_dict()
+    assert scene.replace(integrator="radau").tables["solve"]["integrator"] == "radau"
+
+
+def test_an_axis_within_rounding_of_a_unit_is_normalised(rotor_file: Path) -> None:
+    axis = np.array([0.36, 0.48, 0.8]) * (1 + 5e-9)
+    scene = load(rotor_file, axis=axis)
+    assert math.hypot(*scene.tables["rotor"]["axis"]) == pytest.approx(1, abs=4e-16)
+    assert scene_from(scene.to_dict()).to_dict() == scene.to_dict()
+    with pytest.raises(SceneError, match="norm is"):
+        load(rotor_file, axis=axis * (1 + 2e-8))
+
+
+def test_a_rotor_as_great_as_its_body_holds(rotor_file: Path) -> None:
+    theta = np.array([[3.2, 0.1, -0.15], [0.1, 4.1, 0.2], [-0.15, 0.2, 5.0]])
+    e = np.array([0.36, 0.48, 0.8])
+    most = 1 / float(e @ np.linalg.inv(theta) @ e)
+    assert load(rotor_file, axial_inertia=most * (1 - 1e-6))
+    with pytest.raises(SceneError, match=f"{most:.9g}"):
+        load(rotor_file, axial_inertia=most * (1 + 1e-12))
+    disc = load(rotor_file, **{"carrier.inertia": [2, 3, 4], "carrier.mass": 5, "rotor.mass": 1, "equatorial_inertia": 0.175, "offset": [0, 0, 0.1]})
+    assert disc.tables["rotor"]["axial_inertia"] == 2 * disc.tables["rotor"]["equatorial_inertia"]
+
+
+def test_overrides_across_tables(rotor_file: Path, tmp_path: Path) -> None:
+    apart = {"carrier.inertia": [2, 3, 4], "carrier.mass": 5, "rotor.mass": 1, "equatorial_inertia": 0.3, "offset": [0, 0, 0.1]}
+    scene = load(rotor_file, **apart)
+    assert "body" not in scene.to_dict() and scene.tables["carrier"]["mass"] == 5.0
+    assert scene.replace(inertia=[3, 3, 3]).tables["carrier"]["inertia"] == (3.0, 3.0, 3.0)  # the one that the scene gives
+    whole = scene.replace(**{"body.inertia": [3, 4, 5]}).to_dict()
+    assert "carrier" not in whole and set(whole["rotor"]) == {"axis", "axial_inertia"}
+    assert load(rotor_file, inertia=[3, 4, 5]).tables["body"]["inertia"] == (3.0, 4.0, 5.0)
+    with pytest.raises(SceneError, match="write carrier.mass or rotor.mass"):
+        load(rotor_file, mass=1.0)
+    with pytest.raises(SceneError, match="write carrier.mass or rotor.mass"):
+        scene.replace(mass=1.0)
+    with pytest.raises(SceneError, match="carrier.inertia: the key is missing"):
+        load(rotor_file, **{"rotor.mass": 1.0})
+
+
 def test_a_nearly_unit_quaternion_is_normalised() -> None:
     q = np.array([0.5, 0.5, 0.5, 0.5]) * (1 + 3e-7)
     scene = load("near-separatrix", attitude=q)
@@ -243,12 +338,13 @@ def survives(text: str | bytes, folder: Path) -> None:
         assert error.mistakes and str(error)
 
 
-def test_mutated_texts(tmp_path: Path) -> None:
+@pytest.mark.parametrize("good", [GOOD, ROTOR, ASSEMBLED])
+def test_mutated_texts(good: str, tmp_path: Path) -> None:
     draw = random.Random(20260101)
     pieces = [*string.printable, "[[", "]]", "= nan", "= -inf", "1e999", "true", '"""', "{}", "[]", "\\u0000", "é", "9" * 30,
               "[solve]", "[body]", "kind", "0x", "1979-05-27", "\0"]
-    lines = GOOD.splitlines(keepends=True)
-    for _ in range(1500):
+    lines = good.splitlines(keepends=True)
+    for _ in range(1000):
         text = "".join(lines)
         for _ in range(draw.randint(1, 4)):
             i, j = sorted((draw.randrange(len(text) + 1), draw.randrange(len(text) + 1)))
@@ -276,26 +372,29 @@ def test_random_bytes(tmp_path: Path) -> None:
 
 values = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8) | st.binary(max_size=3)
-    | st.sampled_from(["auto", "full", "total", "carrier", "taylor", "deceleration", 10**400, -0.0, 1e-300, 5e-324]),
+    | st.sampled_from(["auto", "full", "total", "carrier", "taylor", "deceleration", 10**400, -0.0, 1e-300, 5e-324, [1e60] * 3,
+                       [1e-40] * 3, [0.6, 0.0, 0.8], 1e60, 1e-40]),
     lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=5), inner, max_size=3), max_leaves=12)
 keys = st.sampled_from(sorted({field.name for tables in KINDS.values() for fields in tables.values() for field in fields}))
 tables = st.dictionaries(keys | st.text(max_size=6), values, max_size=6)
 
 
 @settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-@given(st.dictionaries(st.sampled_from(["name", "source", "solve", "body", "torque", "initial"]) | st.text(max_size=5),
-                       tables | values, max_size=7))
-def test_random_dicts(data: dict[str, object]) -> None:
+@given(kind=st.sampled_from(sorted(KINDS)),
+       data=st.dictionaries(st.sampled_from(["name", "source", *sorted({table for tables in KINDS.values() for table in tables})])
+                            | st.text(max_size=5), tables | values, max_size=7))
+def test_random_dicts(kind: str, data: dict[str, object]) -> None:
     try:
-        scene_from({"kind": "deceleration", **data})
+        scene_from({"kind": kind, **data})
     except SceneError as error:
         assert str(error)
 
 
 @settings(max_examples=400, deadline=None)
-@given(key=keys, value=values, dotted=st.sampled_from(["", "solve.", "body.", "torque.", "initial.", "x.y."]))
-def test_random_overrides(key: str, value: object, dotted: str) -> None:
+@given(data=st.sampled_from([GOOD, ROTOR, ASSEMBLED]), key=keys, value=values,
+       dotted=st.sampled_from(["", "solve.", "body.", "torque.", "initial.", "carrier.", "rotor.", "motor.", "x.y."]))
+def test_random_overrides(data: str, key: str, value: object, dotted: str) -> None:
     try:
-        load("cubesat-wheel", **{dotted + key: value})
+        scene_from(tomllib.loads(data), **{dotted + key: value})
     except SceneError as error:
         assert str(error)

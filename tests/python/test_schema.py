@@ -2,10 +2,13 @@
 """The JSON Schema says what the validator says."""
 
 import json
+import tomllib
 from typing import Any
 
+from conftest import ASSEMBLED, ROTOR
+from gyrostat.errors import SceneError
 from gyrostat.fields import KINDS
-from gyrostat.scenes import bundled, load
+from gyrostat.scenes import bundled, load, scene_from
 from gyrostat.schema import schema
 
 
@@ -21,6 +24,8 @@ def accepts(rule: dict[str, Any], value: Any) -> bool:
     if "oneOf" in rule and sum(accepts(part, value) for part in rule["oneOf"]) != 1:
         return False
     if "anyOf" in rule and not any(accepts(part, value) for part in rule["anyOf"]):
+        return False
+    if "allOf" in rule and not all(accepts(part, value) for part in rule["allOf"]):
         return False
     if isinstance(value, dict):
         known = rule.get("properties", {})
@@ -48,15 +53,46 @@ def test_schema_has_every_key_once() -> None:
             assert {field.name for field in fields} == {key for key in properties if key not in tables}
 
 
+SPOILT = {
+    "deceleration": [("torque", "drag", -1.0), ("torque", "drag", "1"), ("torque", "law", "both"), ("body", "inertia", [1, 2]),
+                     ("body", "mass", 1.0), ("solve", "model", "linear-tail")],
+    "rotor": [("motor", "slope", -1.0), ("motor", "slope", "1"), ("rotor", "axis", [0, 0, 2]), ("rotor", "axis", [0, 1]),
+              ("rotor", "axial_inertia", 0.0), ("carrier", "mass", -1.0), ("carrier", "mass", 0), ("body", "inertia", [1, 2]),
+              ("initial", "angular_momentum", [1, 2, 3]), ("solve", "model", "averaged")],
+}
+
+
 def test_schema_accepts_the_bundled_scenes_and_refuses_spoilt_ones() -> None:
+    kinds = set()
     for name, _ in bundled():
         data = load(name).to_dict()
+        kinds.add(data["kind"])
         assert accepts(schema(), data)
-        for table, key, value in [("torque", "drag", -1.0), ("torque", "drag", "1"), ("torque", "law", "both"),
-                                  ("body", "inertia", [1, 2]), ("solve", "tolerance", 1.0), ("body", "mass", 1.0),
-                                  ("initial", "attitude", [0, 0, 0, 2]), ("solve", "samples", 1.5),
-                                  ("solve", "times", [1.0])]:
-            assert not accepts(schema(), {**data, table: {**data[table], key: value}})
-        assert not accepts(schema(), {**data, "kind": "rotor"})
-        assert not accepts(schema(), {key: value for key, value in data.items() if key != "torque"})
+        for table, key, value in [*SPOILT[data["kind"]], ("solve", "tolerance", 1.0), ("initial", "attitude", [0, 0, 0, 2]),
+                                  ("solve", "samples", 1.5), ("solve", "times", [1.0])]:
+            assert not accepts(schema(), {**data, table: {**data.get(table, {}), key: value}})
+        for other in {*KINDS, "spinning"} - {data["kind"]}:
+            assert not accepts(schema(), {**data, "kind": other})
+        for table in ("solve", "torque", "rotor", "motor", "initial"):
+            if table in data:
+                assert not accepts(schema(), {key: value for key, value in data.items() if key != table})
         assert not accepts(schema(), {**data, "initial": {}})
+    assert kinds == set(KINDS)
+
+
+def test_schema_and_validator_agree_on_alternatives_between_tables() -> None:
+    whole, apart = tomllib.loads(ROTOR), tomllib.loads(ASSEMBLED)
+    carrier = {"inertia": [2.1, 2.6, 3.2], "mass": 12.0}
+    for data in (
+        whole, apart, {**whole, "body": {}}, {**apart, "body": {}}, {**whole, "carrier": {}}, {**whole, "carrier": carrier},
+        {**apart, "body": whole["body"]}, {**whole, "rotor": {**whole["rotor"], "offset": [0, 0, 1]}},
+        {key: value for key, value in whole.items() if key != "body"}, {key: value for key, value in apart.items() if key != "carrier"},
+        *({**apart, "rotor": {k: v for k, v in apart["rotor"].items() if k != key}} for key in apart["rotor"]),
+        {**apart, "carrier": {"mass": 12.0}}, {**apart, "body": 3}, {**whole, "carrier": []},
+    ):
+        try:
+            scene_from(data)
+            right = True
+        except SceneError:
+            right = False
+        assert accepts(schema(), data) == right, data
