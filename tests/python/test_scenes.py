@@ -125,7 +125,7 @@ MISTAKES: dict[str, tuple[str, list[str]]] = {
     "rotor against its own mass": (in_assembled("axial_inertia = 0.35", "axial_inertia = 0.61"),
                                    ["rotor.axial_inertia = 0.61", "twice rotor.equatorial_inertia = 0.3", "0.6 kg m^2"]),
     "rotor too great for the body": (in_rotor("axial_inertia = 0.35", "axial_inertia = 4.7"),
-                                     ["rotor.axial_inertia = 4.7", "less than 4.44", "1/(e.theta^-1.e)"]),
+                                     ["rotor.axial_inertia = 4.7", "less than 4.5354946", "1/(e.theta^-1.e)"]),
     "body against the triangle": (in_rotor("[[3.2, 0.1, -0.15], [0.1, 4.1, 0.2], [-0.15, 0.2, 5.0]]", "[3.2, 4.1, 8.0]"),
                                   ["body.inertia", "8", "triangle"]),
     "axis that is no unit": (in_rotor("[0.36, 0.48, 0.8]", "[3, 0, 4.0]"), ["rotor.axis = [3, 0, 4.0]", "norm is 5", "unit vector [0.6, 0, 0.8]"]),
