@@ -52,6 +52,12 @@ def _time_unit(span: float) -> tuple[float, str]:
     return next((pair for pair in reversed(TIME_UNITS) if span >= 4 * pair[0]), TIME_UNITS[0])
 
 
+def _span(seconds: float) -> str:
+    """A time for reading."""
+    scale, unit = _time_unit(seconds)
+    return f"{seconds / scale:.3g} {unit}"
+
+
 def _error_text(answer: Answer, *columns: str) -> str:
     parts = [f"{answer.error[c]:.1e}" for c in columns if c in answer.error and math.isfinite(answer.error[c])]
     return "estimated error " + ", ".join(parts) if parts else "no error estimate"
@@ -106,22 +112,81 @@ def _modulus(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
     axes.set_title("Squared modulus and regime of the orbit", loc="left", fontsize=10)
 
 
-def _vector(axes: "Axes", answer: Answer, t: NDArray[Any], column: str, symbol: str, unit: str, title: str) -> None:
-    values = answer[column]
+def _coarse(values: NDArray[Any]) -> bool:
+    """Samples (n, k) that are less than a few a turn and draw no curve."""
+    if len(values) < 4:
+        return False
+    moving = values[:, np.ptp(values, axis=0) > 1e-6 * np.max(np.abs(values), initial=0.0)]
+    crossings = np.abs(np.diff(np.sign(values), axis=0)) > 0
+    turns = np.diff(np.sign(np.diff(moving, axis=0)), axis=0) != 0
+    return bool(np.mean(crossings) > 0.2 or (turns.size and np.mean(turns) > 0.4))
+
+
+def _components(axes: "Axes", t: NDArray[Any], values: NDArray[Any], symbol: str, unit: str, title: str) -> None:
     names = "xyzw"[: values.shape[1]]
-    dense = len(t) > 1 and np.mean(np.abs(np.diff(np.sign(values), axis=0)) > 0) > 0.2
+    coarse = _coarse(values)
     for i, name in enumerate(names):
-        # An orbit sampled less than a few times a turn draws no curve: show the samples.
         axes.plot(t, values[:, i], color=COLOURS[i], label=f"{symbol}{name}", linewidth=0.9,
-                  linestyle="none" if dense else "-", marker="." if dense else "", markersize=2)
+                  linestyle="none" if coarse else "-", marker="." if coarse else "", markersize=2)
     axes.set_ylabel(f"{symbol} [{unit}]" if unit else symbol)
-    axes.legend(loc="upper right", fontsize=8, ncols=len(names), markerscale=4 if dense else 1)
+    axes.legend(loc="upper right", fontsize=8, ncols=len(names), markerscale=4 if coarse else 1)
     axes.set_title(title, loc="left", fontsize=10)
+
+
+def _vector(axes: "Axes", answer: Answer, t: NDArray[Any], column: str, symbol: str, unit: str, title: str) -> None:
+    _components(axes, t, answer[column], symbol, unit, title)
     _note(axes, _error_text(answer, column))
 
 
-def plot_answer(answer: Answer) -> "Figure":
-    """|M| and energy, k2 with the regimes, and the vectors where the rung gives them, over time."""
+def _rotor_rate(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+    target = float(answer.scene["motor"]["no_load_rate"])
+    axes.plot(t, answer["rotor_rate"], color=COLOURS[0], label="ω of the rotor")
+    axes.axhline(target, color=COLOURS[1], linestyle="--", linewidth=1, label=f"no-load rate {target:.6g} rad/s")
+    axes.set_ylabel("ω [rad/s]")
+    axes.legend(loc="best", fontsize=8)
+    axes.set_title("Rate of the rotor, relative to the carrier", loc="left", fontsize=10)
+    _note(axes, _error_text(answer, "rotor_rate"))
+
+
+def _direction(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+    H = answer["angular_momentum"]
+    _components(axes, t, H / np.linalg.norm(H, axis=1, keepdims=True), "m", "", "Direction of the angular momentum, body axes")
+    axes.set_ylim(-1.05, 1.05)
+    _note(axes, _error_text(answer, "angular_momentum"))
+
+
+def _cone(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+    H, e = answer["angular_momentum"], np.asarray(answer.scene["rotor"]["axis"])
+    angle = np.degrees(np.arctan2(np.linalg.norm(np.cross(e, H), axis=1), H @ e))
+    coarse = _coarse(angle[:, None])
+    axes.plot(t, angle, color=COLOURS[0], linewidth=0.9, linestyle="none" if coarse else "-", marker="." if coarse else "", markersize=2)
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel("angle [deg]")
+    axes.set_title("Angle between the rotor's axis and the angular momentum", loc="left", fontsize=10)
+
+
+def _lyapunov(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+    V = answer["lyapunov"]
+    axes.plot(t, V, color=COLOURS[0])
+    if np.min(V) > 0 and np.max(V) > 30 * np.min(V):
+        axes.set_yscale("log")
+    axes.set_ylabel("V [J]")
+    axes.set_title("Lyapunov function, which never grows", loc="left", fontsize=10)
+    _note(axes, _error_text(answer, "lyapunov"))
+
+
+def _rotor_panels(answer: Answer) -> list[Any]:
+    def velocity(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+        _vector(axes, answer, t, "angular_velocity", "Ω", "rad/s", "Angular velocity of the carrier, body axes")
+
+    def attitude(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+        _vector(axes, answer, t, "attitude", "q", "", "Attitude, body to inertial")
+
+    turning = bool(np.all(np.linalg.norm(answer["angular_momentum"], axis=1) > 0))
+    return [_rotor_rate, velocity, *([_direction, _cone] if turning else [attitude]), _lyapunov]
+
+
+def _deceleration_panels(answer: Answer) -> list[Any]:
     panels: list[Any] = []
     if "angular_momentum_norm" in answer.columns:
         panels.append(_size_and_energy)
@@ -134,6 +199,19 @@ def plot_answer(answer: Answer) -> "Figure":
     ):
         if column in answer.columns:
             panels.append(lambda axes, answer, t, rest=(column, symbol, unit, title): _vector(axes, answer, t, *rest))
+    return panels
+
+
+PANELS: Final = {"deceleration": _deceleration_panels, "rotor": _rotor_panels}
+
+
+def plot_answer(answer: Answer) -> "Figure":
+    """What the answer holds, over time.
+
+    Deceleration: |M| and energy, k2 with the regimes, and the vectors where the rung gives them. Rotor: rates of rotor and carrier,
+    the angular momentum in body axes and its angle to the rotor's axis (at rest: the attitude), and the Lyapunov function.
+    """
+    panels = PANELS[answer.scene["kind"]](answer)
     figure = _figure(9, 1.0 + 2.2 * len(panels))
     scale, unit = _time_unit(float(answer.t[-1] - answer.t[0]))
     t = answer.t / scale
@@ -150,6 +228,10 @@ def plot_answer(answer: Answer) -> "Figure":
     title += f" (tolerance {answer.tolerance:g} {verdict})"
     if stop is not None and np.isfinite(stop):
         title += f"\nstops at {stop:.6g} s"
+    if "attractor" in answer.scalars:
+        attractor, rate = answer.scalars["attractor"], answer.scalars["decay_rate"]
+        title += "\nno attractor certified" if attractor is None else f"\ntends to steady rotation {attractor}"
+        title += f", in the end as exp(-t / {_span(1 / rate)})" if attractor is not None and rate > 0 else ""
     figure.suptitle(title, fontsize=11)
     return figure
 
