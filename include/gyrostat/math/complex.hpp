@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "gyrostat/core/real.hpp"
+
+namespace gyrostat::math {
+
+/// A complex number as two numbers: sums and products are the plain formulas, without the recovery of infinities that
+/// std::complex owes its callers and pays for with a call.
+template <Real Scalar>
+struct Complex {
+  Scalar re = 0;
+  Scalar im = 0;
+
+  friend constexpr bool operator==(const Complex&, const Complex&) = default;
+  friend constexpr Complex operator+(Complex a, Complex b) noexcept { return {a.re + b.re, a.im + b.im}; }
+  friend constexpr Complex operator-(Complex a, Complex b) noexcept { return {a.re - b.re, a.im - b.im}; }
+  friend constexpr Complex operator-(Complex a) noexcept { return {-a.re, -a.im}; }
+  friend constexpr Complex operator*(Complex a, Complex b) noexcept {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+  }
+  friend constexpr Complex operator*(Scalar a, Complex b) noexcept { return {a * b.re, a * b.im}; }
+  friend constexpr Complex operator/(Complex a, Scalar b) noexcept { return {a.re / b, a.im / b}; }
+};
+
+template <Real Scalar>
+constexpr Complex<Scalar> conjugate(Complex<Scalar> a) noexcept {
+  return {a.re, -a.im};
+}
+
+/// i a.
+template <Real Scalar>
+constexpr Complex<Scalar> turned(Complex<Scalar> a) noexcept {
+  return {-a.im, a.re};
+}
+
+/// |a|, without overflow of the squares.
+template <Real Scalar>
+Scalar magnitude(Complex<Scalar> a) noexcept {
+  return std::hypot(a.re, a.im);
+}
+
+/// 1/a, without overflow of the squares.
+template <Real Scalar>
+Complex<Scalar> inverse(Complex<Scalar> a) noexcept {
+  const Scalar size = magnitude(a);
+  return conjugate(a / size) / size;
+}
+
+/// e^a; of length one to rounding where a.re = 0.
+template <Real Scalar>
+Complex<Scalar> exponential(Complex<Scalar> a) noexcept {
+  const Scalar size = a.re == 0 ? Scalar(1) : std::exp(a.re);
+  return {size * std::cos(a.im), size * std::sin(a.im)};
+}
+
+/// e^(i angle).
+template <Real Scalar>
+Complex<Scalar> unit(Scalar angle) noexcept {
+  return {std::cos(angle), std::sin(angle)};
+}
+
+template <Real To, Real From>
+constexpr Complex<To> complex_cast(Complex<From> a) noexcept {
+  return {static_cast<To>(a.re), static_cast<To>(a.im)};
+}
+
+}  // namespace gyrostat::math
