@@ -240,6 +240,7 @@ class Radau {
   Sum time_, start_time_;
   Scalar wish_ = 0;         ///< the next step
   Scalar last_step_ = 0;    ///< of the polynomial in last_
+  bool follow_ = false;     ///< that polynomial is a guess of the next step
   Scalar ratio_ = 0;        ///< of the matrix in forward_
   Scalar made_for_ = 0;     ///< the step of the matrix in relax_
   Scalar contraction_ = 0;  ///< of the sweeps of this step, their mean
@@ -297,7 +298,7 @@ void Radau<System>::extrapolate(Scalar ratio) noexcept {
 template <RelaxingSystem System>
 bool Radau<System>::predict(Scalar h) noexcept {
   // a polynomial is not followed far
-  if (last_step_ > 0 && h <= 2 * last_step_) {
+  if (follow_ && h <= 2 * last_step_) {
     extrapolate(h / last_step_);
     for (int c = 0; c < width; ++c) {
       Row low = load(&forward_[0][0]) * lanes(last_[c][0]), high = load(&forward_[0][4]) * lanes(last_[c][0]);
@@ -311,8 +312,8 @@ bool Radau<System>::predict(Scalar h) noexcept {
     return true;
   }
   Row y[width], rate[width];
-  for (int c = 0; c < width; ++c) y[c] = lanes(start_[c]);
-  system_.rates(y, lanes(start_[width]), rate);
+  for (int c = 0; c < width; ++c) y[c] = lanes(state_[c]);
+  system_.rates(y, lanes(state_[width]), rate);
   ++counts_.rhs;
   Scalar finite = 0;
   for (int c = 0; c < width; ++c) {
@@ -327,16 +328,16 @@ GYROSTAT_INLINE auto Radau<System>::sweep(Scalar h) noexcept -> Scalar {
   Row y[2][width];
 #pragma GCC unroll 16
   for (int c = 0; c < width; ++c) {
-    Row low = lanes(start_low_[c]), high = low;
+    Row low = lanes(low_[c]), high = low;
     for (int j = 0; j < 8; ++j) {
       const Row rate = lanes(stage_[c][j]);
       low = multiply_add(load(&table.matrix[j][0]), rate, low);
       high = multiply_add(load(&table.matrix[j][4]), rate, high);
     }
-    y[0][c] = lanes(start_[c]) + low;
-    y[1][c] = lanes(start_[c]) + high;
+    y[0][c] = lanes(state_[c]) + low;
+    y[1][c] = lanes(state_[c]) + high;
   }
-  const Row p0 = lanes(start_[width]);
+  const Row p0 = lanes(state_[width]);
   const Row pull = lanes(rate_) * p0;
   alignas(32) Scalar drive[8];
   store(&drive[0], system_.source(y[0]) - pull);
@@ -392,17 +393,12 @@ template <RelaxingSystem System>
 Status Radau<System>::step(Scalar t_max) noexcept {
   if (!(time_.high < t_max)) return t_max == t_max ? Status::reached : Status::not_finite;
   if (counts_.steps >= options_.step_cap) return Status::step_limit;
-  for (int i = 0; i <= width; ++i) {
-    start_[i] = state_[i];
-    start_low_[i] = low_[i];
-  }
-
   if (!(wish_ > 0)) {
     wish_ = options_.first_step;
     if (!(wish_ > 0)) {
       Row y[width], rate[width];
-      for (int c = 0; c < width; ++c) y[c] = lanes(start_[c]);
-      system_.rates(y, lanes(start_[width]), rate);
+      for (int c = 0; c < width; ++c) y[c] = lanes(state_[c]);
+      system_.rates(y, lanes(state_[width]), rate);
       ++counts_.rhs;
       Scalar greatest = 0;
       for (int c = 0; c < width; ++c) greatest += std::abs(rate[c][0]) * weight_[c];
@@ -413,7 +409,7 @@ Status Radau<System>::step(Scalar t_max) noexcept {
 
   // rounding of a state that has outgrown its scale
   Scalar size = 1;
-  for (int i = 0; i <= width; ++i) size = std::max(size, std::abs(start_[i]) * weight_[i]);
+  for (int i = 0; i <= width; ++i) size = std::max(size, std::abs(state_[i]) * weight_[i]);
   const Scalar rounding = epsilon<Scalar> * size;
   const Scalar tolerance = std::max(tolerance_, rounding / 64), most_inside = std::max(inside_, 8 * rounding);
   goal_ = std::max(tolerance_ / 4, rounding / 8);
@@ -431,7 +427,7 @@ Status Radau<System>::step(Scalar t_max) noexcept {
     finite = sweeps != Sweeps::not_finite;
     if (sweeps != Sweeps::converged) {
       // rates that are finite at the start are so in a shorter step
-      if (!finite) last_step_ = 0;
+      if (!finite) follow_ = false;
       wish_ = h / 2;
       mended = true;
       ++counts_.rejected;
@@ -470,7 +466,9 @@ Status Radau<System>::step(Scalar t_max) noexcept {
     }
 
     for (int c = 0; c <= width; ++c) {
-      Sum sum{start_[c], start_low_[c]};
+      start_[c] = state_[c];
+      start_low_[c] = low_[c];
+      Sum sum{state_[c], low_[c]};
       if (c < width) {
         sum = add(add(sum, dot(table.weight, stage_[c])), dot(table.weight_low, stage_[c]));
       } else {
@@ -488,6 +486,7 @@ Status Radau<System>::step(Scalar t_max) noexcept {
       store(&last_[width][i], rate);
     }
     last_step_ = h;
+    follow_ = true;
     start_time_ = time_;
     time_ = lands ? Sum{t_max, 0} : add(time_, h);
     ++counts_.steps;
