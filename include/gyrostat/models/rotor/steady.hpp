@@ -39,7 +39,8 @@ struct SteadyRotation {
   bool isolated = true;  ///< false: a representative of a circle or of the whole sphere of steady rotations
 };
 
-/// By ascending level: 2, 4 or 6 isolated ones where none is degenerate.
+/// By ascending spin rate, which is the order of the levels: F(m') - F(m) = l (psi' - psi) |m' - m|^2/4. 2, 4 or 6 isolated ones
+/// where none is degenerate.
 template <Real Scalar>
 struct SteadyRotations {
   std::array<SteadyRotation<Scalar>, 8> at{};
@@ -329,7 +330,7 @@ SteadyRotations<Scalar> steady_rotations(const Gyrostat<Scalar>& gyrostat, Scala
     }
     r.level = r.spin_rate * r.spin_rate * r.direction.dot(gyrostat.inertia() * r.direction) / 2;
     int at = all.count++;
-    for (; at > 0 && all.at[std::size_t(at - 1)].level > r.level; --at)
+    for (; at > 0 && all.at[std::size_t(at - 1)].spin_rate > r.spin_rate; --at)
       all.at[std::size_t(at)] = all.at[std::size_t(at - 1)];
     all.at[std::size_t(at)] = r;
   };
