@@ -46,16 +46,22 @@ struct LevelOnCircle {
     c2 = (aa - bb) / 2;
     s2 = l * a.dot(Jb) / 2;
   }
-  Scalar operator()(Scalar t) const noexcept {
-    const Scalar c = std::cos(t), s = std::sin(t);
-    return mean + c1 * c + s1 * s + c2 * (c * c - s * s) + s2 * 2 * s * c;
+  /// F and F''.
+  struct Value {
+    Scalar level, bend;
+  };
+  Value at(Scalar t) const noexcept {
+    const Scalar c = std::cos(t), s = std::sin(t), once = c1 * c + s1 * s;
+    const Scalar twice = c2 * (c * c - s * s) + s2 * 2 * s * c;
+    return {mean + once + twice, -once - 4 * twice};
   }
-  /// |F''| is nowhere larger.
-  Scalar bend() const noexcept { return std::hypot(c1, s1) + 4 * std::hypot(c2, s2); }
+  Scalar operator()(Scalar t) const noexcept { return at(t).level; }
+  /// The derivative of this order, two or more, is nowhere larger.
+  Scalar bound(int order) const noexcept { return std::hypot(c1, s1) + Scalar(1 << order) * std::hypot(c2, s2); }
 };
 
-/// Whether sign F stays below sign `barrier` all along the shorter great circle from a to b: proven by a bound of F'' between
-/// 64 points. False also where it cannot be proven.
+/// Whether sign F stays below sign `barrier` all along the shorter great circle from a to b: proven between 64 points by the
+/// bend of F there. False also where it cannot be proven.
 template <Real Scalar>
 bool arc_below(const Gyrostat<Scalar>& gyrostat, Scalar l, const Vec3<Scalar>& a, const Vec3<Scalar>& b, Scalar barrier,
                Scalar sign) noexcept {
@@ -64,10 +70,15 @@ bool arc_below(const Gyrostat<Scalar>& gyrostat, Scalar l, const Vec3<Scalar>& a
   if (sine == 0) return a.dot(b) > 0;
   const LevelOnCircle<Scalar> F(gyrostat, l, a, across / sine);
   constexpr int parts = 64;
-  const Scalar step = std::atan2(sine, a.dot(b)) / parts;
-  const Scalar room = F.bend() * step * step / 8;
-  for (int i = 0; i <= parts; ++i)
-    if (!(sign * F(Scalar(i) * step) + room < sign * barrier)) return false;
+  const Scalar step = std::atan2(sine, a.dot(b)) / parts, square = step * step / 8;
+  const Scalar slack = square * F.bound(4);  // F'' is so close to its chord
+  auto last = F.at(0);
+  for (int i = 1; i <= parts; ++i) {
+    const auto next = F.at(Scalar(i) * step);
+    const Scalar cap = std::max(Scalar(0), slack - std::min(sign * last.bend, sign * next.bend)) * square;
+    if (!(std::max(sign * last.level, sign * next.level) + cap < sign * barrier)) return false;
+    last = next;
+  }
   return true;
 }
 
@@ -80,10 +91,8 @@ int basin(const Gyrostat<Scalar>& gyrostat, const SteadyRotations<Scalar>& stead
   const Scalar h = gyrostat.target_momentum();
   const Vec3<Scalar> n = J * gyrostat.axis();
   const int extreme = sign > 0 ? 0 : steady.count - 1;
-  const Scalar bend =
-      l * l * (1 / gyrostat.principal()[0] - 1 / gyrostat.principal()[2]) + std::abs(h) * l * n.norm();  // >= |F''|
   int next_test = 0;
-  for (int step = 0; step < 512; ++step) {
+  for (int step = 0; step < 1024; ++step) {
     if (step == next_test) {
       next_test = step < 8 ? step + 2 : step + step / 2;
       for (int i = 0; i < steady.count; ++i) {
@@ -91,11 +100,16 @@ int basin(const Gyrostat<Scalar>& gyrostat, const SteadyRotations<Scalar>& stead
         if (wanted && arc_below(gyrostat, l, m, steady[i].direction, barrier, sign)) return i;
       }
     }
-    Vec3<Scalar> slope = l * (l * (J * m) - h * n);
+    Vec3<Scalar> slope = sign * l * (l * (J * m) - h * n);
     slope -= slope.dot(m) * m;
-    const Scalar size = slope.norm(), angle = size / bend;
+    const Scalar size = slope.norm();
     if (!(size > 0)) return -1;
-    m = (std::cos(angle) * m - sign * std::sin(angle) / size * slope).normalized();
+    slope /= -size;
+    const LevelOnCircle<Scalar> F(gyrostat, l, m, slope);
+    // F' <= -size + F''(0) t + bound(3) t^2/2 is negative up to here
+    const Scalar bend = sign * F.at(0).bend, root = std::sqrt(bend * bend + 2 * F.bound(3) * size);
+    const Scalar angle = bend > 0 ? 2 * size / (bend + root) : (root - bend) / F.bound(3);
+    m = (std::cos(angle) * m + std::sin(angle) * slope).normalized();
   }
   return -1;
 }
@@ -113,6 +127,23 @@ Scalar barrier_level(const Gyrostat<Scalar>& gyrostat, const SteadyRotations<Sca
   if (exceptional_distance(gyrostat, momentum_norm).family == Exceptional::circular_section)
     barrier = std::min(barrier, circular_section(gyrostat, momentum_norm).level);
   return barrier;
+}
+
+/// Index of the maximum around which H lies, where F(H) is above the highest saddle; else that of the highest. -1 where it is
+/// not proven (F(H) within rounding of the saddle), or there is none. It tells time_between_levels where a motion comes from.
+template <Real Scalar>
+int lobe_of(const Gyrostat<Scalar>& gyrostat, const SteadyRotations<Scalar>& steady, const Vec3<Scalar>& H) noexcept {
+  const int top = steady.count - 1;
+  int maxima = 0;
+  Scalar barrier = -infinity<Scalar>;
+  for (const auto& r : steady) {
+    maxima += r.type == SteadyType::maximum;
+    if (r.type == SteadyType::saddle || r.type == SteadyType::degenerate) barrier = r.level;
+  }
+  if (maxima == 0 || steady[top].type != SteadyType::maximum) return -1;
+  if (maxima == 1 || gyrostat.steady_level(H) <= barrier) return top;
+  const Scalar l = H.norm();
+  return detail::basin<Scalar>(gyrostat, steady, l, H / l, barrier, Scalar(-1));
 }
 
 /// What a motion in the state (H, p) tends to. H: body axes, N m s; p: axial momentum of the rotor, N m s; steady:
