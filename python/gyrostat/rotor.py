@@ -82,8 +82,8 @@ def integrate(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slop
               method: str = "taylor", order: int = 20, tolerance: float = 1e-9, precision: str = "double") -> dict[str, Any]:
     """The full equations under one integrator at one setting, timed: no error estimate.
 
-    Arguments as in `solve`. method : "taylor" (order 8, 12, 16, 20 or 26; 30 in precision "long double"), "radau", "dop853",
-    "cvode-adams", "cvode-bdf". tolerance : local, relative to the sizes of the state.
+    Arguments as in `solve`. method : "taylor" (order 8, 12, 16, 20 or 26; 30 in precision "long double"), "radau" (in both precisions),
+    "dop853", "cvode-adams", "cvode-bdf". tolerance : local, relative to the sizes of the state.
     Returns attitude (n, 4), angular_velocity (n, 3) [rad/s], angular_momentum (n, 3) [N m s], rotor_rate (n,) [rad/s],
     rotor_angle (n,) [rad], lyapunov (n,) [J], seconds, rhs, steps, status ("reached" where all went well).
     Raises DomainError for an argument outside its domain and for a method that the build lacks.

@@ -3,14 +3,15 @@
 
 import math
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
-from gyrostat import deceleration, elliptic, rotation
+from gyrostat import deceleration, elliptic, rotation, rotor
 from gyrostat._core import build_info
 from gyrostat.errors import DomainError
 from gyrostat.ladder import solve
-from gyrostat.scenes import bundled, load
+from gyrostat.scenes import bundled, load, scene_from
 
 __all__ = ["checks"]
 
@@ -19,6 +20,14 @@ SLOW = {
     "name": "selftest", "kind": "deceleration", "solve": {"duration": 4000.0, "samples": 41, "tolerance": 1e-9},
     "body": {"inertia": [35.0, 22.0, 16.0]}, "torque": {"control": [5e-4, 8e-4, 1e-3], "drag": 2e-5},
     "initial": {"angular_momentum": [40.0, 25.0, 16.5]},
+}
+
+# A tumbling body whose wheel is spun up.
+DRIVEN = {
+    "name": "selftest", "kind": "rotor", "solve": {"duration": 100.0, "samples": 41, "tolerance": 1e-10},
+    "body": {"inertia": [3.0, 4.0, 5.0]}, "rotor": {"axis": [0.36, 0.48, 0.8], "axial_inertia": 0.4},
+    "motor": {"slope": 0.2, "no_load_rate": 20.0},
+    "initial": {"angular_velocity": [0.5, -0.3, 0.2], "rotor_rate": 0.0, "attitude": [0.5, -0.5, 0.5, 0.5]},
 }
 
 
@@ -49,6 +58,32 @@ def _integrators() -> str:
     made = [np.asarray(deceleration.integrate(**given, method=method, tolerance=1e-11)["angular_momentum"]) for method in methods]
     error = max(float(np.max(np.abs(m - made[0]))) for m in made) / float(np.max(np.abs(made[0])))
     return _verdict(f"{', '.join(methods)} differ by", error, 1e-7)
+
+
+def _rotor_laws() -> str:
+    answer = solve(DRIVEN, model="full")
+    momentum = np.einsum("nij,nj->ni", rotation.matrix_from_quaternion(answer["attitude"]), answer["angular_momentum"])
+    drift = float(np.max(np.abs(momentum - momentum[0]))) / float(np.linalg.norm(momentum[0]))
+    growth = float(np.max(np.diff(answer["lyapunov"]))) / float(answer["lyapunov"][0])
+    return _verdict("angular momentum drifts, and V grows, by", max(drift, growth), 1e-13)
+
+
+def _rotor_closed_form() -> str:
+    still: dict[str, Any] = {"angular_velocity": [0.0, 0.0, 0.0], "rotor_rate": 0.0}
+    closed, full = (solve(DRIVEN, model=model, **still) for model in ("closed-form", "full"))
+    e = np.array([0.36, 0.48, 0.8])
+    k = 1 - 0.4 * float(np.sum(e**2 / np.array([3.0, 4.0, 5.0])))
+    law = 20.0 * -np.expm1(-0.2 / (0.4 * k) * closed.t)
+    error = max(float(np.max(np.abs(answer["rotor_rate"] - law))) / 20.0 for answer in (closed, full))
+    return _verdict("wheel of a body at rest: closed form and full motion, off the exponential law by", error, 1e-11)
+
+
+def _rotor_integrators() -> str:
+    given = {key: value for key, value in rotor.arguments(scene_from(DRIVEN)).items() if key not in ("tolerance", "model", "integrator")}
+    methods = ["taylor", "radau", "dop853"] + (["cvode-adams", "cvode-bdf"] if deceleration.has_cvode() else [])
+    made = [np.asarray(rotor.integrate(**given, method=method, tolerance=1e-12)["angular_momentum"]) for method in methods]
+    error = max(float(np.max(np.abs(H - made[0]))) for H in made) / float(np.max(np.abs(made[0])))
+    return _verdict(f"{', '.join(methods)} differ by", error, 1e-6)
 
 
 def _elliptic() -> str:
@@ -89,4 +124,7 @@ def checks() -> Iterator[tuple[str, Callable[[], str]]]:
     yield "integrators", _integrators
     yield "equal torques", _equal_torque
     yield "second order", _second_order
+    yield "rotor, laws", _rotor_laws
+    yield "rotor, closed form", _rotor_closed_form
+    yield "rotor, integrators", _rotor_integrators
     yield "refusals", _refusals

@@ -123,7 +123,7 @@ def test_lists(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_selftest(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = run(capsys, "selftest")
-    assert status == 0 and out.count("ok    ") >= 7 and "FAILED" not in out
+    assert status == 0 and out.count("ok    ") >= 10 and "FAILED" not in out
 
 
 def test_stability(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

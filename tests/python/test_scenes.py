@@ -7,6 +7,7 @@ import re
 import string
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -395,6 +396,7 @@ def test_random_dicts(kind: str, data: dict[str, object]) -> None:
        dotted=st.sampled_from(["", "solve.", "body.", "torque.", "initial.", "carrier.", "rotor.", "motor.", "x.y."]))
 def test_random_overrides(data: str, key: str, value: object, dotted: str) -> None:
     try:
-        scene_from(tomllib.loads(data), **{dotted + key: value})
+        change: dict[str, Any] = {dotted + key: value}
+        scene_from(tomllib.loads(data), **change)
     except SceneError as error:
         assert str(error)

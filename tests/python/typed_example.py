@@ -3,7 +3,7 @@
 
 import gyrostat
 import numpy as np
-from gyrostat import deceleration, elliptic, rotation
+from gyrostat import deceleration, elliptic, rotation, rotor
 
 
 def libraries() -> list[str]:
@@ -24,4 +24,7 @@ star = deceleration.quasi_stationary_modulus(control=[0.95, 0.8, 1.0])
 sweep = deceleration.averaged(inertia=[3.0, 2.0, 1.5], control=np.ones((4, 3)), drag=0.1, angular_momentum=[1.0, 2.0, 3.0], t=[0.0, 1.0])
 K = elliptic.complete(star).K
 turn = rotation.matrix_from_vector([0.0, 0.0, 1.0])
-print(gyrostat.__version__, *libraries(), despin_times("tiangong-1", [0.4, 0.5]), largest, momentum[-1], sweep.stop_time, K, turn)
+theta = rotor.assembled_inertia(carrier_inertia=[2.0, 3.0, 4.0], carrier_mass=9.0, rotor_mass=1.0, axis=[0.0, 0.0, 1.0],
+                                axial_inertia=0.1, equatorial_inertia=0.06, offset=[0.0, 0.1, 0.2])
+monitor = gyrostat.Monitor()
+print(gyrostat.__version__, *libraries(), despin_times("tiangong-1", [0.4, 0.5]), largest, momentum[-1], sweep.stop_time, K, turn, theta @ turn, monitor.progress)
