@@ -58,4 +58,5 @@ PYBIND11_MODULE(_core, module) {
   bind_deceleration(module);
   bind_deceleration_integrators(module);
   bind_published(module);
+  bind_rotor_integrators(module);
 }
