@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "gyrostat/core/lanes.hpp"
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/models/spinning/problem.hpp"
+#include "gyrostat/rotation/euler_312.hpp"
+#include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// The full equations (docs/spinning.md, section 2): right-hand side, Jacobian and Taylor recurrences.
+namespace gyrostat::spinning {
+
+/// (p', q', r'), rad/s^2 (N1).
+template <Real Scalar>
+Vec3<Scalar> angular_acceleration(const Problem<Scalar>& problem, const Vec3<Scalar>& omega) noexcept {
+  const auto& [D1, D2, D3] = std::array{problem.inertia[0], problem.inertia[1], problem.inertia[2]};
+  const Vec3<Scalar>& M = problem.torque;
+  const Scalar Lambda = problem.gyroscopic();
+  return {(M[0] - omega[1] * ((D3 - D2) * omega[2] + Lambda)) / D1,
+          (M[1] + omega[0] * ((D3 - D1) * omega[2] + Lambda)) / D2, (M[2] - (D2 - D1) * omega[0] * omega[1]) / D3};
+}
+
+/// The derivative of (p', q', r') by (p, q, r), 1/s.
+template <Real Scalar>
+Mat3<Scalar> angular_acceleration_jacobian(const Problem<Scalar>& problem, const Vec3<Scalar>& omega) noexcept {
+  const auto& [D1, D2, D3] = std::array{problem.inertia[0], problem.inertia[1], problem.inertia[2]};
+  Mat3<Scalar> jacobian;
+  jacobian << 0, -problem.kappa1(omega[2]), -omega[1] * (D3 - D2) / D1,  //
+      problem.kappa2(omega[2]), 0, omega[0] * (D3 - D1) / D2,            //
+      -omega[1] * (D2 - D1) / D3, -omega[0] * (D2 - D1) / D3, 0;
+  return jacobian;
+}
+
+/// R (D1 p, D2 q, D3 r + lambda3), N m s.
+template <Real Scalar>
+Vec3<Scalar> inertial_momentum(const Problem<Scalar>& problem, const Vec3<Scalar>& omega,
+                               const Quat<Scalar>& attitude) noexcept {
+  Vec3<Scalar> H = problem.inertia.cwiseProduct(omega);
+  H[2] += problem.rotor_momentum;
+  return rotate<Scalar>(attitude, H);
+}
+
+/// Acceleration of the mass centre, R f/m, m/s^2.
+template <Real Scalar>
+Vec3<Scalar> acceleration(const Problem<Scalar>& problem, const Quat<Scalar>& attitude) noexcept {
+  return rotate<Scalar>(attitude, Vec3<Scalar>(problem.force / problem.mass));
+}
+
+/// Taylor recurrences of the full equations. A state is
+///     (p, q, r, A | w, x, y, z | u1, u2, u3, W | s1, s2, s3, -),
+/// the quaternion taking body to inertial components, and quadratures that nothing else depends on: A of r, u of the force's
+/// direction R f/|f|, W of the power M.omega, s of u. So neither force, mass nor velocity have a size that a step could feel.
+///
+/// One order costs one symmetric convolution for the rates, three for the quaternion and one and a half for the force's direction.
+/// Each is split into the terms known an order earlier and the newest one, and the newest terms of the rates are one matrix, the
+/// Jacobian at the start of the step: so one order waits for the last only through one matrix-vector product.
+template <Real Real_>
+class FullSystem {
+ public:
+  using Scalar = Real_;
+  static constexpr int width = 16;
+  using Numbers = std::array<Scalar, width>;
+
+  /// By-products of an expansion: rows (q, r, p, -), (r, p, q, -), half the angular velocity times the unit; the quaternion of axes
+  /// whose third is the force's, and of it (w, z, z, w) and (y, x, y, x).
+  template <int Order>
+  struct Work {
+    Lanes<Scalar> forward[Order + 1];
+    Lanes<Scalar> backward[Order + 1];
+    Lanes<Scalar> thrust[Order + 1];
+    Lanes<Scalar> outer[Order + 1];
+    Lanes<Scalar> inner[Order + 1];
+    Scalar turn[Order + 1][4];
+  };
+
+  explicit FullSystem(const Problem<Scalar>& problem) noexcept;
+
+  template <int Order>
+  void expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept;
+
+  /// Moves a state at t (from the start) onto the laws that it obeys exactly: |q| = 1; r and, without M1 and M2, |Pi| if D1 = D2;
+  /// without torque the energy and R (D1 p, D2 q, D3 r + Lambda).
+  void project(Scalar t, Scalar* x, Scalar* low) const noexcept;
+
+  /// The numbers of the start.
+  const Numbers& start() const noexcept { return start_; }
+
+  Vec3<Scalar> angular_velocity(const Scalar* x) const noexcept { return {x[0], x[1], x[2]}; }
+  /// Body to inertial.
+  Quat<Scalar> attitude(const Scalar* x) const noexcept { return normalised(Quat<Scalar>{x[4], x[5], x[6], x[7]}); }
+  /// m/s.
+  Vec3<Scalar> velocity(const Scalar* x) const noexcept {
+    return velocity_ + thrust_ * Vec3<Scalar>(x[8], x[9], x[10]);
+  }
+  /// m.
+  Vec3<Scalar> position(Scalar t, const Scalar* x) const noexcept {
+    return position_ + (t * velocity_ + thrust_ * Vec3<Scalar>(x[12], x[13], x[14]));
+  }
+
+  /// What the steps measure errors against: the size of the rates, 1 for the quaternion, a radian's time for u, and nothing for the
+  /// other quadratures. `span`: how long the motion is asked for, s.
+  Numbers scale(Scalar span) const noexcept;
+
+ private:
+  using Row = Lanes<Scalar>;
+
+  /// term(from), ..., term(1): unrolled where the number of turns is known to the compiler.
+  template <class Term>
+  static GYROSTAT_INLINE void down(int from, const Term& term) noexcept {
+    if constexpr (Row::vectorised) {
+#pragma GCC unroll 32
+      for (int j = from; j >= 1; --j) term(j);
+    } else {
+      for (int j = from; j >= 1; --j) term(j);
+    }
+  }
+
+  /// The constants of an expansion.
+  struct Constants {
+    Row jacobian[3];  ///< columns of the derivative of (p', q', r', A') unit
+    Row quadratic;    ///< coefficients of (q r, r p, p q) unit
+    Row power;        ///< M unit
+    Row half, unit;
+  };
+
+  /// Order k + 1 from the orders up to k. Index: an integral constant, so that everything unrolls, or an int.
+  template <class Index, int Order>
+  GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
+                              const Constants& c) const noexcept;
+
+  /// s0 i + s1 j + s2 k, quaternion products from the right.
+  static GYROSTAT_INLINE Row turned(const Row& s0, const Row& s1, const Row& s2) noexcept {
+    const Scalar one = 1;
+    return multiply_add(shuffle<1, 0, 3, 2>(s0), lanes(-one, one, one, -one),
+                        multiply_add(shuffle<2, 3, 0, 1>(s1), lanes(-one, -one, one, one),
+                                     shuffle<3, 2, 1, 0>(s2) * lanes(-one, one, -one, one)));
+  }
+  /// q_IB to q_IB conj(q_FB): the axes whose third is the force's.
+  GYROSTAT_INLINE Row to_thrust(const Row& q) const noexcept {
+    const Row from_w = q * lanes(q_FB_.w);
+    return from_w - turned(q * lanes(q_FB_.x), q * lanes(q_FB_.y), lanes(Scalar(0)));
+  }
+  /// R e3 from the sums of (w y, z x, z y, w x) and of (w w, x x, y y, z z).
+  static GYROSTAT_INLINE Row third_axis(const Row& mixed, const Row& square, Scalar last) noexcept {
+    return lanes(2 * (mixed[0] + mixed[1]), 2 * (mixed[2] - mixed[3]),
+                 (square[0] - square[1]) - (square[2] - square[3]), last);
+  }
+
+  /// x + low + change, and what rounding leaves over.
+  static void move(Scalar& x, Scalar& low, Scalar change) noexcept {
+    const Scalar y = low + change;
+    const Scalar sum = x + y;
+    const Scalar part = sum - x;
+    low = (x - (sum - part)) + (y - part);
+    x = sum;
+  }
+
+  void project_rates(Scalar t, Scalar* x, Scalar* low) const noexcept;
+
+  Vec3<Scalar> inertia_, torque_, angular_acceleration_;  ///< D, M, M/D
+  Scalar gyroscopic_, gyroscopic_1_, gyroscopic_2_;       ///< Lambda, Lambda/D1, Lambda/D2
+  Vec3<Scalar> quadratic_;                                ///< of (q r, r p, p q)
+  Quat<Scalar> q_FB_;                                     ///< body axes to those whose third is the force's; z = 0
+  Scalar thrust_;                                         ///< |f|/m, m/s^2
+  Vec3<Scalar> velocity_, position_;
+  // exact laws
+  Vec3<Scalar> kept_I_;              ///< R (D1 p, D2 q, D3 r + Lambda) without torque, N m s
+  Scalar energy_, transverse_, r0_;  ///< twice the kinetic energy; |Pi|^2
+  bool symmetric_, transverse_is_known_, free_;
+  Numbers start_;
+};
+
+template <Real Real_>
+FullSystem<Real_>::FullSystem(const Problem<Scalar>& problem) noexcept
+    : inertia_(problem.inertia),
+      torque_(problem.torque),
+      angular_acceleration_(problem.torque.cwiseQuotient(problem.inertia)),
+      gyroscopic_(problem.gyroscopic()),
+      gyroscopic_1_(gyroscopic_ / inertia_[0]),
+      gyroscopic_2_(gyroscopic_ / inertia_[1]),
+      quadratic_((inertia_[1] - inertia_[2]) / inertia_[0], (inertia_[2] - inertia_[0]) / inertia_[1],
+                 (inertia_[0] - inertia_[1]) / inertia_[2]),
+      velocity_(problem.velocity),
+      position_(problem.position),
+      r0_(problem.spin()) {
+  const Vec3<Scalar>& f = problem.force;
+  const Scalar across = std::hypot(f[0], f[1]);
+  const Scalar half = std::atan2(across, f[2]) / 2;
+  const Scalar s = across > 0 ? std::sin(half) / across : Scalar(0);
+  const bool opposite = across == 0 && f[2] < 0;
+  q_FB_ = opposite ? Quat<Scalar>{0, 1, 0, 0} : Quat<Scalar>{std::cos(half), s * f[1], -s * f[0], 0};
+  if (across == 0 && !opposite) q_FB_ = {1, 0, 0, 0};
+  thrust_ = std::hypot(across, f[2]) / problem.mass;
+
+  const auto& a = problem.angles;
+  const Quat<Scalar> q_IB = quaternion_from_312(a.psi, a.phi, a.theta);
+  const Vec3<Scalar>& omega = problem.angular_velocity;
+  Vec3<Scalar> kept = inertia_.cwiseProduct(omega);
+  energy_ = omega.dot(kept);
+  kept[2] += gyroscopic_;
+  kept_I_ = rotate<Scalar>(q_IB, kept);
+  transverse_ = omega[0] * omega[0] + omega[1] * omega[1];
+  symmetric_ = inertia_[0] == inertia_[1];
+  transverse_is_known_ = symmetric_ && torque_[0] == 0 && torque_[1] == 0;
+  free_ = torque_.isZero(0);
+
+  start_ = {omega[0], omega[1], omega[2], 0, q_IB.w, q_IB.x, q_IB.y, q_IB.z, 0, 0, 0, 0, 0, 0, 0, 0};
+}
+
+template <Real Real_>
+auto FullSystem<Real_>::scale(Scalar span) const noexcept -> Numbers {
+  // rates that torques build up from rest: for a time, until the body has turned, or until gyroscopic stiffness stops them
+  const Scalar rate = Vec3<Scalar>(start_[0], start_[1], start_[2]).norm();
+  const Scalar drive = angular_acceleration_.norm();
+  Scalar built = std::min(drive * span, std::sqrt(drive));
+  if (torque_[2] == 0) built = std::min(built, drive / std::max(std::abs(gyroscopic_1_), std::abs(gyroscopic_2_)));
+  const Scalar size = std::max(rate, built);
+  const Scalar w = size > 0 ? size : Scalar(1);  // at rest any scale will do, but zero would leave the component out
+  const Scalar time = std::min(1 / w, span > 0 ? span : 1 / w);
+  return {w, w, w, 0, 1, 1, 1, 1, time, time, time, 0, 0, 0, 0, 0};
+}
+
+template <Real Real_>
+template <class Index, int Order>
+GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
+                                               const Constants& c) const noexcept {
+  const Scalar share = Scalar(1) / static_cast<Scalar>(k + 1);
+  const Row y0 = shuffle<0, 0, 0, 0>(newest), y1 = shuffle<1, 1, 1, 1>(newest), y2 = shuffle<2, 2, 2, 2>(newest);
+
+  // terms known since the last order, the youngest last
+  const Row zero = lanes(Scalar(0));
+  Row product = zero, product_2 = zero;
+  if (k % 2 == 0) product = work.forward[k / 2] * work.backward[k / 2];
+  down((k - 1) / 2, [&](int j) {
+    product = multiply_add(work.forward[j], work.backward[k - j], product);
+    product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
+  });
+  const Row known = c.quadratic * (product + product_2);
+  const Row next =
+      lanes(share) *
+      (multiply_add(c.jacobian[0], y0, multiply_add(c.jacobian[1], y1, multiply_add(c.jacobian[2], y2, known))));
+
+  // the quaternion
+  const Row motion = c.half * newest;
+  store(work.turn[k], motion);
+  Row s0 = zero, s1 = zero, s2 = zero;
+  down(k - 1, [&](int j) {
+    const Row q = load(&x[k - j][4]);
+    s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
+    s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
+    s2 = multiply_add(lanes(work.turn[j][2]), q, s2);
+  });
+  const Row first = load(&x[0][4]), last = load(&x[k][4]);
+  s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(motion), first, s0));
+  s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(motion), first, s1));
+  s2 = multiply_add(lanes(work.turn[0][2]), last, multiply_add(shuffle<2, 2, 2, 2>(motion), first, s2));
+  store(&x[k + 1][4], lanes(share) * turned(s0, s1, s2));
+
+  // the force's direction, power and quadratures
+  const Row thrust = to_thrust(last);
+  const Row outer = shuffle<0, 3, 3, 0>(thrust), inner = shuffle<2, 1, 2, 1>(thrust);
+  work.thrust[k] = thrust;
+  work.outer[k] = outer;
+  work.inner[k] = inner;
+  Row mixed = multiply_add(work.outer[0], inner, outer * work.inner[0]);
+  down(k - 1, [&](int j) { mixed = multiply_add(work.outer[j], work.inner[k - j], mixed); });
+  Row square = k % 2 == 0 ? lanes(Scalar(0.5)) * work.thrust[k / 2] * work.thrust[k / 2] : zero;
+  down((k - 1) / 2, [&](int j) { square = multiply_add(work.thrust[j], work.thrust[k - j], square); });
+  square = multiply_add(work.thrust[0], thrust, square);
+  const Scalar power = sum(c.power * newest)[0];
+  store(&x[k + 1][8], lanes(share) * (c.unit * third_axis(mixed, square + square, Scalar(0)) +
+                                      lanes(Scalar(0), Scalar(0), Scalar(0), power)));
+  store(&x[k + 1][12], lanes(share) * c.unit * with_last(load(&x[k][8]), zero));
+
+  store(&x[k + 1][0], next);
+  if (k + 1 < Order) {
+    work.forward[k + 1] = shuffle<1, 2, 0, 3>(next);
+    work.backward[k + 1] = shuffle<2, 0, 1, 3>(next);
+  }
+  newest = next;
+}
+
+template <Real Real_>
+template <int Order>
+void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept {
+  const Scalar zero = 0;
+  const Scalar p = x[0][0], q = x[0][1], r = x[0][2];
+  const Vec3<Scalar> a = unit * quadratic_;
+  const Scalar l1 = unit * gyroscopic_1_, l2 = unit * gyroscopic_2_;
+
+  Constants c;
+  c.unit = lanes(unit);
+  c.quadratic = lanes(a[0], a[1], a[2], zero);
+  c.power = lanes(unit * torque_[0], unit * torque_[1], unit * torque_[2], zero);
+  c.jacobian[0] = lanes(zero, a[1] * r + l2, a[2] * q, zero);
+  c.jacobian[1] = lanes(a[0] * r - l1, zero, a[2] * p, zero);
+  c.jacobian[2] = lanes(a[0] * q, a[1] * p, zero, unit);
+  c.half = lanes(unit / 2);
+
+  const Row start = load(x[0]);
+  const Row motion = c.half * start;
+  store(work.turn[0], motion);
+  work.forward[0] = shuffle<1, 2, 0, 3>(start);
+  work.backward[0] = shuffle<2, 0, 1, 3>(start);
+  Row newest = lanes(unit * angular_acceleration_[0] + q * (a[0] * r - l1),
+                     unit * angular_acceleration_[1] + p * (a[1] * r + l2),
+                     unit * angular_acceleration_[2] + a[2] * (p * q), unit * r);
+  store(x[1], newest);
+  work.forward[1] = shuffle<1, 2, 0, 3>(newest);
+  work.backward[1] = shuffle<2, 0, 1, 3>(newest);
+
+  const Row attitude = load(&x[0][4]);
+  store(&x[1][4], turned(lanes(motion[0]) * attitude, lanes(motion[1]) * attitude, lanes(motion[2]) * attitude));
+  work.thrust[0] = to_thrust(attitude);
+  work.outer[0] = shuffle<0, 3, 3, 0>(work.thrust[0]);
+  work.inner[0] = shuffle<2, 1, 2, 1>(work.thrust[0]);
+  const Scalar power = sum(c.power * start)[0];
+  store(&x[1][8], c.unit * third_axis(work.outer[0] * work.inner[0], work.thrust[0] * work.thrust[0], zero) +
+                      lanes(zero, zero, zero, power));
+  store(&x[1][12], c.unit * with_last(load(&x[0][8]), lanes(zero)));
+
+  const auto next = [&](auto k) { extend(k, x, work, newest, c); };
+  if constexpr (Row::vectorised) {
+    [&]<int... k>(std::integer_sequence<int, k...>) {
+      (next(std::integral_constant<int, k + 1>{}), ...);
+    }(std::make_integer_sequence<int, Order - 1>{});
+  } else {
+    for (int k = 1; k < Order; ++k) next(k);
+  }
+}
+
+template <Real Real_>
+void FullSystem<Real_>::project_rates(Scalar t, Scalar* x, Scalar* low) const noexcept {
+  const auto dot = [&](int i) noexcept { return x[i] * low[i]; };
+  if (symmetric_) {
+    const Scalar gain = angular_acceleration_[2] * t;
+    x[2] = r0_ + gain;
+    low[2] = (r0_ - x[2]) + gain;
+    if (transverse_is_known_ && transverse_ > 0) {
+      const Scalar stretch = ((transverse_ - x[0] * x[0] - x[1] * x[1]) / 2 - dot(0) - dot(1)) / transverse_;
+      move(x[0], low[0], stretch * x[0]);
+      move(x[1], low[1], stretch * x[1]);
+    }
+  } else if (free_) {
+    const Vec3<Scalar> omega{x[0], x[1], x[2]}, rest{low[0], low[1], low[2]};
+    const Vec3<Scalar> G = inertia_.cwiseProduct(omega);
+    const Vec3<Scalar> H(G[0], G[1], G[2] + gyroscopic_);
+    const Vec3<Scalar> along = inertia_.cwiseProduct(H);  // gradients of |H|^2/2 and of the energy
+    const Scalar missing_norm = (kept_I_.squaredNorm() - H.squaredNorm()) / 2 - along.dot(rest);
+    const Scalar missing_energy = (energy_ - omega.dot(G)) / 2 - G.dot(rest);
+    // the least change of omega, in the metric of the inertia, that mends both: a combination of H and omega
+    const Scalar hh = along.dot(H), hw = along.dot(omega), ww = G.dot(omega);
+    const Scalar determinant = hh * ww - hw * hw;
+    Vec3<Scalar> change{0, 0, 0};
+    if (64 * determinant > hh * ww) {
+      change = ((missing_norm * ww - missing_energy * hw) / determinant) * H +
+               ((missing_energy * hh - missing_norm * hw) / determinant) * omega;
+    } else if (ww > 0) {
+      change = (missing_energy / ww) * omega;
+    }
+    for (int i = 0; i < 3; ++i) move(x[i], low[i], change[i]);
+  }
+}
+
+template <Real Real_>
+void FullSystem<Real_>::project(Scalar t, Scalar* x, Scalar* low) const noexcept {
+  if (symmetric_ || free_) project_rates(t, x, low);
+  Scalar missing = 1, along = 0;
+  for (int i = 4; i < 8; ++i) missing -= x[i] * x[i];
+  for (int i = 4; i < 8; ++i) along += x[i] * low[i];
+  const Scalar stretch = missing / 2 - along;
+  Quat<Scalar> change{stretch * x[4], stretch * x[5], stretch * x[6], stretch * x[7]};
+  if (free_) {
+    const Quat<Scalar> q{x[4], x[5], x[6], x[7]};
+    const Vec3<Scalar> rest = rotate<Scalar>(conjugate(q), kept_I_);
+    const Vec3<Scalar> H(inertia_[0] * x[0], inertia_[1] * x[1], inertia_[2] * x[2] + gyroscopic_);
+    const Scalar whole = inertia_.cwiseProduct(Vec3<Scalar>(x[0], x[1], x[2])).norm() + std::abs(gyroscopic_);
+    const Scalar size = H.squaredNorm();
+    // the least turn of the body that brings R H onto its constant; where H nearly cancels its direction is lost
+    if (size > Scalar(1e-4L) * whole * whole) {
+      // what q still has in low turns R H too
+      const Quat<Scalar> d = conjugate(q) * Quat<Scalar>{low[4], low[5], low[6], low[7]};
+      const Vec3<Scalar> pending(2 * d.x, 2 * d.y, 2 * d.z);
+      Vec3<Scalar> turn = cross<Scalar>(H, rest) / size;
+      turn -= pending - H * (H.dot(pending) / size);
+      const Quat<Scalar> turned = q * Quat<Scalar>{0, turn[0] / 2, turn[1] / 2, turn[2] / 2};
+      change = {change.w + turned.w, change.x + turned.x, change.y + turned.y, change.z + turned.z};
+    }
+  }
+  move(x[4], low[4], change.w);
+  move(x[5], low[5], change.x);
+  move(x[6], low[6], change.y);
+  move(x[7], low[7], change.z);
+}
+
+}  // namespace gyrostat::spinning

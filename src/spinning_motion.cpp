@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/spinning/full_motion.hpp"
+
+namespace gyrostat::spinning {
+
+template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
+                                                              std::span<State<double>>,
+                                                              const FullMotionOptions<double>&) noexcept;
+
+}  // namespace gyrostat::spinning
