@@ -30,6 +30,7 @@
 #include "gyrostat/ladder/rotor/full_motion.hpp"
 #include "gyrostat/ladder/rotor/scene.hpp"
 #include "gyrostat/ladder/rotor/solve.hpp"
+#include "gyrostat/ladder/rotor/state_columns.hpp"
 #include "gyrostat/ladder/rotor/track.hpp"
 #include "gyrostat/ladder/rung.hpp"
 #include "gyrostat/ladder/spinning/column_errors.hpp"

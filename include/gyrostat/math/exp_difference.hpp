@@ -66,22 +66,22 @@ class ExpDifferences {
   /// Nodes in units of 1/t; may be wider than Scalar: their differences are then rounded once.
   template <Real Wider>
   ExpDifferences(const std::array<Complex<Wider>, nodes>& a, Entries wanted) noexcept {
-    for (int i = 0; i < nodes; ++i) node_[i] = complex_cast<Scalar>(a[std::size_t(i)]);
+    Split pairs[nodes][nodes + 1];  // the last: with the node 0
+    for (int i = 0; i < nodes; ++i) {
+      node_[i] = complex_cast<Scalar>(a[std::size_t(i)]);
+      for (int j = 0; j < i; ++j) pairs[i][j] = Split(a[std::size_t(i)] - a[std::size_t(j)], 1u << i, 1u << j);
+      pairs[i][nodes] = Split(a[std::size_t(i)], 1u << i, 0);
+    }
     for (Set s = 0; s < sets; ++s) {
       wanted_[s] = static_cast<std::uint8_t>((wanted >> (s * Set(zeros + 1))) & ((1u << (zeros + 1)) - 1));
-      Wider alone = -1, with_zero = -1;
       for (int i = 0; i < nodes; ++i) {
         if (!(s >> i & 1)) continue;
-        const Complex<Wider> first = a[std::size_t(i)];
-        for (int j = 0; j < i; ++j) {
-          if (!(s >> j & 1)) continue;
-          const Complex<Wider> apart = first - a[std::size_t(j)];
-          consider(alone, alone_[s], apart, i, j);
-          consider(with_zero, with_zero_[s], apart, i, j);
-        }
-        consider(with_zero, with_zero_[s], first, i, -1);
-        radius_[s] = std::max(radius_[s], static_cast<Scalar>(magnitude(first)));
+        for (int j = 0; j < i; ++j)
+          if ((s >> j & 1) && !(pairs[i][j].spread < alone_[s].spread)) alone_[s] = pairs[i][j];
+        if (!(pairs[i][nodes].spread < with_zero_[s].spread)) with_zero_[s] = pairs[i][nodes];
       }
+      radius_[s] = with_zero_[s].spread;
+      if (alone_[s].spread > with_zero_[s].spread) with_zero_[s] = alone_[s];
     }
   }
 
@@ -121,43 +121,43 @@ class ExpDifferences {
           continue;
         }
         combine[s] = static_cast<std::uint8_t>(combine[s] | bit);
-        need[s ^ (1u << split.first)] = static_cast<std::uint8_t>(need[s ^ (1u << split.first)] | bit);
-        if (split.second < 0) {
-          need[s] = static_cast<std::uint8_t>(need[s] | bit >> 1);
-        } else {
-          need[s ^ (1u << split.second)] = static_cast<std::uint8_t>(need[s ^ (1u << split.second)] | bit);
-        }
+        const unsigned other = split.second == 0 ? bit >> 1 : bit;
+        need[s ^ split.first] = static_cast<std::uint8_t>(need[s ^ split.first] | bit);
+        need[s ^ split.second] = static_cast<std::uint8_t>(need[s ^ split.second] | other);
       }
     }
     for (Set s = 1; s < sets; ++s) {
       if (combine[s] == 0) continue;
-      for (int k = 0; k <= zeros; ++k) {
+      if (combine[s] & 1) {
+        const Split& split = alone_[s];
+        f.values[s][0] = split.inverse * (f.values[s ^ split.second][0] - f.values[s ^ split.first][0]);
+      }
+      for (int k = 1; k <= zeros; ++k) {
         if (!(combine[s] >> k & 1)) continue;
-        const Split& split = k > 0 ? with_zero_[s] : alone_[s];
-        const Value& with_first = split.second < 0 ? f.values[s][k - 1] : f.values[s ^ (1u << split.second)][k];
-        f.values[s][k] = split.inverse * (with_first - f.values[s ^ (1u << split.first)][k]);
+        const Split& split = with_zero_[s];
+        const Value& with_first = f.values[s ^ split.second][split.second == 0 ? k - 1 : k];
+        f.values[s][k] = split.inverse * (with_first - f.values[s ^ split.first][k]);
       }
     }
   }
 
  private:
-  /// The farthest pair of a set: spread and inverse of a_first - a_second; second -1: the node 0.
+  /// The farthest pair of a set: spread and inverse of a_first - a_second, each a set of one; second empty: the node 0.
   struct Split {
     Scalar spread = 0;
     Value inverse;
-    int first = 0, second = -1;
+    Set first = 0, second = 0;
+
+    Split() = default;
+    template <Real Wider>
+    Split(Complex<Wider> apart, Set i, Set j) noexcept
+        : spread(static_cast<Scalar>(magnitude(apart))),
+          inverse(complex_cast<Scalar>(math::inverse(apart))),
+          first(i),
+          second(j) {}
   };
 
   static constexpr unsigned all_with_zero = ((1u << (zeros + 1)) - 1) & ~1u;
-
-  template <Real Wider>
-  static void consider(Wider& most, Split& split, Complex<Wider> apart, int first, int second) noexcept {
-    const Wider size = magnitude(apart);
-    if (size > most) {
-      most = size;
-      split = {static_cast<Scalar>(size), complex_cast<Scalar>(inverse(apart)), first, second};
-    }
-  }
 
   /// t times spread up to which a series is as accurate as the quotient: of n nodes the quotients lose (n-1)!/spread^(n-1)
   /// times powers of two, the series e^(spread/2).
