@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gyrostat/ladder/rotor/state_columns.hpp"
+#include "gyrostat/ladder/rotor/track.hpp"
+#include "gyrostat/models/rotor/closed_form.hpp"
+
+namespace gyrostat::rotor {
+
+/// Rung `closed-form`: the exact special cases (docs/rotor.md, section 5).
+inline Track closed_form_track(const Scene& scene, Monitor*) {
+  const ClosedForm<double> form(scene.gyrostat(), scene.start());
+  if (form.kind() == ClosedFormKind::none)
+    return refused<Track>(
+        Errc::not_applicable,
+        "no closed form: the body has momentum, is not symmetric about the rotor's axis, and starts neither in a "
+        "steady rotation nor on the circle of a circular section");
+  const auto bound = form.error(scene.data().times.back());
+  Track track;
+  track.states.reserve(scene.data().times.size());
+  for (const double t : scene.data().times) track.states.push_back(form.at(t));
+  track.error = state_columns(scene.gyrostat(), track.states, bound);
+  track.in_domain = bound.attitude < infinity<double>;
+  if (!track.in_domain)
+    track.warn(
+        "leaves-closed-form",
+        "body and start lie off the exact family by rounding or by the data, and before the last time the motion has "
+        "left it; off by, relative",
+        form.defect());
+  return track;
+}
+
+}  // namespace gyrostat::rotor

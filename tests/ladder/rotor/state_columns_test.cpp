@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/rotor/state_columns.hpp"
+
+#include <vector>
+
+#include "../../models/rotor/bodies.hpp"
+#include "catch.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::rotor;
+
+namespace {
+
+struct Bound {
+  double attitude, momentum, rotor_rate, rotor_angle;
+};
+
+}  // namespace
+
+TEST_CASE("columns of states that are off by a bound lie within the errors told", "[rotor]") {
+  Bodies bodies(31);
+  for (int i = 0; i < 500; ++i) {
+    const auto body = bodies.realisable();
+    const double off = bodies.scale(1e-14, 0.1);
+    std::vector<State<double>> states;
+    Comparison<double> seen(body);
+    Bound bound{};
+    for (int k = 0; k < 3; ++k) {
+      auto s = bodies.start(body);
+      s.rotor_angle = bodies.uniform(-1, 1);
+      auto moved = s;
+      const double rate = off * bodies.uniform(-1, 1), angle = off * bodies.uniform(-1, 1);
+      moved.momentum += off * bodies.direction();
+      // p for the wanted rotor rate: omega = p/(lambda k) - n.H/k
+      const auto rate_of = [&](const State<double>& x) {
+        return body.rotor_rate(x.axial_momentum, body.angular_velocity(x.momentum, x.axial_momentum));
+      };
+      moved.axial_momentum += body.axial_inertia() * body.coupling() * (rate_of(s) + rate - rate_of(moved));
+      moved.rotor_angle += angle;
+      bound.momentum = std::max(bound.momentum, off);
+      bound.rotor_rate = std::max(bound.rotor_rate, std::abs(rate));
+      bound.rotor_angle = std::max(bound.rotor_angle, std::abs(angle) + 1e-16);
+      states.push_back(s);
+      seen.add(s, moved);
+    }
+    const auto told = state_columns(body, states, bound);
+    const auto found = seen.relative(seen.difference());
+    CHECK(found.angular_momentum <= told.angular_momentum * (1 + 1e-12) + 1e-15);
+    CHECK(found.angular_velocity <= told.angular_velocity);
+    CHECK(found.rotor_rate <= told.rotor_rate + 1e-13);
+    CHECK(found.rotor_angle <= told.rotor_angle * (1 + 1e-12));
+    CHECK(found.lyapunov <= told.lyapunov);
+    CHECK(told.lyapunov < 1e4 * off);
+  }
+}
+
+TEST_CASE("no momentum and no error of it: none told", "[rotor]") {
+  const auto body = reference_body(0.05, 30);
+  const std::vector<State<double>> states{body.state({}, Vec3<double>(0, 0, 0), 0)};
+  const auto told = state_columns(body, states, Bound{0, 0, 0, 0});
+  CHECK(told.angular_momentum == 0);
+  CHECK(told.rotor_angle == 0);
+  CHECK(state_columns(body, states, Bound{10, 0, 0, 0}).attitude == pi<double>);
+}
