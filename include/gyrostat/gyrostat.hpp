@@ -35,6 +35,7 @@
 #include "gyrostat/ladder/rung.hpp"
 #include "gyrostat/ladder/spinning/column_errors.hpp"
 #include "gyrostat/ladder/spinning/full_motion.hpp"
+#include "gyrostat/ladder/spinning/full_rung.hpp"
 #include "gyrostat/ladder/spinning/scene.hpp"
 #include "gyrostat/ladder/spinning/track.hpp"
 #include "gyrostat/ladder/times.hpp"

@@ -37,6 +37,8 @@ struct FullMotionAnswer {
   bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
   /// Estimated greatest errors over the times, each relative to the greatest norm of its column over the times; attitude: the angle, rad.
   ColumnErrors<Scalar> error;
+  Scalar least_cosine = 1;    ///< a lower bound of cos(psi) on the way
+  bool turns_known = true;    ///< false: cos(psi) = 0 is passed on a side that the error of the attitude leaves open
   ode::Counts counts;         ///< of all runs, the companion's included
   Scalar step_tolerance = 0;  ///< of the Taylor steps that gave the answer
 };
@@ -183,12 +185,12 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
   answer.step_tolerance = step_tolerance;
   const double middle = progress_from + 0.55 * (progress_to - progress_from);
 
-  Scalar cosine = 1, momentum_size = 0, phi_room = pi<Scalar>;
+  Scalar momentum_size = 0;
+  AngleLever<Scalar> lever;
   FullRun<Scalar> run(problem, step_tolerance, options, progress_from, middle);
   answer.status = run(times, [&](std::size_t i, const State<Scalar>& state) noexcept {
     states[i] = state;
-    cosine = std::min(cosine, run.angle().cosine());
-    phi_room = std::min(phi_room, run.angle().phi_room());
+    lever.look(run.angle());
     momentum_size = std::max(momentum_size, problem.inertia.cwiseProduct(state.angular_velocity).norm());
   });
   answer.counts = run.counts();
@@ -232,10 +234,9 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
   error.velocity = margin * apart.velocity + rounding * size.velocity;
   error.position = margin * apart.position + rounding * (size.position + problem.position.norm());
   error.angles = margin * apart.angles + rounding * size.angles;
-  if (run.phase() > 0) error.angles += 2 * attitude / cosine;
-  const bool side_unknown = !(attitude < Scalar(0.3L) * std::min(cosine, run.angle().least_cosine()));
-  const bool sheet_unknown = !(attitude / cosine < phi_room);
-  if (side_unknown || sheet_unknown) error.angles += 2 * pi<Scalar>;
+  if (run.phase() > 0) error.angles += lever.error(attitude);
+  answer.least_cosine = lever.least_cosine();
+  answer.turns_known = !lever.loses_turns(attitude);
   answer.error = comparison.relative(error);
   answer.met = answer.error.greatest() <= options.tolerance;
   return answer;

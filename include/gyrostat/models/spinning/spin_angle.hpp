@@ -119,4 +119,30 @@ class SpinAngle {
   Sample last_{};
 };
 
+/// What an error of the attitude makes of the angles at the times at which they were looked at.
+template <Real Scalar>
+class AngleLever {
+ public:
+  void look(const SpinAngle<Scalar>& angle) noexcept {
+    cosine_ = std::min(cosine_, angle.cosine());
+    room_ = std::min(room_, angle.phi_room());
+    least_cosine_ = angle.least_cosine();
+  }
+
+  /// A lower bound of cos(psi) up to the last time.
+  Scalar least_cosine() const noexcept { return std::min(cosine_, least_cosine_); }
+  /// Turns of theta or phi are not known: the motion came nearer to cos(psi) = 0, or phi to the end of its range, than this error of the
+  /// attitude, rad.
+  bool loses_turns(Scalar attitude_error) const noexcept {
+    return !(attitude_error < Scalar(0.3L) * least_cosine()) || !(attitude_error < room_ * cosine_);
+  }
+  /// The error of the angles, rad.
+  Scalar error(Scalar attitude_error) const noexcept {
+    return 2 * attitude_error / cosine_ + (loses_turns(attitude_error) ? 2 * pi<Scalar> : Scalar(0));
+  }
+
+ private:
+  Scalar cosine_ = 1, room_ = pi<Scalar>, least_cosine_ = 1;
+};
+
 }  // namespace gyrostat::spinning

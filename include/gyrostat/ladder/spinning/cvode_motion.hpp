@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "gyrostat/ladder/spinning/full_rung.hpp"
+#include "gyrostat/models/spinning/full.hpp"
+#include "gyrostat/models/spinning/spin_angle.hpp"
+#include "gyrostat/ode/cvode.hpp"
+#include "gyrostat/rotation/kinematics.hpp"
+
+/// The full equations by CVODE (Adams), the trusted outsider. Needs the library gyrostat::cvode.
+namespace gyrostat::spinning {
+
+namespace detail {
+
+/// The numbers of FullSystem without the two that nothing needs here, in units of the motion.
+class CvodeEquations {
+ public:
+  static constexpr std::size_t width = 14;
+  using Numbers = std::array<double, 16>;
+  using Scaled = std::array<double, width>;
+
+  CvodeEquations(const Problem<double>& problem, double span) : problem_(problem), system_(problem) {
+    const auto scale = system_.scale(span);
+    const double rate = scale[0], time = scale[8];
+    unit_ = {rate, rate, rate, 1, 1, 1, 1, 1, time, time, time, time * time, time * time, time * time};
+    const double size = problem.force.norm();
+    direction_ = size > 0 ? Vec3<double>(problem.force / size) : Vec3<double>(0, 0, 1);
+  }
+
+  Scaled start() const noexcept {
+    Scaled y{};
+    for (std::size_t i = 0; i < width; ++i) y[i] = system_.start()[place(i)] / unit_[i];
+    return y;
+  }
+  Numbers numbers(const double* y) const noexcept {
+    Numbers x{};
+    for (std::size_t i = 0; i < width; ++i) x[place(i)] = y[i] * unit_[i];
+    return x;
+  }
+  SpinAngle<double>::Sample sample(const double* y) const noexcept {
+    const Numbers x = numbers(y);
+    return {system_.angular_velocity(x.data()), system_.attitude(x.data()), x[3]};
+  }
+  State<double> state(double t, const double* y, const Angles<double>& angles) const noexcept {
+    const Numbers x = numbers(y);
+    const Vec3<double> omega = system_.angular_velocity(x.data());
+    const Quat<double> q = system_.attitude(x.data());
+    return {omega,
+            angles,
+            q,
+            inertial_momentum(problem_, omega, q),
+            system_.velocity(x.data()),
+            system_.position(t, x.data())};
+  }
+
+  static bool rate(double, const double* y, double* out, void* user) {
+    const auto& self = *static_cast<const CvodeEquations*>(user);
+    const Numbers x = self.numbers(y);
+    const Vec3<double> omega(x[0], x[1], x[2]);
+    const Quat<double> q{x[4], x[5], x[6], x[7]};
+    const Vec3<double> a = angular_acceleration(self.problem_, omega), d = rotate<double>(q, self.direction_);
+    const auto dq = quaternion_rate<double>(q, omega);
+    const Scaled value{a[0], a[1], a[2], omega[2], dq.w, dq.x, dq.y, dq.z, d[0], d[1], d[2], x[8], x[9], x[10]};
+    double sum = 0;
+    for (std::size_t i = 0; i < width; ++i) sum += out[i] = value[i] / self.unit_[i];
+    return std::isfinite(sum);
+  }
+
+ private:
+  static constexpr std::size_t place(std::size_t i) noexcept { return i < 11 ? i : i + 1; }
+
+  const Problem<double>& problem_;
+  FullSystem<double> system_;
+  Scaled unit_;
+  Vec3<double> direction_;
+};
+
+/// One CVODE run: the states at the times.
+struct CvodeRun {
+  std::vector<State<double>> states;
+  AngleLever<double> lever;
+  Errc failure = Errc::ok;
+  ode::Counts counts;
+};
+
+inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor) {
+  const auto& times = scene.question().times;
+  const double end = times.back();
+  CvodeEquations equations(scene.problem(), end);
+  const auto start = equations.start();
+  SpinAngle<double> angle(scene.problem());
+  CvodeRun run;
+  run.states.reserve(times.size());
+  const auto keep = [&](double t, const double* y) {
+    run.states.push_back(equations.state(t, y, angle.angles()));
+    run.lever.look(angle);
+  };
+  if (!(times.front() > 0)) keep(0, start.data());
+  if (!(end > 0)) return run;
+
+  ode::CvodeSystem system;
+  system.dimension = int(CvodeEquations::width);
+  system.rhs = &CvodeEquations::rate;
+  system.user = &equations;
+  auto made = ode::Cvode::create(system, 0, start, {ode::CvodeMethod::adams, tolerance, tolerance});
+  if (!made) return run.failure = made.error(), run;
+  auto cvode = std::move(made).value();
+  CvodeEquations::Scaled y{};
+  const auto at = [&](double t) {
+    cvode.at(t, y);
+    return equations.sample(y.data());
+  };
+  while (run.states.size() < times.size()) {
+    const auto status = cvode.step(end);
+    run.counts = cvode.counts();
+    if (status != ode::Status::reached) {
+      run.failure = status == ode::Status::step_limit ? Errc::step_limit : Errc::no_convergence;
+      return run;
+    }
+    while (run.states.size() < times.size() && times[run.states.size()] <= cvode.time()) {
+      const double t = times[run.states.size()];
+      angle.follow(t, at(t), at);
+      cvode.at(t, y);
+      keep(t, y.data());
+    }
+    angle.follow(cvode.time(), equations.sample(cvode.state().data()), at);
+    if (monitor) {
+      if (monitor->cancel.load(std::memory_order_relaxed)) return run.failure = Errc::cancelled, run;
+      monitor->fraction.store(cvode.time() / end, std::memory_order_relaxed);
+    }
+  }
+  return run;
+}
+
+}  // namespace detail
+
+/// Rung `full` by CVODE. The error is four times the distance to a second run at a tolerance ten times looser.
+inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
+  const double tolerance = std::max(1e-13, scene.question().tolerance * 1e-6);
+  auto run = detail::cvode_run(scene, tolerance, monitor);
+  if (run.failure != Errc::ok) return refused<Track>(run.failure, message(run.failure));
+  const auto looser = detail::cvode_run(scene, 10 * tolerance, monitor);
+  if (looser.failure != Errc::ok) return refused<Track>(looser.failure, message(looser.failure));
+
+  Track track;
+  Comparison<double> comparison;
+  for (std::size_t i = 0; i < run.states.size(); ++i) comparison.add(run.states[i], looser.states[i]);
+  const auto& size = comparison.size();
+  const auto& apart = comparison.difference();
+  ColumnErrors<double> error;
+  error.angular_velocity = 4 * apart.angular_velocity + tolerance * size.angular_velocity;
+  error.attitude = 4 * apart.attitude + tolerance;
+  error.momentum = 4 * apart.momentum + tolerance * size.momentum;
+  error.velocity = 4 * apart.velocity + tolerance * size.velocity;
+  error.position = 4 * apart.position + tolerance * size.position;
+  error.angles = 4 * apart.angles + tolerance * size.angles;
+  if (size.angular_velocity > 0) error.angles += run.lever.error(error.attitude);
+  track.error = comparison.relative(error);
+  if (run.lever.loses_turns(error.attitude)) detail::warn_of_gimbal_lock(track, run.lever.least_cosine());
+  track.states = std::move(run.states);
+  track.counts = run.counts;
+  track.counts += looser.counts;
+  return track;
+}
+
+}  // namespace gyrostat::spinning

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/spinning/full_rung.hpp"
+
+#include "catch.hpp"
+
+#include <cstring>
+
+#include "reference_table.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::spinning;
+
+namespace {
+
+Scene scene(const Problem<double>& problem, std::vector<double> times, double tolerance = 1e-8) {
+  Question question;
+  question.times = std::move(times);
+  question.tolerance = tolerance;
+  const auto made = Scene::make(problem, question);
+  REQUIRE(made);
+  return *made;
+}
+
+Track stand_in(const Scene&, Monitor*) {
+  Track track;
+  track.warn("stand-in", "");
+  return track;
+}
+
+}  // namespace
+
+TEST_CASE("rung full of the reference cases", "[spinning]") {
+  for (const auto& c : reference_cases<double>()) {
+    CAPTURE(c.name);
+    Monitor monitor;
+    const Track track = full_track(scene(c.problem, c.times), &monitor);
+    REQUIRE(track.failure == Errc::ok);
+    CHECK(monitor.fraction == 1);
+    CHECK(track.error.greatest() <= 1e-8);
+    CHECK(track.counts.steps > 0);
+    Comparison<double> comparison;
+    for (std::size_t i = 0; i < c.times.size(); ++i) comparison.add(c.states[i], track.states[i]);
+    CHECK(comparison.relative(comparison.difference()).greatest() < track.error.greatest());
+  }
+}
+
+TEST_CASE("rung full says why it stops", "[spinning]") {
+  const auto cases = reference_cases<double>();
+  Monitor monitor;
+  monitor.cancel = true;
+  const auto& longest = cases[4];  // above 256 steps
+  CHECK(full_track(scene(longest.problem, longest.times, 1e-12), &monitor).failure == Errc::cancelled);
+}
+
+TEST_CASE("rung full hands over to the integrator of the question", "[spinning]") {
+  Question question;
+  question.times = {0, 1};
+  question.full_equations = &stand_in;
+  const auto made = Scene::make({}, question);
+  REQUIRE(made);
+  const Track track = full_track(*made, nullptr);
+  REQUIRE(track.warnings.size() == 1);
+  CHECK(std::strcmp(track.warnings[0].code, "stand-in") == 0);
+}
+
+TEST_CASE("rung full warns where theta loses a turn", "[spinning]") {
+  Problem<double> p;
+  p.angular_velocity = {1, 0, 0};
+  const Track lost = full_track(scene(p, {0, 3}), nullptr);
+  REQUIRE(lost.warnings.size() == 1);
+  CHECK(std::strcmp(lost.warnings[0].code, "gimbal-lock") == 0);
+  CHECK(lost.error.angles > 1);
+  p.angles.phi = 0.1;
+  CHECK(full_track(scene(p, {0, 3}), nullptr).warnings.empty());
+}
