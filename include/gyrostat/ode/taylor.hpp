@@ -103,8 +103,8 @@ class Taylor {
   /// Begin of the last step; the polynomial holds from here to time().
   Scalar previous_time() const noexcept { return start_.high; }
 
-  /// The state at t inside the last step, width numbers. Outside it the polynomial is extrapolated.
-  void at(Scalar t, Scalar* state) const noexcept;
+  /// The state at t inside the last step, or its first `numbers`, a multiple of four. Outside it the polynomial is extrapolated.
+  void at(Scalar t, Scalar* state, int numbers = width) const noexcept;
 
   /// The time inside the last step at which g(state) changes sign, to a few roundings of the step; Errc::no_bracket if it has
   /// the same sign at both ends (a double crossing inside one step is not seen).
@@ -259,9 +259,9 @@ Status Taylor<System, Order>::step(Scalar t_max) noexcept {
 }
 
 template <TaylorSystem System, int Order>
-void Taylor<System, Order>::at(Scalar t, Scalar* state) const noexcept {
+void Taylor<System, Order>::at(Scalar t, Scalar* state, int numbers) const noexcept {
   const Scalar theta = ((t - start_.high) - start_.low) / row_unit_;
-  for (int i = 0; i < width; i += 4) {
+  for (int i = 0; i < numbers; i += 4) {
     store(state + i, load(&x_[0][i]) + (load(&start_low_[i]) + increment(i, theta)));
   }
 }

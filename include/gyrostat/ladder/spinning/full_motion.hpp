@@ -96,7 +96,7 @@ class FullRun {
           typename SpinAngle<Scalar>::Sample{system_.angular_velocity(numbers), system_.attitude(numbers), numbers[3]};
     };
     const auto between = [&](Scalar t) noexcept {
-      solver.at(t, x);
+      solver.at(t, x, 8);
       return sample(x);
     };
     std::copy(system_.start().begin(), system_.start().end(), x);

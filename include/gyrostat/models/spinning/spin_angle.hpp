@@ -16,9 +16,10 @@ namespace gyrostat::spinning {
 /// Follows theta along a motion, turn by turn, for certain.
 ///
 /// theta is the argument of c = R22 - i R12, |c| = cos(psi), and theta less the integral A of r that of c e^{-iA}, whose rate is at most
-/// |Pi| sin(beta) + |r| (1 - cos(beta)), beta being the tilt of axis 3. That rate is bounded over an interval by
-///     |Pi|' <= |M1 + i M2|/D + |kappa1 - kappa2|/2 |Pi|,   y' <= |D^-1/2 M|,  y^2 = omega.D omega,   |(sin(beta/2))'| <= |Pi|/2,
-/// so an interval over which c e^{-iA} moves by less than |c| cannot hide a turn, and longer ones are halved.
+/// |Pi| sin(beta) + |r| (1 - cos(beta)), beta being the tilt of axis 3. That rate is bounded over an interval, from either end, by
+///     |Pi|' <= |M1 + i M2|/D + |kappa1 - kappa2|/2 |Pi|,   |r|' <= |M3|/D3 + |D1 - D2|/(2 D3) |Pi|^2,   |(sin(beta/2))'| <= |Pi|/2,
+///     y' <= |D^-1/2 M|,  y^2 = omega.D omega.
+/// So an interval over whose halves c e^{-iA} moves by less than its |c| at the ends cannot hide a turn; a longer one is divided.
 ///
 /// Where the motion crosses cos(psi) = 0 theta jumps by pi, forward or back. Close by, theta follows the motion past the line, on the
 /// side on which it passes; least_cosine() tells how near it came, and below the error of the attitude the side is not known.
@@ -36,87 +37,123 @@ class SpinAngle {
   explicit SpinAngle(const Problem<Scalar>& problem) noexcept
       : inertia_(problem.inertia),
         drive_(std::hypot(problem.torque[0] / inertia_[0], problem.torque[1] / inertia_[1])),
+        axial_drive_(std::abs(problem.torque[2]) / inertia_[2]),
         power_(problem.torque.cwiseQuotient(inertia_.cwiseSqrt()).norm()),
-        root_inverse_{1 / std::sqrt(std::min(inertia_[0], inertia_[1])), 1 / std::sqrt(inertia_[2])},
+        root_transverse_(std::sqrt(std::min(inertia_[0], inertia_[1]))),
+        root_axial_(std::sqrt(inertia_[2])),
+        skew_(std::abs(inertia_[0] - inertia_[1]) / (2 * inertia_[2])),
         split_slope_(std::abs((inertia_[2] - inertia_[1]) / inertia_[0] - (inertia_[2] - inertia_[0]) / inertia_[1]) /
                      2),
         split_(std::abs(problem.gyroscopic() * (1 / inertia_[0] - 1 / inertia_[1])) / 2) {
     const auto& a = problem.angles;
-    last_ = {problem.angular_velocity, quaternion_from_312(a.psi, a.phi, a.theta), 0};
-    look();
-    const bool upright = std::cos(a.psi) >= 0;
-    phi_ = upright ? a.phi : a.phi + std::remainder(angles_[1] - a.phi, 2 * pi<Scalar>);
-    theta_ = a.theta + std::remainder(angles_[2] - a.theta, 2 * pi<Scalar>);
+    attitude_ = quaternion_from_312(a.psi, a.phi, a.theta);
+    here_ = view({problem.angular_velocity, attitude_, 0});
+    const Vec3<Scalar> reduced = angles_312(attitude_);
+    phi_ = std::cos(a.psi) >= 0 ? a.phi : a.phi + std::remainder(reduced[1] - a.phi, 2 * pi<Scalar>);
+    theta_ = a.theta + std::remainder(reduced[2] - a.theta, 2 * pi<Scalar>);
   }
 
   /// Goes on to t >= the last time, where the motion is `sample`. `at(t)`: the sample at a time in between.
   template <class At>
   void follow(Scalar t, const Sample& sample, const At& at) noexcept {
-    for (int trip = 1; trip <= trip_cap && time_ < t; ++trip) {
-      // nearer to cos(psi) = 0 than rounding the side is not known anyway
-      const Scalar room = std::max(Scalar(0.9L) * cosine_, 16 * epsilon<Scalar>);
+    const View target = view(sample);
+    for (int trip = 0; trip < trip_cap && time_ < t; ++trip) {
       Scalar step = t - time_;
-      Scalar moved = drift(step);
-      while (moved > room && time_ + step / 2 > time_ && trip < trip_cap) {
-        step /= 2;
-        moved = drift(step);
+      View next = target;
+      bool arrives = true;
+      if (drift(here_, step / 2) > here_.room) {
+        step = std::min(step / 2, Scalar(1.5L) * here_.room / here_.rate);
+        while (drift(here_, step / 2) > here_.room && divisible(step)) step /= 2;
+        next = view(at(time_ + step));
+        arrives = false;
       }
-      const bool arrives = !(step < t - time_);
-      least_cosine_ = std::min(least_cosine_, std::max(Scalar(0), cosine_ - moved));
-      const Scalar from = last_.turned;
-      const Scalar theta = theta_;
-      last_ = arrives ? sample : at(time_ + step);
+      for (; drift(next, step / 2) > next.room && divisible(step) && ++trip < trip_cap; arrives = false) {
+        step /= 2;
+        next = view(at(time_ + step));
+      }
+      if (trip >= trip_cap) {
+        next = target;
+        arrives = true;
+        least_cosine_ = 0;
+      }
+      for (const View& end : {here_, next})
+        least_cosine_ = std::min(least_cosine_, std::max(Scalar(0), end.cosine - drift(end, step / 2)));
+      theta_ = near(next.theta, theta_ + (next.turned - here_.turned));
+      here_ = next;
       time_ = arrives ? t : time_ + step;
-      look();
-      const Scalar expected = theta + (last_.turned - from);
-      theta_ = angles_[2] + 2 * pi<Scalar> * std::round((expected - angles_[2]) / (2 * pi<Scalar>));
     }
+    if (!(time_ == t)) theta_ = nan<Scalar>;
+    attitude_ = sample.attitude;
   }
 
   /// At the last time.
   Angles<Scalar> angles() const noexcept {
-    return {angles_[0], phi_ + std::remainder(angles_[1] - phi_, 2 * pi<Scalar>), theta_};
+    const Vec3<Scalar> reduced = angles_312(attitude_);
+    return {reduced[0], phi_ + std::remainder(reduced[1] - phi_, 2 * pi<Scalar>), near(reduced[2], theta_)};
   }
   /// How far phi is from the ends of its range at the last time, rad.
-  Scalar phi_room() const noexcept { return pi<Scalar> - std::abs(std::remainder(angles_[1] - phi_, 2 * pi<Scalar>)); }
+  Scalar phi_room() const noexcept {
+    return pi<Scalar> - std::abs(std::remainder(angles_312(attitude_)[1] - phi_, 2 * pi<Scalar>));
+  }
   /// cos(psi) at the last time.
-  Scalar cosine() const noexcept { return cosine_; }
+  Scalar cosine() const noexcept { return here_.cosine; }
   /// A lower bound of cos(psi) so far.
   Scalar least_cosine() const noexcept { return least_cosine_; }
 
  private:
   static constexpr int trip_cap = 1000;
 
-  void look() noexcept {
-    const Quat<Scalar>& q = last_.attitude;
-    angles_ = angles_312(q);
-    const Vec3<Scalar>& w = last_.angular_velocity;
-    transverse_ = std::hypot(w[0], w[1]);
-    root_energy_ = std::sqrt(w.dot(inertia_.cwiseProduct(w)));
-    half_tilt_sine_ = std::hypot(q.x, q.y);
-    cosine_ = std::hypot(2 * (q.w * q.z - q.x * q.y), (q.w - q.z) * (q.w + q.z) + (q.y - q.x) * (q.y + q.x));
+  struct View {
+    Scalar theta, turned, cosine, transverse, axial, root_energy, half_tilt_sine;
+    Scalar rate;  ///< bound of the rate of c e^{-iA}
+    Scalar room;  ///< how far c e^{-iA} may move
+  };
+
+  View view(const Sample& sample) const noexcept {
+    const Quat<Scalar>& q = sample.attitude;
+    const Vec3<Scalar>& w = sample.angular_velocity;
+    const Scalar a = 2 * (q.w * q.z - q.x * q.y), b = (q.w - q.z) * (q.w + q.z) + (q.y - q.x) * (q.y + q.x);
+    View v{};
+    v.theta = std::atan2(a, b);
+    v.turned = sample.turned;
+    v.cosine = std::sqrt(a * a + b * b);
+    v.transverse = std::sqrt(w[0] * w[0] + w[1] * w[1]);
+    v.axial = std::abs(w[2]);
+    v.root_energy = std::sqrt(w.dot(inertia_.cwiseProduct(w)));
+    v.half_tilt_sine = std::sqrt(q.x * q.x + q.y * q.y);
+    v.rate =
+        v.transverse * std::min(Scalar(1), 2 * v.half_tilt_sine) + 2 * v.axial * v.half_tilt_sine * v.half_tilt_sine;
+    // nearer to cos(psi) = 0 than rounding the side is not known anyway
+    v.room = std::max(Scalar(0.9L) * v.cosine, 16 * epsilon<Scalar>);
+    return v;
   }
 
-  /// Bound of how far c e^{-iA} moves in a time from the last sample.
-  Scalar drift(Scalar step) const noexcept {
-    const Scalar y = root_energy_ + power_ * step;
-    const Scalar r = y * root_inverse_[1];
-    const Scalar pi_by_energy = y * root_inverse_[0];
-    const Scalar pi_by_rate = (transverse_ + drive_ * step) * std::exp((split_slope_ * r + split_) * step);
-    const Scalar rate = std::min(pi_by_energy, pi_by_rate);
-    const Scalar s = std::min(Scalar(1), half_tilt_sine_ + rate * step / 2);
+  /// theta plus the turns that bring it nearest to what is expected.
+  static Scalar near(Scalar theta, Scalar expected) noexcept {
+    return theta + 2 * pi<Scalar> * std::round((expected - theta) / (2 * pi<Scalar>));
+  }
+
+  bool divisible(Scalar step) const noexcept { return time_ + step / 2 > time_; }
+
+  /// Bound of how far c e^{-iA} moves in a time before or after a sample.
+  Scalar drift(const View& v, Scalar step) const noexcept {
+    const Scalar y = v.root_energy + power_ * step;
+    const Scalar by_energy = y / root_transverse_;
+    const Scalar r_by_energy = y / root_axial_;
+    const Scalar r_by_rate = v.axial + (axial_drive_ + skew_ * by_energy * by_energy) * step;
+    const Scalar r = std::min(r_by_energy, r_by_rate);
+    const Scalar by_rate = (v.transverse + drive_ * step) * std::exp((split_slope_ * r + split_) * step);
+    const Scalar rate = std::min(by_energy, by_rate);
+    const Scalar s = std::min(Scalar(1), v.half_tilt_sine + rate * step / 2);
     return step * (rate * std::min(Scalar(1), 2 * s) + 2 * r * s * s);
   }
 
   Vec3<Scalar> inertia_;
-  Scalar drive_, power_;
-  Scalar root_inverse_[2];  ///< of the least transverse and of the axial moment
-  Scalar split_slope_, split_;
+  Scalar drive_, axial_drive_, power_, root_transverse_, root_axial_, skew_, split_slope_, split_;
   Scalar time_ = 0, phi_ = 0, theta_ = 0;
-  Scalar transverse_ = 0, root_energy_ = 0, half_tilt_sine_ = 0, cosine_ = 0;  // at the last sample
   Scalar least_cosine_ = 1;
-  Vec3<Scalar> angles_{0, 0, 0};
-  Sample last_{};
+  View here_{};
+  Quat<Scalar> attitude_;
 };
 
 /// What an error of the attitude makes of the angles at the times at which they were looked at.
