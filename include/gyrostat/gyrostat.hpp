@@ -84,6 +84,7 @@
 #include "gyrostat/models/rotor/relaxing.hpp"
 #include "gyrostat/models/rotor/steady.hpp"
 #include "gyrostat/models/rotor/steady_stability.hpp"
+#include "gyrostat/models/spinning/a_priori.hpp"
 #include "gyrostat/models/spinning/full.hpp"
 #include "gyrostat/models/spinning/linear.hpp"
 #include "gyrostat/models/spinning/linear_functions.hpp"
