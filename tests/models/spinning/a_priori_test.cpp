@@ -72,7 +72,7 @@ TEST_CASE("the estimates are not below the errors", "[spinning]") {
   std::mt19937_64 random(4);
   const auto u = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
   std::vector<double> ratio[quantities];
-  for (int trial = 0; trial < 320; ++trial) {
+  for (int trial = 0; trial < 120; ++trial) {
     const auto p = body(random, trial, std::pow(10, u(-4, -0.5)));
     const double r0 = std::abs(p.spin()), nu2 = p.nutation_squared();
     double T = std::pow(10, u(0, 1.7)) * 6.28 / r0;
@@ -104,7 +104,7 @@ TEST_CASE("the estimates are not below the errors", "[spinning]") {
   // nor far above them
   const double typical[quantities] = {.05, .3, .01, .02, .02, .02, 1e-5, 3e-3, .1, 3e-4, .05};
   for (int k = 0; k < quantities; ++k) {
-    REQUIRE(ratio[k].size() > 20);
+    REQUIRE(ratio[k].size() > 8);
     std::sort(ratio[k].begin(), ratio[k].end());
     INFO(names[k]);
     CHECK(ratio[k][ratio[k].size() / 2] > typical[k]);
