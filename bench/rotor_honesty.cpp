@@ -12,7 +12,7 @@
 #include <random>
 #include <string>
 
-#include "gyrostat/ladder/rotor/full_motion.hpp"
+#include "../tests/ladder/rotor/truth.hpp"
 #include "gyrostat/ladder/rotor/solve.hpp"
 #include "gyrostat/models/rotor/steady.hpp"
 #include "honesty.hpp"
@@ -146,39 +146,6 @@ std::string describe(const Scenes::Made& made, const Answer& answer) {
   return line;
 }
 
-/// The motion in long double, as an answer; false where it cannot be had.
-bool exact(const Scene& scene, Answer& truth) {
-  using Long = long double;
-  const auto& b = scene.gyrostat();
-  const auto& d = scene.data();
-  const auto body = Gyrostat<Long>::make(b.inertia().cast<Long>(), b.axis().cast<Long>(), b.axial_inertia(), b.slope(),
-                                         b.no_load_rate());
-  if (!body) return false;
-  const Quat<Long> q{d.attitude.w, d.attitude.x, d.attitude.y, d.attitude.z};
-  State<Long> start = body->state(normalised(q), d.angular_velocity.cast<Long>(), d.rotor_rate);
-  if (scene.start().momentum.isZero(0)) start.momentum.setZero();  // what is zero to the rounding of the data
-  std::vector<Long> times(d.times.begin(), d.times.end());
-  std::vector<State<Long>> states(times.size());
-  FullMotionOptions<Long> options;
-  options.tolerance = 1e-15L;
-  options.integrator = Integrator::taylor;
-  options.step_cap = 2'000'000;
-  const auto made = full_motion<Long>(*body, start, times, states, options);
-  if (!made || made->status != ode::Status::reached) return false;
-  Track track;
-  for (const auto& s : states)
-    track.states.push_back({{double(s.attitude.w), double(s.attitude.x), double(s.attitude.y), double(s.attitude.z)},
-                            s.momentum.cast<double>(),
-                            double(s.axial_momentum),
-                            double(s.rotor_angle)});
-  const auto& e = made->error;
-  track.error = {double(e.attitude),   double(e.angular_velocity), double(e.angular_momentum),
-                 double(e.rotor_rate), double(e.rotor_angle),      double(e.lyapunov)};
-  fill(truth, scene, track);
-  for (Column& column : truth.columns) column.error += 4e-16;
-  return true;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -219,7 +186,7 @@ int main(int argc, char** argv) {
         ++tallies[k].outside;
         continue;
       }
-      if (!known) has_truth = exact(scene, truth);
+      if (!known) has_truth = true_motion(scene, truth);
       known = true;
       if (!has_truth) ++tallies[k].unknown;
       else tallies[k].compare(answer, truth, text);

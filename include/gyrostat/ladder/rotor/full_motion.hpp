@@ -1,0 +1,421 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/rotor/column_errors.hpp"
+#include "gyrostat/ladder/rotor/scene.hpp"
+#include "gyrostat/models/rotor/full.hpp"
+#include "gyrostat/models/rotor/gyrostat.hpp"
+#include "gyrostat/models/rotor/relaxing.hpp"
+#include "gyrostat/ode/radau.hpp"
+#include "gyrostat/ode/status.hpp"
+#include "gyrostat/ode/taylor.hpp"
+
+/// The full motion of a gyrostat with a motor of limited power: Taylor series, or collocation where the motor is stiff.
+namespace gyrostat::rotor {
+
+template <Real Scalar>
+struct FullMotionOptions {
+  Scalar tolerance = Scalar(1e-9L);  ///< greatest error wanted in any column, as ColumnErrors measures it
+  Integrator integrator = Integrator::any;
+  std::uint64_t step_cap = 100'000'000;
+  std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
+  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
+};
+
+template <Real Scalar>
+struct FullMotionAnswer {
+  ode::Status status = ode::Status::reached;
+  bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
+  /// Estimated greatest errors over the times, each relative to the greatest norm of its column; attitude: the angle, rad.
+  ColumnErrors<Scalar> error;
+  ode::Counts counts;                    ///< of all runs, the companions' included
+  Integrator used = Integrator::taylor;  ///< radau: but for the first moments, while the motor comes to its balance
+  Scalar step_tolerance = 0;             ///< of the steps that gave the answer
+};
+
+/// How fast the body turns or could soon turn, a bound of the order of |Omega|, rad/s.
+template <Real Scalar>
+Scalar turning_rate(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& state) noexcept {
+  const Scalar wheel = std::max(std::abs(state.axial_momentum), std::abs(gyrostat.target_momentum()));
+  return state.momentum.norm() / gyrostat.free_principal()[0] +
+         wheel * (gyrostat.free_inverse() * gyrostat.axis()).norm();
+}
+
+/// Whether the motor relaxes so much faster than the body turns that Taylor steps, which cannot be longer than about 8 over the
+/// relaxation rate, cost more than collocation.
+template <Real Scalar>
+bool is_stiff(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& state) noexcept {
+  const Scalar turning = turning_rate(gyrostat, state);
+  return turning > 0 && gyrostat.relaxation_rate() > 30 * turning;
+}
+
+/// The full motion from `start` at t = 0 at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN.
+///
+/// The error is estimated by a second run of a neighbour: the body and the start differ by a few roundings, and the steps have a
+/// tolerance 64 times looser (two neighbours where the tolerance of the steps is of the order of rounding). Its distance from the answer, watched in every step and kept for some twenty turns, is some ten to a
+/// hundred times the error of the answer, and shows what the motion makes of errors: that phases drift, and that all
+/// differences grow where it leaves an unstable rotation. So the estimate is safe rather than sharp. A run that misses the tolerance is
+/// repeated with a tighter step tolerance, at most twice.
+///
+/// Errors: not_increasing (times), not_finite (start, times or tolerance), out_of_domain (the spans differ in length), zero_vector
+/// (an attitude without length).
+template <Real Scalar>
+Result<FullMotionAnswer<Scalar>> full_motion(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start,
+                                             std::span<const Scalar> times, std::span<State<Scalar>> states,
+                                             const FullMotionOptions<Scalar>& options = {}) noexcept;
+
+namespace detail {
+
+/// One run of the equations, by Taylor series up to the time `layer` and by collocation behind it.
+template <Real Scalar>
+class Course {
+  using Series = ode::Taylor<FullSystem<Scalar>>;
+  using Collocation = ode::Radau<RelaxingRotor<Scalar>>;
+
+ public:
+  /// inside: what collocation may err between its steps.
+  Course(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start, Scalar layer, Scalar tolerance, Scalar inside,
+         std::uint64_t step_cap) noexcept
+      : layer_(layer),
+        full_(gyrostat, start, tolerance),
+        relaxing_(gyrostat, start),
+        series_(full_, 0, full_.start(), series_options(full_, tolerance, step_cap)),
+        collocation_options_(collocation_options(gyrostat, start, tolerance, inside, step_cap)),
+        collocation_(relaxing_, 0, relaxing_.components(start), collocation_options_),
+        collocates_(!(layer > 0)) {}
+
+  /// One step, at most up to t_max.
+  ode::Status step(Scalar t_max) noexcept {
+    if (!collocates_ && series_.time() >= layer_) {
+      collocates_ = true;
+      const State<Scalar> now = full_.state(series_.time(), series_.state());
+      std::construct_at(&collocation_, relaxing_, series_.time(), relaxing_.components(now), collocation_options_);
+    }
+    return collocates_ ? collocation_.step(t_max) : series_.step(std::min(t_max, layer_));
+  }
+
+  /// Steps until the last of them holds t or ends at t_max.
+  ode::Status reach(Scalar t, Scalar t_max) noexcept {
+    ode::Status status = ode::Status::reached;
+    while (status == ode::Status::reached && time() < t && time() < t_max) status = step(t_max);
+    return status;
+  }
+
+  Scalar time() const noexcept { return collocates_ ? collocation_.time() : series_.time(); }
+
+  /// The state at t in the last step.
+  State<Scalar> at(Scalar t) const noexcept {
+    alignas(32) Scalar x[FullSystem<Scalar>::width];
+    if (collocates_) {
+      collocation_.at(t, x);
+      return relaxing_.state(x);
+    }
+    series_.at(t, x);
+    return full_.state(t, x);
+  }
+
+  ode::Counts counts() const noexcept {
+    ode::Counts both = series_.counts();
+    both += collocation_.counts();
+    return both;
+  }
+
+ private:
+  static auto series_options(const FullSystem<Scalar>& system, Scalar tolerance, std::uint64_t step_cap) noexcept {
+    typename Series::Options options;
+    options.tolerance = tolerance;
+    options.scale = system.scale();
+    options.step_cap = step_cap;
+    return options;
+  }
+  static auto collocation_options(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start, Scalar tolerance,
+                                  Scalar inside, std::uint64_t step_cap) noexcept {
+    typename Collocation::Options options;
+    options.tolerance = tolerance;
+    options.inside = inside;
+    options.scale = RelaxingRotor<Scalar>::scale(gyrostat, start);
+    options.step_cap = step_cap;
+    return options;
+  }
+
+  Scalar layer_;
+  FullSystem<Scalar> full_;
+  RelaxingRotor<Scalar> relaxing_;
+  Series series_;
+  typename Collocation::Options collocation_options_;
+  Collocation collocation_;
+  bool collocates_;
+};
+
+/// A body and a start that differ from the given ones by about `amount`: by what rounding makes of the data.
+template <Real Scalar>
+struct Neighbour {
+  Gyrostat<Scalar> gyrostat;
+  State<Scalar> start;
+
+  /// which: 0 or 1, in another direction.
+  Neighbour(const Gyrostat<Scalar>& of, const State<Scalar>& from, Scalar amount, int which) noexcept
+      : gyrostat(of), start(from) {
+    const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
+    Mat3<Scalar> change;  // arbitrary, of norm 1.5
+    Vec3<Scalar> direction;
+    if (which == 0) {
+      change << number(0.9L), number(-0.6L), number(0.7L), number(-0.6L), number(-0.8L), number(0.5L), number(0.7L),
+          number(0.5L), number(0.6L);
+      direction = {number(0.6L), number(-0.64L), number(0.48L)};
+    } else {
+      change << number(-0.7L), number(0.5L), number(0.8L), number(0.5L), number(0.9L), number(0.6L), number(0.8L),
+          number(0.6L), number(-0.5L);
+      direction = {number(0.48L), number(0.6L), number(0.64L)};
+      amount = -amount;
+    }
+    const Mat3<Scalar> inertia = of.inertia() + amount * of.principal()[2] * change;
+    const auto moved = Gyrostat<Scalar>::make(inertia, of.axis() + amount * cross<Scalar>(direction, of.axis()),
+                                              of.axial_inertia() * (1 + amount), of.slope() * (1 - amount),
+                                              of.no_load_rate() * (1 + amount));
+    if (moved) gyrostat = *moved;
+
+    const Vec3<Scalar> Omega = of.angular_velocity(from.momentum, from.axial_momentum);
+    const Scalar omega = of.rotor_rate(from.axial_momentum, Omega);
+    const Scalar lambda = of.axial_inertia();
+    // what cancels in H; a momentum that is exactly 0 stays so
+    const Scalar parts = (of.inertia() * Omega).norm() + lambda * std::abs(omega);
+    if (!from.momentum.isZero(0)) start.momentum += amount * parts * direction;
+    start.axial_momentum += amount * lambda * (std::abs(omega) + Omega.norm());
+  }
+};
+
+template <Real Scalar>
+ColumnErrors<Scalar> greater(const ColumnErrors<Scalar>& a, const ColumnErrors<Scalar>& b) noexcept {
+  const auto more = [](Scalar x, Scalar y) noexcept { return x >= y || !(x == x) ? x : y; };
+  return {more(a.attitude, b.attitude),
+          more(a.angular_velocity, b.angular_velocity),
+          more(a.angular_momentum, b.angular_momentum),
+          more(a.rotor_rate, b.rotor_rate),
+          more(a.rotor_angle, b.rotor_angle),
+          more(a.lyapunov, b.lyapunov)};
+}
+
+/// a f + b, column by column.
+template <Real Scalar>
+ColumnErrors<Scalar> multiply_add(const ColumnErrors<Scalar>& a, Scalar f, const ColumnErrors<Scalar>& b) noexcept {
+  return {a.attitude * f + b.attitude,
+          a.angular_velocity * f + b.angular_velocity,
+          a.angular_momentum * f + b.angular_momentum,
+          a.rotor_rate * f + b.rotor_rate,
+          a.rotor_angle * f + b.rotor_angle,
+          a.lyapunov * f + b.lyapunov};
+}
+
+/// What an evaluation of the columns loses, in their units, where the state is known to `relative`.
+template <Real Scalar>
+ColumnErrors<Scalar> rounding_of_columns(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start,
+                                         const ColumnErrors<Scalar>& size, Scalar relative) noexcept {
+  const Scalar lambda = gyrostat.axial_inertia(), k = gyrostat.coupling();
+  const Scalar H = start.momentum.norm(), wheel = std::abs(start.axial_momentum) + std::abs(gyrostat.target_momentum());
+  const Scalar fastest = 1 / gyrostat.free_principal()[0];
+  const Scalar p = relative * (wheel + std::min(H, lambda * fastest * H));
+  const Scalar pull = (gyrostat.free_inverse() * gyrostat.axis()).norm();
+  ColumnErrors<Scalar> error;
+  error.attitude = 4 * relative;
+  error.angular_momentum = 4 * relative * H;
+  error.angular_velocity = 2 * relative * H * fastest + 2 * p * pull;
+  error.rotor_rate = 2 * relative * H * pull + 2 * p / (lambda * k);
+  error.rotor_angle = 4 * relative * size.rotor_angle;
+  // V is a sum of squares
+  const Scalar root =
+      2 * relative * (H + wheel) / std::sqrt(gyrostat.principal()[0]) + std::sqrt(lambda * k / 2) * error.rotor_rate;
+  error.lyapunov = std::sqrt(2 * size.lyapunov) * root + root * root;
+  return error;
+}
+
+/// Errors relative to the answer as errors relative to the truth, which may be smaller by as much; infinite where it may vanish.
+template <Real Scalar>
+ColumnErrors<Scalar> relative_to_truth(const ColumnErrors<Scalar>& error) noexcept {
+  const auto grown = [](Scalar e) noexcept { return e < 1 ? e / (1 - e) : e == e ? infinity<Scalar> : e; };
+  return {error.attitude,          grown(error.angular_velocity), grown(error.angular_momentum),
+          grown(error.rotor_rate), grown(error.rotor_angle),      grown(error.lyapunov)};
+}
+
+template <Real Scalar>
+class FullMotion {
+ public:
+  FullMotion(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start, std::span<const Scalar> times,
+             std::span<State<Scalar>> states, const FullMotionOptions<Scalar>& options) noexcept
+      : gyrostat_(gyrostat),
+        start_(start),
+        times_(times),
+        states_(states),
+        options_(options),
+        neighbours_{{{gyrostat, start, 8 * epsilon<Scalar>, 0}, {gyrostat, start, 8 * epsilon<Scalar>, 1}}},
+        turning_(turning_rate(gyrostat, start)) {
+    const bool stiff = is_stiff(gyrostat, start);
+    const bool collocates = options.integrator == Integrator::radau || (options.integrator == Integrator::any && stiff);
+    // behind 40 relaxation times the motor has forgotten where it began
+    layer_ = !collocates ? infinity<Scalar> : stiff ? 40 / gyrostat.relaxation_rate() : Scalar(0);
+  }
+
+  /// The answer's run and its neighbour's side by side, and their distance. inside: what collocation may err between its steps.
+  FullMotionAnswer<Scalar> run(Scalar step_tolerance, Scalar inside, double progress_from,
+                               double progress_to) const noexcept {
+    constexpr Scalar eps = epsilon<Scalar>, looser = 64;
+    FullMotionAnswer<Scalar> answer;
+    answer.step_tolerance = step_tolerance;
+    answer.used = layer_ < times_.back() ? Integrator::radau : Integrator::taylor;
+    Course<Scalar> course(gyrostat_, start_, layer_, step_tolerance, inside, options_.step_cap);
+    const auto beside = [&](const Neighbour<Scalar>& neighbour) noexcept {
+      return Course<Scalar>(neighbour.gyrostat, neighbour.start, layer_, std::max(looser * step_tolerance, 64 * eps),
+                            std::max(looser * inside, 64 * eps), options_.step_cap);
+    };
+    Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
+    // Where rounding rules, all runs err alike, and one distance may be small by chance.
+    const bool rounds = step_tolerance < 16 * eps;
+    Comparison<Scalar> asked(gyrostat_);
+    ColumnErrors<Scalar> kept, greatest;
+    const auto distance = [&](const State<Scalar>& here, Scalar t) noexcept {
+      Comparison<Scalar> now(gyrostat_);
+      now.add(here, companion.at(t));
+      if (rounds) now.add(here, second.at(t));
+      return now.difference();
+    };
+    const auto reach = [&](Scalar t, Scalar last) noexcept {
+      const ode::Status status = course.reach(t, last);
+      return status == ode::Status::reached && rounds ? second.reach(t, last) : status;
+    };
+
+    const Scalar last = times_.back();
+    std::size_t next = 0;
+    for (; next < times_.size() && !(times_[next] > 0); ++next) {
+      states_[next] = start_;
+      asked.add(start_, start_);
+    }
+    std::uint32_t trips = 0;
+    while (next < times_.size() && answer.status == ode::Status::reached) {
+      const Scalar before = companion.time();
+      answer.status = companion.step(last);
+      if (answer.status != ode::Status::reached) break;
+      const Scalar now = companion.time();
+      // what was seen fades over twenty turns
+      kept = multiply_add(kept, 1 / (1 + (now - before) * turning_ / 128), ColumnErrors<Scalar>{});
+      for (; next < times_.size() && times_[next] <= now; ++next) {
+        answer.status = reach(times_[next], last);
+        if (answer.status != ode::Status::reached) break;
+        states_[next] = course.at(times_[next]);
+        asked.add(states_[next], states_[next]);
+        kept = greater(distance(states_[next], times_[next]), kept);
+        greatest = greater(kept, greatest);
+      }
+      if (next == times_.size() || answer.status != ode::Status::reached) break;
+      answer.status = reach(now, last);
+      kept = greater(distance(course.at(now), now), kept);
+      if ((++trips & 255U) == 0) {
+        if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed))
+          answer.status = ode::Status::cancelled;
+        const double done = static_cast<double>(now / last);
+        report(progress_from + done * (progress_to - progress_from));
+      }
+    }
+    answer.counts = course.counts();
+    const std::uint64_t steps = answer.counts.steps;
+    answer.counts += companion.counts();
+    answer.counts += second.counts();
+    if (answer.status != ode::Status::reached) {
+      for (; next < times_.size(); ++next) states_[next] = nowhere();
+      answer.error = {nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>};
+      return answer;
+    }
+
+    // What the runs share: the polynomial of a step, good to its tolerance, and rounding at the asked times.
+    const Scalar margin = rounds ? 6 : 4;
+    const Scalar walk = eps * std::sqrt(static_cast<Scalar>(steps));
+    const Scalar shared = 4 * eps + walk + 2 * step_tolerance + (answer.used == Integrator::radau ? 2 * inside : 0);
+    const auto rounding = rounding_of_columns(gyrostat_, start_, asked.size(), shared);
+    answer.error = relative_to_truth(asked.relative(multiply_add(greatest, margin, rounding)));
+    answer.met = answer.error.greatest() <= options_.tolerance;
+    return answer;
+  }
+
+  /// The angle turned through up to the last time, to its order, rad.
+  Scalar phase() const noexcept { return turning_ * times_.back(); }
+
+  void report(double done) const noexcept {
+    if (options_.progress != nullptr) options_.progress->store(std::min(done, 1.0), std::memory_order_relaxed);
+  }
+
+ private:
+  static State<Scalar> nowhere() noexcept {
+    constexpr Scalar no = nan<Scalar>;
+    return {{no, no, no, no}, {no, no, no}, no, no};
+  }
+
+  const Gyrostat<Scalar>& gyrostat_;
+  State<Scalar> start_;
+  std::span<const Scalar> times_;
+  std::span<State<Scalar>> states_;
+  const FullMotionOptions<Scalar>& options_;
+  std::array<Neighbour<Scalar>, 2> neighbours_;
+  Scalar turning_, layer_;
+};
+
+}  // namespace detail
+
+template <Real Scalar>
+Result<FullMotionAnswer<Scalar>> full_motion(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start,
+                                             std::span<const Scalar> times, std::span<State<Scalar>> states,
+                                             const FullMotionOptions<Scalar>& options) noexcept {
+  if (states.size() != times.size()) return Errc::out_of_domain;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
+    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
+  }
+  const Scalar length = norm(start.attitude);
+  if (!(length < infinity<Scalar>) || !start.momentum.allFinite() || !std::isfinite(start.axial_momentum) ||
+      !std::isfinite(start.rotor_angle) || !(options.tolerance == options.tolerance))
+    return Errc::not_finite;
+  if (!(length > 0)) return Errc::zero_vector;
+  FullMotionAnswer<Scalar> answer;
+  answer.met = true;
+  if (times.empty()) return answer;
+
+  State<Scalar> from = start;
+  from.attitude = normalised(start.attitude);
+  const detail::FullMotion<Scalar> motion(gyrostat, from, times, states, options);
+  // First guess of the step tolerance: errors grow with the turns, and the estimate stands a hundred times above them.
+  constexpr Scalar finest = epsilon<Scalar> / 8;
+  Scalar step_tolerance = options.tolerance / 64 / (8 + motion.phase() / 16);
+  step_tolerance = std::max(finest, std::min(step_tolerance, Scalar(1e-8L)));
+  Scalar inside = std::max(step_tolerance, options.tolerance / 512);
+  ode::Counts counts;
+  constexpr double part[] = {0.0, 0.7, 0.9, 1.0};
+  for (int trial = 0;; ++trial) {
+    answer = motion.run(step_tolerance, inside, part[trial], part[trial + 1]);
+    counts += answer.counts;
+    answer.counts = counts;
+    if (answer.met || trial == 2 || answer.status != ode::Status::reached || step_tolerance <= finest) {
+      motion.report(1);
+      return answer;
+    }
+    const Scalar excess = answer.error.greatest() / options.tolerance;
+    step_tolerance = excess > 1 ? std::max(finest, step_tolerance / (8 * excess)) : finest;
+    inside = excess > 1 ? std::max(step_tolerance, inside / (8 * excess)) : step_tolerance;
+  }
+}
+
+#if defined(GYROSTAT_COMPILED)
+extern template Result<FullMotionAnswer<double>> full_motion<double>(const Gyrostat<double>&, const State<double>&,
+                                                                     std::span<const double>, std::span<State<double>>,
+                                                                     const FullMotionOptions<double>&) noexcept;
+#endif
+
+}  // namespace gyrostat::rotor

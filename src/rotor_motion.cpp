@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/rotor/full_motion.hpp"
+
+namespace gyrostat::rotor {
+
+template Result<FullMotionAnswer<double>> full_motion<double>(const Gyrostat<double>&, const State<double>&,
+                                                              std::span<const double>, std::span<State<double>>,
+                                                              const FullMotionOptions<double>&) noexcept;
+
+}  // namespace gyrostat::rotor

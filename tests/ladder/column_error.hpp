@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The true error of a column.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include "gyrostat/ladder/answer.hpp"
+
+namespace gyrostat {
+
+/// As the contract measures it: relative to the greatest norm; modulus_squared absolute; attitude by the angle, rad.
+inline double column_error(const Column& column, const Column& truth) {
+  double most = 0, size = 0;
+  const std::size_t w = std::size_t(column.width);
+  const bool attitude = column.name == std::string_view("attitude");
+  for (std::size_t i = 0; i < column.values.size(); i += w) {
+    double difference = 0, opposite = 0, norm = 0;
+    for (std::size_t j = i; j < i + w; ++j) {
+      difference += (column.values[j] - truth.values[j]) * (column.values[j] - truth.values[j]);
+      opposite += (column.values[j] + truth.values[j]) * (column.values[j] + truth.values[j]);
+      norm += truth.values[j] * truth.values[j];
+    }
+    if (attitude) most = std::max(most, 4 * std::asin(std::min(1.0, std::sqrt(std::min(difference, opposite)) / 2)));
+    else most = std::max(most, std::sqrt(difference));
+    size = std::max(size, std::sqrt(norm));
+    if (std::isnan(difference)) return infinity<double>;
+  }
+  return column.name == std::string_view("modulus_squared") || attitude || size == 0 ? most : most / size;
+}
+
+}  // namespace gyrostat
