@@ -59,4 +59,5 @@ PYBIND11_MODULE(_core, module) {
   bind_deceleration_integrators(module);
   bind_published(module);
   bind_rotor_integrators(module);
+  bind_rotor_steady(module);
 }
