@@ -237,9 +237,11 @@ def plot_answer(answer: Answer) -> "Figure":
 
 
 CHART_STYLE: Final = {  # group -> marker, size, dashes
-    "rung": ("*", 14, "-"), "taylor": ("o", 5, "-"), "dop853": ("v", 6, "-"), "cvode": ("s", 5, "--"), "rival": ("D", 5, ":"),
+    "rung": ("*", 14, "-"), "taylor": ("o", 5, "-"), "radau": ("h", 6, "-"), "dop853": ("v", 6, "-"),
+    "cvode": ("s", 5, "--"), "rival": ("D", 5, ":"),
 }
-RUNG_MARKERS: Final = {"rung equal-torque": "P", "rung averaged": "^", "rung averaged-2": "X", "rung full": "*"}
+RUNG_MARKERS: Final = {"rung equal-torque": "P", "rung averaged": "^", "rung averaged-2": "X", "rung closed-form": "P",
+                       "rung linear-tail": "^", "rung full": "*"}
 CHART_FLOOR: Final = 1e-17  # an error of zero is drawn here
 
 

@@ -15,7 +15,7 @@ from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.errors import DomainError
 
 __all__ = [
-    "matrix_from_quaternion", "matrix_from_vector", "quaternion_from_matrix", "quaternion_from_vector",
+    "angle_between", "matrix_from_quaternion", "matrix_from_vector", "quaternion_from_matrix", "quaternion_from_vector",
     "vector_from_matrix", "vector_from_quaternion",
 ]
 
@@ -82,4 +82,14 @@ def matrix_from_vector(vector: ArrayLike) -> Floats:
     """(..., 3) -> (..., 3, 3); any length."""
     lead, (v,) = rows([("vector", vector, (3,))])
     made: Floats = shaped(_core.matrix_from_vector(v), lead, 3, 3)
+    return made
+
+
+def angle_between(first: ArrayLike, second: ArrayLike) -> Floats:
+    """(..., 4), (..., 4) -> (...): angle of the rotation from one attitude to the other, at most pi [rad]. The order of the components does
+    not matter as long as it is that of both, and the signs of the quaternions do not."""
+    lead, (p, q) = rows([("first", first, (4,)), ("second", second, (4,))])
+    p, q = (a / np.linalg.norm(a, axis=1, keepdims=True) for a in (p, q))
+    near = np.where(np.sum(p * q, axis=1, keepdims=True) < 0, -q, q)
+    made: Floats = shaped(4.0 * np.arctan2(np.linalg.norm(p - near, axis=1), np.linalg.norm(p + near, axis=1)), lead)
     return made

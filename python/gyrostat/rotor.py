@@ -7,17 +7,24 @@ to it. No torque acts from outside; the motor's moment on the rotor is -S (omega
 All in body axes and SI units. Equations: docs/rotor.md.
 """
 
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from gyrostat import _core
 from gyrostat._core import Monitor
-from gyrostat.broadcast import Floats
+from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.scenes import Scene
 
-__all__ = ["Monitor", "arguments", "assembled_inertia", "integrate", "solve"]
+__all__ = ["Monitor", "SteadyRotations", "arguments", "assembled_inertia", "integrate", "solve", "steady_rotations"]
+
+CONTINUA: Final = ("", "circle", "sphere")
+FAMILIES: Final = ("", "at-rest", "axisymmetric", "circular-section", "principal-axis")
+TYPES: Final = ("min", "saddle", "max", "degenerate")
+VERDICTS: Final = ("asymptotically stable", "unstable", "marginal", "not isolated", "conservative")
 
 
 def arguments(scene: Scene) -> dict[str, Any]:
@@ -94,3 +101,52 @@ def integrate(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slop
         rotor_rate=float(rotor_rate), attitude=np.asarray(attitude, dtype=float), times=np.asarray(times, dtype=float),
         method=method, order=int(order), tolerance=float(tolerance), precision=precision)
     return made
+
+
+@dataclass(frozen=True, eq=False)
+class SteadyRotations:
+    """Steady rotations of gyrostats by level; arrays (..., 8) over the leading axes, padded with "" and NaN beyond `count`."""
+
+    count: NDArray[np.int_]  # (...)
+    continuum: NDArray[np.str_]  # (...) one of CONTINUA: an entry stands for a circle, or for the whole sphere
+    family: NDArray[np.str_]  # (...) one of FAMILIES
+    direction: Floats  # (..., 8, 3) m = H/|H|, body axes
+    spin_rate: Floats  # psi_dot: Omega = psi_dot m, rad/s
+    level: Floats  # F(m), J
+    type: NDArray[np.str_]  # one of TYPES
+    isolated: NDArray[np.bool_]
+    verdict: NDArray[np.str_]  # one of VERDICTS
+    decay_rate: Floats  # of the slowest mode, 1/s; negative: growth; NaN: not exponential
+    eigenvalues: NDArray[np.complex128]  # (..., 8, 3) 1/s
+    cubic: Floats  # (..., 8, 4) coefficients of the characteristic cubic: k, S/lambda, k D + lambda l q, S D/lambda
+    determinant: Floats  # D, 1/s^2
+    best_slope: Floats  # slope of the motor with the fastest decay, N m s/rad; NaN where nothing decays
+    best_rate: Floats  # that decay, 1/s
+    algebraic_rate: Floats  # c of 1/W = 1/W0 + c t, W = |V - F|, 1/(J s); NaN unless the rotor axis is principal and along m
+
+
+def steady_rotations(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: ArrayLike, slope: ArrayLike, no_load_rate: ArrayLike,
+                     momentum: ArrayLike) -> SteadyRotations:
+    """All steady rotations of many gyrostats and their stability (docs/rotor.md, section 4).
+
+    inertia : (3,) principal moments or (..., 3, 3) tensors of the whole about its mass centre [kg m^2]; axis : (..., 3) e, unit within
+    1e-8; axial_inertia : (...) lambda [kg m^2]; slope : (...) S >= 0 [N m s/rad]; no_load_rate : (...) omega* [rad/s]; momentum : (...) |H| >= 0 [N m s].
+    Leading axes broadcast. Raises DomainError for what is not physical, naming the row.
+    """
+    if np.ndim(inertia) == 1:
+        inertia = np.diag(np.asarray(inertia, dtype=float))
+    lead, (theta, e, lam, S, rate, l) = rows([("inertia", inertia, (3, 3)), ("axis", axis, (3,)), ("axial_inertia", axial_inertia, ()),
+                                              ("slope", slope, ()), ("no_load_rate", no_load_rate, ()), ("momentum", momentum, ())])
+    made = _core.rotor_steady(inertia=theta, axis=e, axial_inertia=lam, slope=S, no_load_rate=rate, momentum=l)
+
+    def words(names: Sequence[str], values: Any, *core: int) -> Any:
+        return shaped(np.array([*names, ""])[np.asarray(values).astype(int)], lead, *core)
+
+    return SteadyRotations(
+        count=shaped(made["count"].astype(int), lead), continuum=words(CONTINUA, made["continuum"]), family=words(FAMILIES, made["family"]),
+        direction=shaped(made["direction"], lead, 8, 3), type=words(TYPES, made["type"], 8), verdict=words(VERDICTS, made["verdict"], 8),
+        isolated=shaped(made["isolated"] == 1, lead, 8),
+        eigenvalues=shaped(made["eigenvalues_real"] + 1j * made["eigenvalues_imaginary"], lead, 8, 3),
+        cubic=shaped(made["cubic"], lead, 8, 4),
+        **{name: shaped(made[name], lead, 8) for name in ("spin_rate", "level", "decay_rate", "determinant", "best_slope", "best_rate",
+                                                          "algebraic_rate")})

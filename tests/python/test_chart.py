@@ -70,3 +70,50 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     status = main(["chart", "tiangong-1", "--set", "duration=1000.0", "--set", "samples=5", "-o", str(tmp_path)])
     out = capsys.readouterr().out
     assert status == 0 and str(tmp_path / "chart.png") in out
+
+
+@pytest.fixture(scope="module")
+def rotor_chart() -> Chart:
+    return gyrostat.chart("two-attractors", duration=40.0, samples=21)
+
+
+def test_every_method_of_a_rotor_scene_stands_on_the_chart(rotor_chart: Chart) -> None:
+    labels = rotor_chart.by_label()
+    assert {"rung full", "Taylor, order 8", "Taylor, order 20", "Radau IIA", "Runge-Kutta DOP853"} <= set(labels)
+    if gyrostat.build_info()["cvode"]:
+        assert {"CVODE Adams", "CVODE BDF"} <= set(labels)
+    for label, points in labels.items():
+        if points[0].group in ("taylor", "radau", "dop853", "cvode"):
+            errors = [point.error["attitude"] for point in points]
+            assert errors[-1] < 1e-3 * errors[0], label
+    for point in labels["rung full"]:
+        stated = float(point.note.removeprefix("stated error "))
+        assert max(point.error.values()) <= stated
+
+
+def test_a_stiff_scene_has_its_reference_and_its_chart() -> None:
+    made = gyrostat.chart("stiff-wheel", duration=40.0, samples=5)
+    assert "Radau in long double" in made.title
+    lines = made.by_label()
+    assert lines["Radau IIA"][-1].error["attitude"] < 1e-7
+    fastest = min(point.seconds for point in lines["Radau IIA"])
+    assert all(point.seconds > 10 * fastest for point in lines["Taylor, order 20"])
+    assert lines["rung full"][-1].error["attitude"] < 1e-9
+
+
+def test_a_long_scene_is_cut_and_says_so() -> None:
+    made = gyrostat.chart("two-attractors", duration=1e7, samples=5)
+    assert "of the scene's 1e+07 s" in made.title
+
+
+def test_errors_of_attitude_do_not_know_the_sign_of_a_quaternion() -> None:
+    from gyrostat.charts.rotor import true_errors
+
+    q = np.array([[0.0, 0.0, 0.0, 1.0], [0.0, 0.6, 0.0, 0.8]])
+    rate = np.array([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0]])
+    half = 1e-9
+    near = np.array([[math.sin(half), 0.0, 0.0, math.cos(half)], [0.0, -0.6, 0.0, -0.8]])
+    errors = true_errors({"attitude": near, "angular_velocity": rate + [[0.0, 0.0, 0.0], [0.0, 0.0, 1e-3]]},
+                         {"attitude": q, "angular_velocity": rate})
+    assert errors["attitude"] == pytest.approx(2e-9, rel=1e-6)
+    assert errors["angular_velocity"] == pytest.approx(5e-4)

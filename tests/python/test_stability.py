@@ -118,7 +118,7 @@ def test_the_figure_draws_in_every_region(control: tuple[float, ...], region: st
     pytest.importorskip("matplotlib")
     report = stability_report(scene(control))
     assert report["regimes"]["A"]["region"] == region
-    figure = plot_stability(report)
+    figure = plot_stability(scene(control), report)
     assert [axes.get_xlabel() for axes in figure.axes] == ["κ₁ = b₁/b₃ [1]", "κ₁ = b₁/b₃ [1]", "k² [1]"]
     if region == "to-axis":
         file = tmp_path / "regions.png"

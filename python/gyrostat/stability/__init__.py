@@ -11,12 +11,12 @@ from typing import Any, Final
 from gyrostat.console import say, show_table
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene, scene_from
-from gyrostat.stability import deceleration
+from gyrostat.stability import deceleration, rotor
 
 __all__ = ["plot_stability", "report_stability", "stability_report"]
 
-# Each module makes the `report`, its `table`, `sentence` and `plot`.
-KINDS: Final[dict[str, ModuleType]] = {"deceleration": deceleration}
+# Each module makes the `report` of a scene, and its `tables`, `sentence` and `plot`.
+KINDS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor}
 
 
 def stability_report(scene: Scene | Mapping[str, Any]) -> dict[str, Any]:
@@ -31,9 +31,10 @@ def stability_report(scene: Scene | Mapping[str, Any]) -> dict[str, Any]:
     return made
 
 
-def plot_stability(report: Mapping[str, Any]) -> Any:
-    """The figure of a report. Needs matplotlib."""
-    return KINDS[report["kind"]].plot(report)
+def plot_stability(scene: Scene | Mapping[str, Any], report: Mapping[str, Any] | None = None) -> Any:
+    """The figure of a scene, from its report where there is one already. Needs matplotlib."""
+    checked = scene if isinstance(scene, Scene) else scene_from(scene)
+    return KINDS[checked.kind].plot(checked, report or stability_report(checked))
 
 
 def report_stability(scene: Scene, *, as_json: bool = False, plot: Path | None = None) -> int:
@@ -43,12 +44,12 @@ def report_stability(scene: Scene, *, as_json: bool = False, plot: Path | None =
         say(json.dumps(report), sys.stdout)
     else:
         family = KINDS[report["kind"]]
-        title, heads, rows = family.table(report)
-        show_table(title, heads, rows, sys.stdout)
+        for title, heads, rows in family.tables(report):
+            show_table(title, heads, rows, sys.stdout)
         say(family.sentence(report), sys.stdout)
     if plot is not None:
         from gyrostat.plots import save
 
-        save(plot_stability(report), plot)
+        save(plot_stability(scene, report), plot)
         say(f"wrote {plot}", sys.stderr if as_json else sys.stdout)
     return 0

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw_regions", "plot", "quasi_stationary_line", "report", "sentence", "table"]
+__all__ = ["draw_regions", "plot", "quasi_stationary_line", "report", "sentence", "tables"]
 
 REGIONS: Final = {
     "to-axis": ("#56B4E9", "to the axis (k² = 0)"),
@@ -97,13 +97,13 @@ def sentence(report: Mapping[str, Any]) -> str:
     return where + f"the torques drive it {crosses}to the quasi-stationary k² = {end['modulus_squared']:.6g} of regime {end['regime']}."
 
 
-def table(report: Mapping[str, Any]) -> tuple[str, list[str], list[list[str]]]:
-    """Title, heads and rows for reading."""
+def tables(report: Mapping[str, Any]) -> list[tuple[str, list[str], list[list[str]]]]:
+    """Titles, heads and rows for reading."""
     rows = [[name, AXES[name], t["region"].replace("-", " "), t["axis"],
              "none" if t["quasi_stationary"] is None else f"{t['quasi_stationary']:.9g} {t['interior']}", t["separatrix"]]
             for name, t in report["regimes"].items()]
-    return (f"{report['scene']}: what k² of the orbit does",
-            ["regime", "about", "flow", "k² = 0", "quasi-stationary k²", "separatrix"], rows)
+    return [(f"{report['scene']}: what k² of the orbit does",
+             ["regime", "about", "flow", "k² = 0", "quasi-stationary k²", "separatrix"], rows)]
 
 
 def draw_regions(axes: "Axes", regime: str, extent: float) -> None:
@@ -135,7 +135,7 @@ def quasi_stationary_line(regime: str, modulus_squared: float, kappa2: NDArray[n
     return (1.0 - kappa2 * phi) / (1.0 - phi)
 
 
-def plot(report: Mapping[str, Any]) -> "Figure":
+def plot(_: Scene, report: Mapping[str, Any]) -> "Figure":
     """Regions of both regimes with the scene's point, and the torque balance that gives the quasi-stationary k2."""
     from gyrostat.plots import COLOURS, _figure
 
