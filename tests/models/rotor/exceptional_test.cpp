@@ -110,7 +110,7 @@ TEST_CASE("a rotor on a principal axis: 1/W grows as c t at a minimum and falls 
   const auto fraction = [&](const SteadyRotation<double>& r, double c_there, double off, double factor) {
     auto motion = MomentumMotion::from(g, l, (r.direction + off * Vec3<double>(0.6, 0.8, 0)).normalized(), 0);
     // past the first e-folds of x, which starts out of step
-    const double dt = 0.02;
+    const double dt = 0.04;
     for (double t = 0; t < 40; t += dt) motion.step(dt);
     const double first = std::abs(motion.level() - r.level);
     double time = 0;
@@ -133,11 +133,11 @@ TEST_CASE("leaving a maximum on a principal axis: 1/W falls as c t") {
   const double l = 5;
   const auto top = steady_rotations(g, l)[1];
   const double c = algebraic_rate(g, l, top);
-  auto motion = MomentumMotion::from(g, l, (top.direction + 0.1 * Vec3<double>(0, 0.6, 0.8)).normalized(), 0);
-  const double dt = 0.02;
+  auto motion = MomentumMotion::from(g, l, (top.direction + 0.2 * Vec3<double>(0, 0.6, 0.8)).normalized(), 0);
+  const double dt = 0.04;
   for (double t = 0; t < 40; t += dt) motion.step(dt);
   const double first = top.level - motion.level();
   double time = 0;
   for (; time < 0.5 / (c * first); time += dt) motion.step(dt);
-  CHECK((1 / first - 1 / (top.level - motion.level())) / (c * time) == Approx(1).epsilon(0.02));
+  CHECK((1 / first - 1 / (top.level - motion.level())) / (c * time) == Approx(1).epsilon(0.03));
 }
