@@ -98,7 +98,7 @@ TEST_CASE("closed-form rung: on an unstable rotation for too long it is out of i
   const V Omega = R.col(1) * 2;
   const Track brief = run(middle, asked(Omega, 3, 20)), late = run(middle, asked(Omega, 3, 400));
   CHECK(brief.in_domain);
-  CHECK(brief.error.greatest() < 1e-8);
+  CHECK(brief.error.greatest() < 1e-6);
   CHECK(late.failure == Errc::ok);
   CHECK_FALSE(late.in_domain);
   CHECK(late.warnings.size() == 1);

@@ -36,13 +36,13 @@ struct LongMotion {
   /// From Omega and omega as the double numbers tell them, at increasing times; rounded to double at the end only.
   static std::vector<State<double>> from(const Gyrostat<double>& body, const Quat<double>& attitude,
                                          const Vec3<double>& Omega, double omega, const std::vector<double>& times,
-                                         long double tolerance = 1e-17L) {
+                                         long double tolerance = 1e-18L) {
     const auto wide = widen(body);
     const Quat<Long> q = normalised(Quat<Long>{attitude.w, attitude.x, attitude.y, attitude.z});
     return run(wide, wide.state(q, Omega.cast<Long>(), omega), times, tolerance);
   }
   static std::vector<State<double>> from(const Gyrostat<double>& body, const State<double>& s,
-                                         const std::vector<double>& times, long double tolerance = 1e-17L) {
+                                         const std::vector<double>& times, long double tolerance = 1e-18L) {
     const Quat<Long> q = normalised(Quat<Long>{s.attitude.w, s.attitude.x, s.attitude.y, s.attitude.z});
     return run(widen(body), {q, s.momentum.cast<Long>(), s.axial_momentum, s.rotor_angle}, times, tolerance);
   }
@@ -56,7 +56,9 @@ struct LongMotion {
     const Long a[9] = {1, 1, 1, 1, l, l, l, l, rate * 1e3L};
     for (std::size_t i = 0; i < 9; ++i) control.absolute[i] = a[i] * tolerance;
     control.step_cap = 10'000'000;
-    control.longest_step = 1 / body.relaxation_rate();  // well inside the stability region
+    // well inside the region of stability
+    control.longest_step = 1 / (body.relaxation_rate() +
+                                (s.momentum.norm() + std::abs(body.target_momentum())) / body.free_principal()[0]);
     ode::RungeKutta<Long, 9, Rate> solver(Rate{&body}, 0,
                                           {s.attitude.w, s.attitude.x, s.attitude.y, s.attitude.z, s.momentum[0],
                                            s.momentum[1], s.momentum[2], s.axial_momentum, s.rotor_angle},

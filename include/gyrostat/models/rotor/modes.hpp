@@ -99,16 +99,26 @@ struct Modes {
   explicit Modes(const Mat3<Scalar>& A) noexcept {
     const Eigen::EigenSolver<Mat3<Scalar>> solver(A);
     right = solver.eigenvectors();
+    for (int i = 0; i < 3; ++i) exponent[std::size_t(i)] = solver.eigenvalues()[i];
+    complete();
+  }
+  /// With exponents that are known better than A tells them.
+  Modes(const Mat3<Scalar>& A, const std::array<Complex, 3>& exponents) noexcept : exponent(exponents) {
     for (int i = 0; i < 3; ++i) {
-      exponent[std::size_t(i)] = solver.eigenvalues()[i];
-      right.col(i).normalize();
+      // normal to the rows of A - d
+      Eigen::Matrix<Complex, 3, 3> rest = A.template cast<Complex>();
+      for (int k = 0; k < 3; ++k) rest(k, k) -= exponent[std::size_t(i)];
+      Scalar most = -1;
+      for (int k = 0; k < 3; ++k) {
+        const Vector a = rest.row(k).normalized(), b = rest.row((k + 1) % 3).normalized();
+        const Eigen::Matrix<Complex, 1, 3> normal = product(a, b);
+        if (normal.norm() > most) {
+          most = normal.norm();
+          right.col(i) = normal.transpose();
+        }
+      }
     }
-    const Vector r0 = right.col(0), r1 = right.col(1), r2 = right.col(2);
-    left.row(0) = product(r1, r2);
-    left.row(1) = product(r2, r0);
-    left.row(2) = product(r0, r1);
-    const Complex volume = (left.row(0) * r0)(0);
-    left /= volume;
+    complete();
   }
 
   /// Greatest |left|: at least 1; rounding is amplified as much. Infinite or NaN where there are not three eigenvectors.
@@ -140,6 +150,14 @@ struct Modes {
   }
 
  private:
+  void complete() noexcept {
+    for (int i = 0; i < 3; ++i) right.col(i).normalize();
+    const Vector r0 = right.col(0), r1 = right.col(1), r2 = right.col(2);
+    left.row(0) = product(r1, r2);
+    left.row(1) = product(r2, r0);
+    left.row(2) = product(r0, r1);
+    left /= (left.row(0) * r0)(0);
+  }
   /// The vector product without conjugation.
   static Eigen::Matrix<Complex, 1, 3> product(const Vector& a, const Vector& b) noexcept {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
