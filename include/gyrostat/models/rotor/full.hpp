@@ -72,7 +72,7 @@ Eigen::Matrix<Scalar, 9, 9> state_jacobian(const Gyrostat<Scalar>& gyrostat, con
 
 /// Taylor recurrences of the full equations in the principal axes of R. A state is
 ///     (w, x, y, z | H1, H2, H3, p | b, b, b, W),  b = integral of omega - omega*,  W = integral of S (omega - omega*)^2:
-/// the quaternion takes principal axes of R to inertial ones; the last four are quadratures that nothing else depends on.
+/// the quaternion takes principal axes of R to inertial ones; the last four are quadratures on which no rate depends.
 ///
 /// One order costs one symmetric convolution for H x R^-1 H (with the square of omega - omega* in its fourth lane), one for p H and
 /// three for the quaternion. Each is split into the terms known an order earlier and the newest one; the newest terms of
@@ -95,13 +95,13 @@ class FullSystem {
     Scalar turn[Order + 1][4];
   };
 
-  /// The motion from `start` at t = 0, from which the projection takes its constants.
-  FullSystem(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept;
+  /// The motion from `start` at t = 0, from which the projection takes its constants. tolerance: of the steps.
+  FullSystem(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start, Scalar tolerance = epsilon<Scalar>) noexcept;
 
   template <int Order>
   void expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept;
 
-  /// Moves a state onto the laws it obeys exactly: |q| = 1, P H = L, and V + W = V0 where moving the attitude can mend it.
+  /// Moves a state onto the laws it obeys exactly: |q| = 1, P H = L, and against the drift by rounding V + W = V0.
   void project(Scalar t, Scalar* x, Scalar* low) const noexcept;
 
   /// The numbers at t = 0.
@@ -109,8 +109,8 @@ class FullSystem {
   /// The state, in body axes, that numbers at t mean.
   State<Scalar> state(Scalar t, const Scalar* x) const noexcept;
 
-  /// What the steps measure errors against: 1 for the quaternion, |H| + |h| + |p| for H, the size of its own for p, and nothing for
-  /// the quadratures.
+  /// What the steps measure errors against: 1 for the quaternion, |H| + |h| + |p| for H, the size of its own for p, the lesser of V0 and the
+  /// energy of the carrier for W, and nothing for b.
   Numbers scale() const noexcept;
 
  private:
@@ -175,12 +175,13 @@ class FullSystem {
   Scalar lambda_, slope_, no_load_rate_, relaxation_rate_, rotor_inverse_;
   Quat<Scalar> q_BF_;
   Vec3<Scalar> L_I_;
+  Scalar slack_;          ///< of V + W, relative to V
   Scalar level_, angle_;  ///< V and beta at the start
   Numbers start_;
 };
 
 template <Real Real_>
-FullSystem<Real_>::FullSystem(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept
+FullSystem<Real_>::FullSystem(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start, Scalar tolerance) noexcept
     : a_(gyrostat.free_principal().cwiseInverse()),
       lambda_(gyrostat.axial_inertia()),
       slope_(gyrostat.slope()),
@@ -189,6 +190,7 @@ FullSystem<Real_>::FullSystem(const Gyrostat<Scalar>& gyrostat, const State<Scal
       rotor_inverse_(1 / (gyrostat.axial_inertia() * gyrostat.coupling())),
       q_BF_(from_matrix<Scalar>(gyrostat.R_BF())),
       L_I_(rotate<Scalar>(normalised(start.attitude), start.momentum)),
+      slack_(std::max(64 * epsilon<Scalar>, 16 * tolerance)),
       angle_(start.rotor_angle) {
   e_ = gyrostat.R_BF().transpose() * gyrostat.axis();
   g_ = a_.cwiseProduct(e_);
@@ -213,7 +215,7 @@ auto FullSystem<Real_>::scale() const noexcept -> Numbers {
   // where nothing moves any scale will do, but zero would leave the component out
   const auto positive = [](Scalar size) noexcept { return size > 0 ? size : Scalar(1); };
   const Scalar h = positive(l + wheel), p = positive(std::min(l, lambda_ * a_.maxCoeff() * l) + wheel);
-  return {1, 1, 1, 1, h, h, h, p, 0, 0, 0, 0};
+  return {1, 1, 1, 1, h, h, h, p, 0, 0, 0, std::min(positive(level_), h * h * a_[2])};
 }
 
 template <Real Real_>
@@ -329,15 +331,20 @@ void FullSystem<Real_>::project(Scalar, Scalar* x, Scalar* low) const noexcept {
   Quat<Scalar> change{stretch * q.w, stretch * q.x, stretch * q.y, stretch * q.z};
   Vec3<Scalar> H = rotate<Scalar>(conjugate(q), L_I_);
 
-  // A small turn d of the body changes V by d.(Omega x H) = d.slope. Rounding of V is eps size: the part slope^2/(slope^2 + size^2) of
-  // what is missing is mended, so that the rounding turns the body by eps/2 at most, and V is kept in the course of the steps.
+  // V + W = V0. A small turn d of the body changes V by d.(Omega x H) = d.slope. Rounding of V is eps size: the part
+  // slope^2/(slope^2 + size^2) of what is missing is mended, so that the rounding turns the body by eps/2 at most, and V is kept in the
+  // course of the steps. What is more than rounding and the tolerance of H explain is an error of W, whose transient is
+  // twice as fast: then W gives way.
   const Levels at = levels(H, x[7]);
   const Vec3<Scalar> Omega = a_.cwiseProduct(H) - x[7] * g_;
   const Vec3<Scalar> slope = cross<Scalar>(Omega, H);
   const Scalar size = at.carrier + at.rotor;
+  const Scalar lacking = ((level_ - size) - x[11]) - low[11];
   const Scalar square = slope.squaredNorm() + size * size;
-  if (square > 0) {
-    const Vec3<Scalar> turn = (((level_ - size) - x[11]) - low[11]) / square * slope;
+  if (!(std::abs(lacking) <= slack_ * size)) {
+    move(x[11], low[11], lacking);
+  } else if (square > 0) {
+    const Vec3<Scalar> turn = lacking / square * slope;
     H += cross<Scalar>(H, turn);
     const Quat<Scalar> turned = q * Quat<Scalar>{0, turn[0] / 2, turn[1] / 2, turn[2] / 2};
     change = {change.w + turned.w, change.x + turned.x, change.y + turned.y, change.z + turned.z};
