@@ -128,8 +128,9 @@ FastestDamping<Scalar> fastest_damping(Scalar D, Scalar kappa) noexcept {
   return {root * a * (1 + c / (1 + square)), root * a};
 }
 
-/// momentum_norm, N m s: that of steady_rotations. n and m count as parallel where the angle between them is below 16 eps
-/// theta_3/theta_1, to which n = theta^-1 e is known: q, of second order in the angle, is then rounding alone, and is set to 0.
+/// momentum_norm, N m s: that of steady_rotations. n and m count as parallel where the angle between them is rounding:
+/// 16 eps theta_3/theta_1 from n = theta^-1 e, and from m, which rounding of l m - h e moves the more, the smaller B is on the
+/// tangent plane. q, of second order in that angle, is then rounding alone, and is set to 0.
 template <Real Scalar>
 SteadyStability<Scalar> stability_of(const Gyrostat<Scalar>& gyrostat, Scalar momentum_norm,
                                      const SteadyRotation<Scalar>& rotation) noexcept {
@@ -143,10 +144,13 @@ SteadyStability<Scalar> stability_of(const Gyrostat<Scalar>& gyrostat, Scalar mo
   // n x m = (n.v) u - (n.u) v
   const Scalar along_u = n.dot(t.v), along_v = -n.dot(t.u);
   const Scalar sine = std::sqrt(along_u * along_u + along_v * along_v);
-  const bool felt = sine > 16 * epsilon<Scalar> / gyrostat.principal()[0];
-
   SteadyStability<Scalar> r;
   r.determinant = uu * vv - uv * uv;
+  const Scalar smallest_moment = gyrostat.principal()[0];
+  Scalar rounding = 16 * epsilon<Scalar> / smallest_moment;
+  if (rotation.type != SteadyType::degenerate)
+    rounding *= 1 + l / smallest_moment * std::sqrt(uu * uu + vv * vv + 2 * uv * uv) / std::abs(r.determinant);
+  const bool felt = sine > rounding;
   r.feeling = felt ? along_u * along_u * uu + 2 * along_u * along_v * uv + along_v * along_v * vv : Scalar(0);
   if (rotation.type == SteadyType::degenerate) r.determinant = 0;
   const Scalar s = gyrostat.relaxation_rate(), D = r.determinant, kappa = lambda * l * r.feeling / k;
