@@ -128,7 +128,8 @@ template <Real Scalar, int Width>
 struct RadauOptions {
   /// Error that one step may leave in its end, relative to scale. These errors add up.
   Scalar tolerance = epsilon<Scalar>;
-  /// Error that p, and y inside the step (at), may have, relative to scale. These errors do not add up. 0: 1000 tolerance.
+  /// Error that p, and y inside the step (at), may have, relative to scale. These errors do not add up. 0: 1000 tolerance. More than 10^4
+  /// tolerance is cut down to that: errors of p beyond it would be felt at the ends.
   Scalar inside = 0;
   /// The size against which the error of each component is measured; 0 leaves a component out.
   std::array<Scalar, Width + 1> scale{};
@@ -168,7 +169,7 @@ class Radau {
     constexpr Scalar least = epsilon<Scalar> / 64;
     tolerance_ = options.tolerance > least ? options.tolerance : least;
     const Scalar inside = options.inside > 0 ? options.inside : 1000 * tolerance_;
-    inside_ = inside > 8 * epsilon<Scalar> ? inside : 8 * epsilon<Scalar>;
+    inside_ = std::max(std::min(inside, 10000 * tolerance_), 8 * epsilon<Scalar>);
   }
 
   /// One step, at most up to t_max; reached if the time is t_max already or now.
