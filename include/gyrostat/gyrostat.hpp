@@ -88,6 +88,7 @@
 #include "gyrostat/models/rotor/steady.hpp"
 #include "gyrostat/models/rotor/steady_stability.hpp"
 #include "gyrostat/models/spinning/a_priori.hpp"
+#include "gyrostat/models/spinning/block_grid.hpp"
 #include "gyrostat/models/spinning/full.hpp"
 #include "gyrostat/models/spinning/grid_columns.hpp"
 #include "gyrostat/models/spinning/linear.hpp"
