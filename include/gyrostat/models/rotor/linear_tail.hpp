@@ -191,7 +191,7 @@ State<Scalar> LinearTail<Scalar>::at(Scalar t) const noexcept {
   const Point p = point(t, true);
   const Vec3<Scalar> y = p.first + p.second;
   const Scalar square = y[0] * y[0] + y[1] * y[1];
-  const Vec3<Scalar> m = tilt(y) + std::sqrt(1 - square) * linear_.m;
+  const Vec3<Scalar> m = (tilt(y) + std::sqrt(std::max(1 - square, Scalar(0))) * linear_.m).normalized();
   const Scalar half = (linear_.spin_rate * t + p.phase) / 2;
   const Scalar c = std::cos(half), s = std::sin(half);
   State<Scalar> state;

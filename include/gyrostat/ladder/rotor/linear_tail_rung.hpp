@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "gyrostat/ladder/rotor/full_rung.hpp"
+#include "gyrostat/ladder/rotor/state_columns.hpp"
+#include "gyrostat/ladder/rotor/track.hpp"
+#include "gyrostat/models/rotor/linear_tail.hpp"
+#include "gyrostat/models/rotor/steady.hpp"
+#include "gyrostat/models/rotor/steady_stability.hpp"
+
+namespace gyrostat::rotor {
+
+namespace detail {
+
+/// The steady rotations that attract exponentially: two at most.
+struct ExponentialAttractors {
+  std::array<SteadyRotation<double>, 2> at{};
+  std::array<SteadyStability<double>, 2> stability{};
+  std::size_t count = 0;
+
+  ExponentialAttractors(const Gyrostat<double>& body, double l) noexcept {
+    for (const auto& steady : steady_rotations(body, l)) {
+      const auto here = stability_of(body, l, steady);
+      if (here.verdict != Verdict::asymptotically_stable || !(here.decay_rate > 0) || count == at.size()) continue;
+      at[count] = steady;
+      stability[count++] = here;
+    }
+  }
+  /// The tail from a state towards the nearest of them.
+  LinearTail<double> tail(const Gyrostat<double>& body, const State<double>& state) const noexcept {
+    const auto nearness = [&](std::size_t i) { return state.momentum.dot(at[i].direction); };
+    const std::size_t i = count > 1 && nearness(1) > nearness(0) ? 1 : 0;
+    return {body, state, at[i], stability[i]};
+  }
+};
+
+/// The distance from which a tail up to t should meet the tolerance: its error goes with the third power of the distance.
+inline double wanted_distance(const LinearTail<double>& tail, double t, double tolerance, double fast) noexcept {
+  const double error = tail.error(t).attitude;
+  const double wanted = error < infinity<double> ? tail.distance() * std::cbrt(tolerance / (4 * error))
+                                                 : std::cbrt(tolerance * std::min(1.0, tail.decay_rate() / fast)) / 8;
+  return std::min(wanted, 0.05);
+}
+
+inline ColumnErrors<double> sum(const ColumnErrors<double>& a, const ColumnErrors<double>& b) noexcept {
+  return {a.attitude + b.attitude,     a.angular_velocity + b.angular_velocity, a.angular_momentum + b.angular_momentum,
+          a.rotor_rate + b.rotor_rate, a.rotor_angle + b.rotor_angle,           a.lyapunov + b.lyapunov};
+}
+
+/// Solves the full equations until the tail from there meets the tolerance, and goes on with it. Not applicable where the times
+/// end before, or so soon after that nothing is won.
+inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttractors& attractors, Monitor* monitor) {
+  const auto& body = scene.gyrostat();
+  const auto& times = scene.data().times;
+  const double last = times.back(), tolerance = scene.data().tolerance, l = scene.start().momentum.norm();
+  const double fast = (l + std::abs(body.target_momentum())) / body.principal()[0];
+  // greatest share of the times that the full equations may take: they are solved twice where the first window was too short
+  const double worth = scene.data().model == Model::linear_tail ? 0.9 : 0.25;
+  const Track not_worth = over_tolerance<Track>(nan<double>);
+
+  const auto time_to_fall = [&](const LinearTail<double>& tail, double from, double wanted) {
+    return std::log(std::max(1.0, std::min(from, 1.0) / wanted)) / tail.decay_rate();
+  };
+  const auto first = attractors.tail(body, scene.start());
+  const double wanted = wanted_distance(first, last, tolerance, fast);
+  double window = 1.2 * time_to_fall(first, first.distance(), wanted) + 4 / first.decay_rate();
+  // the tail makes of an error of its start as much as eps fast/rate times more
+  double inner = tolerance / (4 + 16 * wanted * fast / first.decay_rate());
+  ode::Counts counts;
+  for (int trial = 0; trial < 4; ++trial) {
+    if (!(window <= worth * last)) return not_worth;
+    SceneData data = scene.data();
+    data.tolerance = std::max(inner, 1e-15);
+    data.times.resize(std::size_t(std::lower_bound(times.begin(), times.end(), window) - times.begin()));
+    data.times.push_back(window);
+    const auto part = Scene::make(body, data);
+    if (!part) return refused<Track>(part.error(), message(part.error()));
+    Track track = full_track(*part, monitor);
+    if (track.failure != Errc::ok) return track;
+    counts += track.counts;
+
+    Comparison<double> sizes(body);
+    for (const auto& state : track.states) sizes.add(state, state);
+    const auto tail = attractors.tail(body, track.states.back());
+    track.states.pop_back();
+    auto bound = tail.error(last - window);
+    const auto carried =
+        tail.carried(track.error.angular_momentum * l, track.error.rotor_rate * sizes.size().rotor_rate);
+    bound.attitude += carried.attitude + 4 * epsilon<double> * last * fast;
+    bound.momentum += carried.momentum;
+    bound.rotor_rate += carried.rotor_rate;
+    bound.rotor_angle += carried.rotor_angle;
+    if (bound.attitude + track.error.attitude <= tolerance && bound.momentum <= tolerance * l) {
+      for (std::size_t i = track.states.size(); i < times.size(); ++i)
+        track.states.push_back(tail.at(times[i] - window));
+      track.error = sum(track.error, state_columns(body, track.states, bound));
+      track.counts = counts;
+      if (track.error.greatest() <= tolerance) {
+        track.warn("hand-over", "the full equations were solved first; the linear tail goes on from, s", window);
+        return track;
+      }
+    }
+    const double left = last - window;
+    const double fall = time_to_fall(tail, tail.distance(), wanted_distance(tail, left, tolerance, fast));
+    window += std::max(window / 2, 1.3 * fall);
+    inner /= 4;
+  }
+  return not_worth;
+}
+
+}  // namespace detail
+
+/// Rung `linear-tail`: near a steady rotation that attracts exponentially, the motion in closed form to second order in the distance
+/// (docs/rotor.md, section 6). From a start too far away the full equations are solved first, until it is near enough, where
+/// that saves work.
+inline Track linear_tail_track(const Scene& scene, Monitor* monitor) {
+  const auto& body = scene.gyrostat();
+  const auto& start = scene.start();
+  const auto& data = scene.data();
+  const double l = start.momentum.norm();
+  if (!(l > 0))
+    return refused<Track>(Errc::not_applicable, "the body has no angular momentum: no steady rotation to tend to");
+  if (!(body.slope() > 0))
+    return refused<Track>(Errc::not_applicable, "the motor has no slope: nothing decays to a steady rotation");
+  const detail::ExponentialAttractors attractors(body, l);
+  if (attractors.count == 0)
+    return refused<Track>(Errc::not_applicable,
+                          "no steady rotation attracts exponentially: the rotor does not feel the nutation");
+
+  const auto tail = attractors.tail(body, start);
+  const auto bound = tail.error(data.times.back());
+  const bool near = bound.attitude < infinity<double>;
+  const auto alone = [&] {
+    Track track;
+    track.states.reserve(data.times.size());
+    for (const double t : data.times) track.states.push_back(tail.at(t));
+    track.error = state_columns(body, track.states, bound);
+    track.in_domain = near;
+    return track;
+  };
+  Track track;
+  if (near) {
+    track = alone();
+    if (track.error.greatest() <= data.tolerance) return track;
+  }
+  Track handed = detail::tail_after_full_motion(scene, attractors, monitor);
+  if (handed.failure == Errc::ok || handed.failure == Errc::cancelled) return handed;
+  if (near) return track;
+  if (data.model == Model::linear_tail && tail.distance() < 0.5) return alone();
+  return refused<Track>(Errc::not_applicable,
+                        "too far from every steady rotation that attracts, and not near one soon enough");
+}
+
+}  // namespace gyrostat::rotor
