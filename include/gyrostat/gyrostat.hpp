@@ -84,6 +84,7 @@
 #include "gyrostat/models/rotor/gyrostat.hpp"
 #include "gyrostat/models/rotor/linear_tail.hpp"
 #include "gyrostat/models/rotor/modes.hpp"
+#include "gyrostat/models/rotor/published.hpp"
 #include "gyrostat/models/rotor/relaxing.hpp"
 #include "gyrostat/models/rotor/steady.hpp"
 #include "gyrostat/models/rotor/steady_stability.hpp"

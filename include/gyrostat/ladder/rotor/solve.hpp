@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gyrostat/core/linkage.hpp"
+#include "gyrostat/ladder/rotor/scene.hpp"
+#include "gyrostat/ladder/rung.hpp"
+
+namespace gyrostat::rotor {
+
+/// Answers a scene with the cheapest rung whose own error estimate meets the tolerance: closed-form, linear-tail, full. Where no
+/// rung answers, the refusal says why and the answer holds only what was tried.
+/// Beside the columns the answer has `attractor`, the index of the steady rotation (steady_rotations, ascending level) that the motion
+/// is certain to tend to, as known at the last time, and its `decay_rate`, 1/s; NaN where it is not certified or there is none.
+GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr);
+
+}  // namespace gyrostat::rotor
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/rotor/solve_definition.hpp"
+#endif
