@@ -319,7 +319,7 @@ class FullMotion {
       if (next == times_.size() || answer.status != ode::Status::reached) break;
       answer.status = reach(now, last);
       kept = greater(distance(course.at(now), now), kept);
-      if ((++trips & 255U) == 0) {
+      if ((trips++ & 255U) == 0) {
         if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed))
           answer.status = ode::Status::cancelled;
         const double done = static_cast<double>(now / last);

@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/rotor/full_motion.hpp"
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "../../models/rotor/bodies.hpp"
+#include "allocations.hpp"
+#include "catch.hpp"
+#include "gyrostat/models/rotor/steady.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::rotor;
+using ode::Status;
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool slow_build = true;
+#else
+constexpr bool slow_build = false;
+#endif
+
+/// A body and a start as Omega and omega tell them, in any precision.
+template <Real S>
+struct Motion {
+  Gyrostat<S> body;
+  Quat<S> attitude{};
+  Vec3<S> Omega{0, 0, 0};
+  S omega = 0;
+
+  State<S> start() const { return body.state(normalised(attitude), Omega, omega); }
+
+  Motion<long double> widened() const {
+    using Long = long double;
+    return {Gyrostat<Long>::make(body.inertia().template cast<Long>(), body.axis().template cast<Long>(),
+                                 body.axial_inertia(), body.slope(), body.no_load_rate())
+                .value(),
+            {attitude.w, attitude.x, attitude.y, attitude.z},
+            Omega.template cast<Long>(),
+            omega};
+  }
+};
+
+template <Real S>
+struct Solved {
+  FullMotionAnswer<S> answer;
+  std::vector<State<S>> states;
+};
+
+template <Real S>
+Solved<S> solve(const Gyrostat<S>& body, const State<S>& start, const std::vector<S>& times, S tolerance,
+                Integrator integrator = Integrator::any) {
+  Solved<S> solved;
+  solved.states.resize(times.size());
+  FullMotionOptions<S> options;
+  options.tolerance = tolerance;
+  options.integrator = integrator;
+  options.step_cap = 3'000'000;
+  const auto made = full_motion<S>(body, start, times, solved.states, options);
+  REQUIRE(made);
+  solved.answer = *made;
+  return solved;
+}
+
+using Errors = std::array<double, 6>;
+template <Real S>
+Errors list(const ColumnErrors<S>& e) {
+  return {double(e.attitude),   double(e.angular_velocity), double(e.angular_momentum),
+          double(e.rotor_rate), double(e.rotor_angle),      double(e.lyapunov)};
+}
+
+/// True errors of an answer to the motion, column by column; sets `known` to how well the truth is known.
+Errors true_errors(const Motion<double>& motion, const std::vector<double>& times, const Solved<double>& solved,
+                   Errors& known) {
+  const auto wide = motion.widened();
+  State<long double> start = wide.start();
+  if (motion.start().momentum.isZero(0)) start.momentum.setZero();
+  const auto truth = solve<long double>(wide.body, start, {times.begin(), times.end()}, 1e-15L);
+  REQUIRE(truth.answer.status == Status::reached);
+  known = list(truth.answer.error);
+  Comparison<long double> both(wide.body);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const State<double>& s = solved.states[i];
+    both.add(truth.states[i], {{s.attitude.w, s.attitude.x, s.attitude.y, s.attitude.z},
+                               s.momentum.cast<long double>(),
+                               s.axial_momentum,
+                               s.rotor_angle});
+  }
+  return list(both.relative(both.difference()));
+}
+
+void check_honest(const Motion<double>& motion, const std::vector<double>& times, double tolerance,
+                  Integrator integrator = Integrator::any) {
+  const auto solved = solve<double>(motion.body, motion.start(), times, tolerance, integrator);
+  REQUIRE(solved.answer.status == Status::reached);
+  Errors known;
+  const Errors errors = true_errors(motion, times, solved, known), stated = list(solved.answer.error);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    CAPTURE(i, errors[i], stated[i], known[i], int(solved.answer.used));
+    CHECK(errors[i] - known[i] <= stated[i]);
+    if (solved.answer.met) CHECK(errors[i] - known[i] <= tolerance);
+  }
+}
+
+Motion<double> random_motion(Bodies& bodies, int i) {
+  Motion<double> motion{bodies.realisable()};
+  motion.attitude = bodies.attitude();
+  motion.Omega = motion.body.inverse_inertia() * (bodies.direction() * bodies.scale(1, 10));
+  motion.omega = bodies.uniform(-10, 10);
+  const auto with_slope = [&](double slope) {
+    const auto& b = motion.body;
+    motion.body = Gyrostat<double>::make(b.inertia(), b.axis(), b.axial_inertia(), slope, b.no_load_rate()).value();
+  };
+  if (i % 7 == 3) motion.Omega.setZero();
+  if (i % 11 == 5) with_slope(0);
+  if (i % 13 == 6) with_slope(bodies.scale(10, 1e4));
+  return motion;
+}
+
+std::vector<double> grid(double end, int n) {
+  std::vector<double> times;
+  for (int i = 1; i <= n; ++i) times.push_back(end * i / n);
+  return times;
+}
+
+struct Reference {
+  std::string id;
+  Motion<double> motion;
+  double floor = 0;
+  std::vector<double> times;
+  std::vector<State<double>> states;
+};
+
+std::vector<Reference> reference_cases() {
+  std::ifstream file(GYROSTAT_TEST_DATA "/rotor_motion.csv");
+  REQUIRE(file);
+  std::vector<Reference> all;
+  std::string line;
+  while (std::getline(file, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream cells(line);
+    std::string id, cell;
+    std::getline(cells, id, ',');
+    std::vector<double> x;
+    while (std::getline(cells, cell, ',')) x.push_back(std::strtod(cell.c_str(), nullptr));
+    REQUIRE(x.size() == 35);
+    if (all.empty() || all.back().id != id) {
+      Mat3<double> theta;
+      theta << x[0], x[1], x[2], x[1], x[3], x[4], x[2], x[4], x[5];
+      const Vec3<double> e = Vec3<double>(x[7], x[8], x[9]).normalized();
+      const auto body = Gyrostat<double>::make(theta, e, x[6], x[10], x[11]);
+      REQUIRE(body);
+      Reference made;
+      made.id = id;
+      made.motion = {*body, normalised(Quat<double>{x[12], x[13], x[14], x[15]}), {x[16], x[17], x[18]}, x[19]};
+      made.floor = x[34];
+      all.push_back(made);
+    }
+    const auto& body = all.back().motion.body;
+    const Vec3<double> Omega(x[25], x[26], x[27]);
+    State<double> s = body.state({x[21], x[22], x[23], x[24]}, Omega, x[28]);
+    s.momentum = {x[30], x[31], x[32]};
+    s.rotor_angle = x[29];
+    all.back().times.push_back(x[20]);
+    all.back().states.push_back(s);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the full motion of the reference cases", "[rotor]") {
+  const auto cases = reference_cases();
+  REQUIRE(cases.size() == 11);
+  for (const Reference& c : cases) {
+    const bool is_long = c.id == "pub07" || c.id == "pub03";  // 1e4 turns; 30000 s
+    for (const Integrator integrator : {Integrator::any, Integrator::radau}) {
+      if (slow_build && is_long) continue;
+      for (const double tolerance : {1e-6, 1e-9, 1e-13}) {
+        if (is_long && tolerance > 1e-7) continue;
+        const auto solved = solve<double>(c.motion.body, c.motion.start(), c.times, tolerance, integrator);
+        CAPTURE(c.id, int(integrator), tolerance, int(solved.answer.used), solved.answer.counts.steps);
+        REQUIRE(solved.answer.status == Status::reached);
+        Comparison<double> both(c.motion.body);
+        for (std::size_t i = 0; i < c.times.size(); ++i) both.add(c.states[i], solved.states[i]);
+        const Errors errors = list(both.relative(both.difference())), stated = list(solved.answer.error);
+        for (std::size_t i = 0; i < errors.size(); ++i) {
+          CAPTURE(i, errors[i], stated[i]);
+          CHECK(errors[i] <= stated[i] + 1e-15);
+          if (tolerance > 1e-10) CHECK(errors[i] <= std::max(tolerance, c.floor));
+        }
+        if (tolerance < 1e-10) CHECK(errors[0] < c.floor);
+        if (tolerance > 1e-10 && !is_long) CHECK(solved.answer.met);
+      }
+    }
+  }
+}
+
+TEST_CASE("what is stated bounds what is true", "[rotor]") {
+  Bodies bodies(7);
+  const int count = slow_build ? 12 : 60;
+  for (int i = 0; i < count; ++i) {
+    const auto motion = random_motion(bodies, i);
+    const double turn = 6.3 / turning_rate(motion.body, motion.start());
+    const auto times = grid(bodies.scale(1, 30) * turn, i % 3 == 0 ? 1 : 12);
+    CAPTURE(i);
+    for (const double tolerance : {1e-4, 1e-9, 1e-14}) check_honest(motion, times, tolerance);
+    check_honest(motion, times, 1e-7, Integrator::radau);
+  }
+}
+
+TEST_CASE("near a saddle errors grow and are stated", "[rotor]") {
+  const auto body = reference_body(0.2, 3);
+  const auto steady = steady_rotations(body, 8.0);
+  int saddles = 0;
+  for (const auto& rotation : steady) {
+    if (rotation.type != SteadyType::saddle) continue;
+    ++saddles;
+    for (const double off : {1e-3, 1e-6, 1e-10, 0.0}) {
+      for (const double end : {10.0, 60.0}) {
+        Motion<double> motion{body, {0.8, -0.2, 0.4, 0.4}};
+        motion.Omega = rotation.spin_rate * rotation.direction + off * Vec3<double>(1, -2, 1);
+        motion.omega = 3;
+        CAPTURE(off, end);
+        check_honest(motion, grid(end, 5), 1e-9);
+      }
+    }
+  }
+  CHECK(saddles > 0);
+}
+
+TEST_CASE("steps too long at first are shortened", "[rotor]") {
+  // differences from a motion that leaves a saddle grow thousandfold: more than the first guess allows for
+  const auto body = reference_body(0.2, 3);
+  const auto steady = steady_rotations(body, 8.0);
+  const auto& saddle = steady[steady.lowest(SteadyType::saddle)];
+  const auto& centre = steady[steady.lowest(SteadyType::minimum)];
+  const auto from = [&](const SteadyRotation<double>& rotation) {
+    return solve<double>(body, body.state({}, rotation.spin_rate * rotation.direction + Vec3<double>(1e-4, 1e-4, 0), 3),
+                         {90.0}, 1e-9);
+  };
+  const auto easy = from(centre), hard = from(saddle);
+  CHECK(easy.answer.met);
+  CHECK(hard.answer.met);
+  CHECK(hard.answer.step_tolerance < easy.answer.step_tolerance / 8);
+  CHECK(hard.answer.counts.steps > 2 * easy.answer.counts.steps);
+}
+
+TEST_CASE("rest, no momentum, no motor", "[rotor]") {
+  const std::vector<double> times{0, 1, 50, 1000};
+  SECTION("everything at rest stays so") {
+    for (const double slope : {0.0, 0.2}) {
+      const auto body = reference_body(slope, 0);
+      for (const Integrator integrator : {Integrator::any, Integrator::radau}) {
+        const auto solved =
+            solve<double>(body, body.state({0.5, 0.5, 0.5, 0.5}, {0, 0, 0}, 0), times, 1e-9, integrator);
+        CHECK(solved.answer.met);
+        CHECK(angle_between<double>(solved.states[3].attitude, {0.5, 0.5, 0.5, 0.5}) < 1e-15);
+        CHECK(solved.states[3].momentum.isZero(0));
+        CHECK(solved.states[3].rotor_angle == 0);
+      }
+    }
+  }
+  SECTION("spin-up without momentum") {
+    const auto body = reference_body(0.05, 30);
+    for (const Integrator integrator : {Integrator::any, Integrator::radau}) {
+      const auto solved = solve<double>(body, body.state({}, {0, 0, 0}, 0), times, 1e-9, integrator);
+      CHECK(solved.answer.met);
+      CHECK(solved.answer.error.angular_momentum == 0);
+      const double r = body.relaxation_rate();
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        const double beta = 30 * (times[i] + std::expm1(-r * times[i]) / r);
+        CHECK(solved.states[i].momentum.isZero(0));
+        CHECK(solved.states[i].rotor_angle == Approx(beta).margin(1e-12));
+      }
+    }
+  }
+  SECTION("without slope p and the energy stay") {
+    const auto body = reference_body(0, 30);
+    const State<double> start = body.state({}, {1, -2, 0.5}, 4);
+    const auto solved = solve<double>(body, start, times, 1e-9);
+    CHECK(solved.answer.met);
+    for (const auto& s : solved.states) {
+      CHECK(s.axial_momentum == start.axial_momentum);
+      CHECK(body.energy(s.momentum, s.axial_momentum) ==
+            Approx(body.energy(start.momentum, start.axial_momentum)).epsilon(3e-15));
+    }
+  }
+}
+
+TEST_CASE("a stiff motor is handed to collocation", "[rotor]") {
+  std::uint64_t least = 1'000'000, most = 0;
+  for (const double slope : {100.0, 1e3, 1e4, 1e6}) {
+    Motion<double> motion{reference_body(slope, 5), {0.5, 0.5, -0.5, 0.5}, {0.5, 1.1, -0.8}, 0};
+    REQUIRE(is_stiff(motion.body, motion.start()));
+    const auto solved = solve<double>(motion.body, motion.start(), grid(20, 6), 1e-9);
+    CHECK(solved.answer.used == Integrator::radau);
+    CHECK(solved.answer.met);
+    least = std::min(least, solved.answer.counts.steps);
+    most = std::max(most, solved.answer.counts.steps);
+    if (slope < 2e3) check_honest(motion, grid(5, 4), 1e-9);
+    // before the motor has come to its balance, and across that moment
+    const double layer = 40 / motion.body.relaxation_rate();
+    check_honest(motion, {layer / 80, layer / 2, layer, 1.5 * layer}, 1e-9);
+  }
+  CHECK(2 * most < 3 * least);
+
+  const Motion<double> soft{reference_body(0.2, 5), {}, {0.5, 1.1, -0.8}, 0};
+  CHECK_FALSE(is_stiff(soft.body, soft.start()));
+  CHECK(solve<double>(soft.body, soft.start(), {5.0}, 1e-9).answer.used == Integrator::taylor);
+  CHECK(solve<double>(soft.body, soft.start(), {5.0}, 1e-9, Integrator::radau).answer.used == Integrator::radau);
+}
+
+TEMPLATE_TEST_CASE("every precision meets its own tolerance", "[rotor]", float, double, long double) {
+  using S = TestType;
+  Mat3<S> theta;
+  theta << S(3.2L), S(0.1L), S(-0.15L), S(0.1L), S(4.1L), S(0.2L), S(-0.15L), S(0.2L), 5;
+  Vec3<S> e(S(0.75L), S(0.35L), S(0.56L));
+  e /= e.norm();
+  const auto body = Gyrostat<S>::make(theta, e, S(0.35L), S(0.2L), 3).value();
+  const auto start = body.state({}, {S(0.5L), S(1.1L), S(-0.8L)}, 0);
+  for (const Integrator integrator : {Integrator::taylor, Integrator::radau}) {
+    const auto solved = solve<S>(body, start, {S(1), S(5)}, 1000 * epsilon<S>, integrator);
+    CHECK(solved.answer.status == Status::reached);
+    CHECK(solved.answer.met);
+    const Vec3<S> L = rotate<S>(solved.states[1].attitude, solved.states[1].momentum);
+    CHECK((L - start.momentum).norm() < 16 * epsilon<S> * L.norm());
+  }
+}
+
+TEST_CASE("what cannot be answered is refused", "[rotor]") {
+  const auto body = reference_body(0.2, 3);
+  const State<double> start = body.state({}, {0.5, 1.1, -0.8}, 0);
+  std::vector<State<double>> states(2);
+  const auto error = [&](std::vector<double> times, State<double> from, double tolerance = 1e-9) {
+    FullMotionOptions<double> options;
+    options.tolerance = tolerance;
+    return full_motion<double>(body, from, times, states, options).error();
+  };
+  CHECK(error({1, 2}, start) == Errc::ok);
+  CHECK(error({1}, start) == Errc::out_of_domain);
+  CHECK(error({2, 1}, start) == Errc::not_increasing);
+  CHECK(error({-1, 1}, start) == Errc::not_increasing);
+  CHECK(error({1, gyrostat::nan<double>}, start) == Errc::not_finite);
+  CHECK(error({1, infinity<double>}, start) == Errc::not_finite);
+  CHECK(error({1, 2}, start, gyrostat::nan<double>) == Errc::not_finite);
+  State<double> bad = start;
+  bad.momentum[2] = infinity<double>;
+  CHECK(error({1, 2}, bad) == Errc::not_finite);
+  bad = start;
+  bad.axial_momentum = gyrostat::nan<double>;
+  CHECK(error({1, 2}, bad) == Errc::not_finite);
+  bad = start;
+  bad.attitude = {0, 0, 0, 0};
+  CHECK(error({1, 2}, bad) == Errc::zero_vector);
+
+  FullMotionOptions<double> options;
+  options.step_cap = 5;
+  const std::vector<double> times{0.01, 1e6};
+  for (const Integrator integrator : {Integrator::taylor, Integrator::radau}) {
+    options.integrator = integrator;
+    const auto capped = full_motion<double>(body, start, times, states, options);
+    REQUIRE(capped);
+    CHECK(capped->status == Status::step_limit);
+    CHECK_FALSE(capped->met);
+    CHECK(std::isfinite(states[0].axial_momentum));
+    CHECK(std::isnan(states[1].axial_momentum));
+  }
+}
+
+TEST_CASE("work can be watched and stopped, and needs no memory", "[rotor]") {
+  const auto body = reference_body(0.2, 3);
+  const State<double> start = body.state({}, {0.5, 1.1, -0.8}, 0);
+  std::vector<State<double>> states(3);
+  std::atomic<double> progress{0};
+  std::atomic<bool> cancel{false};
+  FullMotionOptions<double> options;
+  options.progress = &progress;
+  options.cancel = &cancel;
+  for (const Integrator integrator : {Integrator::taylor, Integrator::radau}) {
+    options.integrator = integrator;
+    const std::vector<double> times{0, 1, 400};
+    progress = 0;
+    cancel = false;
+    const auto before = allocations();
+    const auto answer = full_motion<double>(body, start, times, states, options);
+    CHECK(allocations() == before);
+    REQUIRE(answer);
+    CHECK(answer->met);
+    CHECK(progress == 1);
+    CHECK(states[0].momentum == start.momentum);
+    cancel = true;
+    CHECK(full_motion<double>(body, start, times, states, options)->status == Status::cancelled);
+  }
+}
