@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Write spinning_full.csv beside this file: the full motions of reference/spinning.json, one row for each time.
+"""Write spinning_full.csv and spinning_axial.csv beside this file: the full motions of reference/spinning.json, and the linear ones
+under a torque about the spin axis, one row for each time.
 
 Columns: name; moments D (3); mass; torque (3); force (3); lambda3; e_H; p, q, r, psi, phi, theta, velocity (3) and position (3) at the
-start; t; p, q, r; psi, phi, theta not reduced by turns; R by rows (9); momentum (3), velocity (3) and position (3), inertial.
+start; t; p, q, r; psi, phi, theta not reduced by turns; R by rows (9), full motion alone; momentum (3; linear motion: 2), velocity (3)
+and position (3), inertial.
 """
 
 import csv
@@ -23,20 +25,31 @@ def short(number):
     return f"{digits}e{power}" if power else digits
 
 
-def rows():
-    for case in json.loads((HERE / "reference" / "spinning.json").read_text(encoding="utf-8"))["cases"]:
-        given = [case["derived"]["e_H"] if name is None else case["inputs"][name] for name in GIVEN]
-        for at in case["nonlinear_truth"]:
-            found = [at["t"], at["p"], at["q"], at["r"], at["psi"], at["phi"], at["theta_integrated"],
-                     *(entry for row in at["R"] for entry in row),
-                     *(at[name] for name in "G1 G2 G3 v1 v2 v3 x1 x2 x3".split())]
-            yield [case["name"], *(short(number) for number in [*given, *found])]
+def full(at):
+    yield from (at[name] for name in "t p q r psi phi theta_integrated".split())
+    yield from (entry for row in at["R"] for entry in row)
+    yield from (at[name] for name in "G1 G2 G3 v1 v2 v3 x1 x2 x3".split())
+
+
+def axial(at):
+    yield from (at[name] for name in "t p q r psi phi theta G1 G2 v1 v2 v3 x1 x2 x3".split())
+
+
+def write(name, kind, found, wanted):
+    with (HERE / name).open("w", encoding="utf-8", newline="") as file:
+        file.write("# written by spinning_tables.py\n")
+        to = csv.writer(file, lineterminator="\n")
+        for case in json.loads((HERE / "reference" / "spinning.json").read_text(encoding="utf-8"))["cases"]:
+            if not wanted(case["inputs"]):
+                continue
+            given = [case["derived"]["e_H"] if key is None else case["inputs"][key] for key in GIVEN]
+            for at in case[kind]:
+                to.writerow([case["name"], *(short(number) for number in [*given, *found(at)])])
 
 
 def main():
-    with (HERE / "spinning_full.csv").open("w", encoding="utf-8", newline="") as file:
-        file.write("# written by spinning_tables.py\n")
-        csv.writer(file, lineterminator="\n").writerows(rows())
+    write("spinning_full.csv", "nonlinear_truth", full, lambda given: True)
+    write("spinning_axial.csv", "linear_model", axial, lambda given: float(given["M3"]) != 0)
 
 
 if __name__ == "__main__":

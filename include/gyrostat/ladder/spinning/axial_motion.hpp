@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/models/spinning/axial_torque.hpp"
+#include "gyrostat/models/spinning/problem.hpp"
+#include "gyrostat/ode/status.hpp"
+#include "gyrostat/ode/taylor.hpp"
+
+/// The linear motion under a torque about the spin axis, by Taylor series.
+namespace gyrostat::spinning {
+
+template <Real Scalar>
+struct AxialMotionOptions {
+  std::uint64_t step_cap = 10'000'000;
+  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
+};
+
+template <Real Scalar>
+struct AxialMotionAnswer {
+  ode::Status status = ode::Status::reached;
+  Scalar tilt = 0;  ///< greatest |psi + i phi| on the way, rad
+  Scalar rate = 0;  ///< greatest |p + i q| on the way, rad/s
+  ode::Counts counts;
+};
+
+/// The motion for small tilt at the given times (s from the start, increasing, the first >= 0), to rounding. What lies behind a failure
+/// is NaN. Errors: not_increasing (times), not_finite (problem or times), out_of_domain (a span of the wrong length).
+template <Real Scalar>
+Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
+                                               std::span<State<Scalar>> states,
+                                               const AxialMotionOptions<Scalar>& options = {}) noexcept {
+  using System = AxialTorqueSystem<Scalar>;
+  if (states.size() != times.size()) return Errc::out_of_domain;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
+    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
+  }
+  const System system(problem);
+  const Scalar end = times.empty() ? Scalar(0) : times.back();
+  ode::TaylorOptions<Scalar, System::width> how;
+  how.tolerance = epsilon<Scalar> / 8;
+  how.step_cap = options.step_cap;
+  how.scale = system.scale(end);
+  for (const Scalar size : how.scale)
+    if (!(size < infinity<Scalar>)) return Errc::not_finite;
+  ode::Taylor<System> solver(system, 0, system.start(), how);
+
+  AxialMotionAnswer<Scalar> answer;
+  const auto look = [&](const Scalar* x) noexcept {
+    answer.rate = std::max(answer.rate, std::hypot(x[0], x[1]));
+    answer.tilt = std::max(answer.tilt, std::hypot(x[2], x[3]));
+  };
+  look(system.start().data());
+  std::size_t next = 0;
+  for (; next < times.size() && times[next] <= 0; ++next) states[next] = system.state(0, system.start().data());
+  alignas(32) Scalar x[System::width];
+  std::uint32_t trips = 0;
+  while (next < times.size()) {
+    answer.status = solver.step(end);
+    if (answer.status != ode::Status::reached) break;
+    // the tilt may be greatest between the ends of a step
+    for (const Scalar share : {Scalar(0.25L), Scalar(0.5L), Scalar(0.75L), Scalar(1)}) {
+      solver.at(solver.previous_time() + share * (solver.time() - solver.previous_time()), x);
+      look(x);
+    }
+    for (; next < times.size() && times[next] <= solver.time(); ++next) {
+      solver.at(times[next], x);
+      states[next] = system.state(times[next], x);
+    }
+    if ((++trips & 255U) == 0 && options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {
+      answer.status = ode::Status::cancelled;
+      break;
+    }
+  }
+  answer.counts = solver.counts();
+  const Vec3<Scalar> nothing = Vec3<Scalar>::Constant(nan<Scalar>);
+  constexpr Scalar none = nan<Scalar>;
+  for (; next < times.size(); ++next)
+    states[next] = {nothing, {none, none, none}, {none, none, none, none}, nothing, nothing, nothing};
+  return answer;
+}
+
+}  // namespace gyrostat::spinning
