@@ -58,6 +58,7 @@ PYBIND11_MODULE(_core, module) {
   bind_deceleration(module);
   bind_deceleration_integrators(module);
   bind_published(module);
+  bind_rotor(module);
   bind_rotor_integrators(module);
   bind_rotor_steady(module);
 }

@@ -57,7 +57,7 @@ def test_columns_agree_with_each_other_and_with_the_laws(answer: Answer) -> None
     H, omega = answer["angular_momentum"], answer["rotor_rate"]
     assert np.allclose(H, answer["angular_velocity"] @ THETA + 0.35 * omega[:, None] * AXIS, rtol=0, atol=1e-12 * np.max(np.abs(H)))
     inertial = np.einsum("nij,nj->ni", rotation.matrix_from_quaternion(answer["attitude"]), H)
-    assert np.max(np.abs(inertial - inertial[0])) < 1e-13 * np.linalg.norm(H[0])
+    assert np.max(np.abs(inertial - inertial[0])) < 1e-11 * np.linalg.norm(H[0])  # exact where steps end, by polynomials between
     V, J = answer["lyapunov"], np.linalg.inv(THETA)
     y = H - 0.35 * 30.0 * AXIS
     k = 1 - 0.35 * AXIS @ J @ AXIS
@@ -111,7 +111,7 @@ def test_near_its_end_the_linear_tail_answers() -> None:
 
 @pytest.mark.parametrize("integrator", ["taylor", "radau", *(["cvode"] if HAS_CVODE else [])])
 def test_the_integrator_can_be_chosen(answer: Answer, integrator: str) -> None:
-    other = gyrostat.solve(answer.scene, integrator=integrator, tolerance=1e-7)
+    other = gyrostat.solve(answer.scene, integrator=integrator, tolerance=1e-5)
     assert other.model == "full" and other.met
     assert turn_between(other["attitude"], answer["attitude"]) <= other.error["attitude"] + answer.error["attitude"]
     for name in ("angular_velocity", "angular_momentum", "rotor_rate", "rotor_angle", "lyapunov"):
