@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_matrix', 'quaternion_from_vector', 'vector_from_matrix', 'vector_from_quaternion']
+__all__: list[str] = ['Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_solve', 'rotor_steady', 'vector_from_matrix', 'vector_from_quaternion']
 class Monitor:
     """
     Watches and stops long work from another thread.
@@ -159,6 +159,38 @@ def quaternion_from_matrix(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.
     ...
 def quaternion_from_vector(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     ...
+def rotor_assembly(*, carrier_inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], carrier_mass: typing.SupportsFloat | typing.SupportsIndex, rotor_mass: typing.SupportsFloat | typing.SupportsIndex, axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, equatorial_inertia: typing.SupportsFloat | typing.SupportsIndex, offset: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (3, 3): inertia of the whole about the common mass centre.
+    """
+def rotor_capture(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], longest: typing.SupportsFloat | typing.SupportsIndex, tolerance: typing.SupportsFloat | typing.SupportsIndex) -> dict[str, typing.Any]:
+    """
+    When the attractors of motions are certified, by integration.
+    """
+def rotor_certify(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
+    """
+    Attractors of states of one gyrostat as far as the algebra tells.
+    """
+def rotor_circular_section(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, momentum: typing.SupportsFloat | typing.SupportsIndex) -> dict[str, typing.Any]:
+    """
+    Level, drive and hold of the invariant circle, and whether it is run through for ever.
+    """
+def rotor_fall_time(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, valley: typing.SupportsInt | typing.SupportsIndex, end: typing.SupportsFloat | typing.SupportsIndex) -> typing.Annotated[list[float], "FixedSize(2)"]:
+    """
+    Time of a fall of V from a state to a level and its relative error; NaN where it cannot be told.
+    """
+def rotor_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+    """
+    The full equations under one integrator, timed.
+    """
+def rotor_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None) -> dict[str, typing.Any]:
+    """
+    Answer of the ladder as plain data.
+    """
+def rotor_steady(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], slope: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], no_load_rate: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
+    """
+    Steady rotations of rows of gyrostats, (n, 8), padded with -1 and NaN.
+    """
 def vector_from_matrix(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     ...
 def vector_from_quaternion(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
