@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "gyrostat/core/real.hpp"
@@ -48,6 +49,23 @@ Problem<To> problem_cast(const Problem<From>& p) noexcept {
           p.position.template cast<To>()};
 }
 
+/// a b - product, product being the rounded a b.
+template <Real Scalar>
+Scalar product_error(Scalar a, Scalar b, Scalar product) noexcept {
+  if constexpr (sizeof(Scalar) <= sizeof(double)) {
+    return std::fma(a, b, -product);
+  } else {  // Dekker 1971: the library's fma is many times slower here
+    constexpr int digits = std::numeric_limits<Scalar>::digits;
+    constexpr Scalar splitter = Scalar((1ull << ((digits + 1) / 2)) + 1);
+    const auto high_half = [](Scalar x) noexcept {
+      const Scalar shifted = splitter * x;
+      return shifted - (shifted - x);
+    };
+    const Scalar a1 = high_half(a), a2 = a - a1, b1 = high_half(b), b2 = b - b1;
+    return ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
+  }
+}
+
 /// A rate [1/s] with its rounding error, so that the phase rate * t is good to an eps of the turn, not of itself.
 template <Real Scalar>
 struct FineRate {
@@ -60,14 +78,14 @@ struct FineRate {
   /// e^(i rate t).
   math::Complex<Scalar> turn(Scalar t) const noexcept {
     const Scalar phase = high * t;
-    const Scalar rest = std::fma(high, t, -phase) + low * t;
+    const Scalar rest = product_error(high, t, phase) + low * t;
     const auto u = math::unit(phase);
     return {u.re - rest * u.im, u.im + rest * u.re};
   }
   /// e^(rate t).
   Scalar growth(Scalar t) const noexcept {
     const Scalar phase = high * t;
-    const Scalar rest = std::fma(high, t, -phase) + low * t;
+    const Scalar rest = product_error(high, t, phase) + low * t;
     const Scalar e = std::exp(phase);
     return e + e * rest;
   }
