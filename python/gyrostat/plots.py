@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gyrostat import rotor
 from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
+from gyrostat.scenes import scene_from
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -167,9 +169,17 @@ def _cone(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
 
 def _lyapunov(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
     V = answer["lyapunov"]
-    axes.plot(t, V, color=COLOURS[0])
+    axes.plot(t, V, color=COLOURS[0], label="V")
     if np.min(V) > 0 and np.max(V) > 30 * np.min(V):
         axes.set_yscale("log")
+    given = rotor.arguments(scene_from(answer.scene))
+    steady = rotor.steady_rotations(
+        **{name: given[name] for name in ("inertia", "axis", "axial_inertia", "slope", "no_load_rate")},
+        momentum=float(np.linalg.norm(answer["angular_momentum"][0])))
+    saddles = steady.level[steady.type == "saddle"]
+    if saddles.size and np.max(V) > np.min(saddles):
+        axes.axhline(np.min(saddles), color=COLOURS[1], linestyle="--", linewidth=1, label="lowest saddle: below it the attractor is certain")
+    axes.legend(loc="best", fontsize=8)
     axes.set_ylabel("V [J]")
     axes.set_title("Lyapunov function, which never grows", loc="left", fontsize=10)
     _note(axes, _error_text(answer, "lyapunov"))
