@@ -96,7 +96,8 @@ TEST_CASE("modes next to a resonance that turns through 10 rad", "[spinning]") {
     const double T = u(10, 100) / divisors(p).least();
     Arrays<double> a(200);
     ModeGrid<double>(p, 0, T / 200).write(0, 200, a.columns);
-    worst = std::max(worst, grid_oracle::error(a, p, 0.0, T / 200, 1, 1));
+    // the phase itself is kept in long double
+    worst = std::max(worst, grid_oracle::error(a, p, 0.0, T / 200, 1, 1) / (1e-14 + 4e-19 * T));
   }
-  CHECK(worst < 4e-14);  // up to 1e6 rad
+  CHECK(worst < 1);
 }
