@@ -37,7 +37,7 @@ FLAT: Final = math.radians(45)
 ABOUT: Final = math.radians(30)
 UPRIGHT: Final = math.radians(15)
 # The figure draws the whole path by so many points, unless neighbours are further apart than COARSE [rad]: then it draws pieces.
-WHOLE: Final = 20001
+WHOLE: Final = 10001
 COARSE: Final = 0.15
 PIECES: Final = 40
 TURNS_A_PIECE: Final = 1.5
