@@ -117,8 +117,8 @@ class PicardSweeps {
     const Complex u{std::sin(a.psi), std::cos(a.psi) * std::sin(a.phi)};
     start[u1] = u.re, start[u2] = u.im;
     start[z] = a.theta + twist(u, std::cos(a.psi) * std::cos(a.phi));
-    for (int i = 0; i < 3; ++i) start[std::size_t(v1 + i)] = problem.velocity[i];
-    for (int i = 0; i < 3; ++i) start[std::size_t(x1 + i)] = problem.position[i];
+    for (const int i : {0, 1, 2}) start[v1 + std::size_t(i)] = problem.velocity[i];
+    for (const int i : {0, 1, 2}) start[x1 + std::size_t(i)] = problem.position[i];
     for (int n = 0; n <= sweeps; ++n) at_start_[n] = start;
     small_ = {1, start[p], start[q], a.psi, a.phi};
     map_linear();
