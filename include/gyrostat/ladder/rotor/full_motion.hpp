@@ -337,7 +337,7 @@ class FullMotion {
     }
 
     // What the runs share: the polynomial of a step, good to its tolerance, and rounding at the asked times.
-    const Scalar margin = rounds ? 6 : 4;
+    const Scalar margin = rounds ? 8 : 6;
     const Scalar walk = eps * std::sqrt(static_cast<Scalar>(steps));
     const Scalar shared = 4 * eps + walk + 2 * step_tolerance + (answer.used == Integrator::radau ? 2 * inside : 0);
     const auto rounding = rounding_of_columns(gyrostat_, start_, asked.size(), shared);

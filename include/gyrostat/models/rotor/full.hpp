@@ -203,8 +203,9 @@ FullSystem<Real_>::FullSystem(const Gyrostat<Scalar>& gyrostat, const State<Scal
 
 template <Real Real_>
 State<Real_> FullSystem<Real_>::state(Scalar t, const Scalar* x) const noexcept {
-  const Quat<Scalar> q{x[0], x[1], x[2], x[3]};
-  return {normalised(q * conjugate(q_BF_)), rotate<Scalar>(q_BF_, Vec3<Scalar>(x[4], x[5], x[6])), x[7],
+  // H = P^T L also between the steps, where the series of H is good to a share of |H| + |h| + |p| only
+  const Quat<Scalar> q = normalised(Quat<Scalar>{x[0], x[1], x[2], x[3]});
+  return {normalised(q * conjugate(q_BF_)), rotate<Scalar>(q_BF_, rotate<Scalar>(conjugate(q), L_I_)), x[7],
           angle_ + (no_load_rate_ * t + x[8])};
 }
 

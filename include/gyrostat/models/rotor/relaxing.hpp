@@ -42,10 +42,11 @@ class RelaxingRotor {
     const Vec3<Scalar> H = R_BF_.transpose() * state.momentum;
     return {q.w, q.x, q.y, q.z, H[0], H[1], H[2], state.rotor_angle, state.axial_momentum};
   }
-  /// x: the components; any number of states with the momentum this system began with.
+  /// x: the components, of a motion with the momentum this system began with.
   State<Scalar> state(const Scalar* x) const noexcept {
-    const Quat<Scalar> q = normalised(Quat<Scalar>{x[0], x[1], x[2], x[3]} * conjugate(q_BF_));
-    return {q, R_BF_ * Vec3<Scalar>(x[4], x[5], x[6]), x[8], x[7]};
+    // H = P^T L also between the steps, where H itself is good to a share of |H| + |h| + |p| only
+    const Quat<Scalar> q = normalised(Quat<Scalar>{x[0], x[1], x[2], x[3]});
+    return {normalised(q * conjugate(q_BF_)), R_BF_ * rotate<Scalar>(conjugate(q), momentum_I_), x[8], x[7]};
   }
   /// Sizes against which errors are measured: 1 of q, |H| + |h| + |p| of momenta, none of the rotor angle.
   static Components scale(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept {
