@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_solve', 'rotor_steady', 'vector_from_matrix', 'vector_from_quaternion']
+__all__: list[str] = ['Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'vector_from_matrix', 'vector_from_quaternion']
 class Monitor:
     """
     Watches and stops long work from another thread.
@@ -182,6 +182,18 @@ def rotor_fall_time(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.f
 def rotor_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
     """
     The full equations under one integrator, timed.
+    """
+def rotor_published_data(reading: str) -> dict[str, typing.Any]:
+    """
+    The data of a reading; the no-load rate NaN where it was not given.
+    """
+def rotor_published_matrix(reading: str) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Rates (3, 3) of gamma1, gamma2, beta*' by themselves [1/s].
+    """
+def rotor_published_run(*, reading: str, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    gamma1, gamma2, beta*' and gamma3 (n, 4) of the paper's linear equations, printed, mended, repaired or realisable.
     """
 def rotor_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None) -> dict[str, typing.Any]:
     """

@@ -12,3 +12,4 @@ void bind_deceleration_integrators(pybind11::module_& module);
 void bind_rotor(pybind11::module_& module);
 void bind_rotor_integrators(pybind11::module_& module);
 void bind_rotor_steady(pybind11::module_& module);
+void bind_rotor_published(pybind11::module_& module);

@@ -61,4 +61,5 @@ PYBIND11_MODULE(_core, module) {
   bind_rotor(module);
   bind_rotor_integrators(module);
   bind_rotor_steady(module);
+  bind_rotor_published(module);
 }

@@ -15,7 +15,7 @@ from gyrostat.gallery import deceleration as gallery
 
 
 def test_all_figures_from_3_to_25_are_there() -> None:
-    assert galleries.papers() == ["deceleration"]
+    assert "deceleration" in galleries.papers()
     assert galleries.figures("deceleration") == [str(number) for number in range(3, 26)]
 
 
