@@ -15,24 +15,19 @@ using namespace gyrostat;
 using namespace gyrostat::python;
 namespace pub = gyrostat::rotor::published;
 
-pub::Data<double> data_of(const std::string &reading) {
-  if (reading == "printed" || reading == "mended")
-    return pub::printed_data<double>();
-  if (reading == "repaired")
-    return pub::repaired_data<double>();
-  if (reading == "realisable")
-    return pub::realisable_data<double>();
-  raise("DomainError", "reading = '" + reading +
-                           "': use printed, mended, repaired or realisable");
+pub::Data<double> data_of(const std::string& reading) {
+  if (reading == "printed" || reading == "mended") return pub::printed_data<double>();
+  if (reading == "repaired") return pub::repaired_data<double>();
+  if (reading == "realisable") return pub::realisable_data<double>();
+  raise("DomainError", "reading = '" + reading + "': use printed, mended, repaired or realisable");
 }
 
-pub::System<double> system_of(const std::string &reading) {
-  return reading == "printed" ? pub::printed<double>()
-                              : pub::mended(data_of(reading));
+pub::System<double> system_of(const std::string& reading) {
+  return reading == "printed" ? pub::printed<double>() : pub::mended(data_of(reading));
 }
 
 /// gamma1, gamma2, beta*' and gamma3 (n, 4) from the paper's start.
-py::array_t<double> run(const std::string &reading, const Array &at) {
+py::array_t<double> run(const std::string& reading, const Array& at) {
   const auto system = system_of(reading);
   std::vector<double> rows;
   for (const double t : times(at)) {
@@ -44,16 +39,14 @@ py::array_t<double> run(const std::string &reading, const Array &at) {
 }
 
 /// The matrix (3, 3) of gamma1, gamma2 and beta*'.
-py::array_t<double> matrix(const std::string &reading) {
+py::array_t<double> matrix(const std::string& reading) {
   const Mat3<double> A = system_of(reading).matrix().transpose();
   return array(std::vector<double>(A.data(), A.data() + 9), {3, 3});
 }
 
-Data data(const std::string &reading) {
+Data data(const std::string& reading) {
   const auto d = data_of(reading);
-  const auto list = [](const Vec3<double> &v) {
-    return array(std::vector<double>{v[0], v[1], v[2]}, {3});
-  };
+  const auto list = [](const Vec3<double>& v) { return array(std::vector<double>{v[0], v[1], v[2]}, {3}); };
   Data made;
   made["inertia"] = list(d.inertia);
   made["axis"] = list(d.axis);
@@ -66,16 +59,14 @@ Data data(const std::string &reading) {
   return made;
 }
 
-} // namespace
+}  // namespace
 
-void bind_rotor_published(py::module_ &module) {
-  module.def("rotor_published_run", &run, py::kw_only(), py::arg("reading"),
-             py::arg("times"),
+void bind_rotor_published(py::module_& module) {
+  module.def("rotor_published_run", &run, py::kw_only(), py::arg("reading"), py::arg("times"),
              "gamma1, gamma2, beta*' and gamma3 (n, 4) of the paper's linear "
              "equations, printed, mended, repaired or realisable.");
   module.def("rotor_published_matrix", &matrix, py::arg("reading"),
              "Rates (3, 3) of gamma1, gamma2, beta*' by themselves [1/s].");
-  module.def(
-      "rotor_published_data", &data, py::arg("reading"),
-      "The data of a reading; the no-load rate NaN where it was not given.");
+  module.def("rotor_published_data", &data, py::arg("reading"),
+             "The data of a reading; the no-load rate NaN where it was not given.");
 }

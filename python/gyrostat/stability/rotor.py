@@ -101,7 +101,7 @@ def _fastest(theta: Vectors, e: Vectors, given: Mapping[str, Any], H: Vectors) -
     """A bound of the rates at which the body turns and nutates [rad/s]."""
     rotor_momentum = given["axial_inertia"] * max(abs(given["no_load_rate"]), abs(given["rotor_rate"]))
     least = float(np.linalg.eigvalsh(theta - given["axial_inertia"] * np.outer(e, e))[0])
-    return max((float(np.linalg.norm(H)) + rotor_momentum) / least, 1e-300)
+    return max((float(np.linalg.norm(H)) + float(rotor_momentum)) / least, 1e-300)
 
 
 def _rotation(found: rotor.SteadyRotations, i: int, e: Vectors) -> dict[str, Any]:
