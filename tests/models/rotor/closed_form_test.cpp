@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "allocations.hpp"
 #include "bodies.hpp"
 #include "catch.hpp"
 #include "closed_form_cases.hpp"
@@ -279,6 +280,20 @@ TEST_CASE("closed forms: an instability multiplies rounding, unless the data rul
   CHECK(same.error(1).attitude < 1e-13);
   CHECK(same.error(20).attitude > 1e3 * same.error(1).attitude);
   CHECK(same.error(200).attitude == infinity<double>);
+}
+
+TEST_CASE("closed forms ask for no memory", "[rotor]") {
+  Bodies bodies(12);
+  for (const Kind kind :
+       {Kind::no_momentum, Kind::axisymmetric, Kind::principal_axis, Kind::steady, Kind::circular_section}) {
+    const Start s = member(kind, bodies);
+    const auto start = s.state();
+    const std::size_t before = allocations();
+    const ClosedForm<double> form(s.body, start);
+    const double sum = form.at(3).rotor_angle + form.error(3).attitude;
+    CHECK(allocations() == before);
+    CHECK(sum == sum);
+  }
 }
 
 TEST_CASE("closed forms: relaxation without cancellation", "[rotor]") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/models/rotor/linear_tail.hpp"
 
+#include "allocations.hpp"
 #include "bodies.hpp"
 #include "catch.hpp"
 #include "gyrostat/rotation/exp_log.hpp"
@@ -225,6 +226,16 @@ TEST_CASE("linear tail: says infinite where it cannot tell", "[rotor]") {
   s.stability = stability_of(s.body, s.l, s.steady);
   s.set_off(V(1e-6, 0, 0), Q{});
   CHECK(s.tail().error(100).attitude == infinity<double>);
+}
+
+TEST_CASE("linear tail asks for no memory", "[rotor]") {
+  Bodies bodies(6);
+  const Beside s = beside(bodies, 1e-3);
+  const std::size_t before = allocations();
+  const auto tail = s.tail();
+  const double sum = tail.at(3).rotor_angle + tail.error(300).attitude;
+  CHECK(allocations() == before);
+  CHECK(sum == sum);
 }
 
 TEMPLATE_TEST_CASE("linear tail in every scalar", "[rotor]", float, double, long double) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/models/rotor/modes.hpp"
 
+#include <complex>
+
 #include "bodies.hpp"
 #include "catch.hpp"
 
@@ -32,54 +34,76 @@ M exponential(const Mat3<long double>& A) {
 
 }  // namespace
 
+/// A = T block T^-1 with the exponents r + i w, r - i w and a.
+struct Made {
+  M A;
+  std::array<math::Complex<double>, 3> exponents;
+  double spread;
+
+  Made(Bodies& bodies, double r, double w, double a) {
+    const M T = random_matrix(bodies);
+    M block;
+    block << r, w, 0, -w, r, 0, 0, 0, a;
+    A = M(T * block * T.inverse());
+    exponents = {{{r, w}, {r, -w}, {a, 0}}};
+    spread = T.norm() * T.inverse().norm();
+  }
+};
+
 TEST_CASE("modes solve the linear equations and their integral", "[rotor]") {
   Bodies bodies(1);
   for (int i = 0; i < 300; ++i) {
-    const M A = random_matrix(bodies);
+    const Made made(bodies, bodies.uniform(-1, 0.3), bodies.uniform(0.2, 2), bodies.uniform(-2, 0.3));
     const V y0 = bodies.direction();
-    const Modes<double> modes(A);
-    const double t = bodies.scale(1e-3, 4), slack = 1e-14 * modes.condition();
-    const M grown = exponential(A.cast<long double>() * static_cast<long double>(t));
+    const Modes<double> modes(made.A, made.exponents);
+    const double t = bodies.scale(1e-3, 4), slack = 4e-15 * modes.condition() * made.spread * made.spread;
+    const M grown = exponential(made.A.cast<long double>() * static_cast<long double>(t));
     CHECK((modes.at(t, y0) - grown * y0).norm() < slack * (1 + grown.norm()));
-    CHECK((A * modes.integral(t, y0) - (grown * y0 - y0)).norm() < slack * (1 + grown.norm()));
+    CHECK((made.A * modes.integral(t, y0) - (grown * y0 - y0)).norm() < slack * (1 + grown.norm()));
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t j = 0; j < 3; ++j) {
+        const auto product = rotor::detail::complex_dot<double>(modes.left[k], modes.right[j]);
+        CHECK(math::magnitude(product - math::Complex<double>{k == j ? 1. : 0.}) < 1e-14 * modes.condition());
+      }
+    CHECK(modes.growth_rate() == std::max(made.exponents[0].re, made.exponents[2].re));
   }
 }
 
 TEST_CASE("modes near a double exponent lose what condition() says", "[rotor]") {
   Bodies bodies(2);
-  for (const double gap : {1e-2, 1e-4, 1e-6, 1e-8}) {
-    const M T = random_matrix(bodies);
+  for (const double gap : {1e-2, 1e-4, 1e-6}) {
     M A;
     A << -1, 1, 0, -gap * gap, -1, 0, 0, 0, -2;
-    A = M(T * A * T.inverse());
     const V y0 = bodies.direction();
-    const Modes<double> modes(A);
+    const Modes<double> modes(A, {{{-1, gap}, {-1, -gap}, {-2, 0}}});
     const V truth = exponential(A.cast<long double>() * 1.5L) * y0;
-    CHECK((modes.at(1.5, y0) - truth).norm() < 1e-14 * modes.condition() * (1 + T.norm() * T.inverse().norm()));
+    CHECK((modes.at(1.5, y0) - truth).norm() < 1e-14 * modes.condition());
     CHECK(modes.condition() > 0.1 / gap);
   }
 }
 
 TEST_CASE("exponentials and their differences without cancellation", "[rotor]") {
-  using C = std::complex<double>;
+  using C = math::Complex<double>;
   using L = std::complex<long double>;
+  using rotor::detail::exp_difference, rotor::detail::integral_of_exp;
   Bodies bodies(3);
   for (int i = 0; i < 300; ++i) {
-    const C a(-bodies.scale(1e-9, 10), bodies.uniform(-5, 5));
-    const C b = a + C(bodies.uniform(-1, 1), bodies.uniform(-1, 1)) * bodies.scale(1e-15, 1);
+    const C a{-bodies.scale(1e-9, 10), bodies.uniform(-5, 5)};
+    const C b = a + bodies.scale(1e-15, 1) * C{bodies.uniform(-1, 1), bodies.uniform(-1, 1)};
     const double t = bodies.scale(1e-6, 3);
     // by the integral of exp along the segment, Gauss-Legendre free: a power series in the distance
-    const L la(a), lb(b);
+    const L la(a.re, a.im), lb(b.re, b.im);
     L sum = 0, term = 1;
     for (int k = 1; k < 60; ++k) {
       sum += term / static_cast<long double>(k);
       term *= (lb - la) * static_cast<long double>(t) / static_cast<long double>(k);
     }
     const L truth = std::exp(la * static_cast<long double>(t)) * sum * static_cast<long double>(t);
-    CHECK(std::abs(L(detail::exp_difference(a, b, t)) - truth) < 4e-15L * std::abs(truth) * (1 + 6.0L * t));
+    const C found = exp_difference(a, b, t);
+    CHECK(std::abs(L(found.re, found.im) - truth) < 4e-15L * std::abs(truth) * (1 + 6.0L * t));
   }
-  CHECK(detail::integral_of_exp(C(0), 3.) == C(3));
-  CHECK(std::abs(detail::integral_of_exp(C(-1e300), 1.)) == Approx(1e-300));
+  CHECK(integral_of_exp(C{}, 3.) == C{3});
+  CHECK(math::magnitude(integral_of_exp(C{-1e300}, 1.)) == Approx(1e-300));
 }
 
 TEST_CASE("the linearisation is the derivative of the equations of motion", "[rotor]") {
@@ -101,5 +125,28 @@ TEST_CASE("the linearisation is the derivative of the equations of motion", "[ro
     const double dp = -body.slope() * (rate - omega);
     const double dxi = linear.feed * linear.n.dot(d) - linear.relaxation * xi;
     CHECK(std::abs(dxi - dp / (body.axial_inertia() * body.coupling() * linear.unit)) < 1e-12 * linear.relaxation);
+  }
+}
+
+TEST_CASE("the exponents of the linearisation are those of its matrix", "[rotor]") {
+  Bodies bodies(5);
+  for (int i = 0; i < 100; ++i) {
+    const auto body = bodies.realisable();
+    const double l = bodies.scale(0.5, 10);
+    for (const auto& steady : steady_rotations(body, l)) {
+      const Linearisation<double> linear(body, l, steady.direction, body.no_load_rate());
+      const auto d = linear.exponents();
+      const auto known = stability_of(body, l, steady).eigenvalues;
+      const M& A = linear.matrix;
+      for (std::size_t k = 0; k < 3; ++k) {
+        CHECK(std::abs(std::complex<double>(d[k].re, d[k].im) - known[k]) < 1e-7 * A.norm());
+        // det(A - d) = 0
+        using C = std::complex<double>;
+        const C z(d[k].re, d[k].im);
+        Eigen::Matrix<C, 3, 3> rest = A.cast<C>();
+        for (int j = 0; j < 3; ++j) rest(j, j) -= z;
+        CHECK(std::abs(rest.determinant()) < 1e-13 * std::pow(A.norm(), 3));
+      }
+    }
   }
 }

@@ -324,14 +324,14 @@ ClosedFormError<Scalar> ClosedForm<Scalar>::departure(Scalar t) const noexcept {
     }
     case ClosedFormKind::steady: {
       const Linearisation<Scalar> linear(gyrostat_, l, start_.momentum / l, final_rate_);
-      const Modes<Scalar> modes(linear.matrix);
+      const Modes<Scalar> modes(linear.matrix, linear.exponents());
       const Scalar push = (off_ + 4 * epsilon<Scalar>)*fast +
                           linear.relaxation / linear.unit * (excess_ + 4 * epsilon<Scalar>)*(l + h) / lambda;
       Scalar moved = 0;
-      for (int i = 0; i < 3; ++i) {
-        const std::complex<Scalar> d = modes.exponent[std::size_t(i)];
-        moved += modes.left.row(i).norm() * (push * std::min(t, 2 / std::abs(d)) + data / l) *
-                 std::exp(std::max(Scalar(0), d.real() * t));
+      for (std::size_t i = 0; i < 3; ++i) {
+        const math::Complex<Scalar> d = modes.exponent[i];
+        moved += detail::complex_length<Scalar>(modes.left[i]) *
+                 (push * std::min(t, 2 / math::magnitude(d)) + data / l) * std::exp(std::max(Scalar(0), d.re * t));
       }
       error.momentum = l * moved;
       error.rotor_rate = (linear.unit + linear.rate_of_tilt * e_n) * moved;

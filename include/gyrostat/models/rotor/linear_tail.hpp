@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
+#include <cstddef>
 
 #include "gyrostat/models/rotor/gyrostat.hpp"
 #include "gyrostat/models/rotor/modes.hpp"
@@ -32,8 +32,6 @@ struct TailError {
 template <Real Scalar>
 class LinearTail {
  public:
-  using Complex = std::complex<Scalar>;
-
   /// From the state at t = 0 towards `steady`, with its stability. The momentum is not zero.
   LinearTail(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start, const SteadyRotation<Scalar>& steady,
              const SteadyStability<Scalar>& stability) noexcept;
@@ -53,14 +51,14 @@ class LinearTail {
   TailError<Scalar> carried(Scalar momentum, Scalar rotor_rate) const noexcept;
 
  private:
-  using Vector = typename Modes<Scalar>::Vector;
+  using Complex = math::Complex<Scalar>;
+  using Vector = detail::Complex3<Scalar>;
 
   /// A product of two modes.
   struct Pair {
     Complex exponent;
-    Vector force;  // Q
     Complex turn;  // of dpsi/dt, once y has been integrated
-    std::array<Complex, 3> modal;
+    Vector modal;  // left Q
   };
   struct Point {
     Vec3<Scalar> first, second;  // y1, y2
@@ -82,9 +80,9 @@ class LinearTail {
   Vec3<Scalar> y0_;
   std::array<Complex, 3> amplitude_;
   std::array<Pair, 6> pairs_;
-  Eigen::Matrix<Scalar, 1, 3> turn_;  // linear part of dpsi/dt times A^-1
-  Vec3<Scalar> normal_force_;         // of the part of d along m0 on y
-  Quat<Scalar> base_;                 // P0 R(m(0))^T
+  Vec3<Scalar> turn_;          // linear part of dpsi/dt times A^-1
+  Vec3<Scalar> normal_force_;  // of the part of d along m0 on y
+  Quat<Scalar> base_;          // P0 R(m(0))^T
   Vec3<Scalar> axis_I_;
 };
 
@@ -105,7 +103,9 @@ LinearTail<Scalar>::LinearTail(const Gyrostat<Scalar>& gyrostat, const State<Sca
     : gyrostat_(gyrostat),
       start_(start),
       linear_(gyrostat, start.momentum.norm(), steady.direction.normalized(), gyrostat.no_load_rate()),
-      modes_(linear_.matrix, stability.eigenvalues) {
+      modes_(linear_.matrix, {{{stability.eigenvalues[0].real(), stability.eigenvalues[0].imag()},
+                               {stability.eigenvalues[1].real(), stability.eigenvalues[1].imag()},
+                               {stability.eigenvalues[2].real(), stability.eigenvalues[2].imag()}}}) {
   const Scalar lambda = gyrostat.axial_inertia(), k = gyrostat.coupling();
   linear_.spin_rate = steady.spin_rate;
   const Vec3<Scalar>& m = linear_.m;
@@ -124,48 +124,51 @@ LinearTail<Scalar>::LinearTail(const Gyrostat<Scalar>& gyrostat, const State<Sca
 
   const Vec3<Scalar> Gm = linear_.G * m, mGm = cross<Scalar>(m, Gm);
   normal_force_ = {linear_.u.dot(mGm), linear_.v.dot(mGm), linear_.feed * linear_.n.dot(m)};
-  const Eigen::Matrix<Scalar, 1, 3> rate(Gm.dot(linear_.u), Gm.dot(linear_.v), -m.dot(linear_.g));
-  turn_ = linear_.matrix.transpose().partialPivLu().solve(rate.transpose()).transpose();
+  const Vec3<Scalar> rate(Gm.dot(linear_.u), Gm.dot(linear_.v), -m.dot(linear_.g));
+  const Vec3<Scalar> c0 = linear_.matrix.col(0), c1 = linear_.matrix.col(1), c2 = linear_.matrix.col(2);
+  turn_ = (rate[0] * cross<Scalar>(c1, c2) + rate[1] * cross<Scalar>(c2, c0) + rate[2] * cross<Scalar>(c0, c1)) /
+          c0.dot(cross<Scalar>(c1, c2));
 
-  using V = Vector;
-  std::array<V, 3> tilted, turning;
-  for (int i = 0; i < 3; ++i) {
-    const auto s = std::size_t(i);
-    const Complex c = (modes_.left.row(i) * y0_.template cast<Complex>())(0);
-    amplitude_[s] = c;
-    const V y = c * modes_.right.col(i);
-    tilted[s] = y[0] * linear_.u.template cast<Complex>() + y[1] * linear_.v.template cast<Complex>();
-    turning[s] = linear_.G.template cast<Complex>() * tilted[s] - y[2] * linear_.g.template cast<Complex>();
+  std::array<Vector, 3> tilted, turning;
+  for (std::size_t i = 0; i < 3; ++i) {
+    amplitude_[i] = detail::complex_dot<Scalar>(y0_, modes_.left[i]);
+    const Vector y = detail::complex_scaled<Scalar>(amplitude_[i], modes_.right[i]);
+    for (std::size_t n = 0; n < 3; ++n) tilted[i][n] = linear_.u[int(n)] * y[0] + linear_.v[int(n)] * y[1];
+    for (std::size_t n = 0; n < 3; ++n)
+      turning[i][n] =
+          detail::complex_dot<Scalar>(Vec3<Scalar>(linear_.G.row(int(n))), tilted[i]) - linear_.g[int(n)] * y[2];
   }
-  const auto dot = [](const V& a, const V& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  const auto times = [](const V& a, const V& b) -> V {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
   std::size_t at = 0;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = i; j < 3; ++j) {
       const Scalar share = i == j ? Scalar(0.5) : Scalar(1);  // of the symmetric sum below
       Pair& pair = pairs_[at++];
       pair.exponent = modes_.exponent[i] + modes_.exponent[j];
-      const V N = share * V(times(tilted[i], turning[j]) + times(tilted[j], turning[i]));
-      const Complex normal = -share * dot(tilted[i], tilted[j]);
-      pair.force = {dot(linear_.u.template cast<Complex>(), N) + normal * normal_force_[0],
-                    dot(linear_.v.template cast<Complex>(), N) + normal * normal_force_[1], normal * normal_force_[2]};
-      pair.turn = normal * m.dot(Gm) + share / 2 * (dot(tilted[i], turning[j]) + dot(tilted[j], turning[i])) -
-                  (turn_.template cast<Complex>() * pair.force)(0);
-      for (int n = 0; n < 3; ++n) pair.modal[std::size_t(n)] = (modes_.left.row(n) * pair.force)(0);
+      const Vector ij = detail::complex_cross<Scalar>(tilted[i], turning[j]),
+                   ji = detail::complex_cross<Scalar>(tilted[j], turning[i]);
+      const Vector N{share * (ij[0] + ji[0]), share * (ij[1] + ji[1]), share * (ij[2] + ji[2])};
+      const Complex normal = -share * detail::complex_dot<Scalar>(tilted[i], tilted[j]);
+      const Vector force{detail::complex_dot<Scalar>(linear_.u, N) + normal_force_[0] * normal,
+                         detail::complex_dot<Scalar>(linear_.v, N) + normal_force_[1] * normal,
+                         normal_force_[2] * normal};
+      pair.turn = m.dot(Gm) * normal +
+                  share / 2 *
+                      (detail::complex_dot<Scalar>(tilted[i], turning[j]) +
+                       detail::complex_dot<Scalar>(tilted[j], turning[i])) -
+                  detail::complex_dot<Scalar>(turn_, force);
+      for (std::size_t n = 0; n < 3; ++n) pair.modal[n] = detail::complex_dot<Scalar>(modes_.left[n], force);
     }
 }
 
 template <Real Scalar>
 auto LinearTail<Scalar>::point(Scalar t, bool with_phase) const noexcept -> Point {
+  Point p{Vec3<Scalar>(0, 0, 0), Vec3<Scalar>(0, 0, 0), 0};
   std::array<Complex, 3> grown;
-  Vector first = Vector::Zero(), second = Vector::Zero();
   for (std::size_t i = 0; i < 3; ++i) {
-    grown[i] = detail::exponential(modes_.exponent[i] * t);
-    first += amplitude_[i] * grown[i] * modes_.right.col(int(i));
+    grown[i] = math::exponential(t * modes_.exponent[i]);
+    detail::add_real<Scalar>(p.first, amplitude_[i] * grown[i], modes_.right[i]);
   }
-  Point p{};
+  std::array<Complex, 3> second{};
   std::size_t at = 0;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = i; j < 3; ++j) {
@@ -173,16 +176,15 @@ auto LinearTail<Scalar>::point(Scalar t, bool with_phase) const noexcept -> Poin
       const Complex both = grown[i] * grown[j];
       for (std::size_t n = 0; n < 3; ++n) {
         const Complex apart = pair.exponent - modes_.exponent[n];
-        const Complex share = std::abs(apart) * t > Scalar(0.5)
-                                  ? (both - grown[n]) / apart
+        const Complex share = math::magnitude(apart) * t > Scalar(0.5)
+                                  ? (both - grown[n]) * math::inverse(apart)
                                   : detail::exp_difference(pair.exponent, modes_.exponent[n], t);
-        second += pair.modal[n] * share * modes_.right.col(int(n));
+        second[n] = second[n] + pair.modal[n] * share;
       }
-      if (with_phase) p.phase += (pair.turn * detail::integral_of_exp(pair.exponent, t)).real();
+      if (with_phase) p.phase += (pair.turn * detail::integral_of_exp(pair.exponent, t)).re;
     }
-  p.first = first.real();
-  p.second = second.real();
-  if (with_phase) p.phase += turn_.dot((p.first - y0_ + p.second).transpose());
+  for (std::size_t n = 0; n < 3; ++n) detail::add_real<Scalar>(p.second, second[n], modes_.right[n]);
+  if (with_phase) p.phase += turn_.dot(p.first - y0_ + p.second);
   return p;
 }
 
@@ -215,14 +217,15 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
   std::array<Scalar, 3> decay, turn, excess;
   for (std::size_t i = 0; i < 3; ++i) {
     const Complex d = modes_.exponent[i];
-    const Vector v = modes_.right.col(int(i));
-    fastest = std::max(fastest, std::abs(d));
-    swing = std::max(swing, std::abs(d.imag()));
-    decay[i] = -d.real();
-    turn[i] = std::abs((turn_.template cast<Complex>() * v)(0));
-    excess[i] = std::abs(linear_.unit * v[2] -
-                         linear_.rate_of_tilt * (linear_.n.dot(linear_.u) * v[0] + linear_.n.dot(linear_.v) * v[1]));
+    const Vector& v = modes_.right[i];
+    fastest = std::max(fastest, math::magnitude(d));
+    swing = std::max(swing, std::abs(d.im));
+    decay[i] = -d.re;
+    turn[i] = math::magnitude(detail::complex_dot<Scalar>(turn_, v));
+    excess[i] = math::magnitude(linear_.unit * v[2] - linear_.rate_of_tilt * (linear_.n.dot(linear_.u) * v[0] +
+                                                                              linear_.n.dot(linear_.v) * v[1]));
   }
+
   // Between two nodes the misfit is bounded by its samples over one swing.
   constexpr int samples = 8;
   const Scalar end = std::min(t, 50 / slowest);
@@ -247,8 +250,7 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
       const Vec3<Scalar> rest(linear_.u.dot(change) + more * normal_force_[0],
                               linear_.v.dot(change) + more * normal_force_[1], more * normal_force_[2]);
       for (std::size_t n = 0; n < 3; ++n) {
-        const Complex here = (modes_.left.row(int(n)) * rest.template cast<Complex>())(0);
-        misfit[n] = std::max(misfit[n], std::abs(here));
+        misfit[n] = std::max(misfit[n], math::magnitude(detail::complex_dot<Scalar>(rest, modes_.left[n])));
       }
       const Scalar exact = (d + 2 * linear_.m).dot(q) / (2 + normal);
       const Scalar kept =
@@ -262,9 +264,9 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
       const Scalar push = Scalar(1.3L) * misfit[n];
       off[n] = off[n] * left + push * (1 - left) / decay[n];
       sum[n] += push * h;
-      const Vector v = modes_.right.col(int(n));
-      tilt_off += off[n] * std::hypot(std::abs(v[0]), std::abs(v[1]));
-      xi_off += off[n] * std::abs(v[2]);
+      const Vector& v = modes_.right[n];
+      tilt_off += off[n] * std::hypot(math::magnitude(v[0]), math::magnitude(v[1]));
+      xi_off += off[n] * math::magnitude(v[2]);
       rate_off += off[n] * excess[n];
       turned += turn[n] * (off[n] + sum[n]);
     }
@@ -309,10 +311,10 @@ TailError<Scalar> LinearTail<Scalar>::carried(Scalar momentum, Scalar rotor_rate
   const Scalar off =
       std::hypot(tilt_off, (rotor_rate + linear_.rate_of_tilt * linear_.n.norm() * tilt_off) / linear_.unit);
   Scalar moved = 0, turned = 0;
-  for (int i = 0; i < 3; ++i) {
-    const Scalar share = modes_.left.row(i).norm() * off;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Scalar share = detail::complex_length<Scalar>(modes_.left[i]) * off;
     moved += share;
-    turned += 2 * share * std::abs((turn_.template cast<Complex>() * modes_.right.col(i))(0));
+    turned += 2 * share * math::magnitude(detail::complex_dot<Scalar>(turn_, modes_.right[i]));
   }
   moved *= 2;  // with what the second order adds
   TailError<Scalar> error;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
+#include <cstddef>
+#include <utility>
 
+#include "gyrostat/math/complex.hpp"
 #include "gyrostat/models/rotor/gyrostat.hpp"
+#include "gyrostat/models/rotor/steady_stability.hpp"
 
 /// The linear equations near a steady rotation and their solution by eigenvectors (docs/rotor.md, section 4.1).
 namespace gyrostat::rotor {
@@ -51,6 +53,20 @@ struct Linearisation {
 
   /// q, rad/s.
   Vec3<Scalar> tilt_rate(const Vec3<Scalar>& d, Scalar xi) const noexcept { return G * d - xi * g; }
+  /// Of the matrix where m0 is steady: the roots of docs/rotor.md (4.3), 1/s.
+  std::array<math::Complex<Scalar>, 3> exponents() const noexcept {
+    // B = G - (lambda l/k) n n^T
+    const Scalar pull = g.norm() / (n.norm() * unit) * rate_of_tilt;
+    const Scalar nu = n.dot(u), nv = n.dot(v);
+    const Scalar uu = u.dot(G * u) - pull * nu * nu, vv = v.dot(G * v) - pull * nv * nv;
+    const Scalar uv = u.dot(G * v) - pull * nu * nv;
+    // n x m = nv u - nu v
+    const Scalar kappa = pull * (nv * nv * uu - 2 * nu * nv * uv + nu * nu * vv);
+    std::array<math::Complex<Scalar>, 3> d;
+    const auto roots = detail::nutation_roots(relaxation, uu * vv - uv * uv, kappa);
+    for (std::size_t i = 0; i < 3; ++i) d[i] = {roots[i].real(), roots[i].imag()};
+    return d;
+  }
   /// omega - omega_s, rad/s.
   Scalar excess(const Vec3<Scalar>& d, Scalar xi) const noexcept { return unit * xi - rate_of_tilt * n.dot(d); }
 };
@@ -59,30 +75,53 @@ namespace detail {
 
 /// exp z - 1.
 template <Real Scalar>
-std::complex<Scalar> expm1(std::complex<Scalar> z) noexcept {
-  const Scalar grown = std::expm1(z.real()), s = std::sin(z.imag() / 2);
-  return {grown * std::cos(z.imag()) - 2 * s * s, (grown + 1) * std::sin(z.imag())};
-}
-
-/// exp z.
-template <Real Scalar>
-std::complex<Scalar> exponential(std::complex<Scalar> z) noexcept {
-  const Scalar size = std::exp(z.real());
-  return {size * std::cos(z.imag()), size * std::sin(z.imag())};
+math::Complex<Scalar> expm1(math::Complex<Scalar> z) noexcept {
+  const Scalar grown = std::expm1(z.re), s = std::sin(z.im / 2);
+  return {grown * std::cos(z.im) - 2 * s * s, (grown + 1) * std::sin(z.im)};
 }
 
 /// Integral of exp(d s) over s in [0, t].
 template <Real Scalar>
-std::complex<Scalar> integral_of_exp(std::complex<Scalar> d, Scalar t) noexcept {
-  const std::complex<Scalar> z = d * t;
-  return z == Scalar(0) ? std::complex<Scalar>(t) : t * (expm1(z) / z);
+math::Complex<Scalar> integral_of_exp(math::Complex<Scalar> d, Scalar t) noexcept {
+  const math::Complex<Scalar> z = t * d;
+  return z == math::Complex<Scalar>{} ? math::Complex<Scalar>{t} : t * (expm1(z) * math::inverse(z));
 }
 
 /// (exp(a t) - exp(b t))/(a - b), for a = b too.
 template <Real Scalar>
-std::complex<Scalar> exp_difference(std::complex<Scalar> a, std::complex<Scalar> b, Scalar t) noexcept {
-  if (a.real() < b.real()) std::swap(a, b);
-  return exponential(a * t) * integral_of_exp(b - a, t);
+math::Complex<Scalar> exp_difference(math::Complex<Scalar> a, math::Complex<Scalar> b, Scalar t) noexcept {
+  if (a.re < b.re) std::swap(a, b);
+  return math::exponential(t * a) * integral_of_exp(b - a, t);
+}
+
+template <Real Scalar>
+using Complex3 = std::array<math::Complex<Scalar>, 3>;
+
+/// Without conjugation.
+template <Real Scalar>
+math::Complex<Scalar> complex_dot(const Complex3<Scalar>& a, const Complex3<Scalar>& b) noexcept {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <Real Scalar>
+math::Complex<Scalar> complex_dot(const Vec3<Scalar>& a, const Complex3<Scalar>& b) noexcept {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <Real Scalar>
+Complex3<Scalar> complex_cross(const Complex3<Scalar>& a, const Complex3<Scalar>& b) noexcept {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+template <Real Scalar>
+Scalar complex_length(const Complex3<Scalar>& a) noexcept {
+  return std::hypot(math::magnitude(a[0]), math::magnitude(a[1]), math::magnitude(a[2]));
+}
+template <Real Scalar>
+Complex3<Scalar> complex_scaled(math::Complex<Scalar> c, const Complex3<Scalar>& a) noexcept {
+  return {c * a[0], c * a[1], c * a[2]};
+}
+/// To the sum, the real part of c a.
+template <Real Scalar>
+void add_real(Vec3<Scalar>& sum, math::Complex<Scalar> c, const Complex3<Scalar>& a) noexcept {
+  for (int i = 0; i < 3; ++i) sum[i] += (c * a[std::size_t(i)]).re;
 }
 
 }  // namespace detail
@@ -91,76 +130,65 @@ std::complex<Scalar> exp_difference(std::complex<Scalar> a, std::complex<Scalar>
 /// like one over the distance; what that costs is told by condition().
 template <Real Scalar>
 struct Modes {
-  using Complex = std::complex<Scalar>;
-  using Vector = Eigen::Matrix<Complex, 3, 1>;
-  std::array<Complex, 3> exponent;           ///< 1/s
-  Eigen::Matrix<Complex, 3, 3> right, left;  ///< columns of unit length, and rows; left right = 1
+  using Complex = math::Complex<Scalar>;
+  using Vector = detail::Complex3<Scalar>;
+  std::array<Complex, 3> exponent;  ///< 1/s
+  std::array<Vector, 3> right;      ///< of unit length
+  std::array<Vector, 3> left;       ///< left_i right_j = 1 for i = j, else 0; no conjugation
 
-  explicit Modes(const Mat3<Scalar>& A) noexcept {
-    const Eigen::EigenSolver<Mat3<Scalar>> solver(A);
-    right = solver.eigenvectors();
-    for (int i = 0; i < 3; ++i) exponent[std::size_t(i)] = solver.eigenvalues()[i];
-    complete();
-  }
-  /// With exponents that are known better than A tells them.
+  /// exponents: the eigenvalues of A, to rounding.
   Modes(const Mat3<Scalar>& A, const std::array<Complex, 3>& exponents) noexcept : exponent(exponents) {
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       // normal to the rows of A - d
-      Eigen::Matrix<Complex, 3, 3> rest = A.template cast<Complex>();
-      for (int k = 0; k < 3; ++k) rest(k, k) -= exponent[std::size_t(i)];
+      std::array<Vector, 3> rows;
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t j = 0; j < 3; ++j) rows[k][j] = Complex{A(int(k), int(j))};
+        rows[k][k] = rows[k][k] - exponent[i];
+        const Scalar size = detail::complex_length<Scalar>(rows[k]);
+        if (size > 0) rows[k] = detail::complex_scaled<Scalar>(Complex{1 / size}, rows[k]);
+      }
       Scalar most = -1;
-      for (int k = 0; k < 3; ++k) {
-        const Vector a = rest.row(k).normalized(), b = rest.row((k + 1) % 3).normalized();
-        const Eigen::Matrix<Complex, 1, 3> normal = product(a, b);
-        if (normal.norm() > most) {
-          most = normal.norm();
-          right.col(i) = normal.transpose();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector normal = detail::complex_cross<Scalar>(rows[k], rows[(k + 1) % 3]);
+        const Scalar size = detail::complex_length<Scalar>(normal);
+        if (size > most) {
+          most = size;
+          right[i] = detail::complex_scaled<Scalar>(Complex{1 / size}, normal);
         }
       }
     }
-    complete();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector normal = detail::complex_cross<Scalar>(right[(i + 1) % 3], right[(i + 2) % 3]);
+      left[i] = detail::complex_scaled<Scalar>(math::inverse(detail::complex_dot<Scalar>(normal, right[i])), normal);
+    }
   }
 
   /// Greatest |left|: at least 1; rounding is amplified as much. Infinite or NaN where there are not three eigenvectors.
   Scalar condition() const noexcept {
     Scalar most = 0;
-    for (int i = 0; i < 3; ++i) {
-      const Scalar here = left.row(i).norm();
+    for (const Vector& l : left) {
+      const Scalar here = detail::complex_length<Scalar>(l);
       most = here <= most ? most : here;
     }
     return most;
   }
   /// Of the mode that decays most slowly or grows fastest, 1/s.
-  Scalar growth_rate() const noexcept { return std::max({exponent[0].real(), exponent[1].real(), exponent[2].real()}); }
+  Scalar growth_rate() const noexcept { return std::max({exponent[0].re, exponent[1].re, exponent[2].re}); }
 
   Vec3<Scalar> at(Scalar t, const Vec3<Scalar>& y0) const noexcept {
-    Vector y = Vector::Zero();
-    for (int i = 0; i < 3; ++i)
-      y += right.col(i) *
-           (detail::exponential(exponent[std::size_t(i)] * t) * (left.row(i) * y0.template cast<Complex>())(0));
-    return y.real();
+    Vec3<Scalar> y(0, 0, 0);
+    for (std::size_t i = 0; i < 3; ++i)
+      detail::add_real<Scalar>(y, math::exponential(t * exponent[i]) * detail::complex_dot<Scalar>(y0, left[i]),
+                               right[i]);
+    return y;
   }
   /// Integral of y over [0, t].
   Vec3<Scalar> integral(Scalar t, const Vec3<Scalar>& y0) const noexcept {
-    Vector y = Vector::Zero();
-    for (int i = 0; i < 3; ++i)
-      y += right.col(i) *
-           (detail::integral_of_exp(exponent[std::size_t(i)], t) * (left.row(i) * y0.template cast<Complex>())(0));
-    return y.real();
-  }
-
- private:
-  void complete() noexcept {
-    for (int i = 0; i < 3; ++i) right.col(i).normalize();
-    const Vector r0 = right.col(0), r1 = right.col(1), r2 = right.col(2);
-    left.row(0) = product(r1, r2);
-    left.row(1) = product(r2, r0);
-    left.row(2) = product(r0, r1);
-    left /= (left.row(0) * r0)(0);
-  }
-  /// The vector product without conjugation.
-  static Eigen::Matrix<Complex, 1, 3> product(const Vector& a, const Vector& b) noexcept {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    Vec3<Scalar> y(0, 0, 0);
+    for (std::size_t i = 0; i < 3; ++i)
+      detail::add_real<Scalar>(y, detail::integral_of_exp(exponent[i], t) * detail::complex_dot<Scalar>(y0, left[i]),
+                               right[i]);
+    return y;
   }
 };
 

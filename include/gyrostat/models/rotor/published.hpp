@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <complex>
 
 #include "gyrostat/models/rotor/modes.hpp"
 #include "gyrostat/rotation/vector.hpp"
@@ -38,12 +37,13 @@ struct Deviation {
 template <Real Scalar>
 class System {
  public:
+  /// A has a negative trace.
   System(const Mat3<Scalar>& matrix, const Vec3<Scalar>& drift) noexcept
-      : matrix_(matrix), drift_(drift), modes_(matrix) {}
+      : matrix_(matrix), drift_(drift), modes_(matrix, exponents_of(matrix)) {}
 
-  const Mat3<Scalar>& matrix() const noexcept { return matrix_; }                                    ///< A, 1/s
-  const Vec3<Scalar>& drift() const noexcept { return drift_; }                                      ///< a, 1/s
-  const std::array<std::complex<Scalar>, 3>& exponents() const noexcept { return modes_.exponent; }  ///< 1/s
+  const Mat3<Scalar>& matrix() const noexcept { return matrix_; }                                     ///< A, 1/s
+  const Vec3<Scalar>& drift() const noexcept { return drift_; }                                       ///< a, 1/s
+  const std::array<math::Complex<Scalar>, 3>& exponents() const noexcept { return modes_.exponent; }  ///< 1/s
   /// Of the fastest growing mode, 1/s; negative where all decay.
   Scalar growth_rate() const noexcept { return modes_.growth_rate(); }
 
@@ -52,6 +52,19 @@ class System {
   }
 
  private:
+  /// The characteristic polynomial as (d + s)(d^2 + D) + kappa d.
+  static std::array<math::Complex<Scalar>, 3> exponents_of(const Mat3<Scalar>& A) noexcept {
+    const Scalar s = -A.trace();
+    const Vec3<Scalar> c0 = A.col(0), c1 = A.col(1), c2 = A.col(2);
+    const Scalar D = -c0.dot(cross<Scalar>(c1, c2)) / s;
+    const Scalar minors = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0) + A(0, 0) * A(2, 2) - A(0, 2) * A(2, 0) +
+                          A(1, 1) * A(2, 2) - A(1, 2) * A(2, 1);
+    std::array<math::Complex<Scalar>, 3> d;
+    const auto roots = detail::nutation_roots(s, D, minors - D);
+    for (std::size_t i = 0; i < 3; ++i) d[i] = {roots[i].real(), roots[i].imag()};
+    return d;
+  }
+
   Mat3<Scalar> matrix_;
   Vec3<Scalar> drift_;
   Modes<Scalar> modes_;
