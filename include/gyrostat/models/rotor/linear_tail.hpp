@@ -75,7 +75,8 @@ class LinearTail {
   Linearisation<Scalar> linear_;
   Modes<Scalar> modes_;
   Scalar distance_;
-  Scalar stiffness_;  // least of B on the tangent plane, 1/s
+  Scalar stiffness_;     // least of B on the tangent plane, 1/s
+  Scalar spin_by_norm_;  // dpsi_dot/dl, 1/(kg m^2)
   Scalar xi_0_;
   Vec3<Scalar> y0_;
   std::array<Complex, 3> amplitude_;
@@ -120,7 +121,12 @@ LinearTail<Scalar>::LinearTail(const Gyrostat<Scalar>& gyrostat, const State<Sca
   const Vec3<Scalar> Ju = linear_.norm * (gyrostat.inverse_inertia() * linear_.u);
   const Vec3<Scalar> Jv = linear_.norm * (gyrostat.inverse_inertia() * linear_.v);
   const Scalar uu = linear_.u.dot(Ju) - linear_.spin_rate, vv = linear_.v.dot(Jv) - linear_.spin_rate;
-  stiffness_ = stability.determinant / ((uu + vv) / 2 + std::hypot((uu - vv) / 2, linear_.u.dot(Jv)));
+  const Scalar uv = linear_.u.dot(Jv);
+  stiffness_ = stability.determinant / ((uu + vv) / 2 + std::hypot((uu - vv) / 2, uv));
+  // (4.1) by l, along m0 and across
+  const Scalar mu = m.dot(Ju), mv = m.dot(Jv);
+  spin_by_norm_ = m.dot(gyrostat.inverse_inertia() * m) -
+                  (mu * mu * vv - 2 * mu * mv * uv + mv * mv * uu) / (stability.determinant * linear_.norm);
 
   const Vec3<Scalar> Gm = linear_.G * m, mGm = cross<Scalar>(m, Gm);
   normal_force_ = {linear_.u.dot(mGm), linear_.v.dot(mGm), linear_.feed * linear_.n.dot(m)};
@@ -287,7 +293,7 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
   const Scalar data = ulps * (l + 2 * h + std::abs(start_.axial_momentum)) / l;  // of m and l
   const Scalar aim = (data + ulps) * (1 + fast / stiffness_);                    // of m0
   const Scalar modal = ulps * reach * distance_ * (2 + fastest / slowest);
-  const Scalar spin = (data + ulps) * fast + j * l * aim;
+  const Scalar spin = data * l * std::abs(spin_by_norm_) + ulps * fast;
   const Scalar rate_rounding = 2 * ulps *
                                (std::abs(gyrostat_.no_load_rate()) + fast + std::abs(start_.axial_momentum) / lambda +
                                 (l + std::abs(start_.axial_momentum)) / gyrostat_.free_principal()[0]);
