@@ -75,8 +75,9 @@ class LinearTail {
   Linearisation<Scalar> linear_;
   Modes<Scalar> modes_;
   Scalar distance_;
-  Scalar stiffness_;     // least of B on the tangent plane, 1/s
-  Scalar spin_by_norm_;  // dpsi_dot/dl, 1/(kg m^2)
+  Scalar stiffness_;       // least of B on the tangent plane, 1/s
+  Scalar separation_ = 0;  // relative change of S
+  Scalar spin_by_norm_;    // dpsi_dot/dl, 1/(kg m^2)
   Scalar xi_0_;
   Vec3<Scalar> y0_;
   std::array<Complex, 3> amplitude_;
@@ -109,6 +110,15 @@ LinearTail<Scalar>::LinearTail(const Gyrostat<Scalar>& gyrostat, const State<Sca
                                {stability.eigenvalues[2].real(), stability.eigenvalues[2].imag()}}}) {
   const Scalar lambda = gyrostat.axial_inertia(), k = gyrostat.coupling();
   linear_.spin_rate = steady.spin_rate;
+  if (!(modes_.condition() < Scalar(1e4L))) {
+    // A double exponent: another motor, as near as its square root can tell, has two.
+    separation_ = std::sqrt(epsilon<Scalar>) / 64;
+    const Scalar share = 1 - separation_;
+    linear_.relaxation *= share;
+    linear_.feed *= share;
+    linear_.matrix.row(2) *= share;
+    modes_ = Modes<Scalar>(linear_.matrix, linear_.exponents());
+  }
   const Vec3<Scalar>& m = linear_.m;
   const Vec3<Scalar> direction = start.momentum / linear_.norm;
   const Scalar p = lambda * (k * gyrostat.no_load_rate() + linear_.norm * linear_.n.dot(m));
@@ -292,7 +302,7 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
   const Scalar fast = j * (l + h), ulps = 4 * epsilon<Scalar>;
   const Scalar data = ulps * (l + 2 * h + std::abs(start_.axial_momentum)) / l;  // of m and l
   const Scalar aim = (data + ulps) * (1 + fast / stiffness_);                    // of m0
-  const Scalar modal = ulps * reach * distance_ * (2 + fastest / slowest);
+  const Scalar modal = (ulps * reach + 32 * separation_) * distance_ * (2 + fastest / slowest);
   const Scalar spin = data * l * std::abs(spin_by_norm_) + ulps * fast;
   const Scalar rate_rounding = 2 * ulps *
                                (std::abs(gyrostat_.no_load_rate()) + fast + std::abs(start_.axial_momentum) / lambda +
