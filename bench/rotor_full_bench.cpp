@@ -45,7 +45,7 @@ State<S> start(const Gyrostat<S>& gyrostat) {
 template <Real S, int Order>
 Quat<S> taylor(S tolerance) {
   const auto gyrostat = body<S>();
-  const FullSystem<S> system(gyrostat, start(gyrostat), tolerance);
+  const FullSystem<S> system(gyrostat, start(gyrostat));
   ode::TaylorOptions<S, FullSystem<S>::width> options;
   options.tolerance = tolerance;
   options.scale = system.scale();

@@ -167,7 +167,7 @@ TEST_CASE("the error of a step of the method falls with its order") {
         })) == Approx(15).margin(0.5));
 }
 
-TEMPLATE_TEST_CASE("the oscillator comes back after many periods", "", float, double, long double) {
+TEMPLATE_TEST_CASE("Radau: the oscillator comes back after many periods", "", float, double, long double) {
   using S = TestType;
   const S end = 200 * pi<S>;
   ode::Radau<Follower<S>> solver({S(1000)}, 0, {1, 0, S(0.3L)}, watching<Follower<S>>(epsilon<S> / 4));
@@ -321,7 +321,7 @@ TEST_CASE("many short steps leave little") {
   CHECK(error < 40);
 }
 
-TEST_CASE("a projection keeps the state on its law") {
+TEST_CASE("Radau: a projection keeps the state on its law") {
   const auto error = [](bool projected) {
     auto options = watching<Circle>(1e-9);
     options.projected = projected;
@@ -337,7 +337,7 @@ TEST_CASE("a projection keeps the state on its law") {
   CHECK(error(false) > 100);
 }
 
-TEST_CASE("a singularity ends the integration after few steps") {
+TEST_CASE("Radau: a singularity ends the integration after few steps") {
   ode::Radau<Explosion> solver({}, 0, {1, 0}, watching<Explosion>(1e-12));
   const Status status = solver.advance(2);
   CHECK((status == Status::step_underflow || status == Status::not_finite));
@@ -345,7 +345,7 @@ TEST_CASE("a singularity ends the integration after few steps") {
   CHECK(solver.counts().steps < 2000);
 }
 
-TEST_CASE("a cap, a NaN and an end that is none are told apart") {
+TEST_CASE("Radau: a cap, a NaN and an end that is none are told apart") {
   using System = Follower<double>;
   constexpr double bad = std::numeric_limits<double>::quiet_NaN();
   auto options = watching<System>(1e-15);

@@ -176,7 +176,7 @@ std::vector<Reference> reference_cases() {
 
 }  // namespace
 
-TEST_CASE("the full motion of the reference cases", "[rotor]") {
+TEST_CASE("rotor: the full motion of the reference cases", "[rotor]") {
   const auto cases = reference_cases();
   REQUIRE(cases.size() == 11);
   for (const Reference& c : cases) {

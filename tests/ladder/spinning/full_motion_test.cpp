@@ -81,7 +81,7 @@ Problem<double> from(Problem<double> problem, const State<double>& state) {
 
 }  // namespace
 
-TEST_CASE("the full motion of the reference cases", "[spinning]") {
+TEST_CASE("spinning: the full motion of the reference cases", "[spinning]") {
   const auto cases = reference_cases<double>();
   REQUIRE(cases.size() == 14);
   for (const auto& c : cases) {
@@ -108,7 +108,7 @@ TEST_CASE("the reference cases in long double, theta by turns among them", "[spi
   }
 }
 
-TEST_CASE("the stated errors are honest", "[spinning]") {
+TEST_CASE("spinning: the stated errors are honest", "[spinning]") {
   Spinners random(20);
   for (int i = 0; i < 24; ++i) {
     CAPTURE(i);
@@ -306,7 +306,7 @@ TEST_CASE("angles near gimbal lock are stated as the attitude allows", "[spinnin
   }
 }
 
-TEST_CASE("float works within its digits", "[spinning]") {
+TEST_CASE("spinning: float works within its digits", "[spinning]") {
   const auto p = Spinners(8).spinner(0.1);
   const double end = 20 / p.angular_velocity.norm();
   const auto truth = solve(p, {0.0, end}, 1e-10);
@@ -316,7 +316,7 @@ TEST_CASE("float works within its digits", "[spinning]") {
         1e-4 * truth.states[1].momentum_I.norm());
 }
 
-TEST_CASE("a motion can be watched, stopped and capped", "[spinning]") {
+TEST_CASE("spinning: a motion can be watched, stopped and capped", "[spinning]") {
   const auto p = Spinners(9).body(1e-4);
   const std::vector<double> times{0, 1, 2000 / p.angular_velocity.norm()};
   std::atomic<double> progress{0};
@@ -341,7 +341,7 @@ TEST_CASE("a motion can be watched, stopped and capped", "[spinning]") {
   CHECK(!capped.answer.met);
 }
 
-TEST_CASE("bad requests are refused", "[spinning]") {
+TEST_CASE("spinning: bad requests are refused", "[spinning]") {
   const auto p = Spinners(10).body();
   std::vector<State<double>> states(2);
   const auto error = [&](const Problem<double>& problem, std::vector<double> times) {
@@ -364,7 +364,7 @@ TEST_CASE("bad requests are refused", "[spinning]") {
   CHECK(error(bad, {0.0, 1.0}) == Errc::not_positive);
 }
 
-TEST_CASE("the full motion does not touch the heap", "[spinning]") {
+TEST_CASE("spinning: the full motion does not touch the heap", "[spinning]") {
   const auto p = Spinners(11).body();
   const auto times = grid(20 / p.angular_velocity.norm(), 3);
   std::vector<State<double>> states(times.size());

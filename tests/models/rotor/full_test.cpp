@@ -46,8 +46,7 @@ class Motion {
  public:
   using System = FullSystem<S>;
   Motion(const Gyrostat<S>& gyrostat, const State<S>& start, S tolerance, bool projected = true)
-      : system_(gyrostat, start, tolerance),
-        solver_(system_, 0, system_.start(), options(system_, tolerance, projected)) {}
+      : system_(gyrostat, start), solver_(system_, 0, system_.start(), options(system_, tolerance, projected)) {}
 
   State<S> at(S t) {
     REQUIRE(solver_.advance(t) == Status::reached);

@@ -88,7 +88,7 @@ class Course {
   Course(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start, Scalar layer, Scalar tolerance, Scalar inside,
          std::uint64_t step_cap) noexcept
       : layer_(layer),
-        full_(gyrostat, start, tolerance),
+        full_(gyrostat, start),
         relaxing_(gyrostat, start),
         series_(full_, 0, full_.start(), series_options(full_, tolerance, step_cap)),
         collocation_options_(collocation_options(gyrostat, start, tolerance, inside, step_cap)),
@@ -232,7 +232,9 @@ ColumnErrors<Scalar> rounding_of_columns(const Gyrostat<Scalar>& gyrostat, const
   error.angular_momentum = 4 * relative * H;
   error.angular_velocity = 2 * relative * H * fastest + 2 * p * pull;
   error.rotor_rate = 2 * relative * H * pull + 2 * p / (lambda * k);
-  error.rotor_angle = 4 * relative * size.rotor_angle;
+  // of the polynomial of one step, too
+  const Scalar turning = turning_rate(gyrostat, start);
+  error.rotor_angle = 4 * relative * size.rotor_angle + (turning > 0 ? error.rotor_rate / turning : Scalar(0));
   // V is a sum of squares
   const Scalar root =
       2 * relative * (H + wheel) / std::sqrt(gyrostat.principal()[0]) + std::sqrt(lambda * k / 2) * error.rotor_rate;
