@@ -232,9 +232,10 @@ ColumnErrors<Scalar> rounding_of_columns(const Gyrostat<Scalar>& gyrostat, const
   error.angular_momentum = 4 * relative * H;
   error.angular_velocity = 2 * relative * H * fastest + 2 * p * pull;
   error.rotor_rate = 2 * relative * H * pull + 2 * p / (lambda * k);
-  // of the polynomial of one step, too
+  error.rotor_angle = 4 * relative * size.rotor_angle;
+  // of the polynomial of one step, too; an angle that never left zero has not been integrated
   const Scalar turning = turning_rate(gyrostat, start);
-  error.rotor_angle = 4 * relative * size.rotor_angle + (turning > 0 ? error.rotor_rate / turning : Scalar(0));
+  if (turning > 0 && size.rotor_angle > 0) error.rotor_angle += error.rotor_rate / turning;
   // V is a sum of squares
   const Scalar root =
       2 * relative * (H + wheel) / std::sqrt(gyrostat.principal()[0]) + std::sqrt(lambda * k / 2) * error.rotor_rate;
