@@ -25,7 +25,8 @@ TEST_CASE("a spinning track becomes the columns of the contract", "[spinning]") 
   track.error = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
   Answer answer;
   fill(answer, *scene, track);
-  const char* names[] = {"angular_velocity", "euler_312", "attitude", "angular_momentum_inertial", "velocity", "position"};
+  const char* names[] = {"angular_velocity",          "euler_312", "attitude",
+                         "angular_momentum_inertial", "velocity",  "position"};
   REQUIRE(answer.columns.size() == 6);
   for (std::size_t i = 0; i < 6; ++i) {
     CHECK(std::strcmp(answer.columns[i].name, names[i]) == 0);

@@ -15,9 +15,9 @@ struct Assembly {
   Scalar carrier_mass = 1;                                  ///< kg
   Scalar rotor_mass = 0;                                    ///< kg
   Scalar axial_inertia = 0;                                 ///< lambda, of the rotor about its axis, kg m^2
-  Scalar equatorial_inertia = 0;                            ///< mu, of the rotor across its axis, about its centroid, kg m^2
-  Vec3<Scalar> axis{0, 0, 1};                               ///< e, unit
-  Vec3<Scalar> offset{0, 0, 0};                             ///< d, from the carrier's centroid to the rotor's, m
+  Scalar equatorial_inertia = 0;  ///< mu, of the rotor across its axis, about its centroid, kg m^2
+  Vec3<Scalar> axis{0, 0, 1};     ///< e, unit
+  Vec3<Scalar> offset{0, 0, 0};   ///< d, from the carrier's centroid to the rotor's, m
 
   /// theta of the whole about the common mass centre, kg m^2 (docs/rotor.md, equation 2.1): the two inertias, and the reduced mass
   /// at the offset.

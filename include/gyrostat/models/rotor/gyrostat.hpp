@@ -70,7 +70,7 @@ class Gyrostat {
     return made;
   }
 
-  const Mat3<Scalar>& inertia() const noexcept { return inertia_; }         ///< theta, kg m^2
+  const Mat3<Scalar>& inertia() const noexcept { return inertia_; }          ///< theta, kg m^2
   const Mat3<Scalar>& inverse_inertia() const noexcept { return inverse_; }  ///< J = theta^-1, 1/(kg m^2)
   /// R^-1, R = theta - lambda e e^T: the inertia with the rotor free to turn about its axis, 1/(kg m^2).
   const Mat3<Scalar>& free_inverse() const noexcept { return free_inverse_; }
@@ -79,13 +79,13 @@ class Gyrostat {
   const Vec3<Scalar>& free_principal() const noexcept { return free_principal_; }  ///< of R, ascending, kg m^2
   const Mat3<Scalar>& R_BF() const noexcept { return R_BF_; }                      ///< principal axes of R to body axes
 
-  const Vec3<Scalar>& axis() const noexcept { return axis_; }            ///< e
-  Scalar axial_inertia() const noexcept { return axial_inertia_; }       ///< lambda, kg m^2
-  Scalar slope() const noexcept { return slope_; }                       ///< S, N m s/rad
-  Scalar no_load_rate() const noexcept { return no_load_rate_; }         ///< omega*, rad/s
-  Scalar coupling() const noexcept { return coupling_; }                 ///< k = 1 - lambda e.J e, in (0, 1)
+  const Vec3<Scalar>& axis() const noexcept { return axis_; }       ///< e
+  Scalar axial_inertia() const noexcept { return axial_inertia_; }  ///< lambda, kg m^2
+  Scalar slope() const noexcept { return slope_; }                  ///< S, N m s/rad
+  Scalar no_load_rate() const noexcept { return no_load_rate_; }    ///< omega*, rad/s
+  Scalar coupling() const noexcept { return coupling_; }            ///< k = 1 - lambda e.J e, in (0, 1)
   Scalar relaxation_rate() const noexcept { return slope_ / (axial_inertia_ * coupling_); }  ///< S/(lambda k), 1/s
-  Scalar target_momentum() const noexcept { return axial_inertia_ * no_load_rate_; }         ///< h = lambda omega*, N m s
+  Scalar target_momentum() const noexcept { return axial_inertia_ * no_load_rate_; }  ///< h = lambda omega*, N m s
 
   /// Omega of H and p, rad/s.
   Vec3<Scalar> angular_velocity(const Vec3<Scalar>& H, Scalar p) const noexcept {
