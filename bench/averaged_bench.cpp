@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two despins without rotor momentum at eps = 1e-4, from |M| to |M|/2: the compact body of the sheet, J = (1.4, 1, 0.7), which makes
+// Two despins without rotor momentum at eps = 1e-4, from |M| to |M|/2: a compact body, J = (1.4, 1, 0.7), which makes
 // 240 turns, and the one of the paper, J = (35, 22, 16), which makes 2700. Second-order averaging against the direct integrators, each at the loosest tolerance with which |M| and k2, or M itself, err by at most 1e-6 at the end (found
 // here, against long double). Then the average over an orbit with rotor momentum, and whole scenes through solve(). At the end the ratios.
 #include <benchmark/benchmark.h>

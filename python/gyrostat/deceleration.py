@@ -3,7 +3,7 @@
 
 A carrier of inertia J turns with omega and holds rotors of momentum l, constant in it; M = J omega + l obeys
 dM/dt = M x omega - drag D - control U/|U|. Law "total" opposes U = M (drag: D = M), law "carrier" opposes J omega.
-All in body axes and SI units. Source: the model sheet of the family, deceleration.md.
+All in body axes and SI units. Source: docs/deceleration.md.
 """
 
 from dataclasses import dataclass

@@ -93,7 +93,6 @@ def test_every_method_of_a_rotor_scene_stands_on_the_chart(rotor_chart: Chart) -
 
 
 def test_a_stiff_scene_has_its_reference_and_its_chart(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(rotor_charts, "MOST_RELAXATIONS", 1e4)
     made = gyrostat.chart("stiff-wheel", duration=4.0, samples=5)
     assert "Radau in long double" in made.title
     lines = made.by_label()

@@ -175,4 +175,15 @@ GYROSTAT_INLINE Scalar greatest_magnitude(const Lanes<Scalar>& a) noexcept {
   return greatest + 0 * (x + y + z + w);
 }
 
+/// term(from), ..., term(1): unrolled where lanes are registers and the number of turns is known to the compiler.
+template <Real Scalar, class Term>
+GYROSTAT_INLINE void count_down(int from, const Term& term) noexcept {
+  if constexpr (Lanes<Scalar>::vectorised) {
+#pragma GCC unroll 32
+    for (int j = from; j >= 1; --j) term(j);
+  } else {
+    for (int j = from; j >= 1; --j) term(j);
+  }
+}
+
 }  // namespace gyrostat

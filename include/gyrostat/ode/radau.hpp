@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstdint>
 
+#include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/ode/status.hpp"
@@ -200,16 +201,7 @@ class Radau {
   static constexpr int most_sweeps = 30;
   static constexpr int most_trials = 80;
 
-  struct Sum {
-    Scalar high, low;
-  };
-  /// high + low + term, exactly but for the rounding of low.
-  static GYROSTAT_INLINE Sum add(Sum sum, Scalar term) noexcept {
-    const Scalar y = sum.low + term;
-    const Scalar high = sum.high + y;
-    const Scalar part = high - sum.high;
-    return {high, (sum.high - (high - part)) + (y - part)};
-  }
+  using Sum = gyrostat::Sum<Scalar>;
 
   static GYROSTAT_INLINE Scalar dot(const Scalar* a, const Scalar* b) noexcept {
     return sum(multiply_add(load(a), load(b), load(a + 4) * load(b + 4)))[0];

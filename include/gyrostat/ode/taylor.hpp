@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstdint>
 
+#include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
@@ -121,17 +122,7 @@ class Taylor {
   }
 
  private:
-  struct Sum {
-    Scalar high, low;
-  };
-
-  /// high + low + term, exactly but for the rounding of low.
-  static GYROSTAT_INLINE Sum add(Sum sum, Scalar term) noexcept {
-    const Scalar y = sum.low + term;
-    const Scalar high = sum.high + y;
-    const Scalar part = high - sum.high;
-    return {high, (sum.high - (high - part)) + (y - part)};
-  }
+  using Sum = gyrostat::Sum<Scalar>;
 
   /// x(theta) - x(0), four lanes from the given one; theta = s/unit.
   GYROSTAT_INLINE Lanes<Scalar> increment(int lane, Scalar theta) const noexcept {

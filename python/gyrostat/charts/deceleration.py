@@ -9,8 +9,18 @@ from typing import Any, Final
 import numpy as np
 
 from gyrostat import deceleration
-from gyrostat.charts.point import TAYLOR_ORDERS, TOLERANCES, ChartPoint, Job, Measure, Plan, Vectors, timed
-from gyrostat.errors import ConvergenceError, DomainError
+from gyrostat.charts.point import (
+    TOLERANCES,
+    ChartPoint,
+    Job,
+    Measure,
+    Plan,
+    Vectors,
+    cvode_methods,
+    integrator_jobs,
+    rung_jobs,
+    timed,
+)
 from gyrostat.fields import RUNGS
 from gyrostat.scenes import Scene
 
@@ -46,7 +56,13 @@ def plan(scene: Scene, repeats: int) -> Plan:
     given["attitude"] = None
     reference = deceleration.integrate(**_physics(given), method="taylor", order=30, tolerance=1e-18, precision="long double")
     want = np.asarray(reference["angular_momentum"])
-    jobs = (*_rungs(scene, given, want, repeats), *_integrators(given, want, repeats), *_rivals(given, want, repeats))
+
+    def errors(columns: dict[str, Any]) -> dict[str, float]:
+        return true_errors(columns.get("angular_momentum"), columns.get("angular_momentum_norm"), want)
+
+    methods = [("dop853", "Runge-Kutta DOP853", "dop853"), *cvode_methods()]
+    jobs = (*rung_jobs(RUNGS[scene.kind], deceleration.solve, given, errors, repeats),
+            *integrator_jobs(methods, deceleration.integrate, _physics(given), errors, repeats), *_rivals(given, want, repeats))
     return Plan(f"true error against cost, {len(times)} times to {times[-1]:.6g} s{cut}", MEASURES, jobs)
 
 
@@ -65,55 +81,6 @@ def _before_the_stop(given: dict[str, Any]) -> tuple[Vectors, str]:
     if len(kept) < 2:
         kept = np.linspace(0.0, STOP_SHARE * stop, 51)
     return kept, f" (the motion stops at {stop:.6g} s)"
-
-
-def _rungs(scene: Scene, given: dict[str, Any], want: Vectors, repeats: int) -> Iterator[Job]:
-    for model in RUNGS[scene.kind]:
-        for tolerance in TOLERANCES if model == "full" else (given["tolerance"],):
-
-            def job(model: str = model, tolerance: float = tolerance) -> ChartPoint | None:
-                made: dict[str, Any] = {}
-
-                def once() -> float:
-                    made.update(deceleration.solve(**{**given, "model": model, "tolerance": tolerance}))
-                    return float(made["seconds"])
-
-                try:
-                    seconds = timed(once, repeats)
-                except (DomainError, ConvergenceError):
-                    return None
-                columns = made["columns"]
-                errors = true_errors(columns.get("angular_momentum"), columns.get("angular_momentum_norm"), want)
-                stated = max((e for e in made["error"].values() if math.isfinite(e)), default=math.nan)
-                setting = f"tolerance {tolerance:g}" if model == "full" else ""
-                return ChartPoint("rung", f"rung {model}", setting, errors, seconds, made["counts"]["rhs"], f"stated error {stated:.2g}")
-
-            yield f"rung {model}", f"{tolerance:g}", job
-
-
-def _integrators(given: dict[str, Any], want: Vectors, repeats: int) -> Iterator[Job]:
-    settings: list[tuple[str, str, str, int]] = [("taylor", f"Taylor, order {order}", "taylor", order) for order in TAYLOR_ORDERS]
-    settings.append(("dop853", "Runge-Kutta DOP853", "dop853", 0))
-    if deceleration.has_cvode():
-        settings += [("cvode", "CVODE Adams", "cvode-adams", 0), ("cvode", "CVODE BDF", "cvode-bdf", 0)]
-    for group, label, method, order in settings:
-        for tolerance in TOLERANCES:
-
-            def job(group: str = group, label: str = label, method: str = method, order: int = order,
-                    tolerance: float = tolerance) -> ChartPoint | None:
-                made: dict[str, Any] = {}
-
-                def once() -> float:
-                    made.update(deceleration.integrate(**_physics(given), method=method, order=order, tolerance=tolerance))
-                    return float(made["seconds"])
-
-                seconds = timed(once, repeats)
-                if made["status"] != "reached":
-                    return None
-                return ChartPoint(group, label, f"tolerance {tolerance:g}", true_errors(made["angular_momentum"], None, want),
-                                  seconds, made["rhs"])
-
-            yield label, f"{tolerance:g}", job
 
 
 # ---- rivals ----

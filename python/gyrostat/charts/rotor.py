@@ -9,9 +9,18 @@ from typing import Any, Final
 import numpy as np
 
 from gyrostat import rotor
-from gyrostat.charts.point import TAYLOR_ORDERS, TOLERANCES, ChartPoint, Job, Measure, Plan, Vectors, timed
-from gyrostat.deceleration import has_cvode
-from gyrostat.errors import ConvergenceError, DomainError
+from gyrostat.charts.point import (
+    TOLERANCES,
+    ChartPoint,
+    Job,
+    Measure,
+    Plan,
+    Vectors,
+    cvode_methods,
+    integrator_jobs,
+    rung_jobs,
+    timed,
+)
 from gyrostat.fields import RUNGS
 from gyrostat.rotation import angle_between
 from gyrostat.scenes import Scene
@@ -23,8 +32,8 @@ MEASURES: Final = (
     Measure("angular_velocity", "error of Omega", "the angular velocity of the carrier", "greatest true error, relative to the greatest |Ω| [1]"))
 # The chart covers at most so many turns: beyond, slow methods would take minutes.
 MOST_TURNS: Final = 5000.0
-# Taylor steps are at most some eight relaxation times of the motor long: where there are more, Radau makes the reference.
-MOST_RELAXATIONS: Final = 4e5
+# Where the motor relaxes so often in a turn Radau makes the reference: Taylor steps keep exciting what has relaxed.
+STIFF: Final = 30.0 * 2 * math.pi
 # A right-hand side written in Python [s], and the longest run of it that is waited for [s].
 PYTHON_CALL: Final = 1.5e-5
 PYTHON_PATIENCE: Final = 12.0
@@ -49,9 +58,15 @@ def plan(scene: Scene, repeats: int) -> Plan:
         given["times"] = np.linspace(0.0, end, 51)
         cut = f" of the scene's {asked[-1]:.6g} s"
     physics = {key: value for key, value in given.items() if key not in ("tolerance", "model", "integrator")}
-    stiff = relaxations * end > MOST_RELAXATIONS
+    stiff = relaxations > STIFF * turns
     want = rotor.integrate(**physics, method="radau" if stiff else "taylor", order=30, tolerance=1e-18, precision="long double")
-    jobs = (*_rungs(scene, given, want, repeats), *_integrators(physics, want, repeats), *_rivals(physics, want, repeats))
+
+    def errors(made: dict[str, Any]) -> dict[str, float]:
+        return true_errors(made, want)
+
+    methods = [("radau", "Radau IIA", "radau"), ("dop853", "Runge-Kutta DOP853", "dop853"), *cvode_methods()]
+    jobs = (*rung_jobs(RUNGS[scene.kind], rotor.solve, given, errors, repeats),
+            *integrator_jobs(methods, rotor.integrate, physics, errors, repeats), *_rivals(physics, want, repeats))
     title = (f"true error against cost, {len(given['times'])} times to {end:.6g} s{cut}\n{turns * end:.3g} turns at most, {relaxations * end:.3g} "
              f"relaxation times of the motor; reference: {'Radau' if stiff else 'Taylor series of order 30'} in long double")
     return Plan(title, MEASURES, jobs)
@@ -77,55 +92,6 @@ def _rates(given: dict[str, Any]) -> tuple[float, float]:
     wheel = max(abs(p), lam * abs(given["no_load_rate"]))
     fastest = float(np.linalg.eigvalsh(inverse)[-1]) * (float(np.linalg.norm(H)) + wheel) / (2 * math.pi)
     return max(fastest, 1e-300), given["slope"] / lam * (1 + lam * float(e @ inverse @ e))
-
-
-def _rungs(scene: Scene, given: dict[str, Any], want: dict[str, Any], repeats: int) -> Iterator[Job]:
-    for model in RUNGS[scene.kind]:
-        for tolerance in TOLERANCES if model == "full" else (given["tolerance"],):
-
-            def job(model: str = model, tolerance: float = tolerance) -> ChartPoint | None:
-                made: dict[str, Any] = {}
-
-                def once() -> float:
-                    made.update(rotor.solve(**{**given, "model": model, "tolerance": tolerance}))
-                    return float(made["seconds"])
-
-                try:
-                    seconds = timed(once, repeats)
-                except (DomainError, ConvergenceError):
-                    return None
-                stated = max((e for e in made["error"].values() if math.isfinite(e)), default=math.nan)
-                if not stated < 1:
-                    return None  # it does not apply here
-                setting = f"tolerance {tolerance:g}" if model == "full" else ""
-                return ChartPoint("rung", f"rung {model}", setting, true_errors(made["columns"], want), seconds, made["counts"]["rhs"],
-                                  f"stated error {stated:.2g}")
-
-            yield f"rung {model}", f"{tolerance:g}", job
-
-
-def _integrators(physics: dict[str, Any], want: dict[str, Any], repeats: int) -> Iterator[Job]:
-    settings: list[tuple[str, str, str, int]] = [("taylor", f"Taylor, order {order}", "taylor", order) for order in TAYLOR_ORDERS]
-    settings += [("radau", "Radau IIA", "radau", 0), ("dop853", "Runge-Kutta DOP853", "dop853", 0)]
-    if has_cvode():
-        settings += [("cvode", "CVODE Adams", "cvode-adams", 0), ("cvode", "CVODE BDF", "cvode-bdf", 0)]
-    for group, label, method, order in settings:
-        for tolerance in TOLERANCES:
-
-            def job(group: str = group, label: str = label, method: str = method, order: int = order,
-                    tolerance: float = tolerance) -> ChartPoint | None:
-                made: dict[str, Any] = {}
-
-                def once() -> float:
-                    made.update(rotor.integrate(**physics, method=method, order=order, tolerance=tolerance))
-                    return float(made["seconds"])
-
-                seconds = timed(once, repeats)
-                if made["status"] != "reached":
-                    return None
-                return ChartPoint(group, label, f"tolerance {tolerance:g}", true_errors(made, want), seconds, made["rhs"])
-
-            yield label, f"{tolerance:g}", job
 
 
 # ---- rivals ----

@@ -26,7 +26,7 @@ Vector = tuple[float, float, float]
 PAPER: Final = "deceleration"
 INERTIA: Final = (35.0, 22.0, 16.0)  # kg m2
 START: Final = (0.01, 0.02, 0.03)  # rad/s
-DRAG: Final = 0.2  # lambda T, see the model sheet: the only reading in which |M| vanishes near t = T
+DRAG: Final = 0.2  # lambda T: the only reading in which |M| vanishes near t = T
 START_MODULUS: Final = 0.99  # k2(0) of the paper
 TORQUES: Final = (5.0, 8.0, 10.0)  # N m
 

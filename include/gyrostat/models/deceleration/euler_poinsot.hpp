@@ -43,7 +43,7 @@ struct Polhode {
 
   /// 2H/M^2, 1/(kg m^2).
   Scalar energy_ratio() const noexcept { return axes.a_near + (axes.a_far - axes.a_near) * tilt; }
-  /// du/dt per unit |M|, where u is the argument of the Jacobi functions: n/M of the sheet.
+  /// du/dt per unit |M|, where u is the argument of the Jacobi functions: n/M of docs/deceleration.md.
   Scalar rate_per_momentum() const noexcept { return std::sqrt(axes.near_mid * axes.near_far * (1 - tilt)); }
 };
 

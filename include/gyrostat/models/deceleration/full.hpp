@@ -6,9 +6,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
+#include "gyrostat/rotation/quaternion_lanes.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full equations (deceleration.md, section 1): right-hand side, Jacobian and Taylor recurrences. The state is U, what the
@@ -139,39 +141,11 @@ class FullSystem {
     return lanes(v[0], v[1], v[2], last);
   }
 
-  /// term(from), ..., term(1): unrolled where the number of turns is known to the compiler.
-  template <class Term>
-  static GYROSTAT_INLINE void down(int from, const Term& term) noexcept {
-    if constexpr (Row::vectorised) {
-#pragma GCC unroll 32
-      for (int j = from; j >= 1; --j) term(j);
-    } else {
-      for (int j = from; j >= 1; --j) term(j);
-    }
-  }
-
   /// Order k + 1 from the orders up to k. Index: an integral constant, so that everything unrolls, or an int.
   template <class Index, int Order>
   GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
                               const Row (&jacobian)[3], const Row (&turn)[3], const Row& quadratic, const Row& along,
                               const Row& inverse, const Row& half_inverse, Scalar half_unit) const noexcept;
-
-  /// s0 i + s1 j + s2 k, quaternion products from the right.
-  static GYROSTAT_INLINE Row turned(const Row& s0, const Row& s1, const Row& s2) noexcept {
-    const Scalar one = 1;
-    return multiply_add(shuffle<1, 0, 3, 2>(s0), lanes(-one, one, one, -one),
-                        multiply_add(shuffle<2, 3, 0, 1>(s1), lanes(-one, -one, one, one),
-                                     shuffle<3, 2, 1, 0>(s2) * lanes(-one, one, -one, one)));
-  }
-
-  /// x + low + change, and what rounding leaves over.
-  static void move(Scalar& x, Scalar& low, Scalar change) noexcept {
-    const Scalar y = low + change;
-    const Scalar sum = x + y;
-    const Scalar part = sum - x;
-    low = (x - (sum - part)) + (y - part);
-    x = sum;
-  }
 
   Row quadratic_, constant_, inverse_inertia_, rate_;
   Row linear_[3];
@@ -225,7 +199,7 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
   // terms known since the last order, the youngest last
   Row product = lanes(Scalar(0)), product_2 = product;
   if (k % 2 == 0) product = work.forward[k / 2] * work.backward[k / 2];
-  down((k - 1) / 2, [&](int j) {
+  count_down<Scalar>((k - 1) / 2, [&](int j) {
     product = multiply_add(work.forward[j], work.backward[k - j], product);
     product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
   });
@@ -238,7 +212,7 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
       square = lanes(Scalar(0.5)) * work.whole[k / 2] * work.whole[k / 2];
       quotient = lanes(work.norm[k / 2]) * work.torque[k / 2];
     }
-    down((k - 1) / 2, [&](int j) {
+    count_down<Scalar>((k - 1) / 2, [&](int j) {
       square = multiply_add(work.whole[j], work.whole[k - j], square);
       quotient = multiply_add(lanes(work.norm[j]), work.torque[k - j], quotient);
       quotient_2 = multiply_add(lanes(work.norm[k - j]), work.torque[j], quotient_2);
@@ -262,7 +236,7 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
     const Row omega = inverse_inertia_ * newest * lanes(half_unit);
     store(work.omega[k], omega);
     Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-    down(k - 1, [&](int j) {
+    count_down<Scalar>(k - 1, [&](int j) {
       const Row q = load(&x[k - j][4]);
       s0 = multiply_add(lanes(work.omega[j][0]), q, s0);
       s1 = multiply_add(lanes(work.omega[j][1]), q, s1);
@@ -272,7 +246,7 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
     s0 = multiply_add(lanes(work.omega[0][0]), last, multiply_add(lanes(omega[0]), first, s0));
     s1 = multiply_add(lanes(work.omega[0][1]), last, multiply_add(lanes(omega[1]), first, s1));
     s2 = multiply_add(lanes(work.omega[0][2]), last, multiply_add(lanes(omega[2]), first, s2));
-    store(&x[k + 1][4], lanes(share) * turned(s0, s1, s2));
+    store(&x[k + 1][4], lanes(share) * times_units(s0, s1, s2));
   }
 
   newest = next;
@@ -330,7 +304,7 @@ void FullSystem<Real_, with_control, with_attitude>::expand(Scalar, Scalar unit,
     const Row omega = (inverse_inertia_ * start + rate_) * lanes(unit / 2);
     store(work.omega[0], omega);
     const Row q = load(&x[0][4]);
-    store(&x[1][4], turned(lanes(omega[0]) * q, lanes(omega[1]) * q, lanes(omega[2]) * q));
+    store(&x[1][4], times_units(lanes(omega[0]) * q, lanes(omega[1]) * q, lanes(omega[2]) * q));
   }
   store(x[1], with_last(first, zero));
   work.forward[1] = shuffle<1, 2, 0, 3>(first);
@@ -380,7 +354,7 @@ void FullSystem<Real_, with_control, with_attitude>::project(Scalar t, Scalar* x
         const Scalar slope = across.squaredNorm();
         if (slope > Scalar(1e-6L) * omega.squaredNorm()) change += (missing / slope) * across;
       }
-      for (int i = 0; i < 3; ++i) move(x[i], low[i], change[i]);
+      for (int i = 0; i < 3; ++i) add_to(x[i], low[i], change[i]);
     }
   }
   if constexpr (with_attitude) {
@@ -388,7 +362,7 @@ void FullSystem<Real_, with_control, with_attitude>::project(Scalar t, Scalar* x
     for (int i = 4; i < 8; ++i) missing -= x[i] * x[i];
     for (int i = 4; i < 8; ++i) along += x[i] * low[i];
     const Scalar stretch = missing / 2 - along;
-    for (int i = 4; i < 8; ++i) move(x[i], low[i], stretch * x[i]);
+    for (int i = 4; i < 8; ++i) add_to(x[i], low[i], stretch * x[i]);
   }
 }
 

@@ -8,11 +8,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/rotor/gyrostat.hpp"
 #include "gyrostat/rotation/kinematics.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/quaternion_lanes.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full equations (docs/rotor.md, section 2, form C): right-hand side, Jacobian and Taylor recurrences of
@@ -118,17 +120,6 @@ class FullSystem {
 
   static GYROSTAT_INLINE Row row(const Vec3<Scalar>& v) noexcept { return lanes(v[0], v[1], v[2], Scalar(0)); }
 
-  /// term(from), ..., term(1): unrolled where the number of turns is known to the compiler.
-  template <class Term>
-  static GYROSTAT_INLINE void down(int from, const Term& term) noexcept {
-    if constexpr (Row::vectorised) {
-#pragma GCC unroll 32
-      for (int j = from; j >= 1; --j) term(j);
-    } else {
-      for (int j = from; j >= 1; --j) term(j);
-    }
-  }
-
   /// The constants of an expansion.
   struct Constants {
     Row jacobian[4];                  ///< columns of the derivative of (dH/dt, dp/dt) unit
@@ -143,23 +134,6 @@ class FullSystem {
   template <class Index, int Order>
   GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
                               const Constants& c) const noexcept;
-
-  /// s0 i + s1 j + s2 k, quaternion products from the right.
-  static GYROSTAT_INLINE Row turned(const Row& s0, const Row& s1, const Row& s2) noexcept {
-    const Scalar one = 1;
-    return multiply_add(shuffle<1, 0, 3, 2>(s0), lanes(-one, one, one, -one),
-                        multiply_add(shuffle<2, 3, 0, 1>(s1), lanes(-one, -one, one, one),
-                                     shuffle<3, 2, 1, 0>(s2) * lanes(-one, one, -one, one)));
-  }
-
-  /// x + low + change, and what rounding leaves over.
-  static void move(Scalar& x, Scalar& low, Scalar change) noexcept {
-    const Scalar y = low + change;
-    const Scalar sum = x + y;
-    const Scalar part = sum - x;
-    low = (x - (sum - part)) + (y - part);
-    x = sum;
-  }
 
   /// The kinetic energy of the carrier and that of the rotor's departure from no load, J: their sum is V.
   struct Levels {
@@ -229,11 +203,11 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   // terms known since the last order, the youngest last
   Row product = lanes(Scalar(0)), product_2 = product, pull = product;
   if (k % 2 == 0) product = work.forward[k / 2] * work.backward[k / 2];
-  down((k - 1) / 2, [&](int j) {
+  count_down<Scalar>((k - 1) / 2, [&](int j) {
     product = multiply_add(work.forward[j], work.backward[k - j], product);
     product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
   });
-  down(k - 1, [&](int j) { pull = multiply_add(lanes(x[j][7]), work.across[k - j], pull); });
+  count_down<Scalar>(k - 1, [&](int j) { pull = multiply_add(lanes(x[j][7]), work.across[k - j], pull); });
   const Row square = product + product_2;
   const Row known = c.quadratic * square - pull;
   const Row next = share * (multiply_add(c.jacobian[0], y0, multiply_add(c.jacobian[1], y1, known)) +
@@ -243,7 +217,7 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   const Row motion = multiply_add(c.motion[0], y0, c.motion[1] * y1) + multiply_add(c.motion[2], y2, c.motion[3] * y3);
   store(work.turn[k], motion);
   Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-  down(k - 1, [&](int j) {
+  count_down<Scalar>(k - 1, [&](int j) {
     const Row q = load(&x[k - j][0]);
     s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
     s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
@@ -253,7 +227,7 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(motion), first, s0));
   s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(motion), first, s1));
   s2 = multiply_add(lanes(work.turn[0][2]), last, multiply_add(shuffle<2, 2, 2, 2>(motion), first, s2));
-  store(&x[k + 1][0], share * turned(s0, s1, s2));
+  store(&x[k + 1][0], share * times_units(s0, s1, s2));
   store(&x[k + 1][4], next);
 
   const Row rate = shuffle<3, 3, 3, 3>(motion);
@@ -306,7 +280,7 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
   const Row turning = forward * shuffle<2, 0, 1, 3>(motion) - backward * shuffle<1, 2, 0, 3>(motion);
   Row newest = with_last(turning + turning, lanes(-slope * excess));
   const Row q = load(x[0]);
-  store(&x[1][0], turned(lanes(motion[0]) * q, lanes(motion[1]) * q, lanes(motion[2]) * q));
+  store(&x[1][0], times_units(lanes(motion[0]) * q, lanes(motion[1]) * q, lanes(motion[2]) * q));
   store(&x[1][4], newest);
   const Scalar advance = unit * excess;
   store(&x[1][8], lanes(advance, advance, advance, slope * excess * excess));
@@ -342,17 +316,17 @@ void FullSystem<Real_>::project(Scalar, Scalar* x, Scalar* low) const noexcept {
   const Scalar lacking = ((level_ - size) - x[11]) - low[11];
   const Scalar square = slope.squaredNorm() + size * size;
   if (!(std::abs(lacking) <= slack_ * size)) {
-    move(x[11], low[11], lacking);
+    add_to(x[11], low[11], lacking);
   } else if (square > 0) {
     const Vec3<Scalar> turn = lacking / square * slope;
     H += cross<Scalar>(H, turn);
     const Quat<Scalar> turned = q * Quat<Scalar>{0, turn[0] / 2, turn[1] / 2, turn[2] / 2};
     change = {change.w + turned.w, change.x + turned.x, change.y + turned.y, change.z + turned.z};
   }
-  move(x[0], low[0], change.w);
-  move(x[1], low[1], change.x);
-  move(x[2], low[2], change.y);
-  move(x[3], low[3], change.z);
+  add_to(x[0], low[0], change.w);
+  add_to(x[1], low[1], change.x);
+  add_to(x[2], low[2], change.y);
+  add_to(x[3], low[3], change.z);
   for (int i = 0; i < 3; ++i) {
     x[4 + i] = H[i];
     low[4 + i] = 0;

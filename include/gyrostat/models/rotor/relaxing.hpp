@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/models/rotor/gyrostat.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
@@ -89,13 +90,7 @@ class RelaxingRotor {
     for (int i = 0; i < 4; ++i) missing -= x[i] * x[i];
     for (int i = 0; i < 4; ++i) along += x[i] * low[i];
     const Scalar stretch = missing / 2 - along;
-    for (int i = 0; i < 4; ++i) {
-      const Scalar y = low[i] + stretch * x[i];
-      const Scalar moved = x[i] + y;
-      const Scalar part = moved - x[i];
-      low[i] = (x[i] - (moved - part)) + (y - part);
-      x[i] = moved;
-    }
+    for (int i = 0; i < 4; ++i) add_to(x[i], low[i], stretch * x[i]);
     const Vec3<Scalar> H = rotate(Quat<Scalar>{x[0], -x[1], -x[2], -x[3]}, momentum_I_);
     for (int i = 0; i < 3; ++i) {
       x[4 + i] = H[i];

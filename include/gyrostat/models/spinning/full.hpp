@@ -8,11 +8,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
 #include "gyrostat/rotation/euler_312.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/quaternion_lanes.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full equations (docs/spinning.md, section 2): right-hand side, Jacobian and Taylor recurrences.
@@ -112,17 +114,6 @@ class FullSystem {
  private:
   using Row = Lanes<Scalar>;
 
-  /// term(from), ..., term(1): unrolled where the number of turns is known to the compiler.
-  template <class Term>
-  static GYROSTAT_INLINE void down(int from, const Term& term) noexcept {
-    if constexpr (Row::vectorised) {
-#pragma GCC unroll 32
-      for (int j = from; j >= 1; --j) term(j);
-    } else {
-      for (int j = from; j >= 1; --j) term(j);
-    }
-  }
-
   /// The constants of an expansion.
   struct Constants {
     Row jacobian[3];  ///< columns of the derivative of (p', q', r', A') unit
@@ -136,31 +127,15 @@ class FullSystem {
   GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
                               const Constants& c) const noexcept;
 
-  /// s0 i + s1 j + s2 k, quaternion products from the right.
-  static GYROSTAT_INLINE Row turned(const Row& s0, const Row& s1, const Row& s2) noexcept {
-    const Scalar one = 1;
-    return multiply_add(shuffle<1, 0, 3, 2>(s0), lanes(-one, one, one, -one),
-                        multiply_add(shuffle<2, 3, 0, 1>(s1), lanes(-one, -one, one, one),
-                                     shuffle<3, 2, 1, 0>(s2) * lanes(-one, one, -one, one)));
-  }
   /// q_IB to q_IB conj(q_FB): the axes whose third is the force's.
   GYROSTAT_INLINE Row to_thrust(const Row& q) const noexcept {
     const Row from_w = q * lanes(q_FB_.w);
-    return from_w - turned(q * lanes(q_FB_.x), q * lanes(q_FB_.y), lanes(Scalar(0)));
+    return from_w - times_units(q * lanes(q_FB_.x), q * lanes(q_FB_.y), lanes(Scalar(0)));
   }
   /// R e3 from the sums of (w y, z x, z y, w x) and of (w w, x x, y y, z z).
   static GYROSTAT_INLINE Row third_axis(const Row& mixed, const Row& square, Scalar last) noexcept {
     return lanes(2 * (mixed[0] + mixed[1]), 2 * (mixed[2] - mixed[3]),
                  (square[0] - square[1]) - (square[2] - square[3]), last);
-  }
-
-  /// x + low + change, and what rounding leaves over.
-  static void move(Scalar& x, Scalar& low, Scalar change) noexcept {
-    const Scalar y = low + change;
-    const Scalar sum = x + y;
-    const Scalar part = sum - x;
-    low = (x - (sum - part)) + (y - part);
-    x = sum;
   }
 
   void project_rates(Scalar t, Scalar* x, Scalar* low) const noexcept;
@@ -239,7 +214,7 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   const Row zero = lanes(Scalar(0));
   Row product = zero, product_2 = zero;
   if (k % 2 == 0) product = work.forward[k / 2] * work.backward[k / 2];
-  down((k - 1) / 2, [&](int j) {
+  count_down<Scalar>((k - 1) / 2, [&](int j) {
     product = multiply_add(work.forward[j], work.backward[k - j], product);
     product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
   });
@@ -252,7 +227,7 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   const Row motion = c.half * newest;
   store(work.turn[k], motion);
   Row s0 = zero, s1 = zero, s2 = zero;
-  down(k - 1, [&](int j) {
+  count_down<Scalar>(k - 1, [&](int j) {
     const Row q = load(&x[k - j][4]);
     s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
     s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
@@ -262,7 +237,7 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(motion), first, s0));
   s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(motion), first, s1));
   s2 = multiply_add(lanes(work.turn[0][2]), last, multiply_add(shuffle<2, 2, 2, 2>(motion), first, s2));
-  store(&x[k + 1][4], lanes(share) * turned(s0, s1, s2));
+  store(&x[k + 1][4], lanes(share) * times_units(s0, s1, s2));
 
   // the force's direction, power and quadratures
   const Row thrust = to_thrust(last);
@@ -271,9 +246,9 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   work.outer[k] = outer;
   work.inner[k] = inner;
   Row mixed = multiply_add(work.outer[0], inner, outer * work.inner[0]);
-  down(k - 1, [&](int j) { mixed = multiply_add(work.outer[j], work.inner[k - j], mixed); });
+  count_down<Scalar>(k - 1, [&](int j) { mixed = multiply_add(work.outer[j], work.inner[k - j], mixed); });
   Row square = k % 2 == 0 ? lanes(Scalar(0.5)) * work.thrust[k / 2] * work.thrust[k / 2] : zero;
-  down((k - 1) / 2, [&](int j) { square = multiply_add(work.thrust[j], work.thrust[k - j], square); });
+  count_down<Scalar>((k - 1) / 2, [&](int j) { square = multiply_add(work.thrust[j], work.thrust[k - j], square); });
   square = multiply_add(work.thrust[0], thrust, square);
   const Scalar power = sum(c.power * newest)[0];
   store(&x[k + 1][8], lanes(share) * (c.unit * third_axis(mixed, square + square, Scalar(0)) +
@@ -318,7 +293,7 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
   work.backward[1] = shuffle<2, 0, 1, 3>(newest);
 
   const Row attitude = load(&x[0][4]);
-  store(&x[1][4], turned(lanes(motion[0]) * attitude, lanes(motion[1]) * attitude, lanes(motion[2]) * attitude));
+  store(&x[1][4], times_units(lanes(motion[0]) * attitude, lanes(motion[1]) * attitude, lanes(motion[2]) * attitude));
   work.thrust[0] = to_thrust(attitude);
   work.outer[0] = shuffle<0, 3, 3, 0>(work.thrust[0]);
   work.inner[0] = shuffle<2, 1, 2, 1>(work.thrust[0]);
@@ -346,8 +321,8 @@ void FullSystem<Real_>::project_rates(Scalar t, Scalar* x, Scalar* low) const no
     low[2] = (r0_ - x[2]) + gain;
     if (transverse_is_known_ && transverse_ > 0) {
       const Scalar stretch = ((transverse_ - x[0] * x[0] - x[1] * x[1]) / 2 - dot(0) - dot(1)) / transverse_;
-      move(x[0], low[0], stretch * x[0]);
-      move(x[1], low[1], stretch * x[1]);
+      add_to(x[0], low[0], stretch * x[0]);
+      add_to(x[1], low[1], stretch * x[1]);
     }
   } else if (free_) {
     const Vec3<Scalar> omega{x[0], x[1], x[2]}, rest{low[0], low[1], low[2]};
@@ -366,7 +341,7 @@ void FullSystem<Real_>::project_rates(Scalar t, Scalar* x, Scalar* low) const no
     } else if (ww > 0) {
       change = (missing_energy / ww) * omega;
     }
-    for (int i = 0; i < 3; ++i) move(x[i], low[i], change[i]);
+    for (int i = 0; i < 3; ++i) add_to(x[i], low[i], change[i]);
   }
 }
 
@@ -395,10 +370,10 @@ void FullSystem<Real_>::project(Scalar t, Scalar* x, Scalar* low) const noexcept
       change = {change.w + turned.w, change.x + turned.x, change.y + turned.y, change.z + turned.z};
     }
   }
-  move(x[4], low[4], change.w);
-  move(x[5], low[5], change.x);
-  move(x[6], low[6], change.y);
-  move(x[7], low[7], change.z);
+  add_to(x[4], low[4], change.w);
+  add_to(x[5], low[5], change.x);
+  add_to(x[6], low[6], change.y);
+  add_to(x[7], low[7], change.z);
 }
 
 }  // namespace gyrostat::spinning
