@@ -76,6 +76,7 @@
 #include "gyrostat/models/deceleration/second_order.hpp"
 #include "gyrostat/models/deceleration/secular.hpp"
 #include "gyrostat/models/deceleration/stability.hpp"
+#include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/models/rotor/assembly.hpp"
 #include "gyrostat/models/rotor/attractor.hpp"
 #include "gyrostat/models/rotor/averaged_dissipation.hpp"
