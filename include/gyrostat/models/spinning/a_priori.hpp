@@ -79,7 +79,7 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
   const Scalar steep = std::max(kappa1, kappa2), flat = std::min(kappa1, kappa2);
   const Scalar zeta = std::max(std::abs(D[2] - D[1]) / D[0], std::abs(D[2] - D[0]) / D[1]);
   // greatest ratio of the rates' ellipse, or what it grows to within T
-  const Scalar skew = std::min(std::sqrt(steep / flat), 1 + steep * T);
+  const Scalar skew = std::min(1 + steep * T, std::sqrt(steep / flat));
   const Scalar answer = std::min(T, 2 / divisors(problem).least());
 
   LinearErrors<Scalar> error;

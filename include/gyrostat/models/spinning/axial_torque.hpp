@@ -171,7 +171,7 @@ LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar 
     flat = k * kappa[0] > 0 ? std::min(flat, std::abs(k)) : Scalar(0);
   }
   const Scalar zeta = std::max(std::abs(D[2] - D[1]) / D[0], std::abs(D[2] - D[0]) / D[1]);
-  const Scalar skew = std::min(std::sqrt(steep / flat), 1 + steep * T);
+  const Scalar skew = std::min(1 + steep * T, std::sqrt(steep / flat));
   const Scalar asymmetry = std::abs(D[0] - D[1]) / (2 * D[2]);
 
   LinearErrors<Scalar> error;

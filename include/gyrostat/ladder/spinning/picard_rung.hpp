@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "gyrostat/ladder/spinning/column_errors.hpp"
+#include "gyrostat/ladder/spinning/track.hpp"
+#include "gyrostat/models/spinning/picard.hpp"
+
+namespace gyrostat::spinning {
+
+/// Rung `picard`: sweeps of quadratures over the full equations (docs/spinning.md, section 6.2), 2, then 4, then 8 where fewer do not
+/// meet the tolerance. The full equations cost less at every tolerance, so it answers only where it is asked for by name.
+inline Track picard_track(const Scene& scene, Monitor* monitor) {
+  const Question& question = scene.question();
+  if (question.model != Model::picard)
+    return refused<Track>(Errc::not_applicable, "the full equations cost less; ask for it by name");
+  Track track;
+  track.states.resize(question.times.size());
+  for (const int sweeps : {2, 4, 8}) {
+    if (monitor && monitor->cancel.load(std::memory_order_relaxed))
+      return refused<Track>(Errc::cancelled, message(Errc::cancelled));
+    const auto made = picard_motion<double>(scene.problem(), question.times, track.states, {sweeps, 100'000});
+    if (!made) {
+      switch (made.error()) {
+        case Errc::not_applicable: return refused<Track>(Errc::not_applicable, "a torque acts about the spin axis");
+        case Errc::step_limit: return refused<Track>(Errc::step_limit, "more turns than sweeps are worth");
+        case Errc::no_convergence: return refused<Track>(Errc::no_convergence, "the axis tilts beyond a right angle");
+        default: return refused<Track>(made.error(), message(made.error()));
+      }
+    }
+    track.counts.rhs += made->nodes;
+    if (!made->converges)
+      return refused<Track>(Errc::no_convergence,
+                            "the sweeps do not converge: the tilt is too large for so many turns");
+    const auto over = [](double error, double size) noexcept { return error == 0 ? 0.0 : error / size; };
+    const auto &e = made->error, &size = made->size;
+    track.error = {over(e.angular_velocity, size.angular_velocity),
+                   over(e.angles, size.angles),
+                   e.attitude,
+                   over(e.momentum, size.momentum),
+                   over(e.velocity, size.velocity),
+                   over(e.position, size.position)};
+    if (track.error.greatest() <= question.tolerance) break;
+  }
+  return track;
+}
+
+}  // namespace gyrostat::spinning

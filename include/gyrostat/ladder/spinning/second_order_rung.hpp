@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gyrostat/ladder/spinning/linear_rung.hpp"
+#include "gyrostat/ladder/spinning/track.hpp"
+#include "gyrostat/models/spinning/second_order.hpp"
+
+namespace gyrostat::spinning {
+
+/// Rung `second-order`: the linear motion with spin rate, spin angle, momentum and thrust right to the next order (docs/spinning.md,
+/// section 6.1). Passed over where that would not make it better.
+inline Track second_order_track(const Scene& scene, Monitor*) {
+  const Problem<double>& problem = scene.problem();
+  if (problem.torque[2] != 0)
+    return refused<Track>(Errc::not_applicable,
+                          "a torque acts about the spin axis: the spin is not constant to first order");
+  const auto& times = scene.question().times;
+  const double end = times.back();
+  const auto error = second_order_errors(problem, end);
+  if (detail::gives_up(scene, Model::second_order, error)) return detail::given_up(error);
+  const SecondOrder<double> motion(problem, end);
+  if (!motion.applies())
+    return refused<Track>(Errc::not_applicable, "too many turns for the integrals of second order");
+  if (!motion.helps())
+    return refused<Track>(Errc::not_applicable,
+                          "the corrections of second order would harm: they turn the body by more than 0.5 rad, or the "
+                          "tilt exceeds 0.3 rad");
+  Track track;
+  track.states.reserve(times.size());
+  for (const double t : times) track.states.push_back(motion.at(t));
+  detail::judge(track, scene, error);
+  return track;
+}
+
+}  // namespace gyrostat::spinning

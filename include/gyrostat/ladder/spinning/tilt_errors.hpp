@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/ladder/spinning/column_errors.hpp"
+#include "gyrostat/models/spinning/a_priori.hpp"
+#include "gyrostat/models/spinning/problem.hpp"
+
+/// The stated errors of a motion for small tilt, column by column.
+namespace gyrostat::spinning {
+
+/// Tilt and error of the spin angle, rad, up to which a motion for small tilt and its estimates mean something.
+inline constexpr double small_tilt = 0.3;
+
+inline bool holds(const LinearErrors<double>& error) noexcept {
+  return error.size.tilt + error.tilt <= small_tilt && error.theta <= small_tilt;
+}
+
+/// `left_out` (in units of the quantities) and rounding over [0, span], relative to the least greatest norms that the right columns
+/// can have. Infinite where a column may be all error.
+inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const LinearErrors<double>& left_out,
+                                        std::span<const State<double>> states, double span) noexcept {
+  Comparison<double> comparison;
+  for (const auto& state : states) comparison.add(state, state);
+  const auto& size = comparison.size();
+
+  const auto& D = problem.inertia;
+  const double r0 = std::abs(problem.spin()), r1 = std::abs(problem.spin() + problem.torque[2] / D[2] * span);
+  const double fastest = std::max(r0, r1);
+  const double stiffest = std::max({std::abs(problem.kappa1(r0)), std::abs(problem.kappa1(-r0)),
+                                    std::abs(problem.kappa2(r0)), std::abs(problem.kappa2(-r0))});
+  const double g = left_out.size.tilt, P = left_out.size.rate;
+  const double once = problem.torque[2] == 0 ? std::min(span, 2 / r0) : span;  // greatest int e^(i theta)
+  const double push = std::hypot(problem.force[0], problem.force[1]) / problem.mass;
+  const double thrust = std::abs(problem.force[2]) / problem.mass;
+  // a few operations, and the phases of spin and nutation
+  const double rounding = epsilon<double> * (16 + 2 * (fastest + stiffest) * span);
+
+  ColumnErrors<double> error;
+  error.angular_velocity = std::hypot(left_out.rates, left_out.spin) + rounding * P + epsilon<double> * fastest;
+  error.angles = std::hypot(left_out.tilt, left_out.theta) + rounding * g + 4 * epsilon<double> * size.angles;
+  error.attitude =
+      left_out.attitude + rounding * g + 4 * epsilon<double> * (1 + std::abs(problem.angles.theta) + fastest * span);
+  const double torque = std::hypot(problem.torque[0], problem.torque[1]);
+  error.momentum = std::hypot(left_out.momentum, left_out.axial_momentum) + 8 * epsilon<double> * size.momentum +
+                   rounding * (torque * once + D.maxCoeff() * P +
+                               (std::abs(problem.axial_momentum()) + std::abs(problem.torque[2]) * span) * g);
+  const double v = push * once + thrust * span;
+  error.velocity = std::hypot(left_out.velocity, left_out.axial_velocity) + 4 * epsilon<double> * size.velocity +
+                   rounding * (push * once + thrust * span * g) + 8 * epsilon<double> * v;
+  error.position =
+      std::hypot(left_out.position, left_out.axial_position) +
+      4 * epsilon<double> * (size.position + problem.position.norm() + (problem.velocity.norm() + v) * span) +
+      rounding * (push * once + thrust * span * g) * span;
+
+  const auto over = [](double wrong, double most) noexcept {
+    if (wrong == 0) return 0.0;
+    return wrong < most ? wrong / (most - wrong) : infinity<double>;
+  };
+  return {over(error.angular_velocity, size.angular_velocity),
+          over(error.angles, size.angles),
+          std::min(error.attitude, pi<double>),
+          over(error.momentum, size.momentum),
+          over(error.velocity, size.velocity),
+          over(error.position, size.position)};
+}
+
+}  // namespace gyrostat::spinning
