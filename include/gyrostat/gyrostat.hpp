@@ -99,6 +99,7 @@
 #include "gyrostat/models/spinning/a_priori.hpp"
 #include "gyrostat/models/spinning/axial_torque.hpp"
 #include "gyrostat/models/spinning/block_grid.hpp"
+#include "gyrostat/models/spinning/design.hpp"
 #include "gyrostat/models/spinning/full.hpp"
 #include "gyrostat/models/spinning/grid_columns.hpp"
 #include "gyrostat/models/spinning/linear.hpp"
