@@ -109,6 +109,7 @@
 #include "gyrostat/models/spinning/picard.hpp"
 #include "gyrostat/models/spinning/pointing.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
+#include "gyrostat/models/spinning/published.hpp"
 #include "gyrostat/models/spinning/second_order.hpp"
 #include "gyrostat/models/spinning/spin_angle.hpp"
 #include "gyrostat/ode/dop853.hpp"
