@@ -104,7 +104,7 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
   const Scalar f = magnitude(start.acceleration), f3 = std::abs(start.axial_acceleration);
   const Scalar M = magnitude(start.torque), e = std::abs(start.charge_momentum);
   error.spin = Scalar(1.25L) * rate;
-  error.theta = (g * g * r0 + g * P) * T + angle + g * g / 2;
+  error.theta = (g * g * r0 + g * P) * T + Scalar(1.25L) * angle + g * g / 2;
   error.attitude = std::hypot(error.theta, error.tilt);
   error.momentum = M * turned + e * (error.tilt + g * phase) +
                    g * g * (std::abs(problem.axial_momentum()) * g + std::max(D[0], D[1]) * P);

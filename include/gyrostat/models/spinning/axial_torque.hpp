@@ -198,7 +198,7 @@ LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar 
   const Scalar M = std::hypot(problem.torque[0], problem.torque[1]), M3 = std::abs(problem.torque[2]);
   const Scalar e = std::abs(problem.charge_momentum), L3 = D[2] * fastest + std::abs(problem.rotor_momentum);
   error.spin = Scalar(1.25L) * rate;
-  error.theta = (g * g * fastest + g * P) * T + angle + g * g / 2;
+  error.theta = (g * g * fastest + g * P) * T + Scalar(1.25L) * angle + g * g / 2;
   error.attitude = std::hypot(error.theta, error.tilt);
   error.momentum = M * turned + e * (error.tilt + g * phase) + M3 * T * (error.tilt + g * phase) +
                    g * g * (L3 * g + std::max(D[0], D[1]) * P);

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How honest the answers are: random scenes of the spinning family, solved at three tolerances, against the full equations in long
+// double. Prints the fraction of answers whose true error is within the stated one in every column, the median of stated over true, and
+// the worst cases with their scenes.
+//
+//     spinning_honesty [SCENES = 5000] [SEED = 1] [RUNG = auto]
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "../tests/ladder/spinning/truth.hpp"
+#include "gyrostat/ladder/spinning/axial_motion.hpp"
+#include "gyrostat/ladder/spinning/solve.hpp"
+#include "gyrostat/models/spinning/pointing.hpp"
+#include "honesty.hpp"
+
+namespace {
+
+using namespace gyrostat;
+using namespace gyrostat::spinning;
+
+/// Bodies, loads and starts of every kind the family knows, the degenerate ones well represented, tilted from 1e-4 to beyond 1 rad.
+class Scenes {
+ public:
+  explicit Scenes(unsigned seed) : random_(seed) {}
+
+  struct Made {
+    Problem<double> problem;
+    std::vector<double> times;
+    const char* kind;
+  };
+
+  Made next() {
+    for (;;) {
+      Made made{{}, {}, "generic"};
+      Problem<double>& p = made.problem;
+      Vec3<double> D(scale(0.3, 3), scale(0.3, 3), scale(0.3, 3));
+      const double shape = unit();
+      if (shape < 0.15) D[1] = D[0], made.kind = "symmetric";
+      else if (shape < 0.45) D[1] = D[0] * (1 + sign() * scale(1e-12, 0.2)), made.kind = "nearly symmetric";
+      else if (shape < 0.49) D[1] = D[2] = D[0], made.kind = "sphere";
+      else if (shape < 0.53) D[2] = D[0] + D[1], made.kind = "lamina";
+      if (2 * D.maxCoeff() > D.sum()) continue;
+      p.inertia = D * scale(0.1, 1e3);
+      p.mass = scale(1, 1e3);
+      const double spin = sign() * scale(0.03, 30), L = p.inertia[2] * std::abs(spin);
+      p.angular_velocity[2] = spin;
+      if (unit() < 0.5) p.rotor_momentum = sign() * L * scale(0.01, 3);
+      if (unit() < 0.3) p.charge_momentum = sign() * L * scale(1e-3, 0.5);
+      double rate = std::abs(spin);  // what a revolution is counted by
+
+      const double special = unit(), off = unit() < 0.4 ? 0 : sign() * scale(1e-12, 0.1);
+      const double sum = (p.inertia[0] + p.inertia[1]) * spin;
+      const auto effective = [&](double X) { p.rotor_momentum += X - p.effective_momentum(); };
+      if (special < 0.04) effective(off * sum), made.kind = "no stiffness";
+      else if (special < 0.08) effective(sum * (1 + off)), made.kind = "resonance";
+      else if (special < 0.12) {
+        // kappa1 = 0
+        p.rotor_momentum -= p.kappa1(spin) * p.inertia[0];
+        p.rotor_momentum += off * L;
+        made.kind = "no nutation";
+      } else if (special < 0.15) {
+        p.angular_velocity[2] = 0;
+        made.kind = "no spin";
+      } else if (special < 0.17) {
+        p.angular_velocity[2] *= scale(1e-10, 1e-2);
+        made.kind = "slow spin";
+      }
+      if (special >= 0.12 && special < 0.17 && unit() < 0.5) p.rotor_momentum = p.charge_momentum = 0;
+
+      double span = 2 * pi<double> / rate * scale(1, 300);
+      const double nu2 = p.nutation_squared();
+      if (nu2 < 0) span = std::min(span, scale(0.3, 12) / std::sqrt(-nu2));
+
+      const double pushed = unit();
+      if (pushed > 0.1) p.torque = vector(), p.torque[2] = 0;
+      if (pushed < 0.2) p.torque[int(2 * unit())] = 0;
+      if (unit() < 0.4) {
+        const double size = p.torque.norm() > 0 ? scale(1e-2, 10) * p.torque.norm() / L : 0.1 * std::abs(rate);
+        p.angular_velocity[0] = size * (2 * unit() - 1), p.angular_velocity[1] = size * (2 * unit() - 1);
+        p.angles.psi = size / rate * (2 * unit() - 1), p.angles.phi = size / rate * (2 * unit() - 1);
+      }
+      if (unit() < 0.5) p.angles.theta = 6 * unit() - 3;
+      const double force = unit();
+      if (force > 0.1) p.force[2] = sign() * scale(0.1, 100);
+      if (force > 0.5) p.force[0] = sign() * scale(0.01, 100), p.force[1] = sign() * scale(0.01, 100);
+      if (unit() < 0.3) p.velocity = vector() * scale(0.1, 1e3), p.position = vector() * scale(1, 1e5);
+      if (unit() < 0.2) {
+        made.kind = special < 0.17 ? made.kind : "axial torque";
+        const double change = unit() < 0.3 ? -2 * unit() * p.spin() : sign() * scale(1e-3, 3) * rate;
+        p.torque[2] = p.inertia[2] * change / span;
+      }
+      if (unit() < 0.02) {
+        p.torque.setZero();
+        p.angular_velocity[0] = p.angular_velocity[1] = p.angles.psi = p.angles.phi = 0;
+        made.kind = "nothing pushes";
+      }
+
+      // everything that tilts, in proportion
+      const double g = tilt_of(p, span);
+      if (!(g < 1e8)) continue;
+      if (g > 0) {
+        const double by = scale(1e-4, 1.5) / g, M3 = p.torque[2];
+        p.torque *= by;
+        p.torque[2] = M3;
+        p.angular_velocity[0] *= by, p.angular_velocity[1] *= by;
+        p.angles.psi *= by, p.angles.phi *= by;
+      }
+      const double grid = unit();
+      const int n = grid < 0.4 ? 12 : grid < 0.5 ? 600 : 1 + int(20 * unit());
+      if (grid < 0.5) {
+        for (int i = 0; i <= n; ++i) made.times.push_back(span * i / n);
+      } else {
+        for (int i = 0; i < n; ++i) made.times.push_back(span * unit());
+        made.times.back() = span;
+        std::sort(made.times.begin(), made.times.end());
+        made.times.erase(std::unique(made.times.begin(), made.times.end()), made.times.end());
+      }
+      return made;
+    }
+  }
+
+ private:
+  static double tilt_of(const Problem<double>& p, double span) {
+    if (p.torque[2] == 0) return amplitudes(p, span).tilt;
+    const std::vector<double> times{span};
+    std::vector<State<double>> states(1);
+    const auto made = axial_motion<double>(p, times, states);
+    return made && made->status == ode::Status::reached ? made->tilt : infinity<double>;
+  }
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+  double sign() { return unit() < 0.5 ? -1 : 1; }
+  double scale(double low, double high) { return std::exp(std::log(low) + unit() * std::log(high / low)); }
+  Vec3<double> vector() {
+    const double x = 2 * unit() - 1, y = 2 * unit() - 1, z = 2 * unit() - 1;
+    return {x, y, z};
+  }
+  std::mt19937_64 random_;
+};
+
+std::string describe(const Scenes::Made& made, const Answer& answer) {
+  const auto& p = made.problem;
+  char line[900];
+  std::snprintf(
+      line, sizeof line,
+      "%s, %s: D %.17g %.17g %.17g m %.17g l %.17g e %.17g M %.17g %.17g %.17g f %.17g %.17g %.17g w %.17g %.17g %.17g "
+      "angles %.17g %.17g %.17g v %.17g %.17g %.17g x %.17g %.17g %.17g T %.17g n %zu",
+      answer.model, made.kind, p.inertia[0], p.inertia[1], p.inertia[2], p.mass, p.rotor_momentum, p.charge_momentum,
+      p.torque[0], p.torque[1], p.torque[2], p.force[0], p.force[1], p.force[2], p.angular_velocity[0],
+      p.angular_velocity[1], p.angular_velocity[2], p.angles.psi, p.angles.phi, p.angles.theta, p.velocity[0],
+      p.velocity[1], p.velocity[2], p.position[0], p.position[1], p.position[2], made.times.back(), made.times.size());
+  return line;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int count = argc > 1 ? std::atoi(argv[1]) : 5000;
+  const unsigned seed = argc > 2 ? unsigned(std::atoi(argv[2])) : 1;
+  Model rung = Model::any;
+  static constexpr const char* names[] = {"auto", "linear", "second-order", "picard", "full"};
+  for (int i = 0; argc > 3 && i < 5; ++i)
+    if (std::strcmp(argv[3], names[i]) == 0) rung = Model(i);
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+
+  static constexpr double tolerances[] = {1e-3, 1e-6, 1e-9};
+  honesty::Tally tallies[3];
+  Scenes scenes(seed);
+  for (int i = 0; i < count; ++i) {
+    const auto made = scenes.next();
+    Answer truth;
+    bool known = false, has_truth = false;
+    for (int k = 0; k < 3; ++k) {
+      Question question;
+      question.times = made.times;
+      question.tolerance = tolerances[k];
+      question.model = rung;
+      const auto scene = Scene::make(made.problem, question);
+      if (!scene) {
+        std::printf("no scene: %s\n", message(scene.error()));
+        continue;
+      }
+      Refusal refusal;
+      const auto begin = std::chrono::steady_clock::now();
+      const Answer answer = solve(*scene, refusal);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const std::string text = describe(made, answer);
+      tallies[k].time(seconds, text);
+      if (refusal.code != Errc::ok) {
+        tallies[k].refuse(refusal, text);
+        continue;
+      }
+      if (rung != Model::any && answer.tried.back().why) {
+        ++tallies[k].outside;
+        continue;
+      }
+      if (!known) has_truth = true_motion(*scene, truth);
+      known = true;
+      if (!has_truth) ++tallies[k].unknown;
+      else tallies[k].compare(answer, truth, text);
+    }
+    if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
+  }
+  for (int k = 0; k < 3; ++k) tallies[k].print(tolerances[k]);
+}

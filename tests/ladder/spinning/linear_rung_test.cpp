@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/spinning/linear_rung.hpp"
+
+#include <cstring>
+
+#include "catch.hpp"
+#include "honest.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::spinning;
+
+namespace {
+
+Problem<double> stage(double tilt) {
+  auto p = Spinners(5).spinner(tilt);
+  p.force[2] = 3;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("rung linear is the linear motion with honest errors", "[spinning]") {
+  Spinners random(11);
+  for (int i = 0; i < 20; ++i) {
+    CAPTURE(i);
+    auto p = random.spinner(random.log_any(1e-5, 0.1));
+    if (p.nutation_squared() < 0) continue;
+    if (i % 3 == 0) p.force[0] = p.force[1] = 0;
+    const auto scene = posed(p, 40 / std::abs(p.spin()), 1e-6, Model::linear);
+    const Track track = linear_track(scene, nullptr);
+    REQUIRE(track.failure == Errc::ok);
+    for (std::size_t k = 0; k < track.states.size(); ++k)
+      CHECK((track.states[k].position - Linear<double>(p).at(scene.question().times[k]).position).norm() == 0);
+    if (track.in_domain) check_honest(scene, track);
+  }
+}
+
+TEST_CASE("rung linear gives up early, unless asked for by name", "[spinning]") {
+  const auto p = stage(1e-3);
+  const double span = 100 / std::abs(p.spin());
+  const Track early = linear_track(posed(p, span, 1e-9), nullptr);
+  CHECK(early.failure == Errc::not_applicable);
+  CHECK(early.refusal == nullptr);
+  CHECK(early.known_error > 1e-9);
+  CHECK(early.states.empty());
+  const Track named = linear_track(posed(p, span, 1e-9, Model::linear), nullptr);
+  CHECK(named.failure == Errc::ok);
+  CHECK(named.in_domain);
+  CHECK(named.error.greatest() > 1e-9);
+  CHECK(named.warnings.empty());
+}
+
+TEST_CASE("rung linear beyond small tilt is passed over; by name it answers with a warning", "[spinning]") {
+  const auto p = stage(1);
+  const double span = 100 / std::abs(p.spin());
+  const Track passed = linear_track(posed(p, span, 0.5), nullptr);
+  CHECK(passed.failure == Errc::not_applicable);
+  REQUIRE(passed.refusal != nullptr);
+  const Track named = linear_track(posed(p, span, 0.5, Model::linear), nullptr);
+  REQUIRE(named.failure == Errc::ok);
+  CHECK_FALSE(named.in_domain);
+  REQUIRE(named.warnings.size() == 1);
+  CHECK(std::strcmp(named.warnings[0].code, "beyond-validity") == 0);
+  CHECK(named.warnings[0].value > small_tilt);
+}
+
+TEST_CASE("rung linear on long even grids is the linear motion at each time", "[spinning]") {
+  for (int kind = 0; kind < 4; ++kind) {
+    CAPTURE(kind);
+    auto p = stage(1e-3);
+    if (kind == 1) p.rotor_momentum -= p.effective_momentum();                       // no stiffness
+    if (kind == 2) p.inertia = {2, 2, 2}, p.rotor_momentum = p.charge_momentum = 0;  // no nutation
+    double span = 60 / std::abs(p.spin());
+    if (kind == 3) span *= 400;  // steps too long for a table
+    Question question;
+    for (int i = 0; i < 700; ++i) question.times.push_back(span / 7 + span * i / 699);
+    question.model = Model::linear;
+    const auto scene = Scene::make(p, question);
+    REQUIRE(scene);
+    const Track track = linear_track(*scene, nullptr);
+    REQUIRE(track.failure == Errc::ok);
+    const Linear<double> linear(p);
+    Comparison<double> comparison;
+    for (std::size_t i = 0; i < track.states.size(); ++i) comparison.add(linear.at(question.times[i]), track.states[i]);
+    // what is stated as rounding
+    LinearErrors<double> nothing{};
+    nothing.size = linear_errors(p, question.times.back()).size;
+    const auto e = tilt_errors(p, nothing, track.states, question.times.back());
+    const auto found = comparison.relative(comparison.difference());
+    CHECK(found.angular_velocity <= e.angular_velocity);
+    CHECK(found.angles <= e.angles);
+    CHECK(found.attitude <= e.attitude);
+    CHECK(found.momentum <= e.momentum);
+    CHECK(found.velocity <= e.velocity);
+    CHECK(found.position <= e.position);
+  }
+  CHECK(spinning::detail::even(std::vector<double>{1, 2, 3, 4}));
+  CHECK_FALSE(spinning::detail::even(std::vector<double>{1, 2, 3.001, 4}));
+}
+
+TEST_CASE("rung linear under an axial torque", "[spinning]") {
+  auto p = stage(1e-3);
+  const double span = 60 / std::abs(p.spin());
+  p.torque[2] = -1.5 * p.inertia[2] * p.spin() / span;  // through zero spin
+  p.rotor_momentum = 2 * p.inertia[2] * p.spin();
+  p.charge_momentum = 0;
+  const auto scene = posed(p, span, 1e-2);
+  const Track track = linear_track(scene, nullptr);
+  REQUIRE(track.failure == Errc::ok);
+  CHECK(track.counts.steps > 0);
+  check_honest(scene, track);
+  // a sixteenth of the way tells that it is not good enough
+  const Track early = linear_track(posed(p, span, 1e-10), nullptr);
+  CHECK(early.failure == Errc::not_applicable);
+  CHECK(early.known_error > 1e-10);
+  CHECK(early.states.empty());
+
+  Monitor monitor;
+  monitor.cancel = true;
+  CHECK(linear_track(posed(p, 2000 * span, 1e-2, Model::linear), &monitor).failure == Errc::cancelled);
+}
+
+TEST_CASE("rung linear at the start alone", "[spinning]") {
+  for (const double axial : {0.0, 0.1}) {
+    auto p = stage(1e-3);
+    p.torque[2] = axial;
+    Question question;
+    question.times = {0};
+    question.model = Model::linear;
+    const auto scene = Scene::make(p, question);
+    const Track track = linear_track(*scene, nullptr);
+    REQUIRE(track.failure == Errc::ok);
+    CHECK(track.in_domain);
+    check_honest(*scene, track);
+  }
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/spinning/second_order_rung.hpp"
+
+#include "catch.hpp"
+#include "honest.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::spinning;
+
+TEST_CASE("rung second-order answers where the linear one does not, with honest errors", "[spinning]") {
+  Spinners random(13);
+  int answered = 0;
+  for (int i = 0; i < 30; ++i) {
+    CAPTURE(i);
+    auto p = random.spinner(random.log_any(1e-4, 1e-2));
+    if (p.nutation_squared() < 0) continue;
+    if (i % 2 == 0) p.force[0] = p.force[1] = 0;
+    const auto scene = posed(p, 40 / std::abs(p.spin()), 1e-4);
+    const Track track = second_order_track(scene, nullptr);
+    if (track.failure != Errc::ok) continue;
+    CHECK(track.in_domain);
+    check_honest(scene, track);
+    answered += linear_track(scene, nullptr).failure != Errc::ok;
+  }
+  CHECK(answered > 5);
+}
+
+TEST_CASE("rung second-order is passed over where it does not apply or would harm", "[spinning]") {
+  auto p = Spinners(5).spinner(1);
+  const double span = 200 / std::abs(p.spin());
+  for (const auto model : {Model::any, Model::second_order}) {
+    const Track harms = second_order_track(posed(p, span, 0.5, model), nullptr);
+    CHECK(harms.failure == Errc::not_applicable);
+    CHECK(harms.refusal != nullptr);
+  }
+  p.torque *= 1e-4;
+  const Track missed = second_order_track(posed(p, span, 1e-15), nullptr);
+  CHECK(missed.failure == Errc::not_applicable);
+  CHECK(missed.refusal == nullptr);
+  CHECK(missed.known_error > 1e-15);
+  p.torque[2] = 1e-3;
+  const Track axial = second_order_track(posed(p, span, 1e-3, Model::second_order), nullptr);
+  CHECK(axial.failure == Errc::not_applicable);
+  CHECK(axial.refusal != nullptr);
+}
+
+TEST_CASE("rung second-order at the start alone", "[spinning]") {
+  auto p = Spinners(5).spinner(1e-3);
+  Question question;
+  question.times = {0};
+  question.tolerance = 1e-12;
+  question.model = Model::second_order;
+  const auto scene = Scene::make(p, question);
+  const Track track = second_order_track(*scene, nullptr);
+  REQUIRE(track.failure == Errc::ok);
+  check_honest(*scene, track);
+}
