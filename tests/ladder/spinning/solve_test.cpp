@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "catch.hpp"
+#include "honest.hpp"
 
 using namespace gyrostat;
 using namespace gyrostat::spinning;
@@ -41,36 +42,93 @@ struct Solved {
   }
 };
 
-Solved solved(const Problem<double>& problem, const Question& question, Monitor* monitor = nullptr) {
-  const auto scene = Scene::make(problem, question);
-  REQUIRE(scene);
+Solved solved(const Scene& scene, Monitor* monitor = nullptr) {
   Solved made;
-  made.answer = spinning::solve(*scene, made.refusal, monitor);
+  made.answer = spinning::solve(scene, made.refusal, monitor);
   return made;
-}
-
-Question asked(double span, double tolerance = 1e-6, Model model = Model::any, int count = 10) {
-  Question question;
-  for (int i = 1; i <= count; ++i) question.times.push_back(span * i / count);
-  question.tolerance = tolerance;
-  question.model = model;
-  return question;
 }
 
 }  // namespace
 
 TEST_CASE("the published data climb to the full equations", "[spinning]") {
-  const Solved made = solved(published(), asked(50, 1e-6, Model::any, 100));
+  const auto scene = posed(published(), 50, 1e-6, Model::any, 100);
+  const Solved made = solved(scene);
   CHECK(made.refusal.code == Errc::ok);
   CHECK(made.by("full"));
   CHECK(made.answer.met);
   CHECK(made.answer.tried.size() == 4);
+  for (const Attempt& attempt : made.answer.tried) CHECK((attempt.why != nullptr) == !attempt.accepted);
+  check_honest(scene, made.answer);
   CHECK(made.scalar("pointing_error").values[0] == Approx(3.411).epsilon(1e-3));
   CHECK(made.scalar("tilt_max").values[0] > 2.4);
   CHECK(made.scalar("nutation_frequency_squared").values[0] == Approx(0.19673 * 0.19673).epsilon(1e-4));
 
-  const Solved linear = solved(published(), asked(50, 1e-3, Model::linear));
+  const Solved linear = solved(posed(published(), 50, 1e-3, Model::linear));
   CHECK(linear.by("linear"));
   CHECK_FALSE(linear.answer.met);
   CHECK(linear.warns("beyond-validity"));
+  CHECK(linear.answer.find("attitude")->error == Approx(pi<double>));
+
+  const Solved swept = solved(posed(published(), 50, 1e-3, Model::picard));
+  CHECK(swept.refusal.code == Errc::no_convergence);
+  const Solved corrected = solved(posed(published(), 50, 1e-3, Model::second_order));
+  CHECK(corrected.refusal.code == Errc::not_applicable);
+  CHECK(corrected.answer.tried.size() == 1);
+}
+
+TEST_CASE("a spinning ladder climbs as the tolerance tightens", "[spinning]") {
+  auto p = published();
+  p.angular_velocity[2] = 6;
+  p.torque = {0.3, 0, 0};
+  const struct {
+    double tolerance;
+    const char* model;
+  } steps[] = {{1e-1, "linear"}, {1e-3, "second-order"}, {1e-8, "full"}};
+  for (const auto& step : steps) {
+    CAPTURE(step.tolerance);
+    const auto scene = posed(p, 40, step.tolerance);
+    const Solved made = solved(scene);
+    CHECK(made.by(step.model));
+    CHECK(made.answer.met);
+    CHECK(made.answer.tried.back().accepted);
+    check_honest(scene, made.answer);
+  }
+  for (const auto model : {Model::linear, Model::second_order, Model::picard, Model::full}) {
+    const auto scene = posed(p, 40, 1e-8, model);
+    const Solved made = solved(scene);
+    REQUIRE(made.refusal.code == Errc::ok);
+    CHECK(made.answer.tried.size() == 1);
+    CHECK(made.answer.met == (model == Model::picard || model == Model::full));
+    check_honest(scene, made.answer);
+  }
+}
+
+TEST_CASE("a body that only spins and thrusts is linear at any tolerance", "[spinning]") {
+  auto p = published();
+  p.torque.setZero();
+  p.angles.theta = 0.3;
+  p.force = {1, 2, 3};
+  const auto scene = posed(p, 1000, 1e-11);
+  const Solved made = solved(scene);
+  CHECK(made.by("linear"));
+  CHECK(made.answer.met);
+  check_honest(scene, made.answer);
+  CHECK(made.scalar("pointing_error").values[0] == 0);
+  CHECK(made.scalar("tilt_max").values[0] < 1e-15);
+  CHECK(made.scalar("secular_velocity_ratio").width == 2);
+  CHECK(made.scalar("secular_velocity_ratio").values[1] == 0);
+  p.force.setZero();
+  CHECK(std::isnan(solved(posed(p, 10)).scalar("secular_velocity_ratio").values[0]));
+}
+
+TEST_CASE("a spinning scene can be cancelled and watched", "[spinning]") {
+  auto p = published();
+  Monitor monitor;
+  const Solved watched = solved(posed(p, 50), &monitor);
+  CHECK(monitor.fraction == 1);
+  CHECK(watched.answer.counts.steps > 0);
+  monitor.cancel = true;
+  const Solved made = solved(posed(p, 1e5), &monitor);
+  CHECK(made.refusal.code == Errc::cancelled);
+  CHECK(made.answer.columns.empty());
 }
