@@ -1,0 +1,486 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "gyrostat/core/compensated.hpp"
+#include "gyrostat/core/lanes.hpp"
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/models/heavy/problem.hpp"
+#include "gyrostat/rotation/kinematics.hpp"
+#include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/quaternion_lanes.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// The full equations (docs/heavy.md, section 2): right-hand side, Jacobian, Taylor recurrences, and those of the variational
+/// equations. They are quadratic in (w, d).
+namespace gyrostat::heavy {
+
+/// w', rad/s^2.
+template <Real Scalar>
+Vec3<Scalar> angular_acceleration(const Problem<Scalar>& problem, const Vec3<Scalar>& omega,
+                                  const Vec3<Scalar>& down) noexcept {
+  return problem.torque(omega, down).cwiseQuotient(problem.inertia());
+}
+
+/// The derivative of (w', d') by (w, d).
+template <Real Scalar>
+Eigen::Matrix<Scalar, 6, 6> state_jacobian(const Problem<Scalar>& problem, const Vec3<Scalar>& omega,
+                                           const Vec3<Scalar>& down) noexcept {
+  const Vec3<Scalar>& I = problem.inertia();
+  const auto times_inertia = [&](const Vec3<Scalar>& v) noexcept { return Vec3<Scalar>(I.cwiseProduct(v)); };
+  const Mat3<Scalar> by_omega =
+      cross_matrix<Scalar>(times_inertia(omega)) - cross_matrix<Scalar>(omega) * I.asDiagonal();
+  const Mat3<Scalar> by_down =
+      cross_matrix<Scalar>(problem.moment()) +
+      problem.gradient() * (cross_matrix<Scalar>(down) * I.asDiagonal() - cross_matrix<Scalar>(times_inertia(down)));
+  Eigen::Matrix<Scalar, 6, 6> jacobian;
+  jacobian.template topLeftCorner<3, 3>() = I.cwiseInverse().asDiagonal() * by_omega;
+  jacobian.template topRightCorner<3, 3>() = I.cwiseInverse().asDiagonal() * by_down;
+  jacobian.template bottomLeftCorner<3, 3>() = cross_matrix<Scalar>(down);
+  jacobian.template bottomRightCorner<3, 3>() = -cross_matrix<Scalar>(omega);
+  return jacobian;
+}
+
+/// What |w| may reach from a start, rad/s: of its order, and zero only for a body that stays at rest.
+template <Real Scalar>
+Scalar rate_size(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept {
+  // the potential energy that the start may still lose: each of its two parts falls to its least at most
+  const Vec3<Scalar>& I = problem.inertia();
+  const Vec3<Scalar> m = problem.moment();
+  const Scalar weight = m.norm() - m.dot(start.down);
+  const Scalar gradient = problem.gradient() / 2 * (I.dot(start.down.cwiseAbs2()) - I.minCoeff());
+  const Scalar gain = std::max(weight, Scalar(0)) + std::max(gradient, Scalar(0));
+  return std::sqrt(start.angular_velocity.squaredNorm() + 2 * gain / I.maxCoeff());
+}
+
+namespace detail {
+
+/// The numbers (p, q, r, - | d1, d2, d3, -) at the head of a state: recurrences and projection.
+///
+/// With forward a+ = (a2, a3, a1) and backward a- = (a3, a1, a2) the equations are
+///     w' = k w+ w- - N k d+ d- + I^-1 (m+ d- - m- d+),   d' = d+ w- - d- w+,   k = ((B - C)/A, (C - A)/B, (A - B)/C):
+/// four convolutions an order. The newest terms of each are split off, so that one order waits for the last only through a shuffle,
+/// two products and two sums.
+template <Real Scalar>
+class EulerPoisson {
+ public:
+  using Row = Lanes<Scalar>;
+
+  template <int Order>
+  struct Rows {
+    Row rate_forward[Order + 1], rate_backward[Order + 1], down_forward[Order + 1], down_backward[Order + 1];
+  };
+
+  /// The coefficients of an expansion.
+  struct Constants {
+    Row quadratic, gradient;          ///< k unit, -N k unit
+    Row pull_forward, pull_backward;  ///< I^-1 m+ unit, I^-1 m- unit
+    Row unit;
+    Row rate_of[4], down_of[4];  ///< by the newest (w+, w-, d+, d-)
+  };
+
+  EulerPoisson() = default;
+  EulerPoisson(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept
+      : inertia_(problem.inertia()),
+        moment_(problem.moment()),
+        gradient_(problem.gradient()),
+        square_(start.down.squaredNorm()),
+        momentum_(problem.vertical_momentum(start)) {
+    const Vec3<Scalar>& I = inertia_;
+    quadratic_ = {(I[1] - I[2]) / I[0], (I[2] - I[0]) / I[1], (I[0] - I[1]) / I[2]};
+    // a rate that never changes (an axis of symmetry through the mass centre) is left alone by the projection
+    for (int i = 0; i < 3; ++i) {
+      const bool kept = quadratic_[i] == 0 && moment_[(i + 1) % 3] == 0 && moment_[(i + 2) % 3] == 0;
+      loose_[i] = kept ? Scalar(0) : Scalar(1);
+    }
+    rate_ = rate_size(problem, start);
+    whole_ = I.maxCoeff() * rate() * rate();
+    outer_torque_ = moment_.norm() + gradient_ * (I.maxCoeff() - I.minCoeff());
+    const Vec3<Scalar>&w = start.angular_velocity, &d = start.down;
+    energy_ =
+        (I.cwiseProduct(w).dot(loose_.cwiseProduct(w)) + gradient_ * d.dot(I.cwiseProduct(d))) / 2 - moment_.dot(d);
+  }
+
+  /// |w| that is reached, rad/s; 1 for a body at rest.
+  Scalar rate() const noexcept { return rate_ > 0 ? rate_ : Scalar(1); }
+
+  static GYROSTAT_INLINE Row forward(const Row& a) noexcept { return shuffle<1, 2, 0, 3>(a); }
+  static GYROSTAT_INLINE Row backward(const Row& a) noexcept { return shuffle<2, 0, 1, 3>(a); }
+
+  /// The coefficients, and orders 0 and 1 of the numbers.
+  template <int Order, int Width>
+  GYROSTAT_INLINE Constants begin(Scalar unit, Scalar (&x)[Order + 1][Width], Rows<Order>& rows) const noexcept {
+    const auto row = [](const Vec3<Scalar>& v) noexcept { return lanes(v[0], v[1], v[2], Scalar(0)); };
+    const Vec3<Scalar> quadratic = unit * quadratic_, pull = unit * moment_;
+    const auto& I = inertia_;
+    Constants c;
+    c.quadratic = row(quadratic);
+    c.gradient = row(-gradient_ * quadratic);
+    c.pull_forward = lanes(pull[1] / I[0], pull[2] / I[1], pull[0] / I[2], Scalar(0));
+    c.pull_backward = lanes(pull[2] / I[0], pull[0] / I[1], pull[1] / I[2], Scalar(0));
+    c.unit = lanes(unit);
+
+    const Row zero = lanes(Scalar(0)), w = load(&x[0][0]), d = load(&x[0][4]);
+    const Row wf = forward(w), wb = backward(w), df = forward(d), db = backward(d);
+    rows.rate_forward[0] = wf;
+    rows.rate_backward[0] = wb;
+    rows.down_forward[0] = df;
+    rows.down_backward[0] = db;
+    c.rate_of[0] = c.quadratic * wb;
+    c.rate_of[1] = c.quadratic * wf;
+    c.rate_of[2] = c.gradient * db - c.pull_backward;
+    c.rate_of[3] = multiply_add(c.gradient, df, c.pull_forward);
+    c.down_of[0] = zero - c.unit * db;
+    c.down_of[1] = c.unit * df;
+    c.down_of[2] = c.unit * wb;
+    c.down_of[3] = zero - c.unit * wf;
+    const Row next_w = multiply_add(c.rate_of[0], wf, multiply_add(c.rate_of[3], db, zero - c.pull_backward * df));
+    const Row next_d = multiply_add(c.down_of[1], wb, c.down_of[3] * db);
+    keep(1, x, rows, next_w, next_d);
+    return c;
+  }
+
+  /// Order k + 1 from the orders up to k >= 1.
+  template <class Index, int Order, int Width>
+  GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][Width], Rows<Order>& rows,
+                              const Constants& c) const noexcept {
+    const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
+    const auto &wf = rows.rate_forward, &wb = rows.rate_backward, &df = rows.down_forward, &db = rows.down_backward;
+
+    // terms known since the last order, in pairs j, k - j, the youngest last
+    Row ww = lanes(Scalar(0)), ww_2 = ww, dd = ww, dd_2 = ww, plus = ww, plus_2 = ww, minus = ww, minus_2 = ww;
+    if (k % 2 == 0) {
+      const int j = k / 2;
+      ww = wf[j] * wb[j];
+      dd = df[j] * db[j];
+      plus = df[j] * wb[j];
+      minus = db[j] * wf[j];
+    }
+    count_down<Scalar>((k - 1) / 2, [&](int j) {
+      const int i = k - j;
+      const Row a = wf[j], b = wb[j], e = df[j], f = db[j], a_i = wf[i], b_i = wb[i], e_i = df[i], f_i = db[i];
+      ww = multiply_add(a, b_i, ww);
+      ww_2 = multiply_add(a_i, b, ww_2);
+      dd = multiply_add(e, f_i, dd);
+      dd_2 = multiply_add(e_i, f, dd_2);
+      plus = multiply_add(e, b_i, plus);
+      plus_2 = multiply_add(e_i, b, plus_2);
+      minus = multiply_add(f, a_i, minus);
+      minus_2 = multiply_add(f_i, a, minus_2);
+    });
+    const Row known_w = multiply_add(c.quadratic, ww + ww_2, c.gradient * (dd + dd_2));
+    const Row known_d = c.unit * ((plus + plus_2) - (minus + minus_2));
+
+    const Row a = wf[k], b = wb[k], e = df[k], f = db[k];
+    const Row next_w = share * (multiply_add(c.rate_of[0], a, multiply_add(c.rate_of[2], e, known_w)) +
+                                multiply_add(c.rate_of[1], b, c.rate_of[3] * f));
+    const Row next_d = share * (multiply_add(c.down_of[0], a, multiply_add(c.down_of[2], e, known_d)) +
+                                multiply_add(c.down_of[1], b, c.down_of[3] * f));
+    keep(k + 1, x, rows, next_w, next_d);
+  }
+
+  /// Moves (w, d) onto |d|, energy and vertical momentum of the start.
+  void project(Scalar* x, Scalar* low) const noexcept;
+
+ private:
+  template <int Order, int Width>
+  static GYROSTAT_INLINE void keep(int k, Scalar (&x)[Order + 1][Width], Rows<Order>& rows, const Row& w,
+                                   const Row& d) noexcept {
+    store(&x[k][0], w);
+    store(&x[k][4], d);
+    rows.rate_forward[k] = forward(w);
+    rows.rate_backward[k] = backward(w);
+    rows.down_forward[k] = forward(d);
+    rows.down_backward[k] = backward(d);
+  }
+
+  Vec3<Scalar> inertia_, moment_, quadratic_;
+  Vec3<Scalar> loose_;              ///< 0 for a rate that never changes, else 1
+  Scalar gradient_, outer_torque_;  ///< 1/s^2; a bound of the torque but for the gyroscopic one, N m
+  Scalar square_, energy_,
+      momentum_;         ///< of the start: |d|^2, energy without that of the rates that never change, vertical momentum
+  Scalar rate_, whole_;  ///< rate_size, rad/s; the energy that it stands for, J
+};
+
+template <Real Scalar>
+void EulerPoisson<Scalar>::project(Scalar* x, Scalar* low) const noexcept {
+  const Vec3<Scalar> w(x[0], x[1], x[2]), d(x[4], x[5], x[6]);
+  const Vec3<Scalar> w_low(low[0], low[1], low[2]), d_low(low[4], low[5], low[6]);
+  const Scalar stretch = ((square_ - d.squaredNorm()) / 2 - d.dot(d_low)) / square_;
+  Vec3<Scalar> d_change = stretch * d;
+
+  // gradients of energy and vertical momentum; along d they are tangential, where |d| stays
+  const Vec3<Scalar> Iw = inertia_.cwiseProduct(w), Id = inertia_.cwiseProduct(d);
+  const Vec3<Scalar> energy_by_d = gradient_ * Id - moment_;
+  const Vec3<Scalar> more = d_low + d_change;
+  const Vec3<Scalar> w_free = loose_.cwiseProduct(w), d_free = loose_.cwiseProduct(d);
+  const Scalar energy = (Iw.dot(w_free) + gradient_ * d.dot(Id)) / 2 - moment_.dot(d);
+  const Scalar lacking_energy = (energy_ - energy) - Iw.dot(loose_.cwiseProduct(w_low)) - energy_by_d.dot(more);
+  const Scalar lacking_momentum = (momentum_ - Iw.dot(d)) - Id.dot(w_low) - Iw.dot(more);
+  const Vec3<Scalar> e = energy_by_d - d * (d.dot(energy_by_d) / square_), s = Iw - d * (d.dot(Iw) / square_);
+
+  // The least change in the norm dw.I dw + |dd|^2/give that mends both, or the energy alone where they are not independent. A fast
+  // spin hardly changes while d goes round: then the steps err in d, by the ratio of d' to w' more than in w.
+  const Scalar change = std::clamp((cross<Scalar>(Iw, w).norm() + outer_torque_) / whole_, Scalar(1e-3L), Scalar(1));
+  const Scalar give = 1 / (whole_ * change * change);
+  Scalar ee = Iw.dot(w_free) + give * e.squaredNorm();
+  const Scalar es = Iw.dot(d_free) + give * e.dot(s), ss = Id.dot(d_free) + give * s.squaredNorm();
+  // rounding of a great energy must not move d: of so little only the part is mended that moves d by a rounding
+  const Scalar size = Iw.dot(w_free) / 2 + moment_.norm() + gradient_ * Id.norm();
+  if (std::abs(lacking_energy) <= 64 * epsilon<Scalar> * size) ee += give * size * size;
+  const Scalar determinant = ee * ss - es * es;
+  Scalar by_energy = 0, by_momentum = 0;
+  if (64 * determinant > ee * ss) {
+    by_energy = (lacking_energy * ss - lacking_momentum * es) / determinant;
+    by_momentum = (lacking_momentum * ee - lacking_energy * es) / determinant;
+  } else if (ee > 0) {
+    by_energy = lacking_energy / ee;
+  }
+  const Vec3<Scalar> w_change = by_energy * w_free + by_momentum * d_free;
+  d_change += give * (by_energy * e + by_momentum * s);
+  for (int i = 0; i < 3; ++i) {
+    add_to(x[i], low[i], w_change[i]);
+    add_to(x[4 + i], low[4 + i], d_change[i]);
+  }
+}
+
+}  // namespace detail
+
+/// Taylor recurrences of the full equations. A state is (p, q, r, - | d1, d2, d3, -), and where the body's attitude is asked for
+/// (turning) also its quaternion (w, x, y, z), body to inertial.
+template <Real Real_, bool turning = false>
+class FullSystem {
+ public:
+  using Scalar = Real_;
+  static constexpr int width = turning ? 12 : 8;
+  using Numbers = std::array<Scalar, width>;
+
+  template <int Order>
+  struct Work {
+    typename detail::EulerPoisson<Scalar>::template Rows<Order> rows;
+    Scalar turn[turning ? Order + 1 : 1][4];  ///< half the angular velocity times the unit
+  };
+
+  /// The motion from `start`, from which the projection takes its constants. Turning: start.attitude has unit norm and
+  /// row 3 of its tensor is -start.down.
+  FullSystem(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept : equations_(problem, start) {
+    const auto &w = start.angular_velocity, &d = start.down;
+    start_ = {w[0], w[1], w[2], 0, d[0], d[1], d[2], 0};
+    if constexpr (turning) {
+      const auto& q = start.attitude;
+      start_[8] = q.w, start_[9] = q.x, start_[10] = q.y, start_[11] = q.z;
+    }
+  }
+
+  template <int Order>
+  void expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept {
+    const auto c = equations_.begin(unit, x, work.rows);
+    const Row half = lanes(unit / 2);
+    if constexpr (turning) {
+      const Row motion = half * load(&x[0][0]), q = load(&x[0][8]);
+      store(work.turn[0], motion);
+      store(&x[1][8], times_units(lanes(motion[0]) * q, lanes(motion[1]) * q, lanes(motion[2]) * q));
+    }
+    const auto next = [&](auto k) {
+      equations_.extend(k, x, work.rows, c);
+      if constexpr (turning) turn(k, x, work, half);
+    };
+    if constexpr (Row::vectorised) {
+      [&]<int... k>(std::integer_sequence<int, k...>) {
+        (next(std::integral_constant<int, k + 1>{}), ...);
+      }(std::make_integer_sequence<int, Order - 1>{});
+    } else {
+      for (int k = 1; k < Order; ++k) next(k);
+    }
+  }
+
+  /// Moves a state onto what it keeps: |d|, energy, vertical momentum; and the attitude onto unit norm and onto d.
+  void project(Scalar, Scalar* x, Scalar* low) const noexcept;
+
+  /// The numbers of the start.
+  const Numbers& start() const noexcept { return start_; }
+
+  /// The state that numbers mean; the attitude is not set where it is not asked for.
+  State<Scalar> state(const Scalar* x) const noexcept {
+    State<Scalar> s;
+    s.angular_velocity = {x[0], x[1], x[2]};
+    s.down = {x[4], x[5], x[6]};
+    if constexpr (turning) s.attitude = normalised(Quat<Scalar>{x[8], x[9], x[10], x[11]});
+    return s;
+  }
+
+  /// What the steps measure errors against: the size of the rates, 1 for the rest.
+  Numbers scale() const noexcept {
+    const Scalar w = equations_.rate();
+    Numbers scale{w, w, w, 0, 1, 1, 1, 0};
+    if constexpr (turning) scale[8] = scale[9] = scale[10] = scale[11] = 1;
+    return scale;
+  }
+
+ private:
+  using Row = Lanes<Scalar>;
+
+  /// Order k + 1 of the quaternion.
+  template <class Index, int Order>
+  GYROSTAT_INLINE void turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, const Row& half) const noexcept {
+    const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
+    const Row motion = half * load(&x[k][0]);
+    store(work.turn[k], motion);
+    Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
+    count_down<Scalar>(k - 1, [&](int j) {
+      const Row q = load(&x[k - j][8]);
+      s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
+      s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
+      s2 = multiply_add(lanes(work.turn[j][2]), q, s2);
+    });
+    const Row first = load(&x[0][8]), last = load(&x[k][8]);
+    s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(motion), first, s0));
+    s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(motion), first, s1));
+    s2 = multiply_add(lanes(work.turn[0][2]), last, multiply_add(shuffle<2, 2, 2, 2>(motion), first, s2));
+    store(&x[k + 1][8], share * times_units(s0, s1, s2));
+  }
+
+  detail::EulerPoisson<Scalar> equations_;
+  Numbers start_{};
+};
+
+template <Real Real_, bool turning>
+void FullSystem<Real_, turning>::project(Scalar, Scalar* x, Scalar* low) const noexcept {
+  equations_.project(x, low);
+  if constexpr (turning) {
+    Scalar missing = 1, along = 0;
+    for (int i = 8; i < 12; ++i) missing -= x[i] * x[i];
+    for (int i = 8; i < 12; ++i) along += x[i] * low[i];
+    const Scalar stretch = missing / 2 - along;
+    const Scalar length = 1 + stretch;
+    const Quat<Scalar> q{length * x[8], length * x[9], length * x[10], length * x[11]};
+    // the least turn of the body that brings down onto d; what q still has in low turns it too
+    const Vec3<Scalar> seen = rotate<Scalar>(conjugate(q), Vec3<Scalar>(0, 0, -1));
+    const Vec3<Scalar> d = Vec3<Scalar>(x[4], x[5], x[6]) - seen + Vec3<Scalar>(low[4], low[5], low[6]);
+    const Quat<Scalar> rest = conjugate(q) * Quat<Scalar>{low[8], low[9], low[10], low[11]};
+    const Vec3<Scalar> pending(2 * rest.x, 2 * rest.y, 2 * rest.z);
+    Vec3<Scalar> by = cross<Scalar>(d, seen);
+    by -= pending - seen * seen.dot(pending);
+    const Quat<Scalar> turned = q * Quat<Scalar>{0, by[0] / 2, by[1] / 2, by[2] / 2};
+    add_to(x[8], low[8], stretch * x[8] + turned.w);
+    add_to(x[9], low[9], stretch * x[9] + turned.x);
+    add_to(x[10], low[10], stretch * x[10] + turned.y);
+    add_to(x[11], low[11], stretch * x[11] + turned.z);
+  }
+}
+
+/// Taylor recurrences of the full equations together with those of six small changes of the start: a state is (p, q, r, -, d1, d2, d3, -)
+/// and eight such numbers for the derivative of (w, d) by each of (p, q, r, d1, d2, d3) at the start.
+template <Real Real_>
+class VariationalSystem {
+ public:
+  using Scalar = Real_;
+  static constexpr int columns = 6;
+  static constexpr int width = 8 * (1 + columns);
+  using Numbers = std::array<Scalar, width>;
+  using Matrix = Eigen::Matrix<Scalar, columns, columns>;
+
+  template <int Order>
+  struct Work {
+    typename detail::EulerPoisson<Scalar>::template Rows<Order> rows, change[columns];
+  };
+
+  VariationalSystem(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept : equations_(problem, start) {
+    const auto &w = start.angular_velocity, &d = start.down;
+    start_ = {w[0], w[1], w[2], 0, d[0], d[1], d[2], 0};
+    for (int i = 0; i < columns; ++i) start_[std::size_t(8 * (i + 1) + place(i))] = 1;
+  }
+
+  template <int Order>
+  void expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept;
+
+  /// Moves (w, d) onto |d|, energy and vertical momentum of the start; the derivatives stay.
+  void project(Scalar, Scalar* x, Scalar* low) const noexcept { equations_.project(x, low); }
+
+  const Numbers& start() const noexcept { return start_; }
+
+  State<Scalar> state(const Scalar* x) const noexcept {
+    State<Scalar> s;
+    s.angular_velocity = {x[0], x[1], x[2]};
+    s.down = {x[4], x[5], x[6]};
+    return s;
+  }
+
+  /// The derivative of (w, d) by (w, d) at the start. It is that of the equations for d of any length; along what they keep it obeys
+  /// grad(F) at the time . matrix = grad(F) at the start, F any of energy, vertical momentum, |d|^2.
+  Matrix derivative(const Scalar* x) const noexcept {
+    Matrix matrix;
+    for (int j = 0; j < columns; ++j)
+      for (int i = 0; i < columns; ++i) matrix(i, j) = x[8 * (j + 1) + place(i)];
+    return matrix;
+  }
+
+  /// As FullSystem's, and the derivatives against their units.
+  Numbers scale() const noexcept {
+    const Scalar w = equations_.rate();
+    Numbers scale{};
+    for (int j = 0; j <= columns; ++j)
+      for (int i = 0; i < columns; ++i) {
+        const Scalar by = j >= 1 && j <= 3 ? w : Scalar(1);  // derivatives by a rate
+        scale[std::size_t(8 * j + place(i))] = (i < 3 ? w : Scalar(1)) / by;
+      }
+    return scale;
+  }
+
+ private:
+  using Row = Lanes<Scalar>;
+  using Equations = detail::EulerPoisson<Scalar>;
+  static constexpr int place(int i) noexcept { return i < 3 ? i : i + 1; }
+
+  Equations equations_;
+  Numbers start_{};
+};
+
+template <Real Real_>
+template <int Order>
+void VariationalSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width],
+                                      Work<Order>& work) const noexcept {
+  const auto c = equations_.begin(unit, x, work.rows);
+  const auto &wf = work.rows.rate_forward, &wb = work.rows.rate_backward;
+  const auto &df = work.rows.down_forward, &db = work.rows.down_backward;
+  const Row zero = lanes(Scalar(0));
+  for (int k = 0; k < Order; ++k) {
+    if (k > 0) equations_.extend(k, x, work.rows, c);
+    const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
+    for (int column = 0; column < columns; ++column) {
+      auto& change = work.change[column];
+      Scalar* to = &x[k][8 * (column + 1)];
+      const Row w = load(to), d = load(to + 4);
+      change.rate_forward[k] = Equations::forward(w);
+      change.rate_backward[k] = Equations::backward(w);
+      change.down_forward[k] = Equations::forward(d);
+      change.down_backward[k] = Equations::backward(d);
+      Row ww = zero, dd = zero, ww_2 = zero, dd_2 = zero, plus = zero, plus_2 = zero, minus = zero, minus_2 = zero;
+      for (int j = k; j >= 0; --j) {
+        const int i = k - j;
+        const Row a = change.rate_forward[i], b = change.rate_backward[i], e = change.down_forward[i],
+                  f = change.down_backward[i];
+        ww = multiply_add(wf[j], b, ww);
+        ww_2 = multiply_add(wb[j], a, ww_2);
+        dd = multiply_add(df[j], f, dd);
+        dd_2 = multiply_add(db[j], e, dd_2);
+        plus = multiply_add(df[j], b, plus);
+        plus_2 = multiply_add(wb[j], e, plus_2);
+        minus = multiply_add(db[j], a, minus);
+        minus_2 = multiply_add(wf[j], f, minus_2);
+      }
+      const Row pull = c.pull_forward * change.down_backward[k] - c.pull_backward * change.down_forward[k];
+      Scalar* next = &x[k + 1][8 * (column + 1)];
+      store(next, share * multiply_add(c.quadratic, ww + ww_2, multiply_add(c.gradient, dd + dd_2, pull)));
+      store(next + 4, share * c.unit * ((plus + plus_2) - (minus + minus_2)));
+    }
+  }
+}
+
+}  // namespace gyrostat::heavy
