@@ -81,6 +81,8 @@
 #include "gyrostat/models/deceleration/second_order.hpp"
 #include "gyrostat/models/deceleration/secular.hpp"
 #include "gyrostat/models/deceleration/stability.hpp"
+#include "gyrostat/models/heavy/full.hpp"
+#include "gyrostat/models/heavy/integrals.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/models/rotor/assembly.hpp"
 #include "gyrostat/models/rotor/attractor.hpp"
