@@ -8,6 +8,7 @@ Each case of tests/data/reference/FAMILY.json is solved by
   full      at tolerance 1e-11: within 1e-9 of the true motion (rotor: or ten times what the case says of double precision),
             stop time within 1e-7;
   averaged  (deceleration) within 1e-9 of the exact first-order averaged motion, stop time within 1e-8;
+  linear    (spinning) transverse pairs within 1e-12 of the exact linear motion;
   auto      at tolerances 1e-3, 1e-6, 1e-9 (--quick: 1e-3): the true error is within the tolerance where the answer
             says `met`, and in no column more than three times the error that the answer itself states.
 Errors are relative to the greatest value of the column over the span; of modulus_squared, absolute; of attitude, the angle.
@@ -26,12 +27,13 @@ CASES = pathlib.Path(__file__).resolve().parent / "data" / "reference"
 LAWS = {"M": "total", "G": "carrier"}
 TRUTH_FLOOR = 1e-9
 HONESTY = 3.0
+PAIR = " 1, 2"  # behind the name of a column: only its first two components
 
 
 def scene_text(family, case, model, tolerance):
     """The case as a scene file."""
     return f"""\
-name = {json.dumps(case["id"])}
+name = {json.dumps(case_name(case))}
 kind = "{family.kind}"
 source = "reference case"
 [solve]
@@ -125,12 +127,80 @@ attitude = {[x, y, z, w]!r}
         return {name: (values, max(TRUTH_FLOOR, 10 * case["tolerance"][limit])) for name, (values, limit) in columns.items()}, {}
 
 
-FAMILIES = {family.kind: family for family in (Deceleration, Rotor)}
+class Spinning:
+    kind = "spinning"
+    models = ("full", "linear")
+
+    @staticmethod
+    def times(case):
+        return [float(t) for t in case["times"]]
+
+    @staticmethod
+    def tables(case):
+        given = {name: float(value) for name, value in case["inputs"].items()}
+
+        def vector(*names):
+            return [given[name] for name in names]
+
+        return f"""\
+[body]
+inertia = {vector("D1", "D2", "D3")!r}
+mass = {given["m"]!r}
+rotor_momentum = {given["lambda3"]!r}
+[field]
+charge = {given["e"]!r}
+flux_density = {given["H"]!r}
+arm = {given["l"]!r}
+angle = {given["sigma"]!r}
+[torque]
+body = {vector("M1", "M2", "M3")!r}
+force = {vector("f1", "f2", "f3")!r}
+[initial]
+angular_velocity = {vector("p0", "q0", "r0")!r}
+euler_312 = {vector("psi0", "phi0", "theta0")!r}
+velocity = {vector("v10", "v20", "v30")!r}
+position = {vector("x10", "x20", "x30")!r}
+"""
+
+    @staticmethod
+    def known(case, model):
+        def column(rows, *names):
+            return [[float(row[name]) for name in names] for row in rows]
+
+        if model == "linear":
+            pairs = {"angular_velocity": "p q", "euler_312": "psi phi", "angular_momentum_inertial": "G1 G2", "velocity": "v1 v2",
+                     "position": "x1 x2"}
+            return {f"{name}{PAIR}": (column(case["linear_model"], *pair.split()), 1e-12) for name, pair in pairs.items()}, {}
+        rows = case["nonlinear_truth"]
+        columns = {
+            "attitude": [quaternion([[float(x) for x in line] for line in row["R"]]) for row in rows],
+            "angular_velocity": column(rows, "p", "q", "r"),
+            "angular_momentum_inertial": column(rows, "G1", "G2", "G3"),
+            "velocity": column(rows, "v1", "v2", "v3"),
+            "position": column(rows, "x1", "x2", "x3"),
+        }
+        return {name: (values, TRUTH_FLOOR) for name, values in columns.items()}, {}
+
+
+FAMILIES = {family.kind: family for family in (Deceleration, Rotor, Spinning)}
+
+
+def case_name(case):
+    return case.get("id") or case["name"]
 
 
 def unit(v):
     size = math.hypot(*v)
     return [x / size for x in v]
+
+
+def quaternion(R):
+    """[x, y, z, w] of a rotation tensor, by its greatest component."""
+    (a, b, c), (d, e, f), (g, h, i) = R
+    square = [1 + a - e - i, 1 - a + e - i, 1 - a - e + i, 1 + a + e + i]
+    rows = [[square[0], b + d, c + g, h - f], [b + d, square[1], f + h, c - g], [c + g, f + h, square[2], d - b],
+            [h - f, c - g, d - b, square[3]]]
+    return unit(max(zip(square, rows))[1])
 
 
 def turn_between(p, q):
@@ -174,7 +244,7 @@ class Check:
             run = subprocess.run([*self.command, "solve", str(scene), "--json"], capture_output=True, text=True, timeout=300)
         if run.returncode in (0, 3):
             return json.loads(run.stdout)
-        self.say(False, f"{case['id']} {model}: exit {run.returncode}: {(run.stderr or run.stdout).strip()[-300:]}")
+        self.say(False, f"{case_name(case)} {model}: exit {run.returncode}: {(run.stderr or run.stdout).strip()[-300:]}")
         return None
 
     def named(self, case, model):
@@ -183,12 +253,13 @@ class Check:
             return
         columns, scalars = self.family.known(case, model)
         for name, (want, allowed) in columns.items():
-            error = column_error(name, answer["columns"].get(name), want)
-            self.say(error <= allowed, f"{case['id']} {model} {name}: error {error:.1e}, allowed {allowed:.0e}")
+            got = answer["columns"].get(name.removesuffix(PAIR))
+            error = column_error(name, [row[:2] for row in got] if got and name.endswith(PAIR) else got, want)
+            self.say(error <= allowed, f"{case_name(case)} {model} {name}: error {error:.1e}, allowed {allowed:.0e}")
         for name, (want, allowed) in scalars.items():
             got = answer["scalars"].get(name)
             error = math.inf if got is None else abs(got / want - 1)
-            self.say(error <= allowed, f"{case['id']} {model} {name}: error {error:.1e}, allowed {allowed:.0e}")
+            self.say(error <= allowed, f"{case_name(case)} {model} {name}: error {error:.1e}, allowed {allowed:.0e}")
 
     def ladder(self, case, tolerance):
         answer = self.solve(case, "auto", tolerance)
@@ -202,7 +273,7 @@ class Check:
                 honest = error <= HONESTY * stated + floor
                 right = right and met and honest
                 seen.append(f"{name} {error:.1e} of {stated:.1e}" + ("" if met else " OVER") + ("" if honest else " DISHONEST"))
-        self.say(right and bool(seen), f"{case['id']} auto {tolerance:.0e}: {answer['model']}"
+        self.say(right and bool(seen), f"{case_name(case)} auto {tolerance:.0e}: {answer['model']}"
                  f"{'' if answer['met'] else ' (not met)'}, true of stated: {', '.join(seen)}")
 
 
@@ -217,7 +288,7 @@ def main():
     for family in args.families or FAMILIES:
         check = Check(FAMILIES[family], args.command)
         for case in json.loads((CASES / f"{family}.json").read_text(encoding="utf-8"))["cases"]:
-            if args.case in case["id"]:
+            if args.case in case_name(case):
                 for model in check.family.models:
                     check.named(case, model)
                 for tolerance in [1e-3] if args.quick else [1e-3, 1e-6, 1e-9]:

@@ -24,7 +24,8 @@ UNITS: Final = {
     "t": "s", "angular_momentum": "N m s", "angular_momentum_norm": "N m s", "energy": "J", "modulus_squared": "1",
     "regime": "", "angular_velocity": "rad/s", "attitude": "1", "stop_time": "s", "final_angular_velocity": "rad/s",
     "small_parameter": "1", "separatrix_distance": "1", "rotor_rate": "rad/s", "rotor_angle": "rad", "lyapunov": "J",
-    "attractor": "", "decay_rate": "1/s",
+    "attractor": "", "decay_rate": "1/s", "euler_312": "rad", "angular_momentum_inertial": "N m s", "velocity": "m/s", "position": "m",
+    "pointing_error": "rad", "secular_velocity_ratio": "1", "tilt_max": "rad", "nutation_frequency_squared": "1/s2",
 }
 MEANINGS: Final = {
     "t": "time", "angular_momentum": "total angular momentum, body axes", "angular_momentum_norm": "size of the total angular momentum",
@@ -37,6 +38,11 @@ MEANINGS: Final = {
     "lyapunov": "Lyapunov function V: energy less no_load_rate times the rotor's axial momentum, plus a constant; it never grows",
     "attractor": "place of the steady rotation that the motion tends to, by level; None: not certified",
     "decay_rate": "rate at which the motion comes to its attractor in the end",
+    "euler_312": "angles psi, phi, theta: body to inertial is Rz(theta) Rx(psi) Ry(phi); theta counts turns",
+    "angular_momentum_inertial": "angular momentum without the charge's, inertial axes", "velocity": "velocity of the mass centre, inertial axes",
+    "position": "position of the mass centre, inertial axes", "pointing_error": "mean lean of axis 3 under the torque, |M|/|r0 X|",
+    "secular_velocity_ratio": "limit of (v1, v2)/v3", "tilt_max": "greatest tilt of axis 3 from inertial axis 3",
+    "nutation_frequency_squared": "square of the nutation frequency; negative: the spin is unstable",
 }
 _AXES: Final = ("x", "y", "z", "w")
 

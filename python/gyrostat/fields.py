@@ -7,7 +7,7 @@ from typing import Any, Final, Literal
 __all__ = ["ALTERNATIVES", "Choice", "Field", "INTEGRATORS", "KINDS", "LATER_KINDS", "LIMIT", "MOST_SAMPLES", "REQUIRED", "RUNGS",
            "Table", "UNSET", "needed", "table_of"]
 
-Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "times"]
+Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "moments", "times"]
 
 REQUIRED: Final = "required"  # the key must be given
 UNSET: Final = None  # the key may be left out and then has no value
@@ -37,13 +37,15 @@ Table = tuple[Field, ...]
 RUNGS: Final[dict[str, tuple[str, ...]]] = {
     "deceleration": ("equal-torque", "averaged", "averaged-2", "full"),
     "rotor": ("closed-form", "linear-tail", "full"),
+    "spinning": ("linear", "second-order", "picard", "full"),
 }
 INTEGRATORS: Final[dict[str, tuple[str, ...]]] = {
     "deceleration": ("taylor", "cvode"),
     "rotor": ("taylor", "radau", "cvode"),
+    "spinning": ("taylor", "cvode"),
 }
 # Kinds that the scene format knows and this version does not answer.
-LATER_KINDS: Final = ("spinning", "heavy")
+LATER_KINDS: Final = ("heavy",)
 
 
 def _head(kind: str) -> Table:
@@ -122,9 +124,37 @@ KINDS: Final[dict[str, dict[str, Table]]] = {
             Field("attitude", "quaternion", "attitude at t = 0, body to inertial, [x, y, z, w]", "", (0.0, 0.0, 0.0, 1.0)),
         ),
     },
+    "spinning": {
+        "": _head("spinning"),
+        "solve": _solve("spinning"),
+        "body": (
+            Field("inertia", "moments", "three principal moments along the body axes, the third along the spin axis, or a diagonal "
+                  "3x3 tensor", "kg m^2", low=1e-40),
+            Field("mass", "number", "mass", "kg", low=0, open_low=True),
+            Field("rotor_momentum", "number", "momentum of the rotor along axis 3, relative to the carrier, constant", "N m s", 0.0),
+        ),
+        "field": (
+            Field("momentum", "number", "charge momentum e H l^2 cos(sigma): the Lorentz torque is this times (q, -p, 0)", "N m s", UNSET),
+            Field("charge", "number", "charge e", "C", UNSET),
+            Field("flux_density", "number", "magnetic flux density H", "T", UNSET),
+            Field("arm", "number", "distance l of the charge from the mass centre, along axis 3", "m", UNSET, low=0),
+            Field("angle", "number", "angle sigma between axis 3 and the magnetic field", "rad", UNSET),
+        ),
+        "torque": (
+            Field("body", "vector", "torque, constant in body axes", "N m"),
+            Field("force", "vector", "force, constant in body axes", "N"),
+        ),
+        "initial": (
+            Field("angular_velocity", "vector", "angular velocity of the carrier at t = 0, body axes", "rad/s"),
+            Field("euler_312", "vector", "angles psi, phi, theta at t = 0: body to inertial is Rz(theta) Rx(psi) Ry(phi)", "rad", UNSET),
+            Field("attitude", "quaternion", "attitude at t = 0, body to inertial, [x, y, z, w]", "", UNSET),
+            Field("velocity", "vector", "velocity of the mass centre at t = 0, inertial axes", "m/s", (0.0, 0.0, 0.0)),
+            Field("position", "vector", "position of the mass centre at t = 0, inertial axes", "m", (0.0, 0.0, 0.0)),
+        ),
+    },
 }
 
-# A way to give something: full keys ("table.key"), wanted together.
+# A way to give something: full keys ("table.key"), wanted together. Without keys: it may be left out.
 Choice = tuple[str, ...]
 
 # Sets of ways of which exactly one must be taken, whole.
@@ -136,6 +166,11 @@ ALTERNATIVES: Final[dict[str, tuple[tuple[Choice, ...], ...]]] = {
     "rotor": (
         (("solve.duration", "solve.samples"), ("solve.times",)),
         (("body.inertia",), ("carrier.inertia", "carrier.mass", "rotor.mass", "rotor.equatorial_inertia", "rotor.offset")),
+    ),
+    "spinning": (
+        (("solve.duration", "solve.samples"), ("solve.times",)),
+        (("field.momentum",), ("field.charge", "field.flux_density", "field.arm", "field.angle"), ()),
+        (("initial.euler_312",), ("initial.attitude",), ()),
     ),
 }
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat import rotor
+from gyrostat import rotation, rotor, spinning
 from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
 from gyrostat.scenes import scene_from
@@ -212,15 +212,152 @@ def _deceleration_panels(answer: Answer) -> list[Any]:
     return panels
 
 
+def _map(axes: "Axes", name: str, path: NDArray[Any], colour: str, dashes: str = "-") -> None:
+    """First two components of directions (n, 3), from a circle on."""
+    coarse = _coarse(path[:, :2])
+    axes.plot(path[:, 0], path[:, 1], color=colour, linewidth=0.8, linestyle="none" if coarse else dashes, marker="." if coarse else "",
+              markersize=2, label=name)
+    axes.plot(path[:1, 0], path[:1, 1], color=colour, marker="o", markersize=4, linestyle="none")
+
+
+def _mark(axes: "Axes", name: str, x: float, y: float) -> None:
+    if math.isfinite(x) and math.isfinite(y):
+        axes.plot([x], [y], color="black", marker="+", markersize=11, markeredgewidth=1.4, linestyle="none", label=name)
+
+
+def _finish_map(axes: "Axes", title: str) -> None:
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.ticklabel_format(style="sci", scilimits=(-2, 2))
+    axes.set_xlabel("direction cosine, inertial axis 1")
+    axes.set_ylabel("direction cosine, inertial axis 2")
+    axes.legend(loc="best", fontsize=8)
+    axes.set_title(title, loc="left", fontsize=10)
+
+
+def _axis_map(axes: "Axes", answer: Answer) -> None:
+    given = spinning.arguments(scene_from(answer.scene))
+    R = rotation.matrix_from_quaternion(answer["attitude"])
+    G = answer["angular_momentum_inertial"]
+    size = np.linalg.norm(G, axis=1, keepdims=True)
+    if np.all(size > 0):
+        _map(axes, "angular momentum", G / size, COLOURS[4])
+    _map(axes, "body axis 3", R[:, :, 2], COLOURS[0])
+    if math.isfinite(answer.scalars["pointing_error"]):
+        mean = -1j * spinning.pointing(**{name: given[name] for name in (
+            "inertia", "torque", "angular_velocity", "rotor_momentum", "charge_momentum", "euler_312")}).mean_tilt
+        if abs(mean) < 1:
+            _mark(axes, "mean of the linear motion", float(np.real(mean)), float(np.imag(mean)))
+    _finish_map(axes, "Axis 3 and momentum")
+    _note(axes, _error_text(answer, "attitude", "angular_momentum_inertial"))
+
+
+def _velocity_map(axes: "Axes", answer: Answer) -> None:
+    gained = answer["velocity"] - np.array(answer.scene["initial"]["velocity"])
+    size = np.linalg.norm(gained, axis=1, keepdims=True)
+    moving = size[:, 0] > 0
+    _map(axes, "velocity gained", gained[moving] / size[moving], COLOURS[2])
+    x, y = answer.scalars["secular_velocity_ratio"]
+    if math.hypot(x, y) < 1:
+        _mark(axes, "limit of the linear motion", x / math.sqrt(1 + x * x + y * y), y / math.sqrt(1 + x * x + y * y))
+    _finish_map(axes, "Velocity gained")
+    _note(axes, _error_text(answer, "velocity"))
+
+
+def _pair(axes: "Axes", answer: Answer, t: NDArray[Any], column: str, symbol: str, unit: str, title: str) -> None:
+    """Components 1 and 2, and 3 on an axis of its own."""
+    values = answer[column]
+    coarse = _coarse(values[:, :2])
+    for i in (0, 1):
+        axes.plot(t, values[:, i], color=COLOURS[i], label=f"{symbol}{i + 1}", linewidth=0.9, linestyle="none" if coarse else "-",
+                  marker="." if coarse else "", markersize=2)
+    axes.set_ylabel(f"{symbol}1, {symbol}2 [{unit}]")
+    right = axes.twinx()
+    right.plot(t, values[:, 2], color=COLOURS[2], linestyle="--", linewidth=1, label=f"{symbol}3")
+    right.set_ylabel(f"{symbol}3 [{unit}]", color=COLOURS[2])
+    lines = [*axes.lines, *right.lines]
+    axes.legend(lines, [str(line.get_label()) for line in lines], loc="best", fontsize=8, markerscale=4 if coarse else 1)
+    axes.set_title(title, loc="left", fontsize=10)
+    _note(axes, _error_text(answer, column))
+
+
+def _angles(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+    values = np.degrees(answer["euler_312"][:, :2])
+    coarse = _coarse(values)
+    for i, name in enumerate(("psi", "phi")):
+        axes.plot(t, values[:, i], color=COLOURS[i], label=name, linewidth=0.9, linestyle="none" if coarse else "-",
+                  marker="." if coarse else "", markersize=2)
+    axes.set_ylabel("psi, phi [deg]")
+    axes.legend(loc="best", fontsize=8, markerscale=4 if coarse else 1)
+    axes.set_title("Tilt of axis 3, body axes", loc="left", fontsize=10)
+    _note(axes, _error_text(answer, "euler_312"))
+
+
+def _plot_spinning(answer: Answer) -> "Figure":
+    figure = _figure(11, 13)
+    scale, unit = _time_unit(float(answer.t[-1] - answer.t[0]))
+    t = answer.t / scale
+    grid = figure.subplots(4, 2, height_ratios=(1.9, 1, 1, 1))
+    _axis_map(grid[0, 0], answer)
+    moved = bool(np.any(answer["velocity"] != np.array(answer.scene["initial"]["velocity"])))
+    if moved:
+        _velocity_map(grid[0, 1], answer)
+    else:
+        grid[0, 1].set_axis_off()
+    _pair(grid[1, 0], answer, t, "angular_velocity", "ω", "rad/s", "Angular velocity, body axes")
+    _angles(grid[1, 1], answer, t)
+    _pair(grid[2, 0], answer, t, "angular_momentum_inertial", "G", "N m s", "Angular momentum, inertial axes")
+    _pair(grid[2, 1], answer, t, "velocity", "v", "m/s", "Velocity, inertial axes")
+    theta = answer["euler_312"][:, 2]
+    grid[3, 0].plot(t, theta / (2 * np.pi), color=COLOURS[0])
+    grid[3, 0].set_ylabel("theta [turns]")
+    grid[3, 0].set_title("Spin angle", loc="left", fontsize=10)
+    _pair(grid[3, 1], answer, t, "position", "x", "m", "Position, inertial axes")
+    for axes in grid.flat:
+        axes.grid(alpha=0.3)
+    for axes in grid[3]:
+        axes.set_xlabel(f"time [{unit}]")
+    return figure
+
+
 PANELS: Final = {"deceleration": _deceleration_panels, "rotor": _rotor_panels}
+
+
+def _title(answer: Answer) -> str:
+    verdict = "met" if answer.met else "NOT met"
+    title = f"{answer.scene.get('name', '')}: rung {answer.model}, estimated error {answer.greatest_error:.1e}"
+    title += f" (tolerance {answer.tolerance:g} {verdict})"
+    stop = answer.scalars.get("stop_time")
+    if stop is not None and np.isfinite(stop):
+        title += f"\nstops at {stop:.6g} s"
+    if "attractor" in answer.scalars:
+        attractor, rate = answer.scalars["attractor"], answer.scalars["decay_rate"]
+        title += "\nno attractor certified" if attractor is None else f"\ntends to steady rotation {attractor}"
+        title += f", in the end as exp(-t / {_span(1 / rate)})" if attractor is not None and rate > 0 else ""
+    if "tilt_max" in answer.scalars:
+        told = [f"greatest tilt {_degrees(answer.scalars['tilt_max'])}"]
+        if answer.scalars["pointing_error"] < 1:  # beyond, the linear motion tells nothing
+            told.append(f"mean pointing error {_degrees(answer.scalars['pointing_error'])}")
+        if answer.scalars["nutation_frequency_squared"] <= 0:
+            told.append("unstable spin")
+        title += "\n" + ", ".join(told)
+    return title
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.3g} deg"
 
 
 def plot_answer(answer: Answer) -> "Figure":
     """What the answer holds, over time.
 
     Deceleration: |M| and energy, k2 with the regimes, and the vectors where the rung gives them. Rotor: rates of rotor and carrier,
-    the angular momentum in body axes and its angle to the rotor's axis (at rest: the attitude), and the Lyapunov function.
+    the angular momentum in body axes and its angle to the rotor's axis (at rest: the attitude), and the Lyapunov function. Spinning: the
+    directions of axis 3, of the angular momentum and of the velocity gained with their means, and all columns over time.
     """
+    if answer.scene["kind"] == "spinning":
+        figure = _plot_spinning(answer)
+        figure.suptitle(_title(answer), fontsize=11)
+        return figure
     panels = PANELS[answer.scene["kind"]](answer)
     figure = _figure(9, 1.0 + 2.2 * len(panels))
     scale, unit = _time_unit(float(answer.t[-1] - answer.t[0]))
@@ -233,16 +370,7 @@ def plot_answer(answer: Answer) -> "Figure":
         if stop is not None and np.isfinite(stop) and t[0] <= stop / scale <= t[-1]:
             axes.axvline(stop / scale, color="#555555", linestyle=":", linewidth=1)
     all_axes[-1].set_xlabel(f"time [{unit}]")
-    verdict = "met" if answer.met else "NOT met"
-    title = f"{answer.scene.get('name', '')}: rung {answer.model}, estimated error {answer.greatest_error:.1e}"
-    title += f" (tolerance {answer.tolerance:g} {verdict})"
-    if stop is not None and np.isfinite(stop):
-        title += f"\nstops at {stop:.6g} s"
-    if "attractor" in answer.scalars:
-        attractor, rate = answer.scalars["attractor"], answer.scalars["decay_rate"]
-        title += "\nno attractor certified" if attractor is None else f"\ntends to steady rotation {attractor}"
-        title += f", in the end as exp(-t / {_span(1 / rate)})" if attractor is not None and rate > 0 else ""
-    figure.suptitle(title, fontsize=11)
+    figure.suptitle(_title(answer), fontsize=11)
     return figure
 
 
@@ -251,7 +379,7 @@ CHART_STYLE: Final = {  # group -> marker, size, dashes
     "cvode": ("s", 5, "--"), "rival": ("D", 5, ":"),
 }
 RUNG_MARKERS: Final = {"rung equal-torque": "P", "rung averaged": "^", "rung averaged-2": "X", "rung closed-form": "P",
-                       "rung linear-tail": "^", "rung full": "*"}
+                       "rung linear-tail": "^", "rung linear": "P", "rung second-order": "^", "rung picard": "X", "rung full": "*"}
 CHART_FLOOR: Final = 1e-17  # an error of zero is drawn here
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rotations over arrays: quaternion, rotation tensor, rotation vector, each to each.
+"""Rotations over arrays: quaternion, rotation tensor, rotation vector, each to each, and 3-1-2 angles.
 
 A rotation takes body components to inertial components, v_I = R v_B. Quaternions (..., 4) are [x, y, z, w], or with
 scalar_first=True [w, x, y, z], as in SciPy's Rotation; tensors are (..., 3, 3); rotation vectors (..., 3) are axis times angle
@@ -15,8 +15,8 @@ from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.errors import DomainError
 
 __all__ = [
-    "angle_between", "matrix_from_quaternion", "matrix_from_vector", "quaternion_from_matrix", "quaternion_from_vector",
-    "vector_from_matrix", "vector_from_quaternion",
+    "angle_between", "euler_312_from_quaternion", "matrix_from_quaternion", "matrix_from_vector", "quaternion_from_euler_312",
+    "quaternion_from_matrix", "quaternion_from_vector", "vector_from_matrix", "vector_from_quaternion",
 ]
 
 ORTHOGONAL_TOLERANCE = 1e-6
@@ -83,6 +83,22 @@ def matrix_from_vector(vector: ArrayLike) -> Floats:
     lead, (v,) = rows([("vector", vector, (3,))])
     made: Floats = shaped(_core.matrix_from_vector(v), lead, 3, 3)
     return made
+
+
+def euler_312_from_quaternion(quaternion: ArrayLike, *, scalar_first: bool = False) -> Floats:
+    """(..., 4) -> (..., 3): psi, phi, theta of R = Rz(theta) Rx(psi) Ry(phi) [rad], |psi| <= pi/2, phi and theta in [-pi, pi].
+
+    At |psi| = pi/2 only theta + phi (psi > 0) or theta - phi has a meaning, and comes back right.
+    """
+    lead, q = _quaternions(quaternion, scalar_first)
+    made: Floats = shaped(_core.euler_312_from_quaternion(q), lead, 3)
+    return made
+
+
+def quaternion_from_euler_312(angles: ArrayLike, *, scalar_first: bool = False) -> Floats:
+    """(..., 3) -> (..., 4) of R = Rz(theta) Rx(psi) Ry(phi), the angles psi, phi, theta of any size [rad]."""
+    lead, (a,) = rows([("angles", angles, (3,))])
+    return _ordered(_core.quaternion_from_euler_312(a), lead, scalar_first)
 
 
 def angle_between(first: ArrayLike, second: ArrayLike) -> Floats:

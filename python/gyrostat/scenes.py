@@ -41,6 +41,8 @@ AXIS_TOLERANCE: Final = 1e-8
 ROUNDING: Final = 1e-15
 # Off-diagonal pairs, and the triangle inequality, may be off by this share of the largest element.
 TENSOR_TOLERANCE: Final = 1e-9
+# Where the moments themselves are used, as they stand, they may miss the triangle inequality by rounding alone.
+MOMENTS_TOLERANCE: Final = 1e-15
 
 
 @dataclass(frozen=True, eq=False)
@@ -304,22 +306,34 @@ def _inertia(field: Field, value: Any) -> tuple[Any, ...]:
     return tuple(tuple(float(x) for x in row) for row in tensor)
 
 
+def _moments(field: Field, value: Any) -> tuple[float, ...]:
+    read = _inertia(field, value)
+    if isinstance(read[0], tuple):
+        for i, j in ((0, 1), (0, 2), (1, 2)):
+            if read[i][j]:
+                raise _Wrong(f"the products of inertia are not zero: element ({i + 1}, {j + 1}) = {read[i][j]!r}",
+                             "give the three principal moments, and all vectors along the principal axes, axis 3 the spin axis")
+        read = tuple(read[i][i] for i in range(3))
+    _triangle(read, MOMENTS_TOLERANCE)
+    return read
+
+
 def _listed(numbers: Iterable[float]) -> str:
     return ", ".join(f"{x:.9g}" for x in numbers)
 
 
-def _triangle(moments: Iterable[float]) -> None:
+def _triangle(moments: Iterable[float], tolerance: float = TENSOR_TOLERANCE) -> None:
     a, b, c = sorted(moments)
     if a < c * 1e-12:
         raise _Wrong(f"the smallest moment {a:.9g} is below 1e-12 of the largest {c:.9g}", "check the unit (kg m^2) of each moment")
-    if a + b < c * (1 - TENSOR_TOLERANCE):
+    if a + b < c * (1 - tolerance):
         raise _Wrong(f"the principal moment {c:.9g} exceeds the sum of the two others, {a:.9g} + {b:.9g}",
                      "no rigid body has these moments (triangle inequality): check the numbers, or the signs of the products of inertia")
 
 
 _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
     "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "direction": _direction,
-    "quaternion": _quaternion, "inertia": _inertia, "times": _times,
+    "quaternion": _quaternion, "inertia": _inertia, "moments": _moments, "times": _times,
 }
 
 
@@ -430,7 +444,7 @@ def _ways(choices: tuple[Choice, ...]) -> str:
 
 
 def _bare(choices: tuple[Choice, ...]) -> str:
-    return " or ".join(" and ".join(key.rpartition(".")[2] for key in choice) for choice in choices)
+    return " or ".join(" and ".join(key.rpartition(".")[2] for key in choice) for choice in choices if choice)
 
 
 def _wanted(kind: str, table: str) -> str:
@@ -443,7 +457,8 @@ def _one_of(choices: tuple[Choice, ...], tree: Mapping[str, Any], wrong: Callabl
     given = {f"{table}.{name}": value for table, values in tree.items() if isinstance(values, dict) for name, value in values.items()}
     started = [choice for choice in choices if any(key in given for key in choice)]
     if not started:
-        wrong(choices[0][0], "", "the key is missing", _ways(choices), False)
+        if () not in choices:
+            wrong(choices[0][0], "", "the key is missing", _ways(choices), False)
     elif len(started) > 1:
         first, extra = (next(key for key in choice if key in given) for choice in started[:2])
         wrong(extra, given[extra], f"given beside {first}", _ways(choices))

@@ -35,7 +35,7 @@ def _form(field: Field) -> dict[str, Any]:
             return _array({"type": "number", "minimum": -1.000001, "maximum": 1.000001}, 4)
         case "times":
             return _array(_number(field))
-        case "inertia":
+        case "inertia" | "moments":
             tensor = _array(_array({"type": "number", "minimum": -field.high, "maximum": field.high}, 3), 3)
             return {"oneOf": [_array(_number(field), 3), tensor]}
 
@@ -86,7 +86,7 @@ def schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of a scene file, parsed from TOML.
 
     What a schema cannot say is checked when a scene is loaded: finite numbers, the triangle inequality, a symmetric
-    tensor, increasing times, a unit quaternion or axis, a rotor that the body can hold.
+    or diagonal tensor, increasing times, a unit quaternion or axis, a rotor that the body can hold.
     """
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gyrostat import deceleration, elliptic, rotation, rotor
+from gyrostat import deceleration, elliptic, rotation, rotor, spinning
 from gyrostat._core import build_info
 from gyrostat.errors import DomainError
 from gyrostat.ladder import solve
@@ -28,6 +28,14 @@ DRIVEN = {
     "body": {"inertia": [3.0, 4.0, 5.0]}, "rotor": {"axis": [0.36, 0.48, 0.8], "axial_inertia": 0.4},
     "motor": {"slope": 0.2, "no_load_rate": 20.0},
     "initial": {"angular_velocity": [0.5, -0.3, 0.2], "rotor_rate": 0.0, "attitude": [0.5, -0.5, 0.5, 0.5]},
+}
+
+# A thrusting stage that spins about its axis 3, with a wheel.
+THRUSTING = {
+    "name": "selftest", "kind": "spinning", "solve": {"duration": 60.0, "samples": 41, "tolerance": 1e-10},
+    "body": {"inertia": [8.0, 7.0, 11.0], "mass": 10.0, "rotor_momentum": 1.5},
+    "torque": {"body": [4e-3, -2e-3, 0.0], "force": [0.3, -0.2, 3.0]},
+    "initial": {"angular_velocity": [2e-3, -3e-3, 1.0]},
 }
 
 
@@ -86,6 +94,28 @@ def _rotor_integrators() -> str:
     return _verdict(f"{', '.join(methods)} differ by", error, 1e-6)
 
 
+def _spinning_rungs() -> str:
+    full = solve(THRUSTING, model="full")
+    off = 0.0
+    for model in ("linear", "second-order"):
+        rung = solve(THRUSTING, model=model, tolerance=0.1)
+        for name in ("angular_velocity", "angular_momentum_inertial", "velocity", "position"):
+            error = np.max(np.linalg.norm(rung[name] - full[name], axis=1)) / np.max(np.linalg.norm(full[name], axis=1))
+            off = max(off, float(error) / rung.error[name])
+    return _verdict("linear and second-order against full motion, error over stated error", off, 1.0)
+
+
+def _spinning_resonance() -> str:
+    given: dict[str, Any] = {"inertia": [8.0, 8.0, 12.0], "rotor_momentum": -12.0, "torque": [1e-3, 0.0, 0.0], "force": [0.0, 0.0, 1.0],
+                             "angular_velocity": [0.0, 0.0, 1.0]}
+    t = np.linspace(0.0, 50.0, 26)
+    made = spinning.linear(t=t, **given)
+    # nu = r0: p + i q = (M/D) (1 - e^(-i t))/i, so e^(i t) (psi + i phi) = (M/D) (e^(i t) - 1 - i t)/i^2
+    law = 1e-3 / 8.0 * (1 + 1j * t - np.exp(1j * t)) * np.exp(-1j * t)
+    off = float(np.max(np.abs(made.euler_312[:, 0] + 1j * made.euler_312[:, 1] - law)) / np.max(np.abs(law)))
+    return _verdict("spinner at exact resonance, off the law by", off, 1e-13)
+
+
 def _elliptic() -> str:
     k2 = np.array([1e-9, 0.3, 0.5, 0.9, 1 - 1e-9])
     complete, other = elliptic.complete(k2), elliptic.complete(1 - k2, kp2=k2)
@@ -127,4 +157,6 @@ def checks() -> Iterator[tuple[str, Callable[[], str]]]:
     yield "rotor, laws", _rotor_laws
     yield "rotor, closed form", _rotor_closed_form
     yield "rotor, integrators", _rotor_integrators
+    yield "spinning, rungs", _spinning_rungs
+    yield "spinning, resonance", _spinning_resonance
     yield "refusals", _refusals

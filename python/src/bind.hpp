@@ -13,3 +13,5 @@ void bind_rotor(pybind11::module_& module);
 void bind_rotor_integrators(pybind11::module_& module);
 void bind_rotor_steady(pybind11::module_& module);
 void bind_rotor_published(pybind11::module_& module);
+void bind_spinning(pybind11::module_& module);
+void bind_spinning_integrators(pybind11::module_& module);

@@ -62,4 +62,6 @@ PYBIND11_MODULE(_core, module) {
   bind_rotor_integrators(module);
   bind_rotor_steady(module);
   bind_rotor_published(module);
+  bind_spinning(module);
+  bind_spinning_integrators(module);
 }

@@ -2,6 +2,7 @@
 // Conversions of rotations over arrays of rows; gyrostat/rotation.py broadcasts. Quaternions are scalar-last here.
 #include "bind.hpp"
 #include "convert.hpp"
+#include "gyrostat/rotation/euler_312.hpp"
 #include "gyrostat/rotation/exp_log.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 
@@ -60,6 +61,10 @@ void bind_rotation(py::module_& module) {
              py::arg("rows"));
   module.def("vector_from_matrix", rows<9, 3>([](const double* p) { return vector_from_matrix(matrix(p)); }),
              py::arg("rows"));
+  module.def("euler_312_from_quaternion",
+             rows<4, 3>([](const double* p) { return angles_312(normalised(quaternion(p))); }), py::arg("rows"));
+  module.def("quaternion_from_euler_312",
+             rows<3, 4>([](const double* p) { return quaternion_from_312(p[0], p[1], p[2]); }), py::arg("rows"));
   module.def("matrix_from_vector", rows<3, 9>([](const double* p) { return matrix_from_vector(vector3(p)); }),
              py::arg("rows"));
 }

@@ -72,6 +72,40 @@ mass = 3.0
 equatorial_inertia = 0.3
 offset = [0.2, -0.15, 0.3]""")
 
+SPINNING = """\
+name = "test"
+kind = "spinning"
+source = "a test"
+
+[solve]
+duration = 100.0
+samples = 11
+tolerance = 1e-6
+model = "auto"
+integrator = "auto"
+
+[body]
+inertia = [8.0, 7.0, 11.0]
+mass = 10.0
+rotor_momentum = 1.5
+
+[field]
+charge = 0.002
+flux_density = 50.0
+arm = 1.1
+angle = 0.3
+
+[torque]
+body = [0.004, -0.002, 0.0]
+force = [0.3, -0.2, 3.0]
+
+[initial]
+angular_velocity = [0.002, -0.003, 1.0]
+euler_312 = [0.004, -0.002, 0.3]
+velocity = [0.1, -0.2, 0.3]
+position = [1.0, 2.0, 3.0]
+"""
+
 
 @pytest.fixture
 def good() -> str:
@@ -92,4 +126,12 @@ def rotor_file(tmp_path: Path) -> Path:
     """A rotor scene in a file."""
     file = tmp_path / "rotor.toml"
     file.write_text(ROTOR)
+    return file
+
+
+@pytest.fixture
+def spinning_file(tmp_path: Path) -> Path:
+    """A spinning scene in a file."""
+    file = tmp_path / "spinning.toml"
+    file.write_text(SPINNING)
     return file

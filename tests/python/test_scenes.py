@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import ASSEMBLED, GOOD, ROTOR
+from conftest import ASSEMBLED, GOOD, ROTOR, SPINNING
 from gyrostat.errors import SceneError
 from gyrostat.fields import KINDS, RUNGS
 from gyrostat.scenes import bundled, load, parse_override, scene_from
@@ -28,6 +28,10 @@ def in_rotor(old: str, new: str) -> str:
     return swap(old, new, ROTOR)
 
 
+def in_spinning(old: str, new: str) -> str:
+    return swap(old, new, SPINNING)
+
+
 def in_assembled(old: str, new: str) -> str:
     return swap(old, new, ASSEMBLED)
 
@@ -37,7 +41,7 @@ MISTAKES: dict[str, tuple[str, list[str]]] = {
     "not TOML": (swap("duration = 100.0", "duration = "), [":6", "not TOML"]),
     "duplicate key": (swap("drag = 2.0e-4", "drag = 2.0e-4\ndrag = 1.0"), ["not TOML", "drag"]),
     "unknown kind": (swap('"deceleration"', '"decelaration"'), ["kind", "decelaration", 'did you mean "deceleration"']),
-    "kind of a later version": (swap('"deceleration"', '"spinning"'), ["kind", "spinning", "not built yet", "deceleration", "rotor"]),
+    "kind of a later version": (swap('"deceleration"', '"heavy"'), ["kind", "heavy", "not built yet", "deceleration", "rotor", "spinning"]),
     "kind missing": (swap('kind = "deceleration"\n', ""), ["kind", "missing", 'kind = "deceleration"']),
     "kind not text": (swap('"deceleration"', "3"), ["kind = 3", "deceleration"]),
     "name missing": (swap('name = "test"\n', ""), ["name", "missing"]),
@@ -140,6 +144,32 @@ MISTAKES: dict[str, tuple[str, list[str]]] = {
     "momentum at the start of a rotor": (in_rotor("rotor_rate = -1.0", "rotor_rate = -1.0\nangular_momentum = [1, 2, 3]"),
                                          ["initial.angular_momentum", "unknown key", "angular_velocity"]),
     "torque on a rotor scene": (ROTOR + "[torque]\ndrag = 1.0\n", ["torque", "unknown table"]),
+    # spinning
+    "unknown rung of a spinner": (in_spinning('model = "auto"', 'model = "second_order"'), ["solve.model", "second_order", 'did you mean "second-order"?']),
+    "implicit integrator of a spinner": (in_spinning('integrator = "auto"', 'integrator = "radau"'),
+                                         ["solve.integrator", "radau", "this kind of scene has no such integrator", "taylor, cvode"]),
+    "inertia off the axes": (in_spinning("[8.0, 7.0, 11.0]", "[[8, 0.1, 0], [0.1, 7, 0], [0, 0, 11]]"),
+                             ["body.inertia", "(1, 2) = 0.1", "principal moments", "axis 3 the spin axis"]),
+    "thin beyond a lamina": (in_spinning("[8.0, 7.0, 11.0]", "[8.0, 7.0, 15.000000001]"), ["body.inertia", "15", "triangle"]),
+    "massless spinner": (in_spinning("mass = 10.0", "mass = 0"), ["body.mass = 0", "> 0", "kg"]),
+    "no mass": (in_spinning("mass = 10.0\n", ""), ["body.mass", "missing", "kg"]),
+    "rotor momentum as a vector": (in_spinning("rotor_momentum = 1.5", "rotor_momentum = [0, 0, 1.5]"), ["body.rotor_momentum", "an array", "N m s"]),
+    "charge beside its momentum": (in_spinning("[field]", "[field]\nmomentum = 0.29"),
+                                   ["field.charge = 0.002", "given beside field.momentum", "either momentum or charge"]),
+    "charge without its arm": (in_spinning("arm = 1.1\n", ""), ["field.arm", "missing", "flux_density"]),
+    "negative arm": (in_spinning("arm = 1.1", "arm = -1.1"), ["field.arm = -1.1", ">= 0", "m"]),
+    "endless field": (in_spinning("flux_density = 50.0", "flux_density = inf"), ["field.flux_density = inf", "finite", "T"]),
+    "gravity": (in_spinning("[field]", "[field]\ngravity = 9.8"), ["field.gravity", "unknown key"]),
+    "no torque": (in_spinning("[torque]\nbody = [0.004, -0.002, 0.0]\nforce = [0.3, -0.2, 3.0]\n", ""), ["[torque] is missing", "body, force"]),
+    "no force": (in_spinning("force = [0.3, -0.2, 3.0]\n", ""), ["torque.force", "missing", "N"]),
+    "force of two numbers": (in_spinning("[0.3, -0.2, 3.0]", "[0.3, 3.0]"), ["torque.force", "2 elements", "3 numbers"]),
+    "force in the body": (in_spinning("[body]", "[body]\nforce = [0, 0, 1]"), ["body.force", "belongs in [torque]"]),
+    "angles of text": (in_spinning("[0.004, -0.002, 0.3]", '"zero"'), ["initial.euler_312", '"zero"']),
+    "two attitudes": (in_spinning("euler_312 = ", "attitude = [0, 0, 0, 1]\neuler_312 = "), ["initial.attitude", "given beside initial.euler_312"]),
+    "speed as a number": (in_spinning("velocity = [0.1, -0.2, 0.3]\npos", "velocity = 0.1\npos"), ["initial.velocity = 0.1", "3 numbers"]),
+    "endless position": (in_spinning("[1.0, 2.0, 3.0]", "[1.0, nan, 3.0]"), ["initial.position", "element 2 = nan", "not finite"]),
+    "no spin": (in_spinning("angular_velocity = [0.002, -0.003, 1.0]\n", ""), ["initial.angular_velocity", "missing", "rad/s"]),
+    "momentum at the start of a spinner": (in_spinning("[initial]", "[initial]\nangular_momentum = [1, 2, 3]"), ["initial.angular_momentum", "unknown key"]),
 }
 
 
@@ -253,6 +283,27 @@ def test_an_axis_within_rounding_of_a_unit_is_normalised(rotor_file: Path) -> No
         load(rotor_file, axis=axis * (1 + 2e-8))
 
 
+def test_spinning_scenes_are_read(spinning_file: Path) -> None:
+    scene = load(spinning_file)
+    assert scene.kind == "spinning" and scene.tables["body"]["inertia"] == (8.0, 7.0, 11.0)
+    assert scene_from(scene.to_dict()).to_dict() == scene.to_dict()
+    assert scene.replace(inertia=[[8, 0, 0], [0, 7, 0], [0, 0, 11]]).tables == scene.tables
+    assert load(spinning_file, inertia=[8, 7, 15]).tables["body"]["inertia"][2] == 15.0  # a lamina
+    momentum = scene.replace(momentum=0.29)
+    assert momentum.to_dict()["field"] == {"momentum": 0.29}
+    turned = scene.replace(attitude=[0.0, 0.0, 0.6, 0.8]).to_dict()["initial"]
+    assert "euler_312" not in turned and turned["attitude"] == [0.0, 0.0, 0.6, 0.8]
+
+
+def test_a_spinner_may_leave_out_what_is_zero() -> None:
+    least = {"name": "a", "kind": "spinning", "solve": {"times": [1]}, "body": {"inertia": [1, 1, 1], "mass": 1},
+             "torque": {"body": [0, 0, 0], "force": [0, 0, 0]}, "initial": {"angular_velocity": [0, 0, 1]}}
+    scene = scene_from(least)
+    assert scene.tables["body"]["rotor_momentum"] == 0.0 and "field" not in scene.to_dict()
+    assert scene.tables["initial"]["velocity"] == scene.tables["initial"]["position"] == (0.0, 0.0, 0.0)
+    assert scene_from({**least, "field": {}}).tables == scene.tables
+
+
 def test_a_rotor_as_great_as_its_body_holds(rotor_file: Path) -> None:
     theta = np.array([[3.2, 0.1, -0.15], [0.1, 4.1, 0.2], [-0.15, 0.2, 5.0]])
     e = np.array([0.36, 0.48, 0.8])
@@ -339,7 +390,7 @@ def survives(text: str | bytes, folder: Path) -> None:
         assert error.mistakes and str(error)
 
 
-@pytest.mark.parametrize("good", [GOOD, ROTOR, ASSEMBLED])
+@pytest.mark.parametrize("good", [GOOD, ROTOR, ASSEMBLED, SPINNING])
 def test_mutated_texts(good: str, tmp_path: Path) -> None:
     draw = random.Random(20260101)
     pieces = [*string.printable, "[[", "]]", "= nan", "= -inf", "1e999", "true", '"""', "{}", "[]", "\\u0000", "é", "9" * 30,
@@ -392,8 +443,8 @@ def test_random_dicts(kind: str, data: dict[str, object]) -> None:
 
 
 @settings(max_examples=400, deadline=None)
-@given(data=st.sampled_from([GOOD, ROTOR, ASSEMBLED]), key=keys, value=values,
-       dotted=st.sampled_from(["", "solve.", "body.", "torque.", "initial.", "carrier.", "rotor.", "motor.", "x.y."]))
+@given(data=st.sampled_from([GOOD, ROTOR, ASSEMBLED, SPINNING]), key=keys, value=values,
+       dotted=st.sampled_from(["", "solve.", "body.", "torque.", "initial.", "carrier.", "rotor.", "motor.", "field.", "x.y."]))
 def test_random_overrides(data: str, key: str, value: object, dotted: str) -> None:
     try:
         change: dict[str, Any] = {dotted + key: value}

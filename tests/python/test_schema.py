@@ -5,7 +5,7 @@ import json
 import tomllib
 from typing import Any
 
-from conftest import ASSEMBLED, ROTOR
+from conftest import ASSEMBLED, ROTOR, SPINNING
 from gyrostat.errors import SceneError
 from gyrostat.fields import KINDS
 from gyrostat.scenes import bundled, load, scene_from
@@ -50,7 +50,7 @@ def test_schema_has_every_key_once() -> None:
         assert rule["properties"]["kind"]["enum"] == [kind]
         for table, fields in tables.items():
             properties = rule["properties"][table]["properties"] if table else rule["properties"]
-            assert {field.name for field in fields} == {key for key in properties if key not in tables}
+            assert {field.name for field in fields} == {key for key in properties if table or key not in tables}
 
 
 SPOILT = {
@@ -59,6 +59,9 @@ SPOILT = {
     "rotor": [("motor", "slope", -1.0), ("motor", "slope", "1"), ("rotor", "axis", [0, 0, 2]), ("rotor", "axis", [0, 1]),
               ("rotor", "axial_inertia", 0.0), ("carrier", "mass", -1.0), ("carrier", "mass", 0), ("body", "inertia", [1, 2]),
               ("initial", "angular_momentum", [1, 2, 3]), ("solve", "model", "averaged")],
+    "spinning": [("body", "mass", 0), ("body", "rotor_momentum", [0, 0, 1]), ("body", "inertia", [1, 2]), ("field", "arm", -1.0),
+                 ("field", "momentum", "1"), ("torque", "drag", 1.0), ("torque", "force", [1, 2]), ("initial", "velocity", 1.0),
+                 ("initial", "angular_momentum", [1, 2, 3]), ("solve", "model", "closed-form"), ("solve", "integrator", "radau")],
 }
 
 
@@ -71,7 +74,7 @@ def test_schema_accepts_the_bundled_scenes_and_refuses_spoilt_ones() -> None:
         for table, key, value in [*SPOILT[data["kind"]], ("solve", "tolerance", 1.0), ("initial", "attitude", [0, 0, 0, 2]),
                                   ("solve", "samples", 1.5), ("solve", "times", [1.0])]:
             assert not accepts(schema(), {**data, table: {**data.get(table, {}), key: value}})
-        for other in {*KINDS, "spinning"} - {data["kind"]}:
+        for other in {*KINDS, "heavy"} - {data["kind"]}:
             assert not accepts(schema(), {**data, "kind": other})
         for table in ("solve", "torque", "rotor", "motor", "initial"):
             if table in data:
@@ -81,7 +84,7 @@ def test_schema_accepts_the_bundled_scenes_and_refuses_spoilt_ones() -> None:
 
 
 def test_schema_and_validator_agree_on_alternatives_between_tables() -> None:
-    whole, apart = tomllib.loads(ROTOR), tomllib.loads(ASSEMBLED)
+    whole, apart, spinning = tomllib.loads(ROTOR), tomllib.loads(ASSEMBLED), tomllib.loads(SPINNING)
     carrier = {"inertia": [2.1, 2.6, 3.2], "mass": 12.0}
     for data in (
         whole, apart, {**whole, "body": {}}, {**apart, "body": {}}, {**whole, "carrier": {}}, {**whole, "carrier": carrier},
@@ -89,6 +92,11 @@ def test_schema_and_validator_agree_on_alternatives_between_tables() -> None:
         {key: value for key, value in whole.items() if key != "body"}, {key: value for key, value in apart.items() if key != "carrier"},
         *({**apart, "rotor": {k: v for k, v in apart["rotor"].items() if k != key}} for key in apart["rotor"]),
         {**apart, "carrier": {"mass": 12.0}}, {**apart, "body": 3}, {**whole, "carrier": []},
+        spinning, {key: value for key, value in spinning.items() if key != "field"}, {**spinning, "field": {}},
+        {**spinning, "field": {"momentum": 0.3}}, {**spinning, "field": {**spinning["field"], "momentum": 0.3}},
+        {**spinning, "field": {"charge": 0.3}}, {**spinning, "initial": {"angular_velocity": [0, 0, 1]}},
+        {**spinning, "initial": {**spinning["initial"], "attitude": [0, 0, 0, 1]}},
+        {**spinning, "initial": {"angular_velocity": [0, 0, 1], "attitude": [0, 0, 0, 1]}},
     ):
         try:
             scene_from(data)

@@ -3,7 +3,7 @@
 
 import gyrostat
 import numpy as np
-from gyrostat import deceleration, elliptic, rotation, rotor
+from gyrostat import deceleration, elliptic, rotation, rotor, spinning
 
 
 def libraries() -> list[str]:
@@ -26,5 +26,9 @@ K = elliptic.complete(star).K
 turn = rotation.matrix_from_vector([0.0, 0.0, 1.0])
 theta = rotor.assembled_inertia(carrier_inertia=[2.0, 3.0, 4.0], carrier_mass=9.0, rotor_mass=1.0, axis=[0.0, 0.0, 1.0],
                                 axial_inertia=0.1, equatorial_inertia=0.06, offset=[0.0, 0.1, 0.2])
+lean = spinning.pointing_error(inertia=[8.0, 7.0, 11.0], torque=np.ones((4, 3)), spin_rate=2.0)
+burn = spinning.linear_grid(inertia=[8.0, 7.0, 11.0], torque=[0.1, 0.0, 0.0], force=[0.0, 0.0, 3.0], angular_velocity=[0.0, 0.0, 2.0],
+                            step=0.1, samples=50)
 monitor = gyrostat.Monitor()
-print(gyrostat.__version__, *libraries(), despin_times("tiangong-1", [0.4, 0.5]), largest, momentum[-1], sweep.stop_time, K, turn, theta @ turn, monitor.progress)
+print(gyrostat.__version__, *libraries(), despin_times("tiangong-1", [0.4, 0.5]), largest, momentum[-1], sweep.stop_time, K, turn, theta @ turn, lean[0],
+      burn.x3[-1], monitor.progress)
