@@ -104,16 +104,21 @@ TEST_CASE("rung linear under an axial torque", "[spinning]") {
   p.torque[2] = -1.5 * p.inertia[2] * p.spin() / span;  // through zero spin
   p.rotor_momentum = 2 * p.inertia[2] * p.spin();
   p.charge_momentum = 0;
-  const auto scene = posed(p, span, 1e-2);
+  const auto scene = posed(p, span, 1e-2, Model::any, 100);
   const Track track = linear_track(scene, nullptr);
   REQUIRE(track.failure == Errc::ok);
   CHECK(track.counts.steps > 0);
   check_honest(scene, track);
+  check_honest(posed(p, span, 1e-2, Model::linear), linear_track(posed(p, span, 1e-2, Model::linear), nullptr));
   // a sixteenth of the way tells that it is not good enough
-  const Track early = linear_track(posed(p, span, 1e-10), nullptr);
+  const Track early = linear_track(posed(p, span, 1e-10, Model::any, 100), nullptr);
   CHECK(early.failure == Errc::not_applicable);
   CHECK(early.known_error > 1e-10);
   CHECK(early.states.empty());
+  // no cheaper than the full equations at few times
+  const Track few = linear_track(posed(p, span, 1e-2), nullptr);
+  CHECK(few.failure == Errc::not_applicable);
+  CHECK(few.refusal != nullptr);
 
   Monitor monitor;
   monitor.cancel = true;

@@ -115,8 +115,12 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
     return Errc::ok;
   };
   LinearErrors<double> error{};
-  // the errors only grow: a sixteenth of the motion often tells
   if (question.model != Model::linear) {
+    const double r0 = scene.problem().spin(), r1 = r0 + scene.problem().torque[2] / scene.problem().inertia[2] * end;
+    if (double(question.times.size()) < std::max(std::abs(r0), std::abs(r1)) * end)
+      return refused<Track>(Errc::not_applicable,
+                            "under an axial torque, at less than a time a radian, the full equations cost less");
+    // the errors only grow: a sixteenth of the motion often tells
     const std::array<double, 1> early{end / 16};
     std::array<State<double>, 1> unused;
     if (const Errc wrong = advance(early, unused, error); wrong != Errc::ok)
@@ -134,7 +138,7 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
 }  // namespace detail
 
 /// Rung `linear`: the exact motion for small tilt (docs/spinning.md, section 3), under a torque about the spin axis by Taylor series
-/// (section 6.3).
+/// (section 6.3), which cost less than those of the full equations only at many times.
 inline Track linear_track(const Scene& scene, Monitor* monitor) {
   const Problem<double>& problem = scene.problem();
   if (problem.torque[2] != 0) return detail::axial_track(scene, monitor);
