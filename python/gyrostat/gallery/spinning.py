@@ -176,7 +176,7 @@ GROUPS: Final = (
     Group((18,), "rotor", VELOCITY, "velocity of the mass centre", (
         "Fig. 18: right, v₁ stays bounded and v₂ grows with 0.3 t times the slope M₁/(r₀ X) = 3.41, 3.18, 2.98; (54) as printed, without λ₃ "
         "and e, has 4.51 for all. As printed the misprints of (46) bend v from the start, most at λ₃ = 1.9, where its divisor r₀ − ν is small.",
-        "v₃ = 0.3 t for every λ₃ holds in the linear model alone: the full thrust turns away with the body, and v₃ lags by −f₃|Γ|²/2m from the "
+        "v₃ = 0.3 t for every λ₃ holds in the linear model alone: the full thrust turns away with the body, and v₃ grows by f₃|Γ|²/2m a second less from the "
         "start. " + NEVER_SMALL)),
     Group((19,), "charge", VELOCITY, "velocity of the mass centre", (
         "Fig. 19: right, the slope of v₂ grows with e, 3.26, 3.41, 3.58. The period of the wave in v₁ grows with e too; the paper has its "
