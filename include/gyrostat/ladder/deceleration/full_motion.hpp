@@ -12,6 +12,7 @@
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/deceleration/full.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
 #include "gyrostat/ode/status.hpp"
@@ -414,35 +415,22 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   }
   const Scalar phase = span * (coefficients.quadratic.cwiseAbs().maxCoeff() * size + coefficients.linear.norm() +
                                coefficients.rate.norm());
-  constexpr Scalar finest = epsilon<Scalar> / 8;
+  constexpr Scalar finest = finest_step_tolerance<Scalar>;
   Scalar step_tolerance = options.tolerance / 64 / (4 + Scalar(2e-4L) * phase * phase);
   step_tolerance = std::clamp(step_tolerance, finest, Scalar(1e-8L));
   if (!(step_tolerance >= finest)) step_tolerance = finest;
 
   const bool with_control = !problem.control.isZero(0);
   const Quat<Scalar> q = start_attitude != nullptr ? *start_attitude : Quat<Scalar>{};
-  ode::Counts counts;
-  constexpr double part[] = {0.0, 0.7, 0.9, 1.0};
-  for (int trial = 0;; ++trial) {
+  return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, double begin, double end) noexcept {
     const auto once = [&]<bool control, bool turning>() noexcept {
       return detail::full_motion_with_error<Scalar, control, turning>(problem, times, momentum, options, q, attitude,
-                                                                      step_tolerance, part[trial], part[trial + 1]);
+                                                                      tolerance, begin, end);
     };
-    FullMotionAnswer<Scalar> answer;
-    if (start_attitude != nullptr) {
-      answer = with_control ? once.template operator()<true, true>() : once.template operator()<false, true>();
-    } else {
-      answer = with_control ? once.template operator()<true, false>() : once.template operator()<false, false>();
-    }
-    counts += answer.counts;
-    answer.counts = counts;
-    if (answer.met || trial == 2 || answer.status != ode::Status::reached || step_tolerance <= finest) {
-      if (options.progress != nullptr) options.progress->store(1.0, std::memory_order_relaxed);
-      return answer;
-    }
-    const Scalar excess = answer.error.greatest() / options.tolerance;
-    step_tolerance = excess > 1 ? std::max(finest, step_tolerance / (8 * excess)) : finest;
-  }
+    if (start_attitude != nullptr)
+      return with_control ? once.template operator()<true, true>() : once.template operator()<false, true>();
+    return with_control ? once.template operator()<true, false>() : once.template operator()<false, false>();
+  });
 }
 
 #if defined(GYROSTAT_COMPILED)

@@ -12,6 +12,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/spinning/column_errors.hpp"
+#include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/spinning/full.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
 #include "gyrostat/models/spinning/spin_angle.hpp"
@@ -267,25 +268,14 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   const Scalar span = times.empty() ? Scalar(0) : times.back();
   const Scalar phase = span * (problem.angular_velocity.norm() +
                                std::abs(problem.gyroscopic()) / std::min(problem.inertia[0], problem.inertia[1]));
-  constexpr Scalar finest = epsilon<Scalar> / 8;
+  constexpr Scalar finest = finest_step_tolerance<Scalar>;
   Scalar step_tolerance = options.tolerance / 64 / (4 + Scalar(2e-4L) * phase * phase);
   step_tolerance = std::clamp(step_tolerance, finest, Scalar(1e-8L));
   if (!(step_tolerance >= finest)) step_tolerance = finest;
 
-  ode::Counts counts;
-  constexpr double part[] = {0.0, 0.7, 0.9, 1.0};
-  for (int trial = 0;; ++trial) {
-    auto answer = detail::full_motion_with_error<Scalar>(problem, times, states, options, step_tolerance, part[trial],
-                                                         part[trial + 1]);
-    counts += answer.counts;
-    answer.counts = counts;
-    if (answer.met || trial == 2 || answer.status != ode::Status::reached || step_tolerance <= finest) {
-      if (options.progress != nullptr) options.progress->store(1.0, std::memory_order_relaxed);
-      return answer;
-    }
-    const Scalar excess = answer.error.greatest() / options.tolerance;
-    step_tolerance = excess > 1 ? std::max(finest, step_tolerance / (8 * excess)) : finest;
-  }
+  return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, double begin, double end) noexcept {
+    return detail::full_motion_with_error<Scalar>(problem, times, states, options, tolerance, begin, end);
+  });
 }
 
 #if defined(GYROSTAT_COMPILED)

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/trials.hpp"
+
+#include <atomic>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace gyrostat;
+
+namespace {
+
+struct Error {
+  double value;
+  double greatest() const { return value; }
+};
+struct Trial {
+  ode::Status status = ode::Status::reached;
+  bool met = false;
+  Error error{0};
+  ode::Counts counts{1, 10, 0};
+};
+struct Options {
+  double tolerance = 1e-9;
+  std::atomic<double>* progress = nullptr;
+};
+
+/// Errors are `gain` step tolerances.
+std::vector<double> tolerances(double gain, double first, Trial* last = nullptr,
+                               ode::Status status = ode::Status::reached) {
+  std::vector<double> tried;
+  std::atomic<double> progress{0};
+  double until = 0;
+  const Trial answer = tightened<double>(Options{1e-9, &progress}, first, [&](double step, double from, double to) {
+    CHECK(from == until);
+    CHECK(to > from);
+    until = to;
+    tried.push_back(step);
+    Trial trial;
+    trial.status = status;
+    trial.error = {gain * step};
+    trial.met = status == ode::Status::reached && trial.error.value <= 1e-9;
+    return trial;
+  });
+  CHECK(progress == 1);
+  CHECK(answer.counts.steps == 10 * tried.size());
+  if (last) *last = answer;
+  return tried;
+}
+
+}  // namespace
+
+TEST_CASE("a run is tried again as much tighter as its error asks, and twice at most") {
+  Trial last;
+  CHECK(tolerances(1, 1e-10).size() == 1);
+  const auto twice = tolerances(1e3, 1e-10, &last);
+  REQUIRE(twice.size() == 2);
+  CHECK(twice[1] == Approx(1e-10 / 800));
+  CHECK(last.met);
+  CHECK(tolerances(1e30, 1e-10, &last).back() == finest_step_tolerance<double>);
+  CHECK(!last.met);
+  CHECK(tolerances(1e30, 1e-10).size() == 2);  // nothing is tighter than the finest
+  CHECK(tolerances(gyrostat::nan<double>, 1e-10).size() == 2);
+  CHECK(tolerances(1e3, 1e-10, nullptr, ode::Status::cancelled).size() == 1);
+}
