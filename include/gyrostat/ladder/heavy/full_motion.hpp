@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/heavy/column_errors.hpp"
+#include "gyrostat/ladder/trials.hpp"
+#include "gyrostat/models/heavy/full.hpp"
+#include "gyrostat/models/heavy/problem.hpp"
+#include "gyrostat/ode/status.hpp"
+#include "gyrostat/ode/taylor.hpp"
+#include "gyrostat/rotation/quaternion.hpp"
+
+/// The full motion of a heavy body by Taylor series.
+namespace gyrostat::heavy {
+
+template <Real Scalar>
+struct FullMotionOptions {
+  Scalar tolerance = Scalar(1e-9L);  ///< greatest relative error wanted in any column
+  bool attitude = false;             ///< follow the attitude too
+  std::uint64_t step_cap = 100'000'000;
+  std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
+  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
+};
+
+template <Real Scalar>
+struct FullMotionAnswer {
+  ode::Status status = ode::Status::reached;
+  bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
+  /// Estimated greatest errors over the times, each relative to the greatest norm of its column over the times; attitude: the angle,
+  /// rad, 0 where it is not followed.
+  ColumnErrors<Scalar> error;
+  ode::Counts counts;         ///< of all runs, the companions' included
+  Scalar step_tolerance = 0;  ///< of the Taylor steps that gave the answer
+};
+
+/// The full motion from `start` at t = 0 at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN; an
+/// attitude that is not asked for is the identity.
+///
+/// The error is estimated by a second run of a neighbour: body and start differ by a few roundings, and the steps have a tolerance 64
+/// times looser (two neighbours where rounding has a part in the error). Its distance from the answer, watched in every step and
+/// kept for some twenty turns, is some ten to a hundred times the error of the answer, and shows what the motion makes of
+/// errors, chaos included. So the estimate is safe rather than sharp. A run that misses the tolerance is repeated with a tighter step
+/// tolerance, at most twice.
+///
+/// Errors: not_increasing (times), not_finite (start, times or tolerance), zero_vector (down or attitude without length),
+/// out_of_domain (the spans differ in length; an attitude whose down is not start.down within 1e-8).
+template <Real Scalar>
+Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, const State<Scalar>& start,
+                                             std::span<const Scalar> times, std::span<State<Scalar>> states,
+                                             const FullMotionOptions<Scalar>& options = {}) noexcept;
+
+namespace detail {
+
+/// A problem and a start that differ from the given ones by about `amount`: by what rounding makes of the data. What is zero stays so.
+template <Real Scalar>
+struct Neighbour {
+  Problem<Scalar> problem;
+  State<Scalar> start;
+
+  /// which: 0 or 1, in another direction.
+  Neighbour(const Problem<Scalar>& of, const State<Scalar>& from, Scalar amount, int which) noexcept
+      : problem(of), start(from) {
+    const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
+    const Vec3<Scalar> v = amount * (which == 0 ? Vec3<Scalar>(number(0.6L), number(-0.64L), number(0.48L))
+                                                : Vec3<Scalar>(number(-0.48L), number(0.6L), number(0.64L)));
+    const auto changed = [](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c) noexcept {
+      return Vec3<Scalar>(x[0] * (1 + a), x[1] * (1 + b), x[2] * (1 + c));
+    };
+    const Vec3<Scalar> centre = changed(of.centre_of_mass(), v[2], v[0], v[1]);
+    auto made = Problem<Scalar>::make(changed(of.inertia(), v[0], v[1], v[2]), of.mass(), centre,
+                                      of.gravity() * (1 + v[0]), of.gradient() * (1 + v[1]));
+    // a body of the least extent that is real, of which not all moments can be changed
+    if (!made)
+      made = Problem<Scalar>::make(of.inertia() * (1 + v[0]), of.mass(), of.centre_of_mass(), of.gravity() * (1 + v[1]),
+                                   of.gradient() * (1 + v[1]));
+    if (made) problem = *made;
+    start.angular_velocity = changed(from.angular_velocity, v[1], v[2], v[0]);
+    start.down = changed(from.down, v[2], v[0], v[1]);
+    start.down *= from.down.norm() / start.down.norm();
+    // the attitude keeps its turn about the vertical but for what brings its down onto the new one
+    const Vec3<Scalar> turn = cross<Scalar>(start.down, from.down) / from.down.squaredNorm();
+    start.attitude = normalised(from.attitude * Quat<Scalar>{1, turn[0] / 2, turn[1] / 2, turn[2] / 2});
+  }
+};
+
+template <Real Scalar, bool turning>
+class FullMotion {
+ public:
+  using System = FullSystem<Scalar, turning>;
+  using Solver = ode::Taylor<System>;
+
+  FullMotion(const Problem<Scalar>& problem, const State<Scalar>& start, std::span<const Scalar> times,
+             std::span<State<Scalar>> states, const FullMotionOptions<Scalar>& options) noexcept
+      : problem_(problem),
+        start_(start),
+        times_(times),
+        states_(states),
+        options_(options),
+        rate_(rate_size(problem, start)) {}
+
+  /// The answer's run and its neighbours' side by side, and their distance.
+  FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
+    constexpr Scalar eps = epsilon<Scalar>, looser = 64;
+    FullMotionAnswer<Scalar> answer;
+    answer.step_tolerance = step_tolerance;
+    const Scalar loose = std::max(looser * step_tolerance, 64 * eps);
+    Course course(problem_, start_, step_tolerance, options_.step_cap);
+    const Neighbour<Scalar> near_1(problem_, start_, 8 * eps, 0), near_2(problem_, start_, 8 * eps, 1);
+    Course companion(near_1.problem, near_1.start, loose, options_.step_cap);
+    Course second(near_2.problem, near_2.start, loose, options_.step_cap);
+    // Where rounding has a part, all runs err alike, and one distance may be small by chance.
+    const bool rounds = step_tolerance < 512 * eps;
+    Comparison<Scalar> asked;
+    ColumnErrors<Scalar> kept, greatest;
+    const auto look = [&](const State<Scalar>& here, Scalar t) noexcept {
+      Comparison<Scalar> now;
+      now.add(here, companion.at(t));
+      if (rounds) now.add(here, second.at(t));
+      raise(kept, now.difference());
+    };
+    const auto reach = [&](Scalar t, Scalar last) noexcept {
+      const ode::Status status = course.reach(t, last);
+      return status == ode::Status::reached && rounds ? second.reach(t, last) : status;
+    };
+
+    const Scalar last = times_.back();
+    std::size_t next = 0;
+    for (; next < times_.size() && !(times_[next] > 0); ++next) {
+      states_[next] = start_;
+      asked.add(start_, start_);
+    }
+    std::uint32_t trips = 0;
+    while (next < times_.size() && answer.status == ode::Status::reached) {
+      const Scalar before = companion.time();
+      answer.status = companion.step(last);
+      if (answer.status != ode::Status::reached) break;
+      const Scalar now = companion.time();
+      // what was seen fades over twenty turns
+      const Scalar fading = 1 / (1 + (now - before) * rate_ / 128);
+      kept = {kept.angular_velocity * fading, kept.down * fading, kept.attitude * fading};
+      for (; next < times_.size() && times_[next] <= now; ++next) {
+        answer.status = reach(times_[next], last);
+        if (answer.status != ode::Status::reached) break;
+        states_[next] = course.at(times_[next]);
+        asked.add(states_[next], states_[next]);
+        look(states_[next], times_[next]);
+        raise(greatest, kept);
+      }
+      if (next == times_.size() || answer.status != ode::Status::reached) break;
+      answer.status = reach(now, last);
+      look(course.at(now), now);
+      if ((trips++ & 255U) == 0) {
+        if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed))
+          answer.status = ode::Status::cancelled;
+        if (options_.progress != nullptr) {
+          const double done = progress_from + static_cast<double>(now / last) * (progress_to - progress_from);
+          options_.progress->store(std::min(done, 1.0), std::memory_order_relaxed);
+        }
+      }
+    }
+    answer.counts = course.counts();
+    const std::uint64_t steps = answer.counts.steps;
+    answer.counts += companion.counts();
+    answer.counts += second.counts();
+    if (answer.status != ode::Status::reached) {
+      constexpr Scalar no = nan<Scalar>;
+      const Vec3<Scalar> nothing = Vec3<Scalar>::Constant(no);
+      for (; next < times_.size(); ++next) states_[next] = {nothing, nothing, {no, no, no, no}};
+      answer.error = {no, no, no};
+      return answer;
+    }
+
+    // What the runs share: the polynomial of a step, good to its tolerance, and rounding at the asked times.
+    const Scalar margin = rounds ? 8 : 6;
+    const Scalar walk = eps * std::sqrt(static_cast<Scalar>(steps));
+    const Scalar shared = 4 * (4 * eps + walk + 2 * step_tolerance);
+    ColumnErrors<Scalar> error =
+        asked.relative({margin * greatest.angular_velocity + shared * rate_, margin * greatest.down + shared,
+                        turning ? margin * greatest.attitude + shared : Scalar(0)});
+    // relative to the truth, which may be smaller than the answer by as much
+    for (Scalar* e : {&error.angular_velocity, &error.down})
+      if (*e == *e) *e = *e < 1 ? *e / (1 - *e) : infinity<Scalar>;
+    answer.error = error;
+    answer.met = error.greatest() <= options_.tolerance;
+    return answer;
+  }
+
+  /// The angle turned through up to the last time, to its order, rad.
+  Scalar phase() const noexcept { return rate_ * times_.back(); }
+
+ private:
+  /// One run.
+  class Course {
+   public:
+    Course(const Problem<Scalar>& problem, const State<Scalar>& start, Scalar tolerance,
+           std::uint64_t step_cap) noexcept
+        : system_(problem, start), solver_(system_, 0, system_.start(), options(system_, tolerance, step_cap)) {}
+
+    ode::Status step(Scalar t_max) noexcept { return solver_.step(t_max); }
+    /// Steps until the last of them holds t or ends at t_max.
+    ode::Status reach(Scalar t, Scalar t_max) noexcept {
+      ode::Status status = ode::Status::reached;
+      while (status == ode::Status::reached && time() < t && time() < t_max) status = step(t_max);
+      return status;
+    }
+    Scalar time() const noexcept { return solver_.time(); }
+    /// The state at t in the last step.
+    State<Scalar> at(Scalar t) const noexcept {
+      alignas(32) Scalar x[System::width];
+      solver_.at(t, x);
+      return system_.state(x);
+    }
+    const ode::Counts& counts() const noexcept { return solver_.counts(); }
+
+   private:
+    static auto options(const System& system, Scalar tolerance, std::uint64_t step_cap) noexcept {
+      typename Solver::Options options;
+      options.tolerance = tolerance;
+      options.scale = system.scale();
+      options.step_cap = step_cap;
+      return options;
+    }
+    System system_;
+    Solver solver_;
+  };
+
+  static void raise(ColumnErrors<Scalar>& most, const ColumnErrors<Scalar>& by) noexcept {
+    const auto more = [](Scalar x, Scalar y) noexcept { return x >= y || !(x == x) ? x : y; };
+    most = {more(most.angular_velocity, by.angular_velocity), more(most.down, by.down),
+            more(most.attitude, by.attitude)};
+  }
+
+  const Problem<Scalar>& problem_;
+  const State<Scalar>& start_;
+  std::span<const Scalar> times_;
+  std::span<State<Scalar>> states_;
+  const FullMotionOptions<Scalar>& options_;
+  Scalar rate_;
+};
+
+}  // namespace detail
+
+template <Real Scalar>
+Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, const State<Scalar>& start,
+                                             std::span<const Scalar> times, std::span<State<Scalar>> states,
+                                             const FullMotionOptions<Scalar>& options) noexcept {
+  if (states.size() != times.size()) return Errc::out_of_domain;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
+    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
+  }
+  if (!start.angular_velocity.allFinite() || !start.down.allFinite() || !(options.tolerance == options.tolerance))
+    return Errc::not_finite;
+  if (!(start.down.squaredNorm() > 0)) return Errc::zero_vector;
+  State<Scalar> from = start;
+  from.attitude = {};
+  if (options.attitude) {
+    const Scalar length = norm(start.attitude);
+    if (!(length < infinity<Scalar>)) return Errc::not_finite;
+    if (!(length > 0)) return Errc::zero_vector;
+    from.attitude = normalised(start.attitude);
+    const Vec3<Scalar> seen = rotate<Scalar>(conjugate(from.attitude), Vec3<Scalar>(0, 0, -1));
+    const Scalar slack = std::max(Scalar(1e-8L), 8 * epsilon<Scalar>);
+    if (!((seen - start.down).norm() <= slack)) return Errc::out_of_domain;
+  }
+  if (times.empty()) {
+    FullMotionAnswer<Scalar> answer;
+    answer.met = true;
+    return answer;
+  }
+  const auto solve = [&](const auto& motion) noexcept {
+    // First guess of the step tolerance: errors grow with the turns, and the estimate stands a hundred times above them.
+    Scalar step_tolerance = options.tolerance / 64 / (8 + motion.phase() / 16);
+    step_tolerance = std::max(finest_step_tolerance<Scalar>, std::min(step_tolerance, Scalar(1e-8L)));
+    return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, double begin, double end) noexcept {
+      return motion.run(tolerance, begin, end);
+    });
+  };
+  if (options.attitude) return solve(detail::FullMotion<Scalar, true>(problem, from, times, states, options));
+  return solve(detail::FullMotion<Scalar, false>(problem, from, times, states, options));
+}
+
+#if defined(GYROSTAT_COMPILED)
+extern template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, const State<double>&,
+                                                                     std::span<const double>, std::span<State<double>>,
+                                                                     const FullMotionOptions<double>&) noexcept;
+#endif
+
+}  // namespace gyrostat::heavy

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/monitor.hpp"
+#include "gyrostat/ladder/times.hpp"
+#include "gyrostat/models/heavy/problem.hpp"
+#include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/symmetric.hpp"
+
+namespace gyrostat::heavy {
+
+/// Which rung answers; `any` climbs the ladder.
+enum class Model : std::uint8_t { any, series_2, series, exact, full };
+
+struct Track;
+class Scene;
+
+/// The periodic motion that starts with the given rate about axis 3 and d = (+sqrt(1 - cos^2), 0, cos), all in principal axes.
+struct Periodic {
+  double spin;             ///< r at t = 0, rad/s
+  double cos_inclination;  ///< d3 at t = 0, in (-1, 1)
+};
+
+/// What is asked.
+struct Question {
+  std::vector<double> times;         ///< s, increasing, the first >= 0
+  std::optional<Periodic> periodic;  ///< the start is that of this periodic motion
+  bool wants_attitude = false;
+  double tolerance = 1e-6;
+  Model model = Model::any;
+  /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
+  Track (*full_equations)(const Scene&, Monitor*) = nullptr;
+};
+
+/// A state in other axes: v_new = R v for the body vectors.
+inline State<double> in_axes(const Mat3<double>& R, const State<double>& state) noexcept {
+  return {R * state.angular_velocity, R * state.down, state.attitude * conjugate(from_matrix(R))};
+}
+
+/// The problem in principal axes, and the way back to the caller's body axes.
+struct Body {
+  Problem<double> problem;
+  Mat3<double> R_BP = Mat3<double>::Identity();  ///< principal axes to body axes
+
+  /// Principal axes are the caller's where the tensor is diagonal; else those of its eigenvectors that are nearest, axis by axis.
+  /// Errors: not_symmetric (beyond 8 eps of the largest entry), and those of Problem::make.
+  static Result<Body> make(const Mat3<double>& inertia, double mass, const Vec3<double>& centre_of_mass, double gravity,
+                           double gradient) noexcept {
+    if (!inertia.allFinite() || !centre_of_mass.allFinite()) return Errc::not_finite;
+    const double slack = 8 * epsilon<double> * inertia.cwiseAbs().maxCoeff();
+    if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > slack) return Errc::not_symmetric;
+    Body body;
+    Vec3<double> moments = inertia.diagonal();
+    if (inertia(0, 1) != 0 || inertia(0, 2) != 0 || inertia(1, 2) != 0) {
+      const auto eigen = symmetric_eigen<double>((inertia + inertia.transpose()) / 2);
+      int order[3] = {0, 1, 2}, best[3] = {0, 1, 2};
+      double most = -1;
+      for (int i = 0; i < 6; ++i) {
+        const double near =
+            std::abs(eigen.axes(0, order[0])) + std::abs(eigen.axes(1, order[1])) + std::abs(eigen.axes(2, order[2]));
+        if (near > most) most = near, std::copy(order, order + 3, best);
+        std::next_permutation(order, order + 3);
+      }
+      for (int i = 0; i < 3; ++i) {
+        moments[i] = eigen.values[best[i]];
+        body.R_BP.col(i) = std::copysign(1.0, eigen.axes(i, best[i])) * eigen.axes.col(best[i]);
+      }
+      const Vec3<double> first = body.R_BP.col(0), second = body.R_BP.col(1);
+      if (cross<double>(first, second).dot(body.R_BP.col(2)) < 0) body.R_BP.col(1) *= -1;
+    }
+    const auto made = Problem<double>::make(moments, mass, body.R_BP.transpose() * centre_of_mass, gravity, gradient);
+    if (!made) return made.error();
+    body.problem = *made;
+    return body;
+  }
+};
+
+/// A valid scene, in principal axes.
+class Scene {
+ public:
+  Scene() = default;
+
+  /// start: in the caller's body axes; where the attitude is wanted down is taken from it, else only down counts.
+  /// Errors: not_finite; zero_vector (an attitude without length); out_of_domain (a down that is not of unit length within 1e-8, an
+  /// inclination outside (-1, 1)); and what check_times finds.
+  static Result<Scene> make(const Body& body, const State<double>& start, const Question& question) {
+    if (!start.angular_velocity.allFinite() || !start.down.allFinite()) return Errc::not_finite;
+    if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
+    Scene scene;
+    scene.body_ = body;
+    scene.question_ = question;
+    State<double> from = start;
+    if (question.wants_attitude) {
+      const double length = norm(start.attitude);
+      if (!std::isfinite(length)) return Errc::not_finite;
+      if (!(length > 0)) return Errc::zero_vector;
+      from.attitude = normalised(start.attitude);
+      from.down = rotate<double>(conjugate(from.attitude), {0, 0, -1});
+    } else {
+      from.attitude = {};
+      if (!(std::abs(from.down.norm() - 1) <= 1e-8)) return Errc::out_of_domain;
+    }
+    if (question.periodic) {
+      const auto& [spin, cosine] = *question.periodic;
+      if (!std::isfinite(spin) || !std::isfinite(cosine)) return Errc::not_finite;
+      if (!(std::abs(cosine) < 1)) return Errc::out_of_domain;
+    }
+    scene.start_ = in_axes(body.R_BP.transpose(), from);
+    scene.start_.down.normalize();
+    return scene;
+  }
+
+  const Problem<double>& problem() const noexcept { return body_.problem; }
+  const Mat3<double>& R_BP() const noexcept { return body_.R_BP; }  ///< principal axes to body axes
+  /// Principal axes; the attitude takes them to inertial ones.
+  const State<double>& start() const noexcept { return start_; }
+  const Question& question() const noexcept { return question_; }
+
+ private:
+  Body body_;
+  State<double> start_;
+  Question question_;
+};
+
+}  // namespace gyrostat::heavy

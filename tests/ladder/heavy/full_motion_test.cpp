@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/heavy/full_motion.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+#include "allocations.hpp"
+#include "catch.hpp"
+#include "models/heavy/reference_table.hpp"
+#include "models/heavy/tops.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::heavy;
+using ode::Status;
+
+namespace {
+
+template <Real S>
+struct Solved {
+  FullMotionAnswer<S> answer;
+  std::vector<State<S>> states;
+};
+
+template <Real S>
+Solved<S> solve(const Problem<S>& problem, const State<S>& start, const std::vector<S>& times, S tolerance,
+                bool attitude = false, FullMotionOptions<S> options = {}) {
+  Solved<S> solved;
+  solved.states.resize(times.size());
+  options.tolerance = tolerance;
+  options.attitude = attitude;
+  const auto result = full_motion<S>(problem, start, times, solved.states, options);
+  REQUIRE(result);
+  solved.answer = *result;
+  return solved;
+}
+
+std::vector<double> grid(double end, int n) {
+  std::vector<double> times;
+  for (int i = 0; i <= n; ++i) times.push_back(end * i / n);
+  return times;
+}
+
+template <Real S>
+void check_within(const ColumnErrors<S>& truth, const ColumnErrors<S>& stated) {
+  CHECK(truth.angular_velocity <= stated.angular_velocity);
+  CHECK(truth.down <= stated.down);
+  CHECK(truth.attitude <= stated.attitude);
+}
+
+State<long double> wide(const State<double>& s) {
+  const auto& q = s.attitude;
+  return {s.angular_velocity.cast<long double>(), s.down.cast<long double>(), {q.w, q.x, q.y, q.z}};
+}
+
+/// True errors of an answer, by the same equations in long double.
+ColumnErrors<double> true_errors(const Problem<double>& problem, const State<double>& start,
+                                 const std::vector<double>& times, const Solved<double>& solved, bool attitude) {
+  const auto truth = solve<long double>(cast<long double>(problem), cast<long double>(start),
+                                        {times.begin(), times.end()}, 1e-16L, attitude);
+  REQUIRE(truth.answer.status == Status::reached);
+  Comparison<long double> both;
+  for (std::size_t i = 0; i < times.size(); ++i) both.add(truth.states[i], wide(solved.states[i]));
+  const auto e = both.relative(both.difference());
+  const auto& known = truth.answer.error;
+  const auto less = [](long double error, long double by) { return double(std::max(0.0L, error - by)); };
+  return {less(e.angular_velocity, known.angular_velocity), less(e.down, known.down), less(e.attitude, known.attitude)};
+}
+
+}  // namespace
+
+TEST_CASE("heavy: the full motion of the reference cases", "[heavy]") {
+  const auto rows = reference_rows("motion");
+  REQUIRE(rows.size() == 72);
+  for (std::size_t first = 0; first < rows.size();) {
+    const auto& head = rows[first];
+    const auto vector = [](const ReferenceRow& row, std::size_t i) {
+      return Vec3<double>(row.number[i], row.number[i + 1], row.number[i + 2]);
+    };
+    std::vector<double> times;
+    std::vector<State<double>> right;
+    std::size_t next = first;
+    for (; next < rows.size() && rows[next].id == head.id; ++next) {
+      times.push_back(rows[next].number[15]);
+      right.push_back({vector(rows[next], 16), vector(rows[next], 19), {}});
+    }
+    CAPTURE(head.id);
+    const State<double> start{vector(head, 9), vector(head, 12), {}};
+    for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
+      CAPTURE(tolerance);
+      const auto solved = solve(head.problem(), start, times, tolerance);
+      REQUIRE(solved.answer.status == Status::reached);
+      Comparison<double> both;
+      for (std::size_t i = 0; i < times.size(); ++i) both.add(right[i], solved.states[i]);
+      const auto found = both.relative(both.difference());
+      check_within(found, solved.answer.error);
+      if (tolerance >= 1e-9) CHECK(solved.answer.met);
+      CHECK(found.greatest() < std::max(tolerance / 100, 2e-13));
+    }
+    first = next;
+  }
+}
+
+TEST_CASE("heavy: the stated errors are honest", "[heavy]") {
+  Tops random(20);
+  for (int i = 0; i < 24; ++i) {
+    const auto p = random.body(i % 5 == 0 ? 0 : random.log_any(0.05, 2), i % 3 == 0 ? 0 : random.log_any(0.01, 1));
+    auto s = random.start(random.log_any(0.1, 8));
+    if (i % 8 == 6) s.angular_velocity.setZero();
+    const auto times = grid(random.log_any(1, 15) * 2 * pi<double> / rate_size(p, s), 12);
+    const bool attitude = i % 2 == 0;
+    for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
+      CAPTURE(i, tolerance);
+      const auto solved = solve(p, s, times, tolerance, attitude);
+      REQUIRE(solved.answer.status == Status::reached);
+      const auto found = true_errors(p, s, times, solved, attitude);
+      check_within(found, solved.answer.error);
+      if (solved.answer.met) CHECK(found.greatest() <= tolerance);
+    }
+  }
+}
+
+TEST_CASE("heavy: the estimate follows the growth of errors next to an unstable balance", "[heavy]") {
+  // upright and a little off: the fall amplifies errors again and again
+  const auto p = Problem<double>::make({1, 1.3, 1.6}, 1, {0, 0, 0.01}, 100, 0).value();
+  State<double> s;
+  s.down = Vec3<double>(1e-4, 2e-4, -1).normalized();
+  for (const double end : {20.0, 60.0, 150.0}) {
+    const auto times = grid(end, 7);
+    for (const double tolerance : {1e-6, 1e-9}) {
+      CAPTURE(end, tolerance);
+      const auto solved = solve(p, s, times, tolerance);
+      check_within(true_errors(p, s, times, solved, false), solved.answer.error);
+    }
+  }
+}
+
+TEST_CASE("heavy: down and attitude belong together", "[heavy]") {
+  Tops random(5);
+  for (int i = 0; i < 8; ++i) {
+    const auto p = random.body();
+    const auto s = random.start(3);
+    const auto times = grid(30, 20);
+    const auto with = solve(p, s, times, 1e-12, true), without = solve(p, s, times, 1e-12);
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const auto& at = with.states[k];
+      CHECK((at.down - rotate<double>(conjugate(at.attitude), {0, 0, -1})).norm() < 1e-12);
+      CHECK(norm(at.attitude) == Approx(1).epsilon(1e-15));
+      CHECK((at.down - without.states[k].down).norm() < 1e-10);
+      CHECK(without.states[k].attitude == Quat<double>{});
+    }
+    CHECK(without.answer.error.attitude == 0);
+  }
+}
+
+TEST_CASE("heavy: nothing acts, nothing moves", "[heavy]") {
+  const auto p = Problem<double>::make({1, 1.2, 1.5}, 1, {0, 0, 0.01}, 100, 0).value();
+  State<double> s;
+  s.down = {0, 0, 1};
+  s.attitude = {0, 1, 0, 0};
+  const auto solved = solve(p, s, {0, 1, 1e4}, 1e-12, true);
+  CHECK(solved.answer.met);
+  CHECK(solved.answer.error.angular_velocity == 0);
+  CHECK(solved.states[2].down == s.down);
+}
+
+TEST_CASE("heavy: float works within its digits", "[heavy]") {
+  Tops random(6);
+  const auto p = random.body();
+  const auto s = random.start();
+  const auto truth = solve(p, s, {0.0, 10.0}, 1e-10);
+  const auto solved = solve<float>(cast<float>(p), cast<float>(s), {0.0F, 10.0F}, 1e-2F);
+  CHECK(solved.answer.met);
+  CHECK((solved.states[1].down.cast<double>() - truth.states[1].down).norm() < 1e-3);
+}
+
+TEST_CASE("heavy: a motion can be watched, stopped and capped", "[heavy]") {
+  Tops random(7);
+  const auto p = random.body();
+  const auto s = random.start();
+  const std::vector<double> times{0, 1, 400};
+  std::atomic<double> progress{0};
+  std::atomic<bool> cancel{false};
+  FullMotionOptions<double> options;
+  options.progress = &progress;
+  options.cancel = &cancel;
+  CHECK(solve(p, s, times, 1e-3, false, options).answer.status == Status::reached);
+  CHECK(progress == 1.0);
+  cancel = true;
+  const auto cancelled = solve(p, s, times, 1e-3, false, options);
+  CHECK(cancelled.answer.status == Status::cancelled);
+  CHECK(!cancelled.answer.met);
+
+  options.cancel = nullptr;
+  options.step_cap = 20;
+  const auto capped = solve(p, s, times, 1e-3, false, options);
+  CHECK(capped.answer.status == Status::step_limit);
+  CHECK(capped.states[0].down.allFinite());
+  CHECK(!capped.states[2].down.allFinite());
+  CHECK(std::isnan(capped.answer.error.greatest()));
+  CHECK(!capped.answer.met);
+}
+
+TEST_CASE("heavy: bad requests are refused", "[heavy]") {
+  Tops random(8);
+  const auto p = random.body();
+  const auto good = random.start();
+  std::vector<State<double>> states(2);
+  const auto error = [&](const State<double>& s, std::vector<double> times, bool attitude = true) {
+    FullMotionOptions<double> options;
+    options.attitude = attitude;
+    return full_motion<double>(p, s, times, states, options).error();
+  };
+  CHECK(error(good, {0.0, 1.0}) == Errc::ok);
+  CHECK(error(good, {1.0, 0.0}) == Errc::not_increasing);
+  CHECK(error(good, {-1.0, 0.0}) == Errc::not_increasing);
+  CHECK(error(good, {0.0, gyrostat::nan<double>}) == Errc::not_finite);
+  CHECK(error(good, {0.0}) == Errc::out_of_domain);
+  for (const double bad : {gyrostat::nan<double>, gyrostat::infinity<double>}) {
+    auto s = good;
+    s.angular_velocity[0] = bad;
+    CHECK(error(s, {0.0, 1.0}) == Errc::not_finite);
+    s = good;
+    s.down[1] = bad;
+    CHECK(error(s, {0.0, 1.0}) == Errc::not_finite);
+    s = good;
+    s.attitude.y = bad;
+    CHECK(error(s, {0.0, 1.0}) == Errc::not_finite);
+    CHECK(error(s, {0.0, 1.0}, false) == Errc::ok);
+  }
+  auto s = good;
+  s.down.setZero();
+  CHECK(error(s, {0.0, 1.0}) == Errc::zero_vector);
+  s = good;
+  s.attitude = {0, 0, 0, 0};
+  CHECK(error(s, {0.0, 1.0}) == Errc::zero_vector);
+  s = good;
+  s.down *= -1;
+  CHECK(error(s, {0.0, 1.0}) == Errc::out_of_domain);
+}
+
+TEST_CASE("heavy: the full motion does not touch the heap", "[heavy]") {
+  Tops random(9);
+  const auto p = random.body();
+  const auto s = random.start();
+  const auto times = grid(10, 3);
+  std::vector<State<double>> states(times.size());
+  FullMotionOptions<double> options;
+  options.attitude = true;
+  const auto before = allocations();
+  const auto result = full_motion<double>(p, s, times, states, options);
+  CHECK(allocations() == before);
+  CHECK(result);
+}
