@@ -14,11 +14,98 @@
 
 namespace gyrostat::spinning {
 
+namespace detail {
+
+/// The exact linear map of the linear motion over a time, from (1, Pi, Pi~, Gamma) at its start; two in a row are one, at a tenth of the
+/// cost of the functions it is made of.
+template <Real Scalar>
+class Propagator {
+  using Complex = math::Complex<Scalar>;
+
+ public:
+  /// Coefficients of Pi, Pi~ and 1.
+  struct Form {
+    Complex a, b, one;
+    friend Form operator+(const Form& x, const Form& y) noexcept { return {x.a + y.a, x.b + y.b, x.one + y.one}; }
+    friend Form operator*(Complex c, const Form& x) noexcept { return {c * x.a, c * x.b, c * x.one}; }
+    friend Form operator*(Scalar c, const Form& x) noexcept { return {c * x.a, c * x.b, c * x.one}; }
+  };
+
+  /// What all times share.
+  struct Constants {
+    Scalar kappa1, kappa2, nu2, mean, split;
+    Complex mu, push;
+
+    explicit Constants(const Problem<Scalar>& w) noexcept
+        : kappa1(w.kappa1(w.spin())),
+          kappa2(w.kappa2(w.spin())),
+          nu2(kappa1 * kappa2),
+          mean((kappa1 + kappa2) / 2),
+          split((kappa2 - kappa1) / 2),
+          mu{w.torque[0] / w.inertia[0], w.torque[1] / w.inertia[1]},
+          push{-kappa1 * mu.im, kappa2 * mu.re} {}
+  };
+
+  Scalar time = 0;
+  Scalar S = 0, V = 0;         ///< of linear_functions.hpp, as E1 and E2
+  Complex spin{1, 0}, E1, E2;  ///< e^(i r0 s)
+  Form turned[3];              ///< int e^(i r0 s) Pi, its integral, and the integral of that
+  Form tilted[2];              ///< int Gamma and its integral, but for conj(E1) Gamma and conj(E2) Gamma
+
+  Propagator() = default;
+
+  Propagator(const Constants& c, const LinearFunctions<Scalar>& functions, Scalar t) noexcept : time(t) {
+    const LinearValues<Scalar> f = functions.at(t, true);
+    S = f.S;
+    V = f.V;
+    spin = f.spin;
+    E1 = f.E[1];
+    E2 = f.E[2];
+    const auto form = [&c](Complex first, Complex second, Complex third) noexcept {
+      return Form{first + math::turned(c.mean * second) - c.nu2 * third, math::turned(c.split * second),
+                  c.mu * second + c.push * third};
+    };
+    for (int k = 1; k <= 3; ++k) turned[k - 1] = form(f.E[k], f.J[k], f.K[k]);
+    for (int k = 1; k <= 2; ++k) tilted[k - 1] = form(math::conjugate(f.E[k + 1]), f.H[k], f.H[k + 1]);
+  }
+
+  /// Pi after the time.
+  Form rates(const Constants& c) const noexcept {
+    return {{1 - c.nu2 * V, c.mean * S}, {0, c.split * S}, S * c.mu + V * c.push};
+  }
+
+  /// This time, and then another.
+  Propagator then(const Propagator& next, const Constants& c) const noexcept {
+    const Form now = rates(c);
+    const auto after = [&now](const Form& f) noexcept {
+      return Form{f.a * now.a + f.b * math::conjugate(now.b), f.a * now.b + f.b * math::conjugate(now.a),
+                  f.a * now.one + f.b * math::conjugate(now.one) + f.one};
+    };
+    const Complex back = math::conjugate(spin);
+    const Scalar s = next.time, half_s2 = s * s / 2;
+    Propagator both;
+    both.time = time + s;
+    both.S = S * (1 - c.nu2 * next.V) + (1 - c.nu2 * V) * next.S;
+    both.V = V + S * next.S + (1 - c.nu2 * V) * next.V;
+    both.spin = spin * next.spin;
+    both.E1 = E1 + spin * next.E1;
+    both.E2 = E2 + s * E1 + spin * next.E2;
+    both.turned[0] = turned[0] + spin * after(next.turned[0]);
+    both.turned[1] = turned[1] + s * turned[0] + spin * after(next.turned[1]);
+    both.turned[2] = turned[2] + s * turned[1] + half_s2 * turned[0] + spin * after(next.turned[2]);
+    both.tilted[0] = tilted[0] + after(next.tilted[0]) + (math::conjugate(next.E1) * back) * turned[0];
+    both.tilted[1] = tilted[1] + s * tilted[0] + after(next.tilted[1]) + (math::conjugate(next.E2) * back) * turned[0];
+    return both;
+  }
+};
+
+}  // namespace detail
+
 /// The linear motion on an even grid by its propagator: the exact linear map from the state at the start of a block (64 entries,
 /// fewer where they turn through more than 32 rad) to the states inside is tabulated once, without trigonometry or a divisor left to the grid (docs/spinning.md, section 4.3).
 /// Good at and near every resonance, with unstable spin, zero spin and at small t: each value errs by some eps of itself or of
 /// what its parts amount to inside a block. The starts of 64 blocks come from a second table of the same kind, and the start of each such
-/// group from Linear in wider numbers, so nothing accumulates.
+/// group from Linear in wider numbers and at most three leaps in them, so nothing accumulates.
 template <Real Scalar>
 class BlockGrid {
  public:
@@ -26,15 +113,14 @@ class BlockGrid {
 
   BlockGrid() = default;
 
-  /// Times start + i step, i = 0, 1, ..., about `points` of them (which sets the size of a group). The tables take 1 to 5 us for
-  /// each of 64 + sqrt(points)/8 offsets, the start of a group about as much.
+  /// Times start + i step, i = 0, 1, ..., about `points` of them (which sets the size of a group). The tables take some 0.2 us for
+  /// each of 64 + sqrt(points)/8 offsets, the start of a group 0.5 us.
   BlockGrid(const Problem<Scalar>& problem, Scalar start, Scalar step, std::size_t points) noexcept
       : wide_(detail::problem_cast<Wide>(problem)), begin_(start), step_(step) {
     const auto w = detail::problem_cast<Wide>(problem);
     const LinearFunctions<Wide> functions(w);
     const LinearStart<Wide> s(w);
-    const LinearFunctions<Scalar> near_functions(problem);
-    const LinearStart<Scalar> near(problem);
+    const typename Map::Constants constants(w);
     const Wide r0 = w.spin();
     const Wide rate = std::abs(r0) + std::abs(w.kappa1(r0)) + std::abs(w.kappa2(r0));
     const auto up_to_longest = [](Wide n) noexcept {  // NaN: 1
@@ -44,15 +130,11 @@ class BlockGrid {
     block_ = std::max(std::size_t(8), up_to_longest(32 / turn));
     const std::size_t blocks = up_to_longest(std::min(std::sqrt(Wide(points)) / 8, 512 / (turn * Wide(block_))));
     group_ = blocks * block_;
-    for (std::size_t j = 0; j < block_; ++j) {
-      const Wide t = Wide(step) * Wide(j);
-      if (rate * std::abs(t) <= 1) {  // no sum of the map cancels
-        fine_.set(j, problem, near, near_functions, static_cast<Scalar>(t));
-      } else {
-        fine_.set(j, w, s, functions, t);
-      }
-    }
-    for (std::size_t j = 0; j < blocks; ++j) coarse_.set(j, w, s, functions, Wide(step) * Wide(j * block_));
+    fine_.set(block_, s, constants, Map(constants, functions, Wide(step)));
+    coarse_.set(blocks, s, constants, Map(constants, functions, Wide(step) * Wide(block_)));
+    leap_ = Map(constants, functions, Wide(step) * Wide(group_));
+    constants_ = constants;
+    loads_ = s;
     kappa1_ = static_cast<Scalar>(w.kappa1(r0));
     kappa2_ = static_cast<Scalar>(w.kappa2(r0));
     pull_ = math::complex_cast<Scalar>(math::Complex<Wide>{0, -s.axial_acceleration});
@@ -64,15 +146,21 @@ class BlockGrid {
 
   /// Values first .. first + count - 1 of the grid.
   void write(std::size_t first, std::size_t count, const GridColumns<Scalar>& to) const noexcept {
-    for (std::size_t i = 0; i < count; i += group_) {
-      const std::size_t n = std::min(group_, count - i);
-      group(first + i, n, to.from(i));
+    Standing now;
+    for (std::size_t i = 0, k = 0; i < count; i += group_, ++k) {
+      if (k % leaps == 0) {
+        now = standing(Wide(begin_) + Wide(first + i) * Wide(step_));
+      } else {
+        advance(now);
+      }
+      group(now, first + i, std::min(group_, count - i), to.from(i));
     }
   }
 
  private:
   using Wide = detail::Wide<Scalar>;
   using Complex = math::Complex<Scalar>;
+  using Map = detail::Propagator<Wide>;
 
   /// The map over offsets s_j from (1, Pi, Pi~, Gamma): with hd = e^(i theta) at the start, e_H the charge, c = -i f3/m,
   ///     p = p0 cosine - kappa1 q0 sine + forced_p,   q = q0 cosine + kappa2 p0 sine + forced_q,
@@ -85,8 +173,7 @@ class BlockGrid {
     };
     struct Rows {
       Row re, im;
-      template <Real R>
-      void set(std::size_t j, math::Complex<R> a) noexcept {
+      void set(std::size_t j, math::Complex<Wide> a) noexcept {
         re.value[j] = static_cast<Scalar>(a.re);
         im.value[j] = static_cast<Scalar>(a.im);
       }
@@ -99,86 +186,120 @@ class BlockGrid {
     Rows spin, A1, B1, C1, torque, A2, B2, force1, A3, B3, force2;
     Axial G3, v3, x3;
 
-    template <Real R>
-    void set(std::size_t j, const Problem<R>& w, const LinearStart<R>& start, const LinearFunctions<R>& functions,
-             R t) noexcept {
-      using W = math::Complex<R>;
-      using math::conjugate, math::turned;
-      const auto put = [j](Row& row, R value) noexcept { row.value[j] = static_cast<Scalar>(value); };
-      const LinearValues<R> f = functions.at(t, true);
-      const R kappa1 = w.kappa1(w.spin()), kappa2 = w.kappa2(w.spin()), nu2 = kappa1 * kappa2;
-      const R mean = (kappa1 + kappa2) / 2, split = (kappa2 - kappa1) / 2;
-      const W mu{w.torque[0] / w.inertia[0], w.torque[1] / w.inertia[1]};
-      const W push = turned(mean * mu + split * conjugate(mu));
-      const W pull{0, -start.axial_acceleration};
-      put(s, t);
-      put(half_s2, t * t / 2);
-      put(cosine, 1 - nu2 * f.V);
-      put(sine, f.S);
-      put(forced_p, mu.re * f.S + push.re * f.V);
-      put(forced_q, mu.im * f.S + push.im * f.V);
-      W A[4], B[4], C[4];
-      for (int k = 1; k <= 3; ++k) {
-        A[k] = f.E[k] + turned(mean * f.J[k]) - nu2 * f.K[k];
-        B[k] = turned(split * f.J[k]);
-        C[k] = mu * f.J[k] + push * f.K[k];
+    /// Offsets 0 .. n - 1 of the time of `one`, each a multiple of 8 and a rest in a row, so that errors do not add up.
+    void set(std::size_t n, const LinearStart<Wide>& start, const typename Map::Constants& c, const Map& one) noexcept {
+      Map rest[8], eights;
+      for (std::size_t j = 1; j < 8; ++j) rest[j] = j == 1 ? one : rest[j - 1].then(one, c);
+      const Map eight = rest[7].then(one, c);
+      for (std::size_t j = 0; j < n; ++j) {
+        if (j % 8 == 0 && j > 0) eights = j == 8 ? eight : eights.then(eight, c);
+        put(j, start, c, j < 8 ? rest[j] : j % 8 == 0 ? eights : eights.then(rest[j % 8], c));
       }
-      spin.set(j, f.spin);
-      A1.set(j, A[1]);
-      B1.set(j, B[1]);
-      C1.set(j, C[1]);
-      torque.set(j, start.torque * f.E[1] - start.charge_momentum * turned(C[1]));
-      A2.set(j, A[2]);
-      B2.set(j, B[2]);
-      force1.set(j, start.acceleration * f.E[1] + pull * C[2]);
-      A3.set(j, A[3]);
-      B3.set(j, B[3]);
-      force2.set(j, start.acceleration * f.E[2] + pull * C[3]);
-      // int Gamma (k = 1) and its integral (k = 2) for Pi, Pi~, 1 and Gamma0
-      const auto axial = [&](Axial& rows, W a, int k, R rest) noexcept {
+    }
+
+   private:
+    void put(std::size_t j, const LinearStart<Wide>& start, const typename Map::Constants& c, const Map& map) noexcept {
+      using W = math::Complex<Wide>;
+      using math::conjugate, math::turned;
+      const auto in = [j](Row& row, Wide value) noexcept { row.value[j] = static_cast<Scalar>(value); };
+      const auto [now_a, now_b, now_one] = map.rates(c);
+      const W pull{0, -start.axial_acceleration};
+      const Wide t = map.time;
+      in(s, t);
+      in(half_s2, t * t / 2);
+      in(cosine, now_a.re);
+      in(sine, map.S);
+      in(forced_p, now_one.re);
+      in(forced_q, now_one.im);
+      spin.set(j, map.spin);
+      A1.set(j, map.turned[0].a);
+      B1.set(j, map.turned[0].b);
+      C1.set(j, map.turned[0].one);
+      torque.set(j, start.torque * map.E1 - start.charge_momentum * turned(map.turned[0].one));
+      A2.set(j, map.turned[1].a);
+      B2.set(j, map.turned[1].b);
+      force1.set(j, start.acceleration * map.E1 + pull * map.turned[1].one);
+      A3.set(j, map.turned[2].a);
+      B3.set(j, map.turned[2].b);
+      force2.set(j, start.acceleration * map.E2 + pull * map.turned[2].one);
+      // Re(i a~ int Gamma), or of its integral
+      const auto axial = [&](Axial& rows, W a, const typename Map::Form& f, W tilt, Wide more) noexcept {
         const auto along = [&a](W b) noexcept { return a.im * b.re - a.re * b.im; };
-        const W rate = conjugate(f.E[k + 1]) + turned(mean * f.H[k]) - nu2 * f.H[k + 1];
-        const W mirrored = turned(split * f.H[k]), tilt = conjugate(f.E[k]);
-        put(rows.one, rest + along(mu * f.H[k] + push * f.H[k + 1]));
-        put(rows.p, along(rate + mirrored));
-        put(rows.q, along(turned(rate - mirrored)));
-        put(rows.psi, along(tilt));
-        put(rows.phi, along(turned(tilt)));
+        in(rows.one, more + along(f.one));
+        in(rows.p, along(f.a + f.b));
+        in(rows.q, along(turned(f.a - f.b)));
+        in(rows.psi, along(tilt));
+        in(rows.phi, along(turned(tilt)));
       };
-      axial(G3, start.torque, 1, R(0));
-      axial(v3, start.acceleration, 1, start.axial_acceleration * t);
-      axial(x3, start.acceleration, 2, start.axial_acceleration * t * t / 2);
+      const W T1 = conjugate(map.E1), T2 = conjugate(map.E2);
+      axial(G3, start.torque, map.tilted[0], T1, Wide(0));
+      axial(v3, start.acceleration, map.tilted[0], T1, start.axial_acceleration * t);
+      axial(x3, start.acceleration, map.tilted[1], T2, start.axial_acceleration * t * t / 2);
     }
   };
 
   /// The state at the start of a block.
   struct Start {
-    Scalar p, q, psi, phi, theta, G1, G2, G3, v1, v2, v3, x1, x2, x3, cos_theta, sin_theta;
+    Scalar p, q, psi, phi, G1, G2, G3, v1, v2, v3, x1, x2, x3, cos_theta, sin_theta;
   };
 
+  /// The state at the start of a group.
+  struct Standing {
+    math::Complex<Wide> Pi, Gamma, heading, G, v, x;
+    Wide G3 = 0, v3 = 0, x3 = 0;
+  };
+  /// Groups from one start by the closed form.
+  static constexpr std::size_t leaps = 4;
+
+  Standing standing(Wide t) const noexcept {
+    const State<Wide> y = wide_.at(t);
+    const auto &w = y.angular_velocity, &G = y.momentum_I, &v = y.velocity, &x = y.position;
+    return {{w[0], w[1]},
+            {y.angles.psi, y.angles.phi},
+            math::unit(y.angles.theta),
+            {G[0], G[1]},
+            {v[0], v[1]},
+            {x[0], x[1]},
+            G[2],
+            v[2],
+            x[2]};
+  }
+
+  /// To the start of the next group.
+  void advance(Standing& y) const noexcept {
+    using W = math::Complex<Wide>;
+    using math::conjugate, math::turned;
+    const auto of = [&y](const typename Map::Form& f) noexcept { return f.a * y.Pi + f.b * conjugate(y.Pi) + f.one; };
+    const auto along = [](W a, W b) noexcept { return a.im * b.re - a.re * b.im; };
+    const auto squared = [](W a) noexcept { return a.re * a.re + a.im * a.im; };
+    const Wide s = leap_.time, half_s2 = s * s / 2, f3 = loads_.axial_acceleration;
+    const W pull{0, -f3}, I = of(leap_.turned[0]);
+    const W B1 = of(leap_.tilted[0]) + conjugate(leap_.E1) * y.Gamma,
+            B2 = of(leap_.tilted[1]) + conjugate(leap_.E2) * y.Gamma;
+    y.x3 = y.x3 + s * y.v3 + half_s2 * f3 + along(loads_.acceleration, B2);
+    y.v3 = y.v3 + s * f3 + along(loads_.acceleration, B1);
+    y.x =
+        y.x + s * y.v + y.heading * (loads_.acceleration * leap_.E2 + pull * (of(leap_.turned[2]) + half_s2 * y.Gamma));
+    y.v = y.v + y.heading * (loads_.acceleration * leap_.E1 + pull * (of(leap_.turned[1]) + s * y.Gamma));
+    y.G = y.G + y.heading * (loads_.torque * leap_.E1 - loads_.charge_momentum * turned(I));
+    const W tilt = conjugate(leap_.spin) * (y.Gamma + I);
+    y.G3 = y.G3 + along(loads_.torque, B1) - loads_.charge_momentum * (squared(tilt) - squared(y.Gamma)) / 2;
+    y.Gamma = tilt;
+    y.heading = y.heading * leap_.spin;
+    // the rates feed on themselves from group to group: by the stiffnesses, either of which may be near 0, not by their mean
+    const auto& c = constants_;
+    const Wide cosine = 1 - c.nu2 * leap_.V, sine = leap_.S;
+    const W forced = leap_.S * c.mu + leap_.V * c.push;
+    y.Pi = {cosine * y.Pi.re - c.kappa1 * sine * y.Pi.im + forced.re,
+            cosine * y.Pi.im + c.kappa2 * sine * y.Pi.re + forced.im};
+  }
+
   /// Up to 64 blocks that start at entry `first`.
-  void group(std::size_t first, std::size_t count, const GridColumns<Scalar>& to) const noexcept {
-    const Wide t = Wide(begin_) + Wide(first) * Wide(step_);
-    const State<Wide> state = wide_.at(t);
+  void group(const Standing& y, std::size_t first, std::size_t count, const GridColumns<Scalar>& to) const noexcept {
     const auto narrow = [](Wide a) noexcept { return static_cast<Scalar>(a); };
-    const auto &w = state.angular_velocity, &G = state.momentum_I, &v = state.velocity, &x = state.position;
-    const auto& a = state.angles;
-    const Start start{narrow(w[0]),
-                      narrow(w[1]),
-                      narrow(a.psi),
-                      narrow(a.phi),
-                      narrow(a.theta),
-                      narrow(G[0]),
-                      narrow(G[1]),
-                      narrow(G[2]),
-                      narrow(v[0]),
-                      narrow(v[1]),
-                      narrow(v[2]),
-                      narrow(x[0]),
-                      narrow(x[1]),
-                      narrow(x[2]),
-                      narrow(std::cos(a.theta)),
-                      narrow(std::sin(a.theta))};
+    const Start start{narrow(y.Pi.re), narrow(y.Pi.im), narrow(y.Gamma.re), narrow(y.Gamma.im),   narrow(y.G.re),
+                      narrow(y.G.im),  narrow(y.G3),    narrow(y.v.re),     narrow(y.v.im),       narrow(y.v3),
+                      narrow(y.x.re),  narrow(y.x.im),  narrow(y.x3),       narrow(y.heading.re), narrow(y.heading.im)};
     if (count <= block_) {
       fill(fine_, start, first, 1, count, to);
       return;
@@ -194,7 +315,6 @@ class BlockGrid {
                       starts.q[b],
                       starts.psi[b],
                       starts.phi[b],
-                      starts.theta[b],
                       starts.G1[b],
                       starts.G2[b],
                       starts.G3[b],
@@ -308,6 +428,9 @@ class BlockGrid {
 
   Table fine_, coarse_;
   Linear<Wide> wide_{Problem<Wide>{}};
+  typename Map::Constants constants_{Problem<Wide>{}};
+  LinearStart<Wide> loads_{Problem<Wide>{}};
+  Map leap_;  ///< over a group
   Scalar begin_ = 0, step_ = 0, r0_ = 0, theta0_ = 0, charge_ = 0, kappa1_ = 0, kappa2_ = 0;
   Complex pull_;  ///< -i f3/m
   std::size_t block_ = longest;
