@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'SpinningProblems', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'euler_312_from_quaternion', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_euler_312', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'spinning_integrate', 'spinning_linear', 'spinning_linear_grid', 'spinning_pointing', 'spinning_published', 'spinning_solve', 'vector_from_matrix', 'vector_from_quaternion']
+__all__: list[str] = ['Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'SpinningProblems', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'euler_312_from_quaternion', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_euler_312', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'spinning_design', 'spinning_integrate', 'spinning_linear', 'spinning_linear_grid', 'spinning_pointing', 'spinning_published', 'spinning_solve', 'vector_from_matrix', 'vector_from_quaternion']
 class Monitor:
     """
     Watches and stops long work from another thread.
@@ -214,6 +214,10 @@ def rotor_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float
 def rotor_steady(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], slope: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], no_load_rate: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
     """
     Steady rotations of rows of gyrostats, (n, 8), padded with -1 and NaN.
+    """
+def spinning_design(problems: SpinningProblems, *, goal: str, budget: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
+    """
+    Value, bound of the tilt, unstable, resonant, compliant, and why there is no design, a row each.
     """
 def spinning_integrate(problem: SpinningProblems, *, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
     """

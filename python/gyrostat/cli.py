@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: gyrostat solve | chart | stability | reproduce | scenes | schema | info | selftest."""
+"""The command line: gyrostat solve | chart | stability | design | reproduce | scenes | schema | info | selftest."""
 
 import argparse
 import json
@@ -63,6 +63,18 @@ def _arguments() -> argparse.ArgumentParser:
     takes_scene(stability)
     stability.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
     stability.add_argument("--plot", type=Path, metavar="FILE", help="write a figure (PNG, SVG or PDF)")
+
+    design = command("design", _design, "find the spin, torque or burn of a thrusting spinner that keeps within a budget")
+    takes_scene(design)
+    goal = design.add_mutually_exclusive_group(required=True)
+    for name, unit, text in (
+            ("spin-for-pointing", "RAD", "least stable spin rate for a mean pointing error"),
+            ("torque-for-direction", "RAD", "greatest transverse torque for the direction of the velocity, from axis 3"),
+            ("burn-for-displacement", "M", "longest burn for a displacement across axis 3"),
+            ("burn-for-velocity", "M/S", "longest burn for a change of velocity")):
+        goal.add_argument(f"--{name}", type=float, metavar=unit, help=text)
+    design.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
+    design.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the scene with the value in it, as TOML")
 
     reproduce = command("reproduce", _reproduce, "draw the published figures again: as printed, right, and the full motion")
     reproduce.add_argument("paper", nargs="?", metavar="PAPER", help="such as deceleration; left out: list what there is")
@@ -243,6 +255,32 @@ def _stability(arguments: argparse.Namespace) -> int:
     from gyrostat.stability import report_stability
 
     return report_stability(_scene(arguments), as_json=arguments.form == "json", plot=arguments.plot)
+
+
+def _design(arguments: argparse.Namespace) -> int:
+    from gyrostat.design import GOALS, design_scene
+    from gyrostat.toml_text import toml_text
+
+    scene = _scene(arguments)
+    goal, budget = next((name, value) for name in GOALS if (value := getattr(arguments, name.replace("-", "_"))) is not None)
+    made = _in_thread(lambda monitor: design_scene(scene, goal, budget, monitor=monitor), scene.name)
+    text = toml_text(made.scene.to_dict())
+    if arguments.output is not None:
+        arguments.output.write_text(text)
+    if arguments.form == "json":
+        say(json.dumps(made.to_dict(), allow_nan=False), sys.stdout)
+    else:
+        words = GOALS[goal]
+        say(f"{scene.name}: {words.quantity} for {_short(budget)} {words.budget_unit} of {words.measure}: {_short(made.value)} {words.unit}", sys.stdout)
+        for warning in made.warnings:
+            say(f"warning, {warning}", sys.stdout)
+        verdict = "confirmed" if made.confirmed else "NOT confirmed"
+        rows = [[words.measure, words.budget_unit, _short(budget), _short(made.found), f"{(made.found - budget) / budget:+.2g}", verdict]]
+        show_table(f"The scene with it, by the full motion over {_short(made.span, 6)} s", ["", "unit", "asked", "found", "off by", ""], rows, sys.stdout)
+        met = "met" if made.met else "NOT met"
+        say(f"answered by {made.model}: estimated error {_small(made.error)}, tolerance {made.tolerance:g} {met}", sys.stdout)
+        say(f"wrote {arguments.output}" if arguments.output is not None else f"\n{text}", sys.stdout)
+    return MET if made.confirmed and made.met else NOT_MET
 
 
 def _reproduce(arguments: argparse.Namespace) -> int:

@@ -15,4 +15,5 @@ void bind_rotor_steady(pybind11::module_& module);
 void bind_rotor_published(pybind11::module_& module);
 void bind_spinning(pybind11::module_& module);
 void bind_spinning_integrators(pybind11::module_& module);
+void bind_spinning_design(pybind11::module_& module);
 void bind_spinning_published(pybind11::module_& module);

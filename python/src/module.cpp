@@ -64,5 +64,6 @@ PYBIND11_MODULE(_core, module) {
   bind_rotor_published(module);
   bind_spinning(module);
   bind_spinning_integrators(module);
+  bind_spinning_design(module);
   bind_spinning_published(module);
 }

@@ -5,12 +5,14 @@ import csv
 import io
 import math
 from pathlib import Path
+from typing import Any
 
 import gyrostat
 import numpy as np
 import pytest
 from gyrostat.charts import Chart
 from gyrostat.charts import rotor as rotor_charts
+from gyrostat.charts import spinning as spinning_charts
 from gyrostat.charts.deceleration import true_errors
 from gyrostat.cli import main
 
@@ -117,3 +119,53 @@ def test_errors_of_attitude_do_not_know_the_sign_of_a_quaternion() -> None:
                                       {"attitude": q, "angular_velocity": rate})
     assert errors["attitude"] == pytest.approx(2e-9, rel=1e-6)
     assert errors["angular_velocity"] == pytest.approx(5e-4)
+
+
+def spinner(**solve: Any) -> dict[str, Any]:
+    return {
+        "name": "spinner", "kind": "spinning", "solve": {"duration": 120.0, "samples": 25, "tolerance": 1e-3, **solve},
+        "body": {"inertia": [2985.0, 2729.0, 4183.0], "mass": 2017.0},
+        "torque": {"body": [4.0, -2.0, 0.0], "force": [2.0, -1.0, 400.0]},
+        "initial": {"angular_velocity": [0.002, -0.003, 0.7], "euler_312": [0.004, -0.002, 0.3], "velocity": [1.0, 0.0, -2.0]},
+    }
+
+
+@pytest.fixture(scope="module")
+def spinning_chart() -> Chart:
+    return gyrostat.chart(spinner())
+
+
+def test_every_method_of_a_spinning_scene_stands_on_the_chart(spinning_chart: Chart) -> None:
+    labels = spinning_chart.by_label()
+    assert {"rung linear", "rung second-order", "rung picard", "rung full", "Taylor, order 8", "Taylor, order 20",
+            "Runge-Kutta DOP853"} <= set(labels)
+    if gyrostat.build_info()["cvode"]:
+        assert {"CVODE Adams", "CVODE BDF"} <= set(labels)
+    assert [measure.key for measure in spinning_chart.measures] == ["attitude", "velocity"]
+    for label, points in labels.items():
+        if points[0].group in ("taylor", "dop853", "cvode", "rival"):
+            assert points[-1].error["attitude"] < 1e-3 * points[0].error["attitude"], label
+        if points[0].group == "rung":
+            for point in points:
+                assert max(point.error.values()) <= float(point.note.removeprefix("stated error ")), label
+    assert labels["rung second-order"][0].error["attitude"] < 0.1 * labels["rung linear"][0].error["attitude"]
+
+
+def test_a_spinner_that_tumbles_has_no_closed_form_on_its_chart() -> None:
+    tumbling = spinner(samples=5, duration=50.0)
+    tumbling["torque"]["body"] = [2000.0, 0.0, 5.0]
+    labels = gyrostat.chart(tumbling).by_label()
+    assert "rung linear" not in labels and labels["rung full"][-1].error["attitude"] < 1e-9
+    for rival in ("SciPy DOP853 (Python right-hand side)", "heyoka (compile time left out)"):
+        assert rival not in labels or labels[rival][-1].error["velocity"] < 1e-7
+
+
+def test_a_spinner_without_thrust_is_charted_by_its_rates(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(spinning_charts, "MOST_TURNS", 5.0)
+    coasting = spinner(samples=5)
+    coasting["torque"]["force"] = [0.0, 0.0, 0.0]
+    coasting["initial"]["velocity"] = [0.0, 0.0, 0.0]
+    made = gyrostat.chart(coasting)
+    assert [measure.key for measure in made.measures] == ["attitude", "angular_velocity"]
+    assert "of the scene's 120 s" in made.title
+    assert made.by_label()["Taylor, order 20"][-1].error["angular_velocity"] < 1e-12

@@ -21,8 +21,8 @@ namespace gyrostat::spinning {
 enum class GridKernel : std::uint8_t { any, modes, blocks, points };
 
 /// The linear motion at the times start + i step, i = 0 .. points - 1, as arrays (docs/spinning.md, section 4.3): by its modes, some
-/// 1.2 ns a point, where nu^2 > 0 and the least divisor turns through more than 10 rad until the end; else by blocks, some 2 ns
-/// a point and 0.1 ms before; point by point, 0.3 us each, where a step turns through more than 4 rad. Good to some eps of the
+/// 1.2 ns a point, where nu^2 > 0 and the least divisor turns through more than 10 rad until the end; else by blocks, some 2.5 ns
+/// a point and 0.06 ms before; point by point, 0.3 us each, where a step turns through more than 4 rad. Good to some eps of the
 /// greatest value of each quantity; by blocks and points also of each value. Modes asked for by name where nu^2 <= 0 give NaN. About 50 kB, no heap.
 template <Real Scalar>
 class LinearGrid {

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes as TOML text, which the standard library only reads."""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+__all__ = ["toml_text"]
+
+
+def toml_text(data: Mapping[str, Any]) -> str:
+    """Plain data in the layout of a scene file (tables of values, no deeper) as TOML; every number reads back as it was."""
+    top = [f"{key} = {_value(value)}" for key, value in data.items() if not isinstance(value, Mapping)]
+    tables = [[f"[{name}]", *(f"{key} = {_value(value)}" for key, value in table.items())]
+              for name, table in data.items() if isinstance(table, Mapping)]
+    return "\n\n".join("\n".join(lines) for lines in (top, *tables) if lines) + "\n"
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_value(item) for item in value) + "]"
+    return repr(value)
