@@ -88,6 +88,7 @@
 #include "gyrostat/models/deceleration/secular.hpp"
 #include "gyrostat/models/deceleration/stability.hpp"
 #include "gyrostat/models/heavy/attitude.hpp"
+#include "gyrostat/models/heavy/floquet.hpp"
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/models/heavy/integrals.hpp"
 #include "gyrostat/models/heavy/lindstedt.hpp"
