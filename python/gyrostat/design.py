@@ -61,7 +61,8 @@ WHY: Final[dict[str, dict[str, str]]] = {
     "never-reached": {"": "the motion does not reach the budget, or grows beyond all numbers before"},
     "not-covered": {
         "spin-for-pointing": "no stable spin of this sense meets the budget, or a torque acts about axis 3",
-        "torque-for-direction": "the spin is unstable, no force acts along axis 3, a torque acts about it, or the start alone is over the budget",
+        "torque-for-direction": "the spin is unstable or has no stiffness, no force acts along axis 3, a torque acts about it, or the start alone is "
+                                "over the budget",
         "": "a torque acts about axis 3: the spin is not constant",
     },
 }

@@ -66,13 +66,14 @@ def plan(scene: Scene, repeats: int) -> Plan:
     methods = [("dop853", "Runge-Kutta DOP853", "dop853"), *cvode_methods()]
     jobs = (*rung_jobs(RUNGS[scene.kind], spinning.solve, given, errors, repeats),
             *integrator_jobs(methods, spinning.integrate, physics, errors, repeats), *_rivals(physics, want, repeats))
-    title = (f"true error against cost, {len(given['times'])} times to {end:.6g} s{cut}\nat most {_rate(given, end) * end:.3g} turns; "
+    turns = float(np.mean(np.linalg.norm(want["angular_velocity"], axis=1))) * end / (2 * math.pi)
+    title = (f"true error against cost, {len(given['times'])} times to {end:.6g} s{cut}\nabout {turns:.3g} turns; "
              "reference: Taylor series of order 30 in long double")
     return Plan(title, (ATTITUDE, VELOCITY if np.any(given["force"]) else RATES), jobs)
 
 
 def _rate(given: dict[str, Any], end: float) -> float:
-    """A rough bound of the turns and nutations in a second until `end`."""
+    """Roughly the most turns and nutations in a second until `end`."""
     D, M, omega = (np.asarray(given[name], dtype=float) for name in ("inertia", "torque", "angular_velocity"))
     gyroscopic = abs(given["rotor_momentum"] - given["charge_momentum"]) / float(D.min())
     drive = float(np.linalg.norm(M[:2] / D[:2]))
