@@ -212,11 +212,11 @@ def _deceleration_panels(answer: Answer) -> list[Any]:
     return panels
 
 
-def _map(axes: "Axes", name: str, path: NDArray[Any], colour: str, dashes: str = "-") -> None:
-    """First two components of directions (n, 3), from a circle on."""
+def _map(axes: "Axes", name: str, path: NDArray[Any], colour: str) -> None:
+    """First two components of directions (n, 3), from a dot on."""
     coarse = _coarse(path[:, :2])
-    axes.plot(path[:, 0], path[:, 1], color=colour, linewidth=0.8, linestyle="none" if coarse else dashes, marker="." if coarse else "",
-              markersize=2, label=name)
+    axes.plot(path[:, 0], path[:, 1], color=colour, linewidth=0.8 if len(path) < 2000 else 0.4, linestyle="none" if coarse else "-",
+              marker="." if coarse else "", markersize=2, label=name)
     axes.plot(path[:1, 0], path[:1, 1], color=colour, marker="o", markersize=4, linestyle="none")
 
 
@@ -225,8 +225,13 @@ def _mark(axes: "Axes", name: str, x: float, y: float) -> None:
         axes.plot([x], [y], color="black", marker="+", markersize=11, markeredgewidth=1.4, linestyle="none", label=name)
 
 
-def _finish_map(axes: "Axes", title: str) -> None:
-    axes.set_aspect("equal", adjustable="datalim")
+def _finish_map(axes: "Axes", title: str, path: NDArray[Any]) -> None:
+    """The path is what shall be seen whole."""
+    low, high = path[:, :2].min(axis=0), path[:, :2].max(axis=0)
+    half = 0.58 * float(np.max(high - low)) or 1e-3
+    for middle, limit in zip((low + high) / 2, (axes.set_xlim, axes.set_ylim), strict=True):
+        limit(middle - half, middle + half)
+    axes.set_aspect("equal")
     axes.ticklabel_format(style="sci", scilimits=(-2, 2))
     axes.set_xlabel("direction cosine, inertial axis 1")
     axes.set_ylabel("direction cosine, inertial axis 2")
@@ -239,15 +244,15 @@ def _axis_map(axes: "Axes", answer: Answer) -> None:
     R = rotation.matrix_from_quaternion(answer["attitude"])
     G = answer["angular_momentum_inertial"]
     size = np.linalg.norm(G, axis=1, keepdims=True)
+    _map(axes, "body axis 3", R[:, :, 2], COLOURS[0])
     if np.all(size > 0):
         _map(axes, "angular momentum", G / size, COLOURS[4])
-    _map(axes, "body axis 3", R[:, :, 2], COLOURS[0])
     if math.isfinite(answer.scalars["pointing_error"]):
         mean = -1j * spinning.pointing(**{name: given[name] for name in (
             "inertia", "torque", "angular_velocity", "rotor_momentum", "charge_momentum", "euler_312")}).mean_tilt
         if abs(mean) < 1:
             _mark(axes, "mean of the linear motion", float(np.real(mean)), float(np.imag(mean)))
-    _finish_map(axes, "Axis 3 and momentum")
+    _finish_map(axes, "Axis 3 and momentum", R[:, :, 2])
     _note(axes, _error_text(answer, "attitude", "angular_momentum_inertial"))
 
 
@@ -255,11 +260,12 @@ def _velocity_map(axes: "Axes", answer: Answer) -> None:
     gained = answer["velocity"] - np.array(answer.scene["initial"]["velocity"])
     size = np.linalg.norm(gained, axis=1, keepdims=True)
     moving = size[:, 0] > 0
-    _map(axes, "velocity gained", gained[moving] / size[moving], COLOURS[2])
+    direction = gained[moving] / size[moving]
+    _map(axes, "velocity gained", direction, COLOURS[2])
     x, y = answer.scalars["secular_velocity_ratio"]
     if math.hypot(x, y) < 1:
         _mark(axes, "limit of the linear motion", x / math.sqrt(1 + x * x + y * y), y / math.sqrt(1 + x * x + y * y))
-    _finish_map(axes, "Velocity gained")
+    _finish_map(axes, "Velocity gained", direction)
     _note(axes, _error_text(answer, "velocity"))
 
 

@@ -116,18 +116,19 @@ Data linear_rows(const SpinningProblems& problems, const Array& at) {
 py::array_t<double> linear_grid_rows(const SpinningProblems& problems, double start, double step, std::size_t points) {
   problems.require_constant_spin();
   const std::size_t rows = problems.rows().size(), all = rows * points;
-  std::vector<double> out(14 * all);
+  py::array_t<double> out({py::ssize_t(14), py::ssize_t(rows), py::ssize_t(points)});
+  double* const first = out.mutable_data();
   {
     const py::gil_scoped_release free;
     for (std::size_t row = 0; row < rows; ++row) {
-      const auto column = [&](std::size_t i) { return out.data() + i * all + row * points; };
+      const auto column = [&](std::size_t i) { return first + i * all + row * points; };
       const GridColumns<double> columns{column(0),  column(1),  column(2),  column(3), column(4),
                                         column(5),  column(6),  column(8),  column(9), column(10),
                                         column(11), column(12), column(13), column(7)};
       LinearGrid<double>(problems.rows()[row], start, step, points).write(0, points, columns);
     }
   }
-  return array(std::move(out), {14, py::ssize_t(rows), py::ssize_t(points)});
+  return out;
 }
 
 /// (rows, 9): pointing error, secular velocity ratio (2), mean tilt (2), nu^2, unstable, resonant, compliant.
