@@ -92,6 +92,7 @@
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/models/heavy/integrals.hpp"
 #include "gyrostat/models/heavy/lindstedt.hpp"
+#include "gyrostat/models/heavy/nutating.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/models/heavy/scaled.hpp"
 #include "gyrostat/models/heavy/series.hpp"
