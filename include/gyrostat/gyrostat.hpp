@@ -94,6 +94,7 @@
 #include "gyrostat/models/heavy/lindstedt.hpp"
 #include "gyrostat/models/heavy/nutating.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
+#include "gyrostat/models/heavy/published.hpp"
 #include "gyrostat/models/heavy/scaled.hpp"
 #include "gyrostat/models/heavy/series.hpp"
 #include "gyrostat/models/heavy/series_2.hpp"
