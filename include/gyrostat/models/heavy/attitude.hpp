@@ -15,7 +15,8 @@ namespace gyrostat::heavy {
 template <Real Scalar>
 Quat<Scalar> attitude_from_angles(Scalar psi, Scalar phi, const Vec3<Scalar>& down) noexcept {
   // cos and sin of theta/2, the larger one first
-  const Scalar larger = std::sqrt((1 + std::abs(down[2])) / 2), smaller = std::hypot(down[0], down[1]) / (2 * larger);
+  const Scalar larger = std::sqrt((1 + std::abs(down[2])) / 2),
+               smaller = std::sqrt(down[0] * down[0] + down[1] * down[1]) / (2 * larger);
   const Scalar c = down[2] < 0 ? smaller : larger, s = down[2] < 0 ? larger : smaller;
   const auto sum = math::unit((psi + phi) / 2), difference = math::unit((psi - phi) / 2);
   return {-s * difference.re, c * sum.re, -c * sum.im, s * difference.im};
