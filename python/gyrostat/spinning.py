@@ -187,7 +187,7 @@ class LinearGrid:
 def linear_grid(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike, step: float, samples: int,
                 start: float = 0.0, mass: ArrayLike = 1.0, rotor_momentum: ArrayLike = 0.0, charge_momentum: ArrayLike = 0.0,
                 euler_312: ArrayLike = ORIGIN, velocity: ArrayLike = ORIGIN, position: ArrayLike = ORIGIN) -> LinearGrid:
-    """The motion of `linear` at start + i step, i = 0 .. samples - 1: some nanoseconds a time.
+    """The motion of `linear` at start + i step, i = 0 .. samples - 1, at some ten nanoseconds a time for all columns together.
 
     step [s] of either sign, not 0; samples >= 1; the others as in `linear`. Good to rounding of the greatest value of each quantity.
     """
