@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/heavy/shooting.hpp"
+
+/// Periodic motions through one section, down_2 = 0 and down_3 = G0: at one spin, and along their family (docs/heavy.md, section 4).
+/// No heap.
+namespace gyrostat::heavy {
+
+/// Unknown: p0, q0, T; spin and down at the start stay.
+template <Real Scalar>
+struct AtSpin {
+  static constexpr int unknowns = 3, conditions = 0;
+  Scalar rate;  ///< rad/s
+
+  Eigen::Matrix<Scalar, 7, 3> basis(const State<Scalar>&) const noexcept {
+    Eigen::Matrix<Scalar, 7, 3> by = Eigen::Matrix<Scalar, 7, 3>::Zero();
+    by(0, 0) = by(1, 1) = by(6, 2) = 1;
+    return by;
+  }
+  void move(State<Scalar>& start, Scalar& period, const Vec3<Scalar>& x) const noexcept {
+    start.angular_velocity[0] += rate * x[0];
+    start.angular_velocity[1] += rate * x[1];
+    period += x[2] / rate;
+  }
+};
+
+/// Unknown: p0, q0, r0, T, on the plane across a tangent of the family.
+template <Real Scalar>
+struct AlongFamily {
+  static constexpr int unknowns = 4, conditions = 1;
+  using Point = Eigen::Matrix<Scalar, 4, 1>;  ///< (p0/unit, q0/unit, r0/unit, unit T)
+  Scalar unit, rate;                          ///< rad/s
+  Point at, tangent;
+
+  static Point point(const State<Scalar>& start, Scalar period, Scalar unit) noexcept {
+    const auto& w = start.angular_velocity;
+    return {w[0] / unit, w[1] / unit, w[2] / unit, period * unit};
+  }
+  Eigen::Matrix<Scalar, 7, 4> basis(const State<Scalar>&) const noexcept {
+    Eigen::Matrix<Scalar, 7, 4> by = Eigen::Matrix<Scalar, 7, 4>::Zero();
+    by(0, 0) = by(1, 1) = by(2, 2) = unit / rate;
+    by(6, 3) = rate / unit;
+    return by;
+  }
+  void move(State<Scalar>& start, Scalar& period, const Point& x) const noexcept {
+    start.angular_velocity += unit * x.template head<3>();
+    period += x[3] / unit;
+  }
+  Eigen::Matrix<Scalar, 1, 5> condition(const State<Scalar>& start, Scalar period) const noexcept {
+    Eigen::Matrix<Scalar, 1, 5> row;
+    row << tangent.dot(point(start, period, unit) - at), tangent.transpose();
+    return row;
+  }
+};
+
+/// Walks along a family of periodic motions by pseudo-arclength: past folds of the spin, to where it ends.
+template <Real Scalar>
+class OrbitWalk {
+ public:
+  using Space = AlongFamily<Scalar>;
+  using Point = typename Space::Point;
+
+  /// @param unit rad/s, of the order of the slow motions: of it the steps are measured   @param towards in which sense to walk
+  OrbitWalk(const Problem<Scalar>& problem, const Closed<Scalar>& from, Scalar unit, const Point& towards) noexcept
+      : problem_(problem), member_(from), unit_(unit), tangent_(towards) {
+    turn();
+  }
+
+  const Closed<Scalar>& member() const noexcept { return member_; }
+  const Point& tangent() const noexcept { return tangent_; }
+  /// d(spin)/d(length) along the family: changes its sign at a fold.
+  Scalar spin_slope() const noexcept { return tangent_[2]; }
+  const ode::Counts& counts() const noexcept { return counts_; }  ///< of the steps, all together
+  int shots() const noexcept { return shots_; }
+
+  /// The next member. False where no step, however short, finds one.
+  bool advance() noexcept {
+    constexpr Scalar least = Scalar(1e-6L), straight = Scalar(0.94L);
+    while (length_ > least) {
+      const Point here = Space::point(member_.start, member_.period, unit_);
+      const Space space{unit_, rate(), here + length_ * (tangent_ + length_ / 2 * bend_), tangent_};
+      State<Scalar> start = member_.start;
+      start.angular_velocity = unit_ * space.at.template head<3>();
+      const auto next = close_orbit(problem_, start, space.at[3] / unit_, space.rate, space, accept_, 9);
+      if (next) {
+        shots_ += next->shots;
+        counts_ += next->counts;
+        const Point found = Space::point(next->start, next->period, unit_);
+        const bool near = (found - space.at).norm() < length_ / 2;
+        if (near) {
+          const Closed<Scalar> before = member_;
+          const Point old = tangent_;
+          member_ = *next;
+          turn();
+          if (tangent_.dot(old) > straight) {
+            bend_ = (tangent_ - old) / (found - here).norm();
+            if (next->shots <= 4) length_ = std::min(Scalar(1.6L) * length_, longest_);
+            if (next->shots >= 7) length_ /= 2;
+            return true;
+          }
+          member_ = before;
+          tangent_ = old;
+        }
+      }
+      length_ /= 2;
+    }
+    return false;
+  }
+
+ private:
+  Scalar rate() const noexcept { return std::max(rate_size(problem_, member_.start), unit_); }
+
+  /// The tangent at the member, in the sense of the last one.
+  void turn() noexcept {
+    using Method = detail::Shooting<Scalar, Space>;
+    const Space space{unit_, rate(), Space::point(member_.start, member_.period, unit_), tangent_};
+    typename Method::Rows residual;
+    typename Method::Jacobian jacobian;
+    Method(space, space.rate).equations(problem_, member_.start, member_.period, member_.shot, residual, jacobian);
+    residual.setZero();
+    residual[6] = -1;
+    const Point t = Method::change(jacobian, residual);
+    tangent_ = t / t.norm();
+  }
+
+  Problem<Scalar> problem_;
+  Closed<Scalar> member_;
+  Scalar unit_;
+  Point tangent_, bend_ = {0, 0, 0, 0};  ///< and its derivative by the length
+  Scalar length_ = Scalar(0.1L), longest_ = Scalar(0.25L), accept_ = Scalar(1e-9L);
+  ode::Counts counts_;
+  int shots_ = 0;
+};
+
+}  // namespace gyrostat::heavy

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/heavy/orbit_walk.hpp"
+#include "gyrostat/ladder/heavy/shooting.hpp"
+#include "gyrostat/models/heavy/attitude.hpp"
+#include "gyrostat/models/heavy/multipliers.hpp"
+#include "gyrostat/models/heavy/problem.hpp"
+#include "gyrostat/models/heavy/scaled.hpp"
+
+/// The periodic motion of a spinning heavy body without smallness of c/r0 (docs/heavy.md, section 4).
+namespace gyrostat::heavy {
+
+/// How a periodic motion was found.
+enum class OrbitMethod : std::uint8_t {
+  shooting,      ///< from the first order in (c/r0)^2
+  continuation,  ///< along the family from a faster spin
+};
+
+/// A motion whose rates and down return after the period.
+template <Real Scalar>
+struct PeriodicOrbit {
+  State<Scalar> start;       ///< with psi = 0
+  Scalar period = 0;         ///< s
+  Scalar closure = 0;        ///< greatest of |w(T) - w(0)|/rate_size and |down(T) - down(0)|
+  Scalar trace_minus_4 = 0;  ///< of the monodromy: the sum of the two multipliers
+  Multipliers<Scalar> multipliers;
+  OrbitStability stability = OrbitStability::undecided;
+  OrbitError<Scalar> error;  ///< of start, period, trace: estimates, several times too large
+  OrbitMethod method = OrbitMethod::shooting;
+  int shots = 0;       ///< runs with variational equations until it closed
+  ode::Counts counts;  ///< of all runs
+};
+
+/// The periodic motion with spin r0 and the inclination acos(G0) of axis 3 to down, where down passes the plane of axes 1 and 3:
+/// r = r0, down = (M3, 0, G0) at t = 0. One call is one to two dozen runs over a period; no heap.
+///
+/// It is the one that a fast spin tends to: where the first order is a good guess (r0 > 2.4 c) by shooting, else by following the family
+/// from such a spin, past folds, to the first member with this spin.
+///
+/// Errors: those of Scaled; not_applicable (1 - a, 1 - b or a + b - 1 vanishes and what it divides does not); no_convergence (the family
+/// does not reach this spin, or the motion is too unstable to close within 1e-9).
+/// @param spin r0, rad/s, of either sign   @param cos_inclination G0, in (-1, 1)
+template <Real Scalar>
+Result<PeriodicOrbit<Scalar>> periodic_orbit(const Problem<Scalar>& problem, Scalar spin,
+                                             Scalar cos_inclination) noexcept;
+
+namespace detail {
+
+/// What a closed motion at its spin is worth.
+template <Real Scalar>
+PeriodicOrbit<Scalar> judged(const Problem<Scalar>& problem, const Closed<Scalar>& closed,
+                             OrbitMethod method) noexcept {
+  PeriodicOrbit<Scalar> orbit;
+  orbit.start = closed.start;
+  orbit.start.attitude =
+      attitude_from_angles<Scalar>(0, std::atan2(closed.start.down[0], closed.start.down[1]), closed.start.down);
+  orbit.period = closed.period;
+  orbit.closure = closed.closure;
+  orbit.trace_minus_4 = closed.shot.derivative.trace() - 4;
+  orbit.method = method;
+  orbit.shots = closed.shots;
+  orbit.counts = closed.counts;
+  const Scalar rate = rate_size(problem, closed.start);
+  orbit.error = orbit_error(problem, closed, rate, AtSpin<Scalar>{rate}, orbit.counts);
+  orbit.multipliers = multipliers(orbit.trace_minus_4);
+  orbit.stability = orbit_stability(orbit.trace_minus_4, orbit.error.trace);
+  return orbit;
+}
+
+/// By shooting from the first order; refused where the answer is not the motion that was guessed.
+template <Real Scalar>
+Result<Closed<Scalar>> shot_orbit(const Problem<Scalar>& problem, const Scaled<Scalar>& s) noexcept {
+  const FirstOrder<Scalar> first(s);
+  State<Scalar> start;
+  start.angular_velocity = {s.spin * (first.X + first.chi * s.M3), s.spin * first.Y, s.spin};
+  start.down = {s.M3, 0, s.G0};
+  const Scalar guess = 2 * pi<Scalar> / std::abs(s.spin * (1 + first.rate));
+  if (!start.angular_velocity.allFinite() || !(guess < infinity<Scalar>)) return Errc::not_applicable;
+  const Scalar rate = rate_size(problem, start);
+  const auto closed = close_orbit(problem, start, guess, rate, AtSpin<Scalar>{rate});
+  if (!closed) return closed.error();
+  const Scalar moved = (closed->start.angular_velocity - start.angular_velocity).norm() / std::abs(s.spin);
+  constexpr Scalar most = Scalar(0.25L);
+  if (!(moved < most) || !(std::abs(closed->period / guess - 1) < most)) return Errc::no_convergence;
+  return closed;
+}
+
+/// Of the order of the slow motions, rad/s; the spin where there is no torque.
+template <Real Scalar>
+Scalar slow_rate(const Problem<Scalar>& problem, Scalar spin) noexcept {
+  const Scalar c = problem.pendulum_rate(), slow = std::max(c, std::sqrt(problem.gradient()));
+  return slow > 0 ? slow : std::abs(spin);
+}
+
+/// How many times faster a spin must be, at least one, for the first order to be a good guess.
+template <Real Scalar>
+Scalar fast_over(const Scaled<Scalar>& s) noexcept {
+  return s.torque() <= Scalar(0.18L) ? Scalar(1) : 3 * std::sqrt(s.torque());
+}
+
+/// The member with a spin between those of two neighbours.
+template <Real Scalar>
+Result<Closed<Scalar>> member_between(const Problem<Scalar>& problem, const Closed<Scalar>& one,
+                                      const Closed<Scalar>& other, Scalar spin) noexcept {
+  const auto &from = one.start.angular_velocity, &to = other.start.angular_velocity;
+  const Scalar part = (spin - from[2]) / (to[2] - from[2]);
+  State<Scalar> start = one.start;
+  start.angular_velocity += part * (to - from);
+  start.angular_velocity[2] = spin;
+  const Scalar rate = rate_size(problem, start);
+  return close_orbit(problem, start, one.period + part * (other.period - one.period), rate, AtSpin<Scalar>{rate});
+}
+
+/// |trace - 4| beyond which rounding leaves no more than a few digits of the closure.
+template <Real Scalar>
+inline constexpr Scalar greatest_trace = Scalar(1e6L);
+
+template <Real Scalar>
+struct FoundOrbit {
+  Closed<Scalar> closed;
+  OrbitMethod method = OrbitMethod::shooting;
+  typename OrbitWalk<Scalar>::Point tangent = {0, 0, 0, 0};  ///< of the family, towards slower spins
+};
+
+/// By shooting, and where that fails along the family.
+template <Real Scalar>
+Result<FoundOrbit<Scalar>> closed_orbit(const Problem<Scalar>& problem, const Scaled<Scalar>& scaled) noexcept {
+  const Scalar spin = scaled.spin;
+  Scalar factor = fast_over(scaled);
+  Result<Closed<Scalar>> closed = Errc::no_convergence;
+  // a guess that is far off is mended by a faster spin, up to 64 times
+  for (int trial = 0; trial < 4; ++trial, factor *= 4) {
+    const auto faster = Scaled<Scalar>::make(problem, factor * spin, scaled.G0);
+    if (!faster) return faster.error();
+    closed = shot_orbit(problem, *faster);
+    if (closed || closed.error() != Errc::no_convergence) break;
+  }
+  if (!closed) return closed.error();
+  FoundOrbit<Scalar> found;
+  found.closed = *closed;
+  found.tangent[2] = spin < 0 ? Scalar(1) : Scalar(-1);
+  if (factor == 1) return found;
+
+  found.method = OrbitMethod::continuation;
+  OrbitWalk<Scalar> walk(problem, *closed, slow_rate(problem, spin), found.tangent);
+  for (int member = 0; member < 400; ++member) {
+    const Closed<Scalar> before = walk.member();
+    if (!walk.advance()) return Errc::no_convergence;
+    const Scalar now = walk.member().start.angular_velocity[2] / spin;
+    const Scalar trace = walk.member().shot.derivative.trace();
+    if (!(now > 0) || !(std::abs(trace) < greatest_trace<Scalar>)) return Errc::no_convergence;
+    if (!(now <= 1)) continue;
+    const auto at = member_between(problem, before, walk.member(), spin);
+    if (!at) return at.error();
+    found.closed = *at;
+    found.closed.shots += closed->shots + walk.shots();
+    found.closed.counts += closed->counts;
+    found.closed.counts += walk.counts();
+    found.tangent = walk.tangent();
+    return found;
+  }
+  return Errc::no_convergence;
+}
+
+}  // namespace detail
+
+template <Real Scalar>
+Result<PeriodicOrbit<Scalar>> periodic_orbit(const Problem<Scalar>& problem, Scalar spin,
+                                             Scalar cos_inclination) noexcept {
+  const auto scaled = Scaled<Scalar>::make(problem, spin, cos_inclination);
+  if (!scaled) return scaled.error();
+  const auto found = detail::closed_orbit(problem, *scaled);
+  if (!found) return found.error();
+  return detail::judged(problem, found->closed, found->method);
+}
+
+#if defined(GYROSTAT_COMPILED)
+extern template Result<PeriodicOrbit<double>> periodic_orbit<double>(const Problem<double>&, double, double) noexcept;
+#endif
+
+}  // namespace gyrostat::heavy
