@@ -109,10 +109,10 @@ class Lindstedt {
   /// none above rounding.
   Scalar fall() const noexcept { return fall(&Size::rates, &Size::down, 0); }
 
-  /// The last two terms are below rounding: what follows is rounding, which 1/M3 may let grow.
+  /// The last term is below rounding, and not by chance: what follows is rounding, which 1/M3 may let grow.
   bool spent() const noexcept {
-    const auto below = [&](int n) noexcept { return size(n).rates + size(n).down < epsilon<Scalar> / 16; };
-    return order_ >= 2 && below(order_) && below(order_ - 1);
+    const auto term = [&](int n) noexcept { return size(n).rates + size(n).down; };
+    return order_ >= 2 && term(order_) < epsilon<Scalar> / 2 && term(order_ - 1) < std::sqrt(epsilon<Scalar>);
   }
 
   /// What a sum of the terms 0..kept leaves out: the terms known beyond it, and a geometric tail from the largest of the last three
@@ -197,7 +197,7 @@ class Lindstedt {
     Scalar worst = 0;
     for (int n = order_; n > std::max(order_ - 3, first); --n) {
       const Scalar here = size(n).*one + size(n).*other, before = size(n - 1).*one + size(n - 1).*other;
-      if (!(here <= epsilon<Scalar> / 16)) worst = std::fmax(worst, here / before);
+      if (!(here < epsilon<Scalar> / 2)) worst = std::fmax(worst, here / before);
     }
     return worst;
   }
