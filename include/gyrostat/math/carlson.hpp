@@ -132,9 +132,9 @@ inline Scalar carlson_RJ(Scalar x, Scalar y, Scalar z, Scalar p) noexcept {
     const Scalar rp = std::sqrt(p);
     const Scalar lambda = rx * (ry + rz) + ry * rz;
     const Scalar d = (rp + rx) * (rp + ry) * (rp + rz);
-    // 1 + delta/d^2 with delta = (p-x)(p-y)(p-z) of this step, as a product without overflow
-    const Scalar ratio = ((rp - rx) / (rp + rx)) * ((rp - ry) / (rp + ry)) * ((rp - rz) / (rp + rz));
-    sum += power / d * carlson_RC<Scalar>(1, 1 + ratio);
+    // 1 + (p-x)(p-y)(p-z)/d^2 of this step as a quotient of sums of positive terms, without overflow
+    const Scalar inner = 2 * (rp / (rp + rx)) * ((p + lambda) / ((rp + ry) * (rp + rz)));
+    sum += power / d * carlson_RC<Scalar>(1, inner);
     power /= 4;
     x = (x + lambda) / 4;
     y = (y + lambda) / 4;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/core/real.hpp"
+
+namespace gyrostat::heavy {
+
+/// Bounds of what an exact motion errs, by the rounding of the data and of the arithmetic. Infinite where first order
+/// does not suffice.
+template <Real Scalar>
+struct ExactError {
+  Scalar attitude = 0;          ///< angle, rad
+  Scalar down = 0;              ///< of the unit vector
+  Scalar angular_velocity = 0;  ///< rad/s
+
+  /// Of a motion that is off by an angle; `rate` is the greatest angular velocity and frequency in it.
+  static ExactError of(Scalar angle, Scalar rate) noexcept {
+    if (!(angle < Scalar(0.05))) return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
+    return {angle, angle, angle * rate};
+  }
+};
+
+/// By how much the rounding of the data puts an oscillation out of time at t, s. Its frequency errs by `relative`.
+/// Where it passes a saddle, with argument `rate` t of Jacobi's functions and quarter period K, a perturbation grows
+/// like exp(rate t) until the passage ends, by which time it has moved the argument by `shift`: the relative error of
+/// k'^2.
+template <Real Scalar>
+Scalar time_error(Scalar relative, Scalar shift, Scalar K, Scalar rate, Scalar t) noexcept {
+  if (!(rate > 0)) return relative * t;
+  const Scalar passages = 1 + (K < infinity<Scalar> ? rate * t / K : Scalar(0));
+  return relative * t + passages * std::min(shift, relative * std::expm1(rate * t)) / rate;
+}
+
+}  // namespace gyrostat::heavy

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/math/jacobi.hpp"
+#include "gyrostat/math/third_kind.hpp"
+#include "gyrostat/models/heavy/aligned_attitude.hpp"
+#include "gyrostat/models/heavy/exact_error.hpp"
+#include "gyrostat/models/heavy/problem.hpp"
+
+namespace gyrostat::heavy {
+
+/// What a pendulum does.
+enum class PendulumMotion : std::uint8_t {
+  rest,        ///< hanging or standing still
+  libration,   ///< swings to and fro
+  rotation,    ///< goes round
+  separatrix,  ///< to rounding, tends to standing without ever getting there
+};
+
+/// The turning of a body about a principal axis k that stays horizontal, with the mass centre in the plane across it
+/// (docs/heavy.md, section 7): exact where weight or gradient acts alone. With theta the angle from down to the mass
+/// centre,
+///     theta'' = -c^2 sin theta,  c^2 = M g l/I_k;
+/// the gradient alone does the same to twice the angle from down to the axis of the lesser moment, with
+/// c^2 = N |I_j - I_i|/I_k. The axis stays whatever the moments are: both torques lie along it.
+template <Real Scalar>
+class Pendulum {
+ public:
+  /// How far off the plane, relative, a body or start may be.
+  static constexpr Scalar greatest_defect = 16 * epsilon<Scalar>;
+
+  Pendulum() = default;
+
+  /// Errors: not_applicable (off the plane; weight and gradient together); not_finite; zero_vector. The start is
+  /// aligned().
+  static Result<Pendulum> make(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept {
+    const auto from = aligned(start);
+    if (!from) return from.error();
+    Pendulum best;
+    best.defect_ = infinity<Scalar>;
+    for (int k = 0; k < 3; ++k) {
+      Pendulum made;
+      if (made.build(problem, *from, k) && made.defect_ < best.defect_) best = made;
+    }
+    if (!(best.defect_ <= greatest_defect)) return Errc::not_applicable;
+    return best;
+  }
+
+  State<Scalar> at(Scalar t) const noexcept {
+    const auto [half, rate] = point(unit_ * t);
+    // half / (2 fold) is half the angle turned
+    const Scalar turn = (half - half_) / fold_;
+    State<Scalar> s;
+    Quat<Scalar> by{std::cos(turn), 0, 0, 0};
+    (axis_ == 0 ? by.x : axis_ == 1 ? by.y : by.z) = std::sin(turn);
+    s.attitude = normalised(start_.attitude * by);
+    s.down = rotate<Scalar>(conjugate(by), start_.down);
+    s.angular_velocity = Vec3<Scalar>::Zero();
+    s.angular_velocity[axis_] = unit_ * rate;
+    return s;
+  }
+
+  /// Bound of the error of at() up to time |t|. A start off the plane by rounding may leave it.
+  ExactError<Scalar> error(Scalar t) const noexcept {
+    t = std::abs(unit_ * t);
+    const Scalar late = time_error(rounding, rounding * shift_, K_, rate_, t);
+    const Scalar off = defect_ == 0 ? Scalar(0) : defect_ * std::exp((fastest_ + growth_) * t);
+    return ExactError<Scalar>::of(rounding * (1 + fastest_ * t) + fastest_ * late + off, unit_ * (fastest_ + 1));
+  }
+
+  PendulumMotion motion() const noexcept { return motion_; }
+  int axis() const noexcept { return axis_; }  ///< k
+  math::Modulus<Scalar> modulus() const noexcept { return modulus_; }
+  Scalar frequency() const noexcept { return unit_ * frequency_; }  ///< c of small swings, rad/s
+  /// To and fro, or once round (with the gradient alone half round), s; of small swings at rest; infinite on the
+  /// separatrix.
+  Scalar period() const noexcept {
+    switch (motion_) {
+      case PendulumMotion::rest: return 2 * pi<Scalar> / frequency();
+      case PendulumMotion::libration: return 4 * K_ / (unit_ * rate_);
+      case PendulumMotion::rotation: return 2 * K_ / (unit_ * rate_);
+      case PendulumMotion::separatrix: break;
+    }
+    return infinity<Scalar>;
+  }
+
+ private:
+  static constexpr Scalar rounding = 24 * epsilon<Scalar>;
+  struct Point {
+    Scalar half, rate;  // half of fold theta, unwrapped; theta'
+  };
+
+  bool build(const Problem<Scalar>& problem, const State<Scalar>& start, int k) noexcept;
+  Point point(Scalar t) const noexcept {
+    if (rate_ == 0) return {half_, 0};
+    const auto u = math::JacobiTurn<Scalar>::of(functions_, v0_ + rate_ * t);
+    const Scalar sign = std::fmod(u.turns, Scalar(2)) == 0 ? 1 : -1;
+    if (rotates_)
+      return {std::atan2(u.sn, u.cn) * direction_ + direction_ * pi<Scalar> * u.turns,
+              2 * direction_ * rate_ * u.dn / fold_};
+    const Scalar k = std::sqrt(modulus_.k2);
+    return {std::atan2(sign * k * u.sn, u.dn), 2 * sign * rate_ * k * u.cn / fold_};
+  }
+
+  State<Scalar> start_;
+  int axis_ = 2;
+  Scalar unit_ = 1, fold_ = 1, frequency_ = 0, rate_ = 0, v0_ = 0, K_ = 0, half_ = 0, direction_ = 1;
+  bool rotates_ = false;
+  math::Modulus<Scalar> modulus_;
+  math::JacobiAt<Scalar> functions_{math::Modulus<Scalar>{}};
+  PendulumMotion motion_ = PendulumMotion::rest;
+  Scalar fastest_ = 0, growth_ = 1, shift_ = 1, defect_ = 0;
+};
+
+template <Real Scalar>
+bool Pendulum<Scalar>::build(const Problem<Scalar>& problem, const State<Scalar>& start, int k) noexcept {
+  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  const Vec3<Scalar>& I = problem.inertia();
+  const Vec3<Scalar> m = problem.moment(), &w = start.angular_velocity, &d = start.down;
+  const Scalar weight = std::hypot(m[i], m[j]), gradient = problem.gradient() * (I[i] - I[j]);
+  const Scalar size = m.norm() + problem.gradient() * (I.maxCoeff() - I.minCoeff());
+  // square of c; the angle from down, and its half, of the direction that hangs
+  Scalar square, cosine, sine;
+  if (weight > 0 && gradient == 0) {
+    square = weight / I[k];
+    cosine = (d[i] * m[i] + d[j] * m[j]) / weight;
+    sine = (d[i] * m[j] - d[j] * m[i]) / weight;
+  } else if (weight == 0) {
+    fold_ = 2;
+    square = std::abs(gradient) / I[k];
+    const Scalar sign = gradient > 0 ? 1 : -1;  // twice the angle beta of down: from axis j, or from i
+    cosine = sign * (d[j] - d[i]) * (d[j] + d[i]);
+    sine = 2 * sign * d[i] * d[j];
+  } else {
+    return false;
+  }
+  const Scalar speed = w[k] * fold_;
+  unit_ = std::abs(w[k]) + std::sqrt(square);
+  if (!(unit_ > 0)) unit_ = 1;
+  growth_ = std::sqrt(size / I.minCoeff()) / unit_;
+  const Scalar other = std::hypot(w[i], w[j]);
+  defect_ = std::abs(d[k]) + (other > 0 ? other / unit_ : Scalar(0)) + (size > 0 ? std::abs(m[k]) / size : Scalar(0));
+  if (!(defect_ <= greatest_defect)) return false;
+
+  start_ = start;
+  start_.down[k] = 0;
+  axis_ = k;
+  const Scalar length = std::hypot(cosine, sine);
+  cosine /= length;
+  sine /= length;
+  const Scalar v = speed / 2 / unit_;  // of half the angle
+  frequency_ = std::sqrt(square) / unit_;
+  // sine and cosine of half the angle, angle in (-pi, pi]
+  const Scalar c = cosine > 0 ? std::sqrt((1 + cosine) / 2) : std::abs(sine) / std::sqrt(2 * (1 - cosine));
+  const Scalar s =
+      std::copysign(cosine > 0 ? std::abs(sine) / std::sqrt(2 * (1 + cosine)) : std::sqrt((1 - cosine) / 2), sine);
+  const Scalar p = v * v, inside = frequency_ * c, up = frequency_ * s;
+  const Scalar total = p + up * up;  // rate^2 k^2 of libration, rate^2 of rotation
+  const Scalar short_of = (inside - std::abs(v)) * (inside + std::abs(v));
+  constexpr Scalar floor = epsilon<Scalar> * epsilon<Scalar>;
+  fastest_ = 2 * std::sqrt(total) / fold_;
+  half_ = std::atan2(s, c);
+  if (total == 0 || (v == 0 && c == 0)) {
+    motion_ = PendulumMotion::rest;
+    return true;
+  }
+  rotates_ = short_of < 0;
+  shift_ = (inside * inside + p) / std::abs(short_of);
+  Scalar sn, cn, dn;
+  if (rotates_) {
+    motion_ = PendulumMotion::rotation;
+    rate_ = std::sqrt(total);
+    modulus_ = {frequency_ * frequency_ / total, std::max(-short_of / total, floor)};
+    direction_ = v < 0 ? -1 : 1;
+    sn = direction_ * s;
+    cn = c;
+    dn = std::abs(v) / rate_;
+  } else {
+    motion_ = PendulumMotion::libration;
+    rate_ = frequency_;
+    modulus_ = {total / (rate_ * rate_), std::max(short_of / (rate_ * rate_), floor)};
+    const Scalar amplitude = std::sqrt(total);
+    sn = up / amplitude;
+    cn = std::abs(v) / amplitude;
+    dn = c;
+  }
+  if (!(shift_ * rounding < 1)) motion_ = PendulumMotion::separatrix;
+  functions_ = math::JacobiAt<Scalar>(modulus_);
+  K_ = functions_.quarter_period();
+  const Scalar kp = std::sqrt(modulus_.kp2);
+  dn = std::max(dn, kp);
+  const Scalar u = math::jacobi_argument(sn, cn, dn);
+  v0_ = !rotates_ && v < 0 ? std::copysign(2 * K_, sn) - u : u;
+  half_ = point(0).half;
+  return true;
+}
+
+}  // namespace gyrostat::heavy

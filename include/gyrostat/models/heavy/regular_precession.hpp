@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/models/heavy/symmetric_top.hpp"
+
+namespace gyrostat::heavy {
+
+/// The rates at which a top can precess at a constant inclination u = g3, right-handed about DOWN, rad/s: the roots of
+///     A u w^2 - C r w + V' = 0,   V' = -W + N (C - A) u   (docs/heavy.md, section 7).
+/// No cancellation in either. slow -> V'/(C r) and fast -> C r/(A u) as r grows; a horizontal axis (u = 0) has no fast
+/// one: infinite.
+template <Real Scalar>
+struct RegularPrecession {
+  bool exists;        ///< real roots: (C r)^2 >= 4 A u V'
+  Scalar slow, fast;  ///< |slow| <= |fast|; NaN where they do not exist
+};
+
+/// @param u down along the axis of symmetry, in [-1, 1]   @param spin r, rad/s
+template <Real Scalar>
+RegularPrecession<Scalar> regular_precession(const SymmetricTop<Scalar>& top, Scalar u, Scalar spin) noexcept {
+  const Scalar a = top.across * u, b = top.along * spin;
+  const Scalar c = -top.weight + top.gradient * (top.along - top.across) * u;
+  const Scalar discriminant = b * b - 4 * a * c;
+  if (!(discriminant >= 0)) return {false, nan<Scalar>, nan<Scalar>};
+  const Scalar q = (b + std::copysign(std::sqrt(discriminant), b)) / 2;
+  // q = 0 where nothing drives nor spins
+  const Scalar slow = q == 0 ? Scalar(0) : c / q;
+  const Scalar fast = a == 0 ? (q == 0 ? Scalar(0) : infinity<Scalar>) : q / a;
+  const bool ordered = std::abs(slow) <= std::abs(fast);
+  return {true, ordered ? slow : fast, ordered ? fast : slow};
+}
+
+/// The start that precesses so: w = precession d + (r - precession u) e3, in the top's frame.
+/// @param down unit, in that frame
+template <Real Scalar>
+Vec3<Scalar> precessing_velocity(const Vec3<Scalar>& down, Scalar spin, Scalar precession) noexcept {
+  return {precession * down[0], precession * down[1], spin};
+}
+
+}  // namespace gyrostat::heavy

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/models/heavy/pendulum.hpp"
+
+#include "catch.hpp"
+#include "long_motion.hpp"
+#include "reference_table.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::heavy;
+
+namespace {
+
+using V = Vec3<double>;
+
+/// Axis k is horizontal; the body turns by `angle` about it from an attitude without rounding.
+State<double> swung(int k, double angle, double rate) {
+  // body axis k along inertial axis 1, the next one up
+  constexpr double h = 0.5;
+  const Quat<double> level[] = {{std::sqrt(h), std::sqrt(h), 0, 0}, {h, h, -h, h}, {0, std::sqrt(h), 0, std::sqrt(h)}};
+  State<double> s;
+  s.angular_velocity = V::Zero();
+  s.angular_velocity[k] = rate;
+  Quat<double> turn{std::cos(angle / 2), 0, 0, 0};
+  (k == 0 ? turn.x : k == 1 ? turn.y : turn.z) = std::sin(angle / 2);
+  s.attitude = level[k] * turn;
+  s.down = rotate<double>(conjugate(s.attitude), V(0, 0, -1));
+  s.down[k] = 0;
+  s.down.normalize();
+  return s;
+}
+
+Problem<double> body(int k, double gravity, double gradient, double way = 0.3) {
+  V I(0.0011, 0.0016, 0.0020), c = V::Zero();
+  c[(k + 1) % 3] = 0.012 * std::cos(way);
+  c[(k + 2) % 3] = 0.012 * std::sin(way);
+  const auto made = Problem<double>::make(I, 0.8, c, gravity, gradient);
+  REQUIRE(made);
+  return *made;
+}
+
+const std::vector<double> grid{0.0, 0.05, 0.13, 0.4, 0.77, 1.3};
+
+Distance worst(const Problem<double>& problem, const State<double>& start, const std::vector<double>& times = grid) {
+  const auto made = Pendulum<double>::make(problem, start);
+  REQUIRE(made);
+  const auto truth = LongMotion::from(problem, start, times);
+  Distance d;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto here = distance(made->at(times[i]), truth[i]);
+    const auto bound = made->error(times[i]);
+    CHECK(here.attitude <= bound.attitude);
+    CHECK(here.down <= bound.down);
+    CHECK(here.angular_velocity <= bound.angular_velocity);
+    d.see(here);
+  }
+  return d;
+}
+
+}  // namespace
+
+TEST_CASE("heavy pendulum: libration and rotation about each principal axis", "[heavy]") {
+  for (int k = 0; k < 3; ++k)
+    for (const double angle : {0.0, 0.4, 2.0, -1.1, 3.0})
+      for (const double rate : {0.0, 1.0, -7.0, 25.0, -60.0}) {
+        CAPTURE(k, angle, rate);
+        const auto d = worst(body(k, 9.8, 0), swung(k, angle, rate));
+        CHECK(d.attitude < 1e-12);
+        CHECK(d.angular_velocity < 1e-11);
+      }
+}
+
+TEST_CASE("heavy pendulum: the gradient alone", "[heavy]") {
+  for (int k = 0; k < 3; ++k)
+    for (const double angle : {0.0, 0.4, 2.0, -1.1})
+      for (const double rate : {0.0, 1.0, -4.0, 9.0}) {
+        CAPTURE(k, angle, rate);
+        const auto d = worst(body(k, 0, 40), swung(k, angle, rate));
+        CHECK(d.attitude < 1e-12);
+        CHECK(d.angular_velocity < 1e-11);
+      }
+}
+
+TEST_CASE("heavy pendulum: separatrix, rest and small swings", "[heavy]") {
+  const auto problem = body(2, 9.8, 0, 0);
+  const double c = problem.pendulum_rate();
+  // hanging at angle pi/2 from the start of swung(): found from down itself
+  const auto hanging = [&](double angle, double rate) {
+    State<double> s = swung(2, 0, rate);
+    const double now = std::atan2(s.down[1], s.down[0]);
+    s = swung(2, now + angle, rate);
+    return s;
+  };
+  for (const double off : {0.0, 1e-15, 1e-10, -1e-13, 1e-4, -1e-4}) {
+    const auto start = hanging(0, 2 * c * (1 + off));
+    const auto made = Pendulum<double>::make(problem, start);
+    REQUIRE(made);
+    CAPTURE(off, made->modulus().kp2);
+    worst(problem, start, {0.1, 0.5, 2, 5, 12});
+    CHECK(made->error(0.1).attitude < 1e-12);
+    if (std::abs(off) >= 1e-4) CHECK(made->error(12.0).attitude < 1e-7);
+  }
+  const auto exactly = Pendulum<double>::make(problem, hanging(0, 2 * c));
+  REQUIRE(exactly);
+  CHECK(exactly->error(30.0).attitude == gyrostat::infinity<double>);
+  const auto small = Pendulum<double>::make(problem, hanging(1e-9, 0));
+  REQUIRE(small);
+  CHECK(small->motion() == PendulumMotion::libration);
+  CHECK(small->period() == Approx(2 * pi<double> / c).epsilon(1e-14));
+  State<double> still = swung(2, 0, 0);
+  still.down = {1, 0, 0};
+  const auto rest = Pendulum<double>::make(problem, still);
+  REQUIRE(rest);
+  CHECK(rest->motion() == PendulumMotion::rest);
+  CHECK(rest->at(3).down == still.down);
+  still.down = {-1, 0, 0};
+  const auto standing = Pendulum<double>::make(problem, still);
+  REQUIRE(standing);
+  CHECK(standing->motion() == PendulumMotion::rest);
+}
+
+TEST_CASE("heavy pendulum: the reference motions and their periods", "[heavy]") {
+  int seen = 0;
+  for (const auto& row : reference_rows("motion")) {
+    if (row.id != "pub07a" && row.id != "pub07b") continue;
+    ++seen;
+    const auto& x = row.number;
+    const State<double> start{V(x[9], x[10], x[11]), V(x[12], x[13], x[14]), {}};
+    const auto made = Pendulum<double>::make(row.problem(), start);
+    REQUIRE(made);
+    const auto s = made->at(x[15]);
+    CHECK((s.angular_velocity - V(x[16], x[17], x[18])).norm() <= 1e-12 * start.angular_velocity.norm());
+    CHECK((s.down - V(x[19], x[20], x[21])).norm() <= 1e-12);
+    CHECK(made->period() == Approx(row.id == "pub07a" ? 0.5921889339513522035 : 0.7478614710050073084).epsilon(1e-13));
+  }
+  CHECK(seen == 12);
+}
+
+TEST_CASE("heavy pendulum: what is refused", "[heavy]") {
+  const auto good = swung(2, 0.3, 1);
+  CHECK(Pendulum<double>::make(body(2, 9.8, 0), good));
+  CHECK(Pendulum<double>::make(body(2, 9.8, 40), good).error() == Errc::not_applicable);
+  CHECK(Pendulum<double>::make(body(1, 9.8, 0), good).error() == Errc::not_applicable);
+  auto tilted = good;
+  tilted.angular_velocity[0] = 1e-9;
+  CHECK(Pendulum<double>::make(body(2, 9.8, 0), tilted).error() == Errc::not_applicable);
+  tilted.angular_velocity[0] = gyrostat::nan<double>;
+  CHECK(Pendulum<double>::make(body(2, 9.8, 0), tilted).error() == Errc::not_finite);
+}
