@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "gyrostat/ladder/spinning/linear_rung.hpp"
 #include "gyrostat/ladder/spinning/track.hpp"
 #include "gyrostat/models/spinning/second_order.hpp"
@@ -8,7 +11,8 @@
 namespace gyrostat::spinning {
 
 /// Rung `second-order`: the linear motion with spin rate, spin angle, momentum and thrust right to the next order (docs/spinning.md,
-/// section 6.1). Passed over where that would not make it better.
+/// section 6.1). Passed over where that would not make it better, and where so many times are asked that the full
+/// equations cost less.
 inline Track second_order_track(const Scene& scene, Monitor*) {
   const Problem<double>& problem = scene.problem();
   if (problem.torque[2] != 0)
