@@ -28,7 +28,7 @@ inline bool true_motion(const Scene& scene, Answer& truth) {
   std::vector<State<Long>> states(times.size());
   FullMotionOptions<Long> options;
   options.tolerance = 1e-14L;
-  options.step_cap = 2'000'000;
+  options.step_cap = 200'000;
   const auto made = full_motion<Long>(cast<Long>(scene.problem()), times, states, options);
   if (!made || made->status != ode::Status::reached) return false;
   Track track;
