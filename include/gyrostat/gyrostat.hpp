@@ -24,6 +24,7 @@
 #include "gyrostat/ladder/deceleration/solve.hpp"
 #include "gyrostat/ladder/deceleration/track.hpp"
 #include "gyrostat/ladder/heavy/column_errors.hpp"
+#include "gyrostat/ladder/heavy/exact_rung.hpp"
 #include "gyrostat/ladder/heavy/full_motion.hpp"
 #include "gyrostat/ladder/heavy/full_rung.hpp"
 #include "gyrostat/ladder/heavy/orbit_walk.hpp"

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/heavy/exact_rung.hpp"
+
+#include "catch.hpp"
+#include "gyrostat/ladder/heavy/full_rung.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::heavy;
+
+namespace {
+
+using V = Vec3<double>;
+
+Scene scene_of(const V& inertia, const V& centre, double gradient, const State<double>& start, bool turning,
+               const Mat3<double>& R = Mat3<double>::Identity()) {
+  const auto body = Body::make(R * inertia.asDiagonal() * R.transpose(), 0.5, R * centre, 9.80665, gradient);
+  REQUIRE(body);
+  Question question;
+  question.times = {0.0, 0.2, 1.0, 3.0};
+  question.wants_attitude = turning;
+  question.tolerance = 1e-13;
+  const auto made = Scene::make(*body, start, question);
+  REQUIRE(made);
+  return *made;
+}
+
+State<double> start(const V& omega, const Quat<double>& q) {
+  const auto unit = normalised(q);
+  return {omega, rotate<double>(conjugate(unit), V(0, 0, -1)), unit};
+}
+
+}  // namespace
+
+TEST_CASE("heavy exact rung: agrees with the full equations within both estimates", "[heavy]") {
+  const auto from = start({1, 2, 60}, {0.5, 0.1, -0.7, 0.3});
+  const State<double> flat{{0, 0, 4}, {0.6, 0.8, 0}, {}};
+  const Scene scenes[] = {scene_of({0.0011, 0.0016, 0.002}, {0, 0, 0}, 0, from, true),
+                          scene_of({0.002, 0.002, 0.001}, {0, 0, 0.03}, 0, from, true),
+                          scene_of({0.002, 0.001, 0.002}, {0, 0.03, 0}, 30, from, true),
+                          scene_of({0.0011, 0.0016, 0.002}, {0.01, 0, 0}, 0, flat, false)};
+  for (const Scene& scene : scenes) {
+    const auto exact = exact_track(scene, nullptr);
+    const auto full = full_track(scene, nullptr);
+    REQUIRE(exact.failure == Errc::ok);
+    REQUIRE(full.failure == Errc::ok);
+    CHECK(exact.in_domain);
+    const bool turning = scene.question().wants_attitude;
+    Comparison<double> apart;
+    for (std::size_t i = 0; i < exact.states.size(); ++i) {
+      auto other = full.states[i];
+      if (!turning) other.attitude = exact.states[i].attitude;
+      apart.add(exact.states[i], other);
+    }
+    const auto off = apart.relative(apart.difference());
+    CHECK(off.angular_velocity <= exact.error.angular_velocity + full.error.angular_velocity);
+    CHECK(off.down <= exact.error.down + full.error.down);
+    if (turning) CHECK(off.attitude <= exact.error.attitude + full.error.attitude);
+    CHECK(exact.error.greatest() < 1e-10);
+  }
+  const auto pendulum = exact_track(scenes[3], nullptr);
+  CHECK(pendulum.periodicity.period > 0);
+  CHECK(pendulum.periodicity.period_error < 1e-12);
+  const auto top = exact_track(scenes[1], nullptr);
+  CHECK(std::isnan(top.periodicity.period));
+  CHECK(std::abs(top.periodicity.precession) > 0);
+  CHECK(top.periodicity.precession_error < 1e-11);
+}
+
+TEST_CASE("heavy exact rung: in the caller's axes", "[heavy]") {
+  const Mat3<double> R = to_matrix(normalised(Quat<double>{0.9, 0.2, -0.1, 0.05}));
+  const auto from = start({1, 2, 30}, {0.5, 0.1, -0.7, 0.3});
+  const auto track = exact_track(scene_of({0.0011, 0.0016, 0.002}, {0, 0, 0}, 0, from, true, R), nullptr);
+  CHECK(track.failure == Errc::ok);
+}
+
+TEST_CASE("heavy exact rung: refuses, and says where rounding decides", "[heavy]") {
+  const auto from = start({1, 2, 60}, {0.5, 0.1, -0.7, 0.3});
+  const auto none = exact_track(scene_of({0.0011, 0.0016, 0.002}, {0.01, 0, 0}, 0, from, true), nullptr);
+  CHECK(none.failure == Errc::not_applicable);
+  CHECK(none.refusal != nullptr);
+  // hanging, with just the speed that leads to standing: theta' = 2 c
+  const double c = std::sqrt(0.5 * 9.80665 * 0.01 / 0.002);
+  auto lost = scene_of({0.0011, 0.0016, 0.002}, {0.01, 0, 0}, 0, {{0, 0, 2 * c}, {1, 0, 0}, {}}, false);
+  auto question = lost.question();
+  question.times.back() = 30;
+  const auto body = Body::make(V(0.0011, 0.0016, 0.002).asDiagonal(), 0.5, {0.01, 0, 0}, 9.80665, 0);
+  const auto track = exact_track(*Scene::make(*body, {{0, 0, 2 * c}, {1, 0, 0}, {}}, question), nullptr);
+  CHECK(track.failure == Errc::ok);
+  CHECK_FALSE(track.in_domain);
+  CHECK(track.warnings.size() == 1);
+  question.periodic = Periodic{50, 0.1};
+  CHECK(exact_track(*Scene::make(*body, from, question), nullptr).failure == Errc::not_applicable);
+}
