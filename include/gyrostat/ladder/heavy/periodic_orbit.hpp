@@ -53,25 +53,32 @@ Result<PeriodicOrbit<Scalar>> periodic_orbit(const Problem<Scalar>& problem, Sca
 
 namespace detail {
 
-/// What a closed motion at its spin is worth.
-template <Real Scalar>
-PeriodicOrbit<Scalar> judged(const Problem<Scalar>& problem, const Closed<Scalar>& closed,
-                             OrbitMethod method) noexcept {
+/// What a closed motion is worth, as one of a space.
+template <Real Scalar, OrbitSpace<Scalar> Space>
+PeriodicOrbit<Scalar> judged(const Problem<Scalar>& problem, const Closed<Scalar>& closed, Scalar rate,
+                             const Space& space, OrbitMethod method) noexcept {
+  const Vec3<Scalar>& down = closed.start.down;
   PeriodicOrbit<Scalar> orbit;
   orbit.start = closed.start;
-  orbit.start.attitude =
-      attitude_from_angles<Scalar>(0, std::atan2(closed.start.down[0], closed.start.down[1]), closed.start.down);
+  orbit.start.attitude = attitude_from_angles<Scalar>(0, std::atan2(down[0], down[1]), down);
   orbit.period = closed.period;
   orbit.closure = closed.closure;
   orbit.trace_minus_4 = closed.shot.derivative.trace() - 4;
   orbit.method = method;
   orbit.shots = closed.shots;
   orbit.counts = closed.counts;
-  const Scalar rate = rate_size(problem, closed.start);
-  orbit.error = orbit_error(problem, closed, rate, AtSpin<Scalar>{rate}, orbit.counts);
+  orbit.error = orbit_error(problem, closed, rate, space, orbit.counts);
   orbit.multipliers = multipliers(orbit.trace_minus_4);
   orbit.stability = orbit_stability(orbit.trace_minus_4, orbit.error.trace);
   return orbit;
+}
+
+/// As the one at its spin.
+template <Real Scalar>
+PeriodicOrbit<Scalar> judged(const Problem<Scalar>& problem, const Closed<Scalar>& closed,
+                             OrbitMethod method) noexcept {
+  const Scalar rate = rate_size(problem, closed.start);
+  return judged(problem, closed, rate, AtSpin<Scalar>{rate}, method);
 }
 
 /// By shooting from the first order; refused where the answer is not the motion that was guessed.

@@ -142,10 +142,12 @@ class Shooting {
 
 /// The nearest motion of the space that closes, by Gauss and Newton's iteration with variational equations. Ends where a further shot no
 /// longer improves it. Errors: no_convergence (what is left exceeds `accept`), step_limit, step_underflow, not_finite.
-/// @param rate of which w is measured, rad/s
+/// @param rate of which w is measured, rad/s   @param accept greatest closure and condition   @param most shots
+/// @param threshold of least_squares: unknowns without an effect of their own above it stay
 template <Real Scalar, OrbitSpace<Scalar> Space>
 Result<Closed<Scalar>> close_orbit(const Problem<Scalar>& problem, const State<Scalar>& from, Scalar guess, Scalar rate,
-                                   const Space& space, Scalar accept = Scalar(1e-9L), int most = 16) noexcept {
+                                   const Space& space, Scalar accept = Scalar(1e-9L), int most = 16,
+                                   Scalar threshold = 4 * epsilon<Scalar>) noexcept {
   using Method = detail::Shooting<Scalar, Space>;
   const Method method(space, rate);
   State<Scalar> start = from;
@@ -179,7 +181,7 @@ Result<Closed<Scalar>> close_orbit(const Problem<Scalar>& problem, const State<S
     }
     idle = better ? 0 : idle + 1;
     if (left <= 4 * epsilon<Scalar> || (idle > 0 && best.left < accept) || idle > 6) break;
-    typename Method::Unknowns x = Method::change(jacobian, residual);
+    typename Method::Unknowns x = Method::change(jacobian, residual, threshold);
     const auto basis = space.basis(start);
     Scalar size = 0, later = 0;
     for (int i = 0; i < 7; ++i) {
