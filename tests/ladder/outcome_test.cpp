@@ -37,3 +37,11 @@ TEST_CASE("a refusal says why, an error over the tolerance says how much", "[lad
   CHECK(Track{}.failure == Errc::ok);
   CHECK(Track{}.in_domain);
 }
+
+TEST_CASE("an integration that ended early says why", "[outcome]") {
+  CHECK(failure_of(ode::Status::reached) == Errc::ok);
+  CHECK(failure_of(ode::Status::cancelled) == Errc::cancelled);
+  CHECK(failure_of(ode::Status::step_limit) == Errc::step_limit);
+  CHECK(failure_of(ode::Status::step_underflow) == Errc::no_convergence);
+  CHECK(failure_of(ode::Status::not_finite) == Errc::no_convergence);
+}

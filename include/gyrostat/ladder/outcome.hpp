@@ -25,6 +25,16 @@ struct Outcome {
   }
 };
 
+/// Why an integration that ended so gives no motion; ok where it reached its end.
+constexpr Errc failure_of(ode::Status status) noexcept {
+  switch (status) {
+    case ode::Status::reached: return Errc::ok;
+    case ode::Status::cancelled: return Errc::cancelled;
+    case ode::Status::step_limit: return Errc::step_limit;
+    default: return Errc::no_convergence;
+  }
+}
+
 /// The outcome of a rung that cannot answer.
 template <class Track>
 Track refused(Errc code, const char* why) {

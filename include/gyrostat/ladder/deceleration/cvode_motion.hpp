@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "gyrostat/ladder/cvode_walk.hpp"
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 #include "gyrostat/ode/cvode.hpp"
 #include "gyrostat/rotation/exp_log.hpp"
@@ -93,18 +94,13 @@ inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor
         ode::Cvode::create(system, 0, std::span(y).first(n), {ode::CvodeMethod::adams, tolerance, tolerance * scale});
     if (!solver) return run.failure = solver.error(), run;
     auto cvode = std::move(solver).value();
-    while (next < times.size() && !at_rest) {
-      const auto status = cvode.step(times.back());
-      run.counts = cvode.counts();
-      if (status != ode::Status::reached) {
-        run.failure = status == ode::Status::step_limit ? Errc::step_limit : Errc::no_convergence;
-        return run;
-      }
-      for (; next < times.size() && times[next] <= cvode.time(); ++next) {
-        std::array<double, 7> at{};
-        cvode.at(times[next], std::span(at).first(n));
-        keep(at.data());
-      }
+    const auto keep_at = [&](double t) {
+      std::array<double, 7> at{};
+      if (!cvode.at(t, std::span(at).first(n))) return false;
+      keep(at.data());
+      return true;
+    };
+    const auto look_for_rest = [&] {
       std::copy(cvode.state().begin(), cvode.state().end(), y.begin());
       const double U = user.opposed(y.data());
       if (hold.holds && U <= std::max(1e-9, 30 * tolerance) * scale) {
@@ -112,11 +108,10 @@ inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor
         const Vec3<double> toward = (CvodeProblem::momentum(y.data()) - user.offset) / U;
         stop = cvode.time() + U / toward.dot(problem.control * toward);
       }
-      if (monitor) {
-        if (monitor->cancel.load(std::memory_order_relaxed)) return run.failure = Errc::cancelled, run;
-        monitor->fraction.store(cvode.time() / times.back(), std::memory_order_relaxed);
-      }
-    }
+      return !at_rest;
+    };
+    run.failure = walk(cvode, times, next, run.counts, monitor, keep_at, look_for_rest);
+    if (run.failure != Errc::ok) return run;
   }
   if (at_rest) run.stop_time = stop;
   const Vec3<double> rate = problem.angular_velocity(user.offset);

@@ -104,12 +104,8 @@ inline Track full_motion_track(const Problem<double>& problem, std::span<const d
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(problem, times, track.momentum, options, attitude, track.attitude);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
-  if (answer->status != ode::Status::reached) {
-    const Errc code = answer->status == ode::Status::cancelled    ? Errc::cancelled
-                      : answer->status == ode::Status::step_limit ? Errc::step_limit
-                                                                  : Errc::no_convergence;
-    return refused<Track>(code, detail::why_stopped(answer->status));
-  }
+  if (answer->status != ode::Status::reached)
+    return refused<Track>(failure_of(answer->status), detail::why_stopped(answer->status));
   track.stop_time = answer->stop_time;
   track.counts = answer->counts;
   detail::complete_full_track(track, problem, answer->error);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "gyrostat/ladder/cvode_walk.hpp"
 #include "gyrostat/ladder/rotor/full_rung.hpp"
 #include "gyrostat/models/rotor/full.hpp"
 #include "gyrostat/ode/cvode.hpp"
@@ -89,24 +90,17 @@ inline CvodeRun cvode_run(const Scene& scene, ode::CvodeMethod method, double to
   auto made = ode::Cvode::create(equations.system(), 0, y, {method, tolerance, tolerance});
   if (!made) return run.failure = made.error(), run;
   auto cvode = std::move(made).value();
-  while (run.states.size() < times.size()) {
-    const auto status = cvode.step(end);
-    run.counts = cvode.counts();
-    if (status != ode::Status::reached) {
-      run.failure = status == ode::Status::step_limit ? Errc::step_limit : Errc::no_convergence;
-      return run;
-    }
-    for (; run.states.size() < times.size() && times[run.states.size()] <= cvode.time();) {
-      if (!cvode.at(times[run.states.size()], y)) return run.failure = Errc::no_convergence, run;
-      State<double> state = equations.state(y.data());
-      state.attitude = normalised(state.attitude);
-      run.states.push_back(state);
-    }
-    if (monitor) {
-      if (monitor->cancel.load(std::memory_order_relaxed)) return run.failure = Errc::cancelled, run;
-      monitor->fraction.store(cvode.time() / end, std::memory_order_relaxed);
-    }
-  }
+  std::size_t next = run.states.size();
+  run.failure = walk(
+      cvode, times, next, run.counts, monitor,
+      [&](double t) {
+        if (!cvode.at(t, y)) return false;
+        State<double> state = equations.state(y.data());
+        state.attitude = normalised(state.attitude);
+        run.states.push_back(state);
+        return true;
+      },
+      [] { return true; });
   return run;
 }
 

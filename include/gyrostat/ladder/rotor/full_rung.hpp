@@ -18,12 +18,8 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(scene.gyrostat(), scene.start(), data.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
-  switch (answer->status) {
-    case ode::Status::reached: break;
-    case ode::Status::cancelled: return refused<Track>(Errc::cancelled, message(Errc::cancelled));
-    case ode::Status::step_limit: return refused<Track>(Errc::step_limit, ode::message(answer->status));
-    default: return refused<Track>(Errc::no_convergence, ode::message(answer->status));
-  }
+  if (answer->status != ode::Status::reached)
+    return refused<Track>(failure_of(answer->status), ode::message(answer->status));
   track.error = answer->error;
   track.counts = answer->counts;
   return track;

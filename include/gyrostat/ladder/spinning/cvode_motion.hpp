@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "gyrostat/ladder/cvode_walk.hpp"
 #include "gyrostat/ladder/spinning/full_rung.hpp"
 #include "gyrostat/models/spinning/full.hpp"
 #include "gyrostat/models/spinning/spin_angle.hpp"
@@ -116,25 +117,19 @@ inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor
     cvode.at(t, y);
     return equations.sample(y.data());
   };
-  while (run.states.size() < times.size()) {
-    const auto status = cvode.step(end);
-    run.counts = cvode.counts();
-    if (status != ode::Status::reached) {
-      run.failure = status == ode::Status::step_limit ? Errc::step_limit : Errc::no_convergence;
-      return run;
-    }
-    while (run.states.size() < times.size() && times[run.states.size()] <= cvode.time()) {
-      const double t = times[run.states.size()];
-      angle.follow(t, at(t), at);
-      cvode.at(t, y);
-      keep(t, y.data());
-    }
-    angle.follow(cvode.time(), equations.sample(cvode.state().data()), at);
-    if (monitor) {
-      if (monitor->cancel.load(std::memory_order_relaxed)) return run.failure = Errc::cancelled, run;
-      monitor->fraction.store(cvode.time() / end, std::memory_order_relaxed);
-    }
-  }
+  std::size_t next = run.states.size();
+  run.failure = walk(
+      cvode, times, next, run.counts, monitor,
+      [&](double t) {
+        angle.follow(t, at(t), at);
+        if (!cvode.at(t, y)) return false;
+        keep(t, y.data());
+        return true;
+      },
+      [&] {
+        angle.follow(cvode.time(), equations.sample(cvode.state().data()), at);
+        return true;
+      });
   return run;
 }
 

@@ -26,10 +26,8 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(scene.problem(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
-  if (answer->status == ode::Status::cancelled) return refused<Track>(Errc::cancelled, message(Errc::cancelled));
   if (answer->status != ode::Status::reached)
-    return refused<Track>(answer->status == ode::Status::step_limit ? Errc::step_limit : Errc::no_convergence,
-                          ode::message(answer->status));
+    return refused<Track>(failure_of(answer->status), ode::message(answer->status));
   track.error = answer->error;
   track.counts = answer->counts;
   if (!answer->turns_known) detail::warn_of_gimbal_lock(track, answer->least_cosine);

@@ -108,9 +108,7 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
     const auto made = axial_motion<double>(scene.problem(), times, states, options);
     if (!made) return made.error();
     track.counts += made->counts;
-    if (made->status == ode::Status::cancelled) return Errc::cancelled;
-    if (made->status == ode::Status::step_limit) return Errc::step_limit;
-    if (made->status != ode::Status::reached) return Errc::no_convergence;
+    if (made->status != ode::Status::reached) return failure_of(made->status);
     error = axial_torque_errors(scene.problem(), times.back(), Amplitudes<double>{made->tilt, made->rate});
     return Errc::ok;
   };
