@@ -1,18 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+
+#include "gyrostat/ladder/heavy/forced_start.hpp"
 #include "gyrostat/ladder/heavy/track.hpp"
 #include "gyrostat/models/heavy/exact.hpp"
 
 namespace gyrostat::heavy {
 
+namespace detail {
+
+/// Of a fast periodic motion that is known exactly.
+inline Periodicity exact_periodicity(const Scene& scene, const State<double>& start, const Exact<double>& exact) {
+  const auto& [spin, cosine] = *scene.question().periodic;
+  const auto s = *Scaled<double>::make(scene.problem(), spin, cosine);
+  constexpr double rounding = 64 * epsilon<double>;
+  Periodicity known;
+  if (exact.pendulum()) {
+    if (exact.pendulum()->motion() != PendulumMotion::rotation) return known;
+    // with the gradient alone half a round repeats the rates, not down
+    known.period = exact.period() * (scene.problem().gradient() > 0 ? 2 : 1);
+    known.period_error = rounding + exact.error(known.period).attitude;
+    known.precession = known.precession_error = 0;
+    return known;
+  }
+  // regular precession, or none
+  known.precession = start.angular_velocity[0] / s.M3;
+  known.precession_error = rounding;
+  const double turning = start.angular_velocity[2] - known.precession * cosine;
+  known.period = 2 * pi<double> / std::abs(turning);
+  known.period_error = rounding * (1 + std::abs(known.precession * cosine / turning));
+  const double nutation = exact.euler()        ? s.nutation_squared()
+                          : exact.period() > 0 ? std::pow(known.period / exact.period(), 2)
+                                               : nan<double>;
+  const double angle = 2 * pi<double> * std::sqrt(std::abs(nutation));
+  known.trace = nutation < 0 ? 2 * std::cosh(angle) : 2 * std::cos(angle);
+  known.trace_error = rounding * (1 + angle * (nutation < 0 ? std::sinh(angle) : 1.0)) / std::abs(known.trace);
+  return known;
+}
+
+}  // namespace detail
+
 /// Rung `exact`: the cases that are known in closed form or by quadrature (docs/heavy.md, section 7).
 inline Track exact_track(const Scene& scene, Monitor*) {
   const Question& question = scene.question();
-  if (question.periodic)
-    return refused<Track>(Errc::not_applicable,
-                          "no exact case: the start is that of a periodic motion still to be found");
-  const Exact<double> exact(scene.problem(), scene.start());
+  State<double> start = scene.start();
+  if (question.periodic) {
+    const auto plain = plain_start(scene.problem(), *question.periodic);
+    if (!plain)
+      return refused<Track>(Errc::not_applicable,
+                            "no exact case: the start of this periodic motion is not known in closed form");
+    start = *plain;
+  }
+  const Exact<double> exact(scene.problem(), start);
   if (!exact.applies())
     return refused<Track>(
         Errc::not_applicable,
@@ -35,6 +76,10 @@ inline Track exact_track(const Scene& scene, Monitor*) {
         "plane of a pendulum, or a very long time)",
         question.times.back());
 
+  if (question.periodic) {
+    track.periodicity = detail::exact_periodicity(scene, start, exact);
+    return track;
+  }
   const auto one_turn = [&](double period) { return exact.error(period).attitude; };
   if (const auto* pendulum = exact.pendulum(); pendulum && pendulum->motion() != PendulumMotion::separatrix) {
     track.periodicity.period = pendulum->period();

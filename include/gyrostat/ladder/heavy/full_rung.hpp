@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+#include <vector>
+
 #include "gyrostat/ladder/heavy/full_motion.hpp"
+#include "gyrostat/ladder/heavy/periodic_motion.hpp"
+#include "gyrostat/ladder/heavy/periodic_orbit.hpp"
 #include "gyrostat/ladder/heavy/track.hpp"
 
 namespace gyrostat::heavy {
 
-/// Rung `full`: the full equations, by Taylor series or by what the question names.
-inline Track full_track(const Scene& scene, Monitor* monitor) {
+namespace detail {
+
+/// The full equations from the scene's start, by Taylor series or by what the question names.
+inline Track full_from_start(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
   if (question.full_equations) return question.full_equations(scene, monitor);
   Track track;
@@ -18,13 +25,67 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(scene.problem(), scene.start(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
-  if (answer->status == ode::Status::cancelled) return refused<Track>(Errc::cancelled, message(Errc::cancelled));
   if (answer->status != ode::Status::reached)
-    return refused<Track>(answer->status == ode::Status::step_limit ? Errc::step_limit : Errc::no_convergence,
-                          ode::message(answer->status));
+    return refused<Track>(failure_of(answer->status), ode::message(answer->status));
   track.error = answer->error;
   track.counts = answer->counts;
   return track;
+}
+
+/// Why there is no periodic motion to be found.
+inline const char* no_orbit(Errc why) noexcept {
+  switch (why) {
+    case Errc::not_applicable:
+      return "two principal moments are equal, or the body is a lamina across axis 3, and the torque drives that "
+             "resonance: there is no "
+             "fast periodic motion";
+    case Errc::out_of_domain: return "a periodic motion of this family needs a spin, and an axis that is not vertical";
+    case Errc::no_convergence:
+    case Errc::step_limit:
+      return "no fast periodic motion with this spin was found: the family ends at a spin of about 0.6 to 2 times "
+             "sqrt(M g l/C), below which there are only oscillations about the hanging rest";
+    default: return message(why);
+  }
+}
+
+/// From the start that shooting finds, over one period and on.
+inline Track periodic_full(const Scene& scene, Monitor* monitor) {
+  const auto& [spin, cosine] = *scene.question().periodic;
+  const auto orbit = periodic_orbit<double>(scene.problem(), spin, cosine);
+  if (!orbit) return refused<Track>(orbit.error(), no_orbit(orbit.error()));
+  const PeriodicMotion<double> motion(scene.problem(), *orbit, scene.question().times);
+
+  Question once = scene.question();
+  once.periodic.reset();
+  once.times = motion.once();
+  once.wants_attitude = true;
+  once.tolerance = std::max(scene.question().tolerance / 4 / (1 + motion.periods()), 1e-300);
+  Body body;
+  body.problem = scene.problem();
+  const auto first = Scene::make(body, orbit->start, once);
+  if (!first) return refused<Track>(first.error(), message(first.error()));
+  const Track one = full_from_start(*first, monitor);
+  if (one.failure != Errc::ok) return one;
+
+  Track track;
+  track.warnings = one.warnings;
+  track.counts = one.counts;
+  track.counts += orbit->counts;
+  track.states.resize(scene.question().times.size());
+  const auto made = motion.carry_on(one.states, one.error, track.states);
+  track.error = made.error;
+  const double trace_error =
+      orbit->stability == OrbitStability::undecided ? std::max(orbit->error.trace, 0.0) : orbit->error.trace;
+  track.periodicity = {orbit->period, orbit->error.period, orbit->trace_minus_4,
+                       trace_error,   made.precession,     made.precession_error};
+  return track;
+}
+
+}  // namespace detail
+
+/// Rung `full`: the full equations, by Taylor series or by what the question names; of a periodic motion from the start that shooting finds.
+inline Track full_track(const Scene& scene, Monitor* monitor) {
+  return scene.question().periodic ? detail::periodic_full(scene, monitor) : detail::full_from_start(scene, monitor);
 }
 
 }  // namespace gyrostat::heavy

@@ -7,6 +7,7 @@
 #include "gyrostat/ladder/heavy/column_errors.hpp"
 #include "gyrostat/ladder/heavy/scene.hpp"
 #include "gyrostat/ladder/outcome.hpp"
+#include "gyrostat/models/heavy/multipliers.hpp"
 
 namespace gyrostat::heavy {
 
@@ -57,8 +58,8 @@ inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   };
   quantity("period", p.period, p.period_error);
   quantity("floquet_trace", p.trace, p.trace_error);
-  // within 1e-7 of 2 or -2 the trace does not tell
-  if (std::abs(std::abs(p.trace) - 2) > 1e-7) quantity("stable", std::abs(p.trace) < 2 ? 1 : 0, nan<double>);
+  const OrbitStability verdict = orbit_stability(p.trace, p.trace_error * std::abs(p.trace));
+  if (verdict != OrbitStability::undecided) quantity("stable", verdict == OrbitStability::stable ? 1 : 0, nan<double>);
   quantity("precession_rate", p.precession, p.precession_error);
 }
 

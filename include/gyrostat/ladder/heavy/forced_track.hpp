@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/ladder/heavy/forced_start.hpp"
+#include "gyrostat/ladder/heavy/track.hpp"
+#include "gyrostat/models/heavy/floquet.hpp"
+#include "gyrostat/models/heavy/series.hpp"
+
+/// What the rungs of the series share.
+namespace gyrostat::heavy::detail {
+
+inline const char* no_series(Errc why) noexcept {
+  switch (why) {
+    case Errc::not_applicable:
+      return "a divisor 1 - A/C, 1 - B/C or A/C + B/C - 1 of the series vanishes, and what it divides does not";
+    case Errc::no_convergence:
+      return "the terms of the series do not fall: the spin is too slow, or too near a resonance";
+    case Errc::out_of_domain: return "the series need a spin about axis 3, and an axis that is not vertical";
+    default: return message(why);
+  }
+}
+
+/// Whether the start may be that of a forced motion: d2 = 0 < d1, and rates near those of the first order.
+inline bool near_forced(const Scene& scene) noexcept {
+  const State<double>& start = scene.start();
+  const auto [spin, cosine] = forced_start(scene);
+  if (!(std::abs(start.down[1]) < 1e-3) || !(start.down[0] > 0)) return false;
+  const auto scaled = Scaled<double>::make(scene.problem(), spin, cosine);
+  if (!scaled) return false;
+  const FirstOrder<double> first(*scaled);
+  const double p = start.angular_velocity[0] / spin - first.X - first.chi * scaled->M3;
+  return std::hypot(p, start.angular_velocity[1] / spin - first.Y) < 0.02;
+}
+
+/// Of a forced motion against the motion that the scene asks for.
+template <class Motion>
+MotionError<double> forced_error(const Scene& scene, const Motion& motion) noexcept {
+  const double end = scene.question().times.back();
+  MotionError<double> error = motion.error(end);
+  if (scene.question().periodic) return error;
+  const auto added = departed(motion.scaled(), departure(scene.start(), motion.at(0)), end);
+  error.angular_velocity += added.angular_velocity;
+  error.down += added.down;
+  error.attitude = std::min(error.attitude + added.attitude, pi<double>);
+  return error;
+}
+
+/// The states, and errors relative to the greatest norms. Gives up beforehand where another rung may answer.
+template <class Motion>
+Track series_track(const Scene& scene, const Motion& motion, const MotionError<double>& error, Model rung) {
+  const Question& question = scene.question();
+  const double spin = motion.scaled().spin;
+  const double known =
+      std::max({error.angular_velocity / std::abs(spin), error.down, question.wants_attitude ? error.attitude : 0.0});
+  // |w| may exceed the spin
+  if (question.model != rung && !(known <= 4 * question.tolerance)) return over_tolerance<Track>(known);
+  Track track;
+  track.states.resize(question.times.size());
+  motion.at(question.times, track.states);
+  Comparison<double> sizes;
+  for (const State<double>& state : track.states) sizes.add(state, state);
+  track.error = sizes.relative({error.angular_velocity, error.down, error.attitude});
+  double& rates = track.error.angular_velocity;
+  rates = rates < 1 ? rates / (1 - rates) : infinity<double>;
+  track.in_domain = known < 0.3;
+  if (!track.in_domain)
+    track.warn("beyond-validity", "the series for a fast spin do not hold: their error estimate means little; it is",
+               known);
+  return track;
+}
+
+/// Of a motion that repeats.
+template <class Motion>
+Track forced_track(const Scene& scene, const Motion& motion, Model rung) {
+  Track track = series_track(scene, motion, forced_error(scene, motion), rung);
+  if (track.failure != Errc::ok) return track;
+  if (!scene.question().periodic) {
+    const Quat<double> turned = scene.start().attitude * conjugate(motion.at(0).attitude);
+    for (State<double>& state : track.states) state.attitude = turned * state.attitude;
+    return track;
+  }
+  const Floquet<double> floquet(motion.scaled());
+  // trace = 2 cos sqrt y, y = 4 pi^2 nu^2
+  const double steep = floquet.growth > 0 ? std::sinh(floquet.growth) / floquet.growth : 1.0;
+  const double trace_error = 4 * pi<double> * pi<double> * floquet.squared_error * steep;
+  const double precession = motion.precession_rate();
+  track.periodicity = {motion.period(),
+                       motion.period_error(),
+                       floquet.trace_minus_4,
+                       trace_error / std::abs(floquet.trace_minus_4),
+                       precession,
+                       motion.precession_error() / std::abs(precession)};
+  return track;
+}
+
+}  // namespace gyrostat::heavy::detail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gyrostat/ladder/heavy/forced_track.hpp"
+#include "gyrostat/models/heavy/series.hpp"
+
+namespace gyrostat::heavy {
+
+/// Rung `series`: the forced motion of a fast spin by the series to the order that the tolerance needs (docs/heavy.md, section 3); of a
+/// start beside that of the periodic motion with what the departure adds to the error.
+inline Track series_track(const Scene& scene, Monitor*) {
+  if (!scene.question().periodic && !detail::near_forced(scene))
+    return refused<Track>(
+        Errc::not_applicable,
+        "the start is not that of the periodic motion: it has a free nutation, which the series leave out");
+  const auto [spin, cosine] = forced_start(scene);
+  const auto motion = Series<double>::to_tolerance(scene.problem(), spin, cosine, scene.question().tolerance / 2,
+                                                   scene.question().times.back());
+  if (!motion) return refused<Track>(motion.error(), detail::no_series(motion.error()));
+  return detail::forced_track(scene, *motion, Model::series);
+}
+
+}  // namespace gyrostat::heavy

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gyrostat/core/linkage.hpp"
+#include "gyrostat/ladder/heavy/scene.hpp"
+#include "gyrostat/ladder/rung.hpp"
+
+namespace gyrostat::heavy {
+
+/// Answers a scene with the cheapest rung whose own error estimate meets the tolerance: exact (where there is a closed form, nothing
+/// is cheaper or better), series-2, series, full. Where no rung answers, the refusal says why and the answer holds only what was tried.
+///
+/// Beside the columns the answer has, where the motion is periodic and the rung knows it,
+///     period            s
+///     floquet_trace     of the 6 x 6 monodromy, minus 4
+///     stable            1 or 0; absent where the trace is too near +-2 to say
+///     precession_rate   mean turn about the vertical, right-handed about DOWN, rad/s
+GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr);
+
+}  // namespace gyrostat::heavy
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/heavy/solve_definition.hpp"
+#endif
