@@ -31,10 +31,8 @@ void compare(const Problem<double>& problem, const State<double>& start, double 
   const std::vector<double> times{0.0, 0.1, 0.7, 1.9, 3.1, 4.7, end};
   const auto truth = LongMotion::from(problem, start, times);
   const auto bound = exact.error(end);
-  const double uneven = problem.inertia()[1] - problem.inertia()[0];
-  const bool nearly_even = uneven > 0 && uneven < 1e-9;  // rounding of the data moves the middle axis
   CAPTURE(problem.inertia().transpose(), start.angular_velocity.transpose(), exact.modulus().kp2);
-  CHECK(bound.attitude < (nearly_even ? 1e-6 : 1e-9));
+  CHECK(bound.attitude < 1e-9);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto d = distance(exact.at(times[i]), truth[i]);
     CHECK(d.attitude <= std::min(bound.attitude, 1e-13 * (1 + 10 * times[i])));
@@ -61,7 +59,7 @@ TEST_CASE("euler case: limits", "[heavy]") {
   const Quat<double> q = normalised(Quat<double>{0.4, -0.3, 0.7, 0.2});
   const double c = std::cos(0.4), s = std::sin(0.4);
   for (const V& I : {V(1, 1, 1.5), V(1, 1.5, 1), V(1.5, 1, 1), V(1, 1, 0.6), V(1, 0.6, 1), V(1.2, 1.2, 1.2),
-                     V(1, 1.4, 2), V(1, 1 + 1e-12, 1.4), V(1, 1 + 1e-12, 1 + 2e-12)})
+                     V(1, 1.4, 2), V(1, 1 + 1e-12, 1.4), V(1, 1 + 4e-16, 0.8), V(1, 1 + 1e-12, 1 + 2e-12)})
     for (const V& w : {V(0, 0, 1), V(0, -1, 0), V(1, 0, 0), V(0, c, s), V(c, 0, s), V(c, -s, 0), V(1e-9, 1e-10, 1),
                        V(1, -1e-9, 1e-10), V(0, 0, 0), V(1e-9, 1, -1e-9)}) {
       if (I[0] < I[1] && I[1] < I[2] && w[1] == 1 && w[0] != 0) continue;  // next to the saddle: below

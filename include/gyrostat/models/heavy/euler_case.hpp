@@ -65,7 +65,9 @@ class EulerCase {
   ExactError<Scalar> error(Scalar t) const noexcept {
     t = std::abs(unit_ * t);
     const Scalar late = time_error(rounding * share_, rounding * shift_, K_, rate_, t);
-    return ExactError<Scalar>::of(rounding * (1 + fastest_ * t) + fastest_ * late, unit_ * fastest_);
+    // both amplitudes change no faster than this but for steady turns
+    const Scalar pace = 6 * (rate_ + L_ * near_far_ * tilt_);
+    return ExactError<Scalar>::of(rounding * (1 + fastest_ * t) + pace * late, unit_ * fastest_);
   }
 
   math::Modulus<Scalar> modulus() const noexcept { return modulus_; }
@@ -77,7 +79,7 @@ class EulerCase {
 
  private:
   using C = math::Complex<Scalar>;
-  static constexpr Scalar rounding = 24 * epsilon<Scalar>;
+  static constexpr Scalar rounding = 64 * epsilon<Scalar>;
   struct Point {
     math::JacobiTurn<Scalar> u;
     Scalar sign;  // of sn and cn: - after an odd number of half periods
@@ -163,8 +165,8 @@ void EulerCase<Scalar>::build(const Vec3<Scalar>& I, const State<Scalar>& start)
     along_ = along / (across + along);
     steep_ = near_far_ / near_mid;
     constexpr Scalar floor = epsilon<Scalar> * epsilon<Scalar>;
-    modulus_ = {mid_far * across / (near_mid * along),
-                std::max(near_far_ * (inside - outside) / (near_mid * along), floor)};
+    modulus_ = {std::min(mid_far * across / (near_mid * along), Scalar(1)),
+                std::clamp(near_far_ * (inside - outside) / (near_mid * along), floor, Scalar(1))};
     shift_ = inside > outside ? (inside + outside) / (inside - outside) : infinity<Scalar>;
     share_ = std::sqrt(steep_);
   }

@@ -193,7 +193,8 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   swing_ = std::sqrt(kappa);
   share_ = h1_ > 0 ? (greatest + o.rho * o.rho + 4 * kappa) / h1_ : Scalar(0);
   if (share_ * rounding >= 1) lam_ = 0;  // at rest in a place it may leave
-  if (h1_ > 0 && width_ > 0) modulus_ = {kappa * width_ / h1_, std::max(h2_ / h1_, modulus_floor)};
+  if (h1_ > 0 && width_ > 0)
+    modulus_ = {std::min(kappa * width_ / h1_, Scalar(1)), std::clamp(h2_ / h1_, modulus_floor, Scalar(1))};
   if (width_ > 0 && h2_ <= rounding * shift_) motion_ = AxisMotion::separatrix;
   shift_ /= h2_;
   functions_ = math::JacobiAt<Scalar>(modulus_);

@@ -91,7 +91,7 @@ class Pendulum {
   }
 
  private:
-  static constexpr Scalar rounding = 24 * epsilon<Scalar>;
+  static constexpr Scalar rounding = 64 * epsilon<Scalar>;
   struct Point {
     Scalar half, rate;  // half of fold theta, unwrapped; theta'
   };
@@ -176,7 +176,7 @@ bool Pendulum<Scalar>::build(const Problem<Scalar>& problem, const State<Scalar>
   if (rotates_) {
     motion_ = PendulumMotion::rotation;
     rate_ = std::sqrt(total);
-    modulus_ = {frequency_ * frequency_ / total, std::max(-short_of / total, floor)};
+    modulus_ = {std::min(frequency_ * frequency_ / total, Scalar(1)), std::clamp(-short_of / total, floor, Scalar(1))};
     direction_ = v < 0 ? -1 : 1;
     sn = direction_ * s;
     cn = c;
@@ -184,7 +184,7 @@ bool Pendulum<Scalar>::build(const Problem<Scalar>& problem, const State<Scalar>
   } else {
     motion_ = PendulumMotion::libration;
     rate_ = frequency_;
-    modulus_ = {total / (rate_ * rate_), std::max(short_of / (rate_ * rate_), floor)};
+    modulus_ = {std::min(total / (rate_ * rate_), Scalar(1)), std::clamp(short_of / (rate_ * rate_), floor, Scalar(1))};
     const Scalar amplitude = std::sqrt(total);
     sn = up / amplitude;
     cn = std::abs(v) / amplitude;
