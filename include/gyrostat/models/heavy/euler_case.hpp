@@ -66,7 +66,7 @@ class EulerCase {
     t = std::abs(unit_ * t);
     const Scalar late = time_error(rounding * share_, rounding * shift_, K_, rate_, t);
     // both amplitudes change no faster than this but for steady turns
-    const Scalar pace = 6 * (rate_ + L_ * near_far_ * tilt_);
+    const Scalar pace = 4 * (rate_ + L_ * near_far_ * tilt_);
     return ExactError<Scalar>::of(rounding * (1 + fastest_ * t) + pace * late, unit_ * fastest_);
   }
 
