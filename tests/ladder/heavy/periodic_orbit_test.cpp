@@ -66,6 +66,23 @@ TEST_CASE("heavy periodic orbit: 500 random bodies at c/r0 = 0.05 close", "[heav
   CHECK(shots < 500 * 5);
 }
 
+TEMPLATE_TEST_CASE("heavy periodic orbit: in every precision", "[heavy]", float, double, long double) {
+  using S = TestType;
+  const auto p = unit_body<S>(S(.55L), S(.8L), Vec3<S>(S(.6L), S(.48L), S(.64L)), S(.7L));
+  const auto fine =
+      unit_body<long double>(S(.55L), S(.8L), Vec3<S>(S(.6L), S(.48L), S(.64L)).template cast<long double>(), S(.7L));
+  for (const int spin : {3, 10}) {
+    const auto orbit = periodic_orbit(p, S(spin), S(.1L));
+    const auto truth = periodic_orbit<long double>(fine, spin, S(.1L));
+    REQUIRE(orbit);
+    REQUIRE(truth);
+    CHECK(orbit->closure < 64 * epsilon<S>);
+    CHECK(gap(p, orbit->start, orbit->period) < 256 * epsilon<S>);
+    CHECK(std::abs(orbit->period - truth->period) <= orbit->error.period * orbit->period);
+    CHECK(std::abs(orbit->trace_minus_4 - truth->trace_minus_4) <= orbit->error.trace);
+  }
+}
+
 TEST_CASE("heavy periodic orbit: errors are honest", "[heavy]") {
   std::mt19937 random(6);
   for (int i = 0; i < 24; ++i) {

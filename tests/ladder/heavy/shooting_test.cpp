@@ -88,7 +88,7 @@ TEST_CASE("heavy shooting: errors are honest", "[heavy]") {
     const auto off = [](long double a, long double b) { return double(std::abs(a - b)); };
     CHECK(off(truth->period, closed->period) <= error.period * closed->period);
     CHECK(off(truth->shot.derivative.trace(), closed->shot.derivative.trace()) <= error.trace);
-    CHECK(error.period < 1e-14);
+    CHECK(error.period < 1e-13);
     CHECK(error.trace < 1e-12);
   }
 }

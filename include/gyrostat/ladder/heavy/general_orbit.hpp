@@ -69,7 +69,7 @@ Result<PeriodicOrbit<Scalar>> general_orbit(const Problem<Scalar>& problem, cons
   const Scalar rate = rate_size(problem, start);
   if (!(rate > 0)) return Errc::out_of_domain;
   const WithIntegrals<Scalar> space{problem, rate, problem.energy(start), problem.vertical_momentum(start), start};
-  const auto closed = close_orbit(problem, start, period, rate, space, Scalar(1e-9L), 40);
+  const auto closed = close_orbit(problem, start, period, rate, space, close_enough<Scalar>, 40);
   if (!closed) return closed.error();
   return detail::judged(problem, *closed, rate, space, OrbitMethod::shooting);
 }

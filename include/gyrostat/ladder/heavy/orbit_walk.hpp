@@ -87,7 +87,7 @@ class OrbitWalk {
       const Space space{unit_, rate(), here + length_ * (tangent_ + length_ / 2 * bend_), tangent_};
       State<Scalar> start = member_.start;
       start.angular_velocity = unit_ * space.at.template head<3>();
-      const auto next = close_orbit(problem_, start, space.at[3] / unit_, space.rate, space, accept_, 9);
+      const auto next = close_orbit(problem_, start, space.at[3] / unit_, space.rate, space, close_enough<Scalar>, 9);
       if (next) {
         shots_ += next->shots;
         counts_ += next->counts;
@@ -133,7 +133,7 @@ class OrbitWalk {
   Closed<Scalar> member_;
   Scalar unit_;
   Point tangent_, bend_ = {0, 0, 0, 0};  ///< and its derivative by the length
-  Scalar length_ = Scalar(0.1L), longest_ = Scalar(0.25L), accept_ = Scalar(1e-9L);
+  Scalar length_ = Scalar(0.1L), longest_ = Scalar(0.25L);
   ode::Counts counts_;
   int shots_ = 0;
 };

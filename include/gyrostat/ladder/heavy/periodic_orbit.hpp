@@ -19,8 +19,9 @@ namespace gyrostat::heavy {
 
 /// How a periodic motion was found.
 enum class OrbitMethod : std::uint8_t {
-  shooting,      ///< from the first order in (c/r0)^2
-  continuation,  ///< along the family from a faster spin
+  shooting,      ///< from a guess
+  continuation,  ///< along a family
+  collocation    ///< as a Fourier sum
 };
 
 /// A motion whose rates and down return after the period.

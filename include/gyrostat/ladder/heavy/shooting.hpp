@@ -59,6 +59,10 @@ concept OrbitSpace = requires(const Space& space, State<Scalar>& start, Scalar& 
   { space.move(start, period, x) } noexcept;
 };
 
+/// The closure that a periodic motion must have: for one that is not unstable it is a few roundings.
+template <Real Scalar>
+inline constexpr Scalar close_enough = Scalar(1e-9L) + 64 * epsilon<Scalar>;
+
 /// A motion that returns to its start.
 template <Real Scalar>
 struct Closed {
@@ -146,7 +150,7 @@ class Shooting {
 /// @param threshold of least_squares: unknowns without an effect of their own above it stay
 template <Real Scalar, OrbitSpace<Scalar> Space>
 Result<Closed<Scalar>> close_orbit(const Problem<Scalar>& problem, const State<Scalar>& from, Scalar guess, Scalar rate,
-                                   const Space& space, Scalar accept = Scalar(1e-9L), int most = 16,
+                                   const Space& space, Scalar accept = close_enough<Scalar>, int most = 16,
                                    Scalar threshold = 4 * epsilon<Scalar>) noexcept {
   using Method = detail::Shooting<Scalar, Space>;
   const Method method(space, rate);
@@ -208,7 +212,8 @@ struct OrbitError {
 };
 
 /// What rounding and the steps make of a motion that closes, judged by two neighbours: bodies and starts that differ by a few roundings,
-/// integrated with looser steps, closed by one correction. Their distances are some ten times the error. Two shots each.
+/// integrated with looser steps, closed by one correction. Four times their distance, for near a homoclinic motion the distance alone is
+/// of the size of the error, elsewhere some ten times larger. Two shots each.
 template <Real Scalar, OrbitSpace<Scalar> Space>
 OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scalar>& closed, Scalar rate,
                                const Space& space, ode::Counts& counts) noexcept {
@@ -234,10 +239,10 @@ OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scal
     const auto take = [failed](Scalar& most, Scalar now) noexcept {
       most = now + failed > most ? now : most + 0 * (now + failed);
     };
-    take(error.start, (start.angular_velocity - closed.start.angular_velocity).norm() / rate);
-    take(error.start, (start.down - closed.start.down).norm());
-    take(error.period, std::abs(period / closed.period - 1));
-    take(error.trace, std::abs(shot.derivative.trace() - trace));
+    take(error.start, 4 * (start.angular_velocity - closed.start.angular_velocity).norm() / rate);
+    take(error.start, 4 * (start.down - closed.start.down).norm());
+    take(error.period, 4 * std::abs(period / closed.period - 1));
+    take(error.trace, 4 * std::abs(shot.derivative.trace() - trace));
   }
   // a part that both neighbours happen to leave alone has the rounding of its parts nevertheless
   error.period += 8 * eps;

@@ -84,7 +84,7 @@ Result<std::size_t> swing_orbits(const Problem<Scalar>& problem, int mode, std::
     const State<Scalar> start = space.start(guess);
     space.rate = std::max(rate_size(problem, start), frequency / 8);
     const auto closed =
-        close_orbit(problem, start, period + period_slope * ahead, space.rate, space, Scalar(1e-10L), 10);
+        close_orbit(problem, start, period + period_slope * ahead, space.rate, space, close_enough<Scalar>, 10);
     const Scalar found = closed ? space.direction(closed->start) : Scalar(0);
     const bool near = closed && std::abs(std::remainder(found - guess, 2 * pi<Scalar>)) < Scalar(0.3L) &&
                       std::abs(closed->period / period - 1) < Scalar(0.2L);
