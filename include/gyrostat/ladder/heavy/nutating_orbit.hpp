@@ -46,8 +46,8 @@ struct NutatingOrbit {
 
 /// The second family: motions of a fast spin that close after n turns and m nutations, their amplitude such that the nutation's
 /// frequency is m/n of the turns'; where omega = m/n it is of the order of c (docs/heavy.md, section 4). Of each family there are two
-/// motions, which differ in phase: one stable, one unstable, both with a trace so near 2 that mostly neither can be told (the
-/// difference falls as (c/r0)^n).
+/// motions, which differ in phase: one stable, one unstable, both with a trace so near 2 that mostly neither can be told (for
+/// m/n = 2/5 the difference was seen to fall as (c/r0)^9).
 ///
 /// Errors: those of periodic_orbit; out_of_domain (m or n not positive, or not coprime, n > 64); not_applicable (axis 3 the intermediate
 /// one, a = 1, a + b = 2, or no amplitude has this frequency, or one beyond half the spin); no_convergence.
