@@ -168,7 +168,7 @@ void EulerCase<Scalar>::build(const Vec3<Scalar>& I, const State<Scalar>& start)
     modulus_ = {std::min(mid_far * across / (near_mid * along), Scalar(1)),
                 std::clamp(near_far_ * (inside - outside) / (near_mid * along), floor, Scalar(1))};
     shift_ = inside > outside ? (inside + outside) / (inside - outside) : infinity<Scalar>;
-    share_ = 2 * std::sqrt(steep_);
+    share_ = 8 * std::sqrt(steep_);
   }
   functions_ = math::JacobiAt<Scalar>(modulus_);
   K_ = functions_.quarter_period();
