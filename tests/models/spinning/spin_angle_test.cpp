@@ -149,6 +149,17 @@ TEST_CASE("the start gives the turns of theta and the range of phi", "[spinning]
   CHECK(std::abs(other.theta - 0.3) == Approx(pi<double>));
 }
 
+TEST_CASE("where the search is cut into too many pieces theta is known but for turns", "[spinning]") {
+  Problem<double> p;
+  p.angular_velocity = {1, 0, 0};
+  p.angles.psi = pi<double> / 2;
+  SpinAngle<double> angle(p);
+  const SpinAngle<double>::Sample stays{p.angular_velocity, quaternion_from_312(p.angles.psi, 0.0, 0.0), 0};
+  angle.follow(1, stays, [&](double) { return stays; });
+  CHECK(std::isfinite(angle.angles().theta));
+  CHECK(angle.least_cosine() == 0);
+}
+
 TEST_CASE("what is not a number ends the search", "[spinning]") {
   Sphere sphere;
   sphere.problem.angular_velocity = {0, gyrostat::nan<double>, 1};

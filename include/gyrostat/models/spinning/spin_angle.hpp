@@ -82,6 +82,12 @@ class SpinAngle {
       here_ = next;
       time_ = arrives ? t : time_ + step;
     }
+    if (time_ < t) {  // cut into too many pieces: a turn may be missed
+      theta_ = near(target.theta, theta_ + (target.turned - here_.turned));
+      here_ = target;
+      time_ = t;
+      least_cosine_ = 0;
+    }
     if (!(time_ == t)) theta_ = nan<Scalar>;
     attitude_ = sample.attitude;
   }
