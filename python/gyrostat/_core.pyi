@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'SpinningProblems', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'euler_312_from_quaternion', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_euler_312', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'spinning_design', 'spinning_integrate', 'spinning_linear', 'spinning_linear_grid', 'spinning_pointing', 'spinning_published', 'spinning_solve', 'vector_from_matrix', 'vector_from_quaternion']
+__all__: list[str] = ['HeavyBodies', 'Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'SpinningProblems', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'euler_312_from_quaternion', 'heavy_exact', 'heavy_fast_stability', 'heavy_hanging', 'heavy_integrate', 'heavy_periodic_family', 'heavy_periodic_orbits', 'heavy_regular_precession', 'heavy_series', 'heavy_sleeping', 'heavy_solve', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_euler_312', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'spinning_design', 'spinning_integrate', 'spinning_linear', 'spinning_linear_grid', 'spinning_pointing', 'spinning_published', 'spinning_solve', 'vector_from_matrix', 'vector_from_quaternion']
 class Monitor:
     """
     Watches and stops long work from another thread.
@@ -103,6 +103,14 @@ class SpinningProblems:
         ...
     def __len__(self) -> int:
         ...
+class HeavyBodies:
+    """
+    Rows of heavy bodies in principal axes, checked.
+    """
+    def __init__(self, *, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], centre_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity_gradient: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    def __len__(self) -> int:
+        ...
 def build_info() -> dict[str, str | None]:
     """
     Version of the library, of the compiler, and of each library that is built in (None: it is not).
@@ -153,6 +161,46 @@ def elliptic_zeta(u: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], k2
     """
 def euler_312_from_quaternion(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     ...
+def heavy_exact(bodies: HeavyBodies, *, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
+    """
+    The exact motion of every row; numbers (rows, 4): period, errors of rates, down and attitude.
+    """
+def heavy_fast_stability(bodies: HeavyBodies, *, spin: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], cos_inclination: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
+    """
+    Free nutations of fast spins; numbers (rows, 6): nu^2, its error, tongue, trace - 4, growth, exponent.
+    """
+def heavy_hanging(bodies: HeavyBodies) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (rows, 11): down at rest, two frequencies, two directions of the swing.
+    """
+def heavy_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], mass: typing.SupportsFloat | typing.SupportsIndex, centre_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity: typing.SupportsFloat | typing.SupportsIndex, gravity_gradient: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+    """
+    The full equations under one integrator, timed.
+    """
+def heavy_periodic_family(body: HeavyBodies, *, first_spin: typing.SupportsFloat | typing.SupportsIndex, cos_inclination: typing.SupportsFloat | typing.SupportsIndex, last_spin: typing.SupportsFloat | typing.SupportsIndex, most_members: typing.SupportsInt | typing.SupportsIndex) -> dict[str, typing.Any]:
+    """
+    The family over the spin, one row a member as in heavy_periodic_orbits.
+    """
+def heavy_periodic_orbits(bodies: HeavyBodies, *, spin: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], cos_inclination: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
+    """
+    Periodic motions; numbers (rows, 16): rates and down at the start, period and its error, closure, trace - 4 and its error, both multipliers (re, im), turns of the first.
+    """
+def heavy_regular_precession(bodies: HeavyBodies, *, cos_inclination: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], spin: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (rows, 2): slow and fast rate about down.
+    """
+def heavy_series(bodies: HeavyBodies, *, spin: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], cos_inclination: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], order: typing.SupportsInt | typing.SupportsIndex, tolerance: typing.SupportsFloat | typing.SupportsIndex) -> dict[str, typing.Any]:
+    """
+    The fast periodic motion of every row; numbers (rows, 8): order, period and its error, precession rate and its error, errors of rates, down and attitude.
+    """
+def heavy_sleeping(bodies: HeavyBodies, *, spin: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis_down: typing.Annotated[numpy.typing.ArrayLike, numpy.bool]) -> dict[str, typing.Any]:
+    """
+    Sleeping tops; numbers (rows, 3): threshold, frequency squared, amplification.
+    """
+def heavy_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], mass: typing.SupportsFloat | typing.SupportsIndex, centre_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity: typing.SupportsFloat | typing.SupportsIndex, gravity_gradient: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, periodic: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None) -> dict[str, typing.Any]:
+    """
+    Answer of the ladder as plain data.
+    """
 def matrix_from_quaternion(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     ...
 def matrix_from_vector(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:

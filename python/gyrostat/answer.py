@@ -26,6 +26,7 @@ UNITS: Final = {
     "small_parameter": "1", "separatrix_distance": "1", "rotor_rate": "rad/s", "rotor_angle": "rad", "lyapunov": "J",
     "attractor": "", "decay_rate": "1/s", "euler_312": "rad", "angular_momentum_inertial": "N m s", "velocity": "m/s", "position": "m",
     "pointing_error": "rad", "secular_velocity_ratio": "1", "tilt_max": "rad", "nutation_frequency_squared": "1/s2",
+    "down": "1", "period": "s", "floquet_trace": "1", "stable": "", "precession_rate": "rad/s",
 }
 MEANINGS: Final = {
     "t": "time", "angular_momentum": "total angular momentum, body axes", "angular_momentum_norm": "size of the total angular momentum",
@@ -43,6 +44,10 @@ MEANINGS: Final = {
     "position": "position of the mass centre, inertial axes", "pointing_error": "mean lean of axis 3 under the torque, |M|/|r0 X|",
     "secular_velocity_ratio": "limit of (v1, v2)/v3", "tilt_max": "greatest tilt of axis 3 from inertial axis 3",
     "nutation_frequency_squared": "square of the nutation frequency; negative: the spin is unstable",
+    "down": "unit vector to the attracting centre, body axes", "period": "time after which rates and down return; None: not known to be periodic",
+    "floquet_trace": "trace of the 6x6 monodromy minus 4: the sum of the two multipliers that are not one; stable between -2 and 2",
+    "stable": "whether small changes of a periodic motion stay small; None: not known",
+    "precession_rate": "mean turn about the vertical, right-handed about down",
 }
 _AXES: Final = ("x", "y", "z", "w")
 

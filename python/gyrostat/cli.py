@@ -201,6 +201,8 @@ def _word(scalar: str, value: Any) -> str:
     """What a scalar without a number means; empty where it has one."""
     if scalar == "stop_time" and value == math.inf:
         return "never"
+    if scalar == "stable" and value is not None:
+        return "yes" if value else "no"
     return "not certified" if scalar == "attractor" and value is None else ""
 
 

@@ -4,10 +4,10 @@
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
-__all__ = ["ALTERNATIVES", "Choice", "Field", "INTEGRATORS", "KINDS", "LATER_KINDS", "LIMIT", "MOST_SAMPLES", "REQUIRED", "RUNGS",
+__all__ = ["ALTERNATIVES", "Choice", "Field", "INTEGRATORS", "KINDS", "LIMIT", "MOST_SAMPLES", "REQUIRED", "RUNGS",
            "Table", "UNSET", "needed", "table_of"]
 
-Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "moments", "times"]
+Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "moments", "times", "record"]
 
 REQUIRED: Final = "required"  # the key must be given
 UNSET: Final = None  # the key may be left out and then has no value
@@ -30,6 +30,8 @@ class Field:
     low: float = -LIMIT
     high: float = LIMIT
     open_low: bool = False  # the lower bound itself is not allowed
+    open_high: bool = False
+    parts: tuple["Field", ...] = ()  # of a record: its keys, all of them wanted
 
 
 Table = tuple[Field, ...]
@@ -38,14 +40,14 @@ RUNGS: Final[dict[str, tuple[str, ...]]] = {
     "deceleration": ("equal-torque", "averaged", "averaged-2", "full"),
     "rotor": ("closed-form", "linear-tail", "full"),
     "spinning": ("linear", "second-order", "picard", "full"),
+    "heavy": ("series-2", "series", "exact", "full"),
 }
 INTEGRATORS: Final[dict[str, tuple[str, ...]]] = {
     "deceleration": ("taylor", "cvode"),
     "rotor": ("taylor", "radau", "cvode"),
     "spinning": ("taylor", "cvode"),
+    "heavy": ("taylor", "cvode"),
 }
-# Kinds that the scene format knows and this version does not answer.
-LATER_KINDS: Final = ("heavy",)
 
 
 def _head(kind: str) -> Table:
@@ -152,6 +154,30 @@ KINDS: Final[dict[str, dict[str, Table]]] = {
             Field("position", "vector", "position of the mass centre at t = 0, inertial axes", "m", (0.0, 0.0, 0.0)),
         ),
     },
+    "heavy": {
+        "": _head("heavy"),
+        "solve": _solve("heavy"),
+        "body": (
+            Field("inertia", "inertia", "inertia about the fixed point: three principal moments along the body axes, or a symmetric "
+                  "3x3 tensor", "kg m^2", low=1e-40),
+            Field("mass", "number", "mass", "kg", low=0, open_low=True),
+            Field("centre_of_mass", "vector", "mass centre from the fixed point, body axes", "m"),
+        ),
+        "field": (
+            Field("gravity", "number", "gravity g at the fixed point", "m/s^2", low=0),
+            Field("gravity_gradient", "number", "N = 3 g/R with R the distance of the attracting centre", "1/s^2", UNSET, low=0),
+            Field("centre_distance", "number", "distance R of the attracting centre from the fixed point", "m", UNSET, low=0, open_low=True),
+        ),
+        "initial": (
+            Field("angular_velocity", "vector", "angular velocity at t = 0, body axes", "rad/s", UNSET),
+            Field("down", "direction", "unit vector to the attracting centre at t = 0, body axes", "", UNSET),
+            Field("attitude", "quaternion", "attitude at t = 0, body to inertial, [x, y, z, w]; inertial axis 3 points up", "", UNSET),
+            Field("periodic", "record", "the periodic motion with r = spin and down = [+sin, 0, cos] of the inclination at t = 0, in principal "
+                  "axes", "", UNSET, parts=(
+                      Field("spin", "number", "rate about axis 3 at t = 0", "rad/s"),
+                      Field("cos_inclination", "number", "third component of down at t = 0", "", low=-1, high=1, open_low=True, open_high=True))),
+        ),
+    },
 }
 
 # A way to give something: full keys ("table.key"), wanted together. Without keys: it may be left out.
@@ -171,6 +197,12 @@ ALTERNATIVES: Final[dict[str, tuple[tuple[Choice, ...], ...]]] = {
         (("solve.duration", "solve.samples"), ("solve.times",)),
         (("field.momentum",), ("field.charge", "field.flux_density", "field.arm", "field.angle"), ()),
         (("initial.euler_312",), ("initial.attitude",), ()),
+    ),
+    "heavy": (
+        (("solve.duration", "solve.samples"), ("solve.times",)),
+        (("field.gravity_gradient",), ("field.centre_distance",), ()),
+        (("initial.angular_velocity",), ("initial.periodic",)),
+        (("initial.down",), ("initial.attitude",), ("initial.periodic",)),
     ),
 }
 

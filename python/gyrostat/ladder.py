@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
-from gyrostat import deceleration, rotor, spinning
+from gyrostat import deceleration, heavy, rotor, spinning
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.scenes import Scene, load, scene_from
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["Monitor", "chart", "solve"]
 
 # What answers a kind of scene: `arguments(scene)` and `solve(**arguments, monitor=...)`.
-FAMILIES: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "spinning": spinning}
+FAMILIES: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "spinning": spinning, "heavy": heavy}
 
 SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
 

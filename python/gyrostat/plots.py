@@ -325,6 +325,151 @@ def _plot_spinning(answer: Answer) -> "Figure":
     return figure
 
 
+def _onto_map(sign: float, m: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Lambert's equal-area map of directions (..., 3) around axis 3 times `sign`: the hemisphere is the unit disc, its far end the rim's foot."""
+    x, y, z = m[..., 0], sign * m[..., 1], sign * m[..., 2]
+    across = np.hypot(x, y)
+    size = np.where(z > 0, across / np.sqrt(1 + np.abs(z)), np.sqrt(1 + np.abs(z)))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(across > 0, x / across, 0.0) * size, np.where(across > 0, y / across, -1.0) * size
+
+
+def _sphere_path(axes: "Axes", path: NDArray[Any], colour: str, names: tuple[str, str, str, str], title: str) -> tuple[float, float]:
+    """The path of a direction (n, 3) on a map of the sphere around the end of axis 3 that is nearer.
+
+    A path that stays near it is drawn larger, with a circle of equal angle; else the dashed circle is the equator, the rim the other end. names :
+    of the axes and of -(axis 3). Returns the end, 1 or -1, and how far the map reaches.
+    """
+    from matplotlib.patches import Circle
+
+    sign = -1.0 if np.mean(path[:, 2]) < 0 else 1.0
+    x, y = _onto_map(sign, path)
+    farthest = float(np.max(np.hypot(x, y)))
+    reach = 1.5 if farthest > 0.7 else max(1.3 * farthest, 1e-3)
+    angle = 90.0
+    if reach < 1.5:
+        most = 2 * math.degrees(math.asin(farthest / math.sqrt(2))) or 0.1
+        unit = 10.0 ** math.floor(math.log10(most))
+        angle = max(step * unit for step in (1, 2, 5) if step * unit <= most * (1 + 1e-9))
+    radius = math.sqrt(2) * math.sin(math.radians(angle) / 2)
+    axes.add_patch(Circle((0.0, 0.0), radius, facecolor="none", edgecolor="#777777", linewidth=0.8, linestyle="--"))
+    axes.annotate(f"{angle:g}°", (radius * math.cos(0.8), -radius * math.sin(0.8)), fontsize=8, color="#555555", zorder=5)
+    axes.add_patch(Circle((0.0, 0.0), math.sqrt(2.0), facecolor="none", edgecolor="#777777", linewidth=0.8))
+    marks = [(np.array([0.0, 0.0, sign]), names[2] if sign > 0 else names[3])]
+    marks += [(way * np.eye(3)[i], f"{'' if way > 0 else '−'}{names[i]}") for i in (0, 1) for way in (1.0, -1.0)]
+    for direction, name in marks:
+        u, v = map(float, _onto_map(sign, direction))
+        if max(abs(u), abs(v)) <= reach:
+            axes.plot([u], [v], marker="+", color="#777777", markersize=6, linestyle="none")
+            axes.annotate(name, (u, v), xytext=(4, 3), textcoords="offset points", fontsize=8, color="#555555", zorder=5)
+    jumps = np.concatenate([[False], np.hypot(np.diff(x), np.diff(y)) > 1.0])  # across the rim
+    coarse = _coarse(path)
+    axes.plot(np.where(jumps, np.nan, x), y, color=colour, linewidth=0.8 if len(path) < 2000 else 0.4, linestyle="none" if coarse else "-",
+              marker="." if coarse else "", markersize=2)
+    axes.plot(x[:1], y[:1], color=colour, marker="o", markersize=5, linestyle="none", label="start")
+    axes.set_aspect("equal")
+    axes.set_xlim(-reach, reach)
+    axes.set_ylim(-reach, reach)
+    axes.axis("off")
+    axes.set_title(title, loc="left", fontsize=10)
+    return sign, reach
+
+
+def _heavy_sphere(axes: "Axes", answer: Answer) -> None:
+    sign, reach = _sphere_path(axes, answer["down"], COLOURS[0], ("1", "2", "3", "−3"), "Down, body axes")
+    centre = np.array(answer.scene["body"]["centre_of_mass"])
+    size = float(np.linalg.norm(centre))
+    if size > 0:
+        u, v = map(float, _onto_map(sign, centre / size))
+        if max(abs(u), abs(v)) <= reach:
+            axes.plot([u], [v], marker="*", color=COLOURS[1], markersize=11, markeredgecolor="white", linestyle="none", label="mass centre")
+    axes.legend(loc="lower right", fontsize=8)
+    _note(axes, _error_text(answer, "down"))
+
+
+def _hodograph(axes: "Axes", answer: Answer) -> None:
+    w = answer["angular_velocity"]
+    coarse = _coarse(w[:, :2])
+    axes.plot(w[:, 0], w[:, 1], color=COLOURS[2], linewidth=0.8, linestyle="none" if coarse else "-", marker="." if coarse else "", markersize=2)
+    axes.plot(w[:1, 0], w[:1, 1], color=COLOURS[2], marker="o", markersize=5, linestyle="none", label="start")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_xlabel("ω1 [rad/s]")
+    axes.set_ylabel("ω2 [rad/s]")
+    axes.grid(alpha=0.3)
+    axes.legend(loc="lower right", fontsize=8)
+    axes.set_title("Angular velocity across axis 3", loc="left", fontsize=10)
+    _note(axes, _error_text(answer, "angular_velocity"))
+
+
+def _heavy_axis(axes: "Axes", answer: Answer) -> None:
+    R = rotation.matrix_from_quaternion(answer["attitude"])
+    _sphere_path(axes, R[:, :, 2], COLOURS[2], ("1", "2", "up", "down"), "Body axis 3, inertial axes")
+    axes.legend(loc="lower right", fontsize=8)
+    _note(axes, _error_text(answer, "attitude"))
+
+
+def _line(axes: "Axes", t: NDArray[Any], values: NDArray[Any], colour: str, name: str) -> None:
+    coarse = _coarse(values[:, None] - np.mean(values))
+    axes.plot(t, values, color=colour, linewidth=0.9, linestyle="none" if coarse else "-", marker="." if coarse else "", markersize=2, label=name)
+
+
+def _nutation(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+    d = answer["down"]
+    _line(axes, t, np.degrees(np.arctan2(np.hypot(d[:, 0], d[:, 1]), d[:, 2])), COLOURS[0], "")
+    axes.set_ylabel("theta [deg]")
+    axes.set_title("Nutation: angle of axis 3 to down", loc="left", fontsize=10)
+
+
+def _precession(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
+    """The angle about down where the attitude tells it, else its rate."""
+    mean = answer.scalars["precession_rate"]
+    if "attitude" in answer.columns:
+        R = rotation.matrix_from_quaternion(answer["attitude"])
+        psi = np.unwrap(np.arctan2(R[:, 0, 2], R[:, 1, 2])) / (2 * np.pi)
+        _line(axes, t, psi, COLOURS[2], "psi")
+        if mean is not None:
+            axes.plot(t, psi[0] + mean * (answer.t - answer.t[0]) / (2 * np.pi), color=COLOURS[1], linestyle="--", linewidth=1, label="mean")
+        axes.set_ylabel("psi [turns]")
+    else:
+        d, w = answer["down"], answer["angular_velocity"]
+        across = d[:, 0] ** 2 + d[:, 1] ** 2
+        with np.errstate(divide="ignore", invalid="ignore"):
+            rate = np.where(across > 1e-12, (w[:, 0] * d[:, 0] + w[:, 1] * d[:, 1]) / across, np.nan)
+        _line(axes, t, rate, COLOURS[2], "psi'")
+        if mean is not None:
+            axes.axhline(mean, color=COLOURS[1], linestyle="--", linewidth=1, label="mean")
+        axes.set_ylabel("psi' [rad/s]")
+        low, high = np.nanquantile(rate, [0.02, 0.98]) if np.any(np.isfinite(rate)) else (0.0, 1.0)
+        if np.nanmax(np.abs(rate), initial=0.0) > 10 * max(abs(low), abs(high)) > 0:  # near the vertical it has no bound
+            room = 0.3 * (high - low)
+            axes.set_ylim(low - room, high + room)
+    axes.legend(loc="best", fontsize=8)
+    axes.set_title("Precession about down", loc="left", fontsize=10)
+
+
+def _plot_heavy(answer: Answer) -> "Figure":
+    figure = _figure(11, 11)
+    scale, unit = _time_unit(float(answer.t[-1] - answer.t[0]))
+    t = answer.t / scale
+    grid = figure.subplots(3, 2, height_ratios=(2.1, 1, 1))
+    _heavy_sphere(grid[0, 0], answer)
+    if "attitude" in answer.columns:
+        _heavy_axis(grid[0, 1], answer)
+    else:
+        _hodograph(grid[0, 1], answer)
+    _pair(grid[1, 0], answer, t, "angular_velocity", "ω", "rad/s", "Angular velocity, body axes")
+    _vector(grid[1, 1], answer, t, "down", "d", "", "Down, body axes")
+    _nutation(grid[2, 0], answer, t)
+    _precession(grid[2, 1], answer, t)
+    for axes in grid[1:].flat:
+        axes.grid(alpha=0.3)
+    for axes in grid[2]:
+        axes.set_xlabel(f"time [{unit}]")
+    return figure
+
+
+# Kinds whose figure is more than panels over time.
+FIGURES: Final = {"spinning": _plot_spinning, "heavy": _plot_heavy}
 PANELS: Final = {"deceleration": _deceleration_panels, "rotor": _rotor_panels}
 
 
@@ -346,6 +491,13 @@ def _title(answer: Answer) -> str:
         if answer.scalars["nutation_frequency_squared"] <= 0:
             told.append("unstable spin")
         title += "\n" + ", ".join(told)
+    if answer.scalars.get("period") is not None:
+        told = [f"period {answer.scalars['period']:.6g} s"]
+        if answer.scalars["stable"] is not None:
+            told.append("stable" if answer.scalars["stable"] else "unstable")
+        if answer.scalars["precession_rate"] is not None:
+            told.append(f"mean precession {answer.scalars['precession_rate']:.4g} rad/s")
+        title += "\n" + ", ".join(told)
     return title
 
 
@@ -358,10 +510,11 @@ def plot_answer(answer: Answer) -> "Figure":
 
     Deceleration: |M| and energy, k2 with the regimes, and the vectors where the rung gives them. Rotor: rates of rotor and carrier,
     the angular momentum in body axes and its angle to the rotor's axis (at rest: the attitude), and the Lyapunov function. Spinning: the
-    directions of axis 3, of the angular momentum and of the velocity gained with their means, and all columns over time.
+    directions of axis 3, of the angular momentum and of the velocity gained with their means, and all columns over time. Heavy: the paths of
+    down in the body and of axis 3 in space, rates, down, nutation and precession.
     """
-    if answer.scene["kind"] == "spinning":
-        figure = _plot_spinning(answer)
+    if answer.scene["kind"] in FIGURES:
+        figure = FIGURES[answer.scene["kind"]](answer)
         figure.suptitle(_title(answer), fontsize=11)
         return figure
     panels = PANELS[answer.scene["kind"]](answer)
@@ -385,7 +538,8 @@ CHART_STYLE: Final = {  # group -> marker, size, dashes
     "cvode": ("s", 5, "--"), "rival": ("D", 5, ":"),
 }
 RUNG_MARKERS: Final = {"rung equal-torque": "P", "rung averaged": "^", "rung averaged-2": "X", "rung closed-form": "P",
-                       "rung linear-tail": "^", "rung linear": "P", "rung second-order": "^", "rung picard": "X", "rung full": "*"}
+                       "rung linear-tail": "^", "rung linear": "P", "rung second-order": "^", "rung picard": "X", "rung exact": "P",
+                       "rung series-2": "^", "rung series": "X", "rung full": "*"}
 CHART_FLOOR: Final = 1e-17  # an error of zero is drawn here
 
 

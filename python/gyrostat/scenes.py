@@ -19,7 +19,6 @@ from gyrostat.fields import (
     ALTERNATIVES,
     INTEGRATORS,
     KINDS,
-    LATER_KINDS,
     LIMIT,
     MOST_SAMPLES,
     REQUIRED,
@@ -209,7 +208,7 @@ def _number(field: Field, value: Any, element: str = "") -> float:
     what = f"{element} = {_show(value)}" if element else "this"
     if not math.isfinite(number):
         raise _Wrong(f"{what} is not finite", f"give a finite number{unit}")
-    if number < field.low or (field.open_low and number == field.low) or number > field.high:
+    if not field.low <= number <= field.high or (field.open_low and number == field.low) or (field.open_high and number == field.high):
         raise _Wrong(f"{what} is out of range", f"give a number {_interval(field)}{unit}")
     return number
 
@@ -217,7 +216,7 @@ def _number(field: Field, value: Any, element: str = "") -> float:
 def _interval(field: Field) -> str:
     low = f"{'> ' if field.open_low else '>= '}{field.low:g}" if field.low > -LIMIT else f">= -{LIMIT:g}"
     if field.high < LIMIT:
-        return f"{low} and <= {field.high:g}"
+        return f"{low} and {'<' if field.open_high else '<='} {field.high:g}"
     return low if field.low > -LIMIT else f"of size at most {LIMIT:g}"
 
 
@@ -331,9 +330,26 @@ def _triangle(moments: Iterable[float], tolerance: float = TENSOR_TOLERANCE) -> 
                      "no rigid body has these moments (triangle inequality): check the numbers, or the signs of the products of inertia")
 
 
+def _record(field: Field, value: Any) -> dict[str, float]:
+    example = "{ " + ", ".join(f"{part.name} = ..." for part in field.parts) + " }"
+    if not isinstance(value, dict):
+        raise _Wrong(f"this is {_kind_of(value)}, not a table", f"write {field.name} = {example}")
+    names = [part.name for part in field.parts]
+    for key in value:
+        if key not in names:
+            near = _near(str(key), names)
+            raise _Wrong(f"unknown key {_show(str(key))}", f"did you mean {near}?" if near else f"the keys here are {', '.join(names)}")
+    made = {}
+    for part in field.parts:
+        if part.name not in value:
+            raise _Wrong(f"the key {part.name} is missing", f"give the {_meaning(part)}: {field.name} = {example}")
+        made[part.name] = _number(part, value[part.name], part.name)
+    return made
+
+
 _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
     "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "direction": _direction,
-    "quaternion": _quaternion, "inertia": _inertia, "moments": _moments, "times": _times,
+    "quaternion": _quaternion, "inertia": _inertia, "moments": _moments, "times": _times, "record": _record,
 }
 
 
@@ -357,7 +373,29 @@ def _gyrostat(tables: Mapping[str, Mapping[str, Any]]) -> Found:
                    f"give less than {most:.9g} kg m^2 (1/(e.theta^-1.e)), or the inertia of the whole, rotor included")
 
 
-_PHYSICS: Final[dict[str, Callable[[Mapping[str, Mapping[str, Any]]], Found]]] = {"rotor": _gyrostat}
+def _heavy(tables: Mapping[str, Mapping[str, Any]]) -> Found:
+    """Second moments of mass about the mass centre that are not negative: stronger than the triangle inequality."""
+    body = tables["body"]
+    inertia, centre = np.array(body["inertia"]), np.array(body["centre_of_mass"])
+    inertia = np.diag(inertia) if inertia.ndim == 1 else inertia
+    about_point = np.trace(inertia) / 2 * np.eye(3) - inertia
+    slack = -1.3 * ROUNDING * float(np.max(np.abs(inertia)))  # less than what the core allows
+    with np.errstate(over="ignore", invalid="ignore"):
+        about_centre = about_point - body["mass"] * np.outer(centre, centre)
+    least, axes = np.linalg.eigh(about_point)
+    if least[0] < slack:
+        yield ("body.inertia", _plain(body["inertia"]), "by rounding, a moment exceeds the sum of the two others",
+               "make the greatest moment no larger than the sum of the two others")
+    elif not np.all(np.isfinite(about_centre)) or np.linalg.eigvalsh(about_centre)[0] < slack:
+        far = centre / float(np.linalg.norm(centre))
+        with np.errstate(divide="ignore"):
+            reach = 1 / math.sqrt(body["mass"] * float(np.sum(np.where(axes.T @ far == 0, 0.0, (axes.T @ far) ** 2 / np.maximum(least, 0)))))
+        yield ("body.centre_of_mass", _plain(body["centre_of_mass"]), "no body with this mass and this inertia about the fixed point has its mass "
+               "centre there", f"in this direction it lies at most {reach:.9g} m from the fixed point: check the units, and that the inertia is "
+               "about the fixed point, not the mass centre")
+
+
+_PHYSICS: Final[dict[str, Callable[[Mapping[str, Mapping[str, Any]]], Found]]] = {"rotor": _gyrostat, "heavy": _heavy}
 
 
 # ---- the whole scene ----
@@ -378,10 +416,8 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         known = ", ".join(KINDS)
         if "kind" not in tree:
             wrong("kind", "", "the key is missing", f'write kind = "{next(iter(KINDS))}" (this version answers: {known})', False)
-        elif kind in LATER_KINDS:
-            wrong("kind", kind, "this kind is not built yet", f"this version answers: {known}")
         else:
-            near = _near(kind, (*KINDS, *LATER_KINDS)) if isinstance(kind, str) else ""
+            near = _near(kind, KINDS) if isinstance(kind, str) else ""
             wrong("kind", kind, "unknown kind", (f'did you mean "{near}"? ' if near else "") + f"this version answers: {known}")
         raise SceneError(*mistakes)
 

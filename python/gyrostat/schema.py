@@ -9,7 +9,8 @@ __all__ = ["schema"]
 
 
 def _number(field: Field) -> dict[str, Any]:
-    return {"type": "number", ("exclusiveMinimum" if field.open_low else "minimum"): field.low, "maximum": field.high}
+    return {"type": "number", ("exclusiveMinimum" if field.open_low else "minimum"): field.low,
+            ("exclusiveMaximum" if field.open_high else "maximum"): field.high}
 
 
 def _array(items: dict[str, Any], length: int | None = None) -> dict[str, Any]:
@@ -38,6 +39,9 @@ def _form(field: Field) -> dict[str, Any]:
         case "inertia" | "moments":
             tensor = _array(_array({"type": "number", "minimum": -field.high, "maximum": field.high}, 3), 3)
             return {"oneOf": [_array(_number(field), 3), tensor]}
+        case "record":
+            return {"type": "object", "properties": {part.name: _property(part) for part in field.parts},
+                    "required": [part.name for part in field.parts], "additionalProperties": False}
 
 
 def _property(field: Field) -> dict[str, Any]:
@@ -86,7 +90,8 @@ def schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of a scene file, parsed from TOML.
 
     What a schema cannot say is checked when a scene is loaded: finite numbers, the triangle inequality, a symmetric
-    or diagonal tensor, increasing times, a unit quaternion or axis, a rotor that the body can hold.
+    or diagonal tensor, increasing times, a unit quaternion or axis, a rotor that the body can hold, a mass centre that a body with this
+    inertia can have.
     """
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gyrostat import deceleration, elliptic, rotation, rotor, spinning
+from gyrostat import deceleration, elliptic, heavy, rotation, rotor, spinning
 from gyrostat._core import build_info
 from gyrostat.errors import DomainError
 from gyrostat.ladder import solve
@@ -36,6 +36,13 @@ THRUSTING = {
     "body": {"inertia": [8.0, 7.0, 11.0], "mass": 10.0, "rotor_momentum": 1.5},
     "torque": {"body": [4e-3, -2e-3, 0.0], "force": [0.3, -0.2, 3.0]},
     "initial": {"angular_velocity": [2e-3, -3e-3, 1.0]},
+}
+
+# A fast top without an axis of symmetry, in its periodic motion.
+FORCED = {
+    "name": "selftest", "kind": "heavy", "solve": {"duration": 0.1, "samples": 41, "tolerance": 1e-10},
+    "body": {"inertia": [0.0011, 0.0016, 0.0020], "mass": 0.8, "centre_of_mass": [0.012, 0.009, 0.010]},
+    "field": {"gravity": 9.80665}, "initial": {"periodic": {"spin": 150.0, "cos_inclination": 0.1}},
 }
 
 
@@ -116,6 +123,26 @@ def _spinning_resonance() -> str:
     return _verdict("spinner at exact resonance, off the law by", off, 1e-13)
 
 
+def _heavy_rungs() -> str:
+    full = solve(FORCED, model="full")
+    off = 0.0
+    for model in ("series-2", "series"):
+        rung = solve(FORCED, model=model, tolerance=0.1)
+        for name in ("angular_velocity", "down"):
+            error = np.max(np.linalg.norm(rung[name] - full[name], axis=1)) / np.max(np.linalg.norm(full[name], axis=1))
+            off = max(off, float(error) / (rung.error[name] + full.error[name]))
+    return _verdict("series against full motion, error over stated error", off, 1.0)
+
+
+def _heavy_laws() -> str:
+    top: dict[str, Any] = {"inertia": [0.002, 0.002, 0.001], "mass": 0.5, "centre_of_mass": [0.0, 0.0, 0.04], "gravity": 9.80665}
+    start: dict[str, Any] = {"angular_velocity": [1.0, 2.0, 150.0], "down": [0.6, 0.0, 0.8]}
+    t = np.linspace(0.0, 2.0, 41)
+    exact = heavy.exact(**top, **start, t=t)
+    full = heavy.integrate(**top, **start, times=t, tolerance=1e-14)
+    return _verdict("top in closed form and integrated differ by", float(np.max(np.abs(exact.down - full["down"]))), 1e-11)
+
+
 def _elliptic() -> str:
     k2 = np.array([1e-9, 0.3, 0.5, 0.9, 1 - 1e-9])
     complete, other = elliptic.complete(k2), elliptic.complete(1 - k2, kp2=k2)
@@ -159,4 +186,6 @@ def checks() -> Iterator[tuple[str, Callable[[], str]]]:
     yield "rotor, integrators", _rotor_integrators
     yield "spinning, rungs", _spinning_rungs
     yield "spinning, resonance", _spinning_resonance
+    yield "heavy, rungs", _heavy_rungs
+    yield "heavy, closed form", _heavy_laws
     yield "refusals", _refusals

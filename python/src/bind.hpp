@@ -17,3 +17,6 @@ void bind_spinning(pybind11::module_& module);
 void bind_spinning_integrators(pybind11::module_& module);
 void bind_spinning_design(pybind11::module_& module);
 void bind_spinning_published(pybind11::module_& module);
+void bind_heavy(pybind11::module_& module);
+void bind_heavy_integrators(pybind11::module_& module);
+void bind_heavy_motions(pybind11::module_& module);

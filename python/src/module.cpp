@@ -66,4 +66,7 @@ PYBIND11_MODULE(_core, module) {
   bind_spinning_integrators(module);
   bind_spinning_design(module);
   bind_spinning_published(module);
+  bind_heavy(module);
+  bind_heavy_integrators(module);
+  bind_heavy_motions(module);
 }

@@ -106,6 +106,37 @@ velocity = [0.1, -0.2, 0.3]
 position = [1.0, 2.0, 3.0]
 """
 
+HEAVY = """\
+name = "test"
+kind = "heavy"
+source = "a test"
+
+[solve]
+duration = 1.0
+samples = 11
+tolerance = 1e-6
+model = "auto"
+integrator = "auto"
+
+[body]
+inertia = [0.0011, 0.0016, 0.0020]
+mass = 0.8
+centre_of_mass = [0.012, 0.009, 0.010]
+
+[field]
+gravity = 9.80665
+gravity_gradient = 4.6e-6
+
+[initial]
+angular_velocity = [0.1, -0.2, 150.0]
+down = [0.6, 0.0, 0.8]
+"""
+
+# The same body in a periodic motion.
+PERIODIC = HEAVY.replace("""angular_velocity = [0.1, -0.2, 150.0]
+down = [0.6, 0.0, 0.8]
+""", "periodic = { spin = 150.0, cos_inclination = 0.1 }\n")
+
 
 @pytest.fixture
 def good() -> str:
@@ -134,4 +165,12 @@ def spinning_file(tmp_path: Path) -> Path:
     """A spinning scene in a file."""
     file = tmp_path / "spinning.toml"
     file.write_text(SPINNING)
+    return file
+
+
+@pytest.fixture
+def heavy_file(tmp_path: Path) -> Path:
+    """A heavy scene in a file."""
+    file = tmp_path / "heavy.toml"
+    file.write_text(HEAVY)
     return file

@@ -11,6 +11,7 @@ import gyrostat
 import numpy as np
 import pytest
 from gyrostat.charts import Chart
+from gyrostat.charts import heavy as heavy_charts
 from gyrostat.charts import rotor as rotor_charts
 from gyrostat.charts import spinning as spinning_charts
 from gyrostat.charts.deceleration import true_errors
@@ -169,3 +170,41 @@ def test_a_spinner_without_thrust_is_charted_by_its_rates(monkeypatch: pytest.Mo
     assert [measure.key for measure in made.measures] == ["attitude", "angular_velocity"]
     assert "of the scene's 120 s" in made.title
     assert made.by_label()["Taylor, order 20"][-1].error["angular_velocity"] < 1e-12
+
+
+def top(initial: dict[str, Any], **solve: Any) -> dict[str, Any]:
+    return {
+        "name": "top", "kind": "heavy", "solve": {"duration": 0.2, "samples": 21, "tolerance": 1e-3, **solve},
+        "body": {"inertia": [0.0011, 0.0016, 0.0020], "mass": 0.8, "centre_of_mass": [0.012, 0.009, 0.010]},
+        "field": {"gravity": 9.80665, "gravity_gradient": 0.5}, "initial": initial,
+    }
+
+
+def test_every_method_of_a_heavy_scene_stands_on_the_chart() -> None:
+    labels = gyrostat.chart(top({"periodic": {"spin": 150.0, "cos_inclination": 0.1}})).by_label()
+    assert {"rung series-2", "rung series", "rung full", "series, by order (from Python)", "Taylor, order 8", "Taylor, order 20",
+            "Runge-Kutta DOP853"} <= set(labels)
+    if gyrostat.build_info()["cvode"]:
+        assert {"CVODE Adams", "CVODE BDF"} <= set(labels)
+    for label, points in labels.items():
+        assert set(points[0].error) == {"angular_velocity", "down"}
+        if points[0].group in ("taylor", "dop853", "cvode", "rival"):
+            assert points[-1].error["down"] < 1e-3 * points[0].error["down"], label
+        if points[0].group == "rung":
+            for point in points:
+                assert max(point.error.values()) <= float(point.note.removeprefix("stated error ")) + 1e-13, label
+    orders = labels["series, by order (from Python)"]
+    assert orders[1].error["down"] < 0.05 * orders[0].error["down"]
+
+
+@pytest.mark.parametrize("start", [{"down": [0.6, 0.0, 0.8]}, {"attitude": [0.5, 0.5, 0.5, 0.5]}])
+def test_rivals_know_the_same_heavy_body(start: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(heavy_charts, "MOST_TURNS", 3.0)
+    scene = top({"angular_velocity": [3.0, -2.0, 40.0], **start}, duration=3.0)
+    scene["body"]["inertia"] = [[1.1e-3, 1e-4, 0.0], [1e-4, 1.6e-3, -2e-4], [0.0, -2e-4, 2e-3]]
+    made = gyrostat.chart(scene)
+    assert "of the scene's 3 s" in made.title
+    labels = made.by_label()
+    assert "rung series" not in labels and labels["rung full"][-1].error["down"] < 1e-10
+    for rival in ("SciPy DOP853 (Python right-hand side)", "heyoka (compile time left out)"):
+        assert rival not in labels or labels[rival][-1].error["down"] < 1e-8

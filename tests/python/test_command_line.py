@@ -73,7 +73,7 @@ def test_exit_status_3_over_the_tolerance(capsys: pytest.CaptureFixture[str]) ->
     (["solve", "tiangong1"], "did you mean"),
     (["solve", "tiangong-1", "--set", "drag"], "--set"),
     (["solve", "tiangong-1", "--set", "drag=-1"], "torque.drag"),
-    (["solve", "tiangong-1", "--set", "kind=heavy"], "not built yet"),
+    (["solve", "tiangong-1", "--set", "kind=heavvy"], "unknown kind"),
     (["solve", "tiangong-1", "--set", "model=averaged", "--set", "attitude=[0, 0, 0, 1]"], "attitude"),
     (["solve", "tiangong-1", "--set", "model=equal-torque"], "the control torques are not equal"),
     (["solve", "tiangong-1", "--plot", "x.xyz"], "unknown ending"),

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import ASSEMBLED, GOOD, ROTOR, SPINNING
+from conftest import ASSEMBLED, GOOD, HEAVY, PERIODIC, ROTOR, SPINNING
 from gyrostat.errors import SceneError
 from gyrostat.fields import KINDS, RUNGS
 from gyrostat.scenes import bundled, load, parse_override, scene_from
@@ -32,6 +32,14 @@ def in_spinning(old: str, new: str) -> str:
     return swap(old, new, SPINNING)
 
 
+def in_heavy(old: str, new: str) -> str:
+    return swap(old, new, HEAVY)
+
+
+def in_periodic(old: str, new: str) -> str:
+    return swap(old, new, PERIODIC)
+
+
 def in_assembled(old: str, new: str) -> str:
     return swap(old, new, ASSEMBLED)
 
@@ -41,7 +49,7 @@ MISTAKES: dict[str, tuple[str, list[str]]] = {
     "not TOML": (swap("duration = 100.0", "duration = "), [":6", "not TOML"]),
     "duplicate key": (swap("drag = 2.0e-4", "drag = 2.0e-4\ndrag = 1.0"), ["not TOML", "drag"]),
     "unknown kind": (swap('"deceleration"', '"decelaration"'), ["kind", "decelaration", 'did you mean "deceleration"']),
-    "kind of a later version": (swap('"deceleration"', '"heavy"'), ["kind", "heavy", "not built yet", "deceleration", "rotor", "spinning"]),
+    "near miss of a kind": (swap('"deceleration"', '"heavvy"'), ["kind", "heavvy", 'did you mean "heavy"?', "deceleration", "rotor", "spinning"]),
     "kind missing": (swap('kind = "deceleration"\n', ""), ["kind", "missing", 'kind = "deceleration"']),
     "kind not text": (swap('"deceleration"', "3"), ["kind = 3", "deceleration"]),
     "name missing": (swap('name = "test"\n', ""), ["name", "missing"]),
@@ -170,6 +178,35 @@ MISTAKES: dict[str, tuple[str, list[str]]] = {
     "endless position": (in_spinning("[1.0, 2.0, 3.0]", "[1.0, nan, 3.0]"), ["initial.position", "element 2 = nan", "not finite"]),
     "no spin": (in_spinning("angular_velocity = [0.002, -0.003, 1.0]\n", ""), ["initial.angular_velocity", "missing", "rad/s"]),
     "momentum at the start of a spinner": (in_spinning("[initial]", "[initial]\nangular_momentum = [1, 2, 3]"), ["initial.angular_momentum", "unknown key"]),
+    # heavy
+    "unknown rung of a heavy body": (in_heavy('model = "auto"', 'model = "series-3"'), ["solve.model", "series-3", 'did you mean "series-2"?']),
+    "implicit integrator of a heavy body": (in_heavy('integrator = "auto"', 'integrator = "radau"'), ["solve.integrator", "radau", "no such integrator"]),
+    "massless heavy body": (in_heavy("mass = 0.8", "mass = 0.0"), ["body.mass = 0.0", "> 0", "kg"]),
+    "mass as text": (in_heavy("mass = 0.8", 'mass = "0.8"'), ["body.mass", '"0.8"', "text"]),
+    "no centre": (in_heavy("centre_of_mass = [0.012, 0.009, 0.010]\n", ""), ["body.centre_of_mass", "missing", "m"]),
+    "centre in millimetres": (in_heavy("[0.012, 0.009, 0.010]", "[12.0, 9.0, 10.0]"), ["body.centre_of_mass", "no body", "at most", "units"]),
+    "centre of two numbers": (in_heavy("[0.012, 0.009, 0.010]", "[0.012, 0.009]"), ["body.centre_of_mass", "2 elements", "3 numbers"]),
+    "centre off a lamina": (in_heavy("[0.0011, 0.0016, 0.0020]", "[0.0011, 0.0009, 0.0020]"), ["body.centre_of_mass", "no body", "at most 0 m"]),
+    "moments beyond a lamina": (in_heavy("[0.0011, 0.0016, 0.0020]", "[0.0011, 0.0016, 0.0028]"), ["body.inertia", "0.0028", "triangle"]),
+    "just beyond a lamina": (in_heavy("[0.0011, 0.0016, 0.0020]", "[0.0011, 0.0016, 0.0027000000000001]"), ["body.inertia", "rounding"]),
+    "gravity upwards": (in_heavy("gravity = 9.80665", "gravity = -9.80665"), ["field.gravity = -9.80665", ">= 0", "m/s^2"]),
+    "no gravity": (in_heavy("gravity = 9.80665\n", ""), ["field.gravity", "missing"]),
+    "no field": (in_heavy("[field]\ngravity = 9.80665\ngravity_gradient = 4.6e-6\n", ""), ["[field] is missing", "gravity"]),
+    "gradient and distance": (in_heavy("[initial]", "centre_distance = 6.4e6\n\n[initial]"), ["field.centre_distance", "given beside field.gravity_gradient"]),
+    "a centre in the body": (in_heavy("gravity_gradient = 4.6e-6", "centre_distance = 0.0"), ["field.centre_distance = 0.0", "> 0", "m"]),
+    "negative gradient": (in_heavy("4.6e-6", "-4.6e-6"), ["field.gravity_gradient = -4.6e-06", ">= 0", "1/s^2"]),
+    "down of length two": (in_heavy("[0.6, 0.0, 0.8]", "[1.2, 0.0, 1.6]"), ["initial.down", "norm is 2", "[0.6, 0, 0.8]"]),
+    "no direction": (in_heavy("[0.6, 0.0, 0.8]", "[0, 0, 0]"), ["initial.down", "zero vector"]),
+    "down and attitude": (in_heavy("down =", "attitude = [0, 0, 0, 1]\ndown ="), ["initial.attitude", "given beside initial.down"]),
+    "neither down nor attitude": (in_heavy("down = [0.6, 0.0, 0.8]\n", ""), ["initial.down", "missing", "down or attitude or periodic"]),
+    "no rates": (in_heavy("angular_velocity = [0.1, -0.2, 150.0]\n", ""), ["initial.angular_velocity", "missing", "angular_velocity or periodic"]),
+    "periodic beside rates": (in_periodic("periodic =", "angular_velocity = [0, 0, 1]\nperiodic ="), ["initial.periodic", "given beside initial.angular_velocity"]),
+    "periodic beside down": (in_periodic("periodic =", "down = [0, 0, 1]\nperiodic ="), ["initial.periodic", "given beside initial.down"]),
+    "periodic as a number": (in_periodic("{ spin = 150.0, cos_inclination = 0.1 }", "150.0"), ["initial.periodic", "not a table", "spin = ..."]),
+    "periodic without spin": (in_periodic("spin = 150.0, ", ""), ["initial.periodic", "spin is missing", "rad/s"]),
+    "periodic with an angle": (in_periodic("cos_inclination = 0.1", "inclination = 1.47"), ["initial.periodic", '"inclination"', "cos_inclination"]),
+    "periodic upright": (in_periodic("cos_inclination = 0.1", "cos_inclination = 1.0"), ["initial.periodic", "cos_inclination = 1.0", "out of range", "< 1"]),
+    "periodic without number": (in_periodic("spin = 150.0", "spin = nan"), ["initial.periodic", "spin = nan", "not finite"]),
 }
 
 
@@ -295,6 +332,33 @@ def test_spinning_scenes_are_read(spinning_file: Path) -> None:
     assert "euler_312" not in turned and turned["attitude"] == [0.0, 0.0, 0.6, 0.8]
 
 
+def test_heavy_scenes_are_read(heavy_file: Path) -> None:
+    scene = load(heavy_file)
+    assert scene.kind == "heavy" and scene.tables["body"]["inertia"] == (0.0011, 0.0016, 0.002)
+    assert scene_from(scene.to_dict()).to_dict() == scene.to_dict()
+    far = scene.replace(centre_distance=6.4e6)
+    assert far.to_dict()["field"] == {"gravity": 9.80665, "centre_distance": 6.4e6}
+    turned = scene.replace(attitude=[0.0, 0.0, 0.6, 0.8]).to_dict()["initial"]
+    assert "down" not in turned and turned["attitude"] == [0.0, 0.0, 0.6, 0.8]
+    periodic = scene.replace(periodic={"spin": 100, "cos_inclination": -0.5})
+    assert periodic.to_dict()["initial"] == {"periodic": {"spin": 100.0, "cos_inclination": -0.5}}
+    assert scene_from(tomllib.loads(PERIODIC)).replace(**{"initial.periodic.spin": 100.0}).tables["initial"]["periodic"]["spin"] == 100.0
+    back = periodic.replace(angular_velocity=[0, 0, 1], down=[0, 0, 1])
+    assert back.to_dict()["initial"] == {"angular_velocity": [0.0, 0.0, 1.0], "down": [0.0, 0.0, 1.0]}
+    free = {key: value for key, value in scene.to_dict()["field"].items() if key == "gravity"}
+    assert scene_from({**scene.to_dict(), "field": free}).tables["field"]["gravity_gradient"] is None
+
+
+def test_a_mass_centre_as_far_out_as_can_be(heavy_file: Path) -> None:
+    J = np.array([0.00125, 0.00075, 0.00035])
+    far = np.array([0.012, 0.009, 0.010])
+    most = far / math.sqrt(0.8 * float(np.sum(far**2 / J)))
+    assert load(heavy_file, centre_of_mass=most * (1 - 1e-12))
+    with pytest.raises(SceneError, match=f"at most {np.linalg.norm(most):.6g}"):
+        load(heavy_file, centre_of_mass=most * (1 + 1e-12))
+    assert load(heavy_file, inertia=[0.001, 0.002, 0.003], centre_of_mass=[0.01, -0.01, 0.0])  # a lamina
+
+
 def test_a_spinner_may_leave_out_what_is_zero() -> None:
     least = {"name": "a", "kind": "spinning", "solve": {"times": [1]}, "body": {"inertia": [1, 1, 1], "mass": 1},
              "torque": {"body": [0, 0, 0], "force": [0, 0, 0]}, "initial": {"angular_velocity": [0, 0, 1]}}
@@ -390,7 +454,7 @@ def survives(text: str | bytes, folder: Path) -> None:
         assert error.mistakes and str(error)
 
 
-@pytest.mark.parametrize("good", [GOOD, ROTOR, ASSEMBLED, SPINNING])
+@pytest.mark.parametrize("good", [GOOD, ROTOR, ASSEMBLED, SPINNING, HEAVY, PERIODIC])
 def test_mutated_texts(good: str, tmp_path: Path) -> None:
     draw = random.Random(20260101)
     pieces = [*string.printable, "[[", "]]", "= nan", "= -inf", "1e999", "true", '"""', "{}", "[]", "\\u0000", "é", "9" * 30,
@@ -443,7 +507,7 @@ def test_random_dicts(kind: str, data: dict[str, object]) -> None:
 
 
 @settings(max_examples=400, deadline=None)
-@given(data=st.sampled_from([GOOD, ROTOR, ASSEMBLED, SPINNING]), key=keys, value=values,
+@given(data=st.sampled_from([GOOD, ROTOR, ASSEMBLED, SPINNING, HEAVY, PERIODIC]), key=keys, value=values,
        dotted=st.sampled_from(["", "solve.", "body.", "torque.", "initial.", "carrier.", "rotor.", "motor.", "field.", "x.y."]))
 def test_random_overrides(data: str, key: str, value: object, dotted: str) -> None:
     try:

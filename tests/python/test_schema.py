@@ -5,7 +5,7 @@ import json
 import tomllib
 from typing import Any
 
-from conftest import ASSEMBLED, ROTOR, SPINNING
+from conftest import ASSEMBLED, HEAVY, PERIODIC, ROTOR, SPINNING
 from gyrostat.errors import SceneError
 from gyrostat.fields import KINDS
 from gyrostat.scenes import bundled, load, scene_from
@@ -38,7 +38,7 @@ def accepts(rule: dict[str, Any], value: Any) -> bool:
     if isinstance(value, str):
         return len(value) >= rule.get("minLength", 0)
     return (rule.get("minimum", value) <= value <= rule.get("maximum", value)
-            and value > rule.get("exclusiveMinimum", value - 1))
+            and value > rule.get("exclusiveMinimum", value - 1) and value < rule.get("exclusiveMaximum", value + 1))
 
 
 def test_schema_is_json() -> None:
@@ -62,6 +62,10 @@ SPOILT = {
     "spinning": [("body", "mass", 0), ("body", "rotor_momentum", [0, 0, 1]), ("body", "inertia", [1, 2]), ("field", "arm", -1.0),
                  ("field", "momentum", "1"), ("torque", "drag", 1.0), ("torque", "force", [1, 2]), ("initial", "velocity", 1.0),
                  ("initial", "angular_momentum", [1, 2, 3]), ("solve", "model", "closed-form"), ("solve", "integrator", "radau")],
+    "heavy": [("body", "mass", 0), ("body", "centre_of_mass", [0, 1]), ("body", "inertia", [1, 2]), ("field", "gravity", -1.0),
+              ("field", "centre_distance", 0.0), ("field", "gravity_gradient", -1.0), ("body", "rotor_momentum", 1.0), ("initial", "down", [0, 2, 0]),
+              ("initial", "periodic", 1.0), ("initial", "periodic", {"spin": 1.0, "cos_inclination": 1.0}), ("initial", "periodic", {"spin": 1.0}),
+              ("initial", "periodic", {"spin": 1.0, "cos_inclination": 0.0, "phase": 0.0}), ("solve", "model", "averaged"), ("solve", "integrator", "radau")],
 }
 
 
@@ -74,7 +78,7 @@ def test_schema_accepts_the_bundled_scenes_and_refuses_spoilt_ones() -> None:
         for table, key, value in [*SPOILT[data["kind"]], ("solve", "tolerance", 1.0), ("initial", "attitude", [0, 0, 0, 2]),
                                   ("solve", "samples", 1.5), ("solve", "times", [1.0])]:
             assert not accepts(schema(), {**data, table: {**data.get(table, {}), key: value}})
-        for other in {*KINDS, "heavy"} - {data["kind"]}:
+        for other in {*KINDS, "light"} - {data["kind"]}:
             assert not accepts(schema(), {**data, "kind": other})
         for table in ("solve", "torque", "rotor", "motor", "initial"):
             if table in data:
@@ -84,7 +88,8 @@ def test_schema_accepts_the_bundled_scenes_and_refuses_spoilt_ones() -> None:
 
 
 def test_schema_and_validator_agree_on_alternatives_between_tables() -> None:
-    whole, apart, spinning = tomllib.loads(ROTOR), tomllib.loads(ASSEMBLED), tomllib.loads(SPINNING)
+    whole, apart, spinning, heavy, periodic = (tomllib.loads(text) for text in (ROTOR, ASSEMBLED, SPINNING, HEAVY, PERIODIC))
+    start, motion = heavy["initial"], periodic["initial"]
     carrier = {"inertia": [2.1, 2.6, 3.2], "mass": 12.0}
     for data in (
         whole, apart, {**whole, "body": {}}, {**apart, "body": {}}, {**whole, "carrier": {}}, {**whole, "carrier": carrier},
@@ -97,6 +102,10 @@ def test_schema_and_validator_agree_on_alternatives_between_tables() -> None:
         {**spinning, "field": {"charge": 0.3}}, {**spinning, "initial": {"angular_velocity": [0, 0, 1]}},
         {**spinning, "initial": {**spinning["initial"], "attitude": [0, 0, 0, 1]}},
         {**spinning, "initial": {"angular_velocity": [0, 0, 1], "attitude": [0, 0, 0, 1]}},
+        heavy, periodic, {**heavy, "field": {"gravity": 9.8}}, {**heavy, "field": {"gravity": 9.8, "centre_distance": 6e6}},
+        {**heavy, "field": {**heavy["field"], "centre_distance": 6e6}}, {**heavy, "initial": {**start, **motion}},
+        {**heavy, "initial": {"angular_velocity": [0, 0, 1], "attitude": [0, 0, 0, 1]}}, {**heavy, "initial": {**start, "attitude": [0, 0, 0, 1]}},
+        {**heavy, "initial": {"down": [0, 0, 1]}}, {**heavy, "initial": {"angular_velocity": [0, 0, 1]}}, {**heavy, "initial": {**motion, "down": [0, 0, 1]}},
     ):
         try:
             scene_from(data)

@@ -3,7 +3,7 @@
 
 import gyrostat
 import numpy as np
-from gyrostat import deceleration, elliptic, rotation, rotor, spinning
+from gyrostat import deceleration, elliptic, heavy, rotation, rotor, spinning
 
 
 def libraries() -> list[str]:
@@ -29,6 +29,8 @@ theta = rotor.assembled_inertia(carrier_inertia=[2.0, 3.0, 4.0], carrier_mass=9.
 lean = spinning.pointing_error(inertia=[8.0, 7.0, 11.0], torque=np.ones((4, 3)), spin_rate=2.0)
 burn = spinning.linear_grid(inertia=[8.0, 7.0, 11.0], torque=[0.1, 0.0, 0.0], force=[0.0, 0.0, 3.0], angular_velocity=[0.0, 0.0, 2.0],
                             step=0.1, samples=50)
+sleep = heavy.sleeping_top(inertia=[0.002, 0.002, 0.001], mass=0.5, centre_of_mass=[0.0, 0.0, 0.04], gravity=9.8, spin=np.array([20.0, 60.0]))
+orbit = heavy.periodic_orbit(inertia=[0.0011, 0.0016, 0.002], mass=0.8, centre_of_mass=[0.012, 0.009, 0.01], gravity=9.8, spin=150.0, cos_inclination=0.1)
 monitor = gyrostat.Monitor()
 print(gyrostat.__version__, *libraries(), despin_times("tiangong-1", [0.4, 0.5]), largest, momentum[-1], sweep.stop_time, K, turn, theta @ turn, lean[0],
-      burn.x3[-1], monitor.progress)
+      burn.x3[-1], sleep.verdict[0], orbit.period, monitor.progress)

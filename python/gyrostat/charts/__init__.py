@@ -10,7 +10,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Final
 
-from gyrostat.charts import deceleration, rotor, spinning
+from gyrostat.charts import deceleration, heavy, rotor, spinning
 from gyrostat.charts.point import ChartPoint, Measure
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene
@@ -22,7 +22,7 @@ REPEATS: Final = 7
 TOO_LONG: Final = 3.0
 
 # Each module makes the `plan` of a scene.
-KINDS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "spinning": spinning}
+KINDS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "spinning": spinning, "heavy": heavy}
 
 
 @dataclass(frozen=True, eq=False)

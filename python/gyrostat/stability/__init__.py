@@ -11,12 +11,12 @@ from typing import Any, Final
 from gyrostat.console import say, show_table
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene, scene_from
-from gyrostat.stability import deceleration, rotor
+from gyrostat.stability import deceleration, heavy, rotor
 
 __all__ = ["plot_stability", "report_stability", "stability_report"]
 
 # Each module makes the `report` of a scene, and its `tables`, `sentence` and `plot`.
-KINDS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor}
+KINDS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "heavy": heavy}
 
 
 def stability_report(scene: Scene | Mapping[str, Any]) -> dict[str, Any]:
