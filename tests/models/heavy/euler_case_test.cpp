@@ -119,6 +119,6 @@ TEST_CASE("euler case: what is refused, what it costs", "[heavy]") {
   const auto exact = euler(body, start);
   const auto before = allocations();
   CHECK(exact.at(1.0).down.norm() == Approx(1));
-  CHECK(exact.error(1.0).attitude < 1e-11);
+  CHECK(exact.error(1.0).attitude < 1e-12);
   CHECK(allocations() == before);
 }

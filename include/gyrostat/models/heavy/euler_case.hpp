@@ -129,15 +129,15 @@ void EulerCase<Scalar>::build(const Vec3<Scalar>& I, const State<Scalar>& start)
   m /= L_;
   const Vec3<Scalar> square = m.cwiseAbs2();
   int sorted[3] = {0, 1, 2};  // moments descending
-  std::sort(sorted, sorted + 3, [&](int i, int j) { return J[i] > J[j]; });
-  const auto gap = [&](int i, int j) { return std::abs(J[i] - J[j]) * inverse_[i] * inverse_[j]; };
+  std::sort(sorted, sorted + 3, [&](int i, int j) { return I[i] > I[j]; });
+  const auto gap = [&](int i, int j) { return std::abs(I[i] - I[j]) / most * inverse_[i] * inverse_[j]; };
   middle_ = sorted[1];
   const Scalar first = gap(sorted[0], middle_) * square[sorted[0]], last = gap(middle_, sorted[2]) * square[sorted[2]];
   // of a body with an axis of symmetry that one, of a sphere the one nearest to L
   bool largest = first >= last;
   if (gap(sorted[0], middle_) == 0) largest = false;
   else if (gap(middle_, sorted[2]) == 0) largest = true;
-  if (J.maxCoeff() == J.minCoeff()) {
+  if (most == I.minCoeff()) {
     int nearest = 0;
     square.maxCoeff(&nearest);
     near_ = nearest;
@@ -168,7 +168,7 @@ void EulerCase<Scalar>::build(const Vec3<Scalar>& I, const State<Scalar>& start)
     modulus_ = {std::min(mid_far * across / (near_mid * along), Scalar(1)),
                 std::clamp(near_far_ * (inside - outside) / (near_mid * along), floor, Scalar(1))};
     shift_ = inside > outside ? (inside + outside) / (inside - outside) : infinity<Scalar>;
-    share_ = 8 * std::sqrt(steep_);
+    share_ = std::sqrt(steep_);
   }
   functions_ = math::JacobiAt<Scalar>(modulus_);
   K_ = functions_.quarter_period();
