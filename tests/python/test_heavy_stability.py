@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The stability of heavy bodies: rest, top, periodic motion and its family."""
+
+import json
+import math
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import HEAVY, PERIODIC
+from gyrostat import DomainError, heavy
+from gyrostat.cli import main
+from gyrostat.scenes import scene_from
+from gyrostat.stability import heavy as words
+from gyrostat.stability import plot_stability, stability_report
+
+ORBIT = tomllib.loads(PERIODIC)
+BODY: dict[str, Any] = {"inertia": [0.0011, 0.0016, 0.0020], "mass": 0.8, "centre_of_mass": [0.012, 0.009, 0.010], "gravity": 9.80665,
+                        "gravity_gradient": 4.6e-6}
+
+
+@pytest.fixture(scope="module")
+def report() -> dict[str, Any]:
+    return stability_report(ORBIT)
+
+
+def test_what_is_told_is_what_the_functions_find(report: dict[str, Any]) -> None:
+    assert report["kind"] == "heavy" and json.loads(json.dumps(report)) == report
+    c = math.sqrt(0.8 * 9.80665 * math.hypot(0.012, 0.009, 0.010) / 0.002)
+    assert report["pendulum_rate"] == pytest.approx(c) == report["slow_rate"]
+    assert report["rest"]["frequency"] == heavy.hanging(**BODY).frequency.tolist() and report["top"] is None
+    orbit = heavy.periodic_orbit(**BODY, spin=150.0, cos_inclination=0.1)
+    assert report["periodic"]["period"] == orbit.period and report["periodic"]["verdict"] == "stable"
+    a, b = (complex(*m) for m in report["periodic"]["multipliers"])
+    assert a * b == pytest.approx(1) and (a + b).real == pytest.approx(report["periodic"]["trace"])
+    assert report["periodic"]["fast"]["verdict"] == "stable"
+
+
+def test_the_family_goes_down_to_slow_spins_and_its_verdicts_are_those_of_its_traces(report: dict[str, Any]) -> None:
+    family = report["family"]
+    spin, trace = np.array(family["spin"]), np.array(family["trace"])
+    assert spin[0] == pytest.approx(150.0) and spin[-1] < 0.7 * report["slow_rate"] and family["end"] == "homoclinic"
+    assert all((v == "stable") == (abs(t) < 2) for v, t in zip(family["verdict"], trace, strict=True) if v != "undecided")
+    assert {"stable", "unstable"} <= set(family["verdict"]) and family["folds"]
+    one = len(spin) // 3
+    again = heavy.periodic_orbit(**BODY, spin=spin[one], cos_inclination=0.1)
+    assert again.period == pytest.approx(family["period"][one], rel=1e-9) and again.trace == pytest.approx(trace[one], abs=1e-6)
+    titles = [title for title, _, _ in words.tables(report)]
+    assert any("from fast spins down" in title for title in titles)
+    assert "after" in words.sentence(report) and "fold" in words.sentence(report)
+
+
+def test_a_top(capsys: pytest.CaptureFixture[str]) -> None:
+    report = stability_report(scene_from(tomllib.loads(HEAVY), inertia=[0.002, 0.002, 0.001], centre_of_mass=[0, 0, 0.02], mass=0.5,
+                                         angular_velocity=[0, 0, 100], down=[0.6, 0, -0.8], gravity_gradient=0.0))
+    threshold = math.sqrt(4 * 0.002 * 0.5 * 9.80665 * 0.02) / 0.001
+    assert report["top"]["up"]["threshold"] == pytest.approx(threshold) and report["top"]["up"]["verdict"] == "stable"
+    assert report["top"]["down"]["threshold"] == 0
+    slow = report["top"]["precession"]["slow"]
+    assert 0.002 * -0.8 * slow**2 - 0.001 * 100 * slow - 0.5 * 9.80665 * 0.02 == pytest.approx(0, abs=1e-12)
+    # a regular precession is periodic: about axis 3 with the rest of the spin
+    assert report["periodic"]["period"] == pytest.approx(2 * math.pi / (100 + 0.8 * slow), rel=1e-9)
+    assert main(["stability", "toy-top"]) == 0
+    out = capsys.readouterr().out
+    assert "Regular precession" in out and "least stable spin" in out and "66.8" in out
+
+
+def test_a_tongue(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    assert main(["stability", "half-rate-tongue", "--json", "--plot", str(tmp_path / "family.png")]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["periodic"]["verdict"] == "unstable" and report["periodic"]["trace"] < -2
+    assert report["periodic"]["fast"]["exponent"] == 0.5
+    assert (tmp_path / "family.png").stat().st_size > 5000
+
+
+@pytest.mark.parametrize("change", [{"angular_velocity": [0, 0, 0]}, {"down": [0, 0, 1]}, {"attitude": [0, 0, 0, 1]}, {"angular_velocity": [0, 0, 0.5]},
+                                    {"gravity": 0.0, "gravity_gradient": 0.0}, {"centre_of_mass": [0, 0, 0], "gravity_gradient": 50.0},
+                                    {"inertia": [0.002, 0.002, 0.002], "centre_of_mass": [0, 0, 0], "gravity_gradient": 0.0}])
+def test_hard_starts_have_a_report(change: dict[str, Any]) -> None:
+    report = stability_report(scene_from(tomllib.loads(HEAVY), **change))
+    assert json.loads(json.dumps(report, allow_nan=False)) == report
+    assert words.sentence(report)
+    for _, heads, rows in words.tables(report):
+        assert all(len(row) == len(heads) for row in rows)
+
+
+def test_what_cannot_be_told() -> None:
+    pytest.importorskip("matplotlib")
+    turned = scene_from(tomllib.loads(HEAVY), inertia=[[1.1e-3, 1e-4, 0], [1e-4, 1.6e-3, 0], [0, 0, 2e-3]])
+    with pytest.raises(DomainError, match="principal"):
+        stability_report(turned)
+    diagonal = scene_from(tomllib.loads(HEAVY), inertia=[[1.1e-3, 0, 0], [0, 1.6e-3, 0], [0, 0, 2e-3]])
+    assert stability_report(diagonal)["rest"]["frequency"] == heavy.hanging(**BODY).frequency.tolist()
+    with pytest.raises(DomainError, match="no family"):
+        plot_stability(scene_from(tomllib.loads(HEAVY), down=[0, 0, 1]))
