@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
       if (!known) truth = solve(posed(1e-12, Model::full), failed);
       known = true;
       if (failed.code != Errc::ok) ++tallies[k].unknown;
-      else tallies[k].compare(answer, truth, describe(made, answer), "stop_time");
+      else tallies[k].compare(answer, truth, describe(made, answer), {"stop_time"});
     }
     if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -37,8 +38,9 @@ struct Tally {
     ++refused;
     if (outcomes[std::string("refused: ") + refusal.why]++ < 2) examples.push_back(scene);
   }
-  /// Each column of the answer, and the scalar of that name where both have it.
-  void compare(const Answer& answer, const Answer& truth, const std::string& scene, const char* scalar = "") {
+  /// Each column of the answer, and the scalars of these names where both have them.
+  void compare(const Answer& answer, const Answer& truth, const std::string& scene,
+               std::initializer_list<std::string_view> scalars = {}) {
     ++answered;
     ++outcomes[answer.model];
     bool good = true, within = true;
@@ -48,7 +50,7 @@ struct Tally {
       error = std::max(0.0, error - own);  // what the truth itself may be off by
       if (error > 0) ratios[std::string(answer.model) + " " + name].push_back(stated / error);
       good = good && error <= stated;
-      within = within && error <= answer.tolerance;
+      within = within && (error <= answer.tolerance || stated > answer.tolerance);
       const double ratio = error == 0 ? 0 : error / stated;
       if (!(ratio <= most)) most = ratio, which = name;
     };
@@ -59,9 +61,10 @@ struct Tally {
     }
     for (const Quantity& q : answer.quantities)
       for (const Quantity& right : truth.quantities)
-        if (q.name == std::string_view(scalar) && right.name == std::string_view(scalar) &&
-            std::isfinite(q.values[0]) && std::isfinite(right.values[0]))
-          one(scalar, std::abs(q.values[0] / right.values[0] - 1), q.error, right.error);
+        if (std::find(scalars.begin(), scalars.end(), q.name) != scalars.end() &&
+            q.name == std::string_view(right.name) && std::isfinite(q.values[0]) && std::isfinite(right.values[0]))
+          one(q.name, q.values[0] == right.values[0] ? 0 : std::abs(q.values[0] / right.values[0] - 1), q.error,
+              right.error);
     honest += good;
     met += answer.met;
     over += answer.met && !within;

@@ -17,17 +17,18 @@ inline Periodicity exact_periodicity(const Scene& scene, const State<double>& st
   const auto s = *Scaled<double>::make(scene.problem(), spin, cosine);
   constexpr double rounding = 64 * epsilon<double>;
   Periodicity known;
-  if (exact.pendulum()) {
-    if (exact.pendulum()->motion() != PendulumMotion::rotation) return known;
+  if (const auto* pendulum = exact.pendulum()) {
     // with the gradient alone half a round repeats the rates, not down
-    known.period = exact.period() * (scene.problem().gradient() > 0 ? 2 : 1);
+    known.period = pendulum->period() * (scene.problem().moment().isZero(0) ? 2 : 1);
     known.period_error = rounding + exact.error(known.period).attitude;
     known.precession = known.precession_error = 0;
     return known;
   }
+  const auto top = SymmetricTop<double>::of(scene.problem());
+  if (!exact.euler() && !(top && top->axes(2, 2) == 1)) return known;
   // regular precession, or none
   known.precession = start.angular_velocity[0] / s.M3;
-  known.precession_error = rounding;
+  known.precession_error = rounding * std::abs(known.precession);
   const double turning = start.angular_velocity[2] - known.precession * cosine;
   known.period = 2 * pi<double> / std::abs(turning);
   known.period_error = rounding * (1 + std::abs(known.precession * cosine / turning));
@@ -36,7 +37,7 @@ inline Periodicity exact_periodicity(const Scene& scene, const State<double>& st
                                                : nan<double>;
   const double angle = 2 * pi<double> * std::sqrt(std::abs(nutation));
   known.trace = nutation < 0 ? 2 * std::cosh(angle) : 2 * std::cos(angle);
-  known.trace_error = rounding * (1 + angle * (nutation < 0 ? std::sinh(angle) : 1.0)) / std::abs(known.trace);
+  known.trace_error = rounding * (1 + angle * (nutation < 0 ? std::sinh(angle) : 1.0));
   return known;
 }
 
@@ -54,6 +55,9 @@ inline Track exact_track(const Scene& scene, Monitor*) {
     start = *plain;
   }
   const Exact<double> exact(scene.problem(), start);
+  if (question.periodic && exact.pendulum() && exact.pendulum()->motion() != PendulumMotion::rotation)
+    return refused<Track>(Errc::not_applicable,
+                          "no exact case: below twice the pendulum rate the body swings, and does not go round");
   if (!exact.applies())
     return refused<Track>(
         Errc::not_applicable,
@@ -89,7 +93,7 @@ inline Track exact_track(const Scene& scene, Monitor*) {
     const double rate = top.mean_precession(), period = top.nutation_period();
     if (!(period < infinity<double>)) return;
     track.periodicity.precession = rate;
-    track.periodicity.precession_error = one_turn(period) / std::abs(rate * period);
+    track.periodicity.precession_error = one_turn(period) / period;
   };
   if (exact.top()) precession(*exact.top());
   if (exact.top_in_gradient()) precession(*exact.top_in_gradient());

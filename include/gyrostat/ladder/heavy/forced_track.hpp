@@ -41,7 +41,11 @@ MotionError<double> forced_error(const Scene& scene, const Motion& motion) noexc
   const double end = scene.question().times.back();
   MotionError<double> error = motion.error(end);
   if (scene.question().periodic) return error;
-  const auto added = departed(motion.scaled(), departure(scene.start(), motion.at(0)), end);
+  // the periodic motion starts where the formula says but for its error
+  const auto first = motion.error(0);
+  const double off =
+      departure(scene.start(), motion.at(0)) + std::hypot(first.angular_velocity / motion.scaled().spin, first.down);
+  const auto added = departed(motion.scaled(), off, end);
   error.angular_velocity += added.angular_velocity;
   error.down += added.down;
   error.attitude = std::min(error.attitude + added.attitude, pi<double>);
@@ -83,16 +87,11 @@ Track forced_track(const Scene& scene, const Motion& motion, Model rung) {
     return track;
   }
   const Floquet<double> floquet(motion.scaled());
-  // trace = 2 cos sqrt y, y = 4 pi^2 nu^2
+  // trace = 2 cos sqrt y, y = 4 pi^2 nu^2; 4: twice the largest of 3000 bodies
   const double steep = floquet.growth > 0 ? std::sinh(floquet.growth) / floquet.growth : 1.0;
-  const double trace_error = 4 * pi<double> * pi<double> * floquet.squared_error * steep;
-  const double precession = motion.precession_rate();
-  track.periodicity = {motion.period(),
-                       motion.period_error(),
-                       floquet.trace_minus_4,
-                       trace_error / std::abs(floquet.trace_minus_4),
-                       precession,
-                       motion.precession_error() / std::abs(precession)};
+  const double trace_error = 4 * 4 * pi<double> * pi<double> * (floquet.squared_error + 32 * epsilon<double>)*steep;
+  track.periodicity = {motion.period(), motion.period_error(),    floquet.trace_minus_4,
+                       trace_error,     motion.precession_rate(), motion.precession_error()};
   return track;
 }
 

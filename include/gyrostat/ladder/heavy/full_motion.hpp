@@ -59,7 +59,8 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, con
 
 namespace detail {
 
-/// A problem and a start that differ from the given ones by about `amount`: by what rounding makes of the data. What is zero stays so.
+/// A problem and a start that differ from the given ones by about `amount`: by what rounding makes of data and
+/// arithmetic. What is zero stays so where a symmetry keeps it.
 template <Real Scalar>
 struct Neighbour {
   Problem<Scalar> problem;
@@ -82,12 +83,34 @@ struct Neighbour {
       made = Problem<Scalar>::make(of.inertia() * (1 + v[0]), of.mass(), of.centre_of_mass(), of.gravity() * (1 + v[1]),
                                    of.gradient() * (1 + v[1]));
     if (made) problem = *made;
-    start.angular_velocity = changed(from.angular_velocity, v[1], v[2], v[0]);
-    start.down = changed(from.down, v[2], v[0], v[1]);
+    // arithmetic errs by what the greatest component rounds to, in all of them but where a symmetry keeps the noughts
+    const bool kept = keeps_noughts(of, from);
+    const auto moved = [amount, kept](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c, Scalar size) noexcept {
+      const auto one = [kept, by = size * amount / 2](Scalar component, Scalar part) noexcept {
+        return component == 0 && kept ? component : component * (1 + part) + by * (part > 0 ? 1 : -1);
+      };
+      return Vec3<Scalar>(one(x[0], a), one(x[1], b), one(x[2], c));
+    };
+    start.angular_velocity = moved(from.angular_velocity, v[1], v[2], v[0], rate_size(of, from));
+    start.down = moved(from.down, v[2], v[0], v[1], from.down.norm());
     start.down *= from.down.norm() / start.down.norm();
     // the attitude keeps its turn about the vertical but for what brings its down onto the new one
     const Vec3<Scalar> turn = cross<Scalar>(start.down, from.down) / from.down.squaredNorm();
     start.attitude = normalised(from.attitude * Quat<Scalar>{1, turn[0] / 2, turn[1] / 2, turn[2] / 2});
+  }
+
+ private:
+  /// Turning about one principal axis that stays vertical or horizontal, the weight in its line or across it.
+  static bool keeps_noughts(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept {
+    const auto &w = start.angular_velocity, &d = start.down;
+    const Vec3<Scalar> m = problem.moment();
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      if (w[i] != 0 || w[j] != 0) continue;
+      if (d[k] == 0 && m[k] == 0) return true;
+      if (d[i] == 0 && d[j] == 0 && m[i] == 0 && m[j] == 0) return true;
+    }
+    return false;
   }
 };
 

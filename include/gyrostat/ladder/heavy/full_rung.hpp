@@ -43,7 +43,8 @@ inline const char* no_orbit(Errc why) noexcept {
     case Errc::no_convergence:
     case Errc::step_limit:
       return "no fast periodic motion with this spin was found: the family ends at a spin of about 0.6 to 2 times "
-             "sqrt(M g l/C), below which there are only oscillations about the hanging rest";
+             "sqrt(M g l/C), below which there are only oscillations about the hanging rest; or the body is too near a "
+             "resonance (equal moments, a lamina across axis 3)";
     default: return message(why);
   }
 }
@@ -51,9 +52,13 @@ inline const char* no_orbit(Errc why) noexcept {
 /// From the start that shooting finds, over one period and on.
 inline Track periodic_full(const Scene& scene, Monitor* monitor) {
   const auto& [spin, cosine] = *scene.question().periodic;
-  const auto orbit = periodic_orbit<double>(scene.problem(), spin, cosine);
-  if (!orbit) return refused<Track>(orbit.error(), no_orbit(orbit.error()));
-  const PeriodicMotion<double> motion(scene.problem(), *orbit, scene.question().times);
+  const auto found = periodic_orbit<double>(scene.problem(), spin, cosine);
+  if (!found) return refused<Track>(found.error(), no_orbit(found.error()));
+  PeriodicOrbit<double> orbit = *found;
+  // of two neighbours both may lie near by chance
+  constexpr double margin = 4;
+  orbit.error = {margin * orbit.error.start, margin * orbit.error.period, margin * orbit.error.trace};
+  const PeriodicMotion<double> motion(scene.problem(), orbit, scene.question().times);
 
   Question once = scene.question();
   once.periodic.reset();
@@ -62,7 +67,7 @@ inline Track periodic_full(const Scene& scene, Monitor* monitor) {
   once.tolerance = std::max(scene.question().tolerance / 4 / (1 + motion.periods()), 1e-300);
   Body body;
   body.problem = scene.problem();
-  const auto first = Scene::make(body, orbit->start, once);
+  const auto first = Scene::make(body, orbit.start, once);
   if (!first) return refused<Track>(first.error(), message(first.error()));
   const Track one = full_from_start(*first, monitor);
   if (one.failure != Errc::ok) return one;
@@ -70,14 +75,12 @@ inline Track periodic_full(const Scene& scene, Monitor* monitor) {
   Track track;
   track.warnings = one.warnings;
   track.counts = one.counts;
-  track.counts += orbit->counts;
+  track.counts += orbit.counts;
   track.states.resize(scene.question().times.size());
   const auto made = motion.carry_on(one.states, one.error, track.states);
   track.error = made.error;
-  const double trace_error =
-      orbit->stability == OrbitStability::undecided ? std::max(orbit->error.trace, 0.0) : orbit->error.trace;
-  track.periodicity = {orbit->period, orbit->error.period, orbit->trace_minus_4,
-                       trace_error,   made.precession,     made.precession_error};
+  track.periodicity = {orbit.period,      orbit.error.period, orbit.trace_minus_4,
+                       orbit.error.trace, made.precession,    made.precession_error};
   return track;
 }
 

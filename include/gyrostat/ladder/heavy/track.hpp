@@ -11,11 +11,11 @@
 
 namespace gyrostat::heavy {
 
-/// What a rung knows of a periodic motion; NaN: not known. Errors are relative.
+/// What a rung knows of a periodic motion; NaN: not known.
 struct Periodicity {
-  double period = nan<double>, period_error = nan<double>;          ///< s
-  double trace = nan<double>, trace_error = nan<double>;            ///< of the monodromy, minus 4
-  double precession = nan<double>, precession_error = nan<double>;  ///< mean turn about the vertical, rad/s
+  double period = nan<double>, period_error = nan<double>;          ///< s; relative
+  double trace = nan<double>, trace_error = nan<double>;            ///< of the monodromy, minus 4; absolute
+  double precession = nan<double>, precession_error = nan<double>;  ///< mean turn about DOWN, rad/s; absolute
 };
 
 /// What a rung finds at the asked times, in principal axes.
@@ -52,15 +52,20 @@ inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   if (!turning) error.attitude = 0;
   answer.error = error.greatest();
 
-  const auto& p = track.periodicity;
+  const Periodicity& p = track.periodicity;
   const auto quantity = [&](const char* name, double value, double of) {
     if (!std::isnan(value)) answer.quantities.push_back({name, 1, {value}, of});
   };
+  // relative to the truth, which may be smaller by as much
+  const auto relative = [](double absolute, double value) noexcept {
+    const double left = std::abs(value) - absolute;
+    return absolute == 0 ? 0.0 : left > 0 ? absolute / left : infinity<double>;
+  };
   quantity("period", p.period, p.period_error);
-  quantity("floquet_trace", p.trace, p.trace_error);
-  const OrbitStability verdict = orbit_stability(p.trace, p.trace_error * std::abs(p.trace));
+  quantity("floquet_trace", p.trace, relative(p.trace_error, p.trace));
+  const OrbitStability verdict = orbit_stability(p.trace, p.trace_error);
   if (verdict != OrbitStability::undecided) quantity("stable", verdict == OrbitStability::stable ? 1 : 0, nan<double>);
-  quantity("precession_rate", p.precession, p.precession_error);
+  quantity("precession_rate", p.precession, relative(p.precession_error, p.precession));
 }
 
 }  // namespace gyrostat::heavy

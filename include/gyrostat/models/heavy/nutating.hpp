@@ -44,10 +44,10 @@ class Nutating {
   Scalar precession_rate() const noexcept { return f_.precession() * s_.spin; }  ///< mean of psi', rad/s
   Scalar amplitude() const noexcept { return amplitude_ * std::abs(s_.spin); }   ///< of p in the free nutation, rad/s
 
-  /// The largest errors over |times| <= t: orders 2 and 3 of the small quantities, with the constants of some hundred bodies.
+  /// The largest errors over |times| <= t: orders 2 and 3 of the small quantities, with twice the constants of some hundred bodies.
   MotionError<Scalar> error(Scalar t) const noexcept {
     const Scalar angle = std::abs(s_.spin * t), rounding = 4 * epsilon<Scalar> * (1 + angle);
-    const Scalar shape = 3 * small_ * small_ * (1 + small_ * angle / 4), down = shape + rounding;
+    const Scalar shape = 6 * small_ * small_ * (1 + small_ * angle / 4), down = shape + rounding;
     // half the spin rate is a resonance of the next order
     const Scalar near = 1 + Scalar(0.04L) / std::abs(1 - 2 * std::sqrt(s_.nutation_squared()));
     return {std::abs(s_.spin) * (near * small_ * shape + rounding), down, std::fmin(down + shape / s_.M3, pi<Scalar>)};

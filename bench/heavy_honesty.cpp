@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How honest the answers are: random scenes of the heavy family, solved at three tolerances, against the full equations in long
+// double. Prints the fraction of answers whose true error is within the stated one in every column and in what is told of a period,
+// the median of stated over true, and the worst cases with their scenes.
+//
+//     heavy_honesty [SCENES = 5000] [SEED = 1] [RUNG = auto]
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "../tests/ladder/heavy/truth.hpp"
+#include "gyrostat/ladder/heavy/solve.hpp"
+#include "gyrostat/models/heavy/series_2.hpp"
+#include "honesty.hpp"
+
+namespace {
+
+using namespace gyrostat;
+using namespace gyrostat::heavy;
+
+/// Bodies, fields and starts of every kind the family knows, the degenerate ones well represented.
+class Scenes {
+ public:
+  explicit Scenes(unsigned seed) : random_(seed) {}
+
+  struct Made {
+    Body body;
+    State<double> start;
+    Question question;
+    std::string kind;
+  };
+
+  Made next() {
+    for (;;) {
+      Made made;
+      if (body(made) && motion(made)) return made;
+    }
+  }
+
+ private:
+  bool body(Made& made) {
+    // sums of such moments are exact
+    Vec3<double> I(float(any(0.3, 2)), float(any(0.3, 2)), float(any(0.3, 2)));
+    Vec3<double> centre = direction();
+    const double shape = unit(), off = unit() < 0.4 ? 0 : sign() * scale(1e-15, 0.1);
+    made.kind = "generic";
+    if (shape < 0.12) {
+      I[1] = I[0] * (1 + off), centre = Vec3<double>(off * any(-1, 1), off * any(-1, 1), sign());
+      made.kind = off == 0 ? "top" : "nearly top";
+    } else if (shape < 0.16) {
+      I[1] = I[0], made.kind = "symmetric";
+    } else if (shape < 0.2) {
+      I[1] = I[2] = I[0], made.kind = "sphere";
+    } else if (shape < 0.25) {
+      I[2] = I[0] + I[1], centre[2] = 0, made.kind = "lamina";
+    } else if (shape < 0.28) {
+      I[0] = I[1] = 2 * I[2], centre[2] = 0, made.kind = "Kovalevskaya";
+    } else if (shape < 0.33) {
+      I[unit() < 0.5 ? 0 : 1] = I[2] * (1 + off), made.kind = "near divisor";
+    } else if (shape < 0.38) {
+      // nutation at half the spin rate
+      const double a = any(0.55, 0.95), b = (1 - a) / (1 - 0.75 * a);
+      I[0] = a * I[2], I[1] = b * I[2] * (1 + off), made.kind = "tongue";
+    } else if (shape < 0.41) {
+      I = {I.minCoeff(), I.maxCoeff(), I.sum() - I.minCoeff() - I.maxCoeff()}, made.kind = "intermediate";
+    } else if (shape < 0.47) {
+      centre[2] = off, made.kind = off == 0 ? "flat" : "nearly flat";
+      if (unit() < 0.5) centre[1] = 0;
+    }
+    if (!(I.minCoeff() > 0) || 2 * I.maxCoeff() > I.sum()) return false;
+    if (unit() < 0.2 && shape >= 0.12) std::swap(I[0], I[2]), std::swap(centre[0], centre[2]);
+    const double mass = scale(0.1, 10);
+    const Vec3<double> room = Vec3<double>::Constant(I.sum() / 2) - I;
+    double reach = 0;
+    for (int i = 0; i < 3; ++i)
+      if (centre[i] != 0) reach += room[i] > 0 ? centre[i] * centre[i] / room[i] : infinity<double>;
+    if (!(reach < infinity<double>)) return false;
+    centre *= std::sqrt(1 / (mass * reach)) * any(0.02, 0.9);
+    const double field = unit();
+    double weight = scale(0.1, 10), gradient = 0;
+    if (field < 0.06) weight = 0, made.kind += ", no weight";
+    if (field > 0.97) centre.setZero(), made.kind += ", centred";
+    if (unit() < 0.5) gradient = scale(1e-8, 3), made.kind += ", gradient";
+    const double length = centre.norm();
+    const double gravity = length > 0 ? weight / mass / length : weight;
+    const auto problem = Problem<double>::make(I, mass, centre, gravity, gradient);
+    if (!problem) return false;
+    made.body.problem = *problem;
+    return true;
+  }
+
+  bool motion(Made& made) {
+    const Problem<double>& p = made.body.problem;
+    const double c = std::max({p.pendulum_rate(), std::sqrt(p.gradient()), 0.1});
+    State<double>& s = made.start;
+    s.attitude = normalised(Quat<double>{any(-1, 1), any(-1, 1), any(-1, 1), any(-1, 1)});
+    s.down = rotate<double>(conjugate(s.attitude), {0, 0, -1});
+    const double kind = unit(), spin = sign() * c * (unit() < 0.1 ? scale(0.4, 3) : scale(2.4, 500));
+    made.question.wants_attitude = unit() < 0.5;
+    double turns = scale(0.5, 100);
+    const auto stand = [&](const Vec3<double>& down) {
+      s.down = down.normalized();
+      s.attitude = attitude_from_angles<double>(any(-3, 3), std::atan2(s.down[0], s.down[1]), s.down);
+    };
+    if (kind < 0.35) {
+      made.question.periodic = Periodic{spin, unit() < 0.2   ? 0.0
+                                              : unit() < 0.1 ? sign() * (1 - scale(1e-6, 0.1))
+                                                             : any(-0.98, 0.98)};
+      made.kind += ", periodic";
+    } else if (kind < 0.45) {
+      const double cosine = any(-0.9, 0.9), off = unit() < 0.3 ? 0 : scale(1e-16, 1e-2);
+      const auto motion = Series2<double>::make(p, spin, cosine);
+      if (!motion) return false;
+      s = motion->at(0);
+      s.angular_velocity[0] += off * any(-1, 1) * spin, s.angular_velocity[1] += off * any(-1, 1) * spin;
+      if (unit() < 0.5) stand(s.down + Vec3<double>(0, off * any(-1, 1), 0));
+      made.kind += ", beside periodic";
+    } else if (kind < 0.6) {
+      const double tilt = scale(1e-6, 0.3);
+      s.angular_velocity = spin * Vec3<double>(tilt * any(-1, 1), tilt * any(-1, 1), 1);
+      made.kind += ", fast";
+    } else if (kind < 0.7) {
+      const double tilt = unit() < 0.3 ? 0 : scale(1e-15, 0.1);
+      const int k = int(3 * unit());
+      const int side = unit() < 0.5 ? 1 : -1;
+      s.angular_velocity.setZero();
+      s.angular_velocity[k] = c * scale(0.1, 30);
+      Vec3<double> down = tilt * direction();
+      down[k] = side;
+      stand(down);
+      made.kind += ", sleeping";
+    } else if (kind < 0.82) {
+      // flat swings, near the separatrix too
+      const int k = int(3 * unit()), i = (k + 1) % 3, j = (k + 2) % 3;
+      const double angle = any(-3.2, 3.2);
+      Vec3<double> down;
+      down[i] = std::cos(angle), down[j] = std::sin(angle), down[k] = unit() < 0.7 ? 0 : scale(1e-16, 1e-3);
+      stand(down);
+      s.angular_velocity.setZero();
+      const double up = std::sqrt(2 * (p.moment().norm() + p.moment().dot(s.down)) / p.inertia()[k]);
+      s.angular_velocity[k] = unit() < 0.5 ? up * (1 + sign() * scale(1e-16, 0.5)) : c * scale(0.01, 10);
+      made.kind += ", flat swing";
+      turns = scale(0.5, 20);
+    } else if (kind < 0.85) {
+      s.angular_velocity.setZero();
+      made.kind += ", from rest";
+      turns = scale(0.5, 20);
+    } else if (kind < 0.92) {
+      s.angular_velocity = c * scale(0.1, 10) * direction();
+      made.kind += ", slow";
+      turns = scale(0.5, 20);
+    } else {
+      const int k = int(3 * unit());
+      s.angular_velocity = scale(1e-15, 0.1) * direction();
+      s.angular_velocity[k] = 1;
+      s.angular_velocity *= spin;
+      made.kind += ", permanent";
+    }
+    double rate = rate_size(p, s);
+    if (made.question.periodic) rate = std::max(std::abs(spin), 0.5 * c);
+    if (!(rate > 0)) rate = c;
+    const double span = 2 * pi<double> / rate * turns;
+    auto& times = made.question.times;
+    const double grid = unit();
+    const int n = grid < 0.4 ? 12 : grid < 0.5 ? 200 : 1 + int(20 * unit());
+    if (grid < 0.5) {
+      for (int i = 0; i <= n; ++i) times.push_back(span * i / n);
+    } else {
+      for (int i = 0; i < n; ++i) times.push_back(span * unit());
+      times.back() = span;
+      std::sort(times.begin(), times.end());
+      times.erase(std::unique(times.begin(), times.end()), times.end());
+    }
+    return true;
+  }
+
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+  double any(double low, double high) { return low + unit() * (high - low); }
+  double sign() { return unit() < 0.5 ? -1 : 1; }
+  double scale(double low, double high) { return std::exp(std::log(low) + unit() * std::log(high / low)); }
+  Vec3<double> direction() {
+    for (;;) {
+      const double x = any(-1, 1), y = any(-1, 1), z = any(-1, 1);
+      if (const Vec3<double> v(x, y, z); v.norm() > 0.1 && v.norm() < 1) return v.normalized();
+    }
+  }
+  std::mt19937_64 random_;
+};
+
+std::string describe(const Scenes::Made& made, const Answer& answer) {
+  const auto& p = made.body.problem;
+  const auto& s = made.start;
+  const auto& q = made.question;
+  const Periodic periodic = q.periodic.value_or(Periodic{0, 0});
+  const auto &I = p.inertia(), &r = p.centre_of_mass(), &w = s.angular_velocity, &d = s.down;
+  char line[900];
+  std::snprintf(line, sizeof line,
+                "%s, %s: I %.17g %.17g %.17g m %.17g r %.17g %.17g %.17g g %.17g N %.17g periodic %.17g %.17g w %.17g "
+                "%.17g %.17g d %.17g %.17g %.17g q %.17g %.17g %.17g %.17g T %.17g n %zu turning %d",
+                answer.model, made.kind.c_str(), I[0], I[1], I[2], p.mass(), r[0], r[1], r[2], p.gravity(),
+                p.gradient(), periodic.spin, periodic.cos_inclination, w[0], w[1], w[2], d[0], d[1], d[2], s.attitude.w,
+                s.attitude.x, s.attitude.y, s.attitude.z, q.times.back(), q.times.size(), int(q.wants_attitude));
+  return line;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int count = argc > 1 ? std::atoi(argv[1]) : 5000;
+  const unsigned seed = argc > 2 ? unsigned(std::atoi(argv[2])) : 1;
+  Model rung = Model::any;
+  static constexpr const char* names[] = {"auto", "series-2", "series", "exact", "full"};
+  for (int i = 0; argc > 3 && i < 5; ++i)
+    if (std::strcmp(argv[3], names[i]) == 0) rung = Model(i);
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+
+  static constexpr double tolerances[] = {1e-3, 1e-6, 1e-9};
+  honesty::Tally tallies[3];
+  Scenes scenes(seed);
+  for (int i = 0; i < count; ++i) {
+    auto made = scenes.next();
+    Answer truth;
+    bool known = false, has_truth = false;
+    for (int k = 0; k < 3; ++k) {
+      made.question.tolerance = tolerances[k];
+      made.question.model = rung;
+      const auto scene = Scene::make(made.body, made.start, made.question);
+      if (!scene) {
+        std::printf("no scene: %s\n", message(scene.error()));
+        continue;
+      }
+      Refusal refusal;
+      const auto begin = std::chrono::steady_clock::now();
+      const Answer answer = heavy::solve(*scene, refusal);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const std::string text = describe(made, answer);
+      tallies[k].time(seconds, text);
+      if (refusal.code != Errc::ok) {
+        tallies[k].refuse(refusal, text);
+        continue;
+      }
+      if (rung != Model::any && answer.tried.back().why) {
+        ++tallies[k].outside;
+        continue;
+      }
+      if (!known) has_truth = true_motion(*scene, truth);
+      known = true;
+      if (!has_truth) ++tallies[k].unknown;
+      else tallies[k].compare(answer, truth, text, {"period", "floquet_trace", "precession_rate"});
+    }
+    if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
+  }
+  for (int k = 0; k < 3; ++k) tallies[k].print(tolerances[k]);
+}

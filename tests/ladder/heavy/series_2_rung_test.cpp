@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/heavy/series_2_rung.hpp"
+
+#include <cstring>
+
+#include "catch.hpp"
+#include "honest.hpp"
+#include "models/heavy/tops.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::heavy;
+
+namespace {
+
+Question named(double tolerance = 1e-6) {
+  Question question;
+  question.model = Model::series_2;
+  question.wants_attitude = true;
+  question.tolerance = tolerance;
+  return question;
+}
+
+}  // namespace
+
+TEST_CASE("rung series-2 is the second order with honest errors", "[heavy]") {
+  Tops random(3);
+  int answered = 0;
+  for (int i = 0; i < 20; ++i) {
+    CAPTURE(i);
+    const auto p = random.body();
+    const auto scene = periodic(p, random.log_any(10, 300), random.any(-0.9, 0.9), 5, 1e-6, Model::series_2);
+    const Track track = series_2_track(scene, nullptr);
+    REQUIRE(track.failure == Errc::ok);
+    if (!track.in_domain) continue;
+    ++answered;
+    const auto& [spin, cosine] = *scene.question().periodic;
+    const auto motion = *Series2<double>::make(p, spin, cosine);
+    for (std::size_t k = 0; k < track.states.size(); ++k)
+      CHECK((track.states[k].down - motion.at(scene.question().times[k]).down).norm() == 0);
+    check_honest(scene, track);
+  }
+  CHECK(answered > 15);
+}
+
+TEST_CASE("rung series-2 gives other starts their free nutation", "[heavy]") {
+  Tops random(5);
+  int answered = 0;
+  for (int i = 0; i < 30; ++i) {
+    CAPTURE(i);
+    const auto p = random.body();
+    auto start = random.start();
+    const double spin = random.log_any(20, 300), tilt = random.log_any(1e-4, 0.03);
+    start.angular_velocity = spin * Vec3<double>(tilt, -tilt / 2, 1);
+    const auto scene = posed(p, start, 60 / spin, named());
+    const Track track = series_2_track(scene, nullptr);
+    if (track.failure != Errc::ok) {
+      CHECK(track.failure == Errc::not_applicable);
+      continue;
+    }
+    if (!track.in_domain) continue;
+    ++answered;
+    CHECK((track.states.front().angular_velocity - start.angular_velocity).norm() < 0.2 * spin);
+    CHECK(std::isnan(track.periodicity.period));
+    check_honest(scene, track);
+  }
+  CHECK(answered > 10);
+}
+
+TEST_CASE("rung series-2 recognises the start of the forced motion", "[heavy]") {
+  const auto p = *Problem<double>::make({0.0011, 0.0014, 0.002}, 0.8, {0.012, 0.009, 0.01}, 9.80665, 0);
+  const auto start = Series2<double>::make(p, 500, 0.1)->at(0);
+  const auto scene = posed(p, start, 0.1, named());
+  const Track forced = series_2_track(scene, nullptr);
+  const double nutating = Nutating<double>::make(p, start)->error(0.1).down;
+  CHECK(forced.error.down < nutating / 4);
+  check_honest(scene, forced);
+  CHECK(std::isnan(forced.periodicity.period));
+}
+
+TEST_CASE("rung series-2 refuses what it has no formula for", "[heavy]") {
+  const auto p = *Problem<double>::make({0.0011, 0.0024, 0.002}, 0.8, {0.012, 0, 0.01}, 9.80665, 0);
+  State<double> start;
+  start.angular_velocity = {3, 2, 100};
+  start.down = {0, 0.6, 0.8};
+  Question question;
+  question.model = Model::series_2;
+  const Track intermediate = series_2_track(posed(p, start, 1, question), nullptr);
+  CHECK(intermediate.failure == Errc::not_applicable);
+  CHECK(std::strstr(intermediate.refusal, "intermediate"));
+  const auto even = *Problem<double>::make({0.002, 0.0016, 0.002}, 0.8, {0.012, 0, 0.01}, 9.80665, 0);
+  const Track divisor = series_2_track(periodic(even, 100, 0.1, 1), nullptr);
+  CHECK(divisor.failure == Errc::not_applicable);
+  CHECK(std::strstr(divisor.refusal, "divisor"));
+}

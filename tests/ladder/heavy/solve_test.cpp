@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/heavy/solve.hpp"
+
+#include <cstring>
+
+#include "catch.hpp"
+#include "gyrostat/models/heavy/series_2.hpp"
+#include "honest.hpp"
+#include "models/heavy/tops.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::heavy;
+
+namespace {
+
+struct Solved {
+  Answer answer;
+  Refusal refusal;
+
+  bool by(const char* model) const { return std::strcmp(answer.model, model) == 0; }
+  const Quantity* scalar(const char* name) const {
+    for (const Quantity& q : answer.quantities)
+      if (std::strcmp(q.name, name) == 0) return &q;
+    return nullptr;
+  }
+};
+
+Solved solved(const Scene& scene, Monitor* monitor = nullptr) {
+  Solved made;
+  made.answer = heavy::solve(scene, made.refusal, monitor);
+  return made;
+}
+
+const Vec3<double> centre{0.012, 0.009, 0.01};
+const Problem<double> stone =
+    *Problem<double>::make({0.0011, 0.0016, 0.002}, 0.8, centre, 9.80665, 4.617791555485795e-06);
+const Problem<double> top = *Problem<double>::make({0.0016, 0.0016, 0.002}, 0.8, {0, 0, 0.01}, 9.80665, 0);
+
+}  // namespace
+
+TEST_CASE("a fast periodic motion of a heavy body: each rung where it is enough", "[heavy]") {
+  const auto at = [](double spin, double tolerance) { return solved(periodic(stone, spin, 0.1, 3, tolerance)); };
+  CHECK(at(1500, 1e-4).by("series-2"));
+  CHECK(at(150, 1e-4).by("series"));
+  CHECK(at(150, 1e-9).by("series"));
+  CHECK(at(20, 1e-9).by("full"));
+  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+    const auto scene = periodic(stone, 150, 0.1, 3, tolerance);
+    const Solved made = solved(scene);
+    CHECK(made.refusal.code == Errc::ok);
+    CHECK(made.answer.met);
+    CHECK(made.answer.tried.front().model == std::string_view("exact"));
+    CHECK(made.answer.tried.back().accepted);
+    check_honest(scene, made.answer);
+    CHECK(made.scalar("period")->values[0] == Approx(4.196818797409593e-02).epsilon(tolerance));
+    CHECK(made.scalar("stable")->values[0] == 1);
+  }
+}
+
+TEST_CASE("rung full of a periodic heavy motion: period and trace to all digits", "[heavy]") {
+  const Solved made = solved(periodic(stone, 150, 0.1, 3, 1e-6, Model::full));
+  CHECK(made.by("full"));
+  // closed in 80 bits by another integrator
+  CHECK(made.scalar("period")->values[0] == Approx(4.196818797409592953e-02).epsilon(1e-14));
+  CHECK(made.scalar("floquet_trace")->values[0] == Approx(-1.9111876939650645).epsilon(1e-11));
+  const auto slower = solved(periodic(stone, 21.02331426521783, 0.1, 3, 1e-6, Model::full));
+  CHECK(slower.scalar("floquet_trace")->values[0] == Approx(-1.9054578079090723).epsilon(1e-9));
+}
+
+TEST_CASE("a heavy body asked for by its start", "[heavy]") {
+  Question question;
+  State<double> start;
+  start.angular_velocity = {0.1, -0.3, 10};
+  start.down = {0.6, 0, 0.8};
+  question.tolerance = 1e-9;
+  const auto scene = posed(stone, start, 2, question);
+  const Solved made = solved(scene);
+  CHECK(made.by("full"));
+  CHECK(made.answer.met);
+  CHECK(made.answer.quantities.empty());
+  check_honest(scene, made.answer);
+  start.angular_velocity *= 300;
+  question.tolerance = 1e-2;
+  CHECK(solved(posed(stone, start, 0.01, question)).by("series-2"));
+}
+
+TEST_CASE("what is known exactly is answered exactly", "[heavy]") {
+  State<double> start;
+  start.angular_velocity = {1, 2, 60};
+  start.down = {0.6, 0, 0.8};
+  Question question;
+  question.tolerance = 1e-9;
+  const auto scene = posed(top, start, 2, question);
+  const Solved made = solved(scene);
+  CHECK(made.by("exact"));
+  CHECK(made.answer.tried.size() == 1);
+  check_honest(scene, made.answer);
+  const auto asked = periodic(top, 60, 0.3, 20, 1e-9);
+  const Solved precessing = solved(asked);
+  CHECK(precessing.by("exact"));
+  check_honest(asked, precessing.answer);
+}
+
+TEST_CASE("a rung of the heavy family asked for by name answers or refuses", "[heavy]") {
+  const auto by = [](Model model, double spin) { return solved(periodic(stone, spin, 0.1, 3, 1e-9, model)); };
+  CHECK(by(Model::series_2, 50).by("series-2"));
+  CHECK_FALSE(by(Model::series_2, 50).answer.met);
+  CHECK(by(Model::series, 50).by("series"));
+  CHECK(by(Model::full, 50).by("full"));
+  const Solved refused = by(Model::exact, 50);
+  CHECK(refused.refusal.code == Errc::not_applicable);
+  CHECK(std::strcmp(refused.refusal.model, "exact") == 0);
+  CHECK(refused.answer.columns.empty());
+  CHECK(refused.answer.tried.size() == 1);
+}
+
+TEST_CASE("a heavy answer is in the caller's axes and ends when told", "[heavy]") {
+  Tops random(4);
+  const Mat3<double> R = to_matrix(normalised(Quat<double>{0.9, 0.1, -0.2, 0.15}));
+  const auto& I = stone.inertia();
+  const auto body = Body::make(R * I.asDiagonal() * R.transpose(), 0.8, R * centre, 9.80665, 4.6e-6);
+  REQUIRE(body);
+  Question question;
+  question.periodic = Periodic{150, 0.1};
+  question.times = {0, 0.1};
+  const auto scene = Scene::make(*body, {}, question);
+  REQUIRE(scene);
+  const auto turned = solved(*scene).answer, plain = solved(posed(stone, {}, 0.1, question, 1)).answer;
+  const auto vector = [](const Answer& answer, std::size_t k) {
+    const double* v = &answer.find("down")->values[3 * k];
+    return Vec3<double>(v[0], v[1], v[2]);
+  };
+  CHECK((vector(turned, 1) - R * vector(plain, 0)).norm() < 1e-6);
+
+  Monitor monitor;
+  monitor.cancel = true;
+  const Solved stopped = solved(posed(stone, random.start(50), 100, {}), &monitor);
+  CHECK(stopped.refusal.code == Errc::cancelled);
+}
