@@ -121,6 +121,7 @@
 #include "gyrostat/models/heavy/multipliers.hpp"
 #include "gyrostat/models/heavy/nutating.hpp"
 #include "gyrostat/models/heavy/pendulum.hpp"
+#include "gyrostat/models/heavy/phase_turns.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/models/heavy/published.hpp"
 #include "gyrostat/models/heavy/regular_precession.hpp"

@@ -63,7 +63,7 @@ Track series_track(const Scene& scene, const Motion& motion, const MotionError<d
   if (question.model != rung && !(known <= 4 * question.tolerance)) return over_tolerance<Track>(known);
   Track track;
   track.states.resize(question.times.size());
-  motion.at(question.times, track.states);
+  motion.at(question.times, track.states, question.wants_attitude);
   Comparison<double> sizes;
   for (const State<double>& state : track.states) sizes.add(state, state);
   track.error = sizes.relative({error.angular_velocity, error.down, error.attitude});

@@ -60,9 +60,10 @@ class Nutating {
     return state;
   }
 
-  /// states[i] at times[i], in any order; as many as both spans hold.
-  void at(std::span<const Scalar> times, std::span<State<Scalar>> states) const noexcept {
-    for (std::size_t i = 0; i < times.size() && i < states.size(); ++i) states[i] = at(times[i]);
+  /// states[i] at times[i], in any order; as many as both spans hold. Without `turning` the attitude means nothing.
+  void at(std::span<const Scalar> times, std::span<State<Scalar>> states, bool turning = true) const noexcept {
+    for (std::size_t i = 0; i < times.size() && i < states.size(); ++i)
+      states[i] = turning ? at(times[i]) : model(times[i]);
   }
 
  private:

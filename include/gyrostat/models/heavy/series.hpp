@@ -11,6 +11,7 @@
 #include "gyrostat/math/complex.hpp"
 #include "gyrostat/models/heavy/attitude.hpp"
 #include "gyrostat/models/heavy/lindstedt.hpp"
+#include "gyrostat/models/heavy/phase_turns.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/models/heavy/scaled.hpp"
 
@@ -131,31 +132,35 @@ class Series {
 
   /// At any t of either sign.
   State<Scalar> at(Scalar t) const noexcept {
-    const Scalar u = phase_rate() * t;
-    const auto step = math::unit(u);
+    const auto step = math::unit(phase_rate() * t);
     math::Complex<Scalar> turn = step;
     alignas(64) Scalar sum[width];
     for (int i = 0; i < width; ++i) sum[i] = c_[0][i];
     for (int j = 1; j < harmonics_; ++j, turn = turn * step)
       for (int i = 0; i < width; ++i) sum[i] += turn.re * c_[j][i] + turn.im * s_[j][i];
-    return state(t, u, step, sum[0], sum[1], sum[2], sum[3], sum[4], sum[5], sum[6]);
+    State<Scalar> state;
+    set_rates(state, sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]);
+    state.attitude = attitude(t, step, state.down, sum[6]);
+    return state;
   }
 
-  /// states[i] at times[i], in any order; as many as both spans hold. The sums of many times side by side.
-  void at(std::span<const Scalar> times, std::span<State<Scalar>> states) const noexcept {
+  /// states[i] at times[i], in any order; as many as both spans hold. The sums of many times side by side. Without `turning` the
+  /// attitude is left as it is, at a fraction of the cost.
+  void at(std::span<const Scalar> times, std::span<State<Scalar>> states, bool turning = true) const noexcept {
+    constexpr std::size_t block = PhaseTurns<Scalar>::block;
     const std::size_t n = std::min(times.size(), states.size());
+    const PhaseTurns<Scalar> turns(times.first(n), phase_rate());
     for (std::size_t first = 0; first < n; first += block) {
       const std::size_t here = std::min(block, n - first);
       alignas(64) Scalar c1[block], s1[block], c[block], s[block], sum[width][block];
-      for (std::size_t k = 0; k < block; ++k) {
-        const auto turn = math::unit(phase_rate() * times[first + std::min(k, here - 1)]);
-        c[k] = c1[k] = turn.re;
-        s[k] = s1[k] = turn.im;
-      }
+      turns.write(first, c1, s1);
+      std::copy(c1, c1 + block, c);
+      std::copy(s1, s1 + block, s);
       for (int i = 0; i < width; ++i)
         for (std::size_t k = 0; k < block; ++k) sum[i][k] = c_[0][i];
+      const int last = turning ? Lindstedt<Scalar>::unknowns : Lindstedt<Scalar>::turn;
       for (int j = 1; j < harmonics_; ++j) {
-        for (int i = 0; i < Lindstedt<Scalar>::unknowns; ++i)
+        for (int i = 0; i < last; ++i)
           for (std::size_t k = 0; k < block; ++k) sum[i][k] += c_[j][i] * c[k] + s_[j][i] * s[k];
         for (std::size_t k = 0; k < block; ++k) {
           const Scalar next = c[k] * c1[k] - s[k] * s1[k];
@@ -164,16 +169,15 @@ class Series {
         }
       }
       for (std::size_t k = 0; k < here; ++k) {
-        const Scalar t = times[first + k];
-        states[first + k] = state(t, phase_rate() * t, {c1[k], s1[k]}, sum[0][k], sum[1][k], sum[2][k], sum[3][k],
-                                  sum[4][k], sum[5][k], sum[6][k]);
+        State<Scalar>& to = states[first + k];
+        set_rates(to, sum[0][k], sum[1][k], sum[2][k], sum[3][k], sum[4][k], sum[5][k]);
+        if (turning) to.attitude = attitude(times[first + k], {c1[k], s1[k]}, to.down, sum[6][k]);
       }
     }
   }
 
  private:
   static constexpr int width = 8;
-  static constexpr std::size_t block = 32;
 
   Series(const Lindstedt<Scalar>& terms, int kept) noexcept
       : scaled_(terms.scaled()), order_(2 * kept), error_(ForcedError<Scalar>::of(terms, kept)) {
@@ -215,14 +219,14 @@ class Series {
     }
   }
 
-  State<Scalar> state(Scalar t, Scalar u, math::Complex<Scalar> turn, Scalar p, Scalar q, Scalar r, Scalar d1,
-                      Scalar d2, Scalar d3, Scalar swing) const noexcept {
-    const Scalar length = std::sqrt(d1 * d1 + d2 * d2 + d3 * d3);
-    State<Scalar> state;
-    state.angular_velocity = {scaled_.spin * p, scaled_.spin * q, scaled_.spin * r};
-    state.down = {d1 / length, d2 / length, d3 / length};
-    state.attitude = attitude_from_angles(precession_rate() * t + swing, spin_angle(state.down, u, turn), state.down);
-    return state;
+  void set_rates(State<Scalar>& to, Scalar p, Scalar q, Scalar r, Scalar d1, Scalar d2, Scalar d3) const noexcept {
+    const Scalar over = 1 / std::sqrt(d1 * d1 + d2 * d2 + d3 * d3);
+    to.angular_velocity = {scaled_.spin * p, scaled_.spin * q, scaled_.spin * r};
+    to.down = {over * d1, over * d2, over * d3};
+  }
+
+  Quat<Scalar> attitude(Scalar t, math::Complex<Scalar> turn, const Vec3<Scalar>& down, Scalar swing) const noexcept {
+    return attitude_from_angles(precession_rate() * t + swing, spin_angle(down, phase_rate() * t, turn), down);
   }
 
   Scaled<Scalar> scaled_;

@@ -11,6 +11,7 @@
 #include "gyrostat/math/complex.hpp"
 #include "gyrostat/models/heavy/attitude.hpp"
 #include "gyrostat/models/heavy/lindstedt.hpp"
+#include "gyrostat/models/heavy/phase_turns.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/models/heavy/scaled.hpp"
 #include "gyrostat/models/heavy/series.hpp"
@@ -65,32 +66,66 @@ class Series2 {
 
   /// At any t of either sign.
   State<Scalar> at(Scalar t) const noexcept {
+    const auto half = math::unit(phase_rate() * t / 2), turn = half * half;
+    State<Scalar> state;
+    set(state, shape(turn.re, turn.im, 2 * half.im * half.im));
+    state.attitude = attitude(t, turn, state.down);
+    return state;
+  }
+
+  /// states[i] at times[i], in any order; as many as both spans hold. Without `turning` the attitude is left as it is, at a fraction of
+  /// the cost.
+  void at(std::span<const Scalar> times, std::span<State<Scalar>> states, bool turning = true) const noexcept {
+    constexpr std::size_t block = PhaseTurns<Scalar>::block;
+    const std::size_t n = std::min(times.size(), states.size());
+    const PhaseTurns<Scalar> turns(times.first(n), phase_rate());
+    for (std::size_t first = 0; first < n; first += block) {
+      alignas(64) Scalar c[block], s[block], p[block], q[block], r[block], d1[block], d2[block], d3[block];
+      turns.write(first, c, s);
+      for (std::size_t k = 0; k < block; ++k) {
+        const Shape here = shape(c[k], s[k], 1 - c[k]);
+        p[k] = here.p, q[k] = here.q, r[k] = here.r;
+        d1[k] = here.d1, d2[k] = here.d2, d3[k] = here.d3;
+      }
+      for (std::size_t k = 0; k < block && first + k < n; ++k) {
+        State<Scalar>& to = states[first + k];
+        set(to, {p[k], q[k], r[k], d1[k], d2[k], d3[k]});
+        if (turning) to.attitude = attitude(times[first + k], {c[k], s[k]}, to.down);
+      }
+    }
+  }
+
+ private:
+  /// Rates over r0, down but for its length.
+  struct Shape {
+    Scalar p, q, r, d1, d2, d3;
+  };
+
+  /// Of cos u, sin u and 1 - cos u.
+  Shape shape(Scalar c, Scalar s, Scalar v) const noexcept {
     const Scalar x = s_.load[0], y = s_.load[1], k = s_.gradient, C1 = s_.C1, M3 = s_.M3, G0 = s_.G0;
-    const Scalar u = phase_rate() * t;
-    const auto half = math::unit(u / 2), turn = half * half;
-    const Scalar c = turn.re, s = turn.im, s2 = 2 * s * c;
-    const Scalar v = 2 * half.im * half.im, v2 = 2 * s * s;                // 1 - cos u, 1 - cos 2u
+    const Scalar s2 = 2 * s * c, v2 = 2 * s * s;                           // sin 2u, 1 - cos 2u
     const Scalar lift = f_.X * v + f_.Y * s - M3 * C1 * f_.lift * v2 / 2;  // of g3, over M3
     const Scalar swing = f_.X * s - f_.Y * v;
     const Scalar shift = M3 * (M3 * (x * s - y * v) + k * C1 * M3 * M3 * s2 / 8) -
                          G0 * (swing + M3 * (f_.chi + f_.kap) * s2 / 4);  // of phi, times M3
     const Scalar radius = M3 - G0 * lift;
-    State<Scalar> state;
-    state.angular_velocity = {s_.spin * (f_.X + f_.chi * M3 * c), s_.spin * (f_.Y + f_.kap * M3 * s),
-                              s_.spin * (1 - M3 * (x * v + y * s + k * C1 * M3 * v2 / 4))};
-    const Vec3<Scalar> down{radius * c - shift * s, -radius * s - shift * c, G0 + M3 * lift};
-    state.down = down / down.norm();
-    const Scalar psi = precession_rate() * t + (f_.chi + f_.kap) * s2 / 4 + swing / M3;
-    state.attitude = attitude_from_angles(psi, spin_angle(state.down, u, turn), state.down);
-    return state;
+    return {f_.X + f_.chi * M3 * c, f_.Y + f_.kap * M3 * s,  1 - M3 * (x * v + y * s + k * C1 * M3 * v2 / 4),
+            radius * c - shift * s, -radius * s - shift * c, G0 + M3 * lift};
   }
 
-  /// states[i] at times[i], in any order; as many as both spans hold.
-  void at(std::span<const Scalar> times, std::span<State<Scalar>> states) const noexcept {
-    for (std::size_t i = 0; i < times.size() && i < states.size(); ++i) states[i] = at(times[i]);
+  void set(State<Scalar>& to, const Shape& is) const noexcept {
+    const Scalar over = 1 / std::sqrt(is.d1 * is.d1 + is.d2 * is.d2 + is.d3 * is.d3);
+    to.angular_velocity = {s_.spin * is.p, s_.spin * is.q, s_.spin * is.r};
+    to.down = {over * is.d1, over * is.d2, over * is.d3};
   }
 
- private:
+  Quat<Scalar> attitude(Scalar t, math::Complex<Scalar> turn, const Vec3<Scalar>& down) const noexcept {
+    const Scalar swing = f_.X * turn.im - f_.Y * (1 - turn.re);
+    const Scalar psi = precession_rate() * t + (f_.chi + f_.kap) * turn.im * turn.re / 2 + swing / s_.M3;
+    return attitude_from_angles(psi, spin_angle(down, phase_rate() * t, turn), down);
+  }
+
   Scaled<Scalar> s_;
   FirstOrder<Scalar> f_;
   ForcedError<Scalar> error_;
