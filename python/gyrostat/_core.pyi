@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['HeavyBodies', 'Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'SpinningProblems', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'euler_312_from_quaternion', 'heavy_exact', 'heavy_fast_stability', 'heavy_hanging', 'heavy_integrate', 'heavy_periodic_family', 'heavy_periodic_orbits', 'heavy_regular_precession', 'heavy_series', 'heavy_sleeping', 'heavy_solve', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_euler_312', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'spinning_design', 'spinning_integrate', 'spinning_linear', 'spinning_linear_grid', 'spinning_pointing', 'spinning_published', 'spinning_solve', 'vector_from_matrix', 'vector_from_quaternion']
+__all__: list[str] = ['HeavyBodies', 'Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'SpinningProblems', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'euler_312_from_quaternion', 'heavy_exact', 'heavy_fast_stability', 'heavy_hanging', 'heavy_integrate', 'heavy_periodic_family', 'heavy_periodic_orbits', 'heavy_published_run', 'heavy_published_table', 'heavy_regular_precession', 'heavy_series', 'heavy_sleeping', 'heavy_solve', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_euler_312', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'spinning_design', 'spinning_integrate', 'spinning_linear', 'spinning_linear_grid', 'spinning_pointing', 'spinning_published', 'spinning_solve', 'vector_from_matrix', 'vector_from_quaternion']
 class Monitor:
     """
     Watches and stops long work from another thread.
@@ -184,6 +184,14 @@ def heavy_periodic_family(body: HeavyBodies, *, first_spin: typing.SupportsFloat
 def heavy_periodic_orbits(bodies: HeavyBodies, *, spin: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], cos_inclination: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
     """
     Periodic motions; numbers (rows, 16): rates and down at the start, period and its error, closure, trace - 4 and its error, both multipliers (re, im), turns of the first.
+    """
+def heavy_published_run(body: HeavyBodies, *, spin: typing.SupportsFloat | typing.SupportsIndex, cos_inclination: typing.SupportsFloat | typing.SupportsIndex, reading: str, t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
+    """
+    The paper's formulas for one body, mu^-1 = spin/c (printed) or c/spin (reciprocal): rates and down (35), theta, psi, phi since the start (38), period (36).
+    """
+def heavy_published_table(number: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (31, 5) of table 1 or 2 again: t, p2, gamma2 and their rates, those of p2 over its first value.
     """
 def heavy_regular_precession(bodies: HeavyBodies, *, cos_inclination: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], spin: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     """

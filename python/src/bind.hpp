@@ -20,3 +20,4 @@ void bind_spinning_published(pybind11::module_& module);
 void bind_heavy(pybind11::module_& module);
 void bind_heavy_integrators(pybind11::module_& module);
 void bind_heavy_motions(pybind11::module_& module);
+void bind_heavy_published(pybind11::module_& module);

@@ -7,14 +7,14 @@ from types import ModuleType
 from typing import Final
 
 from gyrostat.errors import DomainError
-from gyrostat.gallery import deceleration, rotor, spinning
+from gyrostat.gallery import deceleration, heavy, rotor, spinning
 
 __all__ = ["figures", "papers", "reproduce"]
 
 Progress = Callable[[float, str], None]
 
 # Each module lists its `figures()` and makes the `drawings(figures)`.
-PAPERS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "spinning": spinning}
+PAPERS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "heavy": heavy, "rotor": rotor, "spinning": spinning}
 
 
 def papers() -> list[str]:
