@@ -15,7 +15,7 @@ TEST_CASE("rung picard by name sweeps until it meets the tolerance", "[spinning]
   int met = 0;
   for (int i = 0; i < 8; ++i) {
     CAPTURE(i);
-    const auto p = random.spinner(0.03);
+    const auto p = random.spinner(0.01);
     if (p.nutation_squared() < 0) continue;
     for (const double tolerance : {1e-2, 1e-9}) {
       const auto scene = posed(p, 20 / std::abs(p.spin()), tolerance, Model::picard);

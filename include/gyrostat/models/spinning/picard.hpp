@@ -58,7 +58,7 @@ template <Real Scalar>
 struct PicardAnswer {
   SweepErrors<Scalar> linear;  ///< estimated error of the linear motion, |sweep 1 - linear| + 3 |sweep 2 - sweep 1|
   SweepErrors<Scalar>
-      error;  ///< of the states, |last sweep - the one before| times 16 of the greatest ratio of two sweeps
+      error;  ///< of the states, |last sweep - the one before| times 64 of the greatest ratio of two sweeps
   SweepErrors<Scalar> size;  ///< greatest norms of the columns; attitude: 1
   bool converges = true;    ///< false: a sweep moved a column by more than half of what the sweep before did; no answer
   std::uint64_t nodes = 0;  ///< times sweeps: values of the motion computed
@@ -342,8 +342,13 @@ Result<PicardAnswer<Scalar>> picard_motion(const Problem<Scalar>& problem, std::
   answer.nodes = sweeps.done() * detail::PicardSweeps<Scalar>::size * static_cast<std::uint64_t>(last);
 
   // rounding of every panel, and of the phases
-  const Scalar rounding = eps * (16 + 4 * std::sqrt(panels) + rate * end / 4);
-  const auto size = answer.size.all();
+  const auto& D = problem.inertia;
+  const Scalar kept = std::abs(problem.rotor_momentum) + std::abs(problem.charge_momentum);
+  // the stiffnesses and the momentum are differences of terms that may nearly cancel
+  const Scalar stiffest = (kept + D[2] * std::abs(problem.spin())) / std::min(D[0], D[1]);
+  const Scalar rounding = eps * (16 + 4 * std::sqrt(panels) + (rate + stiffest) * end / 4);
+  auto size = answer.size.all();
+  size[3] += kept + D.maxCoeff() * answer.size.angular_velocity;
   const auto combine = [&](Scalar a, const SweepErrors<Scalar>& x, Scalar b, const SweepErrors<Scalar>& y,
                            Scalar c) noexcept {
     const auto first = x.all(), second = y.all();
@@ -358,7 +363,7 @@ Result<PicardAnswer<Scalar>> picard_motion(const Problem<Scalar>& problem, std::
     if (moves) ratio = std::max(ratio, now[i] / before[i]);
   }
   answer.linear = combine(1, moved[1], 3, moved[2], rounding);
-  answer.error = combine(std::min(Scalar(1), 16 * ratio), moved[last], 0, moved[last], 4 * rounding);
+  answer.error = combine(std::min(Scalar(1), 64 * ratio), moved[last], 0, moved[last], 4 * rounding);
   return answer;
 }
 
