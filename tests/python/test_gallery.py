@@ -66,7 +66,7 @@ def test_a_figure_is_drawn(figure: int, name: str, tmp_path: Path, capsys: pytes
     assert str(file) in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(("paper", "figure", "words"), [("heavy", None, "paper = 'heavy'"), ("deceleration", "2", "figure = '2'"),
+@pytest.mark.parametrize(("paper", "figure", "words"), [("comet", None, "paper = 'comet'"), ("deceleration", "2", "figure = '2'"),
                                                         ("deceleration", "all", "figure = 'all'")])
 def test_what_is_not_there_is_refused(paper: str, figure: str | None, words: str, tmp_path: Path) -> None:
     with pytest.raises(gyrostat.DomainError, match=words):
