@@ -133,10 +133,12 @@ class Lindstedt {
     estimate(&Size::phase, moving);
     estimate(&Size::drift, turning);
     estimate(&Size::swing, turning);
-    // near a = 1 or b = 1 the means of p and q may grow from order to order, long unseen beside the rest
-    if (order_ >= 3) {
-      const Scalar last = mean(order_), ratio = last > epsilon<Scalar> / 2 ? last / mean(order_ - 1) : Scalar(0);
-      const Scalar tail = ratio < 1 ? 4 * last * ratio / (1 - ratio) : infinity<Scalar>;
+    // means of p and q come with parity: two orders on they return by the torque over the divisors 1 - a, 1 - b, unseen in between
+    if (order_ >= 2) {
+      const Scalar divisor = std::fmin(s_.load[0] == 0 ? infinity<Scalar> : std::abs(s_.off_a),
+                                       s_.load[1] == 0 ? infinity<Scalar> : std::abs(s_.off_b));
+      const Scalar last = std::fmax(mean(order_), mean(order_ - 1)), ratio = s_.torque() * s_.torque() / divisor;
+      const Scalar tail = last == 0 ? Scalar(0) : ratio < 1 ? 4 * last * ratio / (1 - ratio) : infinity<Scalar>;
       for (const auto part : {&Size::rates, &Size::down, &Size::phase, &Size::drift, &Size::swing}) left.*part += tail;
     }
     return left;
