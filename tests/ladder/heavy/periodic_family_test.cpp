@@ -52,6 +52,19 @@ TEST_CASE("heavy periodic family: where families end", "[heavy]") {
     CHECK(spin_of(family.members[i]) == Approx(.60).epsilon(.01));
     CHECK(family.members[i].period == Approx(11.8).epsilon(.01));
   }
+  SECTION("a centre in the plane of axes 1, 3: a fold at 1.05 c, and up again beyond 1.59 c") {
+    const auto family = family_of(unit_body(.55, .8, {.6, 0, .8}, 0.), .1, {.most_members = 120});
+    REQUIRE(family.folds.size() == 1);
+    const std::size_t fold = family.folds[0];
+    CHECK(spin_of(family.members[fold]) == Approx(1.05).epsilon(.01));
+    CHECK(family.members[fold].stability == OrbitStability::stable);
+    for (std::size_t i = fold + 2; i < family.members.size(); ++i)
+      CHECK(spin_of(family.members[i]) > spin_of(family.members[i - 1]));
+    const auto& last = family.members.back();
+    CHECK(spin_of(last) == Approx(1.59).epsilon(.01));
+    CHECK(last.period > 13);  // over twice that at the fold
+    CHECK(last.trace_minus_4 > 300);
+  }
   SECTION("axis 3 the least one") {
     const auto family = family_of(unit_body(1.6, 1.3, {.36, -.48, .8}, .5), .1);
     CHECK(family.end == FamilyEnd::homoclinic);
