@@ -7,6 +7,7 @@
 
 #include "allocations.hpp"
 #include "catch.hpp"
+#include "gyrostat/models/heavy/exact.hpp"
 #include "gyrostat/models/heavy/integrals.hpp"
 #include "models/heavy/reference_table.hpp"
 #include "models/heavy/tops.hpp"
@@ -217,6 +218,90 @@ TEST_CASE("heavy: all integrals to rounding over ten thousand revolutions", "[he
         CHECK(moved < 3e-14 * terms);
         if (c.kind != FourthCase::goryachev_chaplygin) CHECK(moved < 1e-13 * std::abs(fourth(start)));
       }
+    }
+}
+
+TEST_CASE("heavy: the exact motion of a top and the full equations agree to 1e-13", "[heavy]") {
+  for (const double gradient : {0.0, 30.0, 300.0})
+    for (const double z0 : {0.03, -0.03})
+      for (const double along : {0.001, 0.0025})
+        for (const double spin : {150.0, -60.0, 12.0})
+          for (const double tilt : {0.6, 1.5, 2.7}) {
+            CAPTURE(gradient, z0, along, spin, tilt);
+            const auto p = Problem<double>::make({0.002, 0.002, along}, 0.5, {0, 0, z0}, 9.80665, gradient).value();
+            State<double> start;
+            start.angular_velocity = {1, 2, spin};
+            start.attitude = Quat<double>{0.8, 0, 0, -0.6} * Quat<double>{std::cos(tilt / 2), std::sin(tilt / 2), 0, 0};
+            start.down = rotate<double>(conjugate(start.attitude), {0, 0, -1});
+            const Exact<double> exact(p, start);
+            REQUIRE(exact.which() == ExactCase::lagrange);
+            const auto times = grid(10 * 2 * pi<double> / rate_size(p, start), 20);
+            const auto full = solve(p, start, times, 1e-12, true);
+            Comparison<double> both;
+            for (std::size_t i = 0; i < times.size(); ++i) both.add(exact.at(times[i]), full.states[i]);
+            CHECK(both.relative(both.difference()).greatest() < 1e-13);
+          }
+}
+
+TEST_CASE("heavy: time reversed, the full motion returns", "[heavy]") {
+  Tops random(12);
+  int tame = 0;
+  for (int i = 0; i < 12; ++i) {
+    const auto p = random.body();
+    const auto start = random.start(random.log_any(0.5, 8));
+    const double end = 10 * 2 * pi<double> / rate_size(p, start);
+    const auto there = solve(p, start, {end}, 1e-12, true);
+    State<double> turned = there.states[0];
+    turned.angular_velocity *= -1;
+    const auto back = solve(p, turned, {end}, 1e-12, true);
+    State<double> home = back.states[0];
+    home.angular_velocity *= -1;
+    Comparison<double> both;
+    both.add(start, home);
+    const auto apart = both.relative(both.difference());
+    const auto &to = there.answer.error, &fro = back.answer.error;
+    CHECK(apart.angular_velocity <= to.angular_velocity + fro.angular_velocity);
+    CHECK(apart.down <= to.down + fro.down);
+    CHECK(apart.attitude <= to.attitude + fro.attitude);
+    tame += to.greatest() < 1e-11;
+    if (to.greatest() < 1e-11) CHECK(apart.greatest() < 1e-13);
+  }
+  CHECK(tame > 8);
+}
+
+TEST_CASE("heavy: axes called otherwise, the full motion is the same", "[heavy]") {
+  Mat3<double> cyclic, odd;
+  cyclic << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  odd << 0, 1, 0, 1, 0, 0, 0, 0, 1;
+  const Mat3<double> one = Mat3<double>::Identity();
+  const Mat3<double> mirror = Vec3<double>(1, -1, 1).asDiagonal();
+  struct Renamed {
+    Mat3<double> axes;   ///< new components of a vector from old ones
+    Mat3<double> space;  ///< and in the inertial frame, the vertical kept
+  };
+  Tops random(13);
+  // an odd permutation keeps the hand where all axes are reversed too; else the motion is the mirrored one, rates turn round
+  for (const auto& [axes, space] : {Renamed{cyclic, one}, {cyclic * cyclic, one}, {-odd, one}, {odd, mirror}})
+    for (int i = 0; i < 6; ++i) {
+      const auto p = random.body();
+      const auto start = random.start(random.log_any(0.5, 8));
+      const auto times = grid(10 * 2 * pi<double> / rate_size(p, start), 10);
+      const auto renamed = [&axes = axes, &space = space](const State<double>& s) {
+        const Mat3<double> R = space * to_matrix(s.attitude) * axes.transpose();
+        return State<double>{axes.determinant() * (axes * s.angular_velocity), axes * s.down, from_matrix<double>(R)};
+      };
+      const auto other = Problem<double>::make(axes.cwiseAbs() * p.inertia(), p.mass(), axes * p.centre_of_mass(),
+                                               p.gravity(), p.gradient())
+                             .value();
+      const auto straight = solve(p, start, times, 1e-12, true),
+                 renaming = solve(other, renamed(start), times, 1e-12, true);
+      Comparison<double> both;
+      for (std::size_t k = 0; k < times.size(); ++k) both.add(renamed(straight.states[k]), renaming.states[k]);
+      const auto apart = both.relative(both.difference());
+      CHECK(apart.greatest() < 1e-12);
+      CHECK(apart.angular_velocity <= straight.answer.error.angular_velocity + renaming.answer.error.angular_velocity);
+      CHECK(apart.down <= straight.answer.error.down + renaming.answer.error.down);
+      CHECK(apart.attitude <= straight.answer.error.attitude + renaming.answer.error.attitude);
     }
 }
 
