@@ -6,6 +6,7 @@
 #include "gyrostat/body/invariants.hpp"
 #include "gyrostat/body/rotor.hpp"
 #include "gyrostat/core/compensated.hpp"
+#include "gyrostat/core/lane_pair.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/core/real.hpp"

@@ -31,3 +31,14 @@ TEMPLATE_TEST_CASE("four numbers side by side", "", float, double, long double) 
     CHECK(!(greatest_magnitude(load(with)) == greatest_magnitude(load(with))));
   }
 }
+
+TEMPLATE_TEST_CASE("counting up and down", "", double, long double) {
+  int digits = 0;
+  count_up<TestType, 4>([&](auto k) { digits = 10 * digits + k; });
+  CHECK(digits == 1234);
+  digits = 0;
+  count_down<TestType>(3, [&](int k) { digits = 10 * digits + k; });
+  CHECK(digits == 321);
+  count_down<TestType>(0, [&](int) { digits = 0; });
+  CHECK(digits == 321);
+}

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "gyrostat/core/real.hpp"
 
@@ -14,9 +15,11 @@
 
 #if defined(__GNUC__)
 #define GYROSTAT_INLINE __attribute__((always_inline)) inline
+#define GYROSTAT_INLINE_LAMBDA __attribute__((always_inline))
 #define GYROSTAT_NOINLINE __attribute__((noinline))
 #else
 #define GYROSTAT_INLINE inline
+#define GYROSTAT_INLINE_LAMBDA
 #define GYROSTAT_NOINLINE
 #endif
 
@@ -183,6 +186,19 @@ GYROSTAT_INLINE void count_down(int from, const Term& term) noexcept {
     for (int j = from; j >= 1; --j) term(j);
   } else {
     for (int j = from; j >= 1; --j) term(j);
+  }
+}
+
+/// term(1), ..., term(to): unrolled, with k a constant to the compiler, where lanes are registers. A term that is a lambda wants
+/// GYROSTAT_INLINE_LAMBDA: a call for an order costs more than its arithmetic.
+template <Real Scalar, int to, class Term>
+GYROSTAT_INLINE void count_up(const Term& term) noexcept {
+  if constexpr (Lanes<Scalar>::vectorised) {
+    [&]<int... k>(std::integer_sequence<int, k...>) GYROSTAT_INLINE_LAMBDA {
+      (term(std::integral_constant<int, k + 1>{}), ...);
+    }(std::make_integer_sequence<int, to>{});
+  } else {
+    for (int k = 1; k <= to; ++k) term(k);
   }
 }
 

@@ -209,7 +209,10 @@ Status Taylor<System, Order>::step(Scalar t_max) noexcept {
   Scalar h = theta * row_unit_;
   if constexpr (LimitsStep<System>) {
     const Scalar limit = system_.step_limit(x_[0]);
-    h = h < limit ? h : limit;
+    if (!(h < limit)) {
+      h = limit;
+      theta = h / row_unit_;
+    }
   }
   if (!(h < infinity<Scalar>)) return Status::not_finite;
   next_unit_ = std::min(h, 64 * next_unit_);
@@ -217,14 +220,14 @@ Status Taylor<System, Order>::step(Scalar t_max) noexcept {
   const bool lands = h >= left;
   if (lands) {
     h = left;
+    theta = h / row_unit_;
   } else if (!(h > std::abs(time_.high) * (epsilon<Scalar> / 1024))) {
     return Status::step_underflow;
   }
 
-  const Scalar theta_taken = h / row_unit_;
   for (int i = 0; i < width; i += 4) {
     const Lanes<Scalar> high = load(&x_[0][i]);
-    const Lanes<Scalar> delta = increment(i, theta_taken);
+    const Lanes<Scalar> delta = increment(i, theta);
     if (options_.compensated) {
       const Lanes<Scalar> y = load(&start_low_[i]) + delta;
       const Lanes<Scalar> next = high + y;

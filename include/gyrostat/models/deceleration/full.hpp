@@ -199,7 +199,7 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
   // terms known since the last order, the youngest last
   Row product = lanes(Scalar(0)), product_2 = product;
   if (k % 2 == 0) product = work.forward[k / 2] * work.backward[k / 2];
-  count_down<Scalar>((k - 1) / 2, [&](int j) {
+  count_down<Scalar>((k - 1) / 2, [&](int j) GYROSTAT_INLINE_LAMBDA {
     product = multiply_add(work.forward[j], work.backward[k - j], product);
     product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
   });
@@ -212,7 +212,7 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
       square = lanes(Scalar(0.5)) * work.whole[k / 2] * work.whole[k / 2];
       quotient = lanes(work.norm[k / 2]) * work.torque[k / 2];
     }
-    count_down<Scalar>((k - 1) / 2, [&](int j) {
+    count_down<Scalar>((k - 1) / 2, [&](int j) GYROSTAT_INLINE_LAMBDA {
       square = multiply_add(work.whole[j], work.whole[k - j], square);
       quotient = multiply_add(lanes(work.norm[j]), work.torque[k - j], quotient);
       quotient_2 = multiply_add(lanes(work.norm[k - j]), work.torque[j], quotient_2);
@@ -236,7 +236,7 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
     const Row omega = inverse_inertia_ * newest * lanes(half_unit);
     store(work.omega[k], omega);
     Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-    count_down<Scalar>(k - 1, [&](int j) {
+    count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
       const Row q = load(&x[k - j][4]);
       s0 = multiply_add(lanes(work.omega[j][0]), q, s0);
       s1 = multiply_add(lanes(work.omega[j][1]), q, s1);
@@ -311,16 +311,10 @@ void FullSystem<Real_, with_control, with_attitude>::expand(Scalar, Scalar unit,
   work.backward[1] = shuffle<2, 0, 1, 3>(first);
 
   Row newest = first;
-  const auto next = [&](auto k) {
+  const auto next = [&](auto k) GYROSTAT_INLINE_LAMBDA {
     extend(k, x, work, newest, jacobian, turn, quadratic, along, inverse, half_inverse, unit / 2);
   };
-  if constexpr (Row::vectorised) {
-    [&]<int... k>(std::integer_sequence<int, k...>) {
-      (next(std::integral_constant<int, k + 1>{}), ...);
-    }(std::make_integer_sequence<int, Order - 1>{});
-  } else {
-    for (int k = 1; k < Order; ++k) next(k);
-  }
+  count_up<Scalar, Order - 1>(next);
 }
 
 template <Real Real_, bool with_control, bool with_attitude>

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gyrostat/core/compensated.hpp"
+#include "gyrostat/core/lane_pair.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
@@ -64,26 +65,47 @@ namespace detail {
 /// The numbers (p, q, r, - | d1, d2, d3, -) at the head of a state: recurrences and projection.
 ///
 /// With forward a+ = (a2, a3, a1) and backward a- = (a3, a1, a2) the equations are
-///     w' = k w+ w- - N k d+ d- + I^-1 (m+ d- - m- d+),   d' = d+ w- - d- w+,   k = ((B - C)/A, (C - A)/B, (A - B)/C):
-/// four convolutions an order. The newest terms of each are split off, so that one order waits for the last only through a shuffle,
-/// two products and two sums.
+///     w' = k w+ w- - N k d+ d- + I^-1 (m+ d- - m- d+),   d' = d+ w- - d- w+,   k = ((B - C)/A, (C - A)/B, (A - B)/C).
+/// Of the pairs (w+, d+), (w-, d-) and (d-, w-) an order takes two convolutions: (w+, d+) (w-, d-) = (w+ w-, d+ d-) and
+/// (w+, d+) (d-, w-) = (w+ d-, d+ w-). The terms with the two newest orders are split off, so that one order waits for the last only
+/// through a shuffle, a product and two sums.
 template <Real Scalar>
 class EulerPoisson {
  public:
   using Row = Lanes<Scalar>;
+  using Pair = LanePair<Scalar>;
 
   template <int Order>
   struct Rows {
-    Row rate_forward[Order + 1], rate_backward[Order + 1], down_forward[Order + 1], down_backward[Order + 1];
+    Pair forward[Order + 1], backward[Order + 1], crossed[Order + 1];  ///< (w+, d+), (w-, d-), (d-, w-)
+
+    GYROSTAT_INLINE void keep(int k, const Pair& x) noexcept {
+      forward[k] = shuffle_halves<1, 2, 0, 3, Scalar>(x);
+      backward[k] = shuffle_halves<2, 0, 1, 3, Scalar>(x);
+      crossed[k] = exchanged<Scalar>(backward[k]);
+    }
+  };
+
+  /// What an order adds to a later derivative by its products with another: coefficients of its (w+, d+), (w-, d-), (d-, w-)
+  /// and (d+, w+).
+  struct Partner {
+    Pair by_forward, by_backward, by_crossed, by_turned;
   };
 
   /// The coefficients of an expansion.
   struct Constants {
-    Row quadratic, gradient;          ///< k unit, -N k unit
-    Row pull_forward, pull_backward;  ///< I^-1 m+ unit, I^-1 m- unit
-    Row unit;
-    Row rate_of[4], down_of[4];  ///< by the newest (w+, w-, d+, d-)
+    Pair first, second;                ///< (k, 1) unit, (-N k, -1) unit
+    Pair first_back, second_back;      ///< (k, -1) unit, (-N k, 1) unit
+    Pair pull_forward, pull_backward;  ///< (I^-1 m+, 0) unit, (I^-1 m-, 0) unit
+    Partner order_0, order_1;          ///< that of order 0 with the pull
   };
+
+  /// What two convolutions make of the derivative but for the pull: (w+ w-, d+ d-) and (w+ d-, d+ w-).
+  static GYROSTAT_INLINE Pair joined(const Pair& straight, const Pair& across, const Constants& c) noexcept {
+    const Pair first = halves<Scalar>(straight, across);
+    const Pair second = exchanged<Scalar>(halves<Scalar>(across, straight));
+    return multiply_add(c.first, first, c.second * second);
+  }
 
   EulerPoisson() = default;
   EulerPoisson(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept
@@ -100,8 +122,11 @@ class EulerPoisson {
       loose_[i] = kept ? Scalar(0) : Scalar(1);
     }
     rate_ = rate_size(problem, start);
-    whole_ = I.maxCoeff() * rate() * rate();
-    outer_torque_ = moment_.norm() + gradient_ * (I.maxCoeff() - I.minCoeff());
+    per_whole_ = 1 / (I.maxCoeff() * rate() * rate());
+    const Scalar outer_torque = moment_.norm() + gradient_ * (I.maxCoeff() - I.minCoeff());
+    outer_square_ = outer_torque * outer_torque;
+    potential_ = moment_.norm() + gradient_ * I.maxCoeff();
+    per_square_ = 1 / square_;
     const Vec3<Scalar>&w = start.angular_velocity, &d = start.down;
     energy_ =
         (I.cwiseProduct(w).dot(loose_.cwiseProduct(w)) + gradient_ * d.dot(I.cwiseProduct(d))) / 2 - moment_.dot(d);
@@ -110,39 +135,32 @@ class EulerPoisson {
   /// |w| that is reached, rad/s; 1 for a body at rest.
   Scalar rate() const noexcept { return rate_ > 0 ? rate_ : Scalar(1); }
 
-  static GYROSTAT_INLINE Row forward(const Row& a) noexcept { return shuffle<1, 2, 0, 3>(a); }
-  static GYROSTAT_INLINE Row backward(const Row& a) noexcept { return shuffle<2, 0, 1, 3>(a); }
-
   /// The coefficients, and orders 0 and 1 of the numbers.
   template <int Order, int Width>
   GYROSTAT_INLINE Constants begin(Scalar unit, Scalar (&x)[Order + 1][Width], Rows<Order>& rows) const noexcept {
     const auto row = [](const Vec3<Scalar>& v) noexcept { return lanes(v[0], v[1], v[2], Scalar(0)); };
     const Vec3<Scalar> quadratic = unit * quadratic_, pull = unit * moment_;
     const auto& I = inertia_;
+    const Row zero = lanes(Scalar(0)), k = row(quadratic), gradient = row(-gradient_ * quadratic);
+    const Row one = lanes(unit), minus = lanes(-unit);
     Constants c;
-    c.quadratic = row(quadratic);
-    c.gradient = row(-gradient_ * quadratic);
-    c.pull_forward = lanes(pull[1] / I[0], pull[2] / I[1], pull[0] / I[2], Scalar(0));
-    c.pull_backward = lanes(pull[2] / I[0], pull[0] / I[1], pull[1] / I[2], Scalar(0));
-    c.unit = lanes(unit);
+    c.first = lane_pair(k, one);
+    c.second = lane_pair(gradient, minus);
+    c.first_back = lane_pair(k, minus);
+    c.second_back = lane_pair(gradient, one);
+    c.pull_forward = lane_pair(lanes(pull[1] / I[0], pull[2] / I[1], pull[0] / I[2], Scalar(0)), zero);
+    c.pull_backward = lane_pair(lanes(pull[2] / I[0], pull[0] / I[1], pull[1] / I[2], Scalar(0)), zero);
 
-    const Row zero = lanes(Scalar(0)), w = load(&x[0][0]), d = load(&x[0][4]);
-    const Row wf = forward(w), wb = backward(w), df = forward(d), db = backward(d);
-    rows.rate_forward[0] = wf;
-    rows.rate_backward[0] = wb;
-    rows.down_forward[0] = df;
-    rows.down_backward[0] = db;
-    c.rate_of[0] = c.quadratic * wb;
-    c.rate_of[1] = c.quadratic * wf;
-    c.rate_of[2] = c.gradient * db - c.pull_backward;
-    c.rate_of[3] = multiply_add(c.gradient, df, c.pull_forward);
-    c.down_of[0] = zero - c.unit * db;
-    c.down_of[1] = c.unit * df;
-    c.down_of[2] = c.unit * wb;
-    c.down_of[3] = zero - c.unit * wf;
-    const Row next_w = multiply_add(c.rate_of[0], wf, multiply_add(c.rate_of[3], db, zero - c.pull_backward * df));
-    const Row next_d = multiply_add(c.down_of[1], wb, c.down_of[3] * db);
-    keep(1, x, rows, next_w, next_d);
+    rows.keep(0, load_pair(&x[0][0]));
+    const Pair forward = rows.forward[0], crossed = rows.crossed[0];
+    const Pair convolved = joined(forward * rows.backward[0], forward * crossed, c);
+    const Pair next = multiply_add(c.pull_forward, crossed, convolved) - c.pull_backward * exchanged<Scalar>(forward);
+    store_pair(&x[1][0], next);
+    rows.keep(1, next);
+    c.order_0 = partner(rows, 0, c);
+    c.order_0.by_crossed = c.order_0.by_crossed + c.pull_forward;
+    c.order_0.by_turned = c.order_0.by_turned - c.pull_backward;
+    c.order_1 = partner(rows, 1, c);
     return c;
   }
 
@@ -150,69 +168,66 @@ class EulerPoisson {
   template <class Index, int Order, int Width>
   GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][Width], Rows<Order>& rows,
                               const Constants& c) const noexcept {
-    const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
-    const auto &wf = rows.rate_forward, &wb = rows.rate_backward, &df = rows.down_forward, &db = rows.down_backward;
-
-    // terms known since the last order, in pairs j, k - j, the youngest last
-    Row ww = lanes(Scalar(0)), ww_2 = ww, dd = ww, dd_2 = ww, plus = ww, plus_2 = ww, minus = ww, minus_2 = ww;
+    const auto &forward = rows.forward, &backward = rows.backward, &crossed = rows.crossed;
+    const Pair share = lane_pair(Scalar(1) / static_cast<Scalar>(k + 1));
+    // pairs j, k - j, the youngest last
+    Pair straight = lane_pair(Scalar(0)), straight_2 = straight, across = straight, across_2 = straight;
     if (k % 2 == 0) {
-      const int j = k / 2;
-      ww = wf[j] * wb[j];
-      dd = df[j] * db[j];
-      plus = df[j] * wb[j];
-      minus = db[j] * wf[j];
+      straight = forward[k / 2] * backward[k / 2];
+      across = forward[k / 2] * crossed[k / 2];
     }
-    count_down<Scalar>((k - 1) / 2, [&](int j) {
-      const int i = k - j;
-      const Row a = wf[j], b = wb[j], e = df[j], f = db[j], a_i = wf[i], b_i = wb[i], e_i = df[i], f_i = db[i];
-      ww = multiply_add(a, b_i, ww);
-      ww_2 = multiply_add(a_i, b, ww_2);
-      dd = multiply_add(e, f_i, dd);
-      dd_2 = multiply_add(e_i, f, dd_2);
-      plus = multiply_add(e, b_i, plus);
-      plus_2 = multiply_add(e_i, b, plus_2);
-      minus = multiply_add(f, a_i, minus);
-      minus_2 = multiply_add(f_i, a, minus_2);
+    count_down<Scalar>((k - 1) / 2 - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
+      const int early = j + 1, late = k - early;
+      straight = multiply_add(forward[early], backward[late], straight);
+      straight_2 = multiply_add(forward[late], backward[early], straight_2);
+      across = multiply_add(forward[early], crossed[late], across);
+      across_2 = multiply_add(forward[late], crossed[early], across_2);
     });
-    const Row known_w = multiply_add(c.quadratic, ww + ww_2, c.gradient * (dd + dd_2));
-    const Row known_d = c.unit * ((plus + plus_2) - (minus + minus_2));
-
-    const Row a = wf[k], b = wb[k], e = df[k], f = db[k];
-    const Row next_w = share * (multiply_add(c.rate_of[0], a, multiply_add(c.rate_of[2], e, known_w)) +
-                                multiply_add(c.rate_of[1], b, c.rate_of[3] * f));
-    const Row next_d = share * (multiply_add(c.down_of[0], a, multiply_add(c.down_of[2], e, known_d)) +
-                                multiply_add(c.down_of[1], b, c.down_of[3] * f));
-    keep(k + 1, x, rows, next_w, next_d);
+    Pair next = share * joined(straight + straight_2, across + across_2, c);
+    if (k >= 3) next = with(c.order_1, rows, k - 1, share, next);
+    next = with(c.order_0, rows, k, share, next);
+    store_pair(&x[k + 1][0], next);
+    rows.keep(k + 1, next);
   }
 
   /// Moves (w, d) onto |d|, energy and vertical momentum of the start.
   void project(Scalar* x, Scalar* low) const noexcept;
 
  private:
-  template <int Order, int Width>
-  static GYROSTAT_INLINE void keep(int k, Scalar (&x)[Order + 1][Width], Rows<Order>& rows, const Row& w,
-                                   const Row& d) noexcept {
-    store(&x[k][0], w);
-    store(&x[k][4], d);
-    rows.rate_forward[k] = forward(w);
-    rows.rate_backward[k] = backward(w);
-    rows.down_forward[k] = forward(d);
-    rows.down_backward[k] = backward(d);
+  template <int Order>
+  static GYROSTAT_INLINE Partner partner(const Rows<Order>& rows, int k, const Constants& c) noexcept {
+    const Pair forward = rows.forward[k], turned = exchanged<Scalar>(forward);
+    const Pair w_forward = halves<Scalar>(forward, turned), d_forward = halves<Scalar>(turned, forward);
+    const Pair w_backward = halves<Scalar>(rows.backward[k], rows.crossed[k]);
+    const Pair d_backward = halves<Scalar>(rows.crossed[k], rows.backward[k]);
+    return {c.first * w_backward, c.first_back * w_forward, c.second_back * d_forward, c.second * d_backward};
+  }
+
+  /// rest + share (products of order k with the partner)
+  template <int Order>
+  static GYROSTAT_INLINE Pair with(const Partner& partner, const Rows<Order>& rows, int k, const Pair& share,
+                                   const Pair& rest) noexcept {
+    const Pair forward = rows.forward[k];
+    return multiply_add(share * partner.by_turned, exchanged<Scalar>(forward),
+                        multiply_add(share * partner.by_forward, forward, rest)) +
+           multiply_add(share * partner.by_crossed, rows.crossed[k], share * partner.by_backward * rows.backward[k]);
   }
 
   Vec3<Scalar> inertia_, moment_, quadratic_;
-  Vec3<Scalar> loose_;              ///< 0 for a rate that never changes, else 1
-  Scalar gradient_, outer_torque_;  ///< 1/s^2; a bound of the torque but for the gyroscopic one, N m
-  Scalar square_, energy_,
-      momentum_;         ///< of the start: |d|^2, energy without that of the rates that never change, vertical momentum
-  Scalar rate_, whole_;  ///< rate_size, rad/s; the energy that it stands for, J
+  Vec3<Scalar> loose_;   ///< 0 for a rate that never changes, else 1
+  Scalar gradient_;      ///< 1/s^2
+  Scalar outer_square_;  ///< of a bound of the torque but for the gyroscopic one, (N m)^2
+  Scalar potential_;     ///< a bound of the potential energy, J
+  Scalar square_, per_square_, energy_,
+      momentum_;  ///< of the start: |d|^2, energy without that of the rates that never change, vertical momentum
+  Scalar rate_, per_whole_;  ///< rate_size, rad/s; 1 over the energy that it stands for, 1/J
 };
 
 template <Real Scalar>
 void EulerPoisson<Scalar>::project(Scalar* x, Scalar* low) const noexcept {
   const Vec3<Scalar> w(x[0], x[1], x[2]), d(x[4], x[5], x[6]);
   const Vec3<Scalar> w_low(low[0], low[1], low[2]), d_low(low[4], low[5], low[6]);
-  const Scalar stretch = ((square_ - d.squaredNorm()) / 2 - d.dot(d_low)) / square_;
+  const Scalar stretch = ((square_ - d.squaredNorm()) / 2 - d.dot(d_low)) * per_square_;
   Vec3<Scalar> d_change = stretch * d;
 
   // gradients of energy and vertical momentum; along d they are tangential, where |d| stays
@@ -223,17 +238,18 @@ void EulerPoisson<Scalar>::project(Scalar* x, Scalar* low) const noexcept {
   const Scalar energy = (Iw.dot(w_free) + gradient_ * d.dot(Id)) / 2 - moment_.dot(d);
   const Scalar lacking_energy = (energy_ - energy) - Iw.dot(loose_.cwiseProduct(w_low)) - energy_by_d.dot(more);
   const Scalar lacking_momentum = (momentum_ - Iw.dot(d)) - Id.dot(w_low) - Iw.dot(more);
-  const Vec3<Scalar> e = energy_by_d - d * (d.dot(energy_by_d) / square_), s = Iw - d * (d.dot(Iw) / square_);
+  const Vec3<Scalar> e = energy_by_d - d * (d.dot(energy_by_d) * per_square_), s = Iw - d * (d.dot(Iw) * per_square_);
 
-  // The least change in the norm dw.I dw + |dd|^2/give that mends both, or the energy alone where they are not independent. A fast
-  // spin hardly changes while d goes round: then the steps err in d, by the ratio of d' to w' more than in w.
-  const Scalar change = std::clamp((cross<Scalar>(Iw, w).norm() + outer_torque_) / whole_, Scalar(1e-3L), Scalar(1));
-  const Scalar give = 1 / (whole_ * change * change);
-  Scalar ee = Iw.dot(w_free) + give * e.squaredNorm();
-  const Scalar es = Iw.dot(d_free) + give * e.dot(s), ss = Id.dot(d_free) + give * s.squaredNorm();
+  // The least change in the norm dw.I dw + give |dd|^2 whole that mends both, or the energy alone where they are not independent. A
+  // fast spin hardly changes while d goes round: then the steps err in d, by the ratio of d' to w' more than in w.
+  const Scalar give = std::clamp((cross<Scalar>(Iw, w).squaredNorm() + outer_square_) * per_whole_ * per_whole_,
+                                 Scalar(1e-6L), Scalar(1));
+  Scalar ee = give * Iw.dot(w_free) + per_whole_ * e.squaredNorm();
+  const Scalar es = give * Iw.dot(d_free) + per_whole_ * e.dot(s),
+               ss = give * Id.dot(d_free) + per_whole_ * s.squaredNorm();
   // rounding of a great energy must not move d: of so little only the part is mended that moves d by a rounding
-  const Scalar size = Iw.dot(w_free) / 2 + moment_.norm() + gradient_ * Id.norm();
-  if (std::abs(lacking_energy) <= 64 * epsilon<Scalar> * size) ee += give * size * size;
+  const Scalar size = Iw.dot(w_free) / 2 + potential_;
+  if (std::abs(lacking_energy) <= 64 * epsilon<Scalar> * size) ee += per_whole_ * size * size;
   const Scalar determinant = ee * ss - es * es;
   Scalar by_energy = 0, by_momentum = 0;
   if (64 * determinant > ee * ss) {
@@ -242,8 +258,8 @@ void EulerPoisson<Scalar>::project(Scalar* x, Scalar* low) const noexcept {
   } else if (ee > 0) {
     by_energy = lacking_energy / ee;
   }
-  const Vec3<Scalar> w_change = by_energy * w_free + by_momentum * d_free;
-  d_change += give * (by_energy * e + by_momentum * s);
+  const Vec3<Scalar> w_change = give * (by_energy * w_free + by_momentum * d_free);
+  d_change += per_whole_ * (by_energy * e + by_momentum * s);
   for (int i = 0; i < 3; ++i) {
     add_to(x[i], low[i], w_change[i]);
     add_to(x[4 + i], low[4 + i], d_change[i]);
@@ -287,17 +303,11 @@ class FullSystem {
       store(work.turn[0], motion);
       store(&x[1][8], times_units(lanes(motion[0]) * q, lanes(motion[1]) * q, lanes(motion[2]) * q));
     }
-    const auto next = [&](auto k) {
+    const auto next = [&](auto k) GYROSTAT_INLINE_LAMBDA {
       equations_.extend(k, x, work.rows, c);
       if constexpr (turning) turn(k, x, work, half);
     };
-    if constexpr (Row::vectorised) {
-      [&]<int... k>(std::integer_sequence<int, k...>) {
-        (next(std::integral_constant<int, k + 1>{}), ...);
-      }(std::make_integer_sequence<int, Order - 1>{});
-    } else {
-      for (int k = 1; k < Order; ++k) next(k);
-    }
+    count_up<Scalar, Order - 1>(next);
   }
 
   /// Moves a state onto what it keeps: |d|, energy, vertical momentum; and the attitude onto unit norm and onto d.
@@ -333,7 +343,7 @@ class FullSystem {
     const Row motion = half * load(&x[k][0]);
     store(work.turn[k], motion);
     Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-    count_down<Scalar>(k - 1, [&](int j) {
+    count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
       const Row q = load(&x[k - j][8]);
       s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
       s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
@@ -434,7 +444,7 @@ class VariationalSystem {
   }
 
  private:
-  using Row = Lanes<Scalar>;
+  using Pair = LanePair<Scalar>;
   using Equations = detail::EulerPoisson<Scalar>;
   static constexpr int place(int i) noexcept { return i < 3 ? i : i + 1; }
 
@@ -447,38 +457,24 @@ template <int Order>
 void VariationalSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width],
                                       Work<Order>& work) const noexcept {
   const auto c = equations_.begin(unit, x, work.rows);
-  const auto &wf = work.rows.rate_forward, &wb = work.rows.rate_backward;
-  const auto &df = work.rows.down_forward, &db = work.rows.down_backward;
-  const Row zero = lanes(Scalar(0));
+  const auto& rows = work.rows;
   for (int k = 0; k < Order; ++k) {
     if (k > 0) equations_.extend(k, x, work.rows, c);
-    const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
+    const Pair share = lane_pair(Scalar(1) / static_cast<Scalar>(k + 1));
     for (int column = 0; column < columns; ++column) {
       auto& change = work.change[column];
-      Scalar* to = &x[k][8 * (column + 1)];
-      const Row w = load(to), d = load(to + 4);
-      change.rate_forward[k] = Equations::forward(w);
-      change.rate_backward[k] = Equations::backward(w);
-      change.down_forward[k] = Equations::forward(d);
-      change.down_backward[k] = Equations::backward(d);
-      Row ww = zero, dd = zero, ww_2 = zero, dd_2 = zero, plus = zero, plus_2 = zero, minus = zero, minus_2 = zero;
+      change.keep(k, load_pair(&x[k][8 * (column + 1)]));
+      Pair straight = lane_pair(Scalar(0)), straight_2 = straight, across = straight, across_2 = straight;
       for (int j = k; j >= 0; --j) {
         const int i = k - j;
-        const Row a = change.rate_forward[i], b = change.rate_backward[i], e = change.down_forward[i],
-                  f = change.down_backward[i];
-        ww = multiply_add(wf[j], b, ww);
-        ww_2 = multiply_add(wb[j], a, ww_2);
-        dd = multiply_add(df[j], f, dd);
-        dd_2 = multiply_add(db[j], e, dd_2);
-        plus = multiply_add(df[j], b, plus);
-        plus_2 = multiply_add(wb[j], e, plus_2);
-        minus = multiply_add(db[j], a, minus);
-        minus_2 = multiply_add(wf[j], f, minus_2);
+        straight = multiply_add(rows.forward[j], change.backward[i], straight);
+        straight_2 = multiply_add(rows.backward[j], change.forward[i], straight_2);
+        across = multiply_add(rows.forward[j], change.crossed[i], across);
+        across_2 = multiply_add(rows.crossed[j], change.forward[i], across_2);
       }
-      const Row pull = c.pull_forward * change.down_backward[k] - c.pull_backward * change.down_forward[k];
-      Scalar* next = &x[k + 1][8 * (column + 1)];
-      store(next, share * multiply_add(c.quadratic, ww + ww_2, multiply_add(c.gradient, dd + dd_2, pull)));
-      store(next + 4, share * c.unit * ((plus + plus_2) - (minus + minus_2)));
+      const Pair pull = c.pull_forward * change.crossed[k] - c.pull_backward * exchanged<Scalar>(change.forward[k]);
+      const Pair convolved = Equations::joined(straight + straight_2, across + across_2, c);
+      store_pair(&x[k + 1][8 * (column + 1)], share * (convolved + pull));
     }
   }
 }

@@ -203,11 +203,12 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   // terms known since the last order, the youngest last
   Row product = lanes(Scalar(0)), product_2 = product, pull = product;
   if (k % 2 == 0) product = work.forward[k / 2] * work.backward[k / 2];
-  count_down<Scalar>((k - 1) / 2, [&](int j) {
+  count_down<Scalar>((k - 1) / 2, [&](int j) GYROSTAT_INLINE_LAMBDA {
     product = multiply_add(work.forward[j], work.backward[k - j], product);
     product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
   });
-  count_down<Scalar>(k - 1, [&](int j) { pull = multiply_add(lanes(x[j][7]), work.across[k - j], pull); });
+  count_down<Scalar>(
+      k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA { pull = multiply_add(lanes(x[j][7]), work.across[k - j], pull); });
   const Row square = product + product_2;
   const Row known = c.quadratic * square - pull;
   const Row next = share * (multiply_add(c.jacobian[0], y0, multiply_add(c.jacobian[1], y1, known)) +
@@ -217,7 +218,7 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   const Row motion = multiply_add(c.motion[0], y0, c.motion[1] * y1) + multiply_add(c.motion[2], y2, c.motion[3] * y3);
   store(work.turn[k], motion);
   Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-  count_down<Scalar>(k - 1, [&](int j) {
+  count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
     const Row q = load(&x[k - j][0]);
     s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
     s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
@@ -285,14 +286,8 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
   const Scalar advance = unit * excess;
   store(&x[1][8], lanes(advance, advance, advance, slope * excess * excess));
 
-  const auto next = [&](auto k) { extend(k, x, work, newest, c); };
-  if constexpr (Row::vectorised) {
-    [&]<int... k>(std::integer_sequence<int, k...>) {
-      (next(std::integral_constant<int, k + 1>{}), ...);
-    }(std::make_integer_sequence<int, Order - 1>{});
-  } else {
-    for (int k = 1; k < Order; ++k) next(k);
-  }
+  const auto next = [&](auto k) GYROSTAT_INLINE_LAMBDA { extend(k, x, work, newest, c); };
+  count_up<Scalar, Order - 1>(next);
 }
 
 template <Real Real_>

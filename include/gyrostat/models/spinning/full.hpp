@@ -214,7 +214,7 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   const Row zero = lanes(Scalar(0));
   Row product = zero, product_2 = zero;
   if (k % 2 == 0) product = work.forward[k / 2] * work.backward[k / 2];
-  count_down<Scalar>((k - 1) / 2, [&](int j) {
+  count_down<Scalar>((k - 1) / 2, [&](int j) GYROSTAT_INLINE_LAMBDA {
     product = multiply_add(work.forward[j], work.backward[k - j], product);
     product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
   });
@@ -227,7 +227,7 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   const Row motion = c.half * newest;
   store(work.turn[k], motion);
   Row s0 = zero, s1 = zero, s2 = zero;
-  count_down<Scalar>(k - 1, [&](int j) {
+  count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
     const Row q = load(&x[k - j][4]);
     s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
     s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
@@ -246,9 +246,12 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   work.outer[k] = outer;
   work.inner[k] = inner;
   Row mixed = multiply_add(work.outer[0], inner, outer * work.inner[0]);
-  count_down<Scalar>(k - 1, [&](int j) { mixed = multiply_add(work.outer[j], work.inner[k - j], mixed); });
+  count_down<Scalar>(
+      k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA { mixed = multiply_add(work.outer[j], work.inner[k - j], mixed); });
   Row square = k % 2 == 0 ? lanes(Scalar(0.5)) * work.thrust[k / 2] * work.thrust[k / 2] : zero;
-  count_down<Scalar>((k - 1) / 2, [&](int j) { square = multiply_add(work.thrust[j], work.thrust[k - j], square); });
+  count_down<Scalar>((k - 1) / 2, [&](int j) GYROSTAT_INLINE_LAMBDA {
+    square = multiply_add(work.thrust[j], work.thrust[k - j], square);
+  });
   square = multiply_add(work.thrust[0], thrust, square);
   const Scalar power = sum(c.power * newest)[0];
   store(&x[k + 1][8], lanes(share) * (c.unit * third_axis(mixed, square + square, Scalar(0)) +
@@ -302,14 +305,8 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
                       lanes(zero, zero, zero, power));
   store(&x[1][12], c.unit * with_last(load(&x[0][8]), lanes(zero)));
 
-  const auto next = [&](auto k) { extend(k, x, work, newest, c); };
-  if constexpr (Row::vectorised) {
-    [&]<int... k>(std::integer_sequence<int, k...>) {
-      (next(std::integral_constant<int, k + 1>{}), ...);
-    }(std::make_integer_sequence<int, Order - 1>{});
-  } else {
-    for (int k = 1; k < Order; ++k) next(k);
-  }
+  const auto next = [&](auto k) GYROSTAT_INLINE_LAMBDA { extend(k, x, work, newest, c); };
+  count_up<Scalar, Order - 1>(next);
 }
 
 template <Real Real_>
