@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gyrostat/ladder/deceleration/solve.hpp"
+#include "gyrostat/models/deceleration/euler_poinsot.hpp"
 #include "honesty.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "gyrostat/ladder/deceleration/solve.hpp"
+#include "gyrostat/ladder/deceleration/solve_definition.hpp"
 
 namespace gyrostat::deceleration {
 

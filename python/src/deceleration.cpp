@@ -19,6 +19,10 @@
 #include "gyrostat/ladder/deceleration/cvode_motion.hpp"
 #endif
 
+#ifdef GYROSTAT_HAVE_GSL
+extern template gyrostat::Answer gyrostat::deceleration::solve<gyrostat::math::Gsl>(const Scene&, Refusal&, Monitor*);
+#endif
+
 namespace {
 
 using namespace gyrostat;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The failure map of the model (deceleration.md, section 7), row by row: at each of these places the ladder gives a right
 // number with an honest error, or passes a rung over and says why.
+#include "gyrostat/models/deceleration/euler_poinsot.hpp"
 #include "scenes.hpp"
 
 using namespace scenes;
