@@ -139,12 +139,20 @@ TEST_CASE("failure map: nutation at a half and a third of the spin", "[heavy]") 
   CHECK_FALSE(warns(third, "resonance"));
   CHECK_FALSE(warns(beside, "resonance"));
   // nu = 1/2
-  double omega = 0.5;
-  for (int i = 0; i < 20; ++i) {
-    const Floquet<double> floquet(*Scaled<double>::make(with(omega), 10, 0.1));
-    omega = std::sqrt(omega * omega + 0.25 - floquet.squared);
-  }
-  const Answer full = periodic_of(with(omega), 10, 0.1, 1e-6, Model::full);
+  const auto tuned = [&](double spin) {
+    double omega = 0.5;
+    for (int i = 0; i < 20; ++i) {
+      const Floquet<double> floquet(*Scaled<double>::make(with(omega), spin, 0.1));
+      omega = std::sqrt(omega * omega + 0.25 - floquet.squared);
+    }
+    return with(omega);
+  };
+  // the tongue narrows as eps^2, what the series know of nu as eps^4: of a fast spin they decide
+  const Answer inside = periodic_of(tuned(100), 100);
+  CHECK_FALSE(by(inside, "full"));
+  CHECK(scalar(inside, "stable") == 0);
+  CHECK(std::isnan(scalar(periodic_of(tuned(10), 10), "stable")));
+  const Answer full = periodic_of(tuned(10), 10, 0.1, 1e-6, Model::full);
   CHECK(scalar(full, "stable") == 0);
   CHECK(scalar(full, "floquet_trace") < -2);
   CHECK(warns(full, "unstable"));
@@ -235,6 +243,11 @@ TEST_CASE("failure map: a periodic motion next to a homoclinic one", "[heavy]") 
   CHECK(scalar(answer, "floquet_trace") > 1e3);
   CHECK(warns(answer, "unstable"));
   CHECK(answer.met);
+  // a trace beyond 1e4, where one shot has lost its digits
+  const Answer steep = heavy::solve(periodic(unit_body(0.55, 0.8, towards, 0.7), 0.589, 0.1, 3), refusal);
+  REQUIRE(refusal.code == Errc::ok);
+  CHECK(scalar(steep, "floquet_trace") > 1e4);
+  CHECK(steep.met);
 }
 
 TEST_CASE("failure map: upright and slow, chaos", "[heavy]") {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/heavy/forced_track.hpp"
 
+#include <cmath>
 #include <cstring>
+#include <random>
 
 #include "catch.hpp"
 #include "gyrostat/models/heavy/series_2.hpp"
 #include "honest.hpp"
+#include "models/heavy/bodies.hpp"
 
 using namespace gyrostat;
 using namespace gyrostat::heavy;
@@ -52,6 +55,44 @@ TEST_CASE("forced tracks give up early, unless asked for by name", "[heavy]") {
   CHECK(named.failure == Errc::ok);
   CHECK(named.states.size() == 10);
   CHECK(named.periodicity.period == motion.period());
+}
+
+TEST_CASE("around half a nutation a turn the series decide on stability where they can, and as shooting does",
+          "[heavy]") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int stable = 0, unstable = 0, open = 0;
+  for (int n = 0; n < 800; ++n) {
+    const double spin = n % 4 == 0 ? 10 : n % 4 == 1 ? 20 : n % 4 == 2 ? 40 : 80;
+    Draw d = draw(random);
+    const double across = 6 * unit(random) - 3;  // off the middle of the tongue, in half widths
+    double omega2 = 0.25;
+    for (int i = 0; i < 20; ++i) {
+      d.b = (1 - d.a) / (1 - d.a + omega2 * d.a);
+      if (!(d.b > 0) || d.a + d.b < 1.02 || std::abs(d.a - d.b) > 0.98 || std::abs(1 - d.b) < 0.05) break;
+      const Floquet<double> floquet(*Scaled<double>::make(d.body(), spin, d.G0));
+      omega2 += std::pow(0.5 + across * floquet.tongue, 2) - floquet.squared;
+    }
+    if (!(d.b > 0) || d.a + d.b < 1.02 || std::abs(d.a - d.b) > 0.98 || std::abs(1 - d.b) < 0.05) continue;
+    const auto motion = Series2<double>::make(d.body(), spin, d.G0);
+    const auto orbit = periodic_orbit<double>(d.body(), spin, d.G0);
+    REQUIRE(motion);
+    if (!orbit || orbit->stability == OrbitStability::undecided) continue;
+    const Track track =
+        heavy::detail::forced_track(periodic(d.body(), spin, d.G0, 1, 1e-3, Model::series_2), *motion, Model::series_2);
+    const double told = track.periodicity.stable;
+    CAPTURE(d.a, d.b, spin, across, orbit->trace_minus_4);
+    if (std::isnan(told)) {
+      ++open;
+      continue;
+    }
+    CHECK((told == 1) == (orbit->stability == OrbitStability::stable));
+    CHECK(std::abs(track.periodicity.trace - orbit->trace_minus_4) < track.periodicity.trace_error);
+    ++(told == 1 ? stable : unstable);
+  }
+  CHECK(unstable > 25);
+  CHECK(stable > 100);
+  CHECK(open > 20);
 }
 
 TEST_CASE("series that do not hold say so", "[heavy]") {

@@ -72,4 +72,7 @@ TEST_CASE("a heavy track tells of its period what it knows", "[heavy]") {
   answer = answer_of({}, track, false);
   CHECK(!quantity(answer, "stable"));
   CHECK(quantity(answer, "floquet_trace"));
+  track.periodicity.stable = 0;
+  REQUIRE(quantity(answer_of({}, track, false), "stable"));
+  CHECK(quantity(answer_of({}, track, false), "stable")->values[0] == 0);
 }

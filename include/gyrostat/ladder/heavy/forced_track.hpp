@@ -92,6 +92,9 @@ Track forced_track(const Scene& scene, const Motion& motion, Model rung) {
   const double trace_error = 4 * 4 * pi<double> * pi<double> * (floquet.squared_error + 32 * epsilon<double>)*steep;
   track.periodicity = {motion.period(), motion.period_error(),    floquet.trace_minus_4,
                        trace_error,     motion.precession_rate(), motion.precession_error()};
+  // next to nu = 1/2 the tongue decides, whose half width, though a small part of nu, may be many of its errors
+  if (floquet.verdict != FastStability::undecided)
+    track.periodicity.stable = floquet.verdict == FastStability::stable ? 1 : 0;
   return track;
 }
 

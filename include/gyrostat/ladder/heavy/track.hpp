@@ -16,6 +16,7 @@ struct Periodicity {
   double period = nan<double>, period_error = nan<double>;          ///< s; relative
   double trace = nan<double>, trace_error = nan<double>;            ///< of the monodromy, minus 4; absolute
   double precession = nan<double>, precession_error = nan<double>;  ///< mean turn about DOWN, rad/s; absolute
+  double stable = nan<double>;                                      ///< 1 or 0 where more is known than the trace tells
 };
 
 /// What a rung finds at the asked times, in principal axes.
@@ -64,7 +65,8 @@ inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   quantity("period", p.period, p.period_error);
   quantity("floquet_trace", p.trace, relative(p.trace_error, p.trace));
   const OrbitStability verdict = orbit_stability(p.trace, p.trace_error);
-  if (verdict != OrbitStability::undecided) quantity("stable", verdict == OrbitStability::stable ? 1 : 0, nan<double>);
+  const bool decided = verdict != OrbitStability::undecided;
+  quantity("stable", decided ? verdict == OrbitStability::stable : p.stable, nan<double>);
   quantity("precession_rate", p.precession, relative(p.precession_error, p.precession));
 }
 
