@@ -5,10 +5,12 @@ I is the inertia about the fixed point, r_cm the mass centre from there, w = (p,
 the attracting centre, all in body axes; N = 3 g/R is the gravity gradient:
     I w' = (I w) x w + M g r_cm x d + N d x (I d),   d' = d x w.
 The attitude takes body axes to inertial ones, of which the third points up: d = -(row 3 of its tensor). Precession is counted
-right-handed about down. `solve` and `integrate` take inertias as three moments or as a tensor; all else takes principal axes.
+right-handed about down. `solve` and `integrate` take inertias as three moments or as a tensor; all else takes principal axes,
+which `principal_axes` finds.
 SI units, rad. Equations: docs/heavy.md.
 """
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final
@@ -24,7 +26,7 @@ from gyrostat.scenes import Scene
 
 __all__ = ["Exact", "FastStability", "Hanging", "Monitor", "PeriodicFamily", "PeriodicOrbit", "Precession", "Series", "SleepingTop",
            "arguments", "bodies", "exact", "fast_stability", "gravity_gradient", "hanging", "integrate", "periodic_family", "periodic_orbit",
-           "regular_precession", "series", "sleeping_top", "solve"]
+           "principal_axes", "regular_precession", "series", "sleeping_top", "solve"]
 
 Words = NDArray[np.str_]
 
@@ -57,6 +59,31 @@ def gravity_gradient(*, gravity: ArrayLike, distance: ArrayLike) -> Floats:
         raise DomainError(f"distance = {np.min(R):g}: give numbers > 0")
     made: Floats = shaped(3 * g / R, lead)
     return made
+
+
+def principal_axes(inertia: ArrayLike) -> tuple[Floats, Floats]:
+    """Principal moments (..., 3) and rotations R (..., 3, 3), v_body = R v_principal, of inertias (..., 3, 3) [kg m^2], as `solve` takes them:
+    the body axes themselves where the tensor is diagonal, else those of its eigenvectors that are nearest, axis by axis.
+
+    Raises DomainError for another shape, a number that is not finite and a tensor that is not symmetric (within 8 roundings).
+    """
+    tensor = np.asarray(inertia, dtype=float)
+    if tensor.ndim < 2 or tensor.shape[-2:] != (3, 3) or not np.all(np.isfinite(tensor)):
+        raise DomainError(f"inertia of shape {tensor.shape}: give (..., 3, 3) finite numbers")
+    flipped = np.swapaxes(tensor, -1, -2)
+    size = np.max(np.abs(tensor), axis=(-1, -2), keepdims=True)
+    if np.any(np.abs(tensor - flipped) > 8 * np.finfo(float).eps * size):
+        raise DomainError("inertia: a tensor is not symmetric")
+    values, vectors = np.linalg.eigh((tensor + flipped) / 2)
+    orders = np.array(list(itertools.permutations(range(3))))
+    near = np.stack([sum(np.abs(vectors[..., i, order[i]]) for i in range(3)) for order in orders], axis=-1)
+    best = orders[np.argmax(near, axis=-1)]
+    moments = np.take_along_axis(values, best, axis=-1)
+    axes = np.take_along_axis(vectors, best[..., None, :], axis=-1)
+    axes = axes * np.copysign(1.0, np.diagonal(axes, axis1=-2, axis2=-1))[..., None, :]
+    axes[..., 1] *= np.sign(np.linalg.det(axes))[..., None]
+    aligned = np.all(tensor == np.eye(3) * tensor, axis=(-1, -2))[..., None]
+    return np.where(aligned, np.diagonal(tensor, axis1=-2, axis2=-1), moments), np.where(aligned[..., None], np.eye(3), axes)
 
 
 def bodies(given: Mapping[str, ArrayLike], *more: tuple[str, ArrayLike, tuple[int, ...]]) -> tuple[tuple[int, ...], _core.HeavyBodies, list[Floats]]:

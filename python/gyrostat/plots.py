@@ -124,6 +124,15 @@ def _coarse(values: NDArray[Any]) -> bool:
     return bool(np.mean(crossings) > 0.2 or (turns.size and np.mean(turns) > 0.4))
 
 
+def _legend_row(axes: "Axes", *others: "Axes", markerscale: float = 1) -> None:
+    """One row of names over the curves, for which room is made; of axes that share a frame."""
+    for each in (axes, *others):
+        low, high = each.get_ylim()
+        each.set_ylim(low, high + 0.2 * (high - low))
+    lines = [line for each in (axes, *others) for line in each.lines]
+    axes.legend(lines, [str(line.get_label()) for line in lines], loc="upper right", fontsize=8, ncols=len(lines), markerscale=markerscale)
+
+
 def _components(axes: "Axes", t: NDArray[Any], values: NDArray[Any], symbol: str, unit: str, title: str) -> None:
     names = "xyzw"[: values.shape[1]]
     coarse = _coarse(values)
@@ -131,7 +140,7 @@ def _components(axes: "Axes", t: NDArray[Any], values: NDArray[Any], symbol: str
         axes.plot(t, values[:, i], color=COLOURS[i], label=f"{symbol}{name}", linewidth=0.9,
                   linestyle="none" if coarse else "-", marker="." if coarse else "", markersize=2)
     axes.set_ylabel(f"{symbol} [{unit}]" if unit else symbol)
-    axes.legend(loc="upper right", fontsize=8, ncols=len(names), markerscale=4 if coarse else 1)
+    _legend_row(axes, markerscale=4 if coarse else 1)
     axes.set_title(title, loc="left", fontsize=10)
 
 
@@ -280,8 +289,7 @@ def _pair(axes: "Axes", answer: Answer, t: NDArray[Any], column: str, symbol: st
     right = axes.twinx()
     right.plot(t, values[:, 2], color=COLOURS[2], linestyle="--", linewidth=1, label=f"{symbol}3")
     right.set_ylabel(f"{symbol}3 [{unit}]", color=COLOURS[2])
-    lines = [*axes.lines, *right.lines]
-    axes.legend(lines, [str(line.get_label()) for line in lines], loc="best", fontsize=8, markerscale=4 if coarse else 1)
+    _legend_row(axes, right, markerscale=4 if coarse else 1)
     axes.set_title(title, loc="left", fontsize=10)
     _note(axes, _error_text(answer, column))
 
@@ -443,7 +451,7 @@ def _precession(axes: "Axes", answer: Answer, t: NDArray[Any]) -> None:
         if np.nanmax(np.abs(rate), initial=0.0) > 10 * max(abs(low), abs(high)) > 0:  # near the vertical it has no bound
             room = 0.3 * (high - low)
             axes.set_ylim(low - room, high + room)
-    axes.legend(loc="best", fontsize=8)
+    _legend_row(axes)
     axes.set_title("Precession about down", loc="left", fontsize=10)
 
 

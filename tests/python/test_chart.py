@@ -197,6 +197,15 @@ def test_every_method_of_a_heavy_scene_stands_on_the_chart() -> None:
     assert orders[1].error["down"] < 0.05 * orders[0].error["down"]
 
 
+def test_a_periodic_motion_of_a_body_in_other_axes_is_charted() -> None:
+    scene = top({"periodic": {"spin": 150.0, "cos_inclination": 0.1}}, duration=0.05, samples=5)
+    scene["body"]["inertia"] = [[1.1e-3, 1e-4, 0.0], [1e-4, 1.6e-3, -2e-4], [0.0, -2e-4, 2e-3]]
+    labels = gyrostat.chart(scene).by_label()
+    for label in ("series, by order (from Python)", "rung full", "Taylor, order 20"):
+        assert labels[label][-1].error["down"] < 1e-10 and labels[label][-1].error["angular_velocity"] < 1e-10, label
+    assert labels["rung series"][0].error["down"] < 1e-3
+
+
 @pytest.mark.parametrize("start", [{"down": [0.6, 0.0, 0.8]}, {"attitude": [0.5, 0.5, 0.5, 0.5]}])
 def test_rivals_know_the_same_heavy_body(start: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(heavy_charts, "MOST_TURNS", 3.0)

@@ -154,6 +154,27 @@ def test_the_body_may_be_given_in_other_axes(answer: Answer) -> None:
     assert np.allclose(R, rotation.matrix_from_quaternion(answer["attitude"]), atol=1e-9)
 
 
+def test_principal_axes_are_found_and_named_as_solve_names_them() -> None:
+    Q = rotation.matrix_from_vector([[0.3, -0.5, 0.4], [-0.2, 0.1, 0.7], [0.0, 0.0, 0.0]])
+    moments = np.array([[1.1e-3, 1.6e-3, 2.0e-3], [2.0e-3, 1.1e-3, 1.6e-3], [2.0e-3, 1.6e-3, 1.1e-3]])
+    tensor = Q @ (moments[:, :, None] * np.eye(3)) @ np.swapaxes(Q, 1, 2)
+    found, axes = heavy.principal_axes((tensor + np.swapaxes(tensor, 1, 2)) / 2)
+    assert found == pytest.approx(moments, rel=1e-13) and axes == pytest.approx(Q, abs=1e-12)
+    assert np.array_equal(axes[2], np.eye(3)) and np.array_equal(found[2], moments[2])
+    # the periodic motion of a body in other axes starts where its own axes say
+    given = {**BODY, "inertia": tensor[0], "centre_of_mass": Q[0] @ BODY["centre_of_mass"]}
+    orbit = heavy.periodic_orbit(**{**BODY, "inertia": found[0], "centre_of_mass": axes[0].T @ given["centre_of_mass"]}, spin=150.0,
+                                 cos_inclination=0.1)
+    answer = heavy.solve(**given, periodic={"spin": 150.0, "cos_inclination": 0.1}, times=[0.0], model="full", tolerance=1e-9)
+    assert np.ravel(answer["columns"]["angular_velocity"])[:3] == pytest.approx(axes[0] @ orbit.angular_velocity, rel=1e-9)
+    # a quarter turn of axes, and a hand that eigenvectors need not have
+    moments, axes = heavy.principal_axes([[2.0, 1e-3, 0.0], [1e-3, 1.5, 0.0], [0.0, 0.0, 3.0]])
+    assert np.linalg.det(axes) == pytest.approx(1) and moments == pytest.approx([2.0, 1.5, 3.0], rel=1e-5)
+    for wrong in ([1.0, 2.0, 2.5], [[1.0, 0.1, 0], [0.2, 1.0, 0], [0, 0, 1.0]], [[math.nan, 0, 0], [0, 1.0, 0], [0, 0, 1.0]]):
+        with pytest.raises(DomainError, match="inertia"):
+            heavy.principal_axes(wrong)
+
+
 def test_the_centre_may_be_given_for_the_gradient() -> None:
     assert heavy.gravity_gradient(gravity=9.80665, distance=6.371e6) == pytest.approx(3 * 9.80665 / 6.371e6, rel=1e-15)
     with pytest.raises(DomainError, match="distance"):

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from conftest import HEAVY, PERIODIC
-from gyrostat import DomainError, heavy
+from gyrostat import DomainError, heavy, rotation
 from gyrostat.cli import main
 from gyrostat.scenes import scene_from
 from gyrostat.stability import heavy as words
@@ -87,11 +87,23 @@ def test_hard_starts_have_a_report(change: dict[str, Any]) -> None:
         assert all(len(row) == len(heads) for row in rows)
 
 
+def test_a_body_in_axes_of_its_own(report: dict[str, Any]) -> None:
+    R = rotation.matrix_from_quaternion([0.1, -0.05, 0.08, 0.99] / np.linalg.norm([0.1, -0.05, 0.08, 0.99]))
+    inertia = R @ np.diag(BODY["inertia"]) @ R.T
+    turned = stability_report(scene_from(tomllib.loads(PERIODIC), inertia=((inertia + inertia.T) / 2).tolist(),
+                                         centre_of_mass=(R @ BODY["centre_of_mass"]).tolist()))
+    assert turned["rest"]["frequency"] == pytest.approx(report["rest"]["frequency"], rel=1e-12)
+    assert turned["rest"]["down"] == pytest.approx(R @ report["rest"]["down"], abs=1e-12)
+    assert np.abs(turned["rest"]["swing"]) == pytest.approx(np.abs(report["rest"]["swing"] @ R.T), abs=1e-11)
+    for name in ("angular_velocity", "down"):
+        assert turned["periodic"][name] == pytest.approx(R @ report["periodic"][name], abs=1e-9)
+    for name in ("period", "trace"):
+        assert turned["periodic"][name] == pytest.approx(report["periodic"][name], rel=1e-9)
+    assert turned["family"]["spin"][-1] == pytest.approx(report["family"]["spin"][-1], rel=1e-3)
+
+
 def test_what_cannot_be_told() -> None:
     pytest.importorskip("matplotlib")
-    turned = scene_from(tomllib.loads(HEAVY), inertia=[[1.1e-3, 1e-4, 0], [1e-4, 1.6e-3, 0], [0, 0, 2e-3]])
-    with pytest.raises(DomainError, match="principal"):
-        stability_report(turned)
     diagonal = scene_from(tomllib.loads(HEAVY), inertia=[[1.1e-3, 0, 0], [0, 1.6e-3, 0], [0, 0, 2e-3]])
     assert stability_report(diagonal)["rest"]["frequency"] == heavy.hanging(**BODY).frequency.tolist()
     with pytest.raises(DomainError, match="no family"):

@@ -77,20 +77,20 @@ def plan(scene: Scene, repeats: int) -> Plan:
     return Plan(title, (RATES, DOWN), jobs)
 
 
-def _principal(given: dict[str, Any]) -> dict[str, Any]:
-    """The body in principal axes; DomainError where the scene's axes are others."""
+def _principal(given: dict[str, Any]) -> tuple[dict[str, Any], Vectors]:
+    """The body in principal axes, and the rotation from there to the scene's."""
     inertia = np.asarray(given["inertia"], dtype=float)
-    if inertia.ndim == 2 and np.any(inertia != np.diag(np.diag(inertia))):
-        raise DomainError("body.inertia: a chart of a periodic motion wants principal axes")
-    body = {name: given[name] for name in ("mass", "centre_of_mass", "gravity", "gravity_gradient")}
-    return {"inertia": inertia if inertia.ndim == 1 else np.diag(inertia), **body}
+    moments, axes = (inertia, np.eye(3)) if inertia.ndim == 1 else heavy.principal_axes(inertia)
+    centre = axes.T @ np.asarray(given["centre_of_mass"], dtype=float)
+    return {"inertia": moments, "centre_of_mass": centre, **{name: given[name] for name in ("mass", "gravity", "gravity_gradient")}}, axes
 
 
 def _periodic_start(given: dict[str, Any]) -> dict[str, Any]:
-    orbit = heavy.periodic_orbit(**_principal(given), **given["periodic"])
+    body, axes = _principal(given)
+    orbit = heavy.periodic_orbit(**body, **given["periodic"])
     if str(orbit.verdict) == "none":
         raise DomainError(f"initial.periodic: no such motion was found to chart: {orbit.why}")
-    return {"angular_velocity": orbit.angular_velocity, "down": orbit.down / np.linalg.norm(orbit.down), "attitude": None}
+    return {"angular_velocity": axes @ orbit.angular_velocity, "down": axes @ orbit.down / np.linalg.norm(orbit.down), "attitude": None}
 
 
 def _turns(physics: dict[str, Any]) -> float:
@@ -106,7 +106,7 @@ def _series_jobs(given: dict[str, Any], errors: Callable[[dict[str, Any]], dict[
     """The series of a periodic motion, order by order."""
     if given["periodic"] is None:
         return
-    body = _principal(given)
+    body, axes = _principal(given)
     for order in SERIES_ORDERS:
 
         def job(order: int = order) -> ChartPoint | None:
@@ -125,7 +125,7 @@ def _series_jobs(given: dict[str, Any], errors: Callable[[dict[str, Any]], dict[
             if int(run.order) < order:  # the terms between are below rounding
                 return None
             return ChartPoint("rung", "series, by order (from Python)", f"order {order}",
-                              errors({"angular_velocity": run.angular_velocity, "down": run.down}), seconds, 0,
+                              errors({"angular_velocity": run.angular_velocity @ axes.T, "down": run.down @ axes.T}), seconds, 0,
                               f"stated error {max(float(run.error['angular_velocity']) / abs(given['periodic']['spin']), float(run.error['down'])):.2g}")
 
         yield "series", f"order {order}", job

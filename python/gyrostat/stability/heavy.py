@@ -31,7 +31,8 @@ COLOURS: Final = {"stable": "#009E73", "unstable": "#D55E00", "undecided": "#999
 def report(scene: Scene) -> dict[str, Any]:
     """Equilibria and periodic motions of a heavy body and their stability, as plain data (docs/heavy.md, sections 3, 4, 6, 7).
 
-    SI units, body axes; the body must be given in principal axes. pendulum_rate : c = sqrt(M g l/C); slow_rate : max(c, sqrt N).
+    SI units, vectors in body axes; spin and inclination are those of principal axis 3 (heavy.principal_axes).
+    pendulum_rate : c = sqrt(M g l/C); slow_rate : max(c, sqrt N).
     rest : down of least potential energy, frequencies and directions of its two swings, or None without torque.
     top : None, or for a body with an axis of symmetry through its mass centre: spin, and for both ends of the axis (up, down) threshold,
     frequency_squared, verdict and amplification; precession : cos_inclination, and slow and fast rate about down.
@@ -42,38 +43,36 @@ def report(scene: Scene) -> dict[str, Any]:
     """
     given = heavy.arguments(scene)
     inertia = np.asarray(given["inertia"], dtype=float)
-    if inertia.ndim == 2:
-        if np.any(inertia != np.diag(np.diag(inertia))):
-            raise DomainError("body.inertia has products of inertia: give the principal moments, and all vectors along the principal axes")
-        inertia = np.diag(inertia)
-    body = {"inertia": inertia, **{name: given[name] for name in ("mass", "centre_of_mass", "gravity", "gravity_gradient")}}
-    spin, cosine = _start(given)
+    inertia, axes = (inertia, np.eye(3)) if inertia.ndim == 1 else heavy.principal_axes(inertia)
+    body = {"inertia": inertia, "centre_of_mass": axes.T @ given["centre_of_mass"],
+            **{name: given[name] for name in ("mass", "gravity", "gravity_gradient")}}
+    spin, cosine = _start(given, axes)
     c = math.sqrt(body["mass"] * body["gravity"] * float(np.linalg.norm(body["centre_of_mass"])) / float(inertia[2]))
     slow = max(c, math.sqrt(body["gravity_gradient"]))
-    return {"scene": scene.name, "pendulum_rate": c, "slow_rate": slow, "rest": _rest(body), "top": _top(body, spin, cosine, given),
-            "periodic": _periodic(body, spin, cosine), "family": _family(body, spin, cosine, slow)}
+    return {"scene": scene.name, "pendulum_rate": c, "slow_rate": slow, "rest": _rest(body, axes), "top": _top(body, spin, cosine, given),
+            "periodic": _periodic(body, spin, cosine, axes), "family": _family(body, spin, cosine, slow)}
 
 
-def _start(given: Mapping[str, Any]) -> tuple[float, float]:
-    """Spin about axis 3 and cosine of its inclination at t = 0."""
+def _start(given: Mapping[str, Any], axes: Any) -> tuple[float, float]:
+    """Spin about principal axis 3 and cosine of its inclination at t = 0."""
     if given["periodic"] is not None:
         return given["periodic"]["spin"], given["periodic"]["cos_inclination"]
     down = given["down"]
     if down is None:
         down = -_core.matrix_from_quaternion(given["attitude"][None, :])[0].reshape(3, 3)[2]
-    return float(given["angular_velocity"][2]), float(down[2])
+    return float(axes[:, 2] @ given["angular_velocity"]), float(axes[:, 2] @ down)
 
 
 def _number(value: Any) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def _rest(body: Mapping[str, Any]) -> dict[str, Any] | None:
+def _rest(body: Mapping[str, Any], axes: Any) -> dict[str, Any] | None:
     try:
         made = heavy.hanging(**body)
     except DomainError:
         return None
-    return {"down": made.down.tolist(), "frequency": made.frequency.tolist(), "swing": made.swing.tolist()}
+    return {"down": (axes @ made.down).tolist(), "frequency": made.frequency.tolist(), "swing": (made.swing @ axes.T).tolist()}
 
 
 def _top(body: Mapping[str, Any], spin: float, cosine: float, given: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -91,7 +90,7 @@ def _top(body: Mapping[str, Any], spin: float, cosine: float, given: Mapping[str
     return {"spin": spin, **ends, "precession": {"cos_inclination": cosine, "slow": _number(rates.slow), "fast": _number(rates.fast)}}
 
 
-def _periodic(body: Mapping[str, Any], spin: float, cosine: float) -> dict[str, Any]:
+def _periodic(body: Mapping[str, Any], spin: float, cosine: float, axes: Any) -> dict[str, Any]:
     made = {"spin": spin, "cos_inclination": cosine}
     if spin == 0 or abs(cosine) >= 1:
         return {**made, "verdict": "none", "why": "without spin, or with axis 3 along the vertical, there is no such motion", "fast": None}
@@ -100,8 +99,9 @@ def _periodic(body: Mapping[str, Any], spin: float, cosine: float) -> dict[str, 
     fast = {"exponent": _number(f.exponent), "tongue": _number(f.tongue), "trace": _number(f.trace), "verdict": str(f.verdict)}
     if str(o.verdict) == "none":
         return {**made, "verdict": "none", "why": str(o.why), "fast": fast}
-    return {**made, "angular_velocity": o.angular_velocity.tolist(), "down": o.down.tolist(), "period": float(o.period), "closure": float(o.closure),
-            "trace": float(o.trace), "multipliers": [[m.real, m.imag] for m in o.multipliers.tolist()], "verdict": str(o.verdict), "why": "", "fast": fast}
+    return {**made, "angular_velocity": (axes @ o.angular_velocity).tolist(), "down": (axes @ o.down).tolist(), "period": float(o.period),
+            "closure": float(o.closure), "trace": float(o.trace), "multipliers": [[m.real, m.imag] for m in o.multipliers.tolist()],
+            "verdict": str(o.verdict), "why": "", "fast": fast}
 
 
 def _family(body: Mapping[str, Any], spin: float, cosine: float, slow: float) -> dict[str, Any]:
@@ -222,8 +222,9 @@ def plot(scene: Scene, report: Mapping[str, Any]) -> "Figure":
     above.set_title("Period", loc="left", fontsize=10)
     above.legend(loc="best", fontsize=8)
     below.axhspan(-math.asinh(1), math.asinh(1), color="#009E73", alpha=0.1)
-    marks = [-1e6, -1e4, -100, -10, -2, 0, 2, 10, 100, 1e4, 1e6]
     low, high = below.get_ylim()
+    wide = high - low > 12  # marks nearer than a twentieth of the height run into each other
+    marks = [-1e6, -1e4, -100, *(() if wide else (-10,)), -2, *(() if wide else (0,)), 2, *(() if wide else (10,)), 100, 1e4, 1e6]
     shown = [m for m in marks if low <= math.asinh(m / 2) <= high]
     below.set_yticks([math.asinh(m / 2) for m in shown], [f"{m:g}" for m in shown])
     below.set_ylabel("sum of the multipliers")
@@ -232,6 +233,11 @@ def plot(scene: Scene, report: Mapping[str, Any]) -> "Figure":
     for axes in (above, below):
         axes.set_xscale("log")
         axes.grid(alpha=0.3, which="both")
+    left, right = below.get_xlim()
+    steps = (1, 2, 3, 5, 7) if right < 30 * left else (1, 2, 5) if right < 1000 * left else (1,)
+    ticks = [step * 10.0**power for power in range(-9, 10) for step in steps if left <= step * 10.0**power <= right]
+    below.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    below.set_xticks([], minor=True)
     figure.suptitle(textwrap.fill(f"{report['scene']}: {sentence(report)}", 115), fontsize=10)
     return figure
 
