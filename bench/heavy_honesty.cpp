@@ -45,8 +45,9 @@ class Scenes {
 
  private:
   bool body(Made& made) {
-    // sums of such moments are exact
-    Vec3<double> I(float(any(0.3, 2)), float(any(0.3, 2)), float(any(0.3, 2)));
+    // sums of such moments are exact; by way of float compilers leave the rounding out
+    const auto moment = [this] { return std::round(any(0.3, 2) * 0x1p24) * 0x1p-24; };
+    Vec3<double> I{moment(), moment(), moment()};
     Vec3<double> centre = direction();
     const double shape = unit(), off = unit() < 0.4 ? 0 : sign() * scale(1e-15, 0.1);
     made.kind = "generic";

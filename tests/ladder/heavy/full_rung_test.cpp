@@ -5,6 +5,7 @@
 
 #include "catch.hpp"
 #include "gyrostat/rotation/exp_log.hpp"
+#include "honest.hpp"
 #include "models/heavy/tops.hpp"
 
 using namespace gyrostat;
@@ -81,4 +82,24 @@ TEST_CASE("rung full of a heavy body hands over to the integrator of the questio
   const Track track = full_track(*made, nullptr);
   REQUIRE(track.warnings.size() == 1);
   CHECK(std::strcmp(track.warnings[0].code, "stand-in") == 0);
+}
+
+TEST_CASE("rung full of a periodic motion is honest where families come near and near the vertical", "[heavy]") {
+  // a slow top whose centre lies 1e-4 off its axis: two families pass each other
+  const auto near_top = *Problem<double>::make(
+      {0.77520005340819609, 0.7749767866487971, 1.0315288305282593}, 0.40390434700321659,
+      {8.4395990284069422e-05, 4.6693742053867553e-05, 0.41130677508657837}, 1.3053467299344408, 0);
+  // axis 3 within 0.13 degrees of the vertical, precessing by 4e-7 rad a turn
+  const auto upright = *Problem<double>::make({2.1285638809204102, 2.1285638809204102, 1.0642819404602051},
+                                              0.22633466665973195, {-0.47771089604610772, -0.90096920838653727, 0},
+                                              4.5051586829505723, 0.00041575568821916641);
+  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+    for (const auto& scene :
+         {periodic(near_top, -0.1940934011953416, 0.48583690324930551, 3, tolerance, Model::full),
+          periodic(upright, 38.109852269815164, -0.99999727537266692, 7.5, tolerance, Model::full)}) {
+      const Track track = full_track(scene, nullptr);
+      REQUIRE(track.failure == Errc::ok);
+      check_honest(scene, track);
+    }
+  }
 }

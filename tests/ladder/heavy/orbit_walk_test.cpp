@@ -53,3 +53,21 @@ TEST_CASE("heavy orbit walk: past a fold of the spin", "[heavy]") {
   CHECK(walk.shots() > 0);
   CHECK(walk.counts().steps > 0);
 }
+
+TEST_CASE("heavy orbit walk: on its own family where another comes near", "[heavy]") {
+  // a top whose centre lies 1e-4 off its axis, where its nutation comes in step with the spin
+  const auto p = *Problem<double>::make(
+      {0.77520005340819609, 0.7749767866487971, 1.0315288305282593}, 0.40390434700321659,
+      {8.4395990284069422e-05, 4.6693742053867553e-05, 0.41130677508657837}, 1.3053467299344408, 0);
+  const double c = p.pendulum_rate(), G0 = 0.48583690324930551;
+  const auto from = begin(p, 7 * c, G0);
+  Vec3<double> ended[2];
+  for (const bool small : {false, true}) {
+    OrbitWalk<double> walk(p, from, c, {0, 0, -1, 0});
+    if (small) walk.limit(1. / 64);
+    while (walk.member().start.angular_velocity[2] > 0.424 * c) REQUIRE(walk.advance());
+    ended[small] = walk.member().start.angular_velocity / c;
+  }
+  // on the other family p0 is -1.02 c here, and grows
+  for (const auto& w : ended) CHECK(-w[0] == Approx(1).epsilon(.002));
+}

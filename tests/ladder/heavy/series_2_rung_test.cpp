@@ -66,6 +66,26 @@ TEST_CASE("rung series-2 gives other starts their free nutation", "[heavy]") {
   CHECK(answered > 10);
 }
 
+TEST_CASE("rung series-2 counts the tilt of the momentum where axis 3 is the least one by far", "[heavy]") {
+  // free: A/C = 4.7 and 5.3
+  const auto slim = *Problem<double>::make({1.716545521472373, 1.4640460411750875, 0.36769342422485352}, 1.2, {0, 0, 0},
+                                           2.2271001478361505, 0);
+  State<double> start;
+  start.angular_velocity = {-3.8294344436039038e-06, 3.9783739587638709e-06, -0.59878914111444093};
+  start.down = {-0.83464055356894828, 0.54933767171724945, -0.040040838782314236};
+  Question question = named();
+  question.wants_attitude = false;
+  const auto scene = posed(slim, start, 13.374261021662255, question);
+  check_honest(scene, series_2_track(scene, nullptr));
+
+  const auto symmetric = *Problem<double>::make({1.7878484180795351, 1.7878484181092238, 0.3349418044090271}, 0.96,
+                                                {0, 0, 0.067193145519888281}, 0, 2.2251071412605883e-07);
+  start.angular_velocity = {-0.020994121638082328, 0.050624375230001184, 0.7543675758134577};
+  start.down = {-0.60686285734091716, 0.73363130195832915, 0.30578192419916661};
+  const auto wide = posed(symmetric, start, 60.541344691378072, question);
+  check_honest(wide, series_2_track(wide, nullptr));
+}
+
 TEST_CASE("rung series-2 recognises the start of the forced motion", "[heavy]") {
   const auto p = *Problem<double>::make({0.0011, 0.0014, 0.002}, 0.8, {0.012, 0.009, 0.01}, 9.80665, 0);
   const auto start = Series2<double>::make(p, 500, 0.1)->at(0);

@@ -60,6 +60,10 @@ struct AlongFamily {
 };
 
 /// Walks along a family of periodic motions by pseudo-arclength: past folds of the spin, to where it ends.
+///
+/// Another family crosses, or comes near, where the trace comes to 6 (both multipliers one; of a nearly symmetric body where its nutation
+/// is in step with the spin). There steps become short, so that the walk does not change over to the other. Families that come nearer
+/// than some 1e-4 are passed straight on, as ones that cross are.
 template <Real Scalar>
 class OrbitWalk {
  public:
@@ -78,10 +82,20 @@ class OrbitWalk {
   Scalar spin_slope() const noexcept { return tangent_[2]; }
   const ode::Counts& counts() const noexcept { return counts_; }  ///< of the steps, all together
   int shots() const noexcept { return shots_; }
+  /// Steps no longer than this from here on, in `unit`.
+  void limit(Scalar longest) noexcept {
+    longest_ = longest;
+    length_ = std::min(length_, longest);
+  }
 
   /// The next member. False where no step, however short, finds one.
   bool advance() noexcept {
-    constexpr Scalar least = Scalar(1e-6L), straight = Scalar(0.94L);
+    constexpr Scalar least = Scalar(1e-6L), straight = Scalar(0.94L), resolved = Scalar(1e-4L);
+    const Scalar gap = here_gap();
+    if (std::abs(gap) < 1 && fall_ > 0) {
+      const Scalar ahead = std::abs(gap) / fall_;
+      if (ahead > resolved) length_ = std::min(length_, Scalar(2) / 3 * ahead);
+    }
     while (length_ > least) {
       const Point here = Space::point(member_.start, member_.period, unit_);
       const Space space{unit_, rate(), here + length_ * (tangent_ + length_ / 2 * bend_), tangent_};
@@ -98,8 +112,11 @@ class OrbitWalk {
           const Point old = tangent_;
           member_ = *next;
           turn();
-          if (tangent_.dot(old) > straight) {
-            bend_ = (tangent_ - old) / (found - here).norm();
+          const bool passed = (gap < 0) != (here_gap() < 0) && length_ > resolved;
+          if (tangent_.dot(old) > straight && !passed) {
+            const Scalar stepped = (found - here).norm();
+            bend_ = (tangent_ - old) / stepped;
+            fall_ = (std::abs(gap) - std::abs(here_gap())) / stepped;
             if (next->shots <= 4) length_ = std::min(Scalar(1.6L) * length_, longest_);
             if (next->shots >= 7) length_ /= 2;
             return true;
@@ -115,6 +132,9 @@ class OrbitWalk {
 
  private:
   Scalar rate() const noexcept { return std::max(rate_size(problem_, member_.start), unit_); }
+
+  /// 6 less the trace at the member: |1 - multiplier|^2 where it is elliptic.
+  Scalar here_gap() const noexcept { return 6 - member_.shot.derivative.trace(); }
 
   /// The tangent at the member, in the sense of the last one.
   void turn() noexcept {
@@ -134,6 +154,7 @@ class OrbitWalk {
   Scalar unit_;
   Point tangent_, bend_ = {0, 0, 0, 0};  ///< and its derivative by the length
   Scalar length_ = Scalar(0.1L), longest_ = Scalar(0.25L);
+  Scalar fall_ = 0;  ///< of |6 - trace| by the length, in the last step
   ode::Counts counts_;
   int shots_ = 0;
 };

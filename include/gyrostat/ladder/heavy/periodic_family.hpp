@@ -67,23 +67,24 @@ Result<PeriodicFamily<Scalar>> periodic_family(const Problem<Scalar>& problem, S
   OrbitWalk<Scalar> walk(problem, fast->closed, family.slow_rate, fast->tangent);
   family.end = FamilyEnd::member_limit;
   while (family.members.size() < options.most_members) {
-    const Closed<Scalar> before = walk.member();
-    const Scalar slope = walk.spin_slope();
+    const OrbitWalk<Scalar> before = walk;
     if (!walk.advance()) {
       family.end = FamilyEnd::stalled;
       break;
     }
-    if (slope * walk.spin_slope() < 0) family.folds.push_back(family.members.size() - 1);
+    if (before.spin_slope() * walk.spin_slope() < 0) family.folds.push_back(family.members.size() - 1);
     const Scalar spin = sign * walk.member().start.angular_velocity[2];
     if (!(spin > 0)) {
       family.end = FamilyEnd::spin_zero;
       break;
     }
-    if (last > 0 && spin <= last) {
-      const auto at = detail::member_between(problem, before, walk.member(), options.last_spin);
-      if (at) family.members.push_back(detail::judged(problem, *at, OrbitMethod::continuation));
-      family.end = at ? FamilyEnd::spin_reached : FamilyEnd::stalled;
-      break;
+    if (last > 0) {
+      const auto at = detail::member_passed(problem, before, walk, family.slow_rate, options.last_spin);
+      if (at || spin <= last) {
+        if (at) family.members.push_back(detail::judged(problem, *at, OrbitMethod::continuation));
+        family.end = at ? FamilyEnd::spin_reached : FamilyEnd::stalled;
+        break;
+      }
     }
     family.members.push_back(detail::judged(problem, walk.member(), OrbitMethod::continuation));
     const auto& made = family.members.back();

@@ -99,7 +99,9 @@ class PeriodicMotion {
     const Scalar branch = std::nearbyint((mean * T + 2 * half) / (2 * pi<Scalar>));
     const Scalar psi = 2 * pi<Scalar> * branch - 2 * half;
     made.precession = std::abs(psi - mean * T) < 1 ? psi / T : nan<Scalar>;
-    made.precession_error = turned / T + std::abs(made.precession) * orbit_.error.period;
+    // at another period the body has turned further about the vertical by its rate about it
+    const Scalar about_down = std::abs(orbit_.start.angular_velocity.dot(orbit_.start.down));
+    made.precession_error = turned / T + (about_down + std::abs(made.precession)) * orbit_.error.period;
     return made;
   }
 

@@ -113,17 +113,37 @@ Scalar fast_over(const Scaled<Scalar>& s) noexcept {
   return s.torque() <= Scalar(0.18L) ? Scalar(1) : 3 * std::sqrt(s.torque());
 }
 
-/// The member with a spin between those of two neighbours.
+/// The first member with this spin that a step of the walk passes, sought on the cubic with its ends' tangents: also inside of a fold.
+/// Errors: not_applicable (none is passed); no_convergence (what is found is no member of this step).
 template <Real Scalar>
-Result<Closed<Scalar>> member_between(const Problem<Scalar>& problem, const Closed<Scalar>& one,
-                                      const Closed<Scalar>& other, Scalar spin) noexcept {
-  const auto &from = one.start.angular_velocity, &to = other.start.angular_velocity;
-  const Scalar part = (spin - from[2]) / (to[2] - from[2]);
-  State<Scalar> start = one.start;
-  start.angular_velocity += part * (to - from);
-  start.angular_velocity[2] = spin;
-  const Scalar rate = rate_size(problem, start);
-  return close_orbit(problem, start, one.period + part * (other.period - one.period), rate, AtSpin<Scalar>{rate});
+Result<Closed<Scalar>> member_passed(const Problem<Scalar>& problem, const OrbitWalk<Scalar>& from,
+                                     const OrbitWalk<Scalar>& to, Scalar unit, Scalar spin) noexcept {
+  using Space = AlongFamily<Scalar>;
+  using Point = typename Space::Point;
+  const Point start = Space::point(from.member().start, from.member().period, unit);
+  const Point step = Space::point(to.member().start, to.member().period, unit) - start;
+  const Scalar length = step.norm();
+  const auto on_cubic = [&](Scalar x) noexcept {
+    const Scalar rest = 1 - x;
+    return Point(start + x * x * (3 - 2 * x) * step + x * rest * length * (rest * from.tangent() - x * to.tangent()));
+  };
+  const auto beyond = [&](Scalar x) noexcept { return on_cubic(x)[2] * unit / spin <= 1; };
+  constexpr int parts = 32;
+  int first = 1;
+  while (first <= parts && !beyond(Scalar(first) / parts)) ++first;
+  if (first > parts) return Errc::not_applicable;
+  Scalar low = Scalar(first - 1) / parts, high = Scalar(first) / parts;
+  for (int i = 0; i < 24; ++i) (beyond((low + high) / 2) ? high : low) = (low + high) / 2;
+  const Point guess = on_cubic(high);
+  State<Scalar> trial = from.member().start;
+  trial.angular_velocity = unit * guess.template head<3>();
+  trial.angular_velocity[2] = spin;
+  const Scalar rate = rate_size(problem, trial);
+  const auto closed = close_orbit(problem, trial, guess[3] / unit, rate, AtSpin<Scalar>{rate});
+  if (!closed) return closed.error();
+  const Point found = Space::point(closed->start, closed->period, unit);
+  if (!((found - guess).norm() < length / 4)) return Errc::no_convergence;
+  return closed;
 }
 
 /// |trace - 4| beyond which rounding leaves no more than a few digits of the closure.
@@ -157,22 +177,29 @@ Result<FoundOrbit<Scalar>> closed_orbit(const Problem<Scalar>& problem, const Sc
   if (factor == 1) return found;
 
   found.method = OrbitMethod::continuation;
-  OrbitWalk<Scalar> walk(problem, *closed, slow_rate(problem, spin), found.tangent);
+  const Scalar unit = slow_rate(problem, spin);
+  OrbitWalk<Scalar> walk(problem, *closed, unit, found.tangent);
+  Scalar longest = Scalar(0.25L);
   for (int member = 0; member < 400; ++member) {
-    const Closed<Scalar> before = walk.member();
+    const OrbitWalk<Scalar> before = walk;
     if (!walk.advance()) return Errc::no_convergence;
     const Scalar now = walk.member().start.angular_velocity[2] / spin;
     const Scalar trace = walk.member().shot.derivative.trace();
+    const auto at = member_passed(problem, before, walk, unit, spin);
+    if (at) {
+      found.closed = *at;
+      found.closed.shots += closed->shots + walk.shots();
+      found.closed.counts += closed->counts;
+      found.closed.counts += walk.counts();
+      found.tangent = walk.tangent();
+      return found;
+    }
+    if (now <= 1) {
+      walk = before;
+      walk.limit(longest /= 4);
+      continue;
+    }
     if (!(now > 0) || !(std::abs(trace) < greatest_trace<Scalar>)) return Errc::no_convergence;
-    if (!(now <= 1)) continue;
-    const auto at = member_between(problem, before, walk.member(), spin);
-    if (!at) return at.error();
-    found.closed = *at;
-    found.closed.shots += closed->shots + walk.shots();
-    found.closed.counts += closed->counts;
-    found.closed.counts += walk.counts();
-    found.tangent = walk.tangent();
-    return found;
   }
   return Errc::no_convergence;
 }

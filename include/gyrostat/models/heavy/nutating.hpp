@@ -95,7 +95,9 @@ class Nutating {
     nutation_ = omega - L / (2 * omega);
     rate_ = 1 - N / 2;
     const Scalar forced = std::abs(f_.chi) + std::abs(f_.kap) + std::abs(f_.X) + std::abs(f_.Y);
-    small_ = std::sqrt(forced + s_.torque() + e2 * std::fmax(Scalar(1), kappa_ * kappa_));
+    // the tilts of the spin and of the momentum, which is the larger where axis 3 is that of the least moment
+    const Scalar tilt = std::fmax(std::fmax(Scalar(1), a), std::fmax(Scalar(1), b) * std::abs(kappa_));
+    small_ = std::sqrt(forced + s_.torque() + e2 * tilt * tilt);
     turned_ = start.attitude * conjugate(model(0).attitude);
   }
 
