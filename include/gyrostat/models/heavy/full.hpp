@@ -68,7 +68,7 @@ namespace detail {
 ///     w' = k w+ w- - N k d+ d- + I^-1 (m+ d- - m- d+),   d' = d+ w- - d- w+,   k = ((B - C)/A, (C - A)/B, (A - B)/C).
 /// Of the pairs (w+, d+), (w-, d-) and (d-, w-) an order takes two convolutions: (w+, d+) (w-, d-) = (w+ w-, d+ d-) and
 /// (w+, d+) (d-, w-) = (w+ d-, d+ w-). The terms with the two newest orders are split off, so that one order waits for the last only
-/// through a shuffle, a product and two sums.
+/// through a shuffle, two products and two sums.
 template <Real Scalar>
 class EulerPoisson {
  public:
@@ -183,9 +183,9 @@ class EulerPoisson {
       across = multiply_add(forward[early], crossed[late], across);
       across_2 = multiply_add(forward[late], crossed[early], across_2);
     });
-    Pair next = share * joined(straight + straight_2, across + across_2, c);
-    if (k >= 3) next = with(c.order_1, rows, k - 1, share, next);
-    next = with(c.order_0, rows, k, share, next);
+    Pair known = joined(straight + straight_2, across + across_2, c);
+    if (k >= 3) known = with(c.order_1, rows, k - 1, known);
+    const Pair next = share * with(c.order_0, rows, k, known);
     store_pair(&x[k + 1][0], next);
     rows.keep(k + 1, next);
   }
@@ -203,14 +203,13 @@ class EulerPoisson {
     return {c.first * w_backward, c.first_back * w_forward, c.second_back * d_forward, c.second * d_backward};
   }
 
-  /// rest + share (products of order k with the partner)
+  /// rest + the products of order k with the partner
   template <int Order>
-  static GYROSTAT_INLINE Pair with(const Partner& partner, const Rows<Order>& rows, int k, const Pair& share,
-                                   const Pair& rest) noexcept {
+  static GYROSTAT_INLINE Pair with(const Partner& partner, const Rows<Order>& rows, int k, const Pair& rest) noexcept {
     const Pair forward = rows.forward[k];
-    return multiply_add(share * partner.by_turned, exchanged<Scalar>(forward),
-                        multiply_add(share * partner.by_forward, forward, rest)) +
-           multiply_add(share * partner.by_crossed, rows.crossed[k], share * partner.by_backward * rows.backward[k]);
+    return multiply_add(partner.by_turned, exchanged<Scalar>(forward),
+                        multiply_add(partner.by_forward, forward, rest)) +
+           multiply_add(partner.by_crossed, rows.crossed[k], partner.by_backward * rows.backward[k]);
   }
 
   Vec3<Scalar> inertia_, moment_, quadratic_;
