@@ -53,7 +53,7 @@ TEST_CASE("heavy periodic family: where families end", "[heavy]") {
     CHECK(family.members[i].period == Approx(11.8).epsilon(.01));
   }
   SECTION("a centre in the plane of axes 1, 3: a fold at 1.05 c, and up again beyond 1.59 c") {
-    const auto family = family_of(unit_body(.55, .8, {.6, 0, .8}, 0.), .1, {.most_members = 150});
+    const auto family = family_of(unit_body(.55, .8, {.6, 0, .8}, 0.), .1, {.most_members = 100});
     REQUIRE(family.folds.size() == 1);
     const std::size_t fold = family.folds[0];
     CHECK(spin_of(family.members[fold]) == Approx(1.05).epsilon(.01));

@@ -106,8 +106,8 @@ class OrbitWalk {
         shots_ += next->shots;
         counts_ += next->counts;
         const Point found = Space::point(next->start, next->period, unit_);
-        const bool near = (found - space.at).norm() < length_ / 2;
-        if (near) {
+        const Scalar off = (found - space.at).norm() / length_;
+        if (off < Scalar(0.5L)) {
           const Closed<Scalar> before = member_;
           const Point old = tangent_;
           member_ = *next;
@@ -117,8 +117,8 @@ class OrbitWalk {
             const Scalar stepped = (found - here).norm();
             bend_ = (tangent_ - old) / stepped;
             fall_ = (std::abs(gap) - std::abs(here_gap())) / stepped;
-            if (next->shots <= 4) length_ = std::min(Scalar(1.6L) * length_, longest_);
-            if (next->shots >= 7) length_ /= 2;
+            if (off < Scalar(0.05L)) length_ = std::min(Scalar(1.6L) * length_, longest_);
+            if (off > Scalar(0.2L)) length_ /= 2;
             return true;
           }
           member_ = before;
