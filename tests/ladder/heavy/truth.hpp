@@ -2,6 +2,8 @@
 // The motion of a heavy scene in long double, as an answer.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "gyrostat/ladder/heavy/full_motion.hpp"
@@ -29,7 +31,8 @@ inline bool true_motion(const Scene& scene, Answer& truth) {
   if (scene.question().periodic) {
     const auto& [spin, cosine] = *scene.question().periodic;
     const auto orbit = periodic_orbit<Long>(*problem, spin, cosine);
-    if (!orbit) return false;
+    // what does not close to the rounding of double, its growth allowed for, is no periodic motion to judge another by
+    if (!orbit || !(orbit->closure < 1e-13L * std::max(1.0L, std::abs(orbit->trace_minus_4)))) return false;
     const PeriodicMotion<Long> motion(*problem, *orbit, times);
     options.attitude = true;
     options.tolerance /= 1 + motion.periods();

@@ -32,19 +32,25 @@ inline Track full_from_start(const Scene& scene, Monitor* monitor) {
   return track;
 }
 
-/// Why there is no periodic motion to be found.
-inline const char* no_orbit(Errc why) noexcept {
+/// Why there is no periodic motion to be found, and what to do.
+inline const char* no_orbit(Errc why, const Scene& scene) noexcept {
+  const auto& [spin, cosine] = *scene.question().periodic;
+  const auto scaled = Scaled<double>::make(scene.problem(), spin, cosine);
   switch (why) {
     case Errc::not_applicable:
       return "two principal moments are equal, or the body is a lamina across axis 3, and the torque drives that "
-             "resonance: there is no "
-             "fast periodic motion";
+             "resonance: there is no fast periodic motion; spin it about another principal axis, or give a start";
     case Errc::out_of_domain: return "a periodic motion of this family needs a spin, and an axis that is not vertical";
     case Errc::no_convergence:
     case Errc::step_limit:
-      return "no fast periodic motion with this spin was found: the family ends at a spin of about 0.6 to 2 times "
-             "sqrt(M g l/C), below which there are only oscillations about the hanging rest; or the body is too near a "
-             "resonance (equal moments, a lamina across axis 3)";
+      if (scaled && fast_over(*scaled) == 1)
+        return "no periodic motion was found near that of the first order: the body is too near a resonance (moments 1 "
+               "and 3 or 2 and 3 nearly equal, a lamina across axis 3, axis 3 near the vertical); spin it faster or "
+               "about another principal axis, or give a start";
+      return "no fast periodic motion with this spin was found: the family ends or turns back at a spin of about 0.6 "
+             "to "
+             "2 times sqrt(M g l/C), below which there are only oscillations about the hanging rest, or the body is "
+             "too near a resonance (equal moments, a lamina across axis 3); spin it faster, or give a start";
     default: return message(why);
   }
 }
@@ -53,7 +59,7 @@ inline const char* no_orbit(Errc why) noexcept {
 inline Track periodic_full(const Scene& scene, Monitor* monitor) {
   const auto& [spin, cosine] = *scene.question().periodic;
   const auto found = periodic_orbit<double>(scene.problem(), spin, cosine);
-  if (!found) return refused<Track>(found.error(), no_orbit(found.error()));
+  if (!found) return refused<Track>(found.error(), no_orbit(found.error(), scene));
   PeriodicOrbit<double> orbit = *found;
   // of two neighbours both may lie near by chance
   constexpr double margin = 4;
