@@ -115,6 +115,26 @@ TEST_CASE("floquet: through the tongue at nu = 1/2", "[heavy]") {
   CHECK(floquet(unit_body(0.55, 0.7659574468085106, {0, 0, 1}, 0.0), 20, 0.1).tongue == 0);
 }
 
+TEST_CASE("floquet: moments nearly equal are far from the tongue", "[heavy]") {
+  for (double off : {1e-2, 1e-4, 1e-5})
+    for (double a : {0.58, 1.6}) {
+      const auto body = unit_body(a, a < 1 ? 1 - off : 1 + off, {0.6, 0.48, 0.64}, 0.3);
+      const auto s = Series<double>::to_tolerance(body, 200, 0, 1e-9, 0);
+      REQUIRE(s);
+      const double trace = monodromy(body, s->at(0), s->period());
+      const auto f = floquet(body, 200, 0);
+      INFO(off << " " << a << " " << trace);
+      CHECK(std::abs(trace) < 2);
+      CHECK(f.verdict != FastStability::unstable);
+      CHECK(f.tongue < 0.01);
+      CHECK(std::abs(f.trace_minus_4 - trace) < 4 * pi<double> * pi<double> * f.squared_error + 1e-9);
+    }
+  // as at omega = 1/2 with the pole that it has off it
+  const double a = 0.55, b = 0.7659574468085106, M3 = std::sqrt(0.99);
+  const double kr = M3 / 2 * std::hypot(0.6 * (1.5 - 1 / b), 0.48 * (1 / (2 * (1 - b)) - 1 / a));
+  CHECK(floquet(resonant(), 20, 0.1).tongue == Approx(kr / 400).epsilon(1e-12));
+}
+
 TEST_CASE("floquet: the second family, with and without", "[heavy]") {
   // at G0 = 0: k W3/W0 with W3 = omega^2 (a + b)/2, W0 = (a - 1)(a + b - 2)/(2 b)
   const double a = 0.55, b = 0.8, omega2 = (a - 1) * (b - 1) / (a * b);

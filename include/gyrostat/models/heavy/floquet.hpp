@@ -44,7 +44,8 @@ struct Floquet {
     const Scalar W1 = (3 * (a + b) - 2 * (2 * a * b + 1)) / (a * b), W2 = -2 * omega2 * s.flatness;
     const Scalar W3 = omega2 * (a + b) / 2;
     squared = omega2 + s.G0 * (z * W1 + k * s.G0 * W2) + k * W3 * s.M3 * s.M3;
-    tongue = s.M3 / 2 * std::hypot(x * (Scalar(1.5L) - 1 / b), detail::ratio_or_zero(y, 2 * s.off_b) - y / a);
+    // of omega = 1/2, where 1/(2 (1 - b)) = 2 (1 - a)/(a b): this has no pole elsewhere
+    tongue = s.M3 / 2 * std::hypot(x * (Scalar(1.5L) - 1 / b), y * (2 * s.off_a - b) / (a * b));
     second_family = (squared - omega2) / (-s.off_a * (a + b - 2) / (2 * b)) * s.spin * s.spin;
     const FirstOrder<Scalar> first(s);
     const Scalar size = std::abs(first.chi) + std::abs(first.kap) + std::abs(first.X) + std::abs(first.Y) + s.torque();
