@@ -95,6 +95,20 @@ TEST_CASE("around half a nutation a turn the series decide on stability where th
   CHECK(open > 20);
 }
 
+TEST_CASE("the trace of the series has an error that covers growth they may have missed", "[heavy]") {
+  const auto p = unit_body(1.156995, 1.8003033, {-0.62, -0.24, -0.75}, 69.9455);
+  const double spin = 6.37005, cosine = -0.237773;
+  const auto motion = Series2<double>::make(p, spin, cosine);
+  const auto orbit = periodic_orbit<double>(p, spin, cosine);
+  REQUIRE(motion);
+  REQUIRE(orbit);
+  const Track track =
+      heavy::detail::forced_track(periodic(p, spin, cosine, 1, 1e-3, Model::series_2), *motion, Model::series_2);
+  CHECK(orbit->trace_minus_4 > 1e4);
+  CHECK(std::abs(track.periodicity.trace - orbit->trace_minus_4) < track.periodicity.trace_error);
+  CHECK(std::isnan(track.periodicity.stable));
+}
+
 TEST_CASE("series that do not hold say so", "[heavy]") {
   const auto motion = *Series2<double>::make(stone, 15, 0.1);
   const Track track =

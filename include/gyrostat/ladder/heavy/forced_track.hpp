@@ -88,7 +88,9 @@ Track forced_track(const Scene& scene, const Motion& motion, Model rung) {
   }
   const Floquet<double> floquet(motion.scaled());
   // trace = 2 cos sqrt y, y = 4 pi^2 nu^2; 4: twice the largest of 3000 bodies
-  const double steep = floquet.growth > 0 ? std::sinh(floquet.growth) / floquet.growth : 1.0;
+  const double low = std::sqrt(std::max(floquet.squared_error - floquet.squared, 0.0));  // nu may be i low
+  const double growth = std::max(floquet.growth, 2 * pi<double> * low);
+  const double steep = growth > 700 ? infinity<double> : growth > 0 ? std::sinh(growth) / growth : 1.0;
   const double trace_error = 4 * 4 * pi<double> * pi<double> * (floquet.squared_error + 32 * epsilon<double>)*steep;
   track.periodicity = {motion.period(), motion.period_error(),    floquet.trace_minus_4,
                        trace_error,     motion.precession_rate(), motion.precession_error()};
