@@ -128,7 +128,10 @@ TEST_CASE("failure map: nearly a lamina", "[heavy]") {
   // to its plane nothing divides, at first; later orders do
   const auto near = unit_body(0.55, 0.455, {0.6, 0.8, 0});
   CHECK(periodic_of(near, 50, 0.1, 1e-4).met);
-  CHECK(refusal_of(periodic(unit_body(0.55, 0.45, {0.6, 0.8, 0}), 20, 0.1, 1)).code != Errc::ok);
+  // in it the nutation keeps step with the spin: held by its own amplitude alone, of the order c eps^(1/3)
+  const Answer lamina = honest(periodic(unit_body(0.55, 0.45, {0.6, 0.8, 0}), 20, 0.1, 1));
+  CHECK(lamina.model == std::string_view("full"));
+  CHECK(lamina.met);
 }
 
 TEST_CASE("failure map: nutation at a half and a third of the spin", "[heavy]") {

@@ -151,6 +151,23 @@ TEST_CASE("heavy periodic orbit: spin and vertical mirrored", "[heavy]") {
   CHECK(std::abs(a->trace_minus_4 - c->trace_minus_4) < 1e-12);
 }
 
+TEST_CASE("heavy periodic orbit: laminas, whose nutation keeps step with the spin", "[heavy]") {
+  // p/c ~ eps^(1/3), far from the first order, which is of the order eps
+  const auto p = unit_body(.65625, .34375, {.99, -.14, 0}, 0.);
+  double before = 0;
+  for (const double spin : {30., 240., 1920.}) {
+    const auto orbit = periodic_orbit(p, spin, -.87);
+    REQUIRE(orbit);
+    CHECK(orbit->closure < 1e-13);
+    CHECK(orbit->error.start < 1e-5);
+    CHECK(gap(p, orbit->start, orbit->period) < 1e-13);
+    const double amplitude = orbit->start.angular_velocity.head<2>().norm();
+    CHECK(amplitude * std::cbrt(spin) == Approx(2.3).epsilon(.2));
+    if (before > 0) CHECK(amplitude / before == Approx(.5).epsilon(.1));
+    before = amplitude;
+  }
+}
+
 TEST_CASE("heavy periodic orbit: limits and refusals", "[heavy]") {
   const auto p = unit_body(.55, .8, {.6, .48, .64}, .7);
   CHECK(periodic_orbit(p, 0., .1).error() == Errc::out_of_domain);

@@ -82,22 +82,59 @@ PeriodicOrbit<Scalar> judged(const Problem<Scalar>& problem, const Closed<Scalar
   return judged(problem, closed, rate, AtSpin<Scalar>{rate}, method);
 }
 
+/// Where the first order starts, with a nutation of p0, q0 (over the spin) beside it.
+template <Real Scalar>
+State<Scalar> first_start(const Scaled<Scalar>& s, const FirstOrder<Scalar>& first, Scalar p, Scalar q) noexcept {
+  State<Scalar> start;
+  start.angular_velocity = {s.spin * (first.X + first.chi * s.M3 + p), s.spin * (first.Y + q), s.spin};
+  start.down = {s.M3, 0, s.G0};
+  return start;
+}
+
 /// By shooting from the first order; refused where the answer is not the motion that was guessed.
 template <Real Scalar>
 Result<Closed<Scalar>> shot_orbit(const Problem<Scalar>& problem, const Scaled<Scalar>& s) noexcept {
   const FirstOrder<Scalar> first(s);
-  State<Scalar> start;
-  start.angular_velocity = {s.spin * (first.X + first.chi * s.M3), s.spin * first.Y, s.spin};
-  start.down = {s.M3, 0, s.G0};
+  const State<Scalar> guessed = first_start<Scalar>(s, first, 0, 0);
   const Scalar guess = 2 * pi<Scalar> / std::abs(s.spin * (1 + first.rate));
-  if (!start.angular_velocity.allFinite() || !(guess < infinity<Scalar>)) return Errc::not_applicable;
-  const Scalar rate = rate_size(problem, start);
-  const auto closed = close_orbit(problem, start, guess, rate, AtSpin<Scalar>{rate});
-  if (!closed) return closed.error();
-  const Scalar moved = (closed->start.angular_velocity - start.angular_velocity).norm() / std::abs(s.spin);
+  if (!guessed.angular_velocity.allFinite() || !(guess < infinity<Scalar>)) return Errc::not_applicable;
+  const Scalar rate = rate_size(problem, guessed);
+  const AtSpin<Scalar> space{rate};
   constexpr Scalar most = Scalar(0.25L);
-  if (!(moved < most) || !(std::abs(closed->period / guess - 1) < most)) return Errc::no_convergence;
-  return closed;
+  const auto from = [&](const State<Scalar>& start) noexcept -> Result<Closed<Scalar>> {
+    const auto closed = close_orbit(problem, start, guess, rate, space);
+    if (!closed) return closed.error();
+    const Scalar moved = (closed->start.angular_velocity - guessed.angular_velocity).norm() / std::abs(s.spin);
+    if (!(moved < most) || !(std::abs(closed->period / guess - 1) < most)) return Errc::no_convergence;
+    return closed;
+  };
+  const auto closed = from(guessed);
+  const bool keeps_step = s.flatness < s.torque() && s.flatness < Scalar(1e-6L);
+  if (!keeps_step || (!closed && closed.error() != Errc::no_convergence)) return closed;
+
+  // Of a lamina across axis 3 the nutation keeps step with the spin. What forces it there, of the order eps^4, only its own amplitude
+  // holds, by the change of its frequency: p/c is of the order eps^(1/3), and a small closure tells little. The nearest is sought.
+  const auto held = [&](const Result<Closed<Scalar>>& trial) noexcept {
+    if (!trial || !(trial->closure < 512 * epsilon<Scalar>)) return false;
+    ode::Counts counts;
+    return orbit_error(problem, *trial, rate, space, counts).start < Scalar(1e-5L) + 256 * epsilon<Scalar>;
+  };
+  if (held(closed)) return closed;
+  const Scalar size = std::pow(s.torque(), Scalar(2) / 3), across = std::sqrt(std::abs(s.B1 / s.A1));
+  constexpr int phases = 8;
+  Result<Closed<Scalar>> nearest = closed;
+  Scalar least = infinity<Scalar>;
+  for (Scalar wide = size / 4; wide < 5 * size; wide *= 2)
+    for (int i = 0; i < phases; ++i) {
+      const Scalar phase = 2 * pi<Scalar> * Scalar(i) / phases;
+      const auto trial = from(first_start<Scalar>(s, first, wide * std::cos(phase), across * wide * std::sin(phase)));
+      if (!trial) continue;
+      const Scalar moved = (trial->start.angular_velocity - guessed.angular_velocity).norm();
+      if (!(moved < least * Scalar(0.999L)) || !held(trial)) continue;
+      least = moved;
+      nearest = trial;
+    }
+  return nearest;
 }
 
 /// Of the order of the slow motions, rad/s; the spin where there is no torque.

@@ -57,9 +57,9 @@ class Series2 {
   Scalar period() const noexcept { return 2 * pi<Scalar> / std::abs(phase_rate()); }  ///< of rates and down, s
   Scalar precession_rate() const noexcept { return f_.precession() * s_.spin; }       ///< mean of psi', rad/s
   /// Relative, of the period.
-  Scalar period_error() const noexcept { return (error_.phase + 4 * epsilon<Scalar>) / std::abs(1 + f_.rate); }
+  Scalar period_error() const noexcept { return known((error_.phase + 4 * epsilon<Scalar>) / std::abs(1 + f_.rate)); }
   /// Of precession_rate(), rad/s.
-  Scalar precession_error() const noexcept { return std::abs(s_.spin) * error_.drift; }
+  Scalar precession_error() const noexcept { return known(std::abs(s_.spin) * error_.drift); }
   /// The largest errors over |times| <= t: the next four orders of the series, and a geometric tail. Against the periodic motion with the
   /// same r0 and G0; where that is unstable, a motion started beside it leaves it.
   MotionError<Scalar> error(Scalar t) const noexcept { return error_.at(t); }
@@ -96,6 +96,9 @@ class Series2 {
   }
 
  private:
+  /// The same where the terms are known, else infinite.
+  Scalar known(Scalar error) const noexcept { return error_.rates < infinity<Scalar> ? error : infinity<Scalar>; }
+
   /// Rates over r0, down but for its length.
   struct Shape {
     Scalar p, q, r, d1, d2, d3;
