@@ -103,3 +103,18 @@ TEST_CASE("rung full of a periodic motion is honest where families come near and
     }
   }
 }
+
+TEST_CASE("rung full is honest at a loose tolerance, from rest", "[heavy]") {
+  const auto p =
+      *Problem<double>::make({1.1296526789665222, 0.61936593055725098, 0.63604569435119629}, 0.11726966428099141,
+                             {-0.51671432332885225, 0.90478946655276959, 0}, 0.86163035473929594, 0);
+  State<double> start;
+  start.attitude =
+      normalised(Quat<double>{0.72887262876882608, -0.50180520495023662, 0.066112307737259471, 0.46104814291148161});
+  start.down = rotate<double>(conjugate(start.attitude), {0, 0, -1});
+  Question question;
+  question.tolerance = 1e-3;
+  question.wants_attitude = true;
+  const auto scene = posed(p, start, 348.68713754060849, question, 13);
+  check_honest(scene, full_track(scene, nullptr));
+}

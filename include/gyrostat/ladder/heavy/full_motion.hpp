@@ -302,7 +302,8 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, con
   const auto solve = [&](const auto& motion) noexcept {
     // First guess of the step tolerance: errors grow with the turns, and the estimate stands a hundred times above them.
     Scalar step_tolerance = options.tolerance / 64 / (8 + motion.phase() / 16);
-    step_tolerance = std::max(finest_step_tolerance<Scalar>, std::min(step_tolerance, Scalar(1e-8L)));
+    // In looser steps, near the radius of convergence, both runs may err alike.
+    step_tolerance = std::max(finest_step_tolerance<Scalar>, std::min(step_tolerance, Scalar(1e-9L)));
     return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, double begin, double end) noexcept {
       return motion.run(tolerance, begin, end);
     });
