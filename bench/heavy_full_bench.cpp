@@ -117,6 +117,7 @@ void taylor_series(benchmark::State& state) {
 }
 BENCHMARK(taylor_series<16, false>)->Apply(arguments);
 BENCHMARK(taylor_series<20, false>)->Apply(arguments);
+BENCHMARK(taylor_series<24, false>)->Apply(arguments);
 BENCHMARK(taylor_series<20, true>)->Apply(arguments);
 
 /// State and its derivative by the start.

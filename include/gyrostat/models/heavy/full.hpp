@@ -116,6 +116,8 @@ class EulerPoisson {
         momentum_(problem.vertical_momentum(start)) {
     const Vec3<Scalar>& I = inertia_;
     quadratic_ = {(I[1] - I[2]) / I[0], (I[2] - I[0]) / I[1], (I[0] - I[1]) / I[2]};
+    pull_forward_ = {moment_[1] / I[0], moment_[2] / I[1], moment_[0] / I[2]};
+    pull_backward_ = {moment_[2] / I[0], moment_[0] / I[1], moment_[1] / I[2]};
     // a rate that never changes (an axis of symmetry through the mass centre) is left alone by the projection
     for (int i = 0; i < 3; ++i) {
       const bool kept = quadratic_[i] == 0 && moment_[(i + 1) % 3] == 0 && moment_[(i + 2) % 3] == 0;
@@ -139,8 +141,7 @@ class EulerPoisson {
   template <int Order, int Width>
   GYROSTAT_INLINE Constants begin(Scalar unit, Scalar (&x)[Order + 1][Width], Rows<Order>& rows) const noexcept {
     const auto row = [](const Vec3<Scalar>& v) noexcept { return lanes(v[0], v[1], v[2], Scalar(0)); };
-    const Vec3<Scalar> quadratic = unit * quadratic_, pull = unit * moment_;
-    const auto& I = inertia_;
+    const Vec3<Scalar> quadratic = unit * quadratic_;
     const Row zero = lanes(Scalar(0)), k = row(quadratic), gradient = row(-gradient_ * quadratic);
     const Row one = lanes(unit), minus = lanes(-unit);
     Constants c;
@@ -148,8 +149,8 @@ class EulerPoisson {
     c.second = lane_pair(gradient, minus);
     c.first_back = lane_pair(k, minus);
     c.second_back = lane_pair(gradient, one);
-    c.pull_forward = lane_pair(lanes(pull[1] / I[0], pull[2] / I[1], pull[0] / I[2], Scalar(0)), zero);
-    c.pull_backward = lane_pair(lanes(pull[2] / I[0], pull[0] / I[1], pull[1] / I[2], Scalar(0)), zero);
+    c.pull_forward = lane_pair(row(unit * pull_forward_), zero);
+    c.pull_backward = lane_pair(row(unit * pull_backward_), zero);
 
     rows.keep(0, load_pair(&x[0][0]));
     const Pair forward = rows.forward[0], crossed = rows.crossed[0];
@@ -212,7 +213,7 @@ class EulerPoisson {
            multiply_add(partner.by_crossed, rows.crossed[k], partner.by_backward * rows.backward[k]);
   }
 
-  Vec3<Scalar> inertia_, moment_, quadratic_;
+  Vec3<Scalar> inertia_, moment_, quadratic_, pull_forward_, pull_backward_;
   Vec3<Scalar> loose_;   ///< 0 for a rate that never changes, else 1
   Scalar gradient_;      ///< 1/s^2
   Scalar outer_square_;  ///< of a bound of the torque but for the gyroscopic one, (N m)^2
