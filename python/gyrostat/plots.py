@@ -238,8 +238,9 @@ def _finish_map(axes: "Axes", title: str, path: NDArray[Any]) -> None:
     """The path is what shall be seen whole."""
     low, high = path[:, :2].min(axis=0), path[:, :2].max(axis=0)
     half = 0.58 * float(np.max(high - low)) or 1e-3
-    for middle, limit in zip((low + high) / 2, (axes.set_xlim, axes.set_ylim), strict=True):
-        limit(middle - half, middle + half)
+    x, y = (low + high) / 2
+    axes.set_xlim(x - half, x + half)
+    axes.set_ylim(y - half, y + half)
     axes.set_aspect("equal")
     axes.ticklabel_format(style="sci", scilimits=(-2, 2))
     axes.set_xlabel("direction cosine, inertial axis 1")

@@ -200,7 +200,8 @@ def linear_grid(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angu
                            "velocity": velocity, "position": position})
     made = _core.spinning_linear_grid(many, float(start), float(step), int(samples))
     names = ("p", "q", "psi", "phi", "theta", "G1", "G2", "G3", "v1", "v2", "v3", "x1", "x2", "x3")
-    return LinearGrid(t=start + step * np.arange(samples), **{name: shaped(made[i], lead, samples) for i, name in enumerate(names)})
+    t = start + step * np.arange(samples, dtype=np.float64)
+    return LinearGrid(t=t, **{name: shaped(made[i], lead, samples) for i, name in enumerate(names)})
 
 
 @dataclass(frozen=True, eq=False)
