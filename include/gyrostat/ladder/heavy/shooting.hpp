@@ -213,7 +213,8 @@ struct OrbitError {
 
 /// What rounding and the steps make of a motion that closes, judged by two neighbours: bodies and starts that differ by a few roundings,
 /// integrated with looser steps, closed by one correction. Four times their distance, for near a homoclinic motion the distance alone is
-/// of the size of the error, elsewhere some ten times larger. Two shots each.
+/// of the size of the error, elsewhere some ten times larger. Two shots each. And at least what a closure of a few roundings leaves
+/// open: where one direction is weakly held, two neighbours may both happen to lie near.
 template <Real Scalar, OrbitSpace<Scalar> Space>
 OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scalar>& closed, Scalar rate,
                                const Space& space, ode::Counts& counts) noexcept {
@@ -224,6 +225,10 @@ OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scal
   typename Method::Rows residual;
   typename Method::Jacobian jacobian;
   const Scalar trace = closed.shot.derivative.trace();
+  const auto moved = [&](const State<Scalar>& start) noexcept {
+    return std::max((start.angular_velocity - closed.start.angular_velocity).norm() / rate,
+                    (start.down - closed.start.down).norm());
+  };
   for (const int which : {0, 1}) {
     const detail::Neighbour<Scalar> near(problem, closed.start, 8 * eps, which);
     State<Scalar> start = near.start;
@@ -239,11 +244,27 @@ OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scal
     const auto take = [failed](Scalar& most, Scalar now) noexcept {
       most = now + failed > most ? now : most + 0 * (now + failed);
     };
-    take(error.start, 4 * (start.angular_velocity - closed.start.angular_velocity).norm() / rate);
-    take(error.start, 4 * (start.down - closed.start.down).norm());
+    take(error.start, 4 * moved(start));
     take(error.period, 4 * std::abs(period / closed.period - 1));
     take(error.trace, 4 * std::abs(shot.derivative.trace() - trace));
   }
+  method.equations(problem, closed.start, closed.period, closed.shot, residual, jacobian);
+  Scalar open = 0, late = 0;
+  for (int i = 0; i < Method::rows; ++i) {
+    typename Method::Rows left = Method::Rows::Zero();
+    left[i] = 32 * eps;
+    State<Scalar> start = closed.start;
+    Scalar period = closed.period;
+    space.move(start, period, Method::change(jacobian, left, Scalar(0)));
+    open += moved(start) * moved(start);
+    late += (period / closed.period - 1) * (period / closed.period - 1);
+  }
+  open = std::sqrt(open);
+  if (open > error.start) {
+    error.trace *= open / error.start;
+    error.start = open;
+  }
+  error.period = std::max(error.period, std::sqrt(late));
   // a part that both neighbours happen to leave alone has the rounding of its parts nevertheless
   error.period += 8 * eps;
   error.trace += 8 * eps * (closed.shot.derivative.diagonal().cwiseAbs().sum());
