@@ -3,6 +3,8 @@
 
 #include "catch.hpp"
 
+#include <utility>
+
 #include "allocations.hpp"
 #include "gyrostat/math/complete.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
