@@ -181,7 +181,7 @@ def tables(report: Mapping[str, Any]) -> Tables:
 def sentence(report: Mapping[str, Any]) -> str:
     """What the tables come to."""
     top, orbit, family, slow = (report[name] for name in ("top", "periodic", "family", "slow_rate"))
-    words = [f"Slow rate {slow:.6g} rad/s; the start spins {abs(orbit['spin']) / slow:.4g} times faster." if slow > 0 else "There is no torque."]
+    words = [f"Slow rate {slow:.6g} rad/s; the start spins {abs(orbit['spin']) / slow:.4g} times as fast." if slow > 0 else "There is no torque."]
     if top is not None:
         verdict = top["up"]["verdict"]
         words.append(f"Upright the top would be {verdict}; the least spin that holds it is {top['up']['threshold']:.6g} rad/s.")
