@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstring>
 #include <type_traits>
 
 #include "gyrostat/core/lanes.hpp"

@@ -53,7 +53,7 @@ TEST_CASE("heavy periodic family: where families end", "[heavy]") {
     CHECK(family.members[i].period == Approx(11.8).epsilon(.01));
   }
   SECTION("a centre in the plane of axes 1, 3: a fold at 1.05 c, and up again beyond 1.59 c") {
-    const auto family = family_of(unit_body(.55, .8, {.6, 0, .8}, 0.), .1, {.most_members = 100});
+    const auto family = family_of(unit_body(.55, .8, {.6, 0, .8}, 0.), .1, {.most_members = 120});
     REQUIRE(family.folds.size() == 1);
     const std::size_t fold = family.folds[0];
     CHECK(spin_of(family.members[fold]) == Approx(1.05).epsilon(.01));
@@ -61,8 +61,8 @@ TEST_CASE("heavy periodic family: where families end", "[heavy]") {
     for (std::size_t i = fold + 2; i < family.members.size(); ++i)
       CHECK(spin_of(family.members[i]) > spin_of(family.members[i - 1]));
     const auto& last = family.members.back();
-    CHECK(spin_of(last) == Approx(1.59).epsilon(.01));
-    CHECK(last.period > 13);  // over twice that at the fold
+    CHECK((spin_of(last) > 1.59 && spin_of(last) < 1.63));  // it creeps on, ever more unstable
+    CHECK(last.period > 13);                                // over twice that at the fold
     CHECK(last.trace_minus_4 > 300);
   }
   SECTION("axis 3 the least one") {

@@ -48,8 +48,7 @@ inline const char* no_orbit(Errc why, const Scene& scene) noexcept {
                "and 3 or 2 and 3 nearly equal, a lamina across axis 3, axis 3 near the vertical); spin it faster or "
                "about another principal axis, or give a start";
       return "no fast periodic motion with this spin was found: the family ends or turns back at a spin of about 0.6 "
-             "to "
-             "2 times sqrt(M g l/C), below which there are only oscillations about the hanging rest, or the body is "
+             "to 2 times sqrt(M g l/C), below which there are only oscillations about the hanging rest, or the body is "
              "too near a resonance (equal moments, a lamina across axis 3); spin it faster, or give a start";
     default: return message(why);
   }

@@ -248,6 +248,10 @@ OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scal
     take(error.period, 4 * std::abs(period / closed.period - 1));
     take(error.trace, 4 * std::abs(shot.derivative.trace() - trace));
   }
+  // a part that both neighbours happen to leave alone has the rounding of its parts nevertheless
+  error.period += 8 * eps;
+  error.trace += 8 * eps * (closed.shot.derivative.diagonal().cwiseAbs().sum());
+  error.start += 8 * eps;
   method.equations(problem, closed.start, closed.period, closed.shot, residual, jacobian);
   Scalar open = 0, late = 0;
   for (int i = 0; i < Method::rows; ++i) {
@@ -265,10 +269,6 @@ OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scal
     error.start = open;
   }
   error.period = std::max(error.period, std::sqrt(late));
-  // a part that both neighbours happen to leave alone has the rounding of its parts nevertheless
-  error.period += 8 * eps;
-  error.trace += 8 * eps * (closed.shot.derivative.diagonal().cwiseAbs().sum());
-  error.start += 8 * eps;
   return error;
 }
 

@@ -3,8 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <type_traits>
-#include <utility>
 
 #include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lanes.hpp"

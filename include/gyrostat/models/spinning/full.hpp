@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
-#include <utility>
 
 #include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lanes.hpp"
