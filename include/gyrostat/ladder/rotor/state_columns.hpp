@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "gyrostat/ladder/rotor/column_errors.hpp"
+#include "gyrostat/ladder/rotor/motion.hpp"
 
 namespace gyrostat::rotor {
 
@@ -14,14 +14,14 @@ namespace gyrostat::rotor {
 template <class Bound>
 ColumnErrors<double> state_columns(const Gyrostat<double>& body, std::span<const State<double>> states,
                                    const Bound& bound) noexcept {
-  Comparison<double> sizes(body);
+  Comparison sizes(Row<double>{body});
   double lyapunov = 0, rounding = 0;
   const double j = 1 / body.principal()[0], lambda = body.axial_inertia(), k = body.coupling();
   const double j_free = 1 / body.free_principal()[0];
   const double e_n = (body.inverse_inertia() * body.axis()).norm();
   constexpr double ulps = 4 * epsilon<double>;
   for (const State<double>& s : states) {
-    sizes.add(s, s);
+    sizes.add(s);
     const double l = s.momentum.norm(), h = std::abs(body.target_momentum()), p = std::abs(s.axial_momentum);
     const Vec3<double> Omega = body.angular_velocity(s.momentum, s.axial_momentum);
     const double x = body.rotor_rate(s.axial_momentum, Omega) - body.no_load_rate();
@@ -34,12 +34,12 @@ ColumnErrors<double> state_columns(const Gyrostat<double>& body, std::span<const
                                       ulps * body.lyapunov(s.momentum, s.axial_momentum));
   }
   ColumnErrors<double> errors;
-  errors.attitude = std::min(bound.attitude, pi<double>);
-  errors.angular_momentum = bound.momentum;
-  errors.angular_velocity = j * bound.momentum + lambda * e_n * bound.rotor_rate + rounding;
-  errors.rotor_rate = bound.rotor_rate;
-  errors.rotor_angle = bound.rotor_angle;
-  errors.lyapunov = lyapunov;
+  errors[column::attitude] = std::min(bound.attitude, pi<double>);
+  errors[column::angular_momentum] = bound.momentum;
+  errors[column::angular_velocity] = j * bound.momentum + lambda * e_n * bound.rotor_rate + rounding;
+  errors[column::rotor_rate] = bound.rotor_rate;
+  errors[column::rotor_angle] = bound.rotor_angle;
+  errors[column::lyapunov] = lyapunov;
   return sizes.relative(errors);
 }
 
