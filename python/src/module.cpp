@@ -56,6 +56,7 @@ PYBIND11_MODULE(_core, module) {
   bind_elliptic(module);
   bind_rotation(module);
   bind_text(module);
+  bind_families(module);
   bind_deceleration(module);
   bind_deceleration_integrators(module);
   bind_published(module);
