@@ -32,7 +32,7 @@ Walk<Writer> walk_beside(const Writer& writer, Course& course, Course& companion
                          const typename Writer::State& start, typename Writer::Scalar rate,
                          std::span<const typename Writer::Scalar> times, std::span<typename Writer::State> states,
                          const typename Writer::State& nowhere,
-                         const FullMotionOptions<typename Writer::Scalar>& options, double progress_from,
+                         const MotionOptions<typename Writer::Scalar>& options, double progress_from,
                          double progress_to) noexcept {
   using Scalar = typename Writer::Scalar;
   using State = typename Writer::State;

@@ -18,7 +18,7 @@ namespace gyrostat {
 
 /// How the full equations are to be solved.
 template <Real Scalar>
-struct FullMotionOptions {
+struct MotionOptions {
   Scalar tolerance = Scalar(1e-9L);  ///< greatest error wanted in any column
   std::uint64_t step_cap = 100'000'000;
   std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
@@ -32,7 +32,7 @@ struct FullMotionOptions {
 
 /// What a run of the full equations hands back beside the states.
 template <std::size_t columns, Real Scalar>
-struct FullMotionOutcome {
+struct MotionOutcome {
   ode::Status status = ode::Status::reached;
   bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
   /// Estimated greatest errors over the times, each as its column measures it.

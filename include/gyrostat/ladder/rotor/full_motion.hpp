@@ -28,12 +28,12 @@
 namespace gyrostat::rotor {
 
 template <Real Scalar>
-struct FullMotionOptions : gyrostat::FullMotionOptions<Scalar> {
+struct FullMotionOptions : MotionOptions<Scalar> {
   Integrator integrator = Integrator::any;
 };
 
 template <Real Scalar>
-struct FullMotionAnswer : FullMotionOutcome<std::size(column_kinds), Scalar> {
+struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
   Integrator used = Integrator::taylor;  ///< radau: but for the first moments, while the motor comes to its balance
 };
 

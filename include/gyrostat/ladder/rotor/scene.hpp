@@ -34,6 +34,7 @@ class Scene {
     if (!(length > 0)) return Errc::zero_vector;
     Scene scene;
     scene.gyrostat_ = gyrostat;
+    scene.given_ = start;
     scene.question_ = question;
     scene.start_ = gyrostat.state(normalised(start.attitude), start.angular_velocity, start.rotor_rate);
     return scene;
@@ -47,6 +48,7 @@ class Scene {
   }
 
   const Gyrostat<double>& gyrostat() const noexcept { return gyrostat_; }
+  const Start& given() const noexcept { return given_; }
   const State<double>& start() const noexcept { return start_; }
   const Question& question() const noexcept { return question_; }
 
@@ -55,6 +57,7 @@ class Scene {
 
  private:
   Gyrostat<double> gyrostat_;
+  Start given_;
   State<double> start_;
   Question question_;
 };

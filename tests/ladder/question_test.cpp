@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "gyrostat/ladder/times.hpp"
+#include "gyrostat/ladder/question.hpp"
 
 #include <vector>
 

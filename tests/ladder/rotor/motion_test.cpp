@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "gyrostat/ladder/rotor/column_errors.hpp"
+#include "gyrostat/ladder/rotor/motion.hpp"
 
 #include "../../models/rotor/bodies.hpp"
 #include "catch.hpp"
@@ -9,11 +9,11 @@ using namespace gyrostat;
 using namespace gyrostat::rotor;
 
 TEST_CASE("the greatest of the errors is NaN if any is", "[rotor]") {
-  ColumnErrors<double> errors{1, 2, 3, 4, 6, 5};
+  ColumnErrors<double> errors{{1, 2, 3, 4, 6, 5}};
   CHECK(errors.greatest() == 6);
-  errors.angular_velocity = gyrostat::nan<double>;
+  errors[column::angular_velocity] = gyrostat::nan<double>;
   CHECK(std::isnan(errors.greatest()));
-  errors.attitude = infinity<double>;
+  errors[column::attitude] = infinity<double>;
   CHECK(std::isnan(errors.greatest()));
 }
 
@@ -36,18 +36,18 @@ TEST_CASE("a comparison measures each column by its own size", "[rotor]") {
   State<double> c = a;
   c.rotor_angle = 10;
   b.rotor_angle = 10.5;
-  Comparison<double> comparison(body);
+  Comparison comparison(Row<double>{body});
   comparison.add(a, a);
   CHECK(comparison.difference().greatest() == 0);
   CHECK(comparison.relative(comparison.difference()).greatest() == 0);
   comparison.add(c, b);
   const auto relative = comparison.relative(comparison.difference());
-  CHECK(relative.attitude == Approx(0.01));
-  CHECK(relative.angular_velocity == Approx(0.001));
-  CHECK(relative.rotor_rate == Approx(0.002 / 5));
-  CHECK(relative.rotor_angle == Approx(0.05));
-  CHECK(relative.angular_momentum == Approx((b.momentum - a.momentum).norm() / a.momentum.norm()));
+  CHECK(relative[column::attitude] == Approx(0.01));
+  CHECK(relative[column::angular_velocity] == Approx(0.001));
+  CHECK(relative[column::rotor_rate] == Approx(0.002 / 5));
+  CHECK(relative[column::rotor_angle] == Approx(0.05));
+  CHECK(relative[column::angular_momentum] == Approx((b.momentum - a.momentum).norm() / a.momentum.norm()));
   b.axial_momentum = gyrostat::nan<double>;
   comparison.add(a, b);
-  CHECK(std::isnan(comparison.difference().rotor_rate));
+  CHECK(std::isnan(comparison.difference()[column::rotor_rate]));
 }
