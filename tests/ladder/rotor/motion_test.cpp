@@ -8,26 +8,6 @@
 using namespace gyrostat;
 using namespace gyrostat::rotor;
 
-TEST_CASE("the greatest of the errors is NaN if any is", "[rotor]") {
-  ColumnErrors<double> errors{{1, 2, 3, 4, 6, 5}};
-  CHECK(errors.greatest() == 6);
-  errors[column::angular_velocity] = gyrostat::nan<double>;
-  CHECK(std::isnan(errors.greatest()));
-  errors[column::attitude] = infinity<double>;
-  CHECK(std::isnan(errors.greatest()));
-}
-
-TEST_CASE("the angle between attitudes keeps its digits and ignores the signs of quaternions", "[rotor]") {
-  Bodies bodies(5);
-  for (double angle = 3.1; angle > 1e-15; angle /= 7) {
-    const Quat<double> q = bodies.attitude();
-    const Quat<double> turned = q * quaternion_from_vector<double>(bodies.direction() * angle);
-    CHECK(angle_between(q, turned) == Approx(angle).epsilon(1e-9).margin(4e-16));
-    CHECK(angle_between(q, Quat<double>{-turned.w, -turned.x, -turned.y, -turned.z}) ==
-          Approx(angle).epsilon(1e-9).margin(4e-16));
-  }
-}
-
 TEST_CASE("a comparison measures each column by its own size", "[rotor]") {
   const auto body = reference_body(0.05, 30);
   const Vec3<double> Omega(0.1, -0.2, 0.3);
