@@ -46,6 +46,7 @@ py::list values(const Kinds& kinds) {
     item["frame"] = word(kind.frame);
     item["measure"] = word(kind.measure);
     item["meaning"] = kind.meaning;
+    if constexpr (requires { kind.scale; }) item["scale"] = kind.scale;
     made.append(item);
   }
   return made;

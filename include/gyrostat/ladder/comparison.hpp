@@ -20,7 +20,8 @@ Scalar angle_between(const Quat<Scalar>& p, const Quat<Scalar>& q) noexcept {
 }
 
 /// The distance of two motions, gathered time by time: greatest difference of each column, and its greatest norm in the first
-/// motion. Writer: `Writer::columns` is the table of the columns, and `writer(state, row)` writes a state's row.
+/// motion. Writer: `Writer::columns` is the table of the columns, `writer(state, row)` writes a state's row, and `writer.scale`, where
+/// it has one, holds the scales that the scene sets.
 template <class Writer>
 class Comparison {
  public:
@@ -32,6 +33,7 @@ class Comparison {
   explicit Comparison(const Writer& writer) noexcept : writer_(writer) {
     for (std::size_t i = 0; i < count; ++i)
       if (Writer::columns[i].measure == Measure::angle) size_[i] = 1;
+    if constexpr (requires { writer.scale; }) scale_ = writer.scale;
   }
 
   void add(const State& first, const State& second) noexcept {
@@ -63,10 +65,10 @@ class Comparison {
   /// Greatest norms in the first motion; attitude: 1.
   const ColumnErrors& size() const noexcept { return size_; }
 
-  /// `errors` (in units of the columns) over the sizes, 0/0 = 0.
+  /// `errors` (in units of the columns) over the sizes, or over the scales where those are greater; 0/0 = 0.
   ColumnErrors relative(ColumnErrors errors) const noexcept {
     for (std::size_t i = 0; i < count; ++i)
-      if (Writer::columns[i].measure != Measure::angle) errors[i] = over(errors[i], size_[i]);
+      if (Writer::columns[i].measure != Measure::angle) errors[i] = over(errors[i], greater(size_[i], scale_[i]));
     return errors;
   }
 
@@ -75,7 +77,7 @@ class Comparison {
   static Quat<Scalar> quaternion(const Scalar* q) noexcept { return {q[3], q[0], q[1], q[2]}; }
 
   Writer writer_;
-  ColumnErrors difference_{}, size_{};
+  ColumnErrors difference_{}, size_{}, scale_{};
 };
 
 }  // namespace gyrostat

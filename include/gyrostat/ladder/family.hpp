@@ -42,6 +42,8 @@ struct ColumnKind {
   Frame frame;
   Measure measure;
   const char* meaning;
+  /// Measure::relative: what errors are relative to beside the greatest norm of the column, the greater of the two; the scene sets it.
+  const char* scale = "";
   Kind kind = Kind::number;
   std::span<const char* const> words{};  ///< of Kind::word
 };
