@@ -111,4 +111,7 @@ struct Row {
   }
 };
 
+template <Real Scalar>
+using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
+
 }  // namespace gyrostat::heavy
