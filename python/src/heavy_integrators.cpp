@@ -164,14 +164,13 @@ Run by_dop853(const Problem<double>& problem, const State<double>& start, const 
 Run by_cvode(const Problem<double>& problem, const State<double>& start, bool turning, const std::vector<double>& at,
              double tolerance, Rows& rows, ode::CvodeMethod method) {
   CvodeEquations equations(problem, start, turning);
-  auto y = equations.numbers(start.angular_velocity, start.down, start.attitude);
-  const std::span<double> numbers(y.data(), equations.dimension());
+  auto numbers = equations.start();
   auto made = ode::Cvode::create(equations.system(), 0, numbers, {method, tolerance, tolerance});
   if (!made) return {{}, Status::not_finite};
   ode::Cvode solver = std::move(made).value();
   return along(solver, start, at, rows, [&](double t) {
     solver.at(t, numbers);
-    return with_unit_attitude(equations.state(y.data()));
+    return equations.state(numbers.data());
   });
 }
 #endif
@@ -185,8 +184,7 @@ Data integrate(const Array& inertia, double mass, const Array& centre_of_mass, d
     raise("DomainError", "tolerance = " + text(tolerance) + ": give a finite number > 0");
   Question question;
   question.times = t;
-  State<double> given;
-  set_heavy_start(angular_velocity, down, attitude, given, question);
+  const Start given = heavy_start(angular_velocity, down, attitude, {}, question);
   const auto scene = Scene::make(heavy_body(inertia, mass, centre_of_mass, gravity, gradient), given, question);
   if (!scene) raise("DomainError", std::string("start: ") + message(scene.error()));
   const Problem<double>& problem = scene->problem();

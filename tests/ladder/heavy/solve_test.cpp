@@ -18,11 +18,7 @@ struct Solved {
   Refusal refusal;
 
   bool by(const char* model) const { return std::strcmp(answer.model, model) == 0; }
-  const Quantity* scalar(const char* name) const {
-    for (const Quantity& q : answer.quantities)
-      if (std::strcmp(q.name, name) == 0) return &q;
-    return nullptr;
-  }
+  const Quantity* scalar(const char* name) const { return answer.quantity(name); }
 };
 
 Solved solved(const Scene& scene, Monitor* monitor = nullptr) {
@@ -58,12 +54,12 @@ TEST_CASE("a fast periodic motion of a heavy body: each rung where it is enough"
 }
 
 TEST_CASE("rung full of a periodic heavy motion: period and trace to all digits", "[heavy]") {
-  const Solved made = solved(periodic(stone, 150, 0.1, 3, 1e-6, Model::full));
+  const Solved made = solved(periodic(stone, 150, 0.1, 3, 1e-6, rung::full));
   CHECK(made.by("full"));
   // closed in 80 bits by another integrator
   CHECK(made.scalar("period")->values[0] == Approx(4.196818797409592953e-02).epsilon(1e-14));
   CHECK(made.scalar("floquet_trace")->values[0] == Approx(-1.9111876939650645).epsilon(1e-11));
-  const auto slower = solved(periodic(stone, 21.02331426521783, 0.1, 3, 1e-6, Model::full));
+  const auto slower = solved(periodic(stone, 21.02331426521783, 0.1, 3, 1e-6, rung::full));
   CHECK(slower.scalar("floquet_trace")->values[0] == Approx(-1.9054578079090723).epsilon(1e-9));
 }
 
@@ -102,12 +98,12 @@ TEST_CASE("what is known exactly is answered exactly", "[heavy]") {
 }
 
 TEST_CASE("a rung of the heavy family asked for by name answers or refuses", "[heavy]") {
-  const auto by = [](Model model, double spin) { return solved(periodic(stone, spin, 0.1, 3, 1e-9, model)); };
-  CHECK(by(Model::series_2, 50).by("series-2"));
-  CHECK_FALSE(by(Model::series_2, 50).answer.met);
-  CHECK(by(Model::series, 50).by("series"));
-  CHECK(by(Model::full, 50).by("full"));
-  const Solved refused = by(Model::exact, 50);
+  const auto by = [](int rung, double spin) { return solved(periodic(stone, spin, 0.1, 3, 1e-9, model)); };
+  CHECK(by(rung::series_2, 50).by("series-2"));
+  CHECK_FALSE(by(rung::series_2, 50).answer.met);
+  CHECK(by(rung::series, 50).by("series"));
+  CHECK(by(rung::full, 50).by("full"));
+  const Solved refused = by(rung::exact, 50);
   CHECK(refused.refusal.code == Errc::not_applicable);
   CHECK(std::strcmp(refused.refusal.model, "exact") == 0);
   CHECK(refused.answer.columns.empty());
@@ -121,11 +117,11 @@ TEST_CASE("a heavy answer is in the caller's axes and ends when told", "[heavy]"
   const auto body = Body::make(R * I.asDiagonal() * R.transpose(), 0.8, R * centre, 9.80665, 4.6e-6);
   REQUIRE(body);
   Question question;
-  question.periodic = Periodic{150, 0.1};
+  const Start start{{}, Periodic{150, 0.1}};
   question.times = {0, 0.1};
-  const auto scene = Scene::make(*body, {}, question);
+  const auto scene = Scene::make(*body, start, question);
   REQUIRE(scene);
-  const auto turned = solved(*scene).answer, plain = solved(posed(stone, {}, 0.1, question, 1)).answer;
+  const auto turned = solved(*scene).answer, plain = solved(posed(stone, start, 0.1, question, 1)).answer;
   const auto vector = [](const Answer& answer, std::size_t k) {
     const double* v = &answer.find("down")->values[3 * k];
     return Vec3<double>(v[0], v[1], v[2]);

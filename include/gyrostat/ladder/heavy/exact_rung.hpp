@@ -13,7 +13,7 @@ namespace detail {
 
 /// Of a fast periodic motion that is known exactly.
 inline Periodicity exact_periodicity(const Scene& scene, const State<double>& start, const Exact<double>& exact) {
-  const auto& [spin, cosine] = *scene.question().periodic;
+  const auto& [spin, cosine] = *scene.periodic();
   const auto s = *Scaled<double>::make(scene.problem(), spin, cosine);
   constexpr double rounding = 64 * epsilon<double>;
   Periodicity known;
@@ -47,15 +47,15 @@ inline Periodicity exact_periodicity(const Scene& scene, const State<double>& st
 inline Track exact_track(const Scene& scene, Monitor*) {
   const Question& question = scene.question();
   State<double> start = scene.start();
-  if (question.periodic) {
-    const auto plain = plain_start(scene.problem(), *question.periodic);
+  if (scene.periodic()) {
+    const auto plain = plain_start(scene.problem(), *scene.periodic());
     if (!plain)
       return refused<Track>(Errc::not_applicable,
                             "no exact case: the start of this periodic motion is not known in closed form");
     start = *plain;
   }
   const Exact<double> exact(scene.problem(), start);
-  if (question.periodic && exact.pendulum() && exact.pendulum()->motion() != PendulumMotion::rotation)
+  if (scene.periodic() && exact.pendulum() && exact.pendulum()->motion() != PendulumMotion::rotation)
     return refused<Track>(Errc::not_applicable,
                           "no exact case: below twice the pendulum rate the body swings, and does not go round");
   if (!exact.applies())
@@ -65,22 +65,17 @@ inline Track exact_track(const Scene& scene, Monitor*) {
         "does not turn about a horizontal principal axis with weight or gradient alone");
   Track track;
   track.states.reserve(question.times.size());
-  Comparison<double> sizes;
+  Comparison sizes(Row<double>{});
   for (const double t : question.times) {
     track.states.push_back(exact.at(t));
-    sizes.add(track.states.back(), track.states.back());
+    sizes.add(track.states.back());
   }
   const auto bound = exact.error(question.times.back());
   track.error = sizes.relative({bound.angular_velocity, bound.down, bound.attitude});
   track.in_domain = bound.attitude < infinity<double>;
-  if (!track.in_domain)
-    track.warn(
-        "rounding-decides",
-        "before the last time rounding of the data has grown to the size of the motion (a separatrix, a start off the "
-        "plane of a pendulum, or a very long time)",
-        question.times.back());
+  if (!track.in_domain) track.warn(warning_kinds[warning::rounding_decides], question.times.back());
 
-  if (question.periodic) {
+  if (scene.periodic()) {
     track.periodicity = detail::exact_periodicity(scene, start, exact);
     return track;
   }

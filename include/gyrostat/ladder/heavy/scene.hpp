@@ -3,25 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/monitor.hpp"
-#include "gyrostat/ladder/times.hpp"
+#include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
 
 namespace gyrostat::heavy {
 
-/// Which rung answers; `any` climbs the ladder.
-enum class Model : std::uint8_t { any, series_2, series, exact, full };
-
 struct Track;
-class Scene;
 
 /// The periodic motion that starts with the given rate about axis 3 and d = (+sqrt(1 - cos^2), 0, cos), all in principal axes.
 struct Periodic {
@@ -29,15 +22,10 @@ struct Periodic {
   double cos_inclination;  ///< d3 at t = 0, in (-1, 1)
 };
 
-/// What is asked.
-struct Question {
-  std::vector<double> times;         ///< s, increasing, the first >= 0
-  std::optional<Periodic> periodic;  ///< the start is that of this periodic motion
-  bool wants_attitude = false;
-  double tolerance = 1e-6;
-  Model model = Model::any;
-  /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
-  Track (*full_equations)(const Scene&, Monitor*) = nullptr;
+/// What a motion starts from: a state, or a periodic motion whose start is to be found.
+struct Start {
+  State<double> state;  ///< body axes; where the attitude is wanted down is taken from it, else only down counts
+  std::optional<Periodic> periodic{};
 };
 
 /// A state in other axes: v_new = R v for the body vectors.
@@ -88,28 +76,28 @@ class Scene {
  public:
   Scene() = default;
 
-  /// start: in the caller's body axes; where the attitude is wanted down is taken from it, else only down counts.
   /// Errors: not_finite; zero_vector (an attitude without length); out_of_domain (a down that is not of unit length within 1e-8, an
   /// inclination outside (-1, 1)); and what check_times finds.
-  static Result<Scene> make(const Body& body, const State<double>& start, const Question& question) {
-    if (!start.angular_velocity.allFinite() || !start.down.allFinite()) return Errc::not_finite;
+  static Result<Scene> make(const Body& body, const Start& start, const Question& question) {
+    if (!start.state.angular_velocity.allFinite() || !start.state.down.allFinite()) return Errc::not_finite;
     if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
     Scene scene;
     scene.body_ = body;
+    scene.given_ = start;
     scene.question_ = question;
-    State<double> from = start;
+    State<double> from = start.state;
     if (question.wants_attitude) {
-      const double length = norm(start.attitude);
+      const double length = norm(from.attitude);
       if (!std::isfinite(length)) return Errc::not_finite;
       if (!(length > 0)) return Errc::zero_vector;
-      from.attitude = normalised(start.attitude);
+      from.attitude = normalised(from.attitude);
       from.down = rotate<double>(conjugate(from.attitude), {0, 0, -1});
     } else {
       from.attitude = {};
       if (!(std::abs(from.down.norm() - 1) <= 1e-8)) return Errc::out_of_domain;
     }
-    if (question.periodic) {
-      const auto& [spin, cosine] = *question.periodic;
+    if (start.periodic) {
+      const auto& [spin, cosine] = *start.periodic;
       if (!std::isfinite(spin) || !std::isfinite(cosine)) return Errc::not_finite;
       if (!(std::abs(cosine) < 1)) return Errc::out_of_domain;
     }
@@ -122,10 +110,15 @@ class Scene {
   const Mat3<double>& R_BP() const noexcept { return body_.R_BP; }  ///< principal axes to body axes
   /// Principal axes; the attitude takes them to inertial ones.
   const State<double>& start() const noexcept { return start_; }
+  const std::optional<Periodic>& periodic() const noexcept { return given_.periodic; }
   const Question& question() const noexcept { return question_; }
+
+  /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
+  Track (*full_equations)(const Scene&, Monitor*) = nullptr;
 
  private:
   Body body_;
+  Start given_;
   State<double> start_;
   Question question_;
 };
