@@ -66,7 +66,7 @@
 #include "gyrostat/ladder/rotor/track.hpp"
 #include "gyrostat/ladder/rung.hpp"
 #include "gyrostat/ladder/spinning/axial_motion.hpp"
-#include "gyrostat/ladder/spinning/column_errors.hpp"
+#include "gyrostat/ladder/spinning/motion.hpp"
 #include "gyrostat/ladder/spinning/full_motion.hpp"
 #include "gyrostat/ladder/spinning/full_rung.hpp"
 #include "gyrostat/ladder/spinning/linear_rung.hpp"
