@@ -7,12 +7,10 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from types import ModuleType
 from typing import Any, Final
 
-from gyrostat.charts import deceleration, heavy, rotor, spinning
 from gyrostat.charts.point import ChartPoint, Measure
-from gyrostat.errors import DomainError
+from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene
 
 __all__ = ["Chart", "ChartPoint", "make_chart"]
@@ -20,9 +18,6 @@ __all__ = ["Chart", "ChartPoint", "make_chart"]
 REPEATS: Final = 7
 # A method that took longer than this for a solution [s] is not asked for a more accurate one.
 TOO_LONG: Final = 3.0
-
-# Each module makes the `plan` of a scene.
-KINDS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "spinning": spinning, "heavy": heavy}
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +72,7 @@ class Chart:
 
 def make_chart(scene: Scene, *, repeats: int = REPEATS, progress: Callable[[int, int, str], None] | None = None) -> Chart:
     """Measure every method on the scene. `progress` is told (done, all, what) before each."""
-    if scene.kind not in KINDS:
-        raise DomainError(f"kind = {scene.kind!r}: charts are known for the kinds {', '.join(KINDS)}")
-    plan = KINDS[scene.kind].plan(scene, repeats)
+    plan = FAMILIES[scene.kind].part("chart").plan(scene, repeats)
     points: list[ChartPoint] = []
     slow: set[str] = set()
     for done, (method, setting, job) in enumerate(plan.jobs):

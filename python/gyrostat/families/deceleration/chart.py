@@ -21,7 +21,7 @@ from gyrostat.charts.point import (
     rung_jobs,
     timed,
 )
-from gyrostat.fields import RUNGS
+from gyrostat.facts import FACTS
 from gyrostat.scenes import Scene
 
 __all__ = ["plan", "true_errors"]
@@ -61,7 +61,7 @@ def plan(scene: Scene, repeats: int) -> Plan:
         return true_errors(columns.get("angular_momentum"), columns.get("angular_momentum_norm"), want)
 
     methods = [("dop853", "Runge-Kutta DOP853", "dop853"), *cvode_methods()]
-    jobs = (*rung_jobs(RUNGS[scene.kind], deceleration.solve, given, errors, repeats),
+    jobs = (*rung_jobs(FACTS[scene.kind].rungs, deceleration.solve, given, errors, repeats),
             *integrator_jobs(methods, deceleration.integrate, _physics(given), errors, repeats), *_rivals(given, want, repeats))
     return Plan(f"true error against cost, {len(times)} times to {times[-1]:.6g} s{cut}", MEASURES, jobs)
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat import _core, spinning
-from gyrostat.gallery.drawing import Drawing, finish
+from gyrostat.drawing import Drawing, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat import _core, rotation, rotor
-from gyrostat.gallery.drawing import Drawing, finish
+from gyrostat.drawing import Drawing, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -243,7 +243,7 @@ def _rate_vs_slope() -> "Figure":
 
 def _basins() -> "Figure":
     from gyrostat.plots import _figure
-    from gyrostat.stability.sphere import Sphere, from_disc
+    from gyrostat.families.rotor.sphere import Sphere, from_disc
 
     l, across, longest = 8.0, 61, 4000.0
     theta, e = np.array(TWO["inertia"]), np.array(TWO["axis"])
@@ -290,7 +290,7 @@ def _basin(axes: "Axes", view: Vectors, picture: Vectors, steady: rotor.SteadyRo
     from matplotlib.patches import Circle
 
     from gyrostat.plots import COLOURS
-    from gyrostat.stability.sphere import Sphere, from_disc, onto_disc
+    from gyrostat.families.rotor.sphere import Sphere, from_disc, onto_disc
 
     sphere = Sphere(np.array(TWO["inertia"]), np.array(TWO["axis"]), 8.0, TWO["axial_inertia"] * TWO["no_load_rate"])
     drawn = axes.imshow(picture, origin="lower", extent=(-1, 1, -1, 1), interpolation="nearest", vmin=-1.5, vmax=1.5,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gyrostat import _core, heavy, rotation
 from gyrostat.errors import ConvergenceError
-from gyrostat.gallery.drawing import Drawing, finish
+from gyrostat.drawing import Drawing, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,7 +51,7 @@ def drawings(wanted: Sequence[str]) -> list[Drawing]:
 @lru_cache(maxsize=2)
 def printed_table(number: int) -> tuple[tuple[tuple[str, ...], ...], Vectors]:
     """Rows of table 1 or 2 as printed: t, p2, gamma2 and their rates; and as numbers (31, 5), p2 and its rate over AMPLITUDE."""
-    with Path(__file__).with_name("heavy_published.csv").open(encoding="utf-8", newline="") as file:
+    with Path(__file__).with_name("published.csv").open(encoding="utf-8", newline="") as file:
         texts = tuple(tuple(row[1:]) for row in csv.reader(file) if row[0] == str(number))
     values = np.array(texts, dtype=float)
     values[:, [1, 3]] /= AMPLITUDE

@@ -21,7 +21,7 @@ from gyrostat.charts.point import (
     rung_jobs,
     timed,
 )
-from gyrostat.fields import RUNGS
+from gyrostat.facts import FACTS
 from gyrostat.rotation import angle_between
 from gyrostat.scenes import Scene
 
@@ -65,7 +65,7 @@ def plan(scene: Scene, repeats: int) -> Plan:
         return true_errors(made, want)
 
     methods = [("radau", "Radau IIA", "radau"), ("dop853", "Runge-Kutta DOP853", "dop853"), *cvode_methods()]
-    jobs = (*rung_jobs(RUNGS[scene.kind], rotor.solve, given, errors, repeats),
+    jobs = (*rung_jobs(FACTS[scene.kind].rungs, rotor.solve, given, errors, repeats),
             *integrator_jobs(methods, rotor.integrate, physics, errors, repeats), *_rivals(physics, want, repeats))
     title = (f"true error against cost, {len(given['times'])} times to {end:.6g} s{cut}\n{turns * end:.3g} turns at most, {relaxations * end:.3g} "
              f"relaxation times of the motor; reference: {'Radau' if stiff else 'Taylor series of order 30'} in long double")

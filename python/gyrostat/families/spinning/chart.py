@@ -21,7 +21,7 @@ from gyrostat.charts.point import (
     rung_jobs,
     timed,
 )
-from gyrostat.fields import RUNGS
+from gyrostat.facts import FACTS
 from gyrostat.rotation import angle_between, quaternion_from_euler_312
 from gyrostat.scenes import Scene
 
@@ -64,7 +64,7 @@ def plan(scene: Scene, repeats: int) -> Plan:
         return true_errors(made, want)
 
     methods = [("dop853", "Runge-Kutta DOP853", "dop853"), *cvode_methods()]
-    jobs = (*rung_jobs(RUNGS[scene.kind], spinning.solve, given, errors, repeats),
+    jobs = (*rung_jobs(FACTS[scene.kind].rungs, spinning.solve, given, errors, repeats),
             *integrator_jobs(methods, spinning.integrate, physics, errors, repeats), *_rivals(physics, want, repeats))
     turns = float(np.mean(np.linalg.norm(want["angular_velocity"], axis=1))) * end / (2 * math.pi)
     title = (f"true error against cost, {len(given['times'])} times to {end:.6g} s{cut}\nabout {turns:.3g} turns; "

@@ -11,9 +11,9 @@ import numpy as np
 
 from gyrostat import _core
 from gyrostat.answer import Answer
-from gyrostat.gallery.drawing import Drawing, finish
+from gyrostat.drawing import Drawing, finish
 from gyrostat.ladder import solve
-from gyrostat.stability.deceleration import draw_regions, quasi_stationary_line
+from gyrostat.families.deceleration.stability import draw_regions, quasi_stationary_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

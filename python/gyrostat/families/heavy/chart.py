@@ -22,7 +22,7 @@ from gyrostat.charts.point import (
     timed,
 )
 from gyrostat.errors import ConvergenceError, DomainError
-from gyrostat.fields import RUNGS
+from gyrostat.facts import FACTS
 from gyrostat.scenes import Scene
 
 __all__ = ["plan", "true_errors"]
@@ -70,7 +70,7 @@ def plan(scene: Scene, repeats: int) -> Plan:
         return true_errors(made, want)
 
     methods = [("dop853", "Runge-Kutta DOP853", "dop853"), *cvode_methods()]
-    jobs = (*rung_jobs(RUNGS[scene.kind], heavy.solve, given, errors, repeats), *_series_jobs(given, errors, repeats),
+    jobs = (*rung_jobs(FACTS[scene.kind].rungs, heavy.solve, given, errors, repeats), *_series_jobs(given, errors, repeats),
             *integrator_jobs(methods, heavy.integrate, physics, errors, repeats), *_rivals(physics, turns, want, repeats))
     title = (f"true error against cost, {len(physics['times'])} times to {physics['times'][-1]:.6g} s{''.join(', ' + note for note in notes)}\n"
              f"about {turns:.3g} turns; reference: Taylor series of order 30 in long double")
