@@ -1,30 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What accuracy costs on a deceleration scene, against a Taylor integration in long double."""
+"""The chart of a deceleration scene: what is measured, how far, and the equations for rivals."""
 
 import math
-import time
-from collections.abc import Callable, Iterator
-from typing import Any, Final
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gyrostat import deceleration
-from gyrostat.charts.point import (
-    TOLERANCES,
-    ChartPoint,
-    Job,
-    Measure,
-    Plan,
-    Vectors,
-    cvode_methods,
-    integrator_jobs,
-    rung_jobs,
-    timed,
-)
-from gyrostat.facts import FACTS
-from gyrostat.scenes import Scene
+from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, first_turns, greatest, reference, relative, tensor
+from gyrostat.errors import DomainError
+from gyrostat.families.deceleration.functions import integrate, solve
+from gyrostat.families.deceleration.scene import arguments
 
-__all__ = ["plan", "true_errors"]
+if TYPE_CHECKING:
+    from gyrostat.scenes import Scene
+
+__all__ = ["problem", "true_errors"]
+
+Vectors = NDArray[np.float64]
 
 # The integrators of others step over M = 0: the chart ends before the stop.
 STOP_SHARE: Final = 0.95
@@ -34,143 +28,91 @@ MEASURES: Final = (Measure("angular_momentum_norm", "error of |M|", "|M|", _AXIS
                    Measure("angular_momentum", "error of M", "the vector M, body axes", _AXIS))
 
 
-def true_errors(got: Vectors | None, norm: Vectors | None, want: Vectors) -> dict[str, float]:
+def true_errors(made: Mapping[str, Any], want: Vectors) -> dict[str, float]:
     """Greatest error of the vector and of its size, each relative to the greatest size of `want` (n, 3)."""
-    size = np.linalg.norm(want, axis=1)
-    scale = float(np.max(size))
-    if got is not None and norm is None:
-        norm = np.linalg.norm(got, axis=1)
-    errors = {"angular_momentum": math.nan, "angular_momentum_norm": math.nan}
-    if got is not None:
-        errors["angular_momentum"] = float(np.max(np.linalg.norm(got - want, axis=1))) / scale
-    if norm is not None:
-        errors["angular_momentum_norm"] = float(np.max(np.abs(norm - size))) / scale
-    return errors
+    vector, size = made.get("angular_momentum"), made.get("angular_momentum_norm")
+    if size is None and vector is not None:
+        size = np.linalg.norm(vector, axis=1)
+    return {"angular_momentum": math.nan if vector is None else relative(vector, want),
+            "angular_momentum_norm": math.nan if size is None else relative(size, np.linalg.norm(want, axis=1))}
 
 
-def plan(scene: Scene, repeats: int) -> Plan:
-    """Every method on the scene, up to just before the stop."""
-    given = deceleration.arguments(scene)
-    times, cut = _before_the_stop(given)
+def problem(scene: "Scene") -> Problem:
+    """The scene up to just before the stop, or its first part where the whole is too long."""
+    given = {**arguments(scene), "attitude": None}
+    rate = _turn_rate(given)
+    times, cut = first_turns(given["times"], lambda end: rate * end, MOST_TURNS)
     given["times"] = times
-    given["attitude"] = None
-    reference = deceleration.integrate(**_physics(given), method="taylor", order=30, tolerance=1e-18, precision="long double")
-    want = np.asarray(reference["angular_momentum"])
-
-    def errors(columns: dict[str, Any]) -> dict[str, float]:
-        return true_errors(columns.get("angular_momentum"), columns.get("angular_momentum_norm"), want)
-
-    methods = [("dop853", "Runge-Kutta DOP853", "dop853"), *cvode_methods()]
-    jobs = (*rung_jobs(FACTS[scene.kind].rungs, deceleration.solve, given, errors, repeats),
-            *integrator_jobs(methods, deceleration.integrate, _physics(given), errors, repeats), *_rivals(given, want, repeats))
-    return Plan(f"true error against cost, {len(times)} times to {times[-1]:.6g} s{cut}", MEASURES, jobs)
+    times, stop = _before_the_stop(given)
+    given["times"] = times
+    physics = {key: given[key] for key in ("inertia", "rotor_momentum", "control", "drag", "law", "drag_law", "angular_momentum", "times")}
+    want = np.asarray(reference(integrate, physics)["angular_momentum"])
+    turns = rate * float(times[-1])
+    title = (f"{len(times)} times to {times[-1]:.6g} s{cut}{stop}\n{turns:.3g} turns at most; reference: Taylor series of "
+             "order 30 in long double")
+    return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics), 10 * turns)
 
 
-def _physics(given: dict[str, Any]) -> dict[str, Any]:
-    keys = ("inertia", "rotor_momentum", "control", "drag", "law", "drag_law", "angular_momentum", "times")
-    return {key: given[key] for key in keys}
+def _turn_rate(given: Mapping[str, Any]) -> float:
+    """Bound of the turns in a second while the momentum does not grow."""
+    most = greatest([given["angular_momentum"]]) + 2 * greatest([given["rotor_momentum"]])
+    return most / float(np.linalg.eigvalsh(tensor(given["inertia"]))[0]) / (2 * math.pi)
 
 
-def _before_the_stop(given: dict[str, Any]) -> tuple[Vectors, str]:
-    """The scene's times that lie before the stop, and a remark where some were left out."""
+def _before_the_stop(given: Mapping[str, Any]) -> tuple[Vectors, str]:
+    """The times that lie before the stop, and a remark where some were left out."""
     times = given["times"]
-    stop = deceleration.solve(**{**given, "model": "full", "times": times[-1:], "tolerance": 1e-6})["scalars"].get("stop_time")
+    stop = solve(**{**given, "model": "full", "times": times[-1:], "tolerance": 1e-6})["scalars"].get("stop_time")
     if stop is None or not math.isfinite(stop) or times[-1] <= STOP_SHARE * stop:
         return times, ""
+    if stop <= 0:
+        raise DomainError("the body is at rest from the start: there is no motion to chart")
     kept = times[times <= STOP_SHARE * stop]
     if len(kept) < 2:
         kept = np.linspace(0.0, STOP_SHARE * stop, 51)
     return kept, f" (the motion stops at {stop:.6g} s)"
 
 
-# ---- rivals ----
+class Rival:
+    """M over its size at the start."""
 
+    def __init__(self, given: Mapping[str, Any]) -> None:
+        momentum = np.asarray(given["angular_momentum"], dtype=float)
+        self.unit = float(np.linalg.norm(momentum)) or 1.0
+        self.start = momentum / self.unit
+        self.inverse = np.linalg.inv(tensor(given["inertia"])) * self.unit
+        self.rotor = np.asarray(given["rotor_momentum"], dtype=float) / self.unit
+        self.control = np.asarray(given["control"], dtype=float) / self.unit
+        self.drag = float(given["drag"])
+        self.total, self.total_drag = given["law"] == "total", given["drag_law"] == "total"
 
-def _rivals(given: dict[str, Any], want: Vectors, repeats: int) -> Iterator[Job]:
-    try:
-        from scipy.integrate import solve_ivp
-    except ImportError:
-        pass
-    else:
-        right = _right_hand_side(given)
-        start = np.asarray(given["angular_momentum"])
-        times = given["times"]
-        for tolerance in TOLERANCES:
+    def columns(self, states: Vectors) -> dict[str, Any]:
+        """(n, 3) -> columns."""
+        return {"angular_momentum": states * self.unit}
 
-            def scipy_job(tolerance: float = tolerance) -> ChartPoint | None:
-                made: dict[str, Any] = {}
+    def right(self) -> Callable[[float, Vectors], Vectors]:
+        """dM/dt in Python."""
+        inverse, rotor, control, drag, total, total_drag = self.inverse, self.rotor, self.control, self.drag, self.total, self.total_drag
+        driven = bool(np.any(control))
 
-                def once() -> float:
-                    began = time.perf_counter()
-                    made["run"] = solve_ivp(right, (0.0, times[-1]), start, method="DOP853", t_eval=times, rtol=tolerance,
-                                            atol=tolerance * float(np.linalg.norm(start)))
-                    return time.perf_counter() - began
+        def right(_: float, momentum: Vectors) -> Vectors:
+            carrier = momentum - rotor
+            made: Vectors = np.cross(momentum, inverse @ carrier) - drag * (momentum if total_drag else carrier)
+            if driven:
+                opposed = momentum if total else carrier
+                made -= control * opposed / math.sqrt(opposed @ opposed)
+            return made
 
-                seconds = timed(once, repeats)
-                run = made["run"]
-                if not run.success:
-                    return None
-                return ChartPoint("rival", "SciPy DOP853 (Python right-hand side)", f"tolerance {tolerance:g}",
-                                  true_errors(run.y.T, None, want), seconds, int(run.nfev))
+        return right
 
-            yield "SciPy DOP853", f"{tolerance:g}", scipy_job
-    try:
-        import heyoka
-    except ImportError:
-        return
-    for tolerance in TOLERANCES:
-
-        def heyoka_job(tolerance: float = tolerance) -> ChartPoint | None:
-            start, times = np.asarray(given["angular_momentum"]), given["times"]
-            integrator = heyoka.taylor_adaptive(_heyoka_system(heyoka, given), list(start), tol=tolerance)
-            grid = times if times[0] == 0 else np.concatenate([[0.0], times])
-            made: dict[str, Any] = {}
-
-            def once() -> float:
-                integrator.time = 0.0
-                integrator.state[:] = start
-                began = time.perf_counter()
-                made["out"] = integrator.propagate_grid(grid)
-                return time.perf_counter() - began
-
-            seconds = timed(once, repeats)
-            outcome, steps, states = made["out"][0], made["out"][3], made["out"][5]
-            if outcome != heyoka.taylor_outcome.time_limit or len(states) != len(grid):
-                return None
-            return ChartPoint("rival", "heyoka (compile time left out)", f"tolerance {tolerance:g}",
-                              true_errors(states[len(grid) - len(times):], None, want), seconds, int(steps))
-
-        yield "heyoka", f"{tolerance:g}", heyoka_job
-
-
-def _tensor(given: dict[str, Any]) -> Vectors:
-    inertia = np.asarray(given["inertia"], dtype=float)
-    return np.diag(inertia) if inertia.ndim == 1 else inertia
-
-
-def _right_hand_side(given: dict[str, Any]) -> Callable[[float, Vectors], Vectors]:
-    inverse = np.linalg.inv(_tensor(given))
-    rotor, control, drag = np.asarray(given["rotor_momentum"]), np.asarray(given["control"]), given["drag"]
-    total, total_drag = given["law"] == "total", given["drag_law"] == "total"
-
-    def right(_: float, momentum: Vectors) -> Vectors:
-        carrier = momentum - rotor
-        opposed = momentum if total else carrier
-        dragged = momentum if total_drag else carrier
-        rate = inverse @ carrier
-        made: Vectors = np.cross(momentum, rate) - drag * dragged - control * opposed / math.sqrt(opposed @ opposed)
-        return made
-
-    return right
-
-
-def _heyoka_system(heyoka: Any, given: dict[str, Any]) -> list[Any]:
-    names = heyoka.make_vars("x", "y", "z")
-    inverse = np.linalg.inv(_tensor(given))
-    carrier = [m - l if l else m for m, l in zip(names, np.asarray(given["rotor_momentum"]).tolist(), strict=True)]
-    rate = [heyoka.sum([float(inverse[i, j]) * carrier[j] for j in range(3) if inverse[i, j] != 0]) for i in range(3)]
-    opposed = names if given["law"] == "total" else carrier
-    dragged = names if given["drag_law"] == "total" else carrier
-    size = heyoka.sqrt(heyoka.sum([u * u for u in opposed]))
-    cross = [names[1] * rate[2] - names[2] * rate[1], names[2] * rate[0] - names[0] * rate[2], names[0] * rate[1] - names[1] * rate[0]]
-    return [(names[i], cross[i] - given["drag"] * dragged[i] - float(given["control"][i]) * opposed[i] / size) for i in range(3)]
+    def system(self, heyoka: Any) -> list[Any]:
+        """dM/dt for heyoka."""
+        names = heyoka.make_vars("x", "y", "z")
+        carrier = [m - l if l else m for m, l in zip(names, self.rotor.tolist(), strict=True)]
+        rate = [heyoka.sum([float(self.inverse[i, j]) * carrier[j] for j in range(3) if self.inverse[i, j] != 0]) for i in range(3)]
+        opposed, dragged = (names if total else carrier for total in (self.total, self.total_drag))
+        made = [names[1] * rate[2] - names[2] * rate[1], names[2] * rate[0] - names[0] * rate[2], names[0] * rate[1] - names[1] * rate[0]]
+        if np.any(self.control):
+            size = heyoka.sqrt(heyoka.sum([u * u for u in opposed]))
+            made = [part - float(b) * u / size for part, b, u in zip(made, self.control, opposed, strict=True)]
+        return [(name, part - self.drag * u) for name, part, u in zip(names, made, dragged, strict=True)]

@@ -6,6 +6,7 @@ dM/dt = M x omega - drag D - control U/|U|. Law "total" opposes U = M (drag: D =
 All in body axes and SI units. Source: docs/deceleration.md.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -53,19 +54,20 @@ def solve(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_moment
 
 def integrate(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_momentum: ArrayLike, times: ArrayLike,
               rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), law: str = "total", drag_law: str = "total",
-              method: str = "taylor", order: int = 20, tolerance: float = 1e-9, precision: str = "double") -> dict[str, Any]:
+              method: str = "taylor", order: int = 20, tolerance: float = 1e-9, precision: str = "double",
+              patience: float = math.inf) -> dict[str, Any]:
     """The full equations under one integrator at one setting, timed: no error estimate, no stop.
 
-    Arguments as in `solve`. method : "taylor" (order 8, 12, 16, 20 or 26; 30 in precision "long double"), "dop853",
-    "cvode-adams", "cvode-bdf". tolerance : local, relative to |M(0)|.
-    Returns angular_momentum (n, 3) [N m s], seconds, rhs, steps, status ("reached" where all went well).
+    Arguments as in `solve`. method : "taylor" (order 8, 12 or 20; 30 in precision "long double"), "dop853",
+    "cvode-adams", "cvode-bdf". tolerance : local, relative to |M(0)|; patience : CPU time after which it gives up [s].
+    Returns angular_momentum (n, 3) [N m s], seconds, rhs, steps, status ("reached" where all went well, "cancelled" out of patience).
     Raises DomainError for an argument outside its domain and for a method that the build lacks.
     """
     made: dict[str, Any] = _core.deceleration_integrate(
         inertia=np.asarray(inertia, dtype=float), rotor_momentum=np.asarray(rotor_momentum, dtype=float),
         control=np.asarray(control, dtype=float), drag=float(drag), law=law, drag_law=drag_law,
         angular_momentum=np.asarray(angular_momentum, dtype=float), times=np.asarray(times, dtype=float), method=method,
-        order=int(order), tolerance=float(tolerance), precision=precision)
+        order=int(order), tolerance=float(tolerance), precision=precision, patience=float(patience))
     return made
 
 

@@ -1,149 +1,107 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What accuracy costs on a scene of a heavy body, against a Taylor integration in long double."""
+"""The chart of a heavy body: what is measured, how far, the series by order, and the equations for rivals."""
 
 import math
-import time
-from collections.abc import Callable, Iterator
-from typing import Any, Final
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gyrostat import _core, heavy
-from gyrostat.charts.point import (
-    TOLERANCES,
-    ChartPoint,
-    Job,
-    Measure,
-    Plan,
-    Vectors,
-    cvode_methods,
-    integrator_jobs,
-    rung_jobs,
-    timed,
-)
+from gyrostat import _core
+from gyrostat.charts.methods import timed
+from gyrostat.charts.problem import MOST_TURNS, Line, Measure, Problem, Run, Unanswered, first_turns, reference, relative, tensor
 from gyrostat.errors import ConvergenceError, DomainError
-from gyrostat.facts import FACTS
-from gyrostat.scenes import Scene
+from gyrostat.families.heavy.functions import integrate, periodic_orbit, principal_axes, series, solve
+from gyrostat.families.heavy.scene import arguments
 
-__all__ = ["plan", "true_errors"]
+if TYPE_CHECKING:
+    from gyrostat.scenes import Scene
+
+__all__ = ["problem", "true_errors"]
+
+Vectors = NDArray[np.float64]
 
 RATES: Final = Measure("angular_velocity", "error of omega", "the angular velocity", "greatest true error, relative to the greatest |ω| [1]")
 DOWN: Final = Measure("down", "error of down", "down, body axes", "greatest true error, angle [rad]")
-# The chart covers at most so many turns: beyond, slow methods would take minutes.
-MOST_TURNS: Final = 5000.0
-# A right-hand side written in Python [s], and the longest run of it that is waited for [s].
-PYTHON_CALL: Final = 1.2e-5
-PYTHON_PATIENCE: Final = 12.0
 SERIES_ORDERS: Final = (2, 4, 6, 8, 12, 16, 20, 24, 30)
 
 
-def true_errors(made: dict[str, Any], want: dict[str, Any]) -> dict[str, float]:
+def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, float]:
     """Greatest differences of the rates, over the greatest wanted, and of down."""
-    size = float(np.max(np.linalg.norm(want["angular_velocity"], axis=1)))
-    off = {name: float(np.max(np.linalg.norm(made[name] - want[name], axis=1))) for name in ("angular_velocity", "down")}
-    return {"angular_velocity": off["angular_velocity"] / size if size > 0 else math.nan, "down": off["down"]}
+    return {name: relative(made[name], want[name]) for name in ("angular_velocity", "down")}
 
 
-def plan(scene: Scene, repeats: int) -> Plan:
-    """Every method on the scene, or on its first part where the whole is too long.
-
-    A periodic motion is charted from the start that shooting finds for it.
-    """
-    given = heavy.arguments(scene)
-    asked = given["times"]
-    periodic, notes = given["periodic"], []
-    if periodic is not None:
-        start = _periodic_start(given)
-        notes.append("from the start that shooting finds")
-    else:
-        start = {name: given[name] for name in ("angular_velocity", "down", "attitude")}
-    physics = {**{name: given[name] for name in ("inertia", "mass", "centre_of_mass", "gravity", "gravity_gradient", "times")}, **start}
-    turns = _turns(physics)
-    if turns > MOST_TURNS:
-        end = float(asked[-1]) * MOST_TURNS / turns
-        physics["times"] = given["times"] = np.linspace(0.0, end, 51)
-        notes.append(f"of the scene's {asked[-1]:.6g} s")
-        turns = MOST_TURNS
-    want = heavy.integrate(**physics, method="taylor", order=30, tolerance=1e-18, precision="long double")
-
-    def errors(made: dict[str, Any]) -> dict[str, float]:
-        return true_errors(made, want)
-
-    methods = [("dop853", "Runge-Kutta DOP853", "dop853"), *cvode_methods()]
-    jobs = (*rung_jobs(FACTS[scene.kind].rungs, heavy.solve, given, errors, repeats), *_series_jobs(given, errors, repeats),
-            *integrator_jobs(methods, heavy.integrate, physics, errors, repeats), *_rivals(physics, turns, want, repeats))
-    title = (f"true error against cost, {len(physics['times'])} times to {physics['times'][-1]:.6g} s{''.join(', ' + note for note in notes)}\n"
+def problem(scene: "Scene") -> Problem:
+    """The scene, or its first part where the whole is too long; a periodic motion from the start that shooting finds for it."""
+    given = arguments(scene)
+    periodic = given["periodic"]
+    names = ("inertia", "mass", "centre_of_mass", "gravity", "gravity_gradient")
+    start = {name: given[name] for name in ("angular_velocity", "down", "attitude")} if periodic is None else _periodic_start(given)
+    physics = {**{name: given[name] for name in names}, **start}
+    rate = _turn_rate(physics)
+    times, cut = first_turns(given["times"], lambda end: rate * end, MOST_TURNS)
+    given["times"] = physics["times"] = times
+    want = reference(integrate, physics)
+    turns = rate * float(times[-1])
+    found = "" if periodic is None else ", from the start that shooting finds"
+    title = (f"{len(times)} times to {times[-1]:.6g} s{cut}{found}\n"
              f"about {turns:.3g} turns; reference: Taylor series of order 30 in long double")
-    return Plan(title, (RATES, DOWN), jobs)
+    return Problem(title, (RATES, DOWN), solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics, rate), 10 * turns,
+                   lines=lambda: _series(given))
 
 
-def _principal(given: dict[str, Any]) -> tuple[dict[str, Any], Vectors]:
+def _principal(given: Mapping[str, Any]) -> tuple[dict[str, Any], Vectors]:
     """The body in principal axes, and the rotation from there to the scene's."""
     inertia = np.asarray(given["inertia"], dtype=float)
-    moments, axes = (inertia, np.eye(3)) if inertia.ndim == 1 else heavy.principal_axes(inertia)
+    moments, axes = (inertia, np.eye(3)) if inertia.ndim == 1 else principal_axes(inertia)
     centre = axes.T @ np.asarray(given["centre_of_mass"], dtype=float)
     return {"inertia": moments, "centre_of_mass": centre, **{name: given[name] for name in ("mass", "gravity", "gravity_gradient")}}, axes
 
 
-def _periodic_start(given: dict[str, Any]) -> dict[str, Any]:
+def _periodic_start(given: Mapping[str, Any]) -> dict[str, Any]:
     body, axes = _principal(given)
-    orbit = heavy.periodic_orbit(**body, **given["periodic"])
+    orbit = periodic_orbit(**body, **given["periodic"])
     if str(orbit.verdict) == "none":
         raise DomainError(f"initial.periodic: no such motion was found to chart: {orbit.why}")
     return {"angular_velocity": axes @ orbit.angular_velocity, "down": axes @ orbit.down / np.linalg.norm(orbit.down), "attitude": None}
 
 
-def _turns(physics: dict[str, Any]) -> float:
-    """Roughly the turns and swings up to the last time."""
-    inertia = np.asarray(physics["inertia"], dtype=float)
-    least = float(np.min(inertia)) if inertia.ndim == 1 else float(np.linalg.eigvalsh(inertia)[0])
+def _turn_rate(physics: Mapping[str, Any]) -> float:
+    """Roughly the turns and swings in a second."""
+    least = float(np.linalg.eigvalsh(tensor(physics["inertia"]))[0])
     pull = physics["mass"] * physics["gravity"] * float(np.linalg.norm(physics["centre_of_mass"])) / least
-    rate = float(np.linalg.norm(physics["angular_velocity"])) + math.sqrt(pull) + math.sqrt(physics["gravity_gradient"])
-    return max(rate * float(physics["times"][-1]) / (2 * math.pi), 1e-300)
+    return (float(np.linalg.norm(physics["angular_velocity"])) + math.sqrt(pull) + math.sqrt(physics["gravity_gradient"])) / (2 * math.pi)
 
 
-def _series_jobs(given: dict[str, Any], errors: Callable[[dict[str, Any]], dict[str, float]], repeats: int) -> Iterator[Job]:
+def _series(given: Mapping[str, Any]) -> Iterable[Line]:
     """The series of a periodic motion, order by order."""
     if given["periodic"] is None:
         return
     body, axes = _principal(given)
-    for order in SERIES_ORDERS:
 
-        def job(order: int = order) -> ChartPoint | None:
-            made: dict[str, Any] = {}
+    def run(order: int) -> Run:
+        try:
+            made, seconds = timed(lambda: series(**body, **given["periodic"], t=given["times"], order=order))
+        except (DomainError, ConvergenceError) as error:
+            raise Unanswered(str(error)) from None
+        if int(made.order) < order:
+            raise Unanswered("the terms between are below rounding")
+        stated = max(float(made.error["angular_velocity"]) / abs(given["periodic"]["spin"]), float(made.error["down"]))
+        return Run(seconds, {"angular_velocity": made.angular_velocity @ axes.T, "down": made.down @ axes.T}, 0, f"stated error {stated:.2g}")
 
-            def once() -> float:
-                began = time.perf_counter()
-                made["run"] = heavy.series(**body, **given["periodic"], t=given["times"], order=order)
-                return time.perf_counter() - began
-
-            try:
-                seconds = timed(once, repeats)
-            except (DomainError, ConvergenceError):
-                return None
-            run = made["run"]
-            if int(run.order) < order:  # the terms between are below rounding
-                return None
-            return ChartPoint("rung", "series, by order (from Python)", f"order {order}",
-                              errors({"angular_velocity": run.angular_velocity @ axes.T, "down": run.down @ axes.T}), seconds, 0,
-                              f"stated error {max(float(run.error['angular_velocity']) / abs(given['periodic']['spin']), float(run.error['down'])):.2g}")
-
-        yield "series", f"order {order}", job
+    yield Line("rung", "series, by order (from Python)", tuple((f"order {order}", partial(run, order)) for order in SERIES_ORDERS))
 
 
-# ---- rivals ----
-
-
-class _Equations:
+class Rival:
     """Rates over their size, and down, in body axes."""
 
-    def __init__(self, physics: dict[str, Any]) -> None:
-        inertia = np.asarray(physics["inertia"], dtype=float)
-        self.inertia = np.diag(inertia) if inertia.ndim == 1 else inertia
+    def __init__(self, physics: Mapping[str, Any], turn_rate: float) -> None:
+        self.inertia = tensor(physics["inertia"])
         self.pull = physics["mass"] * physics["gravity"] * np.asarray(physics["centre_of_mass"], dtype=float)
         self.gradient = float(physics["gravity_gradient"])
-        end = float(physics["times"][-1])
-        self.rate = 2 * math.pi * _turns(physics) / end if end > 0 else 1.0
+        self.rate = 2 * math.pi * turn_rate or 1.0
         down = physics["down"]
         if down is None:
             down = -_core.matrix_from_quaternion(np.asarray(physics["attitude"], dtype=float)[None, :])[0].reshape(3, 3)[2]
@@ -154,6 +112,7 @@ class _Equations:
         return {"angular_velocity": states[:, :3] * self.rate, "down": states[:, 3:6]}
 
     def right(self) -> Callable[[float, Vectors], Vectors]:
+        """The right-hand side in Python."""
         inverse, I = np.linalg.inv(self.inertia), self.inertia
         (a, b, c), (d, e, f), (g, h, i) = I.tolist()
         inverse_rows = inverse.tolist()
@@ -175,6 +134,7 @@ class _Equations:
         return right
 
     def system(self, heyoka: Any) -> list[Any]:
+        """The right-hand side for heyoka."""
         names = heyoka.make_vars("p", "q", "r", "x", "y", "z")
         w, d = names[:3], names[3:]
         inverse = np.linalg.inv(self.inertia)
@@ -196,60 +156,3 @@ class _Equations:
         torque = [heyoka.sum([spin[i], *pull[i], *([gradient[i]] if gradient else [])]) for i in range(3)]
         turn = [self.rate * part for part in cross(d, w)]
         return list(zip(names, [*(part / self.rate for part in times(inverse, torque)), *turn], strict=True))
-
-
-def _rivals(physics: dict[str, Any], turns: float, want: dict[str, Any], repeats: int) -> Iterator[Job]:
-    equations = _Equations(physics)
-    times = np.asarray(physics["times"], dtype=float)
-    try:
-        from scipy.integrate import solve_ivp
-    except ImportError:
-        pass
-    else:
-        right = equations.right()
-        # twelve evaluations a step, some ten steps to a turn
-        for tolerance in TOLERANCES if 120 * turns * PYTHON_CALL < PYTHON_PATIENCE else ():
-
-            def scipy_job(tolerance: float = tolerance) -> ChartPoint | None:
-                made: dict[str, Any] = {}
-
-                def once() -> float:
-                    began = time.perf_counter()
-                    made["run"] = solve_ivp(right, (0.0, times[-1]), equations.start, method="DOP853", t_eval=times, rtol=tolerance,
-                                            atol=tolerance)
-                    return time.perf_counter() - began
-
-                seconds = timed(once, repeats)
-                run = made["run"]
-                if not run.success:
-                    return None
-                return ChartPoint("rival", "SciPy DOP853 (Python right-hand side)", f"tolerance {tolerance:g}",
-                                  true_errors(equations.columns(run.y.T), want), seconds, int(run.nfev))
-
-            yield "SciPy DOP853", f"{tolerance:g}", scipy_job
-    try:
-        import heyoka
-    except ImportError:
-        return
-    for tolerance in TOLERANCES:
-
-        def heyoka_job(tolerance: float = tolerance) -> ChartPoint | None:
-            integrator = heyoka.taylor_adaptive(equations.system(heyoka), list(equations.start), tol=tolerance)
-            grid = times if times[0] == 0 else np.concatenate([[0.0], times])
-            made: dict[str, Any] = {}
-
-            def once() -> float:
-                integrator.time = 0.0
-                integrator.state[:] = equations.start
-                began = time.perf_counter()
-                made["out"] = integrator.propagate_grid(grid)
-                return time.perf_counter() - began
-
-            seconds = timed(once, repeats)
-            outcome, steps, states = made["out"][0], made["out"][3], made["out"][5]
-            if outcome != heyoka.taylor_outcome.time_limit or len(states) != len(grid):
-                return None
-            return ChartPoint("rival", "heyoka (compile time left out)", f"tolerance {tolerance:g}",
-                              true_errors(equations.columns(states[len(grid) - len(times):]), want), seconds, int(steps))
-
-        yield "heyoka", f"{tolerance:g}", heyoka_job

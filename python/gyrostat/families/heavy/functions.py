@@ -11,6 +11,7 @@ SI units, rad. Equations: docs/heavy.md.
 """
 
 import itertools
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final
@@ -106,19 +107,20 @@ def solve(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gravity
 
 def integrate(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gravity: float, angular_velocity: ArrayLike, times: ArrayLike,
               gravity_gradient: float = 0.0, down: ArrayLike | None = None, attitude: ArrayLike | None = None, method: str = "taylor",
-              order: int = 20, tolerance: float = 1e-9, precision: str = "double") -> dict[str, Any]:
+              order: int = 20, tolerance: float = 1e-9, precision: str = "double",
+              patience: float = math.inf) -> dict[str, Any]:
     """The full equations under one integrator at one setting, timed: no error estimate.
 
-    Arguments as in `solve`. method : "taylor" (order 8, 12, 16, 20 or 26; 30 in precision "long double"), "dop853", "cvode-adams",
-    "cvode-bdf". tolerance : local, relative to the sizes of the state.
+    Arguments as in `solve`. method : "taylor" (order 8, 12 or 20; 30 in precision "long double"), "dop853", "cvode-adams",
+    "cvode-bdf". tolerance : local, relative to the sizes of the state; patience : CPU time after which it gives up [s].
     Returns angular_velocity (n, 3) [rad/s], down (n, 3), attitude (n, 4) where it was given, seconds, rhs, steps, status ("reached" where all
-    went well). Raises DomainError for an argument outside its domain and for a method that the build lacks.
+    went well, "cancelled" out of patience). Raises DomainError for an argument outside its domain and for a method that the build lacks.
     """
     made: dict[str, Any] = _core.heavy_integrate(
         inertia=np.asarray(inertia, dtype=float), mass=float(mass), centre_of_mass=np.asarray(centre_of_mass, dtype=float),
         gravity=float(gravity), gravity_gradient=float(gravity_gradient), angular_velocity=_floats(angular_velocity), down=_floats(down),
         attitude=_floats(attitude), times=np.asarray(times, dtype=float), method=method, order=int(order), tolerance=float(tolerance),
-        precision=precision)
+        precision=precision, patience=float(patience))
     return made
 
 

@@ -7,6 +7,7 @@ to it. No torque acts from outside; the motor's moment on the rotor is -S (omega
 All in body axes and SI units. Equations: docs/rotor.md.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
@@ -66,20 +67,21 @@ def solve(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slope: f
 
 def integrate(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slope: float, no_load_rate: float,
               angular_velocity: ArrayLike, times: ArrayLike, rotor_rate: float = 0.0, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
-              method: str = "taylor", order: int = 20, tolerance: float = 1e-9, precision: str = "double") -> dict[str, Any]:
+              method: str = "taylor", order: int = 20, tolerance: float = 1e-9, precision: str = "double",
+              patience: float = math.inf) -> dict[str, Any]:
     """The full equations under one integrator at one setting, timed: no error estimate.
 
-    Arguments as in `solve`. method : "taylor" (order 8, 12, 16, 20 or 26; 30 in precision "long double"), "radau" (in both precisions),
-    "dop853", "cvode-adams", "cvode-bdf". tolerance : local, relative to the sizes of the state.
+    Arguments as in `solve`. method : "taylor" (order 8, 12 or 20; 30 in precision "long double"), "radau" (in both precisions),
+    "dop853", "cvode-adams", "cvode-bdf". tolerance : local, relative to the sizes of the state; patience : CPU time after which it gives up [s].
     Returns attitude (n, 4), angular_velocity (n, 3) [rad/s], angular_momentum (n, 3) [N m s], rotor_rate (n,) [rad/s],
-    rotor_angle (n,) [rad], lyapunov (n,) [J], seconds, rhs, steps, status ("reached" where all went well).
+    rotor_angle (n,) [rad], lyapunov (n,) [J], seconds, rhs, steps, status ("reached" where all went well, "cancelled" out of patience).
     Raises DomainError for an argument outside its domain and for a method that the build lacks.
     """
     made: dict[str, Any] = _core.rotor_integrate(
         inertia=np.asarray(inertia, dtype=float), axis=np.asarray(axis, dtype=float), axial_inertia=float(axial_inertia),
         slope=float(slope), no_load_rate=float(no_load_rate), angular_velocity=np.asarray(angular_velocity, dtype=float),
         rotor_rate=float(rotor_rate), attitude=np.asarray(attitude, dtype=float), times=np.asarray(times, dtype=float),
-        method=method, order=int(order), tolerance=float(tolerance), precision=precision)
+        method=method, order=int(order), tolerance=float(tolerance), precision=precision, patience=float(patience))
     return made
 
 

@@ -1,78 +1,52 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What accuracy costs on a scene of a thrusting spinner, against a Taylor integration in long double."""
+"""The chart of a thrusting spinner: what is measured, how far, and the equations for rivals."""
 
 import math
-import time
-from collections.abc import Callable, Iterator
-from typing import Any, Final
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gyrostat import spinning
-from gyrostat.charts.point import (
-    TOLERANCES,
-    ChartPoint,
-    Job,
-    Measure,
-    Plan,
-    Vectors,
-    cvode_methods,
-    integrator_jobs,
-    rung_jobs,
-    timed,
-)
-from gyrostat.facts import FACTS
+from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, first_turns, greatest, reference, relative
+from gyrostat.families.spinning.functions import integrate, solve
+from gyrostat.families.spinning.scene import arguments
 from gyrostat.rotation import angle_between, quaternion_from_euler_312
-from gyrostat.scenes import Scene
 
-__all__ = ["plan", "true_errors"]
+if TYPE_CHECKING:
+    from gyrostat.scenes import Scene
+
+__all__ = ["problem", "true_errors"]
+
+Vectors = NDArray[np.float64]
 
 ATTITUDE: Final = Measure("attitude", "error of attitude", "the attitude", "greatest true error, angle [rad]")
 # The second measure: the velocity, or without thrust the rates.
 VELOCITY: Final = Measure("velocity", "error of velocity", "the velocity of the mass centre", "greatest true error, relative to the greatest |v| [1]")
 RATES: Final = Measure("angular_velocity", "error of omega", "the angular velocity", "greatest true error, relative to the greatest |ω| [1]")
-# The chart covers at most so many turns: beyond, slow methods would take minutes.
-MOST_TURNS: Final = 5000.0
-# A right-hand side written in Python [s], and the longest run of it that is waited for [s].
-PYTHON_CALL: Final = 2.5e-5
-PYTHON_PATIENCE: Final = 12.0
 
 
-def true_errors(made: dict[str, Any], want: dict[str, Any]) -> dict[str, float]:
+def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, float]:
     """Greatest angle between the attitudes, and greatest differences of rates and velocities over the greatest wanted."""
-    errors = {"attitude": float(np.max(angle_between(made["attitude"], want["attitude"])))}
-    for key in ("angular_velocity", "velocity"):
-        size = float(np.max(np.linalg.norm(want[key], axis=1)))
-        errors[key] = float(np.max(np.linalg.norm(made[key] - want[key], axis=1))) / size if size > 0 else math.nan
-    return errors
+    return {"attitude": greatest(angle_between(made["attitude"], want["attitude"])),
+            **{key: relative(made[key], want[key]) for key in ("angular_velocity", "velocity")}}
 
 
-def plan(scene: Scene, repeats: int) -> Plan:
-    """Every method on the scene, or on its first part where the whole is too long."""
-    given = spinning.arguments(scene)
-    asked = given["times"]
-    end, cut = float(asked[-1]), ""
-    if _rate(given, end) * end > MOST_TURNS:
-        while _rate(given, end) * end > MOST_TURNS:
-            end *= 0.95
-        given["times"] = np.linspace(0.0, end, 51)
-        cut = f" of the scene's {asked[-1]:.6g} s"
+def problem(scene: "Scene") -> Problem:
+    """The scene, or its first part where the whole is too long."""
+    given = arguments(scene)
+    given["times"], cut = first_turns(given["times"], lambda end: _rate(given, end) * end, MOST_TURNS)
     physics = {key: value for key, value in given.items() if key not in ("tolerance", "model", "integrator")}
-    want = spinning.integrate(**physics, method="taylor", order=30, tolerance=1e-18, precision="long double")
-
-    def errors(made: dict[str, Any]) -> dict[str, float]:
-        return true_errors(made, want)
-
-    methods = [("dop853", "Runge-Kutta DOP853", "dop853"), *cvode_methods()]
-    jobs = (*rung_jobs(FACTS[scene.kind].rungs, spinning.solve, given, errors, repeats),
-            *integrator_jobs(methods, spinning.integrate, physics, errors, repeats), *_rivals(physics, want, repeats))
+    want = reference(integrate, physics)
+    end = float(given["times"][-1])
     turns = float(np.mean(np.linalg.norm(want["angular_velocity"], axis=1))) * end / (2 * math.pi)
-    title = (f"true error against cost, {len(given['times'])} times to {end:.6g} s{cut}\nabout {turns:.3g} turns; "
+    title = (f"{len(given['times'])} times to {end:.6g} s{cut}\nabout {turns:.3g} turns; "
              "reference: Taylor series of order 30 in long double")
-    return Plan(title, (ATTITUDE, VELOCITY if np.any(given["force"]) else RATES), jobs)
+    return Problem(title, (ATTITUDE, VELOCITY if np.any(given["force"]) else RATES), solve, given, integrate, physics,
+                   lambda made: true_errors(made, want), Rival(physics), 10 * _rate(given, end) * end)
 
 
-def _rate(given: dict[str, Any], end: float) -> float:
+def _rate(given: Mapping[str, Any], end: float) -> float:
     """Roughly the most turns and nutations in a second until `end`."""
     D, M, omega = (np.asarray(given[name], dtype=float) for name in ("inertia", "torque", "angular_velocity"))
     gyroscopic = abs(given["rotor_momentum"] - given["charge_momentum"]) / float(D.min())
@@ -81,13 +55,10 @@ def _rate(given: dict[str, Any], end: float) -> float:
     return float(max((2 * spin + gyroscopic + min(drive * end, math.sqrt(drive))) / (2 * math.pi), 1e-300))
 
 
-# ---- rivals ----
-
-
-class _Equations:
+class Rival:
     """Rates, quaternion, velocity and position over their sizes."""
 
-    def __init__(self, given: dict[str, Any]) -> None:
+    def __init__(self, given: Mapping[str, Any]) -> None:
         self.D, self.M, self.f = (np.asarray(given[name], dtype=float) for name in ("inertia", "torque", "force"))
         self.Lambda = float(given["rotor_momentum"] - given["charge_momentum"])
         self.a = self.f / given["mass"]
@@ -107,6 +78,7 @@ class _Equations:
         return {"angular_velocity": numbers[:, :3], "attitude": numbers[:, 3:7], "velocity": numbers[:, 7:10]}
 
     def right(self) -> Callable[[float, Vectors], Vectors]:
+        """The right-hand side in Python."""
         D1, D2, D3 = self.D.tolist()
         M1, M2, M3 = self.M.tolist()
         a1, a2, a3 = self.a.tolist()
@@ -125,6 +97,7 @@ class _Equations:
         return right
 
     def system(self, heyoka: Any) -> list[Any]:
+        """The right-hand side for heyoka."""
         names = heyoka.make_vars("p", "q", "r", "x", "y", "z", "w", "v1", "v2", "v3", "x1", "x2", "x3")
         p, q, r, x, y, z, w, v1, v2, v3 = names[:10]
         D1, D2, D3 = self.D.tolist()
@@ -142,61 +115,3 @@ class _Equations:
                  turn * (w * p + y * r - z * q), turn * (w * q + z * p - x * r), turn * (w * r + x * q - y * p),
                  -turn * (x * p + y * q + z * r), *pushed, *(v_size / x_size * v for v in (v1, v2, v3))]
         return list(zip(names, rates, strict=True))
-
-
-def _rivals(physics: dict[str, Any], want: dict[str, Any], repeats: int) -> Iterator[Job]:
-    equations = _Equations(physics)
-    times = np.asarray(physics["times"], dtype=float)
-    try:
-        from scipy.integrate import solve_ivp
-    except ImportError:
-        pass
-    else:
-        right = equations.right()
-        # twelve evaluations a step, some ten steps to a turn
-        calls = 120 * float(times[-1]) * _rate(physics, float(times[-1]))
-        for tolerance in TOLERANCES if calls * PYTHON_CALL < PYTHON_PATIENCE else ():
-
-            def scipy_job(tolerance: float = tolerance) -> ChartPoint | None:
-                made: dict[str, Any] = {}
-
-                def once() -> float:
-                    began = time.perf_counter()
-                    made["run"] = solve_ivp(right, (0.0, times[-1]), equations.start, method="DOP853", t_eval=times, rtol=tolerance,
-                                            atol=tolerance)
-                    return time.perf_counter() - began
-
-                seconds = timed(once, repeats)
-                run = made["run"]
-                if not run.success:
-                    return None
-                return ChartPoint("rival", "SciPy DOP853 (Python right-hand side)", f"tolerance {tolerance:g}",
-                                  true_errors(equations.columns(run.y.T), want), seconds, int(run.nfev))
-
-            yield "SciPy DOP853", f"{tolerance:g}", scipy_job
-    try:
-        import heyoka
-    except ImportError:
-        return
-    for tolerance in TOLERANCES:
-
-        def heyoka_job(tolerance: float = tolerance) -> ChartPoint | None:
-            integrator = heyoka.taylor_adaptive(equations.system(heyoka), list(equations.start), tol=tolerance)
-            grid = times if times[0] == 0 else np.concatenate([[0.0], times])
-            made: dict[str, Any] = {}
-
-            def once() -> float:
-                integrator.time = 0.0
-                integrator.state[:] = equations.start
-                began = time.perf_counter()
-                made["out"] = integrator.propagate_grid(grid)
-                return time.perf_counter() - began
-
-            seconds = timed(once, repeats)
-            outcome, steps, states = made["out"][0], made["out"][3], made["out"][5]
-            if outcome != heyoka.taylor_outcome.time_limit or len(states) != len(grid):
-                return None
-            return ChartPoint("rival", "heyoka (compile time left out)", f"tolerance {tolerance:g}",
-                              true_errors(equations.columns(states[len(grid) - len(times):]), want), seconds, int(steps))
-
-        yield "heyoka", f"{tolerance:g}", heyoka_job

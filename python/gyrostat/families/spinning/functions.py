@@ -9,6 +9,7 @@ The 3-1-2 angles are (psi, phi, theta), R = Rz(theta) Rx(psi) Ry(phi) from body 
 spin angle. SI units, rad. Equations: docs/spinning.md.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final
@@ -87,20 +88,21 @@ def solve(*, inertia: ArrayLike, mass: float, torque: ArrayLike, force: ArrayLik
 def integrate(*, inertia: ArrayLike, mass: float, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike, times: ArrayLike,
               rotor_momentum: float = 0.0, charge_momentum: float = 0.0, euler_312: ArrayLike = ORIGIN, velocity: ArrayLike = ORIGIN,
               position: ArrayLike = ORIGIN, method: str = "taylor", order: int = 20, tolerance: float = 1e-9,
-              precision: str = "double") -> dict[str, Any]:
+              precision: str = "double",
+              patience: float = math.inf) -> dict[str, Any]:
     """The full equations under one integrator at one setting, timed: no error estimate.
 
-    Arguments as in `solve`. method : "taylor" (order 8, 12, 16, 20 or 26; 30 in precision "long double"), "dop853", "cvode-adams",
-    "cvode-bdf". tolerance : local, relative to the sizes of the state.
+    Arguments as in `solve`. method : "taylor" (order 8, 12 or 20; 30 in precision "long double"), "dop853", "cvode-adams",
+    "cvode-bdf". tolerance : local, relative to the sizes of the state; patience : CPU time after which it gives up [s].
     Returns angular_velocity (n, 3) [rad/s], attitude (n, 4), angular_momentum_inertial (n, 3) [N m s], velocity (n, 3) [m/s],
-    position (n, 3) [m], seconds, rhs, steps, status ("reached" where all went well).
+    position (n, 3) [m], seconds, rhs, steps, status ("reached" where all went well, "cancelled" out of patience).
     Raises DomainError for an argument outside its domain and for a method that the build lacks.
     """
     problem = _single({"inertia": inertia, "mass": mass, "rotor_momentum": rotor_momentum, "charge_momentum": charge_momentum,
                        "torque": torque, "force": force, "angular_velocity": angular_velocity, "euler_312": euler_312,
                        "velocity": velocity, "position": position})
     made: dict[str, Any] = _core.spinning_integrate(problem, times=np.asarray(times, dtype=float), method=method, order=int(order),
-                                                    tolerance=float(tolerance), precision=precision)
+                                                    tolerance=float(tolerance), precision=precision, patience=float(patience))
     return made
 
 
