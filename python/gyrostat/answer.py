@@ -14,41 +14,14 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gyrostat.facts import MEANINGS, UNITS
+
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
 __all__ = ["Answer", "Attempt", "Warning_", "UNITS"]
 
-UNITS: Final = {
-    "t": "s", "angular_momentum": "N m s", "angular_momentum_norm": "N m s", "energy": "J", "modulus_squared": "1",
-    "regime": "", "angular_velocity": "rad/s", "attitude": "1", "stop_time": "s", "final_angular_velocity": "rad/s",
-    "small_parameter": "1", "separatrix_distance": "1", "rotor_rate": "rad/s", "rotor_angle": "rad", "lyapunov": "J",
-    "attractor": "", "decay_rate": "1/s", "euler_312": "rad", "angular_momentum_inertial": "N m s", "velocity": "m/s", "position": "m",
-    "pointing_error": "rad", "secular_velocity_ratio": "1", "tilt_max": "rad", "nutation_frequency_squared": "1/s2",
-    "down": "1", "period": "s", "floquet_trace": "1", "stable": "", "precession_rate": "rad/s",
-}
-MEANINGS: Final = {
-    "t": "time", "angular_momentum": "total angular momentum, body axes", "angular_momentum_norm": "size of the total angular momentum",
-    "energy": "rotational energy of the carrier", "modulus_squared": "squared modulus of the orbit, k2",
-    "regime": "A: about the axis of largest inertia, C: about the smallest, 1: one component",
-    "angular_velocity": "angular velocity of the carrier, body axes", "attitude": "attitude, body to inertial, [x, y, z, w]",
-    "stop_time": "time at which the deceleration ends", "final_angular_velocity": "angular velocity at the stop",
-    "small_parameter": "rate of damping over rate of rotation", "separatrix_distance": "energy from the nearest separatrix at the start, over the range of energies at that |M|; infinite: there is none",
-    "rotor_rate": "rate of the rotor relative to the carrier", "rotor_angle": "angle of the rotor in the carrier, from 0 at t = 0",
-    "lyapunov": "Lyapunov function V: energy less no_load_rate times the rotor's axial momentum, plus a constant; it never grows",
-    "attractor": "place of the steady rotation that the motion tends to, by level; None: not certified",
-    "decay_rate": "rate at which the motion comes to its attractor in the end",
-    "euler_312": "angles psi, phi, theta: body to inertial is Rz(theta) Rx(psi) Ry(phi); theta counts turns",
-    "angular_momentum_inertial": "angular momentum without the charge's, inertial axes", "velocity": "velocity of the mass centre, inertial axes",
-    "position": "position of the mass centre, inertial axes", "pointing_error": "mean lean of axis 3 under the torque, |M|/|r0 X|",
-    "secular_velocity_ratio": "limit of (v1, v2)/v3", "tilt_max": "greatest tilt of axis 3 from inertial axis 3",
-    "nutation_frequency_squared": "square of the nutation frequency; negative: the spin is unstable",
-    "down": "unit vector to the attracting centre, body axes", "period": "time after which rates and down return; None: not known to be periodic",
-    "floquet_trace": "trace of the 6x6 monodromy minus 4: the sum of the two multipliers that are not one; stable between -2 and 2",
-    "stable": "whether small changes of a periodic motion stay small; None: not known",
-    "precession_rate": "mean turn about the vertical, right-handed about down",
-}
 _AXES: Final = ("x", "y", "z", "w")
 
 

@@ -17,6 +17,7 @@ from gyrostat import _core, spinning
 from gyrostat._core import Monitor
 from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.errors import DomainError
+from gyrostat.families.spinning.functions import ORIGIN, SHAPES
 from gyrostat.fields import MOST_SAMPLES
 from gyrostat.ladder import solve
 from gyrostat.rotation import matrix_from_quaternion
@@ -81,8 +82,8 @@ class Design:
 
 
 def _design(goal: str, budget: ArrayLike, given: Mapping[str, ArrayLike]) -> Design:
-    names = ["budget", *spinning.SHAPES]
-    lead, made = rows([("budget", budget, ()), *((name, given[name], shape) for name, shape in spinning.SHAPES.items())])
+    names = ["budget", *SHAPES]
+    lead, made = rows([("budget", budget, ()), *((name, given[name], shape) for name, shape in SHAPES.items())])
     by_name = dict(zip(names, made, strict=True))
     limit = by_name.pop("budget")
     found = _core.spinning_design(_core.SpinningProblems(**by_name), goal=goal, budget=limit)
@@ -92,7 +93,7 @@ def _design(goal: str, budget: ArrayLike, given: Mapping[str, ArrayLike]) -> Des
 
 
 def _body(**given: ArrayLike) -> dict[str, ArrayLike]:
-    return {"mass": 1.0, "velocity": spinning.ORIGIN, "position": spinning.ORIGIN, **given}
+    return {"mass": 1.0, "velocity": ORIGIN, "position": ORIGIN, **given}
 
 
 def spin_for_pointing(*, inertia: ArrayLike, torque: ArrayLike, budget: ArrayLike, sense: ArrayLike = 1.0, rotor_momentum: ArrayLike = 0.0,
@@ -109,12 +110,12 @@ def spin_for_pointing(*, inertia: ArrayLike, torque: ArrayLike, budget: ArrayLik
     spin[..., 2] = np.where(sign < 0, -1.0, 1.0).reshape(lead)
     return _design("spin-for-pointing", budget, _body(
         inertia=inertia, torque=torque, rotor_momentum=rotor_momentum, charge_momentum=charge_momentum, angular_velocity=spin,
-        force=spinning.ORIGIN, euler_312=spinning.ORIGIN))
+        force=ORIGIN, euler_312=ORIGIN))
 
 
 def torque_for_direction(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike, budget: ArrayLike,
                          rotor_momentum: ArrayLike = 0.0, charge_momentum: ArrayLike = 0.0,
-                         euler_312: ArrayLike = spinning.ORIGIN) -> Design:
+                         euler_312: ArrayLike = ORIGIN) -> Design:
     """Greatest |M| [N m] up to which the velocity gained points, in the mean over many turns, within the budget of inertial axis 3.
 
     |v/v3| <= tan(budget) for the secular ratio, with the transverse force and the start counted. torque : (..., 3), its direction is kept [N m];
@@ -128,7 +129,7 @@ def torque_for_direction(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayL
 
 def burn_for_displacement(*, inertia: ArrayLike, mass: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike,
                           budget: ArrayLike, rotor_momentum: ArrayLike = 0.0, charge_momentum: ArrayLike = 0.0,
-                          euler_312: ArrayLike = spinning.ORIGIN) -> Design:
+                          euler_312: ArrayLike = ORIGIN) -> Design:
     """Longest burn [s] during which the loads displace the mass centre by at most the budget [m] across inertial axis 3.
 
     The first time at which |x1 + i x2| of x - x(0) - v(0) t is the budget. budget : (...) > 0 [m]; the others as in `spinning.linear`. Leading
@@ -142,7 +143,7 @@ def burn_for_displacement(*, inertia: ArrayLike, mass: ArrayLike, torque: ArrayL
 
 def burn_for_velocity(*, inertia: ArrayLike, mass: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike,
                       budget: ArrayLike, rotor_momentum: ArrayLike = 0.0, charge_momentum: ArrayLike = 0.0,
-                      euler_312: ArrayLike = spinning.ORIGIN) -> Design:
+                      euler_312: ArrayLike = ORIGIN) -> Design:
     """Longest burn [s] that changes the velocity of the mass centre by at most the budget [m/s], in size: first |v - v(0)| = budget.
 
     All else as in `burn_for_displacement`.
@@ -203,7 +204,7 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
     if goal not in GOALS:
         raise DomainError(f"goal = {goal!r}: use one of {', '.join(GOALS)}")
     given = spinning.arguments(scene)
-    found = _design(goal, budget, {name: given[name] for name in spinning.SHAPES})
+    found = _design(goal, budget, {name: given[name] for name in SHAPES})
     value, why = float(found.value), str(found.why)
     if why:
         raise DomainError(f"{scene.name}: {WHY[why].get(goal, WHY[why].get('', ''))}")

@@ -3,21 +3,17 @@
 
 import os
 from collections.abc import Mapping
-from types import ModuleType
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
-from gyrostat import deceleration, heavy, rotor, spinning
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
+from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, load, scene_from
 
 if TYPE_CHECKING:
     from gyrostat.charts import Chart
 
 __all__ = ["Monitor", "chart", "solve"]
-
-# What answers a kind of scene: `arguments(scene)` and `solve(**arguments, monitor=...)`.
-FAMILIES: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "spinning": spinning, "heavy": heavy}
 
 SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
 

@@ -3,7 +3,8 @@
 
 from typing import Any
 
-from gyrostat.fields import ALTERNATIVES, KINDS, REQUIRED, UNSET, Choice, Field, needed, table_of
+from gyrostat.families import FAMILIES, Family
+from gyrostat.fields import REQUIRED, UNSET, Choice, Choices, Field, table_of
 
 __all__ = ["schema"]
 
@@ -57,7 +58,7 @@ def _given(keys: Choice) -> dict[str, Any]:
     return {"required": list(tables), "properties": {table: {"required": names} for table, names in tables.items()}}
 
 
-def _one_of(choices: tuple[Choice, ...]) -> dict[str, Any]:
+def _one_of(choices: Choices) -> dict[str, Any]:
     """One way is taken whole, and nothing of another."""
     return {"oneOf": [
         {**_given(chosen), "not": {"anyOf": [_given((key,)) for other in choices if other is not chosen for key in other]}}
@@ -65,8 +66,8 @@ def _one_of(choices: tuple[Choice, ...]) -> dict[str, Any]:
     ]}
 
 
-def _kind(kind: str) -> dict[str, Any]:
-    tables = KINDS[kind]
+def _kind(family: Family) -> dict[str, Any]:
+    tables = family.keys
     properties: dict[str, Any] = {field.name: _property(field) for field in tables[""]}
     for table, fields in tables.items():
         if table:
@@ -80,9 +81,9 @@ def _kind(kind: str) -> dict[str, Any]:
         "type": "object",
         "properties": properties,
         "required": [field.name for field in tables[""] if field.default is REQUIRED]
-                    + [table for table in tables if table and needed(kind, table)],
+                    + [table for table in tables if table and family.needs(table)],
         "additionalProperties": False,
-        "allOf": [_one_of(choices) for choices in ALTERNATIVES[kind]],
+        "allOf": [_one_of(choices) for choices in family.alternatives],
     }
 
 
@@ -97,5 +98,5 @@ def schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "gyrostat scene",
         "description": "SI units, radians, seconds",
-        "oneOf": [_kind(kind) for kind in KINDS],
+        "oneOf": [_kind(family) for family in FAMILIES.values()],
     }

@@ -11,10 +11,10 @@ import gyrostat
 import numpy as np
 import pytest
 from gyrostat.charts import Chart
-from gyrostat.charts import heavy as heavy_charts
-from gyrostat.charts import rotor as rotor_charts
-from gyrostat.charts import spinning as spinning_charts
-from gyrostat.charts.deceleration import true_errors
+from gyrostat.families.heavy import chart as heavy_charts
+from gyrostat.families.rotor import chart as rotor_charts
+from gyrostat.families.spinning import chart as spinning_charts
+from gyrostat.families.deceleration.chart import true_errors
 from gyrostat.cli import main
 
 

@@ -135,7 +135,7 @@ def test_integrators_agree() -> None:
     given: dict[str, Any] = {"inertia": J, "control": B, "drag": 2e-5, "angular_momentum": M0, "times": [0.0, 10.0, 200.0]}
     truth = deceleration.integrate(**given, method="taylor", order=30, tolerance=1e-18, precision="long double")
     assert truth["status"] == "reached"
-    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 16, 20, 26)]
+    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 20)]
     methods.append({"method": "dop853"})
     if deceleration.has_cvode():
         methods += [{"method": "cvode-adams"}, {"method": "cvode-bdf"}]

@@ -13,7 +13,7 @@ from conftest import HEAVY, PERIODIC
 from gyrostat import DomainError, heavy, rotation
 from gyrostat.cli import main
 from gyrostat.scenes import scene_from
-from gyrostat.stability import heavy as words
+from gyrostat.families.heavy import stability as words
 from gyrostat.stability import plot_stability, stability_report
 
 ORBIT = tomllib.loads(PERIODIC)

@@ -229,7 +229,7 @@ def test_integrators_agree() -> None:
     truth = rotor.integrate(**GOOD, method="taylor", order=30, tolerance=1e-19, precision="long double")
     other = rotor.integrate(**GOOD, method="radau", tolerance=1e-19, precision="long double")
     assert truth["status"] == other["status"] == "reached" and turn_between(truth["attitude"], other["attitude"]) < 1e-14
-    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 16, 20, 26)]
+    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 20)]
     methods += [{"method": "radau"}, {"method": "dop853"}]
     if HAS_CVODE:
         methods += [{"method": "cvode-adams"}, {"method": "cvode-bdf"}]

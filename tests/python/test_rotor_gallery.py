@@ -10,7 +10,7 @@ import pytest
 import gyrostat
 from gyrostat import _core, gallery, rotor
 from gyrostat.cli import main
-from gyrostat.gallery import rotor as pictures
+from gyrostat.families.rotor import gallery as pictures
 
 
 def test_the_figures_are_listed() -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from conftest import ASSEMBLED, HEAVY, PERIODIC, ROTOR, SPINNING
 from gyrostat.errors import SceneError
-from gyrostat.fields import KINDS
+from gyrostat.families import FAMILIES
 from gyrostat.scenes import bundled, load, scene_from
 from gyrostat.schema import schema
 
@@ -46,11 +46,11 @@ def test_schema_is_json() -> None:
 
 
 def test_schema_has_every_key_once() -> None:
-    for rule, (kind, tables) in zip(schema()["oneOf"], KINDS.items(), strict=True):
+    for rule, (kind, family) in zip(schema()["oneOf"], FAMILIES.items(), strict=True):
         assert rule["properties"]["kind"]["enum"] == [kind]
-        for table, fields in tables.items():
+        for table, fields in family.keys.items():
             properties = rule["properties"][table]["properties"] if table else rule["properties"]
-            assert {field.name for field in fields} == {key for key in properties if table or key not in tables}
+            assert {field.name for field in fields} == {key for key in properties if table or key not in family.keys}
 
 
 SPOILT = {
@@ -78,13 +78,13 @@ def test_schema_accepts_the_bundled_scenes_and_refuses_spoilt_ones() -> None:
         for table, key, value in [*SPOILT[data["kind"]], ("solve", "tolerance", 1.0), ("initial", "attitude", [0, 0, 0, 2]),
                                   ("solve", "samples", 1.5), ("solve", "times", [1.0])]:
             assert not accepts(schema(), {**data, table: {**data.get(table, {}), key: value}})
-        for other in {*KINDS, "light"} - {data["kind"]}:
+        for other in {*FAMILIES, "light"} - {data["kind"]}:
             assert not accepts(schema(), {**data, "kind": other})
         for table in ("solve", "torque", "rotor", "motor", "initial"):
             if table in data:
                 assert not accepts(schema(), {key: value for key, value in data.items() if key != table})
         assert not accepts(schema(), {**data, "initial": {}})
-    assert kinds == set(KINDS)
+    assert kinds == set(FAMILIES)
 
 
 def test_schema_and_validator_agree_on_alternatives_between_tables() -> None:

@@ -294,7 +294,7 @@ def test_angles_of_many_attitudes() -> None:
 
 def test_integrators_agree() -> None:
     truth = spinning.integrate(**GOOD, times=TIMES, method="taylor", order=30, tolerance=1e-18, precision="long double")
-    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 16, 20, 26)] + [{"method": "dop853"}]
+    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 20)] + [{"method": "dop853"}]
     if HAS_CVODE:
         methods += [{"method": "cvode-adams"}, {"method": "cvode-bdf"}]
     for method in methods:

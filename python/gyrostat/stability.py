@@ -5,36 +5,39 @@ import json
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from types import ModuleType
-from typing import Any, Final
+from typing import Any
 
 from gyrostat.console import say, show_table
 from gyrostat.errors import DomainError
+from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, scene_from
-from gyrostat.stability import deceleration, heavy, rotor
 
 __all__ = ["plot_stability", "report_stability", "stability_report"]
 
-# Each module makes the `report` of a scene, and its `tables`, `sentence` and `plot`.
-KINDS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "heavy": heavy}
+
+def _part(kind: str) -> Any:
+    """What makes the `report` of a scene of the kind, and its `tables`, `sentence` and `plot`."""
+    part = FAMILIES[kind].part("stability")
+    if part is None:
+        known = [name for name, family in FAMILIES.items() if family.part("stability")]
+        raise DomainError(f"kind = {kind!r}: a stability table is known for the kinds {', '.join(known)}")
+    return part
 
 
 def stability_report(scene: Scene | Mapping[str, Any]) -> dict[str, Any]:
-    """The stability of a scene as plain data; see `report` of the module of its kind.
+    """The stability of a scene as plain data; see `report` of families/KIND/stability.py.
 
     Raises DomainError where the question has no meaning for the scene.
     """
     checked = scene if isinstance(scene, Scene) else scene_from(scene)
-    if checked.kind not in KINDS:
-        raise DomainError(f"kind = {checked.kind!r}: a stability table is known for the kinds {', '.join(KINDS)}")
-    made: dict[str, Any] = {"kind": checked.kind, **KINDS[checked.kind].report(checked)}
+    made: dict[str, Any] = {"kind": checked.kind, **_part(checked.kind).report(checked)}
     return made
 
 
 def plot_stability(scene: Scene | Mapping[str, Any], report: Mapping[str, Any] | None = None) -> Any:
     """The figure of a scene, from its report where there is one already. Needs matplotlib."""
     checked = scene if isinstance(scene, Scene) else scene_from(scene)
-    return KINDS[checked.kind].plot(checked, report or stability_report(checked))
+    return _part(checked.kind).plot(checked, report or stability_report(checked))
 
 
 def report_stability(scene: Scene, *, as_json: bool = False, plot: Path | None = None) -> int:
@@ -43,7 +46,7 @@ def report_stability(scene: Scene, *, as_json: bool = False, plot: Path | None =
     if as_json:
         say(json.dumps(report), sys.stdout)
     else:
-        family = KINDS[report["kind"]]
+        family = _part(report["kind"])
         for title, heads, rows in family.tables(report):
             show_table(title, heads, rows, sys.stdout)
         say(family.sentence(report), sys.stdout)

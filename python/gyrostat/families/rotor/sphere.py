@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gyrostat.drawing import new_figure, time_unit
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -200,9 +202,7 @@ def plot_sphere(sphere: Sphere, steady: Sequence[Mapping[str, Any]], path: Path,
     from matplotlib.colors import PowerNorm
     from matplotlib.lines import Line2D
 
-    from gyrostat.plots import _figure, _time_unit
-
-    figure = _figure(14.5, 9.2)
+    figure = new_figure(14.5, 9.2)
     figure.get_layout_engine().set(w_pad=0.08)  # type: ignore[union-attr, call-arg]
     grid = figure.add_gridspec(2, 2, height_ratios=(3.8, 1.0))
     panels = [figure.add_subplot(grid[0, i]) for i in range(2)]
@@ -214,7 +214,7 @@ def plot_sphere(sphere: Sphere, steady: Sequence[Mapping[str, Any]], path: Path,
     levels[0] -= 1e-9 * abs(levels[0])
     levels[-1] += 1e-9 * abs(levels[-1])
     saddles = [float(r["level"]) for r in steady if r["type"] == "saddle"]
-    scale, unit = _time_unit(float(path.t[-1][-1] - path.t[0][0]))
+    scale, unit = time_unit(float(path.t[-1][-1] - path.t[0][0]))
     norm = PowerNorm(0.5, float(path.t[0][0]) / scale, float(path.t[-1][-1]) / scale)  # most happens early
     filled: Any = None
     for axes, view, name in zip(panels, views, ("front: around the rotor axis e", "back: around −e"), strict=True):

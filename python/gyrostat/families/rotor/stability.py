@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gyrostat import _core, rotor
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene
-from gyrostat.stability.sphere import Path, Sphere, plot_sphere
+from gyrostat.families.rotor.sphere import Path, Sphere, plot_sphere
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

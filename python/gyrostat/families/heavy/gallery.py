@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gyrostat import _core, heavy, rotation
 from gyrostat.errors import ConvergenceError
-from gyrostat.gallery.drawing import Drawing, finish
+from gyrostat.drawing import COLOURS, Drawing, finish, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,7 +51,7 @@ def drawings(wanted: Sequence[str]) -> list[Drawing]:
 @lru_cache(maxsize=2)
 def printed_table(number: int) -> tuple[tuple[tuple[str, ...], ...], Vectors]:
     """Rows of table 1 or 2 as printed: t, p2, gamma2 and their rates; and as numbers (31, 5), p2 and its rate over AMPLITUDE."""
-    with Path(__file__).with_name("heavy_published.csv").open(encoding="utf-8", newline="") as file:
+    with Path(__file__).with_name("published.csv").open(encoding="utf-8", newline="") as file:
         texts = tuple(tuple(row[1:]) for row in csv.reader(file) if row[0] == str(number))
     values = np.array(texts, dtype=float)
     values[:, [1, 3]] /= AMPLITUDE
@@ -99,8 +99,6 @@ def _write_table(axes: "Axes", number: int) -> None:
 
 
 def _curves(axes: "Axes") -> None:
-    from gyrostat.plots import COLOURS
-
     _, printed = printed_table(1)
     for j, (name, colour) in enumerate(zip(COLUMNS, COLOURS, strict=False), 1):
         ring = j in (1, 3)
@@ -115,8 +113,6 @@ def _curves(axes: "Axes") -> None:
 
 
 def _misses(axes: "Axes", number: int) -> None:
-    from gyrostat.plots import COLOURS
-
     _, printed = printed_table(number)
     ours = _core.heavy_published_table(number)
     for j, (name, colour) in enumerate(zip(COLUMNS, COLOURS, strict=False), 1):
@@ -140,7 +136,7 @@ def _crown(axes: "Axes", columns: int) -> None:
 
 
 def _table_1() -> "Figure":
-    figure = _figure_of(17.0, 10.5)
+    figure = new_figure(17.0, 10.5)
     panels = figure.subplot_mosaic([["table", "curves"], ["table", "misses"]], width_ratios=(1.25, 1.0))
     _write_table(panels["table"], 1)
     _curves(panels["curves"])
@@ -155,9 +151,7 @@ def _table_1() -> "Figure":
 
 
 def _table_2() -> "Figure":
-    from gyrostat.plots import COLOURS
-
-    figure = _figure_of(17.0, 14.0)
+    figure = new_figure(17.0, 14.0)
     panels = figure.subplot_mosaic([["table", "misses"], ["table", "steps"], ["frequency", "apart"]], width_ratios=(1.25, 1.0),
                                    height_ratios=(1.0, 1.0, 1.0))
     _write_table(panels["table"], 2)
@@ -290,16 +284,8 @@ def _upright(down: Vectors) -> Vectors:
     return quaternion
 
 
-def _figure_of(width: float, height: float) -> "Figure":
-    from gyrostat.plots import _figure
-
-    return _figure(width, height)
-
-
 def _readings() -> "Figure":
-    from gyrostat.plots import COLOURS
-
-    figure = _figure_of(17.0, 10.5)
+    figure = new_figure(17.0, 10.5)
     panels = figure.subplots(2, 3)
     spins = np.geomspace(0.01, 100.0, 61)
     for form, least in (("printed", 0.0), ("reciprocal", 0.1), ("corrected", 1.0)):
@@ -337,8 +323,6 @@ def _readings() -> "Figure":
 
 
 def _periods(axes: "Axes") -> None:
-    from gyrostat.plots import COLOURS
-
     family = heavy.periodic_family(**BODY, first_spin=20.0, cos_inclination=COSINE).members
     axes.loglog(family.angular_velocity[:, 2], family.period, color="black", linewidth=1.6, label="true, of the fast family")
     swings = 2.0 * math.pi / heavy.hanging(**BODY).frequency
@@ -355,9 +339,7 @@ def _periods(axes: "Axes") -> None:
 
 
 def _corrections() -> "Figure":
-    from gyrostat.plots import COLOURS
-
-    figure = _figure_of(17.0, 14.5)
+    figure = new_figure(17.0, 14.5)
     panels = figure.subplots(3, 3)
     forms = ("reciprocal", "corrected", "order 8")
     revolutions, spins = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000), np.geomspace(2.0, 100.0, 25)

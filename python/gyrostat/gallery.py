@@ -3,30 +3,31 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
-from typing import Final
+from typing import Any
 
 from gyrostat.errors import DomainError
-from gyrostat.gallery import deceleration, heavy, rotor, spinning
+from gyrostat.families import FAMILIES
 
 __all__ = ["figures", "papers", "reproduce"]
 
 Progress = Callable[[float, str], None]
 
-# Each module lists its `figures()` and makes the `drawings(figures)`.
-PAPERS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "heavy": heavy, "rotor": rotor, "spinning": spinning}
+
+def _part(paper: str) -> Any:
+    """What lists the `figures()` of the paper and makes the `drawings(figures)`."""
+    if paper not in papers():
+        raise DomainError(f"paper = {paper!r}: use one of {', '.join(papers())}")
+    return FAMILIES[paper].part("gallery")
 
 
 def papers() -> list[str]:
     """Names of the papers that can be reproduced."""
-    return list(PAPERS)
+    return sorted(name for name, family in FAMILIES.items() if family.part("gallery"))
 
 
 def figures(paper: str) -> list[str]:
     """Names of the figures of a paper that can be reproduced: its numbers, and words for figures of our own."""
-    if paper not in PAPERS:
-        raise DomainError(f"paper = {paper!r}: use one of {', '.join(PAPERS)}")
-    names: list[str] = PAPERS[paper].figures()
+    names: list[str] = _part(paper).figures()
     return names
 
 
@@ -41,7 +42,7 @@ def reproduce(paper: str, figure: int | str | None, directory: Path, progress: P
         if str(figure) not in names:
             raise DomainError(f"figure = {figure!r}: use one of {', '.join(names)}")
         names = [str(figure)]
-    drawings = PAPERS[paper].drawings(names)
+    drawings = _part(paper).drawings(names)
     directory.mkdir(parents=True, exist_ok=True)
     files = []
     for done, (name, draw) in enumerate(drawings):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat import _core, rotation, rotor
-from gyrostat.gallery.drawing import Drawing, finish
+from gyrostat.drawing import COLOURS, Drawing, finish, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -109,8 +109,6 @@ def _frame(m: Vectors) -> tuple[Vectors, Vectors]:
 
 
 def _paper() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     columns: list[tuple[str, float, list[tuple[str, str, float, Vectors]]]] = []
     for end in (6.0, 12.0):
         t = np.linspace(0.0, end, 601)
@@ -127,7 +125,7 @@ def _paper() -> "Figure":
         ("full motion", "-", 1 / SHARE, _full(_body("repaired"), 7.0, e3, 1.0, t, small)),
         ("linear", "--", 1.0, _published("repaired", t))]))
     part, ratio, slow_ratio = growing_part()
-    figure = _figure(20.0, 9.0)
+    figure = new_figure(20.0, 9.0)
     panels = figure.subplots(2, len(columns))
     for column, (title, end, runs) in enumerate(columns):
         t = np.linspace(0.0, end, len(runs[0][3]))
@@ -163,8 +161,6 @@ def _paper() -> "Figure":
 
 
 def _spin_up() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     R, e, lam = np.diag([2.3, 2.9, 3.4]), np.array([0.36, 0.48, 0.8]), 0.45
     theta = R + lam * np.outer(e, e)
     slope, no_load = 0.05, 30.0
@@ -174,7 +170,7 @@ def _spin_up() -> "Figure":
     t = np.linspace(0.0, 60.0, 3001)
     body: dict[str, Any] = {"inertia": theta, "axis": e, "axial_inertia": lam, "slope": slope, "no_load_rate": no_load}
     answer = rotor.solve(**body, angular_velocity=Omega, times=t, tolerance=1e-9, model="full")["columns"]
-    figure = _figure(12.0, 9.0)
+    figure = new_figure(12.0, 9.0)
     panels = figure.subplots(3, 1, sharex=True)
     panels[0].plot(t, answer["rotor_rate"], color=COLOURS[0], label="rotor rate ω")
     panels[0].axhline(no_load, color="#555555", linestyle="--", linewidth=1, label="no-load rate ω*")
@@ -203,11 +199,9 @@ def _spin_up() -> "Figure":
 
 
 def _rate_vs_slope() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     theta, lam, no_load, l = np.diag([86.0, 118.0, 141.0]), 0.28, 210.0, 90.0
     slopes = np.geomspace(1e-4, 1e2, 241)
-    figure = _figure(13.0, 6.0)
+    figure = new_figure(13.0, 6.0)
     panels = figure.subplots(1, 2)
     for colour, degrees in zip(COLOURS, (10.0, 3.7, 1.0), strict=False):
         tilt = math.radians(degrees)
@@ -242,8 +236,7 @@ def _rate_vs_slope() -> "Figure":
 
 
 def _basins() -> "Figure":
-    from gyrostat.plots import _figure
-    from gyrostat.stability.sphere import Sphere, from_disc
+    from gyrostat.families.rotor.sphere import Sphere, from_disc
 
     l, across, longest = 8.0, 61, 4000.0
     theta, e = np.array(TWO["inertia"]), np.array(TWO["axis"])
@@ -262,7 +255,7 @@ def _basins() -> "Figure":
 
     with ThreadPoolExecutor() as pool:
         caught = list(pool.map(ends, [(slope, view) for slope in slopes for view in views]))
-    figure = _figure(13.5, 9.6)
+    figure = new_figure(13.5, 9.6)
     panels = figure.subplots(2, 3)
     seen = []
     for column, slope in enumerate(slopes):
@@ -289,8 +282,7 @@ def _basin(axes: "Axes", view: Vectors, picture: Vectors, steady: rotor.SteadyRo
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Circle
 
-    from gyrostat.plots import COLOURS
-    from gyrostat.stability.sphere import Sphere, from_disc, onto_disc
+    from gyrostat.families.rotor.sphere import Sphere, from_disc, onto_disc
 
     sphere = Sphere(np.array(TWO["inertia"]), np.array(TWO["axis"]), 8.0, TWO["axial_inertia"] * TWO["no_load_rate"])
     drawn = axes.imshow(picture, origin="lower", extent=(-1, 1, -1, 1), interpolation="nearest", vmin=-1.5, vmax=1.5,
@@ -314,8 +306,6 @@ def _basin(axes: "Axes", view: Vectors, picture: Vectors, steady: rotor.SteadyRo
 
 
 def _circular_section() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     theta = np.array([3.0, 4.0, 5.5])
     j1, j2, j3 = 1 / theta
     e = np.array([theta[0] * math.sqrt(j1 - j2), 0.0, theta[2] * math.sqrt(j2 - j3)])
@@ -336,7 +326,7 @@ def _circular_section() -> "Figure":
         made: dict[str, Any] = rotor.solve(**body, angular_velocity=Omega, rotor_rate=no_load, times=t, tolerance=1e-9, model="full")["columns"]
         return made
 
-    figure = _figure(14.0, 5.4)
+    figure = new_figure(14.0, 5.4)
     panels = figure.subplots(1, 3)
     t = np.linspace(0.0, 60.0, 1201)
     answer = run(0.0, t)
@@ -372,14 +362,12 @@ def _circular_section() -> "Figure":
 
 
 def _principal_axis() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     theta, lam, slope, no_load, l = np.array([3.0, 4.0, 5.0]), 0.5, 0.4, 4.0, 6.0
     e = np.array([0.0, 0.0, 1.0])
     body: dict[str, Any] = {"inertia": theta, "axis": e, "axial_inertia": lam, "slope": slope, "no_load_rate": no_load}
     steady = rotor.steady_rotations(**body, momentum=l)
     c, level = float(steady.algebraic_rate[0]), float(steady.level[0])
-    figure = _figure(12.5, 5.6)
+    figure = new_figure(12.5, 5.6)
     panels = figure.subplots(1, 2)
     t = np.geomspace(1.0, 1e5, 2001)
     t = np.concatenate([[0.0], t])
@@ -435,8 +423,6 @@ def _linear(body: dict[str, Any], l: float, m0: Vectors, psi_dot: float, start: 
 
 
 def _linear_vs_nonlinear() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     body, l = _body("realisable"), 7.0
     steady = rotor.steady_rotations(**body, momentum=l)
     m0, psi_dot, rate = steady.direction[0], float(steady.spin_rate[0]), float(steady.decay_rate[0])
@@ -445,7 +431,7 @@ def _linear_vs_nonlinear() -> "Figure":
     t = np.linspace(0.0, 1000.0, 4001)
     sizes = np.geomspace(1e-4, 0.3, 9)
     errors = []
-    figure = _figure(14.0, 5.4)
+    figure = new_figure(14.0, 5.4)
     panels = figure.subplots(1, 3)
     for size in sizes:
         start = math.cos(size) * m0 + math.sin(size) * across

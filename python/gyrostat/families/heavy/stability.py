@@ -2,12 +2,14 @@
 """A heavy body about a fixed point: rest, sleeping top, regular precession, and the periodic motions with their multipliers."""
 
 import math
+import textwrap
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from gyrostat import _core, heavy
+from gyrostat.drawing import new_figure
 from gyrostat.errors import ConvergenceError, DomainError
 from gyrostat.scenes import Scene
 
@@ -202,14 +204,10 @@ def sentence(report: Mapping[str, Any]) -> str:
 
 def plot(scene: Scene, report: Mapping[str, Any]) -> "Figure":
     """Period and sum of the multipliers of the family over the spin. Raises DomainError where there is no family."""
-    import textwrap
-
-    from gyrostat.plots import _figure
-
     family, orbit, slow = report["family"], report["periodic"], report["slow_rate"]
     if len(family["spin"]) < 2:
         raise DomainError(f"there is no family of periodic motions to draw: {family['why'] or 'it has a single member'}")
-    figure = _figure(9, 8)
+    figure = new_figure(9, 8)
     above, below = figure.subplots(2, 1, sharex=True)
     spin = np.abs(np.array(family["spin"])) / slow
     _branch(above, family, spin, np.array(family["period"]) * slow)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat import _core, spinning
-from gyrostat.gallery.drawing import Drawing, finish
+from gyrostat.drawing import COLOURS, Drawing, finish, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -227,11 +227,9 @@ def drawings(wanted: Sequence[str]) -> list[Drawing]:
 
 
 def _draw(group: Group) -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     sweep = SWEEPS[group.sweep]
     rows = len(group.curves)
-    figure = _figure(15.0, 3.2 * rows + 1.6)
+    figure = new_figure(15.0, 3.2 * rows + 1.6)
     panels = figure.subplots(rows, len(WAYS), squeeze=False)
     for column, (how, title) in enumerate(WAYS):
         for case, colour in zip(sweep.cases, COLOURS, strict=False):
@@ -256,11 +254,9 @@ def _furnish(axes: "Axes", x: str, y: str) -> None:
 
 
 def _momenta(numbers: tuple[int, ...]) -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     name, seen = MOMENTA[numbers]
     sweep = SWEEPS[name]
-    figure = _figure(17.0, 11.0)
+    figure = new_figure(17.0, 11.0)
     panels = figure.subplots(3, 4)
     columns = ((f"Fig. {numbers[0]}: (33) as printed", "printed", "momentum"), (f"Fig. {numbers[1]}: (35) as printed", "printed", "circle"),
                ("right: the exact linear motion", "linear", "momentum"), ("full motion", "full", "momentum"))
@@ -282,13 +278,11 @@ def _momenta(numbers: tuple[int, ...]) -> "Figure":
 
 
 def _figure_11() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     neutral = replace(Case(), charge=0.0)
     given = Case().given()
     pointing = float(spinning.pointing_error(spin_rate=Case().spin, **{name: given[name] for name in (
         "inertia", "torque", "rotor_momentum", "charge_momentum")}))
-    figure = _figure(15.0, 6.0)
+    figure = new_figure(15.0, 6.0)
     panels = figure.subplots(1, 3)
     for axes, (how, title) in zip(panels, WAYS, strict=True):
         for case, colour, label in ((neutral, COLOURS[0], "e = 0"), (Case(), COLOURS[1], "e = 0.003 C")):
@@ -308,9 +302,7 @@ def _figure_11() -> "Figure":
 
 
 def _figure_21() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
-    figure = _figure(15.0, 13.5)
+    figure = new_figure(15.0, 13.5)
     panels = figure.subplots(3, 3)
     for row, (letter, sweep) in enumerate(zip("abc", SWEEPS.values(), strict=True)):
         for column, (how, title) in enumerate(WAYS):
@@ -358,9 +350,7 @@ def _errors(case: Case, end: float) -> dict[str, float]:
 
 
 def _validity() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
-    figure = _figure(16.5, 6.6)
+    figure = new_figure(16.5, 6.6)
     panels = figure.subplots(1, 3)
     linear, full = (run(Case(), how, 6.0) for how in ("linear", "full"))
     for i, word in enumerate(("ψ", "φ")):
@@ -460,9 +450,7 @@ def losses(resonance: Resonance, detuning: float, t: float) -> dict[str, tuple[f
 
 
 def _resonance() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
-    figure = _figure(15.0, 9.4)
+    figure = new_figure(15.0, 9.4)
     panels = figure.subplots(2, 3)
     detunings, t = np.geomspace(1e-12, 0.1, 45), 10.0
     least = 1e-17

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat import _core, deceleration
+from gyrostat.drawing import COLOURS, new_figure
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene
 
@@ -137,9 +138,7 @@ def quasi_stationary_line(regime: str, modulus_squared: float, kappa2: NDArray[n
 
 def plot(_: Scene, report: Mapping[str, Any]) -> "Figure":
     """Regions of both regimes with the scene's point, and the torque balance that gives the quasi-stationary k2."""
-    from gyrostat.plots import COLOURS, _figure
-
-    figure = _figure(14.5, 5.6)
+    figure = new_figure(14.5, 5.6)
     panels = figure.subplots(1, 3)
     ratios = report["torque_ratios"]
     extent = 2.0 if ratios is None else max(2.0, 1.25 * max(ratios))

@@ -11,9 +11,9 @@ import numpy as np
 
 from gyrostat import _core
 from gyrostat.answer import Answer
-from gyrostat.gallery.drawing import Drawing, finish
+from gyrostat.drawing import COLOURS, Drawing, finish, new_figure
 from gyrostat.ladder import solve
-from gyrostat.stability.deceleration import draw_regions, quasi_stationary_line
+from gyrostat.families.deceleration.stability import draw_regions, quasi_stationary_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -146,14 +146,12 @@ def _scene(case: Case, gyrostat: bool, small: float, end: float, model: str) -> 
 
 
 def _draw(group: Group) -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     # The averaged motion is the limit of a small parameter; the full one needs a number.
     small = 0.01 if group.gyrostat else 0.03
     mended_end = [float(_mended(case).t[-1]) for case in group.cases]
     end = 1.25 if group.gyrostat else 1.15 * max(mended_end)
 
-    figure = _figure(15.0, 11.0)
+    figure = new_figure(15.0, 11.0)
     panels = figure.subplots(3, 3)
     for case, colour in zip(group.cases, COLOURS, strict=False):
         printed = _core.published_run(case.data(), reading="printed", modulus_squared=START_MODULUS, end=end, samples=201)
@@ -210,9 +208,7 @@ def _curves(panels: Sequence["Axes"], case: Case, answer: Answer, small: float, 
 
 
 def _figure_3() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
-    figure = _figure(15.0, 7.2)
+    figure = new_figure(15.0, 7.2)
     panels = figure.subplots(1, 3)
     kappa2 = np.linspace(0.0, 2.0, 201)
     for axes in panels[:2]:
@@ -251,7 +247,6 @@ def _w(modulus_squared: float) -> float:
 
 def _full_drift(axes: "Axes") -> None:
     """Sign of the drift of k2 in the full motion, on a grid of torque ratios."""
-    from gyrostat.plots import COLOURS
 
     norm = 100.0
     start = _polhode_start(norm, 0.4)
@@ -272,8 +267,6 @@ def _full_drift(axes: "Axes") -> None:
 
 
 def _figure_4() -> "Figure":
-    from gyrostat.plots import COLOURS, _figure
-
     inertia, rotor, rate = (10.0, 8.0, 5.0), (40.0, 30.0, 20.0), (0.01, 0.03, 0.03)
     small = 1e-3
     norm = math.dist((0.0, 0.0, 0.0), [j * w + l for j, w, l in zip(inertia, rate, rotor, strict=True)])
@@ -288,7 +281,7 @@ def _figure_4() -> "Figure":
             "body": {"inertia": list(inertia), "rotor_momentum": list(rotor)},
             "torque": {"control": [small * b] * 3, "drag": small * DRAG}, "initial": {"angular_velocity": list(rate)}})
         full.append(answer.scalars["stop_time"] * small)
-    figure = _figure(13.0, 5.6)
+    figure = new_figure(13.0, 5.6)
     panels = figure.subplots(1, 2)
     # The exponential that the paper reads off its curve, through the two ends of the true one.
     decay = math.log(closed[0] / closed[-1]) / (fine[-1] - fine[0])
