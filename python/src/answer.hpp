@@ -33,13 +33,16 @@ inline py::object number(const Quantity& quantity) {
 /// A family whose columns or quantities are not all numbers hands in functions of its own; what is no array has no error.
 inline Data to_python(Answer& answer, double seconds, py::object (*values_of)(Column&) = &numbers,
                       py::object (*value_of)(const Quantity&) = &number) {
-  py::dict columns, error, scalars, counts;
+  py::dict columns, error, scalars, scalar_error, counts;
   for (Column& column : answer.columns) {
     const py::object values = values_of(column);
     columns[column.name] = values;
     if (py::isinstance<py::array>(values)) error[column.name] = column.error;
   }
-  for (const Quantity& quantity : answer.quantities) scalars[quantity.name] = value_of(quantity);
+  for (const Quantity& quantity : answer.quantities) {
+    scalars[quantity.name] = value_of(quantity);
+    scalar_error[quantity.name] = std::isfinite(quantity.values[0]) ? quantity.error : missing;
+  }
   py::list warnings, tried;
   for (const Warning& w : answer.warnings) {
     py::dict item;
@@ -69,6 +72,7 @@ inline Data to_python(Answer& answer, double seconds, py::object (*values_of)(Co
   made["warnings"] = warnings;
   made["columns"] = columns;
   made["scalars"] = scalars;
+  made["scalar_error"] = scalar_error;
   made["counts"] = counts;
   made["seconds"] = seconds;
   made["tried"] = tried;

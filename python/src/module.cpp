@@ -55,6 +55,7 @@ PYBIND11_MODULE(_core, module) {
           "Ask the work to stop: it raises Cancelled soon after.");
   bind_elliptic(module);
   bind_rotation(module);
+  bind_text(module);
   bind_deceleration(module);
   bind_deceleration_integrators(module);
   bind_published(module);
