@@ -3,7 +3,7 @@
 
 families/KIND/
     functions.py   the functions over arrays, public as gyrostat.KIND
-    scene.py       KEYS and ALTERNATIVES of the scene file, `arguments` of `solve` from a checked scene, and where one key does not tell
+    scene.py       KEYS and ALTERNATIVES of the scene file, an EXAMPLE of every key without default, `arguments` of `solve` from a checked scene, and where one key does not tell
                    everything `mistakes`
     chart.py       `problem` of a scene: what is charted, for charts/
     figures.py     `figure` of an answer
@@ -54,6 +54,11 @@ class Family:
     def alternatives(self) -> tuple[Choices, ...]:
         """What can be given in one of several ways."""
         return (TIMES, *self._module("scene").ALTERNATIVES)
+
+    @cached_property
+    def example(self) -> dict[str, Any]:
+        """A value of every key without default, by full key: a body to start from."""
+        return {"name": f"my-{self.name}", "kind": self.name, "solve.times": (0.0, 10.0, 25.0), **self._module("scene").EXAMPLE}
 
     def needs(self, table: str) -> bool:
         """No scene can do without the table."""
