@@ -3,7 +3,7 @@
 
 from collections.abc import Iterable, Sequence
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from gyrostat.console import short, small
 
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
 __all__ = ["answer_html", "chart_html", "scene_html"]
+
+LONGEST: Final = 80  # characters of a value
 
 
 def _title(text: str) -> str:
@@ -46,7 +48,11 @@ def scene_html(scene: "Scene") -> str:
     from gyrostat.toml_text import toml_value
 
     fields = {f"{table}.{field.name}": field for table, keys in FAMILIES[scene.kind].keys.items() for field in keys}
-    rows = [[key, toml_value(value), fields[key].unit, fields[key].meaning]
+    def shown(value: object) -> str:
+        text = toml_value(value)
+        return text if len(text) <= LONGEST else text[:LONGEST - 3] + "..."
+
+    rows = [[key, shown(value), fields[key].unit, fields[key].meaning]
             for table, values in scene.to_dict().items() if isinstance(values, dict)
             for key, value in ((f"{table}.{name}", value) for name, value in values.items())]
     return _title(f"{scene.name} ({scene.kind})") + _paragraphs([scene.source]) + _table("", ["key", "value", "unit", "meaning"], rows)
