@@ -107,7 +107,7 @@ def _arguments() -> argparse.ArgumentParser:
     design.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
     design.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the scene with the value in it, as TOML")
 
-    reproduce = command("reproduce", _reproduce, "draw the published figures again: as printed, right, and the full motion")
+    reproduce = command("reproduce", _reproduce, "draw the published figures again: as printed, corrected, and by the full motion")
     reproduce.add_argument("paper", nargs="?", metavar="PAPER", help="such as deceleration; left out: list what there is")
     reproduce.add_argument("figure", nargs="?", metavar="FIGURE", help="number of one figure; left out: all")
     reproduce.add_argument("-o", "--output", type=Path, default=Path("."), metavar="DIR", help="folder to write into (default: here)")
