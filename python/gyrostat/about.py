@@ -10,7 +10,7 @@ from gyrostat.facts import FACTS
 
 __all__ = ["build_table", "family_tables", "licence"]
 
-OPTIONAL = ("numpy", "rich", "matplotlib", "xarray", "scipy", "heyoka")
+OPTIONAL = ("numpy", "rich", "matplotlib", "pandas", "xarray", "scipy", "heyoka")
 
 
 def licence() -> str:
