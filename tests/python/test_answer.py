@@ -17,6 +17,7 @@ from gyrostat._core import csv_rows, json_numbers
 from gyrostat.answer import Answer
 from gyrostat.deceleration import Monitor
 from gyrostat.facts import UNITS
+from gyrostat.families import FAMILIES
 from gyrostat.scenes import bundled
 
 BRAKE = {
@@ -91,6 +92,21 @@ def test_every_answer_names_what_has_the_greatest_error(name: str) -> None:
 def test_a_stop_that_never_comes_has_no_error() -> None:
     answer = gyrostat.solve(BRAKE, control=[0.0, 0.0, 0.0])
     assert math.isinf(answer.scalars["stop_time"]) and math.isnan(answer.scalar_error["stop_time"])
+
+
+@pytest.mark.parametrize("name", [name for name, _ in bundled()])
+def test_the_functions_of_a_family_answer_as_scenes_do(name: str) -> None:
+    """Same type, same numbers; and what they were asked can be asked again as a scene."""
+    scene = gyrostat.load(name)
+    family = FAMILIES[scene.kind]
+    direct, answer = family.solve(**family.arguments(scene)), gyrostat.solve(scene)
+    again = gyrostat.solve(direct.scene)
+    for other in (answer, again):
+        assert type(direct) is type(other) is Answer and direct.model == other.model and direct.error == other.error and np.array_equal(direct.t, other.t)
+        assert list(direct) == list(other) and all(np.array_equal(direct[column], other[column]) for column in direct)
+        np.testing.assert_equal(direct.scalars, other.scalars)
+        np.testing.assert_equal(direct.scalar_error, other.scalar_error)
+    assert direct.scene["kind"] == scene.kind and direct.scene["name"] == f"gyrostat.{scene.kind}.solve" and answer.scene == scene.to_dict()
 
 
 def test_columns_agree_with_each_other(full: Answer) -> None:
