@@ -260,7 +260,10 @@ def _chart(arguments: argparse.Namespace) -> int:
     files = chart.save(arguments.output)
     rows = [[p.label, p.setting, *(small(p.error.get(m.key)) for m in chart.measures), f"{p.seconds:.3g}", str(p.rhs), p.note]
             for p in chart.points]
-    show_table(f"{chart.name}: {chart.title}", ["method", "setting", *(m.head for m in chart.measures), "seconds", "rhs", ""], rows, sys.stdout)
+    heads = ["method", "setting", *(m.head for m in chart.measures), "CPU seconds", "rhs", ""]
+    show_table(f"{chart.name}: {chart.title}", heads, rows, sys.stdout)
+    for left_out in chart.left_out:
+        say(f"left out: {left_out}", sys.stdout)
     for file in files:
         say(f"wrote {file}", sys.stdout)
     return MET

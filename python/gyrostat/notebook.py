@@ -61,5 +61,6 @@ def scene_html(scene: "Scene") -> str:
 def chart_html(chart: "Chart") -> str:
     """The table of the command."""
     rows = [[p.label, p.setting, *(small(p.error.get(m.key)) for m in chart.measures), short(p.seconds, 3), str(p.rhs), p.note] for p in chart.points]
-    heads = ["method", "setting", *(measure.head for measure in chart.measures), "seconds", "rhs", ""]
-    return _title(chart.name) + _paragraphs([chart.title]) + _table("", heads, rows)
+    heads = ["method", "setting", *(measure.head for measure in chart.measures), "CPU seconds", "rhs", ""]
+    return (_title(chart.name) + _paragraphs([chart.title]) + _table("", heads, rows)
+            + _paragraphs(f"left out: {each}" for each in chart.left_out))

@@ -30,7 +30,7 @@ def head(answer: Answer) -> list[str]:
 
 def tail(answer: Answer) -> str:
     """The line below the tables."""
-    return f"{answer.seconds:.3g} s; " + ", ".join(f"{value} {key}" for key, value in answer.counts.items())
+    return f"{answer.seconds:.3g} s of CPU time; " + ", ".join(f"{value} {key}" for key, value in answer.counts.items())
 
 
 def _scalar(name: str, value: Any) -> str:

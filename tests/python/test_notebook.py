@@ -5,8 +5,8 @@ import math
 from html.parser import HTMLParser
 
 import gyrostat
-from gyrostat.charts import Chart, ChartPoint
-from gyrostat.charts.point import Measure
+from gyrostat.charts import Chart, ChartPoint, LeftOut
+from gyrostat.charts.problem import Measure
 
 
 class Reader(HTMLParser):
@@ -60,6 +60,7 @@ def test_a_scene_shows_its_keys() -> None:
 def test_a_chart_shows_its_points() -> None:
     measures = (Measure("attitude", "attitude", "Attitude", "rad"), Measure("energy", "energy", "Energy", ""))
     point = ChartPoint("rung", "rung full", "tolerance 1e-06", {"attitude": 1.5e-7, "energy": math.nan}, 0.0123, 42, "stated error 2e-07")
-    page = Reader(Chart("a scene", "against Taylor", measures, (point,))._repr_html_())
-    assert page.tables == [[["method", "setting", "attitude", "energy", "seconds", "rhs", ""],
+    page = Reader(Chart("a scene", "rotor", "against Taylor", measures, (point,), (LeftOut("rival", "heyoka", ("1e-12",), "takes over 3 s"),))._repr_html_())
+    assert "left out: heyoka (1e-12): takes over 3 s" in page.text
+    assert page.tables == [[["method", "setting", "attitude", "energy", "CPU seconds", "rhs", ""],
                             ["rung full", "tolerance 1e-06", "1.5e-07", "-", "0.0123", "42", "stated error 2e-07"]]]
