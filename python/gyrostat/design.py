@@ -245,7 +245,7 @@ def _found(given: dict[str, Any], goal: str, monitor: Monitor | None) -> tuple[f
     """What the budget limits, measured on the full motion, and how long that was followed."""
     full = {**given, "model": "full", "tolerance": min(CHECK, given["tolerance"]), "integrator": "auto", "monitor": monitor}
     if goal.startswith("burn"):
-        columns = spinning.solve(**full)["columns"]
+        columns = spinning.solve(**full)
         end = float(given["times"][-1])
         if goal == "burn-for-velocity":
             return float(np.linalg.norm(columns["velocity"][-1] - given["velocity"])), end
@@ -275,7 +275,7 @@ def _many_turns(given: Mapping[str, Any]) -> Vectors:
 
 def _mean_direction(given: dict[str, Any], body_vector: Vectors) -> Vectors:
     """Mean over the times of R body_vector, by a window so smooth that oscillations leave nothing."""
-    turned = matrix_from_quaternion(spinning.solve(**given)["columns"]["attitude"]) @ body_vector
+    turned = matrix_from_quaternion(spinning.solve(**given)["attitude"]) @ body_vector
     s = np.linspace(0.0, 1.0, len(turned))[1:-1]
     window = np.exp(-1.0 / (s * (1.0 - s)))
     mean: Vectors = window @ turned[1:-1] / window.sum()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From a scene to its answer and to its chart."""
 
+import dataclasses
 import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -39,8 +40,7 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, **overrides: Any)
     """
     checked = scene_of(scene, overrides)
     family = FAMILIES[checked.kind]
-    made = family.solve(**family.arguments(checked), monitor=monitor)
-    return Answer.of(checked.to_dict(), checked.times, checked.tolerance, made)
+    return dataclasses.replace(family.solve(**family.arguments(checked), monitor=monitor), scene=checked.to_dict())
 
 
 def chart(scene: SceneLike, **overrides: Any) -> "Chart":

@@ -81,6 +81,11 @@ class Scene:
     def _label(self) -> str:
         return self.name if self.path is None else str(self.path)
 
+    def _repr_html_(self) -> str:
+        from gyrostat.notebook import scene_html
+
+        return scene_html(self)
+
 
 @dataclass
 class _Source:

@@ -104,10 +104,10 @@ def test_averaged_over_arrays_is_averaged_one_by_one() -> None:
         for j in range(3):
             one = deceleration.solve(inertia=J, control=controls[j], drag=drags[i, 0], angular_momentum=M0, times=t,
                                      model="averaged", tolerance=1e-9)
-            assert np.array_equal(made.momentum_norm[i, j], one["columns"]["angular_momentum_norm"])
-            assert np.array_equal(made.modulus_squared[i, j], one["columns"]["modulus_squared"])
-            assert list(made.regime[i, j]) == one["columns"]["regime"]
-            assert made.error["energy"][i, j] == one["error"]["energy"]
+            assert np.array_equal(made.momentum_norm[i, j], one["angular_momentum_norm"])
+            assert np.array_equal(made.modulus_squared[i, j], one["modulus_squared"])
+            assert np.array_equal(made.regime[i, j], one["regime"])
+            assert made.error["energy"][i, j] == one.error["energy"]
 
 
 def test_averaged_with_equal_torques_is_the_exponential_law() -> None:

@@ -84,6 +84,11 @@ class Chart:
             writer.writerows([each.group, each.label, setting, *[""] * (len(self.measures) + 2), f"left out: {each.why}"] for setting in each.settings)
         return text.getvalue()
 
+    def _repr_html_(self) -> str:
+        from gyrostat.notebook import chart_html
+
+        return chart_html(self)
+
     def plot(self) -> Any:
         """The figure. Needs matplotlib."""
         from gyrostat.plots import plot_chart

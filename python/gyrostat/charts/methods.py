@@ -82,10 +82,10 @@ def _rung(problem: Problem, model: str) -> Line:
             raise TooLong from None
         except (DomainError, ConvergenceError) as error:
             raise Unanswered(str(error).removeprefix(f"model {model}: ")) from None
-        stated = max((e for e in made["error"].values() if math.isfinite(e)), default=math.nan)
+        stated = max((e for e in made.error.values() if math.isfinite(e)), default=math.nan)
         if not stated < 1:
             raise Unanswered("states an error of the size of the answer")
-        return Run(float(made["seconds"]), made["columns"], made["counts"]["rhs"], f"stated error {stated:.2g}")
+        return Run(made.seconds, made.columns, made.counts["rhs"], f"stated error {stated:.2g}")
 
     if model == "full":
         return Line("rung", "rung full", tuple((f"tolerance {tolerance:g}", partial(run, tolerance)) for tolerance in TOLERANCES))

@@ -9,6 +9,7 @@ from typing import Any, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
 
 __all__ = ["MOST_TURNS", "Line", "Measure", "Problem", "Rival", "Run", "Unanswered", "first_turns", "greatest", "reference", "relative", "tensor"]
@@ -75,7 +76,7 @@ class Problem:
 
     title: str  # what is charted, and the reference
     measures: tuple[Measure, Measure]
-    solve: Callable[..., dict[str, Any]]
+    solve: Callable[..., Answer]
     given: dict[str, Any]  # arguments of `solve`, with times, tolerance and model
     integrate: Callable[..., dict[str, Any]]
     physics: dict[str, Any]  # arguments of `integrate`, with times

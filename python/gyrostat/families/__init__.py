@@ -3,8 +3,8 @@
 
 families/KIND/
     functions.py   the functions over arrays, public as gyrostat.KIND
-    scene.py       KEYS and ALTERNATIVES of the scene file, `arguments` of `solve` from a checked scene, and where one key does not tell
-                   everything `mistakes`
+    scene.py       KEYS and ALTERNATIVES of the scene file, an EXAMPLE of every key without default, `arguments` of `solve` from a checked
+                   scene; where one key does not tell everything `mistakes`, and where an argument has not the name of its key ARGUMENTS
     chart.py       `problem` of a scene: what is charted, for charts/
     figures.py     `figure` of an answer
     gallery.py     `figures` of the paper and their `drawings`
@@ -12,20 +12,23 @@ families/KIND/
 Columns, scalars, rungs and integrators are those of the compiled ladder (facts.py).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+
+from gyrostat.answer import Answer
 from gyrostat.facts import FACTS, Facts
 from gyrostat.fields import TIMES, Choices, Found, Table, Values, head_keys, needed, solve_keys
 
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["FAMILIES", "Family"]
+__all__ = ["FAMILIES", "Family", "answer_of"]
 
 
 def _nothing(_: Values) -> Found:
@@ -55,6 +58,11 @@ class Family:
         """What can be given in one of several ways."""
         return (TIMES, *self._module("scene").ALTERNATIVES)
 
+    @cached_property
+    def example(self) -> dict[str, Any]:
+        """A value of every key without default, by full key: a body to start from."""
+        return {"name": f"my-{self.name}", "kind": self.name, "solve.times": (0.0, 10.0, 25.0), **self._module("scene").EXAMPLE}
+
     def needs(self, table: str) -> bool:
         """No scene can do without the table."""
         return needed(table, self.keys, self.alternatives)
@@ -65,15 +73,21 @@ class Family:
         found: Callable[[Values], Found] = getattr(self._module("scene"), "mistakes", _nothing)
         return found
 
+    @cached_property
+    def places(self) -> dict[str, tuple[str, str]]:
+        """Table and key of each argument of `solve`."""
+        found = {field.name: (table, field.name) for table, fields in reversed(self.keys.items()) if table for field in fields}
+        return found | getattr(self._module("scene"), "ARGUMENTS", {})
+
     def arguments(self, scene: "Scene") -> dict[str, Any]:
         """What `solve` takes, from a checked scene."""
         made: dict[str, Any] = self._module("scene").arguments(scene)
         return made
 
-    def solve(self, **arguments: Any) -> dict[str, Any]:
-        """The answer of the ladder as plain data."""
-        made: dict[str, Any] = self._module("functions").solve(**arguments)
-        return made
+    def solve(self, **arguments: Any) -> Answer:
+        """The answer of the ladder."""
+        answer: Answer = self._module("functions").solve(**arguments)
+        return answer
 
     def part(self, name: str) -> Any:
         """The module chart, figures, gallery or stability, which is imported when it is first wanted; None where there is none."""
@@ -84,3 +98,14 @@ class Family:
 
 
 FAMILIES: Final[dict[str, Family]] = {name: Family(name) for name in ("deceleration", "rotor", "spinning", "heavy")}
+
+
+def answer_of(kind: str, made: Mapping[str, Any], arguments: Mapping[str, Any]) -> Answer:
+    """What the compiled ladder `made` of the arguments of a family's `solve`, which stand in the answer as a scene."""
+    family = FAMILIES[kind]
+    scene: dict[str, Any] = {"name": f"gyrostat.{kind}.solve", "kind": kind}
+    for name, value in arguments.items():
+        if value is not None:
+            table, key = family.places[name]
+            scene.setdefault(table, {})[key] = value.tolist() if isinstance(value, np.ndarray) else value
+    return Answer.of(scene, np.array(arguments["times"], dtype=float), arguments["tolerance"], made)

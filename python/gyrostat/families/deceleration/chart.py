@@ -62,7 +62,7 @@ def _turn_rate(given: Mapping[str, Any]) -> float:
 def _before_the_stop(given: Mapping[str, Any]) -> tuple[Vectors, str]:
     """The times that lie before the stop, and a remark where some were left out."""
     times = given["times"]
-    stop = solve(**{**given, "model": "full", "times": times[-1:], "tolerance": 1e-6})["scalars"].get("stop_time")
+    stop = solve(**{**given, "model": "full", "times": times[-1:], "tolerance": 1e-6}).scalars.get("stop_time")
     if stop is None or not math.isfinite(stop) or times[-1] <= STOP_SHARE * stop:
         return times, ""
     if stop <= 0:

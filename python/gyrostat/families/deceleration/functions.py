@@ -15,8 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from gyrostat import _core
 from gyrostat._core import Monitor, build_info
+from gyrostat.answer import Answer
 from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.errors import DomainError
+from gyrostat.families import answer_of
 
 __all__ = ["Averaged", "Monitor", "Stability", "averaged", "has_cvode", "integrate", "quasi_stationary_modulus",
            "solve", "stability"]
@@ -33,23 +35,23 @@ def has_cvode() -> bool:
 def solve(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_momentum: ArrayLike, times: ArrayLike,
           rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), law: str = "total", drag_law: str = "total",
           attitude: ArrayLike | None = None, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto",
-          elliptic: str = "auto", monitor: Monitor | None = None) -> dict[str, Any]:
-    """Answer of the ladder as plain data; `gyrostat.solve` wraps it for scenes.
+          elliptic: str = "auto", monitor: Monitor | None = None) -> Answer:
+    """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor [kg m^2]; control : (3,) >= 0 [N m]; drag : >= 0 [1/s];
     angular_momentum : (3,) total M at t = 0 [N m s]; rotor_momentum : (3,) [N m s]; attitude : (4,) [x, y, z, w], if wanted;
     times : (n,) increasing, first >= 0 [s]; tolerance : greatest relative error wanted in any column.
-    Returns model, met, error, warnings, columns, scalars, counts, seconds and tried, as the JSON of a scene answer.
     Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError where
     a computation hits its cap, Cancelled where the monitor stopped it.
     """
-    made: dict[str, Any] = _core.deceleration_solve(
-        inertia=np.asarray(inertia, dtype=float), rotor_momentum=np.asarray(rotor_momentum, dtype=float),
-        control=np.asarray(control, dtype=float), drag=float(drag), law=law, drag_law=drag_law,
-        angular_momentum=np.asarray(angular_momentum, dtype=float),
-        attitude=None if attitude is None else np.asarray(attitude, dtype=float), times=np.asarray(times, dtype=float),
-        tolerance=float(tolerance), model=model, integrator=integrator, elliptic=elliptic, monitor=monitor)
-    return made
+    given: dict[str, Any] = {
+        "inertia": np.asarray(inertia, dtype=float), "rotor_momentum": np.asarray(rotor_momentum, dtype=float),
+        "control": np.asarray(control, dtype=float), "drag": float(drag), "law": law, "drag_law": drag_law,
+        "angular_momentum": np.asarray(angular_momentum, dtype=float),
+        "attitude": None if attitude is None else np.asarray(attitude, dtype=float), "times": np.asarray(times, dtype=float),
+        "tolerance": float(tolerance), "model": model, "integrator": integrator, "elliptic": elliptic,
+    }
+    return answer_of("deceleration", _core.deceleration_solve(**given, monitor=monitor), given)
 
 
 def integrate(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_momentum: ArrayLike, times: ArrayLike,

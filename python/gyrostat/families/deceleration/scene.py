@@ -10,7 +10,7 @@ from gyrostat.fields import UNSET, Choices, Field, Table
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["ALTERNATIVES", "KEYS", "arguments"]
+__all__ = ["ALTERNATIVES", "EXAMPLE", "KEYS", "arguments"]
 
 KEYS: Final[dict[str, Table]] = {
     "solve": (
@@ -40,6 +40,10 @@ KEYS: Final[dict[str, Table]] = {
 ALTERNATIVES: Final[tuple[Choices, ...]] = (
     (("initial.angular_velocity",), ("initial.angular_momentum",)),
 )
+EXAMPLE: Final[dict[str, Any]] = {
+    "solve.duration": 1000.0, "solve.samples": 101, "body.inertia": (35.0, 22.0, 16.0), "torque.control": (0.005, 0.008, 0.01), "torque.drag": 2e-4,
+    "initial.angular_velocity": (0.5, 0.6, 0.7), "initial.angular_momentum": (17.5, 13.2, 11.2), "initial.attitude": (0.0, 0.0, 0.0, 1.0),
+}
 
 
 def arguments(scene: "Scene") -> dict[str, Any]:

@@ -21,8 +21,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from gyrostat import _core
 from gyrostat._core import Monitor
+from gyrostat.answer import Answer
 from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.errors import DomainError
+from gyrostat.families import answer_of
 
 __all__ = ["Exact", "FastStability", "Hanging", "Monitor", "PeriodicFamily", "PeriodicOrbit", "Precession", "Series", "SleepingTop",
            "bodies", "exact", "fast_stability", "gravity_gradient", "hanging", "integrate", "periodic_family", "periodic_orbit",
@@ -84,25 +86,26 @@ def _floats(value: ArrayLike | None) -> Floats | None:
 def solve(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gravity: float, times: ArrayLike, gravity_gradient: float = 0.0,
           angular_velocity: ArrayLike | None = None, down: ArrayLike | None = None, attitude: ArrayLike | None = None,
           periodic: Mapping[str, float] | None = None, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto",
-          monitor: Monitor | None = None) -> dict[str, Any]:
-    """Answer of the ladder as plain data; `gyrostat.solve` wraps it for scenes.
+          monitor: Monitor | None = None) -> Answer:
+    """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments along the body axes, or (3, 3), about the fixed point [kg m^2]; mass [kg]; centre_of_mass : (3,) [m];
     gravity [m/s2]; gravity_gradient : N [1/s2]; times : (n,) increasing, first >= 0 [s].
     The start: angular_velocity (3,) [rad/s] with down (3,), unit, or attitude (4,) [x, y, z, w]; or periodic = {"spin", "cos_inclination"}, the
     periodic motion with r = spin [rad/s] and down = [sqrt(1 - c^2), 0, c] at t = 0, in principal axes.
     tolerance : greatest relative error wanted in any column; model : "auto" or a rung; integrator : "auto", "taylor" or "cvode", for full.
-    Returns model, met, error, warnings, columns, scalars, counts, seconds and tried, as the JSON of a scene answer; scalars that are not
-    known are None. Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError
-    where a computation hits its cap, Cancelled where the monitor stopped it.
+    Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError where
+    a computation hits its cap, Cancelled where the monitor stopped it.
     """
     wanted = None if periodic is None else (float(periodic["spin"]), float(periodic["cos_inclination"]))
-    made: dict[str, Any] = _core.heavy_solve(
-        inertia=np.asarray(inertia, dtype=float), mass=float(mass), centre_of_mass=np.asarray(centre_of_mass, dtype=float),
-        gravity=float(gravity), gravity_gradient=float(gravity_gradient), angular_velocity=_floats(angular_velocity), down=_floats(down),
-        attitude=_floats(attitude), periodic=wanted, times=np.asarray(times, dtype=float), tolerance=float(tolerance), model=model,
-        integrator=integrator, monitor=monitor)
-    return made
+    given: dict[str, Any] = {
+        "inertia": np.asarray(inertia, dtype=float), "mass": float(mass), "centre_of_mass": np.asarray(centre_of_mass, dtype=float),
+        "gravity": float(gravity), "gravity_gradient": float(gravity_gradient), "angular_velocity": _floats(angular_velocity),
+        "down": _floats(down), "attitude": _floats(attitude), "times": np.asarray(times, dtype=float), "tolerance": float(tolerance),
+        "model": model, "integrator": integrator,
+    }
+    made = _core.heavy_solve(**given, periodic=wanted, monitor=monitor)
+    return answer_of("heavy", made, {**given, "periodic": periodic if periodic is None else dict(periodic)})
 
 
 def integrate(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gravity: float, angular_velocity: ArrayLike, times: ArrayLike,

@@ -13,7 +13,7 @@ from gyrostat.fields import ROUNDING, UNSET, Choices, Field, Found, Table, Value
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["ALTERNATIVES", "KEYS", "arguments", "mistakes"]
+__all__ = ["ALTERNATIVES", "EXAMPLE", "KEYS", "arguments", "mistakes"]
 
 KEYS: Final[dict[str, Table]] = {
     "body": (
@@ -42,6 +42,11 @@ ALTERNATIVES: Final[tuple[Choices, ...]] = (
     (("initial.angular_velocity",), ("initial.periodic",)),
     (("initial.down",), ("initial.attitude",), ("initial.periodic",)),
 )
+EXAMPLE: Final[dict[str, Any]] = {
+    "solve.duration": 1.0, "solve.samples": 101, "body.inertia": (0.0011, 0.0016, 0.002), "body.mass": 0.8, "body.centre_of_mass": (0.012, 0.009, 0.01),
+    "field.gravity": 9.80665, "field.gravity_gradient": 4.6e-6, "field.centre_distance": 6.4e6, "initial.angular_velocity": (0.0, 0.0, 150.0),
+    "initial.down": (0.6, 0.0, 0.8), "initial.attitude": (1.0, 0.0, 0.0, 0.0), "initial.periodic": {"spin": 150.0, "cos_inclination": 0.1},
+}
 
 
 def mistakes(tables: Values) -> Found:

@@ -17,7 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from gyrostat import _core
 from gyrostat._core import Monitor
+from gyrostat.answer import Answer
 from gyrostat.broadcast import Floats, rows, shaped
+from gyrostat.families import answer_of
 
 __all__ = ["Monitor", "SteadyRotations", "assembled_inertia", "integrate", "solve", "steady_rotations"]
 
@@ -45,24 +47,24 @@ def assembled_inertia(*, carrier_inertia: ArrayLike, carrier_mass: float, rotor_
 
 def solve(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slope: float, no_load_rate: float,
           angular_velocity: ArrayLike, times: ArrayLike, rotor_rate: float = 0.0, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
-          tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto", monitor: Monitor | None = None) -> dict[str, Any]:
-    """Answer of the ladder as plain data; `gyrostat.solve` wraps it for scenes.
+          tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto", monitor: Monitor | None = None) -> Answer:
+    """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor of the whole about its mass centre, rotor locked [kg m^2]; axis : (3,) e, unit
     within 1e-8; axial_inertia : lambda > 0, of the rotor [kg m^2]; slope : S >= 0 of the motor [N m s/rad]; no_load_rate : omega*
     [rad/s]; angular_velocity : (3,) Omega of the carrier at t = 0 [rad/s]; rotor_rate : omega at t = 0, relative to the carrier
     [rad/s]; attitude : (4,) [x, y, z, w] at t = 0, body to inertial; times : (n,) increasing, first >= 0 [s]; tolerance : greatest
     relative error wanted in any column.
-    Returns model, met, error, warnings, columns, scalars, counts, seconds and tried, as the JSON of a scene answer.
     Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError where
     a computation hits its cap, Cancelled where the monitor stopped it.
     """
-    made: dict[str, Any] = _core.rotor_solve(
-        inertia=np.asarray(inertia, dtype=float), axis=np.asarray(axis, dtype=float), axial_inertia=float(axial_inertia),
-        slope=float(slope), no_load_rate=float(no_load_rate), angular_velocity=np.asarray(angular_velocity, dtype=float),
-        rotor_rate=float(rotor_rate), attitude=np.asarray(attitude, dtype=float), times=np.asarray(times, dtype=float),
-        tolerance=float(tolerance), model=model, integrator=integrator, monitor=monitor)
-    return made
+    given: dict[str, Any] = {
+        "inertia": np.asarray(inertia, dtype=float), "axis": np.asarray(axis, dtype=float), "axial_inertia": float(axial_inertia),
+        "slope": float(slope), "no_load_rate": float(no_load_rate), "angular_velocity": np.asarray(angular_velocity, dtype=float),
+        "rotor_rate": float(rotor_rate), "attitude": np.asarray(attitude, dtype=float), "times": np.asarray(times, dtype=float),
+        "tolerance": float(tolerance), "model": model, "integrator": integrator,
+    }
+    return answer_of("rotor", _core.rotor_solve(**given, monitor=monitor), given)
 
 
 def integrate(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slope: float, no_load_rate: float,

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat import _core, rotation, rotor
+from gyrostat.answer import Answer
 from gyrostat.drawing import COLOURS, Drawing, finish, new_figure
 
 if TYPE_CHECKING:
@@ -87,7 +88,7 @@ def _full(body: dict[str, Any], l: float, m: Vectors, psi_dot: float, t: Vectors
     H = P.T @ np.array([0.0, 0.0, l])
     Omega = np.linalg.solve(theta, H - lam * rate * e)
     answer = rotor.solve(**body, angular_velocity=Omega, rotor_rate=rate, attitude=rotation.quaternion_from_matrix(P), times=t, tolerance=1e-10,
-                         model="full")["columns"]
+                         model="full")
     turned = rotation.matrix_from_quaternion(np.asarray(answer["attitude"]))
     c, s = np.cos(psi_dot * t), np.sin(psi_dot * t)
     still = np.zeros((len(t), 3, 3))
@@ -169,7 +170,7 @@ def _spin_up() -> "Figure":
     Omega = np.linalg.solve(theta, 8.0 * m)
     t = np.linspace(0.0, 60.0, 3001)
     body: dict[str, Any] = {"inertia": theta, "axis": e, "axial_inertia": lam, "slope": slope, "no_load_rate": no_load}
-    answer = rotor.solve(**body, angular_velocity=Omega, times=t, tolerance=1e-9, model="full")["columns"]
+    answer = rotor.solve(**body, angular_velocity=Omega, times=t, tolerance=1e-9, model="full")
     figure = new_figure(12.0, 9.0)
     panels = figure.subplots(3, 1, sharex=True)
     panels[0].plot(t, answer["rotor_rate"], color=COLOURS[0], label="rotor rate ω")
@@ -320,11 +321,10 @@ def _circular_section() -> "Figure":
     body: dict[str, Any] = {"inertia": theta, "axis": e, "axial_inertia": lam, "slope": slope, "no_load_rate": no_load}
     section = _core.rotor_circular_section(**body, momentum=l)
 
-    def run(off: float, t: Vectors) -> dict[str, Any]:
+    def run(off: float, t: Vectors) -> Answer:
         m = math.cos(off) * u + math.sin(off) * nhat
         Omega = (l * m - lam * no_load * e) / theta
-        made: dict[str, Any] = rotor.solve(**body, angular_velocity=Omega, rotor_rate=no_load, times=t, tolerance=1e-9, model="full")["columns"]
-        return made
+        return rotor.solve(**body, angular_velocity=Omega, rotor_rate=no_load, times=t, tolerance=1e-9, model="full")
 
     figure = new_figure(14.0, 5.4)
     panels = figure.subplots(1, 3)
@@ -374,7 +374,7 @@ def _principal_axis() -> "Figure":
     for colour, tilt in zip(COLOURS, (0.1, 0.3, 0.8), strict=False):
         m = np.array([math.sin(tilt), 0.0, math.cos(tilt)])
         answer = rotor.solve(**body, angular_velocity=(l * m - lam * no_load * e) / theta, rotor_rate=no_load, times=t, tolerance=1e-8,
-                             model="full")["columns"]
+                             model="full")
         W = answer["lyapunov"] - level
         angle = np.linalg.norm(np.cross(answer["angular_momentum"] / l, e), axis=1)
         panels[0].loglog(t[1:], W[1:], color=colour, label=f"full motion, start {tilt:g} rad off")
@@ -437,7 +437,7 @@ def _linear_vs_nonlinear() -> "Figure":
         start = math.cos(size) * m0 + math.sin(size) * across
         given: dict[str, Any] = {"angular_velocity": (l * start - body["axial_inertia"] * body["no_load_rate"] * e) / theta,
                                  "rotor_rate": body["no_load_rate"], "times": t, "tolerance": 1e-12}
-        full, tail = (rotor.solve(**body, **given, model=model)["columns"] for model in ("full", "linear-tail"))
+        full, tail = (rotor.solve(**body, **given, model=model) for model in ("full", "linear-tail"))
         m, P = _linear(body, l, m0, psi_dot, start, t)
         turn = rotation.angle_between(full["attitude"], rotation.quaternion_from_matrix(P))
         off = np.linalg.norm(full["angular_momentum"] / l - m, axis=1)

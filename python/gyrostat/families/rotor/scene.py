@@ -11,7 +11,7 @@ from gyrostat.fields import ROUNDING, UNSET, Choices, Field, Found, Table, Value
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["ALTERNATIVES", "KEYS", "arguments", "mistakes"]
+__all__ = ["ALTERNATIVES", "EXAMPLE", "KEYS", "arguments", "mistakes"]
 
 KEYS: Final[dict[str, Table]] = {
     "body": (
@@ -45,6 +45,11 @@ KEYS: Final[dict[str, Table]] = {
 ALTERNATIVES: Final[tuple[Choices, ...]] = (
     (("body.inertia",), ("carrier.inertia", "carrier.mass", "rotor.mass", "rotor.equatorial_inertia", "rotor.offset")),
 )
+EXAMPLE: Final[dict[str, Any]] = {
+    "solve.duration": 100.0, "solve.samples": 101, "body.inertia": (3.2, 4.1, 5.0), "carrier.inertia": (2.1, 2.6, 3.2), "carrier.mass": 12.0,
+    "rotor.axis": (0.36, 0.48, 0.8), "rotor.axial_inertia": 0.35, "rotor.mass": 3.0, "rotor.equatorial_inertia": 0.3, "rotor.offset": (0.2, -0.15, 0.3),
+    "motor.slope": 0.05, "motor.no_load_rate": 30.0, "initial.angular_velocity": (0.1, 0.2, 0.3), "initial.rotor_rate": 0.0,
+}
 
 
 def mistakes(tables: Values) -> Found:

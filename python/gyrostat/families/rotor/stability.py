@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat import _core, rotor
+from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene
 from gyrostat.families.rotor.sphere import Path, Sphere, plot_sphere
@@ -150,7 +151,7 @@ def _expected(made: Mapping[str, Any], given: Mapping[str, Any], body: Mapping[s
     """When V, above the barrier after `followed`, should fall below it, by the mean over the nutation."""
     if MOTOR_TIMES / made["relaxation_rate"] > followed:
         return None
-    state = rotor.solve(**{**given, "times": [followed], "tolerance": 1e-6, "model": "full", "integrator": "auto"})["columns"]
+    state = rotor.solve(**{**given, "times": [followed], "tolerance": 1e-6, "model": "full", "integrator": "auto"})
     time, error = _core.rotor_fall_time(**body, angular_velocity=state["angular_velocity"][0], rotor_rate=state["rotor_rate"][0], valley=0,
                                         end=barrier)
     return float(followed + time) if error < ROUGH else None
@@ -169,7 +170,7 @@ def _settling(made: Mapping[str, Any], given: Mapping[str, Any], body: Mapping[s
     nutation = NUTATION_TIMES * (attractor["e_fold_time"] or math.inf)
     followed = min(max(motor, nutation) if max(motor, nutation) <= longest else motor, longest)
     t = np.linspace(0.0, followed, FOLLOWED_TIMES)
-    answer = rotor.solve(**{**given, "times": t, "tolerance": 1e-6, "model": "full", "integrator": "auto"})["columns"]
+    answer = rotor.solve(**{**given, "times": t, "tolerance": 1e-6, "model": "full", "integrator": "auto"})
     H, V = answer["angular_momentum"], float(answer["lyapunov"][-1])
     outside = np.flatnonzero((np.linalg.norm(np.cross(H / l, m), axis=1) > math.sin(SETTLED)) | (H @ m < 0))
     # The level of F that keeps H within the angle, by its curvature across m.
@@ -299,9 +300,8 @@ def _path(report: Mapping[str, Any], given: Mapping[str, Any]) -> Path:
     end = min(asked, MOST_TURNS * report["start"]["turn_time"])
     note = f"path of {_duration(end)}"
 
-    def motion(t: Vectors) -> dict[str, Any]:
-        columns: dict[str, Any] = rotor.solve(**{**given, "times": t, "tolerance": 1e-6, "model": "auto"})["columns"]
-        return columns
+    def motion(t: Vectors) -> Answer:
+        return rotor.solve(**{**given, "times": t, "tolerance": 1e-6, "model": "auto"})
 
     pieces = [np.linspace(0.0, end, WHOLE)]
     columns = motion(pieces[0])

@@ -90,7 +90,7 @@ def run(case: Case, how: str, end: float = END, samples: int = 1001) -> Run:
     if how == "linear":
         exact = spinning.linear(**given, t=t)
         return Run(t, exact.angular_velocity[:, :2], exact.euler_312, exact.angular_momentum_inertial[:, :2], exact.velocity, exact.position)
-    columns = spinning.solve(**given, times=t, tolerance=1e-8, model="full")["columns"]
+    columns = spinning.solve(**given, times=t, tolerance=1e-8, model="full")
     return Run(t, columns["angular_velocity"][:, :2], columns["euler_312"], columns["angular_momentum_inertial"][:, :2],
                columns["velocity"], columns["position"])
 

@@ -12,7 +12,7 @@ from gyrostat.rotation import euler_312_from_quaternion
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["ALTERNATIVES", "KEYS", "arguments"]
+__all__ = ["ALTERNATIVES", "ARGUMENTS", "EXAMPLE", "KEYS", "arguments"]
 
 KEYS: Final[dict[str, Table]] = {
     "body": (
@@ -44,6 +44,13 @@ ALTERNATIVES: Final[tuple[Choices, ...]] = (
     (("field.momentum",), ("field.charge", "field.flux_density", "field.arm", "field.angle"), ()),
     (("initial.euler_312",), ("initial.attitude",), ()),
 )
+# Table and key of the arguments of `solve` that have another name there.
+ARGUMENTS: Final = {"torque": ("torque", "body"), "charge_momentum": ("field", "momentum")}
+EXAMPLE: Final[dict[str, Any]] = {
+    "solve.duration": 100.0, "solve.samples": 101, "body.inertia": (8.0, 7.0, 11.0), "body.mass": 10.0, "field.momentum": 0.3, "field.charge": 0.003,
+    "field.flux_density": 100.0, "field.arm": 1.1, "field.angle": 0.4, "torque.body": (0.04, -0.02, 0.0), "torque.force": (0.0, 0.0, 3.0),
+    "initial.angular_velocity": (0.0, 0.0, 1.0), "initial.euler_312": (0.0, 0.0, 0.0), "initial.attitude": (0.0, 0.0, 0.0, 1.0),
+}
 
 
 def arguments(scene: "Scene") -> dict[str, Any]:
