@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The tables of docs/ that repeat what the code says.
+
+    docs_tables.py              compare them with the code; one line a table that differs; exit status 1 if there is any
+    docs_tables.py --write      write them anew
+
+A table stands between <!-- KIND:FAMILY --> (or <!-- KIND -->) and <!-- end -->. Columns, scalars, rungs and warnings come from the compiled families,
+keys of scene files from the table behind the validator, constants from include/gyrostat/ladder/honesty.hpp. What to do about a warning is
+written by hand in the last cell of its row, must not be empty, and is kept. Needs the package gyrostat.
+"""
+import argparse
+import pathlib
+import re
+import sys
+from collections.abc import Callable, Iterable, Iterator
+
+from gyrostat import _core
+from gyrostat.families import FAMILIES
+from gyrostat.schema import key_tables, ways
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+HONESTY = ROOT / "include" / "gyrostat" / "ladder" / "honesty.hpp"
+BLOCK = re.compile(r"^<!-- (\w+)(?::(\w+))? -->\n(.*?)^<!-- end -->\n", re.M | re.S)
+COMPILED = {family["name"]: family for family in _core.families()}
+MEASURES = {"relative": "relative", "angle": "angle, rad", "absolute": "absolute", "": "-"}
+
+
+def table(heads: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    def line(cells: Iterable[str]) -> str:
+        return "| " + " | ".join(re.sub(r"\s+", " ", cell).replace("|", "\\|") for cell in cells) + " |\n"
+
+    heads = list(heads)
+    return line(heads) + "|" + "---|" * len(heads) + "\n" + "".join(map(line, rows))
+
+
+def cells(row: str) -> list[str]:
+    """The cells of a row of a table."""
+    return [cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", row.strip())[1:-1]]
+
+
+def values(kind: str, what: str, *cells: str) -> Iterator[list[str]]:
+    for each in COMPILED[kind][what]:
+        yield [f"`{each['name']}`", str(each["width"]), *(each[cell] or "-" for cell in cells), MEASURES[each["measure"]], each["meaning"]]
+
+
+def columns(kind: str, _: str) -> str:
+    scales = [each["scale"] or "-" for each in COMPILED[kind]["columns"]]
+    rows = [[*row[:-1], scale, row[-1]] for row, scale in zip(values(kind, "columns", "unit", "frame"), scales, strict=True)]
+    return table(["column", "width", "unit", "frame", "error", "least scale", "meaning"], rows)
+
+
+def scalars(kind: str, _: str) -> str:
+    return table(["scalar", "width", "unit", "error", "meaning"], values(kind, "scalars", "unit"))
+
+
+def rungs(kind: str, _: str) -> str:
+    listed = table(["rung", "what it is"], [[f"`{each['name']}`", each["meaning"]] for each in COMPILED[kind]["rungs"]])
+    return f"{listed}\nIntegrators of the full equations: {', '.join(f'`{name}`' for name in COMPILED[kind]['integrators'])}.\n"
+
+
+def warnings(kind: str, was: str) -> str:
+    kept = {row[0]: row[2] for row in map(cells, was.splitlines()[2:]) if len(row) == 3}
+    rows = [[code := f"`{each['code']}`", each["text"], kept.get(code, "")] for each in COMPILED[kind]["warnings"]]
+    return table(["code", "text", "what to do"], rows)
+
+
+def keys(kind: str, _: str) -> str:
+    def parts() -> Iterator[str]:
+        for title, heads, rows in key_tables(kind):
+            yield f"`{title}`\n\n" if title.startswith("[") else f"{title[0].upper()}{title[1:]}\n\n"
+            yield table(heads, [[f"`{row[0].strip()}`", *row[1:]] for row in rows]) + "\n"
+        for choices in FAMILIES[kind].alternatives:
+            yield f"* {ways(choices)}\n"
+
+    return "".join(parts())
+
+
+def sentence(comment: str) -> str:
+    """Comment lines as running text."""
+    return re.sub(r"\s*///<?\s*", " ", comment).strip().rstrip(":;,.")
+
+
+def constants(_: str, __: str) -> str:
+    text = HONESTY.read_text(encoding="utf-8")
+    fields = re.findall(r"^  double (\w+);\s+///< (.*(?:\n\s+///< .*)*)", text, re.M)
+    sets = [(name, values.split(",")) for name, values in re.findall(r"^inline constexpr Companions (\w+)\{(.*?)\};", text, re.M | re.S)]
+    rows = [[f"`{field}`", *(values[i].strip() for _, values in sets), sentence(meaning)] for i, (field, meaning) in enumerate(fields)]
+    made = table(["of companions", *(f"`{name}`" for name, _ in sets), "meaning"], rows) + "\n"
+    single = []
+    for comment, values in re.findall(r"((?:^///.*\n)+)^inline constexpr double ([^;]*);", text, re.M):
+        for i, each in enumerate(values.split(",")):
+            name, value = (part.strip() for part in each.split("="))
+            single.append([f"`{name}`", value.replace("1.0 / ", "1/"), sentence(comment) if i == 0 else "the same"])
+    return made + table(["constant", "value", "meaning"], single)
+
+
+TABLES: dict[str, Callable[[str, str], str]] = {"columns": columns, "scalars": scalars, "rungs": rungs, "warnings": warnings, "keys": keys,
+                                                "constants": constants}
+
+
+def pages() -> Iterator[tuple[pathlib.Path, str, str]]:
+    """Each page of docs/ with a table: where it is, as it is, and as it ought to be."""
+    for path in sorted((ROOT / "docs").glob("*.md")):
+        text = path.read_text(encoding="utf-8")
+
+        def right(block: re.Match[str]) -> str:
+            what, kind, was = block.groups()
+            if what not in TABLES:
+                return block.group()
+            return block.group()[:block.start(3) - block.start()] + TABLES[what](kind or "", was) + "<!-- end -->\n"
+
+        if BLOCK.search(text):
+            yield path, text, BLOCK.sub(right, text)
+
+
+def breaches() -> Iterator[str]:
+    listed = set()
+    for path, text, right in pages():
+        listed |= {match.groups()[:2] for match in BLOCK.finditer(text)}
+        if text != right:
+            yield f"docs/{path.name}: a table differs from the code: run tests/docs_tables.py --write and look at the difference"
+        for block in BLOCK.finditer(right):
+            if block.group(1) == "warnings":
+                yield from (f"docs/{path.name}: what is one to do about {row[0]}?" for row in map(cells, block.group(3).splitlines()[2:]) if not row[2])
+    for what in set(TABLES) - {"constants"}:
+        yield from (f"docs/: no table <!-- {what}:{kind} -->" for kind in FAMILIES if (what, kind) not in listed)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true")
+    if parser.parse_args().write:
+        for path, text, right in pages():
+            if text != right:
+                path.write_text(right, encoding="utf-8")
+    found = list(breaches())
+    print("\n".join(found) or "the tables of docs/ are those of the code")
+    return bool(found)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
