@@ -52,3 +52,16 @@ TEST_CASE("the head of an answer is what was asked and what was found on the way
   CHECK(answer.warns("late"));
   CHECK(answer.counts.steps == 7);
 }
+
+TEST_CASE("the row at zero is the start as given", "[ladder]") {
+  const std::vector<Writer::State> states{{1, 2, 3, 4}, {5, 6, 7, 8}};
+  for (const double first : {0.0, 0.5}) {
+    Answer answer;
+    answer.times = {first, 1};
+    fill_columns(answer, Writer{}, states, {{0, 0}});
+    put_start(answer, Writer::columns[0], {1.5, 2.5, 3.5});
+    const bool at_start = first == 0;
+    CHECK(answer.find("vector")->values == (at_start ? std::vector<double>{1.5, 2.5, 3.5, 5, 6, 7} : std::vector<double>{1, 2, 3, 5, 6, 7}));
+    CHECK(answer.find("number")->values[0] == 4);
+  }
+}

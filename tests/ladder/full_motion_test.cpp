@@ -32,3 +32,10 @@ TEST_CASE("progress is told where somebody watches and never passes one; a set f
   cancel = true;
   CHECK(options.cancelled());
 }
+
+TEST_CASE("a phase that no double holds is known before it is followed; a short motion is followed in any case", "[ladder]") {
+  CHECK(phase_too_long(1e12, 1e-6));
+  CHECK_FALSE(phase_too_long(1e9, 1e-6));
+  CHECK_FALSE(phase_too_long(1e5, 1e-15));
+  CHECK(phase_too_long(infinity<double>, 1e-3));
+}

@@ -65,10 +65,12 @@ class Comparison {
   /// Greatest norms in the first motion; attitude: 1.
   const ColumnErrors& size() const noexcept { return size_; }
 
-  /// `errors` (in units of the columns) over the sizes, or over the scales where those are greater; 0/0 = 0.
+  /// What errors of a column are relative to: its size, or its scale where that is greater; attitude: 1.
+  Scalar unit(std::size_t column) const noexcept { return greater(size_[column], scale_[column]); }
+
+  /// `errors` (in units of the columns) over the units; 0/0 = 0.
   ColumnErrors relative(ColumnErrors errors) const noexcept {
-    for (std::size_t i = 0; i < count; ++i)
-      if (Writer::columns[i].measure != Measure::angle) errors[i] = over(errors[i], greater(size_[i], scale_[i]));
+    for (std::size_t i = 0; i < count; ++i) errors[i] = over(errors[i], unit(i));
     return errors;
   }
 

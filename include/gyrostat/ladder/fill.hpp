@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 
 #include "gyrostat/ladder/answer.hpp"
@@ -42,6 +44,13 @@ void fill_columns(Answer& answer, const Writer& writer, std::span<const typename
   }
   answer.error = 0;
   for (std::size_t i = 0; i < count; ++i) answer.error = greater(error[i], answer.error);
+}
+
+/// The row at t = 0, where it is asked for, is the start as it was given, to the bit.
+inline void put_start(Answer& answer, const ColumnKind& kind, std::initializer_list<double> given) {
+  if (answer.times.front() != 0) return;
+  for (Column& column : answer.columns)
+    if (column.kind == &kind) std::copy(given.begin(), given.end(), column.values.begin());
 }
 
 }  // namespace gyrostat

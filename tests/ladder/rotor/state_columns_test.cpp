@@ -23,7 +23,7 @@ TEST_CASE("columns of states that are off by a bound lie within the errors told"
     const auto body = bodies.realisable();
     const double off = bodies.scale(1e-14, 0.1);
     std::vector<State<double>> states;
-    Comparison seen(Row<double>{body});
+    Comparison seen(Row<double>(body));
     Bound bound{};
     for (int k = 0; k < 3; ++k) {
       auto s = bodies.start(body);
@@ -43,7 +43,7 @@ TEST_CASE("columns of states that are off by a bound lie within the errors told"
       states.push_back(s);
       seen.add(s, moved);
     }
-    const auto told = state_columns(body, states, bound);
+    const auto told = state_columns(Row<double>(body), states, bound);
     const auto found = seen.relative(seen.difference());
     CHECK(found[column::angular_momentum] <= told[column::angular_momentum] * (1 + 1e-12) + 1e-15);
     CHECK(found[column::angular_velocity] <= told[column::angular_velocity]);
@@ -57,8 +57,8 @@ TEST_CASE("columns of states that are off by a bound lie within the errors told"
 TEST_CASE("no momentum and no error of it: none told", "[rotor]") {
   const auto body = reference_body(0.05, 30);
   const std::vector<State<double>> states{body.state({}, Vec3<double>(0, 0, 0), 0)};
-  const auto told = state_columns(body, states, Bound{0, 0, 0, 0});
+  const auto told = state_columns(Row<double>(body), states, Bound{0, 0, 0, 0});
   CHECK(told[column::angular_momentum] == 0);
   CHECK(told[column::rotor_angle] == 0);
-  CHECK(state_columns(body, states, Bound{10, 0, 0, 0})[column::attitude] == pi<double>);
+  CHECK(state_columns(Row<double>(body), states, Bound{10, 0, 0, 0})[column::attitude] == pi<double>);
 }

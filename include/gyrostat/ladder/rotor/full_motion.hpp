@@ -248,7 +248,7 @@ class FullMotion {
     };
     Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
     const bool rounds = step_tolerance < Scalar(how.two_below) * eps;
-    const auto walk = walk_beside(Row<Scalar>{gyrostat_}, course, companion, second, rounds, start_, turning_, times_,
+    const auto walk = walk_beside(Row<Scalar>(gyrostat_, start_), course, companion, second, rounds, start_, turning_, times_,
                                   states_, nowhere(), options_, progress_from, progress_to);
     answer.status = walk.status;
     answer.counts = course.counts();
@@ -307,7 +307,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Gyrostat<Scalar>& gyrostat, c
   if (times.empty()) return answer;
 
   State<Scalar> from = start;
-  from.attitude = normalised(start.attitude);
+  from.attitude = as_unit(start.attitude);
   const detail::FullMotion<Scalar> motion(gyrostat, from, times, states, options);
   const Scalar first =
       first_step_tolerance<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_step));

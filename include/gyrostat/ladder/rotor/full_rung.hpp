@@ -10,6 +10,8 @@ namespace gyrostat::rotor {
 inline Track full_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
   if (scene.full_equations) return scene.full_equations(scene, monitor);
+  if (phase_too_long(turning_rate(scene.gyrostat(), scene.start()) * question.times.back(), question.tolerance))
+    return refused<Track>(Errc::step_limit, phase_lost);
   Track track;
   track.states.resize(question.times.size());
   FullMotionOptions<double> options;
@@ -19,7 +21,7 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   const auto answer = full_motion<double>(scene.gyrostat(), scene.start(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)
-    return refused<Track>(failure_of(answer->status), ode::message(answer->status));
+    return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   track.error = answer->error;
   track.counts = answer->counts;
   return track;

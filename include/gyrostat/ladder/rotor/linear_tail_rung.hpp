@@ -56,6 +56,7 @@ inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttract
   const double fast = (l + std::abs(body.target_momentum())) / body.principal()[0];
   // greatest share of the times that the full equations may take: they are solved twice where the first window was too short
   const double worth = scene.question().rung == rung::linear_tail ? 0.9 : 0.25;
+  const Row<double> row(body, scene.start());
   const Track not_worth = over_tolerance<Track>(nan<double>);
 
   const auto time_to_fall = [&](const LinearTail<double>& tail, double from, double wanted) {
@@ -77,13 +78,14 @@ inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttract
     if (track.failure != Errc::ok) return track;
     counts += track.counts;
 
-    Comparison sizes(Row<double>{body});
+    Comparison sizes(row);
     for (const auto& state : track.states) sizes.add(state);
     const auto tail = attractors.tail(body, track.states.back());
     track.states.pop_back();
     auto bound = tail.error(last - window);
     const auto carried =
-        tail.carried(track.error[column::angular_momentum] * l, track.error[column::rotor_rate] * sizes.size()[column::rotor_rate]);
+        tail.carried(track.error[column::angular_momentum] * sizes.unit(column::angular_momentum),
+                     track.error[column::rotor_rate] * sizes.unit(column::rotor_rate));
     bound.attitude += carried.attitude + 4 * epsilon<double> * last * fast;
     bound.momentum += carried.momentum;
     bound.rotor_rate += carried.rotor_rate;
@@ -91,7 +93,7 @@ inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttract
     if (bound.attitude + track.error[column::attitude] <= tolerance && bound.momentum <= tolerance * l) {
       for (std::size_t i = track.states.size(); i < times.size(); ++i)
         track.states.push_back(tail.at(times[i] - window));
-      track.error += state_columns(body, track.states, bound);
+      track.error += state_columns(row, track.states, bound);
       track.counts = counts;
       if (track.error.greatest() <= tolerance) {
         track.warn(warning_kinds[warning::hand_over], window);
@@ -128,11 +130,12 @@ inline Track linear_tail_track(const Scene& scene, Monitor* monitor) {
   const auto tail = attractors.tail(body, start);
   const auto bound = tail.error(question.times.back());
   const bool near = bound.attitude < infinity<double>;
+  const Row<double> row(body, start);
   const auto alone = [&] {
     Track track;
     track.states.reserve(question.times.size());
     for (const double t : question.times) track.states.push_back(tail.at(t));
-    track.error = state_columns(body, track.states, bound);
+    track.error = state_columns(row, track.states, bound);
     track.in_domain = near;
     return track;
   };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "gyrostat/ladder/comparison.hpp"
@@ -18,12 +20,17 @@ enum : std::size_t { attitude, angular_velocity, angular_momentum, rotor_rate, r
 
 inline constexpr ColumnKind column_kinds[] = {
     {"attitude", 4, "1", Frame::body_to_inertial, Measure::angle, "attitude, body to inertial, [x, y, z, w]"},
-    {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity of the carrier, body axes"},
-    {"angular_momentum", 3, "N m s", Frame::body, Measure::relative, "total angular momentum, body axes"},
-    {"rotor_rate", 1, "rad/s", Frame::none, Measure::relative, "rate of the rotor relative to the carrier"},
-    {"rotor_angle", 1, "rad", Frame::none, Measure::relative, "angle of the rotor in the carrier, from 0 at t = 0"},
+    {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity of the carrier, body axes",
+     "what the momenta of carrier and rotor at t = 0 would turn the whole with, over its greatest moment"},
+    {"angular_momentum", 3, "N m s", Frame::body, Measure::relative, "total angular momentum, body axes",
+     "the momenta of carrier and rotor at t = 0, which may cancel"},
+    {"rotor_rate", 1, "rad/s", Frame::none, Measure::relative, "rate of the rotor relative to the carrier",
+     "the greatest of the rates of carrier and rotor at t = 0 and the scale of angular_velocity"},
+    {"rotor_angle", 1, "rad", Frame::none, Measure::relative, "angle of the rotor in the carrier, from 0 at t = 0",
+     "1 rad"},
     {"lyapunov", 1, "J", Frame::none, Measure::relative,
-     "Lyapunov function V: energy less no_load_rate times the rotor's axial momentum, plus a constant; it never grows"},
+     "Lyapunov function V: energy less no_load_rate times the rotor's axial momentum, plus a constant; it never grows",
+     "the least rotational energy of a body with the scale of angular_momentum"},
 };
 
 /// Places in scalar_kinds.
@@ -80,6 +87,25 @@ inline constexpr const char* integrator_names[] = {"taylor", "radau", "cvode"};
 
 inline constexpr Family tables{"rotor", column_kinds, scalar_kinds, warning_kinds, rung_kinds, integrator_names};
 
+template <Real Scalar>
+using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
+
+/// The scales of the columns that a start sets, in their units.
+template <Real Scalar>
+ColumnErrors<Scalar> scales(const Gyrostat<Scalar>& body, const State<Scalar>& start) noexcept {
+  const Vec3<Scalar> Omega = body.angular_velocity(start.momentum, start.axial_momentum);
+  const Scalar omega = std::abs(body.rotor_rate(start.axial_momentum, Omega));
+  const Scalar momentum = (body.inertia() * Omega).norm() + body.axial_inertia() * omega;
+  const Scalar rate = momentum / body.principal()[2];
+  ColumnErrors<Scalar> made;
+  made[column::angular_velocity] = rate;
+  made[column::angular_momentum] = momentum;
+  made[column::rotor_rate] = std::max({Omega.norm(), omega, rate});
+  made[column::rotor_angle] = 1;
+  made[column::lyapunov] = momentum * rate / 2;
+  return made;
+}
+
 /// Writes the columns of a state, one behind the other: the one place that knows them.
 template <Real S>
 struct Row {
@@ -88,6 +114,10 @@ struct Row {
   static constexpr const auto& columns = column_kinds;
 
   Gyrostat<S> body;
+  ColumnErrors<S> scale{};
+
+  explicit Row(const Gyrostat<S>& body) noexcept : body(body) {}
+  Row(const Gyrostat<S>& body, const State& start) noexcept : body(body), scale(scales(body, start)) {}
 
   void operator()(const State& state, S* row) const noexcept {
     const auto& [q, H, p, angle] = state;
@@ -97,8 +127,5 @@ struct Row {
       *row++ = value;
   }
 };
-
-template <Real Scalar>
-using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
 
 }  // namespace gyrostat::rotor

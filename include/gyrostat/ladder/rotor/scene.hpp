@@ -35,8 +35,9 @@ class Scene {
     Scene scene;
     scene.gyrostat_ = gyrostat;
     scene.given_ = start;
+    scene.given_.attitude = as_unit(start.attitude);
     scene.question_ = question;
-    scene.start_ = gyrostat.state(normalised(start.attitude), start.angular_velocity, start.rotor_rate);
+    scene.start_ = gyrostat.state(scene.given_.attitude, start.angular_velocity, start.rotor_rate);
     return scene;
   }
 
@@ -48,6 +49,7 @@ class Scene {
   }
 
   const Gyrostat<double>& gyrostat() const noexcept { return gyrostat_; }
+  /// As the caller gave it, but for the norm of the attitude.
   const Start& given() const noexcept { return given_; }
   const State<double>& start() const noexcept { return start_; }
   const Question& question() const noexcept { return question_; }

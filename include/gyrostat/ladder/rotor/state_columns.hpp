@@ -9,12 +9,13 @@
 
 namespace gyrostat::rotor {
 
-/// Errors of the columns, relative to their greatest norms in `states`, from a bound for all of them: {attitude, momentum,
+/// Errors of the columns, relative to their greatest norms in `states` or to their scales, from a bound for all of them: {attitude, momentum,
 /// rotor_rate, rotor_angle}, rad, N m s, rad/s, rad. What making the columns from states costs by rounding is added.
 template <class Bound>
-ColumnErrors<double> state_columns(const Gyrostat<double>& body, std::span<const State<double>> states,
+ColumnErrors<double> state_columns(const Row<double>& row, std::span<const State<double>> states,
                                    const Bound& bound) noexcept {
-  Comparison sizes(Row<double>{body});
+  const Gyrostat<double>& body = row.body;
+  Comparison sizes(row);
   double lyapunov = 0, rounding = 0;
   const double j = 1 / body.principal()[0], lambda = body.axial_inertia(), k = body.coupling();
   const double j_free = 1 / body.free_principal()[0];
