@@ -39,7 +39,7 @@ Track run(const Gyrostat<double>& gyrostat, const Asked& data) {
 void check_honest(const Gyrostat<double>& gyrostat, const Asked& data, const Track& track) {
   const auto truth =
       LongMotion::from(gyrostat, normalised(data.attitude), data.angular_velocity, data.rotor_rate, data.times);
-  Comparison seen(Row<double>(gyrostat));
+  Comparison seen{Row<double>(gyrostat)};
   for (std::size_t i = 0; i < truth.size(); ++i) seen.add(track.states[i], truth[i]);
   const auto found = seen.relative(seen.difference());
   CHECK(found[column::attitude] <= track.error[column::attitude]);

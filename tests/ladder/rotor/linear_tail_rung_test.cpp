@@ -55,7 +55,7 @@ void check_honest(const Case& c, const Track& track) {
   REQUIRE(track.failure == Errc::ok);
   REQUIRE(track.states.size() == c.data.times.size());
   const Track truth = c.truth();
-  Comparison seen(Row<double>(c.body));
+  Comparison seen{Row<double>(c.body)};
   for (std::size_t i = 0; i < truth.states.size(); ++i) seen.add(truth.states[i], track.states[i]);
   const auto found = seen.relative(seen.difference());
   CHECK(found[column::attitude] <= track.error[column::attitude] + truth.error[column::attitude]);

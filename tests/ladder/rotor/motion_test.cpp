@@ -16,7 +16,7 @@ TEST_CASE("a comparison measures each column by its own size", "[rotor]") {
   State<double> c = a;
   c.rotor_angle = 10;
   b.rotor_angle = 10.5;
-  Comparison comparison(Row<double>(body));
+  Comparison comparison{Row<double>(body)};
   comparison.add(a, a);
   CHECK(comparison.difference().greatest() == 0);
   CHECK(comparison.relative(comparison.difference()).greatest() == 0);

@@ -23,7 +23,7 @@ TEST_CASE("columns of states that are off by a bound lie within the errors told"
     const auto body = bodies.realisable();
     const double off = bodies.scale(1e-14, 0.1);
     std::vector<State<double>> states;
-    Comparison seen(Row<double>(body));
+    Comparison seen{Row<double>(body)};
     Bound bound{};
     for (int k = 0; k < 3; ++k) {
       auto s = bodies.start(body);

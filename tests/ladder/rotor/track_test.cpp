@@ -11,7 +11,7 @@ using namespace gyrostat::rotor;
 TEST_CASE("a rotor track becomes the columns of the contract", "[rotor]") {
   const auto body = reference_body(0.05, 30);
   Asked data;
-  data.times = {0, 1};
+  data.times = {0.5, 1};
   const auto scene = make_scene(body, data);
   REQUIRE(scene);
   Track track;

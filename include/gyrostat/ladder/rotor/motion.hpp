@@ -23,14 +23,14 @@ inline constexpr ColumnKind column_kinds[] = {
     {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity of the carrier, body axes",
      "what the momenta of carrier and rotor at t = 0 would turn the whole with, over its greatest moment"},
     {"angular_momentum", 3, "N m s", Frame::body, Measure::relative, "total angular momentum, body axes",
-     "the momenta of carrier and rotor at t = 0, which may cancel"},
+     "where it vanishes: the momenta of carrier and rotor at t = 0, which cancel"},
     {"rotor_rate", 1, "rad/s", Frame::none, Measure::relative, "rate of the rotor relative to the carrier",
      "the greatest of the rates of carrier and rotor at t = 0 and the scale of angular_velocity"},
     {"rotor_angle", 1, "rad", Frame::none, Measure::relative, "angle of the rotor in the carrier, from 0 at t = 0",
      "1 rad"},
     {"lyapunov", 1, "J", Frame::none, Measure::relative,
      "Lyapunov function V: energy less no_load_rate times the rotor's axial momentum, plus a constant; it never grows",
-     "the least rotational energy of a body with the scale of angular_momentum"},
+     "the least rotational energy of the whole with the momenta of carrier and rotor at t = 0"},
 };
 
 /// Places in scalar_kinds.
@@ -99,7 +99,7 @@ ColumnErrors<Scalar> scales(const Gyrostat<Scalar>& body, const State<Scalar>& s
   const Scalar rate = momentum / body.principal()[2];
   ColumnErrors<Scalar> made;
   made[column::angular_velocity] = rate;
-  made[column::angular_momentum] = momentum;
+  made[column::angular_momentum] = start.momentum.isZero(0) ? momentum : Scalar(0);
   made[column::rotor_rate] = std::max({Omega.norm(), omega, rate});
   made[column::rotor_angle] = 1;
   made[column::lyapunov] = momentum * rate / 2;
@@ -116,8 +116,8 @@ struct Row {
   Gyrostat<S> body;
   ColumnErrors<S> scale{};
 
-  explicit Row(const Gyrostat<S>& body) noexcept : body(body) {}
-  Row(const Gyrostat<S>& body, const State& start) noexcept : body(body), scale(scales(body, start)) {}
+  explicit Row(const Gyrostat<S>& of) noexcept : body(of) {}
+  Row(const Gyrostat<S>& of, const State& start) noexcept : body(of), scale(scales(of, start)) {}
 
   void operator()(const State& state, S* row) const noexcept {
     const auto& [q, H, p, angle] = state;
