@@ -68,8 +68,12 @@ struct Tally {
       for (const Quantity& right : truth.quantities)
         if (std::find(scalars.begin(), scalars.end(), q.name()) != scalars.end() && q.kind == right.kind &&
             std::isfinite(q.values[0]) && std::isfinite(right.values[0]))
-          one(q.kind->name, q.values[0] == right.values[0] ? 0 : std::abs(q.values[0] / right.values[0] - 1), q.error,
-              right.error);
+          one(q.kind->name,
+              q.values[0] == right.values[0]
+                  ? 0
+                  : std::abs(q.values[0] - right.values[0]) /
+                        (q.kind->measure == Measure::relative ? std::abs(right.values[0]) : 1.0),
+              q.error, right.error);
     honest += good;
     met += answer.met;
     over += answer.met && !within;
@@ -105,9 +109,8 @@ inline unsigned seed_of(int argc, char** argv) { return argc > 2 ? unsigned(std:
 /// posed(question), a Result of the scene of the family under that question (its times left to it), and text(), all that is needed to make it anew;
 /// truth(scene, answer) fills in the true motion, false where it cannot be had. Each scene is solved at every tolerance.
 template <class Scenes, class Truth, class Solve>
-void run(int argc, char** argv, const Family& family, int count, Scenes source, const Truth& truth,
-         const Solve& solve, std::initializer_list<double> tolerances,
-         std::initializer_list<std::string_view> scalars = {}) {
+void run(int argc, char** argv, const Family& family, int count, Scenes source, const Truth& truth, const Solve& solve,
+         std::initializer_list<double> tolerances, std::initializer_list<std::string_view> scalars = {}) {
   if (argc > 1) count = std::atoi(argv[1]);
   const int rung = argc > 3 ? place_of(family.rungs, argv[3]) : any_rung;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);

@@ -10,9 +10,9 @@
 
 namespace gyrostat {
 
-/// As the contract measures it: relative to the greatest norm; modulus_squared absolute; attitude by the angle, rad.
+/// As the table of columns measures it: by the angle, rad; absolute; or relative to the greatest norm, or to the scale where that is greater.
 inline double column_error(const Column& column, const Column& truth) {
-  double most = 0, size = 0;
+  double most = 0, size = column.scale;
   const std::size_t w = std::size_t(column.kind->width);
   const bool attitude = column.kind->measure == Measure::angle;
   for (std::size_t i = 0; i < column.values.size(); i += w) {

@@ -16,7 +16,8 @@ namespace gyrostat {
 struct Column {
   const ColumnKind* kind;
   std::vector<double> values;
-  double error;  ///< estimated greatest error over the span, as kind->measure says; NaN where it has none
+  double error;      ///< estimated greatest error over the span, as kind->measure says; NaN where it has none
+  double scale = 0;  ///< kind->scale of this scene, in the unit of the column
 
   std::string_view name() const noexcept { return kind->name; }
 };

@@ -25,14 +25,14 @@ inline void fill_head(Answer& answer, const Question& question, const Outcome& o
 /// The first `count` columns of the writer's table from states; the answer's error is the greatest of theirs.
 template <class Writer>
 void fill_columns(Answer& answer, const Writer& writer, std::span<const typename Writer::State> states,
-                  const Errors<std::size(Writer::columns)>& error,
-                  std::size_t count = std::size(Writer::columns)) {
+                  const Errors<std::size(Writer::columns)>& error, std::size_t count = std::size(Writer::columns)) {
   constexpr std::size_t most = std::size(Writer::columns);
   std::array<double*, most> to{};
   answer.columns.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const ColumnKind& kind = Writer::columns[i];
     answer.columns.push_back({&kind, std::vector<double>(states.size() * std::size_t(kind.width)), error[i]});
+    if constexpr (requires { writer.scale; }) answer.columns.back().scale = writer.scale[i];
     to[i] = answer.columns.back().values.data();
   }
   double row[row_width(Writer::columns)];

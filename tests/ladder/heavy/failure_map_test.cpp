@@ -46,7 +46,7 @@ const Vec3<double> towards{0.6, 0.48, 0.64};
 
 Answer periodic_of(const Problem<double>& p, double spin, double cosine = 0.1, double tolerance = 1e-6,
                    int rung = any_rung) {
-  return honest(periodic(p, spin, cosine, 3, tolerance, model));
+  return honest(periodic(p, spin, cosine, 3, tolerance, rung));
 }
 
 }  // namespace

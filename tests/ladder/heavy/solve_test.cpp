@@ -98,7 +98,7 @@ TEST_CASE("what is known exactly is answered exactly", "[heavy]") {
 }
 
 TEST_CASE("a rung of the heavy family asked for by name answers or refuses", "[heavy]") {
-  const auto by = [](int rung, double spin) { return solved(periodic(stone, spin, 0.1, 3, 1e-9, model)); };
+  const auto by = [](int rung, double spin) { return solved(periodic(stone, spin, 0.1, 3, 1e-9, rung)); };
   CHECK(by(rung::series_2, 50).by("series-2"));
   CHECK_FALSE(by(rung::series_2, 50).answer.met);
   CHECK(by(rung::series, 50).by("series"));
