@@ -25,10 +25,11 @@
 /// The full motion of a spinning, thrusting gyrostat by Taylor series.
 namespace gyrostat::spinning {
 
-using gyrostat::FullMotionOptions;
+template <Real Scalar>
+using FullMotionOptions = MotionOptions<Scalar>;
 
 template <Real Scalar>
-struct FullMotionAnswer : FullMotionOutcome<std::size(column_kinds), Scalar> {
+struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
   Scalar least_cosine = 1;  ///< a lower bound of cos(psi) on the way
   bool turns_known = true;  ///< false: cos(psi) = 0 is passed on a side that the error of the attitude leaves open
 };
