@@ -30,13 +30,13 @@ struct Polhode {
   Regime regime;
   PolhodeAxes<Scalar> axes;
   math::Modulus<Scalar> modulus;
-  Scalar tilt;
-  int side;  ///< sign of M along the near axis
+  Scalar tilt, along;  ///< with the sum 1, each from its own products
+  int side;            ///< sign of M along the near axis
 
   /// 2H/M^2, 1/(kg m^2).
   Scalar energy_ratio() const noexcept { return axes.a_near + (axes.a_far - axes.a_near) * tilt; }
   /// du/dt per unit |M|, where u is the argument of the Jacobi functions: n/M of docs/deceleration.md.
-  Scalar rate_per_momentum() const noexcept { return gyrostat::rate_per_momentum<Scalar>(axes, 1 - tilt); }
+  Scalar rate_per_momentum() const noexcept { return gyrostat::rate_per_momentum<Scalar>(axes, along); }
 };
 
 /// Polhode through M, from the components. M must not vanish; a sphere has none.
@@ -47,7 +47,7 @@ Polhode<Scalar> polhode_through(const Vec3<Scalar>& a, const Vec3<Scalar>& M) no
       surrounds_largest<Scalar>(a[1] - a[0], a[2] - a[1], m[0], m[2]) ? Regime::about_largest : Regime::about_smallest;
   const auto x = PolhodeAxes<Scalar>::of(a, regime);
   const auto shape = PolhodeShape<Scalar>::of(x, m[x.near], m[1], m[x.far]);
-  return {regime, x, shape.modulus, shape.tilt, M[x.near] < 0 ? -1 : 1};
+  return {regime, x, shape.modulus, shape.tilt, shape.along, M[x.near] < 0 ? -1 : 1};
 }
 
 /// The same polhode family at another modulus.
@@ -55,7 +55,10 @@ template <Real Scalar>
 Polhode<Scalar> at_modulus(Polhode<Scalar> polhode, math::Modulus<Scalar> modulus) noexcept {
   const auto& x = polhode.axes;
   polhode.modulus = modulus;
-  if (!x.axisymmetric()) polhode.tilt = x.near_mid * modulus.k2 / (x.mid_far + x.near_mid * modulus.k2);
+  if (x.axisymmetric()) return polhode;
+  const Scalar across = x.near_mid * modulus.k2, whole = x.mid_far + across;
+  polhode.tilt = across / whole;
+  polhode.along = x.mid_far / whole;
   return polhode;
 }
 
@@ -64,7 +67,7 @@ template <class Elliptic = math::Native, Real Scalar>
 Vec3<Scalar> momentum_on(const Polhode<Scalar>& p, Scalar norm, Scalar u) noexcept {
   const auto j = Elliptic::jacobi(u, p.modulus);
   Vec3<Scalar> M;
-  M[p.axes.near] = Scalar(p.side) * norm * std::sqrt(1 - p.tilt) * j.dn;
+  M[p.axes.near] = Scalar(p.side) * norm * std::sqrt(p.along) * j.dn;
   M[1] = norm * std::sqrt(p.tilt * p.axes.near_far / p.axes.near_mid) * j.sn;
   M[p.axes.far] = -Scalar(p.side) * norm * std::sqrt(p.tilt) * j.cn;
   return M;
