@@ -91,3 +91,25 @@ TEST_CASE("an axis of symmetry, a sphere, and M across the axis") {
   CHECK(std::isnan(PolhodeShape<double>::of({0, 0, 0}, 3, 1, 1).modulus.k2));
   CHECK(PolhodeGaps<double>{0.1, 0.3, 0.4}.separatrix_tilt() == Approx(0.25));
 }
+
+TEST_CASE("rounding does not put the modulus out of [0, 1]") {
+  std::mt19937_64 random(5);
+  int over = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Sample body = sample(random);
+    for (const int near : {0, 2}) {
+      const auto gaps = gaps_of<double>(body.a, near);
+      const double square = std::uniform_real_distribution<double>(0.1, 10)(random);
+      over += gaps.near_far * (gaps.near_mid * square) / (gaps.near_mid * (gaps.near_far * square)) > 1;
+      const auto on_axis = PolhodeShape<double>::of(gaps, square, 0, 0);
+      CHECK(on_axis.modulus.k2 == 0);
+      CHECK(on_axis.modulus.kp2 <= 1);
+      CHECK(on_axis.modulus.kp2 == Approx(1).epsilon(1e-15));
+      CHECK(on_axis.along == 1);
+      // on the separatrix, to rounding
+      const auto edge = PolhodeShape<double>::of(gaps, square * gaps.mid_far, 0, square * gaps.near_mid);
+      CHECK(edge.modulus.k2 <= 1);
+    }
+  }
+  CHECK(over > 100);
+}

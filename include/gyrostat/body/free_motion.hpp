@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "gyrostat/core/real.hpp"
@@ -47,7 +48,8 @@ struct PolhodeShape {
     const Scalar inside = gaps.near_mid * near, outside = gaps.mid_far * far;
     return {across / (across + along),
             along / (across + along),
-            {gaps.mid_far * across / whole, gaps.near_far * (inside - outside) / whole},
+            {std::min(gaps.mid_far * across / whole, Scalar(1)),
+             std::min(gaps.near_far * (inside - outside) / whole, Scalar(1))},
             inside > outside ? (inside + outside) / (inside - outside) : infinity<Scalar>};
   }
 };

@@ -167,7 +167,7 @@ void EulerCase<Scalar>::set_path(const Vec3<Scalar>& I, const Vec3<Scalar>& m) n
     along_ = shape.along;
     steep_ = near_far_ / gaps.near_mid;
     constexpr Scalar floor = epsilon<Scalar> * epsilon<Scalar>;
-    modulus_ = {std::min(shape.modulus.k2, Scalar(1)), std::clamp(shape.modulus.kp2, floor, Scalar(1))};
+    modulus_ = {shape.modulus.k2, std::max(shape.modulus.kp2, floor)};
     shift_ = shape.sensitivity;
     share_ = std::sqrt(steep_);
   }
