@@ -2,6 +2,7 @@
 // Everything but the headers of the optional targets gyrostat::gsl and gyrostat::cvode.
 #pragma once
 
+#include "gyrostat/body/free_motion.hpp"
 #include "gyrostat/body/inertia.hpp"
 #include "gyrostat/body/invariants.hpp"
 #include "gyrostat/body/rotor.hpp"
