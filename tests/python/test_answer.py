@@ -266,7 +266,7 @@ def test_a_figure_is_written(full: Answer, tmp_path: Path, ending: str) -> None:
     assert file.stat().st_size > 5000
     labels = [axes.get_ylabel() for axes in figure.axes]
     assert any("N m s" in label for label in labels) and any("rad/s" in label for label in labels)
-    assert "full" in figure.get_suptitle() and "s]" in figure.axes[4].get_xlabel()
+    assert "full" in figure.get_suptitle() and "time [" in figure.axes[4].get_xlabel()
 
 
 def test_a_figure_of_averages_and_of_one_time(tmp_path: Path) -> None:
