@@ -84,7 +84,7 @@ class Answer:
         return math.nan if accepted is None or accepted.error is None else accepted.error
 
     @property
-    def greatest_error_of(self) -> str:
+    def least_certain(self) -> str:
         """The column or scalar that has the greatest error; empty where none is known."""
         errors = {**self.error, **self.scalar_error}
         return next((name for name, error in errors.items() if error == self.greatest_error), "")
@@ -115,15 +115,15 @@ class Answer:
     def _missing(self, column: str) -> str:
         """Why there is no such column."""
         facts = FACTS.get(self.scene.get("kind", ""))
-        text = f"there is no column {column!r}; the columns of this answer by {self.model} are {', '.join(self.columns)}"
+        text = f'there is no column "{column}"; the columns of this answer by {self.model} are {", ".join(self.columns)}'
         if column in self.scalars:
-            text += f"; {column} is a scalar: answer.scalars[{column!r}]"
+            text += f'; {column} is a scalar: answer.scalars["{column}"]'
         elif facts and column in facts.columns:
             text += f"; {column} belongs to scenes of this kind"
             if column == "attitude" and "attitude" not in self.scene.get("initial", {}):
                 text += ", where initial.attitude is given"
             elif self.model != "full":
-                text += ": a higher rung gives it, as model = \"full\" does"
+                text += ': a higher rung gives it, as model = "full" does'
         return text
 
     def __repr__(self) -> str:

@@ -17,7 +17,7 @@ Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
 
 def summary(answer: Answer) -> str:
     """How the answer was found and how good it is, in a line."""
-    of = f" ({answer.greatest_error_of})" if answer.greatest_error_of else ""
+    of = f" ({answer.least_certain})" if answer.least_certain else ""
     met = "met" if answer.met else "NOT met"
     return f"answered by {answer.model}: estimated error {small(answer.greatest_error)}{of}, tolerance {answer.tolerance:g} {met}"
 

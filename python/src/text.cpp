@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Columns of numbers as text, for JSON and CSV.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -10,42 +11,40 @@
 namespace gyrostat::python {
 namespace {
 
-/// Appends the shortest decimal that reads back as the same double, laid out as Python's repr does.
-void append(std::string& text, double value) {
-  if (std::isnan(value)) {
-    text += "nan";  // never -nan
-    return;
-  }
-  char digits[32];
+/// Most characters of a number: -2.2250738585072014e-308.
+constexpr std::size_t longest = 24;
+
+/// Writes the shortest decimal that reads back as the same double, laid out as Python's repr does; what stands behind it.
+char* put(char* at, double value) noexcept {
+  if (std::isnan(value)) return std::copy_n("nan", 3, at);  // never -nan
   const double size = std::abs(value);
   const bool fixed = size == 0 || (size >= 1e-4 && size < 1e16) || std::isinf(value);
-  const auto end = std::to_chars(digits, digits + sizeof digits, value,
-                                 fixed ? std::chars_format::fixed : std::chars_format::scientific)
-                       .ptr;
-  text.append(digits, end);
-  if (fixed && value == std::trunc(value) && !std::isinf(value)) text += ".0";
+  at = std::to_chars(at, at + longest, value, fixed ? std::chars_format::fixed : std::chars_format::scientific).ptr;
+  return fixed && value == std::trunc(value) && !std::isinf(value) ? std::copy_n(".0", 2, at) : at;
 }
 
 /// (n,) as an array, (n, width) as an array of arrays; null for what is not finite.
 std::string json_numbers(const Array& values) {
-  if (values.ndim() != 1 && values.ndim() != 2)
-    raise("DomainError", "values: the shape is neither (n,) nor (n, width)");
-  const py::ssize_t rows = values.shape(0), width = values.ndim() == 1 ? 1 : values.shape(1);
+  const bool nested = values.ndim() == 2;
+  if (values.ndim() != 1 && !nested) raise("DomainError", "values: the shape is neither (n,) nor (n, width)");
+  const py::ssize_t rows = values.shape(0), width = nested ? values.shape(1) : 1;
   const double* value = values.data();
   const py::gil_scoped_release free;
-  std::string text = "[";
-  text.reserve(std::size_t(values.size()) * 22 + 2);
+  std::string text(std::size_t(rows) * (std::size_t(width) * (longest + 2) + 4) + 2, '\0');
+  char* at = text.data();
+  *at++ = '[';
   for (py::ssize_t row = 0; row < rows; ++row) {
-    if (row > 0) text += ", ";
-    if (values.ndim() == 2) text += '[';
+    if (row > 0) at = std::copy_n(", ", 2, at);
+    if (nested) *at++ = '[';
     for (py::ssize_t i = 0; i < width; ++i, ++value) {
-      if (i > 0) text += ", ";
-      if (std::isfinite(*value)) append(text, *value);
-      else text += "null";
+      if (i > 0) at = std::copy_n(", ", 2, at);
+      at = std::isfinite(*value) ? put(at, *value) : std::copy_n("null", 4, at);
     }
-    if (values.ndim() == 2) text += ']';
+    if (nested) *at++ = ']';
   }
-  return text += ']';
+  *at++ = ']';
+  text.resize(std::size_t(at - text.data()));
+  return text;
 }
 
 /// A column of a table: rows of `width` numbers, or of one word of at most `length` bytes.
@@ -65,16 +64,20 @@ struct CsvColumn {
     if (is_words) length = values.itemsize();
   }
 
-  void append_row(std::string& text, py::ssize_t row) const {
+  /// Most characters of a row, each cell with its separator.
+  std::size_t row_length() const { return std::size_t(length > 0 ? length : width * py::ssize_t(longest + 1)) + 1; }
+
+  /// Writes a row; what stands behind it.
+  char* put_row(char* at, py::ssize_t row) const {
     if (length > 0) {
       const char* word = static_cast<const char*>(words.data()) + row * length;
-      text.append(word, ::strnlen(word, std::size_t(length)));
-      return;
+      return std::copy_n(word, ::strnlen(word, std::size_t(length)), at);
     }
     for (py::ssize_t i = 0; i < width; ++i) {
-      if (i > 0) text += ',';
-      append(text, numbers.data()[row * width + i]);
+      if (i > 0) *at++ = ',';
+      at = put(at, numbers.data()[row * width + i]);
     }
+    return at;
   }
 };
 
@@ -83,21 +86,20 @@ std::string csv_rows(const py::typing::List<py::array>& given) {
   std::vector<CsvColumn> columns;
   for (const py::handle column : given) columns.emplace_back(column.cast<py::array>());
   const py::ssize_t rows = columns.empty() ? 0 : columns[0].rows;
-  std::size_t numbers = 0;
+  std::size_t row_length = 0;
   for (const CsvColumn& column : columns) {
     if (column.rows != rows) raise("DomainError", "columns: they have different numbers of rows");
-    numbers += std::size_t(rows * column.width);
+    row_length += column.row_length();
   }
   const py::gil_scoped_release free;
-  std::string text;
-  text.reserve(numbers * 21);
-  for (py::ssize_t row = 0; row < rows; ++row) {
+  std::string text(std::size_t(rows) * row_length, '\0');
+  char* at = text.data();
+  for (py::ssize_t row = 0; row < rows; ++row)
     for (const CsvColumn& column : columns) {
-      if (&column != columns.data()) text += ',';
-      column.append_row(text, row);
+      at = column.put_row(at, row);
+      *at++ = &column == &columns.back() ? '\n' : ',';
     }
-    text += '\n';
-  }
+  text.resize(std::size_t(at - text.data()));
   return text;
 }
 
