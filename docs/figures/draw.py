@@ -374,7 +374,7 @@ def spinning():
     view.line(np.cos(s) * np.eye(3)[0] + np.sin(s) * np.eye(3)[1], color="#BBBBBB", linewidth=0.8)
     view.line(np.array([np.zeros(3), 1.15 * R1[:, 0]]), color=GREEN, linewidth=1.1, linestyle=(0, (4, 2)))
     view.line(np.array([np.zeros(3), 1.12 * R2[:, 2]]), color=AMBER, linewidth=1.1, linestyle=(0, (4, 2)))
-    for k, (label, shift, size) in enumerate([("1", (-0.02, -0.1), 1.15), ("2", (0.12, 0.04), 1.2), ("3: spin axis", (0.10, 0.11), 1.3)]):
+    for k, (label, shift, size) in enumerate([("1", (-0.02, -0.1), 1.15), ("2", (0.12, 0.04), 1.2), ("3: spin axis", (0.02, -0.13), 1.3)]):
         view.arrow(np.zeros(3), size * R3[:, k], label, shift=shift, color=BLUE, width=1.8)
     view.arc(np.zeros(3), np.eye(3)[0], R1[:, 0], 0.62, r"$\theta$", at=0.4, out=1.2, color=GREEN)
     view.arc(np.zeros(3), np.eye(3)[2], R2[:, 2], 0.72, r"$\psi$", at=0.5, out=1.15, color=AMBER)
@@ -473,7 +473,7 @@ def heavy():
     view.line(np.array([np.zeros(3), 1.30 * still]), color="#888888", linewidth=0.9, linestyle=(0, (4, 2)))
     view.text(1.30 * still, "$X_1$", shift=(-0.10, -0.03), color="#777777", size=10)
     view.arc(np.zeros(3), still, node, 1.02, r"$\psi$", at=0.5, out=1.17, color=GREEN)
-    view.arc(np.zeros(3), down, axis, 0.50, r"$\theta$", at=0.55, out=1.2, color=AMBER)
+    view.arc(np.zeros(3), down, axis, 0.50, r"$\theta$", at=0.3, out=1.2, color=AMBER)
     view.arc(np.zeros(3), node, R[:, 0], 0.80, r"$\varphi$", at=0.5, out=1.15, color=PINK)
     centre = R @ np.array([0.05, 0.20, 0.74])
     view.arrow(np.zeros(3), centre, "", color="black", width=1.3)

@@ -31,3 +31,8 @@ def test_links_lead_somewhere() -> None:
             there = page.parent / name if name else page
             assert there.exists(), f"{page.name}: {target}"
             assert not anchor or anchor in anchors(there), f"{page.name}: {target}"
+
+
+def test_the_example_of_the_readme_is_compiled() -> None:
+    example = (ROOT / "tests" / "packaging" / "readme.cpp").read_text(encoding="utf-8").partition("\n")[2]
+    assert f"```cpp\n{example}```" in (ROOT / "README.md").read_text(encoding="utf-8")
