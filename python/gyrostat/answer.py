@@ -44,8 +44,9 @@ class Answer:
     """Answer to a scene: `answer["attitude"]` is a column, `list(answer)` are the names of all, `answer.t` their times.
 
     columns : name -> (n,) or (n, k) array over the times `t` [s] (`regime`: text).
-    error : name -> estimated greatest error over the span, relative to the greatest norm of that column
-        (attitude: rotation angle [rad]; modulus_squared: absolute). met : the greatest error is within `tolerance`.
+    error : name -> estimated greatest error over the span, relative to the greatest norm of that column or to its scale, whichever is
+        greater (attitude: rotation angle [rad]; modulus_squared: absolute). met : the greatest error is within `tolerance`.
+    scale : name -> what the scene makes of a column's scale, in its unit, so that no error is relative to a column that vanishes.
     scalars : name -> number, vector, truth value, or None where it is not known.
     scalar_error : name -> estimated error, relative; NaN where the scalar has none, being a definition, infinite or not known.
     gyrostat.facts has units and meanings; `gyrostat info --columns` prints them.
@@ -61,6 +62,7 @@ class Answer:
     columns: dict[str, NDArray[Any]]
     scalars: dict[str, Any]
     scalar_error: dict[str, float]
+    scale: dict[str, float]
     counts: dict[str, int]
     seconds: float
     tried: tuple[Attempt, ...] = field(default=())
@@ -73,7 +75,7 @@ class Answer:
             warnings=tuple(Warning_(w["code"], w["message"]) for w in made["warnings"]), t=times,
             columns={name: np.asarray(values) for name, values in made["columns"].items()},
             scalars=dict(made["scalars"]), scalar_error={name: made["scalar_error"].get(name, math.nan) for name in made["scalars"]},
-            counts=dict(made["counts"]), seconds=made["seconds"],
+            scale=dict(made["scale"]), counts=dict(made["counts"]), seconds=made["seconds"],
             tried=tuple(Attempt(a["model"], a["error"], a["accepted"], a["why"]) for a in made["tried"]),
         )
 

@@ -35,7 +35,7 @@ def _parts(answer: Answer) -> dict[str, Any]:
         "t": answer.t, "columns": answer.columns, "scalars": answer.scalars, "scalar_error": answer.scalar_error,
         "counts": answer.counts, "seconds": answer.seconds,
         "tried": [{"model": a.model, "error": a.error, "accepted": a.accepted, "why": a.why} for a in answer.tried],
-        "units": _units(answer),
+        "units": _units(answer), "scale": answer.scale,
     }
 
 

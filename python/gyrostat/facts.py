@@ -18,7 +18,8 @@ class Quantity:
     unit: str
     meaning: str
     frame: str = ""  # of a column
-    measure: str = ""  # of a column: what its error is relative to
+    measure: str = ""  # how its error is measured: relative, angle, absolute; empty: it has none
+    scale: str = ""  # of a relative column: what its error is relative to where the column itself is smaller
 
 
 @dataclass(frozen=True, slots=True)

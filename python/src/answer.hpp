@@ -44,10 +44,11 @@ inline py::object value_of(const Quantity& quantity) {
 
 /// The answer as plain data. Every scalar of the family is there, None where this answer has no value of it.
 inline Data to_python(Answer& answer, const Family& family, double seconds) {
-  py::dict columns, error, scalars, scalar_error, counts;
+  py::dict columns, error, scale, scalars, scalar_error, counts;
   for (Column& column : answer.columns) {
     columns[column.kind->name] = values_of(column);
     if (column.kind->measure != Measure::none) error[column.kind->name] = column.error;
+    if (column.kind->measure == Measure::relative) scale[column.kind->name] = column.scale;
   }
   for (const Quantity& quantity : answer.quantities) {
     scalars[quantity.kind->name] = value_of(quantity);
@@ -84,6 +85,7 @@ inline Data to_python(Answer& answer, const Family& family, double seconds) {
   made["model"] = answer.model;
   made["met"] = answer.met;
   made["error"] = error;
+  made["scale"] = scale;
   made["warnings"] = warnings;
   made["columns"] = columns;
   made["scalars"] = scalars;

@@ -97,7 +97,7 @@ class Family:
         return import_module(f"{__name__}.{self.name}.{name}")
 
 
-FAMILIES: Final[dict[str, Family]] = {name: Family(name) for name in ("deceleration", "rotor", "spinning", "heavy")}
+FAMILIES: Final[dict[str, Family]] = {name: Family(name) for name in FACTS}
 
 
 def answer_of(kind: str, made: Mapping[str, Any], arguments: Mapping[str, Any]) -> Answer:
