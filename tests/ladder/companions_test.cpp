@@ -28,13 +28,9 @@ struct Course {
     now = std::min(now + length, t_max);
     return now > 7 ? fails : ode::Status::reached;
   }
-  ode::Status reach(double t, double t_max) {
-    auto status = ode::Status::reached;
-    while (status == ode::Status::reached && now < t && now < t_max) status = step(t_max);
-    return status;
-  }
   double time() const { return now; }
   double at(double t) const { return state(t); }
+  ode::Counts counts() const { return {0, 100, 0}; }
 };
 template <class F>
 Course(F, double) -> Course<F>;
@@ -104,4 +100,30 @@ TEST_CASE("a walk can be stopped, and tells how far it is", "[ladder]") {
   CHECK(found.walk.status == ode::Status::cancelled);
   CHECK(found.states[0] == -1);
   CHECK(progress > 0);
+}
+
+TEST_CASE("the stated error is the distance times its margin and what rounding adds, relative to the truth", "[ladder]") {
+  struct Answer : MotionOutcome<1, double> {};
+  const std::vector<double> times{1, 5};
+  std::vector<double> states(2);
+  const auto solved = [&](double step_tolerance, Function beside) {
+    Answer answer;
+    answer.step_tolerance = step_tolerance;
+    Run course{still, 1}, companion{beside, 1}, second{still, 1};
+    MotionOptions<double> options;
+    options.tolerance = 1e-3;
+    solve_beside(answer, Writer{}, course, companion, second, 1.0, 0.0, times, states, -1.0, options, 0, 1,
+                 [](const Errors<1>& size, double steps) noexcept { return steps * size; });
+    return answer;
+  };
+  const double rounding = 10 * epsilon<double>;  // of 100 steps, of a column of size 1
+  const auto near = [](double t) { return t > 4 ? 1 + 0x1p-20 : 1; };
+  const double truncated = honesty::side_by_side.margin * 0x1p-20 + rounding;
+  const Answer loose = solved(1e-9, near);
+  CHECK(loose.error[0] == Approx(truncated / (1 - truncated)).epsilon(1e-12));
+  CHECK(loose.met);
+  CHECK(loose.counts.steps == 300);
+  CHECK(solved(1e-16, near).error[0] > loose.error[0]);  // where rounding rules the margin is wider
+  CHECK(solved(1e-9, off).error[0] == infinity<double>);
+  CHECK_FALSE(solved(1e-9, off).met);
 }

@@ -98,13 +98,6 @@ class Course {
     return collocates_ ? collocation_.step(t_max) : series_.step(std::min(t_max, layer_));
   }
 
-  /// Steps until the last of them holds t or ends at t_max.
-  ode::Status reach(Scalar t, Scalar t_max) noexcept {
-    ode::Status status = ode::Status::reached;
-    while (status == ode::Status::reached && time() < t && time() < t_max) status = step(t_max);
-    return status;
-  }
-
   Scalar time() const noexcept { return collocates_ ? collocation_.time() : series_.time(); }
 
   /// The state at t in the last step.
@@ -247,27 +240,13 @@ class FullMotion {
                             std::max(looser * inside, least), options_.step_cap);
     };
     Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
-    const bool rounds = step_tolerance < Scalar(how.two_below) * eps;
-    const auto walk = walk_beside(Row<Scalar>(gyrostat_, start_), course, companion, second, rounds, start_, turning_, times_,
-                                  states_, nowhere(), options_, progress_from, progress_to);
-    answer.status = walk.status;
-    answer.counts = course.counts();
-    const std::uint64_t steps = answer.counts.steps;
-    answer.counts += companion.counts();
-    answer.counts += second.counts();
-    if (answer.status != ode::Status::reached) {
-      answer.error = ColumnErrors<Scalar>::all(nan<Scalar>);
-      return answer;
-    }
-
-    // What the runs share: the polynomial of a step, good to its tolerance, and rounding at the asked times.
-    const Scalar margin = Scalar(rounds ? how.margin_of_rounding : how.margin);
-    const Scalar rounding_walk = eps * std::sqrt(static_cast<Scalar>(steps));
-    const Scalar shared =
-        4 * eps + rounding_walk + 2 * step_tolerance + (answer.used == Integrator::radau ? 2 * inside : 0);
-    const auto rounding = rounding_of_columns(gyrostat_, start_, walk.asked.size(), shared);
-    answer.error = relative_to_truth(walk.asked.relative(margin * walk.distance + rounding), column_kinds);
-    answer.met = answer.error.greatest() <= options_.tolerance;
+    // the polynomial of a step, good to its tolerance, and rounding at the asked times
+    const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
+      const Scalar between = answer.used == Integrator::radau ? 2 * inside : 0;
+      return rounding_of_columns(gyrostat_, start_, size, 4 * eps + steps + 2 * step_tolerance + between);
+    };
+    solve_beside(answer, Row<Scalar>(gyrostat_, start_), course, companion, second, start_, turning_, times_, states_,
+                 nowhere(), options_, progress_from, progress_to, rounding);
     return answer;
   }
 
