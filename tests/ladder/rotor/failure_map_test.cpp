@@ -249,3 +249,42 @@ TEST_CASE("failure map: numbers that are none, times that do not grow and endles
   CHECK(made->status == ode::Status::step_limit);
   CHECK_FALSE(made->met);
 }
+
+TEST_CASE("failure map: a wheel at rest in a body that turns steadily is answered to any tolerance", "[rotor]") {
+  const Mat3<double> theta = Vec3<double>(3236, 922, 3095).asDiagonal();
+  for (const Vec3<double>& e : {Vec3<double>(0, 1, 0), Vec3<double>(0, 0.6, 0.8)}) {
+    const auto body = Gyrostat<double>::make(theta, e, 0.1, 0, 0).value();
+    for (const double tolerance : {1e-4, 1e-10}) {
+      Asked data = asked(3600, tolerance);
+      data.angular_velocity = {0, 0, 0.0289};
+      const Answer answer = honest(body, data);
+      CAPTURE(answer.model, tolerance, answer.error, e[2]);
+      CHECK(answer.met);
+    }
+  }
+}
+
+TEST_CASE("failure map: the row at zero is the start as given, whichever rung answers", "[rotor]") {
+  const auto body = reference_body(0.2, 3);
+  Asked data = asked(0.1, 1e-3);
+  data.attitude = {0.1, 0.2, -0.3, std::sqrt(1 - 0.14)};
+  data.angular_velocity = {0.1, 0.2, 1.0 / 3};
+  data.rotor_rate = 0.7;
+  const Answer answer = honest(body, data);
+  const auto& q = answer.find("attitude")->values;
+  CHECK(std::vector<double>(q.begin(), q.begin() + 4) == std::vector<double>{0.2, -0.3, std::sqrt(1 - 0.14), 0.1});
+  const auto& Omega = answer.find("angular_velocity")->values;
+  CHECK(std::vector<double>(Omega.begin(), Omega.begin() + 3) == std::vector<double>{0.1, 0.2, 1.0 / 3});
+  CHECK(answer.find("rotor_rate")->values[0] == 0.7);
+}
+
+TEST_CASE("failure map: a span whose phase no double holds is refused at once, with the reason", "[rotor]") {
+  const auto body = reference_body(0.2, 3);
+  Asked data = asked(1e13, 1e-6);
+  data.angular_velocity = {0.4, -1.1, 0.7};
+  data.rung = rung::full;
+  Refusal refusal;
+  rotor::solve(*make_scene(body, data), refusal);
+  CHECK(refusal.code == Errc::step_limit);
+  CHECK(refusal.why == std::string_view(phase_lost));
+}

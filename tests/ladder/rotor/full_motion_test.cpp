@@ -86,7 +86,7 @@ List true_errors(const Motion<double>& motion, const std::vector<double>& times,
   const auto truth = solve<long double>(wide.body, start, {times.begin(), times.end()}, 1e-15L);
   REQUIRE(truth.answer.status == Status::reached);
   known = list(truth.answer.error);
-  Comparison both{Row<long double>(wide.body)};
+  Comparison both{Row<long double>(wide.body, start)};
   for (std::size_t i = 0; i < times.size(); ++i) {
     const State<double>& s = solved.states[i];
     both.add(truth.states[i], {{s.attitude.w, s.attitude.x, s.attitude.y, s.attitude.z},
@@ -189,7 +189,7 @@ TEST_CASE("rotor: the full motion of the reference cases", "[rotor]") {
         const auto solved = solve<double>(c.motion.body, c.motion.start(), c.times, tolerance, integrator);
         CAPTURE(c.id, int(integrator), tolerance, int(solved.answer.used), solved.answer.counts.steps);
         REQUIRE(solved.answer.status == Status::reached);
-        Comparison both{Row<double>(c.motion.body)};
+        Comparison both{Row<double>(c.motion.body, c.motion.start())};
         for (std::size_t i = 0; i < c.times.size(); ++i) both.add(c.states[i], solved.states[i]);
         const List errors = list(both.relative(both.difference())), stated = list(solved.answer.error);
         for (std::size_t i = 0; i < errors.size(); ++i) {

@@ -62,3 +62,33 @@ TEST_CASE("no momentum and no error of it: none told", "[rotor]") {
   CHECK(told[column::rotor_angle] == 0);
   CHECK(state_columns(Row<double>(body), states, Bound{10, 0, 0, 0})[column::attitude] == pi<double>);
 }
+
+TEST_CASE("a bound that is infinite leaves no column with an error that looks small", "[rotor]") {
+  // the carrier at rest, the rotor at its no-load rate: V = 0 and so is its gradient
+  const auto body = reference_body(0.05, 30);
+  const std::vector<State<double>> states{body.state({}, Vec3<double>(0, 0, 0), 30)};
+  constexpr double no = infinity<double>;
+  const auto stated = state_columns(Row<double>(body, states[0]), states, Bound{no, no, no, no});
+  for (const std::size_t i : {column::angular_velocity, column::angular_momentum, column::rotor_rate, column::lyapunov})
+    CHECK(stated[i] == no);
+}
+
+TEST_CASE("errors are relative to the truth, which may be smaller than the answer", "[rotor]") {
+  const auto body = reference_body(0.05, 30);
+  const std::vector<State<double>> states{body.state({}, Vec3<double>(0.1, 0, 0), 2)};
+  const double omega = 2;
+  CHECK(state_columns(Row<double>(body), states, Bound{0, 0, 0.5 * omega, 0})[column::rotor_rate] == Approx(1));
+  CHECK(state_columns(Row<double>(body), states, Bound{0, 0, 2 * omega, 0})[column::rotor_rate] == infinity<double>);
+}
+
+TEST_CASE("a momentum that cancels to rounding is known to rounding of its parts, not exactly", "[rotor]") {
+  const auto body = reference_body(0.05, 30);
+  const Vec3<double> Omega = body.inverse_inertia() * (-0.35 * 7 * body.axis());
+  const State<double> start = body.state({}, Omega, 7);
+  REQUIRE(start.momentum.isZero(0));
+  const Row<double> row(body, start);
+  CHECK(row.scale[column::angular_momentum] > 0.35 * 7);
+  const double stated = state_columns(row, std::vector<State<double>>{start}, Bound{0, 0, 0, 0})[column::angular_momentum];
+  CHECK(stated > 8 * epsilon<double>);
+  CHECK(stated < 64 * epsilon<double>);
+}

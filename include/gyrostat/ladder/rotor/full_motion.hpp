@@ -184,8 +184,9 @@ struct Neighbour {
 
 /// What an evaluation of the columns loses, in their units, where the state is known to `relative`.
 template <Real Scalar>
-ColumnErrors<Scalar> rounding_of_columns(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start,
+ColumnErrors<Scalar> rounding_of_columns(const Row<Scalar>& row, const State<Scalar>& start,
                                          const ColumnErrors<Scalar>& size, Scalar relative) noexcept {
+  const Gyrostat<Scalar>& gyrostat = row.body;
   const Scalar lambda = gyrostat.axial_inertia(), k = gyrostat.coupling();
   const Scalar H = start.momentum.norm(), wheel = std::abs(start.axial_momentum) + std::abs(gyrostat.target_momentum());
   const Scalar fastest = 1 / gyrostat.free_principal()[0];
@@ -193,7 +194,7 @@ ColumnErrors<Scalar> rounding_of_columns(const Gyrostat<Scalar>& gyrostat, const
   const Scalar pull = (gyrostat.free_inverse() * gyrostat.axis()).norm();
   ColumnErrors<Scalar> error;
   error[column::attitude] = 4 * relative;
-  error[column::angular_momentum] = 4 * relative * H;
+  error[column::angular_momentum] = 4 * relative * (H + row.scale[column::angular_momentum]);
   error[column::angular_velocity] = 2 * relative * H * fastest + 2 * p * pull;
   error[column::rotor_rate] = 2 * relative * H * pull + 2 * p / (lambda * k);
   error[column::rotor_angle] = 4 * relative * size[column::rotor_angle];
@@ -241,11 +242,12 @@ class FullMotion {
     };
     Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
     // the polynomial of a step, good to its tolerance, and rounding at the asked times
+    const Row<Scalar> row(gyrostat_, start_);
     const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
       const Scalar between = answer.used == Integrator::radau ? 2 * inside : 0;
-      return rounding_of_columns(gyrostat_, start_, size, 4 * eps + steps + 2 * step_tolerance + between);
+      return rounding_of_columns(row, start_, size, 4 * eps + steps + 2 * step_tolerance + between);
     };
-    solve_beside(answer, Row<Scalar>(gyrostat_, start_), course, companion, second, start_, turning_, times_, states_,
+    solve_beside(answer, row, course, companion, second, start_, turning_, times_, states_,
                  nowhere(), options_, progress_from, progress_to, rounding);
     return answer;
   }

@@ -29,19 +29,20 @@ ColumnErrors<double> state_columns(const Row<double>& row, std::span<const State
     const Vec3<double> gradient = body.inverse_inertia() * (s.momentum - body.target_momentum() * body.axis());
     const double dH = bound.momentum + ulps * (l + h);
     const double dx = bound.rotor_rate + ulps * (p / lambda + j_free * (l + p) + std::abs(body.no_load_rate()));
-    rounding = std::max(rounding, ulps * j_free * (l + p));
-    lyapunov = std::max(lyapunov, gradient.norm() * dH + lambda * k * std::abs(x) * dx +
-                                      (j * dH * dH + lambda * k * dx * dx) / 2 +
-                                      ulps * body.lyapunov(s.momentum, s.axial_momentum));
+    rounding = greater(rounding, ulps * j_free * (l + p));
+    // 0 times an infinite bound is NaN: not known
+    lyapunov = greater(lyapunov, gradient.norm() * dH + lambda * k * std::abs(x) * dx +
+                                     (j * dH * dH + lambda * k * dx * dx) / 2 +
+                                     ulps * body.lyapunov(s.momentum, s.axial_momentum));
   }
   ColumnErrors<double> errors;
   errors[column::attitude] = std::min(bound.attitude, pi<double>);
-  errors[column::angular_momentum] = bound.momentum;
+  errors[column::angular_momentum] = bound.momentum + 16 * epsilon<double> * row.scale[column::angular_momentum];
   errors[column::angular_velocity] = j * bound.momentum + lambda * e_n * bound.rotor_rate + rounding;
   errors[column::rotor_rate] = bound.rotor_rate;
   errors[column::rotor_angle] = bound.rotor_angle;
-  errors[column::lyapunov] = lyapunov;
-  return sizes.relative(errors);
+  errors[column::lyapunov] = lyapunov == lyapunov ? lyapunov : infinity<double>;
+  return relative_to_truth(sizes.relative(errors), column_kinds);
 }
 
 }  // namespace gyrostat::rotor
