@@ -22,6 +22,8 @@
 #include "gyrostat/ladder/deceleration/full_motion.hpp"
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 #include "gyrostat/ladder/deceleration/hand_over.hpp"
+#include "gyrostat/ladder/deceleration/motion.hpp"
+#include "gyrostat/ladder/deceleration/orbit_kind.hpp"
 #include "gyrostat/ladder/deceleration/orbit_motion.hpp"
 #include "gyrostat/ladder/deceleration/orbit_rung.hpp"
 #include "gyrostat/ladder/deceleration/scene.hpp"

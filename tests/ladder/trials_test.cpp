@@ -11,15 +11,12 @@ using namespace gyrostat;
 
 namespace {
 
-struct Error {
-  double value;
-  double greatest() const { return value; }
-};
 struct Trial {
   ode::Status status = ode::Status::reached;
   bool met = false;
-  Error error{0};
+  double error = 0;
   ode::Counts counts{1, 10, 0};
+  double greatest_error() const { return error; }
 };
 struct Options {
   double tolerance = 1e-9;
@@ -33,18 +30,19 @@ std::vector<double> tolerances(double gain, double first, Trial* last = nullptr,
   std::vector<double> tried;
   std::atomic<double> progress{0};
   double until = 0;
-  const Trial answer = tightened<double>(Options{1e-9, &progress}, first, [&](double step, double by, double from, double to) {
-    CHECK(step == (tried.empty() ? first : std::max(finest_step_tolerance<double>, tried.back() / by)));
-    CHECK(from == until);
-    CHECK(to > from);
-    until = to;
-    tried.push_back(step);
-    Trial trial;
-    trial.status = status;
-    trial.error = {gain * step};
-    trial.met = status == ode::Status::reached && trial.error.value <= 1e-9;
-    return trial;
-  });
+  const Trial answer =
+      tightened<double>(Options{1e-9, &progress}, first, [&](double step, double by, double from, double to) {
+        CHECK(step == (tried.empty() ? first : std::max(finest_step_tolerance<double>, tried.back() / by)));
+        CHECK(from == until);
+        CHECK(to > from);
+        until = to;
+        tried.push_back(step);
+        Trial trial;
+        trial.status = status;
+        trial.error = gain * step;
+        trial.met = status == ode::Status::reached && trial.error <= 1e-9;
+        return trial;
+      });
   CHECK(progress == 1);
   CHECK(answer.counts.steps == 10 * tried.size());
   if (last) *last = answer;

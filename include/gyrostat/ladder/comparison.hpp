@@ -65,12 +65,19 @@ class Comparison {
   /// Greatest norms in the first motion; attitude: 1.
   const ColumnErrors& size() const noexcept { return size_; }
 
-  /// What errors of a column are relative to: its size, or its scale where that is greater; attitude: 1.
-  Scalar unit(std::size_t column) const noexcept { return greater(size_[column], scale_[column]); }
+  /// What errors of a column are relative to: its size, or its scale where that is greater; 1 where they are not relative.
+  Scalar unit(std::size_t column) const noexcept {
+    return Writer::columns[column].measure == Measure::relative ? greater(size_[column], scale_[column]) : Scalar(1);
+  }
 
   /// `errors` (in units of the columns) over the units; 0/0 = 0.
   ColumnErrors relative(ColumnErrors errors) const noexcept {
     for (std::size_t i = 0; i < count; ++i) errors[i] = over(errors[i], unit(i));
+    return errors;
+  }
+  /// The other way round; 0 where the unit is.
+  ColumnErrors absolute(ColumnErrors errors) const noexcept {
+    for (std::size_t i = 0; i < count; ++i) errors[i] = unit(i) > 0 ? errors[i] * unit(i) : Scalar(0);
     return errors;
   }
 

@@ -22,28 +22,41 @@ inline void fill_head(Answer& answer, const Question& question, const Outcome& o
   answer.counts = outcome.counts;
 }
 
-/// The first `count` columns of the writer's table from states; the answer's error is the greatest of theirs.
+/// Columns of the writer's table from states, those that are `kept`; the answer's error is the greatest of theirs.
 template <class Writer>
 void fill_columns(Answer& answer, const Writer& writer, std::span<const typename Writer::State> states,
-                  const Errors<std::size(Writer::columns)>& error, std::size_t count = std::size(Writer::columns)) {
-  constexpr std::size_t most = std::size(Writer::columns);
-  std::array<double*, most> to{};
+                  const Errors<std::size(Writer::columns)>& error,
+                  const std::array<bool, std::size(Writer::columns)>& kept) {
+  constexpr std::size_t count = std::size(Writer::columns);
+  std::array<double*, count> to{};
   answer.columns.reserve(count);
+  answer.error = 0;
   for (std::size_t i = 0; i < count; ++i) {
+    if (!kept[i]) continue;
     const ColumnKind& kind = Writer::columns[i];
-    answer.columns.push_back({&kind, std::vector<double>(states.size() * std::size_t(kind.width)), error[i]});
+    const bool measured = kind.measure != Measure::none;
+    answer.columns.push_back(
+        {&kind, std::vector<double>(states.size() * std::size_t(kind.width)), measured ? error[i] : nan<double>});
     if constexpr (requires { writer.scale; }) answer.columns.back().scale = writer.scale[i];
     to[i] = answer.columns.back().values.data();
+    if (measured) answer.error = greater(error[i], answer.error);
   }
   double row[row_width(Writer::columns)];
   for (const auto& state : states) {
     writer(state, row);
     const double* from = row;
-    for (std::size_t i = 0; i < count; ++i)
-      for (int j = 0; j < Writer::columns[i].width; ++j) *to[i]++ = *from++;
+    for (std::size_t i = 0; i < count; from += Writer::columns[i++].width)
+      if (kept[i]) to[i] = std::copy_n(from, Writer::columns[i].width, to[i]);
   }
-  answer.error = 0;
-  for (std::size_t i = 0; i < count; ++i) answer.error = greater(error[i], answer.error);
+}
+
+/// The first `count` columns.
+template <class Writer>
+void fill_columns(Answer& answer, const Writer& writer, std::span<const typename Writer::State> states,
+                  const Errors<std::size(Writer::columns)>& error, std::size_t count = std::size(Writer::columns)) {
+  std::array<bool, std::size(Writer::columns)> kept{};
+  std::fill_n(kept.begin(), count, true);
+  fill_columns(answer, writer, states, error, kept);
 }
 
 /// The row at t = 0, where it is asked for, is the start as it was given, to the bit.

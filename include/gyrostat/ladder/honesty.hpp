@@ -9,12 +9,14 @@ namespace gyrostat::honesty {
 
 /// What the estimate of a family's full equations stands on. Lengths in units of the machine epsilon are numbers of roundings.
 struct Companions {
-  double looser;              ///< step tolerance of a companion over that of the answer
-  double least_loose;         ///< least step tolerance of a companion, roundings: below it two runs round alike
-  double data_change;         ///< by how much the data of a companion differ, roundings
-  double two_below;           ///< step tolerance of the answer, in roundings, below which rounding rules (two companions, wider margin)
-  double margin;              ///< stated error over the distance to the companion, where truncation rules
-  double margin_of_rounding;  ///< the same where rounding rules: both runs err alike, and may come near each other by chance
+  double looser;       ///< step tolerance of a companion over that of the answer
+  double least_loose;  ///< least step tolerance of a companion, roundings: below it two runs round alike
+  double data_change;  ///< by how much the data of a companion differ, roundings
+  double
+      two_below;  ///< step tolerance of the answer, in roundings, below which rounding rules (two companions, wider margin)
+  double margin;  ///< stated error over the distance to the companion, where truncation rules
+  double
+      margin_of_rounding;  ///< the same where rounding rules: both runs err alike, and may come near each other by chance
 };
 
 /// Watched in every step, all components moved: rotor and heavy.
@@ -32,6 +34,9 @@ inline constexpr double fading_angle = 128;
 inline constexpr double first_share = 1.0 / 64;
 /// ...which grows with the angle turned through: by first_share / (base + angle / per_angle).
 inline constexpr double first_base = 8, first_angle = 16;
+/// Deceleration: as the rates fall the phase drifts, so that its error grows with the square of the angle:
+/// by first_share / (base + phase * angle^2).
+inline constexpr double drifting_base = 4, drifting_phase = 2e-4;
 /// No looser steps: near the radius of convergence of a step all runs may err alike.
 inline constexpr double loosest_step = 1e-8;
 /// The same of a heavy body: at 1e-8 all runs of a long motion from rest were seen to err alike, asked for 1e-3.
@@ -39,6 +44,11 @@ inline constexpr double loosest_heavy_step = 1e-9;
 
 /// By how much more than the excess over the tolerance the steps of a second try are tightened.
 inline constexpr double retry = 8;
+
+/// Deceleration: the margin of the stop time over that of the columns.
+inline constexpr double stop_margin = 4;
+/// Deceleration: the part of the work that the answer's run is, its companion's left out; for the progress shown.
+inline constexpr double answers_share = 0.55;
 
 /// CVODE beside itself at a tolerance so many times looser,
 inline constexpr double cvode_looser = 10;
