@@ -4,7 +4,8 @@
 
 #include "gyrostat/body/free_motion.hpp"
 #include "gyrostat/body/inertia.hpp"
-#include "gyrostat/body/invariants.hpp"
+#include "gyrostat/body/principal_axes.hpp"
+#include "gyrostat/body/realisability.hpp"
 #include "gyrostat/body/rotor.hpp"
 #include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lane_pair.hpp"

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "gyrostat/body/principal_axes.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
-#include "gyrostat/rotation/symmetric.hpp"
 
 namespace gyrostat::heavy {
 
@@ -38,36 +37,17 @@ struct Body {
   Problem<double> problem;
   Mat3<double> R_BP = Mat3<double>::Identity();  ///< principal axes to body axes
 
-  /// Principal axes are the caller's where the tensor is diagonal; else those of its eigenvectors that are nearest, axis by axis.
-  /// Errors: not_symmetric (beyond 8 eps of the largest entry), and those of Problem::make.
+  /// In the principal axes nearest to the caller's. Errors: not_symmetric (beyond 8 eps of the largest entry), and those of
+  /// Problem::make.
   static Result<Body> make(const Mat3<double>& inertia, double mass, const Vec3<double>& centre_of_mass, double gravity,
                            double gradient) noexcept {
-    if (!inertia.allFinite() || !centre_of_mass.allFinite()) return Errc::not_finite;
-    const double slack = 8 * epsilon<double> * inertia.cwiseAbs().maxCoeff();
-    if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > slack) return Errc::not_symmetric;
-    Body body;
-    Vec3<double> moments = inertia.diagonal();
-    if (inertia(0, 1) != 0 || inertia(0, 2) != 0 || inertia(1, 2) != 0) {
-      const auto eigen = symmetric_eigen<double>((inertia + inertia.transpose()) / 2);
-      int order[3] = {0, 1, 2}, best[3] = {0, 1, 2};
-      double most = -1;
-      for (int i = 0; i < 6; ++i) {
-        const double near =
-            std::abs(eigen.axes(0, order[0])) + std::abs(eigen.axes(1, order[1])) + std::abs(eigen.axes(2, order[2]));
-        if (near > most) most = near, std::copy(order, order + 3, best);
-        std::next_permutation(order, order + 3);
-      }
-      for (int i = 0; i < 3; ++i) {
-        moments[i] = eigen.values[best[i]];
-        body.R_BP.col(i) = std::copysign(1.0, eigen.axes(i, best[i])) * eigen.axes.col(best[i]);
-      }
-      const Vec3<double> first = body.R_BP.col(0), second = body.R_BP.col(1);
-      if (cross<double>(first, second).dot(body.R_BP.col(2)) < 0) body.R_BP.col(1) *= -1;
-    }
-    const auto made = Problem<double>::make(moments, mass, body.R_BP.transpose() * centre_of_mass, gravity, gradient);
+    const auto symmetric = symmetric_part<double>(inertia);
+    if (!symmetric) return symmetric.error();
+    const auto axes = PrincipalAxes<double>::nearest(inertia);
+    const auto made =
+        Problem<double>::make(axes.moments, mass, axes.R_BP.transpose() * centre_of_mass, gravity, gradient);
     if (!made) return made.error();
-    body.problem = *made;
-    return body;
+    return Body{*made, axes.R_BP};
   }
 };
 
