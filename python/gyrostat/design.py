@@ -28,6 +28,8 @@ __all__ = ["GOALS", "Design", "Goal", "SceneDesign", "burn_for_displacement", "b
 
 # Beyond this bound of the tilt the linear motion is not to be trusted [rad].
 SMALL_TILT: Final = 0.3
+# Beyond this one it says nothing, and its full motion tumbles at rates that no budget meant: such a design is refused [rad].
+MOST_TILT: Final = 2 * math.pi
 # A design is confirmed where the full motion finds the budget within this share.
 AGREEMENT: Final = 0.01
 # Means are taken over so many periods of the slowest oscillation, by so many samples in a period of the fastest, and never over more
@@ -214,10 +216,14 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
     if goal == "spin-for-pointing" and bool(found.unstable):
         raise DomainError(f"{scene.name}: stability, not pointing, limits the spin: beyond {value:.9g} rad/s it is stable and within the budget, "
                           "at that rate it is not; choose a margin")
+    tilt = float(found.tilt_bound)
+    if math.isfinite(tilt) and tilt > MOST_TILT:
+        raise DomainError(f"{scene.name}: {budget:.6g} {GOALS[goal].budget_unit} of {GOALS[goal].measure} takes a {GOALS[goal].quantity.split()[-1]} of {value:.6g} "
+                          f"{GOALS[goal].unit}, at which the linear motion, by which designs are made, would tilt axis 3 by up to {tilt:.3g} rad: it says "
+                          "nothing there; give a smaller budget")
     designed = _designed(scene, given, goal, value)
     answer = solve(designed, monitor=monitor)
     warnings = [f"{w.code}: {w.message}" for w in answer.warnings]
-    tilt = float(found.tilt_bound)
     if not tilt <= SMALL_TILT:
         much = f"the tilt may reach {tilt:.3g} rad" if math.isfinite(tilt) else "the tilt grows for ever"
         warnings.insert(0, f"beyond-small-tilt: {much}, and the design is by the linear motion, which holds for small tilt")

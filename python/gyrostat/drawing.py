@@ -18,11 +18,13 @@ if TYPE_CHECKING:
 
     from gyrostat.answer import Answer
 
-__all__ = ["COLOURS", "Drawing", "Panel", "changes", "components", "curve", "error_text", "finish", "is_coarse", "laid_out", "legend_row", "new_figure", "note",
+__all__ = ["COLOURS", "Drawing", "Panel", "changes", "components", "curve", "error_text", "finish", "is_coarse", "laid_out", "legend_beside", "legend_row", "new_figure", "note",
            "save", "span_text", "split", "stacked", "time_unit", "vector"]
 
 COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31")
-TIME_UNITS: Final = ((1e-6, "µs"), (1e-3, "ms"), (1.0, "s"), (60.0, "min"), (3600.0, "h"), (86400.0, "days"), (31557600.0, "years"))
+# Units of time [s], and the span from which on each is used [s].
+TIME_UNITS: Final = ((1e-6, "µs", 0.0), (1e-3, "ms", 1e-3), (1.0, "s", 1.0), (60.0, "min", 240.0), (3600.0, "h", 14400.0),
+                     (86400.0, "days", 345600.0), (31557600.0, "years", 126230400.0))
 # What varies by less than this share of its size is constant but for rounding.
 CONSTANT: Final = 1e-10
 
@@ -60,7 +62,7 @@ def time_unit(span: float) -> tuple[float, str]:
     """The unit [s] and its name in which a span [s] is a number of a few digits."""
     if span <= 0:
         return 1.0, "s"
-    return next((pair for pair in reversed(TIME_UNITS) if span >= 4 * pair[0]), TIME_UNITS[0])
+    return next((unit, name) for unit, name, start in reversed(TIME_UNITS) if span >= start)
 
 
 def span_text(seconds: float) -> str:
@@ -121,6 +123,7 @@ def legend_row(axes: "Axes", *others: "Axes") -> None:
         if each.get_yscale() == "log":
             each.set_ylim(low, high * (high / low) ** 0.25)
             continue
+        each.ticklabel_format(axis="y", useOffset=False)
         middle, size = (low + high) / 2, max(abs(low), abs(high))
         if high - low < 20 * CONSTANT * size:
             low, high = middle - 0.05 * size, middle + 0.05 * size
@@ -130,6 +133,13 @@ def legend_row(axes: "Axes", *others: "Axes") -> None:
         shown = axes if not others else others[-1]  # above the curves of all
         shown.legend(lines, [str(line.get_label()) for line in lines], loc="upper right", fontsize=8, ncols=len(lines), borderaxespad=0.2,
                      markerscale=3 if any(line.get_markersize() < 3 for line in lines) else 1)
+
+
+def legend_beside(axes: "Axes") -> None:
+    """The names to the right of the axes."""
+    made = axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, borderaxespad=0)
+    for line in made.get_lines():
+        line.set_linewidth(max(1.2, line.get_linewidth()))
 
 
 def components(axes: "Axes", t: NDArray[Any], values: NDArray[Any], symbol: str, unit: str, title: str) -> None:

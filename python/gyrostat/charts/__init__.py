@@ -9,12 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from gyrostat.charts.methods import LONGEST, TooLong, lines
-from gyrostat.charts.problem import Measure, Problem, Run, Unanswered
+from gyrostat.charts import methods
+from gyrostat.charts.methods import TooLong
+from gyrostat.charts.problem import Errors, Line, Measure, Problem, Run, Unanswered
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene
 
-__all__ = ["Chart", "ChartPoint", "LeftOut", "make_chart"]
+__all__ = ["Chart", "ChartPoint", "LeftOut", "make_chart", "measured"]
 
 REPEATS: Final = 7
 # Repeats end after this time [s].
@@ -118,30 +119,38 @@ def _least(run: Callable[[], Run], repeats: int) -> tuple[Run, float]:
     return made, min(taken)
 
 
+def measured(line: Line, errors: Errors, repeats: int) -> tuple[list[ChartPoint], list[LeftOut]]:
+    """A method at its settings, until one takes too long or is bound to."""
+    points: list[ChartPoint] = []
+    missing: dict[str, list[str]] = {}  # why -> settings
+    seconds = 0.0
+    for setting, run in line.settings:
+        try:
+            if GROWTH * seconds > methods.LONGEST:
+                raise TooLong
+            made, seconds = _least(run, repeats)
+            points.append(ChartPoint(line.group, line.label, setting, errors(made.columns), seconds, made.rhs, made.note))
+        except Unanswered as why:
+            missing.setdefault(str(why), []).append(setting)
+            if isinstance(why, TooLong):
+                seconds = math.inf
+    return points, [LeftOut(line.group, line.label, tuple(settings), why) for why, settings in missing.items()]
+
+
 def make_chart(scene: Scene, *, repeats: int = REPEATS, progress: Callable[[int, int, str], None] | None = None) -> Chart:
-    """Measure every method on the scene. `progress` is told (done, all, what) before each. No method may take longer than LONGEST for a solution:
+    """Measure every method on the scene. `progress` is told (done, all, what) before each. No solution may take longer than methods.LONGEST:
     what does, or would at a tighter setting, is left out. Raises DomainError where there is no motion to chart."""
     family = FAMILIES[scene.kind]
     problem: Problem = family.part("chart").problem(scene)
-    every = lines(problem, tuple(family.facts.rungs))
+    every = methods.lines(problem, tuple(family.facts.rungs))
     points: list[ChartPoint] = []
     left_out: list[LeftOut] = []
     for done, line in enumerate(every):
         if progress:
             progress(done, len(every), line.label)
-        missing: dict[str, list[str]] = {}  # why -> settings
-        seconds = 0.0
-        for setting, run in line.settings:
-            try:
-                if GROWTH * seconds > LONGEST:
-                    raise TooLong
-                made, seconds = _least(run, repeats)
-                points.append(ChartPoint(line.group, line.label, setting, problem.errors(made.columns), seconds, made.rhs, made.note))
-            except Unanswered as why:
-                missing.setdefault(str(why), []).append(setting)
-                if isinstance(why, TooLong):
-                    seconds = math.inf
-        left_out += [LeftOut(line.group, line.label, tuple(settings), why) for why, settings in missing.items()]
+        found, missing = measured(line, problem.errors, repeats)
+        points += found
+        left_out += missing
     if progress:
         progress(len(every), len(every), "")
     return Chart(scene.name, scene.kind, f"true error against cost, {problem.title}", problem.measures, tuple(points), tuple(left_out))

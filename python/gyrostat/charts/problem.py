@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
 
-__all__ = ["MOST_TURNS", "Line", "Measure", "Problem", "Rival", "Run", "Unanswered", "first_turns", "greatest", "reference", "relative", "tensor"]
+__all__ = ["MOST_TURNS", "Errors", "Line", "Measure", "Problem", "Rival", "Run", "Unanswered", "first_turns", "greatest", "reference", "relative", "tensor"]
 
 Vectors = NDArray[np.float64]
+# True errors of columns, by the keys of the measures.
+Errors = Callable[[Mapping[str, Any]], dict[str, float]]
 
 # A chart covers at most so many turns: beyond, slow methods would take minutes.
 MOST_TURNS: Final = 5000.0
@@ -80,7 +82,7 @@ class Problem:
     given: dict[str, Any]  # arguments of `solve`, with times, tolerance and model
     integrate: Callable[..., dict[str, Any]]
     physics: dict[str, Any]  # arguments of `integrate`, with times
-    errors: Callable[[Mapping[str, Any]], dict[str, float]]  # true errors of columns, by the keys of the measures
+    errors: Errors
     rival: Rival
     steps: float  # of a rival, roughly: some ten a turn, or what its stability allows
     methods: tuple[tuple[str, str, str], ...] = ()  # (group, label, method) of `integrate` besides those that all families have
@@ -103,13 +105,20 @@ def first_turns(times: Vectors, turns: Callable[[float], float], most: float) ->
     return np.linspace(0.0, end, 51), f" of the scene's {asked:.6g} s"
 
 
-def reference(integrate: Callable[..., dict[str, Any]], physics: Mapping[str, Any], method: str = "taylor") -> dict[str, Any]:
-    """The motion in long double. Raises DomainError where that takes too long."""
-    made = integrate(**physics, method=method, order=30, tolerance=1e-18, precision="long double", patience=REFERENCE_PATIENCE)
+def reference(integrate: Callable[..., dict[str, Any]], physics: Mapping[str, Any], method: str = "taylor") -> tuple[dict[str, Any], str]:
+    """The motion by integration in long double, and in words what made it. A body at the bound of what a body can have is none in long double, by
+    rounding, and is integrated in double. Raises DomainError where that takes too long."""
+    settings: dict[str, Any] = {"method": method, "tolerance": 1e-18, "patience": REFERENCE_PATIENCE}
+    words, precision = "Radau" if method == "radau" else "Taylor series of order 30", "long double"
+    try:
+        made = integrate(**physics, **settings, order=30, precision=precision)
+    except DomainError:
+        words, precision = words.replace("30", "20"), "double"
+        made = integrate(**physics, **settings, order=20, precision=precision)
     if made["status"] != "reached":
         why = f"takes over {REFERENCE_PATIENCE:g} s" if made["status"] == "cancelled" else f"ended with {made['status']}"
         raise DomainError(f"the integration that the methods are compared with {why}: chart a shorter time")
-    return made
+    return made, f"reference: {words} in {precision}"
 
 
 def greatest(vectors: Any) -> float:

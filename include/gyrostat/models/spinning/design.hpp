@@ -173,8 +173,8 @@ Result<Scalar> first_reach(Scalar d, Scalar unit, bool growing, const Motion& mo
     const auto [y, rate] = motion(t);
     const Scalar size = y.stableNorm(), speed = rate.stableNorm();
     if (!(size < infinity<Scalar> && speed < infinity<Scalar> && a < infinity<Scalar>)) return Errc::not_finite;
+    if ((1 - size / d) * (1 + size / d) <= 4 * epsilon<Scalar>) return t;
     const Scalar left = (d - size) * (d + size);
-    if (left <= 4 * epsilon<Scalar> * d * d) return t;
     Scalar step = horizon - t;
     if (a > 0) step = std::min(step, speed / a + std::sqrt(d / a));
     if (a == 0 && speed == 0) return infinity<Scalar>;

@@ -23,6 +23,8 @@ Vectors = NDArray[np.float64]
 # The integrators of others step over M = 0: the chart ends before the stop.
 STOP_SHARE: Final = 0.95
 
+AT_REST: Final = "the body is at rest from the start: there is no motion to chart"
+
 _AXIS: Final = "greatest true error, relative to the greatest |M| [1]"
 MEASURES: Final = (Measure("angular_momentum_norm", "error of |M|", "|M|", _AXIS),
                    Measure("angular_momentum", "error of M", "the vector M, body axes", _AXIS))
@@ -40,16 +42,18 @@ def true_errors(made: Mapping[str, Any], want: Vectors) -> dict[str, float]:
 def problem(scene: "Scene") -> Problem:
     """The scene up to just before the stop, or its first part where the whole is too long."""
     given = {**arguments(scene), "attitude": None}
+    if not np.any(given["angular_momentum"]):
+        raise DomainError(AT_REST)
     rate = _turn_rate(given)
     times, cut = first_turns(given["times"], lambda end: rate * end, MOST_TURNS)
     given["times"] = times
     times, stop = _before_the_stop(given)
     given["times"] = times
     physics = {key: given[key] for key in ("inertia", "rotor_momentum", "control", "drag", "law", "drag_law", "angular_momentum", "times")}
-    want = np.asarray(reference(integrate, physics)["angular_momentum"])
+    made, source = reference(integrate, physics)
+    want = np.asarray(made["angular_momentum"])
     turns = rate * float(times[-1])
-    title = (f"{len(times)} times to {times[-1]:.6g} s{cut}{stop}\n{turns:.3g} turns at most; reference: Taylor series of "
-             "order 30 in long double")
+    title = (f"{len(times)} times to {times[-1]:.6g} s{cut}{stop}\n{turns:.3g} turns at most; {source}")
     return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics), 10 * turns)
 
 
@@ -62,11 +66,13 @@ def _turn_rate(given: Mapping[str, Any]) -> float:
 def _before_the_stop(given: Mapping[str, Any]) -> tuple[Vectors, str]:
     """The times that lie before the stop, and a remark where some were left out."""
     times = given["times"]
+    if not np.any(given["control"]):
+        return times, ""
     stop = solve(**{**given, "model": "full", "times": times[-1:], "tolerance": 1e-6}).scalars.get("stop_time")
     if stop is None or not math.isfinite(stop) or times[-1] <= STOP_SHARE * stop:
         return times, ""
     if stop <= 0:
-        raise DomainError("the body is at rest from the start: there is no motion to chart")
+        raise DomainError(AT_REST)
     kept = times[times <= STOP_SHARE * stop]
     if len(kept) < 2:
         kept = np.linspace(0.0, STOP_SHARE * stop, 51)

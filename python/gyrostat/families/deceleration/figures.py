@@ -32,7 +32,7 @@ VECTORS: Final = (("angular_momentum", "M", "N m s", "Total angular momentum, bo
 
 
 def figure(answer: "Answer", _: Mapping[str, Any]) -> "Figure":
-    """Panels over time; the stop is marked in all of them, beyond the last time by an arrow."""
+    """Panels over time; the stop is marked in all of them, beyond the last time by an arrow below."""
     panels: list[Panel] = []
     if "angular_momentum_norm" in answer.columns:
         panels.append(_size_and_energy)
@@ -42,8 +42,7 @@ def figure(answer: "Answer", _: Mapping[str, Any]) -> "Figure":
     made = stacked(answer, panels)
     stop = answer.scalars.get("stop_time")
     if stop is not None and math.isfinite(stop):
-        for axes in made.axes:
-            _mark_stop(axes, stop, float(answer.t[0]), float(answer.t[-1]))
+        _mark_stop(made, stop, float(answer.t[0]), float(answer.t[-1]), len(panels))
     return made
 
 
@@ -55,12 +54,14 @@ def remarks(answer: "Answer") -> list[str]:
     return [f"stops at {stop:.6g} s" + (f" ({span_text(stop)})" if time_unit(stop)[1] != "s" else "")]
 
 
-def _mark_stop(axes: "Axes", stop: float, first: float, last: float) -> None:
+def _mark_stop(figure: "Figure", stop: float, first: float, last: float, panels: int) -> None:
     scale, _ = time_unit(last)
-    if first <= stop <= last:
-        axes.axvline(stop / scale, color="#555555", linestyle=":", linewidth=1, label="_stop")
-    elif stop > last:
-        axes.annotate(f"stops at {span_text(stop)} →", (1.0, 0.04), xycoords="axes fraction", fontsize=8, color="#555555", ha="right")
+    if stop > last:
+        figure.axes[panels - 1].annotate(f"stops at {span_text(stop)} →", (1.0, 0.0), xytext=(0, -28), xycoords="axes fraction",
+                                         textcoords="offset points", fontsize=8, color="#555555", ha="right")
+    elif stop >= first:
+        for axes in figure.axes[:panels]:
+            axes.axvline(stop / scale, color="#555555", linestyle=":", linewidth=1)
 
 
 def _size_and_energy(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:

@@ -43,11 +43,11 @@ def problem(scene: "Scene") -> Problem:
     rate = _turn_rate(physics)
     times, cut = first_turns(given["times"], lambda end: rate * end, MOST_TURNS)
     given["times"] = physics["times"] = times
-    want = reference(integrate, physics)
+    want, source = reference(integrate, physics)
     turns = rate * float(times[-1])
     found = "" if periodic is None else ", from the start that shooting finds"
     title = (f"{len(times)} times to {times[-1]:.6g} s{cut}{found}\n"
-             f"about {turns:.3g} turns; reference: Taylor series of order 30 in long double")
+             f"about {turns:.3g} turns; {source}")
     return Problem(title, (RATES, DOWN), solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics, rate), 10 * turns,
                    lines=lambda: _series(given))
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.drawing import COLOURS, Panel, changes, curve, error_text, is_coarse, laid_out, legend_row, note, span_text, split, time_unit, vector
+from gyrostat.drawing import COLOURS, Panel, changes, curve, error_text, is_coarse, laid_out, legend_beside, legend_row, note, span_text, split, time_unit, vector
 from gyrostat.rotation import matrix_from_quaternion
 
 if TYPE_CHECKING:
@@ -102,7 +102,7 @@ def _heavy_sphere(axes: "Axes", answer: "Answer", given: Mapping[str, Any]) -> N
         u, v = map(float, _onto_map(sign, centre / size))
         if max(abs(u), abs(v)) <= reach:
             axes.plot([u], [v], marker="*", color=COLOURS[1], markersize=11, markeredgecolor="white", linestyle="none", label="mass centre")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, borderaxespad=0)
+    legend_beside(axes)
     note(axes, error_text(answer, "down"))
 
 
@@ -114,7 +114,7 @@ def _hodograph(axes: "Axes", answer: "Answer") -> None:
     axes.set_xlabel("ω1 [rad/s]")
     axes.set_ylabel("ω2 [rad/s]")
     axes.grid(alpha=0.3)
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, borderaxespad=0)
+    legend_beside(axes)
     axes.set_title("Angular velocity across axis 3", loc="left", fontsize=10)
     note(axes, error_text(answer, "angular_velocity"))
 
@@ -122,7 +122,7 @@ def _hodograph(axes: "Axes", answer: "Answer") -> None:
 def _heavy_axis(axes: "Axes", answer: "Answer") -> None:
     R = matrix_from_quaternion(answer["attitude"])
     _sphere_path(axes, R[:, :, 2], COLOURS[2], "path of axis 3", ("1", "2", "up", "down"), "Body axis 3, inertial axes")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, borderaxespad=0)
+    legend_beside(axes)
     note(axes, error_text(answer, "attitude"))
 
 

@@ -3,7 +3,7 @@
 
 import math
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -23,6 +23,10 @@ Tables = list[tuple[str, list[str], list[list[str]]]]
 
 # The family begins at so many times the slow rate, or at the scene's spin where that is faster.
 FIRST: Final = 6.0
+# What the conversion of an attitude leaves of a cosine that is 0 or 1.
+ROUNDING: Final = 4 * np.finfo(float).eps
+# A stretch of members that are undecided is a crossing or a touch of the bound of stability where its spins differ by less than this share.
+NARROW: Final = 1e-2
 ENDS: Final = {
     "spin-reached": "it goes on to slower spins", "spin-zero": "it reaches spin zero", "homoclinic": "its period grows without bound",
     "stalled": "no further member was found", "member-limit": "it goes on: as many members as are listed were allowed",
@@ -62,7 +66,9 @@ def _start(given: Mapping[str, Any], axes: Any) -> tuple[float, float]:
     down = given["down"]
     if down is None:
         down = -_core.matrix_from_quaternion(given["attitude"][None, :])[0].reshape(3, 3)[2]
-    return float(axes[:, 2] @ given["angular_velocity"]), float(axes[:, 2] @ down)
+    cosine = float(axes[:, 2] @ down)
+    exact = next((c for c in (-1.0, 0.0, 1.0) if abs(cosine - c) < ROUNDING), cosine)  # level and upright are what was meant
+    return float(axes[:, 2] @ given["angular_velocity"]), exact
 
 
 def _number(value: Any) -> float | None:
@@ -136,19 +142,36 @@ def _vector(values: list[float]) -> str:
     return "(" + ", ".join(f"{x:.6f}" for x in values) + ")"
 
 
+def _precession(precession: Mapping[str, Any], which: str) -> str:
+    if precession[which] is not None:
+        return _text(precession[which])
+    return "none: the axis is level" if precession["cos_inclination"] == 0 else "none"
+
+
 def _swing(frequency: float) -> str:
     return f"{frequency:.6g} rad/s, {2 * math.pi / frequency:.6g} s" if frequency > 0 else "none"
 
 
-def _stretches(family: Mapping[str, Any]) -> list[tuple[int, int]]:
+def _runs(verdicts: Sequence[str], folds: Collection[int]) -> list[tuple[int, int]]:
     """First and last member of the runs of one verdict between folds."""
-    verdicts, folds = family["verdict"], set(family["folds"])
     made, begin = [], 0
     for i in range(1, len(verdicts) + 1):
         if i == len(verdicts) or verdicts[i] != verdicts[begin] or i - 1 in folds:
             made.append((begin, i - 1))
             begin = i
     return made
+
+
+def _stretches(family: Mapping[str, Any]) -> list[tuple[int, int, str]]:
+    """First and last member and verdict of the stretches of one verdict between folds. A narrow stretch that is undecided belongs to the one before
+    it, or behind a fold to the one after it."""
+    verdicts, folds, spin = list(family["verdict"]), set(family["folds"]), family["spin"]
+    for begin, end in _runs(verdicts, folds):
+        if verdicts[begin] == "undecided" and abs(spin[end] - spin[begin]) <= NARROW * abs(spin[begin]):
+            before, after = begin > 0 and begin - 1 not in folds, end + 1 < len(verdicts) and end not in folds
+            if before or after:
+                verdicts[begin:end + 1] = [verdicts[begin - 1 if before else end + 1]] * (end + 1 - begin)
+    return [(begin, end, verdicts[begin]) for begin, end in _runs(verdicts, folds)]
 
 
 def tables(report: Mapping[str, Any]) -> Tables:
@@ -163,7 +186,7 @@ def tables(report: Mapping[str, Any]) -> Tables:
                      [[end, top[end]["verdict"], _text(top[end]["threshold"]), _text(top[end]["amplification"])] for end in ("up", "down")]))
         p = top["precession"]
         made.append((f"Regular precession at cos(inclination) = {p['cos_inclination']:.6g}, right-handed about down", ["", "rate [rad/s]"],
-                     [["slow", _text(p["slow"])], ["fast", _text(p["fast"])]]))
+                     [["slow", _precession(p, "slow")], ["fast", _precession(p, "fast")]]))
     if orbit["verdict"] != "none":
         a, b = (_complex(m) for m in orbit["multipliers"])
         made.append((f"Periodic motion with spin {orbit['spin']:.6g} rad/s, cos(inclination) {orbit['cos_inclination']:.6g}",
@@ -171,9 +194,9 @@ def tables(report: Mapping[str, Any]) -> Tables:
                      [[orbit["verdict"], f"{orbit['period']:.9g}", f"{orbit['trace']:.9g}", f"{a}; {b}"]]))
     if family["spin"]:
         rows = []
-        for begin, end in _stretches(family):
+        for begin, end, verdict in _stretches(family):
             r, T, trace = (family[name] for name in ("spin", "period", "trace"))
-            rows.append([family["verdict"][begin], f"{r[begin]:.5g} to {r[end]:.5g}", f"{r[begin] / slow:.4g} to {r[end] / slow:.4g}",
+            rows.append([verdict, f"{r[begin]:.5g} to {r[end]:.5g}", f"{r[begin] / slow:.4g} to {r[end] / slow:.4g}",
                          f"{T[begin]:.5g} to {T[end]:.5g}", f"{trace[begin]:.4g} to {trace[end]:.4g}"])
         made.append(("Periodic motions of this inclination, from fast spins down",
                      ["verdict", "spin [rad/s]", "over the slow rate", "period [s]", "sum of multipliers"], rows))
@@ -242,8 +265,7 @@ def plot(scene: Scene, report: Mapping[str, Any]) -> "Figure":
 
 def _branch(axes: "Axes", family: Mapping[str, Any], x: Any, y: Any) -> None:
     named = set()
-    for begin, end in _stretches(family):
-        verdict = family["verdict"][begin]
+    for begin, end, verdict in _stretches(family):
         part = slice(begin, min(end + 2, len(x)))
         axes.plot(x[part], y[part], color=COLOURS[verdict], linewidth=1.6, marker=".", markersize=3, label=None if verdict in named else verdict)
         named.add(verdict)

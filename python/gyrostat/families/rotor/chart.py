@@ -41,11 +41,10 @@ def problem(scene: "Scene") -> Problem:
     rate, relaxing = _rates(given)
     given["times"], cut = first_turns(given["times"], lambda end: rate * end, MOST_TURNS)
     physics = {key: value for key, value in given.items() if key not in ("tolerance", "model", "integrator")}
-    stiff = relaxing > STIFF * rate
-    want = reference(integrate, physics, "radau" if stiff else "taylor")
+    want, source = reference(integrate, physics, "radau" if relaxing > STIFF * rate else "taylor")
     end = float(given["times"][-1])
     title = (f"{len(given['times'])} times to {end:.6g} s{cut}\n{rate * end:.3g} turns at most, {relaxing * end:.3g} "
-             f"relaxation times of the motor; reference: {'Radau' if stiff else 'Taylor series of order 30'} in long double")
+             f"relaxation times of the motor; {source}")
     return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics),
                    end * max(relaxing / STABLE, 10 * rate), (("radau", "Radau IIA", "radau"),))
 

@@ -58,7 +58,7 @@ def _cone(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
     H, e = answer["angular_momentum"], np.asarray(answer.scene["rotor"]["axis"])
     angle = np.degrees(np.arctan2(np.linalg.norm(np.cross(e, H), axis=1), H @ e))
     curve(axes, t, angle, ["_angle"])
-    axes.set_ylim(0, max(1.1 * float(np.max(angle)), 1e-9))
+    axes.set_ylim(0, max(1.1 * float(np.max(angle)), 1.0))
     axes.set_ylabel("angle [deg]")
     axes.set_title("Angle between the rotor's axis and the angular momentum", loc="left", fontsize=10)
 

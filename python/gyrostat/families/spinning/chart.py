@@ -37,11 +37,10 @@ def problem(scene: "Scene") -> Problem:
     given = arguments(scene)
     given["times"], cut = first_turns(given["times"], lambda end: _rate(given, end) * end, MOST_TURNS)
     physics = {key: value for key, value in given.items() if key not in ("tolerance", "model", "integrator")}
-    want = reference(integrate, physics)
+    want, source = reference(integrate, physics)
     end = float(given["times"][-1])
     turns = float(np.mean(np.linalg.norm(want["angular_velocity"], axis=1))) * end / (2 * math.pi)
-    title = (f"{len(given['times'])} times to {end:.6g} s{cut}\nabout {turns:.3g} turns; "
-             "reference: Taylor series of order 30 in long double")
+    title = (f"{len(given['times'])} times to {end:.6g} s{cut}\nabout {turns:.3g} turns; {source}")
     return Problem(title, (ATTITUDE, VELOCITY if np.any(given["force"]) else RATES), solve, given, integrate, physics,
                    lambda made: true_errors(made, want), Rival(physics), 10 * _rate(given, end) * end)
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.drawing import COLOURS, Panel, changes, curve, error_text, laid_out, legend_row, note, split
+from gyrostat.drawing import COLOURS, Panel, changes, curve, error_text, laid_out, legend_beside, legend_row, note, split
 from gyrostat.families.spinning.functions import pointing
 from gyrostat.rotation import matrix_from_quaternion
 
@@ -76,7 +76,7 @@ def _finish_map(axes: "Axes", title: str, path: NDArray[Any]) -> None:
     axes.ticklabel_format(style="sci", scilimits=(-2, 2))
     axes.set_xlabel("direction cosine, inertial axis 1")
     axes.set_ylabel("direction cosine, inertial axis 2")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, borderaxespad=0)
+    legend_beside(axes)
     axes.set_title(title, loc="left", fontsize=10)
 
 
@@ -110,7 +110,9 @@ def _velocity_map(axes: "Axes", answer: "Answer", given: Mapping[str, Any]) -> N
 
 
 def _angles(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
-    curve(axes, t, np.degrees(answer["euler_312"][:, :2]), ["psi", "phi"])
+    angles = np.degrees(answer["euler_312"][:, :2])
+    angles[1:][np.abs(np.diff(angles, axis=0)) > 180] = np.nan  # from 180 to -180
+    curve(axes, t, angles, ["psi", "phi"])
     axes.set_ylabel("psi, phi [deg]")
     legend_row(axes)
     axes.set_title("Tilt of axis 3, body axes", loc="left", fontsize=10)
