@@ -125,7 +125,7 @@ def _arguments() -> argparse.ArgumentParser:
     schema.add_argument("kind", nargs="?", metavar="KIND", choices=list(FAMILIES), help=f"{', '.join(FAMILIES)}; left out: the JSON Schema of all")
     schema.add_argument("--json", action="store_true", help="print the JSON Schema of the kind")
 
-    info = command("info", _info, "print versions, build options and the licence of this build, or what answers hold")
+    info = command("info", _info, "print versions, what is installed and its licences, or what answers hold")
     info.add_argument("--columns", nargs="?", const="all", metavar="KIND", choices=["all", *FAMILIES],
                       help="print columns, scalars and rungs with units and meanings, of one kind or of all")
     info.add_argument("--json", action="store_true", help="print one JSON object")
