@@ -104,7 +104,7 @@ def to_dataframe(answer: Answer) -> "pandas.DataFrame":
         raise ImportError("pandas is not installed: pip install 'gyrostat[pandas]'") from error
     frame = pandas.DataFrame(dict(_flat(answer)), index=pandas.Index(answer.t, name="t"))
     told = _parts(answer)
-    frame.attrs.update({key: told[key] for key in ("model", "tolerance", "met", "error", "scalars", "scalar_error", "units")})
+    frame.attrs.update({key: _plain(told[key]) for key in ("model", "tolerance", "met", "error", "scalars", "scalar_error", "units")})
     return frame
 
 

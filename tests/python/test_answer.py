@@ -234,11 +234,12 @@ def test_csv_reads_back_to_the_same_numbers(full: Answer) -> None:
 
 
 def test_a_dataframe_keeps_values_names_and_units(full: Answer) -> None:
-    pytest.importorskip("pandas")
+    pandas = pytest.importorskip("pandas")
     frame = full.to_dataframe()
     assert frame.index.name == "t" and np.array_equal(frame.index, full.t)
     assert ["t", *frame.columns] == full.to_csv().partition("\n")[0].split(",")
     assert np.array_equal(frame["angular_momentum_y"], full["angular_momentum"][:, 1]) and list(frame["regime"]) == full["regime"].tolist()
+    assert len(pandas.concat([frame, frame])) == 2 * len(full.t)
     assert frame.attrs["units"]["energy"] == "J" and frame.attrs["error"] == full.error and frame.attrs["model"] == "full"
 
 

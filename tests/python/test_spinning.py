@@ -15,6 +15,7 @@ import pytest
 from conftest import SPINNING
 from gyrostat import Answer, DomainError, Monitor, rotation, spinning
 from gyrostat.facts import UNITS
+from gyrostat.families.spinning.functions import SHAPES
 from gyrostat.cli import main
 from gyrostat.scenes import bundled, load, scene_from
 
@@ -209,7 +210,7 @@ def test_a_monitor_cancels_long_work() -> None:
 def test_linear_is_the_linear_rung() -> None:
     rung = gyrostat.solve(SCENE, model="linear", tolerance=0.5)
     given = spinning.arguments(scene_from(SCENE))
-    made = spinning.linear(t=rung.t, **{name: given[name] for name in spinning.SHAPES})
+    made = spinning.linear(t=rung.t, **{name: given[name] for name in SHAPES})
     for name in rung.columns:
         assert np.array_equal(getattr(made, name), rung[name]), name
     assert made.tilt_bound >= np.hypot(*made.euler_312[:, :2].T).max() and made.rate_bound >= np.hypot(*made.angular_velocity[:, :2].T).max()
