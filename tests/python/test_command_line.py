@@ -102,6 +102,8 @@ def test_set_changes_keys(scene_file: Path, capsys: pytest.CaptureFixture[str]) 
 def test_exit_status_3_over_the_tolerance(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = run(capsys, "solve", "tiangong-1", "--set", "model=averaged", "--set", "tolerance=1e-12")
     assert status == 3 and "NOT met" in out
+    status, out, err = run(capsys, "solve", "tiangong-1", "--set", "model=averaged", "--set", "tolerance=1e-12", "-o", os.devnull)
+    assert status == 3 and out == "" and "NOT met" in err
 
 
 @pytest.mark.parametrize(("arguments", "text"), [

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from conftest import HEAVY, PERIODIC
 from gyrostat import Answer, ConvergenceError, DomainError, Monitor, heavy, rotation
-from gyrostat.facts import UNITS
 from gyrostat.cli import main
+from gyrostat.facts import UNITS
 from gyrostat.scenes import bundled, load, scene_from
 from numpy.typing import NDArray
 

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from conftest import ASSEMBLED, ROTOR
 from gyrostat import Answer, DomainError, Monitor, rotation, rotor
-from gyrostat.facts import UNITS
 from gyrostat.cli import main
+from gyrostat.facts import UNITS
 from gyrostat.scenes import bundled, load, scene_from
 from numpy.typing import NDArray
 

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 from conftest import SPINNING
 from gyrostat import Answer, DomainError, Monitor, rotation, spinning
+from gyrostat.cli import main
 from gyrostat.facts import UNITS
 from gyrostat.families.spinning.functions import SHAPES
-from gyrostat.cli import main
 from gyrostat.scenes import bundled, load, scene_from
 
 SCENE = tomllib.loads(SPINNING)
