@@ -113,7 +113,7 @@ class HeavyBodies:
         ...
 def build_info() -> dict[str, str | None]:
     """
-    Version of the library, of the compiler, and of each library that is built in (None: it is not).
+    Version of the library, of the compiler, and of each optional library (None: this installation has it not).
     """
 def deceleration_averaged(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], law: str, drag_law: str, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, elliptic: str) -> dict[str, typing.Any]:
     """
@@ -303,3 +303,4 @@ def vector_from_matrix(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.floa
     ...
 def vector_from_quaternion(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     ...
+__version__: str = '0.1.0'

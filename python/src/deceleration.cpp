@@ -10,17 +10,11 @@
 
 #include "answer.hpp"
 #include "bind.hpp"
+#include "elliptic_backend.hpp"
 #include "gyrostat/models/deceleration/stability.hpp"
 #include "scene_arguments.hpp"
-#ifdef GYROSTAT_HAVE_GSL
-#include "gyrostat/math/gsl.hpp"
-#endif
 #ifdef GYROSTAT_HAVE_CVODE
 #include "gyrostat/ladder/deceleration/cvode_motion.hpp"
-#endif
-
-#ifdef GYROSTAT_HAVE_GSL
-extern template gyrostat::Answer gyrostat::deceleration::solve<gyrostat::math::Gsl>(const Scene&, Refusal&, Monitor*);
 #endif
 
 namespace {
@@ -44,23 +38,6 @@ auto full_equations(const std::string& name) -> decltype(SceneData::full_equatio
 #endif
   raise("DomainError", "integrator = '" + name + "': " +
                            (name == "cvode" ? "this build has no CVODE" : "unknown; use auto, taylor or cvode"));
-}
-
-/// Whether the elliptic functions are GSL's.
-bool uses_gsl(const std::string& name) {
-  if (name == "auto" || name == "native") return false;
-#ifdef GYROSTAT_HAVE_GSL
-  if (name == "gsl") return true;
-#endif
-  raise("DomainError",
-        "elliptic = '" + name + "': " + (name == "gsl" ? "this build has no GSL" : "unknown; use auto, native or gsl"));
-}
-
-Answer climb_with([[maybe_unused]] bool gsl, const Scene& scene, Refusal& refusal, Monitor* monitor) {
-#ifdef GYROSTAT_HAVE_GSL
-  if (gsl) return solve<math::Gsl>(scene, refusal, monitor);
-#endif
-  return solve(scene, refusal, monitor);
 }
 
 py::object values_of(Column& column) {
@@ -97,11 +74,11 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
   data.tolerance = relative_tolerance(tolerance);
   data.model = model(rung);
   data.full_equations = full_equations(method);
-  const bool gsl = uses_gsl(elliptic);
+  const EllipticBackend& functions = elliptic_backend(elliptic);
   const Scene scene = checked(body(inertia), data);
 
   Refusal refusal;
-  auto [answer, seconds] = timed([&] { return climb_with(gsl, scene, refusal, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] = timed([&] { return functions.decelerate(scene, refusal, monitor ? monitor->get() : nullptr); });
   require_answer(refusal);
   return to_python(answer, seconds, &values_of);
 }
@@ -111,7 +88,7 @@ Data averaged_rows(const Array& inertia, const Array& rotor_momentum, const Arra
                    const Array& momentum, const std::string& control_law, const std::string& drag_law, const Array& at,
                    double tolerance, const std::string& elliptic) {
   const py::ssize_t rows = drag.size();
-  const bool gsl = uses_gsl(elliptic);
+  const EllipticBackend& functions = elliptic_backend(elliptic);
   SceneData data;
   data.law = law("law", control_law);
   data.drag_law = law("drag_law", drag_law);
@@ -141,7 +118,7 @@ Data averaged_rows(const Array& inertia, const Array& rotor_momentum, const Arra
     Answer answer;
     {
       const py::gil_scoped_release free;
-      answer = climb_with(gsl, *scene, refusal, nullptr);
+      answer = functions.decelerate(*scene, refusal, nullptr);
     }
     if (refusal.code != Errc::ok) raise(refusal.code, row_text(refusal.why));
     const auto take = [&](const char* name, std::vector<double>& into, int place) {
