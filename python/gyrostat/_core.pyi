@@ -113,7 +113,7 @@ class HeavyBodies:
         ...
 def build_info() -> dict[str, str | None]:
     """
-    Version of the library, of the compiler, and of each library that is built in (None: it is not).
+    Version of the library, of the compiler, and of each optional library (None: this installation has it not).
     """
 def csv_rows(columns: list[numpy.ndarray]) -> str:
     """
@@ -311,3 +311,4 @@ def vector_from_matrix(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.floa
     ...
 def vector_from_quaternion(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     ...
+__version__: str = '0.1.0'

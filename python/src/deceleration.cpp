@@ -10,19 +10,13 @@
 
 #include "answer.hpp"
 #include "bind.hpp"
+#include "elliptic_backend.hpp"
 #include "gyrostat/ladder/deceleration/motion.hpp"
 #include "gyrostat/models/deceleration/stability.hpp"
 #include "question_arguments.hpp"
 #include "scene_arguments.hpp"
-#ifdef GYROSTAT_HAVE_GSL
-#include "gyrostat/math/gsl.hpp"
-#endif
 #ifdef GYROSTAT_HAVE_CVODE
 #include "gyrostat/ladder/deceleration/cvode_motion.hpp"
-#endif
-
-#ifdef GYROSTAT_HAVE_GSL
-extern template gyrostat::Answer gyrostat::deceleration::solve<gyrostat::math::Gsl>(const Scene&, Refusal&, Monitor*);
 #endif
 
 namespace {
@@ -30,23 +24,6 @@ namespace {
 using namespace gyrostat;
 using namespace gyrostat::python;
 using namespace gyrostat::deceleration;
-
-/// Whether the elliptic functions are GSL's.
-bool uses_gsl(const std::string& name) {
-  if (name == "auto" || name == "native") return false;
-#ifdef GYROSTAT_HAVE_GSL
-  if (name == "gsl") return true;
-#endif
-  raise("DomainError",
-        "elliptic = '" + name + "': " + (name == "gsl" ? "this build has no GSL" : "unknown; use auto, native or gsl"));
-}
-
-Answer climb_with([[maybe_unused]] bool gsl, const Scene& scene, Refusal& refusal, Monitor* monitor) {
-#ifdef GYROSTAT_HAVE_GSL
-  if (gsl) return solve<math::Gsl>(scene, refusal, monitor);
-#endif
-  return solve(scene, refusal, monitor);
-}
 
 Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array& control, double drag,
                  const std::string& control_law, const std::string& drag_law, const Array& angular_momentum,
@@ -64,7 +41,8 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
   if (attitude) setup.attitude = quaternion("attitude", *attitude);
   Question question = question_of(tables, at, tolerance, rung);
   question.wants_attitude = attitude.has_value();
-  const bool cvode = takes_cvode(tables, integrator, question), gsl = uses_gsl(elliptic);
+  const bool cvode = takes_cvode(tables, integrator, question);
+  const EllipticBackend& functions = elliptic_backend(elliptic);
   Scene scene = checked(Scene::make(body(inertia), setup, question));
 #ifdef GYROSTAT_HAVE_CVODE
   if (cvode) scene.full_equations = &full_by_cvode;
@@ -73,7 +51,7 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
 #endif
 
   Refusal refusal;
-  auto [answer, seconds] = timed([&] { return climb_with(gsl, scene, refusal, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] = timed([&] { return functions.decelerate(scene, refusal, monitor ? monitor->get() : nullptr); });
   require_answer(refusal);
   return to_python(answer, tables, seconds);
 }
@@ -83,7 +61,7 @@ Data averaged_rows(const Array& inertia, const Array& rotor_momentum, const Arra
                    const Array& momentum, const std::string& control_law, const std::string& drag_law, const Array& at,
                    double tolerance, const std::string& elliptic) {
   const py::ssize_t rows = drag.size();
-  const bool gsl = uses_gsl(elliptic);
+  const EllipticBackend& functions = elliptic_backend(elliptic);
   Setup setup;
   setup.law = law("law", control_law);
   setup.drag_law = law("drag_law", drag_law);
@@ -114,7 +92,7 @@ Data averaged_rows(const Array& inertia, const Array& rotor_momentum, const Arra
     Answer answer;
     {
       const py::gil_scoped_release free;
-      answer = climb_with(gsl, *scene, refusal, nullptr);
+      answer = functions.decelerate(*scene, refusal, nullptr);
     }
     if (refusal.code != Errc::ok) raise(refusal.code, row_text(refusal.why));
     const auto take = [&](std::size_t which, std::vector<double>& into, int place) {
