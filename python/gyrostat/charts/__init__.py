@@ -133,7 +133,7 @@ def measured(line: Line, errors: Errors, repeats: int) -> tuple[list[ChartPoint]
 
 
 def make_chart(scene: Scene, *, repeats: int = REPEATS, progress: Callable[[int, int, str], None] | None = None) -> Chart:
-    """Measure every method on the scene. `progress` is told (done, all, what) before each. No solution may take longer than methods.LONGEST:
+    """Measure every method on the scene. progress(done, all, what) is called before each. No solution may take longer than methods.LONGEST:
     what does, or would at a tighter setting, is left out. Raises DomainError where there is no motion to chart."""
     family = FAMILIES[scene.kind]
     problem: Problem = family.part("chart").problem(scene)
