@@ -19,7 +19,7 @@ __all__ = ["Chart", "ChartPoint", "LeftOut", "make_chart", "measured"]
 
 REPEATS: Final = 7
 # Repeats end after this time [s].
-LONG: Final = 0.5
+LONG: Final = 0.2
 # A setting takes about this many times as long as the one before, which is 100 times less accurate: so much a method of order 5.
 GROWTH: Final = 2.5
 
