@@ -17,11 +17,11 @@ import pytest
 from gyrostat import DomainError, heavy
 from gyrostat.charts import Chart, measured, methods
 from gyrostat.charts.problem import Line, Run
+from gyrostat.cli import main
+from gyrostat.families.deceleration.chart import true_errors
 from gyrostat.families.heavy import chart as heavy_charts
 from gyrostat.families.rotor import chart as rotor_charts
 from gyrostat.families.spinning import chart as spinning_charts
-from gyrostat.families.deceleration.chart import true_errors
-from gyrostat.cli import main
 from gyrostat.scenes import load
 
 

@@ -11,7 +11,7 @@ import gyrostat
 from gyrostat import _core
 from gyrostat import gallery as galleries
 from gyrostat.cli import main
-from gyrostat.families.deceleration import gallery as gallery
+from gyrostat.families.deceleration import gallery
 
 
 def test_all_figures_from_3_to_25_are_there() -> None:

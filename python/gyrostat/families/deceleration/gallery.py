@@ -12,8 +12,8 @@ import numpy as np
 from gyrostat import _core
 from gyrostat.answer import Answer
 from gyrostat.drawing import COLOURS, Drawing, finish, new_figure
-from gyrostat.ladder import solve
 from gyrostat.families.deceleration.stability import draw_regions, quasi_stationary_line
+from gyrostat.ladder import solve
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from gyrostat import _core, rotor
 from gyrostat.errors import DomainError
-from gyrostat.scenes import Scene
 from gyrostat.families.rotor.sphere import Path, Sphere, plot_sphere
+from gyrostat.scenes import Scene
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
