@@ -123,7 +123,7 @@ def deceleration_averaged(*, inertia: typing.Annotated[numpy.typing.ArrayLike, n
     """
     The rung averaged over rows of bodies.
     """
-def deceleration_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, law: str, drag_law: str, angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+def deceleration_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, law: str, drag_law: str, angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double', patience: typing.SupportsFloat | typing.SupportsIndex = ...) -> dict[str, typing.Any]:
     """
     The full equations under one integrator, timed.
     """
@@ -177,7 +177,7 @@ def heavy_hanging(bodies: HeavyBodies) -> numpy.typing.NDArray[numpy.float64]:
     """
     (rows, 11): down at rest, two frequencies, two directions of the swing.
     """
-def heavy_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], mass: typing.SupportsFloat | typing.SupportsIndex, centre_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity: typing.SupportsFloat | typing.SupportsIndex, gravity_gradient: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+def heavy_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], mass: typing.SupportsFloat | typing.SupportsIndex, centre_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity: typing.SupportsFloat | typing.SupportsIndex, gravity_gradient: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double', patience: typing.SupportsFloat | typing.SupportsIndex = ...) -> dict[str, typing.Any]:
     """
     The full equations under one integrator, timed.
     """
@@ -255,7 +255,7 @@ def rotor_fall_time(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.f
     """
     Time of a fall of V from a state to a level and its relative error; NaN where it cannot be told.
     """
-def rotor_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+def rotor_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double', patience: typing.SupportsFloat | typing.SupportsIndex = ...) -> dict[str, typing.Any]:
     """
     The full equations under one integrator, timed.
     """
@@ -283,7 +283,7 @@ def spinning_design(problems: SpinningProblems, *, goal: str, budget: typing.Ann
     """
     Value, bound of the tilt, unstable, resonant, compliant, and why there is no design, a row each.
     """
-def spinning_integrate(problem: SpinningProblems, *, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+def spinning_integrate(problem: SpinningProblems, *, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double', patience: typing.SupportsFloat | typing.SupportsIndex = ...) -> dict[str, typing.Any]:
     """
     The full equations under one integrator, timed.
     """

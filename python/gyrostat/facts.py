@@ -39,13 +39,13 @@ class Facts:
         return {**self.columns, **self.scalars}
 
 
-def _facts(told: dict[str, Any]) -> Facts:
-    columns, scalars = ({each["name"]: Quantity(**each) for each in told[what]} for what in ("columns", "scalars"))
-    return Facts(told["name"], columns, scalars, {rung["name"]: rung["meaning"] for rung in told["rungs"]}, tuple(told["integrators"]),
-                 {warning["code"]: warning["text"] for warning in told["warnings"]})
+def _facts(entry: dict[str, Any]) -> Facts:
+    columns, scalars = ({each["name"]: Quantity(**each) for each in entry[what]} for what in ("columns", "scalars"))
+    return Facts(entry["name"], columns, scalars, {rung["name"]: rung["meaning"] for rung in entry["rungs"]}, tuple(entry["integrators"]),
+                 {warning["code"]: warning["text"] for warning in entry["warnings"]})
 
 
-FACTS: Final[dict[str, Facts]] = {told["name"]: _facts(told) for told in _core.families()}
+FACTS: Final[dict[str, Facts]] = {entry["name"]: _facts(entry) for entry in _core.families()}
 
 # Of the columns and scalars of all families, and of the time. A quantity of one name has one unit; the meaning may say more in one family.
 UNITS: Final[dict[str, str]] = {"t": "s", **{q.name: q.unit for facts in FACTS.values() for q in facts.quantities.values()}}

@@ -90,8 +90,7 @@ Data integrate(const Array& inertia, const Array& rotor_momentum, const Array& c
       const bool control_acts = !problem.control.isZero(0);
       if constexpr (std::is_same_v<Scalar, double>)
         return control_acts ? by_name(driven, Plain{problem}, task, put) : by_name(free, Plain{problem}, task, put);
-      else
-        return control_acts ? by_taylor<long_order>(driven, task, put) : by_taylor<long_order>(free, task, put);
+      else return control_acts ? by_taylor<long_order>(driven, task, put) : by_taylor<long_order>(free, task, put);
     });
     return std::move(table).data(course, seconds);
   };

@@ -71,8 +71,7 @@ struct Plain {
 };
 
 /// Problem and start in long double.
-std::pair<Problem<long double>, State<long double>> longer(const Problem<double>& problem,
-                                                           const State<double>& start) {
+std::pair<Problem<long double>, State<long double>> longer(const Problem<double>& problem, const State<double>& start) {
   using To = long double;
   const auto vector = [](const Vec3<double>& v) { return Vec3<To>(v.cast<To>()); };
   const auto made = Problem<To>::make(vector(problem.inertia()), problem.mass(), vector(problem.centre_of_mass()),
@@ -86,7 +85,8 @@ std::pair<Problem<long double>, State<long double>> longer(const Problem<double>
 template <Real Scalar>
 State<double> to_double(const State<Scalar>& s) {
   const auto& q = s.attitude;
-  return {s.angular_velocity.template cast<double>(), s.down.template cast<double>(),
+  return {s.angular_velocity.template cast<double>(),
+          s.down.template cast<double>(),
           {double(q.w), double(q.x), double(q.y), double(q.z)}};
 }
 

@@ -87,8 +87,8 @@ class Table {
     Data made;
     const auto n = py::ssize_t(rows_);
     for (Column& column : columns_)
-      made[column.name] = column.width == 1 ? array(std::move(column.values), {n})
-                                            : array(std::move(column.values), {n, column.width});
+      made[column.name] =
+          column.width == 1 ? array(std::move(column.values), {n}) : array(std::move(column.values), {n, column.width});
     made["seconds"] = seconds;
     made["rhs"] = course.counts.rhs;
     made["steps"] = course.counts.steps;

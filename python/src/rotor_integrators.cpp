@@ -39,8 +39,7 @@ struct Plain {
   double size = size_of(gyrostat, from);
 
   static double size_of(const Gyrostat<double>& body, const State<double>& start) {
-    const double made =
-        start.momentum.norm() + std::abs(body.target_momentum()) + std::abs(start.axial_momentum);
+    const double made = start.momentum.norm() + std::abs(body.target_momentum()) + std::abs(start.axial_momentum);
     return made > 0 ? made : 1;
   }
   const State<double>& start() const { return from; }
@@ -119,10 +118,8 @@ Data integrate(const Array& inertia, const Array& axis, double axial_inertia, do
     const auto [course, seconds] = timed([&] {
       if (task.method == "radau") return by_radau(gyrostat, start, task, put);
       const Motion<Scalar> motion{gyrostat, start};
-      if constexpr (std::is_same_v<Scalar, double>)
-        return by_name(motion, Plain{gyrostat, start}, task, put);
-      else
-        return by_taylor<long_order>(motion, task, put);
+      if constexpr (std::is_same_v<Scalar, double>) return by_name(motion, Plain{gyrostat, start}, task, put);
+      else return by_taylor<long_order>(motion, task, put);
     });
     return std::move(table).data(course, seconds);
   };

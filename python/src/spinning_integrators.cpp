@@ -93,11 +93,9 @@ struct Plain {
 Data integrate(const SpinningProblems& problems, const Array& at, const std::string& method, int order,
                double tolerance, const std::string& precision, double patience) {
   const Task task = task_of(times(at), method, order, tolerance, precision, patience);
-  Table table(task.times.size(), {{"angular_velocity", 3},
-                                  {"attitude", 4},
-                                  {"angular_momentum_inertial", 3},
-                                  {"velocity", 3},
-                                  {"position", 3}});
+  Table table(
+      task.times.size(),
+      {{"angular_velocity", 3}, {"attitude", 4}, {"angular_momentum_inertial", 3}, {"velocity", 3}, {"position", 3}});
   const auto run = [&]<Real Scalar>(Scalar) {
     const auto problem = spinning::detail::problem_cast<Scalar>(problems.single());
     const auto put = [&](std::size_t i, const State<Scalar>& s) {
@@ -111,8 +109,7 @@ Data integrate(const SpinningProblems& problems, const Array& at, const std::str
       const Motion<Scalar> motion{FullSystem<Scalar>(problem)};
       if constexpr (std::is_same_v<Scalar, double>)
         return by_name(motion, Plain(problem, task.times.back()), task, put);
-      else
-        return by_taylor<long_order>(motion, task, put);
+      else return by_taylor<long_order>(motion, task, put);
     });
     return std::move(table).data(course, seconds);
   };

@@ -4,20 +4,25 @@
 import csv
 import io
 import math
+import os
+import subprocess
+import sys
+import time
 from pathlib import Path
 from typing import Any
 
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat import DomainError
+from gyrostat import DomainError, heavy
 from gyrostat.charts import Chart, measured, methods
 from gyrostat.charts.problem import Line, Run
+from gyrostat.cli import main
+from gyrostat.families.deceleration.chart import true_errors
 from gyrostat.families.heavy import chart as heavy_charts
 from gyrostat.families.rotor import chart as rotor_charts
 from gyrostat.families.spinning import chart as spinning_charts
-from gyrostat.families.deceleration.chart import true_errors
-from gyrostat.cli import main
+from gyrostat.scenes import load
 
 
 @pytest.fixture(scope="module")
@@ -74,6 +79,24 @@ def test_a_method_that_takes_too_long_is_stopped(monkeypatch: pytest.MonkeyPatch
     slow = {each.label: each for each in made.left_out if each.why == "takes over 0.002 s"}
     assert slow["SciPy DOP853 (Python right-hand side)"].settings[0] == "tolerance 0.0001"
     assert all(each.settings[-1] == "tolerance 1e-12" for each in slow.values())
+
+
+def test_what_else_the_machine_does_is_not_in_the_cost() -> None:
+    """Beside a program on the same processor the clock on the wall runs twice as long as the solution."""
+    swinging = {**heavy.arguments(load("toy-top", times=[1500.0])), "attitude": None, "down": [0.6, 0.0, 0.8]}
+    given = {key: value for key, value in swinging.items() if key not in ("periodic", "tolerance", "model", "integrator")}
+    every = os.sched_getaffinity(0)
+    busy = subprocess.Popen([sys.executable, "-c", "import os\nos.sched_setaffinity(0, {%d})\nwhile True: pass" % min(every)])
+    try:
+        os.sched_setaffinity(0, {min(every)})
+        began = time.thread_time()
+        made = heavy.integrate(**given, method="dop853", tolerance=1e-12)
+        used = time.thread_time() - began
+    finally:
+        os.sched_setaffinity(0, every)
+        busy.kill()
+        busy.wait()
+    assert 0.05 < made["seconds"] <= used
 
 
 def test_a_tighter_setting_that_would_take_too_long_is_not_tried() -> None:

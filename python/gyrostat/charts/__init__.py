@@ -19,7 +19,7 @@ __all__ = ["Chart", "ChartPoint", "LeftOut", "make_chart", "measured"]
 
 REPEATS: Final = 7
 # Repeats end after this time [s].
-LONG: Final = 0.5
+LONG: Final = 0.2
 # A setting takes about this many times as long as the one before, which is 100 times less accurate: so much a method of order 5.
 GROWTH: Final = 2.5
 
@@ -138,7 +138,7 @@ def measured(line: Line, errors: Errors, repeats: int) -> tuple[list[ChartPoint]
 
 
 def make_chart(scene: Scene, *, repeats: int = REPEATS, progress: Callable[[int, int, str], None] | None = None) -> Chart:
-    """Measure every method on the scene. `progress` is told (done, all, what) before each. No solution may take longer than methods.LONGEST:
+    """Measure every method on the scene. progress(done, all, what) is called before each. No solution may take longer than methods.LONGEST:
     what does, or would at a tighter setting, is left out. Raises DomainError where there is no motion to chart."""
     family = FAMILIES[scene.kind]
     problem: Problem = family.part("chart").problem(scene)

@@ -21,9 +21,10 @@ TAYLOR_ORDERS: Final = (8, 12, 20)
 TOLERANCES: Final = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 # No solution may take longer [s of CPU time].
 LONGEST: Final = 3.0
-# What a method takes that evaluates its right-hand side in Python: evaluations a step.
+# Evaluations of the right-hand side in a step of SciPy's DOP853, and how far the time predicted from them may be over the limit, as it is rough.
 STAGES: Final = 12
-# Steps of heyoka in that time, at no less than a microsecond each.
+ROUGHLY: Final = 10.0
+# Steps that heyoka may take: at least a microsecond each.
 MOST_STEPS: Final = int(LONGEST / 1e-6)
 
 
@@ -125,7 +126,7 @@ def _scipy(problem: Problem) -> Iterator[Line]:
         return STAGES * problem.steps * min(timed(lambda: right(0.0, start))[1] for _ in range(5))
 
     def run(tolerance: float) -> Run:
-        if predicted() > 10 * LONGEST:
+        if predicted() > ROUGHLY * LONGEST:
             raise TooLong
         end = time.thread_time() + LONGEST
 

@@ -12,8 +12,8 @@ import numpy as np
 from gyrostat import _core
 from gyrostat.answer import Answer
 from gyrostat.drawing import COLOURS, Drawing, finish, new_figure
-from gyrostat.ladder import solve
 from gyrostat.families.deceleration.stability import draw_regions, quasi_stationary_line
+from gyrostat.ladder import solve
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -88,17 +88,17 @@ GROUPS: Final = (
           (_ratios(0.75, 0.9, 1.3), _ratios(0.8, 1.0, 1.3), _ratios(0.89, 1.11, 1.3)), False,
           ("Fig. 14: without rotors the energy decays to zero at the stop; greater ratios curve it more.",
            "Fig. 15: the stop comes at 0.8126, 0.7532, 0.6869 T: the curves do not coincide.",
-           f"Fig. 16: {_PRINTED_K2} Mended, k² falls from 0.99, the more slowly the nearer κ lies to the bound (29).")),
+           f"Fig. 16: {_PRINTED_K2} Corrected, k² falls from 0.99, the more slowly the nearer κ lies to the bound (29).")),
     Group((17, 18, 19), "Figures 17-19: torque ratios at σ = 1.8 (right curves without rotor momentum)",
           (_ratios(0.89, 1.3, 1.8), _ratios(0.76, 1.25, 1.8)), False,
           ("Fig. 17: the energy decays to zero; the caption gives torques (15, 18, 20), that is κ = (0.75, 0.9), for (0.89, 1.3).",
            "Fig. 18: the stop comes at 0.457 and 0.498 T.",
-           f"Fig. 19: {_PRINTED_K2} Mended, k² falls below 0.05 and 0.002 before the stop.")),
+           f"Fig. 19: {_PRINTED_K2} Corrected, k² falls below 0.05 and 0.002 before the stop.")),
     Group((20, 21, 22), "Figures 20-22: identifying number σ, κ = (0.5, 0.8) (right curves without rotor momentum)",
           tuple(Case(f"σ = {sigma:g}", sigma=sigma) for sigma in (0.7, 1.3, 1.8)), False,
           ("Fig. 20: the energy must follow |M| and hence σ; the paper sees no variation with σ.",
            "Fig. 21: the stop comes at 1.749, 1.017, 0.754 T: the greater σ, the earlier.",
-           f"Fig. 22: {_PRINTED_K2} Mended, k² falls to zero with |M|, the earlier the greater σ.")),
+           f"Fig. 22: {_PRINTED_K2} Corrected, k² falls to zero with |M|, the earlier the greater σ.")),
     Group((23, 24, 25), "Figures 23-25: torques perturbed by μ (right curves without rotor momentum)",
           (Case("μ = (0, 0)", control=(10.0, 10.0, 10.0)), Case("μ = (0.05, 0.07)", control=(10.5, 10.7, 10.0))), False,
           ("Fig. 23: as printed the energy grows, or turns negative; right, it decays, with a small difference between the two.",
@@ -148,8 +148,8 @@ def _scene(case: Case, gyrostat: bool, small: float, end: float, model: str) -> 
 def _draw(group: Group) -> "Figure":
     # The averaged motion is the limit of a small parameter; the full one needs a number.
     small = 0.01 if group.gyrostat else 0.03
-    mended_end = [float(_mended(case).t[-1]) for case in group.cases]
-    end = 1.25 if group.gyrostat else 1.15 * max(mended_end)
+    corrected_end = [float(_corrected(case).t[-1]) for case in group.cases]
+    end = 1.25 if group.gyrostat else 1.15 * max(corrected_end)
 
     figure = new_figure(15.0, 11.0)
     panels = figure.subplots(3, 3)
@@ -184,8 +184,8 @@ def _draw(group: Group) -> "Figure":
     return figure
 
 
-def _mended(case: Case) -> _core.PublishedRun:
-    """The mended equations of the curve without rotor momentum."""
+def _corrected(case: Case) -> _core.PublishedRun:
+    """The corrected equations of the curve without rotor momentum."""
     data = _core.PublishedData(inertia=INERTIA, rotor_momentum=(0.0, 0.0, 0.0), angular_velocity=START, control=case.control,
                           drag=DRAG, sigma=case.sigma)
     return _core.published_run(data, reading="mended", modulus_squared=START_MODULUS, end=3.0, samples=3)

@@ -139,7 +139,7 @@ class Rival:
         w, d = names[:3], names[3:]
         inverse = np.linalg.inv(self.inertia)
 
-        def times(matrix: Vectors, v: list[Any]) -> list[Any]:
+        def times(matrix: Any, v: list[Any]) -> list[Any]:
             return [heyoka.sum([float(matrix[i, j]) * v[j] for j in range(3) if matrix[i, j]]) for i in range(3)]
 
         def cross(a: list[Any], b: list[Any]) -> list[Any]:

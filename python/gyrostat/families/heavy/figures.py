@@ -2,7 +2,7 @@
 """The figure of a heavy body: the paths of down in the body and of axis 3 in space, rates, down, nutation and precession."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -29,7 +29,7 @@ def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
         (changes(down), vector("down", "d", "", "Down, body axes")),
         (changes(_inclination(down)), _nutation),
         (bool(np.any(np.hypot(down[:, 0], down[:, 1]) > 0)), _precession)]
-    maps = [partial(_heavy_sphere, given=given), _heavy_axis if "attitude" in answer.columns else _hodograph]
+    maps: list[Callable[["Axes", "Answer"], None]] = [partial(_heavy_sphere, given=given), _heavy_axis if "attitude" in answer.columns else _hodograph]
     return laid_out(answer, maps, [panel for shown, panel in panels if shown])
 
 

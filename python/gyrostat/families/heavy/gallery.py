@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat import _core, heavy, rotation
-from gyrostat.errors import ConvergenceError
 from gyrostat.drawing import COLOURS, Drawing, finish, new_figure
+from gyrostat.errors import ConvergenceError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from gyrostat import _core, rotor
 from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
-from gyrostat.scenes import Scene
 from gyrostat.families.rotor.sphere import Path, Sphere, plot_sphere
+from gyrostat.scenes import Scene
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -31,7 +31,7 @@ SETTLED: Final = math.radians(5)
 MOTOR_TIMES: Final = 20.0
 NUTATION_TIMES: Final = 12.0
 FOLLOWED_TIMES: Final = 8001
-# A time by the mean over the nutation is told where its relative error is less than this.
+# A time by the mean over the nutation is given where its relative error is less than this.
 ROUGH: Final = 0.5
 # Flat spin: the rotor's axis is further from L than FLAT, that of greatest inertia nearer than ABOUT; and out of it again [rad].
 FLAT: Final = math.radians(45)
