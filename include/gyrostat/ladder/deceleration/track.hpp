@@ -63,7 +63,7 @@ inline void withhold(Track& track, const Scene& scene) {
              error);
 }
 
-/// The columns of SCENES.md, in the caller's axes. The answer's error is the greatest of all columns and of the stop time.
+/// The columns of an answer, in the caller's axes. The answer's error is the greatest of all columns and of the stop time.
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   const auto& problem = scene.problem();
   const std::size_t n = scene.data().times.size();

@@ -27,7 +27,7 @@ struct Track : Outcome {
   Periodicity periodicity;
 };
 
-/// The columns of SCENES.md, in the caller's axes. The answer's error is the greatest of all columns.
+/// The columns of an answer, in the caller's axes. The answer's error is the greatest of all columns.
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   const bool turning = scene.question().wants_attitude;
   answer.times = scene.question().times;

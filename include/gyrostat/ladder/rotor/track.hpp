@@ -17,7 +17,7 @@ struct Track : Outcome {
   ColumnErrors<double> error;
 };
 
-/// The columns of SCENES.md. The answer's error is the greatest of all columns.
+/// The columns of an answer. The answer's error is the greatest of all columns.
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   const auto& body = scene.gyrostat();
   const std::size_t n = track.states.size();
