@@ -65,13 +65,13 @@ inline Track exact_track(const Scene& scene, Monitor*) {
         "does not turn about a horizontal principal axis with weight or gradient alone");
   Track track;
   track.states.reserve(question.times.size());
-  Comparison sizes(Row<double>{});
+  Comparison sizes(row_of(scene));
   for (const double t : question.times) {
     track.states.push_back(exact.at(t));
     sizes.add(track.states.back());
   }
   const auto bound = exact.error(question.times.back());
-  track.error = sizes.relative({bound.angular_velocity, bound.down, bound.attitude});
+  track.error = relative_to_truth(sizes.relative({bound.angular_velocity, bound.down, bound.attitude}), column_kinds);
   track.in_domain = bound.attitude < infinity<double>;
   if (!track.in_domain) track.warn(warning_kinds[warning::rounding_decides], question.times.back());
 

@@ -35,6 +35,11 @@ inline double stability(const Periodicity& known) noexcept {
   return verdict == OrbitStability::stable ? 1 : 0;
 }
 
+/// The columns of a scene's states, and their scales.
+inline Row<double> row_of(const Scene& scene) noexcept {
+  return {scales(scene.problem(), scene.periodic() ? scene.periodic()->spin : scene.start().angular_velocity.norm())};
+}
+
 /// Writes the columns of a state in principal axes in the caller's.
 struct CallersRow : Row<double> {
   Mat3<double> R_BP;  ///< principal axes to body axes
@@ -46,8 +51,14 @@ struct CallersRow : Row<double> {
 
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   fill_head(answer, scene.question(), track);
-  fill_columns(answer, CallersRow{{}, scene.R_BP()}, track.states, track.error,
+  fill_columns(answer, CallersRow{row_of(scene), scene.R_BP()}, track.states, track.error,
                scene.question().wants_attitude ? std::size(column_kinds) : std::size_t(column::attitude));
+  if (!scene.periodic()) {
+    const auto& [w, d, q] = scene.given();
+    put_start(answer, column_kinds[column::angular_velocity], {w[0], w[1], w[2]});
+    if (!scene.question().wants_attitude) put_start(answer, column_kinds[column::down], {d[0], d[1], d[2]});
+    put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
+  }
   const Periodicity& p = track.periodicity;
   const auto quantity = [&](std::size_t which, double value, double error) {
     if (!std::isnan(value)) answer.quantities.push_back({&scalar_kinds[which], {value}, error});
