@@ -59,14 +59,17 @@ inline void fill(Answer& answer, const Scene& scene, const Track& track) {
     if (!scene.question().wants_attitude) put_start(answer, column_kinds[column::down], {d[0], d[1], d[2]});
     put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
   }
-  const Periodicity& p = track.periodicity;
+}
+
+/// The scalars that are known.
+inline void tell(Answer& answer, const Periodicity& known) {
   const auto quantity = [&](std::size_t which, double value, double error) {
     if (!std::isnan(value)) answer.quantities.push_back({&scalar_kinds[which], {value}, error});
   };
-  quantity(scalar::period, p.period, p.period_error);
-  quantity(scalar::floquet_trace, p.trace, p.trace_error);
-  quantity(scalar::stable, stability(p), nan<double>);
-  quantity(scalar::precession_rate, p.precession, p.precession_error);
+  quantity(scalar::period, known.period, known.period_error);
+  quantity(scalar::floquet_trace, known.trace, known.trace_error);
+  quantity(scalar::stable, stability(known), nan<double>);
+  quantity(scalar::precession_rate, known.precession, known.precession_error);
 }
 
 }  // namespace gyrostat::heavy
