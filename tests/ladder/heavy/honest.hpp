@@ -62,6 +62,7 @@ inline void check_honest(const Scene& scene, const Answer& answer) {
 inline void check_honest(const Scene& scene, const Track& track) {
   Answer answer;
   fill(answer, scene, track);
+  tell(answer, track.periodicity);
   check_honest(scene, answer);
 }
 

@@ -27,6 +27,20 @@ TEST_CASE("a comparison of heavy motions measures each column by its own size", 
   CHECK(std::isnan(comparison.difference().greatest()));
 }
 
+TEST_CASE("rates of a heavy body that hardly moves are measured by what its weight could give", "[heavy]") {
+  const auto p = Problem<double>::make({1, 1.2, 1.6}, 2, {0, 0, 0.1}, 8, 3).value();
+  const auto at_rest = scales(p, 0.0), fast = scales(p, -50.0);
+  CHECK(at_rest[column::angular_velocity] == Approx(2));  // sqrt(1.6/1.6 + 3)
+  CHECK(fast[column::angular_velocity] == 50);
+  CHECK(fast[column::down] == 1);
+  State<double> swinging;
+  swinging.angular_velocity = {1e-9, 0, 0};
+  Comparison comparison(Row<double>{at_rest});
+  comparison.add(swinging, {});
+  CHECK(comparison.relative(comparison.difference())[column::angular_velocity] == Approx(5e-10));
+  CHECK(comparison.unit(column::attitude) == 1);
+}
+
 TEST_CASE("tables of the heavy family have one row a place", "[heavy]") {
   CHECK(place_of(tables.columns, "attitude") == int(column::attitude));
   CHECK(std::size(column_kinds) == column::attitude + 1);

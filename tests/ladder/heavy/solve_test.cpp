@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "catch.hpp"
+#include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/models/heavy/series_2.hpp"
 #include "honest.hpp"
 #include "models/heavy/tops.hpp"
@@ -108,6 +109,61 @@ TEST_CASE("a rung of the heavy family asked for by name answers or refuses", "[h
   CHECK(std::strcmp(refused.refusal.model, "exact") == 0);
   CHECK(refused.answer.columns.empty());
   CHECK(refused.answer.tried.size() == 1);
+}
+
+TEST_CASE("the first row of a heavy answer is the start to the bit, in the caller's axes", "[heavy]") {
+  const Mat3<double> R = to_matrix(normalised(Quat<double>{0.9, 0.1, -0.2, 0.15}));
+  const auto body = Body::make(R * stone.inertia().asDiagonal() * R.transpose(), 0.8, R * centre, 9.80665, 0);
+  const auto sleeper =
+      Body::make(R * top.inertia().asDiagonal() * R.transpose(), 0.8, R * top.centre_of_mass(), 9.80665, 0);
+  REQUIRE(body);
+  REQUIRE(sleeper);
+  Start start;
+  start.state.angular_velocity = R * Vec3<double>(1, 2, 300);
+  start.state.attitude = normalised(Quat<double>{0.3, -0.7, 0.2, 0.5});
+  const Vec3<double> down = rotate<double>(conjugate(start.state.attitude), {0, 0, -1});
+  start.state.down = down;
+  for (const bool turning : {true, false})
+    for (const int rung : {rung::exact, rung::series_2, rung::full}) {
+      Question question;
+      question.times = {0, 0.1};
+      question.rung = rung;
+      question.wants_attitude = turning;
+      const auto scene = Scene::make(rung == rung::exact ? *sleeper : *body, start, question);
+      REQUIRE(scene);
+      const Solved made = solved(*scene);
+      CAPTURE(rung, turning);
+      REQUIRE(made.refusal.code == Errc::ok);
+      const auto first = [&](const char* name) { return made.answer.find(name)->values; };
+      for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(first("angular_velocity")[i] == start.state.angular_velocity[int(i)]);
+        if (!turning) CHECK(first("down")[i] == down[int(i)]);
+      }
+      if (!turning) continue;
+      const auto& q = start.state.attitude;
+      const double given[] = {q.x, q.y, q.z, q.w};
+      for (std::size_t i = 0; i < 4; ++i) CHECK(first("attitude")[i] == given[i]);
+    }
+}
+
+TEST_CASE("a heavy body that hardly moves is answered", "[heavy]") {
+  State<double> hanging;
+  hanging.down = {1e-9, 0, 1};
+  Question question;
+  question.tolerance = 1e-9;
+  const auto p = Problem<double>::make({1, 1.2, 1.5}, 1, {0, 0, 0.01}, 100, 0).value();
+  const Solved made = solved(posed(p, hanging, 30, question));
+  CHECK(made.answer.met);
+  CHECK(made.answer.find("angular_velocity")->scale == Approx(std::sqrt(1 / 1.5)));
+}
+
+TEST_CASE("a motion so long that no double holds its phase is refused at once", "[heavy]") {
+  State<double> start;
+  start.angular_velocity = {1, 2, 300};
+  start.down = {0.6, 0, 0.8};
+  const Solved made = solved(posed(stone, start, 1e9, {}));
+  CHECK(made.refusal.code == Errc::step_limit);
+  CHECK(made.refusal.why == phase_lost);
 }
 
 TEST_CASE("a heavy answer is in the caller's axes and ends when told", "[heavy]") {

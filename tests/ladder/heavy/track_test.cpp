@@ -17,6 +17,7 @@ Answer answer_of(const Body& body, const Track& track, bool attitude) {
   REQUIRE(scene);
   Answer answer;
   fill(answer, *scene, track);
+  tell(answer, track.periodicity);
   return answer;
 }
 
@@ -44,7 +45,7 @@ TEST_CASE("a heavy track becomes the columns of the contract, in the caller's ax
   CHECK((vector("down") - R * state.down).norm() < 1e-15);
   const auto& q = with.find("attitude")->values;
   REQUIRE(q.size() == 8);
-  CHECK((to_matrix(Quat<double>{q[3], q[0], q[1], q[2]}) * R - to_matrix(state.attitude)).norm() < 1e-14);
+  CHECK((to_matrix(Quat<double>{q[7], q[4], q[5], q[6]}) * R - to_matrix(state.attitude)).norm() < 1e-14);
 }
 
 TEST_CASE("a heavy track tells of its period what it knows", "[heavy]") {

@@ -62,6 +62,7 @@ inline bool true_motion(const Scene& scene, Answer& truth) {
   }
   for (std::size_t i = 0; i < std::size(column_kinds); ++i) track.error[i] = double(error[i]);
   fill(truth, scene, track);
+  tell(truth, track.periodicity);
   for (Column& column : truth.columns) column.error += 4e-16;
   for (Quantity& q : truth.quantities)
     q.error += 4e-16 * (q.kind->measure == Measure::absolute ? std::abs(q.values[0]) : 1.0);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gyrostat/ladder/cvode_pair.hpp"
+#include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/heavy/track.hpp"
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/ode/cvode.hpp"
@@ -79,9 +80,10 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto& times = scene.question().times;
   const auto& start = scene.start();
   const bool turning = scene.question().wants_attitude;
-  auto pair = cvode_pair(Row<double>{}, scene.question().tolerance, 1e-6, [&](double tolerance) {
+  const Row<double> row = row_of(scene);
+  auto pair = cvode_pair(row, scene.question().tolerance, 1e-6, [&](double tolerance) {
     CvodeEquations equations(scene.problem(), start, turning);
-    return run_cvode(equations, start, times, {ode::CvodeMethod::adams, tolerance, tolerance}, monitor);
+    return run_cvode(equations, start, times, {ode::CvodeMethod::adams, tolerance, tolerance, step_budget}, monitor);
   });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
@@ -89,7 +91,8 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   track.states = std::move(pair.states);
   track.counts = pair.counts;
   const double floor = honesty::cvode_looser * pair.tolerance;
-  const ColumnErrors<double> parts{rate_size(scene.problem(), start), 1, turning ? 1.0 : 0.0};
+  const double rate = std::max(rate_size(scene.problem(), start), row.scale[column::angular_velocity]);
+  const ColumnErrors<double> parts{rate, 1, turning ? 1.0 : 0.0};
   track.error = pair.both.relative(pair.margin * pair.both.difference() + floor * parts);
   return track;
 }

@@ -64,11 +64,9 @@ Track series_track(const Scene& scene, const Motion& motion, const MotionError<d
   Track track;
   track.states.resize(question.times.size());
   motion.at(question.times, track.states, question.wants_attitude);
-  Comparison sizes(Row<double>{});
+  Comparison sizes(row_of(scene));
   for (const State<double>& state : track.states) sizes.add(state);
-  track.error = sizes.relative({error.angular_velocity, error.down, error.attitude});
-  double& rates = track.error[column::angular_velocity];
-  rates = rates < 1 ? rates / (1 - rates) : infinity<double>;
+  track.error = relative_to_truth(sizes.relative({error.angular_velocity, error.down, error.attitude}), column_kinds);
   track.in_domain = known < 0.3;
   if (!track.in_domain) track.warn(warning_kinds[warning::beyond_validity], known);
   return track;

@@ -131,8 +131,9 @@ class FullMotion {
     };
     Course companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
     const bool rounds = step_tolerance < Scalar(how.two_below) * eps;
-    const auto walk = walk_beside(Row<Scalar>{}, course, companion, second, rounds, start_, rate_, times_, states_,
-                                  nowhere(), options_, progress_from, progress_to);
+    const auto walk =
+        walk_beside(Row<Scalar>{scales(problem_, start_.angular_velocity.norm())}, course, companion, second, rounds,
+                    start_, rate_, times_, states_, nowhere(), options_, progress_from, progress_to);
     answer.status = walk.status;
     answer.counts = course.counts();
     const std::uint64_t steps = answer.counts.steps;
@@ -227,7 +228,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, con
     const Scalar length = norm(start.attitude);
     if (!(length < infinity<Scalar>)) return Errc::not_finite;
     if (!(length > 0)) return Errc::zero_vector;
-    from.attitude = normalised(start.attitude);
+    from.attitude = as_unit(start.attitude);
     const Vec3<Scalar> seen = rotate<Scalar>(conjugate(from.attitude), Vec3<Scalar>(0, 0, -1));
     const Scalar slack = std::max(Scalar(1e-8L), 8 * epsilon<Scalar>);
     if (!((seen - start.down).norm() <= slack)) return Errc::out_of_domain;

@@ -16,6 +16,8 @@ namespace detail {
 /// The full equations from the scene's start, by Taylor series or by those that the scene brings.
 inline Track full_from_start(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
+  if (phase_too_long(rate_size(scene.problem(), scene.start()) * question.times.back(), question.tolerance))
+    return refused<Track>(Errc::step_limit, phase_lost);
   if (scene.full_equations) return scene.full_equations(scene, monitor);
   Track track;
   track.states.resize(question.times.size());
@@ -26,7 +28,7 @@ inline Track full_from_start(const Scene& scene, Monitor* monitor) {
   const auto answer = full_motion<double>(scene.problem(), scene.start(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)
-    return refused<Track>(failure_of(answer->status), ode::message(answer->status));
+    return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   track.error = answer->error;
   track.counts = answer->counts;
   return track;

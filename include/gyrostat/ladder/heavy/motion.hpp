@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "gyrostat/ladder/comparison.hpp"
@@ -17,8 +19,9 @@ enum : std::size_t { angular_velocity, down, attitude };
 }
 
 inline constexpr ColumnKind column_kinds[] = {
-    {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity, body axes"},
-    {"down", 3, "1", Frame::body, Measure::relative, "unit vector to the attracting centre, body axes"},
+    {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity, body axes",
+     "the greater of |omega| at t = 0, of a periodic motion its spin, and sqrt(M g l/I + N), I the greatest moment"},
+    {"down", 3, "1", Frame::body, Measure::relative, "unit vector to the attracting centre, body axes", "1"},
     {"attitude", 4, "1", Frame::body_to_inertial, Measure::angle, "attitude, body to inertial, [x, y, z, w]"},
 };
 
@@ -98,6 +101,16 @@ inline constexpr const char* integrator_names[] = {"taylor", "cvode"};
 
 inline constexpr Family tables{"heavy", column_kinds, scalar_kinds, warning_kinds, rung_kinds, integrator_names};
 
+template <Real Scalar>
+using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
+
+/// The scales of the columns, in their units. spin: |omega| at t = 0, of a periodic motion its spin, rad/s.
+template <Real Scalar>
+ColumnErrors<Scalar> scales(const Problem<Scalar>& problem, Scalar spin) noexcept {
+  const Scalar slow = std::sqrt(problem.moment().norm() / problem.inertia().maxCoeff() + problem.gradient());
+  return {std::max(std::abs(spin), slow), 1, 0};
+}
+
 /// Writes the columns of a state, one behind the other, in the axes of the state: the one place that knows them.
 template <Real S>
 struct Row {
@@ -105,13 +118,12 @@ struct Row {
   using State = heavy::State<S>;
   static constexpr const auto& columns = column_kinds;
 
+  ColumnErrors<S> scale{};
+
   void operator()(const State& state, S* row) const noexcept {
     const auto& [w, d, q] = state;
     for (const S value : {w[0], w[1], w[2], d[0], d[1], d[2], q.x, q.y, q.z, q.w}) *row++ = value;
   }
 };
-
-template <Real Scalar>
-using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
 
 }  // namespace gyrostat::heavy

@@ -64,13 +64,14 @@ class Scene {
     Scene scene;
     scene.body_ = body;
     scene.given_ = start;
+    scene.given_.state.attitude = as_unit(start.state.attitude);
     scene.question_ = question;
     State<double> from = start.state;
     if (question.wants_attitude) {
       const double length = norm(from.attitude);
       if (!std::isfinite(length)) return Errc::not_finite;
       if (!(length > 0)) return Errc::zero_vector;
-      from.attitude = normalised(from.attitude);
+      from.attitude = scene.given().attitude;
       from.down = rotate<double>(conjugate(from.attitude), {0, 0, -1});
     } else {
       from.attitude = {};
@@ -90,6 +91,8 @@ class Scene {
   const Mat3<double>& R_BP() const noexcept { return body_.R_BP; }  ///< principal axes to body axes
   /// Principal axes; the attitude takes them to inertial ones.
   const State<double>& start() const noexcept { return start_; }
+  /// As the caller gave it, but for the norm of the attitude.
+  const State<double>& given() const noexcept { return given_.state; }
   const std::optional<Periodic>& periodic() const noexcept { return given_.periodic; }
   const Question& question() const noexcept { return question_; }
 

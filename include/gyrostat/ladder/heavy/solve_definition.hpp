@@ -34,12 +34,13 @@ void warn_of_periodic(const Scaled<double>& s, const Warn& warn) {
 
 }  // namespace detail
 
-/// Warnings that belong to the scene, whichever rung answers.
+/// What is known of period and stability, and warnings that belong to the scene, whichever rung answers.
 inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   const Problem<double>& problem = scene.problem();
   const auto warn = [&](std::size_t which, double value) {
     answer.warnings.push_back({&warning_kinds[which], warning_kinds[which].text, value});
   };
+  tell(answer, scene.periodic() ? track.periodicity : periodicity_from(problem, scene.start()));
   if (scene.periodic()) {
     const auto& [spin, cosine] = *scene.periodic();
     if (const auto scaled = Scaled<double>::make(problem, spin, cosine)) detail::warn_of_periodic(*scaled, warn);

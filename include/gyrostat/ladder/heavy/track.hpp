@@ -35,6 +35,11 @@ inline double stability(const Periodicity& known) noexcept {
   return verdict == OrbitStability::stable ? 1 : 0;
 }
 
+/// The columns of a scene's states, and their scales.
+inline Row<double> row_of(const Scene& scene) noexcept {
+  return {scales(scene.problem(), scene.periodic() ? scene.periodic()->spin : scene.start().angular_velocity.norm())};
+}
+
 /// Writes the columns of a state in principal axes in the caller's.
 struct CallersRow : Row<double> {
   Mat3<double> R_BP;  ///< principal axes to body axes
@@ -46,16 +51,25 @@ struct CallersRow : Row<double> {
 
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   fill_head(answer, scene.question(), track);
-  fill_columns(answer, CallersRow{{}, scene.R_BP()}, track.states, track.error,
+  fill_columns(answer, CallersRow{row_of(scene), scene.R_BP()}, track.states, track.error,
                scene.question().wants_attitude ? std::size(column_kinds) : std::size_t(column::attitude));
-  const Periodicity& p = track.periodicity;
+  if (!scene.periodic()) {
+    const auto& [w, d, q] = scene.given();
+    put_start(answer, column_kinds[column::angular_velocity], {w[0], w[1], w[2]});
+    if (!scene.question().wants_attitude) put_start(answer, column_kinds[column::down], {d[0], d[1], d[2]});
+    put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
+  }
+}
+
+/// The scalars that are known.
+inline void tell(Answer& answer, const Periodicity& known) {
   const auto quantity = [&](std::size_t which, double value, double error) {
     if (!std::isnan(value)) answer.quantities.push_back({&scalar_kinds[which], {value}, error});
   };
-  quantity(scalar::period, p.period, p.period_error);
-  quantity(scalar::floquet_trace, p.trace, p.trace_error);
-  quantity(scalar::stable, stability(p), nan<double>);
-  quantity(scalar::precession_rate, p.precession, p.precession_error);
+  quantity(scalar::period, known.period, known.period_error);
+  quantity(scalar::floquet_trace, known.trace, known.trace_error);
+  quantity(scalar::stable, stability(known), nan<double>);
+  quantity(scalar::precession_rate, known.precession, known.precession_error);
 }
 
 }  // namespace gyrostat::heavy

@@ -108,13 +108,15 @@ class LagrangeGradient {
   Scalar greatest() const noexcept { return u_b_ < u_o_ ? u_o_ : u_b_; }
   /// Of the nutation, s; of small nutation where there is none; infinite or NaN where it is not stable.
   Scalar nutation_period() const noexcept { return period_ / unit_; }
+  bool planar() const noexcept { return planar_; }  ///< see LagrangeTop
   /// Right-handed about DOWN, rad; see LagrangeTop.
   Scalar precession_per_nutation() const noexcept {
+    if (planar_) return 0;
     if (still_) return mean_precession() * nutation_period();
     return pi<Scalar> * (side_above_ + side_below_) + 2 * pi<Scalar> * (mean_[1] + mean_[2]);
   }
   Scalar mean_precession() const noexcept {  ///< rad/s
-    if (still_) return unit_ * (c_above_ / above_b_ + c_below_ / below_b_) / 2;
+    if (still_ && !planar_) return unit_ * (c_above_ / above_b_ + c_below_ / below_b_) / 2;
     return unit_ * precession_per_nutation() / period_;
   }
   /// Greatest part of the series that is left out, relative.
@@ -164,7 +166,7 @@ class LagrangeGradient {
   Three mean_{};
   std::array<Three, harmonics + 1> series_{};
   int used_ = 0;
-  bool still_ = false;
+  bool still_ = false, planar_ = false;
   Scalar tail_ = 0, most_ = 1, least_ = 1, size_ = 1, pole_ = 0, fastest_ = 0, swing_ = 0, defect_ = 0;
   TopAttitude<Scalar> attitude_;
 };
@@ -198,6 +200,7 @@ template <Real Scalar>
 void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept {
   unit_ = o.unit;
   defect_ = top.defect;
+  planar_ = o.planar();
   const Scalar u = o.u, x = o.swing;
   const Scalar pull = o.pull - 2 * o.gradient * u;  // slope of v^2
   const Scalar b = -2 * u * o.square + pull * o.ground + 2 * o.rho * o.d;
