@@ -14,10 +14,6 @@ namespace gyrostat::deceleration {
 
 namespace detail {
 
-inline const char* why_stopped(ode::Status status) noexcept {
-  return status == ode::Status::cancelled ? "the caller stopped the work" : ode::message(status);
-}
-
 /// The state of M, all but its attitude.
 inline State<double> state_on_orbit(const Problem<double>& problem, const Vec3<double>& M) noexcept {
   State<double> state = state_of(problem, M, {});
@@ -71,7 +67,7 @@ inline Track full_motion_track(const Problem<double>& problem, std::span<const d
   const auto answer = full_motion<double>(problem, times, momentum, options, attitude, turned);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)
-    return refused<Track>(failure_of(answer->status), detail::why_stopped(answer->status));
+    return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   Track track = detail::track_of(problem, momentum, turned, answer->error);
   track.counts = answer->counts;
   track.stop_time = answer->stop_time;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "gyrostat/ladder/comparison.hpp"
@@ -34,10 +35,14 @@ inline constexpr std::array regime_words{
 };
 
 inline constexpr ColumnKind column_kinds[] = {
-    {"angular_momentum", 3, "N m s", Frame::body, Measure::relative, "total angular momentum, body axes"},
-    {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity of the carrier, body axes"},
-    {"angular_momentum_norm", 1, "N m s", Frame::none, Measure::relative, "size of the total angular momentum"},
-    {"energy", 1, "J", Frame::none, Measure::relative, "rotational energy of the carrier"},
+    {"angular_momentum", 3, "N m s", Frame::body, Measure::relative, "total angular momentum, body axes",
+     "|M| at t = 0; where carrier and rotors cancel there, |l|"},
+    {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity of the carrier, body axes",
+     "|omega| at t = 0; where it is zero there, |J^-1 l|"},
+    {"angular_momentum_norm", 1, "N m s", Frame::none, Measure::relative, "size of the total angular momentum",
+     "that of angular_momentum"},
+    {"energy", 1, "J", Frame::none, Measure::relative, "rotational energy of the carrier",
+     "the energy at t = 0; where the carrier is at rest there, l . J^-1 l/2"},
     {"modulus_squared", 1, "1", Frame::none, Measure::absolute, "squared modulus of the orbit, k2"},
     {"regime", 1, "", Frame::none, Measure::none,
      "A: about the axis of largest inertia, C: about the smallest, 1: one component", "", Kind::word, regime_words},
@@ -120,6 +125,23 @@ struct State {
   Quat<Scalar> attitude{};         ///< principal axes to inertial
 };
 
+template <Real Scalar>
+using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
+
+/// The scales of the columns that a start sets, in their units. What the start lacks, but for rounding, the rotors tell.
+template <Real Scalar>
+ColumnErrors<Scalar> scales(const Problem<Scalar>& problem) noexcept {
+  const Scalar rounding = std::sqrt(epsilon<Scalar>);
+  const Scalar M = problem.momentum.norm(), l = problem.rotor_momentum.norm();
+  const Scalar omega = problem.angular_velocity(problem.momentum).norm(), g = problem.gyro_rate().norm();
+  const bool moves = omega > rounding * g;
+  ColumnErrors<Scalar> scale;
+  scale[column::angular_momentum] = scale[column::angular_momentum_norm] = M > rounding * l ? M : l;
+  scale[column::angular_velocity] = moves ? omega : g;
+  scale[column::energy] = moves ? problem.energy(problem.momentum) : problem.rotor_energy_scale() / 2;
+  return scale;
+}
+
 /// Writes the columns of a state in the caller's axes, one behind the other: the one place that knows them.
 template <Real S>
 struct Row {
@@ -130,9 +152,10 @@ struct Row {
   Problem<S> problem;
   Mat3<S> R_BP;  ///< principal axes to body axes
   Quat<S> q_PB;
+  ColumnErrors<S> scale;
 
   explicit Row(const Problem<S>& of, const Mat3<S>& axes = Mat3<S>::Identity()) noexcept
-      : problem(of), R_BP(axes), q_PB(conjugate(from_matrix(axes))) {}
+      : problem(of), R_BP(axes), q_PB(conjugate(from_matrix(axes))), scale(scales(of)) {}
 
   void operator()(const State& state, S* row) const noexcept {
     const Vec3<S> M = R_BP * state.momentum, omega = R_BP * problem.angular_velocity(state.momentum);
@@ -142,8 +165,5 @@ struct Row {
       *row++ = value;
   }
 };
-
-template <Real Scalar>
-using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
 
 }  // namespace gyrostat::deceleration
