@@ -31,7 +31,7 @@ HEAVY = {"iostream", "functional", "string"}
 OPTIONAL = re.compile(r"(^|/)(gsl|cvode)[^/]*$")  # headers of gyrostat::gsl and gyrostat::cvode, named after them
 UNTESTED = {"gyrostat.hpp", "version.hpp"}  # checked by the noexcept program
 TABLES = {  # tables and the like: tested where they are used
-    "core/linkage.hpp": "noexcept/second.cpp",
+    "core/linkage.hpp": "noexcept/linkage.cmake",
     "ladder/monitor.hpp": "ladder/rotor/solve_test.cpp",
     "math/complete_coefficients.hpp": "math/complete_test.cpp",
     "ode/dop853.hpp": "ode/runge_kutta_test.cpp",

@@ -2,7 +2,11 @@
 // What a user writes first, with each component that there is.
 #include <cstdio>
 
+#include "gyrostat/math/elliptic.hpp"
+#include "gyrostat/version.hpp"
+#if defined(GYROSTAT_COMPILED)
 #include "gyrostat/gyrostat.hpp"
+#endif
 #if defined(GYROSTAT_HAVE_GSL)
 #include "gyrostat/math/gsl.hpp"
 #endif

@@ -36,7 +36,7 @@ struct Floquet {
   }
   /// The square of the largest |p| of the second family of periodic motions, which a rational omega = m/n gives the n-th turn to,
   /// (rad/s)^2, to first order: negative where there is none. NaN or infinite where a = 1 or a + b = 2.
-  Scalar second_family_squared() const noexcept { return second_family; }
+  Scalar second_family_squared() const noexcept { return second_family_; }
 
   explicit Floquet(const Scaled<Scalar>& s) noexcept {
     const Scalar a = s.a, b = s.b, x = s.load[0], y = s.load[1], z = s.load[2], k = s.gradient;
@@ -46,7 +46,7 @@ struct Floquet {
     squared = omega2 + s.G0 * (z * W1 + k * s.G0 * W2) + k * W3 * s.M3 * s.M3;
     // of omega = 1/2, where 1/(2 (1 - b)) = 2 (1 - a)/(a b): this has no pole elsewhere
     tongue = s.M3 / 2 * std::hypot(x * (Scalar(1.5L) - 1 / b), y * (2 * s.off_a - b) / (a * b));
-    second_family = (squared - omega2) / (-s.off_a * (a + b - 2) / (2 * b)) * s.spin * s.spin;
+    second_family_ = (squared - omega2) / (-s.off_a * (a + b - 2) / (2 * b)) * s.spin * s.spin;
     const FirstOrder<Scalar> first(s);
     const Scalar size = std::abs(first.chi) + std::abs(first.kap) + std::abs(first.X) + std::abs(first.Y) + s.torque();
     // twice the largest of 13000 random bodies, off the tongue
@@ -75,7 +75,7 @@ struct Floquet {
   }
 
  private:
-  Scalar second_family = 0;
+  Scalar second_family_ = 0;
 };
 
 }  // namespace gyrostat::heavy
