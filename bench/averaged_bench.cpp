@@ -219,14 +219,15 @@ BENCHMARK_CAPTURE(rotor_average, carrier_one_component, Law::carrier, 1.)->Unit(
 /// A whole scene of 100 times down to the half, -log10 of the tolerance given; `model` is the place in the ladder that answered.
 void whole_scene(benchmark::State& state, double rotor) {
   body = 0;
-  SceneData data;
-  data.control = Vec3<double>(0.6e-4, 0.9e-4, 1e-4);
-  data.drag = 0.3e-4;
-  data.momentum = despin<double>().momentum;
-  data.rotor_momentum = rotor * Vec3<double>(.2, .15, .3);
-  for (int i = 1; i <= 100; ++i) data.times.push_back(reference().time * i / 100);
-  data.tolerance = std::pow(10., -static_cast<double>(state.range(0)));
-  const auto scene = Scene::make(*Inertia<double>::from_moments(1.4, 1, 0.7), data);
+  Setup setup;
+  setup.control = Vec3<double>(0.6e-4, 0.9e-4, 1e-4);
+  setup.drag = 0.3e-4;
+  setup.momentum = despin<double>().momentum;
+  setup.rotor_momentum = rotor * Vec3<double>(.2, .15, .3);
+  Question question;
+  for (int i = 1; i <= 100; ++i) question.times.push_back(reference().time * i / 100);
+  question.tolerance = std::pow(10., -static_cast<double>(state.range(0)));
+  const auto scene = Scene::make(*Inertia<double>::from_moments(1.4, 1, 0.7), setup, question);
   Refusal refusal;
   Answer answer;
   for (auto _ : state) {

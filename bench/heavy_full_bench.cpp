@@ -182,8 +182,7 @@ BENCHMARK(dop853)->Apply(arguments);
 void cvode_adams(benchmark::State& state) {
   measure(state, [](const Problem<double>& p, const State<double>& from, double end, double tolerance) {
     CvodeEquations equations(p, from, false);
-    const auto y = equations.numbers(from.angular_velocity, from.down, from.attitude);
-    auto made = ode::Cvode::create(equations.system(), 0, std::span(y.data(), equations.dimension()),
+    auto made = ode::Cvode::create(equations.system(), 0, equations.start(),
                                    {ode::CvodeMethod::adams, tolerance, tolerance, 10000000});
     ode::Cvode solver = std::move(made).value();
     solver.advance(end);

@@ -5,11 +5,8 @@
 //
 //     heavy_honesty [SCENES = 5000] [SEED = 1] [RUNG = auto]
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <random>
 #include <string>
 #include <vector>
@@ -31,9 +28,17 @@ class Scenes {
 
   struct Made {
     Body body;
-    State<double> start;
-    Question question;
+    Start start;
+    std::vector<double> times;
+    bool wants_attitude = false;
     std::string kind;
+
+    Result<Scene> posed(Question question) const {
+      question.times = times;
+      question.wants_attitude = wants_attitude;
+      return Scene::make(body, start, question);
+    }
+    std::string text() const;
   };
 
   Made next() {
@@ -99,20 +104,20 @@ class Scenes {
   bool motion(Made& made) {
     const Problem<double>& p = made.body.problem;
     const double c = std::max({p.pendulum_rate(), std::sqrt(p.gradient()), 0.1});
-    State<double>& s = made.start;
+    State<double>& s = made.start.state;
     s.attitude = normalised(Quat<double>{any(-1, 1), any(-1, 1), any(-1, 1), any(-1, 1)});
     s.down = rotate<double>(conjugate(s.attitude), {0, 0, -1});
     const double kind = unit(), spin = sign() * c * (unit() < 0.1 ? scale(0.4, 3) : scale(2.4, 500));
-    made.question.wants_attitude = unit() < 0.5;
+    made.wants_attitude = unit() < 0.5;
     double turns = scale(0.5, 100);
     const auto stand = [&](const Vec3<double>& down) {
       s.down = down.normalized();
       s.attitude = attitude_from_angles<double>(any(-3, 3), std::atan2(s.down[0], s.down[1]), s.down);
     };
     if (kind < 0.35) {
-      made.question.periodic = Periodic{spin, unit() < 0.2   ? 0.0
-                                              : unit() < 0.1 ? sign() * (1 - scale(1e-6, 0.1))
-                                                             : any(-0.98, 0.98)};
+      made.start.periodic = Periodic{spin, unit() < 0.2   ? 0.0
+                                           : unit() < 0.1 ? sign() * (1 - scale(1e-6, 0.1))
+                                                          : any(-0.98, 0.98)};
       made.kind += ", periodic";
     } else if (kind < 0.45) {
       const double cosine = any(-0.9, 0.9), off = unit() < 0.3 ? 0 : scale(1e-16, 1e-2);
@@ -164,10 +169,10 @@ class Scenes {
       made.kind += ", permanent";
     }
     double rate = rate_size(p, s);
-    if (made.question.periodic) rate = std::max(std::abs(spin), 0.5 * c);
+    if (made.start.periodic) rate = std::max(std::abs(spin), 0.5 * c);
     if (!(rate > 0)) rate = c;
     const double span = 2 * pi<double> / rate * turns;
-    auto& times = made.question.times;
+    auto& times = made.times;
     const double grid = unit();
     const int n = grid < 0.4 ? 12 : grid < 0.5 ? 200 : 1 + int(20 * unit());
     if (grid < 0.5) {
@@ -194,68 +199,26 @@ class Scenes {
   std::mt19937_64 random_;
 };
 
-std::string describe(const Scenes::Made& made, const Answer& answer) {
-  const auto& p = made.body.problem;
-  const auto& s = made.start;
-  const auto& q = made.question;
-  const Periodic periodic = q.periodic.value_or(Periodic{0, 0});
+std::string Scenes::Made::text() const {
+  const auto& p = body.problem;
+  const auto& s = start.state;
+  const Periodic periodic = start.periodic.value_or(Periodic{0, 0});
   const auto &I = p.inertia(), &r = p.centre_of_mass(), &w = s.angular_velocity, &d = s.down;
   char line[900];
   std::snprintf(line, sizeof line,
-                "%s, %s: I %.17g %.17g %.17g m %.17g r %.17g %.17g %.17g g %.17g N %.17g periodic %.17g %.17g w %.17g "
+                "%s: I %.17g %.17g %.17g m %.17g r %.17g %.17g %.17g g %.17g N %.17g periodic %.17g %.17g w %.17g "
                 "%.17g %.17g d %.17g %.17g %.17g q %.17g %.17g %.17g %.17g T %.17g n %zu turning %d",
-                answer.model, made.kind.c_str(), I[0], I[1], I[2], p.mass(), r[0], r[1], r[2], p.gravity(),
-                p.gradient(), periodic.spin, periodic.cos_inclination, w[0], w[1], w[2], d[0], d[1], d[2], s.attitude.w,
-                s.attitude.x, s.attitude.y, s.attitude.z, q.times.back(), q.times.size(), int(q.wants_attitude));
+                kind.c_str(), I[0], I[1], I[2], p.mass(), r[0], r[1], r[2], p.gravity(), p.gradient(), periodic.spin,
+                periodic.cos_inclination, w[0], w[1], w[2], d[0], d[1], d[2], s.attitude.w, s.attitude.x, s.attitude.y,
+                s.attitude.z, times.back(), times.size(), int(wants_attitude));
   return line;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int count = argc > 1 ? std::atoi(argv[1]) : 5000;
-  const unsigned seed = argc > 2 ? unsigned(std::atoi(argv[2])) : 1;
-  Model rung = Model::any;
-  static constexpr const char* names[] = {"auto", "series-2", "series", "exact", "full"};
-  for (int i = 0; argc > 3 && i < 5; ++i)
-    if (std::strcmp(argv[3], names[i]) == 0) rung = Model(i);
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);
-
-  static constexpr double tolerances[] = {1e-3, 1e-6, 1e-9};
-  honesty::Tally tallies[3];
-  Scenes scenes(seed);
-  for (int i = 0; i < count; ++i) {
-    auto made = scenes.next();
-    Answer truth;
-    bool known = false, has_truth = false;
-    for (int k = 0; k < 3; ++k) {
-      made.question.tolerance = tolerances[k];
-      made.question.model = rung;
-      const auto scene = Scene::make(made.body, made.start, made.question);
-      if (!scene) {
-        std::printf("no scene: %s\n", message(scene.error()));
-        continue;
-      }
-      Refusal refusal;
-      const auto begin = std::chrono::steady_clock::now();
-      const Answer answer = heavy::solve(*scene, refusal);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      const std::string text = describe(made, answer);
-      tallies[k].time(seconds, text);
-      if (refusal.code != Errc::ok) {
-        tallies[k].refuse(refusal, text);
-        continue;
-      }
-      if (rung != Model::any && answer.tried.back().why) {
-        ++tallies[k].outside;
-        continue;
-      }
-      if (!known) has_truth = true_motion(*scene, truth);
-      known = true;
-      if (!has_truth) ++tallies[k].unknown;
-      else tallies[k].compare(answer, truth, text, {"period", "floquet_trace", "precession_rate"});
-    }
-    if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
-  }
-  for (int k = 0; k < 3; ++k) tallies[k].print(tolerances[k]);
+  const auto truth = [](const Scene& scene, Answer& right) { return true_motion(scene, right); };
+  const auto answer = [](const Scene& scene, Refusal& refusal) { return heavy::solve(scene, refusal); };
+  honesty::run(argc, argv, tables, 5000, Scenes(honesty::seed_of(argc, argv)), truth, answer, {1e-3, 1e-6, 1e-9},
+               {"period", "floquet_trace", "precession_rate"});
 }

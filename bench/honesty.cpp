@@ -4,16 +4,14 @@
 // the stop time, the median of stated over true, and the worst cases with their scenes.
 //
 //     honesty [SCENES = 10000] [SEED = 1] [RUNG = auto] [DECADES = 5]     eps from 10^-DECADES to 1
-#include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "gyrostat/ladder/deceleration/motion.hpp"
 #include "gyrostat/ladder/deceleration/solve.hpp"
 #include "gyrostat/models/deceleration/euler_poinsot.hpp"
 #include "honesty.hpp"
@@ -30,7 +28,24 @@ class Scenes {
 
   struct Made {
     Inertia<double> body;
-    SceneData data;
+    Setup setup;
+    std::vector<double> times;
+
+    Result<Scene> posed(Question question) const {
+      question.times = times;
+      return Scene::make(body, setup, question);
+    }
+    std::string text() const {
+      const Vec3<double>& J = body.principal();
+      const Vec3<double>&l = setup.rotor_momentum, &b = setup.control, &M = setup.momentum;
+      char line[600];
+      std::snprintf(line, sizeof line,
+                    "J %.17g %.17g %.17g l %.17g %.17g %.17g b %.17g %.17g %.17g drag %.17g law %d %d M %.17g %.17g "
+                    "%.17g T %.17g",
+                    J[0], J[1], J[2], l[0], l[1], l[2], b[0], b[1], b[2], setup.drag, int(setup.law),
+                    int(setup.drag_law), M[0], M[1], M[2], times.back());
+      return line;
+    }
   };
 
   Made next() {
@@ -44,8 +59,8 @@ class Scenes {
       else if (kind < 0.24) B = C;
       const auto body = Inertia<double>::from_moments(A, B, C);
       if (!body) continue;
-      Made made{*body, {}};
-      SceneData& d = made.data;
+      Made made{*body, {}, {}};
+      Setup& d = made.setup;
       d.momentum = direction();
       const double eps = std::pow(10, -decades_ * unit());
       for (int i = 0; i < 3; ++i) d.control[i] = eps * std::pow(10, -1.5 * unit());
@@ -67,7 +82,7 @@ class Scenes {
       const double mean = d.control.mean();
       const double braking = d.drag > 0 ? std::log1p(d.drag * U.norm() / mean) / d.drag : U.norm() / mean;
       const double span = braking * std::pow(10, -1.2 * unit()) * 1.2;
-      for (int i = 1; i <= 12; ++i) d.times.push_back(span * i / 12);
+      for (int i = 1; i <= 12; ++i) made.times.push_back(span * i / 12);
       return made;
     }
   }
@@ -83,66 +98,19 @@ class Scenes {
   std::mt19937_64 random_;
 };
 
-std::string describe(const Scenes::Made& made, const Answer& answer) {
-  const SceneData& d = made.data;
-  const Vec3<double> J = made.body.principal();
-  char line[600];
-  std::snprintf(line, sizeof line,
-                "%s J %.17g %.17g %.17g l %.17g %.17g %.17g b %.17g %.17g %.17g drag %.17g law %d %d M %.17g %.17g "
-                "%.17g T %.17g",
-                answer.model, J[0], J[1], J[2], d.rotor_momentum[0], d.rotor_momentum[1], d.rotor_momentum[2],
-                d.control[0], d.control[1], d.control[2], d.drag, int(d.law), int(d.drag_law), d.momentum[0],
-                d.momentum[1], d.momentum[2], d.times.back());
-  return line;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int count = argc > 1 ? std::atoi(argv[1]) : 10000;
-  const unsigned seed = argc > 2 ? unsigned(std::atoi(argv[2])) : 1;
-  Model rung = Model::any;
-  static constexpr const char* names[] = {"auto", "equal-torque", "averaged", "averaged-2", "full"};
-  for (int i = 0; argc > 3 && i < 5; ++i)
-    if (std::strcmp(argv[3], names[i]) == 0) rung = Model(i);
-
   const double decades = argc > 4 ? std::atof(argv[4]) : 5;
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);
-
-  static constexpr double tolerances[] = {1e-3, 1e-6};
-  honesty::Tally tallies[2];
-  Scenes scenes(seed, decades);
-  for (int i = 0; i < count; ++i) {
-    const auto made = scenes.next();
-    const auto posed = [&](double tolerance, Model model) {
-      SceneData data = made.data;
-      data.tolerance = tolerance;
-      data.model = model;
-      return *Scene::make(made.body, data);
-    };
-    Refusal failed;
-    Answer truth;
-    bool known = false;
-    for (int k = 0; k < 2; ++k) {
-      Refusal refusal;
-      const auto begin = std::chrono::steady_clock::now();
-      const Answer answer = solve(posed(tolerances[k], rung), refusal);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      tallies[k].time(seconds, describe(made, answer));
-      if (refusal.code != Errc::ok) {
-        tallies[k].refuse(refusal, describe(made, answer));
-        continue;
-      }
-      if (rung != Model::any && answer.tried.back().why) {
-        ++tallies[k].outside;
-        continue;
-      }
-      if (!known) truth = solve(posed(1e-12, Model::full), failed);
-      known = true;
-      if (failed.code != Errc::ok) ++tallies[k].unknown;
-      else tallies[k].compare(answer, truth, describe(made, answer), {"stop_time"});
-    }
-    if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
-  }
-  for (int k = 0; k < 2; ++k) tallies[k].print(tolerances[k]);
+  honesty::run(
+      argc, argv, tables, 10000, Scenes(honesty::seed_of(argc, argv), decades),
+      [](const Scene& scene, Answer& truth) {
+        Question question = scene.question();
+        question.tolerance = 1e-12;
+        question.rung = rung::full;
+        Refusal failed;
+        truth = solve(scene.asked(question), failed);
+        return failed.code == Errc::ok;
+      },
+      [](const Scene& scene, Refusal& refusal) { return solve(scene, refusal); }, {1e-3, 1e-6}, {"stop_time"});
 }

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <initializer_list>
 #include <map>
 #include <string>
@@ -12,6 +15,8 @@
 #include <vector>
 
 #include "../tests/ladder/column_error.hpp"
+#include "gyrostat/ladder/family.hpp"
+#include "gyrostat/ladder/question.hpp"
 #include "gyrostat/ladder/rung.hpp"
 
 namespace gyrostat::honesty {
@@ -55,16 +60,20 @@ struct Tally {
       if (!(ratio <= most)) most = ratio, which = name;
     };
     for (const Column& column : answer.columns) {
-      if (column.name == std::string_view("regime")) continue;
-      const Column* right = truth.find(column.name);
-      one(column.name, column_error(column, *right), column.error, right->error);
+      if (column.kind->measure == Measure::none) continue;
+      const Column* right = truth.find(column.name());
+      one(column.kind->name, column_error(column, *right), column.error, right->error);
     }
     for (const Quantity& q : answer.quantities)
       for (const Quantity& right : truth.quantities)
-        if (std::find(scalars.begin(), scalars.end(), q.name) != scalars.end() &&
-            q.name == std::string_view(right.name) && std::isfinite(q.values[0]) && std::isfinite(right.values[0]))
-          one(q.name, q.values[0] == right.values[0] ? 0 : std::abs(q.values[0] / right.values[0] - 1), q.error,
-              right.error);
+        if (std::find(scalars.begin(), scalars.end(), q.name()) != scalars.end() && q.kind == right.kind &&
+            std::isfinite(q.values[0]) && std::isfinite(right.values[0]))
+          one(q.kind->name,
+              q.values[0] == right.values[0]
+                  ? 0
+                  : std::abs(q.values[0] - right.values[0]) /
+                        (q.kind->measure == Measure::relative ? std::abs(right.values[0]) : 1.0),
+              q.error, right.error);
     honest += good;
     met += answer.met;
     over += answer.met && !within;
@@ -92,5 +101,56 @@ struct Tally {
       std::printf("  true/stated %.3g: %s\n", worst[i].ratio, worst[i].text.c_str());
   }
 };
+
+/// The seed on the command line.
+inline unsigned seed_of(int argc, char** argv) { return argc > 2 ? unsigned(std::atoi(argv[2])) : 1; }
+
+/// The run of a family: [SCENES] [SEED] [RUNG = auto] on the command line. source.next() gives a scene of some kind; a `Made` has
+/// posed(question), a Result of the scene of the family under that question (its times left to it), and text(), all that is needed to make it anew;
+/// truth(scene, answer) fills in the true motion, false where it cannot be had. Each scene is solved at every tolerance.
+template <class Scenes, class Truth, class Solve>
+void run(int argc, char** argv, const Family& family, int count, Scenes source, const Truth& truth, const Solve& solve,
+         std::initializer_list<double> tolerances, std::initializer_list<std::string_view> scalars = {}) {
+  if (argc > 1) count = std::atoi(argv[1]);
+  const int rung = argc > 3 ? place_of(family.rungs, argv[3]) : any_rung;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+
+  std::vector<Tally> tallies(tolerances.size());
+  for (int i = 0; i < count; ++i) {
+    auto made = source.next();
+    Answer right;
+    bool known = false, has_truth = false;
+    for (std::size_t k = 0; k < tolerances.size(); ++k) {
+      Question question;
+      question.tolerance = tolerances.begin()[k];
+      question.rung = rung;
+      const auto scene = made.posed(question);
+      if (!scene) {
+        std::printf("no scene: %s\n", message(scene.error()));
+        continue;
+      }
+      Refusal refusal;
+      const auto begin = std::chrono::steady_clock::now();
+      const Answer answer = solve(*scene, refusal);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const std::string text = std::string(answer.model) + ", " + made.text();
+      tallies[k].time(seconds, text);
+      if (refusal.code != Errc::ok) {
+        tallies[k].refuse(refusal, text);
+        continue;
+      }
+      if (rung != any_rung && answer.tried.back().why) {
+        ++tallies[k].outside;
+        continue;
+      }
+      if (!known) has_truth = truth(*scene, right);
+      known = true;
+      if (!has_truth) ++tallies[k].unknown;
+      else tallies[k].compare(answer, right, text, scalars);
+    }
+    if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
+  }
+  for (std::size_t k = 0; k < tolerances.size(); ++k) tallies[k].print(tolerances.begin()[k]);
+}
 
 }  // namespace gyrostat::honesty

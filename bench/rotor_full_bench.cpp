@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "gyrostat/ladder/rotor/column_errors.hpp"
+#include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/rotor/full_motion.hpp"
 #include "gyrostat/models/rotor/full.hpp"
 #include "gyrostat/ode/runge_kutta.hpp"

@@ -4,11 +4,8 @@
 // the worst cases with their scenes.
 //
 //     rotor_honesty [SCENES = 5000] [SEED = 1] [RUNG = auto]
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <random>
 #include <string>
 
@@ -29,8 +26,27 @@ class Scenes {
 
   struct Made {
     Gyrostat<double> body;
-    SceneData data;
+    Asked data;
     const char* kind;
+
+    Result<Scene> posed(Question question) const {
+      question.times = data.times;
+      return Scene::make(body, data, question);
+    }
+    std::string text() const {
+      const auto& b = body;
+      const auto& d = data;
+      const auto& J = b.inertia();
+    char line[900];
+    std::snprintf(
+        line, sizeof line,
+        "%s: theta %.17g %.17g %.17g %.17g %.17g %.17g e %.17g %.17g %.17g lambda %.17g S %.17g target %.17g "
+        "Omega %.17g %.17g %.17g rate %.17g q %.17g %.17g %.17g %.17g T %.17g",
+        kind, J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(0, 2), J(1, 2), b.axis()[0], b.axis()[1],
+        b.axis()[2], b.axial_inertia(), b.slope(), b.no_load_rate(), d.angular_velocity[0], d.angular_velocity[1],
+        d.angular_velocity[2], d.rotor_rate, d.attitude.w, d.attitude.x, d.attitude.y, d.attitude.z, d.times.back());
+      return line;
+    }
   };
 
   Made next() {
@@ -78,7 +94,7 @@ class Scenes {
       if (!made) continue;
 
       Made scene{*made, {}, kind};
-      SceneData& d = scene.data;
+      Asked& d = scene.data;
       d.attitude = attitude();
       Vec3<double> H = l * direction();
       double omega = unit() < 0.3   ? made->no_load_rate()
@@ -131,67 +147,11 @@ class Scenes {
   std::mt19937_64 random_;
 };
 
-std::string describe(const Scenes::Made& made, const Answer& answer) {
-  const auto& b = made.body;
-  const auto& d = made.data;
-  const auto& J = b.inertia();
-  char line[900];
-  std::snprintf(
-      line, sizeof line,
-      "%s, %s: theta %.17g %.17g %.17g %.17g %.17g %.17g e %.17g %.17g %.17g lambda %.17g S %.17g target %.17g "
-      "Omega %.17g %.17g %.17g rate %.17g q %.17g %.17g %.17g %.17g T %.17g",
-      answer.model, made.kind, J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(0, 2), J(1, 2), b.axis()[0], b.axis()[1],
-      b.axis()[2], b.axial_inertia(), b.slope(), b.no_load_rate(), d.angular_velocity[0], d.angular_velocity[1],
-      d.angular_velocity[2], d.rotor_rate, d.attitude.w, d.attitude.x, d.attitude.y, d.attitude.z, d.times.back());
-  return line;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int count = argc > 1 ? std::atoi(argv[1]) : 5000;
-  const unsigned seed = argc > 2 ? unsigned(std::atoi(argv[2])) : 1;
-  Model rung = Model::any;
-  static constexpr const char* names[] = {"auto", "closed-form", "linear-tail", "full"};
-  for (int i = 0; argc > 3 && i < 4; ++i)
-    if (std::strcmp(argv[3], names[i]) == 0) rung = Model(i);
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);
-
-  static constexpr double tolerances[] = {1e-3, 1e-6, 1e-9};
-  honesty::Tally tallies[3];
-  Scenes scenes(seed);
-  for (int i = 0; i < count; ++i) {
-    const auto made = scenes.next();
-    const auto posed = [&](double tolerance) {
-      SceneData data = made.data;
-      data.tolerance = tolerance;
-      data.model = rung;
-      return *Scene::make(made.body, data);
-    };
-    Answer truth;
-    bool known = false, has_truth = false;
-    for (int k = 0; k < 3; ++k) {
-      Refusal refusal;
-      const Scene scene = posed(tolerances[k]);
-      const auto begin = std::chrono::steady_clock::now();
-      const Answer answer = solve(scene, refusal);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      const std::string text = describe(made, answer);
-      tallies[k].time(seconds, text);
-      if (refusal.code != Errc::ok) {
-        tallies[k].refuse(refusal, text);
-        continue;
-      }
-      if (rung != Model::any && answer.tried.back().why) {
-        ++tallies[k].outside;
-        continue;
-      }
-      if (!known) has_truth = true_motion(scene, truth);
-      known = true;
-      if (!has_truth) ++tallies[k].unknown;
-      else tallies[k].compare(answer, truth, text);
-    }
-    if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
-  }
-  for (int k = 0; k < 3; ++k) tallies[k].print(tolerances[k]);
+  honesty::run(
+      argc, argv, tables, 5000, Scenes(honesty::seed_of(argc, argv)),
+      [](const Scene& scene, Answer& truth) { return true_motion(scene, truth); },
+      [](const Scene& scene, Refusal& refusal) { return solve(scene, refusal); }, {1e-3, 1e-6, 1e-9});
 }

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "gyrostat/models/rotor/averaged_dissipation.hpp"
+#include "gyrostat/ladder/rotor/fall_time.hpp"
 
 namespace {
 

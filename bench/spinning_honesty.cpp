@@ -5,11 +5,8 @@
 //
 //     spinning_honesty [SCENES = 5000] [SEED = 1] [RUNG = auto]
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <random>
 #include <string>
 #include <vector>
@@ -34,6 +31,24 @@ class Scenes {
     Problem<double> problem;
     std::vector<double> times;
     const char* kind;
+
+    Result<Scene> posed(Question question) const {
+      question.times = times;
+      return Scene::make(problem, question);
+    }
+    std::string text() const {
+      const auto& p = problem;
+      char line[900];
+      std::snprintf(
+          line, sizeof line,
+          "%s: D %.17g %.17g %.17g m %.17g l %.17g e %.17g M %.17g %.17g %.17g f %.17g %.17g %.17g w %.17g %.17g %.17g "
+          "angles %.17g %.17g %.17g v %.17g %.17g %.17g x %.17g %.17g %.17g T %.17g n %zu",
+          kind, p.inertia[0], p.inertia[1], p.inertia[2], p.mass, p.rotor_momentum, p.charge_momentum, p.torque[0],
+          p.torque[1], p.torque[2], p.force[0], p.force[1], p.force[2], p.angular_velocity[0], p.angular_velocity[1],
+          p.angular_velocity[2], p.angles.psi, p.angles.phi, p.angles.theta, p.velocity[0], p.velocity[1],
+          p.velocity[2], p.position[0], p.position[1], p.position[2], times.back(), times.size());
+      return line;
+    }
   };
 
   Made next() {
@@ -144,68 +159,9 @@ class Scenes {
   std::mt19937_64 random_;
 };
 
-std::string describe(const Scenes::Made& made, const Answer& answer) {
-  const auto& p = made.problem;
-  char line[900];
-  std::snprintf(
-      line, sizeof line,
-      "%s, %s: D %.17g %.17g %.17g m %.17g l %.17g e %.17g M %.17g %.17g %.17g f %.17g %.17g %.17g w %.17g %.17g %.17g "
-      "angles %.17g %.17g %.17g v %.17g %.17g %.17g x %.17g %.17g %.17g T %.17g n %zu",
-      answer.model, made.kind, p.inertia[0], p.inertia[1], p.inertia[2], p.mass, p.rotor_momentum, p.charge_momentum,
-      p.torque[0], p.torque[1], p.torque[2], p.force[0], p.force[1], p.force[2], p.angular_velocity[0],
-      p.angular_velocity[1], p.angular_velocity[2], p.angles.psi, p.angles.phi, p.angles.theta, p.velocity[0],
-      p.velocity[1], p.velocity[2], p.position[0], p.position[1], p.position[2], made.times.back(), made.times.size());
-  return line;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int count = argc > 1 ? std::atoi(argv[1]) : 5000;
-  const unsigned seed = argc > 2 ? unsigned(std::atoi(argv[2])) : 1;
-  Model rung = Model::any;
-  static constexpr const char* names[] = {"auto", "linear", "second-order", "picard", "full"};
-  for (int i = 0; argc > 3 && i < 5; ++i)
-    if (std::strcmp(argv[3], names[i]) == 0) rung = Model(i);
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);
-
-  static constexpr double tolerances[] = {1e-3, 1e-6, 1e-9};
-  honesty::Tally tallies[3];
-  Scenes scenes(seed);
-  for (int i = 0; i < count; ++i) {
-    const auto made = scenes.next();
-    Answer truth;
-    bool known = false, has_truth = false;
-    for (int k = 0; k < 3; ++k) {
-      Question question;
-      question.times = made.times;
-      question.tolerance = tolerances[k];
-      question.model = rung;
-      const auto scene = Scene::make(made.problem, question);
-      if (!scene) {
-        std::printf("no scene: %s\n", message(scene.error()));
-        continue;
-      }
-      Refusal refusal;
-      const auto begin = std::chrono::steady_clock::now();
-      const Answer answer = solve(*scene, refusal);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      const std::string text = describe(made, answer);
-      tallies[k].time(seconds, text);
-      if (refusal.code != Errc::ok) {
-        tallies[k].refuse(refusal, text);
-        continue;
-      }
-      if (rung != Model::any && answer.tried.back().why) {
-        ++tallies[k].outside;
-        continue;
-      }
-      if (!known) has_truth = true_motion(*scene, truth);
-      known = true;
-      if (!has_truth) ++tallies[k].unknown;
-      else tallies[k].compare(answer, truth, text);
-    }
-    if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
-  }
-  for (int k = 0; k < 3; ++k) tallies[k].print(tolerances[k]);
+  honesty::run(argc, argv, tables, 5000, Scenes(honesty::seed_of(argc, argv)), &true_motion,
+               [](const Scene& scene, Refusal& refusal) { return solve(scene, refusal); }, {1e-3, 1e-6, 1e-9});
 }

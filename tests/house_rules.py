@@ -7,9 +7,11 @@
     house_rules.py --self-test      break each rule in a scratch tree and see that it is noticed
 
 Layers: core <- math <- rotation <- body <- models <- ladder; ode sees core and math only. core, math and ode know no Eigen;
-GSL is included by math/gsl.hpp alone, SUNDIALS by src/cvode.cpp alone. Needs Python 3.9 and nothing else.
+GSL is included by math/gsl.hpp alone, SUNDIALS by src/cvode.cpp alone. No function is longer than 80 lines but those of LONG;
+what a comment cites (docs/x.md, section 3; math/root.hpp) exists. Needs Python 3.9 and nothing else.
 """
 import argparse
+import ast
 import pathlib
 import re
 import sys
@@ -28,7 +30,9 @@ NO_EIGEN = {"core", "math", "ode"}
 HEAVY = {"iostream", "functional", "string"}
 OPTIONAL = re.compile(r"(^|/)(gsl|cvode)[^/]*$")  # headers of gyrostat::gsl and gyrostat::cvode, named after them
 UNTESTED = {"gyrostat.hpp", "version.hpp"}  # checked by the noexcept program
-TABLES = {  # numbers alone: tested where they are used
+TABLES = {  # tables and the like: tested where they are used
+    "core/linkage.hpp": "noexcept/second.cpp",
+    "ladder/monitor.hpp": "ladder/rotor/solve_test.cpp",
     "math/complete_coefficients.hpp": "math/complete_test.cpp",
     "ode/dop853.hpp": "ode/runge_kutta_test.cpp",
 }
@@ -162,7 +166,110 @@ def check_version(root):
         yield "the versions differ: " + ", ".join(f"{name} {version}" for name, version in found.items())
 
 
-CHECKS = [check_layers, check_sundials, check_umbrella, check_headers, check_spdx, check_version]
+LONGEST = 80  # lines of a function, from its name to its closing brace
+LONG = {  # "file:function": why it is longer
+    "include/gyrostat/ladder/deceleration/full_motion.hpp:operator()": "the stops and starts of one walk, which share its state",
+    "include/gyrostat/ladder/heavy/full_motion.hpp:run": "one walk beside its companions, which share its state",
+}
+COMMENTS_AND_TEXTS = re.compile(r"""//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<!\w)'(?:\\.|[^'\\\n])'""", re.S)
+TEMPLATE = re.compile(r"(?:\s*template\s*<[^{}]*>[ \t]*\n)*\s*")
+SCOPE = re.compile(r"\bnamespace\b[^()]*$|(^|>|\s)(class|struct|union|enum)\b[^=;]*$")
+
+
+def sources(root, folders, suffixes):
+    return [path for path in our_files(root) if path.suffix in suffixes and path.relative_to(root).parts[0] in folders]
+
+
+def cpp_functions(text):
+    """Name, first and last line of what is defined in a namespace or a class: a matching of braces, not a parser."""
+    def blank(match):
+        return re.sub(r"[^\n]", " ", match[0])
+    text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", blank, COMMENTS_AND_TEXTS.sub(blank, text), flags=re.M)
+    stack, head = [], 0  # a stack of (is a scope, name, line, head); where the text before the next brace begins
+    for i, c in enumerate(text):
+        within = not stack or stack[-1][0]
+        if c == ";" and within:
+            head = i + 1
+        elif c == "{":
+            opening = text[head:i] if within else ""
+            skipped = TEMPLATE.match(opening).end()
+            opening = opening[skipped:]
+            name = re.search(r"(operator\s*(?:\(\)|[^\s(]+)|[\w~]+)\s*\(", opening)
+            if within and SCOPE.search(opening) and not (name and ")" in opening and "enum" not in opening):
+                stack.append((True, None, 0, i + 1))
+            elif within and name and not opening.rstrip().endswith("="):
+                stack.append((False, name[1], text.count("\n", 0, head + skipped) + 1, head))
+            else:
+                stack.append((False, None, 0, i + 1))
+            head = i + 1 if within else head
+        elif c == "}" and stack:
+            _, name, line, begin = stack.pop()
+            if name and re.match(r"\s*[{,]", text[i + 1:i + 80]):
+                head = begin  # a member's initializer: the body is still to come
+                continue
+            if name:
+                yield name, line, text.count("\n", 0, i) + 1
+            head = i + 1
+
+
+def python_functions(text):
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            yield node.name, node.lineno, node.end_lineno
+
+
+def check_functions(root):
+    long = set()
+    for path in sources(root, {"include", "src", "python"}, {".hpp", ".cpp", ".py"}):
+        functions = python_functions if path.suffix == ".py" else cpp_functions
+        for name, first, last in functions(path.read_text(encoding="utf-8")):
+            where = f"{path.relative_to(root).as_posix()}:{name}"
+            if last - first + 1 > LONGEST:
+                long.add(where)
+                if where not in LONG:
+                    yield f"{where} (line {first}) has {last - first + 1} lines: cut it along its ideas, or say in LONG why not"
+    for where in sorted(LONG):
+        if where not in long and (root / where.split(":")[0]).is_file():
+            yield f"LONG names {where}, which is no longer than {LONGEST} lines"
+
+
+NUMBERS = r"\d+(?:\.\d+)*(?:(?:, | and | to )\d+(?:\.\d+)*)*"
+PAGE = re.compile(r"((?:docs/)?[\w-]+\.md)(?:,? sections? (" + NUMBERS + "))?")
+CITED = re.compile(r"(?<![\w<>*./-])((?:[\w-]+/)*[\w-]+\.(?:hpp|cpp))\b")
+
+
+def comments(path):
+    """The comments of a C++ file, or the whole of a Python file, each without its marks and line ends, with its line."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".py":
+        yield 1, re.sub(r"\s*\n\s*#?\s*", " ", text)
+        return
+    for match in re.finditer(r"(?:[ \t]*//[^\n]*\n?)+", text):
+        yield text.count("\n", 0, match.start()) + 1, re.sub(r"\s*\n?\s*//[/!<]*\s*", " ", match[0])
+
+
+def check_citations(root):
+    files = {"/" + path.relative_to(root).as_posix() for path in our_files(root)}
+    sections = {path.name: set(re.findall(r"^#+ (\d+(?:\.\d+)*)", path.read_text(encoding="utf-8"), re.M))
+                for path in root.glob("docs/*.md")}
+    for path in sources(root, {"include", "src", "python", "bench", "tests", "tools"}, {".hpp", ".cpp", ".py"}):
+        if path.name == pathlib.Path(__file__).name:
+            continue  # breaks the rules in its own test
+        for line, text in comments(path):
+            where = f"{path.relative_to(root).as_posix()}:{line}"
+            for name, numbers in PAGE.findall(text):
+                page = name.split("/")[-1]
+                if page not in sections and "/" + name not in files:
+                    yield f"{where} cites {name}, which is not there"
+                for number in re.findall(r"\d+(?:\.\d+)*", numbers):
+                    if page in sections and number not in sections[page]:
+                        yield f"{where} cites section {number} of {name}, which has none"
+            for name in CITED.findall(text) if path.suffix != ".py" else ():
+                if not any(file.endswith("/" + name) for file in files):
+                    yield f"{where} cites {name}, which is not there"
+
+
+CHECKS = [check_layers, check_sundials, check_umbrella, check_headers, check_spdx, check_version, check_functions, check_citations]
 
 
 def breaches(root):
@@ -194,6 +301,8 @@ def sound_tree(root):
     write["pyproject.toml"] = f'# {SPDX}\nversion = "1.2.3"\n'
     write["CITATION.cff"] = "version: 1.2.3\n"
     write["CHANGELOG.md"] = "## 1.2.3\n"
+    write["docs/heavy.md"] = "# Heavy\n\n## 2. Equations\n\n### 2.1 Numerics\n"
+    write["python/gyrostat/tool.py"] = f"# {SPDX}\ndef short():\n    return 1\n"
     for name, text in write.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(text, encoding="utf-8")
@@ -211,6 +320,13 @@ def append(name, text):
 def replace(name, old, new):
     return lambda root: (root / name).write_text((root / name).read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
 
+
+SOUND = [  # what the rules must let pass
+    ("a table, a class and a short function", append("include/gyrostat/core/real.hpp",
+        "constexpr int table[] = {\n" + "  1,\n" * 90 + "};\nstruct S {\n  int f() { return 1; }\n" + "  int x;\n" * 90 + "};\n"
+        "#define F(x) { \\\n  x\nconst char* s = \"{\"; char c = '{';  // {\nint f(int x = 1) {\n" + "\n" * 78 + "}\n")),
+    ("citations", append("src/cvode.cpp", "/// docs/heavy.md, sections 2 and\n/// 2.1 (real.hpp, gyrostat/math/root.hpp); CHANGELOG.md.\n")),
+]
 
 BREACHES = [
     ("core sees math", append("include/gyrostat/core/real.hpp", '#include "gyrostat/math/root.hpp"\n'), "core may see core only"),
@@ -235,13 +351,23 @@ BREACHES = [
     ("no licence line", replace("src/cvode.cpp", SPDX, "none"), "src/cvode.cpp: the first line is not the licence line"),
     ("no licence line in a script", replace("dev", SPDX, ""), "dev: the first line is not the licence line"),
     ("version", replace("CITATION.cff", "1.2.3", "1.2.4"), "the versions differ"),
+    ("a long function", append("include/gyrostat/core/real.hpp", "namespace x {\ntemplate <class T>\nint f(T) {\n" + "  // more\n" * 79 + "}\n}\n"),
+     "core/real.hpp:f (line 6) has 81 lines"),
+    ("a long member", append("src/cvode.cpp", "struct S {\n  S() : a{1}, b(a) {" + "\n" * 80 + "  }\n  int a, b;\n};\n"), "src/cvode.cpp:S (line 4) has 81"),
+    ("a long function in Python", append("python/gyrostat/tool.py", "def f():\n" + "    pass\n" * 80), "python/gyrostat/tool.py:f (line 4) has 81 lines"),
+    ("a reason for a short function", append("include/gyrostat/ladder/heavy/full_motion.hpp", f"// {SPDX}\n#pragma once\nint run() {{}}\n"),
+     "LONG names include/gyrostat/ladder/heavy/full_motion.hpp:run"),
+    ("a page that is not there", append("src/cvode.cpp", "/// See docs/light.md.\n"), "src/cvode.cpp:3 cites docs/light.md"),
+    ("a section that is not there", append("src/cvode.cpp", "int a;  // as in heavy.md,\n        // sections 2.1 and 3\n"),
+     "src/cvode.cpp:3 cites section 3 of heavy.md"),
+    ("a header that is not there", append("src/cvode.cpp", "/// Beside math/roots.hpp.\n"), "src/cvode.cpp:3 cites math/roots.hpp"),
     ("version lost", replace("CHANGELOG.md", "1.2.3", "soon"), "no version found"),
 ]
 
 
 def self_test():
     failed = 0
-    for name, change, expected in [("sound tree", lambda root: None, None), *BREACHES]:
+    for name, change, expected in [("sound tree", lambda root: None, None), *((*sound, None) for sound in SOUND), *BREACHES]:
         with tempfile.TemporaryDirectory() as scratch:
             root = pathlib.Path(scratch)
             sound_tree(root)
@@ -250,7 +376,7 @@ def self_test():
             right = not found if expected is None else any(expected in line for line in found)
             failed += not right
             print(f"{'ok  ' if right else 'FAIL'} {name}" + ("" if right else f": expected {expected!r}, found {found}"))
-    print(f"{len(BREACHES) + 1 - failed} passed, {failed} failed")
+    print(f"{len(BREACHES) + len(SOUND) + 1 - failed} passed, {failed} failed")
     return 1 if failed else 0
 
 

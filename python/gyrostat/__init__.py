@@ -5,13 +5,11 @@
 `gyrostat.rotor`, `gyrostat.spinning`, `gyrostat.heavy`, `gyrostat.elliptic` and `gyrostat.rotation` hold the functions behind them, over arrays.
 """
 
-from gyrostat._core import Monitor, build_info
+from gyrostat._core import Monitor, __version__, build_info
 from gyrostat.answer import Answer
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError
 from gyrostat.ladder import chart, solve
 from gyrostat.scenes import Scene, load
-
-__version__: str = str(build_info()["version"])
 
 __all__ = [
     "Answer",

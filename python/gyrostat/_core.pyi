@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['HeavyBodies', 'Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'SpinningProblems', 'build_info', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'euler_312_from_quaternion', 'heavy_exact', 'heavy_fast_stability', 'heavy_hanging', 'heavy_integrate', 'heavy_periodic_family', 'heavy_periodic_orbits', 'heavy_published_run', 'heavy_published_table', 'heavy_regular_precession', 'heavy_series', 'heavy_sleeping', 'heavy_solve', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_euler_312', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'spinning_design', 'spinning_integrate', 'spinning_linear', 'spinning_linear_grid', 'spinning_pointing', 'spinning_published', 'spinning_solve', 'vector_from_matrix', 'vector_from_quaternion']
+__all__: list[str] = ['HeavyBodies', 'Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'SpinningProblems', 'build_info', 'csv_rows', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'euler_312_from_quaternion', 'heavy_exact', 'heavy_fast_stability', 'heavy_hanging', 'heavy_integrate', 'heavy_periodic_family', 'heavy_periodic_orbits', 'heavy_published_run', 'heavy_published_table', 'heavy_regular_precession', 'heavy_series', 'heavy_sleeping', 'heavy_solve', 'json_numbers', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_euler_312', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'spinning_design', 'spinning_integrate', 'spinning_linear', 'spinning_linear_grid', 'spinning_pointing', 'spinning_published', 'spinning_solve', 'vector_from_matrix', 'vector_from_quaternion']
 class Monitor:
     """
     Watches and stops long work from another thread.
@@ -113,13 +113,17 @@ class HeavyBodies:
         ...
 def build_info() -> dict[str, str | None]:
     """
-    Version of the library, of the compiler, and of each library that is built in (None: it is not).
+    Version of the library, of the compiler, and of each optional library (None: this installation has it not).
+    """
+def csv_rows(columns: list[numpy.ndarray]) -> str:
+    """
+    The rows of a table of columns (n,) or (n, width) of numbers, or (n,) of bytes, as CSV without a head.
     """
 def deceleration_averaged(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], law: str, drag_law: str, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, elliptic: str) -> dict[str, typing.Any]:
     """
     The rung averaged over rows of bodies.
     """
-def deceleration_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, law: str, drag_law: str, angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+def deceleration_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, law: str, drag_law: str, angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double', patience: typing.SupportsFloat | typing.SupportsIndex = ...) -> dict[str, typing.Any]:
     """
     The full equations under one integrator, timed.
     """
@@ -173,7 +177,7 @@ def heavy_hanging(bodies: HeavyBodies) -> numpy.typing.NDArray[numpy.float64]:
     """
     (rows, 11): down at rest, two frequencies, two directions of the swing.
     """
-def heavy_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], mass: typing.SupportsFloat | typing.SupportsIndex, centre_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity: typing.SupportsFloat | typing.SupportsIndex, gravity_gradient: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+def heavy_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], mass: typing.SupportsFloat | typing.SupportsIndex, centre_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity: typing.SupportsFloat | typing.SupportsIndex, gravity_gradient: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double', patience: typing.SupportsFloat | typing.SupportsIndex = ...) -> dict[str, typing.Any]:
     """
     The full equations under one integrator, timed.
     """
@@ -208,6 +212,10 @@ def heavy_sleeping(bodies: HeavyBodies, *, spin: typing.Annotated[numpy.typing.A
 def heavy_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], mass: typing.SupportsFloat | typing.SupportsIndex, centre_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity: typing.SupportsFloat | typing.SupportsIndex, gravity_gradient: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, periodic: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None) -> dict[str, typing.Any]:
     """
     Answer of the ladder as plain data.
+    """
+def json_numbers(values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> str:
+    """
+    An array (n,) or (n, width) as JSON; every number reads back as the same double, what is not finite is null.
     """
 def matrix_from_quaternion(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     ...
@@ -247,7 +255,7 @@ def rotor_fall_time(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.f
     """
     Time of a fall of V from a state to a level and its relative error; NaN where it cannot be told.
     """
-def rotor_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+def rotor_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double', patience: typing.SupportsFloat | typing.SupportsIndex = ...) -> dict[str, typing.Any]:
     """
     The full equations under one integrator, timed.
     """
@@ -275,7 +283,7 @@ def spinning_design(problems: SpinningProblems, *, goal: str, budget: typing.Ann
     """
     Value, bound of the tilt, unstable, resonant, compliant, and why there is no design, a row each.
     """
-def spinning_integrate(problem: SpinningProblems, *, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double') -> dict[str, typing.Any]:
+def spinning_integrate(problem: SpinningProblems, *, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double', patience: typing.SupportsFloat | typing.SupportsIndex = ...) -> dict[str, typing.Any]:
     """
     The full equations under one integrator, timed.
     """
@@ -303,3 +311,4 @@ def vector_from_matrix(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.floa
     ...
 def vector_from_quaternion(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     ...
+__version__: str = '0.1.0'

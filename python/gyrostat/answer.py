@@ -1,55 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the ladder answers: columns over time, scalars, the error estimate of each, and how the answer was found."""
 
-import csv
-import io
-import json
 import math
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, KeysView, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gyrostat.facts import FACTS
+
 if TYPE_CHECKING:
+    import pandas
     import xarray
     from matplotlib.figure import Figure
 
-__all__ = ["Answer", "Attempt", "Warning_", "UNITS"]
-
-UNITS: Final = {
-    "t": "s", "angular_momentum": "N m s", "angular_momentum_norm": "N m s", "energy": "J", "modulus_squared": "1",
-    "regime": "", "angular_velocity": "rad/s", "attitude": "1", "stop_time": "s", "final_angular_velocity": "rad/s",
-    "small_parameter": "1", "separatrix_distance": "1", "rotor_rate": "rad/s", "rotor_angle": "rad", "lyapunov": "J",
-    "attractor": "", "decay_rate": "1/s", "euler_312": "rad", "angular_momentum_inertial": "N m s", "velocity": "m/s", "position": "m",
-    "pointing_error": "rad", "secular_velocity_ratio": "1", "tilt_max": "rad", "nutation_frequency_squared": "1/s2",
-    "down": "1", "period": "s", "floquet_trace": "1", "stable": "", "precession_rate": "rad/s",
-}
-MEANINGS: Final = {
-    "t": "time", "angular_momentum": "total angular momentum, body axes", "angular_momentum_norm": "size of the total angular momentum",
-    "energy": "rotational energy of the carrier", "modulus_squared": "squared modulus of the orbit, k2",
-    "regime": "A: about the axis of largest inertia, C: about the smallest, 1: one component",
-    "angular_velocity": "angular velocity of the carrier, body axes", "attitude": "attitude, body to inertial, [x, y, z, w]",
-    "stop_time": "time at which the deceleration ends", "final_angular_velocity": "angular velocity at the stop",
-    "small_parameter": "rate of damping over rate of rotation", "separatrix_distance": "energy from the nearest separatrix at the start, over the range of energies at that |M|; infinite: there is none",
-    "rotor_rate": "rate of the rotor relative to the carrier", "rotor_angle": "angle of the rotor in the carrier, from 0 at t = 0",
-    "lyapunov": "Lyapunov function V: energy less no_load_rate times the rotor's axial momentum, plus a constant; it never grows",
-    "attractor": "place of the steady rotation that the motion tends to, by level; None: not certified",
-    "decay_rate": "rate at which the motion comes to its attractor in the end",
-    "euler_312": "angles psi, phi, theta: body to inertial is Rz(theta) Rx(psi) Ry(phi); theta counts turns",
-    "angular_momentum_inertial": "angular momentum without the charge's, inertial axes", "velocity": "velocity of the mass centre, inertial axes",
-    "position": "position of the mass centre, inertial axes", "pointing_error": "mean lean of axis 3 under the torque, |M|/|r0 X|",
-    "secular_velocity_ratio": "limit of (v1, v2)/v3", "tilt_max": "greatest tilt of axis 3 from inertial axis 3",
-    "nutation_frequency_squared": "square of the nutation frequency; negative: the spin is unstable",
-    "down": "unit vector to the attracting centre, body axes", "period": "time after which rates and down return; None: not known to be periodic",
-    "floquet_trace": "trace of the 6x6 monodromy minus 4: the sum of the two multipliers that are not one; stable between -2 and 2",
-    "stable": "whether small changes of a periodic motion stay small; None: not known",
-    "precession_rate": "mean turn about the vertical, right-handed about down",
-}
-_AXES: Final = ("x", "y", "z", "w")
+__all__ = ["Answer", "Attempt", "Warning_"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,11 +41,15 @@ class Attempt:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """Answer to a scene.
+    """Answer to a scene: `answer["attitude"]` is a column, `list(answer)` are the names of all, `answer.t` their times.
 
-    columns : name -> (n,) or (n, k) array over the times `t` [s] (`regime`: text); UNITS holds their units.
-    error : name -> estimated greatest error over the span, relative to the greatest norm of that column
-        (attitude: rotation angle [rad]; modulus_squared: absolute). met : the greatest error is within `tolerance`.
+    columns : name -> (n,) or (n, k) array over the times `t` [s] (`regime`: text).
+    error : name -> estimated greatest error over the span, relative to the greatest norm of that column or to its scale, whichever is
+        greater (attitude: rotation angle [rad]; modulus_squared: absolute). met : the greatest error is within `tolerance`.
+    scale : name -> what the scene makes of a column's scale, in its unit, so that no error is relative to a column that vanishes.
+    scalars : name -> number, vector, truth value, or None where it is not known.
+    scalar_error : name -> estimated error, relative; NaN where the scalar has none, being a definition, infinite or not known.
+    gyrostat.facts has units and meanings; `gyrostat info --columns` prints them.
     """
 
     scene: dict[str, Any]
@@ -88,6 +61,8 @@ class Answer:
     t: NDArray[np.float64]
     columns: dict[str, NDArray[Any]]
     scalars: dict[str, Any]
+    scalar_error: dict[str, float]
+    scale: dict[str, float]
     counts: dict[str, int]
     seconds: float
     tried: tuple[Attempt, ...] = field(default=())
@@ -99,91 +74,107 @@ class Answer:
             scene=dict(scene), model=made["model"], tolerance=tolerance, met=made["met"], error=dict(made["error"]),
             warnings=tuple(Warning_(w["code"], w["message"]) for w in made["warnings"]), t=times,
             columns={name: np.asarray(values) for name, values in made["columns"].items()},
-            scalars=dict(made["scalars"]), counts=dict(made["counts"]), seconds=made["seconds"],
+            scalars=dict(made["scalars"]), scalar_error={name: made["scalar_error"].get(name, math.nan) for name in made["scalars"]},
+            scale=dict(made["scale"]), counts=dict(made["counts"]), seconds=made["seconds"],
             tried=tuple(Attempt(a["model"], a["error"], a["accepted"], a["why"]) for a in made["tried"]),
         )
 
     @property
     def greatest_error(self) -> float:
-        """Greatest estimated error of any column."""
-        return max((e for e in self.error.values() if not math.isnan(e)), default=math.nan)
+        """The estimated error that was held against the tolerance: the greatest of the columns and, of a deceleration, of the stop time."""
+        accepted = next((attempt for attempt in self.tried if attempt.accepted), None)
+        return math.nan if accepted is None or accepted.error is None else accepted.error
+
+    @property
+    def least_certain(self) -> str:
+        """The column or scalar that has the greatest error; empty where none is known."""
+        errors = {**self.error, **self.scalar_error}
+        return next((name for name, error in errors.items() if error == self.greatest_error), "")
+
+    def keys(self) -> KeysView[str]:
+        """Names of the columns."""
+        return self.columns.keys()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def __len__(self) -> int:
+        """Number of columns."""
+        return len(self.columns)
+
+    def __contains__(self, name: object) -> bool:
+        """Whether `answer[name]` is there: a column, or "t"."""
+        return name == "t" or name in self.columns
 
     def __getitem__(self, column: str) -> NDArray[Any]:
-        """A column by name, or "t"."""
-        return self.t if column == "t" else self.columns[column]
+        """A column by name, or "t". Raises KeyError, naming those that are there."""
+        if column == "t":
+            return self.t
+        if column not in self.columns:
+            raise KeyError(self._missing(column))
+        return self.columns[column]
+
+    def _missing(self, column: str) -> str:
+        """Why there is no such column."""
+        facts = FACTS.get(self.scene.get("kind", ""))
+        text = f'there is no column "{column}"; the columns of this answer by {self.model} are {", ".join(self.columns)}'
+        if column in self.scalars:
+            text += f'; {column} is a scalar: answer.scalars["{column}"]'
+        elif facts and column in facts.columns:
+            text += f"; {column} belongs to scenes of this kind"
+            if column == "attitude" and "attitude" not in self.scene.get("initial", {}):
+                text += ", where initial.attitude is given"
+            elif self.model != "full":
+                text += ': a higher rung gives it, as model = "full" does'
+        return text
 
     def __repr__(self) -> str:
         met = "met" if self.met else "not met"
+        scalars = [f"{name} {value:.6g} (error {self.scalar_error[name]:.2g})" for name, value in self.scalars.items()
+                   if isinstance(value, float) and not math.isnan(self.scalar_error[name])]
         return (f"<Answer of {self.scene.get('name', 'a scene')} by {self.model}: error {self.greatest_error:.2g}, "
-                f"tolerance {self.tolerance:g} {met}, {len(self.t)} times, {', '.join(self.columns)}>")
+                f"tolerance {self.tolerance:g} {met}, {len(self.t)} times, {', '.join([*self.columns, *scalars])}>")
+
+    def _repr_html_(self) -> str:
+        from gyrostat.notebook import answer_html
+
+        return answer_html(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, ready for JSON: numbers that are not finite become None."""
-        return {
-            "scene": self.scene, "model": self.model, "tolerance": self.tolerance, "met": self.met,
-            "error": _finite(self.error),
-            "warnings": [{"code": w.code, "message": w.message} for w in self.warnings],
-            "t": _finite(self.t), "columns": _finite(self.columns), "scalars": _finite(self.scalars),
-            "counts": self.counts, "seconds": self.seconds,
-            "tried": [{"model": a.model, "error": _finite(a.error), "accepted": a.accepted, "why": a.why} for a in self.tried],
-        }
+        from gyrostat.export import to_dict
+
+        return to_dict(self)
 
     def to_json(self) -> str:
         """One JSON object; every number reads back as the same double."""
-        return json.dumps(self.to_dict(), allow_nan=False)
+        from gyrostat.export import to_json
+
+        return to_json(self)
 
     def to_csv(self) -> str:
         """Comma-separated columns under one header line (vectors as _x, _y, _z, quaternions also _w)."""
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        flat = list(self._flat())
-        writer.writerow([name for name, _ in flat])
-        writer.writerows(zip(*(values.tolist() for _, values in flat), strict=True))
-        return text.getvalue()
+        from gyrostat.export import to_csv
 
-    def _flat(self) -> Iterator[tuple[str, NDArray[Any]]]:
-        yield "t", self.t
-        for name, values in self.columns.items():
-            if values.ndim == 1:
-                yield name, values
-            else:
-                for axis, part in zip(_AXES, values.T, strict=False):
-                    yield f"{name}_{axis}", part
+        return to_csv(self)
+
+    def to_dataframe(self) -> "pandas.DataFrame":
+        """A pandas.DataFrame over t, with the column names of CSV; units, errors and scalars in its `attrs`. Needs pandas."""
+        from gyrostat.export import to_dataframe
+
+        return to_dataframe(self)
 
     def to_xarray(self) -> "xarray.Dataset":
         """An xarray.Dataset over t, with units, errors and scalars as attributes. Needs xarray."""
-        try:
-            import xarray
-        except ImportError as error:
-            raise ImportError("xarray is not installed: pip install 'gyrostat[xarray]'") from error
-        variables: dict[str, Any] = {}
-        for name, values in self.columns.items():
-            axis = {1: (), 2: ("axis" if values.shape[-1] == 3 else "component",)}[values.ndim]
-            attributes: dict[str, Any] = {"units": UNITS.get(name, ""), "long_name": MEANINGS.get(name, name)}
-            if name in self.error and math.isfinite(self.error[name]):
-                attributes["estimated_error"] = self.error[name]
-            variables[name] = (("t", *axis), values, attributes)
-        coordinates: dict[str, Any] = {"t": ("t", self.t, {"units": "s", "long_name": "time"})}
-        if any("axis" in dims for dims, _, _ in variables.values()):
-            coordinates["axis"] = list(_AXES[:3])
-        if any("component" in dims for dims, _, _ in variables.values()):
-            coordinates["component"] = list(_AXES)
-        attributes = {
-            "title": str(self.scene.get("name", "")), "source": str(self.scene.get("source", "")), "model": self.model,
-            "tolerance": self.tolerance, "met": int(self.met), "scene": json.dumps(self.scene),
-            "warnings": "\n".join(f"{w.code}: {w.message}" for w in self.warnings),
-            **{name: np.asarray(value, dtype=float) for name, value in self.scalars.items() if value is not None},
-        }
-        return xarray.Dataset(variables, coordinates, attributes)
+        from gyrostat.export import to_xarray
+
+        return to_xarray(self)
 
     def to_netcdf(self, file: str | os.PathLike[str]) -> None:
         """Write a NetCDF file (format 3). Needs xarray and scipy."""
-        dataset = self.to_xarray()
-        try:
-            import scipy.io  # noqa: F401
-        except ImportError as error:
-            raise ImportError("scipy is not installed: pip install 'gyrostat[xarray]'") from error
-        dataset.to_netcdf(file, engine="scipy")
+        from gyrostat.export import to_netcdf
+
+        to_netcdf(self, file)
 
     def plot(self, file: str | os.PathLike[str] | None = None) -> "Figure":
         """A figure of the answer; written to `file` (PNG, SVG, PDF by its ending) where one is named. Needs matplotlib."""
@@ -193,16 +184,3 @@ class Answer:
         if file is not None:
             save(figure, Path(file))
         return figure
-
-
-def _finite(value: Any) -> Any:
-    """Arrays as lists, and None in place of what is not finite."""
-    if isinstance(value, np.ndarray | np.generic):
-        value = value.tolist()
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, Mapping):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
-    return value

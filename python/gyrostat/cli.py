@@ -1,22 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: gyrostat solve | chart | stability | design | reproduce | scenes | schema | info | selftest."""
+"""The command line: gyrostat solve | chart | stability | design | reproduce | scenes | show | new | schema | info | selftest."""
 
 import argparse
+import dataclasses
+import difflib
+import io
 import json
-import math
 import os
 import sys
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, TypeVar
+from typing import Any, Final, TypeVar
 
-from gyrostat.console import Progress, say, show_table
+import gyrostat
+from gyrostat.console import Progress, say, short, show_table, small
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError
+from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, bundled, load, parse_override
-
-if TYPE_CHECKING:
-    from gyrostat.answer import Answer
 
 __all__ = ["main"]
 
@@ -26,7 +27,34 @@ REFUSED: Final = 2
 NOT_MET: Final = 3
 INTERRUPTED: Final = 130
 
+# The form of an answer by the ending of the file.
+ENDINGS: Final = {".json": "json", ".csv": "csv", ".nc": "netcdf", ".txt": "report", "": "report"}
+
+LADDER: Final = """\
+Each kind of scene has a ladder of models, its rungs, from the cheapest to the
+full equations. They are asked in this order, and the first whose own error
+estimate meets the tolerance answers. A rung is passed over where its estimate
+is over the tolerance, where the scene leaves its domain, or where it has no
+answer to the scene; the report says which and why. Where none meets the
+tolerance the most accurate answers, with exit status 3. --set model=NAME takes
+one rung, which then answers wherever it can.
+
+With -o the ending of the file gives the form: .json, .csv, .nc (NetCDF) or
+.txt (the report), unless --json, --csv or --netcdf says it.
+"""
+
 T = TypeVar("T")
+
+
+def _ladder() -> str:
+    """The rungs, and what an answer holds, for each kind."""
+    from gyrostat.about import family_tables
+
+    text = io.StringIO()
+    for kind in FAMILIES:
+        for table in family_tables(kind):
+            show_table(*table, text)
+    return LADDER + text.getvalue()
 
 
 def _arguments() -> argparse.ArgumentParser:
@@ -34,6 +62,7 @@ def _arguments() -> argparse.ArgumentParser:
         prog="gyrostat", description="Attitude motion of bodies that carry rotors, by the cheapest model that meets a tolerance.",
         epilog="Exit status: 0 answered within the tolerance, 3 answered but over it, 2 bad input or refused, "
                "1 internal failure, 130 interrupted.")
+    parser.add_argument("--version", action="version", version=f"gyrostat {gyrostat.__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     def command(name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
@@ -47,12 +76,14 @@ def _arguments() -> argparse.ArgumentParser:
                           help="change a key of the scene, such as tolerance=1e-9 or torque.drag=0 (repeatable)")
 
     solve = command("solve", _solve, "answer a scene")
+    solve.formatter_class = argparse.RawDescriptionHelpFormatter
+    solve.epilog = _ladder()
     takes_scene(solve)
     form = solve.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
     form.add_argument("--csv", action="store_const", const="csv", dest="form", help="print the columns as CSV")
     form.add_argument("--netcdf", action="store_const", const="netcdf", dest="form", help="write a NetCDF file (needs -o)")
-    solve.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of to the standard output")
+    solve.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of to the standard output, in the form of the ending")
     solve.add_argument("--plot", type=Path, metavar="FILE", help="write a figure (PNG, SVG or PDF by its ending)")
 
     chart = command("chart", _chart, "chart error against cost of every rung and integrator: PNG, SVG and CSV")
@@ -76,14 +107,28 @@ def _arguments() -> argparse.ArgumentParser:
     design.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
     design.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the scene with the value in it, as TOML")
 
-    reproduce = command("reproduce", _reproduce, "draw the published figures again: as printed, right, and the full motion")
+    reproduce = command("reproduce", _reproduce, "draw the published figures again: as printed, corrected, and by the full motion")
     reproduce.add_argument("paper", nargs="?", metavar="PAPER", help="such as deceleration; left out: list what there is")
     reproduce.add_argument("figure", nargs="?", metavar="FIGURE", help="number of one figure; left out: all")
     reproduce.add_argument("-o", "--output", type=Path, default=Path("."), metavar="DIR", help="folder to write into (default: here)")
 
     command("scenes", _scenes, "list the bundled scenes")
-    command("schema", _schema, "print the JSON Schema of scene files")
-    command("info", _info, "print versions, build options and the licence of this build")
+    show = command("show", _show, "print a bundled scene as it stands, and where its file is")
+    show.add_argument("name", metavar="NAME", help="as `gyrostat scenes` lists it")
+
+    new = command("new", _new, "write a commented scene file to start from")
+    new.add_argument("kind", metavar="KIND", choices=list(FAMILIES), help=", ".join(FAMILIES))
+    new.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of to the standard output")
+    new.add_argument("--force", action="store_true", help="overwrite the file")
+
+    schema = command("schema", _schema, "print the keys of scene files: of one kind as a table, or as JSON Schema")
+    schema.add_argument("kind", nargs="?", metavar="KIND", choices=list(FAMILIES), help=f"{', '.join(FAMILIES)}; left out: the JSON Schema of all")
+    schema.add_argument("--json", action="store_true", help="print the JSON Schema of the kind")
+
+    info = command("info", _info, "print versions, what is installed and its licences, or what answers hold")
+    info.add_argument("--columns", nargs="?", const="all", metavar="KIND", choices=["all", *FAMILIES],
+                      help="print columns, scalars and rungs with units and meanings, of one kind or of all")
+    info.add_argument("--json", action="store_true", help="print one JSON object")
     command("selftest", _selftest, "check that what is installed answers right")
     return parser
 
@@ -155,14 +200,27 @@ def _in_thread(work: Callable[[Any], T], title: str) -> T:
     return result[0]
 
 
+def _form(arguments: argparse.Namespace) -> str:
+    """How the answer is written: as the option says, else by the ending of the file."""
+    output: Path | None = arguments.output
+    if arguments.form is not None:
+        if arguments.form == "netcdf" and output is None:
+            raise DomainError("--netcdf writes a binary file: name it with -o FILE")
+        return str(arguments.form)
+    ending = "" if output is None else output.suffix.lower()
+    if ending not in ENDINGS:
+        known = ", ".join(filter(None, ENDINGS))
+        raise DomainError(f"{output}: unknown ending {ending}; use one of {known}, or say --json, --csv or --netcdf")
+    return ENDINGS[ending]
+
+
 def _solve(arguments: argparse.Namespace) -> int:
     from gyrostat.ladder import solve
+    from gyrostat.report import report, summary
 
-    scene = _scene(arguments)
-    if arguments.form == "netcdf" and arguments.output is None:
-        raise DomainError("--netcdf writes a binary file: name it with -o FILE")
+    scene, form = _scene(arguments), _form(arguments)
     answer = _in_thread(lambda monitor: solve(scene, monitor=monitor), scene.name)
-    match arguments.form:
+    match form:
         case "json":
             _write(answer.to_json() + "\n", arguments.output)
         case "csv":
@@ -171,11 +229,14 @@ def _solve(arguments: argparse.Namespace) -> int:
             answer.to_netcdf(arguments.output)
         case _ if arguments.output is not None:
             with arguments.output.open("w") as stream:
-                _report(answer, stream)
+                report(answer, stream)
         case _:
-            _report(answer, sys.stdout)
+            report(answer, sys.stdout)
+    if arguments.output is not None:
+        say(f"wrote {arguments.output}: {summary(answer)}", sys.stderr)
     if arguments.plot is not None:
         answer.plot(arguments.plot)
+        say(f"wrote {arguments.plot}", sys.stderr)
     return MET if answer.met else NOT_MET
 
 
@@ -184,54 +245,6 @@ def _write(text: str, file: Path | None) -> None:
         sys.stdout.write(text)
     else:
         file.write_text(text)
-
-
-def _short(value: Any, digits: int = 9) -> str:
-    """A number or vector for reading."""
-    if value is None:
-        return "-"
-    if hasattr(value, "__len__"):
-        return "(" + ", ".join(_short(float(v), 6) for v in value) + ")"
-    if math.isnan(value):
-        return "-"
-    return "infinite" if math.isinf(value) else f"{value:.{digits}g}"
-
-
-def _word(scalar: str, value: Any) -> str:
-    """What a scalar without a number means; empty where it has one."""
-    if scalar == "stop_time" and value == math.inf:
-        return "never"
-    if scalar == "stable" and value is not None:
-        return "yes" if value else "no"
-    return "not certified" if scalar == "attractor" and value is None else ""
-
-
-def _small(error: float | None) -> str:
-    return "-" if error is None or math.isnan(error) else f"{error:.2g}"
-
-
-def _report(answer: "Answer", out: Any) -> None:
-    """The answer for reading."""
-    from gyrostat.answer import UNITS
-
-    name = answer.scene.get("name", "")
-    met = "met" if answer.met else "NOT met"
-    say(f"{name} ({answer.scene['kind']})", out)
-    say(f"answered by {answer.model}: estimated error {_small(answer.greatest_error)}, tolerance {answer.tolerance:g} {met}", out)
-    for warning in answer.warnings:
-        say(f"warning, {warning.code}: {warning.message}", out)
-    rows = [[a.model, _small(a.error), "answered" if a.accepted else "passed over", a.why or ""] for a in answer.tried]
-    show_table("What was tried", ["rung", "estimated error", "", "why"], rows, out)
-    show_table("Scalars", ["name", "value", "unit"],
-               [[key, _word(key, value) or _short(value), UNITS.get(key, "")] for key, value in answer.scalars.items()], out)
-    rows = []
-    for column, values in answer.columns.items():
-        first, last = values[0], values[-1]
-        shown = [str(first), str(last)] if values.dtype.kind in "UO" else [_short(first), _short(last)]
-        rows.append([column, UNITS.get(column, ""), *shown, _small(answer.error.get(column))])
-    show_table(f"Columns, {len(answer.t)} times", ["name", "unit", f"t = {answer.t[0]:g} s", f"t = {answer.t[-1]:g} s", "estimated error"], rows, out)
-    counts = ", ".join(f"{value} {key}" for key, value in answer.counts.items())
-    say(f"{answer.seconds:.3g} s; {counts}", out)
 
 
 def _chart(arguments: argparse.Namespace) -> int:
@@ -245,9 +258,12 @@ def _chart(arguments: argparse.Namespace) -> int:
 
         chart = make_chart(scene, progress=told)
     files = chart.save(arguments.output)
-    rows = [[p.label, p.setting, *(_small(p.error.get(m.key)) for m in chart.measures), f"{p.seconds:.3g}", str(p.rhs), p.note]
+    rows = [[p.label, p.setting, *(small(p.error.get(m.key)) for m in chart.measures), f"{p.seconds:.3g}", str(p.rhs), p.note]
             for p in chart.points]
-    show_table(f"{chart.name}: {chart.title}", ["method", "setting", *(m.head for m in chart.measures), "seconds", "rhs", ""], rows, sys.stdout)
+    heads = ["method", "setting", *(m.head for m in chart.measures), "CPU seconds", "rhs", ""]
+    show_table(f"{chart.name}: {chart.title}", heads, rows, sys.stdout)
+    for left_out in chart.left_out:
+        say(f"left out: {left_out}", sys.stdout)
     for file in files:
         say(f"wrote {file}", sys.stdout)
     return MET
@@ -273,14 +289,14 @@ def _design(arguments: argparse.Namespace) -> int:
         say(json.dumps(made.to_dict(), allow_nan=False), sys.stdout)
     else:
         words = GOALS[goal]
-        say(f"{scene.name}: {words.quantity} for {_short(budget)} {words.budget_unit} of {words.measure}: {_short(made.value)} {words.unit}", sys.stdout)
+        say(f"{scene.name}: {words.quantity} for {short(budget)} {words.budget_unit} of {words.measure}: {short(made.value)} {words.unit}", sys.stdout)
         for warning in made.warnings:
             say(f"warning, {warning}", sys.stdout)
         verdict = "confirmed" if made.confirmed else "NOT confirmed"
-        rows = [[words.measure, words.budget_unit, _short(budget), _short(made.found), f"{(made.found - budget) / budget:+.2g}", verdict]]
-        show_table(f"The scene with it, by the full motion over {_short(made.span, 6)} s", ["", "unit", "asked", "found", "off by", ""], rows, sys.stdout)
+        rows = [[words.measure, words.budget_unit, short(budget), short(made.found), f"{(made.found - budget) / budget:+.2g}", verdict]]
+        show_table(f"The scene with it, by the full motion over {short(made.span, 6)} s", ["", "unit", "asked", "found", "off by", ""], rows, sys.stdout)
         met = "met" if made.met else "NOT met"
-        say(f"answered by {made.model}: estimated error {_small(made.error)}, tolerance {made.tolerance:g} {met}", sys.stdout)
+        say(f"answered by {made.model}: estimated error {small(made.error)}, tolerance {made.tolerance:g} {met}", sys.stdout)
         say(f"wrote {arguments.output}" if arguments.output is not None else f"\n{text}", sys.stdout)
     return MET if made.confirmed and made.met else NOT_MET
 
@@ -309,17 +325,61 @@ def _scenes(_: argparse.Namespace) -> int:
     return MET
 
 
-def _schema(_: argparse.Namespace) -> int:
-    from gyrostat.schema import schema
-
-    print(json.dumps(schema(), indent=2))
+def _show(arguments: argparse.Namespace) -> int:
+    known = dict(bundled())
+    if arguments.name not in known:
+        near = difflib.get_close_matches(arguments.name, known, 1)
+        raise DomainError(f"{arguments.name}: there is no bundled scene of this name; "
+                          + (f"did you mean {near[0]}?" if near else "gyrostat scenes lists them"))
+    sys.stdout.write(known[arguments.name].read_text(encoding="utf-8"))
+    say(f"file: {known[arguments.name]}", sys.stderr)
     return MET
 
 
-def _info(_: argparse.Namespace) -> int:
-    from gyrostat.about import build_table
+def _new(arguments: argparse.Namespace) -> int:
+    from gyrostat.template import template
 
-    show_table("", ["", ""], build_table(), sys.stdout)
+    text = template(arguments.kind)
+    if arguments.output is None:
+        sys.stdout.write(text)
+        return MET
+    try:
+        with arguments.output.open("w" if arguments.force else "x", encoding="utf-8") as stream:
+            stream.write(text)
+    except FileExistsError:
+        raise DomainError(f"{arguments.output}: the file exists; name another, or overwrite it with --force") from None
+    say(f"wrote {arguments.output}: next, gyrostat solve {arguments.output}", sys.stderr)
+    return MET
+
+
+def _schema(arguments: argparse.Namespace) -> int:
+    from gyrostat.schema import key_tables, schema, ways
+
+    if arguments.json or arguments.kind is None:
+        say(json.dumps(schema(arguments.kind), indent=2), sys.stdout)
+        return MET
+    for table in key_tables(arguments.kind):
+        show_table(*table, sys.stdout)
+    say("", sys.stdout)
+    for choices in FAMILIES[arguments.kind].alternatives:
+        say(ways(choices), sys.stdout)
+    return MET
+
+
+def _info(arguments: argparse.Namespace) -> int:
+    from gyrostat.about import build_table, family_tables
+    from gyrostat.facts import FACTS
+
+    kinds = {None: [], "all": list(FAMILIES)}.get(arguments.columns, [arguments.columns])
+    if arguments.json:
+        found = {kind: dataclasses.asdict(FACTS[kind]) for kind in kinds} if kinds else dict(build_table())
+        say(json.dumps(found), sys.stdout)
+    elif kinds:
+        for kind in kinds:
+            for table in family_tables(kind):
+                show_table(*table, sys.stdout)
+    else:
+        show_table("", ["", ""], build_table(), sys.stdout)
     return MET
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Text, tables and progress on the terminal: rich where it is installed and someone is watching, plain text elsewhere."""
 
+import math
 import shutil
 import sys
 import textwrap
@@ -8,7 +9,23 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import Any, TextIO
 
-__all__ = ["Progress", "say", "show_table"]
+__all__ = ["Progress", "say", "short", "show_table", "small"]
+
+
+def short(value: Any, digits: int = 9) -> str:
+    """A number or vector for reading."""
+    if value is None:
+        return "-"
+    if hasattr(value, "__len__"):
+        return "(" + ", ".join(short(float(v), 6) for v in value) + ")"
+    if math.isnan(value):
+        return "-"
+    return "infinite" if math.isinf(value) else f"{value:.{digits}g}"
+
+
+def small(error: float | None) -> str:
+    """An error for reading."""
+    return "-" if error is None or math.isnan(error) else f"{error:.2g}"
 
 
 def _rich(out: TextIO) -> bool:

@@ -17,6 +17,7 @@ from gyrostat import _core, spinning
 from gyrostat._core import Monitor
 from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.errors import DomainError
+from gyrostat.families.spinning.functions import ORIGIN, SHAPES
 from gyrostat.fields import MOST_SAMPLES
 from gyrostat.ladder import solve
 from gyrostat.rotation import matrix_from_quaternion
@@ -27,6 +28,8 @@ __all__ = ["GOALS", "Design", "Goal", "SceneDesign", "burn_for_displacement", "b
 
 # Beyond this bound of the tilt the linear motion is not to be trusted [rad].
 SMALL_TILT: Final = 0.3
+# Beyond this one it says nothing, and its full motion tumbles at rates that no budget meant: such a design is refused [rad].
+MOST_TILT: Final = 2 * math.pi
 # A design is confirmed where the full motion finds the budget within this share.
 AGREEMENT: Final = 0.01
 # Means are taken over so many periods of the slowest oscillation, by so many samples in a period of the fastest, and never over more
@@ -81,8 +84,8 @@ class Design:
 
 
 def _design(goal: str, budget: ArrayLike, given: Mapping[str, ArrayLike]) -> Design:
-    names = ["budget", *spinning.SHAPES]
-    lead, made = rows([("budget", budget, ()), *((name, given[name], shape) for name, shape in spinning.SHAPES.items())])
+    names = ["budget", *SHAPES]
+    lead, made = rows([("budget", budget, ()), *((name, given[name], shape) for name, shape in SHAPES.items())])
     by_name = dict(zip(names, made, strict=True))
     limit = by_name.pop("budget")
     found = _core.spinning_design(_core.SpinningProblems(**by_name), goal=goal, budget=limit)
@@ -92,7 +95,7 @@ def _design(goal: str, budget: ArrayLike, given: Mapping[str, ArrayLike]) -> Des
 
 
 def _body(**given: ArrayLike) -> dict[str, ArrayLike]:
-    return {"mass": 1.0, "velocity": spinning.ORIGIN, "position": spinning.ORIGIN, **given}
+    return {"mass": 1.0, "velocity": ORIGIN, "position": ORIGIN, **given}
 
 
 def spin_for_pointing(*, inertia: ArrayLike, torque: ArrayLike, budget: ArrayLike, sense: ArrayLike = 1.0, rotor_momentum: ArrayLike = 0.0,
@@ -109,12 +112,12 @@ def spin_for_pointing(*, inertia: ArrayLike, torque: ArrayLike, budget: ArrayLik
     spin[..., 2] = np.where(sign < 0, -1.0, 1.0).reshape(lead)
     return _design("spin-for-pointing", budget, _body(
         inertia=inertia, torque=torque, rotor_momentum=rotor_momentum, charge_momentum=charge_momentum, angular_velocity=spin,
-        force=spinning.ORIGIN, euler_312=spinning.ORIGIN))
+        force=ORIGIN, euler_312=ORIGIN))
 
 
 def torque_for_direction(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike, budget: ArrayLike,
                          rotor_momentum: ArrayLike = 0.0, charge_momentum: ArrayLike = 0.0,
-                         euler_312: ArrayLike = spinning.ORIGIN) -> Design:
+                         euler_312: ArrayLike = ORIGIN) -> Design:
     """Greatest |M| [N m] up to which the velocity gained points, in the mean over many turns, within the budget of inertial axis 3.
 
     |v/v3| <= tan(budget) for the secular ratio, with the transverse force and the start counted. torque : (..., 3), its direction is kept [N m];
@@ -128,7 +131,7 @@ def torque_for_direction(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayL
 
 def burn_for_displacement(*, inertia: ArrayLike, mass: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike,
                           budget: ArrayLike, rotor_momentum: ArrayLike = 0.0, charge_momentum: ArrayLike = 0.0,
-                          euler_312: ArrayLike = spinning.ORIGIN) -> Design:
+                          euler_312: ArrayLike = ORIGIN) -> Design:
     """Longest burn [s] during which the loads displace the mass centre by at most the budget [m] across inertial axis 3.
 
     The first time at which |x1 + i x2| of x - x(0) - v(0) t is the budget. budget : (...) > 0 [m]; the others as in `spinning.linear`. Leading
@@ -142,7 +145,7 @@ def burn_for_displacement(*, inertia: ArrayLike, mass: ArrayLike, torque: ArrayL
 
 def burn_for_velocity(*, inertia: ArrayLike, mass: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike,
                       budget: ArrayLike, rotor_momentum: ArrayLike = 0.0, charge_momentum: ArrayLike = 0.0,
-                      euler_312: ArrayLike = spinning.ORIGIN) -> Design:
+                      euler_312: ArrayLike = ORIGIN) -> Design:
     """Longest burn [s] that changes the velocity of the mass centre by at most the budget [m/s], in size: first |v - v(0)| = budget.
 
     All else as in `burn_for_displacement`.
@@ -203,7 +206,7 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
     if goal not in GOALS:
         raise DomainError(f"goal = {goal!r}: use one of {', '.join(GOALS)}")
     given = spinning.arguments(scene)
-    found = _design(goal, budget, {name: given[name] for name in spinning.SHAPES})
+    found = _design(goal, budget, {name: given[name] for name in SHAPES})
     value, why = float(found.value), str(found.why)
     if why:
         raise DomainError(f"{scene.name}: {WHY[why].get(goal, WHY[why].get('', ''))}")
@@ -213,10 +216,14 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
     if goal == "spin-for-pointing" and bool(found.unstable):
         raise DomainError(f"{scene.name}: stability, not pointing, limits the spin: beyond {value:.9g} rad/s it is stable and within the budget, "
                           "at that rate it is not; choose a margin")
+    tilt = float(found.tilt_bound)
+    if math.isfinite(tilt) and tilt > MOST_TILT:
+        raise DomainError(f"{scene.name}: {budget:.6g} {GOALS[goal].budget_unit} of {GOALS[goal].measure} takes a {GOALS[goal].quantity.split()[-1]} of {value:.6g} "
+                          f"{GOALS[goal].unit}, at which the linear motion, by which designs are made, would tilt axis 3 by up to {tilt:.3g} rad: it says "
+                          "nothing there; give a smaller budget")
     designed = _designed(scene, given, goal, value)
     answer = solve(designed, monitor=monitor)
     warnings = [f"{w.code}: {w.message}" for w in answer.warnings]
-    tilt = float(found.tilt_bound)
     if not tilt <= SMALL_TILT:
         much = f"the tilt may reach {tilt:.3g} rad" if math.isfinite(tilt) else "the tilt grows for ever"
         warnings.insert(0, f"beyond-small-tilt: {much}, and the design is by the linear motion, which holds for small tilt")
@@ -244,7 +251,7 @@ def _found(given: dict[str, Any], goal: str, monitor: Monitor | None) -> tuple[f
     """What the budget limits, measured on the full motion, and how long that was followed."""
     full = {**given, "model": "full", "tolerance": min(CHECK, given["tolerance"]), "integrator": "auto", "monitor": monitor}
     if goal.startswith("burn"):
-        columns = spinning.solve(**full)["columns"]
+        columns = spinning.solve(**full)
         end = float(given["times"][-1])
         if goal == "burn-for-velocity":
             return float(np.linalg.norm(columns["velocity"][-1] - given["velocity"])), end
@@ -274,7 +281,7 @@ def _many_turns(given: Mapping[str, Any]) -> Vectors:
 
 def _mean_direction(given: dict[str, Any], body_vector: Vectors) -> Vectors:
     """Mean over the times of R body_vector, by a window so smooth that oscillations leave nothing."""
-    turned = matrix_from_quaternion(spinning.solve(**given)["columns"]["attitude"]) @ body_vector
+    turned = matrix_from_quaternion(spinning.solve(**given)["attitude"]) @ body_vector
     s = np.linspace(0.0, 1.0, len(turned))[1:-1]
     window = np.exp(-1.0 / (s * (1.0 - s)))
     mean: Vectors = window @ turned[1:-1] / window.sum()

@@ -1,23 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From a scene to its answer and to its chart."""
 
+import dataclasses
 import os
 from collections.abc import Mapping
-from types import ModuleType
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
-from gyrostat import deceleration, heavy, rotor, spinning
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
+from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, load, scene_from
 
 if TYPE_CHECKING:
     from gyrostat.charts import Chart
 
 __all__ = ["Monitor", "chart", "solve"]
-
-# What answers a kind of scene: `arguments(scene)` and `solve(**arguments, monitor=...)`.
-FAMILIES: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "spinning": spinning, "heavy": heavy}
 
 SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
 
@@ -43,8 +40,7 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, **overrides: Any)
     """
     checked = scene_of(scene, overrides)
     family = FAMILIES[checked.kind]
-    made = family.solve(**family.arguments(checked), monitor=monitor)
-    return Answer.of(checked.to_dict(), checked.times, checked.tolerance, made)
+    return dataclasses.replace(family.solve(**family.arguments(checked), monitor=monitor), scene=checked.to_dict())
 
 
 def chart(scene: SceneLike, **overrides: Any) -> "Chart":

@@ -15,19 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.errors import Mistake, SceneError
-from gyrostat.fields import (
-    ALTERNATIVES,
-    INTEGRATORS,
-    KINDS,
-    LIMIT,
-    MOST_SAMPLES,
-    REQUIRED,
-    UNSET,
-    Choice,
-    Field,
-    needed,
-    table_of,
-)
+from gyrostat.families import FAMILIES, Family
+from gyrostat.fields import LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, UNSET, Choices, Field, Table, Values, table_of
 
 __all__ = ["Scene", "bundled", "find", "load", "parse_override", "scene_from"]
 
@@ -36,8 +25,6 @@ MOST_BYTES: Final = 64 * 2**20
 UNIT_TOLERANCE: Final = 1e-6
 # An axis is taken as a unit vector when its length is 1 within this.
 AXIS_TOLERANCE: Final = 1e-8
-# What is of unit length within this is left as it stands.
-ROUNDING: Final = 1e-15
 # Off-diagonal pairs, and the triangle inequality, may be off by this share of the largest element.
 TENSOR_TOLERANCE: Final = 1e-9
 # Where the moments themselves are used, as they stand, they may miss the triangle inequality by rounding alone.
@@ -54,7 +41,7 @@ class Scene:
     name: str
     kind: str
     source: str
-    tables: Mapping[str, Mapping[str, Any]]
+    tables: Values
     path: Path | None = None
 
     @property
@@ -93,6 +80,11 @@ class Scene:
 
     def _label(self) -> str:
         return self.name if self.path is None else str(self.path)
+
+    def _repr_html_(self) -> str:
+        from gyrostat.notebook import scene_html
+
+        return scene_html(self)
 
 
 @dataclass
@@ -191,7 +183,7 @@ def _choice(field: Field, value: Any) -> str:
     allowed = f"use one of {', '.join(field.choices)}"
     if not isinstance(value, str):
         raise _Wrong(f"this is {_kind_of(value)}, not text", allowed)
-    if field.name == "integrator" and any(value in names for names in INTEGRATORS.values()):
+    if field.name == "integrator" and any(value in family.facts.integrators for family in FAMILIES.values()):
         raise _Wrong("this kind of scene has no such integrator", allowed)
     near = _near(value, field.choices)
     raise _Wrong(f"unknown {field.name}", f'did you mean "{near}"? {allowed}' if near else allowed)
@@ -353,51 +345,6 @@ _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
 }
 
 
-# ---- what no single key tells: each yields full key, value, problem and remedy ----
-
-Found = Iterator[tuple[str, Any, str, str]]
-
-
-def _gyrostat(tables: Mapping[str, Mapping[str, Any]]) -> Found:
-    """A rotor that its own mass, or the whole gyrostat, can hold."""
-    rotor, whole = tables["rotor"], tables["body"]["inertia"]
-    axial, equatorial = rotor["axial_inertia"], rotor["equatorial_inertia"]
-    if equatorial is not UNSET and axial > 2 * equatorial * (1 + ROUNDING):
-        yield ("rotor.axial_inertia", axial, f"this exceeds twice rotor.equatorial_inertia = {equatorial!r}",
-               f"no rotor has more than {2 * equatorial:.9g} kg m^2, the value of a thin disc: check both")
-    if whole is not UNSET:
-        tensor, axis = np.array(whole), np.array(rotor["axis"])
-        most = 1 / float(axis @ np.linalg.solve(np.diag(tensor) if tensor.ndim == 1 else tensor, axis))
-        if axial >= most * (1 - ROUNDING):
-            yield ("rotor.axial_inertia", axial, f"the whole gyrostat of body.inertia holds less than {most:.9g} kg m^2 about this axis",
-                   f"give less than {most:.9g} kg m^2 (1/(e.theta^-1.e)), or the inertia of the whole, rotor included")
-
-
-def _heavy(tables: Mapping[str, Mapping[str, Any]]) -> Found:
-    """Second moments of mass about the mass centre that are not negative: stronger than the triangle inequality."""
-    body = tables["body"]
-    inertia, centre = np.array(body["inertia"]), np.array(body["centre_of_mass"])
-    inertia = np.diag(inertia) if inertia.ndim == 1 else inertia
-    about_point = np.trace(inertia) / 2 * np.eye(3) - inertia
-    slack = -1.3 * ROUNDING * float(np.max(np.abs(inertia)))  # less than what the core allows
-    with np.errstate(over="ignore", invalid="ignore"):
-        about_centre = about_point - body["mass"] * np.outer(centre, centre)
-    least, axes = np.linalg.eigh(about_point)
-    if least[0] < slack:
-        yield ("body.inertia", _plain(body["inertia"]), "by rounding, a moment exceeds the sum of the two others",
-               "make the greatest moment no larger than the sum of the two others")
-    elif not np.all(np.isfinite(about_centre)) or np.linalg.eigvalsh(about_centre)[0] < slack:
-        far = centre / float(np.linalg.norm(centre))
-        with np.errstate(divide="ignore"):
-            reach = 1 / math.sqrt(body["mass"] * float(np.sum(np.where(axes.T @ far == 0, 0.0, (axes.T @ far) ** 2 / np.maximum(least, 0)))))
-        yield ("body.centre_of_mass", _plain(body["centre_of_mass"]), "no body with this mass and this inertia about the fixed point has its mass "
-               "centre there", f"in this direction it lies at most {reach:.9g} m from the fixed point: check the units, and that the inertia is "
-               "about the fixed point, not the mass centre")
-
-
-_PHYSICS: Final[dict[str, Callable[[Mapping[str, Mapping[str, Any]]], Found]]] = {"rotor": _gyrostat, "heavy": _heavy}
-
-
 # ---- the whole scene ----
 
 
@@ -412,26 +359,27 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         mistakes.append(Mistake(source.where(key), key, _show(value) if shown else "", problem, remedy))
 
     kind = tree.get("kind")
-    if not isinstance(kind, str) or kind not in KINDS:
-        known = ", ".join(KINDS)
+    if not isinstance(kind, str) or kind not in FAMILIES:
+        known = ", ".join(FAMILIES)
         if "kind" not in tree:
-            wrong("kind", "", "the key is missing", f'write kind = "{next(iter(KINDS))}" (this version answers: {known})', False)
+            wrong("kind", "", "the key is missing", f'write kind = "{next(iter(FAMILIES))}" (this version answers: {known})', False)
         else:
-            near = _near(kind, KINDS) if isinstance(kind, str) else ""
+            near = _near(kind, FAMILIES) if isinstance(kind, str) else ""
             wrong("kind", kind, "unknown kind", (f'did you mean "{near}"? ' if near else "") + f"this version answers: {known}")
         raise SceneError(*mistakes)
 
-    layout = KINDS[kind]
+    family = FAMILIES[kind]
+    layout = family.keys
     read: dict[str, dict[str, Any]] = {}
     unread: set[str] = set()
     for key in tree:
         if key not in layout and all(field.name != key for field in layout[""]):
             wrong(key, tree[key], "unknown " + ("table" if isinstance(tree[key], dict) else "key"),
-                  _advice(key, "", layout), not isinstance(tree[key], dict))
+                  _advice(key, "", family), not isinstance(tree[key], dict))
     for table, fields in layout.items():
         given: Any = tree.get(table, {}) if table else tree
-        if table and table not in tree and needed(kind, table):
-            wrong(table, "", f"the table [{table}] is missing", f"add [{table}] with {_wanted(kind, table)}", False)
+        if table and table not in tree and family.needs(table):
+            wrong(table, "", f"the table [{table}] is missing", f"add [{table}] with {_wanted(family, table)}", False)
             unread.add(table)
             continue
         if not isinstance(given, dict):
@@ -442,7 +390,7 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         if table:
             for key in given:
                 if all(field.name != key for field in fields):
-                    wrong(prefix + str(key), given[key], "unknown key", _advice(str(key), table, layout))
+                    wrong(prefix + str(key), given[key], "unknown key", _advice(str(key), table, family))
         values: dict[str, Any] = {}
         for field in fields:
             if field.name not in given:
@@ -455,12 +403,12 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
             except _Wrong as error:
                 wrong(prefix + field.name, given[field.name], *error.args)
         read[table] = values
-    for choices in ALTERNATIVES[kind]:
+    for choices in family.alternatives:
         if not any(table_of(key) in unread for choice in choices for key in choice):
             _one_of(choices, tree, wrong)
     if not mistakes:
-        for found in _PHYSICS[kind](read) if kind in _PHYSICS else ():
-            wrong(*found)
+        for key, value, problem, remedy in family.mistakes(read):
+            wrong(key, _plain(value), problem, remedy)
     if mistakes:
         raise SceneError(*mistakes)
     head = read.pop("")
@@ -471,7 +419,7 @@ def _meaning(field: Field) -> str:
     return field.meaning + (f" ({field.unit})" if field.unit else "")
 
 
-def _ways(choices: tuple[Choice, ...]) -> str:
+def _ways(choices: Choices) -> str:
     """The alternatives for reading: "in [solve] give either duration and samples or times"."""
     tables = {table_of(key) for choice in choices for key in choice}
     if len(tables) == 1:
@@ -479,17 +427,17 @@ def _ways(choices: tuple[Choice, ...]) -> str:
     return "give either " + ", or ".join(" and ".join(filter(None, (", ".join(choice[:-1]), choice[-1]))) for choice in choices)
 
 
-def _bare(choices: tuple[Choice, ...]) -> str:
+def _bare(choices: Choices) -> str:
     return " or ".join(" and ".join(key.rpartition(".")[2] for key in choice) for choice in choices if choice)
 
 
-def _wanted(kind: str, table: str) -> str:
-    names = [field.name for field in KINDS[kind][table] if field.default is REQUIRED]
-    names += [_bare(choices) for choices in ALTERNATIVES[kind] if all(table_of(key) == table for choice in choices for key in choice)]
+def _wanted(family: Family, table: str) -> str:
+    names = [field.name for field in family.keys[table] if field.default is REQUIRED]
+    names += [_bare(choices) for choices in family.alternatives if all(table_of(key) == table for choice in choices for key in choice)]
     return ", ".join(names)
 
 
-def _one_of(choices: tuple[Choice, ...], tree: Mapping[str, Any], wrong: Callable[..., None]) -> None:
+def _one_of(choices: Choices, tree: Mapping[str, Any], wrong: Callable[..., None]) -> None:
     given = {f"{table}.{name}": value for table, values in tree.items() if isinstance(values, dict) for name, value in values.items()}
     started = [choice for choice in choices if any(key in given for key in choice)]
     if not started:
@@ -504,8 +452,9 @@ def _one_of(choices: tuple[Choice, ...], tree: Mapping[str, Any], wrong: Callabl
                 wrong(key, "", "the key is missing", _ways(choices), False)
 
 
-def _advice(key: str, table: str, layout: Mapping[str, Iterable[Field]]) -> str:
+def _advice(key: str, table: str, family: Family) -> str:
     """What to do about a key that `table` does not have."""
+    layout = family.keys
     here = [field.name for field in layout[table]] + ([name for name in layout if name] if not table else [])
     homes = [name for name, fields in layout.items() if any(field.name == key for field in fields)]
     if homes and not homes[0]:
@@ -517,23 +466,40 @@ def _advice(key: str, table: str, layout: Mapping[str, Iterable[Field]]) -> str:
     for name, fields in layout.items():
         if near := _near(key, [field.name for field in fields]):
             return f"did you mean {name + '.' if name else ''}{near}?"
+    if kinds := _kinds_with(key, table):
+        return f"leave it out: only scenes of the kind {' or '.join(kinds)} have it"
     return f"the keys here are {', '.join(here)}"
+
+
+def _kinds_with(key: str, table: str) -> list[str]:
+    """The kinds whose `table` has the key; of every table where none is named."""
+    return [family.name for family in FAMILIES.values()
+            if any(field.name == key for name, fields in family.keys.items() if table in ("", name) for field in fields)]
+
+
+def _advice_anywhere(key: str, layout: Mapping[str, Table]) -> str:
+    """What to do about a key, named without its table, that no table has."""
+    names = [field.name for fields in layout.values() for field in fields]
+    if near := _near(key, names):
+        return f"did you mean {near}?"
+    if kinds := _kinds_with(key, ""):
+        return f"leave it out: only scenes of the kind {' or '.join(kinds)} have it"
+    return f"the keys are {', '.join(names)}"
 
 
 def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any]) -> Iterator[str]:
     """Put each override into the tree (taking out what it is an alternative to); yields the full keys."""
     kind = overrides.get("kind", tree.get("kind"))
-    layout = KINDS.get(kind, {}) if isinstance(kind, str) else {}
+    family = FAMILIES.get(kind) if isinstance(kind, str) else None
+    layout: Mapping[str, Table] = family.keys if family else {}
     full: dict[str, Any] = {}
     for key, value in overrides.items():
         table, _, name = key.rpartition(".")
         if not table:
             homes = [home for home, fields in layout.items() if any(field.name == name for field in fields)]
             if not homes and name not in ("kind", "name", "source"):
-                names = [field.name for fields in layout.values() for field in fields]
-                near = _near(name, names)
                 raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)), "unknown key",
-                                         f"did you mean {near}?" if near else f"the keys are {', '.join(names)}"))
+                                         _advice_anywhere(name, layout)))
             if len(homes) > 1:
                 given = [home for home in homes if isinstance(there := tree.get(home), dict) and name in there]
                 if len(given) != 1:
@@ -550,7 +516,7 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
             home = home.setdefault(part, {})
             if not isinstance(home, dict):
                 raise SceneError(Mistake(source.label, table, _show(home), "this is not a table", f"write [{table}] and its keys"))
-        for choices in ALTERNATIVES.get(str(kind), ()):
+        for choices in family.alternatives if family else ():
             for rival in (rival for choice in choices if key not in choice and any(key in other for other in choices) for rival in choice):
                 beside = tree.get(table_of(rival))
                 if rival not in full and isinstance(beside, dict):
@@ -624,7 +590,7 @@ def load(path: str | os.PathLike[str], **overrides: Any) -> Scene:
         if place:
             line = text.split("\n")[int(place[1]) - 1].strip()[:60]
             problem = problem.replace(place[0], f"in column {place[2]} of the line '{line}'")
-        raise SceneError(Mistake(where, "", "", f"this is not TOML: {_printable(problem)}", "mend the line")) from None
+        raise SceneError(Mistake(where, "", "", f"this is not TOML: {_printable(problem)}", "correct the line")) from None
     except RecursionError:
         raise fail("arrays or tables are nested too deep", "a scene file is a few lines of TOML") from None
     except ValueError as error:

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""JSON Schema of scene files, made from the table that the validator reads."""
+"""The keys of scene files as a JSON Schema and as tables for reading, made from what the validator reads."""
 
+from collections.abc import Iterator
 from typing import Any
 
-from gyrostat.fields import ALTERNATIVES, KINDS, REQUIRED, UNSET, Choice, Field, needed, table_of
+from gyrostat.families import FAMILIES, Family
+from gyrostat.fields import LIMIT, REQUIRED, UNSET, Choice, Choices, Field, table_of
+from gyrostat.toml_text import toml_value
 
-__all__ = ["schema"]
+__all__ = ["interval", "key_tables", "schema", "ways"]
 
 
 def _number(field: Field) -> dict[str, Any]:
@@ -57,7 +60,7 @@ def _given(keys: Choice) -> dict[str, Any]:
     return {"required": list(tables), "properties": {table: {"required": names} for table, names in tables.items()}}
 
 
-def _one_of(choices: tuple[Choice, ...]) -> dict[str, Any]:
+def _one_of(choices: Choices) -> dict[str, Any]:
     """One way is taken whole, and nothing of another."""
     return {"oneOf": [
         {**_given(chosen), "not": {"anyOf": [_given((key,)) for other in choices if other is not chosen for key in other]}}
@@ -65,8 +68,8 @@ def _one_of(choices: tuple[Choice, ...]) -> dict[str, Any]:
     ]}
 
 
-def _kind(kind: str) -> dict[str, Any]:
-    tables = KINDS[kind]
+def _kind(family: Family) -> dict[str, Any]:
+    tables = family.keys
     properties: dict[str, Any] = {field.name: _property(field) for field in tables[""]}
     for table, fields in tables.items():
         if table:
@@ -80,22 +83,82 @@ def _kind(kind: str) -> dict[str, Any]:
         "type": "object",
         "properties": properties,
         "required": [field.name for field in tables[""] if field.default is REQUIRED]
-                    + [table for table in tables if table and needed(kind, table)],
+                    + [table for table in tables if table and family.needs(table)],
         "additionalProperties": False,
-        "allOf": [_one_of(choices) for choices in ALTERNATIVES[kind]],
+        "allOf": [_one_of(choices) for choices in family.alternatives],
     }
 
 
-def schema() -> dict[str, Any]:
-    """JSON Schema (draft 2020-12) of a scene file, parsed from TOML.
+def schema(kind: str | None = None) -> dict[str, Any]:
+    """JSON Schema (draft 2020-12) of a scene file, of one kind or of any, parsed from TOML.
 
     What a schema cannot say is checked when a scene is loaded: finite numbers, the triangle inequality, a symmetric
     or diagonal tensor, increasing times, a unit quaternion or axis, a rotor that the body can hold, a mass centre that a body with this
     inertia can have.
     """
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "gyrostat scene",
-        "description": "SI units, radians, seconds",
-        "oneOf": [_kind(kind) for kind in KINDS],
-    }
+    head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "gyrostat scene", "description": "SI units, radians, seconds"}
+    if kind is not None:
+        return {**head, **_kind(FAMILIES[kind])}
+    return {**head, "oneOf": [_kind(family) for family in FAMILIES.values()]}
+
+
+# ---- for reading ----
+
+
+def interval(field: Field) -> str:
+    """The legal interval of the numbers of a key; empty where they are free."""
+    if field.form == "count":
+        return f"{field.low:.0f} to {field.high:.0f}"
+    low = "" if field.low <= -LIMIT else f"{'>' if field.open_low else '>='} {field.low:g}"
+    high = "" if field.high >= LIMIT else f"{'<' if field.open_high else '<='} {field.high:g}"
+    return " and ".join(filter(None, (low, high)))
+
+
+def _form_text(field: Field) -> str:
+    match field.form:
+        case "choice":
+            return " | ".join(field.choices)
+        case "count":
+            return "integer"
+        case "vector":
+            return "3 numbers"
+        case "direction":
+            return "unit vector"
+        case "quaternion":
+            return "4 numbers"
+        case "inertia" | "moments":
+            return "3 or 3x3 numbers"
+        case "times":
+            return "numbers"
+        case "record":
+            return "{ " + ", ".join(part.name for part in field.parts) + " }"
+        case _:
+            return field.form
+
+
+def _default_text(field: Field, alternatives: set[str], key: str) -> str:
+    if field.default is REQUIRED:
+        return "required"
+    if key in alternatives:
+        return "alternative"
+    return "-" if field.default is UNSET else toml_value(field.default)
+
+
+def key_tables(kind: str) -> Iterator[tuple[str, list[str], list[list[str]]]]:
+    """Title, heads and rows of each table of a scene file of the kind."""
+    family = FAMILIES[kind]
+    alternatives = {key for choices in family.alternatives for choice in choices for key in choice}
+    for table, fields in family.keys.items():
+        rows = []
+        for field in fields:
+            default = _default_text(field, alternatives, f"{table}.{field.name}")
+            rows.append([field.name, _form_text(field), field.unit, default, interval(field), field.meaning])
+            rows += [[f"  {part.name}", _form_text(part), part.unit, "", interval(part), part.meaning] for part in field.parts]
+        title = f"[{table}]" if table else "at the top"
+        yield title, ["key", "form", "unit", "default", "interval", "meaning"], rows
+
+
+def ways(choices: Choices) -> str:
+    """The alternatives as a sentence."""
+    listed = ", or ".join(" with ".join(filter(None, (choice[0], ", ".join(choice[1:])))) for choice in choices if choice)
+    return f"Give {'at most' if () in choices else 'exactly'} one of: {listed}."

@@ -5,22 +5,25 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-__all__ = ["toml_text"]
+__all__ = ["toml_text", "toml_value"]
 
 
 def toml_text(data: Mapping[str, Any]) -> str:
-    """Plain data in the layout of a scene file (tables of values, no deeper) as TOML; every number reads back as it was."""
-    top = [f"{key} = {_value(value)}" for key, value in data.items() if not isinstance(value, Mapping)]
-    tables = [[f"[{name}]", *(f"{key} = {_value(value)}" for key, value in table.items())]
+    """Plain data in the layout of a scene file (tables of values) as TOML; every number reads back as it was."""
+    top = [f"{key} = {toml_value(value)}" for key, value in data.items() if not isinstance(value, Mapping)]
+    tables = [[f"[{name}]", *(f"{key} = {toml_value(value)}" for key, value in table.items())]
               for name, table in data.items() if isinstance(table, Mapping)]
     return "\n\n".join("\n".join(lines) for lines in (top, *tables) if lines) + "\n"
 
 
-def _value(value: Any) -> str:
+def toml_value(value: Any) -> str:
+    """A value as it stands behind its key; a table inline."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {toml_value(item)}" for key, item in value.items()) + " }"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_value(item) for item in value) + "]"
+        return "[" + ", ".join(toml_value(item) for item in value) + "]"
     return repr(value)

@@ -2,7 +2,8 @@
 // The answer of a ladder as plain data, the same for every family.
 #pragma once
 
-#include <chrono>
+#include <time.h>
+
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -14,35 +15,54 @@
 
 namespace gyrostat::python {
 
-/// The values of a column (n,) or (n, width).
-inline py::object numbers(Column& column) {
-  const auto n = py::ssize_t(column.values.size()) / column.width;
-  if (column.width == 1) return array(std::move(column.values), {n});
-  return array(std::move(column.values), {n, column.width});
-}
-
-/// A number, or a vector.
-inline py::object number(const Quantity& quantity) {
-  std::vector<double> values;
-  for (int i = 0; i < quantity.width; ++i) values.push_back(quantity.values[i] + 0.0);  // no -0
-  if (quantity.width == 1) return py::float_(values[0]);
-  return array(std::move(values), {quantity.width});
-}
-
-/// A family whose columns or quantities are not all numbers hands in functions of its own; what is no array has no error.
-inline Data to_python(Answer& answer, double seconds, py::object (*values_of)(Column&) = &numbers,
-                      py::object (*value_of)(const Quantity&) = &number) {
-  py::dict columns, error, scalars, counts;
-  for (Column& column : answer.columns) {
-    const py::object values = values_of(column);
-    columns[column.name] = values;
-    if (py::isinstance<py::array>(values)) error[column.name] = column.error;
+/// The values of a column: (n,) or (n, width); of words: a list.
+inline py::object values_of(Column& column) {
+  const ColumnKind& kind = *column.kind;
+  if (kind.kind == Kind::word) {
+    py::list words;
+    for (const double place : column.values) words.append(kind.words[std::size_t(place)]);
+    return words;
   }
-  for (const Quantity& quantity : answer.quantities) scalars[quantity.name] = value_of(quantity);
+  const auto n = py::ssize_t(column.values.size()) / kind.width;
+  if (kind.width == 1) return array(std::move(column.values), {n});
+  return array(std::move(column.values), {n, kind.width});
+}
+
+/// A number or a vector, a truth value, a place; None where a truth value or a place is not known.
+inline py::object value_of(const Quantity& quantity) {
+  const double first = quantity.values[0];
+  switch (quantity.kind->kind) {
+    case Kind::flag: return std::isnan(first) ? py::object(py::none()) : py::object(py::bool_(first != 0));
+    case Kind::place: return std::isnan(first) ? py::object(py::none()) : py::object(py::int_(int(first)));
+    default: break;
+  }
+  if (quantity.kind->width == 1) return py::float_(first + 0.0);  // no -0
+  std::vector<double> values;
+  for (int i = 0; i < quantity.kind->width; ++i) values.push_back(quantity.values[std::size_t(i)] + 0.0);
+  return array(std::move(values), {quantity.kind->width});
+}
+
+/// The answer as plain data. Every scalar of the family is there, None where this answer has no value of it.
+inline Data to_python(Answer& answer, const Family& family, double seconds) {
+  py::dict columns, error, scale, scalars, scalar_error, counts;
+  for (Column& column : answer.columns) {
+    columns[column.kind->name] = values_of(column);
+    if (column.kind->measure != Measure::none) error[column.kind->name] = column.error;
+    if (column.kind->measure == Measure::relative) scale[column.kind->name] = column.scale;
+  }
+  for (const Quantity& quantity : answer.quantities) {
+    scalars[quantity.kind->name] = value_of(quantity);
+    scalar_error[quantity.kind->name] = std::isfinite(quantity.values[0]) ? quantity.error : missing;
+  }
+  for (const ScalarKind& kind : family.scalars) {
+    if (scalars.contains(kind.name)) continue;
+    scalars[kind.name] = py::none();
+    scalar_error[kind.name] = missing;
+  }
   py::list warnings, tried;
   for (const Warning& w : answer.warnings) {
     py::dict item;
-    item["code"] = w.code;
+    item["code"] = w.kind->code;
     item["message"] = std::isnan(w.value) ? std::string(w.text) : w.text + (" (" + text(w.value) + ")");
     warnings.append(item);
   }
@@ -65,22 +85,31 @@ inline Data to_python(Answer& answer, double seconds, py::object (*values_of)(Co
   made["model"] = answer.model;
   made["met"] = answer.met;
   made["error"] = error;
+  made["scale"] = scale;
   made["warnings"] = warnings;
   made["columns"] = columns;
   made["scalars"] = scalars;
+  made["scalar_error"] = scalar_error;
   made["counts"] = counts;
   made["seconds"] = seconds;
   made["tried"] = tried;
   return made;
 }
 
-/// Runs `work` without the GIL; its result and how long it took, s.
+/// CPU time of this thread, s: what else the machine does is not in it.
+inline double thread_seconds() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+/// Runs `work` without the GIL; its result and the CPU time that it took, s.
 template <class Work>
 auto timed(Work&& work) {
   const py::gil_scoped_release free;
-  const auto began = std::chrono::steady_clock::now();
+  const double began = thread_seconds();
   auto made = work();
-  return std::pair(std::move(made), std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+  return std::pair(std::move(made), thread_seconds() - began);
 }
 
 /// The exception of a climb that ended without an answer.

@@ -5,8 +5,10 @@
 #include <pybind11/pybind11.h>
 
 void bind_elliptic(pybind11::module_& module);
+void bind_families(pybind11::module_& module);
 void bind_published(pybind11::module_& module);
 void bind_rotation(pybind11::module_& module);
+void bind_text(pybind11::module_& module);
 void bind_deceleration(pybind11::module_& module);
 void bind_deceleration_integrators(pybind11::module_& module);
 void bind_rotor(pybind11::module_& module);

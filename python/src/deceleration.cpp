@@ -10,17 +10,13 @@
 
 #include "answer.hpp"
 #include "bind.hpp"
+#include "elliptic_backend.hpp"
+#include "gyrostat/ladder/deceleration/motion.hpp"
 #include "gyrostat/models/deceleration/stability.hpp"
+#include "question_arguments.hpp"
 #include "scene_arguments.hpp"
-#ifdef GYROSTAT_HAVE_GSL
-#include "gyrostat/math/gsl.hpp"
-#endif
 #ifdef GYROSTAT_HAVE_CVODE
 #include "gyrostat/ladder/deceleration/cvode_motion.hpp"
-#endif
-
-#ifdef GYROSTAT_HAVE_GSL
-extern template gyrostat::Answer gyrostat::deceleration::solve<gyrostat::math::Gsl>(const Scene&, Refusal&, Monitor*);
 #endif
 
 namespace {
@@ -29,81 +25,35 @@ using namespace gyrostat;
 using namespace gyrostat::python;
 using namespace gyrostat::deceleration;
 
-Model model(const std::string& name) {
-  static constexpr const char* names[] = {"auto", "equal-torque", "averaged", "averaged-2", "full"};
-  for (int i = 0; i < 5; ++i)
-    if (name == names[i]) return Model(i);
-  raise("DomainError", "model = '" + name + "': use auto, equal-torque, averaged, averaged-2 or full");
-}
-
-/// What solves the full equations; nullptr stands for Taylor series.
-auto full_equations(const std::string& name) -> decltype(SceneData::full_equations) {
-  if (name == "auto" || name == "taylor") return nullptr;
-#ifdef GYROSTAT_HAVE_CVODE
-  if (name == "cvode") return &full_by_cvode;
-#endif
-  raise("DomainError", "integrator = '" + name + "': " +
-                           (name == "cvode" ? "this build has no CVODE" : "unknown; use auto, taylor or cvode"));
-}
-
-/// Whether the elliptic functions are GSL's.
-bool uses_gsl(const std::string& name) {
-  if (name == "auto" || name == "native") return false;
-#ifdef GYROSTAT_HAVE_GSL
-  if (name == "gsl") return true;
-#endif
-  raise("DomainError",
-        "elliptic = '" + name + "': " + (name == "gsl" ? "this build has no GSL" : "unknown; use auto, native or gsl"));
-}
-
-Answer climb_with([[maybe_unused]] bool gsl, const Scene& scene, Refusal& refusal, Monitor* monitor) {
-#ifdef GYROSTAT_HAVE_GSL
-  if (gsl) return solve<math::Gsl>(scene, refusal, monitor);
-#endif
-  return solve(scene, refusal, monitor);
-}
-
-py::object values_of(Column& column) {
-  if (column.name != std::string_view("regime")) return numbers(column);
-  py::list names;
-  for (const double r : column.values) names.append(symbol(Regime(int(r))));
-  return names;
-}
-
-Scene checked(const Inertia<double>& body, const SceneData& data) {
-  const auto scene = Scene::make(body, data);
-  if (!scene) raise("DomainError", std::string("scene: ") + message(scene.error()));
-  return *scene;
-}
-
 Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array& control, double drag,
                  const std::string& control_law, const std::string& drag_law, const Array& angular_momentum,
                  const std::optional<Array>& attitude, const Array& at, double tolerance, const std::string& rung,
-                 const std::string& method, const std::string& elliptic,
+                 const std::string& integrator, const std::string& elliptic,
                  const std::optional<std::shared_ptr<Monitor>>& monitor) {
-  SceneData data;
-  data.rotor_momentum = vector("rotor_momentum", rotor_momentum);
-  data.control = vector("control", control);
+  Setup setup;
+  setup.rotor_momentum = vector("rotor_momentum", rotor_momentum);
+  setup.control = vector("control", control);
   require_not_negative("control", control);
-  data.drag = drag_rate(drag);
-  data.law = law("law", control_law);
-  data.drag_law = law("drag_law", drag_law);
-  data.momentum = vector("angular_momentum", angular_momentum);
-  if (attitude) {
-    data.wants_attitude = true;
-    data.attitude = quaternion("attitude", *attitude);
-  }
-  data.times = times(at);
-  data.tolerance = relative_tolerance(tolerance);
-  data.model = model(rung);
-  data.full_equations = full_equations(method);
-  const bool gsl = uses_gsl(elliptic);
-  const Scene scene = checked(body(inertia), data);
+  setup.drag = drag_rate(drag);
+  setup.law = law("law", control_law);
+  setup.drag_law = law("drag_law", drag_law);
+  setup.momentum = vector("angular_momentum", angular_momentum);
+  if (attitude) setup.attitude = quaternion("attitude", *attitude);
+  Question question = question_of(tables, at, tolerance, rung);
+  question.wants_attitude = attitude.has_value();
+  const bool cvode = takes_cvode(tables, integrator, question);
+  const EllipticBackend& functions = elliptic_backend(elliptic);
+  Scene scene = checked(Scene::make(body(inertia), setup, question));
+#ifdef GYROSTAT_HAVE_CVODE
+  if (cvode) scene.full_equations = &full_by_cvode;
+#else
+  (void)cvode;
+#endif
 
   Refusal refusal;
-  auto [answer, seconds] = timed([&] { return climb_with(gsl, scene, refusal, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] = timed([&] { return functions.decelerate(scene, refusal, monitor ? monitor->get() : nullptr); });
   require_answer(refusal);
-  return to_python(answer, seconds, &values_of);
+  return to_python(answer, tables, seconds);
 }
 
 /// The rung `averaged` for many bodies: rows of inertia, rotor_momentum, control, momentum (n, 3) and drag (n).
@@ -111,14 +61,15 @@ Data averaged_rows(const Array& inertia, const Array& rotor_momentum, const Arra
                    const Array& momentum, const std::string& control_law, const std::string& drag_law, const Array& at,
                    double tolerance, const std::string& elliptic) {
   const py::ssize_t rows = drag.size();
-  const bool gsl = uses_gsl(elliptic);
-  SceneData data;
-  data.law = law("law", control_law);
-  data.drag_law = law("drag_law", drag_law);
-  data.times = times(at);
-  data.tolerance = tolerance;
-  data.model = Model::averaged;
-  const std::size_t n = data.times.size();
+  const EllipticBackend& functions = elliptic_backend(elliptic);
+  Setup setup;
+  setup.law = law("law", control_law);
+  setup.drag_law = law("drag_law", drag_law);
+  Question question;
+  question.times = times(at);
+  question.tolerance = tolerance;
+  question.rung = rung::averaged;
+  const std::size_t n = question.times.size();
   std::vector<double> norm(std::size_t(rows) * n), energy(norm.size()), k2(norm.size()), regime(norm.size());
   std::vector<double> errors(std::size_t(rows) * 3), stop(static_cast<std::size_t>(rows));
   for (py::ssize_t row = 0; row < rows; ++row) {
@@ -131,31 +82,30 @@ Data averaged_rows(const Array& inertia, const Array& rotor_momentum, const Arra
     if (!body)
       raise("DomainError", row_text("inertia = [" + text(J[0]) + ", " + text(J[1]) + ", " + text(J[2]) +
                                     "]: " + message(body.error())));
-    data.rotor_momentum = v(rotor_momentum);
-    data.control = v(control);
-    data.drag = drag.data()[row];
-    data.momentum = v(momentum);
-    const auto scene = Scene::make(*body, data);
+    setup.rotor_momentum = v(rotor_momentum);
+    setup.control = v(control);
+    setup.drag = drag.data()[row];
+    setup.momentum = v(momentum);
+    const auto scene = Scene::make(*body, setup, question);
     if (!scene) raise("DomainError", row_text(message(scene.error())));
     Refusal refusal;
     Answer answer;
     {
       const py::gil_scoped_release free;
-      answer = climb_with(gsl, *scene, refusal, nullptr);
+      answer = functions.decelerate(*scene, refusal, nullptr);
     }
     if (refusal.code != Errc::ok) raise(refusal.code, row_text(refusal.why));
-    const auto take = [&](const char* name, std::vector<double>& into, int place) {
-      const Column* column = answer.find(name);
+    const auto take = [&](std::size_t which, std::vector<double>& into, int place) {
+      const Column* column = answer.find(column_kinds[which].name);
       for (std::size_t i = 0; i < n; ++i) into[std::size_t(row) * n + i] = column ? column->values[i] : missing;
       if (place >= 0) errors[std::size_t(3 * row + place)] = column ? column->error : missing;
     };
-    take("angular_momentum_norm", norm, 0);
-    take("energy", energy, 1);
-    take("modulus_squared", k2, 2);
-    take("regime", regime, -1);
-    stop[std::size_t(row)] = missing;
-    for (const Quantity& q : answer.quantities)
-      if (q.name == std::string_view("stop_time")) stop[std::size_t(row)] = q.values[0];
+    take(column::angular_momentum_norm, norm, 0);
+    take(column::energy, energy, 1);
+    take(column::modulus_squared, k2, 2);
+    take(column::regime, regime, -1);
+    const Quantity* stop_time = answer.quantity(scalar_kinds[scalar::stop_time].name);
+    stop[std::size_t(row)] = stop_time ? stop_time->values[0] : missing;
   }
   const auto width = py::ssize_t(n);
   Data made;
@@ -198,7 +148,7 @@ py::array_t<double> stability_rows(const Array& control, const std::string& regi
 
 py::typing::List<py::str> regime_symbols() {
   py::typing::List<py::str> names;
-  for (int i = 0; i <= int(Regime::rest); ++i) names.append(symbol(Regime(i)));
+  for (const char* word : regime_words) names.append(word);
   return names;
 }
 

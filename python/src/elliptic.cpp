@@ -6,77 +6,69 @@
 
 #include "bind.hpp"
 #include "convert.hpp"
-#ifdef GYROSTAT_HAVE_GSL
-#include "gyrostat/math/gsl.hpp"
-#endif
+#include "elliptic_backend.hpp"
+
+namespace gyrostat::python {
+
+const EllipticBackend& elliptic_backend(const std::string& name) {
+  static constexpr EllipticBackend native = elliptic_functions<math::Native>();
+  if (name == "auto" || name == "native") return native;
+  if (name != "gsl") raise("DomainError", "elliptic = '" + name + "': unknown; use auto, native or gsl");
+  try {
+    // the capsule is the module's for as long as Python runs
+    const py::capsule capsule = py::module_::import("gyrostat._gsl").attr("backend");
+    return *capsule.get_pointer<EllipticBackend>();
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_ImportError)) throw;
+    raise("DomainError", std::string("elliptic = 'gsl': this installation has no GSL: the extension gyrostat._gsl cannot "
+                                     "be imported (") +
+                             error.what() +
+                             "). Install GSL (Debian: apt-get install libgsl-dev) and build the package anew, or use "
+                             "native");
+  }
+}
+
+}  // namespace gyrostat::python
 
 namespace {
 
 using namespace gyrostat;
 using namespace gyrostat::python;
-using math::Modulus;
 
-/// Calls work<Backend>() without the GIL, for the backend of that name.
+/// work(n, out) without the GIL: `width` results for each of n arguments.
 template <class Work>
-void with_backend(const std::string& name, Work&& work) {
-  if (name == "auto" || name == "native") {
-    const py::gil_scoped_release free;
-    work.template operator()<math::Native>();
-    return;
-  }
-#ifdef GYROSTAT_HAVE_GSL
-  if (name == "gsl") {
-    const py::gil_scoped_release free;
-    work.template operator()<math::Gsl>();
-    return;
-  }
-#endif
-  raise("DomainError",
-        "elliptic = '" + name + "': " + (name == "gsl" ? "this build has no GSL" : "unknown; use auto, native or gsl"));
-}
-
-/// f<Backend>(i, out) fills `width` results of element i.
-template <class Function>
-py::array_t<double> each(const Array& k2, int width, const std::string& backend, Function&& f) {
-  const auto n = k2.size();
+py::array_t<double> each(py::ssize_t n, int width, Work&& work) {
   std::vector<double> out(std::size_t(n) * std::size_t(width));
-  with_backend(backend, [&]<class Backend>() {
-    for (py::ssize_t i = 0; i < n; ++i) f.template operator()<Backend>(i, &out[std::size_t(i) * std::size_t(width)]);
-  });
+  {
+    const py::gil_scoped_release free;
+    work(std::size_t(n), out.data());
+  }
   return array(std::move(out), {n, width});
 }
 
 py::array_t<double> complete(const Array& k2, const Array& kp2, const std::string& backend) {
-  return each(k2, 2, backend, [&]<class B>(py::ssize_t i, double* out) {
-    const auto r = B::complete(Modulus<double>{k2.data()[i], kp2.data()[i]});
-    out[0] = r.K;
-    out[1] = r.E;
-  });
+  const EllipticBackend& elliptic = elliptic_backend(backend);
+  return each(k2.size(), 2,
+              [&](std::size_t n, double* out) { elliptic.complete(n, k2.data(), kp2.data(), out); });
 }
 
 py::array_t<double> jacobi(const Array& u, const Array& k2, const Array& kp2, const std::string& backend) {
-  return each(k2, 4, backend, [&]<class B>(py::ssize_t i, double* out) {
-    const auto r = B::jacobi(u.data()[i], Modulus<double>{k2.data()[i], kp2.data()[i]});
-    out[0] = r.sn;
-    out[1] = r.cn;
-    out[2] = r.dn;
-    out[3] = r.am;
-  });
+  const EllipticBackend& elliptic = elliptic_backend(backend);
+  return each(k2.size(), 4,
+              [&](std::size_t n, double* out) { elliptic.jacobi(n, u.data(), k2.data(), kp2.data(), out); });
 }
 
 py::array_t<double> zeta(const Array& u, const Array& k2, const Array& kp2, const std::string& backend) {
-  return each(k2, 1, backend, [&]<class B>(py::ssize_t i, double* out) {
-    out[0] = B::zeta(u.data()[i], Modulus<double>{k2.data()[i], kp2.data()[i]});
-  });
+  const EllipticBackend& elliptic = elliptic_backend(backend);
+  return each(k2.size(), 1,
+              [&](std::size_t n, double* out) { elliptic.zeta(n, u.data(), k2.data(), kp2.data(), out); });
 }
 
 py::array_t<double> incomplete(const Array& phi, const Array& n, const Array& k2, const Array& kp2,
                                const std::string& backend) {
-  return each(k2, 3, backend, [&]<class B>(py::ssize_t i, double* out) {
-    const Modulus<double> m{k2.data()[i], kp2.data()[i]};
-    out[0] = B::incomplete_F(phi.data()[i], m);
-    out[1] = B::incomplete_E(phi.data()[i], m);
-    out[2] = B::incomplete_Pi(phi.data()[i], n.data()[i], m);
+  const EllipticBackend& elliptic = elliptic_backend(backend);
+  return each(k2.size(), 3, [&](std::size_t size, double* out) {
+    elliptic.incomplete(size, phi.data(), n.data(), k2.data(), kp2.data(), out);
   });
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gyrostat/ladder/heavy/scene.hpp"
@@ -92,25 +93,30 @@ inline heavy::Body heavy_body(const Array& inertia, double mass, const Array& ce
 }
 
 /// What a motion starts from: rates with down or attitude, in body axes, or a periodic motion (spin, cosine of the inclination).
-inline void set_heavy_start(const std::optional<Array>& angular_velocity, const std::optional<Array>& down,
-                            const std::optional<Array>& attitude, heavy::State<double>& start,
-                            heavy::Question& question) {
-  if (!question.periodic) {
+/// Where the attitude is given the question wants it.
+inline heavy::Start heavy_start(const std::optional<Array>& angular_velocity, const std::optional<Array>& down,
+                                const std::optional<Array>& attitude,
+                                const std::optional<std::pair<double, double>>& periodic, Question& question) {
+  heavy::Start start;
+  if (!periodic) {
     if (!angular_velocity || !down == !attitude)
       raise("DomainError", "give angular_velocity with either down or attitude, or periodic");
-    start.angular_velocity = vector("angular_velocity", *angular_velocity);
-  } else if (angular_velocity || down || attitude) {
-    raise("DomainError", "periodic stands alone: its start is not given by angular_velocity, down or attitude");
+    start.state.angular_velocity = vector("angular_velocity", *angular_velocity);
+  } else {
+    if (angular_velocity || down || attitude)
+      raise("DomainError", "periodic stands alone: its start is not given by angular_velocity, down or attitude");
+    start.periodic = heavy::Periodic{periodic->first, periodic->second};
   }
   if (down) {
-    start.down = vector("down", *down);
-    if (!(std::abs(start.down.norm() - 1) <= 1e-8))
+    start.state.down = vector("down", *down);
+    if (!(std::abs(start.state.down.norm() - 1) <= 1e-8))
       raise("DomainError", "down = " + text(*down) + ": not a unit vector");
   }
   if (attitude) {
-    start.attitude = quaternion("attitude", *attitude);
+    start.state.attitude = quaternion("attitude", *attitude);
     question.wants_attitude = true;
   }
+  return start;
 }
 
 }  // namespace gyrostat::python

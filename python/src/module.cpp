@@ -13,9 +13,6 @@ namespace py = pybind11;
 
 namespace {
 
-#ifndef GYROSTAT_GSL_VERSION
-#define GYROSTAT_GSL_VERSION nullptr
-#endif
 #ifndef GYROSTAT_CVODE_VERSION
 #define GYROSTAT_CVODE_VERSION nullptr
 #endif
@@ -26,12 +23,22 @@ py::object text_or_none(const char* text) {
   return text == nullptr ? py::object(py::none()) : py::object(py::str(text));
 }
 
+/// Version of GSL in the extension gyrostat._gsl; None where that is not installed or finds no GSL. To know it is to load it.
+py::object gsl_version() {
+  try {
+    return py::module_::import("gyrostat._gsl").attr("version");
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_ImportError)) throw;
+    return py::none();
+  }
+}
+
 BuildInfo build_info() {
   BuildInfo info;
   info["version"] = gyrostat::library_version();
   info["compiler"] = __VERSION__;
   info["eigen"] = py::str("{}.{}.{}").format(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
-  info["gsl"] = text_or_none(GYROSTAT_GSL_VERSION);
+  info["gsl"] = gsl_version();
   info["cvode"] = text_or_none(GYROSTAT_CVODE_VERSION);
   return info;
 }
@@ -40,8 +47,9 @@ BuildInfo build_info() {
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Compiled core of gyrostat.";
+  module.attr("__version__") = gyrostat::library_version();
   module.def("build_info", &build_info,
-             "Version of the library, of the compiler, and of each library that is built in (None: it is not).");
+             "Version of the library, of the compiler, and of each optional library (None: this installation has it not).");
   py::class_<gyrostat::Monitor, std::shared_ptr<gyrostat::Monitor>>(module, "Monitor",
                                                                     "Watches and stops long work from another thread.")
       .def(py::init<>())
@@ -55,6 +63,8 @@ PYBIND11_MODULE(_core, module) {
           "Ask the work to stop: it raises Cancelled soon after.");
   bind_elliptic(module);
   bind_rotation(module);
+  bind_text(module);
+  bind_families(module);
   bind_deceleration(module);
   bind_deceleration_integrators(module);
   bind_published(module);

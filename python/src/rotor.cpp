@@ -5,12 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "answer.hpp"
 #include "bind.hpp"
+#include "gyrostat/ladder/rotor/motion.hpp"
 #include "gyrostat/ladder/rotor/solve.hpp"
 #include "gyrostat/models/rotor/assembly.hpp"
+#include "question_arguments.hpp"
 #include "rotor_arguments.hpp"
 #ifdef GYROSTAT_HAVE_CVODE
 #include "gyrostat/ladder/rotor/cvode_motion.hpp"
@@ -22,53 +23,26 @@ using namespace gyrostat;
 using namespace gyrostat::python;
 using namespace gyrostat::rotor;
 
-Model model(const std::string& name) {
-  static constexpr const char* names[] = {"auto", "closed-form", "linear-tail", "full"};
-  for (int i = 0; i < 4; ++i)
-    if (name == names[i]) return Model(i);
-  raise("DomainError", "model = '" + name + "': use auto, closed-form, linear-tail or full");
-}
-
-void choose_integrator(const std::string& name, SceneData& data) {
-  if (name == "auto") data.integrator = Integrator::any;
-  else if (name == "taylor") data.integrator = Integrator::taylor;
-  else if (name == "radau") data.integrator = Integrator::radau;
-#ifdef GYROSTAT_HAVE_CVODE
-  else if (name == "cvode") data.full_equations = &full_by_cvode;
-#endif
-  else
-    raise("DomainError",
-          "integrator = '" + name +
-              "': " + (name == "cvode" ? "this build has no CVODE" : "unknown; use auto, taylor, radau or cvode"));
-}
-
-/// The attractor is a place in the list of steady rotations; None where none is certified.
-py::object value_of(const Quantity& quantity) {
-  if (quantity.name != std::string_view("attractor")) return number(quantity);
-  if (std::isnan(quantity.values[0])) return py::none();
-  return py::int_(int(quantity.values[0]));
-}
-
 Data solve_scene(const Array& inertia, const Array& axis, double axial_inertia, double slope, double no_load_rate,
                  const Array& angular_velocity, double rotor_rate, const Array& attitude, const Array& at,
-                 double tolerance, const std::string& rung, const std::string& method,
+                 double tolerance, const std::string& model, const std::string& integrator,
                  const std::optional<std::shared_ptr<Monitor>>& monitor) {
   const Gyrostat<double> gyrostat = gyrostat_of(inertia, axis, axial_inertia, slope, no_load_rate);
-  SceneData data;
-  data.angular_velocity = vector("angular_velocity", angular_velocity);
-  data.rotor_rate = finite("rotor_rate", rotor_rate);
-  data.attitude = quaternion("attitude", attitude);
-  data.times = times(at);
-  data.tolerance = relative_tolerance(tolerance);
-  data.model = model(rung);
-  choose_integrator(method, data);
-  const auto scene = Scene::make(gyrostat, data);
-  if (!scene) raise("DomainError", std::string("scene: ") + message(scene.error()));
+  const Start start{quaternion("attitude", attitude), vector("angular_velocity", angular_velocity),
+                    finite("rotor_rate", rotor_rate)};
+  Question question = question_of(tables, at, tolerance, model);
+  const bool cvode = takes_cvode(tables, integrator, question);
+  Scene scene = checked(Scene::make(gyrostat, start, question));
+#ifdef GYROSTAT_HAVE_CVODE
+  if (cvode) scene.full_equations = &full_by_cvode;
+#else
+  (void)cvode;
+#endif
 
   Refusal refusal;
-  auto [answer, seconds] = timed([&] { return solve(*scene, refusal, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] = timed([&] { return solve(scene, refusal, monitor ? monitor->get() : nullptr); });
   require_answer(refusal);
-  return to_python(answer, seconds, &numbers, &value_of);
+  return to_python(answer, tables, seconds);
 }
 
 /// theta (3, 3) of carrier and rotor given apart.

@@ -11,8 +11,8 @@
 
 #include "bind.hpp"
 #include "gyrostat/ladder/rotor/capture.hpp"
+#include "gyrostat/ladder/rotor/fall_time.hpp"
 #include "gyrostat/models/rotor/attractor.hpp"
-#include "gyrostat/models/rotor/averaged_dissipation.hpp"
 #include "gyrostat/models/rotor/exceptional.hpp"
 #include "gyrostat/models/rotor/steady_stability.hpp"
 #include "rotor_arguments.hpp"

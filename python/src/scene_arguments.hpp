@@ -38,7 +38,7 @@ inline Quat<double> quaternion(const char* name, const Array& values) {
   const double* q = values.data();
   const Quat<double> made{q[3], q[0], q[1], q[2]};
   if (std::abs(norm(made) - 1) > 1e-6) raise("DomainError", name + (" = " + text(values)) + ": not a unit quaternion");
-  return normalised(made);
+  return as_unit(made);
 }
 
 inline double relative_tolerance(double tolerance) {

@@ -11,11 +11,13 @@
 
 #include "answer.hpp"
 #include "bind.hpp"
+#include "gyrostat/ladder/spinning/motion.hpp"
 #include "gyrostat/ladder/spinning/solve.hpp"
 #include "gyrostat/models/spinning/a_priori.hpp"
 #include "gyrostat/models/spinning/linear.hpp"
 #include "gyrostat/models/spinning/linear_grid.hpp"
 #include "gyrostat/models/spinning/pointing.hpp"
+#include "question_arguments.hpp"
 #include "spinning_arguments.hpp"
 #ifdef GYROSTAT_HAVE_CVODE
 #include "gyrostat/ladder/spinning/cvode_motion.hpp"
@@ -27,39 +29,21 @@ using namespace gyrostat;
 using namespace gyrostat::python;
 using namespace gyrostat::spinning;
 
-Model model(const std::string& name) {
-  static constexpr const char* names[] = {"auto", "linear", "second-order", "picard", "full"};
-  for (int i = 0; i < 5; ++i)
-    if (name == names[i]) return Model(i);
-  raise("DomainError", "model = '" + name + "': use auto, linear, second-order, picard or full");
-}
-
-void choose_integrator(const std::string& name, Question& question) {
-  if (name == "auto" || name == "taylor") return;
+Data solve_scene(const SpinningProblems& problems, const Array& at, double tolerance, const std::string& model,
+                 const std::string& integrator, const std::optional<std::shared_ptr<Monitor>>& monitor) {
+  Question question = question_of(tables, at, tolerance, model);
+  const bool cvode = takes_cvode(tables, integrator, question);
+  Scene scene = checked(Scene::make(problems.single(), question));
 #ifdef GYROSTAT_HAVE_CVODE
-  if (name == "cvode") {
-    question.full_equations = &full_by_cvode;
-    return;
-  }
+  if (cvode) scene.full_equations = &full_by_cvode;
+#else
+  (void)cvode;
 #endif
-  raise("DomainError", "integrator = '" + name + "': " +
-                           (name == "cvode" ? "this build has no CVODE" : "unknown; use auto, taylor or cvode"));
-}
-
-Data solve_scene(const SpinningProblems& problems, const Array& at, double tolerance, const std::string& rung,
-                 const std::string& method, const std::optional<std::shared_ptr<Monitor>>& monitor) {
-  Question question;
-  question.times = times(at);
-  question.tolerance = relative_tolerance(tolerance);
-  question.model = model(rung);
-  choose_integrator(method, question);
-  const auto scene = Scene::make(problems.single(), question);
-  if (!scene) raise("DomainError", std::string("scene: ") + message(scene.error()));
 
   Refusal refusal;
-  auto [answer, seconds] = timed([&] { return solve(*scene, refusal, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] = timed([&] { return solve(scene, refusal, monitor ? monitor->get() : nullptr); });
   require_answer(refusal);
-  return to_python(answer, seconds);
+  return to_python(answer, tables, seconds);
 }
 
 /// The linear motion of every row at the times (n,), any sign and order, and its a-priori errors until the farthest of them.

@@ -54,7 +54,9 @@ Data design_rows(const SpinningProblems& problems, const std::string& goal, cons
     if (design.error() == Errc::out_of_domain)
       raise("DomainError", (rows > 1 ? "row " + std::to_string(row) + ": " : std::string()) +
                                "budget = " + text(budget.data()[row]) + ": give a finite number > 0" +
-                               (goal == "torque-for-direction" ? " and < pi/2" : ""));
+                               (goal == "torque-for-direction" ? " and < pi/2"
+                                : goal.starts_with("burn")     ? " with a square that a double holds"
+                                                               : ""));
     value.push_back(design ? design->value : missing);
     tilt.push_back(design ? design->tilt : missing);
     unstable.push_back(design->flags.unstable);

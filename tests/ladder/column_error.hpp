@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string_view>
 
 #include "gyrostat/ladder/answer.hpp"
 
 namespace gyrostat {
 
-/// As the contract measures it: relative to the greatest norm; modulus_squared absolute; attitude by the angle, rad.
+/// As the table of columns measures it: by the angle, rad; absolute; or relative to the greatest norm, or to the scale where that is greater.
 inline double column_error(const Column& column, const Column& truth) {
-  double most = 0, size = 0;
-  const std::size_t w = std::size_t(column.width);
-  const bool attitude = column.name == std::string_view("attitude");
+  double most = 0, size = column.scale;
+  const std::size_t w = std::size_t(column.kind->width);
+  const bool attitude = column.kind->measure == Measure::angle;
   for (std::size_t i = 0; i < column.values.size(); i += w) {
     double difference = 0, opposite = 0, norm = 0;
     for (std::size_t j = i; j < i + w; ++j) {
@@ -28,7 +27,7 @@ inline double column_error(const Column& column, const Column& truth) {
     size = std::max(size, std::sqrt(norm));
     if (std::isnan(difference)) return infinity<double>;
   }
-  return column.name == std::string_view("modulus_squared") || attitude || size == 0 ? most : most / size;
+  return column.kind->measure == Measure::absolute || attitude || size == 0 ? most : most / size;
 }
 
 }  // namespace gyrostat

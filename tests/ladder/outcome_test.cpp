@@ -16,12 +16,15 @@ struct Track : Outcome {
 
 TEST_CASE("an outcome warns once a code", "[ladder]") {
   Track track;
-  static const char code[] = "far";
-  track.warn(code, "it is far", 2);
-  track.warn(code, "it is far", 3);
-  track.warn("near", "it is near");
+  static constexpr WarningKind kinds[] = {{"far", "it is far"}, {"near", "it is near"}};
+  track.warn(kinds[0], 2);
+  track.warn(kinds[0], 3, "it is farther");
+  track.warn(kinds[1], gyrostat::nan<double>, "it is very near");
   REQUIRE(track.warnings.size() == 2);
   CHECK(track.warnings[0].value == 2);
+  CHECK(track.warnings[0].text == std::string_view("it is far"));
+  CHECK(track.warnings[1].text == std::string_view("it is very near"));
+  CHECK(track.warnings[1].code() == "near");
   CHECK(std::isnan(track.warnings[1].value));
 }
 

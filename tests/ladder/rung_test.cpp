@@ -16,6 +16,8 @@ struct Scene {
   std::array<Errc, 4> failure{};
   std::array<bool, 4> in_domain{true, true, true, true};
   mutable int looked_at = 0;
+  Question asked{};
+  const Question& question() const { return asked; }
 };
 struct Track {
   Errc failure;
@@ -25,6 +27,7 @@ struct Track {
   double error;
 };
 void fill(Answer& answer, const Scene&, const Track& track) { answer.error = track.error; }
+void describe(Answer& answer, const Scene&, const Track& track) { answer.counts.steps = std::uint64_t(track.error * 1e9); }
 
 template <std::size_t i>
 Track answer(const Scene& scene, Monitor*) {
@@ -33,18 +36,19 @@ Track answer(const Scene& scene, Monitor*) {
           scene.in_domain[i], scene.error[i]};
 }
 
-constexpr std::array<Rung<Scene, Track>, 4> ladder{
-    {{"first", &answer<0>}, {"second", &answer<1>}, {"third", &answer<2>}, {"fourth", &answer<3>}}};
+constexpr RungKind names[] = {{"first", ""}, {"second", ""}, {"third", ""}, {"fourth", ""}};
+constexpr Rung<Scene, Track> ladder[] = {&answer<0>, &answer<1>, &answer<2>, &answer<3>};
 
 struct Climb {
   Answer answer;
   Refusal refusal;
   int looked_at;
 
-  explicit Climb(const Scene& scene, double tolerance, int only = -1) {
-    const int before = scene.looked_at;
-    answer = climb<Scene, Track>(ladder, scene, tolerance, only, nullptr, refusal);
-    looked_at = scene.looked_at - before;
+  explicit Climb(Scene scene, double tolerance, int only = any_rung) {
+    scene.asked.tolerance = tolerance;
+    scene.asked.rung = only;
+    answer = climb<Scene, Track>(names, ladder, scene, nullptr, refusal);
+    looked_at = scene.looked_at;
   }
   bool is(const char* model) const { return std::strcmp(answer.model, model) == 0; }
 };
@@ -66,6 +70,7 @@ TEST_CASE("the climb ends at the first rung that meets the tolerance", "[ladder]
   }
   CHECK(fine.answer.tried[1].error == 1e-4);
   CHECK(fine.answer.tolerance == 1e-7);
+  CHECK(fine.answer.counts.steps == 10);  // described by the track that answers
 }
 
 TEST_CASE("no rung meets the tolerance: the most accurate answers and says so", "[ladder]") {

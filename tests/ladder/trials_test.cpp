@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/trials.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <vector>
 
@@ -10,19 +11,17 @@ using namespace gyrostat;
 
 namespace {
 
-struct Error {
-  double value;
-  double greatest() const { return value; }
-};
 struct Trial {
   ode::Status status = ode::Status::reached;
   bool met = false;
-  Error error{0};
+  double error = 0;
   ode::Counts counts{1, 10, 0};
+  double greatest_error() const { return error; }
 };
 struct Options {
   double tolerance = 1e-9;
   std::atomic<double>* progress = nullptr;
+  void report(double done) const { progress->store(done); }
 };
 
 /// Errors are `gain` step tolerances.
@@ -31,17 +30,19 @@ std::vector<double> tolerances(double gain, double first, Trial* last = nullptr,
   std::vector<double> tried;
   std::atomic<double> progress{0};
   double until = 0;
-  const Trial answer = tightened<double>(Options{1e-9, &progress}, first, [&](double step, double from, double to) {
-    CHECK(from == until);
-    CHECK(to > from);
-    until = to;
-    tried.push_back(step);
-    Trial trial;
-    trial.status = status;
-    trial.error = {gain * step};
-    trial.met = status == ode::Status::reached && trial.error.value <= 1e-9;
-    return trial;
-  });
+  const Trial answer =
+      tightened<double>(Options{1e-9, &progress}, first, [&](double step, double by, double from, double to) {
+        CHECK(step == (tried.empty() ? first : std::max(finest_step_tolerance<double>, tried.back() / by)));
+        CHECK(from == until);
+        CHECK(to > from);
+        until = to;
+        tried.push_back(step);
+        Trial trial;
+        trial.status = status;
+        trial.error = gain * step;
+        trial.met = status == ode::Status::reached && trial.error <= 1e-9;
+        return trial;
+      });
   CHECK(progress == 1);
   CHECK(answer.counts.steps == 10 * tried.size());
   if (last) *last = answer;
@@ -62,4 +63,11 @@ TEST_CASE("a run is tried again as much tighter as its error asks, and twice at 
   CHECK(tolerances(1e30, 1e-10).size() == 2);  // nothing is tighter than the finest
   CHECK(tolerances(gyrostat::nan<double>, 1e-10).size() == 2);
   CHECK(tolerances(1e3, 1e-10, nullptr, ode::Status::cancelled).size() == 1);
+}
+
+TEST_CASE("the first guess of the step tolerance falls with the angle turned through, within its bounds") {
+  CHECK(first_step_tolerance(1e-3, 0.0, 1e-8) == 1e-8);
+  CHECK(first_step_tolerance(1e-9, 0.0, 1e-8) == Approx(1e-9 / 64 / 8));
+  CHECK(first_step_tolerance(1e-9, 1600.0, 1e-8) == Approx(1e-9 / 64 / 108));
+  CHECK(first_step_tolerance(1e-30, 0.0, 1e-8) == finest_step_tolerance<double>);
 }

@@ -22,13 +22,14 @@ void check(bool right, const char* what) {
 bool despins() {
   namespace dec = gyrostat::deceleration;
   const auto body = gyrostat::Inertia<double>::from_moments(35, 22, 16);
-  dec::SceneData data;
-  data.control = {5e-3, 8e-3, 10e-3};
-  data.drag = 2e-4;
-  data.momentum = {40, 25, 16.5};
-  data.times = {0, 1000, 2000};
-  data.tolerance = 1e-4;
-  const auto scene = dec::Scene::make(*body, data);
+  dec::Setup setup;
+  setup.control = {5e-3, 8e-3, 10e-3};
+  setup.drag = 2e-4;
+  setup.momentum = {40, 25, 16.5};
+  gyrostat::Question question;
+  question.times = {0, 1000, 2000};
+  question.tolerance = 1e-4;
+  const auto scene = dec::Scene::make(*body, setup, question);
   if (!body || !scene) return false;
   gyrostat::Refusal refusal;
   const gyrostat::Answer answer = dec::solve<gyrostat::math::Native>(*scene, refusal);

@@ -394,3 +394,38 @@ TEST_CASE("nothing is allocated on the way") {
   CHECK(allocations() == before);
   CHECK(status == Status::reached);
 }
+
+namespace {
+
+/// y' = 0, p' = -rate p.
+struct Still {
+  using Scalar = double;
+  static constexpr int width = 1;
+  double speed = 0;
+  double rate() const noexcept { return speed; }
+  Lanes<double> source(const Lanes<double>*) const noexcept { return lanes(0.0); }
+  void rates(const Lanes<double>*, const Lanes<double>&, Lanes<double>* rate) const noexcept { rate[0] = lanes(0.0); }
+};
+
+}  // namespace
+
+TEST_CASE("radau: what stands still or goes on for ever comes back with a status") {
+  auto options = watching<Still>(1e-14);
+  options.step_cap = 2000;
+  for (const double speed : {0.0, 1.0, 1e9}) {
+    ode::Radau<Still> far({speed}, 0, {1, 0}, options);
+    CHECK(far.advance(1e290) == Status::reached);
+    CHECK(far.time() == 1e290);
+    CHECK(far.state()[0] == 1);
+    CHECK(far.state()[1] == 0);
+    ode::Radau<Still> endless({speed}, 0, {1, 0}, options);
+    CHECK(endless.advance(infinity<double>) == Status::not_finite);
+    CHECK(endless.counts().steps < 2000);
+  }
+  auto watched = watching<Follower<double>>(1e-14);
+  watched.step_cap = 100;
+  ode::Radau<Follower<double>> turning({1}, 0, {1, 0, 0.3}, watched);
+  CHECK(turning.advance(infinity<double>) == Status::step_limit);
+  CHECK(turning.counts().steps == 100);
+  CHECK(ode::Radau<Still>({1}, 0, {1, 0}, options).advance(gyrostat::nan<double>) == Status::not_finite);
+}

@@ -254,3 +254,25 @@ TEST_CASE("many problems pass through the lanes") {
   }
   ode::run_all(batch, 0, [](std::size_t, int) { return 0.0; }, [](std::size_t, int) { FAIL(); });
 }
+
+TEST_CASE("taylor batch: what stands still or goes on for ever comes back with a status") {
+  ode::TaylorBatchOptions<double> options;
+  options.step_cap = 1000;
+  Oscillators<double> system;
+  system.rate[0] = system.rate[1] = 0;  // x' = x^2: at rest at 0
+  ode::TaylorBatch<Oscillators<double>> batch(system, options);
+  batch.start(0, 0, {0, 0, 0}, {1, 1, 0});
+  batch.start(1, 0, {0, 0, 0}, {0, 0, 0});  // nothing is watched
+  batch.start(2, 0, {1, 0, 0}, {1, 1, 0});
+  CHECK_FALSE(batch.advance(infinity<double>));
+  CHECK(batch.status(0) == Status::not_finite);
+  CHECK(batch.status(1) == Status::not_finite);
+  CHECK(batch.status(2) == Status::step_limit);
+  CHECK(batch.time(0) > 1e290);
+  CHECK(batch.counts(2).steps == 1000);
+  batch.start(0, 0, {0, 0, 0}, {1, 1, 0});
+  batch.start(1, 0, {0, 0, 0}, {0, 0, 0});
+  batch.start(2, 0, {1, 0, 0}, {1, 1, 0});
+  CHECK_FALSE(batch.advance(bad));
+  CHECK(batch.time(2) == 0);
+}

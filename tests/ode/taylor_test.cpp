@@ -273,3 +273,24 @@ TEST_CASE("an integration can start anew from another state") {
   REQUIRE(solver.advance(6) == Status::reached);
   CHECK(solver.state()[0] == Approx(std::sin(1.0)).epsilon(1e-15));
 }
+
+TEST_CASE("taylor: what stands still or goes on for ever comes back with a status") {
+  using Solver = ode::Taylor<Oscillator<double>>;
+  Solver::Options options;
+  options.scale = {1, 1, 0, 0};
+  options.step_cap = 1000;
+  for (const double x : {0.0, 1.0}) {
+    Solver far({0}, 0, {x, 0, 0, 0}, options);
+    CHECK(far.advance(1e300) == Status::reached);
+    CHECK(far.time() == 1e300);
+    CHECK(far.state()[0] == x);
+    Solver endless({0}, 0, {x, 0, 0, 0}, options);
+    CHECK(endless.advance(infinity<double>) == Status::not_finite);
+    CHECK(endless.time() > 1e290);
+    CHECK(endless.counts().steps < 1000);
+  }
+  Solver swing({1}, 0, {1, 0, 0, 0}, options);
+  CHECK(swing.advance(infinity<double>) == Status::step_limit);
+  CHECK(swing.counts().steps == 1000);
+  CHECK(Solver({1}, 0, {1, 0, 0, 0}, options).advance(gyrostat::nan<double>) == Status::not_finite);
+}

@@ -5,6 +5,7 @@ import csv
 import io
 import json
 import math
+import struct
 import threading
 import time
 from pathlib import Path
@@ -12,8 +13,12 @@ from pathlib import Path
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat.answer import UNITS, Answer
+from gyrostat._core import csv_rows, json_numbers
+from gyrostat.answer import Answer
 from gyrostat.deceleration import Monitor
+from gyrostat.facts import UNITS
+from gyrostat.families import FAMILIES
+from gyrostat.scenes import bundled
 
 BRAKE = {
     "name": "brake", "kind": "deceleration", "solve": {"duration": 4000.0, "samples": 41, "tolerance": 1e-3},
@@ -45,6 +50,63 @@ def test_columns_have_the_shapes_and_names_of_the_contract(full: Answer) -> None
     assert set(full.error) == set(full.columns) - {"regime"}
     assert set(full.columns) | set(full.scalars) <= set(UNITS)
     assert full["t"] is full.t and full["energy"] is full.columns["energy"]
+
+
+def test_an_answer_is_read_like_a_mapping_of_columns(full: Answer) -> None:
+    assert list(full) == list(full.keys()) == list(full.columns) and len(full) == 7
+    assert "energy" in full and "t" in full and "stop_time" not in full and 3 not in full
+    assert {name: values.shape for name, values in dict(full).items()} == {name: full[name].shape for name in full.columns}
+
+
+def test_a_column_that_is_not_there_is_told_with_those_that_are(full: Answer) -> None:
+    with pytest.raises(KeyError, match='no column "enrgy".*angular_momentum, .*energy'):
+        full["enrgy"]
+    averaged = gyrostat.solve(BRAKE, model="averaged")
+    with pytest.raises(KeyError, match="a higher rung gives it"):
+        averaged["angular_momentum"]
+    with pytest.raises(KeyError, match="where initial.attitude is given"):
+        averaged["attitude"]
+    with pytest.raises(KeyError, match="stop_time is a scalar"):
+        averaged["stop_time"]
+
+
+def test_the_error_that_is_shown_is_the_one_that_was_judged() -> None:
+    """The stop time is less certain than any column: the ladder judges by it, and every view shows it."""
+    answer = gyrostat.solve("tiangong-1")
+    assert answer.greatest_error == answer.scalar_error["stop_time"] > max(e for e in answer.error.values() if not math.isnan(e))
+    assert answer.least_certain == "stop_time" and answer.met == (answer.greatest_error <= answer.tolerance)
+    assert f"stop_time {answer.scalars['stop_time']:.6g} (error {answer.greatest_error:.2g})" in repr(answer)
+    fine = gyrostat.solve("tiangong-1", model="full", tolerance=1e-10, duration=60000.0)
+    assert abs(fine.scalars["stop_time"] / answer.scalars["stop_time"] - 1) <= answer.scalar_error["stop_time"]
+    assert not gyrostat.solve("tiangong-1", model="averaged", tolerance=answer.greatest_error * 0.99).met
+
+
+@pytest.mark.parametrize("name", [name for name, _ in bundled()])
+def test_every_answer_names_what_has_the_greatest_error(name: str) -> None:
+    answer = gyrostat.solve(name)
+    assert set(answer.scalar_error) == set(answer.scalars)
+    errors = {**answer.error, **answer.scalar_error}
+    assert answer.greatest_error == errors[answer.least_certain] >= max(e for e in answer.error.values() if not math.isnan(e))
+
+
+def test_a_stop_that_never_comes_has_no_error() -> None:
+    answer = gyrostat.solve(BRAKE, control=[0.0, 0.0, 0.0])
+    assert math.isinf(answer.scalars["stop_time"]) and math.isnan(answer.scalar_error["stop_time"])
+
+
+@pytest.mark.parametrize("name", [name for name, _ in bundled()])
+def test_the_functions_of_a_family_answer_as_scenes_do(name: str) -> None:
+    """Same type, same numbers; and what they were asked can be asked again as a scene."""
+    scene = gyrostat.load(name)
+    family = FAMILIES[scene.kind]
+    direct, answer = family.solve(**family.arguments(scene)), gyrostat.solve(scene)
+    again = gyrostat.solve(direct.scene)
+    for other in (answer, again):
+        assert type(direct) is type(other) is Answer and direct.model == other.model and direct.error == other.error and np.array_equal(direct.t, other.t)
+        assert list(direct) == list(other) and all(np.array_equal(direct[column], other[column]) for column in direct)
+        np.testing.assert_equal(direct.scalars, other.scalars)
+        np.testing.assert_equal(direct.scalar_error, other.scalar_error)
+    assert direct.scene["kind"] == scene.kind and direct.scene["name"] == f"gyrostat.{scene.kind}.solve" and answer.scene == scene.to_dict()
 
 
 def test_columns_agree_with_each_other(full: Answer) -> None:
@@ -100,12 +162,60 @@ def test_axes_may_come_in_any_order() -> None:
 
 def test_json_reads_back_to_the_same_numbers(full: Answer) -> None:
     read = json.loads(full.to_json())
-    assert list(read) == ["scene", "model", "tolerance", "met", "error", "warnings", "t", "columns", "scalars", "counts",
-                          "seconds", "tried"]
+    assert list(read) == ["scene", "model", "tolerance", "met", "error", "warnings", "t", "columns", "scalars", "scalar_error", "counts",
+                          "seconds", "tried", "units"]
     assert read["t"] == full.t.tolist()
     for name, values in full.columns.items():
         assert read["columns"][name] == values.tolist()
     assert gyrostat.solve(read["scene"]).columns["energy"].tolist() == read["columns"]["energy"]
+    assert full.to_json() == json.dumps(full.to_dict())
+    assert set(read["units"]) == {"t", *full.columns, *full.scalars} and read["units"]["energy"] == "J"
+
+
+def test_json_has_the_error_of_every_scalar() -> None:
+    answer = gyrostat.solve(BRAKE, model="averaged")
+    read = json.loads(answer.to_json())
+    assert set(read["scalar_error"]) == set(read["scalars"])
+    assert read["scalar_error"]["stop_time"] == answer.scalar_error["stop_time"] > 0
+    assert read["scalar_error"]["small_parameter"] is None  # by definition: it has no error
+
+
+def numbers() -> np.ndarray:
+    """Doubles of every size and sign, short and long ones, and what is special."""
+    rng = np.random.default_rng(11)
+    special = [0.0, -0.0, 1e16, 9999999999999998.0, 1e-4, 9.999999999999999e-05, 123456789012345678.0, 2.0**53, 2.0**53 + 2, 5e-324, 2.2250738585072014e-308,
+               1.7976931348623157e308, 0.1, 1e22, 1e23, math.nan, math.inf, -math.inf, struct.unpack("d", b"\xff" * 8)[0]]
+    return np.concatenate([special, np.frombuffer(rng.bytes(8 * 20000), dtype=float), rng.integers(-2**55, 2**55, 5000).astype(float),
+                           10.0 ** rng.uniform(-20, 20, 5000), np.round(rng.normal(size=5000), 3)])
+
+
+def test_the_core_writes_numbers_as_python_does() -> None:
+    values = numbers()
+    finite = [x if math.isfinite(x) else None for x in values.tolist()]
+    assert json_numbers(values) == json.dumps(finite)
+    assert json_numbers(values[:12].reshape(4, 3)) == json.dumps([finite[i:i + 3] for i in (0, 3, 6, 9)])
+    assert json_numbers(np.empty(0)) == "[]" and json_numbers(np.empty((0, 3))) == "[]"
+    assert csv_rows([values, -values]) == "".join(f"{x!r},{-x!r}\n" for x in values.tolist())
+    assert csv_rows([np.array([1.0, 2.0]), np.array([b"A", b"CC"]), np.arange(4.0).reshape(2, 2)]) == "1.0,A,0.0,1.0\n2.0,CC,2.0,3.0\n"
+    with pytest.raises(gyrostat.DomainError, match="different numbers of rows"):
+        csv_rows([values, values[1:]])
+    with pytest.raises(gyrostat.DomainError, match="shape"):
+        json_numbers(np.zeros((2, 2, 2)))
+    for bad in (np.zeros((2, 2, 2)), np.array(["A"]), np.array([[b"A"]])):
+        with pytest.raises(gyrostat.DomainError, match="columns"):
+            csv_rows([bad])
+
+
+def test_text_of_many_times_costs_less_than_that_of_their_lists() -> None:
+    answer = gyrostat.solve(BRAKE, model="averaged", samples=200_000)
+    began = time.process_time()
+    for values in answer.columns.values():
+        json.dumps(values.tolist())
+    lists = time.process_time() - began
+    for write in (answer.to_json, answer.to_csv):
+        began = time.process_time()
+        write()
+        assert time.process_time() - began < lists
 
 
 def test_numbers_that_are_not_finite_become_null() -> None:
@@ -123,11 +233,24 @@ def test_csv_reads_back_to_the_same_numbers(full: Answer) -> None:
     assert [row["regime"] for row in rows] == full["regime"].tolist()
 
 
+def test_a_dataframe_keeps_values_names_and_units(full: Answer) -> None:
+    pandas = pytest.importorskip("pandas")
+    frame = full.to_dataframe()
+    assert frame.index.name == "t" and np.array_equal(frame.index, full.t)
+    assert ["t", *frame.columns] == full.to_csv().partition("\n")[0].split(",")
+    assert np.array_equal(frame["angular_momentum_y"], full["angular_momentum"][:, 1]) and list(frame["regime"]) == full["regime"].tolist()
+    assert len(pandas.concat([frame, frame])) == 2 * len(full.t)
+    assert frame.attrs["units"]["energy"] == "J" and frame.attrs["error"] == full.error and frame.attrs["model"] == "full"
+
+
 def test_xarray_and_netcdf_keep_values_and_units(full: Answer, tmp_path: Path) -> None:
     xarray = pytest.importorskip("xarray")
     dataset = full.to_xarray()
     assert dataset["angular_momentum"].dims == ("t", "axis") and dataset["energy"].attrs["units"] == "J"
     assert dataset.attrs["model"] == "full"
+    stop = gyrostat.solve("tiangong-1")
+    attributes = stop.to_xarray().attrs
+    assert attributes["stop_time_units"] == "s" and attributes["stop_time_estimated_error"] == stop.scalar_error["stop_time"]
     file = tmp_path / "answer.nc"
     full.to_netcdf(file)
     with xarray.open_dataset(file, engine="scipy") as read:
@@ -144,7 +267,7 @@ def test_a_figure_is_written(full: Answer, tmp_path: Path, ending: str) -> None:
     assert file.stat().st_size > 5000
     labels = [axes.get_ylabel() for axes in figure.axes]
     assert any("N m s" in label for label in labels) and any("rad/s" in label for label in labels)
-    assert "full" in figure.get_suptitle() and "s]" in figure.axes[4].get_xlabel()
+    assert "full" in figure.get_suptitle() and "time [" in figure.axes[4].get_xlabel()
 
 
 def test_a_figure_of_averages_and_of_one_time(tmp_path: Path) -> None:

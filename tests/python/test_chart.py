@@ -4,18 +4,25 @@
 import csv
 import io
 import math
+import os
+import subprocess
+import sys
+import time
 from pathlib import Path
 from typing import Any
 
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat.charts import Chart
-from gyrostat.charts import heavy as heavy_charts
-from gyrostat.charts import rotor as rotor_charts
-from gyrostat.charts import spinning as spinning_charts
-from gyrostat.charts.deceleration import true_errors
+from gyrostat import DomainError, heavy
+from gyrostat.charts import Chart, measured, methods
+from gyrostat.charts.problem import Line, Run
 from gyrostat.cli import main
+from gyrostat.families.deceleration.chart import true_errors
+from gyrostat.families.heavy import chart as heavy_charts
+from gyrostat.families.rotor import chart as rotor_charts
+from gyrostat.families.spinning import chart as spinning_charts
+from gyrostat.scenes import load
 
 
 @pytest.fixture(scope="module")
@@ -54,10 +61,92 @@ def test_the_chart_ends_before_the_stop() -> None:
 def test_true_errors_are_relative_to_the_greatest_size() -> None:
     want = np.array([[3.0, 4.0, 0.0], [0.0, 0.0, 1.0]])
     got = want + np.array([[0.0, 0.0, 0.5], [0.0, 0.0, 0.0]])
-    errors = true_errors(got, None, want)
+    errors = true_errors({"angular_momentum": got}, want)
     assert errors["angular_momentum"] == pytest.approx(0.1)
     assert errors["angular_momentum_norm"] == pytest.approx((math.sqrt(25.25) - 5) / 5)
-    assert math.isnan(true_errors(None, np.array([5.0, 1.0]), want)["angular_momentum"])
+    assert math.isnan(true_errors({"angular_momentum_norm": np.array([5.0, 1.0])}, want)["angular_momentum"])
+
+
+def test_what_is_left_out_is_said(chart: Chart) -> None:
+    assert [(each.label, each.why) for each in chart.left_out] == [("rung equal-torque", "the control torques are not equal")]
+    assert str(chart.left_out[0]) == "rung equal-torque: the control torques are not equal"
+
+
+def test_a_method_that_takes_too_long_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(methods, "LONGEST", 2e-3)
+    made = gyrostat.chart("cubesat-wheel", duration=500.0, samples=3)
+    assert all(point.seconds < 4e-3 for point in made.points)
+    slow = {each.label: each for each in made.left_out if each.why == "takes over 0.002 s"}
+    assert slow["SciPy DOP853 (Python right-hand side)"].settings[0] == "tolerance 0.0001"
+    assert all(each.settings[-1] == "tolerance 1e-12" for each in slow.values())
+
+
+def test_what_else_the_machine_does_is_not_in_the_cost() -> None:
+    """Beside a program on the same processor the clock on the wall runs twice as long as the solution."""
+    swinging = {**heavy.arguments(load("toy-top", times=[1500.0])), "attitude": None, "down": [0.6, 0.0, 0.8]}
+    given = {key: value for key, value in swinging.items() if key not in ("periodic", "tolerance", "model", "integrator")}
+    every = os.sched_getaffinity(0)
+    busy = subprocess.Popen([sys.executable, "-c", "import os\nos.sched_setaffinity(0, {%d})\nwhile True: pass" % min(every)])
+    try:
+        os.sched_setaffinity(0, {min(every)})
+        began = time.thread_time()
+        made = heavy.integrate(**given, method="dop853", tolerance=1e-12)
+        used = time.thread_time() - began
+    finally:
+        os.sched_setaffinity(0, every)
+        busy.kill()
+        busy.wait()
+    assert 0.05 < made["seconds"] <= used
+
+
+def test_a_tighter_setting_that_would_take_too_long_is_not_tried() -> None:
+    def run() -> Run:
+        nonlocal runs
+        runs += 1
+        return Run(0.6 * methods.LONGEST, {}, 1)
+
+    runs = 0
+    points, left_out = measured(Line("rival", "slow", (("loose", run), ("tight", run))), lambda _: {}, 7)
+    assert runs == 1 and [point.setting for point in points] == ["loose"] and [each.settings for each in left_out] == [("tight",)]
+
+
+KINDS = ("tiangong-1", "two-attractors", "spinning-paper", "toy-top")
+
+
+@pytest.mark.parametrize("scene", KINDS)
+def test_a_single_time_is_charted_and_time_zero_refused(scene: str) -> None:
+    made = gyrostat.chart(scene, times=[2.0])
+    assert "1 times to 2 s" in made.title and "rung full" in made.by_label()
+    with pytest.raises(DomainError, match="no motion to chart"):
+        gyrostat.chart(scene, times=[0.0])
+
+
+@pytest.mark.parametrize(("scene", "still"), [
+    ("two-attractors", {"initial.angular_velocity": [0.0, 0.0, 0.0], "rotor_rate": 0.0, "no_load_rate": 0.0}),
+    ("spinning-paper", {"initial.angular_velocity": [0.0, 0.0, 0.0], "torque.body": [0.0, 0.0, 0.0], "force": [0.0, 0.0, 0.0]}),
+    ("toy-top", {"initial.angular_velocity": [0.0, 0.0, 0.0], "gravity": 0.0})])
+def test_a_body_that_stays_at_rest_is_charted(scene: str, still: dict[str, Any]) -> None:
+    made = gyrostat.chart(scene, duration=2.0, samples=3, **still)
+    assert all(error < 1e-12 for point in made.points for error in point.error.values())
+
+
+def test_a_body_without_momentum_has_nothing_to_chart() -> None:
+    with pytest.raises(DomainError, match="at rest from the start"):
+        gyrostat.chart("tiangong-1", angular_velocity=[0.0, 0.0, 0.0], control=[0.0, 0.0, 0.0], duration=10.0, samples=3)
+
+
+def test_a_method_looks_the_same_in_every_chart(chart: Chart, rotor_chart: Chart) -> None:
+    pytest.importorskip("matplotlib")
+
+    def looks(made: Chart) -> dict[str, tuple[Any, ...]]:
+        return {str(line.get_label()): (line.get_color(), line.get_marker(), line.get_markersize()) for line in made.plot().axes[0].lines}
+
+    ours, theirs = looks(chart), looks(rotor_chart)
+    common = set(ours) & set(theirs)
+    assert {"rung full", "Taylor, order 20", "Runge-Kutta DOP853"} <= common
+    assert all(ours[label] == theirs[label] for label in common)
+    for each in (ours, theirs):
+        assert len(set(each.values())) == len(each)
 
 
 def test_files(chart: Chart, tmp_path: Path) -> None:
@@ -65,8 +154,9 @@ def test_files(chart: Chart, tmp_path: Path) -> None:
     files = chart.save(tmp_path / "new" / "folder")
     assert [file.suffix for file in files] == [".png", ".svg", ".csv"] and all(file.stat().st_size > 1000 for file in files)
     rows = list(csv.DictReader(io.StringIO(files[2].read_text())))
-    assert len(rows) == len(chart.points)
-    assert float(rows[-1]["seconds"]) == chart.points[-1].seconds
+    assert len(rows) == len(chart.points) + sum(len(each.settings) for each in chart.left_out)
+    assert float(rows[len(chart.points) - 1]["seconds"]) == chart.points[-1].seconds
+    assert rows[-1]["method"] == "rung equal-torque" and rows[-1]["note"] == "left out: the control torques are not equal"
 
 
 def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,14 +5,18 @@ import csv
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+import gyrostat
 import pytest
 from gyrostat.cli import main
+from gyrostat.facts import FACTS
+from gyrostat.families import FAMILIES
 from gyrostat.scenes import bundled
 
 GYROSTAT = [sys.executable, "-m", "gyrostat"]
@@ -45,7 +49,8 @@ def test_solve_json_and_csv(scene_file: Path, capsys: pytest.CaptureFixture[str]
 def test_solve_writes_files(scene_file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("matplotlib")
     report, plot = tmp_path / "answer.txt", tmp_path / "plot.png"
-    assert run(capsys, "solve", str(scene_file), "-o", str(report), "--plot", str(plot)) == (0, "", "")
+    status, out, err = run(capsys, "solve", str(scene_file), "-o", str(report), "--plot", str(plot))
+    assert status == 0 and out == "" and err.startswith(f"wrote {report}: answered by ") and err.endswith(f" met\nwrote {plot}\n")
     assert "answered by" in report.read_text() and plot.read_bytes()[:4] == b"\x89PNG"
     pytest.importorskip("xarray")
     netcdf = tmp_path / "answer.nc"
@@ -53,6 +58,37 @@ def test_solve_writes_files(scene_file: Path, tmp_path: Path, capsys: pytest.Cap
     assert netcdf.read_bytes()[:3] == b"CDF"
     status, _, err = run(capsys, "solve", str(scene_file), "--netcdf")
     assert status == 2 and "-o FILE" in err
+
+
+def test_the_ending_of_the_file_gives_the_form(scene_file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def written(name: str, *options: str) -> bytes:
+        file = tmp_path / name
+        status, out, err = run(capsys, "solve", str(scene_file), "-o", str(file), *options)
+        assert status == 0 and out == "" and err.startswith(f"wrote {file}: answered by")
+        return file.read_bytes()
+
+    assert json.loads(written("answer.json"))["met"] and json.loads(written("ANSWER.JSON"))["met"]
+    assert written("answer.csv").startswith(b"t,angular_momentum_x,") and json.loads(written("other.csv", "--json"))["met"]
+    assert b"What was tried" in written("answer.txt") and b"What was tried" in written("answer")
+    pytest.importorskip("xarray")
+    assert written("answer.nc")[:3] == b"CDF"
+
+
+def test_an_unknown_ending_is_refused_before_any_work(tmp_path: Path, capsys: pytest.CaptureFixture[str],
+                                                      monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gyrostat.ladder.solve", lambda *_, **__: pytest.fail("solved"))
+    status, out, err = run(capsys, "solve", "tiangong-1", "-o", str(tmp_path / "answer.xls"))
+    assert status == 2 and out == "" and "unknown ending .xls; use one of .json, .csv, .nc, .txt" in err and not list(tmp_path.iterdir())
+
+
+def test_the_report_shows_the_error_that_was_judged(capsys: pytest.CaptureFixture[str]) -> None:
+    """The stop time of this scene is less certain than any column."""
+    status, out, _ = run(capsys, "solve", "tiangong-1")
+    first = re.search(r"estimated error (\S+) \(stop_time\), tolerance 0.001 met", out)
+    tried = re.search(r"averaged +(\S+) +answered", out)
+    stop = re.search(r"stop_time +\S+ +s +(\S+)\n", out)
+    assert status == 0 and first and tried and stop and first[1] == tried[1] == stop[1]
+    assert re.search(r"small_parameter +\S+ +1 +-\n", out)
 
 
 def test_set_changes_keys(scene_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -66,6 +102,8 @@ def test_set_changes_keys(scene_file: Path, capsys: pytest.CaptureFixture[str]) 
 def test_exit_status_3_over_the_tolerance(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = run(capsys, "solve", "tiangong-1", "--set", "model=averaged", "--set", "tolerance=1e-12")
     assert status == 3 and "NOT met" in out
+    status, out, err = run(capsys, "solve", "tiangong-1", "--set", "model=averaged", "--set", "tolerance=1e-12", "-o", os.devnull)
+    assert status == 3 and out == "" and "NOT met" in err
 
 
 @pytest.mark.parametrize(("arguments", "text"), [
@@ -115,10 +153,44 @@ def test_lists(capsys: pytest.CaptureFixture[str]) -> None:
     assert status == 0 and all(name in out for name, _ in bundled())
     status, out, _ = run(capsys, "schema")
     assert status == 0 and json.loads(out)["title"] == "gyrostat scene"
+    status, out, _ = run(capsys, "schema", "heavy", "--json")
+    assert status == 0 and json.loads(out)["properties"]["kind"]["enum"] == ["heavy"]
+    status, out, _ = run(capsys, "info", "--json")
+    assert status == 0 and json.loads(out)["gyrostat"] == gyrostat.__version__
     status, out, _ = run(capsys, "info")
-    assert status == 0 and "licence of this build" in out and "GSL" in out
+    assert status == 0 and re.search(r"licence +BSD-3-Clause\n", out) and "gyrostat._gsl" in out
     status, out, _ = run(capsys, "reproduce")
     assert status == 0 and "deceleration" in out
+
+
+def test_version(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["--version"])
+    assert caught.value.code == 0 and capsys.readouterr().out == f"gyrostat {gyrostat.__version__}\n"
+
+
+def test_show_prints_a_bundled_scene_as_it_stands(capsys: pytest.CaptureFixture[str]) -> None:
+    for name, file in bundled():
+        assert run(capsys, "show", name) == (0, file.read_text(), f"file: {file}\n")
+    status, out, err = run(capsys, "show", "tiangong1")
+    assert status == 2 and out == "" and "did you mean tiangong-1?" in err
+
+
+@pytest.mark.parametrize("kind", list(FAMILIES))
+def test_help_and_info_explain_columns_scalars_and_rungs(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["solve", "--help"])
+    help_text = capsys.readouterr().out
+    assert "rung is passed over where" in " ".join(help_text.split())
+    status, told, _ = run(capsys, "info", "--columns", kind)
+    assert status == 0
+    for text in (" ".join(help_text.split()), " ".join(told.split())):
+        for quantity in FACTS[kind].quantities.values():
+            assert f"{quantity.name} {quantity.width} {quantity.unit}".strip() in text
+        assert all(rung in text for rung in FACTS[kind].rungs)
+    assert told in run(capsys, "info", "--columns")[1]
+    found = json.loads(run(capsys, "info", "--columns", kind, "--json")[1])[kind]
+    assert {name: entry["meaning"] for name, entry in found["columns"].items()} == {q.name: q.meaning for q in FACTS[kind].columns.values()}
 
 
 def test_selftest(capsys: pytest.CaptureFixture[str]) -> None:

@@ -94,6 +94,9 @@ def test_a_goal_that_the_linear_motion_cannot_tell_is_not_confirmed() -> None:
     ({}, "spin-for-pointing", 0.0, "budget = 0"),
     ({}, "spin-for-pointing", math.nan, "budget = nan"),
     ({}, "spin", 0.1, "use one of"),
+    ({}, "spin-for-pointing", 1e300, "says nothing there"),
+    ({"torque.force": [0.0, 0.0, 400.0]}, "torque-for-direction", math.pi / 2, "says nothing there"),
+    ({}, "burn-for-velocity", 1e300, "budget = 1e[+]300: give a finite number > 0 with a square that a double holds"),
 ])
 def test_what_cannot_be_designed_is_refused(changes: dict[str, Any], goal: str, budget: float, words: str) -> None:
     with pytest.raises(gyrostat.DomainError, match=words):

@@ -104,10 +104,10 @@ def test_averaged_over_arrays_is_averaged_one_by_one() -> None:
         for j in range(3):
             one = deceleration.solve(inertia=J, control=controls[j], drag=drags[i, 0], angular_momentum=M0, times=t,
                                      model="averaged", tolerance=1e-9)
-            assert np.array_equal(made.momentum_norm[i, j], one["columns"]["angular_momentum_norm"])
-            assert np.array_equal(made.modulus_squared[i, j], one["columns"]["modulus_squared"])
-            assert list(made.regime[i, j]) == one["columns"]["regime"]
-            assert made.error["energy"][i, j] == one["error"]["energy"]
+            assert np.array_equal(made.momentum_norm[i, j], one["angular_momentum_norm"])
+            assert np.array_equal(made.modulus_squared[i, j], one["modulus_squared"])
+            assert np.array_equal(made.regime[i, j], one["regime"])
+            assert made.error["energy"][i, j] == one.error["energy"]
 
 
 def test_averaged_with_equal_torques_is_the_exponential_law() -> None:
@@ -135,7 +135,7 @@ def test_integrators_agree() -> None:
     given: dict[str, Any] = {"inertia": J, "control": B, "drag": 2e-5, "angular_momentum": M0, "times": [0.0, 10.0, 200.0]}
     truth = deceleration.integrate(**given, method="taylor", order=30, tolerance=1e-18, precision="long double")
     assert truth["status"] == "reached"
-    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 16, 20, 26)]
+    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 20)]
     methods.append({"method": "dop853"})
     if deceleration.has_cvode():
         methods += [{"method": "cvode-adams"}, {"method": "cvode-bdf"}]

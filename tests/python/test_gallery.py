@@ -11,7 +11,7 @@ import gyrostat
 from gyrostat import _core
 from gyrostat import gallery as galleries
 from gyrostat.cli import main
-from gyrostat.gallery import deceleration as gallery
+from gyrostat.families.deceleration import gallery
 
 
 def test_all_figures_from_3_to_25_are_there() -> None:
@@ -21,14 +21,14 @@ def test_all_figures_from_3_to_25_are_there() -> None:
 
 @pytest.mark.parametrize("case", [case for group in gallery.GROUPS if not group.gyrostat for case in group.cases],
                          ids=lambda case: f"{case.label}, {case.sigma}")
-def test_the_mended_equations_stop_with_the_averaged_model(case: gallery.Case) -> None:
+def test_the_corrected_equations_stop_with_the_averaged_model(case: gallery.Case) -> None:
     answer = gyrostat.solve(gallery._scene(case, False, 1e-5, 2.0, "averaged"))
     stop = answer.scalars["stop_time"] * 1e-5 / case.data().time_unit
-    mended = gallery._mended(case)
-    if mended.modulus_squared[-1] < 0.999:  # else the separatrix ended them
-        assert mended.t[-1] == pytest.approx(stop, rel=2e-3)
+    corrected = gallery._corrected(case)
+    if corrected.modulus_squared[-1] < 0.999:  # else the separatrix ended them
+        assert corrected.t[-1] == pytest.approx(stop, rel=2e-3)
     else:
-        assert mended.t[-1] == pytest.approx(0.257, abs=1e-3)
+        assert corrected.t[-1] == pytest.approx(0.257, abs=1e-3)
         assert stop == pytest.approx(0.679, abs=1e-3)
 
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from gyrostat import _core, gallery, heavy
 from gyrostat.cli import main
-from gyrostat.gallery import heavy as pictures
-from gyrostat.gallery.heavy import BODY, COSINE, FREQUENCY, angles, errors, late_errors, oscillator, printed_table, published, units_off
+from gyrostat.families.heavy import gallery as pictures
+from gyrostat.families.heavy.gallery import BODY, COSINE, FREQUENCY, angles, errors, late_errors, oscillator, printed_table, published, units_off
 
 
 def test_the_figures_are_listed() -> None:

@@ -7,7 +7,10 @@ import pathlib
 import subprocess
 import sys
 
+import pytest
+
 import gyrostat
+from gyrostat import elliptic
 
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -22,6 +25,29 @@ def test_build_information_names_every_library() -> None:
     assert info["eigen"] is not None and info["eigen"].startswith("3.4")
 
 
+@pytest.mark.skipif(gyrostat.build_info()["gsl"] is None, reason="no GSL")
+def test_gsl_is_a_part_of_its_own() -> None:
+    """The core is BSD: GSL, which is GPL, comes into the process when it is asked for, not before."""
+    program = """
+import gyrostat
+from gyrostat import elliptic
+holds_gsl = lambda: "libgsl" in open("/proc/self/maps").read()
+elliptic.complete(0.5)
+assert not holds_gsl()
+elliptic.complete(0.5, elliptic="gsl")
+assert holds_gsl()
+"""
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+
+
+def test_without_gsl_the_error_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "gyrostat._gsl", None)  # cannot be imported
+    assert gyrostat.build_info()["gsl"] is None
+    with pytest.raises(gyrostat.DomainError, match="no GSL.*libgsl-dev"):
+        elliptic.complete(0.5, elliptic="gsl")
+
+
 def test_stub_is_that_of_the_module() -> None:
     """The build writes the stub anew; the one in the source tree, which people read, must not lag behind."""
     built = importlib.resources.files("gyrostat").joinpath("_core.pyi").read_text()
@@ -33,20 +59,24 @@ def test_package_says_that_it_is_typed() -> None:
     assert importlib.resources.files("gyrostat").joinpath("py.typed").is_file()
 
 
-def test_types_hold_in_a_users_program(tmp_path: pathlib.Path) -> None:
-    example = pathlib.Path(__file__).with_name("typed_example.py")
-    run = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path), str(example)],
-        cwd=tmp_path, capture_output=True, text=True,
-    )
+@pytest.fixture(scope="module")
+def mypy_cache(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
+    """What mypy learned of numpy, for both tests."""
+    return tmp_path_factory.mktemp("mypy")
+
+
+def mypy(program: pathlib.Path, cache: pathlib.Path) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(cache), str(program)]
+    return subprocess.run(command, cwd=cache, capture_output=True, text=True)
+
+
+def test_types_hold_in_a_users_program(mypy_cache: pathlib.Path) -> None:
+    run = mypy(pathlib.Path(__file__).with_name("typed_example.py"), mypy_cache)
     assert run.returncode == 0, run.stdout + run.stderr
 
 
-def test_wrong_types_are_noticed(tmp_path: pathlib.Path) -> None:
+def test_wrong_types_are_noticed(mypy_cache: pathlib.Path, tmp_path: pathlib.Path) -> None:
     wrong = tmp_path / "wrong.py"
     wrong.write_text("import gyrostat\n\nversion: int = gyrostat.__version__\n")
-    run = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path), str(wrong)],
-        cwd=tmp_path, capture_output=True, text=True,
-    )
+    run = mypy(wrong, mypy_cache)
     assert run.returncode == 1 and "Incompatible types in assignment" in run.stdout, run.stdout + run.stderr

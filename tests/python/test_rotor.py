@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from conftest import ASSEMBLED, ROTOR
 from gyrostat import Answer, DomainError, Monitor, rotation, rotor
-from gyrostat.answer import UNITS
 from gyrostat.cli import main
+from gyrostat.facts import UNITS
 from gyrostat.scenes import bundled, load, scene_from
 from numpy.typing import NDArray
 
@@ -222,14 +222,14 @@ def test_a_monitor_cancels_long_work() -> None:
 
 def test_solve_takes_what_a_scene_holds(answer: Answer) -> None:
     made = rotor.solve(**rotor.arguments(scene_from(answer.scene)))
-    assert np.array_equal(made["columns"]["attitude"], answer["attitude"])
+    assert np.array_equal(made["attitude"], answer["attitude"])
 
 
 def test_integrators_agree() -> None:
     truth = rotor.integrate(**GOOD, method="taylor", order=30, tolerance=1e-19, precision="long double")
     other = rotor.integrate(**GOOD, method="radau", tolerance=1e-19, precision="long double")
     assert truth["status"] == other["status"] == "reached" and turn_between(truth["attitude"], other["attitude"]) < 1e-14
-    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 16, 20, 26)]
+    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 20)]
     methods += [{"method": "radau"}, {"method": "dop853"}]
     if HAS_CVODE:
         methods += [{"method": "cvode-adams"}, {"method": "cvode-bdf"}]

@@ -12,10 +12,10 @@ import pytest
 import gyrostat
 from gyrostat import rotor
 from gyrostat.cli import main
+from gyrostat.families.rotor import stability as family
+from gyrostat.families.rotor.sphere import Sphere, from_disc, onto_disc
 from gyrostat.scenes import load, scene_from
 from gyrostat.stability import plot_stability, report_stability, stability_report
-from gyrostat.stability import rotor as family
-from gyrostat.stability.sphere import Sphere, from_disc, onto_disc
 
 AXIS = [0.75052555189406, 0.35024525755056, 0.56039241208090]
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from conftest import ASSEMBLED, GOOD, HEAVY, PERIODIC, ROTOR, SPINNING
 from gyrostat.errors import SceneError
-from gyrostat.fields import KINDS, RUNGS
+from gyrostat.families import FAMILIES
 from gyrostat.scenes import bundled, load, parse_override, scene_from
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -439,7 +439,7 @@ def test_bundled_scenes_have_names_and_sources() -> None:
     for name, file in scenes:
         scene = load(name)
         assert scene.name == file.stem and scene.source
-        assert scene.kind in KINDS and scene.model in ("auto", *RUNGS[scene.kind])
+        assert scene.kind in FAMILIES and scene.model in ("auto", *FAMILIES[scene.kind].facts.rungs)
 
 
 # ---- fuzz: only SceneError ever escapes ----
@@ -491,13 +491,13 @@ values = st.recursive(
     | st.sampled_from(["auto", "full", "total", "carrier", "taylor", "deceleration", 10**400, -0.0, 1e-300, 5e-324, [1e60] * 3,
                        [1e-40] * 3, [0.6, 0.0, 0.8], 1e60, 1e-40]),
     lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=5), inner, max_size=3), max_leaves=12)
-keys = st.sampled_from(sorted({field.name for tables in KINDS.values() for fields in tables.values() for field in fields}))
+keys = st.sampled_from(sorted({field.name for family in FAMILIES.values() for fields in family.keys.values() for field in fields}))
 tables = st.dictionaries(keys | st.text(max_size=6), values, max_size=6)
 
 
 @settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-@given(kind=st.sampled_from(sorted(KINDS)),
-       data=st.dictionaries(st.sampled_from(["name", "source", *sorted({table for tables in KINDS.values() for table in tables})])
+@given(kind=st.sampled_from(sorted(FAMILIES)),
+       data=st.dictionaries(st.sampled_from(["name", "source", *sorted({table for family in FAMILIES.values() for table in family.keys})])
                             | st.text(max_size=5), tables | values, max_size=7))
 def test_random_dicts(kind: str, data: dict[str, object]) -> None:
     try:

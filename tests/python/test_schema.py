@@ -1,15 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The JSON Schema says what the validator says."""
+"""The JSON Schema says what the validator says; so do the table of keys and the template."""
 
 import json
+import re
 import tomllib
+from pathlib import Path
 from typing import Any
 
+import pytest
 from conftest import ASSEMBLED, HEAVY, PERIODIC, ROTOR, SPINNING
+from gyrostat import solve
+from gyrostat.cli import main
 from gyrostat.errors import SceneError
-from gyrostat.fields import KINDS
+from gyrostat.families import FAMILIES
+from gyrostat.fields import REQUIRED, Choice
 from gyrostat.scenes import bundled, load, scene_from
 from gyrostat.schema import schema
+from gyrostat.template import template
 
 
 def accepts(rule: dict[str, Any], value: Any) -> bool:
@@ -46,11 +53,11 @@ def test_schema_is_json() -> None:
 
 
 def test_schema_has_every_key_once() -> None:
-    for rule, (kind, tables) in zip(schema()["oneOf"], KINDS.items(), strict=True):
+    for rule, (kind, family) in zip(schema()["oneOf"], FAMILIES.items(), strict=True):
         assert rule["properties"]["kind"]["enum"] == [kind]
-        for table, fields in tables.items():
+        for table, fields in family.keys.items():
             properties = rule["properties"][table]["properties"] if table else rule["properties"]
-            assert {field.name for field in fields} == {key for key in properties if table or key not in tables}
+            assert {field.name for field in fields} == {key for key in properties if table or key not in family.keys}
 
 
 SPOILT = {
@@ -69,6 +76,79 @@ SPOILT = {
 }
 
 
+def test_the_schema_of_a_kind_is_its_part_of_the_whole() -> None:
+    whole = schema()
+    for kind, rule in zip(FAMILIES, whole.pop("oneOf"), strict=True):
+        assert schema(kind) == {**whole, **rule}
+
+
+@pytest.mark.parametrize("kind", list(FAMILIES))
+def test_the_table_of_keys_has_every_key_with_unit_default_interval_and_meaning(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["schema", kind]) == 0
+    out = capsys.readouterr().out
+    parts = {title: text for title, text in re.findall(r"\n(\[\w+\]|at the top)\n(.*?)(?=\n\n)", out, re.S)}
+    alternatives = {key for choices in FAMILIES[kind].alternatives for choice in choices for key in choice}
+    for table, fields in FAMILIES[kind].keys.items():
+        lines = parts[f"[{table}]" if table else "at the top"].splitlines()
+        for field in fields:
+            line = next(line for line in lines if line.split()[0] == field.name)
+            assert field.unit in line and field.meaning.split()[0] in line
+            assert "required" in line if field.default is REQUIRED else "required" not in line
+            assert ("alternative" in line) == (f"{table}.{field.name}" in alternatives)
+            assert not field.open_low or "> " in line
+    assert "Give exactly one of: solve.duration with solve.samples, or solve.times." in out
+    assert out.count("Give ") == len(FAMILIES[kind].alternatives)
+
+
+def text_of(kind: str, chosen: Choice = (), rest: tuple[Choice, ...] = ()) -> str:
+    """The template, one alternative taken and the rest taken out."""
+    lines, table = [], ""
+    for line in template(kind).splitlines():
+        if found := re.match(r"#?\[(\w+)\]", line):
+            table = found[1]
+            line = found[0].lstrip("#")
+        key = f"{table}.{line.partition(' ')[0].lstrip('#')}"
+        if key in chosen:
+            line = line.lstrip("#")
+        elif any(key in other for other in rest):
+            line = "#" + line
+        lines.append(line)
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("kind", list(FAMILIES))
+def test_a_template_is_solved_as_it_stands(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "scene.toml"
+    assert main(["new", kind, "-o", str(file)]) == 0 and file.read_text() == template(kind)
+    assert main(["solve", str(file)]) == 0
+    assert f"my-{kind} ({kind})" in capsys.readouterr().out
+    file.write_text("mine")
+    assert main(["new", kind, "-o", str(file)]) == 2 and "--force" in capsys.readouterr().err and file.read_text() == "mine"
+    assert main(["new", kind, "-o", str(file), "--force"]) == 0 and main(["new", kind]) == 0
+    assert file.read_text() == template(kind) == capsys.readouterr().out
+
+
+@pytest.mark.parametrize("kind", list(FAMILIES))
+def test_a_template_has_every_key_with_its_unit_and_every_alternative(kind: str) -> None:
+    family = FAMILIES[kind]
+    text = template(kind)
+    assert max(map(len, text.splitlines())) <= 120
+    written = re.sub(r"^#(?=\[|\w+ = )", "", text, flags=re.M)  # every key at once
+    data = tomllib.loads(written)
+    for table, fields in family.keys.items():
+        for field in fields:
+            assert field.name in (data[table] if table else data)
+            assert field.unit in text and field.meaning.split(":")[0] in " ".join(text.replace("\n# ", " ").split())
+    for choices in family.alternatives:
+        for chosen in choices:
+            rest = tuple(other for more in family.alternatives if any(key in chosen for choice in more for key in choice) or more == choices
+                         for other in more if other != chosen)
+            scene = scene_from(tomllib.loads(text_of(kind, chosen, rest)))
+            for key in chosen:
+                assert scene.tables[key.partition(".")[0]][key.partition(".")[2]] is not None
+            assert solve(scene, tolerance=0.1, times=[0.0, 1.0]).met
+
+
 def test_schema_accepts_the_bundled_scenes_and_refuses_spoilt_ones() -> None:
     kinds = set()
     for name, _ in bundled():
@@ -78,13 +158,13 @@ def test_schema_accepts_the_bundled_scenes_and_refuses_spoilt_ones() -> None:
         for table, key, value in [*SPOILT[data["kind"]], ("solve", "tolerance", 1.0), ("initial", "attitude", [0, 0, 0, 2]),
                                   ("solve", "samples", 1.5), ("solve", "times", [1.0])]:
             assert not accepts(schema(), {**data, table: {**data.get(table, {}), key: value}})
-        for other in {*KINDS, "light"} - {data["kind"]}:
+        for other in {*FAMILIES, "light"} - {data["kind"]}:
             assert not accepts(schema(), {**data, "kind": other})
         for table in ("solve", "torque", "rotor", "motor", "initial"):
             if table in data:
                 assert not accepts(schema(), {key: value for key, value in data.items() if key != table})
         assert not accepts(schema(), {**data, "initial": {}})
-    assert kinds == set(KINDS)
+    assert kinds == set(FAMILIES)
 
 
 def test_schema_and_validator_agree_on_alternatives_between_tables() -> None:

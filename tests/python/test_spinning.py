@@ -14,8 +14,9 @@ import numpy as np
 import pytest
 from conftest import SPINNING
 from gyrostat import Answer, DomainError, Monitor, rotation, spinning
-from gyrostat.answer import UNITS
 from gyrostat.cli import main
+from gyrostat.facts import UNITS
+from gyrostat.families.spinning.functions import SHAPES
 from gyrostat.scenes import bundled, load, scene_from
 
 SCENE = tomllib.loads(SPINNING)
@@ -209,7 +210,7 @@ def test_a_monitor_cancels_long_work() -> None:
 def test_linear_is_the_linear_rung() -> None:
     rung = gyrostat.solve(SCENE, model="linear", tolerance=0.5)
     given = spinning.arguments(scene_from(SCENE))
-    made = spinning.linear(t=rung.t, **{name: given[name] for name in spinning.SHAPES})
+    made = spinning.linear(t=rung.t, **{name: given[name] for name in SHAPES})
     for name in rung.columns:
         assert np.array_equal(getattr(made, name), rung[name]), name
     assert made.tilt_bound >= np.hypot(*made.euler_312[:, :2].T).max() and made.rate_bound >= np.hypot(*made.angular_velocity[:, :2].T).max()
@@ -234,7 +235,7 @@ def test_torques_superpose_and_errors_hold() -> None:
     for name in ("angular_velocity", "euler_312", "velocity", "position"):
         a, b, c = (getattr(made, name) for made in (none, two, four))
         assert np.allclose(c - a, 2 * (b - a), rtol=0, atol=1e-13 * np.max(np.abs(c)))
-    full = spinning.solve(**GOOD, times=TIMES, model="full", tolerance=1e-11)["columns"]
+    full = spinning.solve(**GOOD, times=TIMES, model="full", tolerance=1e-11)
     made = spinning.linear(**GOOD, t=TIMES)
     off = np.abs(made.velocity - full["velocity"]).max(axis=0)
     assert math.hypot(*off[:2]) <= made.error["velocity"] and off[2] <= made.error["axial_velocity"]
@@ -294,7 +295,7 @@ def test_angles_of_many_attitudes() -> None:
 
 def test_integrators_agree() -> None:
     truth = spinning.integrate(**GOOD, times=TIMES, method="taylor", order=30, tolerance=1e-18, precision="long double")
-    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 16, 20, 26)] + [{"method": "dop853"}]
+    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 20)] + [{"method": "dop853"}]
     if HAS_CVODE:
         methods += [{"method": "cvode-adams"}, {"method": "cvode-bdf"}]
     for method in methods:

@@ -10,8 +10,8 @@ import pytest
 import gyrostat
 from gyrostat import _core, gallery, spinning
 from gyrostat.cli import main
-from gyrostat.gallery import spinning as pictures
-from gyrostat.gallery.spinning import SWEEPS, Case, run
+from gyrostat.families.spinning import gallery as pictures
+from gyrostat.families.spinning.gallery import SWEEPS, Case, run
 
 # nu, period, greatest p, q, psi, least and greatest phi, greatest G2, v2, x1, x2 at 50 s, slope of v2/v3, to the digits given
 TABLE = {

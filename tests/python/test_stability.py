@@ -10,9 +10,9 @@ import pytest
 
 import gyrostat
 from gyrostat.cli import main
+from gyrostat.families.deceleration.stability import quasi_stationary_line
 from gyrostat.scenes import scene_from
 from gyrostat.stability import plot_stability, report_stability, stability_report
-from gyrostat.stability.deceleration import quasi_stationary_line
 
 # Torques about axes 1, 2, 3 and what they do in regime A: one row for each region.
 ROWS = [((0.5, 0.8, 1.0), "to-axis"), ((1.5, 1.2, 1.0), "to-separatrix"), ((0.9, 0.6, 1.0), "to-interior"),

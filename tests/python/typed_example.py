@@ -20,6 +20,8 @@ def despin_times(scene: str, torques: list[float]) -> list[float]:
 answer = gyrostat.solve(gyrostat.load("tiangong-1"), tolerance=1e-2)
 largest: float = answer.greatest_error
 momentum = np.asarray(answer["angular_momentum_norm"])
+brake: gyrostat.Answer = deceleration.solve(inertia=[3.0, 2.0, 1.5], control=[0.1, 0.1, 0.1], drag=0.1, angular_momentum=[1.0, 2.0, 3.0], times=[0.0, 1.0])
+errors: dict[str, float] = brake.scalar_error
 star = deceleration.quasi_stationary_modulus(control=[0.95, 0.8, 1.0])
 sweep = deceleration.averaged(inertia=[3.0, 2.0, 1.5], control=np.ones((4, 3)), drag=0.1, angular_momentum=[1.0, 2.0, 3.0], t=[0.0, 1.0])
 K = elliptic.complete(star).K
@@ -32,5 +34,5 @@ burn = spinning.linear_grid(inertia=[8.0, 7.0, 11.0], torque=[0.1, 0.0, 0.0], fo
 sleep = heavy.sleeping_top(inertia=[0.002, 0.002, 0.001], mass=0.5, centre_of_mass=[0.0, 0.0, 0.04], gravity=9.8, spin=np.array([20.0, 60.0]))
 orbit = heavy.periodic_orbit(inertia=[0.0011, 0.0016, 0.002], mass=0.8, centre_of_mass=[0.012, 0.009, 0.01], gravity=9.8, spin=150.0, cos_inclination=0.1)
 monitor = gyrostat.Monitor()
-print(gyrostat.__version__, *libraries(), despin_times("tiangong-1", [0.4, 0.5]), largest, momentum[-1], sweep.stop_time, K, turn, theta @ turn, lean[0],
+print(gyrostat.__version__, *libraries(), despin_times("tiangong-1", [0.4, 0.5]), largest, errors, momentum[-1], sweep.stop_time, K, turn, theta @ turn, lean[0],
       burn.x3[-1], sleep.verdict[0], orbit.period, monitor.progress)

@@ -81,3 +81,10 @@ TEST_CASE("the norm neither overflows nor underflows, and nothing has no directi
   CHECK(std::isnan(normalised(Quat<double>{0, 0, 0, 0}).w));
   CHECK(std::isnan(normalised(Quat<double>{gyrostat::nan<double>, 0, 0, 1}).z));
 }
+
+TEST_CASE("a quaternion of unit norm to rounding is left as it stands", "[rotation]") {
+  const Quat<double> unit = normalised(Quat<double>{0.3, -0.7, 0.2, 0.61});
+  CHECK(as_unit(unit) == unit);
+  const Quat<double> longer{unit.w * (1 + 1e-9), unit.x, unit.y, unit.z};
+  CHECK(as_unit(longer) == normalised(longer));
+}

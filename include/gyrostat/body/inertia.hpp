@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
+#include "gyrostat/body/principal_axes.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
@@ -26,21 +25,16 @@ class Inertia {
   /// A tensor in body axes, symmetric within 8 eps of its largest entry; its symmetric part is kept. Errors as for
   /// moments, and Errc::not_symmetric.
   static Result<Inertia> from_tensor(const Mat3<Scalar>& J_B) noexcept {
-    if (!J_B.allFinite()) return Errc::not_finite;
-    constexpr Scalar tolerance = 8 * epsilon<Scalar>;
-    const Scalar scale = J_B.cwiseAbs().maxCoeff();
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < i; ++j)
-        if (std::abs(J_B(i, j) - J_B(j, i)) > tolerance * scale) return Errc::not_symmetric;
-
+    const Result<Mat3<Scalar>> symmetric = symmetric_part<Scalar>(J_B);
+    if (!symmetric) return symmetric.error();
     Inertia inertia;
-    inertia.tensor_ = (J_B + J_B.transpose()) / 2;
+    inertia.tensor_ = *symmetric;
     const SymmetricEigen<Scalar> e = symmetric_eigen<Scalar>(-inertia.tensor_);
     inertia.principal_ = -e.values;
     inertia.axes_ = e.axes;
     const Vec3<Scalar>& m = inertia.principal_;
     if (!(m[2] > 0)) return Errc::not_positive;
-    if (!(m[0] - m[1] <= m[2] + tolerance * m[0])) return Errc::triangle_inequality;
+    if (!(m[0] - m[1] <= m[2] + 8 * epsilon<Scalar> * m[0])) return Errc::triangle_inequality;
     return inertia;
   }
 

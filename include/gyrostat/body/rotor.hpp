@@ -47,6 +47,11 @@ class Rotor {
     return absolute_momentum / axial_inertia_ - axis_.dot(omega_B);
   }
 
+  /// The least second moments of mass that it can have, those of the thinnest disc: I/2 (E - u u^T), body axes, kg m^2.
+  Mat3<Scalar> least_second_moments() const noexcept {
+    return axial_inertia_ / 2 * (Mat3<Scalar>::Identity() - axis_ * axis_.transpose());
+  }
+
   /// J* of J, body axes.
   Mat3<Scalar> inertia_without(const Mat3<Scalar>& J_B) const noexcept {
     return J_B - axial_inertia_ * axis_ * axis_.transpose();

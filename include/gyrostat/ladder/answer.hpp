@@ -1,37 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "gyrostat/core/real.hpp"
+#include "gyrostat/ladder/family.hpp"
 #include "gyrostat/ode/status.hpp"
 
 /// What the ladder says of a scene. Names and texts are string literals; numbers are formatted at the edge.
 namespace gyrostat {
 
-/// One output column: n rows of `width` numbers, row after row.
+/// One output column: n rows of `kind->width` numbers, row after row.
 struct Column {
-  const char* name;
-  int width;
+  const ColumnKind* kind;
   std::vector<double> values;
-  /// Estimated greatest error over the span, relative to the greatest norm of the column over the span
-  /// (attitude: rotation angle in rad; modulus_squared: absolute). NaN where the column has no error (regime).
-  double error;
+  double error;      ///< estimated greatest error over the span, as kind->measure says; NaN where it has none
+  double scale = 0;  ///< kind->scale of this scene, in the unit of the column
+
+  std::string_view name() const noexcept { return kind->name; }
 };
 
 /// One number, or one vector, about the whole motion.
 struct Quantity {
-  const char* name;
-  int width;
-  double values[3];
+  const ScalarKind* kind;
+  std::array<double, 3> values;
   double error = nan<double>;  ///< estimated, relative; NaN where it is a definition and has none
+
+  std::string_view name() const noexcept { return kind->name; }
 };
 
 /// Something the user should know; `value` is the number that raised it, NaN if there is none.
 struct Warning {
-  const char* code;
-  const char* text;
+  const WarningKind* kind;
+  const char* text;  ///< kind->text, or what says more of this case
   double value;
+
+  std::string_view code() const noexcept { return kind->code; }
 };
 
 /// A rung that was looked at.
@@ -54,11 +60,21 @@ struct Answer {
   std::vector<Attempt> tried;
   ode::Counts counts;
 
-  const Column* find(const char* name) const noexcept {
+  /// nullptr where there is none.
+  const Column* find(std::string_view name) const noexcept {
     for (const Column& column : columns)
-      for (const char *p = column.name, *q = name; *p == *q; ++p, ++q)
-        if (*p == '\0') return &column;
+      if (column.name() == name) return &column;
     return nullptr;
+  }
+  const Quantity* quantity(std::string_view name) const noexcept {
+    for (const Quantity& each : quantities)
+      if (each.name() == name) return &each;
+    return nullptr;
+  }
+  bool warns(std::string_view code) const noexcept {
+    for (const Warning& warning : warnings)
+      if (warning.code() == code) return true;
+    return false;
   }
 };
 

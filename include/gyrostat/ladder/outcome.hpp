@@ -17,11 +17,11 @@ struct Outcome {
   double known_error = nan<double>;  ///< the error seen before the rung gave up
   bool in_domain = true;             ///< false: computed outside the rung's domain, the errors are not to be trusted
 
-  /// Adds a warning, once a code.
-  void warn(const char* code, const char* text, double value = nan<double>) {
+  /// Adds a warning, once a code; `text` says more of this case than that of the kind.
+  void warn(const WarningKind& kind, double value = nan<double>, const char* text = nullptr) {
     for (const Warning& w : warnings)
-      if (w.code == code) return;
-    warnings.push_back({code, text, value});
+      if (w.kind == &kind) return;
+    warnings.push_back({&kind, text ? text : kind.text, value});
   }
 };
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 
 #include "gyrostat/core/real.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ode/status.hpp"
 
 namespace gyrostat {
@@ -13,24 +13,35 @@ namespace gyrostat {
 template <Real Scalar>
 inline constexpr Scalar finest_step_tolerance = epsilon<Scalar> / 8;
 
+/// First guess of the step tolerance of a motion that turns through `phase` rad.
+template <Real Scalar>
+Scalar first_step_tolerance(Scalar tolerance, Scalar phase, Scalar loosest) noexcept {
+  const Scalar share =
+      tolerance * Scalar(honesty::first_share) / (Scalar(honesty::first_base) + phase / Scalar(honesty::first_angle));
+  return std::max(finest_step_tolerance<Scalar>, std::min(share, loosest));
+}
+
 /// Runs with a step tolerance, and up to twice more with a tighter one while the estimated error exceeds options.tolerance and a
-/// tighter one may help. run(step_tolerance, progress_from, progress_to) gives an answer with status, met, error and counts; the
-/// last answer is returned, with the counts of all.
+/// tighter one may help. run(step_tolerance, tightened, progress_from, progress_to) gives an answer with status, met, greatest_error() and counts;
+/// `tightened` is by how much more was wanted than in the run before, infinite for the finest. The last answer is returned, with the
+/// counts of all.
 template <Real Scalar, class Options, class Run>
 auto tightened(const Options& options, Scalar step_tolerance, const Run& run) noexcept {
   constexpr Scalar finest = finest_step_tolerance<Scalar>;
   constexpr double part[] = {0.0, 0.7, 0.9, 1.0};
   ode::Counts counts;
+  Scalar by = 1;
   for (int trial = 0;; ++trial) {
-    auto answer = run(step_tolerance, part[trial], part[trial + 1]);
+    auto answer = run(step_tolerance, by, part[trial], part[trial + 1]);
     counts += answer.counts;
     answer.counts = counts;
     if (answer.met || trial == 2 || answer.status != ode::Status::reached || step_tolerance <= finest) {
-      if (options.progress != nullptr) options.progress->store(1.0, std::memory_order_relaxed);
+      options.report(1);
       return answer;
     }
-    const Scalar excess = answer.error.greatest() / options.tolerance;
-    step_tolerance = excess > 1 ? std::max(finest, step_tolerance / (8 * excess)) : finest;
+    const Scalar excess = answer.greatest_error() / options.tolerance;
+    by = excess > 1 ? Scalar(honesty::retry) * excess : infinity<Scalar>;
+    step_tolerance = std::max(finest, step_tolerance / by);
   }
 }
 

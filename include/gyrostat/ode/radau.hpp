@@ -227,6 +227,17 @@ class Radau {
   enum class Sweeps : std::uint8_t { converged, slow, not_finite };
   Sweeps solve(Scalar h, Scalar rounding) noexcept;
 
+  /// Of the next step, from the last coefficients of one that has converged.
+  struct Verdict {
+    Scalar factor;  ///< by which to change its length; NaN if a coefficient is not finite
+    bool accurate;  ///< good enough to be accepted
+  };
+  GYROSTAT_INLINE Verdict judge(Scalar tolerance, Scalar most_inside) const noexcept;
+  /// The length to begin with; NaN if the rates are not finite.
+  Scalar first_step() noexcept;
+  /// Moves the state to the end of a step and keeps its polynomial.
+  GYROSTAT_INLINE void accept(Scalar h) noexcept;
+
   System system_;
   Options options_;
   Scalar rate_, tolerance_, inside_, goal_;
@@ -383,21 +394,80 @@ auto Radau<System>::solve(Scalar h, Scalar rounding) noexcept -> Sweeps {
 }
 
 template <RelaxingSystem System>
+auto Radau<System>::first_step() noexcept -> Scalar {
+  if (options_.first_step > 0) return options_.first_step;
+  Row y[width], rate[width];
+  for (int c = 0; c < width; ++c) y[c] = lanes(state_[c]);
+  system_.rates(y, lanes(state_[width]), rate);
+  ++counts_.rhs;
+  Scalar greatest = 0;
+  for (int c = 0; c < width; ++c) greatest += std::abs(rate[c][0]) * weight_[c];
+  if (!(greatest < infinity<Scalar>)) return nan<Scalar>;
+  return greatest > 0 ? Scalar(0.1L) / greatest : Scalar(1);
+}
+
+template <RelaxingSystem System>
+GYROSTAT_INLINE auto Radau<System>::judge(Scalar tolerance, Scalar most_inside) const noexcept -> Verdict {
+  Row squares = lanes(Scalar(0));
+  for (int c = 0; c < width; ++c) {
+    const Row a = last_coefficients(table.tail, stage_[c]) * lanes(weight_[c]);
+    squares = multiply_add(a, a, squares);
+  }
+  const Row a = last_coefficients(table.tail_of_values, p_) * lanes(weight_[width]);
+  squares = multiply_add(a, a, squares);
+  const Scalar a4 = squares[0], a5 = squares[1], a6 = squares[2], a7 = squares[3];
+  if (!(a4 + a5 + a6 + a7 < infinity<Scalar>)) return {nan<Scalar>, false};
+  // how the coefficients fall, by pairs since even and odd ones may vanish in turn
+  const Scalar early = std::max(a4, a5), late = std::max(a6, a7);
+  const Scalar fall = early > 0 ? std::min(std::sqrt(std::sqrt(late / early)), Scalar(1)) : Scalar(0);
+  const Scalar tail = std::max(std::sqrt(a7), fall * std::sqrt(a6));
+  const Scalar inside = fall * tail / 30;
+  // the same coefficient of the sensitivity, 15 j_7(z/2), with z = h |df/dy| from the pace of the sweeps: A contracts tenfold
+  const Scalar z = 10 * contraction_;
+  const Scalar sensitivity = Scalar(5.8e-8L) * z * z * z * z * z * z * z;
+  const Scalar end = tail * std::max(tail, sensitivity) / 20;
+
+  const float by_end = end > 0 ? std::log2(static_cast<float>(tolerance / end)) / 16 : 3.0F;
+  const float by_inside = inside > 0 ? std::log2(static_cast<float>(most_inside / inside)) / 9 : 3.0F;
+  const float by_sweeps = contraction_ > 0 ? std::log2(static_cast<float>(Scalar(0.25L) / contraction_)) : 3.0F;
+  const float by = std::min({by_end - 0.2F, by_inside - 0.25F, by_sweeps, 2.0F});
+  return {static_cast<Scalar>(std::exp2(std::max(by, -4.0F))), !(end > tolerance || inside > most_inside)};
+}
+
+template <RelaxingSystem System>
+GYROSTAT_INLINE void Radau<System>::accept(Scalar h) noexcept {
+  for (int c = 0; c <= width; ++c) {
+    start_[c] = state_[c];
+    start_low_[c] = low_[c];
+    Sum sum{state_[c], low_[c]};
+    if (c < width) {
+      sum = add(add(sum, dot(table.weight, stage_[c])), dot(table.weight_low, stage_[c]));
+    } else {
+      sum = add(sum, p_[7]);
+    }
+    state_[c] = sum.high;
+    low_[c] = sum.low;
+  }
+  for (int c = 0; c < width; ++c) {
+    for (int i = 0; i < 8; i += 4) store(&last_[c][i], load(&stage_[c][i]));
+  }
+  for (int i = 0; i < 8; i += 4) {
+    Row rate = lanes(Scalar(0));
+    for (int j = 0; j < 8; ++j) rate = multiply_add(load(&table.inverse[j][i]), lanes(p_[j]), rate);
+    store(&last_[width][i], rate);
+  }
+  last_step_ = h;
+  follow_ = true;
+}
+
+template <RelaxingSystem System>
 Status Radau<System>::step(Scalar t_max) noexcept {
   if (!(time_.high < t_max)) return t_max == t_max ? Status::reached : Status::not_finite;
   if (counts_.steps >= options_.step_cap) return Status::step_limit;
   if (!(wish_ > 0)) {
-    wish_ = options_.first_step;
-    if (!(wish_ > 0)) {
-      Row y[width], rate[width];
-      for (int c = 0; c < width; ++c) y[c] = lanes(state_[c]);
-      system_.rates(y, lanes(state_[width]), rate);
-      ++counts_.rhs;
-      Scalar greatest = 0;
-      for (int c = 0; c < width; ++c) greatest += std::abs(rate[c][0]) * weight_[c];
-      if (!(greatest < infinity<Scalar>)) return Status::not_finite;
-      wish_ = greatest > 0 ? Scalar(0.1L) / greatest : Scalar(1);
-    }
+    const Scalar first = first_step();
+    if (!(first == first)) return Status::not_finite;
+    wish_ = first;
   }
 
   // rounding of a state that has outgrown its scale
@@ -407,7 +477,7 @@ Status Radau<System>::step(Scalar t_max) noexcept {
   const Scalar tolerance = std::max(tolerance_, rounding / 64), most_inside = std::max(inside_, 8 * rounding);
   goal_ = std::max(tolerance_ / 4, rounding / 8);
 
-  bool mended = false, finite = true;
+  bool shortened = false, finite = true;
   for (int trial = 0; trial < most_trials; ++trial) {
     const Scalar left = (t_max - time_.high) - time_.low;
     const bool lands = wish_ >= left;
@@ -422,69 +492,25 @@ Status Radau<System>::step(Scalar t_max) noexcept {
       // rates that are finite at the start are so in a shorter step
       if (!finite) follow_ = false;
       wish_ = h / 2;
-      mended = true;
+      shortened = true;
+      ++counts_.rejected;
+      continue;
+    }
+    const Verdict verdict = judge(tolerance, most_inside);
+    if (!(verdict.factor == verdict.factor)) return Status::not_finite;
+    if (!verdict.accurate) {
+      wish_ = h * std::min(verdict.factor, Scalar(0.9L));
+      shortened = true;
       ++counts_.rejected;
       continue;
     }
 
-    Row squares = lanes(Scalar(0));
-    for (int c = 0; c < width; ++c) {
-      const Row a = last_coefficients(table.tail, stage_[c]) * lanes(weight_[c]);
-      squares = multiply_add(a, a, squares);
-    }
-    const Row a = last_coefficients(table.tail_of_values, p_) * lanes(weight_[width]);
-    squares = multiply_add(a, a, squares);
-    const Scalar a4 = squares[0], a5 = squares[1], a6 = squares[2], a7 = squares[3];
-    if (!(a4 + a5 + a6 + a7 < infinity<Scalar>)) return Status::not_finite;
-    // how the coefficients fall, by pairs since even and odd ones may vanish in turn
-    const Scalar early = std::max(a4, a5), late = std::max(a6, a7);
-    const Scalar fall = early > 0 ? std::min(std::sqrt(std::sqrt(late / early)), Scalar(1)) : Scalar(0);
-    const Scalar tail = std::max(std::sqrt(a7), fall * std::sqrt(a6));
-    const Scalar inside = fall * tail / 30;
-    // the same coefficient of the sensitivity, 15 j_7(z/2), with z = h |df/dy| from the pace of the sweeps: A contracts tenfold
-    const Scalar z = 10 * contraction_;
-    const Scalar sensitivity = Scalar(5.8e-8L) * z * z * z * z * z * z * z;
-    const Scalar end = tail * std::max(tail, sensitivity) / 20;
-
-    const float by_end = end > 0 ? std::log2(static_cast<float>(tolerance / end)) / 16 : 3.0F;
-    const float by_inside = inside > 0 ? std::log2(static_cast<float>(most_inside / inside)) / 9 : 3.0F;
-    const float by_sweeps = contraction_ > 0 ? std::log2(static_cast<float>(Scalar(0.25L) / contraction_)) : 3.0F;
-    const float by = std::min({by_end - 0.2F, by_inside - 0.25F, by_sweeps, 2.0F});
-    const auto factor = static_cast<Scalar>(std::exp2(std::max(by, -4.0F)));
-    if (end > tolerance || inside > most_inside) {
-      wish_ = h * std::min(factor, Scalar(0.9L));
-      mended = true;
-      ++counts_.rejected;
-      continue;
-    }
-
-    for (int c = 0; c <= width; ++c) {
-      start_[c] = state_[c];
-      start_low_[c] = low_[c];
-      Sum sum{state_[c], low_[c]};
-      if (c < width) {
-        sum = add(add(sum, dot(table.weight, stage_[c])), dot(table.weight_low, stage_[c]));
-      } else {
-        sum = add(sum, p_[7]);
-      }
-      state_[c] = sum.high;
-      low_[c] = sum.low;
-    }
-    for (int c = 0; c < width; ++c) {
-      for (int i = 0; i < 8; i += 4) store(&last_[c][i], load(&stage_[c][i]));
-    }
-    for (int i = 0; i < 8; i += 4) {
-      Row rate = lanes(Scalar(0));
-      for (int j = 0; j < 8; ++j) rate = multiply_add(load(&table.inverse[j][i]), lanes(p_[j]), rate);
-      store(&last_[width][i], rate);
-    }
-    last_step_ = h;
-    follow_ = true;
+    accept(h);
     start_time_ = time_;
     time_ = lands ? Sum{t_max, 0} : add(time_, h);
     ++counts_.steps;
     // the same step again where nothing is won by another, so that its matrices serve again
-    const Scalar next = h * (mended ? std::min(factor, Scalar(1)) : factor);
+    const Scalar factor = verdict.factor, next = h * (shortened ? std::min(factor, Scalar(1)) : factor);
     if (!(h < wish_) || next > wish_) wish_ = factor > Scalar(0.98L) && factor < Scalar(1.1L) ? h : next;
     if constexpr (Projects<System>) {
       if (options_.projected) system_.project(time_.high, state_, low_);

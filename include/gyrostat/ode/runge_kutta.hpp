@@ -68,13 +68,14 @@ class RungeKutta {
     status_ = std::isfinite(t_) && finite(y_) && finite(f_) ? Status::reached : Status::not_finite;
   }
 
-  /// One accepted step towards `limit` and never past it. Status::reached where a step was made or `limit` is already
-  /// the time; any other status is final until restart(). A start that is not finite, and a step that meets NaN however
-  /// short it is made, end with Status::not_finite.
+  /// One accepted step towards `limit`, which may be infinite, and never past it. Status::reached where a step was made or
+  /// `limit` is already the time; any other status is final until restart(). A start that is not finite, a limit that is
+  /// NaN, a step that meets NaN however short it is made, and a time that grows beyond all numbers end with
+  /// Status::not_finite.
   Status step(Scalar limit) noexcept {
     const Scalar span = limit - t_;
     if (status_ != Status::reached || span == 0) return status_;
-    if (!std::isfinite(span)) return status_ = Status::not_finite;
+    if (std::isnan(span)) return status_ = Status::not_finite;
     t_old_ = t_;
     y_old_ = y_;
     h_ = 0;
@@ -90,10 +91,12 @@ class RungeKutta {
       const Scalar size = next_ < control_.longest_step ? next_ : control_.longest_step;
       const bool last = length <= Scalar(1.01) * size;
       const Scalar h = last ? span : direction * size;
+      const Scalar end = last ? limit : t_ + h;
+      if (!std::isfinite(end)) return status_ = Status::not_finite;
       if (!last && t_ + h / 10 == t_) return status_ = blind > 0 ? Status::not_finite : Status::step_underflow;
-      const Scalar error = try_step(last ? limit : t_ + h, h);
+      const Scalar error = try_step(end, h);
       if (error <= 1) {
-        t_ = last ? limit : t_ + h;
+        t_ = end;
         y_ = trial_;
         f_ = k_[12];
         h_ = h;
@@ -239,7 +242,8 @@ class RungeKutta {
     }
     d0 = std::sqrt(d0 / Scalar(N));
     d1 = std::sqrt(d1 / Scalar(N));
-    const Scalar longest = length < control_.longest_step ? length : control_.longest_step;
+    const Scalar allowed = length < control_.longest_step ? length : control_.longest_step;
+    const Scalar longest = allowed < infinity<Scalar> ? allowed : Scalar(1);  // without a limit: that of a trial
     const Scalar tiny = Scalar(1e-5);
     Scalar h0 = d0 < tiny || d1 < tiny ? longest * Scalar(1e-6) : d0 / d1 / 100;
     if (!(h0 < longest)) h0 = longest;

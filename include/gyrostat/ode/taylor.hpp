@@ -11,6 +11,7 @@
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/math/bracket.hpp"
 #include "gyrostat/ode/status.hpp"
 
 namespace gyrostat::ode {
@@ -145,6 +146,12 @@ class Taylor {
     return greatest;
   }
 
+  /// Fills the rows at the time now and chooses theta = h/unit from the last two coefficients. A unit far from the step is changed
+  /// and the expansion repeated: a few times at the start, practically never later.
+  GYROSTAT_INLINE Status expand(Scalar& theta) noexcept;
+  /// The state at theta of the rows.
+  GYROSTAT_INLINE void move(Scalar theta) noexcept;
+
   System system_;
   Options options_;
   Sum time_;
@@ -162,21 +169,9 @@ class Taylor {
 };
 
 template <TaylorSystem System, int Order>
-Status Taylor<System, Order>::step(Scalar t_max) noexcept {
-  if (!(time_.high < t_max)) return t_max == t_max ? Status::reached : Status::not_finite;
-  if (counts_.steps >= options_.step_cap) return Status::step_limit;
-
-  for (int i = 0; i < width; i += 4) {
-    store(&x_[0][i], load(&state_[i]));
-    store(&start_low_[i], load(&low_[i]));
-  }
-  start_ = time_;
-
-  // theta = h/unit from the last two coefficients. A unit far from the step is mended and the expansion repeated: a few
-  // times at the start, practically never later.
+GYROSTAT_INLINE Status Taylor<System, Order>::expand(Scalar& theta) noexcept {
   constexpr Scalar small = Scalar(1e-20L), large = Scalar(1e20L);
-  row_unit_ = next_unit_;
-  Scalar theta = 8;
+  theta = 8;
   for (int trial = 0;; ++trial) {
     system_.expand(time_.high, row_unit_, x_, work_);
     ++counts_.rhs;
@@ -189,22 +184,54 @@ Status Taylor<System, Order>::step(Scalar t_max) noexcept {
             last_but_one > small ? std::log2(static_cast<float>(last_but_one)) * (-1.0F / (Order - 1)) : 1e3F;
         theta = static_cast<Scalar>(std::exp2(std::min(a, b)));
         flat_ = false;
-        break;
+        return Status::reached;
       }
       // the motion has no high derivatives in this unit: try a longer one, and if there are none at all, let the step grow
       if (flat_ || trial >= 8 || !(size(1) > 0)) {
         flat_ = true;
-        break;
+        return Status::reached;
       }
       row_unit_ *= 8;
     } else {
-      // an overflow of high powers is mended by a shorter unit, a derivative that is NaN or infinite is not
+      // a shorter unit ends an overflow of high powers, but not a derivative that is NaN or infinite
       if (!(size(1) < infinity<Scalar>)) return Status::not_finite;
       if (trial >= 60) return Status::step_underflow;
       row_unit_ /= last < infinity<Scalar> && last_but_one < infinity<Scalar> ? 8 : 64;
     }
     ++counts_.rejected;
   }
+}
+
+template <TaylorSystem System, int Order>
+GYROSTAT_INLINE void Taylor<System, Order>::move(Scalar theta) noexcept {
+  for (int i = 0; i < width; i += 4) {
+    const Lanes<Scalar> high = load(&x_[0][i]);
+    const Lanes<Scalar> delta = increment(i, theta);
+    if (options_.compensated) {
+      const Lanes<Scalar> y = load(&start_low_[i]) + delta;
+      const Lanes<Scalar> next = high + y;
+      const Lanes<Scalar> part = next - high;
+      store(&state_[i], next);
+      store(&low_[i], (high - (next - part)) + (y - part));
+    } else {
+      store(&state_[i], high + delta);
+    }
+  }
+}
+
+template <TaylorSystem System, int Order>
+Status Taylor<System, Order>::step(Scalar t_max) noexcept {
+  if (!(time_.high < t_max)) return t_max == t_max ? Status::reached : Status::not_finite;
+  if (counts_.steps >= options_.step_cap) return Status::step_limit;
+
+  for (int i = 0; i < width; i += 4) {
+    store(&x_[0][i], load(&state_[i]));
+    store(&start_low_[i], load(&low_[i]));
+  }
+  start_ = time_;
+  row_unit_ = next_unit_;
+  Scalar theta;
+  if (const Status status = expand(theta); status != Status::reached) return status;
 
   Scalar h = theta * row_unit_;
   if constexpr (LimitsStep<System>) {
@@ -225,19 +252,7 @@ Status Taylor<System, Order>::step(Scalar t_max) noexcept {
     return Status::step_underflow;
   }
 
-  for (int i = 0; i < width; i += 4) {
-    const Lanes<Scalar> high = load(&x_[0][i]);
-    const Lanes<Scalar> delta = increment(i, theta);
-    if (options_.compensated) {
-      const Lanes<Scalar> y = load(&start_low_[i]) + delta;
-      const Lanes<Scalar> next = high + y;
-      const Lanes<Scalar> part = next - high;
-      store(&state_[i], next);
-      store(&low_[i], (high - (next - part)) + (y - part));
-    } else {
-      store(&state_[i], high + delta);
-    }
-  }
+  move(theta);
   if (lands) {
     time_ = {t_max, 0};
   } else if (options_.compensated) {
@@ -268,30 +283,19 @@ auto Taylor<System, Order>::crossing(Function&& g) const noexcept -> Result<Scal
     at(t, state);
     return g(static_cast<const Scalar*>(state));
   };
-  Scalar a = start_.high, b = time_.high;
-  Scalar fa = value(a), fb = value(b);
-  if (fa == 0) return a;
-  if (fb == 0) return b;
-  if (!((fa < 0 && fb > 0) || (fa > 0 && fb < 0))) return Errc::no_bracket;
-  // Illinois, with a bisection every third trip so that the bracket shrinks for certain
+  math::SignChange<Scalar> change{start_.high, value(start_.high), time_.high, value(time_.high)};
+  if (change.f_low == 0) return change.low;
+  if (change.f_high == 0) return change.high;
+  if (!((change.f_low < 0 && change.f_high > 0) || (change.f_low > 0 && change.f_high < 0))) return Errc::no_bracket;
   for (int trip = 0; trip < 200; ++trip) {
-    Scalar t = trip % 3 == 2 ? a + (b - a) / 2 : (a * fb - b * fa) / (fb - fa);
-    if (!(t > a && t < b)) t = a + (b - a) / 2;
-    if (!(t > a && t < b)) break;
+    const Scalar t = change.guess(trip);
+    if (!change.contains(t)) break;
     const Scalar f = value(t);
     if (f == 0) return t;
     if (!(f == f)) return Errc::not_finite;
-    if ((f < 0) == (fb < 0)) {
-      b = t;
-      fb = f;
-      fa /= 2;
-    } else {
-      a = t;
-      fa = f;
-      fb /= 2;
-    }
+    change.take(t, f);
   }
-  return std::abs(fa) < std::abs(fb) ? a : b;
+  return std::abs(change.f_low) < std::abs(change.f_high) ? change.low : change.high;
 }
 
 }  // namespace gyrostat::ode

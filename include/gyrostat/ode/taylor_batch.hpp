@@ -189,9 +189,21 @@ class TaylorBatch {
     return greatest;
   }
 
-  /// Chooses h/unit of problem b where one of the last two coefficients is out of range, or mends its unit; true if that asks for
+  using Flags = bool[size];
+  using Numbers = Scalar[size];
+
+  /// Begins a step: which problems make one; how many.
+  GYROSTAT_INLINE int begin(const Ends& ends, Flags& runs) noexcept;
+  /// Fills the rows of all and chooses theta = h/unit of the `running` ones that run from the last two coefficients. A unit far from
+  /// the step is changed and the expansion repeated: a few times at the start, practically never later.
+  GYROSTAT_INLINE void expand(const Flags& runs, int running, Numbers& theta) noexcept;
+  /// Chooses h/unit of problem b where one of the last two coefficients is out of range, or changes its unit; true if that asks for
   /// another expansion.
-  bool mend(int b, int trial, Scalar last, Scalar last_but_one, Scalar& theta) noexcept;
+  bool change_unit(int b, int trial, Scalar last, Scalar last_but_one, Scalar& theta) noexcept;
+  /// Moves the times of those that run, at most up to their ends; taken: h/unit of each problem, 0 where it makes no step.
+  GYROSTAT_INLINE void move_times(const Ends& ends, const Numbers& theta, Flags& runs, Numbers& taken) noexcept;
+  /// Moves the states by what was taken.
+  GYROSTAT_INLINE void move_states(const Numbers& taken) noexcept;
 
   System system_;
   Options options_;
@@ -214,7 +226,7 @@ class TaylorBatch {
 };
 
 template <BatchSystem System, int Order>
-bool TaylorBatch<System, Order>::mend(int b, int trial, Scalar last, Scalar last_but_one, Scalar& theta) noexcept {
+bool TaylorBatch<System, Order>::change_unit(int b, int trial, Scalar last, Scalar last_but_one, Scalar& theta) noexcept {
   theta = 8;
   if (last < large && last_but_one < large) {
     if (last > small || last_but_one > small) {
@@ -233,7 +245,7 @@ bool TaylorBatch<System, Order>::mend(int b, int trial, Scalar last, Scalar last
     unit_[b] *= 8;
     return true;
   }
-  // an overflow of high powers is mended by a shorter unit, a derivative that is NaN or infinite is not
+  // a shorter unit ends an overflow of high powers, but not a derivative that is NaN or infinite
   if (!(size_of(b, 1) < infinity<Scalar>)) {
     status_[b] = Status::not_finite;
   } else if (trial >= 60) {
@@ -248,8 +260,7 @@ bool TaylorBatch<System, Order>::mend(int b, int trial, Scalar last, Scalar last
 }
 
 template <BatchSystem System, int Order>
-int TaylorBatch<System, Order>::step(const Ends& ends) noexcept {
-  bool runs[size], waits[size];
+GYROSTAT_INLINE int TaylorBatch<System, Order>::begin(const Ends& ends, Flags& runs) noexcept {
   int running = 0;
   for (int b = 0; b < size; ++b) {
     runs[b] = live_[b] && time_[b] < ends[static_cast<std::size_t>(b)];
@@ -258,7 +269,6 @@ int TaylorBatch<System, Order>::step(const Ends& ends) noexcept {
       live_[b] = runs[b] = false;
     }
     running += runs[b] ? 1 : 0;
-    waits[b] = runs[b];
     start_time_[b] = time_[b];
     start_time_low_[b] = time_low_[b];
     unit_[b] = next_unit_[b];
@@ -270,10 +280,14 @@ int TaylorBatch<System, Order>::step(const Ends& ends) noexcept {
       store(&start_low_[i][first], load_wide(&low_[i][first]));
     }
   }
+  return running;
+}
 
-  // h/unit from the last two coefficients. A unit far from the step is mended and the expansion repeated: a few times at the start,
-  // practically never later.
-  alignas(64) Scalar last[size], last_but_one[size], theta[size];
+template <BatchSystem System, int Order>
+GYROSTAT_INLINE void TaylorBatch<System, Order>::expand(const Flags& runs, int running, Numbers& theta) noexcept {
+  bool waits[size];
+  for (int b = 0; b < size; ++b) waits[b] = runs[b];
+  alignas(64) Scalar last[size], last_but_one[size];
   for (int trial = 0, waiting = running; waiting > 0; ++trial) {
     system_.expand(unit_, x_, work_);
     sizes(Order, last);
@@ -291,13 +305,16 @@ int TaylorBatch<System, Order>::step(const Ends& ends) noexcept {
         theta[b] = static_cast<Scalar>(guess[b]);
         flat_[b] = waits[b] = false;
       } else {
-        waits[b] = mend(b, trial, last[b], last_but_one[b], theta[b]);
+        waits[b] = change_unit(b, trial, last[b], last_but_one[b], theta[b]);
       }
       waiting -= waits[b] ? 0 : 1;
     }
   }
+}
 
-  alignas(64) Scalar taken[size];
+template <BatchSystem System, int Order>
+GYROSTAT_INLINE void TaylorBatch<System, Order>::move_times(const Ends& ends, const Numbers& theta, Flags& runs,
+                                                            Numbers& taken) noexcept {
   for (int b = 0; b < size; ++b) {
     taken[b] = 0;
     runs[b] = runs[b] && live_[b];
@@ -329,7 +346,10 @@ int TaylorBatch<System, Order>::step(const Ends& ends) noexcept {
     taken[b] = h / unit_[b];
     ++counts_[b].steps;
   }
+}
 
+template <BatchSystem System, int Order>
+GYROSTAT_INLINE void TaylorBatch<System, Order>::move_states(const Numbers& taken) noexcept {
   for (int first = 0; first < size; first += pack) {
     const Pack z = load_wide(&taken[first]);
     const Pack z2 = z * z;
@@ -350,10 +370,21 @@ int TaylorBatch<System, Order>::step(const Ends& ends) noexcept {
       if (options_.projected) system_.project(first, state_, low_);
     }
   }
-  running = 0;
+}
+
+template <BatchSystem System, int Order>
+int TaylorBatch<System, Order>::step(const Ends& ends) noexcept {
+  Flags runs;
+  alignas(64) Numbers theta, taken;
+  const int running = begin(ends, runs);
+  if (running == 0) return 0;
+  expand(runs, running, theta);
+  move_times(ends, theta, runs, taken);
+  move_states(taken);
+  int moved = 0;
   for (int b = 0; b < size; ++b) {
     if (runs[b]) {
-      ++running;
+      ++moved;
     } else {  // as it was
       for (int i = 0; i < width; ++i) {
         state_[i][b] = x_[0][i][b];
@@ -361,7 +392,7 @@ int TaylorBatch<System, Order>::step(const Ends& ends) noexcept {
       }
     }
   }
-  return running;
+  return moved;
 }
 
 /// Runs problems 0 ... count - 1 through the batch, a new one in each lane that has become free.

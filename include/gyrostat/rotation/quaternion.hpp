@@ -33,6 +33,12 @@ Quat<Scalar> normalised(const Quat<Scalar>& q) noexcept {
   return {q.w / n, q.x / n, q.y / n, q.z / n};
 }
 
+/// q as it stands where it is of unit norm to rounding, else q / |q|.
+template <Real Scalar>
+Quat<Scalar> as_unit(const Quat<Scalar>& q) noexcept {
+  return std::abs(norm(q) - 1) <= 4 * epsilon<Scalar> ? q : normalised(q);
+}
+
 /// q v q*, for a unit quaternion.
 template <Real Scalar>
 Vec3<Scalar> rotate(const Quat<Scalar>& q, const Vec3<Scalar>& v) noexcept {

@@ -7,53 +7,88 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from types import ModuleType
 from typing import Any, Final
 
-from gyrostat.charts import deceleration, heavy, rotor, spinning
-from gyrostat.charts.point import ChartPoint, Measure
-from gyrostat.errors import DomainError
+from gyrostat.charts import methods
+from gyrostat.charts.methods import TooLong
+from gyrostat.charts.problem import Errors, Line, Measure, Problem, Run, Unanswered
+from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene
 
-__all__ = ["Chart", "ChartPoint", "make_chart"]
+__all__ = ["Chart", "ChartPoint", "LeftOut", "make_chart", "measured"]
 
 REPEATS: Final = 7
-# A method that took longer than this for a solution [s] is not asked for a more accurate one.
-TOO_LONG: Final = 3.0
+# Repeats end after this time [s].
+LONG: Final = 0.2
+# A setting takes about this many times as long as the one before, which is 100 times less accurate: so much a method of order 5.
+GROWTH: Final = 2.5
 
-# Each module makes the `plan` of a scene.
-KINDS: Final[dict[str, ModuleType]] = {"deceleration": deceleration, "rotor": rotor, "spinning": spinning, "heavy": heavy}
+
+@dataclass(frozen=True, slots=True)
+class ChartPoint:
+    """One method at one setting. `error` holds true errors (NaN: the method does not give the column)."""
+
+    group: str  # rung, taylor, dop853, radau, cvode or rival
+    label: str
+    setting: str
+    error: dict[str, float]
+    seconds: float
+    rhs: int
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """What has no point on the chart: a method, its settings, and why."""
+
+    group: str
+    label: str
+    settings: tuple[str, ...]
+    why: str
+
+    def __str__(self) -> str:
+        settings = ", ".join(setting.removeprefix("tolerance ") for setting in self.settings if setting)
+        return f"{self.label}{f' ({settings})' if settings else ''}: {self.why}"
 
 
 @dataclass(frozen=True, eq=False)
 class Chart:
     """Error against cost on one scene.
 
-    Errors are true ones, greatest over the times, against a reference that the title names. Cost is the median time of one
-    solution [s] and its count of right-hand-side evaluations.
+    Errors are true ones, greatest over the times, against a reference that the title names. Cost is the CPU time of one solution [s], the least
+    of several, and its count of right-hand-side evaluations. `left_out` says what has no point, and why.
     """
 
     name: str
+    kind: str
     title: str
     measures: tuple[Measure, Measure]
     points: tuple[ChartPoint, ...]
+    left_out: tuple[LeftOut, ...] = ()
 
     def by_label(self) -> dict[str, list[ChartPoint]]:
         """Points of each line of the figure, in the order of the settings."""
-        lines: dict[str, list[ChartPoint]] = {}
+        made: dict[str, list[ChartPoint]] = {}
         for point in self.points:
-            lines.setdefault(point.label, []).append(point)
-        return lines
+            made.setdefault(point.label, []).append(point)
+        return made
 
     def to_csv(self) -> str:
-        """One row a point."""
+        """One row a point, then one a setting that was left out, without numbers and with the reason as its note."""
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(["group", "method", "setting", *(f"error_{m.key}" for m in self.measures), "seconds", "rhs", "note"])
         for p in self.points:
             errors = [p.error.get(m.key, math.nan) for m in self.measures]
             writer.writerow([p.group, p.label, p.setting, *("" if math.isnan(e) else e for e in errors), p.seconds, p.rhs, p.note])
+        for each in self.left_out:
+            writer.writerows([each.group, each.label, setting, *[""] * (len(self.measures) + 2), f"left out: {each.why}"] for setting in each.settings)
         return text.getvalue()
+
+    def _repr_html_(self) -> str:
+        from gyrostat.notebook import chart_html
+
+        return chart_html(self)
 
     def plot(self) -> Any:
         """The figure. Needs matplotlib."""
@@ -63,7 +98,7 @@ class Chart:
 
     def save(self, folder: str | Path) -> list[Path]:
         """Write chart.png, chart.svg and chart.csv into a folder (made where it is missing)."""
-        from gyrostat.plots import save
+        from gyrostat.drawing import save
 
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
@@ -75,22 +110,47 @@ class Chart:
         return files
 
 
-def make_chart(scene: Scene, *, repeats: int = REPEATS, progress: Callable[[int, int, str], None] | None = None) -> Chart:
-    """Measure every method on the scene. `progress` is told (done, all, what) before each."""
-    if scene.kind not in KINDS:
-        raise DomainError(f"kind = {scene.kind!r}: charts are known for the kinds {', '.join(KINDS)}")
-    plan = KINDS[scene.kind].plan(scene, repeats)
+def _least(run: Callable[[], Run], repeats: int) -> tuple[Run, float]:
+    """A solution and the least time of several; what is long runs once."""
+    made = run()
+    taken = [made.seconds]
+    while len(taken) < repeats and sum(taken) < LONG:
+        taken.append(run().seconds)
+    return made, min(taken)
+
+
+def measured(line: Line, errors: Errors, repeats: int) -> tuple[list[ChartPoint], list[LeftOut]]:
+    """A method at its settings, until one takes too long or is bound to."""
     points: list[ChartPoint] = []
-    slow: set[str] = set()
-    for done, (method, setting, job) in enumerate(plan.jobs):
-        if method in slow:
-            continue
+    missing: dict[str, list[str]] = {}  # why -> settings
+    seconds = 0.0
+    for setting, run in line.settings:
+        try:
+            if GROWTH * seconds > methods.LONGEST:
+                raise TooLong
+            made, seconds = _least(run, repeats)
+            points.append(ChartPoint(line.group, line.label, setting, errors(made.columns), seconds, made.rhs, made.note))
+        except Unanswered as why:
+            missing.setdefault(str(why), []).append(setting)
+            if isinstance(why, TooLong):
+                seconds = math.inf
+    return points, [LeftOut(line.group, line.label, tuple(settings), why) for why, settings in missing.items()]
+
+
+def make_chart(scene: Scene, *, repeats: int = REPEATS, progress: Callable[[int, int, str], None] | None = None) -> Chart:
+    """Measure every method on the scene. progress(done, all, what) is called before each. No solution may take longer than methods.LONGEST:
+    what does, or would at a tighter setting, is left out. Raises DomainError where there is no motion to chart."""
+    family = FAMILIES[scene.kind]
+    problem: Problem = family.part("chart").problem(scene)
+    every = methods.lines(problem, tuple(family.facts.rungs))
+    points: list[ChartPoint] = []
+    left_out: list[LeftOut] = []
+    for done, line in enumerate(every):
         if progress:
-            progress(done, len(plan.jobs), f"{method} {setting}")
-        if (point := job()) is not None:
-            points.append(point)
-            if point.seconds > TOO_LONG:
-                slow.add(method)
+            progress(done, len(every), line.label)
+        found, missing = measured(line, problem.errors, repeats)
+        points += found
+        left_out += missing
     if progress:
-        progress(len(plan.jobs), len(plan.jobs), "")
-    return Chart(scene.name, plan.title, plan.measures, tuple(points))
+        progress(len(every), len(every), "")
+    return Chart(scene.name, scene.kind, f"true error against cost, {problem.title}", problem.measures, tuple(points), tuple(left_out))

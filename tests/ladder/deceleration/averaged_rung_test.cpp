@@ -13,13 +13,13 @@ double slope(const std::vector<double>& eps, const std::vector<double>& error) {
   return std::log(error.front() / error.back()) / std::log(eps.front() / eps.back());
 }
 
-struct Errors {
+struct Seen {
   std::vector<double> norm, k2, vector;
 };
 
 /// True errors of a model over the eps, at 40 times up to where half of the momentum is gone.
-Errors errors_of(Model model, const std::vector<double>& eps, const V& b, const V& M) {
-  Errors e;
+Seen errors_of(int model, const std::vector<double>& eps, const V& b, const V& M) {
+  Seen e;
   for (const double x : eps) {
     Case c(x, .55 / x);
     c.data.control = x * b;
@@ -29,7 +29,7 @@ Errors errors_of(Model model, const std::vector<double>& eps, const V& b, const 
     check_honest(answer, truth);
     e.norm.push_back(distance(answer, truth, "angular_momentum_norm"));
     e.k2.push_back(distance(answer, truth, "modulus_squared"));
-    if (model == Model::averaged_2) e.vector.push_back(distance(answer, truth, "angular_momentum"));
+    if (model == rung::averaged_2) e.vector.push_back(distance(answer, truth, "angular_momentum"));
   }
   return e;
 }
@@ -44,10 +44,10 @@ TEST_CASE("averaged rung: orders without rotor, in both regimes", "[deceleration
   for (const Start& s :
        {Start{V(.6, .9, 1), V(.8, .5, .33).normalized()}, Start{V(1, .9, .6), V(.4, .5, .8).normalized()}}) {
     CAPTURE(s.b.transpose(), s.M.transpose());
-    const Errors first = errors_of(Model::averaged, eps, s.b, s.M);
+    const Seen first = errors_of(rung::averaged, eps, s.b, s.M);
     CHECK(slope(eps, first.norm) == Approx(1).margin(.15));
     CHECK(slope(eps, first.k2) == Approx(1).margin(.15));
-    const Errors second = errors_of(Model::averaged_2, eps, s.b, s.M);
+    const Seen second = errors_of(rung::averaged_2, eps, s.b, s.M);
     CHECK(slope(eps, second.norm) == Approx(2).margin(.15));
     CHECK(slope(eps, second.k2) == Approx(2).margin(.15));
     CHECK(slope(eps, second.vector) == Approx(1).margin(.15));
@@ -59,7 +59,7 @@ TEST_CASE("averaged rung: the reference cases through the ladder", "[deceleratio
   for (auto c : reference::cases()) {
     if (c.has_rotor()) continue;
     CAPTURE(c.id);
-    c.data.model = Model::averaged;
+    c.data.rung = rung::averaged;
     c.data.tolerance = 1e-9;
     Refusal refusal;
     const Answer answer = deceleration::solve<>(c.scene(), refusal);
@@ -84,7 +84,7 @@ TEST_CASE("averaged-2 rung: M itself, against the reference in quadruple precisi
   for (auto c : reference::cases()) {
     if (c.has_rotor() || c.id == "P05") continue;
     CAPTURE(c.id);
-    c.data.model = Model::averaged_2;
+    c.data.rung = rung::averaged_2;
     c.data.tolerance = 1e-6;
     Refusal refusal;
     const Answer answer = deceleration::solve<>(c.scene(), refusal);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/deceleration/cvode_motion.hpp"
 
+#include "asked.hpp"
 #include "catch.hpp"
 #include "gyrostat/ladder/deceleration/solve.hpp"
 
@@ -9,21 +10,21 @@ using namespace gyrostat::deceleration;
 
 namespace {
 
-SceneData wheel(Law law) {
-  SceneData data;
+Asked wheel(Law law) {
+  Asked data;
   data.rotor_momentum = {0.2, 0.15, 0.3};
   data.control = {6e-4, 9e-4, 1e-3};
   data.drag = 3e-4;
   data.law = data.drag_law = law;
   data.momentum = {0.8, 0.5, 0.33};
   data.wants_attitude = true;
-  data.model = Model::full;
+  data.rung = rung::full;
   for (int i = 0; i <= 12; ++i) data.times.push_back(100.0 * i);
   return data;
 }
 
-Answer answer(const SceneData& data) {
-  const auto scene = Scene::make(*Inertia<double>::from_moments(1.4, 1.0, 0.7), data);
+Answer answer(const Asked& data) {
+  const auto scene = make_scene(*Inertia<double>::from_moments(1.4, 1.0, 0.7), data);
   REQUIRE(scene);
   Refusal refusal;
   Answer made = solve(*scene, refusal);
@@ -35,7 +36,7 @@ Answer answer(const SceneData& data) {
 
 TEST_CASE("CVODE agrees with Taylor series within what both state, through the stop") {
   for (const Law law : {Law::total, Law::carrier}) {
-    SceneData data = wheel(law);
+    Asked data = wheel(law);
     data.tolerance = 1e-6;
     const Answer taylor = answer(data);
     data.full_equations = &full_by_cvode;
@@ -59,9 +60,9 @@ TEST_CASE("CVODE agrees with Taylor series within what both state, through the s
 }
 
 TEST_CASE("a cancelled CVODE run is refused as such") {
-  SceneData data = wheel(Law::total);
+  Asked data = wheel(Law::total);
   data.full_equations = &full_by_cvode;
-  const auto scene = Scene::make(*Inertia<double>::from_moments(1.4, 1.0, 0.7), data);
+  const auto scene = make_scene(*Inertia<double>::from_moments(1.4, 1.0, 0.7), data);
   Monitor monitor;
   monitor.cancel = true;
   Refusal refusal;

@@ -46,13 +46,13 @@ TEST_CASE("equal-torque rung: says why it does not apply", "[deceleration]") {
 TEST_CASE("equal-torque rung: also under actuators off the principal axes", "[deceleration]") {
   Mat3<double> J;
   J << 1.4, .1, 0, .1, 1, .05, 0, .05, .8;
-  SceneData data = Case(1e-3, 300).data;
+  Asked data = Case(1e-3, 300).data;
   data.control.setConstant(1e-3);
   Refusal refusal;
-  const Answer answer = deceleration::solve<>(*Scene::make(*Inertia<double>::from_tensor(J), data), refusal);
-  data.model = Model::full;
+  const Answer answer = deceleration::solve<>(*make_scene(*Inertia<double>::from_tensor(J), data), refusal);
+  data.rung = rung::full;
   data.tolerance = 1e-11;
-  const Answer truth = deceleration::solve<>(*Scene::make(*Inertia<double>::from_tensor(J), data), refusal);
+  const Answer truth = deceleration::solve<>(*make_scene(*Inertia<double>::from_tensor(J), data), refusal);
   CHECK(std::strcmp(answer.model, "equal-torque") == 0);
   check_honest(answer, truth);
 }

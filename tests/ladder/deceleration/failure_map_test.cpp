@@ -23,7 +23,7 @@ Answer check_everywhere(Case c, bool met = true) {
   Answer last;
   for (const double tolerance : tolerances) {
     c.data.tolerance = tolerance;
-    c.data.model = Model::any;
+    c.data.rung = any_rung;
     CAPTURE(tolerance);
     last = c.solve();
     check_honest(last, truth);
@@ -34,10 +34,10 @@ Answer check_everywhere(Case c, bool met = true) {
 }
 
 /// Asked for by name: an honest answer, or a refusal with a reason, or one that confesses not to meet the tolerance.
-void check_by_name(const Case& c, Model model, double tolerance, const Answer& truth) {
+void check_by_name(const Case& c, int model, double tolerance, const Answer& truth) {
   Refusal refusal;
   const Answer answer = c.with(model, tolerance).solve(refusal);
-  CAPTURE(int(model), tolerance);
+  CAPTURE(model, tolerance);
   if (refusal.code == Errc::ok) {
     if (answer.met) check_honest(answer, truth);
   } else {
@@ -57,7 +57,7 @@ TEST_CASE("failure map: k2 -> 0", "[deceleration]") {
     c.data.momentum = on_polhode(c.moments, {k2, 1 - k2}, .7);
     const Answer answer = check_everywhere(c);
     CHECK(answer.find("modulus_squared")->values[0] <= 1.1 * k2);
-    const Answer averaged = c.with(Model::averaged, 1e-3).solve();
+    const Answer averaged = c.with(rung::averaged, 1e-3).solve();
     check_honest(averaged, c.truth());
     CHECK(averaged.met);
   }
@@ -70,10 +70,10 @@ TEST_CASE("failure map: k2 -> 1", "[deceleration]") {
     c.data.momentum = on_polhode(c.moments, {1 - kp2, kp2}, .7);
     check_everywhere(c);
     const Answer truth = c.truth();
-    const Answer averaged = c.with(Model::averaged, 1e-3).solve();
+    const Answer averaged = c.with(rung::averaged, 1e-3).solve();
     check_honest(averaged, truth);
     CHECK(warns(averaged, "near-separatrix"));
-    check_by_name(c, Model::averaged_2, 1e-3, truth);
+    check_by_name(c, rung::averaged_2, 1e-3, truth);
   }
 }
 
@@ -91,9 +91,9 @@ TEST_CASE("failure map: the start is on the separatrix", "[deceleration]") {
   const Answer answer = check_everywhere(c);
   CHECK(answer.find("modulus_squared")->values.size() == 6);
   Refusal refusal;
-  c.with(Model::averaged, 1e-3).solve(refusal);
+  c.with(rung::averaged, 1e-3).solve(refusal);
   if (refusal.code != Errc::ok) CHECK(refusal.code == Errc::separatrix);
-  check_by_name(c, Model::averaged_2, 1e-3, truth);
+  check_by_name(c, rung::averaged_2, 1e-3, truth);
 }
 
 TEST_CASE("failure map: the separatrix holds the motion", "[deceleration]") {
@@ -102,7 +102,7 @@ TEST_CASE("failure map: the separatrix holds the motion", "[deceleration]") {
     Case c(1e-3, 600);
     c.data.control = 1e-3 * V(1, b2, 1);
     check_everywhere(c);
-    const Answer averaged = c.with(Model::averaged, 1e-2).solve();
+    const Answer averaged = c.with(rung::averaged, 1e-2).solve();
     check_honest(averaged, c.truth());
     CHECK((warns(averaged, "sticks-to-separatrix") || warns(averaged, "near-separatrix")));
   }
@@ -115,7 +115,7 @@ TEST_CASE("failure map: M -> 0, a tiny start", "[deceleration]") {
     c.data.momentum *= size;
     check_everywhere(c);
     const Answer truth = c.truth();
-    for (const Model model : {Model::averaged, Model::averaged_2}) check_by_name(c, model, 1e-3, truth);
+    for (const int model : {rung::averaged, rung::averaged_2}) check_by_name(c, model, 1e-3, truth);
   }
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("failure map: M -> 0, times behind the stop", "[deceleration]") {
     CHECK(answer.find("angular_momentum_norm")->values.back() == 0);
     CHECK(answer.find("energy")->values.back() == 0);
     const Answer truth = c.truth();
-    for (const Model model : {Model::averaged, Model::averaged_2}) {
+    for (const int model : {rung::averaged, rung::averaged_2}) {
       const Answer named = c.with(model, 1e-3).solve();
       check_honest(named, truth);
       CHECK(named.find("angular_momentum_norm")->values.back() == 0);
@@ -145,7 +145,7 @@ TEST_CASE("failure map: M = 0 at the start", "[deceleration]") {
   CHECK(answer.met);
   CHECK(std::strcmp(answer.model, "full") == 0);
   for (const Column& column : answer.columns)
-    for (const double v : column.values) CHECK((std::strcmp(column.name, "regime") == 0 || v == 0));
+    for (const double v : column.values) CHECK((column.kind->measure == Measure::none || v == 0));
   CHECK(quantity(answer, "stop_time") == 0);
   CHECK_FALSE(passed_over(answer, "averaged").empty());
   CHECK_FALSE(passed_over(answer, "averaged-2").empty());
@@ -167,9 +167,9 @@ TEST_CASE("failure map: A -> B", "[deceleration]") {
       c.data.momentum = M;
       check_everywhere(c);
       const Answer truth = c.truth();
-      for (const Model model : {Model::averaged, Model::averaged_2}) check_by_name(c, model, 1e-3, truth);
+      for (const int model : {rung::averaged, rung::averaged_2}) check_by_name(c, model, 1e-3, truth);
       Refusal refusal;
-      const Answer averaged = c.with(Model::averaged, 1e-3).solve(refusal);
+      const Answer averaged = c.with(rung::averaged, 1e-3).solve(refusal);
       if (refusal.code == Errc::ok && gap < 1e-2 && gap > 0) CHECK(warns(averaged, "near-symmetric"));
     }
 }
@@ -183,7 +183,7 @@ TEST_CASE("failure map: B -> C", "[deceleration]") {
       c.data.momentum = M;
       check_everywhere(c);
       const Answer truth = c.truth();
-      for (const Model model : {Model::averaged, Model::averaged_2}) check_by_name(c, model, 1e-3, truth);
+      for (const int model : {rung::averaged, rung::averaged_2}) check_by_name(c, model, 1e-3, truth);
     }
 }
 
@@ -229,7 +229,7 @@ TEST_CASE("failure map: l -> 0", "[deceleration]") {
       CHECK(distance(answer, without, "angular_momentum_norm") < 10 * l + tolerance);
     }
     // the averages without rotor and with a vanishing one are one limit
-    const Answer with = c.with(Model::averaged, 1e-2).solve(), none = bare.with(Model::averaged, 1e-2).solve();
+    const Answer with = c.with(rung::averaged, 1e-2).solve(), none = bare.with(rung::averaged, 1e-2).solve();
     CHECK(distance(with, none, "angular_momentum_norm") < l + 1e-7);
     CHECK(distance(with, none, "energy") < 20 * l + 1e-7);
   }
@@ -273,7 +273,7 @@ TEST_CASE("failure map: the start is a relative equilibrium", "[deceleration]") 
       check_honest(answer, truth);
       CHECK(answer.met);
     }
-    for (const Model model : {Model::averaged, Model::averaged_2}) check_by_name(c, model, 1e-2, truth);
+    for (const int model : {rung::averaged, rung::averaged_2}) check_by_name(c, model, 1e-2, truth);
   }
 }
 
@@ -283,7 +283,7 @@ TEST_CASE("failure map: crossing of the separatrix without rotor momentum", "[de
     Case c(eps, .7 / eps);
     c.data.control = eps * V(1.2, .9, .6);
     const Answer truth = c.truth();
-    const Answer averaged = c.with(Model::averaged, .1).solve();
+    const Answer averaged = c.with(rung::averaged, .1).solve();
     check_honest(averaged, truth);
     CHECK(warns(averaged, "crosses-separatrix"));
     CHECK(averaged.find("regime")->values.front() == double(Regime::about_largest));
@@ -291,7 +291,7 @@ TEST_CASE("failure map: crossing of the separatrix without rotor momentum", "[de
     CHECK(truth.find("regime")->values.back() == double(Regime::about_smallest));
     Refusal refusal;
     // the full equations take over below 8 breakdown momenta: at 1e-3 above the crossing, at 1e-4 below it
-    const Answer second = c.with(Model::averaged_2, 1e-3).solve(refusal);
+    const Answer second = c.with(rung::averaged_2, 1e-3).solve(refusal);
     if (eps == 1e-4) {
       CHECK(refusal.code == Errc::separatrix);
     } else {
@@ -318,7 +318,7 @@ TEST_CASE("failure map: capture with rotor momentum is not determined", "[decele
     c.data.momentum = M;
     const Answer truth = c.truth();
     Refusal refusal;
-    const Answer averaged = c.with(Model::averaged, .1).solve(refusal);
+    const Answer averaged = c.with(rung::averaged, .1).solve(refusal);
     if (refusal.code == Errc::ok) {
       if (averaged.met) check_honest(averaged, truth);
     } else {
@@ -328,7 +328,7 @@ TEST_CASE("failure map: capture with rotor momentum is not determined", "[decele
     }
     for (const double tolerance : {.1, 1e-3}) {
       c.data.tolerance = tolerance;
-      c.data.model = Model::any;
+      c.data.rung = any_rung;
       const Answer answer = c.solve();
       check_honest(answer, truth);
       CHECK(answer.met);
@@ -344,7 +344,7 @@ TEST_CASE("failure map: spread of the control torques", "[deceleration]") {
     c.data.control = 1e-3 * b;
     check_everywhere(c);
     const Answer truth = c.truth();
-    for (const Model model : {Model::averaged, Model::averaged_2}) check_by_name(c, model, 1e-2, truth);
+    for (const int model : {rung::averaged, rung::averaged_2}) check_by_name(c, model, 1e-2, truth);
   }
 }
 
@@ -374,9 +374,9 @@ TEST_CASE("failure map: eps is not small", "[deceleration]") {
     const Answer answer = check_everywhere(c);
     CHECK(std::strcmp(answer.model, "full") == 0);
     const Answer truth = c.truth();
-    for (const Model model : {Model::averaged, Model::averaged_2}) check_by_name(c, model, 1e-1, truth);
+    for (const int model : {rung::averaged, rung::averaged_2}) check_by_name(c, model, 1e-1, truth);
     if (eps >= .3) {
-      const Answer averaged = c.with(Model::averaged, 1e-1).solve();
+      const Answer averaged = c.with(rung::averaged, 1e-1).solve();
       CHECK_FALSE(averaged.met);
       CHECK(warns(averaged, "not-slow"));
     }

@@ -26,7 +26,7 @@ TEST_CASE("hand-over: the stop time holds where averaging alone errs by ten per 
     c.data.control = eps * V(.9, .2, 1);
     const Answer truth = c.truth();
     const double right = quantity(truth, "stop_time");
-    const Answer first = c.with(Model::averaged, 1e-3).solve(), second = c.with(Model::averaged_2, 1e-3).solve();
+    const Answer first = c.with(rung::averaged, 1e-3).solve(), second = c.with(rung::averaged_2, 1e-3).solve();
     const double of_first = std::abs(quantity(first, "stop_time") / right - 1);
     const double of_second = std::abs(quantity(second, "stop_time") / right - 1);
     CHECK(of_first > 1e-2);
@@ -40,7 +40,7 @@ TEST_CASE("hand-over: samples go on from the averaged to the full equations with
   Case c(1e-4, 14000);
   c.data.times = until(14000, 44);
   const Answer truth = c.truth();
-  const Answer answer = c.with(Model::averaged_2, 1e-4).solve();
+  const Answer answer = c.with(rung::averaged_2, 1e-4).solve();
   check_honest(answer, truth);
   CHECK(distance(answer, truth, "angular_momentum_norm") < 1e-4);
   CHECK(answer.find("angular_momentum_norm")->values.size() == 44);
@@ -53,21 +53,15 @@ TEST_CASE("hand-over: appends to what the track has", "[deceleration]") {
   c.data.times = {10, 500, 1000};
   const Scene scene = c.scene();
   Track track;
-  track.norm = {.9};
-  track.energy = {.4};
-  track.k2 = {.3};
-  track.regime = {Regime::about_largest};
-  track.momentum = {V(.9, 0, 0)};
+  track.states = {{V(.9, 0, 0), .9, .4, .3, Regime::about_largest}};
   const V M(.2, .1, .05);
   REQUIRE(hand_over(track, scene, M, 400, SlowError<double>{1e-6, 1e-6, 1e-6, 1e-5}, nullptr) == Errc::ok);
-  CHECK(track.norm.size() == 3);
-  CHECK(track.momentum.size() == 3);
-  CHECK(track.regime.size() == 3);
+  CHECK(track.states.size() == 3);
   CHECK(track.stop_time > 500);
   CHECK(track.stop_time < 1000);
-  CHECK(track.norm[2] == 0);
-  CHECK(track.norm_error >= 1e-6);
-  CHECK(track.momentum_error >= 1e-5);
+  CHECK(track.states[2].norm == 0);
+  CHECK(track.error[column::angular_momentum_norm] >= 1e-6);
+  CHECK(track.error[column::angular_momentum] >= 1e-5);
   CHECK(track.stop_error > 0);
   CHECK(track.counts.rhs > 0);
   // the same with the full equations from the start of the hand-over
@@ -75,6 +69,6 @@ TEST_CASE("hand-over: appends to what the track has", "[deceleration]") {
   rest.data.momentum = M;
   rest.data.times = {100};
   const Answer truth = rest.truth();
-  CHECK(track.norm[1] == Approx(truth.find("angular_momentum_norm")->values[0]).epsilon(1e-6));
+  CHECK(track.states[1].norm == Approx(truth.find("angular_momentum_norm")->values[0]).epsilon(1e-6));
   CHECK(track.stop_time - 400 == Approx(quantity(truth, "stop_time")).epsilon(1e-6));
 }

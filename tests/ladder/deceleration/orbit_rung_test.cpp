@@ -8,7 +8,7 @@ using namespace scenes;
 
 namespace {
 
-struct Errors {
+struct Seen {
   double norm, energy, vector;
 };
 
@@ -21,12 +21,12 @@ Case gyrostat_case(double eps, Law law, double end = .35) {
   return c;
 }
 
-Errors errors_of(Model model, double eps, Law law) {
+Seen errors_of(int model, double eps, Law law) {
   const Case c = gyrostat_case(eps, law);
   const Answer truth = c.truth(1e-11), answer = c.with(model, 1e-5).solve();
   check_honest(answer, truth);
   return {distance(answer, truth, "angular_momentum_norm"), distance(answer, truth, "energy"),
-          model == Model::averaged_2 ? distance(answer, truth, "angular_momentum") : 0};
+          model == rung::averaged_2 ? distance(answer, truth, "angular_momentum") : 0};
 }
 
 double slope(double coarse, double fine) { return std::log(coarse / fine) / std::log(4); }
@@ -36,10 +36,10 @@ double slope(double coarse, double fine) { return std::log(coarse / fine) / std:
 TEST_CASE("orbit rung: orders with rotor momentum, under both laws", "[deceleration]") {
   for (const Law law : {Law::total, Law::carrier}) {
     CAPTURE(int(law));
-    const Errors a = errors_of(Model::averaged, 4e-4, law), b = errors_of(Model::averaged, 1e-4, law);
+    const Seen a = errors_of(rung::averaged, 4e-4, law), b = errors_of(rung::averaged, 1e-4, law);
     CHECK(slope(a.norm, b.norm) == Approx(1).margin(.15));
     CHECK(slope(a.energy, b.energy) == Approx(1).margin(.15));
-    const Errors c = errors_of(Model::averaged_2, 4e-4, law), d = errors_of(Model::averaged_2, 1e-4, law);
+    const Seen c = errors_of(rung::averaged_2, 4e-4, law), d = errors_of(rung::averaged_2, 1e-4, law);
     CHECK(slope(c.norm, d.norm) == Approx(2).margin(.15));
     CHECK(slope(c.energy, d.energy) == Approx(2).margin(.15));
     CHECK(slope(c.vector, d.vector) == Approx(1).margin(.15));
@@ -52,7 +52,7 @@ TEST_CASE("orbit rung: the reference cases through the ladder", "[deceleration]"
   for (auto c : reference::cases()) {
     if (!c.has_rotor()) continue;
     CAPTURE(c.id);
-    c.data.model = Model::averaged;
+    c.data.rung = rung::averaged;
     c.data.tolerance = 1e-9;
     Refusal refusal;
     const Answer answer = deceleration::solve<>(c.scene(), refusal);
@@ -78,20 +78,20 @@ TEST_CASE("orbit rung: the reference cases through the ladder", "[deceleration]"
 TEST_CASE("orbit rung: actuators off the principal axes", "[deceleration]") {
   Mat3<double> J;
   J << 1.4, .1, .02, .1, 1, .05, .02, .05, .7;
-  SceneData data = Case(1e-4, 4000).data;
+  Asked data = Case(1e-4, 4000).data;
   const auto body = Inertia<double>::from_tensor(J);
-  const auto solved = [&](Model model, double tolerance) {
-    data.model = model;
+  const auto solved = [&](int model, double tolerance) {
+    data.rung = model;
     data.tolerance = tolerance;
     Refusal refusal;
-    const Answer answer = deceleration::solve<>(*Scene::make(*body, data), refusal);
+    const Answer answer = deceleration::solve<>(*make_scene(*body, data), refusal);
     REQUIRE(refusal.code == Errc::ok);
     return answer;
   };
-  const Answer truth = solved(Model::full, 1e-11);
-  for (const Model model : {Model::averaged, Model::averaged_2}) check_honest(solved(model, 1e-3), truth);
+  const Answer truth = solved(rung::full, 1e-11);
+  for (const int model : {rung::averaged, rung::averaged_2}) check_honest(solved(model, 1e-3), truth);
   for (const double tolerance : {1e-2, 1e-3, 1e-5}) {
-    const Answer answer = solved(Model::any, tolerance);
+    const Answer answer = solved(any_rung, tolerance);
     CHECK(answer.met);
     check_honest(answer, truth);
   }
@@ -105,7 +105,7 @@ TEST_CASE("orbit rung: honest with rotor momentum, to the stop and behind it", "
       const Answer truth = c.truth();
       for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-6}) {
         CAPTURE(tolerance);
-        const Answer answer = c.with(Model::any, tolerance).solve();
+        const Answer answer = c.with(any_rung, tolerance).solve();
         check_honest(answer, truth);
         CHECK(answer.met);
         CHECK(answer.find("energy")->values.back() ==
@@ -122,10 +122,10 @@ TEST_CASE("orbit rung: refusals and the size of breakdown", "[deceleration]") {
   rest.data.momentum.setZero();
   for (const Case* bad : {&attitude, &sphere, &rest}) {
     Refusal refusal;
-    bad->with(Model::averaged, 1e-3).solve(refusal);
+    bad->with(rung::averaged, 1e-3).solve(refusal);
     CHECK(refusal.code != Errc::ok);
     CHECK(refusal.why != nullptr);
-    bad->with(Model::averaged_2, 1e-3).solve(refusal);
+    bad->with(rung::averaged_2, 1e-3).solve(refusal);
     CHECK(refusal.code != Errc::ok);
     CHECK(refusal.why != nullptr);
   }

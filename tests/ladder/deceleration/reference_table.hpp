@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "asked.hpp"
 #include "catch.hpp"
-#include "gyrostat/ladder/deceleration/scene.hpp"
 
 /// The cases of tests/data/deceleration.csv (deceleration_tables.py says what stands there).
 namespace reference {
@@ -18,7 +18,7 @@ using V = gyrostat::Vec3<double>;
 struct Case {
   std::string id;
   V moments;
-  gyrostat::deceleration::SceneData data;
+  gyrostat::deceleration::Asked data;
   std::vector<double> norm, energy, k2;  ///< averaged to first order
   std::vector<V> full_momentum;
   std::vector<double> full_norm, full_energy;
@@ -29,7 +29,7 @@ struct Case {
   gyrostat::deceleration::Scene scene() const {
     const auto body = gyrostat::Inertia<double>::from_moments(moments[0], moments[1], moments[2]);
     REQUIRE(body);
-    const auto made = gyrostat::deceleration::Scene::make(*body, data);
+    const auto made = gyrostat::deceleration::make_scene(*body, data);
     REQUIRE(made);
     return *made;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/deceleration/scene.hpp"
 
+#include "asked.hpp"
 #include "catch.hpp"
 
 using namespace gyrostat;
@@ -12,8 +13,8 @@ namespace {
 constexpr double bad_numbers[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                                   -std::numeric_limits<double>::infinity()};
 
-SceneData good() {
-  SceneData d;
+Asked good() {
+  Asked d;
   d.control = V(1, 2, 3);
   d.drag = .1;
   d.momentum = V(4, 5, 6);
@@ -22,37 +23,37 @@ SceneData good() {
   return d;
 }
 
-Errc made(const SceneData& data) { return Scene::make(Inertia<double>(), data).error(); }
+Errc made(const Asked& data) { return make_scene(Inertia<double>(), data).error(); }
 
 }  // namespace
 
 TEST_CASE("a scene that is not one says why", "[deceleration]") {
   CHECK(made(good()) == Errc::ok);
   const auto changed = [](auto change) {
-    SceneData d = good();
+    Asked d = good();
     change(d);
     return made(d);
   };
   for (const double bad : bad_numbers) {
     for (int i = 0; i < 3; ++i) {
-      CHECK(changed([&](SceneData& d) { d.momentum[i] = bad; }) == Errc::not_finite);
-      CHECK(changed([&](SceneData& d) { d.rotor_momentum[i] = bad; }) == Errc::not_finite);
-      CHECK(changed([&](SceneData& d) { d.control[i] = bad; }) == Errc::not_finite);
+      CHECK(changed([&](Asked& d) { d.momentum[i] = bad; }) == Errc::not_finite);
+      CHECK(changed([&](Asked& d) { d.rotor_momentum[i] = bad; }) == Errc::not_finite);
+      CHECK(changed([&](Asked& d) { d.control[i] = bad; }) == Errc::not_finite);
     }
-    CHECK(changed([&](SceneData& d) { d.drag = bad; }) == Errc::not_finite);
-    CHECK(changed([&](SceneData& d) { d.tolerance = bad; }) == Errc::not_finite);
-    CHECK(changed([&](SceneData& d) { d.times[1] = bad; }) == Errc::not_finite);
-    CHECK(changed([&](SceneData& d) { d.attitude.x = bad; }) == Errc::not_finite);
+    CHECK(changed([&](Asked& d) { d.drag = bad; }) == Errc::not_finite);
+    CHECK(changed([&](Asked& d) { d.tolerance = bad; }) == Errc::not_finite);
+    CHECK(changed([&](Asked& d) { d.times[1] = bad; }) == Errc::not_finite);
+    CHECK(changed([&](Asked& d) { d.attitude.x = bad; }) == Errc::not_finite);
   }
-  for (int i = 0; i < 3; ++i) CHECK(changed([&](SceneData& d) { d.control[i] = -1e-300; }) == Errc::negative);
-  CHECK(changed([](SceneData& d) { d.drag = -1e-9; }) == Errc::negative);
-  CHECK(changed([](SceneData& d) { d.times = {-1, 1}; }) == Errc::negative);
-  CHECK(changed([](SceneData& d) { d.times = {1, 1}; }) == Errc::not_increasing);
-  CHECK(changed([](SceneData& d) { d.times = {0, 2, 1}; }) == Errc::not_increasing);
-  CHECK(changed([](SceneData& d) { d.times.clear(); }) == Errc::out_of_domain);
+  for (int i = 0; i < 3; ++i) CHECK(changed([&](Asked& d) { d.control[i] = -1e-300; }) == Errc::negative);
+  CHECK(changed([](Asked& d) { d.drag = -1e-9; }) == Errc::negative);
+  CHECK(changed([](Asked& d) { d.times = {-1, 1}; }) == Errc::negative);
+  CHECK(changed([](Asked& d) { d.times = {1, 1}; }) == Errc::not_increasing);
+  CHECK(changed([](Asked& d) { d.times = {0, 2, 1}; }) == Errc::not_increasing);
+  CHECK(changed([](Asked& d) { d.times.clear(); }) == Errc::out_of_domain);
   for (const double tolerance : {0., 1., -1., 2.})
-    CHECK(changed([&](SceneData& d) { d.tolerance = tolerance; }) == Errc::out_of_domain);
-  CHECK(changed([](SceneData& d) { d.attitude = {0, 0, 0, 0}; }) == Errc::zero_vector);
+    CHECK(changed([&](Asked& d) { d.tolerance = tolerance; }) == Errc::out_of_domain);
+  CHECK(changed([](Asked& d) { d.attitude = {0, 0, 0, 0}; }) == Errc::zero_vector);
 }
 
 TEST_CASE("a body that is not one never becomes a scene", "[deceleration]") {
@@ -67,8 +68,8 @@ TEST_CASE("the problem in principal axes is the scene in body axes", "[decelerat
   J << 2, .1, -.2, .1, 1.5, .05, -.2, .05, 1.2;
   const auto body = Inertia<double>::from_tensor(J);
   REQUIRE(body);
-  SceneData data = good();
-  const auto made = Scene::make(*body, data);
+  Asked data = good();
+  const auto made = make_scene(*body, data);
   REQUIRE(made);
   const Scene& scene = *made;
   const auto& p = scene.problem();
@@ -90,7 +91,7 @@ TEST_CASE("moments in any order make signed permutations, and the control stays 
   V J(1.4, 1, .7);
   std::sort(J.data(), J.data() + 3);
   do {
-    const auto scene = Scene::make(*Inertia<double>::from_moments(J[0], J[1], J[2]), good());
+    const auto scene = make_scene(*Inertia<double>::from_moments(J[0], J[1], J[2]), good());
     REQUIRE(scene);
     CHECK(scene->principal_control());
     CHECK((scene->R_BP().cwiseAbs() * scene->problem().inverse_inertia - J.cwiseInverse()).norm() == 0);
@@ -99,15 +100,15 @@ TEST_CASE("moments in any order make signed permutations, and the control stays 
 }
 
 TEST_CASE("kinds of scenes", "[deceleration]") {
-  SceneData data = good();
+  Asked data = good();
   data.control.setConstant(.3);
   data.rotor_momentum.setZero();
-  const auto equal = Scene::make(Inertia<double>(), data);
+  const auto equal = make_scene(Inertia<double>(), data);
   CHECK(equal->equal_control());
   CHECK(equal->sphere());
   CHECK_FALSE(equal->has_rotor());
   data.control.setZero();
-  CHECK(Scene::make(Inertia<double>(), data)->equal_control());
-  CHECK(small_parameter(*Scene::make(Inertia<double>(), data)) ==
+  CHECK(make_scene(Inertia<double>(), data)->equal_control());
+  CHECK(small_parameter(*make_scene(Inertia<double>(), data)) ==
         Approx(.1 / V(4, 5, 6).norm()).epsilon(1e-14));  // drag alone: per radian of a unit sphere
 }

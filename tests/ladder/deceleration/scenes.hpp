@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "asked.hpp"
 #include "catch.hpp"
 #include "gyrostat/ladder/deceleration/solve.hpp"
 
@@ -27,7 +28,7 @@ inline std::vector<double> until(double end, int n = 6) {
 /// The sheet's body A, B, C = 1.4, 1, 0.7 under b = (0.6, 0.9, 1) eps and drag 0.3 eps, unless told otherwise.
 struct Case {
   V moments{1.4, 1, .7};
-  SceneData data;
+  Asked data;
 
   Case() = default;
   explicit Case(double eps, double end) {
@@ -41,7 +42,7 @@ struct Case {
   Scene scene() const {
     const auto body = Inertia<double>::from_moments(moments[0], moments[1], moments[2]);
     REQUIRE(body);
-    const auto made = Scene::make(*body, data);
+    const auto made = make_scene(*body, data);
     REQUIRE(made);
     return *made;
   }
@@ -57,26 +58,22 @@ struct Case {
     return answer;
   }
 
-  Case with(Model model, double tolerance) const {
+  Case with(int model, double tolerance) const {
     Case c = *this;
-    c.data.model = model;
+    c.data.rung = model;
     c.data.tolerance = tolerance;
     return c;
   }
 
   /// The full equations, far finer than what is compared with them.
-  Answer truth(double tolerance = 1e-11) const { return with(Model::full, tolerance).solve(); }
+  Answer truth(double tolerance = 1e-11) const { return with(rung::full, tolerance).solve(); }
 };
 
-inline bool warns(const Answer& answer, const char* code) {
-  return std::any_of(answer.warnings.begin(), answer.warnings.end(),
-                     [&](const Warning& w) { return std::strcmp(w.code, code) == 0; });
-}
+inline bool warns(const Answer& answer, const char* code) { return answer.warns(code); }
 
 inline double quantity(const Answer& answer, const char* name) {
-  for (const Quantity& q : answer.quantities)
-    if (std::strcmp(q.name, name) == 0) return q.values[0];
-  return gyrostat::nan<double>;
+  const Quantity* found = answer.quantity(name);
+  return found ? found->values[0] : gyrostat::nan<double>;
 }
 
 /// Why a model was passed over; empty if it was not looked at or answered.
@@ -90,7 +87,7 @@ inline std::string passed_over(const Answer& answer, const char* model) {
 inline std::string stated(const Answer& answer) {
   std::string text = answer.model;
   for (const Column& c : answer.columns)
-    text += std::string(" ") + c.name + " " + Catch::Detail::stringify(c.error * 1e9) + "e-9";
+    text += std::string(" ") + c.kind->name + " " + Catch::Detail::stringify(c.error * 1e9) + "e-9";
   return text;
 }
 
@@ -100,8 +97,8 @@ inline double distance(const Answer& answer, const Answer& reference, const char
   REQUIRE(a);
   REQUIRE(r);
   REQUIRE(a->values.size() == r->values.size());
-  REQUIRE(a->values.size() == std::size_t(a->width) * answer.times.size());
-  const std::size_t width = std::size_t(a->width);
+  REQUIRE(a->values.size() == std::size_t(a->kind->width) * answer.times.size());
+  const std::size_t width = std::size_t(a->kind->width);
   double worst = 0, size = 0;
   for (std::size_t i = 0; i < a->values.size(); i += width) {
     double difference = 0, norm = 0;
@@ -121,12 +118,12 @@ inline double distance(const Answer& answer, const Answer& reference, const char
 inline void check_honest(const Answer& answer, const Answer& truth, double reference_error = 2e-11) {
   CAPTURE(answer.model, answer.error);
   for (const Column& column : answer.columns) {
-    if (std::strcmp(column.name, "regime") == 0) continue;
-    if (!truth.find(column.name)) continue;
-    INFO(column.name);
+    if (column.kind->measure == Measure::none) continue;
+    if (!truth.find(column.name())) continue;
+    INFO(column.kind->name);
     CHECK(std::isfinite(column.error));
     CHECK(column.error <= answer.error);
-    CHECK(distance(answer, truth, column.name) <= column.error + reference_error);
+    CHECK(distance(answer, truth, column.kind->name) <= column.error + reference_error);
   }
   const double stop = quantity(answer, "stop_time"), right = quantity(truth, "stop_time");
   if (!std::isnan(stop) && !std::isnan(right)) {

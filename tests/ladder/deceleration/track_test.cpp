@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/deceleration/track.hpp"
 
+#include "asked.hpp"
 #include "catch.hpp"
 
 using namespace gyrostat;
@@ -9,27 +10,25 @@ using V = Vec3<double>;
 
 namespace {
 
-Scene scene_of(V moments, Model model = Model::any, double tolerance = 1e-6) {
-  SceneData d;
+Scene scene_of(V moments, int model = any_rung, double tolerance = 1e-6) {
+  Asked d;
   d.control = V(1, 1, 1);
   d.momentum = V(1, 2, 3);
   d.times = {1, 2};
-  d.model = model;
+  d.rung = model;
   d.tolerance = tolerance;
-  return *Scene::make(*Inertia<double>::from_moments(moments[0], moments[1], moments[2]), d);
+  return *make_scene(*Inertia<double>::from_moments(moments[0], moments[1], moments[2]), d);
 }
 
 Track track_of(const Scene& scene) {
   Track t;
-  t.momentum = {V(3, 4, 0), V(0, 0, 1)};
-  t.norm = {5, 1};
-  t.energy = {scene.problem().energy(t.momentum[0]), scene.problem().energy(t.momentum[1])};
-  t.k2 = {.5, .4};
-  t.regime = {Regime::about_largest, Regime::about_smallest};
-  t.norm_error = 1e-6;
-  t.momentum_error = 1e-5;
-  t.energy_error = 1e-8;
-  t.k2_error = 1e-4;
+  const V first(3, 4, 0), second(0, 0, 1);
+  t.states = {{first, 5, scene.problem().energy(first), .5, Regime::about_largest},
+              {second, 1, scene.problem().energy(second), .4, Regime::about_smallest}};
+  t.error[column::angular_momentum_norm] = 1e-6;
+  t.error[column::energy] = 1e-8;
+  t.error[column::modulus_squared] = 1e-4;
+  t.know_momentum(scene.problem(), 1e-5);
   return t;
 }
 
@@ -45,17 +44,17 @@ TEST_CASE("columns come in the caller's axes with relative errors", "[decelerati
   const Column& w = *answer.find("angular_velocity");
   for (std::size_t row = 0; row < 2; ++row) {
     const Eigen::Map<const V> M_B(&M.values[3 * row]), w_B(&w.values[3 * row]);
-    CHECK((M_B - scene.R_BP() * track.momentum[row]).norm() == 0);
+    CHECK((M_B - scene.R_BP() * track.states[row].momentum).norm() == 0);
     CHECK((V(.7, 1.4, 1).cwiseProduct(w_B) - M_B).norm() < 1e-15);
   }
   CHECK(M.error == Approx(1e-5 / 5));
   CHECK(answer.find("angular_momentum_norm")->error == Approx(1e-6 / 5));
-  CHECK(answer.find("energy")->error == Approx(1e-8 / std::max(track.energy[0], track.energy[1])));
+  CHECK(answer.find("energy")->error == Approx(1e-8 / std::max(track.states[0].energy, track.states[1].energy)));
   CHECK(answer.find("modulus_squared")->error == 1e-4);
   CHECK(answer.find("regime")->values[1] == double(Regime::about_smallest));
   CHECK(std::isnan(answer.find("regime")->error));
   CHECK(answer.error == 1e-4);
-  CHECK(answer.times == scene.data().times);
+  CHECK(answer.times == scene.question().times);
 }
 
 TEST_CASE("the stop time counts among the errors", "[deceleration]") {
@@ -77,12 +76,13 @@ TEST_CASE("an attitude of principal axes becomes one of body axes", "[decelerati
   const Scene scene = scene_of(V(.7, 1.4, 1));
   Track track = track_of(scene);
   const Quat<double> q_IP = normalised(Quat<double>{.9, .1, -.3, .2});
-  track.attitude = {q_IP, q_IP};
-  track.attitude_error = 1e-3;
+  for (auto& state : track.states) state.attitude = q_IP;
+  track.knows_attitude = true;
+  track.error[column::attitude] = 1e-3;
   Answer answer;
   fill(answer, scene, track);
   const Column& q = *answer.find("attitude");
-  CHECK(q.width == 4);
+  CHECK(q.kind->width == 4);
   CHECK(q.error == 1e-3);
   const Quat<double> back{q.values[3], q.values[0], q.values[1], q.values[2]};  // scalar last
   const Quat<double> body = q_IP * conjugate(from_matrix(scene.R_BP()));
@@ -90,24 +90,24 @@ TEST_CASE("an attitude of principal axes becomes one of body axes", "[decelerati
 }
 
 TEST_CASE("vectors that miss the tolerance alone are left out, unless asked for", "[deceleration]") {
-  const auto left = [](Model model, double tolerance) {
+  const auto left = [](int model, double tolerance) {
     const Scene scene = scene_of(V(1.4, 1, .7), model, tolerance);
     Track track = track_of(scene);
     withhold(track, scene);
-    CHECK(track.norm.size() == 2);
-    CHECK(track.momentum.empty() == (track.warnings.size() == 1));
-    return !track.momentum.empty();
+    CHECK(track.states.size() == 2);
+    CHECK(track.knows_momentum == track.warnings.empty());
+    return track.knows_momentum;
   };
-  CHECK(left(Model::any, 1e-3));
-  CHECK_FALSE(left(Model::any, 1e-7));
-  CHECK(left(Model::averaged_2, 1e-7));
+  CHECK(left(any_rung, 1e-3));
+  CHECK_FALSE(left(any_rung, 1e-7));
+  CHECK(left(rung::averaged_2, 1e-7));
 }
 
 TEST_CASE("a warning is given once", "[deceleration]") {
   Track track;
-  track.warn("not-slow", "first", 1);
-  track.warn("not-slow", "second", 2);
-  track.warn("near-separatrix", "third", 3);
+  track.warn(warning::not_slow, 1);
+  track.warn(warning::not_slow, 2, "in other words");
+  track.warn(warning::near_separatrix, 3);
   REQUIRE(track.warnings.size() == 2);
   CHECK(track.warnings[0].value == 1);
 }
@@ -125,7 +125,7 @@ TEST_CASE("refusals carry their reason or their error", "[deceleration]") {
 TEST_CASE("a NaN among the errors is the answer's error", "[deceleration]") {
   const Scene scene = scene_of(V(1.4, 1, .7));
   Track track = track_of(scene);
-  track.energy_error = gyrostat::nan<double>;
+  track.error[column::energy] = gyrostat::nan<double>;
   Answer answer;
   fill(answer, scene, track);
   CHECK_FALSE(answer.error <= 1);

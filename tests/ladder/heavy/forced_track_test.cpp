@@ -45,13 +45,13 @@ TEST_CASE("what a start departs by is in the error of a forced motion", "[heavy]
 
 TEST_CASE("forced tracks give up early, unless asked for by name", "[heavy]") {
   const auto motion = *Series2<double>::make(stone, 50, 0.1);
-  const Track early = heavy::detail::forced_track(periodic(stone, 50, 0.1, 10, 1e-9), motion, Model::series_2);
+  const Track early = heavy::detail::forced_track(periodic(stone, 50, 0.1, 10, 1e-9), motion, rung::series_2);
   CHECK(early.failure == Errc::not_applicable);
   CHECK(early.refusal == nullptr);
   CHECK(early.known_error > 1e-9);
   CHECK(early.states.empty());
   const Track named =
-      heavy::detail::forced_track(periodic(stone, 50, 0.1, 10, 1e-9, Model::series_2), motion, Model::series_2);
+      heavy::detail::forced_track(periodic(stone, 50, 0.1, 10, 1e-9, rung::series_2), motion, rung::series_2);
   CHECK(named.failure == Errc::ok);
   CHECK(named.states.size() == 10);
   CHECK(named.periodicity.period == motion.period());
@@ -79,7 +79,7 @@ TEST_CASE("around half a nutation a turn the series decide on stability where th
     REQUIRE(motion);
     if (!orbit || orbit->stability == OrbitStability::undecided) continue;
     const Track track =
-        heavy::detail::forced_track(periodic(d.body(), spin, d.G0, 1, 1e-3, Model::series_2), *motion, Model::series_2);
+        heavy::detail::forced_track(periodic(d.body(), spin, d.G0, 1, 1e-3, rung::series_2), *motion, rung::series_2);
     const double told = track.periodicity.stable;
     CAPTURE(d.a, d.b, spin, across, orbit->trace_minus_4);
     if (std::isnan(told)) {
@@ -103,7 +103,7 @@ TEST_CASE("the trace of the series has an error that covers growth they may have
   REQUIRE(motion);
   REQUIRE(orbit);
   const Track track =
-      heavy::detail::forced_track(periodic(p, spin, cosine, 1, 1e-3, Model::series_2), *motion, Model::series_2);
+      heavy::detail::forced_track(periodic(p, spin, cosine, 1, 1e-3, rung::series_2), *motion, rung::series_2);
   CHECK(orbit->trace_minus_4 > 1e4);
   CHECK(std::abs(track.periodicity.trace - orbit->trace_minus_4) < track.periodicity.trace_error);
   CHECK(std::isnan(track.periodicity.stable));
@@ -112,10 +112,10 @@ TEST_CASE("the trace of the series has an error that covers growth they may have
 TEST_CASE("series that do not hold say so", "[heavy]") {
   const auto motion = *Series2<double>::make(stone, 15, 0.1);
   const Track track =
-      heavy::detail::forced_track(periodic(stone, 15, 0.1, 10, 1e-3, Model::series_2), motion, Model::series_2);
+      heavy::detail::forced_track(periodic(stone, 15, 0.1, 10, 1e-3, rung::series_2), motion, rung::series_2);
   CHECK_FALSE(track.in_domain);
   REQUIRE(track.warnings.size() == 1);
-  CHECK(std::strcmp(track.warnings[0].code, "beyond-validity") == 0);
+  CHECK(track.warnings[0].code() == "beyond-validity");
   for (const Errc why : {Errc::not_applicable, Errc::no_convergence, Errc::out_of_domain, Errc::not_finite})
     CHECK(std::strlen(heavy::detail::no_series(why)) > 10);
 }

@@ -14,7 +14,7 @@ namespace {
 
 Question named(double tolerance = 1e-6) {
   Question question;
-  question.model = Model::series_2;
+  question.rung = rung::series_2;
   question.wants_attitude = true;
   question.tolerance = tolerance;
   return question;
@@ -28,12 +28,12 @@ TEST_CASE("rung series-2 is the second order with honest errors", "[heavy]") {
   for (int i = 0; i < 20; ++i) {
     CAPTURE(i);
     const auto p = random.body();
-    const auto scene = periodic(p, random.log_any(10, 300), random.any(-0.9, 0.9), 5, 1e-6, Model::series_2);
+    const auto scene = periodic(p, random.log_any(10, 300), random.any(-0.9, 0.9), 5, 1e-6, rung::series_2);
     const Track track = series_2_track(scene, nullptr);
     REQUIRE(track.failure == Errc::ok);
     if (!track.in_domain) continue;
     ++answered;
-    const auto& [spin, cosine] = *scene.question().periodic;
+    const auto& [spin, cosine] = *scene.periodic();
     const auto motion = *Series2<double>::make(p, spin, cosine);
     for (std::size_t k = 0; k < track.states.size(); ++k)
       CHECK((track.states[k].down - motion.at(scene.question().times[k]).down).norm() < 8 * epsilon<double>);
@@ -92,7 +92,7 @@ TEST_CASE("rung series-2 recognises the start of the forced motion", "[heavy]") 
   const auto scene = posed(p, start, 0.1, named());
   const Track forced = series_2_track(scene, nullptr);
   const double nutating = Nutating<double>::make(p, start)->error(0.1).down;
-  CHECK(forced.error.down < nutating / 4);
+  CHECK(forced.error[column::down] < nutating / 4);
   check_honest(scene, forced);
   CHECK(std::isnan(forced.periodicity.period));
 }
@@ -103,7 +103,7 @@ TEST_CASE("rung series-2 refuses what it has no formula for", "[heavy]") {
   start.angular_velocity = {3, 2, 100};
   start.down = {0, 0.6, 0.8};
   Question question;
-  question.model = Model::series_2;
+  question.rung = rung::series_2;
   const Track intermediate = series_2_track(posed(p, start, 1, question), nullptr);
   CHECK(intermediate.failure == Errc::not_applicable);
   CHECK(std::strstr(intermediate.refusal, "intermediate"));

@@ -18,7 +18,7 @@ TEST_CASE("rung series answers to the tolerance with honest errors", "[heavy]") 
     const double tolerance = i % 3 == 0 ? 1e-4 : i % 3 == 1 ? 1e-7 : 1e-10;
     CAPTURE(i, tolerance);
     const auto scene =
-        periodic(random.body(), random.log_any(5, 100), random.any(-0.9, 0.9), 20, tolerance, Model::series);
+        periodic(random.body(), random.log_any(5, 100), random.any(-0.9, 0.9), 20, tolerance, rung::series);
     const Track track = series_track(scene, nullptr);
     if (track.failure != Errc::ok) continue;
     met += track.error.greatest() <= tolerance;
@@ -54,7 +54,7 @@ TEST_CASE("rung series takes a given start for the forced one only where it is",
   auto off = orbit->start;
   off.angular_velocity[0] += 1e-6;
   CHECK(series_track(posed(p, off, 0.5, question), nullptr).failure == Errc::not_applicable);
-  question.model = Model::series;
+  question.rung = rung::series;
   const auto by_name = posed(p, off, 0.5, question);
   const Track named = series_track(by_name, nullptr);
   REQUIRE(named.failure == Errc::ok);
@@ -68,7 +68,7 @@ TEST_CASE("rung series takes a given start for the forced one only where it is",
 
 TEST_CASE("rung series refuses a spin too slow for its terms to fall", "[heavy]") {
   const auto p = *Problem<double>::make({0.0011, 0.0016, 0.002}, 0.8, {0.012, 0.009, 0.01}, 9.80665, 0);
-  const Track slow = series_track(periodic(p, 4, 0.1, 1, 1e-3, Model::series), nullptr);
+  const Track slow = series_track(periodic(p, 4, 0.1, 1, 1e-3, rung::series), nullptr);
   CHECK(slow.failure == Errc::no_convergence);
   CHECK(std::strstr(slow.refusal, "do not fall"));
 }

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "catch.hpp"
+#include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/models/heavy/series_2.hpp"
 #include "honest.hpp"
 #include "models/heavy/tops.hpp"
@@ -18,11 +19,7 @@ struct Solved {
   Refusal refusal;
 
   bool by(const char* model) const { return std::strcmp(answer.model, model) == 0; }
-  const Quantity* scalar(const char* name) const {
-    for (const Quantity& q : answer.quantities)
-      if (std::strcmp(q.name, name) == 0) return &q;
-    return nullptr;
-  }
+  const Quantity* scalar(const char* name) const { return answer.quantity(name); }
 };
 
 Solved solved(const Scene& scene, Monitor* monitor = nullptr) {
@@ -58,12 +55,12 @@ TEST_CASE("a fast periodic motion of a heavy body: each rung where it is enough"
 }
 
 TEST_CASE("rung full of a periodic heavy motion: period and trace to all digits", "[heavy]") {
-  const Solved made = solved(periodic(stone, 150, 0.1, 3, 1e-6, Model::full));
+  const Solved made = solved(periodic(stone, 150, 0.1, 3, 1e-6, rung::full));
   CHECK(made.by("full"));
   // closed in 80 bits by another integrator
   CHECK(made.scalar("period")->values[0] == Approx(4.196818797409592953e-02).epsilon(1e-14));
   CHECK(made.scalar("floquet_trace")->values[0] == Approx(-1.9111876939650645).epsilon(1e-11));
-  const auto slower = solved(periodic(stone, 21.02331426521783, 0.1, 3, 1e-6, Model::full));
+  const auto slower = solved(periodic(stone, 21.02331426521783, 0.1, 3, 1e-6, rung::full));
   CHECK(slower.scalar("floquet_trace")->values[0] == Approx(-1.9054578079090723).epsilon(1e-9));
 }
 
@@ -102,16 +99,71 @@ TEST_CASE("what is known exactly is answered exactly", "[heavy]") {
 }
 
 TEST_CASE("a rung of the heavy family asked for by name answers or refuses", "[heavy]") {
-  const auto by = [](Model model, double spin) { return solved(periodic(stone, spin, 0.1, 3, 1e-9, model)); };
-  CHECK(by(Model::series_2, 50).by("series-2"));
-  CHECK_FALSE(by(Model::series_2, 50).answer.met);
-  CHECK(by(Model::series, 50).by("series"));
-  CHECK(by(Model::full, 50).by("full"));
-  const Solved refused = by(Model::exact, 50);
+  const auto by = [](int rung, double spin) { return solved(periodic(stone, spin, 0.1, 3, 1e-9, rung)); };
+  CHECK(by(rung::series_2, 50).by("series-2"));
+  CHECK_FALSE(by(rung::series_2, 50).answer.met);
+  CHECK(by(rung::series, 50).by("series"));
+  CHECK(by(rung::full, 50).by("full"));
+  const Solved refused = by(rung::exact, 50);
   CHECK(refused.refusal.code == Errc::not_applicable);
   CHECK(std::strcmp(refused.refusal.model, "exact") == 0);
   CHECK(refused.answer.columns.empty());
   CHECK(refused.answer.tried.size() == 1);
+}
+
+TEST_CASE("the first row of a heavy answer is the start to the bit, in the caller's axes", "[heavy]") {
+  const Mat3<double> R = to_matrix(normalised(Quat<double>{0.9, 0.1, -0.2, 0.15}));
+  const auto body = Body::make(R * stone.inertia().asDiagonal() * R.transpose(), 0.8, R * centre, 9.80665, 0);
+  const auto sleeper =
+      Body::make(R * top.inertia().asDiagonal() * R.transpose(), 0.8, R * top.centre_of_mass(), 9.80665, 0);
+  REQUIRE(body);
+  REQUIRE(sleeper);
+  Start start;
+  start.state.angular_velocity = R * Vec3<double>(1, 2, 300);
+  start.state.attitude = normalised(Quat<double>{0.3, -0.7, 0.2, 0.5});
+  const Vec3<double> down = rotate<double>(conjugate(start.state.attitude), {0, 0, -1});
+  start.state.down = down;
+  for (const bool turning : {true, false})
+    for (const int rung : {rung::exact, rung::series_2, rung::full}) {
+      Question question;
+      question.times = {0, 0.1};
+      question.rung = rung;
+      question.wants_attitude = turning;
+      const auto scene = Scene::make(rung == rung::exact ? *sleeper : *body, start, question);
+      REQUIRE(scene);
+      const Solved made = solved(*scene);
+      CAPTURE(rung, turning);
+      REQUIRE(made.refusal.code == Errc::ok);
+      const auto first = [&](const char* name) { return made.answer.find(name)->values; };
+      for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(first("angular_velocity")[i] == start.state.angular_velocity[int(i)]);
+        if (!turning) CHECK(first("down")[i] == down[int(i)]);
+      }
+      if (!turning) continue;
+      const auto& q = start.state.attitude;
+      const double given[] = {q.x, q.y, q.z, q.w};
+      for (std::size_t i = 0; i < 4; ++i) CHECK(first("attitude")[i] == given[i]);
+    }
+}
+
+TEST_CASE("a heavy body that hardly moves is answered", "[heavy]") {
+  State<double> hanging;
+  hanging.down = {1e-9, 0, 1};
+  Question question;
+  question.tolerance = 1e-9;
+  const auto p = Problem<double>::make({1, 1.2, 1.5}, 1, {0, 0, 0.01}, 100, 0).value();
+  const Solved made = solved(posed(p, hanging, 30, question));
+  CHECK(made.answer.met);
+  CHECK(made.answer.find("angular_velocity")->scale == Approx(std::sqrt(1 / 1.5)));
+}
+
+TEST_CASE("a motion so long that no double holds its phase is refused at once", "[heavy]") {
+  State<double> start;
+  start.angular_velocity = {1, 2, 300};
+  start.down = {0.6, 0, 0.8};
+  const Solved made = solved(posed(stone, start, 1e9, {}));
+  CHECK(made.refusal.code == Errc::step_limit);
+  CHECK(made.refusal.why == phase_lost);
 }
 
 TEST_CASE("a heavy answer is in the caller's axes and ends when told", "[heavy]") {
@@ -121,11 +173,11 @@ TEST_CASE("a heavy answer is in the caller's axes and ends when told", "[heavy]"
   const auto body = Body::make(R * I.asDiagonal() * R.transpose(), 0.8, R * centre, 9.80665, 4.6e-6);
   REQUIRE(body);
   Question question;
-  question.periodic = Periodic{150, 0.1};
+  const Start start{{}, Periodic{150, 0.1}};
   question.times = {0, 0.1};
-  const auto scene = Scene::make(*body, {}, question);
+  const auto scene = Scene::make(*body, start, question);
   REQUIRE(scene);
-  const auto turned = solved(*scene).answer, plain = solved(posed(stone, {}, 0.1, question, 1)).answer;
+  const auto turned = solved(*scene).answer, plain = solved(posed(stone, start, 0.1, question, 1)).answer;
   const auto vector = [](const Answer& answer, std::size_t k) {
     const double* v = &answer.find("down")->values[3 * k];
     return Vec3<double>(v[0], v[1], v[2]);

@@ -28,8 +28,8 @@ inline bool true_motion(const Scene& scene, Answer& truth) {
   options.attitude = scene.question().wants_attitude;
   ColumnErrors<Long> error;
   Track track;
-  if (scene.question().periodic) {
-    const auto& [spin, cosine] = *scene.question().periodic;
+  if (scene.periodic()) {
+    const auto& [spin, cosine] = *scene.periodic();
     const auto orbit = periodic_orbit<Long>(*problem, spin, cosine);
     // What does not close to rounding, its growth allowed for, is not found yet, and no judge: where the monodromy is singular (motions
     // that are not isolated, a lamina) a small closure tells little of the start.
@@ -60,10 +60,12 @@ inline bool true_motion(const Scene& scene, Answer& truth) {
                             s.down.cast<double>(),
                             {double(q.w), double(q.x), double(q.y), double(q.z)}});
   }
-  track.error = {double(error.angular_velocity), double(error.down), double(error.attitude)};
+  for (std::size_t i = 0; i < std::size(column_kinds); ++i) track.error[i] = double(error[i]);
   fill(truth, scene, track);
+  tell(truth, track.periodicity);
   for (Column& column : truth.columns) column.error += 4e-16;
-  for (Quantity& quantity : truth.quantities) quantity.error += 4e-16;
+  for (Quantity& q : truth.quantities)
+    q.error += 4e-16 * (q.kind->measure == Measure::absolute ? std::abs(q.values[0]) : 1.0);
   return true;
 }
 

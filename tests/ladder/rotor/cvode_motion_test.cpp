@@ -12,13 +12,13 @@ using namespace gyrostat::rotor;
 namespace {
 
 Scene scene_of(const Gyrostat<double>& body, double span, double tolerance) {
-  SceneData data;
+  Asked data;
   for (int i = 0; i <= 6; ++i) data.times.push_back(span * i / 6);
   data.tolerance = tolerance;
   data.angular_velocity = {0.6, -0.9, 0.7};
   data.rotor_rate = 2;
   data.full_equations = &full_by_cvode;
-  return *Scene::make(body, data);
+  return *make_scene(body, data);
 }
 
 void check_honest(const Scene& scene, Integrator truth_by = Integrator::taylor) {
@@ -28,11 +28,11 @@ void check_honest(const Scene& scene, Integrator truth_by = Integrator::taylor) 
   fill(answer, scene, track);
   REQUIRE(true_motion(scene, truth, truth_by));
   for (const Column& column : answer.columns) {
-    const double error = column_error(column, *truth.find(column.name)) - truth.find(column.name)->error;
-    CAPTURE(column.name, error, column.error);
+    const double error = column_error(column, *truth.find(column.name())) - truth.find(column.name())->error;
+    CAPTURE(column.kind->name, error, column.error);
     CHECK(error <= column.error);
   }
-  CHECK(answer.error < 1e3 * scene.data().tolerance);
+  CHECK(answer.error < 1e3 * scene.question().tolerance);
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ TEST_CASE("the Jacobian of the scaled equations is the derivative of their rates
   const State<double> start = body.state({0.5, -0.5, 0.5, 0.5}, {0.6, -0.9, 0.7}, 2);
   CvodeEquations equations(body, start, 40);
   const auto system = equations.system();
-  const auto y = equations.numbers(start);
+  const auto y = equations.start();
   std::array<double, 81> J{};
   REQUIRE(system.jacobian(0, y.data(), J.data(), system.user));
   for (std::size_t j = 0; j < 9; ++j) {

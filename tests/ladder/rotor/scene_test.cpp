@@ -2,6 +2,7 @@
 #include "gyrostat/ladder/rotor/scene.hpp"
 
 #include "../../models/rotor/bodies.hpp"
+#include "asked.hpp"
 #include "catch.hpp"
 
 using namespace gyrostat;
@@ -9,20 +10,20 @@ using namespace gyrostat::rotor;
 
 TEST_CASE("a rotor scene checks what it is given", "[rotor]") {
   const auto body = reference_body(0.05, 30);
-  SceneData good;
+  Asked good;
   good.times = {0, 1, 2};
   good.attitude = {2, 0, 0, 0};
   good.angular_velocity = {0.1, 0.2, 0.3};
   good.rotor_rate = 4;
-  const auto scene = Scene::make(body, good);
+  const auto scene = make_scene(body, good);
   REQUIRE(scene);
   CHECK(scene->start().attitude == Quat<double>{1, 0, 0, 0});
   CHECK(scene->start().momentum.isApprox(body.inertia() * good.angular_velocity + 0.35 * 4 * body.axis(), 1e-15));
 
   const auto failure = [&](auto change) {
-    SceneData data = good;
+    Asked data = good;
     change(data);
-    return Scene::make(body, data).error();
+    return make_scene(body, data).error();
   };
   CHECK(failure([](auto& d) { d.times.clear(); }) == Errc::out_of_domain);
   CHECK(failure([](auto& d) { d.times = {-1, 0}; }) == Errc::negative);

@@ -22,19 +22,19 @@ struct Solved {
   bool by(const char* model) const { return std::strcmp(answer.model, model) == 0; }
   bool warns(const char* code) const {
     for (const Warning& w : answer.warnings)
-      if (std::strcmp(w.code, code) == 0) return true;
+      if (w.code() == code) return true;
     return false;
   }
   double scalar(const char* name) const {
     for (const Quantity& q : answer.quantities)
-      if (std::strcmp(q.name, name) == 0) return q.values[0];
+      if (q.name() == name) return q.values[0];
     FAIL("no such scalar: " << name);
     return 0;
   }
 };
 
-Solved solved(const Gyrostat<double>& body, const SceneData& data, Monitor* monitor = nullptr) {
-  const auto scene = Scene::make(body, data);
+Solved solved(const Gyrostat<double>& body, const Asked& data, Monitor* monitor = nullptr) {
+  const auto scene = make_scene(body, data);
   REQUIRE(scene);
   Solved made;
   made.answer = rotor::solve(*scene, made.refusal, monitor);
@@ -42,26 +42,26 @@ Solved solved(const Gyrostat<double>& body, const SceneData& data, Monitor* moni
 }
 
 /// Within its own stated error in every column, and within the tolerance where it says so.
-void check_honest(const Gyrostat<double>& body, const SceneData& data, const Answer& answer) {
+void check_honest(const Gyrostat<double>& body, const Asked& data, const Answer& answer) {
   Answer truth;
-  REQUIRE(true_motion(*Scene::make(body, data), truth));
+  REQUIRE(true_motion(*make_scene(body, data), truth));
   for (const Column& column : answer.columns) {
-    const double error = column_error(column, *truth.find(column.name)) - truth.find(column.name)->error;
-    CAPTURE(answer.model, column.name, data.tolerance, error, column.error);
+    const double error = column_error(column, *truth.find(column.name())) - truth.find(column.name())->error;
+    CAPTURE(answer.model, column.kind->name, data.tolerance, error, column.error);
     CHECK(error <= column.error);
     if (answer.met) CHECK(error <= data.tolerance);
   }
 }
 
-SceneData asked(double span, double tolerance = 1e-6) {
-  SceneData data;
+Asked asked(double span, double tolerance = 1e-6) {
+  Asked data;
   for (int i = 0; i <= 8; ++i) data.times.push_back(span * i / 8);
   data.tolerance = tolerance;
   return data;
 }
 
 /// The start with momentum H and rotor rate omega.
-void start(SceneData& data, const Gyrostat<double>& body, const Vec3<double>& H, double omega) {
+void start(Asked& data, const Gyrostat<double>& body, const Vec3<double>& H, double omega) {
   data.angular_velocity = body.inverse_inertia() * (H - body.axial_inertia() * omega * body.axis());
   data.rotor_rate = omega;
 }
@@ -70,7 +70,7 @@ void start(SceneData& data, const Gyrostat<double>& body, const Vec3<double>& H,
 
 TEST_CASE("a whole gyrostat at rest is answered in closed form", "[rotor]") {
   const auto body = reference_body(0.05, 30);
-  const SceneData data = asked(200, 1e-9);
+  const Asked data = asked(200, 1e-9);
   const Solved made = solved(body, data);
   CHECK(made.by("closed-form"));
   CHECK(made.answer.met);
@@ -86,7 +86,7 @@ TEST_CASE("near a steady rotation the linear tail answers a loose scene and more
   Bodies bodies(7);
   for (const double off : {1e-8, 1e-5, 1e-3}) {
     for (const double tolerance : {1e-2, 1e-5, 1e-9}) {
-      SceneData data = asked(60, tolerance);
+      Asked data = asked(60, tolerance);
       start(data, body, 8 * (m.direction + off * bodies.direction()).normalized(), 3 + off);
       const Solved made = solved(body, data);
       CAPTURE(off, tolerance, made.answer.model);
@@ -96,7 +96,7 @@ TEST_CASE("near a steady rotation the linear tail answers a loose scene and more
       check_honest(body, data, made.answer);
     }
   }
-  SceneData data = asked(60, 1e-4);
+  Asked data = asked(60, 1e-4);
   start(data, body, 8 * (m.direction + 1e-4 * bodies.direction()).normalized(), 3);
   CHECK(solved(body, data).by("linear-tail"));
   start(data, body, 8 * (m.direction + 1e-9 * bodies.direction()).normalized(), 3);
@@ -105,7 +105,7 @@ TEST_CASE("near a steady rotation the linear tail answers a loose scene and more
 
 TEST_CASE("a tumbling start climbs to the full equations; V tells when the attractor is certain", "[rotor]") {
   const auto body = reference_body(0.2, 3);
-  SceneData data = asked(400);
+  Asked data = asked(400);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);
   const Solved late = solved(body, data);
   CHECK(late.by("full"));
@@ -129,7 +129,7 @@ TEST_CASE("random scenes are honest", "[rotor]") {
   Bodies bodies(11);
   for (int i = 0; i < 40; ++i) {
     const auto body = bodies.realisable();
-    SceneData data = asked(bodies.scale(1, 60), bodies.scale(1e-9, 1e-2));
+    Asked data = asked(bodies.scale(1, 60), bodies.scale(1e-9, 1e-2));
     data.attitude = bodies.attitude();
     data.angular_velocity = bodies.direction() * bodies.scale(0.1, 3);
     data.rotor_rate = bodies.uniform(-10, 10);
@@ -142,20 +142,20 @@ TEST_CASE("random scenes are honest", "[rotor]") {
 
 TEST_CASE("a rung asked for by name answers where it can, and says what it is worth", "[rotor]") {
   const auto body = reference_body(0.2, 3);
-  SceneData data = asked(10);
+  Asked data = asked(10);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);
-  data.model = Model::closed_form;
+  data.rung = rung::closed_form;
   const Solved closed = solved(body, data);
   CHECK(closed.refusal.code == Errc::not_applicable);
   CHECK(closed.refusal.why != nullptr);
-  data.model = Model::full;
+  data.rung = rung::full;
   CHECK(solved(body, data).answer.met);
 }
 
 TEST_CASE("the answer does not depend on the body axes", "[rotor]") {
   Bodies bodies(13);
   const auto body = reference_body(0.2, 3);
-  SceneData data = asked(20, 1e-10);
+  Asked data = asked(20, 1e-10);
   data.attitude = bodies.attitude();
   data.angular_velocity = {0.4, -1.1, 0.7};
   const Answer plain = solved(body, data).answer;
@@ -167,7 +167,7 @@ TEST_CASE("the answer does not depend on the body axes", "[rotor]") {
     theta = ((theta + theta.transpose()) / 2).eval();
     const auto turned = Gyrostat<double>::make(theta, (R * body.axis()).normalized(), 0.35, 0.2, 3);
     REQUIRE(turned);
-    SceneData other = data;
+    Asked other = data;
     other.attitude = data.attitude * conjugate(q_CB);
     other.angular_velocity = R * data.angular_velocity;
     const Answer answer = solved(*turned, other).answer;
@@ -186,14 +186,14 @@ TEST_CASE("the answer does not depend on the body axes", "[rotor]") {
 
 TEST_CASE("long work tells its progress and can be stopped", "[rotor]") {
   const auto body = reference_body(0.2, 3);
-  SceneData data = asked(20);
+  Asked data = asked(20);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);
   Monitor monitor;
   CHECK(solved(body, data, &monitor).refusal.code == Errc::ok);
   CHECK(monitor.fraction.load() == 1);
   data = asked(1e5);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);
-  data.model = Model::full;
+  data.rung = rung::full;
   Monitor stopped;
   stopped.cancel = true;
   CHECK(solved(body, data, &stopped).refusal.code == Errc::cancelled);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "asked.hpp"
 #include "gyrostat/ladder/rotor/full_motion.hpp"
 #include "gyrostat/ladder/rotor/track.hpp"
 
@@ -16,14 +17,14 @@ namespace gyrostat::rotor {
 inline bool true_motion(const Scene& scene, Answer& truth, Integrator integrator = Integrator::taylor) {
   using Long = long double;
   const auto& b = scene.gyrostat();
-  const auto& d = scene.data();
+  const Start& given = scene.given();
   const auto body = Gyrostat<Long>::make(b.inertia().cast<Long>(), b.axis().cast<Long>(), b.axial_inertia(), b.slope(),
                                          b.no_load_rate());
   if (!body) return false;
-  const Quat<Long> q{d.attitude.w, d.attitude.x, d.attitude.y, d.attitude.z};
-  State<Long> start = body->state(normalised(q), d.angular_velocity.cast<Long>(), d.rotor_rate);
+  const Quat<Long> q{given.attitude.w, given.attitude.x, given.attitude.y, given.attitude.z};
+  State<Long> start = body->state(normalised(q), given.angular_velocity.cast<Long>(), given.rotor_rate);
   if (scene.start().momentum.isZero(0)) start.momentum.setZero();  // what is zero to the rounding of the data
-  const std::vector<Long> times(d.times.begin(), d.times.end());
+  const std::vector<Long> times(scene.question().times.begin(), scene.question().times.end());
   std::vector<State<Long>> states(times.size());
   FullMotionOptions<Long> options;
   options.tolerance = 1e-15L;
@@ -37,9 +38,7 @@ inline bool true_motion(const Scene& scene, Answer& truth, Integrator integrator
                             s.momentum.cast<double>(),
                             double(s.axial_momentum),
                             double(s.rotor_angle)});
-  const auto& e = made->error;
-  track.error = {double(e.attitude),   double(e.angular_velocity), double(e.angular_momentum),
-                 double(e.rotor_rate), double(e.rotor_angle),      double(e.lyapunov)};
+  for (std::size_t i = 0; i < std::size(column_kinds); ++i) track.error[i] = double(made->error[i]);
   fill(truth, scene, track);
   for (Column& column : truth.columns) column.error += 4e-16;
   return true;

@@ -9,12 +9,12 @@
 namespace gyrostat::spinning {
 
 /// `count` times up to the span.
-inline Scene posed(const Problem<double>& problem, double span, double tolerance = 1e-6, Model model = Model::any,
+inline Scene posed(const Problem<double>& problem, double span, double tolerance = 1e-6, int model = any_rung,
                    int count = 10) {
   Question question;
   for (int i = 1; i <= count; ++i) question.times.push_back(span * i / count);
   question.tolerance = tolerance;
-  question.model = model;
+  question.rung = model;
   const auto scene = Scene::make(problem, question);
   REQUIRE(scene);
   return *scene;
@@ -25,9 +25,9 @@ inline void check_honest(const Scene& scene, const Answer& answer) {
   Answer truth;
   REQUIRE(true_motion(scene, truth));
   for (const Column& column : answer.columns) {
-    const Column& right = *truth.find(column.name);
+    const Column& right = *truth.find(column.name());
     const double error = column_error(column, right) - right.error;
-    CAPTURE(answer.model, column.name, error, column.error);
+    CAPTURE(answer.model, column.name(), error, column.error);
     CHECK(error <= column.error);
     if (answer.met) CHECK(error <= answer.tolerance);
   }

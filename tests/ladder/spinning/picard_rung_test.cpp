@@ -18,7 +18,7 @@ TEST_CASE("rung picard by name sweeps until it meets the tolerance", "[spinning]
     const auto p = random.spinner(0.01);
     if (p.nutation_squared() < 0) continue;
     for (const double tolerance : {1e-2, 1e-9}) {
-      const auto scene = posed(p, 20 / std::abs(p.spin()), tolerance, Model::picard);
+      const auto scene = posed(p, 20 / std::abs(p.spin()), tolerance, rung::picard);
       const Track track = picard_track(scene, nullptr);
       REQUIRE(track.failure == Errc::ok);
       met += track.error.greatest() <= tolerance;
@@ -42,7 +42,7 @@ TEST_CASE("rung picard refuses what it cannot answer", "[spinning]") {
   auto p = Spinners(17).spinner(1);
   const double turn = 6.3 / std::abs(p.spin());
   const auto why = [&](double span) {
-    const Track track = picard_track(posed(p, span, 1e-6, Model::picard), nullptr);
+    const Track track = picard_track(posed(p, span, 1e-6, rung::picard), nullptr);
     CHECK(track.refusal != nullptr);
     return track.failure;
   };
@@ -50,7 +50,7 @@ TEST_CASE("rung picard refuses what it cannot answer", "[spinning]") {
   CHECK(why(1e7 * turn) == Errc::step_limit);
   Monitor monitor;
   monitor.cancel = true;
-  CHECK(picard_track(posed(p, turn, 1e-6, Model::picard), &monitor).failure == Errc::cancelled);
+  CHECK(picard_track(posed(p, turn, 1e-6, rung::picard), &monitor).failure == Errc::cancelled);
   p.torque[2] = 0.1;
   CHECK(why(turn) == Errc::not_applicable);
 }

@@ -28,7 +28,7 @@ TEST_CASE("rung second-order answers where the linear one does not, with honest 
 TEST_CASE("rung second-order is passed over where it does not apply or would harm", "[spinning]") {
   auto p = Spinners(5).spinner(1);
   const double span = 200 / std::abs(p.spin());
-  for (const auto model : {Model::any, Model::second_order}) {
+  for (const int model : {any_rung, int(rung::second_order)}) {
     const Track harms = second_order_track(posed(p, span, 0.5, model), nullptr);
     CHECK(harms.failure == Errc::not_applicable);
     CHECK(harms.refusal != nullptr);
@@ -39,7 +39,7 @@ TEST_CASE("rung second-order is passed over where it does not apply or would har
   CHECK(missed.refusal == nullptr);
   CHECK(missed.known_error > 1e-15);
   p.torque[2] = 1e-3;
-  const Track axial = second_order_track(posed(p, span, 1e-3, Model::second_order), nullptr);
+  const Track axial = second_order_track(posed(p, span, 1e-3, rung::second_order), nullptr);
   CHECK(axial.failure == Errc::not_applicable);
   CHECK(axial.refusal != nullptr);
 }
@@ -49,7 +49,7 @@ TEST_CASE("rung second-order at the start alone", "[spinning]") {
   Question question;
   question.times = {0};
   question.tolerance = 1e-12;
-  question.model = Model::second_order;
+  question.rung = rung::second_order;
   const auto scene = Scene::make(p, question);
   const Track track = second_order_track(*scene, nullptr);
   REQUIRE(track.failure == Errc::ok);

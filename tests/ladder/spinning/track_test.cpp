@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/spinning/track.hpp"
 
-#include <cstring>
-
 #include "catch.hpp"
 
 using namespace gyrostat;
@@ -29,8 +27,8 @@ TEST_CASE("a spinning track becomes the columns of the contract", "[spinning]") 
                          "angular_momentum_inertial", "velocity",  "position"};
   REQUIRE(answer.columns.size() == 6);
   for (std::size_t i = 0; i < 6; ++i) {
-    CHECK(std::strcmp(answer.columns[i].name, names[i]) == 0);
-    CHECK(answer.columns[i].values.size() == 2 * std::size_t(answer.columns[i].width));
+    CHECK(answer.columns[i].name() == names[i]);
+    CHECK(answer.columns[i].values.size() == 2 * std::size_t(answer.columns[i].kind->width));
     CHECK(answer.columns[i].error == Approx(std::pow(10, -1.0 - double(i))));
   }
   CHECK(answer.find("euler_312")->values[5] == 6);

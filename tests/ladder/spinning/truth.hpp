@@ -33,9 +33,7 @@ inline bool true_motion(const Scene& scene, Answer& truth) {
   if (!made || made->status != ode::Status::reached) return false;
   Track track;
   for (const auto& state : states) track.states.push_back(rounded(state));
-  const auto& e = made->error;
-  track.error = {double(e.angular_velocity), double(e.angles),   double(e.attitude),
-                 double(e.momentum),         double(e.velocity), double(e.position)};
+  for (std::size_t i = 0; i < std::size(column_kinds); ++i) track.error[i] = double(made->error[i]);
   fill(truth, scene, track);
   for (Column& column : truth.columns) column.error += 4e-16;
   return true;

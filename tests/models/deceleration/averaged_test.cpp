@@ -139,3 +139,18 @@ TEST_CASE("the averaged equations in their clock", "[deceleration]") {
     CHECK(dy[Equations::phase] / dt == Approx(1.5 * R * p.rate_per_momentum() / mean.K).epsilon(1e-12));
   }
 }
+
+TEST_CASE("a spin exactly on an axis has that axis's torque, whatever the moments are", "[deceleration]") {
+  Bodies bodies(8);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const auto problem = bodies.problem(1);
+    for (const int axis : {0, 2}) {
+      V M = V::Zero();
+      M[axis] = 1 + trial / 1000.;
+      const auto p = polhode_through<double>(problem.inverse_inertia, M);
+      const auto mean = mean_torque<>(p, ControlTorques<double>::of(problem.control, p.axes));
+      CHECK(mean.deceleration == Approx(problem.control(axis, axis)).epsilon(1e-14));
+      CHECK(mean.escape == 0);
+    }
+  }
+}

@@ -71,6 +71,27 @@ TEST_CASE("the two regimes are one with the outer axes exchanged", "[deceleratio
   }
 }
 
+TEST_CASE("a slim body in a flat spin keeps its rate and its momentum along the axis", "[deceleration]") {
+  using L = Vec3<long double>;
+  for (const double slim : {1e-3, 1e-6, 1e-9})
+    for (const double middle : {1., 1 - 1e-14, .9})
+      for (const double spin : {1., 1e-3}) {
+        const V a(1, 1 / middle, 1 / slim), M(.3, .2, .1 * spin * slim);
+        const auto p = polhode_through<double>(a, M);
+        const auto exact = polhode_through<long double>(a.cast<long double>(), M.cast<long double>());
+        CAPTURE(slim, middle, spin);
+        REQUIRE(p.regime == exact.regime);
+        CHECK(p.along == Approx(double(exact.along)).epsilon(1e-14));
+        CHECK(p.rate_per_momentum() == Approx(double(exact.rate_per_momentum())).epsilon(1e-14));
+        if (!(exact.modulus.kp2 > 1e-3L)) continue;
+        for (const double u : {0., .4, 2.}) {
+          const V now = momentum_on<>(p, M.norm(), u);
+          const L truth = momentum_on<>(exact, M.cast<long double>().norm(), static_cast<long double>(u));
+          CHECK(now[p.axes.near] == Approx(double(truth[p.axes.near])).epsilon(1e-13));
+        }
+      }
+}
+
 TEST_CASE("small moduli and complements keep their digits", "[deceleration]") {
   const V a(1 / 1.4, 1, 1 / .7);
   for (double tilt = 1e-1; tilt > 1e-30; tilt *= 1e-3) {

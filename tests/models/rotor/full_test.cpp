@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "allocations.hpp"
-#include "gyrostat/ladder/rotor/column_errors.hpp"
+#include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/models/rotor/assembly.hpp"
 #include "gyrostat/ode/runge_kutta.hpp"
 #include "gyrostat/ode/taylor.hpp"

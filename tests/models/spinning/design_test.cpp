@@ -239,6 +239,10 @@ TEST_CASE("burns at the edges", "[spinning]") {
   CHECK(burn_for_displacement(still, 12.0)->value == Approx(4.0).epsilon(1e-13));
   CHECK(burn_for_velocity(still, 12.0)->value == Approx(8.0).epsilon(1e-13));
 
+  // the square of the budget is no number
+  CHECK(burn_for_velocity(p, 1e300).error() == Errc::out_of_domain);
+  CHECK(burn_for_displacement(p, 1e-200).error() == Errc::out_of_domain);
+
   auto unstable = p;
   unstable.inertia = {4183, 2729, 2985};
   const auto made = burn_for_displacement(unstable, 1.0);

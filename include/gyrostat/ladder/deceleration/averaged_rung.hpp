@@ -39,7 +39,7 @@ class AveragedRun {
 
   /// Local error of the mean equations: far below what is asked, no smaller than rounding allows.
   static double tolerance_of(const Scene& scene) noexcept {
-    return std::max(1e-13, std::min(1e-9, scene.data().tolerance * 1e-3));
+    return std::max(1e-13, std::min(1e-9, scene.question().tolerance * 1e-3));
   }
 
  private:
@@ -58,19 +58,19 @@ namespace detail {
 
 /// Why no averaged rung of this file answers the scene, or nullptr.
 inline const char* not_averaged(const Scene& scene) noexcept {
-  if (scene.data().wants_attitude) return "averaging does not know the attitude";
+  if (scene.question().wants_attitude) return "averaging does not know the attitude";
   if (scene.sphere()) return "a sphere has no fast polhode to average over";
   if (!(scene.problem().momentum.norm() > 0)) return "the body is at rest at the start";
   return nullptr;
 }
 
 /// The polhode of the start; where there is none the refusal is not ok.
-struct Start {
+struct PolhodeStart {
   Polhode<double> polhode{};
   Track refusal;
 };
 
-inline Start start_of(const Scene& scene) {
+inline PolhodeStart start_of(const Scene& scene) {
   if (const char* why = not_averaged(scene)) return {{}, refused<Track>(Errc::not_applicable, why)};
   const auto p = polhode_through<double>(scene.problem().inverse_inertia, scene.problem().momentum);
   if (!std::isfinite(p.modulus.k2) || !std::isfinite(p.modulus.kp2))
@@ -98,33 +98,52 @@ Osculating osculating(const Problem<double>& problem, const MeanState<double>& m
   return {{norm, p.polhode, mean.phase}, momentum_on<Elliptic>(p.polhode, norm, argument), p.valid};
 }
 
+/// What averaging does not like at the start. mu: relative change of M in one radian; gap: between the two moments that are nearest
+/// each other, over the widest, and from where on it is narrow; kp2: of the first orbit.
+inline void warn_of_start(Track& track, double mu, double gap, double narrow, double kp2) {
+  if (mu > 0.1) track.warn(warning::not_slow, mu);
+  if (gap < narrow) track.warn(warning::near_symmetric, gap);
+  if (kp2 < std::max(1e-2, 10 * mu)) track.warn(warning::near_separatrix, kp2);
+}
+
+/// The gap between the two principal axes that are nearest each other, over that of the outer two.
+inline double symmetry_gap(const Problem<double>& problem) noexcept {
+  const auto& a = problem.inverse_inertia;
+  return std::min(a[1] - a[0], a[2] - a[1]) / (a[2] - a[0]);
+}
+
 inline void warn_of_start(Track& track, const Scene& scene, const Polhode<double>& p) {
-  const auto& a = scene.problem().inverse_inertia;
   const double M = scene.problem().momentum.norm();
   const double breakdown = breakdown_momentum(scene.problem(), scene.greatest_control());
   const double mu = breakdown * breakdown / (M * M);
-  if (mu > 0.1) track.warn("not-slow", "the torque stops the body within a few turns: averaging has no meaning", mu);
-  const double gap = std::min(a[1] - a[0], a[2] - a[1]) / (a[2] - a[0]);
-  if (gap < std::max(1e-3, 10 * mu) && !scene.equal_control())
-    track.warn("near-symmetric", "two moments of inertia are nearly equal: the libration is slow", gap);
-  if (p.modulus.kp2 < std::max(1e-2, 10 * mu))
-    track.warn("near-separatrix", "the polhode starts near the separatrix", p.modulus.kp2);
+  warn_of_start(track, mu, symmetry_gap(scene.problem()), scene.equal_control() ? 0 : std::max(1e-3, 10 * mu),
+                p.modulus.kp2);
 }
 
 inline void warn_of_motion(Track& track, const AveragingError<double>& error, bool crossed, bool stuck) {
   if (crossed)
-    track.warn("crosses-separatrix",
+    track.warn(warning::crosses_separatrix, nan<double>,
                "the motion crosses the separatrix: the sign of the momentum about its new axis is not determined");
-  if (stuck) track.warn("sticks-to-separatrix", "the separatrix attracts from both sides and holds the mean motion");
+  if (stuck) track.warn(warning::sticks_to_separatrix);
   if (error.greatest_squeeze() > 0.1)
-    track.warn("near-separatrix", "one oscillation changes 1 - k2 by a large part of itself", error.greatest_squeeze());
+    track.warn(warning::near_separatrix, error.greatest_squeeze(),
+               "one oscillation changes 1 - k2 by a large part of itself");
 }
 
-inline void keep_sample(Track& track, const MeanState<double>& s) {
-  track.norm.push_back(s.norm);
-  track.energy.push_back(s.norm * s.norm * s.polhode.energy_ratio() / 2);
-  track.k2.push_back(s.norm > 0 ? s.polhode.modulus.k2 : 0);
-  track.regime.push_back(s.norm > 0 ? s.polhode.regime : Regime::rest);
+inline State<double> slow_state(const MeanState<double>& s) {
+  State<double> state;
+  state.norm = s.norm;
+  state.energy = s.norm * s.norm * s.polhode.energy_ratio() / 2;
+  state.k2 = s.norm > 0 ? s.polhode.modulus.k2 : 0;
+  state.regime = s.norm > 0 ? s.polhode.regime : Regime::rest;
+  return state;
+}
+
+/// The slow columns' errors.
+inline void state_errors(Track& track, const SlowError<double>& error) noexcept {
+  track.error[column::angular_momentum_norm] = error.norm;
+  track.error[column::energy] = error.energy;
+  track.error[column::modulus_squared] = error.k2;
 }
 
 }  // namespace detail
@@ -142,17 +161,17 @@ Track averaged_track(const Scene& scene) {
   const double tolerance = AveragedRun<Elliptic>::tolerance_of(scene);
   AveragedRun<Elliptic> run(scene, start, norm0, 0, tolerance, infinity<double>);
   const double energy0 = problem.energy(M0);
-  if (scene.data().model == Model::any) {
+  if (scene.question().rung == any_rung) {
     const auto least = run.error().first_order(norm0, energy0);
     const double error = std::max({least.norm / norm0, least.energy / energy0, least.k2});
-    if (error > scene.data().tolerance) return over_tolerance<Track>(error);
+    if (error > scene.question().tolerance) return over_tolerance<Track>(error);
   }
-  for (const double t : scene.data().times) {
+  for (const double t : scene.question().times) {
     if (run.advance(t) != ode::Status::reached)
       return refused<Track>(Errc::no_convergence, "the mean equations could not be integrated");
-    detail::keep_sample(track, run.motion().state());
+    track.states.push_back(detail::slow_state(run.motion().state()));
   }
-  const auto error = run.error().first_order(norm0, energy0);
+  auto error = run.error().first_order(norm0, energy0);
   const double breakdown = breakdown_momentum(problem, scene.greatest_control());
 
   // Below a few breakdown momenta the body falls to the axis of the weakest control, the averaged one need not.
@@ -172,15 +191,15 @@ Track averaged_track(const Scene& scene) {
   if (late > 1) late = infinity<double>;  // not an estimate any more
   track.stop_error = std::isfinite(track.stop_time) ? late + 1e3 * tolerance : 0;
 
-  const double least = track.norm.back();
   const double local = 10 * tolerance;
-  track.norm_error = error.norm + local * norm0;
-  track.energy_error = error.energy + local * energy0;
-  track.k2_error = error.k2 + local;
-  if (least < low) {
-    track.norm_error += std::min(low, norm0) * std::min(1.0, late * track.stop_time * scene.greatest_control() / low);
-    track.k2_error = 1;
+  error.norm += local * norm0;
+  error.energy += local * energy0;
+  error.k2 += local;
+  if (track.states.back().norm < low) {
+    error.norm += std::min(low, norm0) * std::min(1.0, late * track.stop_time * scene.greatest_control() / low);
+    error.k2 = 1;
   }
+  detail::state_errors(track, error);
   track.in_domain = breakdown < norm0 / 3;
   track.counts = run.motion().counts();
   detail::warn_of_start(track, scene, start);
@@ -214,31 +233,30 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   Track track;
   // A relative error of the mean orbit becomes one of the phase, times the turns made.
   const double tolerance = 1e-3 * AveragedRun<Elliptic>::tolerance_of(scene) + 1e-13;
-  const double phase_error = std::max(1e-7, scene.data().tolerance * 1e-2);
+  const double phase_error = std::max(1e-7, scene.question().tolerance * 1e-2);
   AveragedRun<Elliptic> run(scene, mean.polhode, norm0 * (1 - away.norm), u0 / Elliptic::complete(start.modulus).K,
                             tolerance, phase_error);
-  const auto& times = scene.data().times;
-  std::size_t done = 0;
+  const auto& times = scene.question().times;
   constexpr const char* lost = "the motion comes so near the separatrix that the second order is lost";
-  for (; done < times.size(); ++done) {
-    if (run.advance(times[done], last_norm) != ode::Status::reached)
+  while (track.states.size() < times.size()) {
+    if (run.advance(times[track.states.size()], last_norm) != ode::Status::reached)
       return refused<Track>(Errc::no_convergence, "the mean equations could not be integrated");
     if (run.motion().crossed() || run.motion().stuck()) return refused<Track>(Errc::separatrix, lost);
     if (run.motion().floored()) break;
     const auto now = detail::osculating<Elliptic>(problem, run.motion().state());
     if (!now.valid) return refused<Track>(Errc::separatrix, lost);
-    detail::keep_sample(track, now.state);
-    track.momentum.push_back(now.momentum);
+    track.states.push_back(detail::slow_state(now.state));
+    track.states.back().momentum = now.momentum;
   }
   const double energy0 = problem.energy(M0);
   const auto in_span = run.error().second_order();
   const auto oscillating = run.error().first_order(norm0, energy0);
   const double local = 10 * tolerance;
   const double lag = 10 * phase_error + local * std::abs(run.motion().state().phase);  // quarter periods
-  track.norm_error = in_span.norm + local * norm0 + lag * oscillating.norm;
-  track.energy_error = in_span.energy + 2 * local * energy0 + lag * oscillating.energy;
-  track.k2_error = in_span.k2 + local + lag * oscillating.k2;
-  track.momentum_error = in_span.vector + (local + 2 * lag) * norm0;
+  detail::state_errors(track, {in_span.norm + local * norm0 + lag * oscillating.norm,
+                               in_span.energy + 2 * local * energy0 + lag * oscillating.energy,
+                               in_span.k2 + local + lag * oscillating.k2, 0});
+  track.know_momentum(problem, in_span.vector + (local + 2 * lag) * norm0);
   track.counts = run.motion().counts();
   detail::warn_of_start(track, scene, start);
 
@@ -248,8 +266,9 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   } else {
     const bool reached = run.advance(infinity<double>, last_norm) == ode::Status::reached;
     if (!reached || run.motion().crossed() || run.motion().stuck()) {
-      if (done < times.size()) return refused<Track>(Errc::separatrix, lost);
-      track.warn("crosses-separatrix", "after the asked times the motion crosses the separatrix: no stop time");
+      if (track.states.size() < times.size()) return refused<Track>(Errc::separatrix, lost);
+      track.warn(warning::crosses_separatrix, nan<double>,
+                 "after the asked times the motion crosses the separatrix: no stop time");
     } else {
       const auto at_end = detail::osculating<Elliptic>(problem, run.motion().state());
       if (!at_end.valid) return refused<Track>(Errc::separatrix, lost);

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "gyrostat/ladder/cvode_walk.hpp"
+#include "gyrostat/ladder/cvode_pair.hpp"
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 #include "gyrostat/ode/cvode.hpp"
 #include "gyrostat/rotation/exp_log.hpp"
@@ -18,13 +18,9 @@ namespace gyrostat::deceleration {
 
 namespace detail {
 
-/// One CVODE run: M and, with attitude, q at the times, and the stop.
-struct CvodeRun {
-  std::vector<Vec3<double>> momentum;
-  std::vector<Quat<double>> attitude;
+/// One CVODE run and its stop.
+struct StoppedRun : CvodeRun<State<double>> {
   double stop_time = infinity<double>;
-  Errc failure = Errc::ok;
-  ode::Counts counts;
 };
 
 struct CvodeProblem {
@@ -61,16 +57,17 @@ struct CvodeProblem {
   }
 };
 
-inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor) {
+/// To the stop and behind it.
+inline StoppedRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor) {
   const auto& problem = scene.problem();
-  const auto& times = scene.data().times;
-  const bool turning = scene.data().wants_attitude;
+  const auto& times = scene.question().times;
+  const bool turning = scene.question().wants_attitude;
   const bool total = problem.law == Law::total;
   CvodeProblem user{problem, total ? Vec3<double>::Zero().eval() : problem.rotor_momentum, scene.greatest_control()};
   const Hold<double> hold(problem);
   const double scale = std::max(problem.momentum.norm(), user.offset.norm());
 
-  Quat<double> q = scene.data().attitude * from_matrix(scene.R_BP());
+  Quat<double> q = scene.attitude();
   std::array<double, 7> y{problem.momentum[0], problem.momentum[1], problem.momentum[2], q.w, q.x, q.y, q.z};
   const std::size_t n = turning ? 7 : 3;
   ode::CvodeSystem system;
@@ -80,13 +77,13 @@ inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor
   system.step_limit = &CvodeProblem::step_limit;
   system.user = &user;
 
-  CvodeRun run;
-  const auto keep = [&](const double* at) {
-    run.momentum.push_back(CvodeProblem::momentum(at));
-    if (turning) run.attitude.push_back(normalised(Quat<double>{at[3], at[4], at[5], at[6]}));
+  StoppedRun run;
+  const auto keep = [&](const Vec3<double>& M, const Quat<double>& turned) {
+    run.states.push_back(state_of(problem, M, turning ? normalised(turned) : q));
   };
+  const auto keep_numbers = [&](const double* at) { keep(CvodeProblem::momentum(at), {at[3], at[4], at[5], at[6]}); };
   std::size_t next = 0;
-  while (next < times.size() && times[next] <= 0) keep(y.data()), ++next;
+  while (next < times.size() && times[next] <= 0) keep_numbers(y.data()), ++next;
   bool at_rest = user.opposed(y.data()) <= 0 && hold.holds;
   double stop = 0;
   if (!at_rest) {
@@ -97,7 +94,7 @@ inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor
     const auto keep_at = [&](double t) {
       std::array<double, 7> at{};
       if (!cvode.at(t, std::span(at).first(n))) return false;
-      keep(at.data());
+      keep_numbers(at.data());
       return true;
     };
     const auto look_for_rest = [&] {
@@ -115,11 +112,9 @@ inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor
   }
   if (at_rest) run.stop_time = stop;
   const Vec3<double> rate = problem.angular_velocity(user.offset);
-  q = {y[3], y[4], y[5], y[6]};
-  for (; next < times.size(); ++next) {
-    run.momentum.push_back(user.offset);
-    if (turning) run.attitude.push_back(normalised(q * quaternion_from_vector<double>(rate * (times[next] - stop))));
-  }
+  const Quat<double> turned{y[3], y[4], y[5], y[6]};
+  for (; next < times.size(); ++next)
+    keep(user.offset, turned * quaternion_from_vector<double>(rate * (times[next] - stop)));
   return run;
 }
 
@@ -128,44 +123,31 @@ inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor
 /// Rung `full` by CVODE. The error is twice the distance to a second run at a tolerance ten times looser. Finds the stop
 /// only where it lies within the times asked for.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
-  const auto& problem = scene.problem();
-  const double tolerance = std::max(1e-13, scene.data().tolerance * 1e-5);
-  const auto run = detail::cvode_run(scene, tolerance, monitor);
-  if (run.failure != Errc::ok) return refused<Track>(run.failure, message(run.failure));
-  const auto looser = detail::cvode_run(scene, 10 * tolerance, monitor);
-  if (looser.failure != Errc::ok) return refused<Track>(looser.failure, message(looser.failure));
+  double stops[2];  // of the tighter run and of the looser one
+  double* stop = stops;
+  const auto pair = cvode_pair(Row<double>{scene.problem()}, scene.question().tolerance, 1e-5, [&](double tolerance) {
+    auto run = detail::cvode_run(scene, tolerance, monitor);
+    *stop++ = run.stop_time;
+    return run;
+  });
+  if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
-  Track track;
-  track.momentum = run.momentum;
-  track.attitude = run.attitude;
-  track.counts = run.counts;
-  track.counts += looser.counts;
-  FullMotionError<double> error;
-  double size = 0, energy = 0, spin = 0;
-  for (std::size_t i = 0; i < run.momentum.size(); ++i) {
-    const Vec3<double>&M = run.momentum[i], &L = looser.momentum[i];
-    size = std::max(size, M.norm());
-    energy = std::max(energy, problem.energy(M));
-    spin = std::max(spin, problem.angular_velocity(M).norm());
-    error.momentum = std::max(error.momentum, (M - L).norm());
-    error.momentum_norm = std::max(error.momentum_norm, std::abs(M.norm() - L.norm()));
-    error.energy = std::max(error.energy, std::abs(problem.energy(M) - problem.energy(L)));
-    error.angular_velocity =
-        std::max(error.angular_velocity, (problem.angular_velocity(M) - problem.angular_velocity(L)).norm());
-    if (!run.attitude.empty())
-      error.attitude = std::max(error.attitude,
-                                vector_from_quaternion<double>(conjugate(run.attitude[i]) * looser.attitude[i]).norm());
+  const double margin = 2;
+  auto error = pair.both.relative(margin * pair.both.difference());
+  for (std::size_t i = 0; i < column::attitude; ++i) error[i] += pair.tolerance;
+  error[column::attitude] /= margin;
+  std::vector<Vec3<double>> momentum;
+  std::vector<Quat<double>> attitude;
+  for (const State<double>& state : pair.states) {
+    momentum.push_back(state.momentum);
+    if (scene.question().wants_attitude) attitude.push_back(state.attitude);
   }
-  error.momentum = 2 * detail::relative(error.momentum, size) + tolerance;
-  error.momentum_norm = 2 * detail::relative(error.momentum_norm, size) + tolerance;
-  error.energy = 2 * detail::relative(error.energy, energy) + tolerance;
-  error.angular_velocity = 2 * detail::relative(error.angular_velocity, spin) + tolerance;
-  if (std::isfinite(run.stop_time)) {
-    track.stop_time = run.stop_time;
-    error.stop_time =
-        2 * detail::relative(std::abs(run.stop_time - looser.stop_time), run.stop_time) + 1e-8 + 1e3 * tolerance;
+  Track track = detail::track_of(scene.problem(), momentum, attitude, error);
+  track.counts = pair.counts;
+  if (std::isfinite(stops[0])) {
+    track.stop_time = stops[0];
+    track.stop_error = margin * over(std::abs(stops[0] - stops[1]), stops[0]) + 1e-8 + 1e3 * pair.tolerance;
   }
-  detail::complete_full_track(track, problem, error);
   return track;
 }
 

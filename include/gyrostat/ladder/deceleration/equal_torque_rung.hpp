@@ -14,7 +14,7 @@ Track equal_torque_track(const Scene& scene) {
   if (!scene.equal_control()) return refused<Track>(Errc::not_applicable, "the control torques are not equal");
   if (scene.has_rotor())
     return refused<Track>(Errc::not_applicable, "with rotor momentum only |M| has a closed form, not the energy");
-  if (scene.data().wants_attitude) return refused<Track>(Errc::not_applicable, "the closed form has no attitude");
+  if (scene.question().wants_attitude) return refused<Track>(Errc::not_applicable, "the closed form has no attitude");
   if (!(scene.problem().momentum.norm() > 0))
     return refused<Track>(Errc::not_applicable, "the body is at rest at the start");
 
@@ -22,21 +22,23 @@ Track equal_torque_track(const Scene& scene) {
   if (!(motion.modulus().kp2 > 0)) return refused<Track>(Errc::separatrix, "the motion starts on the separatrix");
   Track track;
   double rounding = 0;
-  for (const double t : scene.data().times) {
+  for (const double t : scene.question().times) {
     const auto now = motion.at(t);
-    track.norm.push_back(now.norm);
-    track.energy.push_back(now.norm * now.norm * motion.energy_ratio() / 2);
-    track.k2.push_back(now.norm > 0 ? motion.modulus().k2 : 0);
-    track.regime.push_back(now.norm > 0 ? motion.regime() : Regime::rest);
-    track.momentum.push_back(now.momentum);
+    State<double> state;
+    state.momentum = now.momentum;
+    state.norm = now.norm;
+    state.energy = now.norm * now.norm * motion.energy_ratio() / 2;
+    state.k2 = now.norm > 0 ? motion.modulus().k2 : 0;
+    state.regime = now.norm > 0 ? motion.regime() : Regime::rest;
+    track.states.push_back(state);
     rounding = std::max(rounding, motion.rounding(t));
   }
   track.stop_time = motion.stop_time();
   const double norm = scene.problem().momentum.norm();
-  track.norm_error = 8 * epsilon<double> * norm;
-  track.energy_error = 16 * epsilon<double> * norm * norm * motion.energy_ratio() / 2;
-  track.k2_error = 16 * epsilon<double>;
-  track.momentum_error = rounding * norm;
+  track.error[column::angular_momentum_norm] = 8 * epsilon<double> * norm;
+  track.error[column::energy] = 16 * epsilon<double> * norm * norm * motion.energy_ratio() / 2;
+  track.error[column::modulus_squared] = 16 * epsilon<double>;
+  track.know_momentum(scene.problem(), rounding * norm);
   track.stop_error = 8 * epsilon<double>;
   return track;
 }

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +10,10 @@
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/comparison.hpp"
+#include "gyrostat/ladder/deceleration/motion.hpp"
+#include "gyrostat/ladder/full_motion.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/deceleration/full.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
@@ -23,38 +25,18 @@
 namespace gyrostat::deceleration {
 
 template <Real Scalar>
-struct FullMotionOptions {
-  Scalar tolerance = Scalar(1e-9L);  ///< greatest error wanted in any column, as FullMotionError measures it
-  bool find_stop = true;             ///< go on behind the last time until the stop, if there is one
-  std::uint64_t step_cap = 100'000'000;
-  std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
-  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
+struct FullMotionOptions : MotionOptions<Scalar> {
+  bool find_stop = true;  ///< go on behind the last time until the stop, if there is one
 };
 
-/// Estimated greatest errors over the times, each relative to the greatest norm of its column over the times; attitude: the angle, rad.
+/// `error`: modulus and regime are no part of it, and have 0.
 template <Real Scalar>
-struct FullMotionError {
-  Scalar momentum = 0;
-  Scalar momentum_norm = 0;
-  Scalar energy = 0;
-  Scalar angular_velocity = 0;
-  Scalar attitude = 0;
-  Scalar stop_time = 0;
-
-  Scalar greatest() const noexcept {
-    return std::max({momentum, momentum_norm, energy, angular_velocity, attitude, stop_time});
-  }
-};
-
-template <Real Scalar>
-struct FullMotionAnswer {
-  ode::Status status = ode::Status::reached;
+struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
   /// When U = 0 is reached and held, s; infinity if never; NaN if it was not looked for or the integration ended before.
   Scalar stop_time = nan<Scalar>;
-  bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
-  FullMotionError<Scalar> error;
-  ode::Counts counts;         ///< of all runs, the companion's included
-  Scalar step_tolerance = 0;  ///< of the Taylor steps that gave the answer
+  Scalar stop_error = 0;  ///< of the stop time, relative
+
+  Scalar greatest_error() const noexcept { return greater(stop_error, this->error.greatest()); }
 };
 
 /// How the control acts at U = 0, where its torque can be any -control n with |n| <= 1 (Filippov).
@@ -115,6 +97,17 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
                                              std::span<Quat<Scalar>> attitude = {}) noexcept;
 
 namespace detail {
+
+/// But for modulus and regime, which the equations do not need.
+template <Real Scalar>
+State<Scalar> state_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
+  State<Scalar> state;
+  state.momentum = M;
+  state.norm = M.norm();
+  state.energy = problem.energy(M);
+  state.attitude = q;
+  return state;
+}
 
 /// One run: hands (index, M, q) of every time to the sink, in order.
 template <Real Scalar, bool with_control, bool with_attitude>
@@ -204,7 +197,7 @@ class FullRun {
         }
       }
       if ((++trips & 255U) == 0) {
-        if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) {
+        if (options_.cancelled()) {
           status = Status::cancelled;
           break;
         }
@@ -286,10 +279,7 @@ class FullRun {
   }
 
   void report(double done) const noexcept {
-    if (options_.progress != nullptr) {
-      options_.progress->store(progress_from_ + std::clamp(done, 0.0, 1.0) * (progress_to_ - progress_from_),
-                               std::memory_order_relaxed);
-    }
+    options_.report(progress_from_ + std::clamp(done, 0.0, 1.0) * (progress_to_ - progress_from_));
   }
 
   const Problem<Scalar>& problem_;
@@ -314,42 +304,26 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
                                                 double progress_to) noexcept {
   using Run = FullRun<Scalar, with_control, with_attitude>;
   constexpr Scalar eps = epsilon<Scalar>;
+  constexpr auto& how = honesty::deceleration_run;
   FullMotionAnswer<Scalar> answer;
   answer.step_tolerance = step_tolerance;
-  const double middle = progress_from + 0.55 * (progress_to - progress_from);
+  const double middle = progress_from + honesty::answers_share * (progress_to - progress_from);
 
-  Scalar momentum_scale = 0, energy_scale = 0, velocity_scale = 0;
   Run run(problem, start_attitude, step_tolerance, Scalar(0.3L), options, progress_from, middle);
   answer.status = run(times, [&](std::size_t i, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
     momentum[i] = M;
     if constexpr (with_attitude) attitude[i] = q;
-    momentum_scale = std::max(momentum_scale, M.norm());
-    energy_scale = std::max(energy_scale, problem.energy(M));
-    velocity_scale = std::max(velocity_scale, problem.angular_velocity(M).norm());
   });
   answer.stop_time = run.stop_time();
   answer.counts = run.counts();
   if (answer.status != ode::Status::reached) return answer;
 
-  constexpr Scalar looser = 64;
-  // where rounding rules both runs err alike and their distance may be small by chance
-  const Scalar margin = step_tolerance < 16 * eps ? 6 : 3;
-  Run companion(problem, start_attitude, std::max(step_tolerance * looser, 32 * eps), Scalar(0.45L), options, middle,
-                progress_to);
-  Scalar vector = 0, norm = 0, energy = 0, velocity = 0, angle = 0;
+  const Scalar margin = Scalar(step_tolerance < Scalar(how.two_below) * eps ? how.margin_of_rounding : how.margin);
+  const Scalar looser = std::max(step_tolerance * Scalar(how.looser), Scalar(how.least_loose) * eps);
+  Run companion(problem, start_attitude, looser, Scalar(0.45L), options, middle, progress_to);
+  Comparison both(Row<Scalar>{problem});
   const auto status = companion(times, [&](std::size_t i, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
-    const Vec3<Scalar> d = M - momentum[i];
-    const auto worst = [](Scalar& w, Scalar value) noexcept { w = value > w || !(value == value) ? value : w; };
-    worst(vector, d.norm());
-    worst(norm, std::abs(M.norm() - momentum[i].norm()));
-    worst(energy, std::abs(problem.energy(M) - problem.energy(momentum[i])));
-    worst(velocity, problem.inverse_inertia.cwiseProduct(d).norm());
-    if constexpr (with_attitude) {
-      const Quat<Scalar>& p = attitude[i];
-      const Scalar same = std::hypot(std::hypot(p.w - q.w, p.x - q.x), std::hypot(p.y - q.y, p.z - q.z));
-      const Scalar opposite = std::hypot(std::hypot(p.w + q.w, p.x + q.x), std::hypot(p.y + q.y, p.z + q.z));
-      worst(angle, 4 * std::asin(std::min(Scalar(1), std::min(same, opposite) / 2)));
-    }
+    both.add(state_of(problem, momentum[i], with_attitude ? attitude[i] : q), state_of(problem, M, q));
   });
   answer.counts += companion.counts();
   if (status != ode::Status::reached) {
@@ -363,48 +337,27 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
   // way into the recurrences, a relative change of all rates by about a rounding, which turns the phase.
   const Scalar rounding = 4 * eps + walk + 2 * step_tolerance;
   const Scalar phase_error = rounding + eps * run.phase();
-  const Scalar momentum_size = momentum_scale + problem.rotor_momentum.norm();
-  const auto relative = [](Scalar difference, Scalar scale) noexcept {
-    return difference == 0 ? Scalar(0) : difference / (scale > 0 ? scale : std::numeric_limits<Scalar>::min());
-  };
-  auto& error = answer.error;
-  error.momentum = relative(margin * vector + phase_error * momentum_size, momentum_scale);
-  error.momentum_norm = relative(margin * norm + rounding * momentum_size, momentum_scale);
-  error.energy = relative(margin * energy + rounding * momentum_size * velocity_scale, energy_scale);
-  error.angular_velocity =
-      relative(margin * velocity + phase_error * momentum_size * problem.inverse_inertia[2], velocity_scale);
-  if constexpr (with_attitude) error.attitude = margin * angle + 4 * phase_error;
-  if (answer.stop_time < infinity<Scalar>) {
-    error.stop_time = answer.stop_time > 0
-                          ? 4 * margin * std::abs(companion.stop_time() - answer.stop_time) / answer.stop_time +
-                                2 * step_tolerance + Scalar(2e-13L) * std::max(Scalar(1), eps / Scalar(1e-15L))
-                          : Scalar(0);
+  const Scalar size = both.size()[column::angular_momentum] + problem.rotor_momentum.norm();
+  ColumnErrors<Scalar> shared;
+  shared[column::angular_momentum] = phase_error * size;
+  shared[column::angular_velocity] = phase_error * size * problem.inverse_inertia[2];
+  shared[column::angular_momentum_norm] = rounding * size;
+  shared[column::energy] = rounding * size * both.size()[column::angular_velocity];
+  if constexpr (with_attitude) shared[column::attitude] = 4 * phase_error;
+  answer.error = both.relative(margin * both.difference() + shared);
+  if (answer.stop_time > 0 && answer.stop_time < infinity<Scalar>) {
+    answer.stop_error =
+        Scalar(honesty::stop_margin) * margin * std::abs(companion.stop_time() - answer.stop_time) / answer.stop_time +
+        2 * step_tolerance + Scalar(2e-13L) * std::max(Scalar(1), eps / Scalar(1e-15L));
   }
-  answer.met = error.greatest() <= options.tolerance;
+  answer.met = answer.greatest_error() <= options.tolerance;
   return answer;
 }
 
-}  // namespace detail
-
+/// The error of |U| grows with the number of turns, that of the phase with its square.
 template <Real Scalar>
-Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
-                                             std::span<Vec3<Scalar>> momentum, const FullMotionOptions<Scalar>& options,
-                                             const Quat<Scalar>* start_attitude,
-                                             std::span<Quat<Scalar>> attitude) noexcept {
-  if (momentum.size() != times.size()) return Errc::out_of_domain;
-  if (start_attitude != nullptr && attitude.size() != times.size()) return Errc::out_of_domain;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
-    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
-  }
-  const auto finite = [](const auto& m) noexcept { return (m - m).isZero(0); };
-  if (!finite(problem.inverse_inertia) || !finite(problem.rotor_momentum) || !finite(problem.control) ||
-      !finite(problem.momentum) || !(std::abs(problem.drag) < infinity<Scalar>) ||
-      !(options.tolerance == options.tolerance)) {
-    return Errc::not_finite;
-  }
-
-  // First guess of the step tolerance. The error of |U| grows with the number of turns, that of the phase with its square.
+Scalar first_step_tolerance(const Problem<Scalar>& problem, std::span<const Scalar> times,
+                            const FullMotionOptions<Scalar>& options) noexcept {
   const FullCoefficients<Scalar> coefficients(problem);
   const Hold<Scalar> hold(problem);
   const Scalar size = (problem.momentum - coefficients.offset).norm();
@@ -416,13 +369,32 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   const Scalar phase = span * (coefficients.quadratic.cwiseAbs().maxCoeff() * size + coefficients.linear.norm() +
                                coefficients.rate.norm());
   constexpr Scalar finest = finest_step_tolerance<Scalar>;
-  Scalar step_tolerance = options.tolerance / 64 / (4 + Scalar(2e-4L) * phase * phase);
-  step_tolerance = std::clamp(step_tolerance, finest, Scalar(1e-8L));
-  if (!(step_tolerance >= finest)) step_tolerance = finest;
+  const Scalar first = options.tolerance * Scalar(honesty::first_share) /
+                       (Scalar(honesty::drifting_base) + Scalar(honesty::drifting_phase) * phase * phase);
+  return first >= finest ? std::min(first, Scalar(honesty::loosest_step)) : finest;
+}
 
+}  // namespace detail
+
+template <Real Scalar>
+Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
+                                             std::span<Vec3<Scalar>> momentum, const FullMotionOptions<Scalar>& options,
+                                             const Quat<Scalar>* start_attitude,
+                                             std::span<Quat<Scalar>> attitude) noexcept {
+  if (momentum.size() != times.size()) return Errc::out_of_domain;
+  if (start_attitude != nullptr && attitude.size() != times.size()) return Errc::out_of_domain;
+  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
+  const auto finite = [](const auto& m) noexcept { return (m - m).isZero(0); };
+  if (!finite(problem.inverse_inertia) || !finite(problem.rotor_momentum) || !finite(problem.control) ||
+      !finite(problem.momentum) || !(std::abs(problem.drag) < infinity<Scalar>) ||
+      !(options.tolerance == options.tolerance)) {
+    return Errc::not_finite;
+  }
+
+  const Scalar step_tolerance = detail::first_step_tolerance(problem, times, options);
   const bool with_control = !problem.control.isZero(0);
   const Quat<Scalar> q = start_attitude != nullptr ? *start_attitude : Quat<Scalar>{};
-  return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, double begin, double end) noexcept {
+  return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
     const auto once = [&]<bool control, bool turning>() noexcept {
       return detail::full_motion_with_error<Scalar, control, turning>(problem, times, momentum, options, q, attitude,
                                                                       tolerance, begin, end);

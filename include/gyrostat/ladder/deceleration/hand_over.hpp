@@ -13,7 +13,7 @@ namespace gyrostat::deceleration {
 /// How many breakdown momenta are left when the full equations take over from the averaged ones: the later, the less the
 /// mean equations err there and the more turns the full ones make.
 inline double hand_over_share(const Scene& scene) noexcept {
-  return std::clamp(std::pow(scene.data().tolerance, -0.25), 8.0, 100.0);
+  return std::clamp(std::pow(scene.question().tolerance, -0.25), 8.0, 100.0);
 }
 
 namespace detail {
@@ -32,19 +32,20 @@ inline double opposed_error(const Problem<double>& problem, const SlowError<doub
 /// that starts as far away along its orbit as the phase may be wrong.
 inline Errc hand_over(Track& track, const Scene& scene, const Vec3<double>& M, double begin,
                       const SlowError<double>& error, Monitor* monitor) {
-  const auto& times = scene.data().times;
+  const auto& times = scene.question().times;
+  const double tolerance = scene.question().tolerance;
   Problem<double> problem = scene.problem();
   problem.momentum = M;
-  std::vector<double> rest(times.begin() + std::ptrdiff_t(track.momentum.size()), times.end());
+  std::vector<double> rest(times.begin() + std::ptrdiff_t(track.states.size()), times.end());
   for (double& t : rest) t = std::max(0.0, t - begin);
   // What the control opposes is late by its own error over the weakest control.
   const double late =
       detail::opposed_error(problem, error, (M - problem.rotor_momentum).norm()) / final_torque(scene).least;
-  if (rest.empty() && scene.data().model == Model::any && late > scene.data().tolerance * 2 * begin) {
-    track.warn("stop-withheld", "the stop lies behind the times asked for and its time would miss the tolerance");
+  if (rest.empty() && scene.question().rung == any_rung && late > tolerance * 2 * begin) {
+    track.warn(warning::stop_withheld);
     return Errc::ok;
   }
-  const auto solve = [&] { return full_motion_track(problem, rest, scene.data().tolerance, true, nullptr, monitor); };
+  const auto solve = [&] { return full_motion_track(problem, rest, tolerance, true, nullptr, monitor); };
   const Track full = solve();
   if (full.failure != Errc::ok) return full.failure;
   const Vec3<double> flow = cross<double>(M, problem.angular_velocity(M));
@@ -58,26 +59,24 @@ inline Errc hand_over(Track& track, const Scene& scene, const Vec3<double>& M, d
         (late + 2 * std::abs(full.stop_time - near.stop_time) + full.stop_error * full.stop_time) / track.stop_time;
   }
   if (!rest.empty()) {
-    double vector = 0, norm = 0, energy = 0, k2 = 0;
+    Comparison both(Row<double>{problem});
+    double k2 = 0;
     for (std::size_t i = 0; i < rest.size(); ++i) {
-      vector = std::max(vector, (full.momentum[i] - near.momentum[i]).norm());
-      norm = std::max(norm, std::abs(full.norm[i] - near.norm[i]));
-      energy = std::max(energy, std::abs(full.energy[i] - near.energy[i]));
-      k2 = std::max(k2, full.regime[i] == near.regime[i] ? std::abs(full.k2[i] - near.k2[i]) : 1.0);
+      both.add(full.states[i], near.states[i]);
+      if (full.states[i].regime != near.states[i].regime) k2 = 1;
     }
-    const double spin = problem.angular_velocity(M).norm();
-    track.norm_error = std::max(track.norm_error, error.norm + 2 * norm + full.norm_error);
-    track.energy_error =
-        std::max(track.energy_error, error.norm * spin + error.energy + 2 * energy + full.energy_error);
-    track.k2_error = std::min(1.0, std::max(track.k2_error, error.k2 + 2 * k2 + full.k2_error));
-    track.momentum_error = std::max(track.momentum_error, error.vector + 2 * vector + full.momentum_error);
+    ColumnErrors<double> grown = 2 * both.difference();
+    grown[column::modulus_squared] = std::max(grown[column::modulus_squared], 2 * k2);
+    grown += full.error;
+    grown[column::angular_momentum] += error.vector;
+    grown[column::angular_momentum_norm] += error.norm;
+    grown[column::energy] += error.norm * problem.angular_velocity(M).norm() + error.energy;
+    grown[column::modulus_squared] += error.k2;
+    track.error.raise(grown);
+    track.error[column::modulus_squared] = std::min(1.0, track.error[column::modulus_squared]);
+    track.know_momentum(problem, track.error[column::angular_momentum]);
   }
-  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  append(track.norm, full.norm);
-  append(track.energy, full.energy);
-  append(track.k2, full.k2);
-  append(track.regime, full.regime);
-  append(track.momentum, full.momentum);
+  track.states.insert(track.states.end(), full.states.begin(), full.states.end());
   track.counts += full.counts;
   track.counts += near.counts;
   return Errc::ok;

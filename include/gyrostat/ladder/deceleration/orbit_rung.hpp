@@ -125,47 +125,27 @@ inline double orbit_breakdown(const Problem<double>& problem, double greatest_co
   return turn > 0 ? std::min(free, greatest_control / turn) : free;
 }
 
-inline void keep_sample(Track& track, const Problem<double>& problem, const Level<double>& level, Component component,
-                        bool at_rest) {
+inline State<double> slow_state(const Problem<double>& problem, const Level<double>& level, Component component,
+                                bool at_rest) {
+  State<double> state;
   if (at_rest) {
-    const double R = problem.law == Law::total ? 0.0 : problem.rotor_momentum.norm();
-    track.norm.push_back(R);
-    track.energy.push_back(problem.law == Law::total ? problem.rotor_energy_scale() / 2 : 0.0);
-    track.k2.push_back(0);
-    track.regime.push_back(Regime::rest);
-    return;
+    state.norm = problem.law == Law::total ? 0.0 : problem.rotor_momentum.norm();
+    state.energy = problem.law == Law::total ? problem.rotor_energy_scale() / 2 : 0.0;
+    return state;
   }
   const auto orbit = Orbit<double>::at(problem, level, component);
-  track.norm.push_back(level.R);
-  track.energy.push_back(std::max(0.0, energy_of(problem, level)));
-  track.k2.push_back(orbit ? orbit->modulus().k2 : nan<double>);
-  track.regime.push_back(orbit ? orbit->regime() : component.regime);
+  state.norm = level.R;
+  state.energy = std::max(0.0, energy_of(problem, level));
+  state.k2 = orbit ? orbit->modulus().k2 : nan<double>;
+  state.regime = orbit ? orbit->regime() : component.regime;
+  return state;
 }
 
-inline void keep_osculating(Track& track, const Problem<double>& problem, const Vec3<double>& M) {
-  const OrbitKind kind = orbit_kind(problem, M);
-  track.norm.push_back(M.norm());
-  track.energy.push_back(problem.energy(M));
-  track.k2.push_back(kind.k2);
-  track.regime.push_back(kind.regime);
-  track.momentum.push_back(M);
-}
+/// Two moments nearer each other than this gap: the body librates slowly.
+inline constexpr double narrow_gap = 1e-3;
 
-/// Two moments so near each other that the body librates slowly.
-inline bool nearly_symmetric(const Problem<double>& problem) noexcept {
-  const auto& a = problem.inverse_inertia;
-  return std::min(a[1] - a[0], a[2] - a[1]) < 1e-3 * (a[2] - a[0]);
-}
-
-inline void warn_of_orbit(Track& track, const Scene& scene, const Orbit<double>& orbit) {
-  const auto& a = scene.problem().inverse_inertia;
-  const double mu = small_parameter(scene);
-  if (mu > 0.1) track.warn("not-slow", "the torque stops the body within a few turns: averaging has no meaning", mu);
-  const double gap = std::min(a[1] - a[0], a[2] - a[1]) / (a[2] - a[0]);
-  if (nearly_symmetric(scene.problem()))
-    track.warn("near-symmetric", "two moments of inertia are nearly equal: the libration is slow", gap);
-  if (orbit.modulus().kp2 < std::max(1e-2, 10 * mu))
-    track.warn("near-separatrix", "the orbit starts near a separatrix", orbit.modulus().kp2);
+inline void warn_of_start(Track& track, const Scene& scene, const Orbit<double>& orbit) {
+  warn_of_start(track, small_parameter(scene), symmetry_gap(scene.problem()), narrow_gap, orbit.modulus().kp2);
 }
 
 /// Why a mean motion cannot be followed on, and the chance of the likelier lobe where it is captured (NaN elsewhere).
@@ -217,19 +197,20 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   };
   OrbitMotion<FirstOrderRates<Elliptic>, double> motion(problem, orbit->level(), orbit->component(), 0,
                                                         AveragedRun<Elliptic>::tolerance_of(scene), infinity<double>);
-  for (const double t : scene.data().times) {
+  for (const double t : scene.question().times) {
     if (motion.advance(t, 0, visit) != ode::Status::reached)
       return detail::not_followed(detail::impasse(problem, motion).code);
     const auto now = motion.sample();
     if (!std::isfinite(now.level.R)) return detail::not_followed(Errc::separatrix);
-    detail::keep_sample(track, problem, now.level, now.component, now.at_rest);
+    track.states.push_back(detail::slow_state(problem, now.level, now.component, now.at_rest));
   }
-  const double end = scene.data().times.back();
+  const double end = scene.question().times.back();
   const auto in_span = error.first_order();
   const double local = 10 * AveragedRun<Elliptic>::tolerance_of(scene);
-  track.norm_error = in_span.norm + local * problem.momentum.norm();
-  track.energy_error = in_span.energy + local * *std::max_element(track.energy.begin(), track.energy.end());
-  track.k2_error = in_span.k2 + local;
+  double energy = 0;
+  for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
+  detail::state_errors(
+      track, {in_span.norm + local * problem.momentum.norm(), in_span.energy + local * energy, in_span.k2 + local, 0});
 
   const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
   if (!Hold<double>(problem).holds) {
@@ -242,23 +223,19 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     const double late = detail::opposed_error(problem, error.first_order(), carrier) / torque.least;
     // The law of the carrier ends where its averages are differences of large numbers; with a slow libration as well
     // they tell nothing of the stop.
-    const bool slow = detail::nearly_symmetric(problem);
+    const bool slow = detail::symmetry_gap(problem) < detail::narrow_gap;
     const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
     track.stop_error = doubt * (tail + late) / *stop + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene);
   } else if (const auto why = detail::impasse(problem, motion); why.code == Errc::undetermined) {
-    track.warn("capture-undetermined",
-               "after the asked times the motion is captured into one of two lobes, the likelier one with this chance: "
-               "no stop time",
-               why.chance);
+    track.warn(warning::capture_undetermined, why.chance);
   } else {
-    track.warn("stop-unknown", "after the asked times the mean equations do not reach the stop");
+    track.warn(warning::stop_unknown);
   }
-  if (end >= track.stop_time || motion.changed_component()) track.k2_error = 1;
-  if (motion.changed_component())
-    track.warn("crosses-separatrix", "the motion passes from one kind of orbit to another");
+  if (end >= track.stop_time || motion.changed_component()) track.error[column::modulus_squared] = 1;
+  if (motion.changed_component()) track.warn(warning::crosses_separatrix);
   track.in_domain = error.known() && small_parameter(scene) < 0.1;
   track.counts = motion.counts();
-  detail::warn_of_orbit(track, scene, *orbit);
+  detail::warn_of_start(track, scene, *orbit);
   withhold(track, scene);
   return track;
 }
@@ -277,63 +254,62 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
 
   const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
   const double floor = hand_over_share(scene) * breakdown;
-  const Vec3<double> U =
-      problem.law == Law::total ? problem.momentum : Vec3<double>(problem.momentum - problem.rotor_momentum);
-  if (!(floor < U.norm() / 2))
+  const double opposed = scene.opposed().norm();
+  if (!(floor < opposed / 2))
     return refused<Track>(Errc::not_applicable,
                           "the braking is too fast: averaging would hand over to the full equations at the start");
-  const double turns = U.norm() / std::max(scene.greatest_control(), 1e-300) / orbit.period();
-  if (scene.data().model == Model::any && turns < 1000)
+  const double turns = opposed / std::max(scene.greatest_control(), 1e-300) / orbit.period();
+  if (scene.question().rung == any_rung && turns < 1000)
     return refused<Track>(Errc::not_applicable, "the full equations are cheaper: the braking takes few turns");
 
   Track track;
   OrbitError<Elliptic> error(problem);
   const auto visit = [&](const Level<double>& level, Component component, double t) {
     error.visit(level, component, t);
-    if (monitor) monitor->fraction.store(std::min(1.0, t / scene.data().times.back()), std::memory_order_relaxed);
+    if (monitor) monitor->fraction.store(std::min(1.0, t / scene.question().times.back()), std::memory_order_relaxed);
   };
   using Rates = SecondOrderRates<Elliptic, double>;
   // f2 is a difference of neighbouring orbits: below its noise a tighter tolerance only costs steps.
   const double tolerance = std::max(1e-9, AveragedRun<Elliptic>::tolerance_of(scene));
-  const double phase_error = std::max(1e-6, scene.data().tolerance * 1e-2);
+  const double phase_error = std::max(1e-6, scene.question().tolerance * 1e-2);
   OrbitMotion<Rates, double> motion(problem, mean->level, mean->component, mean->phase, tolerance, phase_error,
                                     Rates{orbit});
-  const auto& times = scene.data().times;
-  std::size_t done = 0;
-  for (; done < times.size(); ++done) {
-    if (motion.advance(times[done], floor, visit) != ode::Status::reached)
+  const auto& times = scene.question().times;
+  while (track.states.size() < times.size()) {
+    if (motion.advance(times[track.states.size()], floor, visit) != ode::Status::reached)
       return detail::not_followed(detail::impasse(problem, motion).code);
     if (motion.floored()) break;
     const auto now = motion.sample();
     const auto M = osculating_of<Elliptic>(problem, {now.level, now.phase, now.component}, &motion.rates().reference);
     if (!M) return detail::not_followed(M.error());
-    detail::keep_osculating(track, problem, *M);
+    track.states.push_back(detail::state_on_orbit(problem, *M));
   }
   const auto in_span = error.second_order_error(), oscillating = error.first_order();
   const double local = 10 * tolerance, norm0 = problem.momentum.norm();
   const double lag = 10 * phase_error + local * std::abs(motion.sample().phase);  // turns
-  track.norm_error = in_span.norm + local * norm0 + lag * oscillating.norm;
-  track.energy_error = in_span.energy + local * problem.energy(problem.momentum) + lag * oscillating.energy;
-  track.k2_error = in_span.k2 + local + lag * oscillating.k2;
-  track.momentum_error = in_span.vector + (local + 6 * lag) * norm0;
+  detail::state_errors(track, {in_span.norm + local * norm0 + lag * oscillating.norm,
+                               in_span.energy + local * problem.energy(problem.momentum) + lag * oscillating.energy,
+                               in_span.k2 + local + lag * oscillating.k2, 0});
+  track.know_momentum(problem, in_span.vector + (local + 6 * lag) * norm0);
   track.counts = motion.counts();
   if (motion.rates().phase_lost || motion.changed_component())
     return refused<Track>(Errc::not_applicable, "the kind of orbit changes: the phase is lost, and M with it");
   if (!error.known()) return refused<Track>(Errc::no_convergence, "the size of the second order is not known");
-  detail::warn_of_orbit(track, scene, Orbit<double>::through(problem, problem.momentum).value());
+  detail::warn_of_start(track, scene, Orbit<double>::through(problem, problem.momentum).value());
 
   if (!(scene.greatest_control() > 0)) {
     track.stop_time = infinity<double>;
     return track;
   }
-  const bool in_time = done == times.size();
+  const bool in_time = track.states.size() == times.size();
   const auto reached = motion.advance(infinity<double>, floor, visit);
   const bool lost = motion.rates().phase_lost || motion.changed_component();
   if (reached != ode::Status::reached || lost) {
     if (!in_time)
       return reached != ode::Status::reached ? detail::not_followed(detail::impasse(problem, motion).code)
                                              : detail::not_followed(Errc::separatrix);
-    track.warn("crosses-separatrix", "after the asked times the kind of orbit changes: no stop time");
+    track.warn(warning::crosses_separatrix, nan<double>,
+               "after the asked times the kind of orbit changes: no stop time");
     return track;
   }
   const auto now = motion.sample();

@@ -1,39 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "gyrostat/body/inertia.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/monitor.hpp"
-#include "gyrostat/ladder/times.hpp"
+#include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 
 namespace gyrostat::deceleration {
 
-/// Which rung answers; `any` climbs the ladder.
-enum class Model : std::uint8_t { any, equal_torque, averaged, averaged_2, full };
-
 struct Track;
-class Scene;
 
-/// The user's view of a scene, in body axes and SI units. Defaults describe a body left alone.
-struct SceneData {
+/// What acts on the body and how it starts, in body axes. Defaults describe a body left alone.
+struct Setup {
   Vec3<double> rotor_momentum{0, 0, 0};  ///< l, relative to the carrier, N m s
   Vec3<double> control{0, 0, 0};         ///< eps b along the body axes, >= 0, N m
   double drag = 0;                       ///< eps lambda, >= 0, 1/s
   Law law = Law::total, drag_law = Law::total;
   Vec3<double> momentum{0, 0, 0};  ///< M at t = 0, N m s
-  bool wants_attitude = false;
-  Quat<double> attitude{};    ///< body to inertial at t = 0, of unit norm
-  std::vector<double> times;  ///< s, increasing, the first >= 0
-  double tolerance = 1e-6;
-  Model model = Model::any;
-  /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
-  Track (*full_equations)(const Scene&, Monitor*) = nullptr;
+  Quat<double> attitude{};         ///< body to inertial at t = 0, of unit norm
 };
 
 /// A valid scene: the problem in principal axes and the way back to the body axes.
@@ -42,34 +31,50 @@ class Scene {
   Scene() = default;
 
   /// not_finite, negative (control, drag), zero_vector (an attitude without length), and what check_times finds.
-  static Result<Scene> make(const Inertia<double>& body, const SceneData& data) {
-    if (!data.rotor_momentum.allFinite() || !data.control.allFinite() || !std::isfinite(data.drag) ||
-        !data.momentum.allFinite())
+  static Result<Scene> make(const Inertia<double>& body, const Setup& setup, const Question& question) {
+    if (!setup.rotor_momentum.allFinite() || !setup.control.allFinite() || !std::isfinite(setup.drag) ||
+        !setup.momentum.allFinite())
       return Errc::not_finite;
-    if (data.control.minCoeff() < 0 || data.drag < 0) return Errc::negative;
-    if (const Errc wrong = check_times(data.times, data.tolerance); wrong != Errc::ok) return wrong;
-    const double length = norm(data.attitude);
+    if (setup.control.minCoeff() < 0 || setup.drag < 0) return Errc::negative;
+    if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
+    const double length = norm(setup.attitude);
     if (!std::isfinite(length)) return Errc::not_finite;
     if (!(length > 0)) return Errc::zero_vector;
 
     Scene scene;
-    scene.data_ = data;
+    scene.setup_ = setup;
+    scene.question_ = question;
     scene.R_BP_ = body.R_BP();
     const Mat3<double> R_PB = scene.R_BP_.transpose();
     scene.problem_.inverse_inertia = body.inverse_principal();
-    scene.problem_.rotor_momentum = R_PB * data.rotor_momentum;
-    scene.problem_.control = R_PB * data.control.asDiagonal() * scene.R_BP_;
-    scene.problem_.drag = data.drag;
-    scene.problem_.law = data.law;
-    scene.problem_.drag_law = data.drag_law;
-    scene.problem_.momentum = R_PB * data.momentum;
+    scene.problem_.rotor_momentum = R_PB * setup.rotor_momentum;
+    scene.problem_.control = R_PB * setup.control.asDiagonal() * scene.R_BP_;
+    scene.problem_.drag = setup.drag;
+    scene.problem_.law = setup.law;
+    scene.problem_.drag_law = setup.drag_law;
+    scene.problem_.momentum = R_PB * setup.momentum;
     return scene;
   }
 
+  /// The same motion, asked otherwise; `question` must be one that make would take.
+  Scene asked(const Question& question) const {
+    Scene other = *this;
+    other.question_ = question;
+    return other;
+  }
+
   const Problem<double>& problem() const noexcept { return problem_; }
-  const SceneData& data() const noexcept { return data_; }
+  const Setup& setup() const noexcept { return setup_; }
+  const Question& question() const noexcept { return question_; }
   const Mat3<double>& R_BP() const noexcept { return R_BP_; }  ///< principal axes to body axes
 
+  /// Principal axes to inertial at t = 0.
+  Quat<double> attitude() const noexcept { return setup_.attitude * from_matrix(R_BP_); }
+  /// What the control opposes at t = 0, M or J omega, N m s.
+  Vec3<double> opposed() const noexcept {
+    const auto& p = problem_;
+    return p.law == Law::total ? p.momentum : Vec3<double>(p.momentum - p.rotor_momentum);
+  }
   bool has_rotor() const noexcept { return problem_.rotor_momentum.squaredNorm() > 0; }
   bool sphere() const noexcept { return problem_.inverse_inertia[0] == problem_.inverse_inertia[2]; }
   /// The control torques act along the principal axes.
@@ -79,15 +84,20 @@ class Scene {
   }
   /// One control torque for all axes (none counts as equal).
   bool equal_control() const noexcept {
-    return data_.control[0] == data_.control[1] && data_.control[1] == data_.control[2];
+    return setup_.control[0] == setup_.control[1] && setup_.control[1] == setup_.control[2];
   }
-  double greatest_control() const noexcept { return data_.control.maxCoeff(); }
-  double least_control() const noexcept { return data_.control.minCoeff(); }
+  double greatest_control() const noexcept { return setup_.control.maxCoeff(); }
+  double least_control() const noexcept { return setup_.control.minCoeff(); }
 
  private:
   Problem<double> problem_;
-  SceneData data_;
+  Setup setup_;
+  Question question_;
   Mat3<double> R_BP_ = Mat3<double>::Identity();
+
+ public:
+  /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
+  Track (*full_equations)(const Scene&, Monitor*) = nullptr;
 };
 
 /// Bounds of the rate at which the control brings down what it opposes near the goal, N m: a drag that acts on the other

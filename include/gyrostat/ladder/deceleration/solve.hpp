@@ -7,9 +7,6 @@
 
 namespace gyrostat::deceleration {
 
-/// Position of a model in the ladder, -1 for any.
-inline int rung_of(Model model) noexcept { return int(model) - 1; }
-
 /// Answers a scene with the cheapest rung whose own error estimate meets the tolerance: equal-torque, averaged, averaged-2, full.
 /// Where no rung answers, the refusal says why and the answer holds only what was tried. The compiled library holds that for
 /// math::Native; solve_definition.hpp makes it for other elliptic functions.

@@ -38,42 +38,36 @@ inline double separatrix_distance(const Scene& scene) noexcept {
   return band ? band->separatrix_distance() : nan<double>;
 }
 
+}  // namespace detail
+
 /// Numbers and warnings that belong to the scene, whichever rung answers.
-template <class Elliptic>
-void describe(Answer& answer, const Scene& scene) {
+inline void describe(Answer& answer, const Scene& scene, const Track&) {
   const auto& problem = scene.problem();
   const bool control = scene.greatest_control() > 0;
   const bool total = problem.law == Law::total;
   const Vec3<double> end = total ? Vec3<double>(scene.R_BP() * -problem.gyro_rate()) : Vec3<double>(0, 0, 0);
-  if (control) answer.quantities.push_back({"final_angular_velocity", 3, {end[0], end[1], end[2]}});
-  answer.quantities.push_back({"small_parameter", 1, {small_parameter(scene)}});
-  answer.quantities.push_back({"separatrix_distance", 1, {separatrix_distance(scene)}});
-
-  const auto warn = [&](const char* code, const char* text, double value) {
-    answer.warnings.push_back({code, text, value});
+  const auto tell = [&](std::size_t which, std::array<double, 3> values) {
+    answer.quantities.push_back({&scalar_kinds[which], values});
   };
-  if (!control) warn("no-control", "no control torque acts: the motion decays at best, and never stops", nan<double>);
-  else if (!Hold<double>(problem).holds)
-    warn("does-not-stop", "the control cannot hold the carrier at rest against the drag of the stored momentum",
-         problem.drag * problem.rotor_momentum.norm());
-  else if (total && scene.has_rotor())
-    warn("does-not-stop", "the law brings M to zero, not the carrier to rest: it ends turning at -J^-1 l",
-         problem.gyro_rate().norm());
-}
+  if (control) tell(scalar::final_angular_velocity, {end[0], end[1], end[2]});
+  tell(scalar::small_parameter, {small_parameter(scene)});
+  tell(scalar::separatrix_distance, {detail::separatrix_distance(scene)});
 
-}  // namespace detail
+  const auto warn = [&](std::size_t which, double value, const char* text = nullptr) {
+    answer.warnings.push_back({&warning_kinds[which], text ? text : warning_kinds[which].text, value});
+  };
+  if (!control) warn(warning::no_control, nan<double>);
+  else if (!Hold<double>(problem).holds)
+    warn(warning::does_not_stop, problem.drag * problem.rotor_momentum.norm(),
+         "the control cannot hold the carrier at rest against the drag of the stored momentum");
+  else if (total && scene.has_rotor()) warn(warning::does_not_stop, problem.gyro_rate().norm());
+}
 
 template <class Elliptic>
 Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
-  using DecelerationRung = Rung<Scene, Track>;
-  static constexpr std::array<DecelerationRung, 4> rungs{{{"equal-torque", &detail::equal_torque<Elliptic>},
-                                                          {"averaged", &detail::averaged<Elliptic>},
-                                                          {"averaged-2", &detail::averaged_2<Elliptic>},
-                                                          {"full", &full_track}}};
-  Answer answer =
-      climb<Scene, Track>(rungs, scene, scene.data().tolerance, rung_of(scene.data().model), monitor, refusal);
-  if (refusal.code == Errc::ok) detail::describe<Elliptic>(answer, scene);
-  return answer;
+  static constexpr Rung<Scene, Track> models[] = {&detail::equal_torque<Elliptic>, &detail::averaged<Elliptic>,
+                                                  &detail::averaged_2<Elliptic>, &full_track};
+  return climb<Scene, Track>(rung_kinds, models, scene, monitor, refusal);
 }
 
 }  // namespace gyrostat::deceleration

@@ -16,7 +16,7 @@ namespace gyrostat::heavy {
 
 /// Spin and inclination of the forced motion that a scene asks for, or that its start would belong to.
 inline Periodic forced_start(const Scene& scene) noexcept {
-  if (scene.question().periodic) return *scene.question().periodic;
+  if (scene.periodic()) return *scene.periodic();
   return {scene.start().angular_velocity[2], scene.start().down[2]};
 }
 

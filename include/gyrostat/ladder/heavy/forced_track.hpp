@@ -40,7 +40,7 @@ template <class Motion>
 MotionError<double> forced_error(const Scene& scene, const Motion& motion) noexcept {
   const double end = scene.question().times.back();
   MotionError<double> error = motion.error(end);
-  if (scene.question().periodic) return error;
+  if (scene.periodic()) return error;
   // the periodic motion starts where the formula says but for its error
   const auto first = motion.error(0);
   const double off =
@@ -54,34 +54,30 @@ MotionError<double> forced_error(const Scene& scene, const Motion& motion) noexc
 
 /// The states, and errors relative to the greatest norms. Gives up beforehand where another rung may answer.
 template <class Motion>
-Track series_track(const Scene& scene, const Motion& motion, const MotionError<double>& error, Model rung) {
+Track series_track(const Scene& scene, const Motion& motion, const MotionError<double>& error, int rung) {
   const Question& question = scene.question();
   const double spin = motion.scaled().spin;
   const double known =
       std::max({error.angular_velocity / std::abs(spin), error.down, question.wants_attitude ? error.attitude : 0.0});
   // |w| may exceed the spin
-  if (question.model != rung && !(known <= 4 * question.tolerance)) return over_tolerance<Track>(known);
+  if (question.rung != rung && !(known <= 4 * question.tolerance)) return over_tolerance<Track>(known);
   Track track;
   track.states.resize(question.times.size());
   motion.at(question.times, track.states, question.wants_attitude);
-  Comparison<double> sizes;
-  for (const State<double>& state : track.states) sizes.add(state, state);
-  track.error = sizes.relative({error.angular_velocity, error.down, error.attitude});
-  double& rates = track.error.angular_velocity;
-  rates = rates < 1 ? rates / (1 - rates) : infinity<double>;
+  Comparison sizes(row_of(scene));
+  for (const State<double>& state : track.states) sizes.add(state);
+  track.error = relative_to_truth(sizes.relative({error.angular_velocity, error.down, error.attitude}), column_kinds);
   track.in_domain = known < 0.3;
-  if (!track.in_domain)
-    track.warn("beyond-validity", "the series for a fast spin do not hold: their error estimate means little; it is",
-               known);
+  if (!track.in_domain) track.warn(warning_kinds[warning::beyond_validity], known);
   return track;
 }
 
 /// Of a motion that repeats.
 template <class Motion>
-Track forced_track(const Scene& scene, const Motion& motion, Model rung) {
+Track forced_track(const Scene& scene, const Motion& motion, int rung) {
   Track track = series_track(scene, motion, forced_error(scene, motion), rung);
   if (track.failure != Errc::ok) return track;
-  if (!scene.question().periodic) {
+  if (!scene.periodic()) {
     const Quat<double> turned = scene.start().attitude * conjugate(motion.at(0).attitude);
     for (State<double>& state : track.states) state.attitude = turned * state.attitude;
     return track;

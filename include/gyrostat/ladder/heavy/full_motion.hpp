@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,10 @@
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
-#include "gyrostat/ladder/heavy/column_errors.hpp"
+#include "gyrostat/ladder/companions.hpp"
+#include "gyrostat/ladder/full_motion.hpp"
+#include "gyrostat/ladder/heavy/motion.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
@@ -22,24 +25,12 @@
 namespace gyrostat::heavy {
 
 template <Real Scalar>
-struct FullMotionOptions {
-  Scalar tolerance = Scalar(1e-9L);  ///< greatest relative error wanted in any column
-  bool attitude = false;             ///< follow the attitude too
-  std::uint64_t step_cap = 100'000'000;
-  std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
-  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
+struct FullMotionOptions : MotionOptions<Scalar> {
+  bool attitude = false;  ///< follow the attitude too; its error is 0 where it is not followed
 };
 
 template <Real Scalar>
-struct FullMotionAnswer {
-  ode::Status status = ode::Status::reached;
-  bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
-  /// Estimated greatest errors over the times, each relative to the greatest norm of its column over the times; attitude: the angle,
-  /// rad, 0 where it is not followed.
-  ColumnErrors<Scalar> error;
-  ode::Counts counts;         ///< of all runs, the companions' included
-  Scalar step_tolerance = 0;  ///< of the Taylor steps that gave the answer
-};
+using FullMotionAnswer = MotionOutcome<std::size(column_kinds), Scalar>;
 
 /// The full motion from `start` at t = 0 at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN; an
 /// attitude that is not asked for is the identity.
@@ -83,8 +74,8 @@ struct Neighbour {
       made = Problem<Scalar>::make(of.inertia() * (1 + v[0]), of.mass(), of.centre_of_mass(), of.gravity() * (1 + v[1]),
                                    of.gradient() * (1 + v[1]));
     if (made) problem = *made;
-    // arithmetic errs by what the greatest component rounds to, in all of them but where a symmetry keeps the noughts
-    const bool kept = keeps_noughts(of, from);
+    // arithmetic errs by what the greatest component rounds to, in all of them but where a symmetry keeps the zeros
+    const bool kept = keeps_zeros(of, from);
     const auto moved = [amount, kept](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c, Scalar size) noexcept {
       const auto one = [kept, by = size * amount / 2](Scalar component, Scalar part) noexcept {
         return component == 0 && kept ? component : component * (1 + part) + by * (part > 0 ? 1 : -1);
@@ -101,7 +92,7 @@ struct Neighbour {
 
  private:
   /// Turning about one principal axis that stays vertical or horizontal, the weight in its line or across it.
-  static bool keeps_noughts(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept {
+  static bool keeps_zeros(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept {
     const auto &w = start.angular_velocity, &d = start.down;
     const Vec3<Scalar> m = problem.moment();
     for (int k = 0; k < 3; ++k) {
@@ -117,9 +108,6 @@ struct Neighbour {
 template <Real Scalar, bool turning>
 class FullMotion {
  public:
-  using System = FullSystem<Scalar, turning>;
-  using Solver = ode::Taylor<System>;
-
   FullMotion(const Problem<Scalar>& problem, const State<Scalar>& start, std::span<const Scalar> times,
              std::span<State<Scalar>> states, const FullMotionOptions<Scalar>& options) noexcept
       : problem_(problem),
@@ -127,92 +115,42 @@ class FullMotion {
         times_(times),
         states_(states),
         options_(options),
+        neighbours_{{{problem, start, amount, 0}, {problem, start, amount, 1}}},
         rate_(rate_size(problem, start)) {}
 
   /// The answer's run and its neighbours' side by side, and their distance.
   FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
-    constexpr Scalar eps = epsilon<Scalar>, looser = 64;
+    constexpr Scalar eps = epsilon<Scalar>;
+    constexpr auto& how = honesty::side_by_side;
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
-    const Scalar loose = std::max(looser * step_tolerance, 64 * eps);
     Course course(problem_, start_, step_tolerance, options_.step_cap);
-    const Neighbour<Scalar> near_1(problem_, start_, 8 * eps, 0), near_2(problem_, start_, 8 * eps, 1);
-    Course companion(near_1.problem, near_1.start, loose, options_.step_cap);
-    Course second(near_2.problem, near_2.start, loose, options_.step_cap);
-    // Where rounding has a part, all runs err alike, and one distance may be small by chance.
-    const bool rounds = step_tolerance < 512 * eps;
-    Comparison<Scalar> asked;
-    ColumnErrors<Scalar> kept, greatest;
-    const auto look = [&](const State<Scalar>& here, Scalar t) noexcept {
-      Comparison<Scalar> now;
-      now.add(here, companion.at(t));
-      if (rounds) now.add(here, second.at(t));
-      raise(kept, now.difference());
+    const auto beside = [&](const Neighbour<Scalar>& near) noexcept {
+      const Scalar loose = std::max(Scalar(how.looser) * step_tolerance, Scalar(how.least_loose) * eps);
+      return Course(near.problem, near.start, loose, options_.step_cap);
     };
-    const auto reach = [&](Scalar t, Scalar last) noexcept {
-      const ode::Status status = course.reach(t, last);
-      return status == ode::Status::reached && rounds ? second.reach(t, last) : status;
-    };
-
-    const Scalar last = times_.back();
-    std::size_t next = 0;
-    for (; next < times_.size() && !(times_[next] > 0); ++next) {
-      states_[next] = start_;
-      asked.add(start_, start_);
-    }
-    std::uint32_t trips = 0;
-    while (next < times_.size() && answer.status == ode::Status::reached) {
-      const Scalar before = companion.time();
-      answer.status = companion.step(last);
-      if (answer.status != ode::Status::reached) break;
-      const Scalar now = companion.time();
-      // what was seen fades over twenty turns
-      const Scalar fading = 1 / (1 + (now - before) * rate_ / 128);
-      kept = {kept.angular_velocity * fading, kept.down * fading, kept.attitude * fading};
-      for (; next < times_.size() && times_[next] <= now; ++next) {
-        answer.status = reach(times_[next], last);
-        if (answer.status != ode::Status::reached) break;
-        states_[next] = course.at(times_[next]);
-        asked.add(states_[next], states_[next]);
-        look(states_[next], times_[next]);
-        raise(greatest, kept);
-      }
-      if (next == times_.size() || answer.status != ode::Status::reached) break;
-      answer.status = reach(now, last);
-      look(course.at(now), now);
-      if ((trips++ & 255U) == 0) {
-        if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed))
-          answer.status = ode::Status::cancelled;
-        if (options_.progress != nullptr) {
-          const double done = progress_from + static_cast<double>(now / last) * (progress_to - progress_from);
-          options_.progress->store(std::min(done, 1.0), std::memory_order_relaxed);
-        }
-      }
-    }
+    Course companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
+    const bool rounds = step_tolerance < Scalar(how.two_below) * eps;
+    const auto walk =
+        walk_beside(Row<Scalar>{scales(problem_, start_.angular_velocity.norm())}, course, companion, second, rounds,
+                    start_, rate_, times_, states_, nowhere(), options_, progress_from, progress_to);
+    answer.status = walk.status;
     answer.counts = course.counts();
     const std::uint64_t steps = answer.counts.steps;
     answer.counts += companion.counts();
     answer.counts += second.counts();
     if (answer.status != ode::Status::reached) {
-      constexpr Scalar no = nan<Scalar>;
-      const Vec3<Scalar> nothing = Vec3<Scalar>::Constant(no);
-      for (; next < times_.size(); ++next) states_[next] = {nothing, nothing, {no, no, no, no}};
-      answer.error = {no, no, no};
+      answer.error = ColumnErrors<Scalar>::all(nan<Scalar>);
       return answer;
     }
 
     // What the runs share: the polynomial of a step, good to its tolerance, and rounding at the asked times.
-    const Scalar margin = rounds ? 8 : 6;
-    const Scalar walk = eps * std::sqrt(static_cast<Scalar>(steps));
-    const Scalar shared = 4 * (4 * eps + walk + 2 * step_tolerance);
-    ColumnErrors<Scalar> error =
-        asked.relative({margin * greatest.angular_velocity + shared * rate_, margin * greatest.down + shared,
-                        turning ? margin * greatest.attitude + shared : Scalar(0)});
-    // relative to the truth, which may be smaller than the answer by as much
-    for (Scalar* e : {&error.angular_velocity, &error.down})
-      if (*e == *e) *e = *e < 1 ? *e / (1 - *e) : infinity<Scalar>;
-    answer.error = error;
-    answer.met = error.greatest() <= options_.tolerance;
+    const Scalar margin = Scalar(rounds ? how.margin_of_rounding : how.margin);
+    const Scalar rounding_walk = eps * std::sqrt(static_cast<Scalar>(steps));
+    const Scalar shared = 4 * (4 * eps + rounding_walk + 2 * step_tolerance);
+    const ColumnErrors<Scalar> parts{rate_, 1, Scalar(turning ? 1 : 0)};
+    answer.error = relative_to_truth(walk.asked.relative(margin * walk.distance + shared * parts), column_kinds);
+    answer.met = answer.error.greatest() <= options_.tolerance;
     return answer;
   }
 
@@ -220,6 +158,10 @@ class FullMotion {
   Scalar phase() const noexcept { return rate_ * times_.back(); }
 
  private:
+  using System = FullSystem<Scalar, turning>;
+  using Solver = ode::Taylor<System>;
+  static constexpr Scalar amount = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
+
   /// One run.
   class Course {
    public:
@@ -255,10 +197,9 @@ class FullMotion {
     Solver solver_;
   };
 
-  static void raise(ColumnErrors<Scalar>& most, const ColumnErrors<Scalar>& by) noexcept {
-    const auto more = [](Scalar x, Scalar y) noexcept { return x >= y || !(x == x) ? x : y; };
-    most = {more(most.angular_velocity, by.angular_velocity), more(most.down, by.down),
-            more(most.attitude, by.attitude)};
+  static State<Scalar> nowhere() noexcept {
+    constexpr Scalar no = nan<Scalar>;
+    return {Vec3<Scalar>::Constant(no), Vec3<Scalar>::Constant(no), {no, no, no, no}};
   }
 
   const Problem<Scalar>& problem_;
@@ -266,6 +207,7 @@ class FullMotion {
   std::span<const Scalar> times_;
   std::span<State<Scalar>> states_;
   const FullMotionOptions<Scalar>& options_;
+  std::array<Neighbour<Scalar>, 2> neighbours_;
   Scalar rate_;
 };
 
@@ -276,10 +218,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, con
                                              std::span<const Scalar> times, std::span<State<Scalar>> states,
                                              const FullMotionOptions<Scalar>& options) noexcept {
   if (states.size() != times.size()) return Errc::out_of_domain;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
-    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
-  }
+  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
   if (!start.angular_velocity.allFinite() || !start.down.allFinite() || !(options.tolerance == options.tolerance))
     return Errc::not_finite;
   if (!(start.down.squaredNorm() > 0)) return Errc::zero_vector;
@@ -289,7 +228,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, con
     const Scalar length = norm(start.attitude);
     if (!(length < infinity<Scalar>)) return Errc::not_finite;
     if (!(length > 0)) return Errc::zero_vector;
-    from.attitude = normalised(start.attitude);
+    from.attitude = as_unit(start.attitude);
     const Vec3<Scalar> seen = rotate<Scalar>(conjugate(from.attitude), Vec3<Scalar>(0, 0, -1));
     const Scalar slack = std::max(Scalar(1e-8L), 8 * epsilon<Scalar>);
     if (!((seen - start.down).norm() <= slack)) return Errc::out_of_domain;
@@ -300,12 +239,10 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, con
     return answer;
   }
   const auto solve = [&](const auto& motion) noexcept {
-    // First guess of the step tolerance: errors grow with the turns, and the estimate stands a hundred times above them.
-    Scalar step_tolerance = options.tolerance / 64 / (8 + motion.phase() / 16);
-    // In looser steps, near the radius of convergence, both runs may err alike.
-    step_tolerance = std::max(finest_step_tolerance<Scalar>, std::min(step_tolerance, Scalar(1e-9L)));
-    return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, double begin, double end) noexcept {
-      return motion.run(tolerance, begin, end);
+    const Scalar first =
+        first_step_tolerance<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_heavy_step));
+    return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar, double begin, double end) noexcept {
+      return motion.run(step_tolerance, begin, end);
     });
   };
   if (options.attitude) return solve(detail::FullMotion<Scalar, true>(problem, from, times, states, options));

@@ -13,10 +13,12 @@ namespace gyrostat::heavy {
 
 namespace detail {
 
-/// The full equations from the scene's start, by Taylor series or by what the question names.
+/// The full equations from the scene's start, by Taylor series or by those that the scene brings.
 inline Track full_from_start(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
-  if (question.full_equations) return question.full_equations(scene, monitor);
+  if (phase_too_long(rate_size(scene.problem(), scene.start()) * question.times.back(), question.tolerance))
+    return refused<Track>(Errc::step_limit, phase_lost);
+  if (scene.full_equations) return scene.full_equations(scene, monitor);
   Track track;
   track.states.resize(question.times.size());
   FullMotionOptions<double> options;
@@ -26,7 +28,7 @@ inline Track full_from_start(const Scene& scene, Monitor* monitor) {
   const auto answer = full_motion<double>(scene.problem(), scene.start(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)
-    return refused<Track>(failure_of(answer->status), ode::message(answer->status));
+    return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   track.error = answer->error;
   track.counts = answer->counts;
   return track;
@@ -34,7 +36,7 @@ inline Track full_from_start(const Scene& scene, Monitor* monitor) {
 
 /// Why there is no periodic motion to be found, and what to do.
 inline const char* no_orbit(Errc why, const Scene& scene) noexcept {
-  const auto& [spin, cosine] = *scene.question().periodic;
+  const auto& [spin, cosine] = *scene.periodic();
   const auto scaled = Scaled<double>::make(scene.problem(), spin, cosine);
   switch (why) {
     case Errc::not_applicable:
@@ -56,7 +58,7 @@ inline const char* no_orbit(Errc why, const Scene& scene) noexcept {
 
 /// From the start that shooting finds, over one period and on.
 inline Track periodic_full(const Scene& scene, Monitor* monitor) {
-  const auto& [spin, cosine] = *scene.question().periodic;
+  const auto& [spin, cosine] = *scene.periodic();
   const auto found = periodic_orbit<double>(scene.problem(), spin, cosine);
   if (!found) return refused<Track>(found.error(), no_orbit(found.error(), scene));
   PeriodicOrbit<double> orbit = *found;
@@ -66,15 +68,16 @@ inline Track periodic_full(const Scene& scene, Monitor* monitor) {
   const PeriodicMotion<double> motion(scene.problem(), orbit, scene.question().times);
 
   Question once = scene.question();
-  once.periodic.reset();
   once.times = motion.once();
   once.wants_attitude = true;
   once.tolerance = std::max(scene.question().tolerance / 4 / (1 + motion.periods()), 1e-300);
   Body body;
   body.problem = scene.problem();
-  const auto first = Scene::make(body, orbit.start, once);
-  if (!first) return refused<Track>(first.error(), message(first.error()));
-  const Track one = full_from_start(*first, monitor);
+  const auto made_once = Scene::make(body, {orbit.start}, once);
+  if (!made_once) return refused<Track>(made_once.error(), message(made_once.error()));
+  Scene first = *made_once;
+  first.full_equations = scene.full_equations;
+  const Track one = full_from_start(first, monitor);
   if (one.failure != Errc::ok) return one;
 
   Track track;
@@ -91,9 +94,9 @@ inline Track periodic_full(const Scene& scene, Monitor* monitor) {
 
 }  // namespace detail
 
-/// Rung `full`: the full equations, by Taylor series or by what the question names; of a periodic motion from the start that shooting finds.
+/// Rung `full`: the full equations, by Taylor series or by those that the scene brings; of a periodic motion from the start that shooting finds.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
-  return scene.question().periodic ? detail::periodic_full(scene, monitor) : detail::full_from_start(scene, monitor);
+  return scene.periodic() ? detail::periodic_full(scene, monitor) : detail::full_from_start(scene, monitor);
 }
 
 }  // namespace gyrostat::heavy

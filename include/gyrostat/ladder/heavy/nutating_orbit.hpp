@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -10,6 +9,7 @@
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/heavy/periodic_orbit.hpp"
 #include "gyrostat/ladder/heavy/shooting.hpp"
+#include "gyrostat/math/bracket.hpp"
 #include "gyrostat/models/heavy/floquet.hpp"
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
@@ -44,6 +44,133 @@ struct NutatingOrbit {
   Scalar predicted_amplitude = 0;  ///< to first order in c/r0
 };
 
+namespace detail {
+
+/// Amplitude, relative to r0, of the nutation whose frequency is m/n of the turns', to first order in c/r0. not_applicable: there is none
+/// below 1/2.
+template <Real Scalar>
+Result<Scalar> nutation_size(const Scaled<Scalar>& s, int nutations, int turns) noexcept {
+  const Scalar ratio = Scalar(nutations) / Scalar(turns);
+  // nu^2 falls by W0 (amplitude/r0)^2
+  const Scalar falls = -s.off_a * (s.a + s.b - 2) / (2 * s.b);
+  const Scalar square = (Floquet<Scalar>(s).squared - ratio * ratio) / falls;
+  if (!(s.nutation_squared() > 0) || !(square > 0) || !(square < Scalar(0.25L))) return Errc::not_applicable;
+  return std::sqrt(square);
+}
+
+/// Motions with a nutation upon the forced one, by its phase: at each the amplitude and the period that close best. What is then left
+/// open has always the same direction.
+template <Real Scalar>
+class NutationPhases {
+  using Method = Shooting<Scalar, AtPhase<Scalar>>;
+
+ public:
+  struct Trial {
+    Closed<Scalar> closed;
+    typename Method::Rows left;
+    bool valid = false;
+  };
+
+  /// @param size nutation_size   @param across of q for one of p in a free nutation   @param rate |r0|, rad/s
+  NutationPhases(const Problem<Scalar>& problem, const PeriodicOrbit<Scalar>& forced, int turns, Scalar size,
+                 Scalar across, Scalar rate) noexcept
+      : problem_(problem),
+        forced_(forced),
+        size_(size),
+        across_(across),
+        rate_(rate),
+        amplitude_(size),
+        period_(Scalar(turns) * forced.period),
+        shots_(forced.shots),
+        counts_(forced.counts) {}
+
+  /// Begins from what the last valid trial has found.
+  Trial at(Scalar phase) noexcept {
+    Trial trial;
+    const AtPhase<Scalar> space{rate_, direction(phase)};
+    State<Scalar> start = forced_.start;
+    start.angular_velocity += rate_ * amplitude_ * space.direction;
+    const auto closed = close_orbit(problem_, start, period_, rate_, space, Scalar(1e-3L), 12);
+    if (!closed) return trial;
+    shots_ += closed->shots;
+    counts_ += closed->counts;
+    trial.closed = *closed;
+    typename Method::Jacobian jacobian;
+    Method(space, rate_).equations(problem_, closed->start, closed->period, closed->shot, trial.left, jacobian);
+    const Scalar found = (closed->start.angular_velocity - forced_.start.angular_velocity).dot(space.direction) /
+                         (rate_ * space.direction.squaredNorm());
+    trial.valid = std::abs(found / size_ - 1) < Scalar(0.5L);
+    if (trial.valid) {
+      amplitude_ = found;
+      period_ = closed->period;
+    }
+    return trial;
+  }
+
+  /// Of p in a trial about that of the forced motion, rad/s.
+  Scalar amplitude(const Trial& trial, Scalar phase) const noexcept {
+    const Vec3<Scalar> along = direction(phase);
+    return (trial.closed.start.angular_velocity - forced_.start.angular_velocity).dot(along) / along.squaredNorm();
+  }
+  int shots() const noexcept { return shots_; }
+  const ode::Counts& counts() const noexcept { return counts_; }
+
+ private:
+  Vec3<Scalar> direction(Scalar phase) const noexcept {
+    return Vec3<Scalar>(std::cos(phase), across_ * std::sin(phase), 0);
+  }
+
+  const Problem<Scalar>& problem_;
+  const PeriodicOrbit<Scalar>& forced_;
+  Scalar size_, across_, rate_;
+  Scalar amplitude_, period_;  // of the last valid trial; the amplitude relative to the rate
+  int shots_;
+  ode::Counts counts_;
+};
+
+template <Real Scalar>
+struct FoundPhase {
+  typename NutationPhases<Scalar>::Trial trial;
+  Scalar phase = 0;
+};
+
+/// The phase at which nothing is left open. `turns` of the motion: over one period of phases what is left passes zero twice.
+/// Errc::no_convergence.
+template <Real Scalar>
+Result<FoundPhase<Scalar>> closing_phase(NutationPhases<Scalar>& phases, int turns, int which) noexcept {
+  const Scalar whole = 2 * pi<Scalar> / Scalar(turns);
+  constexpr int parts = 8;
+  const auto first = phases.at(0);
+  if (!first.valid) return Errc::no_convergence;
+  const auto value = [&](const auto& trial) noexcept { return trial.left.dot(first.left) / first.left.norm(); };
+  math::SignChange<Scalar> change{0, value(first), 0, value(first)};
+  FoundPhase<Scalar> best{first, 0};
+  int passed = -1;
+  for (int i = 1; i <= parts + 1 && passed < which; ++i) {
+    change.low = change.high;
+    change.f_low = change.f_high;
+    change.high = whole * Scalar(i) / parts;
+    best = {phases.at(change.high), change.high};
+    if (!best.trial.valid) return Errc::no_convergence;
+    change.f_high = value(best.trial);
+    if ((change.f_low < 0) != (change.f_high < 0)) ++passed;
+  }
+  if (passed < which) return Errc::no_convergence;
+  for (int trip = 0; trip < 40 && best.trial.closed.closure > 8 * epsilon<Scalar>; ++trip) {
+    const Scalar next = change.guess(trip);
+    if (!change.contains(next)) break;
+    const auto trial = phases.at(next);
+    if (!trial.valid) return Errc::no_convergence;
+    if (trial.closed.closure < best.trial.closed.closure) best = {trial, next};
+    change.take(next, value(trial));
+    if (change.high - change.low < 4 * epsilon<Scalar>) break;
+  }
+  if (!(best.trial.closed.closure < Scalar(1e-11L) + 64 * epsilon<Scalar>)) return Errc::no_convergence;
+  return best;
+}
+
+}  // namespace detail
+
 /// The second family: motions of a fast spin that close after n turns and m nutations, their amplitude such that the nutation's
 /// frequency is m/n of the turns'; where omega = m/n it is of the order of c (docs/heavy.md, section 4). Of each family there are two
 /// motions, which differ in phase: one stable, one unstable, both with a trace so near 2 that mostly neither can be told (for
@@ -61,102 +188,17 @@ Result<NutatingOrbit<Scalar>> nutating_orbit(const Problem<Scalar>& problem, Sca
   if (!forced) return forced.error();
   const auto scaled = Scaled<Scalar>::make(problem, spin, cos_inclination);
   if (!scaled) return scaled.error();
-  const Scaled<Scalar>& s = *scaled;
-  const Scalar omega2 = s.nutation_squared(), ratio = Scalar(nutations) / Scalar(turns);
-  // nu^2 falls by W0 (amplitude/r0)^2
-  const Scalar falls = -s.off_a * (s.a + s.b - 2) / (2 * s.b);
-  const Scalar square = (Floquet<Scalar>(s).squared - ratio * ratio) / falls;
-  if (!(omega2 > 0) || !(square > 0) || !(square < Scalar(0.25L))) return Errc::not_applicable;
-  const Scalar size = std::sqrt(square), across = std::sqrt(omega2) / s.A1, rate = std::abs(spin);
-
-  NutatingOrbit<Scalar> made;
-  made.predicted_amplitude = size * rate;
-  const auto direction_at = [across](Scalar phase) noexcept {
-    return Vec3<Scalar>(std::cos(phase), across * std::sin(phase), 0);
-  };
-  // at a phase: the amplitude and the period that close best, and what is left, which has always the same direction
-  using Method = detail::Shooting<Scalar, AtPhase<Scalar>>;
-  struct Trial {
-    Closed<Scalar> closed;
-    typename Method::Rows left;
-    bool valid = false;
-  };
-  Scalar amplitude = size, period = Scalar(turns) * forced->period;
-  int shots = forced->shots;
-  ode::Counts counts = forced->counts;
-  const auto at = [&](Scalar phase) noexcept {
-    Trial trial;
-    const AtPhase<Scalar> space{rate, direction_at(phase)};
-    State<Scalar> start = forced->start;
-    start.angular_velocity += rate * amplitude * space.direction;
-    const auto closed = close_orbit(problem, start, period, rate, space, Scalar(1e-3L), 12);
-    if (!closed) return trial;
-    shots += closed->shots;
-    counts += closed->counts;
-    trial.closed = *closed;
-    typename Method::Jacobian jacobian;
-    Method(space, rate).equations(problem, closed->start, closed->period, closed->shot, trial.left, jacobian);
-    const Scalar found = (closed->start.angular_velocity - forced->start.angular_velocity).dot(space.direction) /
-                         (rate * space.direction.squaredNorm());
-    trial.valid = std::abs(found / size - 1) < Scalar(0.5L);
-    if (trial.valid) {
-      amplitude = found;
-      period = closed->period;
-    }
-    return trial;
-  };
-
-  // over one period of phases the residual passes zero twice
-  const Scalar whole = 2 * pi<Scalar> / Scalar(turns);
-  constexpr int parts = 8;
-  const Trial first = at(0);
-  if (!first.valid) return Errc::no_convergence;
-  const auto value = [&](const Trial& trial) noexcept { return trial.left.dot(first.left) / first.left.norm(); };
-  Scalar low = 0, f_low = value(first), high = 0, f_high = f_low;
-  Trial best = first;
-  int passed = -1;
-  for (int i = 1; i <= parts + 1 && passed < which; ++i) {
-    low = high;
-    f_low = f_high;
-    high = whole * Scalar(i) / parts;
-    const Trial trial = at(high);
-    if (!trial.valid) return Errc::no_convergence;
-    f_high = value(trial);
-    if ((f_low < 0) != (f_high < 0)) ++passed;
-    best = trial;
-  }
-  if (passed < which) return Errc::no_convergence;
-  Scalar phase = high;
-  for (int trip = 0; trip < 40 && best.closed.closure > 8 * epsilon<Scalar>; ++trip) {
-    Scalar next = trip % 3 == 2 ? (low + high) / 2 : (low * f_high - high * f_low) / (f_high - f_low);
-    if (!(next > low && next < high)) next = (low + high) / 2;
-    if (!(next > low && next < high)) break;
-    const Trial trial = at(next);
-    if (!trial.valid) return Errc::no_convergence;
-    const Scalar f = value(trial);
-    if (trial.closed.closure < best.closed.closure) {
-      best = trial;
-      phase = next;
-    }
-    if ((f < 0) == (f_low < 0)) {
-      low = next;
-      f_low = f;
-      f_high /= 2;
-    } else {
-      high = next;
-      f_high = f;
-      f_low /= 2;
-    }
-    if (high - low < 4 * epsilon<Scalar>) break;
-  }
-  if (!(best.closed.closure < Scalar(1e-11L) + 64 * epsilon<Scalar>)) return Errc::no_convergence;
-  best.closed.shots = shots;
-  best.closed.counts = counts;
-  made.orbit = detail::judged(problem, best.closed, OrbitMethod::shooting);
-  const Vec3<Scalar> direction = direction_at(phase);
-  made.amplitude =
-      (best.closed.start.angular_velocity - forced->start.angular_velocity).dot(direction) / direction.squaredNorm();
-  return made;
+  const auto size = detail::nutation_size(*scaled, nutations, turns);
+  if (!size) return size.error();
+  const Scalar across = std::sqrt(scaled->nutation_squared()) / scaled->A1, rate = std::abs(spin);
+  detail::NutationPhases<Scalar> phases(problem, *forced, turns, *size, across, rate);
+  const auto found = detail::closing_phase(phases, turns, which);
+  if (!found) return found.error();
+  Closed<Scalar> closed = found->trial.closed;
+  closed.shots = phases.shots();
+  closed.counts = phases.counts();
+  return NutatingOrbit<Scalar>{detail::judged(problem, closed, OrbitMethod::shooting),
+                               phases.amplitude(found->trial, found->phase), *size * rate};
 }
 
 }  // namespace gyrostat::heavy

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gyrostat/core/real.hpp"
-#include "gyrostat/ladder/heavy/column_errors.hpp"
+#include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/heavy/periodic_orbit.hpp"
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
@@ -60,12 +60,15 @@ class PeriodicMotion {
   const std::vector<Scalar>& once() const noexcept { return once_; }
   Scalar periods() const noexcept { return periods_; }  ///< up to the last time
 
-  /// @param first the motion at once()   @param error of it, relative to the greatest norms   @param states at the times
+  /// @param first the motion at once()   @param error of it, as its columns measure it   @param states at the times
   CarriedOn<Scalar> carry_on(std::span<const State<Scalar>> first, const ColumnErrors<Scalar>& error,
                              std::span<State<Scalar>> states) const noexcept {
     CarriedOn<Scalar> made;
+    const Row<Scalar> row{scales(problem_, orbit_.start.angular_velocity[2])};
+    Comparison<Row<Scalar>> once(row), sizes(row);
     Scalar fastest = 0, steepest = 0, mean = 0;
     for (const State<Scalar>& s : first) {
+      once.add(s);
       fastest = std::max(fastest, s.angular_velocity.norm());
       steepest = std::max(steepest, angular_acceleration<Scalar>(problem_, s.angular_velocity, s.down).norm());
     }
@@ -76,24 +79,23 @@ class PeriodicMotion {
     const Quat<Scalar> gained = first.back().attitude * conjugate(first.front().attitude);
     const Scalar half = std::atan2(gained.z, gained.w), T = orbit_.period;
 
-    Comparison<Scalar> sizes;
     for (std::size_t i = 0; i < states.size(); ++i) {
       states[i] = first[place_[i]];
       const Scalar by = turns_[i] * half;
       states[i].attitude = Quat<Scalar>{std::cos(by), 0, 0, std::sin(by)} * states[i].attitude;
-      sizes.add(states[i], states[i]);
+      sizes.add(states[i]);
     }
     const Scalar rate = rate_size(problem_, orbit_.start);
     // what an error of the start becomes within a period
     const Scalar start = orbit_.error.start * (16 + 4 * std::abs(orbit_.trace_minus_4));
     const Scalar late = orbit_.error.period * T * (1 + periods_);
     const Scalar rounding = 8 * epsilon<Scalar> * (1 + periods_ * (1 + std::abs(half)));
-    const Scalar turned = error.attitude + start + rounding;
-    made.error =
-        sizes.relative({error.angular_velocity * fastest + rate * start + steepest * late,
-                        error.down + start + fastest * late + rounding, (1 + periods_) * turned + fastest * late});
-    for (Scalar* e : {&made.error.angular_velocity, &made.error.down})
-      if (*e == *e) *e = *e < 1 ? *e / (1 - *e) : infinity<Scalar>;
+    const Scalar turned = error[column::attitude] + start + rounding;
+    made.error = relative_to_truth(
+        sizes.relative(
+            {error[column::angular_velocity] * once.unit(column::angular_velocity) + rate * start + steepest * late,
+             error[column::down] + start + fastest * late + rounding, (1 + periods_) * turned + fastest * late}),
+        column_kinds);
 
     // right-handed about DOWN, and the branch from the mean of psi'
     const Scalar branch = std::nearbyint((mean * T + 2 * half) / (2 * pi<Scalar>));

@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
-#include <utility>
-#include <vector>
 
+#include "gyrostat/body/principal_axes.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/monitor.hpp"
-#include "gyrostat/ladder/times.hpp"
+#include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
-#include "gyrostat/rotation/symmetric.hpp"
 
 namespace gyrostat::heavy {
 
-/// Which rung answers; `any` climbs the ladder.
-enum class Model : std::uint8_t { any, series_2, series, exact, full };
-
 struct Track;
-class Scene;
 
 /// The periodic motion that starts with the given rate about axis 3 and d = (+sqrt(1 - cos^2), 0, cos), all in principal axes.
 struct Periodic {
@@ -29,15 +21,10 @@ struct Periodic {
   double cos_inclination;  ///< d3 at t = 0, in (-1, 1)
 };
 
-/// What is asked.
-struct Question {
-  std::vector<double> times;         ///< s, increasing, the first >= 0
-  std::optional<Periodic> periodic;  ///< the start is that of this periodic motion
-  bool wants_attitude = false;
-  double tolerance = 1e-6;
-  Model model = Model::any;
-  /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
-  Track (*full_equations)(const Scene&, Monitor*) = nullptr;
+/// What a motion starts from: a state, or a periodic motion whose start is to be found.
+struct Start {
+  State<double> state;  ///< body axes; where the attitude is wanted down is taken from it, else only down counts
+  std::optional<Periodic> periodic{};
 };
 
 /// A state in other axes: v_new = R v for the body vectors.
@@ -50,36 +37,17 @@ struct Body {
   Problem<double> problem;
   Mat3<double> R_BP = Mat3<double>::Identity();  ///< principal axes to body axes
 
-  /// Principal axes are the caller's where the tensor is diagonal; else those of its eigenvectors that are nearest, axis by axis.
-  /// Errors: not_symmetric (beyond 8 eps of the largest entry), and those of Problem::make.
+  /// In the principal axes nearest to the caller's. Errors: not_symmetric (beyond 8 eps of the largest entry), and those of
+  /// Problem::make.
   static Result<Body> make(const Mat3<double>& inertia, double mass, const Vec3<double>& centre_of_mass, double gravity,
                            double gradient) noexcept {
-    if (!inertia.allFinite() || !centre_of_mass.allFinite()) return Errc::not_finite;
-    const double slack = 8 * epsilon<double> * inertia.cwiseAbs().maxCoeff();
-    if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > slack) return Errc::not_symmetric;
-    Body body;
-    Vec3<double> moments = inertia.diagonal();
-    if (inertia(0, 1) != 0 || inertia(0, 2) != 0 || inertia(1, 2) != 0) {
-      const auto eigen = symmetric_eigen<double>((inertia + inertia.transpose()) / 2);
-      int order[3] = {0, 1, 2}, best[3] = {0, 1, 2};
-      double most = -1;
-      for (int i = 0; i < 6; ++i) {
-        const double near =
-            std::abs(eigen.axes(0, order[0])) + std::abs(eigen.axes(1, order[1])) + std::abs(eigen.axes(2, order[2]));
-        if (near > most) most = near, std::copy(order, order + 3, best);
-        std::next_permutation(order, order + 3);
-      }
-      for (int i = 0; i < 3; ++i) {
-        moments[i] = eigen.values[best[i]];
-        body.R_BP.col(i) = std::copysign(1.0, eigen.axes(i, best[i])) * eigen.axes.col(best[i]);
-      }
-      const Vec3<double> first = body.R_BP.col(0), second = body.R_BP.col(1);
-      if (cross<double>(first, second).dot(body.R_BP.col(2)) < 0) body.R_BP.col(1) *= -1;
-    }
-    const auto made = Problem<double>::make(moments, mass, body.R_BP.transpose() * centre_of_mass, gravity, gradient);
+    const auto symmetric = symmetric_part<double>(inertia);
+    if (!symmetric) return symmetric.error();
+    const auto axes = PrincipalAxes<double>::nearest(inertia);
+    const auto made =
+        Problem<double>::make(axes.moments, mass, axes.R_BP.transpose() * centre_of_mass, gravity, gradient);
     if (!made) return made.error();
-    body.problem = *made;
-    return body;
+    return Body{*made, axes.R_BP};
   }
 };
 
@@ -88,28 +56,29 @@ class Scene {
  public:
   Scene() = default;
 
-  /// start: in the caller's body axes; where the attitude is wanted down is taken from it, else only down counts.
   /// Errors: not_finite; zero_vector (an attitude without length); out_of_domain (a down that is not of unit length within 1e-8, an
   /// inclination outside (-1, 1)); and what check_times finds.
-  static Result<Scene> make(const Body& body, const State<double>& start, const Question& question) {
-    if (!start.angular_velocity.allFinite() || !start.down.allFinite()) return Errc::not_finite;
+  static Result<Scene> make(const Body& body, const Start& start, const Question& question) {
+    if (!start.state.angular_velocity.allFinite() || !start.state.down.allFinite()) return Errc::not_finite;
     if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
     Scene scene;
     scene.body_ = body;
+    scene.given_ = start;
+    scene.given_.state.attitude = as_unit(start.state.attitude);
     scene.question_ = question;
-    State<double> from = start;
+    State<double> from = start.state;
     if (question.wants_attitude) {
-      const double length = norm(start.attitude);
+      const double length = norm(from.attitude);
       if (!std::isfinite(length)) return Errc::not_finite;
       if (!(length > 0)) return Errc::zero_vector;
-      from.attitude = normalised(start.attitude);
+      from.attitude = scene.given().attitude;
       from.down = rotate<double>(conjugate(from.attitude), {0, 0, -1});
     } else {
       from.attitude = {};
       if (!(std::abs(from.down.norm() - 1) <= 1e-8)) return Errc::out_of_domain;
     }
-    if (question.periodic) {
-      const auto& [spin, cosine] = *question.periodic;
+    if (start.periodic) {
+      const auto& [spin, cosine] = *start.periodic;
       if (!std::isfinite(spin) || !std::isfinite(cosine)) return Errc::not_finite;
       if (!(std::abs(cosine) < 1)) return Errc::out_of_domain;
     }
@@ -122,10 +91,17 @@ class Scene {
   const Mat3<double>& R_BP() const noexcept { return body_.R_BP; }  ///< principal axes to body axes
   /// Principal axes; the attitude takes them to inertial ones.
   const State<double>& start() const noexcept { return start_; }
+  /// As the caller gave it, but for the norm of the attitude.
+  const State<double>& given() const noexcept { return given_.state; }
+  const std::optional<Periodic>& periodic() const noexcept { return given_.periodic; }
   const Question& question() const noexcept { return question_; }
+
+  /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
+  Track (*full_equations)(const Scene&, Monitor*) = nullptr;
 
  private:
   Body body_;
+  Start given_;
   State<double> start_;
   Question question_;
 };

@@ -11,10 +11,10 @@ namespace gyrostat::heavy {
 /// motion; from another start with the free nutation, to first order (section 5), or without it where that errs less.
 inline Track series_2_track(const Scene& scene, Monitor*) {
   const auto [spin, cosine] = forced_start(scene);
-  if (scene.question().periodic) {
+  if (scene.periodic()) {
     const auto motion = Series2<double>::make(scene.problem(), spin, cosine);
     if (!motion) return refused<Track>(motion.error(), detail::no_series(motion.error()));
-    return detail::forced_track(scene, *motion, Model::series_2);
+    return detail::forced_track(scene, *motion, rung::series_2);
   }
   const double end = scene.question().times.back();
   auto nutating = Nutating<double>::make(scene.problem(), scene.start());
@@ -24,14 +24,14 @@ inline Track series_2_track(const Scene& scene, Monitor*) {
   if (detail::near_forced(scene)) {
     const auto motion = Series2<double>::make(scene.problem(), spin, cosine);
     if (motion && detail::forced_error(scene, *motion).relative(spin) < first)
-      return detail::forced_track(scene, *motion, Model::series_2);
+      return detail::forced_track(scene, *motion, rung::series_2);
   }
   if (!nutating)
     return refused<Track>(
         Errc::not_applicable,
         "the start is not that of the periodic motion, and there is no formula for its free nutation: axis 3 is "
         "that of the intermediate moment, of one equal to it, or does not spin");
-  return detail::series_track(scene, *nutating, nutating->error(end), Model::series_2);
+  return detail::series_track(scene, *nutating, nutating->error(end), rung::series_2);
 }
 
 }  // namespace gyrostat::heavy

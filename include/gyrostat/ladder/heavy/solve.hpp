@@ -15,6 +15,7 @@ namespace gyrostat::heavy {
 ///     floquet_trace     of the 6 x 6 monodromy, minus 4
 ///     stable            1 or 0; absent where the trace is too near +-2 to say
 ///     precession_rate   mean turn about the vertical, right-handed about DOWN, rad/s
+/// and of a start with an exact case (a pendulum, a symmetric top) what of these that case knows, whichever rung answers.
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr);
 
 }  // namespace gyrostat::heavy

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "gyrostat/ladder/heavy/column_errors.hpp"
+#include "gyrostat/ladder/fill.hpp"
+#include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/heavy/scene.hpp"
 #include "gyrostat/ladder/outcome.hpp"
 #include "gyrostat/models/heavy/multipliers.hpp"
@@ -27,47 +28,48 @@ struct Track : Outcome {
   Periodicity periodicity;
 };
 
-/// The columns of SCENES.md, in the caller's axes. The answer's error is the greatest of all columns.
-inline void fill(Answer& answer, const Scene& scene, const Track& track) {
-  const bool turning = scene.question().wants_attitude;
-  answer.times = scene.question().times;
-  answer.warnings = track.warnings;
-  answer.counts = track.counts;
-  const auto column = [&](const char* name, int width, double error) -> std::vector<double>& {
-    answer.columns.push_back({name, width, {}, error});
-    answer.columns.back().values.reserve(track.states.size() * std::size_t(width));
-    return answer.columns.back().values;
-  };
-  answer.columns.reserve(3);
-  auto& rates = column("angular_velocity", 3, track.error.angular_velocity);
-  auto& down = column("down", 3, track.error.down);
-  auto* attitude = turning ? &column("attitude", 4, track.error.attitude) : nullptr;
-  for (const State<double>& state_P : track.states) {
-    const State<double> state = in_axes(scene.R_BP(), state_P);
-    rates.insert(rates.end(), state.angular_velocity.begin(), state.angular_velocity.end());
-    down.insert(down.end(), state.down.begin(), state.down.end());
-    const Quat<double>& q = state.attitude;
-    if (turning) attitude->insert(attitude->end(), {q.x, q.y, q.z, q.w});
-  }
-  auto error = track.error;
-  if (!turning) error.attitude = 0;
-  answer.error = error.greatest();
+/// Whether small changes of a periodic motion stay small: 1 or 0; NaN: not known.
+inline double stability(const Periodicity& known) noexcept {
+  const OrbitStability verdict = orbit_stability(known.trace, known.trace_error);
+  if (verdict == OrbitStability::undecided) return known.stable;
+  return verdict == OrbitStability::stable ? 1 : 0;
+}
 
-  const Periodicity& p = track.periodicity;
-  const auto quantity = [&](const char* name, double value, double of) {
-    if (!std::isnan(value)) answer.quantities.push_back({name, 1, {value}, of});
+/// The columns of a scene's states, and their scales.
+inline Row<double> row_of(const Scene& scene) noexcept {
+  return {scales(scene.problem(), scene.periodic() ? scene.periodic()->spin : scene.start().angular_velocity.norm())};
+}
+
+/// Writes the columns of a state in principal axes in the caller's.
+struct CallersRow : Row<double> {
+  Mat3<double> R_BP;  ///< principal axes to body axes
+
+  void operator()(const State& state_P, double* row) const noexcept {
+    Row<double>::operator()(in_axes(R_BP, state_P), row);
+  }
+};
+
+inline void fill(Answer& answer, const Scene& scene, const Track& track) {
+  fill_head(answer, scene.question(), track);
+  fill_columns(answer, CallersRow{row_of(scene), scene.R_BP()}, track.states, track.error,
+               scene.question().wants_attitude ? std::size(column_kinds) : std::size_t(column::attitude));
+  if (!scene.periodic()) {
+    const auto& [w, d, q] = scene.given();
+    put_start(answer, column_kinds[column::angular_velocity], {w[0], w[1], w[2]});
+    if (!scene.question().wants_attitude) put_start(answer, column_kinds[column::down], {d[0], d[1], d[2]});
+    put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
+  }
+}
+
+/// The scalars that are known.
+inline void tell(Answer& answer, const Periodicity& known) {
+  const auto quantity = [&](std::size_t which, double value, double error) {
+    if (!std::isnan(value)) answer.quantities.push_back({&scalar_kinds[which], {value}, error});
   };
-  // relative to the truth, which may be smaller by as much
-  const auto relative = [](double absolute, double value) noexcept {
-    const double left = std::abs(value) - absolute;
-    return absolute == 0 ? 0.0 : left > 0 ? absolute / left : infinity<double>;
-  };
-  quantity("period", p.period, p.period_error);
-  quantity("floquet_trace", p.trace, relative(p.trace_error, p.trace));
-  const OrbitStability verdict = orbit_stability(p.trace, p.trace_error);
-  const bool decided = verdict != OrbitStability::undecided;
-  quantity("stable", decided ? verdict == OrbitStability::stable : p.stable, nan<double>);
-  quantity("precession_rate", p.precession, relative(p.precession_error, p.precession));
+  quantity(scalar::period, known.period, known.period_error);
+  quantity(scalar::floquet_trace, known.trace, known.trace_error);
+  quantity(scalar::stable, stability(known), nan<double>);
+  quantity(scalar::precession_rate, known.precession, known.precession_error);
 }
 
 }  // namespace gyrostat::heavy

@@ -60,8 +60,8 @@ Capture<Scalar> capture(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& s
     if (!answer || answer->status != ode::Status::reached) return samples;
     for (std::size_t i = 0; i < samples; ++i) {
       const auto found = certify(gyrostat, steady, states[i].momentum, states[i].axial_momentum);
-      if (detail::certain(gyrostat, found, states[i].momentum, answer->error.angular_momentum,
-                          answer->error.lyapunov * level)) {
+      if (detail::certain(gyrostat, found, states[i].momentum, answer->error[column::angular_momentum],
+                          answer->error[column::lyapunov] * level)) {
         made.attractor = found;
         made.time = times[i];
         return i;

@@ -15,18 +15,13 @@ inline Track closed_form_track(const Scene& scene, Monitor*) {
         Errc::not_applicable,
         "no closed form: the body has momentum, is not symmetric about the rotor's axis, and starts neither in a "
         "steady rotation nor on the circle of a circular section");
-  const auto bound = form.error(scene.data().times.back());
+  const auto bound = form.error(scene.question().times.back());
   Track track;
-  track.states.reserve(scene.data().times.size());
-  for (const double t : scene.data().times) track.states.push_back(form.at(t));
-  track.error = state_columns(scene.gyrostat(), track.states, bound);
+  track.states.reserve(scene.question().times.size());
+  for (const double t : scene.question().times) track.states.push_back(form.at(t));
+  track.error = state_columns({scene.gyrostat(), scene.start()}, track.states, bound);
   track.in_domain = bound.attitude < infinity<double>;
-  if (!track.in_domain)
-    track.warn(
-        "leaves-closed-form",
-        "body and start lie off the exact family by rounding or by the data, and before the last time the motion has "
-        "left it; off by, relative",
-        form.defect());
+  if (!track.in_domain) track.warn(warning_kinds[warning::leaves_closed_form], form.defect());
   return track;
 }
 

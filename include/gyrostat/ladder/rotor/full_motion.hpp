@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +11,12 @@
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
-#include "gyrostat/ladder/rotor/column_errors.hpp"
-#include "gyrostat/ladder/rotor/scene.hpp"
+#include "gyrostat/ladder/companions.hpp"
+#include "gyrostat/ladder/full_motion.hpp"
+#include "gyrostat/ladder/honesty.hpp"
+#include "gyrostat/ladder/question.hpp"
+#include "gyrostat/ladder/rotor/motion.hpp"
+#include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/rotor/full.hpp"
 #include "gyrostat/models/rotor/gyrostat.hpp"
 #include "gyrostat/models/rotor/relaxing.hpp"
@@ -25,23 +28,13 @@
 namespace gyrostat::rotor {
 
 template <Real Scalar>
-struct FullMotionOptions {
-  Scalar tolerance = Scalar(1e-9L);  ///< greatest error wanted in any column, as ColumnErrors measures it
+struct FullMotionOptions : MotionOptions<Scalar> {
   Integrator integrator = Integrator::any;
-  std::uint64_t step_cap = 100'000'000;
-  std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
-  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
 };
 
 template <Real Scalar>
-struct FullMotionAnswer {
-  ode::Status status = ode::Status::reached;
-  bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
-  /// Estimated greatest errors over the times, each relative to the greatest norm of its column; attitude: the angle, rad.
-  ColumnErrors<Scalar> error;
-  ode::Counts counts;                    ///< of all runs, the companions' included
+struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
   Integrator used = Integrator::taylor;  ///< radau: but for the first moments, while the motor comes to its balance
-  Scalar step_tolerance = 0;             ///< of the steps that gave the answer
 };
 
 /// How fast the body turns or could soon turn, a bound of the order of |Omega|, rad/s.
@@ -103,13 +96,6 @@ class Course {
       std::construct_at(&collocation_, relaxing_, series_.time(), relaxing_.components(now), collocation_options_);
     }
     return collocates_ ? collocation_.step(t_max) : series_.step(std::min(t_max, layer_));
-  }
-
-  /// Steps until the last of them holds t or ends at t_max.
-  ode::Status reach(Scalar t, Scalar t_max) noexcept {
-    ode::Status status = ode::Status::reached;
-    while (status == ode::Status::reached && time() < t && time() < t_max) status = step(t_max);
-    return status;
   }
 
   Scalar time() const noexcept { return collocates_ ? collocation_.time() : series_.time(); }
@@ -196,59 +182,30 @@ struct Neighbour {
   }
 };
 
-template <Real Scalar>
-ColumnErrors<Scalar> greater(const ColumnErrors<Scalar>& a, const ColumnErrors<Scalar>& b) noexcept {
-  const auto more = [](Scalar x, Scalar y) noexcept { return x >= y || !(x == x) ? x : y; };
-  return {more(a.attitude, b.attitude),
-          more(a.angular_velocity, b.angular_velocity),
-          more(a.angular_momentum, b.angular_momentum),
-          more(a.rotor_rate, b.rotor_rate),
-          more(a.rotor_angle, b.rotor_angle),
-          more(a.lyapunov, b.lyapunov)};
-}
-
-/// a f + b, column by column.
-template <Real Scalar>
-ColumnErrors<Scalar> multiply_add(const ColumnErrors<Scalar>& a, Scalar f, const ColumnErrors<Scalar>& b) noexcept {
-  return {a.attitude * f + b.attitude,
-          a.angular_velocity * f + b.angular_velocity,
-          a.angular_momentum * f + b.angular_momentum,
-          a.rotor_rate * f + b.rotor_rate,
-          a.rotor_angle * f + b.rotor_angle,
-          a.lyapunov * f + b.lyapunov};
-}
-
 /// What an evaluation of the columns loses, in their units, where the state is known to `relative`.
 template <Real Scalar>
-ColumnErrors<Scalar> rounding_of_columns(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start,
+ColumnErrors<Scalar> rounding_of_columns(const Row<Scalar>& row, const State<Scalar>& start,
                                          const ColumnErrors<Scalar>& size, Scalar relative) noexcept {
+  const Gyrostat<Scalar>& gyrostat = row.body;
   const Scalar lambda = gyrostat.axial_inertia(), k = gyrostat.coupling();
   const Scalar H = start.momentum.norm(), wheel = std::abs(start.axial_momentum) + std::abs(gyrostat.target_momentum());
   const Scalar fastest = 1 / gyrostat.free_principal()[0];
   const Scalar p = relative * (wheel + std::min(H, lambda * fastest * H));
   const Scalar pull = (gyrostat.free_inverse() * gyrostat.axis()).norm();
   ColumnErrors<Scalar> error;
-  error.attitude = 4 * relative;
-  error.angular_momentum = 4 * relative * H;
-  error.angular_velocity = 2 * relative * H * fastest + 2 * p * pull;
-  error.rotor_rate = 2 * relative * H * pull + 2 * p / (lambda * k);
-  error.rotor_angle = 4 * relative * size.rotor_angle;
+  error[column::attitude] = 4 * relative;
+  error[column::angular_momentum] = 4 * relative * (H + row.scale[column::angular_momentum]);
+  error[column::angular_velocity] = 2 * relative * H * fastest + 2 * p * pull;
+  error[column::rotor_rate] = 2 * relative * H * pull + 2 * p / (lambda * k);
+  error[column::rotor_angle] = 4 * relative * size[column::rotor_angle];
   // of the polynomial of one step, too; an angle that never left zero has not been integrated
   const Scalar turning = turning_rate(gyrostat, start);
-  if (turning > 0 && size.rotor_angle > 0) error.rotor_angle += error.rotor_rate / turning;
+  if (turning > 0 && size[column::rotor_angle] > 0) error[column::rotor_angle] += error[column::rotor_rate] / turning;
   // V is a sum of squares
   const Scalar root =
-      2 * relative * (H + wheel) / std::sqrt(gyrostat.principal()[0]) + std::sqrt(lambda * k / 2) * error.rotor_rate;
-  error.lyapunov = std::sqrt(2 * size.lyapunov) * root + root * root;
+      2 * relative * (H + wheel) / std::sqrt(gyrostat.principal()[0]) + std::sqrt(lambda * k / 2) * error[column::rotor_rate];
+  error[column::lyapunov] = std::sqrt(2 * size[column::lyapunov]) * root + root * root;
   return error;
-}
-
-/// Errors relative to the answer as errors relative to the truth, which may be smaller by as much; infinite where it may vanish.
-template <Real Scalar>
-ColumnErrors<Scalar> relative_to_truth(const ColumnErrors<Scalar>& error) noexcept {
-  const auto grown = [](Scalar e) noexcept { return e < 1 ? e / (1 - e) : e == e ? infinity<Scalar> : e; };
-  return {error.attitude,          grown(error.angular_velocity), grown(error.angular_momentum),
-          grown(error.rotor_rate), grown(error.rotor_angle),      grown(error.lyapunov)};
 }
 
 template <Real Scalar>
@@ -269,92 +226,34 @@ class FullMotion {
     layer_ = !collocates ? infinity<Scalar> : stiff ? 40 / gyrostat.relaxation_rate() : Scalar(0);
   }
 
-  /// The answer's run and its neighbour's side by side, and their distance. inside: what collocation may err between its steps.
+  /// The answer's run and its neighbours' side by side, and their distance. inside: what collocation may err between its steps.
   FullMotionAnswer<Scalar> run(Scalar step_tolerance, Scalar inside, double progress_from,
                                double progress_to) const noexcept {
-    constexpr Scalar eps = epsilon<Scalar>, looser = 64;
+    constexpr Scalar eps = epsilon<Scalar>;
+    constexpr auto& how = honesty::side_by_side;
+    constexpr Scalar looser = Scalar(how.looser), least = Scalar(how.least_loose) * eps;
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     answer.used = layer_ < times_.back() ? Integrator::radau : Integrator::taylor;
     Course<Scalar> course(gyrostat_, start_, layer_, step_tolerance, inside, options_.step_cap);
     const auto beside = [&](const Neighbour<Scalar>& neighbour) noexcept {
-      return Course<Scalar>(neighbour.gyrostat, neighbour.start, layer_, std::max(looser * step_tolerance, 64 * eps),
-                            std::max(looser * inside, 64 * eps), options_.step_cap);
+      return Course<Scalar>(neighbour.gyrostat, neighbour.start, layer_, std::max(looser * step_tolerance, least),
+                            std::max(looser * inside, least), options_.step_cap);
     };
     Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
-    // Where rounding has a part, all runs err alike, and one distance may be small by chance.
-    const bool rounds = step_tolerance < 512 * eps;
-    Comparison<Scalar> asked(gyrostat_);
-    ColumnErrors<Scalar> kept, greatest;
-    const auto distance = [&](const State<Scalar>& here, Scalar t) noexcept {
-      Comparison<Scalar> now(gyrostat_);
-      now.add(here, companion.at(t));
-      if (rounds) now.add(here, second.at(t));
-      return now.difference();
+    // the polynomial of a step, good to its tolerance, and rounding at the asked times
+    const Row<Scalar> row(gyrostat_, start_);
+    const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
+      const Scalar between = answer.used == Integrator::radau ? 2 * inside : 0;
+      return rounding_of_columns(row, start_, size, 4 * eps + steps + 2 * step_tolerance + between);
     };
-    const auto reach = [&](Scalar t, Scalar last) noexcept {
-      const ode::Status status = course.reach(t, last);
-      return status == ode::Status::reached && rounds ? second.reach(t, last) : status;
-    };
-
-    const Scalar last = times_.back();
-    std::size_t next = 0;
-    for (; next < times_.size() && !(times_[next] > 0); ++next) {
-      states_[next] = start_;
-      asked.add(start_, start_);
-    }
-    std::uint32_t trips = 0;
-    while (next < times_.size() && answer.status == ode::Status::reached) {
-      const Scalar before = companion.time();
-      answer.status = companion.step(last);
-      if (answer.status != ode::Status::reached) break;
-      const Scalar now = companion.time();
-      // what was seen fades over twenty turns
-      kept = multiply_add(kept, 1 / (1 + (now - before) * turning_ / 128), ColumnErrors<Scalar>{});
-      for (; next < times_.size() && times_[next] <= now; ++next) {
-        answer.status = reach(times_[next], last);
-        if (answer.status != ode::Status::reached) break;
-        states_[next] = course.at(times_[next]);
-        asked.add(states_[next], states_[next]);
-        kept = greater(distance(states_[next], times_[next]), kept);
-        greatest = greater(kept, greatest);
-      }
-      if (next == times_.size() || answer.status != ode::Status::reached) break;
-      answer.status = reach(now, last);
-      kept = greater(distance(course.at(now), now), kept);
-      if ((trips++ & 255U) == 0) {
-        if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed))
-          answer.status = ode::Status::cancelled;
-        const double done = static_cast<double>(now / last);
-        report(progress_from + done * (progress_to - progress_from));
-      }
-    }
-    answer.counts = course.counts();
-    const std::uint64_t steps = answer.counts.steps;
-    answer.counts += companion.counts();
-    answer.counts += second.counts();
-    if (answer.status != ode::Status::reached) {
-      for (; next < times_.size(); ++next) states_[next] = nowhere();
-      answer.error = {nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>};
-      return answer;
-    }
-
-    // What the runs share: the polynomial of a step, good to its tolerance, and rounding at the asked times.
-    const Scalar margin = rounds ? 8 : 6;
-    const Scalar walk = eps * std::sqrt(static_cast<Scalar>(steps));
-    const Scalar shared = 4 * eps + walk + 2 * step_tolerance + (answer.used == Integrator::radau ? 2 * inside : 0);
-    const auto rounding = rounding_of_columns(gyrostat_, start_, asked.size(), shared);
-    answer.error = relative_to_truth(asked.relative(multiply_add(greatest, margin, rounding)));
-    answer.met = answer.error.greatest() <= options_.tolerance;
+    solve_beside(answer, row, course, companion, second, start_, turning_, times_, states_,
+                 nowhere(), options_, progress_from, progress_to, rounding);
     return answer;
   }
 
   /// The angle turned through up to the last time, to its order, rad.
   Scalar phase() const noexcept { return turning_ * times_.back(); }
-
-  void report(double done) const noexcept {
-    if (options_.progress != nullptr) options_.progress->store(std::min(done, 1.0), std::memory_order_relaxed);
-  }
 
  private:
   static State<Scalar> nowhere() noexcept {
@@ -378,10 +277,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Gyrostat<Scalar>& gyrostat, c
                                              std::span<const Scalar> times, std::span<State<Scalar>> states,
                                              const FullMotionOptions<Scalar>& options) noexcept {
   if (states.size() != times.size()) return Errc::out_of_domain;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
-    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
-  }
+  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
   const Scalar length = norm(start.attitude);
   if (!(length < infinity<Scalar>) || !start.momentum.allFinite() || !std::isfinite(start.axial_momentum) ||
       !std::isfinite(start.rotor_angle) || !(options.tolerance == options.tolerance))
@@ -392,27 +288,15 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Gyrostat<Scalar>& gyrostat, c
   if (times.empty()) return answer;
 
   State<Scalar> from = start;
-  from.attitude = normalised(start.attitude);
+  from.attitude = as_unit(start.attitude);
   const detail::FullMotion<Scalar> motion(gyrostat, from, times, states, options);
-  // First guess of the step tolerance: errors grow with the turns, and the estimate stands a hundred times above them.
-  constexpr Scalar finest = epsilon<Scalar> / 8;
-  Scalar step_tolerance = options.tolerance / 64 / (8 + motion.phase() / 16);
-  step_tolerance = std::max(finest, std::min(step_tolerance, Scalar(1e-8L)));
-  Scalar inside = std::max(step_tolerance, options.tolerance / 512);
-  ode::Counts counts;
-  constexpr double part[] = {0.0, 0.7, 0.9, 1.0};
-  for (int trial = 0;; ++trial) {
-    answer = motion.run(step_tolerance, inside, part[trial], part[trial + 1]);
-    counts += answer.counts;
-    answer.counts = counts;
-    if (answer.met || trial == 2 || answer.status != ode::Status::reached || step_tolerance <= finest) {
-      motion.report(1);
-      return answer;
-    }
-    const Scalar excess = answer.error.greatest() / options.tolerance;
-    step_tolerance = excess > 1 ? std::max(finest, step_tolerance / (8 * excess)) : finest;
-    inside = excess > 1 ? std::max(step_tolerance, inside / (8 * excess)) : step_tolerance;
-  }
+  const Scalar first =
+      first_step_tolerance<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_step));
+  Scalar inside = options.tolerance / 512;
+  return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar by, double begin, double end) noexcept {
+    inside = std::max(step_tolerance, inside / by);
+    return motion.run(step_tolerance, inside, begin, end);
+  });
 }
 
 #if defined(GYROSTAT_COMPILED)

@@ -8,18 +8,20 @@ namespace gyrostat::rotor {
 
 /// Rung `full`: the full equations, by the library's own integrators or by those that the scene brings.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
-  const auto& data = scene.data();
-  if (data.full_equations) return data.full_equations(scene, monitor);
+  const Question& question = scene.question();
+  if (scene.full_equations) return scene.full_equations(scene, monitor);
+  if (phase_too_long(turning_rate(scene.gyrostat(), scene.start()) * question.times.back(), question.tolerance))
+    return refused<Track>(Errc::step_limit, phase_lost);
   Track track;
-  track.states.resize(data.times.size());
+  track.states.resize(question.times.size());
   FullMotionOptions<double> options;
-  options.tolerance = data.tolerance;
-  options.integrator = data.integrator;
+  options.tolerance = question.tolerance;
+  options.integrator = question.integrator;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
-  const auto answer = full_motion<double>(scene.gyrostat(), scene.start(), data.times, track.states, options);
+  const auto answer = full_motion<double>(scene.gyrostat(), scene.start(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)
-    return refused<Track>(failure_of(answer->status), ode::message(answer->status));
+    return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   track.error = answer->error;
   track.counts = answer->counts;
   return track;

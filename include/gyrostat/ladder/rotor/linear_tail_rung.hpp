@@ -47,20 +47,16 @@ inline double wanted_distance(const LinearTail<double>& tail, double t, double t
   return std::min(wanted, 0.05);
 }
 
-inline ColumnErrors<double> sum(const ColumnErrors<double>& a, const ColumnErrors<double>& b) noexcept {
-  return {a.attitude + b.attitude,     a.angular_velocity + b.angular_velocity, a.angular_momentum + b.angular_momentum,
-          a.rotor_rate + b.rotor_rate, a.rotor_angle + b.rotor_angle,           a.lyapunov + b.lyapunov};
-}
-
 /// Solves the full equations until the tail from there meets the tolerance, and goes on with it. Not applicable where the times
 /// end before, or so soon after that nothing is won.
 inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttractors& attractors, Monitor* monitor) {
   const auto& body = scene.gyrostat();
-  const auto& times = scene.data().times;
-  const double last = times.back(), tolerance = scene.data().tolerance, l = scene.start().momentum.norm();
+  const auto& times = scene.question().times;
+  const double last = times.back(), tolerance = scene.question().tolerance, l = scene.start().momentum.norm();
   const double fast = (l + std::abs(body.target_momentum())) / body.principal()[0];
   // greatest share of the times that the full equations may take: they are solved twice where the first window was too short
-  const double worth = scene.data().model == Model::linear_tail ? 0.9 : 0.25;
+  const double worth = scene.question().rung == rung::linear_tail ? 0.9 : 0.25;
+  const Row<double> row(body, scene.start());
   const Track not_worth = over_tolerance<Track>(nan<double>);
 
   const auto time_to_fall = [&](const LinearTail<double>& tail, double from, double wanted) {
@@ -74,34 +70,33 @@ inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttract
   ode::Counts counts;
   for (int trial = 0; trial < 4; ++trial) {
     if (!(window <= worth * last)) return not_worth;
-    SceneData data = scene.data();
-    data.tolerance = std::max(inner, 1e-15);
-    data.times.resize(std::size_t(std::lower_bound(times.begin(), times.end(), window) - times.begin()));
-    data.times.push_back(window);
-    const auto part = Scene::make(body, data);
-    if (!part) return refused<Track>(part.error(), message(part.error()));
-    Track track = full_track(*part, monitor);
+    Question inside = scene.question();
+    inside.tolerance = std::max(inner, 1e-15);
+    inside.times.resize(std::size_t(std::lower_bound(times.begin(), times.end(), window) - times.begin()));
+    inside.times.push_back(window);
+    Track track = full_track(scene.asked(inside), monitor);
     if (track.failure != Errc::ok) return track;
     counts += track.counts;
 
-    Comparison<double> sizes(body);
-    for (const auto& state : track.states) sizes.add(state, state);
+    Comparison sizes(row);
+    for (const auto& state : track.states) sizes.add(state);
     const auto tail = attractors.tail(body, track.states.back());
     track.states.pop_back();
     auto bound = tail.error(last - window);
     const auto carried =
-        tail.carried(track.error.angular_momentum * l, track.error.rotor_rate * sizes.size().rotor_rate);
+        tail.carried(track.error[column::angular_momentum] * sizes.unit(column::angular_momentum),
+                     track.error[column::rotor_rate] * sizes.unit(column::rotor_rate));
     bound.attitude += carried.attitude + 4 * epsilon<double> * last * fast;
     bound.momentum += carried.momentum;
     bound.rotor_rate += carried.rotor_rate;
     bound.rotor_angle += carried.rotor_angle;
-    if (bound.attitude + track.error.attitude <= tolerance && bound.momentum <= tolerance * l) {
+    if (bound.attitude + track.error[column::attitude] <= tolerance && bound.momentum <= tolerance * l) {
       for (std::size_t i = track.states.size(); i < times.size(); ++i)
         track.states.push_back(tail.at(times[i] - window));
-      track.error = sum(track.error, state_columns(body, track.states, bound));
+      track.error += state_columns(row, track.states, bound);
       track.counts = counts;
       if (track.error.greatest() <= tolerance) {
-        track.warn("hand-over", "the full equations were solved first; the linear tail goes on from, s", window);
+        track.warn(warning_kinds[warning::hand_over], window);
         return track;
       }
     }
@@ -121,7 +116,7 @@ inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttract
 inline Track linear_tail_track(const Scene& scene, Monitor* monitor) {
   const auto& body = scene.gyrostat();
   const auto& start = scene.start();
-  const auto& data = scene.data();
+  const Question& question = scene.question();
   const double l = start.momentum.norm();
   if (!(l > 0))
     return refused<Track>(Errc::not_applicable, "the body has no angular momentum: no steady rotation to tend to");
@@ -133,25 +128,26 @@ inline Track linear_tail_track(const Scene& scene, Monitor* monitor) {
                           "no steady rotation attracts exponentially: the rotor does not feel the nutation");
 
   const auto tail = attractors.tail(body, start);
-  const auto bound = tail.error(data.times.back());
+  const auto bound = tail.error(question.times.back());
   const bool near = bound.attitude < infinity<double>;
+  const Row<double> row(body, start);
   const auto alone = [&] {
     Track track;
-    track.states.reserve(data.times.size());
-    for (const double t : data.times) track.states.push_back(tail.at(t));
-    track.error = state_columns(body, track.states, bound);
+    track.states.reserve(question.times.size());
+    for (const double t : question.times) track.states.push_back(tail.at(t));
+    track.error = state_columns(row, track.states, bound);
     track.in_domain = near;
     return track;
   };
   Track track;
   if (near) {
     track = alone();
-    if (track.error.greatest() <= data.tolerance) return track;
+    if (track.error.greatest() <= question.tolerance) return track;
   }
   Track handed = detail::tail_after_full_motion(scene, attractors, monitor);
   if (handed.failure == Errc::ok || handed.failure == Errc::cancelled) return handed;
   if (near) return track;
-  if (data.model == Model::linear_tail && tail.distance() < 0.5) return alone();
+  if (question.rung == rung::linear_tail && tail.distance() < 0.5) return alone();
   return refused<Track>(Errc::not_applicable,
                         "too far from every steady rotation that attracts, and not near one soon enough");
 }

@@ -5,42 +5,44 @@
 #include <cmath>
 #include <span>
 
-#include "gyrostat/ladder/rotor/column_errors.hpp"
+#include "gyrostat/ladder/rotor/motion.hpp"
 
 namespace gyrostat::rotor {
 
-/// Errors of the columns, relative to their greatest norms in `states`, from a bound for all of them: {attitude, momentum,
+/// Errors of the columns, relative to their greatest norms in `states` or to their scales, from a bound for all of them: {attitude, momentum,
 /// rotor_rate, rotor_angle}, rad, N m s, rad/s, rad. What making the columns from states costs by rounding is added.
 template <class Bound>
-ColumnErrors<double> state_columns(const Gyrostat<double>& body, std::span<const State<double>> states,
+ColumnErrors<double> state_columns(const Row<double>& row, std::span<const State<double>> states,
                                    const Bound& bound) noexcept {
-  Comparison<double> sizes(body);
+  const Gyrostat<double>& body = row.body;
+  Comparison sizes(row);
   double lyapunov = 0, rounding = 0;
   const double j = 1 / body.principal()[0], lambda = body.axial_inertia(), k = body.coupling();
   const double j_free = 1 / body.free_principal()[0];
   const double e_n = (body.inverse_inertia() * body.axis()).norm();
   constexpr double ulps = 4 * epsilon<double>;
   for (const State<double>& s : states) {
-    sizes.add(s, s);
+    sizes.add(s);
     const double l = s.momentum.norm(), h = std::abs(body.target_momentum()), p = std::abs(s.axial_momentum);
     const Vec3<double> Omega = body.angular_velocity(s.momentum, s.axial_momentum);
     const double x = body.rotor_rate(s.axial_momentum, Omega) - body.no_load_rate();
     const Vec3<double> gradient = body.inverse_inertia() * (s.momentum - body.target_momentum() * body.axis());
     const double dH = bound.momentum + ulps * (l + h);
     const double dx = bound.rotor_rate + ulps * (p / lambda + j_free * (l + p) + std::abs(body.no_load_rate()));
-    rounding = std::max(rounding, ulps * j_free * (l + p));
-    lyapunov = std::max(lyapunov, gradient.norm() * dH + lambda * k * std::abs(x) * dx +
-                                      (j * dH * dH + lambda * k * dx * dx) / 2 +
-                                      ulps * body.lyapunov(s.momentum, s.axial_momentum));
+    rounding = greater(rounding, ulps * j_free * (l + p));
+    // 0 times an infinite bound is NaN: not known
+    lyapunov = greater(lyapunov, gradient.norm() * dH + lambda * k * std::abs(x) * dx +
+                                     (j * dH * dH + lambda * k * dx * dx) / 2 +
+                                     ulps * body.lyapunov(s.momentum, s.axial_momentum));
   }
   ColumnErrors<double> errors;
-  errors.attitude = std::min(bound.attitude, pi<double>);
-  errors.angular_momentum = bound.momentum;
-  errors.angular_velocity = j * bound.momentum + lambda * e_n * bound.rotor_rate + rounding;
-  errors.rotor_rate = bound.rotor_rate;
-  errors.rotor_angle = bound.rotor_angle;
-  errors.lyapunov = lyapunov;
-  return sizes.relative(errors);
+  errors[column::attitude] = std::min(bound.attitude, pi<double>);
+  errors[column::angular_momentum] = bound.momentum + 16 * epsilon<double> * row.scale[column::angular_momentum];
+  errors[column::angular_velocity] = j * bound.momentum + lambda * e_n * bound.rotor_rate + rounding;
+  errors[column::rotor_rate] = bound.rotor_rate;
+  errors[column::rotor_angle] = bound.rotor_angle;
+  errors[column::lyapunov] = lyapunov == lyapunov ? lyapunov : infinity<double>;
+  return relative_to_truth(sizes.relative(errors), column_kinds);
 }
 
 }  // namespace gyrostat::rotor

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <vector>
 
+#include "gyrostat/ladder/fill.hpp"
 #include "gyrostat/ladder/outcome.hpp"
-#include "gyrostat/ladder/rotor/column_errors.hpp"
+#include "gyrostat/ladder/rotor/motion.hpp"
 #include "gyrostat/ladder/rotor/scene.hpp"
 
 namespace gyrostat::rotor {
@@ -17,36 +17,13 @@ struct Track : Outcome {
   ColumnErrors<double> error;
 };
 
-/// The columns of SCENES.md. The answer's error is the greatest of all columns.
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
-  const auto& body = scene.gyrostat();
-  const std::size_t n = track.states.size();
-  answer.times = scene.data().times;
-  answer.warnings = track.warnings;
-  answer.counts = track.counts;
-  const auto column = [&](const char* name, int width, double error) -> std::vector<double>& {
-    answer.columns.push_back({name, width, {}, error});
-    answer.columns.back().values.reserve(n * std::size_t(width));
-    return answer.columns.back().values;
-  };
-  answer.columns.reserve(6);
-  auto& attitude = column("attitude", 4, track.error.attitude);
-  auto& velocity = column("angular_velocity", 3, track.error.angular_velocity);
-  auto& momentum = column("angular_momentum", 3, track.error.angular_momentum);
-  auto& rate = column("rotor_rate", 1, track.error.rotor_rate);
-  auto& angle = column("rotor_angle", 1, track.error.rotor_angle);
-  auto& lyapunov = column("lyapunov", 1, track.error.lyapunov);
-  for (const State<double>& state : track.states) {
-    const Vec3<double> Omega = body.angular_velocity(state.momentum, state.axial_momentum);
-    const Quat<double>& q = state.attitude;
-    attitude.insert(attitude.end(), {q.x, q.y, q.z, q.w});
-    velocity.insert(velocity.end(), Omega.begin(), Omega.end());
-    momentum.insert(momentum.end(), state.momentum.begin(), state.momentum.end());
-    rate.push_back(body.rotor_rate(state.axial_momentum, Omega));
-    angle.push_back(state.rotor_angle);
-    lyapunov.push_back(body.lyapunov(state.momentum, state.axial_momentum));
-  }
-  answer.error = track.error.greatest();
+  fill_head(answer, scene.question(), track);
+  fill_columns(answer, Row<double>(scene.gyrostat(), scene.start()), track.states, track.error);
+  const auto& [q, Omega, omega] = scene.given();
+  put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
+  put_start(answer, column_kinds[column::angular_velocity], {Omega[0], Omega[1], Omega[2]});
+  put_start(answer, column_kinds[column::rotor_rate], {omega});
 }
 
 }  // namespace gyrostat::rotor

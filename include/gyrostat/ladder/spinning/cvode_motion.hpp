@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
-#include <vector>
+#include <utility>
 
+#include "gyrostat/ladder/cvode_pair.hpp"
 #include "gyrostat/ladder/cvode_walk.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/spinning/full_rung.hpp"
 #include "gyrostat/models/spinning/full.hpp"
 #include "gyrostat/models/spinning/spin_angle.hpp"
@@ -82,25 +83,19 @@ class CvodeEquations {
   Vec3<double> direction_;
 };
 
-/// One CVODE run: the states at the times.
-struct CvodeRun {
-  std::vector<State<double>> states;
-  AngleLever<double> lever;
-  Errc failure = Errc::ok;
-  ode::Counts counts;
-};
-
-inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor) {
+/// One CVODE run; `lever` gathers what an error of the attitude makes of the angles.
+inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, AngleLever<double>& lever,
+                                         Monitor* monitor) {
   const auto& times = scene.question().times;
   const double end = times.back();
   CvodeEquations equations(scene.problem(), end);
   const auto start = equations.start();
   SpinAngle<double> angle(scene.problem());
-  CvodeRun run;
+  CvodeRun<State<double>> run;
   run.states.reserve(times.size());
   const auto keep = [&](double t, const double* y) {
     run.states.push_back(equations.state(t, y, angle.angles()));
-    run.lever.look(angle);
+    lever.look(angle);
   };
   if (!(times.front() > 0)) keep(0, start.data());
   if (!(end > 0)) return run;
@@ -137,30 +132,22 @@ inline CvodeRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor
 
 /// Rung `full` by CVODE. The error is four times the distance to a second run at a tolerance ten times looser.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
-  const double tolerance = std::max(1e-13, scene.question().tolerance * 1e-6);
-  auto run = detail::cvode_run(scene, tolerance, monitor);
-  if (run.failure != Errc::ok) return refused<Track>(run.failure, message(run.failure));
-  const auto looser = detail::cvode_run(scene, 10 * tolerance, monitor);
-  if (looser.failure != Errc::ok) return refused<Track>(looser.failure, message(looser.failure));
+  AngleLever<double> levers[2];
+  int runs = 0;
+  auto pair = cvode_pair(Row<double>{}, scene.question().tolerance, 1e-6, [&](double tolerance) {
+    return detail::cvode_run(scene, tolerance, levers[runs++], monitor);
+  });
+  if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
   Track track;
-  Comparison<double> comparison;
-  for (std::size_t i = 0; i < run.states.size(); ++i) comparison.add(run.states[i], looser.states[i]);
-  const auto& size = comparison.size();
-  const auto& apart = comparison.difference();
-  ColumnErrors<double> error;
-  error.angular_velocity = 4 * apart.angular_velocity + tolerance * size.angular_velocity;
-  error.attitude = 4 * apart.attitude + tolerance;
-  error.momentum = 4 * apart.momentum + tolerance * size.momentum;
-  error.velocity = 4 * apart.velocity + tolerance * size.velocity;
-  error.position = 4 * apart.position + tolerance * size.position;
-  error.angles = 4 * apart.angles + tolerance * size.angles;
-  if (size.angular_velocity > 0) error.angles += run.lever.error(error.attitude);
-  track.error = comparison.relative(error);
-  if (run.lever.loses_turns(error.attitude)) detail::warn_of_gimbal_lock(track, run.lever.least_cosine());
-  track.states = std::move(run.states);
-  track.counts = run.counts;
-  track.counts += looser.counts;
+  track.states = std::move(pair.states);
+  track.counts = pair.counts;
+  const auto& lever = levers[0];
+  auto error = honesty::cvode_margin * pair.both.difference() + pair.tolerance * pair.both.size();
+  const double attitude = error[column::attitude];
+  if (pair.both.size()[column::angular_velocity] > 0) error[column::euler_312] += lever.error(attitude);
+  track.error = pair.both.relative(error);
+  if (lever.loses_turns(attitude)) detail::warn_of_gimbal_lock(track, lever.least_cosine());
   return track;
 }
 

@@ -2,16 +2,17 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
-#include "gyrostat/ladder/spinning/column_errors.hpp"
+#include "gyrostat/ladder/comparison.hpp"
+#include "gyrostat/ladder/full_motion.hpp"
+#include "gyrostat/ladder/honesty.hpp"
+#include "gyrostat/ladder/spinning/motion.hpp"
 #include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/spinning/full.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
@@ -25,23 +26,12 @@
 namespace gyrostat::spinning {
 
 template <Real Scalar>
-struct FullMotionOptions {
-  Scalar tolerance = Scalar(1e-9L);  ///< greatest relative error wanted in any column
-  std::uint64_t step_cap = 100'000'000;
-  std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
-  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
-};
+using FullMotionOptions = MotionOptions<Scalar>;
 
 template <Real Scalar>
-struct FullMotionAnswer {
-  ode::Status status = ode::Status::reached;
-  bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
-  /// Estimated greatest errors over the times, each relative to the greatest norm of its column over the times; attitude: the angle, rad.
-  ColumnErrors<Scalar> error;
-  Scalar least_cosine = 1;    ///< a lower bound of cos(psi) on the way
-  bool turns_known = true;    ///< false: cos(psi) = 0 is passed on a side that the error of the attitude leaves open
-  ode::Counts counts;         ///< of all runs, the companion's included
-  Scalar step_tolerance = 0;  ///< of the Taylor steps that gave the answer
+struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
+  Scalar least_cosine = 1;  ///< a lower bound of cos(psi) on the way
+  bool turns_known = true;  ///< false: cos(psi) = 0 is passed on a side that the error of the attitude leaves open
 };
 
 /// The full motion at the given times (s from the start, increasing, the first >= 0). What lies behind a failure is NaN.
@@ -125,7 +115,7 @@ class FullRun {
       phase_ += (now - before) * (2 * seen.angular_velocity.norm() + stiffness);
       swing_ += (now - before) * angular_acceleration<Scalar>(problem_, seen.angular_velocity).norm();
       if ((++trips & 255U) == 0) {
-        if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) {
+        if (options_.cancelled()) {
           status = Status::cancelled;
           break;
         }
@@ -159,10 +149,7 @@ class FullRun {
   }
 
   void report(double done) const noexcept {
-    if (options_.progress != nullptr) {
-      options_.progress->store(progress_from_ + std::clamp(done, 0.0, 1.0) * (progress_to_ - progress_from_),
-                               std::memory_order_relaxed);
-    }
+    options_.report(progress_from_ + std::clamp(done, 0.0, 1.0) * (progress_to_ - progress_from_));
   }
 
   const Problem<Scalar>& problem_;
@@ -182,6 +169,8 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
                                                 const FullMotionOptions<Scalar>& options, Scalar step_tolerance,
                                                 double progress_from, double progress_to) noexcept {
   constexpr Scalar eps = epsilon<Scalar>;
+  constexpr auto& how = honesty::spinning_run;
+  constexpr Scalar data = Scalar(how.data_change) * eps;
   FullMotionAnswer<Scalar> answer;
   answer.step_tolerance = step_tolerance;
   const double middle = progress_from + 0.55 * (progress_to - progress_from);
@@ -200,16 +189,16 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
   // a few roundings away, so that a motion that amplifies the rounding of its data shows it
   Problem<Scalar> near = problem;
   for (const int axis : {0, 1}) {
-    const Scalar change = axis == 0 ? 1 + 4 * eps : 1 - 4 * eps;
+    const Scalar change = axis == 0 ? 1 + data : 1 - data;
     near.angular_velocity[axis] *= change;
     near.torque[axis] *= change;
   }
   // the stiffness is a difference of terms that may nearly cancel
-  near.rotor_momentum *= 1 + 4 * eps;
-  near.charge_momentum *= 1 - 4 * eps;
-  constexpr Scalar looser = 64;
-  FullRun<Scalar> companion(near, std::max(step_tolerance * looser, 32 * eps), options, middle, progress_to);
-  Comparison<Scalar> comparison;
+  near.rotor_momentum *= 1 + data;
+  near.charge_momentum *= 1 - data;
+  FullRun<Scalar> companion(near, std::max(step_tolerance * Scalar(how.looser), Scalar(how.least_loose) * eps), options,
+                            middle, progress_to);
+  Comparison comparison(Row<Scalar>{});
   const auto status =
       companion(times, [&](std::size_t i, const State<Scalar>& state) noexcept { comparison.add(states[i], state); });
   answer.counts += companion.counts();
@@ -218,9 +207,7 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
     return answer;
   }
 
-  // The distance may be small by chance: where rounding rules both runs err alike; elsewhere one in ten thousand answers has a step
-  // that is far too long, for its last terms nearly vanish.
-  constexpr Scalar margin = 6;
+  constexpr Scalar margin = Scalar(how.margin);
   // Rounding in every step adds up like a random walk, which the second run may miss by chance.
   const Scalar walk = 2 * eps * std::sqrt(static_cast<Scalar>(run.counts().steps));
   // What both runs share: the polynomial of a step that both take, good to the step tolerance; and the rounding of the data on their
@@ -228,18 +215,18 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
   const Scalar rounding = 8 * eps + walk + 2 * step_tolerance;
   const auto& apart = comparison.difference();
   const auto& size = comparison.size();
-  const Scalar attitude = margin * apart.attitude + 4 * rounding + eps * run.phase();
-  const Scalar momentum = momentum_size + std::abs(problem.rotor_momentum);
-
-  ColumnErrors<Scalar> error;
-  error.angular_velocity = margin * apart.angular_velocity + rounding * size.angular_velocity + eps * run.swing();
-  error.attitude = attitude;
-  error.momentum = margin * apart.momentum + rounding * momentum +
-                   eps * (run.phase() * size.momentum + run.swing() * problem.inertia.maxCoeff());
-  error.velocity = margin * apart.velocity + rounding * size.velocity;
-  error.position = margin * apart.position + rounding * (size.position + problem.position.norm());
-  error.angles = margin * apart.angles + rounding * size.angles;
-  if (run.phase() > 0) error.angles += lever.error(attitude);
+  // what a column is rounded in, and what the phase adds
+  ColumnErrors<Scalar> parts = size, turned;
+  parts[column::attitude] = 4;
+  parts[column::angular_momentum_inertial] = momentum_size + std::abs(problem.rotor_momentum);
+  parts[column::position] += problem.position.norm();
+  turned[column::angular_velocity] = run.swing();
+  turned[column::attitude] = run.phase();
+  turned[column::angular_momentum_inertial] =
+      run.phase() * size[column::angular_momentum_inertial] + run.swing() * problem.inertia.maxCoeff();
+  ColumnErrors<Scalar> error = margin * apart + rounding * parts + eps * turned;
+  const Scalar attitude = error[column::attitude];
+  if (run.phase() > 0) error[column::euler_312] += lever.error(attitude);
   answer.least_cosine = lever.least_cosine();
   answer.turns_known = !lever.loses_turns(attitude);
   answer.error = comparison.relative(error);
@@ -254,10 +241,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
                                              std::span<State<Scalar>> states,
                                              const FullMotionOptions<Scalar>& options) noexcept {
   if (states.size() != times.size()) return Errc::out_of_domain;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
-    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
-  }
+  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
   const auto finite = [](const auto& v) noexcept { return (v - v).isZero(0); };
   const auto& a = problem.angles;
   if (!finite(problem.inertia) || !finite(problem.torque) || !finite(problem.force) ||
@@ -277,7 +261,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   step_tolerance = std::clamp(step_tolerance, finest, Scalar(1e-8L));
   if (!(step_tolerance >= finest)) step_tolerance = finest;
 
-  return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, double begin, double end) noexcept {
+  return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
     return detail::full_motion_with_error<Scalar>(problem, times, states, options, tolerance, begin, end);
   });
 }

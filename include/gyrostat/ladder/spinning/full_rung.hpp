@@ -9,16 +9,15 @@ namespace gyrostat::spinning {
 namespace detail {
 
 inline void warn_of_gimbal_lock(Track& track, double least_cosine) {
-  track.warn("gimbal-lock", "the motion passes so near to cos(psi) = 0 that theta is known but for a turn",
-             least_cosine);
+  track.warn(warning_kinds[warning::gimbal_lock], least_cosine);
 }
 
 }  // namespace detail
 
-/// Rung `full`: the full equations, by Taylor series or by what the question names.
+/// Rung `full`: the full equations, by Taylor series or by what the scene brings.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
-  if (question.full_equations) return question.full_equations(scene, monitor);
+  if (scene.full_equations) return scene.full_equations(scene, monitor);
   Track track;
   track.states.resize(question.times.size());
   FullMotionOptions<double> options;

@@ -73,16 +73,12 @@ inline void linear_states(const Problem<double>& problem, std::span<const double
 
 /// What a motion for small tilt says where it leaves its domain.
 inline void warn_beyond_validity(Track& track, const LinearErrors<double>& error) {
-  track.warn("beyond-validity",
-             "the tilt, or the error of the spin angle, may exceed 0.3 rad: the equations for small tilt and their "
-             "error estimate "
-             "mean little; greatest tilt estimated, rad",
-             error.size.tilt);
+  track.warn(warning_kinds[warning::beyond_validity], error.size.tilt);
 }
 
 /// Gives up before the motion is computed, where another rung may answer: `error` is that of the attitude.
-inline bool gives_up(const Scene& scene, Model rung, const LinearErrors<double>& error) noexcept {
-  return scene.question().model != rung && !(holds(error) && error.attitude <= scene.question().tolerance);
+inline bool gives_up(const Scene& scene, int rung, const LinearErrors<double>& error) noexcept {
+  return scene.question().rung != rung && !(holds(error) && error.attitude <= scene.question().tolerance);
 }
 
 inline Track given_up(const LinearErrors<double>& error) {
@@ -113,7 +109,7 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
     return Errc::ok;
   };
   LinearErrors<double> error{};
-  if (question.model != Model::linear) {
+  if (question.rung != rung::linear) {
     const double r0 = scene.problem().spin(), r1 = r0 + scene.problem().torque[2] / scene.problem().inertia[2] * end;
     if (double(question.times.size()) < std::max(std::abs(r0), std::abs(r1)) * end)
       return refused<Track>(Errc::not_applicable,
@@ -123,12 +119,12 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
     std::array<State<double>, 1> unused;
     if (const Errc wrong = advance(early, unused, error); wrong != Errc::ok)
       return refused<Track>(wrong, message(wrong));
-    if (gives_up(scene, Model::linear, error)) return given_up(error);
+    if (gives_up(scene, rung::linear, error)) return given_up(error);
   }
   track.states.resize(question.times.size());
   if (const Errc wrong = advance(question.times, track.states, error); wrong != Errc::ok)
     return refused<Track>(wrong, message(wrong));
-  if (gives_up(scene, Model::linear, error)) return given_up(error);
+  if (gives_up(scene, rung::linear, error)) return given_up(error);
   judge(track, scene, error);
   return track;
 }
@@ -142,7 +138,7 @@ inline Track linear_track(const Scene& scene, Monitor* monitor) {
   if (problem.torque[2] != 0) return detail::axial_track(scene, monitor);
   const auto& times = scene.question().times;
   const auto error = linear_errors(problem, times.back());
-  if (detail::gives_up(scene, Model::linear, error)) return detail::given_up(error);
+  if (detail::gives_up(scene, rung::linear, error)) return detail::given_up(error);
   Track track;
   track.states.resize(times.size());
   detail::linear_states(problem, times, track.states);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
-
-#include "gyrostat/ladder/spinning/column_errors.hpp"
 #include "gyrostat/ladder/spinning/track.hpp"
 #include "gyrostat/models/spinning/picard.hpp"
 
@@ -13,7 +10,7 @@ namespace gyrostat::spinning {
 /// meet the tolerance. The full equations cost less at every tolerance, so it answers only where it is asked for by name.
 inline Track picard_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
-  if (question.model != Model::picard)
+  if (question.rung != rung::picard)
     return refused<Track>(Errc::not_applicable, "the full equations cost less; ask for it by name");
   Track track;
   track.states.resize(question.times.size());
@@ -33,14 +30,8 @@ inline Track picard_track(const Scene& scene, Monitor* monitor) {
     track.counts.rhs += made->nodes;
     converges = made->converges;
     if (!converges) continue;  // a linear motion with a small error by chance looks so to two sweeps
-    const auto over = [](double error, double size) noexcept { return error == 0 ? 0.0 : error / size; };
-    const auto &e = made->error, &size = made->size;
-    track.error = {over(e.angular_velocity, size.angular_velocity),
-                   over(e.angles, size.angles),
-                   e.attitude,
-                   over(e.momentum, size.momentum),
-                   over(e.velocity, size.velocity),
-                   over(e.position, size.position)};
+    const auto error = made->error.all(), size = made->size.all();
+    for (std::size_t i = 0; i < error.size(); ++i) track.error[i] = over(error[i], size[i]);
     if (track.error.greatest() <= question.tolerance) break;
   }
   if (!converges)

@@ -2,30 +2,15 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/monitor.hpp"
-#include "gyrostat/ladder/times.hpp"
+#include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
 
 namespace gyrostat::spinning {
 
-/// Which rung answers; `any` climbs the ladder.
-enum class Model : std::uint8_t { any, linear, second_order, picard, full };
-
 struct Track;
-class Scene;
-
-/// What is asked.
-struct Question {
-  std::vector<double> times;  ///< s, increasing, the first >= 0
-  double tolerance = 1e-6;
-  Model model = Model::any;
-  /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
-  Track (*full_equations)(const Scene&, Monitor*) = nullptr;
-};
 
 /// A valid scene.
 class Scene {
@@ -51,8 +36,18 @@ class Scene {
     return scene;
   }
 
+  /// The same motion, asked otherwise; `question` must be one that make would take.
+  Scene asked(const Question& question) const {
+    Scene other = *this;
+    other.question_ = question;
+    return other;
+  }
+
   const Problem<double>& problem() const noexcept { return problem_; }
   const Question& question() const noexcept { return question_; }
+
+  /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
+  Track (*full_equations)(const Scene&, Monitor*) = nullptr;
 
  private:
   Problem<double> problem_;

@@ -21,7 +21,7 @@ inline Track second_order_track(const Scene& scene, Monitor*) {
   const auto& times = scene.question().times;
   const double end = times.back();
   const auto error = second_order_errors(problem, end);
-  if (detail::gives_up(scene, Model::second_order, error)) return detail::given_up(error);
+  if (detail::gives_up(scene, rung::second_order, error)) return detail::given_up(error);
   const SecondOrder<double> motion(problem, end > 0 ? end : 1e-6);  // of the start alone any span will do
   if (!motion.applies())
     return refused<Track>(Errc::not_applicable, "too many turns for the integrals of second order");

@@ -13,7 +13,7 @@ namespace gyrostat::spinning {
 /// Beside the columns the answer has
 ///     pointing_error               |M|/|r0 X|, how far the torque pushes the mean direction of the spin axis, rad
 ///     secular_velocity_ratio       limit of (v1, v2)/v3 in the linear motion
-///     tilt_max                     greatest angle of body axis 3 to inertial axis 3 at the times asked for, from the attitudes answered, rad
+///     tilt_max                     greatest angle of body axis 3 to inertial axis 3 at the times asked for, rad
 ///     nutation_frequency_squared   nu^2 at the start, 1/s^2
 /// The first two are NaN where there is no mean: under a torque about axis 3, without stable spin (nu^2 <= 0), where r0 X = 0; the
 /// second also without force.

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "gyrostat/core/real.hpp"
-#include "gyrostat/ladder/spinning/column_errors.hpp"
+#include "gyrostat/ladder/spinning/motion.hpp"
 #include "gyrostat/models/spinning/a_priori.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
 
@@ -24,9 +24,9 @@ inline bool holds(const LinearErrors<double>& error) noexcept {
 /// can have. Infinite where a column may be all error.
 inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const LinearErrors<double>& left_out,
                                         std::span<const State<double>> states, double span) noexcept {
-  Comparison<double> comparison;
-  for (const auto& state : states) comparison.add(state, state);
-  const auto& size = comparison.size();
+  Comparison sizes(Row<double>{});
+  for (const auto& state : states) sizes.add(state);
+  const auto& size = sizes.size();
 
   const auto& D = problem.inertia;
   const double r0 = std::abs(problem.spin()), r1 = std::abs(problem.spin() + problem.torque[2] / D[2] * span);
@@ -41,32 +41,32 @@ inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const Li
   const double rounding = epsilon<double> * (16 + 2 * (fastest + stiffest) * span);
 
   ColumnErrors<double> error;
-  error.angular_velocity = std::hypot(left_out.rates, left_out.spin) + rounding * P + epsilon<double> * fastest;
-  error.angles = std::hypot(left_out.tilt, left_out.theta) + rounding * g + 4 * epsilon<double> * size.angles;
-  error.attitude =
+  error[column::angular_velocity] =
+      std::hypot(left_out.rates, left_out.spin) + rounding * P + epsilon<double> * fastest;
+  error[column::euler_312] =
+      std::hypot(left_out.tilt, left_out.theta) + rounding * g + 4 * epsilon<double> * size[column::euler_312];
+  error[column::attitude] =
       left_out.attitude + rounding * g + 4 * epsilon<double> * (1 + std::abs(problem.angles.theta) + fastest * span);
   const double torque = std::hypot(problem.torque[0], problem.torque[1]);
-  error.momentum = std::hypot(left_out.momentum, left_out.axial_momentum) + 8 * epsilon<double> * size.momentum +
-                   rounding * (torque * once + D.maxCoeff() * P +
-                               (std::abs(problem.axial_momentum()) + std::abs(problem.torque[2]) * span) * g);
+  error[column::angular_momentum_inertial] =
+      std::hypot(left_out.momentum, left_out.axial_momentum) +
+      8 * epsilon<double> * size[column::angular_momentum_inertial] +
+      rounding * (torque * once + D.maxCoeff() * P +
+                  (std::abs(problem.axial_momentum()) + std::abs(problem.torque[2]) * span) * g);
   const double v = push * once + thrust * span;
-  error.velocity = std::hypot(left_out.velocity, left_out.axial_velocity) + 4 * epsilon<double> * size.velocity +
-                   rounding * (push * once + thrust * span * g) + 8 * epsilon<double> * v;
-  error.position =
+  error[column::velocity] = std::hypot(left_out.velocity, left_out.axial_velocity) +
+                            4 * epsilon<double> * size[column::velocity] +
+                            rounding * (push * once + thrust * span * g) + 8 * epsilon<double> * v;
+  error[column::position] =
       std::hypot(left_out.position, left_out.axial_position) +
-      4 * epsilon<double> * (size.position + problem.position.norm() + (problem.velocity.norm() + v) * span) +
+      4 * epsilon<double> * (size[column::position] + problem.position.norm() + (problem.velocity.norm() + v) * span) +
       rounding * (push * once + thrust * span * g) * span;
 
-  const auto over = [](double wrong, double most) noexcept {
-    if (wrong == 0) return 0.0;
-    return wrong < most ? wrong / (most - wrong) : infinity<double>;
-  };
-  return {over(error.angular_velocity, size.angular_velocity),
-          over(error.angles, size.angles),
-          std::min(error.attitude, pi<double>),
-          over(error.momentum, size.momentum),
-          over(error.velocity, size.velocity),
-          over(error.position, size.position)};
+  for (std::size_t i = 0; i < std::size(column_kinds); ++i) {
+    if (i == column::attitude) error[i] = std::min(error[i], pi<double>);
+    else if (error[i] != 0) error[i] = error[i] < size[i] ? error[i] / (size[i] - error[i]) : infinity<double>;
+  }
+  return error;
 }
 
 }  // namespace gyrostat::spinning

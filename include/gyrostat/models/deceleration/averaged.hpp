@@ -31,10 +31,10 @@ struct MeanTorque {
 /// Orbit means of the control torque on the polhode p. NaN in, NaN out.
 template <class Elliptic = math::Native, Real Scalar>
 MeanTorque<Scalar> mean_torque(const Polhode<Scalar>& p, const ControlTorques<Scalar>& b) noexcept {
-  const Scalar y = p.tilt, k2 = p.modulus.k2, kp2 = p.modulus.kp2;
+  const Scalar k2 = p.modulus.k2, kp2 = p.modulus.kp2;
   if (p.axes.axisymmetric()) {
     const Scalar across = (b.mid + b.far) / 2;
-    return {b.near * (1 - y) + across * y, y * (1 - y) * (b.near - across), pi<Scalar> / 2};
+    return {b.near * p.along + across * p.tilt, p.tilt * p.along * (b.near - across), pi<Scalar> / 2};
   }
   const auto m = Elliptic::means(p.modulus);
   const Scalar alpha = p.axes.mid_far + p.axes.near_mid * k2;
@@ -71,6 +71,7 @@ class AveragedEquations {
     Polhode<Scalar> p = family_;
     if (p.axes.axisymmetric()) {
       p.tilt = y[spread];
+      p.along = 1 - p.tilt;
       return p;
     }
     const Scalar minus_k2 = std::expm1(-y[spread]);

@@ -34,7 +34,7 @@ class AveragingError {
     const auto o = greatest_oscillation(p, b, norm);
     const Scalar tilt = p.tilt, k2 = p.modulus.k2, kp2 = p.modulus.kp2;
     const Scalar k2_swing = std::min(Scalar(1), o.spread * k2);
-    const Scalar tilt_swing = std::min(Scalar(1), o.spread * tilt * (p.axes.axisymmetric() ? Scalar(1) : 1 - tilt));
+    const Scalar tilt_swing = std::min(Scalar(1), o.spread * tilt * (p.axes.axisymmetric() ? Scalar(1) : p.along));
     // |M| errs also through the torque of the wrong k2.
     const Scalar most = std::max({b.near, b.mid, b.far}), least = std::min({b.near, b.mid, b.far});
     const auto moved = shifted(p, o.spread);

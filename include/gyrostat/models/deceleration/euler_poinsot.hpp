@@ -3,66 +3,51 @@
 
 #include <cmath>
 
+#include "gyrostat/body/free_motion.hpp"
 #include "gyrostat/math/elliptic.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
 #include "gyrostat/models/deceleration/regime.hpp"
 
-/// The free motion without rotor momentum (Euler, Poinsot), written once for both regimes: `near` is the principal axis
-/// that the polhode surrounds, `far` the opposite one. Only differences of a = 1/J enter, so nothing cancels when two
-/// moments approach each other.
+/// The free motion without rotor momentum (body/free_motion.hpp), |M| left open.
 namespace gyrostat::deceleration {
 
 /// Principal axes as a regime sees them.
 template <Real Scalar>
-struct PolhodeAxes {
-  int near, far;                       ///< indices of the principal axes; the middle one is 1
-  Scalar a_near, a_far;                ///< 1/J of the axes, 1/(kg m^2)
-  Scalar near_mid, mid_far, near_far;  ///< |a_i - a_j|, 1/(kg m^2)
+struct PolhodeAxes : PolhodeGaps<Scalar> {
+  int near, far;         ///< indices of the principal axes; the middle one is 1
+  Scalar a_near, a_far;  ///< 1/J of the axes, 1/(kg m^2)
 
   /// @param a ascending inverse moments; @param regime about_largest or about_smallest
   static PolhodeAxes of(const Vec3<Scalar>& a, Regime regime) noexcept {
     const int n = regime == Regime::about_largest ? 0 : 2, f = 2 - n;
-    return {n, f, a[n], a[f], std::abs(a[1] - a[n]), std::abs(a[f] - a[1]), std::abs(a[f] - a[n])};
+    return {{std::abs(a[1] - a[n]), std::abs(a[f] - a[1]), std::abs(a[f] - a[n])}, n, f, a[n], a[f]};
   }
-
-  /// Value of `tilt` on the separatrix.
-  Scalar separatrix_tilt() const noexcept { return near_mid / near_far; }
-  /// The near axis is an axis of symmetry: k2 is 0 at any tilt.
-  bool axisymmetric() const noexcept { return mid_far == 0; }
 };
 
-/// A polhode apart from the length of M. `tilt` = (2H/M^2 - a_near)/(a_far - a_near) is 0 on the near axis and grows to
-/// near_mid/near_far on the separatrix; modulus.k2 = mid_far tilt / (near_mid (1 - tilt)).
+/// A polhode apart from the length of M; tilt and modulus as in PolhodeShape.
 template <Real Scalar>
 struct Polhode {
   Regime regime;
   PolhodeAxes<Scalar> axes;
   math::Modulus<Scalar> modulus;
-  Scalar tilt;
-  int side;  ///< sign of M along the near axis
+  Scalar tilt, along;  ///< with the sum 1, each from its own products
+  int side;            ///< sign of M along the near axis
 
   /// 2H/M^2, 1/(kg m^2).
   Scalar energy_ratio() const noexcept { return axes.a_near + (axes.a_far - axes.a_near) * tilt; }
   /// du/dt per unit |M|, where u is the argument of the Jacobi functions: n/M of docs/deceleration.md.
-  Scalar rate_per_momentum() const noexcept { return std::sqrt(axes.near_mid * axes.near_far * (1 - tilt)); }
+  Scalar rate_per_momentum() const noexcept { return gyrostat::rate_per_momentum<Scalar>(axes, along); }
 };
 
-/// Polhode through M, from the components (never from M^2 and H, which cancel). M must not vanish; a sphere has none.
+/// Polhode through M, from the components. M must not vanish; a sphere has none.
 template <Real Scalar>
 Polhode<Scalar> polhode_through(const Vec3<Scalar>& a, const Vec3<Scalar>& M) noexcept {
   const Vec3<Scalar> m = M.cwiseProduct(M);
-  const Scalar d21 = a[1] - a[0], d32 = a[2] - a[1];
-  const Regime regime = d21 * m[0] >= d32 * m[2] ? Regime::about_largest : Regime::about_smallest;
+  const Regime regime =
+      surrounds_largest<Scalar>(a[1] - a[0], a[2] - a[1], m[0], m[2]) ? Regime::about_largest : Regime::about_smallest;
   const auto x = PolhodeAxes<Scalar>::of(a, regime);
-  const Scalar near = m[x.near], mid = m[1], far = m[x.far];
-  const Scalar across = x.near_mid * mid + x.near_far * far;  // tilt of M^2 near_far
-  const Scalar along = x.near_far * near + x.mid_far * mid;   // 1 - tilt of the same
-  const Scalar whole = x.near_mid * along;
-  return {regime,
-          x,
-          {x.mid_far * across / whole, x.near_far * (x.near_mid * near - x.mid_far * far) / whole},
-          across / (across + along),
-          M[x.near] < 0 ? -1 : 1};
+  const auto shape = PolhodeShape<Scalar>::of(x, m[x.near], m[1], m[x.far]);
+  return {regime, x, shape.modulus, shape.tilt, shape.along, M[x.near] < 0 ? -1 : 1};
 }
 
 /// The same polhode family at another modulus.
@@ -70,7 +55,10 @@ template <Real Scalar>
 Polhode<Scalar> at_modulus(Polhode<Scalar> polhode, math::Modulus<Scalar> modulus) noexcept {
   const auto& x = polhode.axes;
   polhode.modulus = modulus;
-  if (!x.axisymmetric()) polhode.tilt = x.near_mid * modulus.k2 / (x.mid_far + x.near_mid * modulus.k2);
+  if (x.axisymmetric()) return polhode;
+  const Scalar across = x.near_mid * modulus.k2, whole = x.mid_far + across;
+  polhode.tilt = across / whole;
+  polhode.along = x.mid_far / whole;
   return polhode;
 }
 
@@ -79,7 +67,7 @@ template <class Elliptic = math::Native, Real Scalar>
 Vec3<Scalar> momentum_on(const Polhode<Scalar>& p, Scalar norm, Scalar u) noexcept {
   const auto j = Elliptic::jacobi(u, p.modulus);
   Vec3<Scalar> M;
-  M[p.axes.near] = Scalar(p.side) * norm * std::sqrt(1 - p.tilt) * j.dn;
+  M[p.axes.near] = Scalar(p.side) * norm * std::sqrt(p.along) * j.dn;
   M[1] = norm * std::sqrt(p.tilt * p.axes.near_far / p.axes.near_mid) * j.sn;
   M[p.axes.far] = -Scalar(p.side) * norm * std::sqrt(p.tilt) * j.cn;
   return M;

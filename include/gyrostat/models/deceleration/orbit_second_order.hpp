@@ -96,6 +96,155 @@ struct OrbitSamples {
   }
 };
 
+/// Steps {dR, d eta} of differences on an orbit: small against the way to the nearest equilibrium and separatrix.
+/// @param mean of the momentum over the orbit
+template <Real Scalar, class Elliptic>
+Level<Scalar> difference_steps(const Problem<Scalar>& problem, const Orbit<Scalar, Elliptic>& orbit,
+                               const Vec3<Scalar>& mean) noexcept {
+  const Scalar R = orbit.level().R;
+  const Scalar spread = std::max(Scalar(0), 1 - mean.squaredNorm() / (R * R));
+  const Scalar room = std::min(spread, orbit.modulus().kp2);
+  const Scalar share = std::sqrt(std::sqrt(epsilon<Scalar>)) / 8 * room;
+  const auto& a = problem.inverse_inertia;
+  return {share * R, share * (R * (a[2] - a[0]) + problem.gyro_rate().norm())};
+}
+
+/// Derivatives along R [0] and eta [1] at equal phases.
+template <Real Scalar>
+struct OrbitSlopes {
+  static constexpr int capacity = OrbitSamples<Scalar>::capacity;
+  Scalar T[2], mean_R[2], mean_eta[2];          ///< of the period and of <f>
+  Scalar TfR[2][capacity], Tfeta[2][capacity];  ///< of T f
+  Vec3<Scalar> rest[capacity];                  ///< P less what the changes of R and eta carry
+
+  /// By differences of the orbits about `centre`, whose samples are `mid`. Errors as second_order.
+  template <class Elliptic>
+  Errc take(const Problem<Scalar>& problem, const Orbit<Scalar, Elliptic>& centre, const OrbitSamples<Scalar>& mid,
+            const Level<Scalar>& steps, int n) noexcept {
+    const Level<Scalar> here = centre.level();
+    OrbitSamples<Scalar> up, down;
+    for (int i = 0; i < n; ++i) rest[i] = small_torque(problem, mid.M[i]);
+    for (int along = 0; along < 2; ++along) {
+      const Scalar step = along == 0 ? steps.R : steps.eta;
+      if (!(step > 0)) return Errc::no_convergence;
+      Level<Scalar> plus = here, minus = here;
+      (along == 0 ? plus.R : plus.eta) += step;
+      (along == 0 ? minus.R : minus.eta) -= step;
+      const Scalar width = along == 0 ? plus.R - minus.R : plus.eta - minus.eta;
+      const auto above = Orbit<Scalar, Elliptic>::at(problem, plus, centre.component());
+      const auto below = Orbit<Scalar, Elliptic>::at(problem, minus, centre.component());
+      if (!above) return above.error();
+      if (!below) return below.error();
+      if (above->regime() == Regime::point || below->regime() == Regime::point) return Errc::no_convergence;
+      Scalar doubt_above = 0, doubt_below = 0;
+      up.take(problem, above->aligned_to(centre, &doubt_above), n);
+      down.take(problem, below->aligned_to(centre, &doubt_below), n);
+      if (!(std::max(doubt_above, doubt_below) < Scalar(.01))) return Errc::no_convergence;
+      T[along] = (up.period - down.period) / width;
+      mean_R[along] = (up.mean.R - down.mean.R) / width;
+      mean_eta[along] = (up.mean.eta - down.mean.eta) / width;
+      const Scalar* f = along == 0 ? mid.fR : mid.feta;
+      for (int i = 0; i < n; ++i) {
+        TfR[along][i] = (up.period * up.fR[i] - down.period * down.fR[i]) / width;
+        Tfeta[along][i] = (up.period * up.feta[i] - down.period * down.feta[i]) / width;
+        rest[i] -= (up.M[i] - down.M[i]) * (f[i] / width);
+      }
+    }
+    return Errc::ok;
+  }
+};
+
+/// The second-order terms on one orbit, from its samples and slopes: all as numbers at the nodes.
+template <Real Scalar>
+struct SecondOrderTerms {
+  using Samples = OrbitSamples<Scalar>;
+  using Pair = PeriodicPair<Scalar>;
+  static constexpr int capacity = Samples::capacity;
+
+  const Samples& mid;
+  const OrbitSlopes<Scalar>& slopes;
+  const typename Pair::Roots& roots;
+  int n;
+  Pair u;                               ///< antiderivative of f in the phase: U = T u
+  Scalar uR[capacity], ueta[capacity];  ///< its values
+  Scalar phase[capacity];               ///< the rate of the phase under P, 1/s
+
+  SecondOrderTerms(const Problem<Scalar>& problem, const Samples& samples, const OrbitSlopes<Scalar>& derivatives,
+                   const typename Pair::Roots& unit_roots, int nodes) noexcept
+      : mid(samples), slopes(derivatives), roots(unit_roots), n(nodes), u(Pair(roots, mid.fR, mid.feta).integral()) {
+    u.sample(roots, uR, ueta);
+    for (int i = 0; i < n; ++i) {
+      const Vec3<Scalar> flow = mid.M[i].cross(problem.angular_velocity(mid.M[i]));  // per second; T times it per turn
+      phase[i] = slopes.rest[i].dot(flow) / (mid.period * flow.squaredNorm());
+    }
+  }
+
+  Scalar phase_drift() const noexcept {
+    Scalar drift = 0;
+    for (int i = 0; i < n; ++i) drift += phase[i] / Scalar(n);
+    return drift;
+  }
+
+  /// f2 of R and eta, with the antiderivatives shifted by parts.
+  SlowRates<Scalar> rates(const Level<Scalar>& level) const noexcept {
+    const Scalar T = mid.period;
+    Scalar R = 0, eta = 0;
+    for (int i = 0; i < n; ++i) {
+      R += uR[i] * slopes.TfR[0][i] + ueta[i] * slopes.TfR[1][i] - T * phase[i] * (mid.fR[i] - mid.mean.R);
+      eta += uR[i] * slopes.Tfeta[0][i] + ueta[i] * slopes.Tfeta[1][i] - T * phase[i] * (mid.feta[i] - mid.mean.eta);
+    }
+    R /= Scalar(n);
+    eta /= Scalar(n);
+    return {R, level.R * eta + level.eta * R, eta};
+  }
+
+  /// What is left to oscillate in R and eta, of second order.
+  void oscillation(Scalar* R, Scalar* eta) const noexcept {
+    const Scalar T = mid.period;
+    Scalar sR[capacity], seta[capacity];
+    for (int i = 0; i < n; ++i) {
+      const Scalar UR = T * uR[i], Ueta = T * ueta[i];
+      sR[i] = T * (UR * slopes.mean_R[0] + Ueta * slopes.mean_R[1] - T * phase[i] * (mid.fR[i] - mid.mean.R));
+      seta[i] = T * (UR * slopes.mean_eta[0] + Ueta * slopes.mean_eta[1] - T * phase[i] * (mid.feta[i] - mid.mean.eta));
+    }
+    for (int along = 0; along < 2; ++along) {
+      Scalar wR[capacity], weta[capacity];
+      Pair(roots, slopes.TfR[along], slopes.Tfeta[along]).integral().sample(roots, wR, weta);
+      const Scalar* f = along == 0 ? mid.fR : mid.feta;
+      for (int i = 0; i < n; ++i) {
+        sR[i] -= T * f[i] * wR[i];
+        seta[i] -= T * f[i] * weta[i];
+      }
+    }
+    Pair(roots, sR, seta).integral().sample(roots, R, eta);
+  }
+
+  /// And in the phase, of first order.
+  Pair phase_oscillation() const noexcept {
+    const Scalar T = mid.period;
+    Scalar s[capacity], none[capacity] = {};
+    for (int i = 0; i < n; ++i) {
+      const Scalar UR = T * uR[i], Ueta = T * ueta[i];
+      s[i] = T * (phase[i] - (UR * slopes.T[0] + Ueta * slopes.T[1]) / (T * T));
+    }
+    return Pair(roots, s, none).integral();
+  }
+};
+
+/// Greatest R, h and eta of n values of R and eta, times `scale`.
+template <Real Scalar>
+SlowRates<Scalar> greatest_rates(const Level<Scalar>& level, int n, const Scalar* R, const Scalar* eta,
+                                 Scalar scale) noexcept {
+  SlowRates<Scalar> m;
+  for (int i = 0; i < n; ++i) {
+    const Scalar x = R[i] * scale, y = eta[i] * scale;
+    m.R = std::max(m.R, std::abs(x));
+    m.h = std::max(m.h, std::abs(level.R * y + level.eta * x));
+    m.eta = std::max(m.eta, std::abs(y));
+  }
+  return m;
+}
+
 }  // namespace detail
 
 /// The second-order mean equations on a level.
@@ -119,111 +268,34 @@ Result<SecondOrder<Scalar, Elliptic>> second_order(const Problem<Scalar>& proble
   const int n = average->nodes;
   if (n > Samples::capacity) return Errc::no_convergence;
 
-  // the step of the differences: small against the way to the nearest equilibrium and separatrix
-  const Level<Scalar> here = centre.level();
-  const Scalar spread = std::max(Scalar(0), 1 - average->momentum.squaredNorm() / (here.R * here.R));
-  const Scalar room = std::min(spread, centre.modulus().kp2);
-  const Scalar share = std::sqrt(std::sqrt(epsilon<Scalar>)) / 8 * room;
-  const auto& a = problem.inverse_inertia;
-  const Scalar dR = share * here.R;
-  const Scalar deta = share * (here.R * (a[2] - a[0]) + problem.gyro_rate().norm());
-
-  Samples mid, up, down;
+  Samples mid;
   mid.take(problem, centre, n);
-  const Scalar T = mid.period;
-  const Scalar mean_R = mid.mean.R, mean_eta = mid.mean.eta;
+  detail::OrbitSlopes<Scalar> slopes;
+  const Level<Scalar> steps = detail::difference_steps(problem, centre, average->momentum);
+  if (const Errc wrong = slopes.take(problem, centre, mid, steps, n); wrong != Errc::ok) return wrong;
   const typename Pair::Roots roots(n);
-  Scalar uR[Samples::capacity], ueta[Samples::capacity];  // antiderivatives in the phase: U = T u
-  const Pair u = Pair(roots, mid.fR, mid.feta).integral();
-  u.sample(roots, uR, ueta);
+  const detail::SecondOrderTerms<Scalar> terms(problem, mid, slopes, roots, n);
 
-  // Along R and along eta: the derivatives of T f, of M, of T and of <f>
-  Scalar gR[2][Samples::capacity], geta[2][Samples::capacity];
-  Vec3<Scalar> rest[Samples::capacity];  // P less what the changes of R and eta carry
-  for (int i = 0; i < n; ++i) rest[i] = small_torque(problem, mid.M[i]);
-  Scalar dT[2], dmean_R[2], dmean_eta[2];
-  for (int along = 0; along < 2; ++along) {
-    const Scalar step = along == 0 ? dR : deta;
-    if (!(step > 0)) return Errc::no_convergence;
-    Level<Scalar> plus = here, minus = here;
-    (along == 0 ? plus.R : plus.eta) += step;
-    (along == 0 ? minus.R : minus.eta) -= step;
-    const Scalar width = along == 0 ? plus.R - minus.R : plus.eta - minus.eta;
-    const auto above = Orbit<Scalar, Elliptic>::at(problem, plus, centre.component());
-    const auto below = Orbit<Scalar, Elliptic>::at(problem, minus, centre.component());
-    if (!above) return above.error();
-    if (!below) return below.error();
-    if (above->regime() == Regime::point || below->regime() == Regime::point) return Errc::no_convergence;
-    Scalar doubt_above = 0, doubt_below = 0;
-    up.take(problem, above->aligned_to(centre, &doubt_above), n);
-    down.take(problem, below->aligned_to(centre, &doubt_below), n);
-    if (!(std::max(doubt_above, doubt_below) < Scalar(.01))) return Errc::no_convergence;
-    dT[along] = (up.period - down.period) / width;
-    dmean_R[along] = (up.mean.R - down.mean.R) / width;
-    dmean_eta[along] = (up.mean.eta - down.mean.eta) / width;
-    const Scalar* f = along == 0 ? mid.fR : mid.feta;
-    for (int i = 0; i < n; ++i) {
-      gR[along][i] = (up.period * up.fR[i] - down.period * down.fR[i]) / width;
-      geta[along][i] = (up.period * up.feta[i] - down.period * down.feta[i]) / width;
-      rest[i] -= (up.M[i] - down.M[i]) * (f[i] / width);
-    }
-  }
-
-  // the rate of the phase under P, and f2 with the antiderivatives shifted by parts
+  const Level<Scalar> here = centre.level();
+  const Scalar T = mid.period;
   SecondOrder<Scalar, Elliptic> r;
-  Scalar phase[Samples::capacity], f2R = 0, f2eta = 0;
-  for (int i = 0; i < n; ++i) {
-    const Vec3<Scalar> flow = mid.M[i].cross(problem.angular_velocity(mid.M[i]));  // per second; T times it per turn
-    phase[i] = rest[i].dot(flow) / (T * flow.squaredNorm());
-    r.phase_drift += phase[i] / Scalar(n);
-    f2R += uR[i] * gR[0][i] + ueta[i] * gR[1][i] - T * phase[i] * (mid.fR[i] - mean_R);
-    f2eta += uR[i] * geta[0][i] + ueta[i] * geta[1][i] - T * phase[i] * (mid.feta[i] - mean_eta);
-  }
-  f2R /= Scalar(n);
-  f2eta /= Scalar(n);
-
-  // what is left to oscillate: in R and eta at second order, and in the phase at first
-  Scalar sR[Samples::capacity], seta[Samples::capacity], sphase[Samples::capacity], none[Samples::capacity] = {};
-  for (int i = 0; i < n; ++i) {
-    const Scalar UR = T * uR[i], Ueta = T * ueta[i];
-    sR[i] = T * (UR * dmean_R[0] + Ueta * dmean_R[1] - T * phase[i] * (mid.fR[i] - mean_R));
-    seta[i] = T * (UR * dmean_eta[0] + Ueta * dmean_eta[1] - T * phase[i] * (mid.feta[i] - mean_eta));
-    sphase[i] = T * (phase[i] - (UR * dT[0] + Ueta * dT[1]) / (T * T));
-  }
-  for (int along = 0; along < 2; ++along) {
-    Scalar wR[Samples::capacity], weta[Samples::capacity];
-    Pair(roots, gR[along], geta[along]).integral().sample(roots, wR, weta);
-    const Scalar* f = along == 0 ? mid.fR : mid.feta;
-    for (int i = 0; i < n; ++i) {
-      sR[i] -= T * f[i] * wR[i];
-      seta[i] -= T * f[i] * weta[i];
-    }
-  }
-  Scalar u2R[Samples::capacity], u2eta[Samples::capacity], v[Samples::capacity];
-  Pair(roots, sR, seta).integral().sample(roots, u2R, u2eta);
-  const Pair phase_integral = Pair(roots, sphase, none).integral();
-  phase_integral.sample(roots, v, none);
-  if (oscillation) *oscillation = {here, u.times(T), phase_integral};
-  const auto greatest = [&](const Scalar* x, const Scalar* y) {
-    SlowRates<Scalar> m;
-    for (int i = 0; i < n; ++i) {
-      m.R = std::max(m.R, std::abs(x[i]));
-      m.h = std::max(m.h, std::abs(here.R * y[i] + here.eta * x[i]));
-      m.eta = std::max(m.eta, std::abs(y[i]));
-    }
-    return m;
-  };
-  r.second_oscillation = greatest(u2R, u2eta);
-  for (int i = 0; i < n; ++i) uR[i] *= T, ueta[i] *= T;
-  r.oscillation = greatest(uR, ueta);
-  for (int i = 0; i < n; ++i) r.phase_oscillation = std::max(r.phase_oscillation, std::abs(v[i]));
-
   r.first = average->rates;
-  r.second = {f2R, here.R * f2eta + here.eta * f2R, f2eta};
+  r.second = terms.rates(here);
+  r.phase_drift = terms.phase_drift();
   r.phase_rate = 1 / T + r.phase_drift;
   r.orbit = centre;
   r.nodes = n;
-  if (!std::isfinite(f2R) || !std::isfinite(f2eta) || !std::isfinite(r.phase_drift)) return Errc::no_convergence;
+  if (!std::isfinite(r.second.R) || !std::isfinite(r.second.eta) || !std::isfinite(r.phase_drift))
+    return Errc::no_convergence;
+
+  Scalar x[Samples::capacity], y[Samples::capacity];
+  r.oscillation = detail::greatest_rates(here, n, terms.uR, terms.ueta, T);
+  terms.oscillation(x, y);
+  r.second_oscillation = detail::greatest_rates(here, n, x, y, Scalar(1));
+  const Pair phase = terms.phase_oscillation();
+  phase.sample(roots, x, y);
+  for (int i = 0; i < n; ++i) r.phase_oscillation = std::max(r.phase_oscillation, std::abs(x[i]));
+  if (oscillation) *oscillation = {here, terms.u.times(T), phase};
   return r;
 }
 

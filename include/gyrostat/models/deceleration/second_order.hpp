@@ -32,7 +32,7 @@ Oscillation<Scalar> oscillation_factor(const Polhode<Scalar>& p, const ControlTo
   const Scalar scale = 1 / (norm * norm * p.rate_per_momentum());
   const Scalar length = (b.near * x.mid_far - b.mid * x.near_far + b.far * x.near_mid) * p.tilt / x.near_mid;
   const Scalar shape = 2 * (b.near * k2 + b.mid * kp2 - b.far);
-  return {-length * scale, shape * scale * (x.axisymmetric() ? 1 - p.tilt : 1)};
+  return {-length * scale, shape * scale * (x.axisymmetric() ? p.along : 1)};
 }
 
 /// The oscillation at argument u.
@@ -67,8 +67,9 @@ Shifted<Scalar> shifted(Polhode<Scalar> p, Scalar relative) noexcept {
   const Scalar size = std::abs(relative);
   if (p.axes.axisymmetric()) {
     const Scalar change = relative * p.tilt;
-    if (!(std::abs(change) <= std::min(p.tilt, 1 - p.tilt) / 2)) return {p, false};
+    if (!(std::abs(change) <= std::min(p.tilt, p.along) / 2)) return {p, false};
     p.tilt += change;
+    p.along -= change;
     return {p, true};
   }
   const Scalar change = relative * p.modulus.k2;

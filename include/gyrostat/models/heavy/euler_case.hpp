@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gyrostat/body/free_motion.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/math/complex.hpp"
@@ -86,6 +87,13 @@ class EulerCase {
     Scalar phase_above, phase_below;
   };
 
+  /// |1/I_i - 1/I_j| in the unit of inverse_.
+  Scalar gap(const Vec3<Scalar>& I, int i, int j) const noexcept {
+    return std::abs(I[i] - I[j]) / I.maxCoeff() * inverse_[i] * inverse_[j];
+  }
+  void choose_axes(const Vec3<Scalar>& I, const Vec3<Scalar>& m) noexcept;
+  void set_path(const Vec3<Scalar>& I, const Vec3<Scalar>& m) noexcept;
+  void set_attitude(const Quat<Scalar>& attitude, const Vec3<Scalar>& m) noexcept;
   void build(const Vec3<Scalar>& I, const State<Scalar>& start) noexcept;
   Point point(Scalar t) const noexcept {
     const auto u = math::JacobiTurn<Scalar>::of(functions_, v0_ + rate_ * t);
@@ -116,28 +124,19 @@ class EulerCase {
   C above_, below_;
 };
 
+/// near_, middle_ and far_ of the unit vector m along L: of a body with an axis of symmetry near is that one, of a sphere the one
+/// nearest to L. Sets the signs with them.
 template <Real Scalar>
-void EulerCase<Scalar>::build(const Vec3<Scalar>& I, const State<Scalar>& start) noexcept {
-  start_ = start;
-  unit_ = start.angular_velocity.stableNorm();
-  if (!(unit_ > 0)) return;
-  const Scalar most = I.maxCoeff();
-  const Vec3<Scalar> J = I / most, w = start.angular_velocity / unit_;
-  inverse_ = J.cwiseInverse();
-  Vec3<Scalar> m = J.cwiseProduct(w);
-  L_ = m.norm();
-  m /= L_;
+void EulerCase<Scalar>::choose_axes(const Vec3<Scalar>& I, const Vec3<Scalar>& m) noexcept {
   const Vec3<Scalar> square = m.cwiseAbs2();
   int sorted[3] = {0, 1, 2};  // moments descending
   std::sort(sorted, sorted + 3, [&](int i, int j) { return I[i] > I[j]; });
-  const auto gap = [&](int i, int j) { return std::abs(I[i] - I[j]) / most * inverse_[i] * inverse_[j]; };
   middle_ = sorted[1];
-  const Scalar first = gap(sorted[0], middle_) * square[sorted[0]], last = gap(middle_, sorted[2]) * square[sorted[2]];
-  // of a body with an axis of symmetry that one, of a sphere the one nearest to L
-  bool largest = first >= last;
-  if (gap(sorted[0], middle_) == 0) largest = false;
-  else if (gap(middle_, sorted[2]) == 0) largest = true;
-  if (most == I.minCoeff()) {
+  const Scalar first = gap(I, sorted[0], middle_), last = gap(I, middle_, sorted[2]);
+  bool largest = surrounds_largest(first, last, square[sorted[0]], square[sorted[2]]);
+  if (first == 0) largest = false;
+  else if (last == 0) largest = true;
+  if (I.maxCoeff() == I.minCoeff()) {
     int nearest = 0;
     square.maxCoeff(&nearest);
     near_ = nearest;
@@ -150,30 +149,32 @@ void EulerCase<Scalar>::build(const Vec3<Scalar>& I, const State<Scalar>& start)
   growing_ = largest ? 1 : -1;  // 1/I grows from near to far
   side_ = m[near_] < 0 ? -1 : 1;
   order_ = (middle_ == (near_ + 1) % 3 ? 1 : -1) * growing_;
+}
 
-  const Scalar near_mid = gap(near_, middle_), mid_far = gap(middle_, far_);
-  near_far_ = gap(near_, far_);
+/// The shape of the path and where m lies on it.
+template <Real Scalar>
+void EulerCase<Scalar>::set_path(const Vec3<Scalar>& I, const Vec3<Scalar>& m) noexcept {
+  const Vec3<Scalar> square = m.cwiseAbs2();
+  const PolhodeGaps<Scalar> gaps{gap(I, near_, middle_), gap(I, middle_, far_), gap(I, near_, far_)};
+  near_far_ = gaps.near_far;
   fastest_ = 1 + L_ * inverse_.maxCoeff();
-  if (mid_far == 0) {
+  if (gaps.axisymmetric()) {
     tilt_ = square[middle_] + square[far_];
     along_ = square[near_];
   } else {
-    const Scalar across = near_mid * square[middle_] + near_far_ * square[far_];
-    const Scalar along = near_far_ * square[near_] + mid_far * square[middle_];
-    const Scalar inside = near_mid * square[near_], outside = mid_far * square[far_];
-    tilt_ = across / (across + along);
-    along_ = along / (across + along);
-    steep_ = near_far_ / near_mid;
+    const auto shape = PolhodeShape<Scalar>::of(gaps, square[near_], square[middle_], square[far_]);
+    tilt_ = shape.tilt;
+    along_ = shape.along;
+    steep_ = near_far_ / gaps.near_mid;
     constexpr Scalar floor = epsilon<Scalar> * epsilon<Scalar>;
-    modulus_ = {std::min(mid_far * across / (near_mid * along), Scalar(1)),
-                std::clamp(near_far_ * (inside - outside) / (near_mid * along), floor, Scalar(1))};
-    shift_ = inside > outside ? (inside + outside) / (inside - outside) : infinity<Scalar>;
+    modulus_ = {shape.modulus.k2, std::max(shape.modulus.kp2, floor)};
+    shift_ = shape.sensitivity;
     share_ = std::sqrt(steep_);
   }
   functions_ = math::JacobiAt<Scalar>(modulus_);
   K_ = functions_.quarter_period();
-  rate_ = L_ * std::sqrt(near_mid * near_far_ * along_);
-  if (mid_far > 0) {
+  rate_ = L_ * rate_per_momentum(gaps, along_);
+  if (!gaps.axisymmetric()) {
     third_ = math::ThirdKind<Scalar>(modulus_, modulus_.kp2 / steep_);
     factor_ = L_ * near_far_ * (steep_ - 1) * modulus_.kp2 / (steep_ * steep_ * rate_);
   }
@@ -184,15 +185,18 @@ void EulerCase<Scalar>::build(const Vec3<Scalar>& I, const State<Scalar>& start)
     const Scalar u = math::jacobi_argument(sn, std::abs(cn), dn);
     v0_ = cn < 0 ? std::copysign(2 * K_, sn) - u : u;
   }
+}
 
-  // attitude of a frame whose third axis is near, the vertical laid along L
+/// The attitude of a frame whose third axis is near, the vertical laid along L.
+template <Real Scalar>
+void EulerCase<Scalar>::set_attitude(const Quat<Scalar>& attitude, const Vec3<Scalar>& m) noexcept {
   const int k = near_;
   constexpr Scalar h = Scalar(0.5);
   const Quat<Scalar> frame = k == 0 ? Quat<Scalar>{h, h, h, h} : k == 1 ? Quat<Scalar>{h, -h, -h, -h} : Quat<Scalar>{};
   turn_ = conjugate(frame);
-  const Quat<Scalar> lay = shortest_turn<Scalar>(rotate<Scalar>(start.attitude, m), Vec3<Scalar>(0, 0, -1));
+  const Quat<Scalar> lay = shortest_turn<Scalar>(rotate<Scalar>(attitude, m), Vec3<Scalar>(0, 0, -1));
   back_ = conjugate(lay);
-  const Quat<Scalar> q = lay * start.attitude * frame;
+  const Quat<Scalar> q = lay * attitude * frame;
   const Point p = point(0);
   const auto phase = [](Scalar re, Scalar im, Scalar by) {
     const Scalar size = std::hypot(re, im);
@@ -200,6 +204,21 @@ void EulerCase<Scalar>::build(const Vec3<Scalar>& I, const State<Scalar>& start)
   };
   above_ = phase(q.w, q.z, p.phase_above);
   below_ = phase(q.x, q.y, p.phase_below);
+}
+
+template <Real Scalar>
+void EulerCase<Scalar>::build(const Vec3<Scalar>& I, const State<Scalar>& start) noexcept {
+  start_ = start;
+  unit_ = start.angular_velocity.stableNorm();
+  if (!(unit_ > 0)) return;
+  const Vec3<Scalar> J = I / I.maxCoeff(), w = start.angular_velocity / unit_;
+  inverse_ = J.cwiseInverse();
+  Vec3<Scalar> m = J.cwiseProduct(w);
+  L_ = m.norm();
+  m /= L_;
+  choose_axes(I, m);
+  set_path(I, m);
+  set_attitude(start.attitude, m);
 }
 
 }  // namespace gyrostat::heavy

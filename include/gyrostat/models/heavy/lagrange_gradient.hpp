@@ -108,13 +108,15 @@ class LagrangeGradient {
   Scalar greatest() const noexcept { return u_b_ < u_o_ ? u_o_ : u_b_; }
   /// Of the nutation, s; of small nutation where there is none; infinite or NaN where it is not stable.
   Scalar nutation_period() const noexcept { return period_ / unit_; }
+  bool planar() const noexcept { return planar_; }  ///< see LagrangeTop
   /// Right-handed about DOWN, rad; see LagrangeTop.
   Scalar precession_per_nutation() const noexcept {
+    if (planar_) return 0;
     if (still_) return mean_precession() * nutation_period();
     return pi<Scalar> * (side_above_ + side_below_) + 2 * pi<Scalar> * (mean_[1] + mean_[2]);
   }
   Scalar mean_precession() const noexcept {  ///< rad/s
-    if (still_) return unit_ * (c_above_ / above_b_ + c_below_ / below_b_) / 2;
+    if (still_ && !planar_) return unit_ * (c_above_ / above_b_ + c_below_ / below_b_) / 2;
     return unit_ * precession_per_nutation() / period_;
   }
   /// Greatest part of the series that is left out, relative.
@@ -126,6 +128,8 @@ class LagrangeGradient {
   using Three = std::array<Scalar, 3>;  // of time and of the phases above and below
 
   void build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept;
+  std::array<Scalar, 2> turning_points(Scalar x, Scalar b, Scalar a, Scalar k, Scalar gradient) const noexcept;
+  static Scalar greatest_speed(const TopStart<Scalar>& o, Scalar pull, Scalar y1, Scalar y2) noexcept;
   void expand() noexcept;
   AxisPoint<Scalar> axis(Scalar t) const noexcept;
 
@@ -162,15 +166,41 @@ class LagrangeGradient {
   Three mean_{};
   std::array<Three, harmonics + 1> series_{};
   int used_ = 0;
-  bool still_ = false;
+  bool still_ = false, planar_ = false;
   Scalar tail_ = 0, most_ = 1, least_ = 1, size_ = 1, pole_ = 0, fastest_ = 0, swing_ = 0, defect_ = 0;
   TopAttitude<Scalar> attitude_;
 };
+
+/// {y1, y2}: where x^2 + b y - a y^2 - k y^3 + gradient y^4 has its roots next to the start, on either side.
+template <Real Scalar>
+std::array<Scalar, 2> LagrangeGradient<Scalar>::turning_points(Scalar x, Scalar b, Scalar a, Scalar k,
+                                                               Scalar gradient) const noexcept {
+  if (x != 0) {
+    const std::array<Scalar, 5> f{x * x, b, -a, -k, gradient};
+    return {detail::nearest_root<4>(f, to_below_), detail::nearest_root<4>(f, to_above_)};
+  }
+  if (b > 0) return {0, detail::nearest_root<3>({b, -a, -k, gradient}, to_above_)};
+  if (b < 0) return {detail::nearest_root<3>({-b, a, k, -gradient}, to_below_), 0};
+  return {0, 0};
+}
+
+/// Greatest v = sqrt(square + pull y - gradient y^2) of the axis between y1 and y2.
+template <Real Scalar>
+Scalar LagrangeGradient<Scalar>::greatest_speed(const TopStart<Scalar>& o, Scalar pull, Scalar y1, Scalar y2) noexcept {
+  Scalar greatest = o.square;
+  for (const Scalar y : {y1, y2}) greatest = std::max(greatest, o.square + y * (pull - o.gradient * y));
+  if (o.gradient != 0) {
+    const Scalar y = pull / (2 * o.gradient);
+    if (y > y1 && y < y2) greatest = std::max(greatest, o.square + y * (pull - o.gradient * y));
+  }
+  return std::sqrt(std::max(greatest, Scalar(0)));
+}
 
 template <Real Scalar>
 void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept {
   unit_ = o.unit;
   defect_ = top.defect;
+  planar_ = o.planar();
   const Scalar u = o.u, x = o.swing;
   const Scalar pull = o.pull - 2 * o.gradient * u;  // slope of v^2
   const Scalar b = -2 * u * o.square + pull * o.ground + 2 * o.rho * o.d;
@@ -183,18 +213,8 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
   size_ = o.square + o.rho * o.rho + 2 * std::abs(o.pull) + 4 * std::abs(o.gradient);
   swing_ = std::sqrt(std::abs(o.pull) + std::abs(o.gradient));
 
-  // x^2 + b y - a y^2 - k y^3 + gradient y^4 between its roots next to the start
-  Scalar y1 = 0, y2 = 0;
   still_ = x == 0 && b == 0;
-  if (x != 0) {
-    const std::array<Scalar, 5> f{x * x, b, -a, -k, o.gradient};
-    y1 = detail::nearest_root<4>(f, to_below_);
-    y2 = detail::nearest_root<4>(f, to_above_);
-  } else if (b > 0) {
-    y2 = detail::nearest_root<3>({b, -a, -k, o.gradient}, to_above_);
-  } else if (b < 0) {
-    y1 = detail::nearest_root<3>({-b, a, k, -o.gradient}, to_below_);
-  }
+  const auto [y1, y2] = turning_points(x, b, a, k, o.gradient);
   h_yy_ = -o.gradient;
   h_y_ = k + (y1 + y2) * h_yy_;
   h0_ = a + (y1 + y2) * h_y_ - y1 * y2 * h_yy_;
@@ -230,13 +250,7 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
   u_b_ = below_b_ < above_b_ ? below_b_ - 1 : 1 - above_b_;
   u_o_ = below_o_ < above_o_ ? below_o_ - 1 : 1 - above_o_;
 
-  Scalar greatest = o.square;
-  for (const Scalar y : {y1, y2}) greatest = std::max(greatest, o.square + y * (pull - o.gradient * y));
-  if (o.gradient != 0) {
-    const Scalar y = pull / (2 * o.gradient);
-    if (y > y1 && y < y2) greatest = std::max(greatest, o.square + y * (pull - o.gradient * y));
-  }
-  fastest_ = std::sqrt(std::max(greatest, Scalar(0))) + std::abs(o.spin) + std::abs(o.rho);
+  fastest_ = greatest_speed(o, pull, y1, y2) + std::abs(o.spin) + std::abs(o.rho);
   if (still_) {
     period_ = 2 * pi<Scalar> / std::sqrt(h0_);
   } else {

@@ -74,9 +74,13 @@ class LagrangeTop {
   Scalar nutation_period() const noexcept {
     return motion_ == AxisMotion::separatrix || lam_ == 0 ? infinity<Scalar> : 2 * K_ / (unit_ * lam_);
   }
-  /// Turn of the axis about the vertical in one nutation, right-handed about DOWN, rad. Where the axis passes through
-  /// the vertical, half a turn more or less is the same.
+  /// A pendulum: the axis stays in one vertical plane. It passes the vertical once in a nutation where it swings, twice where it goes
+  /// round.
+  bool planar() const noexcept { return planar_; }
+  /// Turn of the axis about the vertical in one nutation, right-handed about DOWN, rad; of a pendulum, whose plane stands still, 0. Where
+  /// the axis passes through the vertical, half a turn more or less is the same.
   Scalar precession_per_nutation() const noexcept {
+    if (planar_) return 0;
     const Scalar T = unit_ * nutation_period();
     return (c_below_ * (T + plus_factor_ * 2 * plus_.complete()) / below2_ +
             c_above_ * (T + minus_factor_ * 2 * minus_.complete()) / above1_) /
@@ -115,6 +119,7 @@ class LagrangeTop {
   Scalar plus_factor_ = 0, minus_factor_ = 0;  // before them, s
   Scalar fastest_ = 0, swing_ = 0, share_ = 1, shift_ = 0, defect_ = 0;
   AxisMotion motion_ = AxisMotion::nutation;
+  bool planar_ = false;
   TopAttitude<Scalar> attitude_;
 };
 
@@ -182,6 +187,7 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   s_ = top.weight > 0 ? -1 : 1;
   rho_ = o.rho;
   defect_ = top.defect;
+  planar_ = o.planar();
   const Scalar kappa = std::abs(o.pull);
   roots(o, kappa);
   h1_ = h_plus_ + kappa * above1_;

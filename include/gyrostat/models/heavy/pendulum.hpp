@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
@@ -96,6 +97,13 @@ class Pendulum {
     Scalar half, rate;  // half of fold theta, unwrapped; theta'
   };
 
+  struct Hang {
+    Scalar fold;          // 2 where the angle is twice that of the body
+    Scalar square;        // of c, 1/s^2
+    Scalar cosine, sine;  // of the angle, times any length
+  };
+  static std::optional<Hang> hang(const Problem<Scalar>& problem, const Vec3<Scalar>& d, int k) noexcept;
+  void set_phase(Scalar v, Scalar s, Scalar c) noexcept;
   bool build(const Problem<Scalar>& problem, const State<Scalar>& start, int k) noexcept;
   Point point(Scalar t) const noexcept {
     if (rate_ == 0) return {half_, 0};
@@ -118,58 +126,32 @@ class Pendulum {
   Scalar fastest_ = 0, growth_ = 1, shift_ = 1, defect_ = 0;
 };
 
+/// The angle of `down` from where it hangs, for swings about axis k; nothing where both weight and gradient act.
 template <Real Scalar>
-bool Pendulum<Scalar>::build(const Problem<Scalar>& problem, const State<Scalar>& start, int k) noexcept {
+auto Pendulum<Scalar>::hang(const Problem<Scalar>& problem, const Vec3<Scalar>& d, int k) noexcept
+    -> std::optional<Hang> {
   const int i = (k + 1) % 3, j = (k + 2) % 3;
   const Vec3<Scalar>& I = problem.inertia();
-  const Vec3<Scalar> m = problem.moment(), &w = start.angular_velocity, &d = start.down;
+  const Vec3<Scalar> m = problem.moment();
   const Scalar weight = std::hypot(m[i], m[j]), gradient = problem.gradient() * (I[i] - I[j]);
-  const Scalar size = m.norm() + problem.gradient() * (I.maxCoeff() - I.minCoeff());
-  // square of c; the angle from down, and its half, of the direction that hangs
-  Scalar square, cosine, sine;
-  if (weight > 0 && gradient == 0) {
-    square = weight / I[k];
-    cosine = (d[i] * m[i] + d[j] * m[j]) / weight;
-    sine = (d[i] * m[j] - d[j] * m[i]) / weight;
-  } else if (weight == 0) {
-    fold_ = 2;
-    square = std::abs(gradient) / I[k];
-    const Scalar sign = gradient > 0 ? 1 : -1;  // twice the angle beta of down: from axis j, or from i
-    cosine = sign * (d[j] - d[i]) * (d[j] + d[i]);
-    sine = 2 * sign * d[i] * d[j];
-  } else {
-    return false;
-  }
-  const Scalar speed = w[k] * fold_;
-  unit_ = std::abs(w[k]) + std::sqrt(square);
-  if (!(unit_ > 0)) unit_ = 1;
-  growth_ = std::sqrt(size / I.minCoeff()) / unit_;
-  const Scalar other = std::hypot(w[i], w[j]);
-  defect_ = std::abs(d[k]) + (other > 0 ? other / unit_ : Scalar(0)) + (size > 0 ? std::abs(m[k]) / size : Scalar(0));
-  if (!(defect_ <= greatest_defect)) return false;
+  if (weight > 0 && gradient == 0)
+    return Hang{1, weight / I[k], (d[i] * m[i] + d[j] * m[j]) / weight, (d[i] * m[j] - d[j] * m[i]) / weight};
+  if (weight != 0) return std::nullopt;
+  const Scalar sign = gradient > 0 ? 1 : -1;  // twice the angle beta of down: from axis j, or from i
+  return Hang{2, std::abs(gradient) / I[k], sign * (d[j] - d[i]) * (d[j] + d[i]), 2 * sign * d[i] * d[j]};
+}
 
-  start_ = start;
-  start_.down[k] = 0;
-  axis_ = k;
-  const Scalar length = std::hypot(cosine, sine);
-  cosine /= length;
-  sine /= length;
-  const Scalar v = speed / 2 / unit_;  // of half the angle
-  frequency_ = std::sqrt(square) / unit_;
-  // sine and cosine of half the angle, angle in (-pi, pi]
-  const Scalar c = cosine > 0 ? std::sqrt((1 + cosine) / 2) : std::abs(sine) / std::sqrt(2 * (1 - cosine));
-  const Scalar s =
-      std::copysign(cosine > 0 ? std::abs(sine) / std::sqrt(2 * (1 + cosine)) : std::sqrt((1 - cosine) / 2), sine);
+/// The elliptic functions of the motion. @param v half the rate of the folded angle   @param s, c sine and cosine of its half
+template <Real Scalar>
+void Pendulum<Scalar>::set_phase(Scalar v, Scalar s, Scalar c) noexcept {
   const Scalar p = v * v, inside = frequency_ * c, up = frequency_ * s;
   const Scalar total = p + up * up;  // rate^2 k^2 of libration, rate^2 of rotation
   const Scalar short_of = (inside - std::abs(v)) * (inside + std::abs(v));
   constexpr Scalar floor = epsilon<Scalar> * epsilon<Scalar>;
   fastest_ = 2 * std::sqrt(total) / fold_;
   half_ = std::atan2(s, c);
-  if (total == 0 || (v == 0 && c == 0)) {
-    motion_ = PendulumMotion::rest;
-    return true;
-  }
+  motion_ = PendulumMotion::rest;
+  if (total == 0 || (v == 0 && c == 0)) return;
   rotates_ = short_of < 0;
   shift_ = (inside * inside + p) / std::abs(short_of);
   Scalar sn, cn, dn;
@@ -198,6 +180,36 @@ bool Pendulum<Scalar>::build(const Problem<Scalar>& problem, const State<Scalar>
   const Scalar u = math::jacobi_argument(sn, cn, dn);
   v0_ = !rotates_ && v < 0 ? std::copysign(2 * K_, sn) - u : u;
   half_ = point(0).half;
+}
+
+template <Real Scalar>
+bool Pendulum<Scalar>::build(const Problem<Scalar>& problem, const State<Scalar>& start, int k) noexcept {
+  const auto hanging = hang(problem, start.down, k);
+  if (!hanging) return false;
+  const Vec3<Scalar>&I = problem.inertia(), &w = start.angular_velocity;
+  const Vec3<Scalar> m = problem.moment();
+  const Scalar size = m.norm() + problem.gradient() * (I.maxCoeff() - I.minCoeff());
+  fold_ = hanging->fold;
+  const Scalar speed = w[k] * fold_;
+  unit_ = std::abs(w[k]) + std::sqrt(hanging->square);
+  if (!(unit_ > 0)) unit_ = 1;
+  growth_ = std::sqrt(size / I.minCoeff()) / unit_;
+  const Scalar other = std::hypot(w[(k + 1) % 3], w[(k + 2) % 3]);
+  defect_ = std::abs(start.down[k]) + (other > 0 ? other / unit_ : Scalar(0)) +
+            (size > 0 ? std::abs(m[k]) / size : Scalar(0));
+  if (!(defect_ <= greatest_defect)) return false;
+
+  start_ = start;
+  start_.down[k] = 0;
+  axis_ = k;
+  frequency_ = std::sqrt(hanging->square) / unit_;
+  const Scalar length = std::hypot(hanging->cosine, hanging->sine);
+  const Scalar cosine = hanging->cosine / length, sine = hanging->sine / length;
+  // sine and cosine of half the angle, angle in (-pi, pi]
+  const Scalar c = cosine > 0 ? std::sqrt((1 + cosine) / 2) : std::abs(sine) / std::sqrt(2 * (1 - cosine));
+  const Scalar s =
+      std::copysign(cosine > 0 ? std::abs(sine) / std::sqrt(2 * (1 + cosine)) : std::sqrt((1 - cosine) / 2), sine);
+  set_phase(speed / 2 / unit_, s, c);
   return true;
 }
 

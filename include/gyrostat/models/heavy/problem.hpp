@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gyrostat/body/realisability.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
-#include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// A heavy body that turns about a fixed point O in a Newtonian field, to second order in size over distance
@@ -63,9 +63,7 @@ class Problem {
   /// Least eigenvalue of the second moments of mass about the mass centre, tr(I)/2 - I - M r r^T, kg m^2: negative where no body has
   /// this inertia about O and this mass centre. Stronger than the triangle inequality.
   Scalar realisability() const noexcept {
-    const Vec3<Scalar> second = Vec3<Scalar>::Constant(inertia_.sum() / 2) - inertia_;
-    const Mat3<Scalar> about_centre = Mat3<Scalar>(second.asDiagonal()) - mass_ * centre_ * centre_.transpose();
-    return symmetric_eigen<Scalar>(about_centre).values.minCoeff();
+    return gyrostat::realisability<Scalar>(inertia_.asDiagonal(), mass_ * centre_ * centre_.transpose());
   }
 
   /// I w' in body axes, N m.

@@ -99,6 +99,12 @@ struct TopStart {
     d = rate[0] * down[0] + rate[1] * down[1];
     attitude = start.attitude * top.turn;
   }
+
+  /// The axis stays in one vertical plane, to rounding: no spin and no momentum about the vertical.
+  bool planar() const noexcept {
+    constexpr Scalar rounding = 16 * epsilon<Scalar>;
+    return std::abs(spin) <= rounding && std::abs(rho) <= rounding && std::abs(d) <= rounding;
+  }
 };
 
 /// Where the axis is at one time.

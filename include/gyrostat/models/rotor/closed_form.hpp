@@ -65,7 +65,26 @@ class ClosedForm {
   Scalar angle(Scalar t) const noexcept;
   Phase phase(Scalar t) const noexcept;
   Scalar circle_rate(Scalar t) const noexcept;
+
+  bool offer(ClosedFormKind kind, Scalar defect) noexcept;
+  void offer_rotor_axis() noexcept;
+  void offer_steady(const Vec3<Scalar>& Omega, Scalar momenta, Scalar excess) noexcept;
+  void offer_circular_section(const Vec3<Scalar>& n, Scalar excess) noexcept;
+
+  struct Sizes {
+    Scalar j;          // greatest of J
+    Scalar lambda, k;  // inertia of the rotor, coupling
+    Scalar l, e_n, h;  // |H|, |J e|, greatest lambda omega
+    Scalar fast;       // pace of the motion
+    Scalar data;       // of H, as the start is known
+  };
+  Sizes sizes() const noexcept;
+  /// By how far the motion departs from the kind's formulas by t, to first order in the defect.
   ClosedFormError<Scalar> departure(Scalar t) const noexcept;
+  ClosedFormError<Scalar> from_axisymmetric(Scalar t, const Sizes& x) const noexcept;
+  ClosedFormError<Scalar> from_principal_axis(Scalar t, const Sizes& x) const noexcept;
+  ClosedFormError<Scalar> from_steady(Scalar t, const Sizes& x) const noexcept;
+  ClosedFormError<Scalar> from_circular_section(Scalar t, const Sizes& x) const noexcept;
 
   Gyrostat<Scalar> gyrostat_;
   State<Scalar> start_;
@@ -125,29 +144,14 @@ template <Real Scalar>
 ClosedForm<Scalar>::ClosedForm(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept
     : gyrostat_(gyrostat), start_(start) {
   const Vec3<Scalar>& H = start.momentum;
-  const Vec3<Scalar>& e = gyrostat.axis();
-  const Mat3<Scalar>& J = gyrostat.inverse_inertia();
   const Scalar lambda = gyrostat.axial_inertia();
-  const Scalar j_most = 1 / gyrostat.principal()[0];
-  const Vec3<Scalar> n = J * e;
+  const Vec3<Scalar> n = gyrostat.inverse_inertia() * gyrostat.axis();
   const Vec3<Scalar> Omega = gyrostat.angular_velocity(H, start.axial_momentum);
   norm_ = H.norm();
   rate_ = gyrostat.rotor_rate(start.axial_momentum, Omega);
   final_rate_ = gyrostat.slope() > 0 ? gyrostat.no_load_rate() : rate_;
   decay_ = gyrostat.relaxation_rate();
   if (!std::isfinite(norm_) || !std::isfinite(rate_)) return;
-  const Scalar momenta = norm_ + lambda * std::max(std::abs(rate_), std::abs(final_rate_));
-  const Scalar excess = momenta > 0 ? lambda * std::abs(rate_ - final_rate_) / momenta : Scalar(0);
-
-  const auto offer = [&](ClosedFormKind kind, Scalar defect) {
-    const Scalar rounding = 64 * epsilon<Scalar>;
-    const bool better =
-        kind_ == ClosedFormKind::none ? defect <= greatest_defect : defect_ > rounding && defect < defect_;
-    if (defect < defect_) defect_ = defect;
-    if (better) kind_ = kind;
-    return better;
-  };
-
   if (norm_ == 0) {
     offer(ClosedFormKind::no_momentum, 0);
     axis_B_ = n.normalized();
@@ -155,10 +159,32 @@ ClosedForm<Scalar>::ClosedForm(const Gyrostat<Scalar>& gyrostat, const State<Sca
     return;
   }
   axis_I_ = rotate(start.attitude, H).normalized();
+  const Scalar momenta = norm_ + lambda * std::max(std::abs(rate_), std::abs(final_rate_));
+  const Scalar excess = momenta > 0 ? lambda * std::abs(rate_ - final_rate_) / momenta : Scalar(0);
+  offer_rotor_axis();
+  offer_steady(Omega, momenta, excess);
+  offer_circular_section(n, excess);
+}
 
-  const detail::AxisView<Scalar> rotor(J, e);
+/// Whether a kind with this defect is taken, the first one that is small enough or a better one.
+template <Real Scalar>
+bool ClosedForm<Scalar>::offer(ClosedFormKind kind, Scalar defect) noexcept {
+  const Scalar rounding = 64 * epsilon<Scalar>;
+  const bool better =
+      kind_ == ClosedFormKind::none ? defect <= greatest_defect : defect_ > rounding && defect < defect_;
+  if (defect < defect_) defect_ = defect;
+  if (better) kind_ = kind;
+  return better;
+}
+
+/// The kinds about the rotor's axis: axisymmetric and principal_axis.
+template <Real Scalar>
+void ClosedForm<Scalar>::offer_rotor_axis() noexcept {
+  const Vec3<Scalar>&H = start_.momentum, &e = gyrostat_.axis();
+  const Scalar j_most = 1 / gyrostat_.principal()[0];
+  const detail::AxisView<Scalar> rotor(gyrostat_.inverse_inertia(), e);
   const Vec3<Scalar> H_across = H - H.dot(e) * e;
-  const auto take_rotor_axis = [&] {
+  const auto take = [&] {
     axis_B_ = e;
     off_ = rotor.off / j_most;
     oblateness_ = rotor.oblateness() / j_most;
@@ -167,48 +193,63 @@ ClosedForm<Scalar>::ClosedForm(const Gyrostat<Scalar>& gyrostat, const State<Sca
     j_axis_ = rotor.along;
     j_1_ = rotor.first;
     j_2_ = rotor.second;
-    rotor_turn_ = -lambda * j_axis_;
+    rotor_turn_ = -gyrostat_.axial_inertia() * j_axis_;
   };
   if (offer(ClosedFormKind::axisymmetric, (rotor.off + rotor.oblateness()) / j_most)) {
-    take_rotor_axis();
+    take();
     const Scalar j_across = (rotor.first + rotor.second) / 2;
     turn_ = norm_ * j_across;
     steady_turn_ = along_ * (j_axis_ - j_across);
   }
   if (offer(ClosedFormKind::principal_axis, rotor.off / j_most + H_across.norm() / norm_)) {
-    take_rotor_axis();
+    take();
     turn_ = 0;
     steady_turn_ = along_ * j_axis_;
     int zeros = 0;
     for (int i = 0; i < 3; ++i) zeros += e[i] == 0 && H[i] == 0;
     exact_ = zeros == 2 && across_ == 0 && off_ == 0;
   }
-  if (offer(ClosedFormKind::steady, cross<Scalar>(H, Omega).norm() / (norm_ * j_most * momenta) + excess)) {
-    turn_ = Omega.dot(H) / norm_;
-    steady_turn_ = rotor_turn_ = 0;
-    off_ = cross<Scalar>(H, Omega).norm() / (norm_ * j_most * momenta);
-    excess_ = excess;
-    exact_ = false;
-  }
+}
+
+/// @param momenta |H| and the greatest of the rotor   @param excess of the rotor's momentum over the final one, relative to them
+template <Real Scalar>
+void ClosedForm<Scalar>::offer_steady(const Vec3<Scalar>& Omega, Scalar momenta, Scalar excess) noexcept {
+  const Vec3<Scalar>& H = start_.momentum;
+  const Scalar j_most = 1 / gyrostat_.principal()[0];
+  const Scalar off = cross<Scalar>(H, Omega).norm() / (norm_ * j_most * momenta);
+  if (!offer(ClosedFormKind::steady, off + excess)) return;
+  turn_ = Omega.dot(H) / norm_;
+  steady_turn_ = rotor_turn_ = 0;
+  off_ = off;
+  excess_ = excess;
+  exact_ = false;
+}
+
+/// @param n J e   @param excess see offer_steady
+template <Real Scalar>
+void ClosedForm<Scalar>::offer_circular_section(const Vec3<Scalar>& n, Scalar excess) noexcept {
+  const Vec3<Scalar>& H = start_.momentum;
+  const Mat3<Scalar>& J = gyrostat_.inverse_inertia();
+  const Scalar j_most = 1 / gyrostat_.principal()[0];
   const Vec3<Scalar> c = n.normalized();
   const detail::AxisView<Scalar> section(J, c);
-  if (offer(ClosedFormKind::circular_section, section.oblateness() / j_most + std::abs(H.dot(c)) / norm_ + excess)) {
-    axis_B_ = c;
-    turn_ = norm_ * (section.first + section.second) / 2;
-    steady_turn_ = rotor_turn_ = 0;
-    const Vec3<Scalar> m = (H - H.dot(c) * c).normalized();
-    // along the circle m turns at n.(h n - J H)/|n|, and its second derivative has the cosine
-    drive_ = lambda * final_rate_ * n.norm();
-    const Vec3<Scalar> across = cross<Scalar>(c, m);
-    const Scalar hill_sine = norm_ * c.dot(J * m);
-    hill_cosine_ = norm_ * c.dot(J * across);
-    hill_ = std::hypot(hill_sine, hill_cosine_);
-    first_rate_ = drive_ - hill_sine;
-    oblateness_ = section.oblateness() / j_most;
-    across_ = std::abs(H.dot(c)) / norm_;
-    excess_ = excess;
-    exact_ = false;
-  }
+  if (!offer(ClosedFormKind::circular_section, section.oblateness() / j_most + std::abs(H.dot(c)) / norm_ + excess))
+    return;
+  axis_B_ = c;
+  turn_ = norm_ * (section.first + section.second) / 2;
+  steady_turn_ = rotor_turn_ = 0;
+  const Vec3<Scalar> m = (H - H.dot(c) * c).normalized();
+  // along the circle m turns at n.(h n - J H)/|n|, and its second derivative has the cosine
+  drive_ = gyrostat_.axial_inertia() * final_rate_ * n.norm();
+  const Vec3<Scalar> across = cross<Scalar>(c, m);
+  const Scalar hill_sine = norm_ * c.dot(J * m);
+  hill_cosine_ = norm_ * c.dot(J * across);
+  hill_ = std::hypot(hill_sine, hill_cosine_);
+  first_rate_ = drive_ - hill_sine;
+  oblateness_ = section.oblateness() / j_most;
+  across_ = std::abs(H.dot(c)) / norm_;
+  excess_ = excess;
+  exact_ = false;
 }
 
 template <Real Scalar>
@@ -268,95 +309,116 @@ State<Scalar> ClosedForm<Scalar>::at(Scalar t) const noexcept {
 }
 
 template <Real Scalar>
-ClosedFormError<Scalar> ClosedForm<Scalar>::departure(Scalar t) const noexcept {
+auto ClosedForm<Scalar>::sizes() const noexcept -> Sizes {
   const Scalar j = 1 / gyrostat_.principal()[0];
   const Scalar lambda = gyrostat_.axial_inertia(), k = gyrostat_.coupling();
   const Scalar l = norm_, e_n = (gyrostat_.inverse_inertia() * gyrostat_.axis()).norm();
   const Scalar h = lambda * std::max(std::abs(rate_), std::abs(final_rate_));
-  const Scalar fast = j * (l + h);
-  const Scalar data = 4 * epsilon<Scalar> * (l + 2 * h);  // of H, as the start is known
-  ClosedFormError<Scalar> error;
+  return {j, lambda, k, l, e_n, h, j * (l + h), 4 * epsilon<Scalar> * (l + 2 * h)};
+}
+
+template <Real Scalar>
+ClosedFormError<Scalar> ClosedForm<Scalar>::departure(Scalar t) const noexcept {
+  const Sizes x = sizes();
   switch (kind_) {
     case ClosedFormKind::none: break;
-    case ClosedFormKind::no_momentum: error.attitude = j * data * t; break;
-    case ClosedFormKind::axisymmetric: {
-      // H turns about e in the body with a rate that changes monotonically: what the defect moves it by averages out
-      const Scalar j_across = (j_1_ + j_2_) / 2;
-      const Scalar nu_0 = (j_axis_ - j_across) * along_ - lambda * j_axis_ * rate_;
-      const Scalar nu_t = (j_axis_ - j_across) * along_ - lambda * j_axis_ * rate(t);
-      const Scalar nu = nu_0 * nu_t > 0 ? std::min(std::abs(nu_0), std::abs(nu_t)) : Scalar(0);
-      const Scalar defect = 2 * (off_ + oblateness_);
-      const Scalar tilt = l * defect * fast * std::min(t, 8 / nu) + data;
-      error.rotor_rate = 2 * e_n / k * tilt;
-      const Scalar drift =
-          t * (std::abs(j_axis_ - j_across) * tilt + lambda * j_axis_ * error.rotor_rate + defect * fast);
-      error.attitude = drift + t * (defect * fast + 2 * j * tilt);
-      error.momentum = l * drift + 2 * tilt;
-      error.rotor_angle = t * error.rotor_rate;
-      break;
-    }
-    case ClosedFormKind::principal_axis: {
-      if (exact_) break;
-      // H across: h1' = -A2 h2, h2' = A1 h1, A_i = H.e J_i - Omega.e
-      const auto stiffness = [&](Scalar ji, Scalar omega) { return along_ * ji - j_axis_ * (along_ - lambda * omega); };
-      const Scalar omega_t = rate(t);
-      const Scalar a1 = stiffness(j_1_, rate_), a2 = stiffness(j_2_, rate_);
-      const Scalar b1 = stiffness(j_1_, omega_t), b2 = stiffness(j_2_, omega_t);
-      Scalar gain = std::exp(l * (j_2_ - j_1_) / 2 * t), time = t;
-      if (a1 * a2 > 0 && b1 * b2 > 0 && a1 * b1 > 0) {
-        const auto spread = [](Scalar x, Scalar y) { return std::max(x / y, y / x); };
-        const Scalar most = std::max({std::abs(a1), std::abs(a2), std::abs(b1), std::abs(b2)});
-        const Scalar least = std::min({std::abs(a1), std::abs(a2), std::abs(b1), std::abs(b2)});
-        const Scalar bounded = std::sqrt(most / least * std::max(spread(a1, b1), spread(a2, b2)));
-        if (bounded < gain) {
-          gain = bounded;
-          time = std::min(t, 8 / least);
-        }
-      }
-      const Scalar off = off_ + 4 * epsilon<Scalar>;
-      const Scalar across = gain * (across_ * l + data + 2 * off * l * fast * time);
-      error.momentum = across;
-      error.rotor_rate = j / k * (2 * off * across + across * across / l);
-      error.attitude = 2 * across / l + t * (data * j + 2 * j * off * across + j * across * across / l +
-                                             lambda * j_axis_ * error.rotor_rate);
-      error.rotor_angle = t * error.rotor_rate;
-      break;
-    }
-    case ClosedFormKind::steady: {
-      const Linearisation<Scalar> linear(gyrostat_, l, start_.momentum / l, final_rate_);
-      const Modes<Scalar> modes(linear.matrix, linear.exponents());
-      const Scalar push = (off_ + 4 * epsilon<Scalar>)*fast +
-                          linear.relaxation / linear.unit * (excess_ + 4 * epsilon<Scalar>)*(l + h) / lambda;
-      Scalar moved = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const math::Complex<Scalar> d = modes.exponent[i];
-        moved += detail::complex_length<Scalar>(modes.left[i]) *
-                 (push * std::min(t, 2 / math::magnitude(d)) + data / l) * std::exp(std::max(Scalar(0), d.re * t));
-      }
-      error.momentum = l * moved;
-      error.rotor_rate = (linear.unit + linear.rate_of_tilt * e_n) * moved;
-      error.attitude = 2 * moved + t * (j * l * moved * (1 + moved) + lambda * e_n * error.rotor_rate + data * j);
-      error.rotor_angle = t * error.rotor_rate;
-      break;
-    }
-    case ClosedFormKind::circular_section: {
-      // off the circle grows like 1/(dphi/dt), what falls behind along it like dphi/dt; an uneven section pushes off it with the
-      // second harmonic of phi
-      const Scalar fastest = std::abs(drive_) + hill_, gap = std::abs(drive_) - hill_;
-      const Scalar slowest = std::max({std::min(std::abs(first_rate_), std::abs(circle_rate(t))), gap, Scalar(0)});
-      const Scalar gain = fastest / slowest;
-      const Scalar uneven = oblateness_ + 4 * epsilon<Scalar>;
-      const Scalar off = gain * (across_ + data / l + l * j * uneven * std::min(t, 2 / fastest));
-      const Scalar excess = excess_ * (l + h) / lambda + 2 * l * e_n / k * off;
-      const Scalar behind =
-          gain * t * (l * j * (2 * off + uneven) + lambda * e_n * excess + data * j + 4 * epsilon<Scalar> * fastest);
-      error.rotor_rate = excess;
-      error.momentum = l * (behind + off);
-      error.attitude = behind + off + t * (2 * fastest * off + l * j * uneven + data * j);
-      error.rotor_angle = t * excess;
-      break;
+    case ClosedFormKind::no_momentum: return {.attitude = x.j * x.data * t};
+    case ClosedFormKind::axisymmetric: return from_axisymmetric(t, x);
+    case ClosedFormKind::principal_axis: return from_principal_axis(t, x);
+    case ClosedFormKind::steady: return from_steady(t, x);
+    case ClosedFormKind::circular_section: return from_circular_section(t, x);
+  }
+  return {};
+}
+
+template <Real Scalar>
+ClosedFormError<Scalar> ClosedForm<Scalar>::from_axisymmetric(Scalar t, const Sizes& x) const noexcept {
+  // H turns about e in the body with a rate that changes monotonically: what the defect moves it by averages out
+  const Scalar j_across = (j_1_ + j_2_) / 2;
+  const Scalar nu_0 = (j_axis_ - j_across) * along_ - x.lambda * j_axis_ * rate_;
+  const Scalar nu_t = (j_axis_ - j_across) * along_ - x.lambda * j_axis_ * rate(t);
+  const Scalar nu = nu_0 * nu_t > 0 ? std::min(std::abs(nu_0), std::abs(nu_t)) : Scalar(0);
+  const Scalar defect = 2 * (off_ + oblateness_);
+  const Scalar tilt = x.l * defect * x.fast * std::min(t, 8 / nu) + x.data;
+  ClosedFormError<Scalar> error;
+  error.rotor_rate = 2 * x.e_n / x.k * tilt;
+  const Scalar drift =
+      t * (std::abs(j_axis_ - j_across) * tilt + x.lambda * j_axis_ * error.rotor_rate + defect * x.fast);
+  error.attitude = drift + t * (defect * x.fast + 2 * x.j * tilt);
+  error.momentum = x.l * drift + 2 * tilt;
+  error.rotor_angle = t * error.rotor_rate;
+  return error;
+}
+
+template <Real Scalar>
+ClosedFormError<Scalar> ClosedForm<Scalar>::from_principal_axis(Scalar t, const Sizes& x) const noexcept {
+  if (exact_) return {};
+  // H across: h1' = -A2 h2, h2' = A1 h1, A_i = H.e J_i - Omega.e
+  const auto stiffness = [&](Scalar ji, Scalar omega) { return along_ * ji - j_axis_ * (along_ - x.lambda * omega); };
+  const Scalar omega_t = rate(t);
+  const Scalar a1 = stiffness(j_1_, rate_), a2 = stiffness(j_2_, rate_);
+  const Scalar b1 = stiffness(j_1_, omega_t), b2 = stiffness(j_2_, omega_t);
+  Scalar gain = std::exp(x.l * (j_2_ - j_1_) / 2 * t), time = t;
+  if (a1 * a2 > 0 && b1 * b2 > 0 && a1 * b1 > 0) {
+    const auto spread = [](Scalar a, Scalar b) { return std::max(a / b, b / a); };
+    const Scalar most = std::max({std::abs(a1), std::abs(a2), std::abs(b1), std::abs(b2)});
+    const Scalar least = std::min({std::abs(a1), std::abs(a2), std::abs(b1), std::abs(b2)});
+    const Scalar bounded = std::sqrt(most / least * std::max(spread(a1, b1), spread(a2, b2)));
+    if (bounded < gain) {
+      gain = bounded;
+      time = std::min(t, 8 / least);
     }
   }
+  const Scalar off = off_ + 4 * epsilon<Scalar>;
+  const Scalar across = gain * (across_ * x.l + x.data + 2 * off * x.l * x.fast * time);
+  ClosedFormError<Scalar> error;
+  error.momentum = across;
+  error.rotor_rate = x.j / x.k * (2 * off * across + across * across / x.l);
+  error.attitude = 2 * across / x.l + t * (x.data * x.j + 2 * x.j * off * across + x.j * across * across / x.l +
+                                           x.lambda * j_axis_ * error.rotor_rate);
+  error.rotor_angle = t * error.rotor_rate;
+  return error;
+}
+
+template <Real Scalar>
+ClosedFormError<Scalar> ClosedForm<Scalar>::from_steady(Scalar t, const Sizes& x) const noexcept {
+  const Linearisation<Scalar> linear(gyrostat_, x.l, start_.momentum / x.l, final_rate_);
+  const Modes<Scalar> modes(linear.matrix, linear.exponents());
+  const Scalar push = (off_ + 4 * epsilon<Scalar>)*x.fast +
+                      linear.relaxation / linear.unit * (excess_ + 4 * epsilon<Scalar>)*(x.l + x.h) / x.lambda;
+  Scalar moved = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const math::Complex<Scalar> d = modes.exponent[i];
+    moved += detail::complex_length<Scalar>(modes.left[i]) *
+             (push * std::min(t, 2 / math::magnitude(d)) + x.data / x.l) * std::exp(std::max(Scalar(0), d.re * t));
+  }
+  ClosedFormError<Scalar> error;
+  error.momentum = x.l * moved;
+  error.rotor_rate = (linear.unit + linear.rate_of_tilt * x.e_n) * moved;
+  error.attitude =
+      2 * moved + t * (x.j * x.l * moved * (1 + moved) + x.lambda * x.e_n * error.rotor_rate + x.data * x.j);
+  error.rotor_angle = t * error.rotor_rate;
+  return error;
+}
+
+template <Real Scalar>
+ClosedFormError<Scalar> ClosedForm<Scalar>::from_circular_section(Scalar t, const Sizes& x) const noexcept {
+  // off the circle grows like 1/(dphi/dt), what falls behind along it like dphi/dt; an uneven section pushes off it with the
+  // second harmonic of phi
+  const Scalar fastest = std::abs(drive_) + hill_, gap = std::abs(drive_) - hill_;
+  const Scalar slowest = std::max({std::min(std::abs(first_rate_), std::abs(circle_rate(t))), gap, Scalar(0)});
+  const Scalar gain = fastest / slowest;
+  const Scalar uneven = oblateness_ + 4 * epsilon<Scalar>;
+  const Scalar off = gain * (across_ + x.data / x.l + x.l * x.j * uneven * std::min(t, 2 / fastest));
+  const Scalar excess = excess_ * (x.l + x.h) / x.lambda + 2 * x.l * x.e_n / x.k * off;
+  const Scalar behind =
+      gain * t *
+      (x.l * x.j * (2 * off + uneven) + x.lambda * x.e_n * excess + x.data * x.j + 4 * epsilon<Scalar> * fastest);
+  ClosedFormError<Scalar> error;
+  error.rotor_rate = excess;
+  error.momentum = x.l * (behind + off);
+  error.attitude = behind + off + t * (2 * fastest * off + x.l * x.j * uneven + x.data * x.j);
+  error.rotor_angle = t * excess;
   return error;
 }
 

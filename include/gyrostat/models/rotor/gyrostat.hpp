@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gyrostat/body/principal_axes.hpp"
+#include "gyrostat/body/realisability.hpp"
 #include "gyrostat/body/rotor.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
@@ -43,15 +45,12 @@ class Gyrostat {
     const auto rotor = Rotor<Scalar>::from_axis(axis_B, axial_inertia);
     if (!rotor) return rotor.error();
     if (slope < 0) return Errc::negative;
-    const Scalar size = inertia_B.cwiseAbs().maxCoeff();
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < i; ++j)
-        if (std::abs(inertia_B(i, j) - inertia_B(j, i)) > 8 * epsilon<Scalar> * size) return Errc::not_symmetric;
+    const auto symmetric = symmetric_part<Scalar>(inertia_B);
+    if (!symmetric) return symmetric.error();
 
     Gyrostat made{Unset{}};
-    made.inertia_ = (inertia_B + inertia_B.transpose()) / 2;
-    made.axis_ = rotor->axis();
-    made.axial_inertia_ = axial_inertia;
+    made.inertia_ = *symmetric;
+    made.rotor_ = *rotor;
     made.slope_ = slope;
     made.no_load_rate_ = no_load_rate;
     constexpr Scalar least = 64 * epsilon<Scalar>;
@@ -66,7 +65,7 @@ class Gyrostat {
     made.inverse_ = whole.axes * whole.values.cwiseInverse().asDiagonal() * whole.axes.transpose();
     made.free_inverse_ = free.axes * free.values.cwiseInverse().asDiagonal() * free.axes.transpose();
     // k = 1 - lambda e.J e without the cancellation
-    made.coupling_ = 1 / (1 + axial_inertia * made.axis_.dot(made.free_inverse_ * made.axis_));
+    made.coupling_ = 1 / (1 + axial_inertia * made.axis().dot(made.free_inverse_ * made.axis()));
     return made;
   }
 
@@ -79,56 +78,51 @@ class Gyrostat {
   const Vec3<Scalar>& free_principal() const noexcept { return free_principal_; }  ///< of R, ascending, kg m^2
   const Mat3<Scalar>& R_BF() const noexcept { return R_BF_; }                      ///< principal axes of R to body axes
 
-  const Vec3<Scalar>& axis() const noexcept { return axis_; }       ///< e
-  Scalar axial_inertia() const noexcept { return axial_inertia_; }  ///< lambda, kg m^2
-  Scalar slope() const noexcept { return slope_; }                  ///< S, N m s/rad
-  Scalar no_load_rate() const noexcept { return no_load_rate_; }    ///< omega*, rad/s
-  Scalar coupling() const noexcept { return coupling_; }            ///< k = 1 - lambda e.J e, in (0, 1)
-  Scalar relaxation_rate() const noexcept { return slope_ / (axial_inertia_ * coupling_); }  ///< S/(lambda k), 1/s
-  Scalar target_momentum() const noexcept { return axial_inertia_ * no_load_rate_; }  ///< h = lambda omega*, N m s
+  const Vec3<Scalar>& axis() const noexcept { return rotor_.axis(); }       ///< e
+  Scalar axial_inertia() const noexcept { return rotor_.axial_inertia(); }  ///< lambda, kg m^2
+  Scalar slope() const noexcept { return slope_; }                          ///< S, N m s/rad
+  Scalar no_load_rate() const noexcept { return no_load_rate_; }            ///< omega*, rad/s
+  Scalar coupling() const noexcept { return coupling_; }                    ///< k = 1 - lambda e.J e, in (0, 1)
+  Scalar relaxation_rate() const noexcept { return slope_ / (axial_inertia() * coupling_); }  ///< S/(lambda k), 1/s
+  Scalar target_momentum() const noexcept { return axial_inertia() * no_load_rate_; }  ///< h = lambda omega*, N m s
 
   /// Omega of H and p, rad/s.
   Vec3<Scalar> angular_velocity(const Vec3<Scalar>& H, Scalar p) const noexcept {
-    return free_inverse_ * (H - p * axis_);
+    return free_inverse_ * (H - p * axis());
   }
   /// omega of p and Omega, relative to the carrier, rad/s.
-  Scalar rotor_rate(Scalar p, const Vec3<Scalar>& Omega) const noexcept {
-    return p / axial_inertia_ - axis_.dot(Omega);
-  }
+  Scalar rotor_rate(Scalar p, const Vec3<Scalar>& Omega) const noexcept { return rotor_.relative_rate(p, Omega); }
   /// The state in which the carrier turns with Omega and the rotor with the rate omega relative to it. Where the two parts of H
   /// cancel to rounding, H = 0 exactly.
   State<Scalar> state(const Quat<Scalar>& attitude, const Vec3<Scalar>& Omega, Scalar omega) const noexcept {
     const Vec3<Scalar> carrier = inertia_ * Omega;
-    Vec3<Scalar> H = carrier + axial_inertia_ * omega * axis_;
-    const Scalar lost = 8 * epsilon<Scalar> * (carrier.norm() + axial_inertia_ * std::abs(omega));
+    Vec3<Scalar> H = carrier + rotor_.relative_momentum(omega);
+    const Scalar lost = 8 * epsilon<Scalar> * (carrier.norm() + axial_inertia() * std::abs(omega));
     if (H.norm() <= lost) H.setZero();
-    return {attitude, H, axial_inertia_ * (omega + axis_.dot(Omega)), 0};
+    return {attitude, H, rotor_.absolute_momentum(omega, Omega), 0};
   }
 
   /// Rotational energy about the mass centre, J.
   Scalar energy(const Vec3<Scalar>& H, Scalar p) const noexcept {
-    const Vec3<Scalar> G = H - p * axis_;
-    return G.dot(free_inverse_ * G) / 2 + p * p / (2 * axial_inertia_);
+    const Vec3<Scalar> G = H - p * axis();
+    return G.dot(free_inverse_ * G) / 2 + p * p / (2 * axial_inertia());
   }
   /// F(H) = (H - h e).J (H - h e)/2, J: the Lyapunov function at omega = omega*. Its critical points on |H| = l are the steady
   /// rotations.
   Scalar steady_level(const Vec3<Scalar>& H) const noexcept {
-    const Vec3<Scalar> y = H - target_momentum() * axis_;
+    const Vec3<Scalar> y = H - target_momentum() * axis();
     return y.dot(inverse_ * y) / 2;
   }
   /// V = energy - omega* p + lambda omega*^2/2 = F(H) + lambda k (omega - omega*)^2/2 >= 0, J. dV/dt = -S (omega - omega*)^2.
   Scalar lyapunov(const Vec3<Scalar>& H, Scalar p) const noexcept {
     const Scalar x = rotor_rate(p, angular_velocity(H, p)) - no_load_rate_;
-    return steady_level(H) + axial_inertia_ * coupling_ * x * x / 2;
+    return steady_level(H) + axial_inertia() * coupling_ * x * x / 2;
   }
 
   /// Least eigenvalue of tr(theta)/2 E - theta - lambda/2 (E - e e^T), kg m^2: negative where no mass distribution has this
   /// theta and this rotor (the thinnest disc is assumed for the rotor). Stronger than the triangle inequality.
   Scalar realisability() const noexcept {
-    const Mat3<Scalar> E = Mat3<Scalar>::Identity();
-    const Mat3<Scalar> second_moments =
-        inertia_.trace() / 2 * E - inertia_ - axial_inertia_ / 2 * (E - axis_ * axis_.transpose());
-    return symmetric_eigen<Scalar>(second_moments).values[0];
+    return gyrostat::realisability<Scalar>(inertia_, rotor_.least_second_moments());
   }
   /// Whether realisability() >= 0, to rounding.
   bool realisable() const noexcept { return realisability() >= -8 * epsilon<Scalar> * principal_[2]; }
@@ -138,8 +132,9 @@ class Gyrostat {
   explicit Gyrostat(Unset) noexcept {}
 
   Mat3<Scalar> inertia_, inverse_, free_inverse_, R_BP_, R_BF_;
-  Vec3<Scalar> principal_, free_principal_, axis_;
-  Scalar axial_inertia_, slope_, no_load_rate_, coupling_;
+  Vec3<Scalar> principal_, free_principal_;
+  Rotor<Scalar> rotor_;
+  Scalar slope_, no_load_rate_, coupling_;
 };
 
 }  // namespace gyrostat::rotor

@@ -65,7 +65,22 @@ class LinearTail {
     Scalar phase;                // psi - psi_dot t
   };
 
+  /// By which the tail fails the equations of motion.
+  struct Misfit {
+    std::array<Scalar, 3> modal{};  // 1/s
+    Scalar phase = 0;               // rad/s
+    Scalar size = 0;                // of y
+    bool small = false;
+  };
+  /// What the series leaves out.
+  struct Truncation {
+    Scalar phase = 0, tilt = 0, xi = 0, rate = 0;
+    bool small = false;
+  };
+
   Point point(Scalar t, bool with_phase) const noexcept;
+  Misfit misfit(Scalar from, Scalar length) const noexcept;
+  Truncation truncation(Scalar t) const noexcept;
   Vec3<Scalar> tilt(const Vec3<Scalar>& y) const noexcept { return y[0] * linear_.u + y[1] * linear_.v; }
   /// Bound of the curvature of dpsi/dt by y, 1/s.
   Scalar curve() const noexcept { return linear_.G.norm() + linear_.g.norm(); }
@@ -224,11 +239,42 @@ State<Scalar> LinearTail<Scalar>::at(Scalar t) const noexcept {
   return state;
 }
 
+/// Greatest misfits at samples of [from, from + length]; not `small` where the tilt is too large for the series.
 template <Real Scalar>
-TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
-  TailError<Scalar> error;
-  const Scalar slowest = decay_rate(), reach = modes_.condition();
-  if (!(slowest > 0 && distance_ < Scalar(0.5) && reach < infinity<Scalar>)) return error;
+auto LinearTail<Scalar>::misfit(Scalar from, Scalar length) const noexcept -> Misfit {
+  constexpr int samples = 8;
+  Misfit most;
+  for (int i = 0; i < samples; ++i) {
+    const Point p = point(from + length * Scalar(i) / samples, false);
+    const Vec3<Scalar> y = p.first + p.second;
+    const Vec3<Scalar> d1 = tilt(p.first), d_t = tilt(y);
+    const Scalar square = d_t.squaredNorm(), square_1 = d1.squaredNorm();
+    if (!(square < Scalar(0.5))) return most;
+    const Scalar normal = -square / (1 + std::sqrt(1 - square)), normal_1 = -square_1 / 2;
+    const Vec3<Scalar> d = d_t + normal * linear_.m;
+    const Vec3<Scalar> q = linear_.tilt_rate(d, y[2]), q1 = linear_.tilt_rate(d1, p.first[2]);
+    const Vec3<Scalar> change = cross<Scalar>(d, q) - cross<Scalar>(d1, q1);
+    const Scalar more = normal - normal_1;
+    const Vec3<Scalar> rest(linear_.u.dot(change) + more * normal_force_[0],
+                            linear_.v.dot(change) + more * normal_force_[1], more * normal_force_[2]);
+    for (std::size_t n = 0; n < 3; ++n) {
+      most.modal[n] = std::max(most.modal[n], math::magnitude(detail::complex_dot<Scalar>(rest, modes_.left[n])));
+    }
+    const Scalar exact = (d + 2 * linear_.m).dot(q) / (2 + normal);
+    const Scalar kept =
+        linear_.m.dot(linear_.tilt_rate(Vec3<Scalar>(d_t + normal_1 * linear_.m), y[2])) + d1.dot(q1) / 2;
+    most.phase = std::max(most.phase, std::abs(exact - kept));
+    most.size = std::max(most.size, y.norm());
+  }
+  most.small = true;
+  return most;
+}
+
+/// What the misfits grow to up to t; not `small` where first order in it does not suffice. Between two nodes the misfit is bounded
+/// by its samples over one swing.
+template <Real Scalar>
+auto LinearTail<Scalar>::truncation(Scalar t) const noexcept -> Truncation {
+  Truncation most;
   Scalar fastest = 0, swing = 0;  // 1/s
   std::array<Scalar, 3> decay, turn, excess;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -241,43 +287,17 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
     excess[i] = math::magnitude(linear_.unit * v[2] - linear_.rate_of_tilt * (linear_.n.dot(linear_.u) * v[0] +
                                                                               linear_.n.dot(linear_.v) * v[1]));
   }
-
-  // Between two nodes the misfit is bounded by its samples over one swing.
-  constexpr int samples = 8;
-  const Scalar end = std::min(t, 50 / slowest);
+  const Scalar end = std::min(t, 50 / decay_rate());
   std::array<Scalar, 3> off{}, sum{};
-  Scalar phase = 0, phase_most = 0, tilt_most = 0, xi_most = 0, rate_most = 0;
+  Scalar phase = 0;
   for (Scalar s = 0; s < end;) {
     const Scalar h = std::min(end - s, std::max(Scalar(0.4) / fastest, Scalar(0.3) * s));
-    const Scalar window = std::min(h, swing > 0 ? 2 * pi<Scalar> / swing : h);
-    std::array<Scalar, 3> misfit{};
-    Scalar phase_misfit = 0, size = 0;
-    for (int i = 0; i < samples; ++i) {
-      const Point p = point(s + window * Scalar(i) / samples, false);
-      const Vec3<Scalar> y = p.first + p.second;
-      const Vec3<Scalar> d1 = tilt(p.first), d_t = tilt(y);
-      const Scalar square = d_t.squaredNorm(), square_1 = d1.squaredNorm();
-      if (!(square < Scalar(0.5))) return error;
-      const Scalar normal = -square / (1 + std::sqrt(1 - square)), normal_1 = -square_1 / 2;
-      const Vec3<Scalar> d = d_t + normal * linear_.m;
-      const Vec3<Scalar> q = linear_.tilt_rate(d, y[2]), q1 = linear_.tilt_rate(d1, p.first[2]);
-      const Vec3<Scalar> change = cross<Scalar>(d, q) - cross<Scalar>(d1, q1);
-      const Scalar more = normal - normal_1;
-      const Vec3<Scalar> rest(linear_.u.dot(change) + more * normal_force_[0],
-                              linear_.v.dot(change) + more * normal_force_[1], more * normal_force_[2]);
-      for (std::size_t n = 0; n < 3; ++n) {
-        misfit[n] = std::max(misfit[n], math::magnitude(detail::complex_dot<Scalar>(rest, modes_.left[n])));
-      }
-      const Scalar exact = (d + 2 * linear_.m).dot(q) / (2 + normal);
-      const Scalar kept =
-          linear_.m.dot(linear_.tilt_rate(Vec3<Scalar>(d_t + normal_1 * linear_.m), y[2])) + d1.dot(q1) / 2;
-      phase_misfit = std::max(phase_misfit, std::abs(exact - kept));
-      size = std::max(size, y.norm());
-    }
+    const Misfit here = misfit(s, std::min(h, swing > 0 ? 2 * pi<Scalar> / swing : h));
+    if (!here.small) return most;
     Scalar tilt_off = 0, xi_off = 0, rate_off = 0, turned = 0;
     for (std::size_t n = 0; n < 3; ++n) {
       const Scalar left = std::exp(-decay[n] * h);
-      const Scalar push = Scalar(1.3L) * misfit[n];
+      const Scalar push = Scalar(1.3L) * here.modal[n];
       off[n] = off[n] * left + push * (1 - left) / decay[n];
       sum[n] += push * h;
       const Vector& v = modes_.right[n];
@@ -287,16 +307,29 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
       turned += turn[n] * (off[n] + sum[n]);
     }
     const Scalar together = std::hypot(tilt_off, xi_off);
-    if (!(together <= Scalar(0.2) * size)) return error;
-    phase += h * (Scalar(1.3L) * phase_misfit + curve() * together * (2 * size + together));
-    phase_most = std::max(phase_most, phase + turned);
-    tilt_most = std::max(tilt_most, tilt_off);
-    xi_most = std::max(xi_most, xi_off);
-    rate_most =
-        std::max(rate_most, rate_off + linear_.rate_of_tilt * std::abs(linear_.n.dot(linear_.m)) * size * tilt_off);
+    if (!(together <= Scalar(0.2) * here.size)) return most;
+    phase += h * (Scalar(1.3L) * here.phase + curve() * together * (2 * here.size + together));
+    most.phase = std::max(most.phase, phase + turned);
+    most.tilt = std::max(most.tilt, tilt_off);
+    most.xi = std::max(most.xi, xi_off);
+    most.rate = std::max(most.rate,
+                         rate_off + linear_.rate_of_tilt * std::abs(linear_.n.dot(linear_.m)) * here.size * tilt_off);
     s += h;
   }
+  most.small = true;
+  return most;
+}
 
+template <Real Scalar>
+TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
+  TailError<Scalar> error;
+  const Scalar slowest = decay_rate(), reach = modes_.condition();
+  if (!(slowest > 0 && distance_ < Scalar(0.5) && reach < infinity<Scalar>)) return error;
+  const Truncation most = truncation(t);
+  if (!most.small) return error;
+
+  Scalar fastest = 0;
+  for (const Complex& d : modes_.exponent) fastest = std::max(fastest, math::magnitude(d));
   const Scalar j = 1 / gyrostat_.principal()[0], lambda = gyrostat_.axial_inertia();
   const Scalar l = linear_.norm, h = std::abs(gyrostat_.target_momentum());
   const Scalar fast = j * (l + h), ulps = 4 * epsilon<Scalar>;
@@ -308,14 +341,14 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
                                (std::abs(gyrostat_.no_load_rate()) + fast + std::abs(start_.axial_momentum) / lambda +
                                 (l + std::abs(start_.axial_momentum)) / gyrostat_.free_principal()[0]);
   constexpr Scalar safety = 2;
-  const Scalar tilt_all = safety * tilt_most + aim + modal + data;
+  const Scalar tilt_all = safety * most.tilt + aim + modal + data;
   error.momentum = l * tilt_all;
-  error.rotor_rate = safety * rate_most + linear_.unit * modal + rate_rounding;
-  error.rotor_angle = safety * linear_.unit / linear_.relaxation * xi_most +
+  error.rotor_rate = safety * most.rate + linear_.unit * modal + rate_rounding;
+  error.rotor_angle = safety * linear_.unit / linear_.relaxation * most.xi +
                       linear_.unit / linear_.relaxation * (modal + ulps * (distance_ + aim)) +
                       2 * ulps * (std::abs(gyrostat_.no_load_rate()) * t + std::abs(start_.rotor_angle)) +
                       rate_rounding * std::min(t, 1 / slowest);
-  error.attitude = safety * phase_most + 2 * tilt_all + t * (spin + ulps * std::abs(linear_.spin_rate)) + 4 * ulps +
+  error.attitude = safety * most.phase + 2 * tilt_all + t * (spin + ulps * std::abs(linear_.spin_rate)) + 4 * ulps +
                    4 * ulps * reach * reach * distance_ * distance_ * fast / slowest;
   return error;
 }

@@ -271,152 +271,149 @@ void polish(const Gyrostat<Scalar>& gyrostat, Scalar l, SteadyRotation<Scalar>& 
   r.spin_rate = psi + (change.dot(Jm) + excess * psi - m.dot(force));
 }
 
-}  // namespace detail
+/// Axes first ... last of theta, whose moments are equal to rounding: together one pole of phi where the rotor has a part of its
+/// momentum along them (`active`), else none.
+struct SteadyGroup {
+  int first, last;
+  bool active;
 
-/// All steady rotations with |H| = momentum_norm, N m s. None where it is zero, negative or not finite, or so small that
-/// h/|H| overflows. Direction to 1e-14 and spin rate to 1e-14 relative (double) away from folds; at a distance d from a fold, relative
-/// in h, the loss is a factor 1/sqrt(d). A pair that is closer to its fold than rounding of theta and e moves it is one entry.
+  int multiplicity() const noexcept { return last - first + 1; }
+};
+
+/// phi of a gyrostat: the axes in groups, ascending in a, and the poles of the active ones.
 template <Real Scalar>
-SteadyRotations<Scalar> steady_rotations(const Gyrostat<Scalar>& gyrostat, Scalar momentum_norm) noexcept {
-  SteadyRotations<Scalar> all;
-  const Scalar l = momentum_norm, eta = gyrostat.target_momentum() / l;
-  if (!(l > 0) || !std::isfinite(l) || !std::isfinite(eta)) return all;
-  const Vec3<Scalar>& moments = gyrostat.principal();
-  const Vec3<Scalar> along = eta * (gyrostat.R_BP().transpose() * gyrostat.axis());
-  const Scalar largest = moments[2];
-  constexpr Scalar rounding = 64 * epsilon<Scalar>;
-
-  // Poles ascend as the moments fall. pole[i]: that of axis i, -1 where it has no weight.
-  struct Group {
-    int first, last;  // axes of equal moments
-    bool active;
-  };
-  std::array<Group, 3> groups{};
+struct SteadyAxes {
+  Vec3<Scalar> moments;  ///< ascending, kg m^2
+  Vec3<Scalar> along;    ///< (h/l) e in principal axes
+  Scalar largest;        ///< moment, the unit
+  std::array<SteadyGroup, 3> groups{};
   int group_count = 0;
-  std::array<int, 3> pole{-1, -1, -1};
-  detail::SteadyPoles<Scalar> poles;
-  std::array<Scalar, 3> moment{};
-  for (int i = 2; i >= 0;) {
-    int first = i;
-    while (first > 0 && moments[i] - moments[first - 1] <= rounding * largest) --first;
-    Scalar square = 0;
-    for (int j = first; j <= i; ++j) square += along[j] * along[j];
-    const Scalar part = first == i ? std::abs(along[i]) : std::sqrt(square);
-    const Scalar least = first == i ? 0 : 16 * epsilon<Scalar> * std::abs(eta);
-    const bool active = part > std::max(least, epsilon<Scalar> * epsilon<Scalar>);
-    groups[std::size_t(group_count++)] = {first, i, active};
-    if (active) {
-      const std::size_t n = std::size_t(poles.count++);
-      moment[n] = moments[i];
-      poles.place[n] = largest / moments[i];
-      poles.weight[n] = part * poles.place[n];
-      for (int j = first; j <= i; ++j) pole[std::size_t(j)] = int(n);
-    }
-    i = first - 1;
-  }
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      if (int(i) < poles.count && int(j) < poles.count)
-        poles.offset[i][j] = (moment[i] - moment[j]) / moment[i] * (largest / moment[j]);
+  std::array<int, 3> pole{-1, -1, -1};  ///< of each axis; -1 where it has no weight
+  SteadyPoles<Scalar> poles;
 
-  const auto put = [&](const Vec3<Scalar>& m_P, Scalar rate, int index, bool isolated) noexcept {
-    SteadyRotation<Scalar> r;
-    r.direction = (gyrostat.R_BP() * m_P).normalized();
-    r.spin_rate = rate;
-    r.isolated = isolated;
-    if (isolated && index >= 0) {
-      r.type = SteadyType(index);
-      detail::polish(gyrostat, l, r);
+  SteadyAxes(const Gyrostat<Scalar>& gyrostat, Scalar eta) noexcept
+      : moments(gyrostat.principal()),
+        along(eta * (gyrostat.R_BP().transpose() * gyrostat.axis())),
+        largest(moments[2]) {
+    constexpr Scalar rounding = 64 * epsilon<Scalar>;
+    std::array<Scalar, 3> moment{};  // of the poles
+    for (int i = 2; i >= 0;) {
+      int first = i;
+      while (first > 0 && moments[i] - moments[first - 1] <= rounding * largest) --first;
+      Scalar square = 0;
+      for (int j = first; j <= i; ++j) square += along[j] * along[j];
+      const Scalar part = first == i ? std::abs(along[i]) : std::sqrt(square);
+      const Scalar least = first == i ? 0 : 16 * epsilon<Scalar> * std::abs(eta);
+      const bool active = part > std::max(least, epsilon<Scalar> * epsilon<Scalar>);
+      groups[std::size_t(group_count++)] = {first, i, active};
+      if (active) {
+        const std::size_t n = std::size_t(poles.count++);
+        moment[n] = moments[i];
+        poles.place[n] = largest / moments[i];
+        poles.weight[n] = part * poles.place[n];
+        for (int j = first; j <= i; ++j) pole[std::size_t(j)] = int(n);
+      }
+      i = first - 1;
     }
-    r.level = r.spin_rate * r.spin_rate * r.direction.dot(gyrostat.inertia() * r.direction) / 2;
-    int at = all.count++;
-    for (; at > 0 && all.at[std::size_t(at - 1)].spin_rate > r.spin_rate; --at)
-      all.at[std::size_t(at)] = all.at[std::size_t(at - 1)];
-    all.at[std::size_t(at)] = r;
-  };
-  // The direction at sigma = a[origin] + tau, in principal axes; zero along axes whose pole has no weight.
-  const auto direction = [&](int origin, Scalar tau) noexcept {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        if (int(i) < poles.count && int(j) < poles.count)
+          poles.offset[i][j] = (moment[i] - moment[j]) / moment[i] * (largest / moment[j]);
+  }
+
+  /// m at sigma = a[origin] + tau, in principal axes; zero along axes whose pole has no weight.
+  Vec3<Scalar> direction(int origin, Scalar tau) const noexcept {
     Vec3<Scalar> m(0, 0, 0);
     for (int i = 0; i < 3; ++i)
       if (const int j = pole[std::size_t(i)]; j >= 0)
         m[i] = along[i] * poles.place[std::size_t(j)] / (poles.offset[std::size_t(origin)][std::size_t(j)] - tau);
     return m;
-  };
+  }
 
-  // Poles without weight: a pair m_i = +-sqrt(-phi), or a circle where the moment is not simple.
-  std::array<bool, 3> merged{};  // a root of phi lies on this pole to rounding
-  for (int g = 0; g < group_count; ++g) {
-    const Group& group = groups[std::size_t(g)];
-    if (group.active) continue;
-    Vec3<Scalar> m(0, 0, 0);
-    Scalar phi = -1, tolerance = 0;
-    const Scalar a = largest / moments[group.last];
+  /// What m has along the active axes at the place of a group that is not, and phi there with its rounding.
+  struct OnGroup {
+    Vec3<Scalar> m{0, 0, 0};
+    Scalar phi = -1, rounding = 0;
+  };
+  OnGroup on(const SteadyGroup& group) const noexcept {
+    OnGroup at;
+    const Scalar own = moments[group.last], a = largest / own;
     for (int i = 0; i < 3; ++i)
-      if (const int j = pole[std::size_t(i)]; j >= 0) {
+      if (pole[std::size_t(i)] >= 0) {
         // 1 - theta_i/theta_g by a difference of moments
-        m[i] = along[i] * moments[group.last] / (moments[group.last] - moments[i]);
-        phi += m[i] * m[i];
+        at.m[i] = along[i] * own / (own - moments[i]);
+        at.phi += at.m[i] * at.m[i];
         const Scalar d = largest / moments[i] - a;
-        tolerance += 8 * epsilon<Scalar> * m[i] * m[i] * (1 + a * a / std::abs(d));
+        at.rounding += 8 * epsilon<Scalar> * at.m[i] * at.m[i] * (1 + a * a / std::abs(d));
       }
-    merged[std::size_t(g)] = std::abs(phi) <= tolerance;
-    if (phi >= 0 || merged[std::size_t(g)]) continue;
-    const int multiplicity = group.last - group.first + 1;
-    const int index = 2 - group.last;  // poles to the left
-    const Scalar part = std::sqrt(-phi);
-    if (multiplicity == 1) {
-      for (const Scalar sign : {Scalar(1), Scalar(-1)}) {
-        m[group.first] = sign * part;
-        put(m, l / moments[group.first], index, true);
+    return at;
+  }
+};
+
+/// Finds them, in three parts.
+template <Real Scalar>
+class SteadySearch {
+ public:
+  SteadySearch(const Gyrostat<Scalar>& gyrostat, Scalar momentum_norm, Scalar eta) noexcept
+      : gyrostat_(gyrostat), l_(momentum_norm), axes_(gyrostat, eta) {}
+
+  int poles() const noexcept { return axes_.poles.count; }
+  const SteadyRotations<Scalar>& found() const noexcept { return all_; }
+
+  /// On the places of groups without weight: a pair m_i = +-sqrt(-phi), or a circle where the moment is not simple.
+  void on_groups() noexcept {
+    for (int g = 0; g < axes_.group_count; ++g) {
+      const SteadyGroup& group = axes_.groups[std::size_t(g)];
+      if (group.active) continue;
+      auto [m, phi, rounding] = axes_.on(group);
+      merged_[std::size_t(g)] = std::abs(phi) <= rounding;
+      if (phi >= 0 || merged_[std::size_t(g)]) continue;
+      const int index = 2 - group.last;  // poles to the left
+      const Scalar part = std::sqrt(-phi);
+      if (group.multiplicity() == 1) {
+        for (const Scalar sign : {Scalar(1), Scalar(-1)}) {
+          m[group.first] = sign * part;
+          put(m, l_ / axes_.moments[group.first], index, true);
+        }
+      } else {
+        m[group.first] = part;
+        (group.multiplicity() == 2 ? all_.circle : all_.sphere) = true;
+        put(m, l_ / axes_.moments[group.last], -1, false);
       }
-    } else {
-      m[group.first] = part;
-      (multiplicity == 2 ? all.circle : all.sphere) = true;
-      put(m, l / moments[group.last], -1, false);
     }
   }
-  if (poles.count == 0) return all;
 
-  // Roots of phi. The type follows from the poles to the left and the sign of phi'.
-  const auto put_root = [&](int origin, Scalar tau, bool rising, bool fold) noexcept {
-    const Scalar sigma = poles.place[std::size_t(origin)] + tau;
-    int left = 0;
-    for (int g = 0; g < group_count; ++g) {
-      const Group& group = groups[std::size_t(g)];
-      const int j = pole[std::size_t(group.last)];
-      const Scalar from =
-          j >= 0 ? poles.offset[std::size_t(origin)][std::size_t(j)] - tau : largest / moments[group.last] - sigma;
-      if (from < 0) left += group.last - group.first + 1;
-      if (merged[std::size_t(g)] && std::abs(from) <= std::sqrt(epsilon<Scalar>) * largest / moments[group.last])
-        fold = true;
+  /// One root beyond each of the outer poles.
+  void outside() noexcept {
+    const SteadyPoles<Scalar>& poles = axes_.poles;
+    const int last = poles.count - 1;
+    Scalar left = 0, right = 0;  // |m| >= 1 there, by one term alone
+    for (int j = 0; j < poles.count; ++j) {
+      left = std::max(left, poles.weight[std::size_t(j)] - poles.offset[0][std::size_t(j)]);
+      right = std::max(right, poles.weight[std::size_t(j)] + poles.offset[std::size_t(last)][std::size_t(j)]);
     }
-    put(direction(origin, tau), l * sigma / largest, fold ? -1 : left - 1 + int(rising), true);
-  };
-  const int last = poles.count - 1;
-  Scalar left_bound = 0, right_bound = 0;  // |m| >= 1 there, by one term alone
-  for (int j = 0; j < poles.count; ++j) {
-    left_bound = std::max(left_bound, poles.weight[std::size_t(j)] - poles.offset[0][std::size_t(j)]);
-    right_bound = std::max(right_bound, poles.weight[std::size_t(j)] + poles.offset[std::size_t(last)][std::size_t(j)]);
+    put_root(0, -poles.root(0, -1, left, infinity<Scalar>, left), true, false);
+    put_root(last, poles.root(last, 1, right, infinity<Scalar>, right), false, false);
   }
-  put_root(0, -poles.root(0, -1, left_bound, infinity<Scalar>, left_bound), true, false);
-  put_root(last, poles.root(last, 1, right_bound, infinity<Scalar>, right_bound), false, false);
 
-  for (int p = 0; p < last; ++p) {
+  /// Two roots between the poles p and p + 1, or one where they merge, or none.
+  void between(int p) noexcept {
+    const SteadyPoles<Scalar>& poles = axes_.poles;
     const int q = p + 1;
     const Scalar gap = poles.offset[std::size_t(p)][std::size_t(q)];
     const Scalar low_p = poles.weight[std::size_t(p)], low_q = poles.weight[std::size_t(q)];
-    if (low_p + low_q >= gap) continue;
+    if (low_p + low_q >= gap) return;
     const Scalar cube_p = std::cbrt(low_p * low_p), cube_q = std::cbrt(low_q * low_q);
     const Scalar sum = cube_p + cube_q;
     // without the third pole |m|^2 is sum^3/gap^2 at its least
-    if (sum * sum * sum > gap * gap * (1 + Scalar(1e-6L))) continue;
+    if (sum * sum * sum > gap * gap * (1 + Scalar(1e-6L))) return;
     const auto least = poles.least_between(p, cube_p, cube_q);
     const auto there = poles.sums(least.origin, least.tau);
     const Scalar phi = there.second - 1, tolerance = poles.rounding(least.origin, least.tau);
-    if (phi > tolerance) continue;
+    if (phi > tolerance) return;
     if (phi >= -tolerance) {
       put_root(least.origin, least.tau, false, true);
-      continue;
+      return;
     }
     // half the distance of the two roots, by the parabola of 1/|m|
     const Scalar g = 1 / std::sqrt(there.second);
@@ -436,7 +433,62 @@ SteadyRotations<Scalar> steady_rotations(const Gyrostat<Scalar>& gyrostat, Scala
       }
     }
   }
-  return all;
+
+ private:
+  /// m_P: in principal axes; index: of the SteadyType, -1 for degenerate.
+  void put(const Vec3<Scalar>& m_P, Scalar rate, int index, bool isolated) noexcept {
+    SteadyRotation<Scalar> r;
+    r.direction = (gyrostat_.R_BP() * m_P).normalized();
+    r.spin_rate = rate;
+    r.isolated = isolated;
+    if (isolated && index >= 0) {
+      r.type = SteadyType(index);
+      polish(gyrostat_, l_, r);
+    }
+    r.level = r.spin_rate * r.spin_rate * r.direction.dot(gyrostat_.inertia() * r.direction) / 2;
+    int at = all_.count++;
+    for (; at > 0 && all_.at[std::size_t(at - 1)].spin_rate > r.spin_rate; --at)
+      all_.at[std::size_t(at)] = all_.at[std::size_t(at - 1)];
+    all_.at[std::size_t(at)] = r;
+  }
+
+  /// A root of phi. Its type follows from the poles to the left, with those of groups without weight, and the sign of phi'.
+  void put_root(int origin, Scalar tau, bool rising, bool fold) noexcept {
+    const SteadyPoles<Scalar>& poles = axes_.poles;
+    const Scalar sigma = poles.place[std::size_t(origin)] + tau;
+    int left = 0;
+    for (int g = 0; g < axes_.group_count; ++g) {
+      const SteadyGroup& group = axes_.groups[std::size_t(g)];
+      const int j = axes_.pole[std::size_t(group.last)];
+      const Scalar a = axes_.largest / axes_.moments[group.last];
+      const Scalar from = j >= 0 ? poles.offset[std::size_t(origin)][std::size_t(j)] - tau : a - sigma;
+      if (from < 0) left += group.multiplicity();
+      if (merged_[std::size_t(g)] && std::abs(from) <= std::sqrt(epsilon<Scalar>) * a) fold = true;
+    }
+    put(axes_.direction(origin, tau), l_ * sigma / axes_.largest, fold ? -1 : left - 1 + int(rising), true);
+  }
+
+  const Gyrostat<Scalar>& gyrostat_;
+  Scalar l_;
+  SteadyAxes<Scalar> axes_;
+  std::array<bool, 3> merged_{};  // a root of phi lies on this group's place to rounding
+  SteadyRotations<Scalar> all_;
+};
+
+}  // namespace detail
+
+/// All steady rotations with |H| = momentum_norm, N m s. None where it is zero, negative or not finite, or so small that
+/// h/|H| overflows. Direction to 1e-14 and spin rate to 1e-14 relative (double) away from folds; at a distance d from a fold, relative
+/// in h, the loss is a factor 1/sqrt(d). A pair that is closer to its fold than rounding of theta and e moves it is one entry.
+template <Real Scalar>
+SteadyRotations<Scalar> steady_rotations(const Gyrostat<Scalar>& gyrostat, Scalar momentum_norm) noexcept {
+  const Scalar l = momentum_norm, eta = gyrostat.target_momentum() / l;
+  if (!(l > 0) || !std::isfinite(l) || !std::isfinite(eta)) return {};
+  detail::SteadySearch<Scalar> search(gyrostat, l, eta);
+  search.on_groups();
+  if (search.poles() > 0) search.outside();
+  for (int p = 0; p + 1 < search.poles(); ++p) search.between(p);
+  return search.found();
 }
 
 }  // namespace gyrostat::rotor

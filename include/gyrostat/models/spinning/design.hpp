@@ -191,7 +191,7 @@ Result<Scalar> first_reach(Scalar d, Scalar unit, bool growing, const Motion& mo
 template <Real Scalar, class Motion, class Curvature>
 Result<Design<Scalar>> burn(const Problem<Scalar>& problem, Scalar budget, const Motion& motion,
                             const Curvature& curvature) noexcept {
-  if (!(budget > 0 && budget < infinity<Scalar>)) return Errc::out_of_domain;
+  if (!(budget > 0 && std::isnormal(budget * budget))) return Errc::out_of_domain;
   if (problem.torque[2] != 0) return Errc::not_applicable;
   const Scalar r0 = problem.spin();
   const Scalar rate = std::abs(r0) + std::abs(problem.kappa1(r0)) + std::abs(problem.kappa2(r0));
@@ -209,8 +209,8 @@ Result<Design<Scalar>> burn(const Problem<Scalar>& problem, Scalar budget, const
 /// time at which |x1 + i x2| of x - x(0) - v(0) t is the budget. value: s. The whole scene is held. Unstable spins are answered
 /// too, and flagged. Infinite where no force acts.
 ///
-/// Errors: out_of_domain unless 0 < budget < infinity, not_applicable under a torque about axis 3, step_limit where the motion stays below
-/// the budget for very long, not_finite where it grows beyond all numbers before.
+/// Errors: out_of_domain unless the budget is positive and its square a normal number, not_applicable under a torque about axis 3,
+/// step_limit where the motion stays below the budget for very long, not_finite where it grows beyond all numbers before.
 template <Real Scalar>
 Result<Design<Scalar>> burn_for_displacement(const Problem<Scalar>& problem, Scalar budget) noexcept {
   auto p = problem;

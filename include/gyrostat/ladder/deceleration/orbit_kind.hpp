@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/models/deceleration/euler_poinsot.hpp"
+#include "gyrostat/models/deceleration/orbit.hpp"
+#include "gyrostat/models/deceleration/problem.hpp"
+
+namespace gyrostat::deceleration {
+
+/// Kind and modulus of the free orbit through M.
+struct OrbitKind {
+  Regime regime = Regime::rest;
+  double k2 = 0;
+};
+
+inline OrbitKind orbit_kind(const Problem<double>& problem, const Vec3<double>& M) noexcept {
+  if (M.isZero(0) || M == problem.rotor_momentum) return {};
+  if (problem.rotor_momentum.isZero(0)) {
+    const auto p = polhode_through<double>(problem.inverse_inertia, M);
+    if (!std::isfinite(p.modulus.k2)) return {Regime::point, 0};
+    if (!(p.modulus.kp2 > 0)) return {Regime::separatrix, 1};
+    return {p.regime, p.modulus.k2};
+  }
+  const auto orbit = Orbit<double>::through(problem, M);
+  if (orbit) return {orbit->regime(), orbit->modulus().k2};
+  return orbit.error() == Errc::separatrix ? OrbitKind{Regime::separatrix, 1} : OrbitKind{Regime::point, 0};
+}
+
+/// How far the modulus at M can be off when |M| and the energy are off by the given errors, N m s and J: an error along
+/// the orbit does not count.
+inline double k2_uncertainty(const Problem<double>& problem, const Vec3<double>& M, const OrbitKind& at, double norm,
+                             double energy) noexcept {
+  if (at.regime == Regime::rest) return 0;
+  const auto& a = problem.inverse_inertia;
+  if (at.regime == Regime::point && (problem.rotor_momentum.isZero(0) || a[2] - a[0] <= 8 * epsilon<double> * a[2]))
+    return 4 * epsilon<double>;
+  const double R = M.norm();
+  norm = std::max(norm, 2 * epsilon<double> * R);
+  if (problem.rotor_momentum.isZero(0)) {
+    const auto p = polhode_through<double>(problem.inverse_inertia, M);
+    const double ratio = (2 * energy / R + 2 * p.energy_ratio() * norm) / R;  // of 2H/M^2
+    const double tilt = ratio / p.axes.near_far;
+    const double slope = p.axes.mid_far / (p.axes.near_mid * (1 - p.tilt) * (1 - p.tilt));
+    const double k2 = slope * tilt + 4 * epsilon<double>;
+    return k2 < 1 ? k2 : 1.0;
+  }
+  const auto level = level_of(problem, M);
+  const double eta = (energy + (std::abs(level.eta) + problem.angular_velocity(M).norm()) * norm) / R;
+  double most = 4 * epsilon<double>;
+  for (const auto& moved :
+       {Level<double>{R + norm, level.eta}, Level<double>{R, level.eta + eta}, Level<double>{R, level.eta - eta}}) {
+    const auto orbit = Orbit<double>::at(problem, moved, {at.regime, 1});
+    most += orbit ? std::abs(orbit->modulus().k2 - at.k2) : orbit.error() == Errc::separatrix ? 1 - at.k2 : 1.0;
+  }
+  return std::min(1.0, most);
+}
+
+}  // namespace gyrostat::deceleration

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/errors.hpp"
+#include "gyrostat/ode/status.hpp"
+
+/// What the full equations of every family take and give.
+namespace gyrostat {
+
+/// Steps that one run of the full equations may take: some ten seconds.
+inline constexpr std::uint64_t step_budget = 10'000'000;
+
+/// Why an integration of the full equations that ended so gives no motion, and what to do.
+constexpr const char* why_stopped(ode::Status status) noexcept {
+  switch (status) {
+    case ode::Status::step_limit:
+      return "the budget of 10 million steps is used up before the last time: ask for a shorter span or a looser "
+             "tolerance";
+    case ode::Status::cancelled: return "the caller stopped the work";
+    default: return ode::message(status);
+  }
+}
+
+/// Angle that is followed even where rounding of the phase alone is over the tolerance, rad: it costs a second, and the answer
+/// says what it is worth.
+inline constexpr double vain_angle = 1e6;
+
+/// Whether a motion turns through so large an angle, rad, that no double can hold its phase to the tolerance.
+constexpr bool phase_too_long(double angle, double tolerance) noexcept {
+  return angle > vain_angle && epsilon<double> * angle > tolerance;
+}
+inline constexpr const char* phase_lost =
+    "the body turns so often that rounding of its phase alone, 2e-16 of the angle turned through, is over the "
+    "tolerance: ask for a shorter span or a looser tolerance";
+
+/// How the full equations are to be solved.
+template <Real Scalar>
+struct MotionOptions {
+  Scalar tolerance = Scalar(1e-9L);  ///< greatest error wanted in any column
+  std::uint64_t step_cap = step_budget;
+  std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
+  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
+
+  void report(double done) const noexcept {
+    if (progress != nullptr) progress->store(std::min(done, 1.0), std::memory_order_relaxed);
+  }
+  bool cancelled() const noexcept { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
+};
+
+/// What a run of the full equations hands back beside the states.
+template <std::size_t columns, Real Scalar>
+struct MotionOutcome {
+  ode::Status status = ode::Status::reached;
+  bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
+  /// Estimated greatest errors over the times, each as its column measures it.
+  Errors<columns, Scalar> error;
+  ode::Counts counts;         ///< of all runs, the companions' included
+  Scalar step_tolerance = 0;  ///< of the steps that gave the answer
+
+  Scalar greatest_error() const noexcept { return error.greatest(); }
+};
+
+/// Errc::not_finite, or not_increasing (a time before the start, or before the one ahead of it).
+template <Real Scalar>
+Errc check_span(std::span<const Scalar> times) noexcept {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
+    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
+  }
+  return Errc::ok;
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gyrostat/core/real.hpp"
+
+/// The constants behind the error estimates of the full equations, in one place (docs/errors.md has what was measured with them). The
+/// answer is compared with companions: runs of a neighbour, whose data differ by a few roundings, in looser steps.
+namespace gyrostat::honesty {
+
+/// What the estimate of a family's full equations stands on. Lengths in units of the machine epsilon are numbers of roundings.
+struct Companions {
+  double looser;       ///< step tolerance of a companion over that of the answer
+  double least_loose;  ///< least step tolerance of a companion, roundings: below it two runs round alike
+  double data_change;  ///< by how much the data of a companion differ, roundings
+  double
+      two_below;  ///< step tolerance of the answer, in roundings, below which rounding rules (two companions, wider margin)
+  double margin;  ///< stated error over the distance to the companion, where truncation rules
+  double
+      margin_of_rounding;  ///< the same where rounding rules: both runs err alike, and may come near each other by chance
+};
+
+/// Watched in every step, all components moved: rotor and heavy.
+inline constexpr Companions side_by_side{64, 64, 8, 512, 6, 8};
+/// Compared at the asked times, data moved axis by axis: spinning. Six: one answer in ten thousand has a step that is far too long, for its
+/// last terms nearly vanish.
+inline constexpr Companions spinning_run{64, 32, 4, 0, 6, 6};
+/// Compared at the asked times, the same data in another step sequence: deceleration.
+inline constexpr Companions deceleration_run{64, 32, 0, 16, 3, 6};
+
+/// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
+inline constexpr double fading_angle = 128;
+
+/// First guess of the step tolerance over the tolerance asked: the estimate stands a hundred times above the error...
+inline constexpr double first_share = 1.0 / 64;
+/// ...which grows with the angle turned through: by first_share / (base + angle / per_angle).
+inline constexpr double first_base = 8, first_angle = 16;
+/// Deceleration: as the rates fall the phase drifts, so that its error grows with the square of the angle:
+/// by first_share / (base + phase * angle^2).
+inline constexpr double drifting_base = 4, drifting_phase = 2e-4;
+/// No looser steps: near the radius of convergence of a step all runs may err alike.
+inline constexpr double loosest_step = 1e-8;
+/// The same of a heavy body: at 1e-8 all runs of a long motion from rest were seen to err alike, asked for 1e-3.
+inline constexpr double loosest_heavy_step = 1e-9;
+
+/// By how much more than the excess over the tolerance the steps of a second try are tightened.
+inline constexpr double retry = 8;
+
+/// Deceleration: the margin of the stop time over that of the columns.
+inline constexpr double stop_margin = 4;
+/// Deceleration: the part of the work that the answer's run is, its companion's left out; for the progress shown.
+inline constexpr double answers_share = 0.55;
+
+/// CVODE beside itself at a tolerance so many times looser,
+inline constexpr double cvode_looser = 10;
+/// with the stated error so many times their distance,
+inline constexpr double cvode_margin = 4;
+/// more where the tighter one is the tightest that CVODE is asked for: near rounding a tighter tolerance wins little;
+inline constexpr double cvode_margin_of_rounding = 10;
+/// and that is the tightest.
+inline constexpr double cvode_tightest = 1e-13;
+
+}  // namespace gyrostat::honesty

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gyrostat/core/result.hpp"
+
+namespace gyrostat {
+
+/// What advances the full equations, of the library's own; `any` leaves it to the family: Taylor series, or Radau where the motion is
+/// stiff. A scene may bring another (full_equations).
+enum class Integrator : std::uint8_t { any, taylor, radau };
+
+/// In place of a rung's place in the table of its family: climb the ladder.
+inline constexpr int any_rung = -1;
+
+/// What is asked of a scene, the same for every family.
+struct Question {
+  std::vector<double> times;  ///< s, increasing, the first >= 0
+  double tolerance = 1e-6;    ///< greatest error wanted in any column, as its table measures it
+  int rung = any_rung;        ///< place in the family's table of the one rung that is to answer
+  Integrator integrator = Integrator::any;
+  bool wants_attitude = false;  ///< of families that can leave it out
+};
+
+/// Whether an answer can be asked for at these times, s, to this tolerance. Errc::not_finite; out_of_domain: no times, or a
+/// tolerance outside (0, 1); negative: a time before the start; not_increasing.
+inline Errc check_times(std::span<const double> times, double tolerance) noexcept {
+  if (!std::isfinite(tolerance)) return Errc::not_finite;
+  if (!(tolerance > 0 && tolerance < 1) || times.empty()) return Errc::out_of_domain;
+  double last = -1;
+  for (const double t : times) {
+    if (!std::isfinite(t)) return Errc::not_finite;
+    if (t < 0) return Errc::negative;
+    if (!(t > last)) return Errc::not_increasing;
+    last = t;
+  }
+  return Errc::ok;
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An answer in the forms of other programs: JSON, CSV, pandas, xarray, NetCDF."""
+
+import json
+import math
+import os
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gyrostat._core import csv_rows, json_numbers
+from gyrostat.answer import Answer
+from gyrostat.facts import MEANINGS, UNITS
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+__all__ = ["to_csv", "to_dataframe", "to_dict", "to_json", "to_netcdf", "to_xarray"]
+
+_AXES: Final = ("x", "y", "z", "w")
+
+
+def _units(answer: Answer) -> dict[str, str]:
+    return {name: UNITS.get(name, "") for name in ("t", *answer.columns, *answer.scalars)}
+
+
+def _parts(answer: Answer) -> dict[str, Any]:
+    """The object of JSON, with arrays in it."""
+    return {
+        "scene": answer.scene, "model": answer.model, "tolerance": answer.tolerance, "met": answer.met, "error": answer.error,
+        "warnings": [{"code": w.code, "message": w.message} for w in answer.warnings],
+        "t": answer.t, "columns": answer.columns, "scalars": answer.scalars, "scalar_error": answer.scalar_error,
+        "counts": answer.counts, "seconds": answer.seconds,
+        "tried": [{"model": a.model, "error": a.error, "accepted": a.accepted, "why": a.why} for a in answer.tried],
+        "units": _units(answer), "scale": answer.scale,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """Arrays as lists, and None in place of what is not finite."""
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value
+
+
+def to_dict(answer: Answer) -> dict[str, Any]:
+    """See Answer.to_dict."""
+    return {key: _plain(value) for key, value in _parts(answer).items()}
+
+
+def _json(value: Any) -> Iterator[str]:
+    """What json.dumps makes of the plain value, in pieces, and of arrays at the speed of the compiled core."""
+    if isinstance(value, np.ndarray) and value.dtype.kind == "f":
+        yield json_numbers(value)
+    elif isinstance(value, Mapping):
+        yield "{"
+        for i, (key, item) in enumerate(value.items()):
+            yield f"{', ' if i else ''}{json.dumps(key)}: "
+            yield from _json(item)
+        yield "}"
+    else:
+        try:
+            yield json.dumps(value.tolist() if isinstance(value, np.ndarray) else value, allow_nan=False)
+        except ValueError:  # something in it is not finite
+            yield json.dumps(_plain(value))
+
+
+def to_json(answer: Answer) -> str:
+    """See Answer.to_json."""
+    return "".join(_json(_parts(answer)))
+
+
+def _flat(answer: Answer) -> Iterator[tuple[str, NDArray[Any]]]:
+    """Columns of one number each, without the time."""
+    for name, values in answer.columns.items():
+        if values.ndim == 1:
+            yield name, values
+        else:
+            for axis, part in zip(_AXES, values.T, strict=False):
+                yield f"{name}_{axis}", part
+
+
+def to_csv(answer: Answer) -> str:
+    """See Answer.to_csv."""
+    head = ",".join(["t", *(name for name, _ in _flat(answer))])
+    columns = [answer.t, *(values.astype("S") if values.dtype.kind == "U" else values for values in answer.columns.values())]
+    return f"{head}\n{csv_rows(columns)}"
+
+
+def to_dataframe(answer: Answer) -> "pandas.DataFrame":
+    """See Answer.to_dataframe."""
+    try:
+        import pandas
+    except ImportError as error:
+        raise ImportError("pandas is not installed: pip install 'gyrostat[pandas]'") from error
+    frame = pandas.DataFrame(dict(_flat(answer)), index=pandas.Index(answer.t, name="t"))
+    told = _parts(answer)
+    frame.attrs.update({key: _plain(told[key]) for key in ("model", "tolerance", "met", "error", "scalars", "scalar_error", "units")})
+    return frame
+
+
+def _scalar_attributes(answer: Answer) -> Iterator[tuple[str, Any]]:
+    """Value, unit and error of each scalar that is known."""
+    for name, value in answer.scalars.items():
+        if value is None:
+            continue
+        yield name, np.asarray(value, dtype=float)
+        if unit := UNITS.get(name):
+            yield f"{name}_units", unit
+        if math.isfinite(answer.scalar_error[name]):
+            yield f"{name}_estimated_error", answer.scalar_error[name]
+
+
+def to_xarray(answer: Answer) -> "xarray.Dataset":
+    """See Answer.to_xarray."""
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError("xarray is not installed: pip install 'gyrostat[xarray]'") from error
+    variables: dict[str, Any] = {}
+    for name, values in answer.columns.items():
+        axis = {1: (), 2: ("axis" if values.shape[-1] == 3 else "component",)}[values.ndim]
+        attributes: dict[str, Any] = {"units": UNITS.get(name, ""), "long_name": MEANINGS.get(name, name)}
+        if name in answer.error and math.isfinite(answer.error[name]):
+            attributes["estimated_error"] = answer.error[name]
+        variables[name] = (("t", *axis), values, attributes)
+    coordinates: dict[str, Any] = {"t": ("t", answer.t, {"units": UNITS["t"], "long_name": MEANINGS["t"]})}
+    if any("axis" in dims for dims, _, _ in variables.values()):
+        coordinates["axis"] = list(_AXES[:3])
+    if any("component" in dims for dims, _, _ in variables.values()):
+        coordinates["component"] = list(_AXES)
+    attributes = {
+        "title": str(answer.scene.get("name", "")), "source": str(answer.scene.get("source", "")), "model": answer.model,
+        "tolerance": answer.tolerance, "met": int(answer.met), "scene": json.dumps(answer.scene),
+        "warnings": "\n".join(f"{w.code}: {w.message}" for w in answer.warnings),
+        **dict(_scalar_attributes(answer)),
+    }
+    return xarray.Dataset(variables, coordinates, attributes)
+
+
+def to_netcdf(answer: Answer, file: str | os.PathLike[str]) -> None:
+    """See Answer.to_netcdf."""
+    dataset = to_xarray(answer)
+    try:
+        import scipy.io  # noqa: F401
+    except ImportError as error:
+        raise ImportError("scipy is not installed: pip install 'gyrostat[xarray]'") from error
+    dataset.to_netcdf(file, engine="scipy")

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The families of motions: a folder each, of the name that the scene file calls its kind.
+
+families/KIND/
+    functions.py   the functions over arrays, public as gyrostat.KIND
+    scene.py       KEYS and ALTERNATIVES of the scene file, an EXAMPLE of every key without default, `arguments` of `solve` from a checked
+                   scene; where one key does not tell everything `mistakes`, and where an argument has not the name of its key ARGUMENTS
+    chart.py       `problem` of a scene: what is charted, for charts/
+    figures.py     `figure` of an answer
+    gallery.py     `figures` of the paper and their `drawings`
+    stability.py   `report` of a scene, its `tables`, `sentence` and `plot`; where the question has a meaning
+Columns, scalars, rungs and integrators are those of the compiled ladder (facts.py).
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from importlib import import_module
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from gyrostat.answer import Answer
+from gyrostat.facts import FACTS, Facts
+from gyrostat.fields import TIMES, Choices, Found, Table, Values, head_keys, needed, solve_keys
+
+if TYPE_CHECKING:
+    from gyrostat.scenes import Scene
+
+__all__ = ["FAMILIES", "Family", "answer_of"]
+
+
+def _nothing(_: Values) -> Found:
+    yield from ()
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """A kind of scene and all that belongs to it."""
+
+    name: str
+
+    @property
+    def facts(self) -> Facts:
+        """What the compiled ladder says of the family."""
+        return FACTS[self.name]
+
+    @cached_property
+    def keys(self) -> dict[str, Table]:
+        """The keys of the scene file by table; "" is the top."""
+        own: dict[str, Table] = dict(self._module("scene").KEYS)
+        solve = (*solve_keys(self.facts.rungs, self.facts.integrators), *own.pop("solve", ()))
+        return {"": head_keys(self.name), "solve": solve, **own}
+
+    @cached_property
+    def alternatives(self) -> tuple[Choices, ...]:
+        """What can be given in one of several ways."""
+        return (TIMES, *self._module("scene").ALTERNATIVES)
+
+    @cached_property
+    def example(self) -> dict[str, Any]:
+        """A value of every key without default, by full key: a body to start from."""
+        return {"name": f"my-{self.name}", "kind": self.name, "solve.times": (0.0, 10.0, 25.0), **self._module("scene").EXAMPLE}
+
+    def needs(self, table: str) -> bool:
+        """No scene can do without the table."""
+        return needed(table, self.keys, self.alternatives)
+
+    @cached_property
+    def mistakes(self) -> Callable[[Values], Found]:
+        """What is wrong with a scene of which every key is right."""
+        found: Callable[[Values], Found] = getattr(self._module("scene"), "mistakes", _nothing)
+        return found
+
+    @cached_property
+    def places(self) -> dict[str, tuple[str, str]]:
+        """Table and key of each argument of `solve`."""
+        found = {field.name: (table, field.name) for table, fields in reversed(self.keys.items()) if table for field in fields}
+        return found | getattr(self._module("scene"), "ARGUMENTS", {})
+
+    def arguments(self, scene: "Scene") -> dict[str, Any]:
+        """What `solve` takes, from a checked scene."""
+        made: dict[str, Any] = self._module("scene").arguments(scene)
+        return made
+
+    def solve(self, **arguments: Any) -> Answer:
+        """The answer of the ladder."""
+        answer: Answer = self._module("functions").solve(**arguments)
+        return answer
+
+    def part(self, name: str) -> Any:
+        """The module chart, figures, gallery or stability, which is imported when it is first wanted; None where there is none."""
+        return self._module(name) if find_spec(f"{__name__}.{self.name}.{name}") else None
+
+    def _module(self, name: str) -> Any:
+        return import_module(f"{__name__}.{self.name}.{name}")
+
+
+FAMILIES: Final[dict[str, Family]] = {name: Family(name) for name in FACTS}
+
+
+def answer_of(kind: str, made: Mapping[str, Any], arguments: Mapping[str, Any]) -> Answer:
+    """What the compiled ladder `made` of the arguments of a family's `solve`, which stand in the answer as a scene."""
+    family = FAMILIES[kind]
+    scene: dict[str, Any] = {"name": f"gyrostat.{kind}.solve", "kind": kind}
+    for name, value in arguments.items():
+        if value is not None:
+            table, key = family.places[name]
+            scene.setdefault(table, {})[key] = value.tolist() if isinstance(value, np.ndarray) else value
+    return Answer.of(scene, np.array(arguments["times"], dtype=float), arguments["tolerance"], made)

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An answer for reading, on the terminal and in a notebook."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, TextIO
+
+from gyrostat.answer import Answer
+from gyrostat.console import say, short, show_table, small
+from gyrostat.facts import UNITS
+
+__all__ = ["head", "report", "summary", "tables", "tail"]
+
+# Title, heads and rows.
+Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
+
+
+def summary(answer: Answer) -> str:
+    """How the answer was found and how good it is, in a line."""
+    of = f" ({answer.least_certain})" if answer.least_certain else ""
+    met = "met" if answer.met else "NOT met"
+    return f"answered by {answer.model}: estimated error {small(answer.greatest_error)}{of}, tolerance {answer.tolerance:g} {met}"
+
+
+def head(answer: Answer) -> list[str]:
+    """The lines above the tables."""
+    warnings = [f"warning, {warning.code}: {warning.message}" for warning in answer.warnings]
+    return [f"{answer.scene.get('name', '')} ({answer.scene.get('kind', '')})", summary(answer), *warnings]
+
+
+def tail(answer: Answer) -> str:
+    """The line below the tables."""
+    return f"{answer.seconds:.3g} s of CPU time; " + ", ".join(f"{value} {key}" for key, value in answer.counts.items())
+
+
+def _scalar(name: str, value: Any) -> str:
+    if name == "stop_time" and value == math.inf:
+        return "never"
+    if name == "stable" and value is not None:
+        return "yes" if value else "no"
+    if name == "attractor" and value is None:
+        return "not certified"
+    return short(value)
+
+
+def tables(answer: Answer) -> Iterator[Table]:
+    """What was tried, scalars and columns."""
+    tried = [[a.model, small(a.error), "answered" if a.accepted else "passed over", a.why] for a in answer.tried]
+    yield "What was tried", ["rung", "estimated error", "", "why"], tried
+    scalars = [[name, _scalar(name, value), UNITS.get(name, ""), small(answer.scalar_error[name])] for name, value in answer.scalars.items()]
+    yield "Scalars", ["name", "value", "unit", "estimated error"], scalars
+    columns = []
+    for name, values in answer.columns.items():
+        ends = [str(value) if values.dtype.kind == "U" else short(value) for value in (values[0], values[-1])]
+        columns.append([name, UNITS.get(name, ""), *ends, small(answer.error.get(name))])
+    yield (f"Columns, {len(answer.t)} times", ["name", "unit", f"t = {answer.t[0]:g} s", f"t = {answer.t[-1]:g} s", "estimated error"], columns)
+
+
+def report(answer: Answer, out: TextIO) -> None:
+    """Print the answer."""
+    for line in head(answer):
+        say(line, out)
+    for title, heads, rows in tables(answer):
+        show_table(title, heads, rows, out)
+    say(tail(answer), out)

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the families give, from their tables: the one source of names, units and meanings for the package.
+#include <pybind11/pybind11.h>
+
+#include "bind.hpp"
+#include "convert.hpp"
+#include "gyrostat/ladder/deceleration/motion.hpp"
+#include "gyrostat/ladder/family.hpp"
+#include "gyrostat/ladder/heavy/motion.hpp"
+#include "gyrostat/ladder/rotor/motion.hpp"
+#include "gyrostat/ladder/spinning/motion.hpp"
+
+namespace {
+
+using namespace gyrostat;
+using namespace gyrostat::python;
+
+const char* word(Frame frame) {
+  switch (frame) {
+    case Frame::body: return "body";
+    case Frame::inertial: return "inertial";
+    case Frame::body_to_inertial: return "body to inertial";
+    case Frame::none: break;
+  }
+  return "";
+}
+
+const char* word(Measure measure) {
+  switch (measure) {
+    case Measure::relative: return "relative";
+    case Measure::angle: return "angle";
+    case Measure::absolute: return "absolute";
+    case Measure::none: break;
+  }
+  return "";
+}
+
+template <class Kinds>
+py::list values(const Kinds& kinds) {
+  py::list made;
+  for (const auto& kind : kinds) {
+    py::dict item;
+    item["name"] = kind.name;
+    item["width"] = kind.width;
+    item["unit"] = kind.unit;
+    item["frame"] = word(kind.frame);
+    item["measure"] = word(kind.measure);
+    item["meaning"] = kind.meaning;
+    if constexpr (requires { kind.scale; }) item["scale"] = kind.scale;
+    made.append(item);
+  }
+  return made;
+}
+
+py::list families() {
+  py::list made;
+  for (const Family* family : {&deceleration::tables, &rotor::tables, &spinning::tables, &heavy::tables}) {
+    py::list rungs, warnings, integrators;
+    for (const RungKind& rung : family->rungs) {
+      py::dict item;
+      item["name"] = rung.name;
+      item["meaning"] = rung.meaning;
+      rungs.append(item);
+    }
+    for (const WarningKind& warning : family->warnings) {
+      py::dict item;
+      item["code"] = warning.code;
+      item["text"] = warning.text;
+      warnings.append(item);
+    }
+    for (const char* name : family->integrators) integrators.append(name);
+    py::dict item;
+    item["name"] = family->name;
+    item["columns"] = values(family->columns);
+    item["scalars"] = values(family->scalars);
+    item["rungs"] = rungs;
+    item["integrators"] = integrators;
+    item["warnings"] = warnings;
+    made.append(item);
+  }
+  return made;
+}
+
+}  // namespace
+
+void bind_families(py::module_& module) {
+  module.def("families", &families,
+             "What each family gives: columns, scalars, rungs (cheapest first), integrators and warnings.");
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/companions.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace gyrostat;
+
+namespace {
+
+struct Writer {
+  using Scalar = double;
+  using State = double;
+  static constexpr ColumnKind columns[] = {{"x", 1, "m", Frame::none, Measure::relative, ""}};
+  void operator()(double x, double* row) const noexcept { *row = x; }
+};
+
+/// A course whose state is a function of time, in steps of one length.
+template <class F>
+struct Course {
+  F state;
+  double length, now = 0;
+  ode::Status fails = ode::Status::reached;
+
+  ode::Status step(double t_max) {
+    now = std::min(now + length, t_max);
+    return now > 7 ? fails : ode::Status::reached;
+  }
+  double time() const { return now; }
+  double at(double t) const { return state(t); }
+  ode::Counts counts() const { return {0, 100, 0}; }
+};
+template <class F>
+Course(F, double) -> Course<F>;
+
+using Function = double (*)(double);
+using Run = Course<Function>;
+
+struct Found {
+  Walk<Writer> walk;
+  std::vector<double> states;
+};
+
+Found walked(Run course, Run companion, Run second, bool rounds, std::vector<double> times, double rate = 0,
+             const MotionOptions<double>& options = {}) {
+  std::vector<double> states(times.size());
+  auto walk = walk_beside<Writer>(Writer{}, course, companion, second, rounds, course.at(0), rate, times, states, -1.0,
+                                  options, 0, 1);
+  return {walk, states};
+}
+
+double still(double) { return 1; }
+double off(double) { return 1.25; }
+double bump(double t) { return t > 2 && t < 3 ? 3.0 : 1.0; }
+double farther(double) { return 0.5; }
+
+}  // namespace
+
+TEST_CASE("the answer's states are kept at the asked times, and the distance to the companion is seen", "[ladder]") {
+  const auto found = walked({still, 0.4}, {off, 1.5}, {still, 1}, false, {0, 1, 2.5, 10});
+  CHECK(found.states == std::vector<double>{1, 1, 1, 1});
+  CHECK(found.walk.status == ode::Status::reached);
+  CHECK(found.walk.distance[0] == 0.25);
+  CHECK(found.walk.asked.size()[0] == 1);
+}
+
+TEST_CASE("a distance between the asked times counts, and fades while the body turns", "[ladder]") {
+  const auto kept = walked({still, 0.5}, {bump, 0.5}, {still, 1}, false, {10});
+  CHECK(kept.walk.distance[0] == 2);
+  const auto faded = walked({still, 0.5}, {bump, 0.5}, {still, 1}, false, {10}, 128);
+  CHECK(faded.walk.distance[0] < 0.02);
+  CHECK(faded.walk.distance[0] > 0);
+}
+
+TEST_CASE("where rounding rules the second companion counts too", "[ladder]") {
+  CHECK(walked({still, 1}, {still, 1}, {farther, 1}, false, {5}).walk.distance[0] == 0);
+  CHECK(walked({still, 1}, {still, 1}, {farther, 1}, true, {5}).walk.distance[0] == 0.5);
+}
+
+TEST_CASE("what lies behind a failure is nowhere, whichever run fails", "[ladder]") {
+  for (int which = 0; which < 3; ++which) {
+    Run runs[3] = {{still, 1}, {still, 1}, {still, 1}};
+    runs[which].fails = ode::Status::step_limit;
+    const auto found = walked(runs[0], runs[1], runs[2], true, {0, 5, 9, 10});
+    CAPTURE(which);
+    CHECK(found.walk.status == ode::Status::step_limit);
+    CHECK(found.states == std::vector<double>{1, 1, -1, -1});
+  }
+}
+
+TEST_CASE("a walk can be stopped, and tells how far it is", "[ladder]") {
+  std::atomic<bool> cancel{true};
+  std::atomic<double> progress{0};
+  MotionOptions<double> options;
+  options.cancel = &cancel;
+  options.progress = &progress;
+  const auto found = walked({still, 1}, {still, 1}, {still, 1}, false, {10}, 0, options);
+  CHECK(found.walk.status == ode::Status::cancelled);
+  CHECK(found.states[0] == -1);
+  CHECK(progress > 0);
+}
+
+TEST_CASE("the stated error is the distance times its margin and what rounding adds, relative to the truth", "[ladder]") {
+  struct Answer : MotionOutcome<1, double> {};
+  const std::vector<double> times{1, 5};
+  std::vector<double> states(2);
+  const auto solved = [&](double step_tolerance, Function beside) {
+    Answer answer;
+    answer.step_tolerance = step_tolerance;
+    Run course{still, 1}, companion{beside, 1}, second{still, 1};
+    MotionOptions<double> options;
+    options.tolerance = 1e-3;
+    solve_beside(answer, Writer{}, course, companion, second, 1.0, 0.0, times, states, -1.0, options, 0, 1,
+                 [](const Errors<1>& size, double steps) noexcept { return steps * size; });
+    return answer;
+  };
+  const double rounding = 10 * epsilon<double>;  // of 100 steps, of a column of size 1
+  const auto near = [](double t) { return t > 4 ? 1 + 0x1p-20 : 1; };
+  const double truncated = honesty::side_by_side.margin * 0x1p-20 + rounding;
+  const Answer loose = solved(1e-9, near);
+  CHECK(loose.error[0] == Approx(truncated / (1 - truncated)).epsilon(1e-12));
+  CHECK(loose.met);
+  CHECK(loose.counts.steps == 300);
+  CHECK(solved(1e-16, near).error[0] > loose.error[0]);  // where rounding rules the margin is wider
+  CHECK(solved(1e-9, off).error[0] == infinity<double>);
+  CHECK_FALSE(solved(1e-9, off).met);
+}

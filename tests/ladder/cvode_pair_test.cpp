@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/cvode_pair.hpp"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace gyrostat;
+
+namespace {
+
+struct Writer {
+  using Scalar = double;
+  using State = double;
+  static constexpr ColumnKind columns[] = {{"x", 1, "m", Frame::none, Measure::relative, ""}};
+  void operator()(double x, double* row) const noexcept { *row = x; }
+};
+
+/// x' = -x from 1.
+struct Decay {
+  std::array<double, 1> start() const { return {1}; }
+  double state(const double* y) const { return y[0]; }
+  ode::CvodeSystem system() {
+    ode::CvodeSystem made;
+    made.dimension = 1;
+    made.rhs = [](double, const double* y, double* out, void*) { return out[0] = -y[0], true; };
+    made.user = this;
+    return made;
+  }
+};
+
+CvodeRun<double> run(double tolerance, std::vector<double> times) {
+  Decay equations;
+  return run_cvode(equations, 1.0, times, {ode::CvodeMethod::adams, tolerance, tolerance}, nullptr);
+}
+
+}  // namespace
+
+TEST_CASE("one run gives the states at the asked times, the start as it stands", "[ladder]") {
+  const auto made = run(1e-10, {0, 1, 2});
+  REQUIRE(made.failure == Errc::ok);
+  REQUIRE(made.states.size() == 3);
+  CHECK(made.states[0] == 1);
+  CHECK(made.states[2] == Approx(std::exp(-2.0)).epsilon(1e-8));
+  CHECK(run(1e-10, {0}).states == std::vector<double>{1});
+}
+
+TEST_CASE("two runs at tolerances ten apart tell an error that holds", "[ladder]") {
+  const std::vector<double> times{0, 1, 2, 5};
+  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+    const auto pair = cvode_pair(Writer{}, tolerance, 1e-3, [&](double t) { return run(t, times); });
+    REQUIRE(pair.failure == Errc::ok);
+    CHECK(pair.tolerance == Approx(std::max(1e-3 * tolerance, honesty::cvode_tightest)));
+    const double stated = pair.margin * pair.both.difference()[0] + pair.tolerance;
+    double error = 0;
+    for (std::size_t i = 0; i < times.size(); ++i)
+      error = std::max(error, std::abs(pair.states[i] - std::exp(-times[i])));
+    CAPTURE(tolerance, error, stated);
+    CHECK(error <= stated);
+    CHECK(stated < tolerance);
+  }
+  CHECK(cvode_pair(Writer{}, 1e-12, 1e-3, [&](double t) { return run(t, times); }).margin ==
+        honesty::cvode_margin_of_rounding);
+}
+
+TEST_CASE("a run that fails leaves no states", "[ladder]") {
+  const auto pair = cvode_pair(Writer{}, 1e-6, 1, [](double) {
+    CvodeRun<double> none;
+    none.failure = Errc::step_limit;
+    return none;
+  });
+  CHECK(pair.failure == Errc::step_limit);
+  CHECK(pair.states.empty());
+}

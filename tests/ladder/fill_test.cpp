@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/fill.hpp"
+
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace gyrostat;
+
+namespace {
+
+struct Writer {
+  using Scalar = double;
+  struct State {
+    double a, b, c, d;
+  };
+  static constexpr ColumnKind columns[] = {{"vector", 3, "m", Frame::body, Measure::relative, ""},
+                                           {"number", 1, "J", Frame::none, Measure::relative, ""}};
+  void operator()(const State& s, double* row) const noexcept {
+    for (const double x : {s.a, s.b, s.c, s.d}) *row++ = x;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("states become columns row by row, and the answer's error is the greatest of theirs", "[ladder]") {
+  const std::vector<Writer::State> states{{1, 2, 3, 4}, {5, 6, 7, 8}};
+  Answer answer;
+  fill_columns(answer, Writer{}, states, {{1e-3, 1e-2}});
+  REQUIRE(answer.columns.size() == 2);
+  CHECK(answer.find("vector")->values == std::vector<double>{1, 2, 3, 5, 6, 7});
+  CHECK(answer.find("number")->values == std::vector<double>{4, 8});
+  CHECK(answer.find("number")->error == 1e-2);
+  CHECK(answer.error == 1e-2);
+
+  Answer first;
+  fill_columns(first, Writer{}, states, {{1e-3, 1e-2}}, 1);
+  CHECK(first.columns.size() == 1);
+  CHECK(first.error == 1e-3);
+}
+
+TEST_CASE("the head of an answer is what was asked and what was found on the way", "[ladder]") {
+  static constexpr WarningKind kind{"late", "it is late"};
+  Outcome outcome;
+  outcome.warn(kind, 2);
+  outcome.counts.steps = 7;
+  Question question;
+  question.times = {0, 1};
+  Answer answer;
+  fill_head(answer, question, outcome);
+  CHECK(answer.times == question.times);
+  CHECK(answer.warns("late"));
+  CHECK(answer.counts.steps == 7);
+}
+
+TEST_CASE("the row at zero is the start as given", "[ladder]") {
+  const std::vector<Writer::State> states{{1, 2, 3, 4}, {5, 6, 7, 8}};
+  for (const double first : {0.0, 0.5}) {
+    Answer answer;
+    answer.times = {first, 1};
+    fill_columns(answer, Writer{}, states, {{0, 0}});
+    put_start(answer, Writer::columns[0], {1.5, 2.5, 3.5});
+    const bool at_start = first == 0;
+    CHECK(answer.find("vector")->values == (at_start ? std::vector<double>{1.5, 2.5, 3.5, 5, 6, 7} : std::vector<double>{1, 2, 3, 5, 6, 7}));
+    CHECK(answer.find("number")->values[0] == 4);
+  }
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/full_motion.hpp"
+
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace gyrostat;
+
+TEST_CASE("the times of a motion start at zero or later and do not fall", "[ladder]") {
+  const auto check = [](std::vector<double> times) { return check_span<double>(times); };
+  CHECK(check({}) == Errc::ok);
+  CHECK(check({0, 1, 1, 2}) == Errc::ok);
+  CHECK(check({-1e-300}) == Errc::not_increasing);
+  CHECK(check({2, 1}) == Errc::not_increasing);
+  CHECK(check({0, gyrostat::nan<double>}) == Errc::not_finite);
+  CHECK(check({infinity<double>}) == Errc::not_finite);
+}
+
+TEST_CASE("progress is told where somebody watches and never passes one; a set flag cancels", "[ladder]") {
+  MotionOptions<double> nobody;
+  nobody.report(0.5);
+  CHECK_FALSE(nobody.cancelled());
+  std::atomic<double> progress{0};
+  std::atomic<bool> cancel{false};
+  MotionOptions<double> options;
+  options.progress = &progress;
+  options.cancel = &cancel;
+  options.report(1.5);
+  CHECK(progress == 1);
+  CHECK_FALSE(options.cancelled());
+  cancel = true;
+  CHECK(options.cancelled());
+}
+
+TEST_CASE("a phase that no double holds is known before it is followed; a short motion is followed in any case", "[ladder]") {
+  CHECK(phase_too_long(1e12, 1e-6));
+  CHECK_FALSE(phase_too_long(1e9, 1e-6));
+  CHECK_FALSE(phase_too_long(1e5, 1e-15));
+  CHECK(phase_too_long(infinity<double>, 1e-3));
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/heavy/exact_periodicity.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "gyrostat/ladder/heavy/solve.hpp"
+#include "gyrostat/models/heavy/aligned_attitude.hpp"
+#include "gyrostat/models/heavy/regular_precession.hpp"
+#include "honest.hpp"
+#include "orbits.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::heavy;
+
+namespace {
+
+Problem<double> body(double A, double B, double C, const Vec3<double>& centre, double gravity, double gradient) {
+  const auto made = Problem<double>::make({A, B, C}, 0.5, centre, gravity, gradient);
+  REQUIRE(made);
+  return *made;
+}
+
+State<double> start(const Vec3<double>& rate, const Vec3<double>& down) { return {rate, down.normalized(), {}}; }
+
+const Vec3<double> hanging{0, 0, 0.03};
+
+}  // namespace
+
+TEST_CASE("a planar swing has a period and a plane that stands still, symmetric or not", "[heavy]") {
+  for (const double gradient : {0.0, 20.0})
+    for (const double rate : {0.0, 3.0, 40.0}) {
+      CAPTURE(gradient, rate);
+      // about axis 1; with a gradient the symmetric body has a closed form, the uneven one only without weight
+      const auto from = start({rate, 0, 0}, {0, 0.5, 1});
+      const auto even = periodicity_from(body(0.002, 0.002, 0.001, hanging, 9.80665, gradient), from);
+      CHECK(even.precession == 0);
+      CHECK(even.period_error < 1e-11);
+      CHECK(gap(body(0.002, 0.002, 0.001, hanging, 9.80665, gradient), from, even.period) < 1e-11);
+      CHECK(gap(body(0.002, 0.002, 0.001, hanging, 9.80665, gradient), from, even.period / 2) > 1e-3);
+      if (gradient > 0) continue;
+      const auto uneven = periodicity_from(body(0.002, 0.0025, 0.001, hanging, 9.80665, 0), from);
+      CHECK(uneven.precession == 0);
+      CHECK(uneven.period == Approx(even.period).epsilon(1e-13));
+    }
+  // the gradient alone: half a round repeats the rates, not down
+  for (const double rate : {0.5, 40.0}) {
+    const auto p = body(0.002, 0.0025, 0.001, {0, 0, 0}, 0, 20);
+    const auto from = start({rate, 0, 0}, {0, 0.5, 1});
+    const auto known = periodicity_from(p, from);
+    CHECK(known.precession == 0);
+    CHECK(gap(p, from, known.period) < 1e-11);
+    CHECK(gap(p, from, known.period / 2) > 1e-3);
+  }
+}
+
+TEST_CASE("steady precession has one rate and one period, whichever rung answers", "[heavy]") {
+  for (const double gradient : {0.0, 20.0})
+    for (const bool fast : {false, true}) {
+      const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, gradient);
+      const double u = 0.8, spin = 300;
+      const auto rates = regular_precession(*SymmetricTop<double>::of(p), u, spin);
+      State<double> from;
+      from.down = {0.6, 0, u};
+      from.angular_velocity = precessing_velocity<double>(from.down, spin, fast ? rates.fast : rates.slow);
+      from.attitude = shortest_turn<double>(from.down, {0, 0, -1});
+      Question question;
+      question.wants_attitude = true;
+      question.tolerance = 1e-10;
+      double told[2];
+      for (const int rung : {rung::exact, rung::full}) {
+        CAPTURE(gradient, fast, rung);
+        question.rung = rung;
+        const auto scene = posed(p, from, 0.01, question, 1);
+        Refusal refusal;
+        const Answer answer = heavy::solve(scene, refusal);
+        REQUIRE(refusal.code == Errc::ok);
+        REQUIRE(answer.quantity("precession_rate"));
+        REQUIRE(answer.quantity("period"));
+        told[rung == rung::full] = answer.quantity("precession_rate")->values[0];
+        CHECK(answer.quantity("precession_rate")->error < 1e-9);
+        CHECK(gap(p, from, answer.quantity("period")->values[0]) < 1e-10);
+        // the axis in space goes round the vertical at this rate, right-handed about down
+        const auto& q = answer.find("attitude")->values;
+        const Vec3<double> before = rotate<double>(scene.start().attitude, {0, 0, 1}),
+                           after = rotate<double>(Quat<double>{q[3], q[0], q[1], q[2]}, {0, 0, 1});
+        const double turn =
+            -std::atan2(before[0] * after[1] - before[1] * after[0], before[0] * after[0] + before[1] * after[1]);
+        CHECK(std::remainder(turn - told[rung == rung::full] * 0.01, 2 * pi<double>) == Approx(0).margin(1e-8));
+      }
+      CHECK(told[0] == told[1]);
+      CHECK(told[0] == Approx(fast ? rates.fast : rates.slow).epsilon(1e-7));
+    }
+}
+
+TEST_CASE("mean precession of a nutating top is told by every rung, of an upright one by none", "[heavy]") {
+  const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, 0);
+  const auto from = start({1, 2, 60}, {0.6, 0, 0.8});
+  const auto known = periodicity_from(p, from);
+  CHECK(std::isnan(known.period));
+  CHECK(std::abs(known.precession) > 0);
+  CHECK(known.precession_error < 1e-11);
+  Question question;
+  question.rung = rung::full;
+  Refusal refusal;
+  const Answer answer = heavy::solve(posed(p, from, 1, question), refusal);
+  REQUIRE(answer.quantity("precession_rate"));
+  CHECK(answer.quantity("precession_rate")->values[0] == known.precession);
+  CHECK(std::isnan(periodicity_from(p, start({0, 0, 60}, {0, 0, 1})).precession));
+  // no closed form, no period
+  CHECK(std::isnan(periodicity_from(body(0.0011, 0.0016, 0.002, {0.01, 0, 0.01}, 9.8, 0), from).period));
+}

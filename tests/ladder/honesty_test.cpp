@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/honesty.hpp"
+
+#include "catch.hpp"
+
+using namespace gyrostat;
+
+TEST_CASE("no margin narrows a distance, and rounding asks for no less than truncation", "[ladder]") {
+  for (const auto& how : {honesty::side_by_side, honesty::spinning_run, honesty::deceleration_run}) {
+    CHECK(how.margin >= 1);
+    CHECK(how.margin_of_rounding >= how.margin);
+    CHECK(how.looser > 1);
+    CHECK(how.least_loose > how.data_change);
+  }
+  CHECK(honesty::cvode_margin_of_rounding >= honesty::cvode_margin);
+}

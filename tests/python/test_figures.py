@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of answers."""
+
+import math
+from typing import Any
+
+import gyrostat
+import numpy as np
+import pytest
+from gyrostat.drawing import changes, curve, new_figure, time_unit
+
+pytest.importorskip("matplotlib")
+
+SCENES = ("tiangong-1", "cubesat-wheel", "two-attractors", "pam-d-burn", "spinning-paper", "toy-top", "fast-spin")
+
+
+def drawn(figure: Any) -> list[Any]:
+    """Axes with curves over time, and their twins."""
+    return [axes for axes in figure.axes if axes.lines and not axes.get_xlabel().startswith(("direction", "ω")) and axes.axison]
+
+
+def legend_texts(figure: Any) -> set[str]:
+    return {text.get_text() for axes in figure.axes if axes.get_legend() for text in axes.get_legend().get_texts()}
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_every_panel_shows_something_and_nothing_lies_on_the_frame(scene: str) -> None:
+    figure = gyrostat.solve(scene).plot()
+    assert all(axes.lines for axes in figure.axes)
+    for axes in drawn(figure):
+        low, high = axes.get_ylim()
+        values = np.concatenate([np.asarray(line.get_ydata(), dtype=float) for line in axes.lines if line.get_linestyle() != ":"])
+        values = values[np.isfinite(values)]
+        room = 0.02 * (high - low) if axes.get_yscale() == "linear" else 0.0
+        assert low <= values.min() and values.max() < high - room, axes.get_title(loc="left")
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("times", [[1.0], [0.0, 1.0]])
+def test_one_time_and_two_are_marked(scene: str, times: list[float]) -> None:
+    figure = gyrostat.solve(scene, times=times).plot()
+    curves = [line for axes in drawn(figure) for line in axes.lines if len(line.get_xdata()) == len(times) and line.get_linestyle() in ("-", "--")]
+    assert curves and all(line.get_marker() == "o" for line in curves if line.get_color() != "#D55E00" or line.get_linestyle() == "-")
+
+
+def test_constants_of_a_free_motion_have_room() -> None:
+    figure = gyrostat.solve("tiangong-1", control=[0.0, 0.0, 0.0], drag=0.0, duration=500.0, samples=20, model="full").plot()
+    size, energy = figure.axes[0], figure.axes[-1]
+    for axes in (size, energy):
+        assert np.max(axes.lines[0].get_ydata()) < 0.85 * axes.get_ylim()[1]
+
+
+def test_a_tumbler_has_no_panels_of_what_stands_still() -> None:
+    still = {"force": [0.0, 0.0, 0.0], "torque.body": [0.0, 0.0, 0.0], "initial.angular_velocity": [0.3, 0.5, 0.1]}
+    figure = gyrostat.solve("spinning-paper", duration=60.0, samples=200, **still).plot()
+    titles = {axes.get_title(loc="left") for axes in figure.axes}
+    assert "Angular velocity, body axes" in titles
+    assert not titles & {"Velocity gained", "Velocity, inertial axes", "Position, inertial axes"}
+
+
+def test_a_stop_beyond_the_axis_is_marked() -> None:
+    notes = [text.get_text() for axes in gyrostat.solve("tiangong-1").plot().axes for text in axes.texts]
+    assert notes == ["stops at 16.4 h →"]
+    inside = gyrostat.solve("cubesat-wheel").plot()
+    assert not [text for axes in inside.axes for text in axes.texts]
+    assert any(line.get_linestyle() == ":" for line in inside.axes[0].lines)
+
+
+def test_the_path_on_a_sphere_is_named() -> None:
+    assert {"path of down", "start"} <= legend_texts(gyrostat.solve("toy-top").plot())
+
+
+def test_components_have_one_naming() -> None:
+    names = set().union(*(legend_texts(gyrostat.solve(scene).plot()) for scene in SCENES))
+    assert {"ω1", "ω2", "ω3", "M1", "m1", "d1", "v3", "qw"} <= names
+    assert not {name for name in names if len(name) == 2 and name[1] in "xyzw" and name[0] != "q"}
+
+
+@pytest.mark.parametrize(("span", "unit"), [(0.0, "s"), (2e-5, "µs"), (0.05, "ms"), (2.0, "s"), (200.0, "s"), (600.0, "min"), (86400.0, "h"),
+                                            (1e6, "days"), (1e9, "years")])
+def test_times_have_fitting_units(span: float, unit: str) -> None:
+    scale, name = time_unit(span)
+    assert name == unit and (span == 0 or 0.9 < span / scale < 1100)
+
+
+def test_what_is_constant_but_for_rounding_does_not_change() -> None:
+    assert not changes(np.full((3, 3), 7.0)) and not changes(np.zeros(4)) and not changes(np.array([1.0, 1.0 + 1e-15, 1.0]))
+    assert changes(np.array([1.0, 1.0 + 1e-6, 1.0])) and changes(np.array([5.0]))
+
+
+def test_samples_that_draw_no_curve_are_dots() -> None:
+    axes = new_figure(4, 3).subplots()
+    t = np.arange(200.0)
+    curve(axes, t, np.cos(2.9 * t), ["coarse"])
+    curve(axes, t, np.cos(0.1 * t), ["fine"])
+    assert [line.get_linestyle() for line in axes.lines] == ["None", "-"]
+    assert math.isclose(axes.lines[0].get_markersize(), 2)
