@@ -15,7 +15,7 @@ import gyrostat
 import numpy as np
 import pytest
 from gyrostat import DomainError, heavy
-from gyrostat.charts import Chart, measured, methods
+from gyrostat.charts import Chart, LeftOut, measured, methods
 from gyrostat.charts.problem import Line, Run
 from gyrostat.cli import main
 from gyrostat.families.deceleration.chart import true_errors
@@ -79,6 +79,7 @@ def test_a_method_that_takes_too_long_is_stopped(monkeypatch: pytest.MonkeyPatch
     slow = {each.label: each for each in made.left_out if each.why == "takes over 0.002 s"}
     assert slow["SciPy DOP853 (Python right-hand side)"].settings[0] == "tolerance 0.0001"
     assert all(each.settings[-1] == "tolerance 1e-12" for each in slow.values())
+    assert str(LeftOut("rung", "series", ("order 4", "order 6"), "why")) == "series, order 4, 6: why"
 
 
 def test_what_else_the_machine_does_is_not_in_the_cost() -> None:
@@ -186,6 +187,7 @@ def test_every_method_of_a_rotor_scene_stands_on_the_chart(rotor_chart: Chart) -
 
 
 def test_a_stiff_scene_has_its_reference_and_its_chart(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(methods, "LONGEST", 0.5)
     made = gyrostat.chart("stiff-wheel", duration=4.0, samples=5)
     assert "Radau in long double" in made.title
     lines = made.by_label()

@@ -47,8 +47,9 @@ class LeftOut:
     why: str
 
     def __str__(self) -> str:
-        settings = ", ".join(setting.removeprefix("tolerance ") for setting in self.settings if setting)
-        return f"{self.label}{f' ({settings})' if settings else ''}: {self.why}"
+        word = self.settings[0].partition(" ")[0]
+        settings = ", ".join(setting.removeprefix(f"{word} ") for setting in self.settings)
+        return f"{self.label}, {word} {settings}: {self.why}" if word else f"{self.label}: {self.why}"
 
 
 @dataclass(frozen=True, eq=False)
