@@ -8,10 +8,10 @@
 #include "gyrostat/math/elliptic.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-/// The dimensionless equations (27), (28) of the paper on quasi-optimal deceleration of an asymmetric gyrostat
-/// in a resistive medium ([1] of docs/references.md), and the formulas that feed them, as printed and with the misprints corrected (deceleration.md, section 8).
-/// For the reproduction of its figures only. Corrected does not mean right: with rotor momentum they
-/// average over the orbit of a body without.
+/// The dimensionless equations (27), (28) of the paper on quasi-optimal deceleration of an asymmetric gyrostat in a
+/// resistive medium ([1] of docs/references.md), and the formulas that feed them, as printed and with the misprints
+/// corrected (docs/deceleration.md, section 8). For the reproduction of its figures only. Corrected does not mean right:
+/// with rotor momentum they average over the orbit of a body without.
 namespace gyrostat::deceleration::published {
 
 enum class Reading : std::uint8_t { printed, corrected };
