@@ -257,8 +257,9 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   const Scalar phase = span * (problem.angular_velocity.norm() +
                                std::abs(problem.gyroscopic()) / std::min(problem.inertia[0], problem.inertia[1]));
   constexpr Scalar finest = finest_step_tolerance<Scalar>;
-  Scalar step_tolerance = options.tolerance / 64 / (4 + Scalar(2e-4L) * phase * phase);
-  step_tolerance = std::clamp(step_tolerance, finest, Scalar(1e-8L));
+  Scalar step_tolerance = options.tolerance * Scalar(honesty::first_share) /
+                          (Scalar(honesty::drifting_base) + Scalar(honesty::drifting_phase) * phase * phase);
+  step_tolerance = std::clamp(step_tolerance, finest, Scalar(honesty::loosest_step));
   if (!(step_tolerance >= finest)) step_tolerance = finest;
 
   return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
