@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How honest the answers are: random scenes of the heavy family, solved at three tolerances, against the full equations in long
-// double. Prints the fraction of answers whose true error is within the stated one in every column and in what is told of a period,
+// double. Prints the fraction of answers whose true error is within the stated one in every column and in what is stated of a period,
 // the median of stated over true, and the worst cases with their scenes.
 //
 //     heavy_honesty [SCENES = 5000] [SEED = 1] [RUNG = auto]

@@ -83,12 +83,15 @@ def sentence(comment: str) -> str:
 
 def constants(_: str, __: str) -> str:
     text = HONESTY.read_text(encoding="utf-8")
-    fields = re.findall(r"^  double (\w+);\s+///< (.*(?:\n\s+///< .*)*)", text, re.M)
-    sets = [(name, values.split(",")) for name, values in re.findall(r"^inline constexpr Companions (\w+)\{(.*?)\};", text, re.M | re.S)]
-    rows = [[f"`{field}`", *(values[i].strip() for _, values in sets), sentence(meaning)] for i, (field, meaning) in enumerate(fields)]
-    made = table(["of companions", *(f"`{name}`" for name, _ in sets), "meaning"], rows) + "\n"
+    fields = re.findall(r"^ +double\s+(\w+); +///< (.*(?:\n +///< .*)*)", text, re.M)
+    sets = [(comment, name, [value.strip() for value in values.split(",")])
+            for comment, name, values in re.findall(r"((?:^///[^\n]*\n)+)^inline constexpr Companions (\w+)\{(.*?)\};", text, re.M | re.S)]
+    numbers = zip(*(values for _, _, values in sets), strict=True)
+    rows = [[f"`{field}`", *values, sentence(meaning)] for (field, meaning), values in zip(fields, numbers, strict=True)]
+    made = table(["of companions", *(f"`{name}`" for _, name, _ in sets), "meaning"], rows) + "\n"
+    made += "".join(f"* `{name}`: {sentence(comment)}.\n" for comment, name, _ in sets) + "\n"
     single = []
-    for comment, values in re.findall(r"((?:^///.*\n)+)^inline constexpr double ([^;]*);", text, re.M):
+    for comment, values in re.findall(r"((?:^///[^\n]*\n)+)^inline constexpr double ([^;]*);", text, re.M):
         for i, each in enumerate(values.split(",")):
             name, value = (part.strip() for part in each.split("="))
             single.append([f"`{name}`", value.replace("1.0 / ", "1/"), sentence(comment) if i == 0 else "the same"])

@@ -223,7 +223,7 @@ def matrix_from_vector(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.floa
     ...
 def published_run(data: PublishedData, *, reading: str, modulus_squared: typing.SupportsFloat | typing.SupportsIndex, end: typing.SupportsFloat | typing.SupportsIndex, samples: typing.SupportsInt | typing.SupportsIndex) -> PublishedRun:
     """
-    The system (27) from (28), printed or mended.
+    The system (27) from (28), printed or corrected.
     """
 def published_stationary_ratio(kappa2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], modulus_squared: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
     """
@@ -245,7 +245,7 @@ def rotor_capture(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.flo
     """
 def rotor_certify(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
     """
-    Attractors of states of one gyrostat as far as the algebra tells.
+    Attractors of states of one gyrostat as far as the algebra decides them.
     """
 def rotor_circular_section(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, momentum: typing.SupportsFloat | typing.SupportsIndex) -> dict[str, typing.Any]:
     """
@@ -253,7 +253,7 @@ def rotor_circular_section(*, inertia: typing.Annotated[numpy.typing.ArrayLike, 
     """
 def rotor_fall_time(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, valley: typing.SupportsInt | typing.SupportsIndex, end: typing.SupportsFloat | typing.SupportsIndex) -> typing.Annotated[list[float], "FixedSize(2)"]:
     """
-    Time of a fall of V from a state to a level and its relative error; NaN where it cannot be told.
+    Time of a fall of V from a state to a level and its relative error; NaN where it is not known.
     """
 def rotor_integrate(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double', patience: typing.SupportsFloat | typing.SupportsIndex = ...) -> dict[str, typing.Any]:
     """
@@ -269,7 +269,7 @@ def rotor_published_matrix(reading: str) -> numpy.typing.NDArray[numpy.float64]:
     """
 def rotor_published_run(*, reading: str, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     """
-    gamma1, gamma2, beta*' and gamma3 (n, 4) of the paper's linear equations, printed, mended, repaired or realisable.
+    gamma1, gamma2, beta*' and gamma3 (n, 4) of the paper's linear equations, printed, corrected, repaired or realisable.
     """
 def rotor_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None) -> dict[str, typing.Any]:
     """
@@ -301,7 +301,7 @@ def spinning_pointing(problems: SpinningProblems) -> numpy.typing.NDArray[numpy.
     """
 def spinning_published(problem: SpinningProblems, *, reading: str, t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
     """
-    The paper's closed forms for one body, printed, mended or exact: rates p, q (22), tilt psi, phi (20), spin angle (16), momentum G (33), circle G (35), velocity (43), (47), position (58), (63); nutation [rad/s], secular_velocity_ratio (53), (54), and centre and radius of the circle of G [N m s].
+    The paper's closed forms for one body, printed, corrected or exact: rates p, q (22), tilt psi, phi (20), spin angle (16), momentum G (33), circle G (35), velocity (43), (47), position (58), (63); nutation [rad/s], secular_velocity_ratio (53), (54), and centre and radius of the circle of G [N m s].
     """
 def spinning_solve(problem: SpinningProblems, *, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None) -> dict[str, typing.Any]:
     """

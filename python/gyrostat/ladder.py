@@ -32,7 +32,7 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, **overrides: Any)
     """Answer a scene by the cheapest rung whose error estimate meets the tolerance.
 
     scene : a `Scene`, a dict in the layout of a scene file, a file, or the name of a bundled scene.
-    monitor : tells the progress of long work and can cancel it from another thread.
+    monitor : reports the progress of long work and can cancel it from another thread.
     overrides : keys of the scene file to change, such as tolerance=1e-9 or model="full".
 
     Raises SceneError for a scene that cannot be used, DomainError where the rung asked for by name cannot compute it,

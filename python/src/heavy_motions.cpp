@@ -198,7 +198,7 @@ constexpr const char* symbol_of(OrbitStability stability) noexcept {
   return names[int(stability)];
 }
 
-/// What is told of a periodic motion.
+/// What is reported of a periodic motion.
 class Orbits {
  public:
   void add(const PeriodicOrbit<double>& o) {

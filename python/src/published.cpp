@@ -53,8 +53,8 @@ double torque_balance(double modulus_squared) {
 
 pub::Reading reading(const std::string& symbol) {
   if (symbol == "printed") return pub::Reading::printed;
-  if (symbol == "mended") return pub::Reading::mended;
-  raise("DomainError", "reading = '" + symbol + "': use printed or mended");
+  if (symbol == "corrected") return pub::Reading::corrected;
+  raise("DomainError", "reading = '" + symbol + "': use printed or corrected");
 }
 
 pub::Data<double> data(const Array& inertia, const Array& rotor_momentum, const Array& angular_velocity,
@@ -138,7 +138,7 @@ void bind_published(py::module_& module) {
       .def_readonly("ended", &Run::ended, "whether the equations ended before the time asked for");
   module.def("published_run", &integrate, py::arg("data"), py::kw_only(), py::arg("reading"),
              py::arg("modulus_squared"), py::arg("end"), py::arg("samples"),
-             "The system (27) from (28), printed or mended.");
+             "The system (27) from (28), printed or corrected.");
   module.def("published_stationary_ratio", py::vectorize(printed_ratio), py::arg("kappa2"), py::arg("modulus_squared"),
              "b1/b3 of (22) as printed, for b2/b3 and k2.");
 }

@@ -16,14 +16,14 @@ using namespace gyrostat::python;
 namespace pub = gyrostat::rotor::published;
 
 pub::Data<double> data_of(const std::string& reading) {
-  if (reading == "printed" || reading == "mended") return pub::printed_data<double>();
+  if (reading == "printed" || reading == "corrected") return pub::printed_data<double>();
   if (reading == "repaired") return pub::repaired_data<double>();
   if (reading == "realisable") return pub::realisable_data<double>();
-  raise("DomainError", "reading = '" + reading + "': use printed, mended, repaired or realisable");
+  raise("DomainError", "reading = '" + reading + "': use printed, corrected, repaired or realisable");
 }
 
 pub::System<double> system_of(const std::string& reading) {
-  return reading == "printed" ? pub::printed<double>() : pub::mended(data_of(reading));
+  return reading == "printed" ? pub::printed<double>() : pub::corrected(data_of(reading));
 }
 
 /// gamma1, gamma2, beta*' and gamma3 (n, 4) from the paper's start.
@@ -64,7 +64,7 @@ Data data(const std::string& reading) {
 void bind_rotor_published(py::module_& module) {
   module.def("rotor_published_run", &run, py::kw_only(), py::arg("reading"), py::arg("times"),
              "gamma1, gamma2, beta*' and gamma3 (n, 4) of the paper's linear "
-             "equations, printed, mended, repaired or realisable.");
+             "equations, printed, corrected, repaired or realisable.");
   module.def("rotor_published_matrix", &matrix, py::arg("reading"),
              "Rates (3, 3) of gamma1, gamma2, beta*' by themselves [1/s].");
   module.def("rotor_published_data", &data, py::arg("reading"),

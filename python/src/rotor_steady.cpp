@@ -182,7 +182,7 @@ Data capture_rows(const Array& inertia, const Array& axis, double axial_inertia,
 }
 
 /// From a state, the time for V to fall to the level `end` on the way to the minimum `valley`, by the mean over the nutation, s, and its
-/// relative error; NaN where it cannot be told.
+/// relative error; NaN where it is not known.
 std::array<double, 2> fall_time(const Array& inertia, const Array& axis, double axial_inertia, double slope,
                                 double no_load_rate, const Array& angular_velocity, double rotor_rate, int valley,
                                 double end) {
@@ -217,7 +217,7 @@ void bind_rotor_steady(py::module_& module) {
              "Steady rotations of rows of gyrostats, (n, 8), padded with -1 and NaN.");
   module.def("rotor_certify", &certify_rows, py::kw_only(), py::arg("inertia"), py::arg("axis"),
              py::arg("axial_inertia"), py::arg("slope"), py::arg("no_load_rate"), py::arg("angular_velocity"),
-             py::arg("rotor_rate"), "Attractors of states of one gyrostat as far as the algebra tells.");
+             py::arg("rotor_rate"), "Attractors of states of one gyrostat as far as the algebra decides them.");
   module.def("rotor_capture", &capture_rows, py::kw_only(), py::arg("inertia"), py::arg("axis"),
              py::arg("axial_inertia"), py::arg("slope"), py::arg("no_load_rate"), py::arg("angular_velocity"),
              py::arg("rotor_rate"), py::arg("longest"), py::arg("tolerance"),
@@ -225,7 +225,7 @@ void bind_rotor_steady(py::module_& module) {
   module.def("rotor_fall_time", &fall_time, py::kw_only(), py::arg("inertia"), py::arg("axis"),
              py::arg("axial_inertia"), py::arg("slope"), py::arg("no_load_rate"), py::arg("angular_velocity"),
              py::arg("rotor_rate"), py::arg("valley"), py::arg("end"),
-             "Time of a fall of V from a state to a level and its relative error; NaN where it cannot be told.");
+             "Time of a fall of V from a state to a level and its relative error; NaN where it is not known.");
   module.def("rotor_circular_section", &section, py::kw_only(), py::arg("inertia"), py::arg("axis"),
              py::arg("axial_inertia"), py::arg("slope"), py::arg("no_load_rate"), py::arg("momentum"),
              "Level, drive and hold of the invariant circle, and whether it is run through for ever.");

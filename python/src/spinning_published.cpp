@@ -16,9 +16,9 @@ namespace pub = gyrostat::spinning::published;
 
 pub::Reading reading_of(const std::string& name) {
   if (name == "printed") return pub::Reading::printed;
-  if (name == "mended") return pub::Reading::mended;
+  if (name == "corrected") return pub::Reading::corrected;
   if (name == "exact") return pub::Reading::exact;
-  raise("DomainError", "reading = '" + name + "': use printed, mended or exact");
+  raise("DomainError", "reading = '" + name + "': use printed, corrected or exact");
 }
 
 /// The motion of one body at the times, any sign and order, and what the paper says of it for long times.
@@ -64,7 +64,7 @@ Data run(const SpinningProblems& problems, const std::string& name, const Array&
 void bind_spinning_published(py::module_& module) {
   module.def(
       "spinning_published", &run, py::arg("problem"), py::kw_only(), py::arg("reading"), py::arg("t"),
-      "The paper's closed forms for one body, printed, mended or exact: rates p, q (22), tilt psi, phi (20), spin "
+      "The paper's closed forms for one body, printed, corrected or exact: rates p, q (22), tilt psi, phi (20), spin "
       "angle (16), momentum G (33), circle G (35), velocity (43), (47), position (58), (63); nutation [rad/s], "
       "secular_velocity_ratio (53), (54), and centre and radius of the circle of G [N m s].");
 }

@@ -90,7 +90,7 @@ TEST_CASE("what lies behind a failure is nowhere, whichever run fails", "[ladder
   }
 }
 
-TEST_CASE("a walk can be stopped, and tells how far it is", "[ladder]") {
+TEST_CASE("a walk can be stopped, and reports how far it is", "[ladder]") {
   std::atomic<bool> cancel{true};
   std::atomic<double> progress{0};
   MotionOptions<double> options;

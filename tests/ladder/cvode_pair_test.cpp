@@ -47,7 +47,7 @@ TEST_CASE("one run gives the states at the asked times, the start as it stands",
   CHECK(run(1e-10, {0}).states == std::vector<double>{1});
 }
 
-TEST_CASE("two runs at tolerances ten apart tell an error that holds", "[ladder]") {
+TEST_CASE("two runs at tolerances ten apart give an error that holds", "[ladder]") {
   const std::vector<double> times{0, 1, 2, 5};
   for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
     const auto pair = cvode_pair(Writer{}, tolerance, 1e-3, [&](double t) { return run(t, times); });

@@ -50,7 +50,7 @@ TEST_CASE("CVODE walk: every time is kept once, in order", "[cvode]") {
   CHECK(monitor.fraction.load() == 1);
 }
 
-TEST_CASE("CVODE walk: ends where it is told to, by the caller or by what was found", "[cvode]") {
+TEST_CASE("CVODE walk: ends where it is asked to, by the caller or by what was found", "[cvode]") {
   const std::vector<double> times{1.0, 50.0};
   ode::Counts counts;
   std::size_t next = 0;

@@ -17,7 +17,7 @@ TEST_CASE("the times of a motion start at zero or later and do not fall", "[ladd
   CHECK(check({infinity<double>}) == Errc::not_finite);
 }
 
-TEST_CASE("progress is told where somebody watches and never passes one; a set flag cancels", "[ladder]") {
+TEST_CASE("progress is reported where it is asked for and never passes one; a set flag cancels", "[ladder]") {
   MotionOptions<double> nobody;
   nobody.report(0.5);
   CHECK_FALSE(nobody.cancelled());

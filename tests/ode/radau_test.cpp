@@ -345,7 +345,7 @@ TEST_CASE("Radau: a singularity ends the integration after few steps") {
   CHECK(solver.counts().steps < 2000);
 }
 
-TEST_CASE("Radau: a cap, a NaN and an end that is none are told apart") {
+TEST_CASE("Radau: a cap, a NaN and an end that is none are distinguished") {
   using System = Follower<double>;
   constexpr double bad = std::numeric_limits<double>::quiet_NaN();
   auto options = watching<System>(1e-15);

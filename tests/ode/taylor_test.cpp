@@ -241,7 +241,7 @@ TEST_CASE("the system's own limit bounds the step") {
   CHECK(1 - solver.time() == Approx(std::pow(0.7, 60)).epsilon(1e-6));
 }
 
-TEST_CASE("a cap, a NaN and an end that is none are told apart") {
+TEST_CASE("a cap, a NaN and an end that is none are distinguished") {
   constexpr double bad = std::numeric_limits<double>::quiet_NaN();
   auto options = watching(1e-15);
   options.step_cap = 7;

@@ -35,7 +35,7 @@ def test_the_printed_system_falls_until_six_seconds_and_grows_then() -> None:
 
 def test_the_run_solves_its_equations() -> None:
     t = np.linspace(0.0, 5.0, 20001)
-    for reading in ("printed", "mended", "repaired", "realisable"):
+    for reading in ("printed", "corrected", "repaired", "realisable"):
         run = _core.rotor_published_run(reading=reading, times=t)
         assert run[0] == pytest.approx(pictures.START)
         slope = np.gradient(run[:, :3], t, axis=0, edge_order=2)
@@ -52,7 +52,7 @@ def test_only_the_repaired_data_describe_a_steady_rotation() -> None:
     found = rotor.steady_rotations(**pictures._body("repaired"), momentum=7.0)
     values = np.sort_complex(np.linalg.eigvals(_core.rotor_published_matrix("repaired")))
     np.testing.assert_allclose(np.sort_complex(found.eigenvalues[0]), values, rtol=1e-9)
-    assert np.linalg.eigvals(_core.rotor_published_matrix("mended")).real.max() == pytest.approx(0.0137, abs=1e-4)
+    assert np.linalg.eigvals(_core.rotor_published_matrix("corrected")).real.max() == pytest.approx(0.0137, abs=1e-4)
 
 
 def test_the_full_motion_of_the_repaired_data_is_the_linear_one() -> None:

@@ -93,7 +93,7 @@ Walk<Writer> walk_beside(const Writer& writer, Course& course, Course& companion
   return walk;
 }
 
-/// The answer of a run beside its companions. answer.step_tolerance is set; `rounding(sizes, steps)` tells, in units of the columns, what
+/// The answer of a run beside its companions. answer.step_tolerance is set; `rounding(sizes, steps)` gives, in units of the columns, what
 /// the runs share and no distance shows: rounding of the columns, where `steps` roundings of the answer's steps have added up.
 template <class Answer, class Writer, class Course, class Rounding>
 void solve_beside(Answer& answer, const Writer& writer, Course& course, Course& companion, Course& second,

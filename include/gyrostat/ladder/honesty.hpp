@@ -30,12 +30,12 @@ inline constexpr Companions deceleration_run{64, 32, 0, 16, 3, 6};
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;
 
-/// First guess of the step tolerance over the tolerance asked: the estimate stands a hundred times above the error...
+/// First guess of the step tolerance over the tolerance asked for, before the turns count: the estimate is some hundred times the error.
 inline constexpr double first_share = 1.0 / 64;
-/// ...which grows with the angle turned through: by first_share / (base + angle / per_angle).
+/// With the turns it is first_share / (first_base + angle / first_angle), the angle turned through in rad.
 inline constexpr double first_base = 8, first_angle = 16;
-/// Deceleration: as the rates fall the phase drifts, so that its error grows with the square of the angle:
-/// by first_share / (base + phase * angle^2).
+/// Deceleration and spinning, where the error of the phase grows with the square of the angle: first_share / (drifting_base +
+/// drifting_phase * angle^2).
 inline constexpr double drifting_base = 4, drifting_phase = 2e-4;
 /// No looser steps: near the radius of convergence of a step all runs may err alike.
 inline constexpr double loosest_step = 1e-8;
@@ -50,13 +50,13 @@ inline constexpr double stop_margin = 4;
 /// Deceleration: the part of the work that the answer's run is, its companion's left out; for the progress shown.
 inline constexpr double answers_share = 0.55;
 
-/// CVODE beside itself at a tolerance so many times looser,
+/// CVODE is compared with itself at a tolerance so many times looser.
 inline constexpr double cvode_looser = 10;
-/// with the stated error so many times their distance,
+/// The stated error of CVODE over the distance of its two runs.
 inline constexpr double cvode_margin = 4;
-/// more where the tighter one is the tightest that CVODE is asked for: near rounding a tighter tolerance wins little;
+/// The same where the tighter run is the tightest that CVODE is asked for: near rounding a tighter tolerance gains little.
 inline constexpr double cvode_margin_of_rounding = 10;
-/// and that is the tightest.
+/// The tightest tolerance that CVODE is asked for.
 inline constexpr double cvode_tightest = 1e-13;
 
 }  // namespace gyrostat::honesty

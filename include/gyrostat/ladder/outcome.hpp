@@ -8,7 +8,7 @@
 
 namespace gyrostat {
 
-/// What every rung tells beside the motion itself.
+/// What every rung says in addition to the motion itself.
 struct Outcome {
   std::vector<Warning> warnings;
   ode::Counts counts;

@@ -40,7 +40,7 @@ struct Refusal {
 
 /// The answer of the first rung, cheapest first, whose own error estimate meets the tolerance; failing that the most
 /// accurate of those that answered, one in its domain before any outside, with met false. The rung that the question names answers alone,
-/// wherever it can. `kinds` names the rungs. On failure the answer's `tried` still tells what was looked at.
+/// wherever it can. `kinds` names the rungs. On failure the answer's `tried` still lists what was looked at.
 template <class Scene, class Track>
   requires RungResult<Track, Scene>
 Answer climb(std::span<const RungKind> kinds, std::span<const Rung<Scene, Track>> rungs, const Scene& scene,

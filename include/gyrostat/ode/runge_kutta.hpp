@@ -111,7 +111,7 @@ class RungeKutta {
       if (std::isfinite(error)) {
         next_ = std::abs(h) * factor(error, greatest);
       } else {
-        // Next to the edge of its domain a state can stand still in rounding while the time creeps on: that is the end.
+        // Next to the edge of its domain a state can stand still in rounding while the time goes on in tiny steps: that is the end.
         ++blind;
         if (blind > blind_cap || std::abs(h) <= 1024 * epsilon<Scalar> * std::abs(t_))
           return status_ = Status::not_finite;

@@ -4,7 +4,7 @@
 families/KIND/
     functions.py   the functions over arrays, public as gyrostat.KIND
     scene.py       KEYS and ALTERNATIVES of the scene file, an EXAMPLE of every key without default, `arguments` of `solve` from a checked
-                   scene; where one key does not tell everything `mistakes`, and where an argument has not the name of its key ARGUMENTS
+                   scene; for checks that take more than one key `mistakes`, and where an argument has not the name of its key ARGUMENTS
     chart.py       `problem` of a scene: what is charted, for charts/
     figures.py     `figure` of an answer
     gallery.py     `figures` of the paper and their `drawings`

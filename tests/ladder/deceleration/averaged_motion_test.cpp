@@ -18,7 +18,7 @@ Motion motion_of(const Problem<double>& p, double tolerance = 1e-12) {
   return {p, polhode_through<double>(p.inverse_inertia, p.momentum), p.momentum.norm(), 0, tolerance, infinity<double>};
 }
 
-Problem<double> sheet(double eps, V b = V(.6, .9, 1), V M = V(.8, .5, .33)) {
+Problem<double> standard(double eps, V b = V(.6, .9, 1), V M = V(.8, .5, .33)) {
   Problem<double> p;
   p.inverse_inertia = V(1.4, 1, .7).cwiseInverse();
   p.control = (eps * b).asDiagonal();
@@ -53,7 +53,7 @@ TEST_CASE("averaged motion: the reference cases without rotor", "[deceleration]"
 }
 
 TEST_CASE("averaged motion: units scale out", "[deceleration]") {
-  const auto p = sheet(1e-3);
+  const auto p = standard(1e-3);
   auto q = p;  // twice the momentum, the same body: half the time, four times the torque
   q.momentum *= 2;
   q.control *= 4;
@@ -76,7 +76,7 @@ TEST_CASE("averaged motion: units scale out", "[deceleration]") {
 }
 
 TEST_CASE("averaged motion: equal torques, drag alone, nothing", "[deceleration]") {
-  Motion equal = motion_of(sheet(1e-3, V(1, 1, 1)));
+  Motion equal = motion_of(standard(1e-3, V(1, 1, 1)));
   const double R = V(.8, .5, .33).norm(), drag = .3e-3, b = 1e-3;
   const double k2 = equal.state().polhode.modulus.k2;
   for (const double t : {300., 700.}) {
@@ -85,18 +85,18 @@ TEST_CASE("averaged motion: equal torques, drag alone, nothing", "[deceleration]
     CHECK(equal.state().polhode.modulus.k2 == Approx(k2).epsilon(1e-12));
   }
   CHECK(*equal.stop_time() == Approx(std::log1p(drag * R / b) / drag).epsilon(1e-10));
-  Motion dragged = motion_of(sheet(1e-3, V(0, 0, 0)));
+  Motion dragged = motion_of(standard(1e-3, V(0, 0, 0)));
   REQUIRE(dragged.advance(5000, 0, nobody) == ode::Status::reached);
   CHECK(dragged.state().norm == Approx(R * std::exp(-1.5)).epsilon(1e-10));
   CHECK(dragged.state().polhode.modulus.k2 == Approx(k2).epsilon(1e-12));
-  auto nothing = sheet(0);
+  auto nothing = standard(0);
   Motion free = motion_of(nothing);
   REQUIRE(free.advance(1e5, 0, nobody) == ode::Status::reached);
   CHECK(free.state().norm == Approx(R).epsilon(1e-14));
 }
 
 TEST_CASE("averaged motion: the floor, rest and what lies behind", "[deceleration]") {
-  Motion motion = motion_of(sheet(1e-3));
+  Motion motion = motion_of(standard(1e-3));
   REQUIRE(motion.advance(infinity<double>, .25, nobody) == ode::Status::reached);
   CHECK(motion.floored());
   CHECK(motion.state().norm == Approx(.25).epsilon(1e-9));
@@ -116,7 +116,7 @@ TEST_CASE("averaged motion: the floor, rest and what lies behind", "[deceleratio
 
 TEST_CASE("averaged motion: the two regimes are one with the outer axes exchanged", "[deceleration]") {
   // mirrored energies: a_i -> a_1 + a_3 - a_(4-i) with the torques and components exchanged
-  const auto p = sheet(1e-3);
+  const auto p = standard(1e-3);
   auto q = p;
   q.inverse_inertia[1] = p.inverse_inertia[0] + p.inverse_inertia[2] - p.inverse_inertia[1];
   q.momentum = V(p.momentum[2], p.momentum[1], p.momentum[0]);
@@ -132,20 +132,20 @@ TEST_CASE("averaged motion: the two regimes are one with the outer axes exchange
 }
 
 TEST_CASE("averaged motion: through the separatrix, or held by it", "[deceleration]") {
-  Motion crossing = motion_of(sheet(1e-3, V(1.2, .9, .6)));
+  Motion crossing = motion_of(standard(1e-3, V(1.2, .9, .6)));
   REQUIRE(crossing.stop_time());
   CHECK(crossing.crossed());
   CHECK_FALSE(crossing.stuck());
   CHECK(crossing.state().polhode.regime == Regime::about_smallest);
   CHECK(crossing.crossing_norm() > 0);
-  Motion held = motion_of(sheet(1e-3, V(1, .1, 1)));
+  Motion held = motion_of(standard(1e-3, V(1, .1, 1)));
   REQUIRE(held.stop_time());
   CHECK(held.stuck());
   CHECK(held.state().polhode.modulus.k2 == Approx(1).epsilon(1e-9));
 }
 
 TEST_CASE("averaged motion: kp2 down to 1e-300, k2 down to 0, revolution", "[deceleration]") {
-  const auto p = sheet(1e-3);
+  const auto p = standard(1e-3);
   const auto family = polhode_through<double>(p.inverse_inertia, V(1, .1, .1));
   for (const double small : {1e-3, 1e-12, 1e-100, 1e-300, 0.}) {
     CAPTURE(small);
@@ -169,7 +169,7 @@ TEST_CASE("averaged motion: kp2 down to 1e-300, k2 down to 0, revolution", "[dec
 }
 
 TEST_CASE("averaged motion: no heap", "[deceleration]") {
-  const auto p = sheet(1e-4);
+  const auto p = standard(1e-4);
   const std::size_t before = allocations();
   Motion motion = motion_of(p, 1e-8);
   double seen = 0;
@@ -184,7 +184,7 @@ TEST_CASE("averaged motion: no heap", "[deceleration]") {
 }
 
 TEST_CASE("averaged motion: NaN ends it at once", "[deceleration]") {
-  auto p = sheet(1e-3);
+  auto p = standard(1e-3);
   p.control(1, 1) = std::numeric_limits<double>::quiet_NaN();
   Motion motion = motion_of(p);
   CHECK(motion.advance(100, 0, nobody) == ode::Status::not_finite);

@@ -25,7 +25,7 @@ inline std::vector<double> until(double end, int n = 6) {
   return t;
 }
 
-/// The sheet's body A, B, C = 1.4, 1, 0.7 under b = (0.6, 0.9, 1) eps and drag 0.3 eps, unless told otherwise.
+/// The body A, B, C = 1.4, 1, 0.7 under b = (0.6, 0.9, 1) eps and drag 0.3 eps, unless said otherwise.
 struct Case {
   V moments{1.4, 1, .7};
   Asked data;

@@ -153,7 +153,7 @@ TEST_CASE("solve: attitude comes from the full equations alone", "[deceleration]
 TEST_CASE("solve: units scale out, down to the tiny and up to the huge", "[deceleration]") {
   Case c(1e-4, 3000);
   c.data.tolerance = 1e-4;
-  c.data.rung = rung::averaged_2;  // named, so that it also tells the stop behind the times asked for
+  c.data.rung = rung::averaged_2;  // named, so that it also gives the stop after the times asked for
   const Answer plain = c.solve();
   REQUIRE(std::isfinite(quantity(plain, "stop_time")));
   for (const double s : {1e-6, 1e6}) {  // the body and all momenta and torques times s

@@ -93,7 +93,7 @@ TEST_CASE("steady precession has one rate and one period, whichever rung answers
     }
 }
 
-TEST_CASE("mean precession of a nutating top is told by every rung, of an upright one by none", "[heavy]") {
+TEST_CASE("mean precession of a nutating top is given by every rung, of an upright one by none", "[heavy]") {
   const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, 0);
   const auto from = start({1, 2, 60}, {0.6, 0, 0.8});
   const auto known = periodicity_from(p, from);

@@ -38,7 +38,7 @@ inline Scene periodic(const Problem<double>& problem, double spin, double cosine
   return posed(problem, Start{{}, Periodic{spin, cosine}}, turns * 2 * pi<double> / std::abs(spin), question);
 }
 
-/// Every column, and what is told of the period, within its stated error, and columns within the tolerance where the answer says so.
+/// Every column, and what is stated of the period, within its stated error, and columns within the tolerance where the answer says so.
 inline void check_honest(const Scene& scene, const Answer& answer) {
   Answer truth;
   REQUIRE(true_motion(scene, truth));

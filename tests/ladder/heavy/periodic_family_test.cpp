@@ -61,7 +61,7 @@ TEST_CASE("heavy periodic family: where families end", "[heavy]") {
     for (std::size_t i = fold + 2; i < family.members.size(); ++i)
       CHECK(spin_of(family.members[i]) > spin_of(family.members[i - 1]));
     const auto& last = family.members.back();
-    CHECK((spin_of(last) > 1.59 && spin_of(last) < 1.63));  // it creeps on, ever more unstable
+    CHECK((spin_of(last) > 1.59 && spin_of(last) < 1.63));  // it goes on in tiny steps, ever more unstable
     CHECK(last.period > 13);                                // over twice that at the fold
     CHECK(last.trace_minus_4 > 300);
   }

@@ -166,7 +166,7 @@ TEST_CASE("a motion so long that no double holds its phase is refused at once", 
   CHECK(made.refusal.why == phase_lost);
 }
 
-TEST_CASE("a heavy answer is in the caller's axes and ends when told", "[heavy]") {
+TEST_CASE("a heavy answer is in the caller's axes and ends when cancelled", "[heavy]") {
   Tops random(4);
   const Mat3<double> R = to_matrix(normalised(Quat<double>{0.9, 0.1, -0.2, 0.15}));
   const auto& I = stone.inertia();

@@ -48,7 +48,7 @@ TEST_CASE("a heavy track becomes the columns of the contract, in the caller's ax
   CHECK((to_matrix(Quat<double>{q[7], q[4], q[5], q[6]}) * R - to_matrix(state.attitude)).norm() < 1e-14);
 }
 
-TEST_CASE("a heavy track tells of its period what it knows", "[heavy]") {
+TEST_CASE("a heavy track states of its period what it knows", "[heavy]") {
   Track track;
   track.states = {State<double>{}, State<double>{}};
   CHECK(answer_of({}, track, false).quantities.empty());

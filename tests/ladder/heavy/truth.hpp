@@ -31,8 +31,8 @@ inline bool true_motion(const Scene& scene, Answer& truth) {
   if (scene.periodic()) {
     const auto& [spin, cosine] = *scene.periodic();
     const auto orbit = periodic_orbit<Long>(*problem, spin, cosine);
-    // What does not close to rounding, its growth allowed for, is not found yet, and no judge: where the monodromy is singular (motions
-    // that are not isolated, a lamina) a small closure tells little of the start.
+    // What does not close to rounding, its growth allowed for, is not found yet, and no reference: where the monodromy is singular (motions
+    // that are not isolated, a lamina) a small closure says little of the start.
     if (!orbit) return false;
     if (!(orbit->closure < 1e-15L * std::max(1.0L, std::abs(orbit->trace_minus_4)))) return false;
     const PeriodicMotion<Long> motion(*problem, *orbit, times);

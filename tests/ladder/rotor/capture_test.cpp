@@ -80,7 +80,7 @@ TEST_CASE("capture: stops at the longest time, and says nothing then") {
   CHECK(part.time == whole.time / 2);
 }
 
-TEST_CASE("capture: what the algebra tells is told at once") {
+TEST_CASE("capture: what the algebra decides is reported at once") {
   const auto conservative = two_minima(0);
   const auto start = at_rest(conservative, Vec3<double>::UnitX());
   CHECK(capture(conservative, start, 1e3, 1e-9).attractor.certificate == Certificate::none);

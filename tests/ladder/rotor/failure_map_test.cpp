@@ -176,7 +176,7 @@ TEST_CASE("failure map: a start on a saddle is not certified, and its error grow
   }
 }
 
-TEST_CASE("failure map: between two attractors the margin is told", "[rotor]") {
+TEST_CASE("failure map: between two attractors the margin is reported", "[rotor]") {
   const auto body = reference_body(2e-4, 3);
   Asked data = asked(30);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 3);

@@ -27,7 +27,7 @@ constexpr bool slow_build = true;
 constexpr bool slow_build = false;
 #endif
 
-/// A body and a start as Omega and omega tell them, in any precision.
+/// A body and a start from Omega and omega, in any precision.
 template <Real S>
 struct Motion {
   Gyrostat<S> body;

@@ -103,7 +103,7 @@ TEST_CASE("near a steady rotation the linear tail answers a loose scene and more
   CHECK(solved(body, data).by("closed-form"));
 }
 
-TEST_CASE("a tumbling start climbs to the full equations; V tells when the attractor is certain", "[rotor]") {
+TEST_CASE("a tumbling start climbs to the full equations; V shows when the attractor is certain", "[rotor]") {
   const auto body = reference_body(0.2, 3);
   Asked data = asked(400);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);
@@ -184,7 +184,7 @@ TEST_CASE("the answer does not depend on the body axes", "[rotor]") {
   }
 }
 
-TEST_CASE("long work tells its progress and can be stopped", "[rotor]") {
+TEST_CASE("long work reports its progress and can be stopped", "[rotor]") {
   const auto body = reference_body(0.2, 3);
   Asked data = asked(20);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);

@@ -17,7 +17,7 @@ struct Bound {
 
 }  // namespace
 
-TEST_CASE("columns of states that are off by a bound lie within the errors told", "[rotor]") {
+TEST_CASE("columns of states that are off by a bound lie within the errors stated", "[rotor]") {
   Bodies bodies(31);
   for (int i = 0; i < 500; ++i) {
     const auto body = bodies.realisable();
@@ -54,7 +54,7 @@ TEST_CASE("columns of states that are off by a bound lie within the errors told"
   }
 }
 
-TEST_CASE("no momentum and no error of it: none told", "[rotor]") {
+TEST_CASE("no momentum and no error of it: none stated", "[rotor]") {
   const auto body = reference_body(0.05, 30);
   const std::vector<State<double>> states{body.state({}, Vec3<double>(0, 0, 0), 0)};
   const auto told = state_columns(Row<double>(body), states, Bound{0, 0, 0, 0});

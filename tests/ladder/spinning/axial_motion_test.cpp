@@ -177,7 +177,7 @@ TEST_CASE("the errors of the linear motion under an axial torque", "[spinning]")
   }
 }
 
-TEST_CASE("the greatest tilt and rate are told", "[spinning]") {
+TEST_CASE("the greatest tilt and rate are reported", "[spinning]") {
   auto p = Spinners(4).spinner(0.01);
   p.torque[2] = 0.1 * p.inertia[2] * p.spin() * std::abs(p.spin());
   const double end = 20 / std::abs(p.spin());

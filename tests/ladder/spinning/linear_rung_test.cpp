@@ -106,7 +106,7 @@ TEST_CASE("rung linear under an axial torque", "[spinning]") {
   CHECK(track.counts.steps > 0);
   check_honest(scene, track);
   check_honest(posed(p, span, 1e-2, rung::linear), linear_track(posed(p, span, 1e-2, rung::linear), nullptr));
-  // a sixteenth of the way tells that it is not good enough
+  // a sixteenth of the way shows that it is not good enough
   const Track early = linear_track(posed(p, span, 1e-10, any_rung, 100), nullptr);
   CHECK(early.failure == Errc::not_applicable);
   CHECK(early.known_error > 1e-10);

@@ -157,7 +157,7 @@ TEST_CASE("f2 by gradients along the torque", "[deceleration]") {
     CHECK(r->phase_drift == Approx(drift).epsilon(1e-5));
     CHECK(r->second.h == Approx(orbit->level().R * r->second.eta + orbit->level().eta * r->second.R));
   }
-  // the same by the independent program behind the model sheet
+  // the same by an independent program
   auto p = generic(Law::total);
   const auto orbit = Orbit<double>::through(p, p.momentum);
   const auto r = second_order(p, orbit->level(), orbit->component());

@@ -26,7 +26,7 @@ TEST_CASE("energy and rates of a gyrostat", "[deceleration]") {
   }
 }
 
-TEST_CASE("a problem is left alone unless told otherwise", "[deceleration]") {
+TEST_CASE("a problem is left alone unless said otherwise", "[deceleration]") {
   const Problem<long double> p;
   CHECK(p.control.isZero(0));
   CHECK(p.drag == 0);

@@ -53,15 +53,15 @@ TEST_CASE("the units of figures 5 to 7") {
 TEST_CASE("(10): L2 as printed has A/B where A/C belongs") {
   const auto d = figure({100, 150, 50});
   const double S0 = d.rotor_momentum.dot(d.rotor_momentum.cwiseQuotient(d.inertia));
-  const auto mended = rotor_terms(d, Reading::mended);
-  CHECK(mended[0] == Approx(16 * S0).epsilon(1e-14));
-  CHECK(mended[1] == Approx(35 * S0).epsilon(1e-14));
+  const auto corrected = rotor_terms(d, Reading::corrected);
+  CHECK(corrected[0] == Approx(16 * S0).epsilon(1e-14));
+  CHECK(corrected[1] == Approx(35 * S0).epsilon(1e-14));
   const auto printed = rotor_terms(d, Reading::printed);
-  CHECK(printed[0] == mended[0]);
+  CHECK(printed[0] == corrected[0]);
   CHECK(printed[1] == Approx(35 * S0 - 35.0 * 2500 * (1.0 / 16 - 1.0 / 22)).epsilon(1e-14));
 }
 
-TEST_CASE("(11): the mended modulus is that of the momentum, the printed one is another number") {
+TEST_CASE("(11): the corrected modulus is that of the momentum, the printed one is another number") {
   struct Row {
     Vec l;
     double right, printed;
@@ -71,12 +71,12 @@ TEST_CASE("(11): the mended modulus is that of the momentum, the printed one is 
         Row{{200, 50, 50}, 0.093, 3.59}, Row{{200, 100, 50}, 0.169, 1.54}, Row{{200, 150, 100}, 0.419, 0.0},
         Row{{200, 150, 150}, 0.665, 0.0}}) {
     const auto d = figure(row.l);
-    CHECK(modulus_squared(d, Reading::mended) == Approx(true_modulus(d)).epsilon(1e-10));
-    CHECK(modulus_squared(d, Reading::mended) == Approx(row.right).margin(6e-4));
+    CHECK(modulus_squared(d, Reading::corrected) == Approx(true_modulus(d)).epsilon(1e-10));
+    CHECK(modulus_squared(d, Reading::corrected) == Approx(row.right).margin(6e-4));
     if (row.printed > 0) CHECK(modulus_squared(d, Reading::printed) == Approx(row.printed).epsilon(5e-3));
   }
   // "Without rotors the solutions are imaginary": the orbit is in the other regime.
-  CHECK(modulus_squared(figure({0, 0, 0}), Reading::mended) == Approx(1.501).margin(5e-4));
+  CHECK(modulus_squared(figure({0, 0, 0}), Reading::corrected) == Approx(1.501).margin(5e-4));
 }
 
 TEST_CASE("(13): beta1 as printed is not the ratio of momentum and energy") {
@@ -86,8 +86,8 @@ TEST_CASE("(13): beta1 as printed is not the ratio of momentum and energy") {
     const Vec M = d.momentum();
     const double twice_energy = M.dot(M.cwiseQuotient(d.inertia));
     const double ratio = M.squaredNorm() / twice_energy;
-    const double k2 = modulus_squared(d, Reading::mended);
-    CHECK(momentum_energy_ratio(d.inertia, k2, Reading::mended) == Approx(ratio).epsilon(1e-12));
+    const double k2 = modulus_squared(d, Reading::corrected);
+    CHECK(momentum_energy_ratio(d.inertia, k2, Reading::corrected) == Approx(ratio).epsilon(1e-12));
     CHECK(momentum_energy_ratio(d.inertia, k2, Reading::printed) > 1.004 * ratio);
   }
 }
@@ -99,8 +99,8 @@ TEST_CASE("(17): the printed factor M^2 belongs to M") {
   const auto m = Modulus<double>::from_k2(0.35);
   const auto mean = math::Native::means(m);
   const double alpha = A * (B - C) + C * (A - B) * m.k2;
-  const double H = M * M / (2 * momentum_energy_ratio(J, m.k2, Reading::mended));
-  // (15), mended, and the chain rule on (11)
+  const double H = M * M / (2 * momentum_energy_ratio(J, m.k2, Reading::corrected));
+  // (15), corrected, and the chain rule on (11)
   const Vec weight((B - C) * mean.F, (A - C) * mean.W, (A - B) * mean.V);
   const double dM = -lambda * M - b.cwiseProduct(J).dot(weight) / alpha;
   const double dH = -2 * lambda * H - M / alpha * b.dot(weight);
@@ -113,8 +113,8 @@ TEST_CASE("(17): the printed factor M^2 belongs to M") {
   const double printed = -(A - B) * (B - C) / std::pow((A - B) * bottom, 2) * 2 * M * M / alpha * (A - C) * bracket;
   CHECK(printed == Approx(M * chain).epsilon(1e-11));
 
-  // The mended (27c) is the same in its units.
-  const System<double> system({J, {0, 0, 0}, {M / A, 0, 0}, b, lambda, 1.3}, Reading::mended);
+  // The corrected (27c) is the same in its units.
+  const System<double> system({J, {0, 0, 0}, {M / A, 0, 0}, b, lambda, 1.3}, Reading::corrected);
   std::array<double, 3> dydt;
   system(0, {0, 1, m.k2}, dydt);
   const double T = 1.3 * M / b[2];
@@ -125,7 +125,7 @@ TEST_CASE("(21), (22): the quasi-stationary modulus") {
   const auto m = Modulus<double>::from_k2(0.4);
   const auto mean = math::Native::means(m);
   for (const double kappa2 : {0.2, 0.6, 1.5}) {
-    const double kappa1 = quasi_stationary_ratio(kappa2, m, Reading::mended);
+    const double kappa1 = quasi_stationary_ratio(kappa2, m, Reading::corrected);
     CHECK(kappa1 == Approx(1 + (kappa2 - 1) * torque_balance(m)).epsilon(1e-14));
     const auto growth = [&](double ratio) { return (ratio - 1) * m.k2 * mean.F - (kappa2 - 1) * m.kp2 * mean.W; };
     CHECK(std::abs(growth(kappa1)) <= 1e-15);
@@ -147,13 +147,14 @@ TEST_CASE("(23): the right side is negative for all k2, so that nothing is restr
 TEST_CASE("(28): without rotors the printed energy has the wrong sign") {
   for (const double k2 : {0.1, 0.5, 0.99}) {
     const auto d = figure({0, 0, 0});
-    CHECK(System<double>(d, Reading::printed).energy_at(1, k2) == -System<double>(d, Reading::mended).energy_at(1, k2));
+    CHECK(System<double>(d, Reading::printed).energy_at(1, k2) ==
+          -System<double>(d, Reading::corrected).energy_at(1, k2));
   }
   // With them: H of (9) at the given start, in J.
   for (const Vec& l : {Vec(100, 150, 50), Vec(200, 150, 150)}) {
     const auto d = figure(l);
-    const double k2 = modulus_squared(d, Reading::mended);
-    CHECK(System<double>(d, Reading::mended).energy_at(1, k2) * d.control[2] == Approx(d.energy()).epsilon(1e-9));
+    const double k2 = modulus_squared(d, Reading::corrected);
+    CHECK(System<double>(d, Reading::corrected).energy_at(1, k2) * d.control[2] == Approx(d.energy()).epsilon(1e-9));
   }
   CHECK(figure({100, 150, 50}).energy() == Approx(5.5).margin(0.05));
   CHECK(figure({200, 150, 50}).energy() == Approx(6.5).margin(0.05));
@@ -165,11 +166,11 @@ TEST_CASE("(28): without rotors the printed energy has the wrong sign") {
   CHECK(printed_start(200) == Approx(2.04).margin(0.005));
 }
 
-TEST_CASE("(27) mended keeps (28) along the motion, with and without rotors") {
+TEST_CASE("(27) corrected keeps (28) along the motion, with and without rotors") {
   for (const Vec& l : {Vec(0, 0, 0), Vec(100, 150, 50)}) {
     const auto d = figure(l);
-    const System<double> system(d, Reading::mended);
-    const Run at = run(d, Reading::mended, 0.99, 0.6);
+    const System<double> system(d, Reading::corrected);
+    const Run at = run(d, Reading::corrected, 0.99, 0.6);
     CHECK(at.status == ode::Status::reached);
     CHECK(at.state[0] == Approx(system.energy_at(at.state[1], at.state[2])).epsilon(1e-9));
   }
@@ -191,7 +192,7 @@ TEST_CASE("(27) as printed: k2 leaves [0, 1] at once for the data of figures 5 t
   }
 }
 
-TEST_CASE("(27) mended, without rotors: the stop times of figures 14 to 25") {
+TEST_CASE("(27) corrected, without rotors: the stop times of figures 14 to 25") {
   struct Row {
     double sigma, kappa1, kappa2, stop, k2;
   };
@@ -199,20 +200,20 @@ TEST_CASE("(27) mended, without rotors: the stop times of figures 14 to 25") {
        {Row{1.3, 0.75, 0.9, 0.8125, 0.021}, Row{1.3, 0.8, 1, 0.7531, 0.036}, Row{1.3, 0.89, 1.11, 0.6868, 0.149},
         Row{1.8, 0.89, 1.3, 0.457, 0.048}, Row{1.8, 0.76, 1.25, 0.498, 0.0015}, Row{0.7, 0.5, 0.8, 1.749, -1},
         Row{1.3, 0.5, 0.8, 1.017, -1}, Row{1.8, 0.5, 0.8, 0.754, -1}, Row{1.3, 1, 1, 0.71550, 0.99}}) {
-    const Run end = run(figure({0, 0, 0}, {row.kappa1, row.kappa2, 1}, row.sigma), Reading::mended);
+    const Run end = run(figure({0, 0, 0}, {row.kappa1, row.kappa2, 1}, row.sigma), Reading::corrected);
     CHECK(end.status != ode::Status::reached);
     CHECK(end.time == Approx(row.stop).margin(6e-4));
-    // The figure of the sheet is at |M| = 1e-3 or so: k2 goes on to fall as a power of |M|.
+    // The figure on the right is at |M| = 1e-3 or so: k2 goes on to fall as a power of |M|.
     if (row.k2 > 0) CHECK(end.state[2] <= row.k2 * 1.1);
   }
-  CHECK(run(figure({0, 0, 0}, {1, 1, 1}), Reading::mended).time == Approx(5 * std::log1p(0.2 / 1.3)).epsilon(1e-9));
+  CHECK(run(figure({0, 0, 0}, {1, 1, 1}), Reading::corrected).time == Approx(5 * std::log1p(0.2 / 1.3)).epsilon(1e-9));
 }
 
 TEST_CASE("(29) is right, and the perturbed data of figures 23 to 25 break it") {
   const auto m = Modulus<double>::from_k2(0.99);
   CHECK(greatest_ratio(0.8, m) == Approx(0.9947).margin(5e-5));
   CHECK(greatest_ratio(1.07, m) == Approx(1.0019).margin(5e-5));
-  const Run end = run(figure({0, 0, 0}, {1.05, 1.07, 1}), Reading::mended);
+  const Run end = run(figure({0, 0, 0}, {1.05, 1.07, 1}), Reading::corrected);
   CHECK(end.status == ode::Status::not_finite);
   CHECK(end.time == Approx(0.257).margin(1e-3));
   CHECK(end.state[2] == Approx(1).margin(1e-6));

@@ -309,7 +309,7 @@ TEST_CASE("heavy: without weight and gradient, Euler's motion", "[heavy]") {
   }
 }
 
-TEST_CASE("heavy: the projection mends a state and leaves a right one alone", "[heavy]") {
+TEST_CASE("heavy: the projection corrects a state and leaves a right one alone", "[heavy]") {
   Tops random(9);
   for (int i = 0; i < 40; ++i) {
     const auto p = random.body(i % 3 == 0 ? 0 : 1, i % 4 == 0 ? 0 : 0.5);

@@ -214,7 +214,7 @@ TEST_CASE("linear tail: what errors of the start grow to", "[rotor]") {
   }
 }
 
-TEST_CASE("linear tail: says infinite where it cannot tell", "[rotor]") {
+TEST_CASE("linear tail: says infinite where it has no estimate", "[rotor]") {
   Bodies bodies(5);
   Beside s = beside(bodies, 0.7);
   CHECK(s.tail().error(100).attitude == infinity<double>);

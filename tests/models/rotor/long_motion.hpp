@@ -33,7 +33,7 @@ struct LongMotion {
         .value();
   }
 
-  /// From Omega and omega as the double numbers tell them, at increasing times; rounded to double at the end only.
+  /// From Omega and omega as the double numbers give them, at increasing times; rounded to double at the end only.
   static std::vector<State<double>> from(const Gyrostat<double>& body, const Quat<double>& attitude,
                                          const Vec3<double>& Omega, double omega, const std::vector<double>& times,
                                          long double tolerance = 1e-18L) {

@@ -83,7 +83,7 @@ TEST_CASE("the printed scalar system grows; its start hides that for six seconds
 
 TEST_CASE("the right algebra of the printed data is a growing spiral, about a maximum that is none", "[rotor]") {
   const auto data = published::printed_data<double>();
-  const auto system = published::mended(data);
+  const auto system = published::corrected(data);
   const auto d = sorted(system.exponents());
   CHECK(d[0].re == Approx(-3.41).margin(0.005));
   CHECK(d[2].re == Approx(0.0137).margin(5e-5));
@@ -109,7 +109,8 @@ TEST_CASE("the right algebra of the printed data is a growing spiral, about a ma
 
 TEST_CASE("the repaired examples are steady, stable, and one of them can be built", "[rotor]") {
   const auto first = published::repaired_data<double>(), second = published::realisable_data<double>();
-  const auto d1 = sorted(published::mended(first).exponents()), d2 = sorted(published::mended(second).exponents());
+  const auto d1 = sorted(published::corrected(first).exponents()),
+             d2 = sorted(published::corrected(second).exponents());
   CHECK(d1[0].re == Approx(-3.2157).margin(5e-5));
   CHECK(d1[2].re == Approx(-0.0857).margin(5e-5));
   CHECK(d1[2].im == Approx(0.7446).margin(5e-5));
@@ -131,15 +132,15 @@ TEST_CASE("the repaired examples are steady, stable, and one of them can be buil
     const auto roots = stability_of(body, data.norm, steady).eigenvalues;
     for (std::size_t i = 0; i < 3; ++i) exponents[i] = {roots[i].real(), roots[i].imag()};
     exponents = sorted(exponents);
-    const auto here = sorted(published::mended(data).exponents());
+    const auto here = sorted(published::corrected(data).exponents());
     for (std::size_t i = 0; i < 3; ++i) CHECK(math::magnitude(exponents[i] - here[i]) < 1e-12);
   }
 }
 
-TEST_CASE("the mended equations are the derivative of the motion", "[rotor]") {
+TEST_CASE("the corrected equations are the derivative of the motion", "[rotor]") {
   for (const auto& data : {published::repaired_data<double>(), published::realisable_data<double>()}) {
     const auto body = body_of(data);
-    const auto system = published::mended(data);
+    const auto system = published::corrected(data);
     std::vector<double> off;
     for (const double eps : {1e-3, 1e-4}) {
       // P = P_inf exp(gamma), P_inf = exp(psi_dot t m)

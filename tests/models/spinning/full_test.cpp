@@ -125,7 +125,7 @@ TEST_CASE("what a state means", "[spinning]") {
   }
 }
 
-TEST_CASE("the projection mends the laws and leaves a right state alone", "[spinning]") {
+TEST_CASE("the projection corrects the laws and leaves a right state alone", "[spinning]") {
   Spinners random(5);
   for (int i = 0; i < 60; ++i) {
     auto p = random.body();

@@ -130,7 +130,7 @@ std::array<double, 6> residuals(const Problem<long double>& p, Reading reading, 
 
 }  // namespace
 
-TEST_CASE("mended, the published forms solve the equations they come from", "[spinning]") {
+TEST_CASE("corrected, the published forms solve the equations they come from", "[spinning]") {
   auto prolate = generic<long double>();
   prolate.inertia = {8.7L, 8.6L, 5};
   auto backwards = generic<long double>();
@@ -138,8 +138,8 @@ TEST_CASE("mended, the published forms solve the equations they come from", "[sp
   backwards.rotor_momentum *= -1;
   for (const auto& p : {generic<long double>(), symmetric<long double>(), prolate, backwards}) {
     for (const long double t : {0.3L, 4.0L, 31.0L})
-      for (const double part : residuals(p, Reading::mended, t)) CHECK(part < 1e-12);
-    const auto start = Motion<long double>(p, Reading::mended).at(0);
+      for (const double part : residuals(p, Reading::corrected, t)) CHECK(part < 1e-12);
+    const auto start = Motion<long double>(p, Reading::corrected).at(0);
     const auto apart = [](math::Complex<long double> is, long double re, long double im) {
       return std::hypot(is.re - re, is.im - im);
     };
@@ -152,7 +152,7 @@ TEST_CASE("mended, the published forms solve the equations they come from", "[sp
   }
 }
 
-TEST_CASE("mended, the published forms are the linear motion where D1 = D2 or Lambda = 0", "[spinning]") {
+TEST_CASE("corrected, the published forms are the linear motion where D1 = D2 or Lambda = 0", "[spinning]") {
   Spinners spinners(21);
   for (int trial = 0; trial < 200; ++trial) {
     auto p = generic();
@@ -168,8 +168,8 @@ TEST_CASE("mended, the published forms are the linear motion where D1 = D2 or La
     if (divisors(p).least() < 0.1) continue;
     for (const double t : {2.0, 20.0}) {
       INFO(trial << " D " << p.inertia.transpose() << " r0 " << p.spin() << " t " << t);
-      CHECK(compare(p, Reading::mended, t).relative() < 1e-9);
-      const auto balance = Motion<double>(p, Reading::mended).at(t).circle;
+      CHECK(compare(p, Reading::corrected, t).relative() < 1e-9);
+      const auto balance = Motion<double>(p, Reading::corrected).at(t).circle;
       const auto G = Linear<double>(p).at(t).momentum_I;
       CHECK(distance(balance, G[0], G[1]) < 1e-12 * G.head<2>().norm());
     }
@@ -196,14 +196,14 @@ TEST_CASE("the figures' frequency is not that of their body", "[spinning]") {
   CHECK(nu == Approx(0.19673).margin(5e-6));
   CHECK(nu == Approx(std::sqrt(p.nutation_squared())).epsilon(1e-14));
   CHECK(Motion<double>(p, Reading::printed).nutation() / nu - 1 == Approx(-0.0120).margin(5e-5));
-  CHECK(Motion<double>(p, Reading::mended).nutation() == Motion<double>(p, Reading::printed).nutation());
+  CHECK(Motion<double>(p, Reading::corrected).nutation() == Motion<double>(p, Reading::printed).nutation());
   // 0.12 rad at the end of the figures
   CHECK(50 * (nu - Motion<double>(p, Reading::printed).nutation()) == Approx(0.118).margin(5e-4));
   // residual of (9) in the rates: it stands for two equations with different frequencies
   auto far = p;
   far.inertia = {8.7, 8, 11.1};
   far.torque[0] = 0.1;
-  const auto off = compare(far, Reading::mended, 50);
+  const auto off = compare(far, Reading::corrected, 50);
   CHECK(off.error[0] > 0.3 * off.size[0]);
 }
 
@@ -213,7 +213,7 @@ TEST_CASE("misprints of (46) and (61): velocity and position across", "[spinning
   const auto start = Motion<double>(p, Reading::printed).at(0);
   CHECK(math::magnitude(start.velocity) == 0);
   CHECK(math::magnitude(start.position) > 5);
-  CHECK(math::magnitude(Motion<double>(p, Reading::mended).at(0).position) < 1e-13);
+  CHECK(math::magnitude(Motion<double>(p, Reading::corrected).at(0).position) < 1e-13);
   const auto off = compare(p, Reading::printed, 0.5);
   CHECK(off.size[3] == Approx(2.87e-3).epsilon(2e-3));
   CHECK(off.error[3] == Approx(0.0853).epsilon(2e-3));
@@ -230,11 +230,11 @@ TEST_CASE("misprints of (46) and (61): velocity and position across", "[spinning
 
 TEST_CASE("misprint of (58): the sign of the transverse force", "[spinning]") {
   const auto p = symmetric();
-  const Motion<double> printed(p, Reading::printed), mended(p, Reading::mended);
+  const Motion<double> printed(p, Reading::printed), corrected(p, Reading::corrected);
   const C f{p.force[0] / p.mass, p.force[1] / p.mass};
   const double r0 = p.spin();
   for (const double t : {0.0, 0.5, 8.0}) {
-    const C apart = printed.at(t).position - mended.at(t).position;
+    const C apart = printed.at(t).position - corrected.at(t).position;
     const C wanted = (2 / (r0 * r0)) * (math::unit(p.angles.theta) * (f * (math::unit(r0 * t) - C{1, 0})));
     CHECK(math::magnitude(apart - wanted) < 1e-12);
   }
@@ -255,11 +255,11 @@ TEST_CASE("structural misprints of (50), (51), (65), (66): velocity and position
   CHECK(still.error[6] == 0);
   CHECK(still.size[4] == Approx(15));
   CHECK(still.size[6] == Approx(375));
-  const auto printed = compare(generic(), Reading::printed, 50), mended = compare(generic(), Reading::mended, 50);
+  const auto printed = compare(generic(), Reading::printed, 50), corrected = compare(generic(), Reading::corrected, 50);
   CHECK(printed.error[4] == Approx(0.0125).epsilon(0.01));
-  CHECK(mended.error[4] == Approx(0.0033).epsilon(0.01));
+  CHECK(corrected.error[4] == Approx(0.0033).epsilon(0.01));
   CHECK(printed.error[6] == Approx(0.274).epsilon(0.01));
-  CHECK(mended.error[6] == Approx(0.051).epsilon(0.01));
+  CHECK(corrected.error[6] == Approx(0.051).epsilon(0.01));
 }
 
 TEST_CASE("the two momenta (33) and (35) of the figures", "[spinning]") {
@@ -291,7 +291,7 @@ TEST_CASE("the two momenta (33) and (35) of the figures", "[spinning]") {
   CHECK(artefact > 1.8);
   // the text on figure 12: wrong units, and the root over D3 r0^2
   const auto text = published::momentum_circle(p, Reading::printed),
-             circle = published::momentum_circle(p, Reading::mended);
+             circle = published::momentum_circle(p, Reading::corrected);
   CHECK(text.radius == Approx(4.25).margin(0.005));
   CHECK(circle.radius == Approx(14.15).margin(0.005));
   CHECK(text.centre.im == Approx(4.508).margin(5e-4));
@@ -301,15 +301,15 @@ TEST_CASE("the two momenta (33) and (35) of the figures", "[spinning]") {
 TEST_CASE("(53), (54): the velocity goes to a ratio that knows the rotor and the charge", "[spinning]") {
   const auto p = figures();
   CHECK(published::secular_velocity_ratio(p, Reading::printed).im == Approx(4.508).margin(5e-4));
-  CHECK(published::secular_velocity_ratio(p, Reading::mended).im == Approx(3.411).margin(5e-4));
-  CHECK(published::secular_velocity_ratio(p, Reading::mended).re == Approx(0).margin(1e-15));
+  CHECK(published::secular_velocity_ratio(p, Reading::corrected).im == Approx(3.411).margin(5e-4));
+  CHECK(published::secular_velocity_ratio(p, Reading::corrected).re == Approx(0).margin(1e-15));
   for (auto q : {generic(), symmetric()}) {
     q.angular_velocity = {0, 0, q.spin()};
     q.angles = {0, 0, 0.3};
     q.velocity.setZero();
     const auto late = Linear<double>(q).at(1e6).velocity;
     const C reached{late[0] / late[2], late[1] / late[2]};
-    const C right = published::secular_velocity_ratio(q, Reading::mended);
+    const C right = published::secular_velocity_ratio(q, Reading::corrected);
     CHECK(math::magnitude(reached - right) < 1e-4 * math::magnitude(right));
     const C printed = published::secular_velocity_ratio(q, Reading::printed);
     CHECK(math::magnitude(reached - printed) > 0.2 * math::magnitude(right));
@@ -317,13 +317,13 @@ TEST_CASE("(53), (54): the velocity goes to a ratio that knows the rotor and the
     q.rotor_momentum = q.charge_momentum = 0;
     q.angles.theta = 0;
     CHECK(published::secular_velocity_ratio(q, Reading::printed) ==
-          published::secular_velocity_ratio(q, Reading::mended));
+          published::secular_velocity_ratio(q, Reading::corrected));
   }
 }
 
 TEST_CASE("(30) as printed is no rotation", "[spinning]") {
   const Angles<double> angles{0.1, -0.2, 0.7};
-  const auto right = published::direction_cosines(angles, Reading::mended);
+  const auto right = published::direction_cosines(angles, Reading::corrected);
   const auto printed = published::direction_cosines(angles, Reading::printed);
   CHECK((right * right.transpose() - Mat3<double>::Identity()).norm() < 1e-15);
   const Vec3<double> x = printed.row(0), y = printed.row(1), z = printed.row(2);
@@ -339,14 +339,14 @@ TEST_CASE("the printed roots fail for a prolate body, and all but the linear mot
   p.inertia[2] = 5;
   const auto printed = compare(p, Reading::printed, 5);
   CHECK(printed.error[0] > 0.5 * printed.size[0]);
-  CHECK(compare(p, Reading::mended, 5).relative() < 1e-10);
+  CHECK(compare(p, Reading::corrected, 5).relative() < 1e-10);
   p.inertia = {8, 11, 9};
-  for (const auto reading : {Reading::printed, Reading::mended})
+  for (const auto reading : {Reading::printed, Reading::corrected})
     CHECK_FALSE(std::isfinite(Motion<double>(p, reading).at(5).rates.re));
   CHECK(std::isfinite(Linear<double>(p).at(5).angular_velocity[0]));
   auto sphere = generic();
   sphere.inertia = {9, 9, 9};
-  CHECK_FALSE(std::isfinite(Motion<double>(sphere, Reading::mended).at(5).rates.re));
+  CHECK_FALSE(std::isfinite(Motion<double>(sphere, Reading::corrected).at(5).rates.re));
   auto still = generic();
   still.angular_velocity[2] = 0;
   CHECK_FALSE(std::isfinite(Motion<double>(still, Reading::exact).at(5).tilt.re));
@@ -363,7 +363,7 @@ TEST_CASE("what the published forms lose near a resonance", "[spinning]") {
     p.rotor_momentum = X - 12;
     const auto truth = Linear<long double>(detail::problem_cast<long double>(p)).at(10);
     const auto ours = compare(values(Linear<double>(p).at(10)), truth);
-    const auto lost = compare(Motion<double>(p, Reading::mended).at(10), truth);
+    const auto lost = compare(Motion<double>(p, Reading::corrected).at(10), truth);
     const auto part = [](const Comparison& made, std::size_t i) { return made.error[i] / made.size[i]; };
     INFO(X << " " << part(lost, 1) << " " << part(lost, 3) << " " << part(lost, 5));
     CHECK(ours.relative() < 2e-13);

@@ -158,7 +158,7 @@ class FullRun {
     ode::TaylorOptions<Scalar, width> how;
     how.tolerance = step_tolerance_;
     how.step_cap = options_.step_cap;
-    // the carrier's share of the momentum sets the energy; where it is the small part of M it wants its own digits
+    // the carrier's share of the momentum sets the energy; where it is the small part of M it needs its own digits
     const Scalar whole = std::max(problem_.momentum.norm(), U.norm());
     const Scalar share = (problem_.momentum - problem_.rotor_momentum).norm();
     const Scalar size = share > Scalar(1e-4L) * whole ? std::min(share, whole) : whole;

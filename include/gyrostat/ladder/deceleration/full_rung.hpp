@@ -23,7 +23,7 @@ inline State<double> state_on_orbit(const Problem<double>& problem, const Vec3<d
   return state;
 }
 
-/// Error of the modulus where the track knows |M| and the energy to its errors. The modulus varies slowly: some of the points tell.
+/// Error of the modulus where the track knows |M| and the energy to its errors. The modulus varies slowly: some of the points suffice.
 inline double k2_error(const Track& track, const Problem<double>& problem) noexcept {
   double error = 0;
   const std::size_t stride = 1 + track.states.size() / 64;

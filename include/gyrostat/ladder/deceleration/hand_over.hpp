@@ -18,7 +18,7 @@ inline double hand_over_share(const Scene& scene) noexcept {
 
 namespace detail {
 
-/// Error of what the control opposes, N m s: |M|, or |J omega| = `carrier`, which the energy tells.
+/// Error of what the control opposes, N m s: |M|, or |J omega| = `carrier`, which follows from the energy.
 inline double opposed_error(const Problem<double>& problem, const SlowError<double>& error, double carrier) noexcept {
   if (problem.law == Law::total) return error.norm;
   return std::min(std::sqrt(2 * error.energy / problem.inverse_inertia[0]),

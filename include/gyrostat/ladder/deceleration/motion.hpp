@@ -128,7 +128,7 @@ struct State {
 template <Real Scalar>
 using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
 
-/// The scales of the columns that a start sets, in their units. What the start lacks, but for rounding, the rotors tell.
+/// The scales of the columns that a start sets, in their units. Where the start has none, but for rounding, the rotors set it.
 template <Real Scalar>
 ColumnErrors<Scalar> scales(const Problem<Scalar>& problem) noexcept {
   const Scalar rounding = std::sqrt(epsilon<Scalar>);

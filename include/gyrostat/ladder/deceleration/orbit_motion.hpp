@@ -19,7 +19,7 @@ struct MeanRates {
 
 /// Right-hand side of the mean equations over free orbits with rotor momentum, in a clock that slows down towards the
 /// stop: dt/dsigma = 1/(drag + b/|U|). State: ln(R/R0), eta [rad/s], t [s], phase [turns].
-/// `rates.at(problem, level, component)` gives a Result of MeanRates, `rates.accept(problem, level, component)` tells it
+/// `rates.at(problem, level, component)` gives a Result of MeanRates, `rates.accept(problem, level, component)` says
 /// of every accepted step.
 template <class Rates, Real Scalar>
 struct OrbitEquations {

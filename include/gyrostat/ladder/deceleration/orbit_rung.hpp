@@ -174,7 +174,7 @@ Impasse impasse(const Problem<double>& problem, const Motion& motion) {
 
 inline Track not_followed(Errc failure) {
   if (failure == Errc::undetermined)
-    return refused<Track>(failure, "the motion is captured into one of two lobes, and averaging does not tell which");
+    return refused<Track>(failure, "the motion is captured into one of two lobes, and averaging does not say which");
   if (failure == Errc::separatrix) return refused<Track>(failure, "the motion comes to a separatrix");
   if (failure == Errc::step_limit) return refused<Track>(failure, "the mean equations need too many steps");
   return refused<Track>(failure, "the mean equations could not be integrated");
@@ -222,7 +222,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
     const double late = detail::opposed_error(problem, error.first_order(), carrier) / torque.least;
     // The law of the carrier ends where its averages are differences of large numbers; with a slow libration as well
-    // they tell nothing of the stop.
+    // they say nothing about the stop.
     const bool slow = detail::symmetry_gap(problem) < detail::narrow_gap;
     const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
     track.stop_error = doubt * (tail + late) / *stop + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene);

@@ -36,7 +36,7 @@ using FullMotionAnswer = MotionOutcome<std::size(column_kinds), Scalar>;
 /// attitude that is not asked for is the identity.
 ///
 /// The error is estimated by a second run of a neighbour: body and start differ by a few roundings, and the steps have a tolerance 64
-/// times looser (two neighbours where rounding has a part in the error). Its distance from the answer, watched in every step and
+/// times looser (two neighbours where rounding contributes to the error). Its distance from the answer, watched in every step and
 /// kept for some twenty turns, is some ten to a hundred times the error of the answer, and shows what the motion makes of
 /// errors, chaos included. So the estimate is safe rather than sharp. A run that misses the tolerance is repeated with a tighter step
 /// tolerance, at most twice.

@@ -173,7 +173,7 @@ Result<FoundPhase<Scalar>> closing_phase(NutationPhases<Scalar>& phases, int tur
 
 /// The second family: motions of a fast spin that close after n turns and m nutations, their amplitude such that the nutation's
 /// frequency is m/n of the turns'; where omega = m/n it is of the order of c (docs/heavy.md, section 4). Of each family there are two
-/// motions, which differ in phase: one stable, one unstable, both with a trace so near 2 that mostly neither can be told (for
+/// motions, which differ in phase: one stable, one unstable, both with a trace so near 2 that mostly neither can be decided (for
 /// m/n = 2/5 the difference was seen to fall as (c/r0)^9).
 ///
 /// Errors: those of periodic_orbit; out_of_domain (m or n not positive, or not coprime, n > 64); not_applicable (axis 3 the intermediate

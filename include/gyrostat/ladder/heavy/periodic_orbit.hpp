@@ -113,7 +113,7 @@ Result<Closed<Scalar>> shot_orbit(const Problem<Scalar>& problem, const Scaled<S
   if (!keeps_step || (!closed && closed.error() != Errc::no_convergence)) return closed;
 
   // Of a lamina across axis 3 the nutation keeps step with the spin. What forces it there, of the order eps^4, only its own amplitude
-  // holds, by the change of its frequency: p/c is of the order eps^(1/3), and a small closure tells little. The nearest is sought.
+  // holds, by the change of its frequency: p/c is of the order eps^(1/3), and a small closure says little. The nearest is sought.
   const auto held = [&](const Result<Closed<Scalar>>& trial) noexcept {
     if (!trial || !(trial->closure < 512 * epsilon<Scalar>)) return false;
     ode::Counts counts;
@@ -200,7 +200,7 @@ Result<FoundOrbit<Scalar>> closed_orbit(const Problem<Scalar>& problem, const Sc
   const Scalar spin = scaled.spin;
   Scalar factor = fast_over(scaled);
   Result<Closed<Scalar>> closed = Errc::no_convergence;
-  // a guess that is far off is mended by a faster spin, up to 64 times
+  // a guess that is far off is improved by a faster spin, up to 64 times
   for (int trial = 0; trial < 4; ++trial, factor *= 4) {
     const auto faster = Scaled<Scalar>::make(problem, factor * spin, scaled.G0);
     if (!faster) return faster.error();

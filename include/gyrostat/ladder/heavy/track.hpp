@@ -17,7 +17,7 @@ struct Periodicity {
   double period = nan<double>, period_error = nan<double>;          ///< s; relative
   double trace = nan<double>, trace_error = nan<double>;            ///< of the monodromy, minus 4; absolute
   double precession = nan<double>, precession_error = nan<double>;  ///< mean turn about DOWN, rad/s; absolute
-  double stable = nan<double>;                                      ///< 1 or 0 where more is known than the trace tells
+  double stable = nan<double>;                                      ///< 1 or 0 where more is known than the trace says
 };
 
 /// What a rung finds at the asked times, in principal axes.

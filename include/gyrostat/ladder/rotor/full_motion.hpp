@@ -56,7 +56,7 @@ bool is_stiff(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& state) noex
 /// The full motion from `start` at t = 0 at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN.
 ///
 /// The error is estimated by a second run of a neighbour: the body and the start differ by a few roundings, and the steps have a
-/// tolerance 64 times looser (two neighbours where rounding has a part in the error). Its distance from the answer, watched in every step and kept for some twenty turns, is some ten to a
+/// tolerance 64 times looser (two neighbours where rounding contributes to the error). Its distance from the answer, watched in every step and kept for some twenty turns, is some ten to a
 /// hundred times the error of the answer, and shows what the motion makes of errors: that phases drift, and that all
 /// differences grow where it leaves an unstable rotation. So the estimate is safe rather than sharp. A run that misses the tolerance is
 /// repeated with a tighter step tolerance, at most twice.

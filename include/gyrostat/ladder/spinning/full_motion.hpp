@@ -31,13 +31,13 @@ using FullMotionOptions = MotionOptions<Scalar>;
 template <Real Scalar>
 struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
   Scalar least_cosine = 1;  ///< a lower bound of cos(psi) on the way
-  bool turns_known = true;  ///< false: cos(psi) = 0 is passed on a side that the error of the attitude leaves open
+  bool turns_known = true;  ///< false: cos(psi) = 0 is passed on a side that the error of the attitude does not decide
 };
 
 /// The full motion at the given times (s from the start, increasing, the first >= 0). What lies behind a failure is NaN.
 ///
 /// theta is followed turn by turn (spin_angle.hpp); phi stays within pi of its start. The angles are as good as the attitude, over
-/// cos(psi). Where the motion comes so near to cos(psi) = 0 that the error of the attitude leaves open on which side it passes, or phi
+/// cos(psi). Where the motion comes so near to cos(psi) = 0 that the error of the attitude does not decide on which side it passes, or phi
 /// so near to the end of its range, the stated error of the angles grows by a turn.
 ///
 /// The error is estimated by a second run with a step tolerance 64 times looser and data changed by a few roundings, whose distance
@@ -257,8 +257,9 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   const Scalar phase = span * (problem.angular_velocity.norm() +
                                std::abs(problem.gyroscopic()) / std::min(problem.inertia[0], problem.inertia[1]));
   constexpr Scalar finest = finest_step_tolerance<Scalar>;
-  Scalar step_tolerance = options.tolerance / 64 / (4 + Scalar(2e-4L) * phase * phase);
-  step_tolerance = std::clamp(step_tolerance, finest, Scalar(1e-8L));
+  Scalar step_tolerance = options.tolerance * Scalar(honesty::first_share) /
+                          (Scalar(honesty::drifting_base) + Scalar(honesty::drifting_phase) * phase * phase);
+  step_tolerance = std::clamp(step_tolerance, finest, Scalar(honesty::loosest_step));
   if (!(step_tolerance >= finest)) step_tolerance = finest;
 
   return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {

@@ -114,7 +114,7 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
     if (double(question.times.size()) < std::max(std::abs(r0), std::abs(r1)) * end)
       return refused<Track>(Errc::not_applicable,
                             "under an axial torque, at less than a time a radian, the full equations cost less");
-    // the errors only grow: a sixteenth of the motion often tells
+    // the errors only grow: a sixteenth of the motion often suffices
     const std::array<double, 1> early{end / 16};
     std::array<State<double>, 1> unused;
     if (const Errc wrong = advance(early, unused, error); wrong != Errc::ok)

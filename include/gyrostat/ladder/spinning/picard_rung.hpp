@@ -22,7 +22,7 @@ inline Track picard_track(const Scene& scene, Monitor* monitor) {
     if (!made) {
       switch (made.error()) {
         case Errc::not_applicable: return refused<Track>(Errc::not_applicable, "a torque acts about the spin axis");
-        case Errc::step_limit: return refused<Track>(Errc::step_limit, "more turns than sweeps are worth");
+        case Errc::step_limit: return refused<Track>(Errc::step_limit, "too many turns for sweeps");
         case Errc::no_convergence: return refused<Track>(Errc::no_convergence, "the axis tilts beyond a right angle");
         default: return refused<Track>(made.error(), message(made.error()));
       }

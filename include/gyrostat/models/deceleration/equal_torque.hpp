@@ -43,7 +43,7 @@ class EqualTorqueMotion {
   }
 
   /// Relative rounding error of M at t: the rounding of the start grows with the turn, and as 1/kp2 near the separatrix;
-  /// that of the moments tells the more the nearer two of them are.
+  /// that of the moments counts the more the nearer two of them are.
   Scalar rounding(Scalar t) const noexcept {
     const Scalar far = std::min(t, stop_time());
     if (steady_) return 8 * epsilon<Scalar>;

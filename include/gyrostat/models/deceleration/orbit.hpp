@@ -60,7 +60,7 @@ class Orbit {
   /// @param followed the curve that the motion has followed so far: chooses the lobe where the level has two components.
   /// From one component the motion keeps to the older lobe where the level lies nearer to the birth of the other one than
   /// to the separatrix; nearer to the separatrix the lobe is undetermined (capture.hpp). Within 1e-9 of the birth the older
-  /// lobe is taken as one component still, on the level just before; level() tells. A lobe below the energy of its own centre
+  /// lobe is taken as one component still, on the level just before, which is level(). A lobe below the energy of its own centre
   /// (a stage of an integrator that overshoots) and a level outside the energies possible at this R become that equilibrium,
   /// regime() == point, and level() is then the clamped one.
   /// Errors: not_finite; zero_vector at R = 0; not_positive; not_applicable for a sphere; separatrix; undetermined where

@@ -8,13 +8,13 @@
 #include "gyrostat/math/elliptic.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-/// The dimensionless equations (27), (28) of "Quasi-optimal deceleration of an asymmetric gyrostat in a resistive
-/// medium", and the formulas that feed them, as printed and with the misprints mended (deceleration.md, section 8).
-/// For the reproduction of its figures only. Mending does not make them right for a body with rotor momentum: they
-/// average over the orbit of a body without.
+/// The dimensionless equations (27), (28) of the paper on quasi-optimal deceleration of an asymmetric gyrostat in a
+/// resistive medium ([1] of docs/references.md), and the formulas that feed them, as printed and with the misprints
+/// corrected (docs/deceleration.md, section 8). For the reproduction of its figures only. Corrected does not mean right:
+/// with rotor momentum they average over the orbit of a body without.
 namespace gyrostat::deceleration::published {
 
-enum class Reading : std::uint8_t { printed, mended };
+enum class Reading : std::uint8_t { printed, corrected };
 
 /// The data of a figure, SI units; principal axes, A > B > C.
 template <Real Scalar>
@@ -38,7 +38,7 @@ struct Data {
   }
 };
 
-/// L1, L2 of (10), (N m s)^2. Mended, L1 = C S0 and L2 = A S0 with S0 = l.J^-1 l.
+/// L1, L2 of (10), (N m s)^2. Corrected, L1 = C S0 and L2 = A S0 with S0 = l.J^-1 l.
 template <Real Scalar>
 std::array<Scalar, 2> rotor_terms(const Data<Scalar>& d, Reading reading) noexcept {
   const Vec3<Scalar>& J = d.inertia;
@@ -47,7 +47,7 @@ std::array<Scalar, 2> rotor_terms(const Data<Scalar>& d, Reading reading) noexce
   return {J[2] / J[0] * l2[0] + J[2] / J[1] * l2[1] + l2[2], l2[0] + J[0] / J[1] * l2[1] + third * l2[2]};
 }
 
-/// k2 of (11) at the start. The mended one is that of the body without rotors at the same momentum M, where it lies in
+/// k2 of (11) at the start. The corrected one is that of the body without rotors at the same momentum M, where it lies in
 /// [0, 1]; above one the orbit is in the other regime.
 template <Real Scalar>
 Scalar modulus_squared(const Data<Scalar>& d, Reading reading) noexcept {
@@ -58,7 +58,7 @@ Scalar modulus_squared(const Data<Scalar>& d, Reading reading) noexcept {
   return (B - C) * (2 * A * H + (printed ? L1 : L2) - M2) / ((A - B) * (M2 - 2 * C * H - (printed ? L2 : L1)));
 }
 
-/// M^2/(2H) of (13), kg m^2; of the mended one, H counts half of S0 in.
+/// M^2/(2H) of (13), kg m^2; of the corrected one, H counts half of S0 in.
 template <Real Scalar>
 Scalar momentum_energy_ratio(const Vec3<Scalar>& J, Scalar k2, Reading reading) noexcept {
   const Scalar A = J[0], B = J[1], C = J[2];

@@ -55,7 +55,7 @@ Oscillation<Scalar> greatest_oscillation(const Polhode<Scalar>& p, const Control
 }
 
 /// The polhode with its modulus changed by `relative` times k2. Beyond half the way to either end of [0, 1] the
-/// correction has no meaning: `valid` tells.
+/// correction has no meaning: then `valid` is false.
 template <Real Scalar>
 struct Shifted {
   Polhode<Scalar> polhode;

@@ -238,14 +238,14 @@ void EulerPoisson<Scalar>::project(Scalar* x, Scalar* low) const noexcept {
   const Scalar lacking_momentum = (momentum_ - Iw.dot(d)) - Id.dot(w_low) - Iw.dot(more);
   const Vec3<Scalar> e = energy_by_d - d * (d.dot(energy_by_d) * per_square_), s = Iw - d * (d.dot(Iw) * per_square_);
 
-  // The least change in the norm dw.I dw + give |dd|^2 whole that mends both, or the energy alone where they are not independent. A
+  // The least change in the norm dw.I dw + give |dd|^2 whole that corrects both, or the energy alone where they are not independent. A
   // fast spin hardly changes while d goes round: then the steps err in d, by the ratio of d' to w' more than in w.
   const Scalar give = std::clamp((cross<Scalar>(Iw, w).squaredNorm() + outer_square_) * per_whole_ * per_whole_,
                                  Scalar(1e-6L), Scalar(1));
   Scalar ee = give * Iw.dot(w_free) + per_whole_ * e.squaredNorm();
   const Scalar es = give * Iw.dot(d_free) + per_whole_ * e.dot(s),
                ss = give * Id.dot(d_free) + per_whole_ * s.squaredNorm();
-  // rounding of a great energy must not move d: of so little only the part is mended that moves d by a rounding
+  // rounding of a great energy must not move d: of so little only the part is corrected that moves d by a rounding
   const Scalar size = Iw.dot(w_free) / 2 + potential_;
   if (std::abs(lacking_energy) <= 64 * epsilon<Scalar> * size) ee += per_whole_ * size * size;
   const Scalar determinant = ee * ss - es * es;

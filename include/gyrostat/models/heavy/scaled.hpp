@@ -95,7 +95,7 @@ struct FirstOrder {
 struct Doubts {
   bool slow = false;             ///< r0 < 3 c
   bool strong_gradient = false;  ///< N > 0.1 r0^2
-  bool near_a = false;           ///< 1 - a is small against x' eps^2: axis 1 is hardly told from axis 3
+  bool near_a = false;           ///< 1 - a is small against x' eps^2: axis 1 can hardly be distinguished from axis 3
   bool near_b = false;           ///< 1 - b is small against y' eps^2
   bool near_lamina = false;      ///< a + b - 1 is small against eps^2
   bool upright = false;          ///< down stays so near axis 3 that psi, phi lose their meaning

@@ -98,7 +98,7 @@ class Series {
     if (!scaled) return scaled.error();
     Lindstedt<Scalar> terms(*scaled);
     const auto error = [&](int kept) noexcept { return ForcedError<Scalar>::of(terms, kept).at(span); };
-    // the last term is a check alone: an error is never judged by terms that are kept
+    // the last term is a check alone: an error is never estimated from terms that are kept
     while (!terms.spent() && terms.advance())
       if (terms.order() >= 3 && error(terms.order() - 1).relative(spin) <= tolerance)
         return Series(terms, terms.order() - 1);

@@ -130,7 +130,7 @@ Scalar barrier_level(const Gyrostat<Scalar>& gyrostat, const SteadyRotations<Sca
 }
 
 /// Index of the maximum around which H lies, where F(H) is above the highest saddle; else that of the highest. -1 where it is
-/// not proven (F(H) within rounding of the saddle), or there is none. It tells time_between_levels where a motion comes from.
+/// not proven (F(H) within rounding of the saddle), or there is none. time_between_levels needs it to know where a motion comes from.
 template <Real Scalar>
 int lobe_of(const Gyrostat<Scalar>& gyrostat, const SteadyRotations<Scalar>& steady, const Vec3<Scalar>& H) noexcept {
   const int top = steady.count - 1;

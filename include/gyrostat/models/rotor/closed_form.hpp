@@ -34,7 +34,7 @@ struct ClosedFormError {
 /// The motion of a gyrostat where it is known in closed form. In all families n.H is constant, so that the rotor obeys its motor
 /// alone, omega = omega* + (omega0 - omega*) exp(-St t), and the attitude is a product of two turns about fixed axes,
 ///     P(t) = exp(a t [L/l]x) P0 exp(psi(t) [c]x),   H(t) = exp(-psi [c]x) H0.
-/// Body and start may lie a little off the family; error() tells what that and rounding cost.
+/// Body and start may lie a little off the family; error() says what that and rounding cost.
 template <Real Scalar>
 class ClosedForm {
  public:

@@ -20,7 +20,7 @@ enum class Exceptional : std::uint8_t {
 };
 
 /// How far the body is from each family: 0 on it, of order 1 far from it, linear in between. Below exceptional_rounding it is
-/// on it as far as the numbers tell.
+/// on it as far as the numbers can resolve.
 template <Real Scalar>
 struct ExceptionalDistance {
   Scalar at_rest = 1;       ///< l/(l + |h|)

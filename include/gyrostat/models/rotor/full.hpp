@@ -299,7 +299,7 @@ void FullSystem<Real_>::project(Scalar, Scalar* x, Scalar* low) const noexcept {
   Vec3<Scalar> H = rotate<Scalar>(conjugate(q), L_I_);
 
   // V + W = V0. A small turn d of the body changes V by d.(Omega x H) = d.slope. Rounding of V is eps size: the part
-  // slope^2/(slope^2 + size^2) of what is missing is mended, so that the rounding turns the body by eps/2 at most, and V is kept in the
+  // slope^2/(slope^2 + size^2) of what is missing is corrected, so that the rounding turns the body by eps/2 at most, and V is kept in the
   // course of the steps. What is more than rounding explains comes of the truncation of H or of W: then W gives way, for to turn
   // the body by it would hide it from a comparison of runs.
   const Levels at = levels(H, x[7]);

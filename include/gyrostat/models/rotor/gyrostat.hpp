@@ -38,7 +38,7 @@ class Gyrostat {
   /// relative to the carrier, rad/s.
   /// Errc::not_finite; not_symmetric; not_positive: theta or lambda; zero_vector or out_of_domain: the axis; negative: S;
   /// triangle_inequality: the rotor has more inertia about its axis than the whole can hold, theta - lambda e e^T is not
-  /// positive (k <= 0). A body that no mass distribution has, but whose equations can be solved, is told by realisability().
+  /// positive (k <= 0). A body that no mass distribution has, but whose equations can be solved, is reported by realisability().
   static Result<Gyrostat> make(const Mat3<Scalar>& inertia_B, const Vec3<Scalar>& axis_B, Scalar axial_inertia,
                                Scalar slope, Scalar no_load_rate) noexcept {
     if (!inertia_B.allFinite() || !std::isfinite(slope) || !std::isfinite(no_load_rate)) return Errc::not_finite;

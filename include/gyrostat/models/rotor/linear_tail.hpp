@@ -44,7 +44,7 @@ class LinearTail {
   State<Scalar> at(Scalar t) const noexcept;
 
   /// Bounds for all times up to t >= 0: the misfit of the equations of motion along the tail, sampled, carried on by the modes;
-  /// and rounding, of the data too. Infinite where eps is too large for the tail to tell.
+  /// and rounding, of the data too. Infinite where eps is too large for the tail to have an estimate.
   TailError<Scalar> error(Scalar t) const noexcept;
   /// What errors of the start make at most of the state at any later time: of H, N m s, and of the rotor rate, rad/s. Errors of
   /// attitude and rotor angle are carried on as they are.
@@ -126,7 +126,7 @@ LinearTail<Scalar>::LinearTail(const Gyrostat<Scalar>& gyrostat, const State<Sca
   const Scalar lambda = gyrostat.axial_inertia(), k = gyrostat.coupling();
   linear_.spin_rate = steady.spin_rate;
   if (!(modes_.condition() < Scalar(1e4L))) {
-    // A double exponent: another motor, as near as its square root can tell, has two.
+    // A double exponent: another motor, as near as its square root can resolve, has two.
     separation_ = std::sqrt(epsilon<Scalar>) / 64;
     const Scalar share = 1 - separation_;
     linear_.relaxation *= share;

@@ -127,7 +127,7 @@ void add_real(Vec3<Scalar>& sum, math::Complex<Scalar> c, const Complex3<Scalar>
 }  // namespace detail
 
 /// dy/dt = A y in three unknowns: y = sum_i right_i exp(exponent_i t) (left_i y0). Near a double exponent right and left grow
-/// like one over the distance; what that costs is told by condition().
+/// like one over the distance; what that costs is reported by condition().
 template <Real Scalar>
 struct Modes {
   using Complex = math::Complex<Scalar>;

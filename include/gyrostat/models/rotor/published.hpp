@@ -8,7 +8,7 @@
 #include "gyrostat/rotation/vector.hpp"
 
 /// The linear equations (54), (55) of the paper on the free motion of a gyrostat whose rotor is driven by a motor of limited power, and
-/// its scalar example: as printed, with the algebra mended, and with data for which the rotation is a steady one
+/// its scalar example: as printed, with the algebra corrected, and with data for which the rotation is a steady one
 /// (docs/rotor.md, sections 6 and 8). For the reproduction of its figures 2 and 3 only.
 namespace gyrostat::rotor::published {
 
@@ -130,7 +130,7 @@ System<Scalar> printed() noexcept {
 /// (54) and (55) in scalars, with S/lambda in place of S. The tangents are u = (1, 0, 0), v = (0, 1, 0) for m_inf = (0, 0, 1), and
 /// elsewhere what the shortest turn from there makes of them.
 template <Real Scalar>
-System<Scalar> mended(const Data<Scalar>& data) noexcept {
+System<Scalar> corrected(const Data<Scalar>& data) noexcept {
   const Vec3<Scalar>& m = data.direction;
   const Scalar lambda = data.axial_inertia, l = data.norm;
   const Vec3<Scalar> j = data.inertia.cwiseInverse();

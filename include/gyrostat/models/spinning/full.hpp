@@ -326,7 +326,7 @@ void FullSystem<Real_>::project_rates(Scalar t, Scalar* x, Scalar* low) const no
     const Vec3<Scalar> along = inertia_.cwiseProduct(H);  // gradients of |H|^2/2 and of the energy
     const Scalar missing_norm = (kept_I_.squaredNorm() - H.squaredNorm()) / 2 - along.dot(rest);
     const Scalar missing_energy = (energy_ - omega.dot(G)) / 2 - G.dot(rest);
-    // the least change of omega, in the metric of the inertia, that mends both: a combination of H and omega
+    // the least change of omega, in the metric of the inertia, that corrects both: a combination of H and omega
     const Scalar hh = along.dot(H), hw = along.dot(omega), ww = G.dot(omega);
     const Scalar determinant = hh * ww - hw * hw;
     Vec3<Scalar> change{0, 0, 0};

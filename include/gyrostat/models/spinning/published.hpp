@@ -18,7 +18,7 @@ namespace gyrostat::spinning::published {
 
 enum class Reading : std::uint8_t {
   printed,  ///< literally; brackets that are never closed are closed, zeta3 and zeta4 of (64) are those of (23)
-  mended,   ///< without the misprints; the nutation is still that of D1 = D2, right where that or Lambda = 0 holds
+  corrected,   ///< without the misprints; the nutation is still that of D1 = D2, right where that or Lambda = 0 holds
   exact,    ///< with kappa for zeta: the linear motion, but for what the divisors lose
 };
 
@@ -31,7 +31,7 @@ struct Values {
   Complex tilt;           ///< (20) psi + i phi, rad
   Scalar spin_angle;      ///< (16) theta, rad
   Complex momentum;       ///< (33) G, N m s
-  Complex circle;         ///< (35) G without rotor and charge; mended, its balance (L5), N m s
+  Complex circle;         ///< (35) G without rotor and charge; corrected, its balance (L5), N m s
   Complex velocity;       ///< (43), m/s
   Scalar axial_velocity;  ///< (47), m/s
   Complex position;       ///< (58), m

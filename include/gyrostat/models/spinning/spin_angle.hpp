@@ -22,7 +22,7 @@ namespace gyrostat::spinning {
 /// So an interval over whose halves c e^{-iA} moves by less than its |c| at the ends cannot hide a turn; a longer one is divided.
 ///
 /// Where the motion crosses cos(psi) = 0 theta jumps by pi, forward or back. Close by, theta follows the motion past the line, on the
-/// side on which it passes; least_cosine() tells how near it came, and below the error of the attitude the side is not known.
+/// side on which it passes; least_cosine() says how near it came, and below the error of the attitude the side is not known.
 template <Real Scalar>
 class SpinAngle {
  public:

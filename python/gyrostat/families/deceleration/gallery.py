@@ -188,7 +188,7 @@ def _corrected(case: Case) -> _core.PublishedRun:
     """The corrected equations of the curve without rotor momentum."""
     data = _core.PublishedData(inertia=INERTIA, rotor_momentum=(0.0, 0.0, 0.0), angular_velocity=START, control=case.control,
                           drag=DRAG, sigma=case.sigma)
-    return _core.published_run(data, reading="mended", modulus_squared=START_MODULUS, end=3.0, samples=3)
+    return _core.published_run(data, reading="corrected", modulus_squared=START_MODULUS, end=3.0, samples=3)
 
 
 def _curves(panels: Sequence["Axes"], case: Case, answer: Answer, small: float, colour: str) -> None:

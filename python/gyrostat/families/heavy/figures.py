@@ -140,7 +140,7 @@ def _nutation(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
 
 
 def _precession(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
-    """The angle about down where the attitude tells it, else its rate."""
+    """The angle about down where the attitude is known, else its rate."""
     mean = answer.scalars["precession_rate"]
     if "attitude" in answer.columns:
         R = matrix_from_quaternion(answer["attitude"])

@@ -119,7 +119,7 @@ def _paper() -> "Figure":
     e3 = np.array([0.0, 0.0, 1.0])
     body = _body("printed")
     columns.append(("right algebra, printed data", 12.0, [
-        ("linear", "--", 1.0, _published("mended", t)),
+        ("linear", "--", 1.0, _published("corrected", t)),
         ("full motion", "-", 1 / SHARE, _full(body, 1.0, e3, 1.0 / 7.0, t, small))]))
     t = np.linspace(0.0, 60.0, 1201)
     columns.append(("repaired: L = 7 N m s, ω* = 0", 60.0, [
@@ -149,7 +149,7 @@ def _paper() -> "Figure":
         f"exponents {_exponents('printed')} 1/s: it grows after about 6 s. The printed start lies almost on the eigenvector of the slower decay "
         f"(γ₂/γ₁ = {ratio:.3f} against {slow_ratio:.3f}): of γ₁(0) = 10 rad only {part:.1e} rad belong to the growing mode, and they take about 6 s "
         "to overtake the rest.",
-        f"Right algebra: with the signs of rows 1 and 3 corrected and λ restored the exponents are {_exponents('mended')} 1/s: the printed data "
+        f"Right algebra: with the signs of rows 1 and 3 corrected and λ restored the exponents are {_exponents('corrected')} 1/s: the printed data "
         "describe no steady rotation for any ω*, and linearised as if they did, a growing spiral. The full motion of that body (with ω* = 0, from a "
         "ten-thousandth of the printed start, drawn ten thousand times as large) turns at L/θ₃ = 1/7 rad/s, not at 1 rad/s, and nutates slowly "
         "(γ₃ is counted from that turn).",

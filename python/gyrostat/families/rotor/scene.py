@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scene file of a gyrostat with a driven rotor: its keys, the physics that no single key tells, and what they come to."""
+"""The scene file of a gyrostat with a driven rotor: its keys, the checks that take more than one key, and what they come to."""
 
 from typing import TYPE_CHECKING, Any, Final
 

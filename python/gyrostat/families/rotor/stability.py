@@ -44,7 +44,7 @@ PIECES: Final = 40
 TURNS_A_PIECE: Final = 1.5
 FAMILIES: Final = {
     "at-rest": "L = 0: H has no direction, and nothing rotates steadily about it",
-    "axisymmetric": "the body is symmetric about the rotor axis: the motor cannot feel the nutation, and H precesses about e for ever",
+    "axisymmetric": "the body is symmetric about the rotor axis: the nutation does not turn the motor, and H precesses about e for ever",
     "circular-section": "n = J e is normal to a circular section of the inertia ellipsoid: the great circle n.m = 0 is invariant",
     "principal-axis": "the rotor axis is a principal axis: about it the nutation dies like 1/sqrt(t), not exponentially",
 }
@@ -162,7 +162,7 @@ def _settling(made: Mapping[str, Any], given: Mapping[str, Any], body: Mapping[s
     """Time until H stays within SETTLED of the attractor, and how it was found.
 
     The motion is followed until the motor has come to its rate and, where that is near, until the nutation has died; the mean over the
-    nutation tells the rest.
+    nutation gives the rest.
     """
     attractor, l = made["steady_rotations"][index], made["momentum"]
     m = np.array(attractor["direction"])
