@@ -119,3 +119,16 @@ TEST_CASE("a tensor is symmetric to 8 eps of its largest entry") {
   J(2, 1) = 1e-25;
   CHECK(Inertia<double>::from_tensor(J).error() == Errc::not_symmetric);
 }
+
+TEST_CASE("differences of the inverse moments are right to rounding, however near these are") {
+  for (const double gap : {0.5, 1e-6, 1e-12, 1e-15}) {
+    const auto inertia = Inertia<double>::from_moments(1.7, 1.7 * (1 + gap), 1.1);
+    REQUIRE(inertia);
+    const Vec3<long double> m = inertia->principal().cast<long double>();
+    const Vec3<double> found = inertia->inverse_gaps();
+    CHECK(found[0] == Approx(double((m[0] - m[1]) / (m[0] * m[1]))).epsilon(1e-15).margin(0));
+    CHECK(found[1] == Approx(double((m[1] - m[2]) / (m[1] * m[2]))).epsilon(1e-15).margin(0));
+    CHECK(found[2] == Approx(double((m[0] - m[2]) / (m[0] * m[2]))).epsilon(1e-15).margin(0));
+  }
+  CHECK(Inertia<double>::from_moments(2, 2, 1)->inverse_gaps()[0] == 0);
+}

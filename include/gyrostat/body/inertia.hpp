@@ -44,6 +44,13 @@ class Inertia {
   /// (1/A, 1/B, 1/C), ascending, 1/(kg m^2).
   Vec3<Scalar> inverse_principal() const noexcept { return principal_.cwiseInverse(); }
 
+  /// (1/B - 1/A, 1/C - 1/B, 1/C - 1/A), 1/(kg m^2), from the differences of the moments: right to rounding also where two are nearly
+  /// equal.
+  Vec3<Scalar> inverse_gaps() const noexcept {
+    const Scalar A = principal_[0], B = principal_[1], C = principal_[2];
+    return {(A - B) / A / B, (B - C) / B / C, (A - C) / A / C};
+  }
+
   /// R_BP: v_B = R_BP v_P, columns are the principal axes 1, 2, 3 in body axes. A proper rotation; for moments and
   /// diagonal tensors a signed permutation, exact, and the identity where they already descend.
   const Mat3<Scalar>& R_BP() const noexcept { return axes_; }

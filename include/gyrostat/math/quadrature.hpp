@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"

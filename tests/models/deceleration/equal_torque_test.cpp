@@ -2,6 +2,7 @@
 #include "gyrostat/models/deceleration/equal_torque.hpp"
 
 #include "bodies.hpp"
+#include "gyrostat/body/inertia.hpp"
 #include "gyrostat/ode/runge_kutta.hpp"
 
 using namespace gyrostat;
@@ -114,5 +115,24 @@ TEST_CASE("equal torques in other arithmetic", "[deceleration]") {
     const EqualTorqueMotion<long double> b(q);
     const double t = .7 * a.stop_time();
     CHECK((a.at(t).momentum - b.at(t).momentum.cast<double>()).norm() < a.rounding(t) * p.momentum.norm());
+  }
+}
+
+TEST_CASE("equal torques: the modulus of a nearly symmetric body, where the moments are known", "[deceleration]") {
+  for (const double gap : {1e-6, 1e-9, 1e-12}) {
+    const auto inertia = Inertia<double>::from_moments(168 * (1 + gap), 168, 105).value();
+    Problem<double> p;
+    p.inverse_inertia = inertia.inverse_principal();
+    p.exact_gaps = inertia.inverse_gaps();
+    p.momentum = {1e-9, -2e-9, 3};
+    const Vec3<long double> moments = inertia.principal().cast<long double>(),
+                            m = p.momentum.cast<long double>().cwiseAbs2();
+    // k2 = mid_far tilt/(near_mid (1 - tilt)) about the axis of the smallest moment
+    const long double high = (moments[1] - moments[2]) / (moments[1] * moments[2]),
+                      low = (moments[0] - moments[1]) / (moments[0] * moments[1]);
+    const long double k2 = low * (high * m[1] + (high + low) * m[0]) / (high * ((high + low) * m[2] + low * m[1]));
+    CHECK(EqualTorqueMotion<double>(p).modulus().k2 == Approx(double(k2)).epsilon(1e-14).margin(0));
+    p.exact_gaps.reset();  // what the inverse moments alone tell
+    CHECK(std::abs(EqualTorqueMotion<double>(p).modulus().k2 / double(k2) - 1) < 4 * epsilon<double> / gap);
   }
 }

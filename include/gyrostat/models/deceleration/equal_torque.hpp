@@ -22,7 +22,7 @@ class EqualTorqueMotion {
   /// on the separatrix (modulus().kp2 = 0) M is NaN
   explicit EqualTorqueMotion(const Problem<Scalar>& problem) noexcept
       : b_(problem.control(0, 0)), drag_(problem.drag), start_(problem.momentum), norm_(start_.norm()) {
-    polhode_ = polhode_through<Scalar>(problem.inverse_inertia, start_);
+    polhode_ = polhode_through<Scalar>(problem.inverse_inertia, problem.inverse_gaps(), start_);
     // A sphere, or M across an axis of symmetry: omega is parallel to M for ever.
     steady_ = !std::isfinite(polhode_.modulus.k2) || !std::isfinite(polhode_.modulus.kp2);
     ratio_ = start_.dot(problem.inverse_inertia.cwiseProduct(start_)) / (norm_ * norm_);

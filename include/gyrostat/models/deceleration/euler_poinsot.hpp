@@ -17,10 +17,14 @@ struct PolhodeAxes : PolhodeGaps<Scalar> {
   int near, far;         ///< indices of the principal axes; the middle one is 1
   Scalar a_near, a_far;  ///< 1/J of the axes, 1/(kg m^2)
 
-  /// @param a ascending inverse moments; @param regime about_largest or about_smallest
-  static PolhodeAxes of(const Vec3<Scalar>& a, Regime regime) noexcept {
+  /// @param a ascending inverse moments; @param gaps (a2 - a1, a3 - a2, a3 - a1), see Problem::inverse_gaps;
+  /// @param regime about_largest or about_smallest
+  static PolhodeAxes of(const Vec3<Scalar>& a, const Vec3<Scalar>& gaps, Regime regime) noexcept {
     const int n = regime == Regime::about_largest ? 0 : 2, f = 2 - n;
-    return {{std::abs(a[1] - a[n]), std::abs(a[f] - a[1]), std::abs(a[f] - a[n])}, n, f, a[n], a[f]};
+    return {{gaps[n / 2], gaps[1 - n / 2], gaps[2]}, n, f, a[n], a[f]};
+  }
+  static PolhodeAxes of(const Vec3<Scalar>& a, Regime regime) noexcept {
+    return of(a, Vec3<Scalar>(a[1] - a[0], a[2] - a[1], a[2] - a[0]), regime);
   }
 };
 
@@ -40,14 +44,19 @@ struct Polhode {
 };
 
 /// Polhode through M, from the components. M must not vanish; a sphere has none.
+/// @param a ascending inverse moments; @param gaps (a2 - a1, a3 - a2, a3 - a1), see Problem::inverse_gaps
 template <Real Scalar>
-Polhode<Scalar> polhode_through(const Vec3<Scalar>& a, const Vec3<Scalar>& M) noexcept {
+Polhode<Scalar> polhode_through(const Vec3<Scalar>& a, const Vec3<Scalar>& gaps, const Vec3<Scalar>& M) noexcept {
   const Vec3<Scalar> m = M.cwiseProduct(M);
   const Regime regime =
-      surrounds_largest<Scalar>(a[1] - a[0], a[2] - a[1], m[0], m[2]) ? Regime::about_largest : Regime::about_smallest;
-  const auto x = PolhodeAxes<Scalar>::of(a, regime);
+      surrounds_largest(gaps[0], gaps[1], m[0], m[2]) ? Regime::about_largest : Regime::about_smallest;
+  const auto x = PolhodeAxes<Scalar>::of(a, gaps, regime);
   const auto shape = PolhodeShape<Scalar>::of(x, m[x.near], m[1], m[x.far]);
   return {regime, x, shape.modulus, shape.tilt, shape.along, M[x.near] < 0 ? -1 : 1};
+}
+template <Real Scalar>
+Polhode<Scalar> polhode_through(const Vec3<Scalar>& a, const Vec3<Scalar>& M) noexcept {
+  return polhode_through<Scalar>(a, Vec3<Scalar>(a[1] - a[0], a[2] - a[1], a[2] - a[0]), M);
 }
 
 /// The same polhode family at another modulus.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/rotation/vector.hpp"
@@ -18,13 +19,21 @@ enum class Law : std::uint8_t { total, carrier };
 template <Real Scalar>
 struct Problem {
   Vec3<Scalar> inverse_inertia{1, 1, 1};  ///< a = (1/A, 1/B, 1/C), ascending, 1/(kg m^2)
-  Vec3<Scalar> rotor_momentum{0, 0, 0};   ///< l, constant in the carrier and relative to it, N m s
+  /// (a2 - a1, a3 - a2, a3 - a1), 1/(kg m^2), where they are known better than a tells (Inertia::inverse_gaps).
+  std::optional<Vec3<Scalar>> exact_gaps{};
+  Vec3<Scalar> rotor_momentum{0, 0, 0};  ///< l, constant in the carrier and relative to it, N m s
   Mat3<Scalar> control =
       Mat3<Scalar>::Zero();        ///< eps b: symmetric, diagonal if the actuators lie on principal axes, N m
   Scalar drag = 0;                 ///< eps lambda, 1/s
   Law law = Law::total;            ///< U: M or G
   Law drag_law = Law::total;       ///< D: M or G
   Vec3<Scalar> momentum{0, 0, 0};  ///< M at t = 0, N m s
+
+  /// (a2 - a1, a3 - a2, a3 - a1), as well as they are known.
+  Vec3<Scalar> inverse_gaps() const noexcept {
+    const Vec3<Scalar>& a = inverse_inertia;
+    return exact_gaps ? *exact_gaps : Vec3<Scalar>(a[1] - a[0], a[2] - a[1], a[2] - a[0]);
+  }
 
   /// g = J^-1 l, the rate at which the carrier would turn if all of l were its own, rad/s.
   Vec3<Scalar> gyro_rate() const noexcept { return inverse_inertia.cwiseProduct(rotor_momentum); }
