@@ -68,7 +68,7 @@ TEST_CASE("rung full warns where theta loses a turn", "[spinning]") {
   const Track lost = full_track(scene(p, {0, 3}), nullptr);
   REQUIRE(lost.warnings.size() == 1);
   CHECK(lost.warnings[0].code() == "gimbal-lock");
-  CHECK(lost.error[column::euler_312] > 1);
+  CHECK(lost.error.greatest() <= 1e-8);  // the attitude is as good as elsewhere
   p.angles.phi = 0.1;
   CHECK(full_track(scene(p, {0, 3}), nullptr).warnings.empty());
 }

@@ -115,6 +115,20 @@ TEST_CASE("a body that only spins and thrusts is linear at any tolerance", "[spi
   CHECK(std::isnan(solved(posed(p, 10)).scalar("secular_velocity_ratio").values[0]));
 }
 
+TEST_CASE("a good attitude is met where the angles pass cos(psi) = 0", "[spinning]") {
+  auto p = published();
+  p.torque.setZero();
+  p.rotor_momentum = p.charge_momentum = 0;
+  p.angular_velocity = {1, 0, 0};
+  const auto scene = posed(p, 3, 1e-9);
+  const Solved made = solved(scene);
+  CHECK(made.by("full"));
+  CHECK(made.answer.met);
+  CHECK(made.warns("gimbal-lock"));
+  CHECK(made.answer.find("euler_312")->error <= 1e-9);
+  check_honest(scene, made.answer);
+}
+
 TEST_CASE("a spinning scene can be cancelled and watched", "[spinning]") {
   auto p = published();
   Monitor monitor;

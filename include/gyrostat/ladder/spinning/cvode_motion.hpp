@@ -145,7 +145,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto& lever = levers[0];
   auto error = honesty::cvode_margin * pair.both.difference() + pair.tolerance * pair.both.size();
   const double attitude = error[column::attitude];
-  if (pair.both.size()[column::angular_velocity] > 0) error[column::euler_312] += lever.error(attitude);
+  error[column::euler_312] = angles_error<double>(attitude, track.states);
   track.error = pair.both.relative(error);
   if (lever.loses_turns(attitude)) detail::warn_of_gimbal_lock(track, lever.least_cosine());
   return track;

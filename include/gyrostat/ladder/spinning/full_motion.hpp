@@ -31,14 +31,15 @@ using FullMotionOptions = MotionOptions<Scalar>;
 template <Real Scalar>
 struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
   Scalar least_cosine = 1;  ///< a lower bound of cos(psi) on the way
-  bool turns_known = true;  ///< false: cos(psi) = 0 is passed on a side that the error of the attitude leaves open
+  /// false: phi or theta may be off by a turn, for cos(psi) = 0 is passed on a side that the error of the attitude leaves open
+  bool turns_known = true;
 };
 
 /// The full motion at the given times (s from the start, increasing, the first >= 0). What lies behind a failure is NaN.
 ///
-/// theta is followed turn by turn (spin_angle.hpp); phi stays within pi of its start. The angles are as good as the attitude, over
-/// cos(psi). Where the motion comes so near to cos(psi) = 0 that the error of the attitude leaves open on which side it passes, or phi
-/// so near to the end of its range, the stated error of the angles grows by a turn.
+/// theta is followed turn by turn (spin_angle.hpp); phi stays within pi of its start. The angles tell an attitude as good as that of
+/// the quaternion; phi and theta by themselves are as good over cos(psi). Where the motion comes so near to cos(psi) = 0 that the error of
+/// the attitude leaves open on which side it passes, or phi so near to the end of its range, turns_known is false.
 ///
 /// The error is estimated by a second run with a step tolerance 64 times looser and data changed by a few roundings, whose distance
 /// from the answer is some ten to a hundred times the error of the answer, plus what rounding does that no second run can show.
@@ -226,7 +227,7 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
       run.phase() * size[column::angular_momentum_inertial] + run.swing() * problem.inertia.maxCoeff();
   ColumnErrors<Scalar> error = margin * apart + rounding * parts + eps * turned;
   const Scalar attitude = error[column::attitude];
-  if (run.phase() > 0) error[column::euler_312] += lever.error(attitude);
+  error[column::euler_312] = angles_error<Scalar>(attitude, states);
   answer.least_cosine = lever.least_cosine();
   answer.turns_known = !lever.loses_turns(attitude);
   answer.error = comparison.relative(error);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/errors.hpp"
@@ -18,8 +20,10 @@ enum : std::size_t { angular_velocity, euler_312, attitude, angular_momentum_ine
 
 inline constexpr ColumnKind column_kinds[] = {
     {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity of the carrier, body axes"},
-    {"euler_312", 3, "rad", Frame::body_to_inertial, Measure::relative,
-     "angles psi, phi, theta: body to inertial is Rz(theta) Rx(psi) Ry(phi); theta counts turns"},
+    {"euler_312", 3, "rad", Frame::body_to_inertial, Measure::angle,
+     "angles psi, phi, theta: body to inertial is Rz(theta) Rx(psi) Ry(phi); theta counts turns; phi and theta may "
+     "each "
+     "be off by twice the error over cos(psi)"},
     {"attitude", 4, "1", Frame::body_to_inertial, Measure::angle, "attitude, body to inertial, [x, y, z, w]"},
     {"angular_momentum_inertial", 3, "N m s", Frame::inertial, Measure::relative,
      "angular momentum without the charge's, inertial axes"},
@@ -91,5 +95,16 @@ struct Row {
 
 template <Real Scalar>
 using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
+
+/// The error of euler_312 where the attitude errs by `attitude`, rad. The angles are judged by the attitude that they tell, for near
+/// cos(psi) = 0 phi and theta turn the body about the same axis, and only their sum or difference means anything. Angles of many turns
+/// are rounded as numbers of that size.
+template <Real Scalar>
+Scalar angles_error(Scalar attitude, std::span<const State<Scalar>> states) noexcept {
+  Scalar most = 0;
+  for (const State<Scalar>& s : states)
+    most = greater(std::abs(s.angles.psi) + std::abs(s.angles.phi) + std::abs(s.angles.theta), most);
+  return attitude + epsilon<Scalar> * most;
+}
 
 }  // namespace gyrostat::spinning

@@ -32,6 +32,7 @@ inline Track picard_track(const Scene& scene, Monitor* monitor) {
     if (!converges) continue;  // a linear motion with a small error by chance looks so to two sweeps
     const auto error = made->error.all(), size = made->size.all();
     for (std::size_t i = 0; i < error.size(); ++i) track.error[i] = over(error[i], size[i]);
+    track.error[column::euler_312] = angles_error<double>(track.error[column::attitude], track.states);
     if (track.error.greatest() <= question.tolerance) break;
   }
   if (!converges)

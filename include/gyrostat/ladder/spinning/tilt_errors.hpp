@@ -43,8 +43,6 @@ inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const Li
   ColumnErrors<double> error;
   error[column::angular_velocity] =
       std::hypot(left_out.rates, left_out.spin) + rounding * P + epsilon<double> * fastest;
-  error[column::euler_312] =
-      std::hypot(left_out.tilt, left_out.theta) + rounding * g + 4 * epsilon<double> * size[column::euler_312];
   error[column::attitude] =
       left_out.attitude + rounding * g + 4 * epsilon<double> * (1 + std::abs(problem.angles.theta) + fastest * span);
   const double torque = std::hypot(problem.torque[0], problem.torque[1]);
@@ -63,9 +61,11 @@ inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const Li
       rounding * (push * once + thrust * span * g) * span;
 
   for (std::size_t i = 0; i < std::size(column_kinds); ++i) {
-    if (i == column::attitude) error[i] = std::min(error[i], pi<double>);
-    else if (error[i] != 0) error[i] = error[i] < size[i] ? error[i] / (size[i] - error[i]) : infinity<double>;
+    if (column_kinds[i].measure == Measure::relative && error[i] != 0)
+      error[i] = error[i] < size[i] ? error[i] / (size[i] - error[i]) : infinity<double>;
   }
+  error[column::attitude] = std::min(error[column::attitude], pi<double>);
+  error[column::euler_312] = angles_error(error[column::attitude], states);
   return error;
 }
 

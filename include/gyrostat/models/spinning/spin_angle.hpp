@@ -162,7 +162,7 @@ class SpinAngle {
   Quat<Scalar> attitude_;
 };
 
-/// What an error of the attitude makes of the angles at the times at which they were looked at.
+/// How near the angles came to where an error of the attitude loses a turn of theta or phi.
 template <Real Scalar>
 class AngleLever {
  public:
@@ -178,10 +178,6 @@ class AngleLever {
   /// attitude, rad.
   bool loses_turns(Scalar attitude_error) const noexcept {
     return !(attitude_error < Scalar(0.3L) * least_cosine()) || !(attitude_error < room_ * cosine_);
-  }
-  /// The error of the angles, rad.
-  Scalar error(Scalar attitude_error) const noexcept {
-    return 2 * attitude_error / cosine_ + (loses_turns(attitude_error) ? 2 * pi<Scalar> : Scalar(0));
   }
 
  private:
