@@ -54,6 +54,19 @@ Vec3<Scalar> acceleration(const Problem<Scalar>& problem, const Quat<Scalar>& at
   return rotate<Scalar>(attitude, Vec3<Scalar>(problem.force / problem.mass));
 }
 
+/// The motion at t = 0, with the angles as they are given.
+template <Real Scalar>
+State<Scalar> start_state(const Problem<Scalar>& problem) noexcept {
+  const auto& a = problem.angles;
+  const Quat<Scalar> attitude = quaternion_from_312(a.psi, a.phi, a.theta);
+  return {problem.angular_velocity,
+          a,
+          attitude,
+          inertial_momentum(problem, problem.angular_velocity, attitude),
+          problem.velocity,
+          problem.position};
+}
+
 /// Taylor recurrences of the full equations. A state is
 ///     (p, q, r, A | w, x, y, z | u1, u2, u3, W | s1, s2, s3, -),
 /// the quaternion taking body to inertial components, and quadratures that nothing else depends on: A of r, u of the force's

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
@@ -97,12 +98,6 @@ class SpinAngle {
     const Vec3<Scalar> reduced = angles_312(attitude_);
     return {reduced[0], phi_ + std::remainder(reduced[1] - phi_, 2 * pi<Scalar>), near(reduced[2], theta_)};
   }
-  /// How far phi is from the ends of its range at the last time, rad.
-  Scalar phi_room() const noexcept {
-    return pi<Scalar> - std::abs(std::remainder(angles_312(attitude_)[1] - phi_, 2 * pi<Scalar>));
-  }
-  /// cos(psi) at the last time.
-  Scalar cosine() const noexcept { return here_.cosine; }
   /// A lower bound of cos(psi) so far.
   Scalar least_cosine() const noexcept { return least_cosine_; }
 
@@ -162,26 +157,17 @@ class SpinAngle {
   Quat<Scalar> attitude_;
 };
 
-/// How near the angles came to where an error of the attitude loses a turn of theta or phi.
+/// Whether an error of the attitude, rad, leaves a turn of theta or phi open at these states: cos(psi) came as near to zero on the way,
+/// `least_cosine`, or phi to the end of its range, pi from the start's.
 template <Real Scalar>
-class AngleLever {
- public:
-  void look(const SpinAngle<Scalar>& angle) noexcept {
-    cosine_ = std::min(cosine_, angle.cosine());
-    room_ = std::min(room_, angle.phi_room());
-    least_cosine_ = angle.least_cosine();
+bool loses_turns(std::span<const State<Scalar>> states, Scalar start_phi, Scalar least_cosine,
+                 Scalar attitude_error) noexcept {
+  for (const State<Scalar>& s : states) {
+    const Scalar cosine = std::abs(std::cos(s.angles.psi)), room = pi<Scalar> - std::abs(s.angles.phi - start_phi);
+    if (!(attitude_error < room * cosine)) return true;
+    least_cosine = std::min(least_cosine, cosine);
   }
-
-  /// A lower bound of cos(psi) up to the last time.
-  Scalar least_cosine() const noexcept { return std::min(cosine_, least_cosine_); }
-  /// Turns of theta or phi are not known: the motion came nearer to cos(psi) = 0, or phi to the end of its range, than this error of the
-  /// attitude, rad.
-  bool loses_turns(Scalar attitude_error) const noexcept {
-    return !(attitude_error < Scalar(0.3L) * least_cosine()) || !(attitude_error < room_ * cosine_);
-  }
-
- private:
-  Scalar cosine_ = 1, room_ = pi<Scalar>, least_cosine_ = 1;
-};
+  return !(attitude_error < Scalar(0.3L) * least_cosine);
+}
 
 }  // namespace gyrostat::spinning
