@@ -71,8 +71,9 @@ void check_angles(const std::vector<State<S>>& right, const std::vector<State<S>
 
 /// Errors of `found` relative to `right`.
 template <Real S>
-ColumnErrors<S> errors(const std::vector<State<S>>& right, const std::vector<State<S>>& found) {
-  Comparison comparison(Row<S>{});
+ColumnErrors<S> errors(const Problem<S>& problem, const std::vector<S>& times, const std::vector<State<S>>& right,
+                       const std::vector<State<S>>& found) {
+  Comparison comparison(Row<S>{scales(problem, times.back())});
   for (std::size_t i = 0; i < right.size(); ++i) comparison.add(right[i], found[i]);
   return comparison.relative(comparison.difference());
 }
@@ -97,7 +98,7 @@ TEST_CASE("spinning: the full motion of the reference cases", "[spinning]") {
       CAPTURE(tolerance);
       const auto solved = solve(c.problem, c.times, tolerance);
       REQUIRE(solved.answer.status == Status::reached);
-      auto found = errors(c.states, solved.states);
+      auto found = errors(c.problem, c.times, c.states, solved.states);
       check_within(found, solved.answer.error);
       check_angles(c.states, solved.states, solved.answer.error[column::euler_312]);
       found[column::euler_312] -= angles_error<double>(0, c.states);  // what writing down many turns rounds
@@ -111,7 +112,7 @@ TEST_CASE("the reference cases in long double, theta by turns among them", "[spi
   for (const auto& c : reference_cases<long double>()) {
     CAPTURE(c.name);
     const auto solved = solve(c.problem, c.times, 1e-16L);
-    const auto found = errors(c.states, solved.states);
+    const auto found = errors(c.problem, c.times, c.states, solved.states);
     check_within(found, solved.answer.error);
     check_angles(c.states, solved.states, solved.answer.error[column::euler_312]);
     CHECK(found.greatest() < 4e-17L);
@@ -128,7 +129,8 @@ TEST_CASE("spinning: the stated errors are honest", "[spinning]") {
     if (i % 4 < 2) p.force[0] = p.force[1] = 0;
     if (i % 9 == 0) p.velocity.setZero(), p.position.setZero();
     const auto times = grid(random.log_any(1, 15) * 2 * pi<double> / p.angular_velocity.norm(), 12);
-    const auto truth = solve(cast<long double>(p), std::vector<long double>(times.begin(), times.end()), 1e-16L);
+    const std::vector<long double> at(times.begin(), times.end());
+    const auto truth = solve(cast<long double>(p), at, 1e-16L);
     for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
       CAPTURE(tolerance);
       const auto solved = solve(p, times, tolerance);
@@ -136,7 +138,7 @@ TEST_CASE("spinning: the stated errors are honest", "[spinning]") {
       for (const auto& s : solved.states) found.push_back(to<long double>(s));
       ColumnErrors<long double> stated;
       for (std::size_t k = 0; k < std::size(column_kinds); ++k) stated[k] = solved.answer.error[k];
-      check_within<long double>(errors(truth.states, found), stated);
+      check_within<long double>(errors(cast<long double>(p), at, truth.states, found), stated);
       if (solved.answer.turns_known) check_angles(truth.states, found, stated[column::euler_312]);
       if (tolerance >= 1e-9) CHECK(solved.answer.met);
     }
@@ -176,11 +178,12 @@ TEST_CASE("a body that flips about its middle axis states what rounding makes of
     Problem<double> p;
     p.inertia = c.inertia;
     p.angular_velocity = c.rates;
-    const auto truth = solve(cast<long double>(p), std::vector<long double>(c.times.begin(), c.times.end()), 1e-15L);
+    const std::vector<long double> at(c.times.begin(), c.times.end());
+    const auto truth = solve(cast<long double>(p), at, 1e-15L);
     const auto solved = solve(p, c.times, c.tolerance);
     std::vector<State<long double>> found;
     for (const auto& s : solved.states) found.push_back(to<long double>(s));
-    const auto right = errors(truth.states, found);
+    const auto right = errors(cast<long double>(p), at, truth.states, found);
     for (const std::size_t i : {column::angular_velocity, column::attitude, column::angular_momentum_inertial}) {
       CAPTURE(column_kinds[i].name);
       CHECK(right[i] <= solved.answer.error[i] + truth.answer.error[i]);

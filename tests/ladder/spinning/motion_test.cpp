@@ -70,6 +70,28 @@ TEST_CASE("a row of a spinning motion has the columns of the table, one behind t
   CHECK(width == 19);
 }
 
+TEST_CASE("scales of the columns of a spinning motion", "[spinning]") {
+  Problem<double> p;
+  p.inertia = {2, 2.5, 3};
+  for (const double scale : scales(p, 10.0).of) CHECK(scale == 0);
+  p.angular_velocity = {0, 0, 2};
+  p.rotor_momentum = -6;  // the momentum is zero, its parts are not
+  p.mass = 2;
+  p.force = {0, 8, 0};
+  p.velocity = {3, 0, 0};
+  p.position = {0, 0, 7};
+  const auto e = scales(p, 10.0);
+  CHECK(e[column::angular_velocity] == 2);
+  CHECK(e[column::angular_momentum_inertial] == 12);
+  CHECK(e[column::velocity] == Approx(3 + 4 / 2.0));
+  CHECK(e[column::position] == Approx(7 + 30 + 1));
+  // from rest
+  p.angular_velocity.setZero();
+  p.torque = {0, 0, 3};
+  CHECK(scales(p, 0.1)[column::angular_velocity] == Approx(0.1));
+  CHECK(scales(p, 100.0)[column::angular_velocity] == Approx(1));
+}
+
 TEST_CASE("places in the tables of the spinning family", "[spinning]") {
   CHECK(std::string_view(column_kinds[column::euler_312].name) == "euler_312");
   CHECK(std::string_view(column_kinds[column::position].name) == "position");

@@ -129,11 +129,13 @@ inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, d
 
 }  // namespace detail
 
-/// Rung `full` by CVODE. The error is four times the distance to a second run at a tolerance ten times looser.
+/// Rung `full` by CVODE. The error is four times the distance to a second run at a tolerance ten times looser, ten times
+/// where the tighter one is the tightest that CVODE is asked for.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
+  const Row<double> row{scales(scene.problem(), scene.question().times.back())};
   double least_cosine[2] = {1, 1};
   int runs = 0;
-  auto pair = cvode_pair(Row<double>{}, scene.question().tolerance, 1e-6, [&](double tolerance) {
+  auto pair = cvode_pair(row, scene.question().tolerance, 1e-6, [&](double tolerance) {
     return detail::cvode_run(scene, tolerance, least_cosine[runs++], monitor);
   });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
@@ -141,7 +143,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   Track track;
   track.states = std::move(pair.states);
   track.counts = pair.counts;
-  auto error = honesty::cvode_margin * pair.both.difference() + pair.tolerance * pair.both.size();
+  auto error = pair.margin * pair.both.difference() + honesty::cvode_looser * pair.tolerance * pair.both.size();
   const double attitude = error[column::attitude];
   error[column::euler_312] = angles_error<double>(attitude, track.states);
   track.error = pair.both.relative(error);

@@ -172,7 +172,7 @@ class FullMotion {
         times_(times),
         states_(states),
         options_(options),
-        rate_(FullSystem<Scalar>(problem).scale(times.back())[0]),
+        rate_(problem.rate_size(times.back())),
         neighbours_{neighbour(problem, rate_, amount, 0), neighbour(problem, rate_, amount, 1)} {}
 
   /// The answer's run and its neighbours' side by side, and their distance.
@@ -188,8 +188,9 @@ class FullMotion {
     };
     Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
     const bool rounds = step_tolerance < Scalar(how.two_below) * eps;
-    const auto walk = walk_beside(Row<Scalar>{}, course, companion, second, rounds, start_state(problem_), rate_,
-                                  times_, states_, nowhere(), options_, progress_from, progress_to);
+    const auto walk =
+        walk_beside(Row<Scalar>{scales(problem_, span)}, course, companion, second, rounds, start_state(problem_),
+                    rate_, times_, states_, nowhere(), options_, progress_from, progress_to);
     answer.status = walk.status;
     answer.counts = course.counts();
     const std::uint64_t steps = answer.counts.steps;
@@ -214,12 +215,6 @@ class FullMotion {
     return answer;
   }
 
-  /// The angle turned through by the body and its nutation up to the last time, to its order, rad.
-  Scalar phase() const noexcept {
-    return times_.back() *
-           (rate_ + std::abs(problem_.gyroscopic()) / std::min(problem_.inertia[0], problem_.inertia[1]));
-  }
-
  private:
   static constexpr auto& how = honesty::side_by_side;
   static constexpr Scalar amount = Scalar(how.data_change) * epsilon<Scalar>;
@@ -227,8 +222,7 @@ class FullMotion {
   /// The sizes of the numbers that a column is made of, some of which may cancel.
   ColumnErrors<Scalar> rounded_in(const ColumnErrors<Scalar>& size) const noexcept {
     const auto& p = problem_;
-    const Scalar fastest =
-        p.angular_velocity.isZero(0) ? size[column::angular_velocity] : std::max(rate_, size[column::angular_velocity]);
+    const Scalar fastest = std::max(rate_, size[column::angular_velocity]);
     ColumnErrors<Scalar> parts = size;
     parts[column::angular_velocity] = fastest;
     parts[column::angular_momentum_inertial] = p.inertia.maxCoeff() * fastest + std::abs(p.rotor_momentum);
@@ -273,7 +267,8 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   if (times.empty()) return answer;
 
   const detail::FullMotion<Scalar> motion(problem, times, states, options);
-  const Scalar first = first_step_tolerance<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_step));
+  const Scalar first =
+      first_step_tolerance<Scalar>(options.tolerance, problem.phase(times.back()), Scalar(honesty::loosest_step));
   return tightened<Scalar>(options, first, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
     return motion.run(tolerance, begin, end);
   });

@@ -203,12 +203,9 @@ FullSystem<Real_>::FullSystem(const Problem<Scalar>& problem) noexcept
 
 template <Real Real_>
 auto FullSystem<Real_>::scale(Scalar span) const noexcept -> Numbers {
-  // rates that torques build up from rest: for a time, until the body has turned, or until gyroscopic stiffness stops them
   const Scalar rate = Vec3<Scalar>(start_[0], start_[1], start_[2]).norm();
-  const Scalar drive = angular_acceleration_.norm();
-  Scalar built = std::min(drive * span, std::sqrt(drive));
-  if (torque_[2] == 0) built = std::min(built, drive / std::max(std::abs(gyroscopic_1_), std::abs(gyroscopic_2_)));
-  const Scalar size = std::max(rate, built);
+  const Scalar stiffness = std::max(std::abs(gyroscopic_1_), std::abs(gyroscopic_2_));
+  const Scalar size = std::max(rate, built_rate(angular_acceleration_.norm(), stiffness, torque_[2] != 0, span));
   const Scalar w = size > 0 ? size : Scalar(1);  // at rest any scale will do, but zero would leave the component out
   const Scalar time = std::min(1 / w, span > 0 ? span : 1 / w);
   return {w, w, w, 0, 1, 1, 1, 1, time, time, time, 0, 0, 0, 0, 0};
