@@ -38,7 +38,7 @@ TEST_CASE("rung full of the reference cases", "[spinning]") {
     CHECK(monitor.fraction == 1);
     CHECK(track.error.greatest() <= 1e-8);
     CHECK(track.counts.steps > 0);
-    Comparison comparison(Row<double>{});
+    Comparison comparison(Row<double>{scales(c.problem, c.times.back())});
     for (std::size_t i = 0; i < c.times.size(); ++i) comparison.add(c.states[i], track.states[i]);
     CHECK(comparison.relative(comparison.difference()).greatest() < track.error.greatest());
   }
@@ -60,6 +60,19 @@ TEST_CASE("rung full hands over to the integrator that the scene brings", "[spin
   Scene scene = *made;
   scene.full_equations = &stand_in;
   CHECK(std::string_view(full_track(scene, nullptr).refusal) == "stand-in");
+}
+
+TEST_CASE("rung full refuses at once what no double can hold", "[spinning]") {
+  Problem<double> p;
+  p.inertia = {8, 9, 12};
+  p.angular_velocity = {0, 0.1, 1};
+  const Track lost = full_track(scene(p, {1e9}), nullptr);
+  CHECK(lost.failure == Errc::step_limit);
+  REQUIRE(lost.refusal != nullptr);
+  CHECK(std::string_view(lost.refusal) == phase_lost);
+  // nutation turns the phase, too
+  p.rotor_momentum = 8e6;
+  CHECK(full_track(scene(p, {1e3}), nullptr).failure == Errc::step_limit);
 }
 
 TEST_CASE("rung full warns where theta loses a turn", "[spinning]") {
