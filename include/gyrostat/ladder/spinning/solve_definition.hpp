@@ -28,11 +28,24 @@ inline double greatest_tilt(std::span<const State<double>> states) noexcept {
   return most;
 }
 
+/// The row at t = 0, where it is asked for, is the start as it was given, to the bit.
+inline void put_start(Answer& answer, const Problem<double>& problem) {
+  if (answer.times.front() != 0) return;
+  double row[row_width(column_kinds)];
+  Row<double>{}(start_state(problem), row);
+  const double* given = row;
+  for (Column& column : answer.columns) {
+    std::copy_n(given, column.kind->width, column.values.begin());
+    given += column.kind->width;
+  }
+}
+
 }  // namespace detail
 
 /// Numbers and warnings that belong to the scene, whichever rung answers.
 inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   const Problem<double>& problem = scene.problem();
+  detail::put_start(answer, problem);
   const double nu2 = problem.nutation_squared(), r0 = problem.spin();
   double mean = nan<double>;
   math::Complex<double> ratio{nan<double>, nan<double>};

@@ -34,7 +34,7 @@ class SpinAngle {
     Scalar turned;  ///< the integral of r since the start, rad
   };
 
-  /// At t = 0. theta keeps the turns of the start's, |psi| is brought below pi/2 and phi stays within pi of the start's.
+  /// At t = 0. theta keeps the turns of the start's, psi its side of pi/2, and phi stays within pi of the start's.
   explicit SpinAngle(const Problem<Scalar>& problem) noexcept
       : inertia_(problem.inertia),
         drive_(std::hypot(problem.torque[0] / inertia_[0], problem.torque[1] / inertia_[1])),
@@ -48,10 +48,11 @@ class SpinAngle {
         split_(std::abs(problem.gyroscopic() * (1 / inertia_[0] - 1 / inertia_[1])) / 2) {
     const auto& a = problem.angles;
     attitude_ = quaternion_from_312(a.psi, a.phi, a.theta);
+    half_turn_ = std::cos(a.psi) < 0 ? pi<Scalar> : Scalar(0);
     here_ = view({problem.angular_velocity, attitude_, 0});
-    const Vec3<Scalar> reduced = angles_312(attitude_);
-    phi_ = std::cos(a.psi) >= 0 ? a.phi : a.phi + std::remainder(reduced[1] - a.phi, 2 * pi<Scalar>);
-    theta_ = a.theta + std::remainder(reduced[2] - a.theta, 2 * pi<Scalar>);
+    phi_ = a.phi;
+    theta_ = near(here_.theta, a.theta);
+    psi_turns_ = near(psi(), a.psi) - psi();
   }
 
   /// Goes on to t >= the last time, where the motion is `sample`. `at(t)`: the sample at a time in between.
@@ -96,7 +97,8 @@ class SpinAngle {
   /// At the last time.
   Angles<Scalar> angles() const noexcept {
     const Vec3<Scalar> reduced = angles_312(attitude_);
-    return {reduced[0], phi_ + std::remainder(reduced[1] - phi_, 2 * pi<Scalar>), near(reduced[2], theta_)};
+    return {psi() + psi_turns_, phi_ + std::remainder(reduced[1] + half_turn_ - phi_, 2 * pi<Scalar>),
+            near(reduced[2] + half_turn_, theta_)};
   }
   /// A lower bound of cos(psi) so far.
   Scalar least_cosine() const noexcept { return least_cosine_; }
@@ -115,7 +117,7 @@ class SpinAngle {
     const Vec3<Scalar>& w = sample.angular_velocity;
     const Scalar a = 2 * (q.w * q.z - q.x * q.y), b = (q.w - q.z) * (q.w + q.z) + (q.y - q.x) * (q.y + q.x);
     View v{};
-    v.theta = std::atan2(a, b);
+    v.theta = std::atan2(a, b) + half_turn_;
     v.turned = sample.turned;
     v.cosine = std::sqrt(a * a + b * b);
     v.transverse = std::sqrt(w[0] * w[0] + w[1] * w[1]);
@@ -127,6 +129,12 @@ class SpinAngle {
     // nearer to cos(psi) = 0 than rounding the side is not known anyway
     v.room = std::max(Scalar(0.9L) * v.cosine, 16 * epsilon<Scalar>);
     return v;
+  }
+
+  /// Of two triples for the same attitude, (psi, phi, theta) and (pi - psi, phi + pi, theta + pi), the one on the side of the start.
+  Scalar psi() const noexcept {
+    const Scalar reduced = angles_312(attitude_)[0];
+    return half_turn_ > 0 ? half_turn_ - reduced : reduced;
   }
 
   /// theta plus the turns that bring it nearest to what is expected.
@@ -151,7 +159,8 @@ class SpinAngle {
 
   Vec3<Scalar> inertia_;
   Scalar drive_, axial_drive_, power_, root_transverse_, root_axial_, skew_, split_slope_, split_;
-  Scalar time_ = 0, phi_ = 0, theta_ = 0;
+  Scalar time_ = 0, phi_ = 0, theta_ = 0, psi_turns_ = 0;
+  Scalar half_turn_ = 0;  ///< pi where the start lies beyond psi = pi/2
   Scalar least_cosine_ = 1;
   View here_{};
   Quat<Scalar> attitude_;
