@@ -28,16 +28,16 @@ inline double greatest_tilt(std::span<const State<double>> states) noexcept {
   return most;
 }
 
-/// The row at t = 0, where it is asked for, is the start as it was given, to the bit.
+/// What the caller gave, to the bit, in the row at t = 0.
 inline void put_start(Answer& answer, const Problem<double>& problem) {
-  if (answer.times.front() != 0) return;
-  double row[row_width(column_kinds)];
-  Row<double>{}(start_state(problem), row);
-  const double* given = row;
-  for (Column& column : answer.columns) {
-    std::copy_n(given, column.kind->width, column.values.begin());
-    given += column.kind->width;
-  }
+  const auto& [psi, phi, theta] = problem.angles;
+  const auto put = [&](std::size_t which, const Vec3<double>& v) {
+    gyrostat::put_start(answer, column_kinds[which], {v[0], v[1], v[2]});
+  };
+  put(column::angular_velocity, problem.angular_velocity);
+  put(column::euler_312, {psi, phi, theta});
+  put(column::velocity, problem.velocity);
+  put(column::position, problem.position);
 }
 
 }  // namespace detail

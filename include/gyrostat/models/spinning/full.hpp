@@ -58,7 +58,7 @@ Vec3<Scalar> acceleration(const Problem<Scalar>& problem, const Quat<Scalar>& at
 template <Real Scalar>
 State<Scalar> start_state(const Problem<Scalar>& problem) noexcept {
   const auto& a = problem.angles;
-  const Quat<Scalar> attitude = quaternion_from_312(a.psi, a.phi, a.theta);
+  const Quat<Scalar> attitude = normalised(quaternion_from_312(a.psi, a.phi, a.theta));
   return {problem.angular_velocity,
           a,
           attitude,
