@@ -7,6 +7,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/ladder/errors.hpp"
 #include "gyrostat/ladder/family.hpp"
+#include "gyrostat/rotation/euler_312.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
@@ -46,19 +47,23 @@ class Comparison {
       const Scalar *x = a + at, *y = b + at;
       at += std::size_t(column.width);
       if (column.measure == Measure::angle) {
-        difference_[i] = greater(angle_between(quaternion(x), quaternion(y)), difference_[i]);
-      } else if (column.width == 3) {
-        const Vec3<Scalar> u(x[0], x[1], x[2]), v(y[0], y[1], y[2]);
-        size_[i] = greater(u.norm(), size_[i]);
-        difference_[i] = greater((u - v).norm(), difference_[i]);
-      } else {
-        size_[i] = greater(std::abs(x[0]), size_[i]);
-        difference_[i] = greater(std::abs(x[0] - y[0]), difference_[i]);
+        difference_[i] = greater(angle_between(attitude(x, column), attitude(y, column)), difference_[i]);
+        continue;
       }
+      size_[i] = greater(norm(x, column), size_[i]);
+      Scalar apart[3];
+      for (int j = 0; j < column.width; ++j) apart[j] = x[j] - y[j];
+      difference_[i] = greater(norm(apart, column), difference_[i]);
     }
   }
   /// One motion alone: its sizes.
-  void add(const State& state) noexcept { add(state, state); }
+  void add(const State& state) noexcept {
+    Scalar row[row_width(Writer::columns)];
+    writer_(state, row);
+    const Scalar* x = row;
+    for (std::size_t i = 0; i < count; x += Writer::columns[i++].width)
+      if (Writer::columns[i].measure != Measure::angle) size_[i] = greater(norm(x, Writer::columns[i]), size_[i]);
+  }
 
   /// In units of the columns.
   const ColumnErrors& difference() const noexcept { return difference_; }
@@ -82,8 +87,13 @@ class Comparison {
   }
 
  private:
-  /// [x, y, z, w], as a row holds it.
-  static Quat<Scalar> quaternion(const Scalar* q) noexcept { return {q[3], q[0], q[1], q[2]}; }
+  static Scalar norm(const Scalar* x, const ColumnKind& column) noexcept {
+    return column.width == 3 ? Vec3<Scalar>(x[0], x[1], x[2]).norm() : std::abs(x[0]);
+  }
+  /// From [x, y, z, w], as a row holds a quaternion, or from 3-1-2 angles.
+  static Quat<Scalar> attitude(const Scalar* x, const ColumnKind& column) noexcept {
+    return column.width == 4 ? Quat<Scalar>{x[3], x[0], x[1], x[2]} : quaternion_from_312(x[0], x[1], x[2]);
+  }
 
   Writer writer_;
   ColumnErrors difference_{}, size_{}, scale_{};

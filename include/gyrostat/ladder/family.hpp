@@ -21,7 +21,7 @@ enum class Frame : std::uint8_t {
 /// How the error of a column or scalar is measured.
 enum class Measure : std::uint8_t {
   relative,  ///< norm of the difference over the scale of the column
-  angle,     ///< angle of the rotation between the two attitudes, rad
+  angle,     ///< angle of the rotation between the two attitudes, given as quaternions or as angles, rad
   absolute,  ///< the difference itself, in the unit
   none,      ///< it has no error: a word, a definition
 };

@@ -19,11 +19,8 @@ struct Companions {
       margin_of_rounding;  ///< the same where rounding rules: both runs err alike, and may come near each other by chance
 };
 
-/// Watched in every step, all components moved: rotor and heavy.
+/// Watched in every step, all components moved: rotor, spinning and heavy.
 inline constexpr Companions side_by_side{64, 64, 8, 512, 6, 8};
-/// Compared at the asked times, data moved axis by axis: spinning. Six: one answer in ten thousand has a step that is far too long, for its
-/// last terms nearly vanish.
-inline constexpr Companions spinning_run{64, 32, 4, 0, 6, 6};
 /// Compared at the asked times, the same data in another step sequence: deceleration.
 inline constexpr Companions deceleration_run{64, 32, 0, 16, 3, 6};
 

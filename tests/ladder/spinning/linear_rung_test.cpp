@@ -62,6 +62,23 @@ TEST_CASE("rung linear beyond small tilt is passed over; by name it answers with
   CHECK(named.warnings[0].value > small_tilt);
 }
 
+TEST_CASE("rung linear refuses where the motion grows beyond the greatest double", "[spinning]") {
+  Problem<double> p;
+  p.inertia = {8, 12, 10};
+  p.angular_velocity = {1e-3, 0, 1};
+  REQUIRE(p.nutation_squared() < 0);
+  for (const double span : {2e3, 2e4, 2e6}) {
+    for (const int count : {10, 700}) {
+      CAPTURE(span, count);
+      const Track track =
+          linear_track(posed(p, span / std::sqrt(-p.nutation_squared()), 1e-3, rung::linear, count), nullptr);
+      CHECK(track.failure == Errc::not_finite);
+      REQUIRE(track.refusal != nullptr);
+      CHECK(track.states.empty());
+    }
+  }
+}
+
 TEST_CASE("rung linear on long even grids is the linear motion at each time", "[spinning]") {
   for (int kind = 0; kind < 4; ++kind) {
     CAPTURE(kind);

@@ -31,6 +31,28 @@ TEST_CASE("rung picard by name sweeps until it meets the tolerance", "[spinning]
   CHECK(many > few);
 }
 
+TEST_CASE("rung picard states what rounding of a large spin angle costs, and a last sweep that moves little by chance",
+          "[spinning]") {
+  Problem<double> p;
+  p.inertia = {1132.0630297921973, 1132.0917629432736, 543.5339377670994};
+  p.mass = 94.68392106416042;
+  p.torque = {0.4807311981368295, 0.4807311981368295, 0};
+  p.force = {0, 0, 397.6126199850623};
+  p.angular_velocity = {0.01024258402711947, 0, 1.0365541441833768};
+  p.angles.theta = -91.35443954181082;
+  const auto turned = posed(p, 7.160638066378442, 1e-9, rung::picard, 956);
+  check_honest(turned, picard_track(turned, nullptr));
+  p.inertia = {78.36256809459421, 78.36092548596476, 103.91722604200412};
+  p.mass = 1072.148970709003;
+  p.rotor_momentum = -8.171551047717324;
+  p.torque = {0.0058584603884326535, 0.0058584603884326535, 0};
+  p.force = {0, 0, 254.0840826307396};
+  p.angular_velocity = {-0.00016630366262456085, 0, -0.53538474211284};
+  p.angles = {0.06294914698270158, -1.7370628208768457e-05, 0.41120701838003093};
+  const auto little = posed(p, 43.25961068447089, 1e-9, rung::picard, 1);
+  check_honest(little, picard_track(little, nullptr));
+}
+
 TEST_CASE("rung picard leaves the ladder to the full equations", "[spinning]") {
   const auto p = Spinners(17).spinner(0.01);
   const Track track = picard_track(posed(p, 1), nullptr);

@@ -44,6 +44,23 @@ TEST_CASE("rung second-order is passed over where it does not apply or would har
   CHECK(axial.refusal != nullptr);
 }
 
+TEST_CASE("rung second-order is passed over at more than four times a turn, where the full equations cost less",
+          "[spinning]") {
+  Problem<double> p;
+  p.inertia = {245, 240, 485};
+  p.mass = 15;
+  p.torque = {5.5e-6, 0, 0};
+  p.force = {0, 0, 1.1e-3};
+  p.angular_velocity = {2e-5, 0, 0.15707963267948966};
+  const double span = 7200;
+  const int turns = 180;
+  CHECK(second_order_track(posed(p, span, 1e-4, any_rung, 3 * turns), nullptr).failure == Errc::ok);
+  const Track many = second_order_track(posed(p, span, 1e-4, any_rung, 20 * turns), nullptr);
+  CHECK(many.failure == Errc::not_applicable);
+  CHECK(many.refusal != nullptr);
+  CHECK(second_order_track(posed(p, span, 1e-4, rung::second_order, 20 * turns), nullptr).failure == Errc::ok);
+}
+
 TEST_CASE("rung second-order at the start alone", "[spinning]") {
   auto p = Spinners(5).spinner(1e-3);
   Question question;

@@ -55,6 +55,7 @@ TEST_CASE("the published data climb to the full equations", "[spinning]") {
   check_honest(scene, made.answer);
   CHECK(made.scalar("pointing_error").values[0] == Approx(3.411).epsilon(1e-3));
   CHECK(made.scalar("tilt_max").values[0] > 2.4);
+  CHECK(made.scalar("tilt_max").error == made.answer.find("attitude")->error);
   CHECK(made.scalar("nutation_frequency_squared").values[0] == Approx(0.19673 * 0.19673).epsilon(1e-4));
 
   const Solved linear = solved(posed(published(), 50, 1e-3, rung::linear));
@@ -113,6 +114,71 @@ TEST_CASE("a body that only spins and thrusts is linear at any tolerance", "[spi
   CHECK(made.scalar("secular_velocity_ratio").values[1] == 0);
   p.force.setZero();
   CHECK(std::isnan(solved(posed(p, 10)).scalar("secular_velocity_ratio").values[0]));
+}
+
+TEST_CASE("a good attitude is met where the angles pass cos(psi) = 0", "[spinning]") {
+  auto p = published();
+  p.torque.setZero();
+  p.rotor_momentum = p.charge_momentum = 0;
+  p.angular_velocity = {1, 0, 0};
+  const auto scene = posed(p, 3, 1e-9);
+  const Solved made = solved(scene);
+  CHECK(made.by("full"));
+  CHECK(made.answer.met);
+  CHECK(made.warns("gimbal-lock"));
+  CHECK(made.answer.find("euler_312")->error <= 1e-9);
+  check_honest(scene, made.answer);
+}
+
+TEST_CASE("the first row of a spinning motion is the start as given, to the bit", "[spinning]") {
+  auto p = published();
+  p.angular_velocity = {0.1, -0.2, 6};
+  p.torque = {0.003, 0, 0};
+  p.velocity = {1.1, 2.2, 3.3};
+  p.position = {0.1, 0.7, -0.3};
+  for (const Angles<double> angles : {Angles<double>{0.013, -0.027, 31.7}, Angles<double>{2.3, 0.3, -4.1}}) {
+    p.angles = angles;
+    for (const int model : {rung::linear, rung::second_order, rung::picard, rung::full}) {
+      CAPTURE(model, angles.psi);
+      Question question;
+      question.times = {0, 0.01, 0.02};
+      question.tolerance = 1e-3;
+      question.rung = model;
+      const Solved made = solved(*Scene::make(p, question));
+      if (angles.psi > 1 && model != rung::full) continue;
+      REQUIRE(made.refusal.code == Errc::ok);
+      const auto first = [&](const char* name, int i) { return made.answer.find(name)->values[std::size_t(i)]; };
+      for (int i = 0; i < 3; ++i) {
+        CHECK(first("angular_velocity", i) == p.angular_velocity[i]);
+        CHECK(first("velocity", i) == p.velocity[i]);
+        CHECK(first("position", i) == p.position[i]);
+      }
+      CHECK(first("euler_312", 0) == angles.psi);
+      CHECK(first("euler_312", 1) == angles.phi);
+      CHECK(first("euler_312", 2) == angles.theta);
+      // and the next row goes on from there
+      CHECK(std::abs(first("euler_312", 3) - angles.psi) < 0.1);
+      CHECK(std::abs(first("euler_312", 4) - angles.phi) < 0.1);
+      CHECK(std::abs(first("euler_312", 5) - angles.theta) < 0.2);
+    }
+  }
+}
+
+TEST_CASE("a position that comes back to zero is judged by its scale", "[spinning]") {
+  // the force turns with the body: after a whole turn velocity and way start anew
+  Problem<double> p;
+  p.force = {4, 0, 0};
+  p.angular_velocity = {0, 0, 3};
+  Question question;
+  question.times = {2 * pi<double> / 3};
+  question.tolerance = 1e-9;
+  question.rung = rung::full;
+  const auto scene = *Scene::make(p, question);
+  const Solved made = solved(scene);
+  REQUIRE(made.refusal.code == Errc::ok);
+  CHECK(made.answer.met);
+  CHECK(std::abs(made.answer.find("velocity")->values[0]) < 1e-12);
+  check_honest(scene, made.answer);
 }
 
 TEST_CASE("a spinning scene can be cancelled and watched", "[spinning]") {

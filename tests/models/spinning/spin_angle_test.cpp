@@ -141,12 +141,21 @@ TEST_CASE("the start gives the turns of theta and the range of phi", "[spinning]
   const auto at = [&](double t) { return sphere.at(t); };
   angle.follow(1, at(1), at);
   CHECK(angle.angles().phi > pi<double>);  // within pi of the start
-  // beyond pi/2 the same attitude has another name
-  p.angles = {2, 0.1, 0.3};
-  const auto other = SpinAngle<double>(p).angles();
-  CHECK(other.psi == Approx(pi<double> - 2));
-  CHECK(std::abs(other.phi - 0.1) == Approx(pi<double>));
-  CHECK(std::abs(other.theta - 0.3) == Approx(pi<double>));
+  // beyond pi/2 the angles keep to the side of the start
+  for (const double psi : {2.0, -2.0, 4.0, 7.0, -20.0}) {
+    CAPTURE(psi);
+    p.angles = {psi, 0.1, 0.3};
+    SpinAngle<double> beyond(p);
+    CHECK(beyond.angles().psi == Approx(psi));
+    CHECK(beyond.angles().phi == Approx(0.1));
+    CHECK(beyond.angles().theta == Approx(0.3));
+    beyond.follow(1, at(1), at);
+    const auto b = beyond.angles();
+    CHECK(std::abs(b.psi - psi) < 0.3);
+    CHECK(std::abs(b.phi - 0.1) < 0.6);
+    const Quat<double> d = conjugate(at(1).attitude) * quaternion_from_312(b.psi, b.phi, b.theta);
+    CHECK(std::hypot(d.x, d.y, d.z) < 1e-14);
+  }
 }
 
 TEST_CASE("where the search is cut into too many pieces theta is known but for turns", "[spinning]") {

@@ -83,9 +83,8 @@ class CvodeEquations {
   Vec3<double> direction_;
 };
 
-/// One CVODE run; `lever` gathers what an error of the attitude makes of the angles.
-inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, AngleLever<double>& lever,
-                                         Monitor* monitor) {
+/// One CVODE run. least_cosine: a lower bound of cos(psi) on the way.
+inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, double& least_cosine, Monitor* monitor) {
   const auto& times = scene.question().times;
   const double end = times.back();
   CvodeEquations equations(scene.problem(), end);
@@ -95,7 +94,7 @@ inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, A
   run.states.reserve(times.size());
   const auto keep = [&](double t, const double* y) {
     run.states.push_back(equations.state(t, y, angle.angles()));
-    lever.look(angle);
+    least_cosine = angle.least_cosine();
   };
   if (!(times.front() > 0)) keep(0, start.data());
   if (!(end > 0)) return run;
@@ -130,24 +129,26 @@ inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, A
 
 }  // namespace detail
 
-/// Rung `full` by CVODE. The error is four times the distance to a second run at a tolerance ten times looser.
+/// Rung `full` by CVODE. The error is four times the distance to a second run at a tolerance ten times looser, ten times
+/// where the tighter one is the tightest that CVODE is asked for.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
-  AngleLever<double> levers[2];
+  const Row<double> row{scales(scene.problem(), scene.question().times.back())};
+  double least_cosine[2] = {1, 1};
   int runs = 0;
-  auto pair = cvode_pair(Row<double>{}, scene.question().tolerance, 1e-6, [&](double tolerance) {
-    return detail::cvode_run(scene, tolerance, levers[runs++], monitor);
+  auto pair = cvode_pair(row, scene.question().tolerance, 1e-6, [&](double tolerance) {
+    return detail::cvode_run(scene, tolerance, least_cosine[runs++], monitor);
   });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
   Track track;
   track.states = std::move(pair.states);
   track.counts = pair.counts;
-  const auto& lever = levers[0];
-  auto error = honesty::cvode_margin * pair.both.difference() + pair.tolerance * pair.both.size();
+  auto error = pair.margin * pair.both.difference() + honesty::cvode_looser * pair.tolerance * pair.both.size();
   const double attitude = error[column::attitude];
-  if (pair.both.size()[column::angular_velocity] > 0) error[column::euler_312] += lever.error(attitude);
+  error[column::euler_312] = angles_error<double>(attitude, track.states);
   track.error = pair.both.relative(error);
-  if (lever.loses_turns(attitude)) detail::warn_of_gimbal_lock(track, lever.least_cosine());
+  if (loses_turns<double>(track.states, scene.problem().angles.phi, least_cosine[0], attitude))
+    detail::warn_of_gimbal_lock(track, least_cosine[0]);
   return track;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
-#include "gyrostat/ladder/comparison.hpp"
+#include "gyrostat/ladder/companions.hpp"
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/spinning/motion.hpp"
@@ -31,18 +32,21 @@ using FullMotionOptions = MotionOptions<Scalar>;
 template <Real Scalar>
 struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
   Scalar least_cosine = 1;  ///< a lower bound of cos(psi) on the way
-  bool turns_known = true;  ///< false: cos(psi) = 0 is passed on a side that the error of the attitude does not decide
+  /// false: phi or theta may be off by a turn, for cos(psi) = 0 is passed on a side that the error of the attitude does not decide
+  bool turns_known = true;
 };
 
 /// The full motion at the given times (s from the start, increasing, the first >= 0). What lies behind a failure is NaN.
 ///
-/// theta is followed turn by turn (spin_angle.hpp); phi stays within pi of its start. The angles are as good as the attitude, over
-/// cos(psi). Where the motion comes so near to cos(psi) = 0 that the error of the attitude does not decide on which side it passes, or phi
-/// so near to the end of its range, the stated error of the angles grows by a turn.
+/// theta is followed turn by turn (spin_angle.hpp); phi stays within pi of its start. The angles tell an attitude as good as that of
+/// the quaternion; phi and theta by themselves are as good over cos(psi). Where the motion comes so near to cos(psi) = 0 that the error of
+/// the attitude leaves open on which side it passes, or phi so near to the end of its range, turns_known is false.
 ///
-/// The error is estimated by a second run with a step tolerance 64 times looser and data changed by a few roundings, whose distance
-/// from the answer is some ten to a hundred times the error of the answer, plus what rounding does that no second run can show.
-/// So the estimate is safe rather than sharp. A run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
+/// The error is estimated by a second run of a neighbour: data and start differ by a few roundings, and the steps have a tolerance 64
+/// times looser (two neighbours where rounding is part of the error). Its distance from the answer, watched in every step and
+/// kept for some twenty turns, is some ten to a hundred times the error of the answer, and shows what the motion makes of
+/// errors: that phases drift, and that all differences grow where it leaves an unstable rotation. So the estimate is safe rather than
+/// sharp. A run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
 ///
 /// Errors: not_increasing (times), not_finite (problem or times), not_positive (inertia, mass), out_of_domain (a span of the wrong
 /// length).
@@ -53,186 +57,192 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
 
 namespace detail {
 
-/// One run: hands (index, state) of every time to the sink, in order.
+/// One run. That of the answer follows the angles, and its steps are moved onto the laws that the motion obeys exactly. Companions leave
+/// the angles at zero, for their attitude says all, and do without the laws: kept by all runs alike, they would hide what rounding
+/// makes of energy and momentum, which decides when a body flips that turns about its middle axis.
 template <Real Scalar>
-class FullRun {
+class Course {
  public:
-  using System = FullSystem<Scalar>;
-  using Solver = ode::Taylor<System>;
-  static constexpr int width = System::width;
-
-  FullRun(const Problem<Scalar>& problem, Scalar step_tolerance, const FullMotionOptions<Scalar>& options,
-          double progress_from, double progress_to) noexcept
+  Course(const Problem<Scalar>& problem, Scalar span, Scalar tolerance, std::uint64_t step_cap, bool follows) noexcept
       : problem_(problem),
         system_(problem),
+        solver_(system_, 0, system_.start(), options(system_, span, tolerance, step_cap, follows)),
         angle_(problem),
-        step_tolerance_(step_tolerance),
-        options_(options),
-        progress_from_(progress_from),
-        progress_to_(progress_to) {}
+        follows_(follows) {}
 
-  template <class Sink>
-  ode::Status operator()(std::span<const Scalar> times, Sink&& sink) noexcept {
-    using ode::Status;
-    const Scalar end = times.empty() ? Scalar(0) : times.back();
-    ode::TaylorOptions<Scalar, width> how;
-    how.tolerance = step_tolerance_;
-    how.step_cap = options_.step_cap;
-    how.scale = system_.scale(end);
-    Solver solver(system_, 0, system_.start(), how);
-
-    alignas(32) Scalar x[width];
-    const auto sample = [&](const Scalar* numbers) noexcept {
-      return
-          typename SpinAngle<Scalar>::Sample{system_.angular_velocity(numbers), system_.attitude(numbers), numbers[3]};
-    };
-    const auto between = [&](Scalar t) noexcept {
-      solver.at(t, x, 8);
-      return sample(x);
-    };
-    std::copy(system_.start().begin(), system_.start().end(), x);
-    std::size_t next = 0;
-    for (; next < times.size() && times[next] <= 0; ++next) hand(next, 0, sample(x), x, sink);
-
-    const Scalar stiffness = std::abs(problem_.gyroscopic()) / std::min(problem_.inertia[0], problem_.inertia[1]);
-    Status status = Status::reached;
-    std::uint32_t trips = 0;
-    while (next < times.size()) {
-      const Scalar before = solver.time();
-      status = solver.step(end);
-      if (status != Status::reached) break;
-      const Scalar now = solver.time();
-      for (; next < times.size() && times[next] < now; ++next) {
-        alignas(32) Scalar y[width];
-        solver.at(times[next], y);
-        const auto seen = sample(y);
-        angle_.follow(times[next], seen, between);
-        hand(next, times[next], seen, y, sink);
-      }
-      const auto seen = sample(solver.state());
-      angle_.follow(now, seen, between);
-      for (; next < times.size() && times[next] <= now; ++next) hand(next, now, seen, solver.state(), sink);
-      phase_ += (now - before) * (2 * seen.angular_velocity.norm() + stiffness);
-      swing_ += (now - before) * angular_acceleration<Scalar>(problem_, seen.angular_velocity).norm();
-      if ((++trips & 255U) == 0) {
-        if (options_.cancelled()) {
-          status = Status::cancelled;
-          break;
-        }
-        report(static_cast<double>(now / end));
-      }
-    }
-    counts_ = solver.counts();
-    constexpr Scalar none = nan<Scalar>;
-    const Vec3<Scalar> nothing = Vec3<Scalar>::Constant(none);
-    for (; next < times.size(); ++next)
-      sink(next, State<Scalar>{nothing, {none, none, none}, {none, none, none, none}, nothing, nothing, nothing});
-    report(1);
+  ode::Status step(Scalar t_max) noexcept {
+    if (follows_) follow(solver_.time(), sample(solver_.state()));  // before the last step is forgotten
+    return solver_.step(t_max);
+  }
+  /// Steps until the last of them holds t or ends at t_max.
+  ode::Status reach(Scalar t, Scalar t_max) noexcept {
+    ode::Status status = ode::Status::reached;
+    while (status == ode::Status::reached && time() < t && time() < t_max) status = step(t_max);
     return status;
   }
+  Scalar time() const noexcept { return solver_.time(); }
 
-  const ode::Counts& counts() const noexcept { return counts_; }
-  /// Bound of the angle turned through by the body and its nutation up to the last time, rad.
-  Scalar phase() const noexcept { return phase_; }
-  /// The integral of |omega'|, rad/s.
-  Scalar swing() const noexcept { return swing_; }
-  /// The angles at the time last handed out, and how near they came to where they jump.
-  const SpinAngle<Scalar>& angle() const noexcept { return angle_; }
-
- private:
-  template <class Sink>
-  void hand(std::size_t i, Scalar t, const typename SpinAngle<Scalar>::Sample& seen, const Scalar* x,
-            Sink& sink) noexcept {
-    sink(i, State<Scalar>{seen.angular_velocity, angle_.angles(), seen.attitude,
-                          inertial_momentum<Scalar>(problem_, seen.angular_velocity, seen.attitude),
-                          system_.velocity(x), system_.position(t, x)});
+  /// The state at t in the last step; no time before one that was asked for.
+  State<Scalar> at(Scalar t) noexcept {
+    alignas(32) Scalar x[System::width];
+    if (t < time()) solver_.at(t, x);
+    else std::copy(solver_.state(), solver_.state() + System::width, x);
+    const auto seen = sample(x);
+    if (follows_) follow(t, seen);
+    return {seen.angular_velocity, follows_ ? angle_.angles() : Angles<Scalar>{},
+            seen.attitude,         inertial_momentum<Scalar>(problem_, seen.angular_velocity, seen.attitude),
+            system_.velocity(x),   system_.position(t, x)};
   }
 
-  void report(double done) const noexcept {
-    options_.report(progress_from_ + std::clamp(done, 0.0, 1.0) * (progress_to_ - progress_from_));
+  const ode::Counts& counts() const noexcept { return solver_.counts(); }
+  /// A lower bound of cos(psi) on the way.
+  Scalar least_cosine() const noexcept { return angle_.least_cosine(); }
+
+ private:
+  using System = FullSystem<Scalar>;
+  using Solver = ode::Taylor<System>;
+  using Sample = typename SpinAngle<Scalar>::Sample;
+
+  static auto options(const System& system, Scalar span, Scalar tolerance, std::uint64_t step_cap,
+                      bool projected) noexcept {
+    typename Solver::Options options;
+    options.tolerance = tolerance;
+    options.scale = system.scale(span);
+    options.step_cap = step_cap;
+    options.projected = projected;
+    return options;
+  }
+  Sample sample(const Scalar* x) const noexcept { return {system_.angular_velocity(x), system_.attitude(x), x[3]}; }
+  void follow(Scalar t, const Sample& seen) noexcept {
+    angle_.follow(t, seen, [this](Scalar between) noexcept {
+      alignas(32) Scalar x[System::width];
+      solver_.at(between, x, 8);
+      return sample(x);
+    });
   }
 
   const Problem<Scalar>& problem_;
   System system_;
+  Solver solver_;
   SpinAngle<Scalar> angle_;
-  Scalar step_tolerance_;
-  const FullMotionOptions<Scalar>& options_;
-  double progress_from_, progress_to_;
-  Scalar phase_ = 0, swing_ = 0;
-  ode::Counts counts_;
+  bool follows_;
 };
 
-/// The answer's run, the companion's run, and their distance.
+/// Whether the body turns about one principal axis for ever, so that the rates across it stay zero.
 template <Real Scalar>
-FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, std::span<const Scalar> times,
-                                                std::span<State<Scalar>> states,
-                                                const FullMotionOptions<Scalar>& options, Scalar step_tolerance,
-                                                double progress_from, double progress_to) noexcept {
-  constexpr Scalar eps = epsilon<Scalar>;
-  constexpr auto& how = honesty::spinning_run;
-  constexpr Scalar data = Scalar(how.data_change) * eps;
-  FullMotionAnswer<Scalar> answer;
-  answer.step_tolerance = step_tolerance;
-  const double middle = progress_from + 0.55 * (progress_to - progress_from);
-
-  Scalar momentum_size = 0;
-  AngleLever<Scalar> lever;
-  FullRun<Scalar> run(problem, step_tolerance, options, progress_from, middle);
-  answer.status = run(times, [&](std::size_t i, const State<Scalar>& state) noexcept {
-    states[i] = state;
-    lever.look(run.angle());
-    momentum_size = std::max(momentum_size, problem.inertia.cwiseProduct(state.angular_velocity).norm());
-  });
-  answer.counts = run.counts();
-  if (answer.status != ode::Status::reached) return answer;
-
-  // a few roundings away, so that a motion that amplifies the rounding of its data shows it
-  Problem<Scalar> near = problem;
-  for (const int axis : {0, 1}) {
-    const Scalar change = axis == 0 ? 1 + data : 1 - data;
-    near.angular_velocity[axis] *= change;
-    near.torque[axis] *= change;
+bool keeps_axis(const Problem<Scalar>& problem) noexcept {
+  const auto &w = problem.angular_velocity, &M = problem.torque;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    if (w[i] == 0 && w[j] == 0 && M[i] == 0 && M[j] == 0 && (k == 2 || problem.gyroscopic() == 0)) return true;
   }
+  return false;
+}
+
+/// A problem that differs from the given one by about `amount`: by what rounding makes of data and arithmetic, which errs by what
+/// the greatest rate, about `rate`, rounds to. What is equal or zero by a symmetry stays so. which: 0 or 1, in another direction.
+template <Real Scalar>
+Problem<Scalar> neighbour(const Problem<Scalar>& of, Scalar rate, Scalar amount, int which) noexcept {
+  const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
+  const Vec3<Scalar> v = amount * (which == 0 ? Vec3<Scalar>(number(0.6L), number(-0.64L), number(0.48L))
+                                              : Vec3<Scalar>(number(-0.48L), number(0.6L), number(0.64L)));
+  const bool symmetric = of.inertia[0] == of.inertia[1], kept = keeps_axis(of);
+  Problem<Scalar> near = of;
+  near.inertia[0] *= 1 + v[0];
+  near.inertia[1] *= 1 + (symmetric ? v[0] : v[1]);
+  near.inertia[2] *= 1 + v[2];
   // the stiffness is a difference of terms that may nearly cancel
-  near.rotor_momentum *= 1 + data;
-  near.charge_momentum *= 1 - data;
-  FullRun<Scalar> companion(near, std::max(step_tolerance * Scalar(how.looser), Scalar(how.least_loose) * eps), options,
-                            middle, progress_to);
-  Comparison comparison(Row<Scalar>{});
-  const auto status =
-      companion(times, [&](std::size_t i, const State<Scalar>& state) noexcept { comparison.add(states[i], state); });
-  answer.counts += companion.counts();
-  if (status != ode::Status::reached) {
-    answer.status = status;
+  near.rotor_momentum *= 1 + v[0];
+  near.charge_momentum *= 1 + v[1];
+  for (int i = 0; i < 3; ++i) {
+    const Scalar part = v[(i + 1) % 3];
+    near.torque[i] *= 1 + part;
+    Scalar& w = near.angular_velocity[i];
+    if (w != 0 || !kept) w += rate * amount / (part > 0 ? 2 : -2);
+  }
+  return near;
+}
+
+template <Real Scalar>
+class FullMotion {
+ public:
+  FullMotion(const Problem<Scalar>& problem, std::span<const Scalar> times, std::span<State<Scalar>> states,
+             const FullMotionOptions<Scalar>& options) noexcept
+      : problem_(problem),
+        times_(times),
+        states_(states),
+        options_(options),
+        rate_(problem.rate_size(times.back())),
+        neighbours_{neighbour(problem, rate_, amount, 0), neighbour(problem, rate_, amount, 1)} {}
+
+  /// The answer's run and its neighbours' side by side, and their distance.
+  FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
+    constexpr Scalar eps = epsilon<Scalar>;
+    FullMotionAnswer<Scalar> answer;
+    answer.step_tolerance = step_tolerance;
+    const Scalar span = times_.back();
+    Course<Scalar> course(problem_, span, step_tolerance, options_.step_cap, true);
+    const auto beside = [&](const Problem<Scalar>& near) noexcept {
+      const Scalar loose = std::max(Scalar(how.looser) * step_tolerance, Scalar(how.least_loose) * eps);
+      return Course<Scalar>(near, span, loose, options_.step_cap, false);
+    };
+    Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
+    const bool rounds = step_tolerance < Scalar(how.two_below) * eps;
+    const auto walk =
+        walk_beside(Row<Scalar>{scales(problem_, span)}, course, companion, second, rounds, start_state(problem_),
+                    rate_, times_, states_, nowhere(), options_, progress_from, progress_to);
+    answer.status = walk.status;
+    answer.counts = course.counts();
+    const std::uint64_t steps = answer.counts.steps;
+    answer.counts += companion.counts();
+    answer.counts += second.counts();
+    if (answer.status != ode::Status::reached) {
+      answer.error = ColumnErrors<Scalar>::all(nan<Scalar>);
+      return answer;
+    }
+
+    // What the runs share: the polynomial of a step, good to its tolerance, and rounding at the asked times.
+    const Scalar margin = Scalar(rounds ? how.margin_of_rounding : how.margin);
+    const Scalar rounding_walk = eps * std::sqrt(static_cast<Scalar>(steps));
+    const Scalar shared = 4 * (4 * eps + rounding_walk + 2 * step_tolerance);
+    ColumnErrors<Scalar> error = margin * walk.distance + shared * rounded_in(walk.asked.size());
+    error[column::euler_312] = angles_error<Scalar>(error[column::attitude], states_);
+    answer.least_cosine = course.least_cosine();
+    answer.turns_known =
+        !loses_turns<Scalar>(states_, problem_.angles.phi, answer.least_cosine, error[column::attitude]);
+    answer.error = relative_to_truth(walk.asked.relative(error), column_kinds);
+    answer.met = answer.error.greatest() <= options_.tolerance;
     return answer;
   }
 
-  constexpr Scalar margin = Scalar(how.margin);
-  // Rounding in every step adds up like a random walk, which the second run may miss by chance.
-  const Scalar walk = 2 * eps * std::sqrt(static_cast<Scalar>(run.counts().steps));
-  // What both runs share: the polynomial of a step that both take, good to the step tolerance; and the rounding of the data on their
-  // way into the recurrences, a relative change of all rates by about a rounding, which turns the phase.
-  const Scalar rounding = 8 * eps + walk + 2 * step_tolerance;
-  const auto& apart = comparison.difference();
-  const auto& size = comparison.size();
-  // what a column is rounded in, and what the phase adds
-  ColumnErrors<Scalar> parts = size, turned;
-  parts[column::attitude] = 4;
-  parts[column::angular_momentum_inertial] = momentum_size + std::abs(problem.rotor_momentum);
-  parts[column::position] += problem.position.norm();
-  turned[column::angular_velocity] = run.swing();
-  turned[column::attitude] = run.phase();
-  turned[column::angular_momentum_inertial] =
-      run.phase() * size[column::angular_momentum_inertial] + run.swing() * problem.inertia.maxCoeff();
-  ColumnErrors<Scalar> error = margin * apart + rounding * parts + eps * turned;
-  const Scalar attitude = error[column::attitude];
-  if (run.phase() > 0) error[column::euler_312] += lever.error(attitude);
-  answer.least_cosine = lever.least_cosine();
-  answer.turns_known = !lever.loses_turns(attitude);
-  answer.error = comparison.relative(error);
-  answer.met = answer.error.greatest() <= options.tolerance;
-  return answer;
-}
+ private:
+  static constexpr auto& how = honesty::side_by_side;
+  static constexpr Scalar amount = Scalar(how.data_change) * epsilon<Scalar>;
+
+  /// The sizes of the numbers that a column is made of, some of which may cancel.
+  ColumnErrors<Scalar> rounded_in(const ColumnErrors<Scalar>& size) const noexcept {
+    const auto& p = problem_;
+    const Scalar fastest = std::max(rate_, size[column::angular_velocity]);
+    ColumnErrors<Scalar> parts = size;
+    parts[column::angular_velocity] = fastest;
+    parts[column::angular_momentum_inertial] = p.inertia.maxCoeff() * fastest + std::abs(p.rotor_momentum);
+    parts[column::velocity] += p.velocity.norm();
+    parts[column::position] += p.position.norm() + p.velocity.norm() * times_.back();
+    return parts;
+  }
+  static State<Scalar> nowhere() noexcept {
+    constexpr Scalar no = nan<Scalar>;
+    const Vec3<Scalar> nothing = Vec3<Scalar>::Constant(no);
+    return {nothing, {no, no, no}, {no, no, no, no}, nothing, nothing, nothing};
+  }
+
+  const Problem<Scalar>& problem_;
+  std::span<const Scalar> times_;
+  std::span<State<Scalar>> states_;
+  const FullMotionOptions<Scalar>& options_;
+  Scalar rate_;  ///< how fast the body turns, or is soon made to, rad/s
+  std::array<Problem<Scalar>, 2> neighbours_;
+};
 
 }  // namespace detail
 
@@ -252,18 +262,15 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
     return Errc::not_finite;
   if (!(problem.inertia.minCoeff() > 0) || !(problem.mass > 0)) return Errc::not_positive;
 
-  // First guess of the step tolerance. The error of the rates grows with the number of turns, that of the phase with its square.
-  const Scalar span = times.empty() ? Scalar(0) : times.back();
-  const Scalar phase = span * (problem.angular_velocity.norm() +
-                               std::abs(problem.gyroscopic()) / std::min(problem.inertia[0], problem.inertia[1]));
-  constexpr Scalar finest = finest_step_tolerance<Scalar>;
-  Scalar step_tolerance = options.tolerance * Scalar(honesty::first_share) /
-                          (Scalar(honesty::drifting_base) + Scalar(honesty::drifting_phase) * phase * phase);
-  step_tolerance = std::clamp(step_tolerance, finest, Scalar(honesty::loosest_step));
-  if (!(step_tolerance >= finest)) step_tolerance = finest;
+  FullMotionAnswer<Scalar> answer;
+  answer.met = true;
+  if (times.empty()) return answer;
 
-  return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
-    return detail::full_motion_with_error<Scalar>(problem, times, states, options, tolerance, begin, end);
+  const detail::FullMotion<Scalar> motion(problem, times, states, options);
+  const Scalar first =
+      first_step_tolerance<Scalar>(options.tolerance, problem.phase(times.back()), Scalar(honesty::loosest_step));
+  return tightened<Scalar>(options, first, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
+    return motion.run(tolerance, begin, end);
   });
 }
 

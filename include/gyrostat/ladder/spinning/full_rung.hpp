@@ -17,6 +17,8 @@ inline void warn_of_gimbal_lock(Track& track, double least_cosine) {
 /// Rung `full`: the full equations, by Taylor series or by what the scene brings.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
+  if (phase_too_long(scene.problem().phase(question.times.back()), question.tolerance))
+    return refused<Track>(Errc::step_limit, phase_lost);
   if (scene.full_equations) return scene.full_equations(scene, monitor);
   Track track;
   track.states.resize(question.times.size());
@@ -26,7 +28,7 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   const auto answer = full_motion<double>(scene.problem(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)
-    return refused<Track>(failure_of(answer->status), ode::message(answer->status));
+    return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   track.error = answer->error;
   track.counts = answer->counts;
   if (!answer->turns_known) detail::warn_of_gimbal_lock(track, answer->least_cosine);

@@ -5,9 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/spinning/axial_motion.hpp"
 #include "gyrostat/ladder/spinning/tilt_errors.hpp"
 #include "gyrostat/ladder/spinning/track.hpp"
@@ -87,17 +90,26 @@ inline Track given_up(const LinearErrors<double>& error) {
   return track;
 }
 
-/// Adds the stated errors and the domain to a track that has its states.
-inline void judge(Track& track, const Scene& scene, const LinearErrors<double>& error) {
+/// The track with the stated errors and the domain, where its states are numbers.
+inline Track judged(Track track, const Scene& scene, const LinearErrors<double>& error) {
+  const Row<double> row{};
+  for (const State<double>& state : track.states) {
+    double numbers[row_width(column_kinds)];
+    row(state, numbers);
+    if (!std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::isfinite(x); }))
+      return refused<Track>(Errc::not_finite, "the equations for small tilt grow beyond the greatest double");
+  }
   track.error = tilt_errors(scene.problem(), error, track.states, scene.question().times.back());
   track.in_domain = holds(error);
   if (!track.in_domain) warn_beyond_validity(track, error);
+  return track;
 }
 
 inline Track axial_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
   const double end = question.times.back();
   AxialMotionOptions<double> options;
+  options.step_cap = step_budget;
   if (monitor) options.cancel = &monitor->cancel;
   Track track;
   const auto advance = [&](std::span<const double> times, std::span<State<double>> states, auto& error) {
@@ -108,6 +120,9 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
     error = axial_torque_errors(scene.problem(), times.back(), Amplitudes<double>{made->tilt, made->rate});
     return Errc::ok;
   };
+  const auto why = [](Errc wrong) {
+    return wrong == Errc::step_limit ? why_stopped(ode::Status::step_limit) : message(wrong);
+  };
   LinearErrors<double> error{};
   if (question.rung != rung::linear) {
     const double r0 = scene.problem().spin(), r1 = r0 + scene.problem().torque[2] / scene.problem().inertia[2] * end;
@@ -117,16 +132,14 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
     // the errors only grow: a sixteenth of the motion often suffices
     const std::array<double, 1> early{end / 16};
     std::array<State<double>, 1> unused;
-    if (const Errc wrong = advance(early, unused, error); wrong != Errc::ok)
-      return refused<Track>(wrong, message(wrong));
+    if (const Errc wrong = advance(early, unused, error); wrong != Errc::ok) return refused<Track>(wrong, why(wrong));
     if (gives_up(scene, rung::linear, error)) return given_up(error);
   }
   track.states.resize(question.times.size());
   if (const Errc wrong = advance(question.times, track.states, error); wrong != Errc::ok)
-    return refused<Track>(wrong, message(wrong));
+    return refused<Track>(wrong, why(wrong));
   if (gives_up(scene, rung::linear, error)) return given_up(error);
-  judge(track, scene, error);
-  return track;
+  return judged(std::move(track), scene, error);
 }
 
 }  // namespace detail
@@ -142,8 +155,7 @@ inline Track linear_track(const Scene& scene, Monitor* monitor) {
   Track track;
   track.states.resize(times.size());
   detail::linear_states(problem, times, track.states);
-  detail::judge(track, scene, error);
-  return track;
+  return detail::judged(std::move(track), scene, error);
 }
 
 }  // namespace gyrostat::spinning

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/errors.hpp"
@@ -17,14 +20,21 @@ enum : std::size_t { angular_velocity, euler_312, attitude, angular_momentum_ine
 }
 
 inline constexpr ColumnKind column_kinds[] = {
-    {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity of the carrier, body axes"},
-    {"euler_312", 3, "rad", Frame::body_to_inertial, Measure::relative,
-     "angles psi, phi, theta: body to inertial is Rz(theta) Rx(psi) Ry(phi); theta counts turns"},
+    {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity of the carrier, body axes",
+     "the rates at t = 0, or those that the torque builds up while the body turns by a radian"},
+    {"euler_312", 3, "rad", Frame::body_to_inertial, Measure::angle,
+     "angles psi, phi, theta: body to inertial is Rz(theta) Rx(psi) Ry(phi); theta counts turns; phi and theta may "
+     "each "
+     "be off by twice the error over cos(psi)"},
     {"attitude", 4, "1", Frame::body_to_inertial, Measure::angle, "attitude, body to inertial, [x, y, z, w]"},
     {"angular_momentum_inertial", 3, "N m s", Frame::inertial, Measure::relative,
-     "angular momentum without the charge's, inertial axes"},
-    {"velocity", 3, "m/s", Frame::inertial, Measure::relative, "velocity of the mass centre, inertial axes"},
-    {"position", 3, "m", Frame::inertial, Measure::relative, "position of the mass centre, inertial axes"},
+     "angular momentum without the charge's, inertial axes",
+     "the momenta of body and rotor at t = 0, which may cancel"},
+    {"velocity", 3, "m/s", Frame::inertial, Measure::relative, "velocity of the mass centre, inertial axes",
+     "the velocity at t = 0, and what the force adds while the body turns by a radian"},
+    {"position", 3, "m", Frame::inertial, Measure::relative, "position of the mass centre, inertial axes",
+     "the position at t = 0, the way at the velocity of t = 0, and what the force adds while the body turns by a "
+     "radian"},
 };
 
 /// Places in scalar_kinds.
@@ -74,12 +84,31 @@ inline constexpr const char* integrator_names[] = {"taylor", "cvode"};
 
 inline constexpr Family tables{"spinning", column_kinds, scalar_kinds, warning_kinds, rung_kinds, integrator_names};
 
+template <Real Scalar>
+using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
+
+/// The scales of the columns that a problem sets for the times up to `span`, s, in their units.
+template <Real Scalar>
+ColumnErrors<Scalar> scales(const Problem<Scalar>& problem, Scalar span) noexcept {
+  const Scalar rate = problem.rate_size(span), turning = std::min(span, 1 / rate);
+  const Scalar push = problem.force.norm() / problem.mass;
+  ColumnErrors<Scalar> made;
+  made[column::angular_velocity] = rate;
+  made[column::angular_momentum_inertial] =
+      problem.inertia.cwiseProduct(problem.angular_velocity).norm() + std::abs(problem.rotor_momentum);
+  made[column::velocity] = problem.velocity.norm() + push * turning;
+  made[column::position] = problem.position.norm() + problem.velocity.norm() * span + push * turning * turning;
+  return made;
+}
+
 /// Writes the columns of a state, one behind the other: the one place that knows them.
 template <Real S>
 struct Row {
   using Scalar = S;
   using State = spinning::State<S>;
   static constexpr const auto& columns = column_kinds;
+
+  ColumnErrors<S> scale{};  ///< of the columns; none where it is left out
 
   void operator()(const State& state, S* row) const noexcept {
     const auto& [omega, angles, q, G, v, x] = state;
@@ -89,7 +118,15 @@ struct Row {
   }
 };
 
+/// The error of euler_312 where the attitude errs by `attitude`, rad. The angles are judged by the attitude that they tell, for near
+/// cos(psi) = 0 phi and theta turn the body about the same axis, and only their sum or difference means anything. Angles of many turns
+/// are rounded as numbers of that size.
 template <Real Scalar>
-using ColumnErrors = Errors<std::size(column_kinds), Scalar>;
+Scalar angles_error(Scalar attitude, std::span<const State<Scalar>> states) noexcept {
+  Scalar most = 0;
+  for (const State<Scalar>& s : states)
+    most = greater(std::abs(s.angles.psi) + std::abs(s.angles.phi) + std::abs(s.angles.theta), most);
+  return attitude + epsilon<Scalar> * most;
+}
 
 }  // namespace gyrostat::spinning

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "gyrostat/ladder/spinning/track.hpp"
 #include "gyrostat/models/spinning/picard.hpp"
 
@@ -14,6 +17,7 @@ inline Track picard_track(const Scene& scene, Monitor* monitor) {
     return refused<Track>(Errc::not_applicable, "the full equations cost less; ask for it by name");
   Track track;
   track.states.resize(question.times.size());
+  const auto scale = scales(scene.problem(), question.times.back());
   bool converges = false;
   for (const int sweeps : {2, 4, 8}) {
     if (monitor && monitor->cancel.load(std::memory_order_relaxed))
@@ -22,7 +26,9 @@ inline Track picard_track(const Scene& scene, Monitor* monitor) {
     if (!made) {
       switch (made.error()) {
         case Errc::not_applicable: return refused<Track>(Errc::not_applicable, "a torque acts about the spin axis");
-        case Errc::step_limit: return refused<Track>(Errc::step_limit, "too many turns for sweeps");
+        case Errc::step_limit:
+          return refused<Track>(Errc::step_limit,
+                                "more than 100 000 panels of three radians: too many turns for sweeps");
         case Errc::no_convergence: return refused<Track>(Errc::no_convergence, "the axis tilts beyond a right angle");
         default: return refused<Track>(made.error(), message(made.error()));
       }
@@ -31,7 +37,8 @@ inline Track picard_track(const Scene& scene, Monitor* monitor) {
     converges = made->converges;
     if (!converges) continue;  // a linear motion with a small error by chance looks so to two sweeps
     const auto error = made->error.all(), size = made->size.all();
-    for (std::size_t i = 0; i < error.size(); ++i) track.error[i] = over(error[i], size[i]);
+    for (std::size_t i = 0; i < error.size(); ++i) track.error[i] = over(error[i], std::max(size[i], scale[i]));
+    track.error[column::euler_312] = angles_error<double>(track.error[column::attitude], track.states);
     if (track.error.greatest() <= question.tolerance) break;
   }
   if (!converges)

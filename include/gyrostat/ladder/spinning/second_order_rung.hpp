@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gyrostat/ladder/spinning/linear_rung.hpp"
 #include "gyrostat/ladder/spinning/track.hpp"
@@ -20,11 +21,15 @@ inline Track second_order_track(const Scene& scene, Monitor*) {
                           "a torque acts about the spin axis: the spin is not constant to first order");
   const auto& times = scene.question().times;
   const double end = times.back();
+  if (scene.question().rung != rung::second_order && double(times.size()) > 4 * problem.phase(end) / (2 * pi<double>))
+    return refused<Track>(Errc::not_applicable, "at more than four times a turn the full equations cost less");
   const auto error = second_order_errors(problem, end);
   if (detail::gives_up(scene, rung::second_order, error)) return detail::given_up(error);
   const SecondOrder<double> motion(problem, end > 0 ? end : 1e-6);  // of the start alone any span will do
   if (!motion.applies())
-    return refused<Track>(Errc::not_applicable, "too many turns for the integrals of second order");
+    return refused<Track>(
+        Errc::not_applicable,
+        "more than 1e8 rad at the fastest rate of the motion: too many turns for the integrals of second order");
   if (!motion.helps())
     return refused<Track>(Errc::not_applicable,
                           "the corrections of second order would harm: they turn the body by more than 0.5 rad, or the "
@@ -32,8 +37,7 @@ inline Track second_order_track(const Scene& scene, Monitor*) {
   Track track;
   track.states.reserve(times.size());
   for (const double t : times) track.states.push_back(motion.at(t));
-  detail::judge(track, scene, error);
-  return track;
+  return detail::judged(std::move(track), scene, error);
 }
 
 }  // namespace gyrostat::spinning

@@ -28,11 +28,24 @@ inline double greatest_tilt(std::span<const State<double>> states) noexcept {
   return most;
 }
 
+/// What the caller gave, to the bit, in the row at t = 0.
+inline void put_start(Answer& answer, const Problem<double>& problem) {
+  const auto& [psi, phi, theta] = problem.angles;
+  const auto put = [&](std::size_t which, const Vec3<double>& v) {
+    gyrostat::put_start(answer, column_kinds[which], {v[0], v[1], v[2]});
+  };
+  put(column::angular_velocity, problem.angular_velocity);
+  put(column::euler_312, {psi, phi, theta});
+  put(column::velocity, problem.velocity);
+  put(column::position, problem.position);
+}
+
 }  // namespace detail
 
 /// Numbers and warnings that belong to the scene, whichever rung answers.
 inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   const Problem<double>& problem = scene.problem();
+  detail::put_start(answer, problem);
   const double nu2 = problem.nutation_squared(), r0 = problem.spin();
   double mean = nan<double>;
   math::Complex<double> ratio{nan<double>, nan<double>};

@@ -21,10 +21,11 @@ inline bool holds(const LinearErrors<double>& error) noexcept {
 }
 
 /// `left_out` (in units of the quantities) and rounding over [0, span], relative to the least greatest norms that the right columns
-/// can have. Infinite where a column may be all error.
+/// can have, or to their scales where those are greater. Infinite where a column without a scale may be all error.
 inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const LinearErrors<double>& left_out,
                                         std::span<const State<double>> states, double span) noexcept {
-  Comparison sizes(Row<double>{});
+  const Row<double> row{scales(problem, span)};
+  Comparison sizes(row);
   for (const auto& state : states) sizes.add(state);
   const auto& size = sizes.size();
 
@@ -43,8 +44,6 @@ inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const Li
   ColumnErrors<double> error;
   error[column::angular_velocity] =
       std::hypot(left_out.rates, left_out.spin) + rounding * P + epsilon<double> * fastest;
-  error[column::euler_312] =
-      std::hypot(left_out.tilt, left_out.theta) + rounding * g + 4 * epsilon<double> * size[column::euler_312];
   error[column::attitude] =
       left_out.attitude + rounding * g + 4 * epsilon<double> * (1 + std::abs(problem.angles.theta) + fastest * span);
   const double torque = std::hypot(problem.torque[0], problem.torque[1]);
@@ -63,9 +62,12 @@ inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const Li
       rounding * (push * once + thrust * span * g) * span;
 
   for (std::size_t i = 0; i < std::size(column_kinds); ++i) {
-    if (i == column::attitude) error[i] = std::min(error[i], pi<double>);
-    else if (error[i] != 0) error[i] = error[i] < size[i] ? error[i] / (size[i] - error[i]) : infinity<double>;
+    if (column_kinds[i].measure != Measure::relative || error[i] == 0) continue;
+    const double least = std::max(size[i] - error[i], row.scale[i]);
+    error[i] = least > 0 ? error[i] / least : infinity<double>;
   }
+  error[column::attitude] = std::min(error[column::attitude], pi<double>);
+  error[column::euler_312] = angles_error(error[column::attitude], states);
   return error;
 }
 

@@ -13,13 +13,13 @@ namespace gyrostat::spinning {
 /// What a rung finds at the asked times.
 struct Track : Outcome {
   std::vector<State<double>> states;
-  /// Estimated greatest errors over the times, each relative to the greatest norm of its column; attitude: the angle, rad.
+  /// Estimated greatest errors over the times, as column_kinds measures them.
   ColumnErrors<double> error;
 };
 
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   fill_head(answer, scene.question(), track);
-  fill_columns(answer, Row<double>{}, track.states, track.error);
+  fill_columns(answer, Row<double>{scales(scene.problem(), scene.question().times.back())}, track.states, track.error);
 }
 
 }  // namespace gyrostat::spinning

@@ -54,6 +54,19 @@ Vec3<Scalar> acceleration(const Problem<Scalar>& problem, const Quat<Scalar>& at
   return rotate<Scalar>(attitude, Vec3<Scalar>(problem.force / problem.mass));
 }
 
+/// The motion at t = 0, with the angles as they are given.
+template <Real Scalar>
+State<Scalar> start_state(const Problem<Scalar>& problem) noexcept {
+  const auto& a = problem.angles;
+  const Quat<Scalar> attitude = normalised(quaternion_from_312(a.psi, a.phi, a.theta));
+  return {problem.angular_velocity,
+          a,
+          attitude,
+          inertial_momentum(problem, problem.angular_velocity, attitude),
+          problem.velocity,
+          problem.position};
+}
+
 /// Taylor recurrences of the full equations. A state is
 ///     (p, q, r, A | w, x, y, z | u1, u2, u3, W | s1, s2, s3, -),
 /// the quaternion taking body to inertial components, and quadratures that nothing else depends on: A of r, u of the force's
@@ -190,12 +203,9 @@ FullSystem<Real_>::FullSystem(const Problem<Scalar>& problem) noexcept
 
 template <Real Real_>
 auto FullSystem<Real_>::scale(Scalar span) const noexcept -> Numbers {
-  // rates that torques build up from rest: for a time, until the body has turned, or until gyroscopic stiffness stops them
   const Scalar rate = Vec3<Scalar>(start_[0], start_[1], start_[2]).norm();
-  const Scalar drive = angular_acceleration_.norm();
-  Scalar built = std::min(drive * span, std::sqrt(drive));
-  if (torque_[2] == 0) built = std::min(built, drive / std::max(std::abs(gyroscopic_1_), std::abs(gyroscopic_2_)));
-  const Scalar size = std::max(rate, built);
+  const Scalar stiffness = std::max(std::abs(gyroscopic_1_), std::abs(gyroscopic_2_));
+  const Scalar size = std::max(rate, built_rate(angular_acceleration_.norm(), stiffness, torque_[2] != 0, span));
   const Scalar w = size > 0 ? size : Scalar(1);  // at rest any scale will do, but zero would leave the component out
   const Scalar time = std::min(1 / w, span > 0 ? span : 1 / w);
   return {w, w, w, 0, 1, 1, 1, 1, time, time, time, 0, 0, 0, 0, 0};

@@ -58,7 +58,7 @@ template <Real Scalar>
 struct PicardAnswer {
   SweepErrors<Scalar> linear;  ///< estimated error of the linear motion, |sweep 1 - linear| + 3 |sweep 2 - sweep 1|
   SweepErrors<Scalar>
-      error;  ///< of the states, |last sweep - the one before| times 64 of the greatest ratio of two sweeps, twice at most
+      error;  ///< of the states, |last sweep - the one before| times 128 of the greatest ratio of two sweeps, twice at most
   SweepErrors<Scalar> size;  ///< greatest norms of the columns; attitude: 1
   bool converges = true;    ///< false: a sweep moved a column by more than half of what the sweep before did; no answer
   std::uint64_t nodes = 0;  ///< times sweeps: values of the motion computed
@@ -348,6 +348,7 @@ Result<PicardAnswer<Scalar>> picard_motion(const Problem<Scalar>& problem, std::
   const Scalar stiffest = (kept + D[2] * std::abs(problem.spin())) / std::min(D[0], D[1]);
   const Scalar rounding = eps * (16 + 4 * std::sqrt(panels) + (rate + stiffest) * end / 4);
   auto size = answer.size.all();
+  size[2] += std::abs(problem.angles.theta);
   size[3] += kept + D.maxCoeff() * answer.size.angular_velocity;
   const auto combine = [&](Scalar a, const SweepErrors<Scalar>& x, Scalar b, const SweepErrors<Scalar>& y,
                            Scalar c) noexcept {
@@ -363,7 +364,7 @@ Result<PicardAnswer<Scalar>> picard_motion(const Problem<Scalar>& problem, std::
     if (moves) ratio = std::max(ratio, now[i] / before[i]);
   }
   answer.linear = combine(1, moved[1], 3, moved[2], rounding);
-  answer.error = combine(std::min(Scalar(2), 64 * ratio), moved[last], 0, moved[last], 4 * rounding);
+  answer.error = combine(std::min(Scalar(2), 128 * ratio), moved[last], 0, moved[last], 4 * rounding);
   return answer;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "gyrostat/core/real.hpp"
@@ -29,6 +30,14 @@ struct State {
   Vec3<Scalar> position{0, 0, 0};    ///< of the mass centre, m
 };
 
+/// What torques of the angular acceleration `drive`, rad/s^2, build up from rest in `span`, s: for that time, until the body has turned,
+/// or, but for an axial torque, until a gyroscopic stiffness stops them, 1/s; rad/s.
+template <Real Scalar>
+Scalar built_rate(Scalar drive, Scalar stiffness, bool axial, Scalar span) noexcept {
+  const Scalar built = std::min(drive * span, std::sqrt(drive));
+  return axial ? built : std::min(built, drive / stiffness);
+}
+
 /// Body, loads and start. Plain data: whoever fills it has validated it. Axis 3 is the spin axis.
 template <Real Scalar>
 struct Problem {
@@ -53,6 +62,16 @@ struct Problem {
   Scalar kappa1(Scalar r) const noexcept { return ((inertia[2] - inertia[1]) * r + gyroscopic()) / inertia[0]; }
   /// ((D3 - D1) r + Lambda)/D2 at spin r, 1/s.
   Scalar kappa2(Scalar r) const noexcept { return ((inertia[2] - inertia[0]) * r + gyroscopic()) / inertia[1]; }
+  /// How fast the body turns at the start, or is soon made to within `span`, s; rad/s.
+  Scalar rate_size(Scalar span) const noexcept {
+    const Scalar stiffness = std::max(std::abs(gyroscopic() / inertia[0]), std::abs(gyroscopic() / inertia[1]));
+    return std::max(angular_velocity.norm(),
+                    built_rate(torque.cwiseQuotient(inertia).norm(), stiffness, torque[2] != 0, span));
+  }
+  /// The angle that body and nutation turn through in `span`, s, to its order, rad.
+  Scalar phase(Scalar span) const noexcept {
+    return span * (rate_size(span) + std::abs(gyroscopic()) / std::min(inertia[0], inertia[1]));
+  }
   /// nu^2 = kappa1 kappa2 at r0, 1/s^2: negative where the spin is unstable.
   Scalar nutation_squared() const noexcept { return kappa1(spin()) * kappa2(spin()); }
 };

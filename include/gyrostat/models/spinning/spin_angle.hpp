@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
@@ -33,7 +34,7 @@ class SpinAngle {
     Scalar turned;  ///< the integral of r since the start, rad
   };
 
-  /// At t = 0. theta keeps the turns of the start's, |psi| is brought below pi/2 and phi stays within pi of the start's.
+  /// At t = 0. theta keeps the turns of the start's, psi its side of pi/2, and phi stays within pi of the start's.
   explicit SpinAngle(const Problem<Scalar>& problem) noexcept
       : inertia_(problem.inertia),
         drive_(std::hypot(problem.torque[0] / inertia_[0], problem.torque[1] / inertia_[1])),
@@ -47,10 +48,11 @@ class SpinAngle {
         split_(std::abs(problem.gyroscopic() * (1 / inertia_[0] - 1 / inertia_[1])) / 2) {
     const auto& a = problem.angles;
     attitude_ = quaternion_from_312(a.psi, a.phi, a.theta);
+    half_turn_ = std::cos(a.psi) < 0 ? pi<Scalar> : Scalar(0);
     here_ = view({problem.angular_velocity, attitude_, 0});
-    const Vec3<Scalar> reduced = angles_312(attitude_);
-    phi_ = std::cos(a.psi) >= 0 ? a.phi : a.phi + std::remainder(reduced[1] - a.phi, 2 * pi<Scalar>);
-    theta_ = a.theta + std::remainder(reduced[2] - a.theta, 2 * pi<Scalar>);
+    phi_ = a.phi;
+    theta_ = near(here_.theta, a.theta);
+    psi_turns_ = near(psi(), a.psi) - psi();
   }
 
   /// Goes on to t >= the last time, where the motion is `sample`. `at(t)`: the sample at a time in between.
@@ -95,14 +97,9 @@ class SpinAngle {
   /// At the last time.
   Angles<Scalar> angles() const noexcept {
     const Vec3<Scalar> reduced = angles_312(attitude_);
-    return {reduced[0], phi_ + std::remainder(reduced[1] - phi_, 2 * pi<Scalar>), near(reduced[2], theta_)};
+    return {psi() + psi_turns_, phi_ + std::remainder(reduced[1] + half_turn_ - phi_, 2 * pi<Scalar>),
+            near(reduced[2] + half_turn_, theta_)};
   }
-  /// How far phi is from the ends of its range at the last time, rad.
-  Scalar phi_room() const noexcept {
-    return pi<Scalar> - std::abs(std::remainder(angles_312(attitude_)[1] - phi_, 2 * pi<Scalar>));
-  }
-  /// cos(psi) at the last time.
-  Scalar cosine() const noexcept { return here_.cosine; }
   /// A lower bound of cos(psi) so far.
   Scalar least_cosine() const noexcept { return least_cosine_; }
 
@@ -120,7 +117,7 @@ class SpinAngle {
     const Vec3<Scalar>& w = sample.angular_velocity;
     const Scalar a = 2 * (q.w * q.z - q.x * q.y), b = (q.w - q.z) * (q.w + q.z) + (q.y - q.x) * (q.y + q.x);
     View v{};
-    v.theta = std::atan2(a, b);
+    v.theta = std::atan2(a, b) + half_turn_;
     v.turned = sample.turned;
     v.cosine = std::sqrt(a * a + b * b);
     v.transverse = std::sqrt(w[0] * w[0] + w[1] * w[1]);
@@ -132,6 +129,12 @@ class SpinAngle {
     // nearer to cos(psi) = 0 than rounding the side is not known anyway
     v.room = std::max(Scalar(0.9L) * v.cosine, 16 * epsilon<Scalar>);
     return v;
+  }
+
+  /// Of two triples for the same attitude, (psi, phi, theta) and (pi - psi, phi + pi, theta + pi), the one on the side of the start.
+  Scalar psi() const noexcept {
+    const Scalar reduced = angles_312(attitude_)[0];
+    return half_turn_ > 0 ? half_turn_ - reduced : reduced;
   }
 
   /// theta plus the turns that bring it nearest to what is expected.
@@ -156,36 +159,24 @@ class SpinAngle {
 
   Vec3<Scalar> inertia_;
   Scalar drive_, axial_drive_, power_, root_transverse_, root_axial_, skew_, split_slope_, split_;
-  Scalar time_ = 0, phi_ = 0, theta_ = 0;
+  Scalar time_ = 0, phi_ = 0, theta_ = 0, psi_turns_ = 0;
+  Scalar half_turn_ = 0;  ///< pi where the start lies beyond psi = pi/2
   Scalar least_cosine_ = 1;
   View here_{};
   Quat<Scalar> attitude_;
 };
 
-/// What an error of the attitude makes of the angles at the times at which they were looked at.
+/// Whether an error of the attitude, rad, leaves a turn of theta or phi open at these states: cos(psi) came as near to zero on the way,
+/// `least_cosine`, or phi to the end of its range, pi from the start's.
 template <Real Scalar>
-class AngleLever {
- public:
-  void look(const SpinAngle<Scalar>& angle) noexcept {
-    cosine_ = std::min(cosine_, angle.cosine());
-    room_ = std::min(room_, angle.phi_room());
-    least_cosine_ = angle.least_cosine();
+bool loses_turns(std::span<const State<Scalar>> states, Scalar start_phi, Scalar least_cosine,
+                 Scalar attitude_error) noexcept {
+  for (const State<Scalar>& s : states) {
+    const Scalar cosine = std::abs(std::cos(s.angles.psi)), room = pi<Scalar> - std::abs(s.angles.phi - start_phi);
+    if (!(attitude_error < room * cosine)) return true;
+    least_cosine = std::min(least_cosine, cosine);
   }
-
-  /// A lower bound of cos(psi) up to the last time.
-  Scalar least_cosine() const noexcept { return std::min(cosine_, least_cosine_); }
-  /// Turns of theta or phi are not known: the motion came nearer to cos(psi) = 0, or phi to the end of its range, than this error of the
-  /// attitude, rad.
-  bool loses_turns(Scalar attitude_error) const noexcept {
-    return !(attitude_error < Scalar(0.3L) * least_cosine()) || !(attitude_error < room_ * cosine_);
-  }
-  /// The error of the angles, rad.
-  Scalar error(Scalar attitude_error) const noexcept {
-    return 2 * attitude_error / cosine_ + (loses_turns(attitude_error) ? 2 * pi<Scalar> : Scalar(0));
-  }
-
- private:
-  Scalar cosine_ = 1, room_ = pi<Scalar>, least_cosine_ = 1;
-};
+  return !(attitude_error < Scalar(0.3L) * least_cosine);
+}
 
 }  // namespace gyrostat::spinning
