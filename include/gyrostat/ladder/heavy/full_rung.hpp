@@ -14,7 +14,8 @@ namespace gyrostat::heavy {
 namespace detail {
 
 /// The full equations from the scene's start, by Taylor series or by those that the scene brings.
-inline Track full_from_start(const Scene& scene, Monitor* monitor) {
+/// @param converted body and start come from conversions
+inline Track full_from_start(const Scene& scene, bool converted, Monitor* monitor) {
   const Question& question = scene.question();
   if (phase_too_long(rate_size(scene.problem(), scene.start()) * question.times.back(), question.tolerance))
     return refused<Track>(Errc::step_limit, phase_lost);
@@ -24,6 +25,7 @@ inline Track full_from_start(const Scene& scene, Monitor* monitor) {
   FullMotionOptions<double> options;
   options.tolerance = question.tolerance;
   options.attitude = question.wants_attitude;
+  options.converted = converted;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(scene.problem(), scene.start(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
@@ -77,7 +79,7 @@ inline Track periodic_full(const Scene& scene, Monitor* monitor) {
   if (!made_once) return refused<Track>(made_once.error(), message(made_once.error()));
   Scene first = *made_once;
   first.full_equations = scene.full_equations;
-  const Track one = full_from_start(first, monitor);
+  const Track one = full_from_start(first, scene.converts_body(), monitor);
   if (one.failure != Errc::ok) return one;
 
   Track track;
@@ -96,7 +98,8 @@ inline Track periodic_full(const Scene& scene, Monitor* monitor) {
 
 /// Rung `full`: the full equations, by Taylor series or by those that the scene brings; of a periodic motion from the start that shooting finds.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
-  return scene.periodic() ? detail::periodic_full(scene, monitor) : detail::full_from_start(scene, monitor);
+  return scene.periodic() ? detail::periodic_full(scene, monitor)
+                          : detail::full_from_start(scene, scene.converts_start(), monitor);
 }
 
 }  // namespace gyrostat::heavy
