@@ -45,8 +45,11 @@ inline const char* no_orbit(Errc why, const Scene& scene) noexcept {
       return "two principal moments are equal, or the body is a lamina across axis 3, and the torque drives that "
              "resonance: there is no fast periodic motion; spin it about another principal axis, or give a start";
     case Errc::out_of_domain: return "a periodic motion of this family needs a spin, and an axis that is not vertical";
-    case Errc::no_convergence:
     case Errc::step_limit:
+      return "no fast periodic motion with this spin was found within the budget of 30 thousand steps along their "
+             "family, which ends or turns back at a spin of about 0.6 to 2 times sqrt(M g l/C), below which there are "
+             "only oscillations about the hanging rest: spin it faster, or give a start";
+    case Errc::no_convergence:
       if (scaled && fast_over(*scaled) == 1)
         return "no periodic motion was found near that of the first order: the body is too near a resonance (moments 1 "
                "and 3 or 2 and 3 nearly equal, a lamina across axis 3, axis 3 near the vertical); spin it faster or "
