@@ -187,7 +187,7 @@ Result<Closed<Scalar>> member_passed(const Problem<Scalar>& problem, const Orbit
 template <Real Scalar>
 inline constexpr Scalar greatest_trace = Scalar(1e6L);
 
-/// Steps that the walk along a family may take in all: three times what the longest of 300 that arrived took; about a second.
+/// Steps that the walk along a family may take in all, about a second; of 300 walks that arrived the longest took 18 thousand.
 inline constexpr std::uint64_t walk_budget = 30'000;
 
 template <Real Scalar>
