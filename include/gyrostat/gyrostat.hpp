@@ -34,6 +34,7 @@
 #include "gyrostat/ladder/family.hpp"
 #include "gyrostat/ladder/fill.hpp"
 #include "gyrostat/ladder/full_motion.hpp"
+#include "gyrostat/ladder/heavy/conversion_error.hpp"
 #include "gyrostat/ladder/heavy/exact_periodicity.hpp"
 #include "gyrostat/ladder/heavy/exact_rung.hpp"
 #include "gyrostat/ladder/heavy/forced_start.hpp"

@@ -91,6 +91,40 @@ TEST_CASE("mean precession of a top is that of its regular precession", "[heavy]
   }
 }
 
+TEST_CASE("mean precession where the axis passes near the vertical has the right number of turns", "[heavy]") {
+  const auto problem = *Problem<double>::make({0.0034386261332737767, 0.0004913220311038431, 0.0036099190332326537},
+                                              0.0040168356914451345, {0.12182467808260147, 0, 0}, 9.80665, 0);
+  const auto orbit = periodic_orbit<double>(problem, -3.910106827187173, 0.09472011668877006);
+  REQUIRE(orbit);
+  const auto f = follow<double>(problem, *orbit, {0, 1});
+  // by the angle of the axis over 4000 states of a period, which turns by less than 1 rad between two of them
+  constexpr int count = 4000;
+  std::vector<double> times;
+  for (int i = 0; i <= count; ++i) times.push_back(orbit->period * i / count);
+  std::vector<State<double>> states(times.size());
+  FullMotionOptions<double> options;
+  options.attitude = true;
+  REQUIRE(full_motion<double>(problem, orbit->start, times, states, options));
+  double turn = 0;
+  Vec3<double> last = rotate<double>(states[0].attitude, {0, 0, 1});
+  for (const auto& s : states) {
+    const Vec3<double> now = rotate<double>(s.attitude, {0, 0, 1});
+    const double step = std::atan2(last[0] * now[1] - last[1] * now[0], last[0] * now[0] + last[1] * now[1]);
+    CHECK(std::abs(step) < 1);
+    turn -= step;
+    last = now;
+  }
+  CHECK(f.made.precession == Approx(turn / orbit->period).epsilon(1e-8));
+  CHECK(f.made.precession == Approx(-5.716051611).epsilon(1e-8));
+  CHECK(f.made.precession_error < 1e-6);
+  // through the vertical it has no meaning
+  State<double> up, down;
+  up.angular_velocity = down.angular_velocity = {0.1, 0, 0};
+  up.attitude = {std::cos(0.025), std::sin(0.025), 0, 0};
+  down.attitude = {std::cos(0.025), -std::sin(0.025), 0, 0};
+  CHECK(std::isnan(axis_turn(down, up, 1.0)));
+}
+
 TEST_CASE("times at the ends of periods", "[heavy]") {
   const auto problem = stone<double>();
   const auto orbit = periodic_orbit<double>(problem, 40, 0.2);

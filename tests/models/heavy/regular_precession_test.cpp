@@ -51,7 +51,8 @@ TEST_CASE("regular precession: fast spin without cancellation, limits, and where
     CHECK(rates.slow * rates.fast == Approx(-W / (0.002 * 0.7)).epsilon(1e-15));
   }
   CHECK(regular_precession(top, 0.0, 50.0).slow == Approx(-W / 0.05));
-  CHECK(regular_precession(top, 0.0, 50.0).fast == infinity<double>);
+  for (const double level : {0.0, 6e-17, -1e-15}) CHECK(regular_precession(top, level, 50.0).fast == infinity<double>);
+  CHECK(regular_precession(top, 1e-12, 50.0).fast == Approx(0.001 * 50 / (0.002 * 1e-12)));
   CHECK_FALSE(regular_precession(top, -0.9, 5.0).exists);
   CHECK(std::isnan(regular_precession(top, -0.9, 5.0).slow));
   CHECK(regular_precession(top, 0.9, 0.0).exists);  // conical pendulum

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "gyrostat/ladder/heavy/conversion_error.hpp"
 #include "gyrostat/ladder/heavy/exact_periodicity.hpp"
 #include "gyrostat/ladder/heavy/forced_start.hpp"
 #include "gyrostat/ladder/heavy/track.hpp"
@@ -37,7 +38,15 @@ inline Track exact_track(const Scene& scene, Monitor*) {
     track.states.push_back(exact.at(t));
     sizes.add(track.states.back());
   }
-  const auto bound = exact.error(question.times.back());
+  auto bound = exact.error(question.times.back());
+  if (scene.converts_start() && bound.attitude < infinity<double>) {
+    const int k = exact.pendulum() ? exact.pendulum()->axis() : -1;
+    const auto off = [&](const Problem<double>& body, int which) -> Result<State<double>> {
+      if (scene.periodic()) return plain_start(body, *scene.periodic());
+      return off_start(start, which, k);
+    };
+    bound = conversion_error(scene.problem(), scene.converts_body(), exact, question.times.back(), off);
+  }
   track.error = relative_to_truth(sizes.relative({bound.angular_velocity, bound.down, bound.attitude}), column_kinds);
   track.in_domain = bound.attitude < infinity<double>;
   if (!track.in_domain) track.warn(warning_kinds[warning::rounding_decides], question.times.back());

@@ -27,6 +27,8 @@ namespace gyrostat::heavy {
 template <Real Scalar>
 struct FullMotionOptions : MotionOptions<Scalar> {
   bool attitude = false;  ///< follow the attitude too; its error is 0 where it is not followed
+  bool converted =
+      false;  ///< body and start come from conversions: zeros are rounding too, moments err as the greatest
 };
 
 template <Real Scalar>
@@ -51,14 +53,15 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, con
 namespace detail {
 
 /// A problem and a start that differ from the given ones by about `amount`: by what rounding makes of data and
-/// arithmetic. What is zero stays so where a symmetry keeps it.
+/// arithmetic. What is zero stays so where a symmetry keeps it, unless it comes from a conversion.
 template <Real Scalar>
 struct Neighbour {
   Problem<Scalar> problem;
   State<Scalar> start;
 
   /// which: 0 or 1, in another direction.
-  Neighbour(const Problem<Scalar>& of, const State<Scalar>& from, Scalar amount, int which) noexcept
+  Neighbour(const Problem<Scalar>& of, const State<Scalar>& from, Scalar amount, int which,
+            bool converted = false) noexcept
       : problem(of), start(from) {
     const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
     const Vec3<Scalar> v = amount * (which == 0 ? Vec3<Scalar>(number(0.6L), number(-0.64L), number(0.48L))
@@ -67,15 +70,17 @@ struct Neighbour {
       return Vec3<Scalar>(x[0] * (1 + a), x[1] * (1 + b), x[2] * (1 + c));
     };
     const Vec3<Scalar> centre = changed(of.centre_of_mass(), v[2], v[0], v[1]);
-    auto made = Problem<Scalar>::make(changed(of.inertia(), v[0], v[1], v[2]), of.mass(), centre,
-                                      of.gravity() * (1 + v[0]), of.gradient() * (1 + v[1]));
+    Vec3<Scalar> inertia = changed(of.inertia(), v[0], v[1], v[2]);
+    if (converted) inertia = of.inertia() + of.inertia().maxCoeff() * v;
+    auto made =
+        Problem<Scalar>::make(inertia, of.mass(), centre, of.gravity() * (1 + v[0]), of.gradient() * (1 + v[1]));
     // a body of the least extent that is real, of which not all moments can be changed
     if (!made)
       made = Problem<Scalar>::make(of.inertia() * (1 + v[0]), of.mass(), of.centre_of_mass(), of.gravity() * (1 + v[1]),
                                    of.gradient() * (1 + v[1]));
     if (made) problem = *made;
     // arithmetic errs by what the greatest component rounds to, in all of them but where a symmetry keeps the zeros
-    const bool kept = keeps_zeros(of, from);
+    const bool kept = !converted && keeps_zeros(of, from);
     const auto moved = [amount, kept](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c, Scalar size) noexcept {
       const auto one = [kept, by = size * amount / 2](Scalar component, Scalar part) noexcept {
         return component == 0 && kept ? component : component * (1 + part) + by * (part > 0 ? 1 : -1);
@@ -115,7 +120,7 @@ class FullMotion {
         times_(times),
         states_(states),
         options_(options),
-        neighbours_{{{problem, start, amount, 0}, {problem, start, amount, 1}}},
+        neighbours_{{{problem, start, amount, 0, options.converted}, {problem, start, amount, 1, options.converted}}},
         rate_(rate_size(problem, start)) {}
 
   /// The answer's run and its neighbours' side by side, and their distance.

@@ -14,7 +14,8 @@ namespace gyrostat::heavy {
 namespace detail {
 
 /// The full equations from the scene's start, by Taylor series or by those that the scene brings.
-inline Track full_from_start(const Scene& scene, Monitor* monitor) {
+/// @param converted body and start come from conversions
+inline Track full_from_start(const Scene& scene, bool converted, Monitor* monitor) {
   const Question& question = scene.question();
   if (phase_too_long(rate_size(scene.problem(), scene.start()) * question.times.back(), question.tolerance))
     return refused<Track>(Errc::step_limit, phase_lost);
@@ -24,6 +25,7 @@ inline Track full_from_start(const Scene& scene, Monitor* monitor) {
   FullMotionOptions<double> options;
   options.tolerance = question.tolerance;
   options.attitude = question.wants_attitude;
+  options.converted = converted;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(scene.problem(), scene.start(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
@@ -43,8 +45,11 @@ inline const char* no_orbit(Errc why, const Scene& scene) noexcept {
       return "two principal moments are equal, or the body is a lamina across axis 3, and the torque drives that "
              "resonance: there is no fast periodic motion; spin it about another principal axis, or give a start";
     case Errc::out_of_domain: return "a periodic motion of this family needs a spin, and an axis that is not vertical";
-    case Errc::no_convergence:
     case Errc::step_limit:
+      return "no fast periodic motion with this spin was found within the budget of 30 thousand steps along their "
+             "family, which ends or turns back at a spin of about 0.6 to 2 times sqrt(M g l/C), below which there are "
+             "only oscillations about the hanging rest: spin it faster, or give a start";
+    case Errc::no_convergence:
       if (scaled && fast_over(*scaled) == 1)
         return "no periodic motion was found near that of the first order: the body is too near a resonance (moments 1 "
                "and 3 or 2 and 3 nearly equal, a lamina across axis 3, axis 3 near the vertical); spin it faster or "
@@ -77,7 +82,7 @@ inline Track periodic_full(const Scene& scene, Monitor* monitor) {
   if (!made_once) return refused<Track>(made_once.error(), message(made_once.error()));
   Scene first = *made_once;
   first.full_equations = scene.full_equations;
-  const Track one = full_from_start(first, monitor);
+  const Track one = full_from_start(first, scene.converts_body(), monitor);
   if (one.failure != Errc::ok) return one;
 
   Track track;
@@ -96,7 +101,8 @@ inline Track periodic_full(const Scene& scene, Monitor* monitor) {
 
 /// Rung `full`: the full equations, by Taylor series or by those that the scene brings; of a periodic motion from the start that shooting finds.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
-  return scene.periodic() ? detail::periodic_full(scene, monitor) : detail::full_from_start(scene, monitor);
+  return scene.periodic() ? detail::periodic_full(scene, monitor)
+                          : detail::full_from_start(scene, scene.converts_start(), monitor);
 }
 
 }  // namespace gyrostat::heavy

@@ -80,7 +80,7 @@ class OrbitWalk {
   const Point& tangent() const noexcept { return tangent_; }
   /// d(spin)/d(length) along the family: changes its sign at a fold.
   Scalar spin_slope() const noexcept { return tangent_[2]; }
-  const ode::Counts& counts() const noexcept { return counts_; }  ///< of the steps, all together
+  const ode::Counts& counts() const noexcept { return counts_; }  ///< of all shots, those of trials that failed too
   int shots() const noexcept { return shots_; }
   /// Steps no longer than this from here on, in `unit`.
   void limit(Scalar longest) noexcept {
@@ -101,10 +101,10 @@ class OrbitWalk {
       const Space space{unit_, rate(), here + length_ * (tangent_ + length_ / 2 * bend_), tangent_};
       State<Scalar> start = member_.start;
       start.angular_velocity = unit_ * space.at.template head<3>();
-      const auto next = close_orbit(problem_, start, space.at[3] / unit_, space.rate, space, close_enough<Scalar>, 9);
+      const auto next = close_orbit(problem_, start, space.at[3] / unit_, space.rate, space, close_enough<Scalar>, 9,
+                                    4 * epsilon<Scalar>, &counts_);
       if (next) {
         shots_ += next->shots;
-        counts_ += next->counts;
         const Point found = Space::point(next->start, next->period, unit_);
         const Scalar off = (found - space.at).norm() / length_;
         if (off < Scalar(0.5L)) {

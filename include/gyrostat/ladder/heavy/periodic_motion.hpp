@@ -26,6 +26,30 @@ struct CarriedOn {
   Scalar precession_error = 0;  ///< rad/s
 };
 
+/// Turn of axis 3 about the vertical from one state to another, right-handed about DOWN, rad: its tip goes along the cubic with their
+/// positions and velocities. NaN where that comes nearer to the vertical than it is known.
+template <Real Scalar>
+Scalar axis_turn(const State<Scalar>& from, const State<Scalar>& to, Scalar time) noexcept {
+  constexpr int parts = 32;
+  const auto tip = [](const State<Scalar>& s) { return rotate<Scalar>(s.attitude, Vec3<Scalar>(0, 0, 1)); };
+  const auto speed = [](const State<Scalar>& s) {
+    return rotate<Scalar>(s.attitude, Vec3<Scalar>(s.angular_velocity[1], -s.angular_velocity[0], 0));
+  };
+  const Vec3<Scalar> a = tip(from), b = tip(to), u = time * speed(from), v = time * speed(to);
+  const Scalar angle = time * std::max(from.angular_velocity.norm(), to.angular_velocity.norm());
+  const Scalar unknown = 4 * std::pow(angle, 4) / 384 + Scalar(1e-5L);
+  Scalar turned = 0, nearest = infinity<Scalar>;
+  Vec3<Scalar> last = a;
+  for (int i = 1; i <= parts; ++i) {
+    const Scalar x = Scalar(i) / parts, rest = 1 - x;
+    const Vec3<Scalar> now = rest * rest * (1 + 2 * x) * a + x * x * (3 - 2 * x) * b + x * rest * (rest * u - x * v);
+    turned -= std::atan2(last[0] * now[1] - last[1] * now[0], last[0] * now[0] + last[1] * now[1]);
+    nearest = std::min(nearest, std::hypot(now[0], now[1]));
+    last = now;
+  }
+  return nearest > unknown ? turned : nan<Scalar>;
+}
+
 /// A periodic motion at times of many periods from the full equations over the first one: rates and down repeat, and the attitude gains the
 /// same turn about the vertical in each. So errors grow in proportion to time, also where the motion is unstable.
 template <Real Scalar>
@@ -66,15 +90,15 @@ class PeriodicMotion {
     CarriedOn<Scalar> made;
     const Row<Scalar> row{scales(problem_, orbit_.start.angular_velocity[2])};
     Comparison<Row<Scalar>> once(row), sizes(row);
-    Scalar fastest = 0, steepest = 0, mean = 0;
+    Scalar fastest = 0, steepest = 0, turned_axis = 0;
     for (const State<Scalar>& s : first) {
       once.add(s);
       fastest = std::max(fastest, s.angular_velocity.norm());
       steepest = std::max(steepest, angular_acceleration<Scalar>(problem_, s.angular_velocity, s.down).norm());
     }
-    for (const std::size_t node : nodes_) {
-      const auto &w = first[node].angular_velocity, &d = first[node].down;
-      mean += (w[0] * d[0] + w[1] * d[1]) / (d[0] * d[0] + d[1] * d[1]) / grid;
+    for (int k = 0; k < grid; ++k) {
+      const std::size_t next = k + 1 < grid ? nodes_[k + 1] : first.size() - 1;
+      turned_axis += axis_turn(first[nodes_[k]], first[next], orbit_.period / grid);
     }
     const Quat<Scalar> gained = first.back().attitude * conjugate(first.front().attitude);
     const Scalar half = std::atan2(gained.z, gained.w), T = orbit_.period;
@@ -97,10 +121,10 @@ class PeriodicMotion {
              error[column::down] + start + fastest * late + rounding, (1 + periods_) * turned + fastest * late}),
         column_kinds);
 
-    // right-handed about DOWN, and the branch from the mean of psi'
-    const Scalar branch = std::nearbyint((mean * T + 2 * half) / (2 * pi<Scalar>));
+    // right-handed about DOWN, and the whole turns from the path of the axis
+    const Scalar branch = std::nearbyint((turned_axis + 2 * half) / (2 * pi<Scalar>));
     const Scalar psi = 2 * pi<Scalar> * branch - 2 * half;
-    made.precession = std::abs(psi - mean * T) < 1 ? psi / T : nan<Scalar>;
+    made.precession = std::abs(psi - turned_axis) < Scalar(0.1L) ? psi / T : nan<Scalar>;
     // at another period the body has turned further about the vertical by its rate about it
     const Scalar about_down = std::abs(orbit_.start.angular_velocity.dot(orbit_.start.down));
     made.precession_error = turned / T + (about_down + std::abs(made.precession)) * orbit_.error.period;

@@ -91,6 +91,9 @@ class Scene {
   const Mat3<double>& R_BP() const noexcept { return body_.R_BP; }  ///< principal axes to body axes
   /// Principal axes; the attitude takes them to inertial ones.
   const State<double>& start() const noexcept { return start_; }
+  /// The body comes from a tensor that is not diagonal; a start through it, or its down from an attitude. Conversions round.
+  bool converts_body() const noexcept { return body_.R_BP != Mat3<double>::Identity(); }
+  bool converts_start() const noexcept { return converts_body() || (question_.wants_attitude && !given_.periodic); }
   /// As the caller gave it, but for the norm of the attitude.
   const State<double>& given() const noexcept { return given_.state; }
   const std::optional<Periodic>& periodic() const noexcept { return given_.periodic; }

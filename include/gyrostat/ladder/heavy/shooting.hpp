@@ -148,10 +148,11 @@ class Shooting {
 /// longer improves it. Errors: no_convergence (what is left exceeds `accept`), step_limit, step_underflow, not_finite.
 /// @param rate of which w is measured, rad/s   @param accept greatest closure and condition   @param most shots
 /// @param threshold of least_squares: unknowns without an effect of their own above it stay
+/// @param spent to which the work is added, whether it closes or not
 template <Real Scalar, OrbitSpace<Scalar> Space>
 Result<Closed<Scalar>> close_orbit(const Problem<Scalar>& problem, const State<Scalar>& from, Scalar guess, Scalar rate,
                                    const Space& space, Scalar accept = close_enough<Scalar>, int most = 16,
-                                   Scalar threshold = 4 * epsilon<Scalar>) noexcept {
+                                   Scalar threshold = 4 * epsilon<Scalar>, ode::Counts* spent = nullptr) noexcept {
   using Method = detail::Shooting<Scalar, Space>;
   const Method method(space, rate);
   State<Scalar> start = from;
@@ -164,6 +165,7 @@ Result<Closed<Scalar>> close_orbit(const Problem<Scalar>& problem, const State<S
     if (!(period > 0 && period < infinity<Scalar>) || !start.angular_velocity.allFinite()) break;
     const Shot<Scalar> shot = shoot(problem, start, period);
     best.counts += shot.counts;
+    if (spent != nullptr) *spent += shot.counts;
     ++best.shots;
     if (shot.status != ode::Status::reached) {
       if (trip > 0) break;

@@ -16,6 +16,10 @@ struct ExactError {
   Scalar down = 0;              ///< of the unit vector
   Scalar angular_velocity = 0;  ///< rad/s
 
+  ExactError& operator+=(const ExactError& by) noexcept {
+    attitude += by.attitude, down += by.down, angular_velocity += by.angular_velocity;
+    return *this;
+  }
   /// Of a motion that is off by an angle; `rate` is the greatest angular velocity and frequency in it.
   static ExactError of(Scalar angle, Scalar rate) noexcept {
     if (!(angle < Scalar(0.05))) return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};

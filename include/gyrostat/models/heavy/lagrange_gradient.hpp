@@ -199,7 +199,7 @@ Scalar LagrangeGradient<Scalar>::greatest_speed(const TopStart<Scalar>& o, Scala
 template <Real Scalar>
 void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept {
   unit_ = o.unit;
-  defect_ = top.defect;
+  defect_ = top.skew();
   planar_ = o.planar();
   const Scalar u = o.u, x = o.swing;
   const Scalar pull = o.pull - 2 * o.gradient * u;  // slope of v^2

@@ -186,7 +186,7 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   unit_ = o.unit;
   s_ = top.weight > 0 ? -1 : 1;
   rho_ = o.rho;
-  defect_ = top.defect;
+  defect_ = top.skew();
   planar_ = o.planar();
   const Scalar kappa = std::abs(o.pull);
   roots(o, kappa);

@@ -67,11 +67,13 @@ class Pendulum {
     return s;
   }
 
-  /// Bound of the error of at() up to time |t|. A start off the plane by rounding may leave it.
-  ExactError<Scalar> error(Scalar t) const noexcept {
+  /// Bound of the error of at() up to time |t|. A start off the plane by rounding may leave it, and one that stands upright to rounding
+  /// may fall. @param blur by how much, relative, the start may be off the plane beyond what is seen
+  ExactError<Scalar> error(Scalar t, Scalar blur = 0) const noexcept {
     t = std::abs(unit_ * t);
     const Scalar late = time_error(rounding, rounding * shift_, K_, rate_, t);
-    const Scalar off = defect_ == 0 ? Scalar(0) : defect_ * std::exp((fastest_ + growth_) * t);
+    const auto grown = [t](Scalar part, Scalar rate) { return part == 0 ? Scalar(0) : part * std::exp(rate * t); };
+    const Scalar off = grown(defect_ + blur, fastest_ + growth_) + grown(upright_, frequency_);
     return ExactError<Scalar>::of(rounding * (1 + fastest_ * t) + fastest_ * late + off, unit_ * (fastest_ + 1));
   }
 
@@ -101,9 +103,10 @@ class Pendulum {
     Scalar fold;          // 2 where the angle is twice that of the body
     Scalar square;        // of c, 1/s^2
     Scalar cosine, sine;  // of the angle, times any length
+    Scalar doubt;         // rounding of the sine, over that length
   };
   static std::optional<Hang> hang(const Problem<Scalar>& problem, const Vec3<Scalar>& d, int k) noexcept;
-  void set_phase(Scalar v, Scalar s, Scalar c) noexcept;
+  void set_phase(Scalar v, Scalar s, Scalar c, Scalar doubt) noexcept;
   bool build(const Problem<Scalar>& problem, const State<Scalar>& start, int k) noexcept;
   Point point(Scalar t) const noexcept {
     if (rate_ == 0) return {half_, 0};
@@ -124,6 +127,7 @@ class Pendulum {
   math::JacobiAt<Scalar> functions_{math::Modulus<Scalar>{}};
   PendulumMotion motion_ = PendulumMotion::rest;
   Scalar fastest_ = 0, growth_ = 1, shift_ = 1, defect_ = 0;
+  Scalar upright_ = 0;  // angle from standing upright that rounding may hide, at rest there
 };
 
 /// The angle of `down` from where it hangs, for swings about axis k; nothing where both weight and gradient act.
@@ -135,15 +139,16 @@ auto Pendulum<Scalar>::hang(const Problem<Scalar>& problem, const Vec3<Scalar>& 
   const Vec3<Scalar> m = problem.moment();
   const Scalar weight = std::hypot(m[i], m[j]), gradient = problem.gradient() * (I[i] - I[j]);
   if (weight > 0 && gradient == 0)
-    return Hang{1, weight / I[k], (d[i] * m[i] + d[j] * m[j]) / weight, (d[i] * m[j] - d[j] * m[i]) / weight};
+    return Hang{1, weight / I[k], (d[i] * m[i] + d[j] * m[j]) / weight, (d[i] * m[j] - d[j] * m[i]) / weight,
+                epsilon<Scalar> * (std::abs(d[i] * m[j]) + std::abs(d[j] * m[i])) / weight};
   if (weight != 0) return std::nullopt;
   const Scalar sign = gradient > 0 ? 1 : -1;  // twice the angle beta of down: from axis j, or from i
-  return Hang{2, std::abs(gradient) / I[k], sign * (d[j] - d[i]) * (d[j] + d[i]), 2 * sign * d[i] * d[j]};
+  return Hang{2, std::abs(gradient) / I[k], sign * (d[j] - d[i]) * (d[j] + d[i]), 2 * sign * d[i] * d[j], 0};
 }
 
-/// The elliptic functions of the motion. @param v half the rate of the folded angle   @param s, c sine and cosine of its half
+/// The elliptic functions of the motion. @param v half the rate of the folded angle   @param s, c sine and cosine of its half   @param doubt error of c
 template <Real Scalar>
-void Pendulum<Scalar>::set_phase(Scalar v, Scalar s, Scalar c) noexcept {
+void Pendulum<Scalar>::set_phase(Scalar v, Scalar s, Scalar c, Scalar doubt) noexcept {
   const Scalar p = v * v, inside = frequency_ * c, up = frequency_ * s;
   const Scalar total = p + up * up;  // rate^2 k^2 of libration, rate^2 of rotation
   const Scalar short_of = (inside - std::abs(v)) * (inside + std::abs(v));
@@ -151,9 +156,10 @@ void Pendulum<Scalar>::set_phase(Scalar v, Scalar s, Scalar c) noexcept {
   fastest_ = 2 * std::sqrt(total) / fold_;
   half_ = std::atan2(s, c);
   motion_ = PendulumMotion::rest;
+  if (v == 0 && c == 0) upright_ = doubt;
   if (total == 0 || (v == 0 && c == 0)) return;
   rotates_ = short_of < 0;
-  shift_ = (inside * inside + p) / std::abs(short_of);
+  shift_ = (inside * inside + p + frequency_ * std::abs(inside) * (2 * doubt / rounding)) / std::abs(short_of);
   Scalar sn, cn, dn;
   if (rotates_) {
     motion_ = PendulumMotion::rotation;
@@ -209,7 +215,7 @@ bool Pendulum<Scalar>::build(const Problem<Scalar>& problem, const State<Scalar>
   const Scalar c = cosine > 0 ? std::sqrt((1 + cosine) / 2) : std::abs(sine) / std::sqrt(2 * (1 - cosine));
   const Scalar s =
       std::copysign(cosine > 0 ? std::abs(sine) / std::sqrt(2 * (1 + cosine)) : std::sqrt((1 - cosine) / 2), sine);
-  set_phase(speed / 2 / unit_, s, c);
+  set_phase(speed / 2 / unit_, s, c, hanging->doubt / length);
   return true;
 }
 

@@ -11,8 +11,8 @@ namespace gyrostat::heavy {
 
 /// The rates at which a top can precess at a constant inclination u = g3, right-handed about DOWN, rad/s: the roots of
 ///     A u w^2 - C r w + V' = 0,   V' = -W + N (C - A) u   (docs/heavy.md, section 7).
-/// No cancellation in either. slow -> V'/(C r) and fast -> C r/(A u) as r grows; a horizontal axis (u = 0) has no fast
-/// one: infinite.
+/// No cancellation in either. slow -> V'/(C r) and fast -> C r/(A u) as r grows; a horizontal axis (u = 0 to rounding)
+/// has no fast one: infinite.
 template <Real Scalar>
 struct RegularPrecession {
   bool exists;        ///< real roots: (C r)^2 >= 4 A u V'
@@ -29,7 +29,8 @@ RegularPrecession<Scalar> regular_precession(const SymmetricTop<Scalar>& top, Sc
   const Scalar q = (b + std::copysign(std::sqrt(discriminant), b)) / 2;
   // q = 0 where nothing drives nor spins
   const Scalar slow = q == 0 ? Scalar(0) : c / q;
-  const Scalar fast = a == 0 ? (q == 0 ? Scalar(0) : infinity<Scalar>) : q / a;
+  const bool level = std::abs(u) <= 8 * epsilon<Scalar>;
+  const Scalar fast = level ? (q == 0 ? Scalar(0) : infinity<Scalar>) : q / a;
   const bool ordered = std::abs(slow) <= std::abs(fast);
   return {true, ordered ? slow : fast, ordered ? fast : slow};
 }

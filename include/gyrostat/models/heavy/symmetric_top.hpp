@@ -58,6 +58,8 @@ struct SymmetricTop {
     return best;
   }
 
+  /// By how much, relative to the rates, their change is off: what is uneven turns the body about its axis by its least moment.
+  Scalar skew() const noexcept { return defect * std::max(Scalar(1), across / along); }
   /// N (C - A)/A, what the gradient does to the axis, 1/s^2.
   Scalar gradient_rate() const noexcept { return gradient * (along - across) / across; }
   /// 2 W/A, 1/s^2.
