@@ -176,8 +176,8 @@ Track averaged_track(const Scene& scene) {
 
   // Below a few breakdown momenta the body falls to the axis of the weakest control, the averaged one need not.
   const double low = 3 * breakdown;
-  double late = 1;
-  if (low < norm0 / 2 && run.advance(infinity<double>, low) == ode::Status::reached) {
+  double late = scene.greatest_control() > 0 ? 1 : 0;
+  if (late > 0 && low < norm0 / 2 && run.advance(infinity<double>, low) == ode::Status::reached) {
     const auto s = run.motion().state();
     const auto b = ControlTorques<double>::of(problem.control, s.polhode.axes);
     const double D = mean_torque<Elliptic>(s.polhode, b).deceleration;
@@ -185,7 +185,7 @@ Track averaged_track(const Scene& scene) {
     const double drift = run.error().first_order(norm0, energy0).norm / D;
     const auto stop = run.motion().stop_time();
     if (!stop) return refused<Track>(stop.error(), "the mean equations could not be integrated to rest");
-    late = scene.greatest_control() > 0 ? (tail + drift) / *stop : 0;
+    late = (tail + drift) / *stop;
   }
   if (const auto stop = run.motion().stop_time()) track.stop_time = *stop;
   if (late > 1) late = infinity<double>;  // not an estimate any more
@@ -200,7 +200,7 @@ Track averaged_track(const Scene& scene) {
     error.k2 = 1;
   }
   detail::state_errors(track, error);
-  track.in_domain = breakdown < norm0 / 3;
+  if (!(breakdown < norm0 / 3)) track.leave_domain();
   track.counts = run.motion().counts();
   detail::warn_of_start(track, scene, start);
   detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());
@@ -238,6 +238,7 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
                             tolerance, phase_error);
   const auto& times = scene.question().times;
   constexpr const char* lost = "the motion comes so near the separatrix that the second order is lost";
+  if (!(times.front() > 0)) track.states.push_back(detail::state_on_orbit(problem, problem.momentum));
   while (track.states.size() < times.size()) {
     if (run.advance(times[track.states.size()], last_norm) != ode::Status::reached)
       return refused<Track>(Errc::no_convergence, "the mean equations could not be integrated");

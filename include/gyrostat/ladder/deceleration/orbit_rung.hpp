@@ -118,11 +118,11 @@ class OrbitError {
 
 namespace detail {
 
-/// |U| below which a turn of the body takes as long as the rest of the braking, N m s.
-inline double orbit_breakdown(const Problem<double>& problem, double greatest_control) noexcept {
+/// |U| below which a turn of the body takes as long as the rest of the braking by a torque [N m], N m s.
+inline double orbit_breakdown(const Problem<double>& problem, double torque) noexcept {
   const double turn = problem.gyro_rate().norm();
-  const double free = breakdown_momentum(problem, greatest_control);
-  return turn > 0 ? std::min(free, greatest_control / turn) : free;
+  const double free = breakdown_momentum(problem, torque);
+  return turn > 0 ? std::min(free, torque / turn) : free;
 }
 
 inline State<double> slow_state(const Problem<double>& problem, const Level<double>& level, Component component,
@@ -212,7 +212,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   detail::state_errors(
       track, {in_span.norm + local * problem.momentum.norm(), in_span.energy + local * energy, in_span.k2 + local, 0});
 
-  const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
+  const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
   if (!Hold<double>(problem).holds) {
     track.stop_time = infinity<double>;
   } else if (const auto stop = motion.stop_time(visit)) {
@@ -233,7 +233,8 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   }
   if (end >= track.stop_time || motion.changed_component()) track.error[column::modulus_squared] = 1;
   if (motion.changed_component()) track.warn(warning::crosses_separatrix);
-  track.in_domain = error.known() && small_parameter(scene) < 0.1;
+  if (!error.known() || !(small_parameter(scene) < 0.1) || !(breakdown <= scene.opposed().norm() / 3))
+    track.leave_domain();
   track.counts = motion.counts();
   detail::warn_of_start(track, scene, *orbit);
   withhold(track, scene);
@@ -252,7 +253,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
     return refused<Track>(Errc::not_applicable,
                           "the motion starts on an equilibrium: there is nothing to average over");
 
-  const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
+  const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
   const double floor = hand_over_share(scene) * breakdown;
   const double opposed = scene.opposed().norm();
   if (!(floor < opposed / 2))
@@ -275,6 +276,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   OrbitMotion<Rates, double> motion(problem, mean->level, mean->component, mean->phase, tolerance, phase_error,
                                     Rates{orbit});
   const auto& times = scene.question().times;
+  if (!(times.front() > 0)) track.states.push_back(detail::state_on_orbit(problem, problem.momentum));
   while (track.states.size() < times.size()) {
     if (motion.advance(times[track.states.size()], floor, visit) != ode::Status::reached)
       return detail::not_followed(detail::impasse(problem, motion).code);
