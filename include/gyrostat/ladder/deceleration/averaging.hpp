@@ -98,7 +98,9 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
                                in_span.k2 + local + lag * oscillating.k2, 0});
   track.know_momentum(problem, in_span.vector + (local + lag) * norm);
 
-  // The tail, for the stop time and for the samples beyond the hand-over.
+  // The tail, for the stop time and for the samples beyond the hand-over. Where it leads to no stop the full equations tell more, and
+  // nothing is left out to spare them.
+  bool stops = false;
   if (!(scene.greatest_control() > 0)) {
     track.stop_time = infinity<double>;
   } else if (const auto halt = mean.advance(infinity<double>, floor); halt.code != Errc::ok) {
@@ -114,10 +116,11 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
     if (failure != Errc::ok)
       return gyrostat::refused<Track>(failure, "the full equations could not take over near rest");
     track.stop_error += 100 * tolerance;
+    stops = true;
   }
   track.counts += mean.counts();
   mean.warn(track);
-  withhold(track, scene);
+  if (stops) withhold(track, scene);
   return track;
 }
 
