@@ -101,7 +101,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   // The tail, for the stop time and for the samples beyond the hand-over. Where it leads to no stop the full equations tell more, and
   // nothing is left out to spare them.
   bool stops = false;
-  if (!(scene.greatest_control() > 0)) {
+  if (in_time && !Hold<double>(problem).holds) {
     track.stop_time = infinity<double>;
   } else if (const auto halt = mean.advance(infinity<double>, floor); halt.code != Errc::ok) {
     if (!in_time) return detail::refused(halt);

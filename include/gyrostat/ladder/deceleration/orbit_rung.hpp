@@ -250,6 +250,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   }
   const double end = scene.question().times.back();
   const auto in_span = error.first_order();
+  const bool known = error.known();
   const double local = 10 * mean_tolerance(scene);
   double energy = 0;
   for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
@@ -277,8 +278,8 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   }
   if (end >= track.stop_time || motion.changed_component()) track.error[column::modulus_squared] = 1;
   if (motion.changed_component()) track.warn(warning::crosses_separatrix);
-  if (!error.known() || !(small_parameter(scene) < 0.1) || !(breakdown <= scene.opposed().norm() / 3))
-    track.leave_domain();
+  if (!known || !(small_parameter(scene) < 0.1) || !(breakdown <= scene.opposed().norm() / 3)) track.leave_domain();
+  else if (!error.known() && std::isfinite(track.stop_time)) track.stop_error = infinity<double>;
   track.counts = motion.counts();
   detail::warn_of_start(track, scene, orbit->modulus().kp2);
   withhold(track, scene);
