@@ -19,6 +19,7 @@
 #include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/deceleration/averaged_motion.hpp"
 #include "gyrostat/ladder/deceleration/averaged_rung.hpp"
+#include "gyrostat/ladder/deceleration/averaging.hpp"
 #include "gyrostat/ladder/deceleration/equal_torque_rung.hpp"
 #include "gyrostat/ladder/deceleration/full_motion.hpp"
 #include "gyrostat/ladder/deceleration/full_rung.hpp"

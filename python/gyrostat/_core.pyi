@@ -135,7 +135,7 @@ def deceleration_regimes() -> list[str]:
     """
     Symbols of the regimes, in the order of their numbers.
     """
-def deceleration_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, law: str, drag_law: str, angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, elliptic: str, monitor: Monitor | None) -> dict[str, typing.Any]:
+def deceleration_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, law: str, drag_law: str, angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, elliptic: str, monitor: Monitor | None, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> dict[str, typing.Any]:
     """
     Answer of the ladder as plain data.
     """

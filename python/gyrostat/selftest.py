@@ -68,7 +68,7 @@ def _second_order() -> str:
 
 def _integrators() -> str:
     given = {key: value for key, value in deceleration.arguments(load("cubesat-wheel", duration=300.0, samples=4)).items()
-             if key not in ("attitude", "tolerance", "model", "integrator", "elliptic")}
+             if key not in ("angular_velocity", "attitude", "tolerance", "model", "integrator", "elliptic")}
     methods = ["taylor", "dop853"] + (["cvode-adams", "cvode-bdf"] if deceleration.has_cvode() else [])
     made = [np.asarray(deceleration.integrate(**given, method=method, tolerance=1e-11)["angular_momentum"]) for method in methods]
     error = max(float(np.max(np.abs(m - made[0]))) for m in made) / float(np.max(np.abs(made[0])))

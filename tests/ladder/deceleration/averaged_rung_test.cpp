@@ -131,9 +131,3 @@ TEST_CASE("averaged rung: gives up early where the start already misses the tole
   CHECK(track.known_error > 1e-5);
   CHECK(track.counts.rhs < 50);
 }
-
-TEST_CASE("breakdown momentum", "[deceleration]") {
-  const Scene scene = Case(1e-4, 1).scene();
-  // one radian of turning about the middle axis while the torque takes all momentum: M = sqrt(eps b B)
-  CHECK(breakdown_momentum(scene.problem(), scene.greatest_control()) == Approx(1e-2).epsilon(1e-12));
-}

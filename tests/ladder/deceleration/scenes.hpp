@@ -91,7 +91,7 @@ inline std::string stated(const Answer& answer) {
   return text;
 }
 
-/// Greatest difference over the times, over the greatest norm in the reference (k2: absolute); NaN counts as infinite.
+/// Greatest difference over the times, over the greatest norm in the reference or the scale (k2: absolute); NaN counts as infinite.
 inline double distance(const Answer& answer, const Answer& reference, const char* name) {
   const Column *a = answer.find(name), *r = reference.find(name);
   REQUIRE(a);
@@ -99,7 +99,7 @@ inline double distance(const Answer& answer, const Answer& reference, const char
   REQUIRE(a->values.size() == r->values.size());
   REQUIRE(a->values.size() == std::size_t(a->kind->width) * answer.times.size());
   const std::size_t width = std::size_t(a->kind->width);
-  double worst = 0, size = 0;
+  double worst = 0, size = r->scale;
   for (std::size_t i = 0; i < a->values.size(); i += width) {
     double difference = 0, norm = 0;
     for (std::size_t j = i; j < i + width; ++j) {

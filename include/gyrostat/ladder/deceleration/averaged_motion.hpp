@@ -79,6 +79,7 @@ class AveragedMotion {
 
   /// Time at which |M| vanishes, s; infinite where no control torque acts.
   Result<Scalar> stop_time() noexcept {
+    if (problem_.control.isZero(0)) return infinity<Scalar>;
     while (!at_rest_ && !stuck_)
       if (step() != ode::Status::reached)
         return solver_.status() == ode::Status::step_limit ? Errc::step_limit : Errc::no_convergence;
@@ -96,6 +97,7 @@ class AveragedMotion {
   const ode::Counts& counts() const noexcept { return solver_.counts(); }
 
  private:
+  /// Where the clock of the mean equations ends: it tells e-folds of what the torque changes, or quarter periods of a free motion.
   static constexpr Scalar far_away = Scalar(1e9);
   /// |M|/|M(0)| from which the mean torque is taken as constant.
   static constexpr Scalar rest = std::numeric_limits<Scalar>::epsilon() * 64;
@@ -123,6 +125,7 @@ class AveragedMotion {
   }
 
   ode::Status step() noexcept {
+    if (!(solver_.time() < far_away)) return ode::Status::step_limit;
     if (const auto status = solver_.step(far_away); status != ode::Status::reached) return status;
     const State& y = solver_.state();
     if (y[Equations::log_norm] < std::log(rest)) at_rest_ = true;

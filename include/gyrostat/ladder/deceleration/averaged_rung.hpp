@@ -3,18 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gyrostat/ladder/deceleration/averaged_motion.hpp"
-#include "gyrostat/ladder/deceleration/hand_over.hpp"
+#include "gyrostat/ladder/deceleration/averaging.hpp"
 #include "gyrostat/models/deceleration/averaging_error.hpp"
 
 /// Rungs `averaged` and `averaged-2` without rotor momentum.
 namespace gyrostat::deceleration {
-
-/// |M| at which the body turns once while the control stops it, N m s: below, averaging has no meaning.
-inline double breakdown_momentum(const Problem<double>& problem, double greatest_control) noexcept {
-  return std::sqrt(greatest_control / problem.inverse_inertia[1]);
-}
 
 /// The averaged motion without rotor momentum and what its error is made of.
 template <class Elliptic>
@@ -37,11 +33,6 @@ class AveragedRun {
   AveragedMotion<Elliptic, double>& motion() noexcept { return motion_; }
   const AveragingError<double>& error() const noexcept { return error_; }
 
-  /// Local error of the mean equations: far below what is asked, no smaller than rounding allows.
-  static double tolerance_of(const Scene& scene) noexcept {
-    return std::max(1e-13, std::min(1e-9, scene.question().tolerance * 1e-3));
-  }
-
  private:
   void visit(const Polhode<double>& p, double norm) noexcept {
     const auto b = ControlTorques<double>::of(problem_.control, p.axes);
@@ -55,14 +46,6 @@ class AveragedRun {
 };
 
 namespace detail {
-
-/// Why no averaged rung of this file answers the scene, or nullptr.
-inline const char* not_averaged(const Scene& scene) noexcept {
-  if (scene.question().wants_attitude) return "averaging does not know the attitude";
-  if (scene.sphere()) return "a sphere has no fast polhode to average over";
-  if (!(scene.problem().momentum.norm() > 0)) return "the body is at rest at the start";
-  return nullptr;
-}
 
 /// The polhode of the start; where there is none the refusal is not ok.
 struct PolhodeStart {
@@ -78,38 +61,6 @@ inline PolhodeStart start_of(const Scene& scene) {
                               "M lies across an axis of symmetry: there is no polhode to average over")};
   if (!(p.modulus.kp2 > 0)) return {p, refused<Track>(Errc::separatrix, "the motion starts on the separatrix")};
   return {p, {}};
-}
-
-/// The osculating state of a mean one, and whether it has one.
-struct Osculating {
-  MeanState<double> state;
-  Vec3<double> momentum;
-  bool valid;
-};
-
-template <class Elliptic>
-Osculating osculating(const Problem<double>& problem, const MeanState<double>& mean) noexcept {
-  const auto b = ControlTorques<double>::of(problem.control, mean.polhode.axes);
-  const double u = mean.phase * Elliptic::complete(mean.polhode.modulus).K;
-  const auto o = oscillation<Elliptic>(mean.polhode, b, mean.norm, u);
-  const auto p = shifted(mean.polhode, o.spread);
-  const double norm = mean.norm * (1 + o.norm);
-  const double argument = mean.phase * Elliptic::complete(p.polhode.modulus).K;
-  return {{norm, p.polhode, mean.phase}, momentum_on<Elliptic>(p.polhode, norm, argument), p.valid};
-}
-
-/// What averaging does not like at the start. mu: relative change of M in one radian; gap: between the two moments that are nearest
-/// each other, over the widest, and from where on it is narrow; kp2: of the first orbit.
-inline void warn_of_start(Track& track, double mu, double gap, double narrow, double kp2) {
-  if (mu > 0.1) track.warn(warning::not_slow, mu);
-  if (gap < narrow) track.warn(warning::near_symmetric, gap);
-  if (kp2 < std::max(1e-2, 10 * mu)) track.warn(warning::near_separatrix, kp2);
-}
-
-/// The gap between the two principal axes that are nearest each other, over that of the outer two.
-inline double symmetry_gap(const Problem<double>& problem) noexcept {
-  const auto& a = problem.inverse_inertia;
-  return std::min(a[1] - a[0], a[2] - a[1]) / (a[2] - a[0]);
 }
 
 inline void warn_of_start(Track& track, const Scene& scene, const Polhode<double>& p) {
@@ -139,12 +90,41 @@ inline State<double> slow_state(const MeanState<double>& s) {
   return state;
 }
 
-/// The slow columns' errors.
-inline void state_errors(Track& track, const SlowError<double>& error) noexcept {
-  track.error[column::angular_momentum_norm] = error.norm;
-  track.error[column::energy] = error.energy;
-  track.error[column::modulus_squared] = error.k2;
-}
+/// A mean motion of second order (second_order_track).
+template <class Elliptic>
+struct SecondOrderPolhode {
+  const Problem<double>& problem;
+  AveragedRun<Elliptic>& run;
+  double phase_error;  ///< local, quarter periods
+
+  Halt advance(double t, double floor) noexcept {
+    if (run.advance(t, floor) != ode::Status::reached) return not_followed(Errc::no_convergence);
+    return run.motion().crossed() || run.motion().stuck() ? not_followed(Errc::separatrix) : Halt{};
+  }
+  bool floored() const noexcept { return run.motion().floored(); }
+  double time() const noexcept { return run.motion().time(); }
+
+  Result<State<double>> osculating() noexcept {
+    const auto mean = run.motion().state();
+    const auto b = ControlTorques<double>::of(problem.control, mean.polhode.axes);
+    const auto o =
+        oscillation<Elliptic>(mean.polhode, b, mean.norm, mean.phase * Elliptic::complete(mean.polhode.modulus).K);
+    const auto p = shifted(mean.polhode, o.spread);
+    if (!p.valid) return Errc::separatrix;
+    const double norm = mean.norm * (1 + o.norm);
+    State<double> state = slow_state({norm, p.polhode, mean.phase});
+    state.momentum = momentum_on<Elliptic>(p.polhode, norm, mean.phase * Elliptic::complete(p.polhode.modulus).K);
+    return state;
+  }
+
+  SlowError<double> first_order() const noexcept {
+    return run.error().first_order(problem.momentum.norm(), problem.energy(problem.momentum));
+  }
+  SlowError<double> second_order() const noexcept { return run.error().second_order(); }
+  double lag(double local) noexcept { return 2 * (10 * phase_error + local * std::abs(run.motion().state().phase)); }
+  ode::Counts counts() const noexcept { return run.motion().counts(); }
+  void warn(Track& track) const { warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck()); }
+};
 
 }  // namespace detail
 
@@ -158,7 +138,7 @@ Track averaged_track(const Scene& scene) {
   const double norm0 = M0.norm();
 
   Track track;
-  const double tolerance = AveragedRun<Elliptic>::tolerance_of(scene);
+  const double tolerance = mean_tolerance(scene);
   AveragedRun<Elliptic> run(scene, start, norm0, 0, tolerance, infinity<double>);
   const double energy0 = problem.energy(M0);
   if (scene.question().rung == any_rung) {
@@ -176,8 +156,8 @@ Track averaged_track(const Scene& scene) {
 
   // Below a few breakdown momenta the body falls to the axis of the weakest control, the averaged one need not.
   const double low = 3 * breakdown;
-  double late = 1;
-  if (low < norm0 / 2 && run.advance(infinity<double>, low) == ode::Status::reached) {
+  double late = scene.greatest_control() > 0 ? 1 : 0;
+  if (late > 0 && low < norm0 / 2 && run.advance(infinity<double>, low) == ode::Status::reached) {
     const auto s = run.motion().state();
     const auto b = ControlTorques<double>::of(problem.control, s.polhode.axes);
     const double D = mean_torque<Elliptic>(s.polhode, b).deceleration;
@@ -185,7 +165,7 @@ Track averaged_track(const Scene& scene) {
     const double drift = run.error().first_order(norm0, energy0).norm / D;
     const auto stop = run.motion().stop_time();
     if (!stop) return refused<Track>(stop.error(), "the mean equations could not be integrated to rest");
-    late = scene.greatest_control() > 0 ? (tail + drift) / *stop : 0;
+    late = (tail + drift) / *stop;
   }
   if (const auto stop = run.motion().stop_time()) track.stop_time = *stop;
   if (late > 1) late = infinity<double>;  // not an estimate any more
@@ -200,7 +180,7 @@ Track averaged_track(const Scene& scene) {
     error.k2 = 1;
   }
   detail::state_errors(track, error);
-  track.in_domain = breakdown < norm0 / 3;
+  if (!(breakdown < norm0 / 3)) track.leave_domain();
   track.counts = run.motion().counts();
   detail::warn_of_start(track, scene, start);
   detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());
@@ -230,57 +210,15 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
     return refused<Track>(Errc::not_applicable,
                           "the braking is too fast: averaging would hand over to the full equations at the start");
 
-  Track track;
   // A relative error of the mean orbit becomes one of the phase, times the turns made.
-  const double tolerance = 1e-3 * AveragedRun<Elliptic>::tolerance_of(scene) + 1e-13;
+  const double tolerance = 1e-3 * mean_tolerance(scene) + 1e-13;
   const double phase_error = std::max(1e-7, scene.question().tolerance * 1e-2);
   AveragedRun<Elliptic> run(scene, mean.polhode, norm0 * (1 - away.norm), u0 / Elliptic::complete(start.modulus).K,
                             tolerance, phase_error);
-  const auto& times = scene.question().times;
-  constexpr const char* lost = "the motion comes so near the separatrix that the second order is lost";
-  while (track.states.size() < times.size()) {
-    if (run.advance(times[track.states.size()], last_norm) != ode::Status::reached)
-      return refused<Track>(Errc::no_convergence, "the mean equations could not be integrated");
-    if (run.motion().crossed() || run.motion().stuck()) return refused<Track>(Errc::separatrix, lost);
-    if (run.motion().floored()) break;
-    const auto now = detail::osculating<Elliptic>(problem, run.motion().state());
-    if (!now.valid) return refused<Track>(Errc::separatrix, lost);
-    track.states.push_back(detail::slow_state(now.state));
-    track.states.back().momentum = now.momentum;
-  }
-  const double energy0 = problem.energy(M0);
-  const auto in_span = run.error().second_order();
-  const auto oscillating = run.error().first_order(norm0, energy0);
-  const double local = 10 * tolerance;
-  const double lag = 10 * phase_error + local * std::abs(run.motion().state().phase);  // quarter periods
-  detail::state_errors(track, {in_span.norm + local * norm0 + lag * oscillating.norm,
-                               in_span.energy + 2 * local * energy0 + lag * oscillating.energy,
-                               in_span.k2 + local + lag * oscillating.k2, 0});
-  track.know_momentum(problem, in_span.vector + (local + 2 * lag) * norm0);
-  track.counts = run.motion().counts();
+  detail::SecondOrderPolhode<Elliptic> motion{problem, run, phase_error};
+  Track track;
   detail::warn_of_start(track, scene, start);
-
-  // The tail, for the stop time and for the samples beyond the hand-over.
-  if (!(scene.greatest_control() > 0)) {
-    track.stop_time = infinity<double>;
-  } else {
-    const bool reached = run.advance(infinity<double>, last_norm) == ode::Status::reached;
-    if (!reached || run.motion().crossed() || run.motion().stuck()) {
-      if (track.states.size() < times.size()) return refused<Track>(Errc::separatrix, lost);
-      track.warn(warning::crosses_separatrix, nan<double>,
-                 "after the asked times the motion crosses the separatrix: no stop time");
-    } else {
-      const auto at_end = detail::osculating<Elliptic>(problem, run.motion().state());
-      if (!at_end.valid) return refused<Track>(Errc::separatrix, lost);
-      const Errc failure =
-          hand_over(track, scene, at_end.momentum, run.motion().time(), run.error().second_order(), monitor);
-      if (failure != Errc::ok) return refused<Track>(failure, "the full equations could not take over near rest");
-      track.stop_error += 100 * tolerance;
-    }
-  }
-  detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());
-  withhold(track, scene);
-  return track;
+  return second_order_track(std::move(track), scene, motion, last_norm, tolerance, monitor);
 }
 
 }  // namespace gyrostat::deceleration

@@ -120,8 +120,8 @@ inline StoppedRun cvode_run(const Scene& scene, double tolerance, Monitor* monit
 
 }  // namespace detail
 
-/// Rung `full` by CVODE. The error is twice the distance to a second run at a tolerance ten times looser. Finds the stop
-/// only where it lies within the times asked for.
+/// Rung `full` by CVODE. The error is the distance to a second run, at a looser tolerance, times the margin of cvode_pair. Finds the
+/// stop only where it lies within the times asked for.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   double stops[2];  // of the tighter run and of the looser one
   double* stop = stops;
@@ -132,10 +132,8 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
-  const double margin = 2;
-  auto error = pair.both.relative(margin * pair.both.difference());
-  for (std::size_t i = 0; i < column::attitude; ++i) error[i] += pair.tolerance;
-  error[column::attitude] /= margin;
+  const auto error =
+      pair.both.relative(pair.margin * pair.both.difference()) + ColumnErrors<double>::all(pair.tolerance);
   std::vector<Vec3<double>> momentum;
   std::vector<Quat<double>> attitude;
   for (const State<double>& state : pair.states) {
@@ -146,7 +144,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   track.counts = pair.counts;
   if (std::isfinite(stops[0])) {
     track.stop_time = stops[0];
-    track.stop_error = margin * over(std::abs(stops[0] - stops[1]), stops[0]) + 1e-8 + 1e3 * pair.tolerance;
+    track.stop_error = pair.margin * over(std::abs(stops[0] - stops[1]), stops[0]) + 1e-8 + 1e3 * pair.tolerance;
   }
   return track;
 }

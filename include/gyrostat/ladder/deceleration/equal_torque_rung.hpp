@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gyrostat/ladder/deceleration/track.hpp"
+#include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/models/deceleration/equal_torque.hpp"
 
 namespace gyrostat::deceleration {
@@ -24,6 +25,7 @@ Track equal_torque_track(const Scene& scene) {
   double rounding = 0;
   for (const double t : scene.question().times) {
     const auto now = motion.at(t);
+    if (!now.momentum.allFinite()) return refused<Track>(Errc::not_applicable, phase_lost);
     State<double> state;
     state.momentum = now.momentum;
     state.norm = now.norm;

@@ -138,14 +138,12 @@ class FullRun {
     stop_time_ = with_control && (hold_.weakest > 0 || hold_.holds) ? nan<Scalar> : infinity<Scalar>;
     std::size_t next = 0;
     while (next < times.size() && times[next] <= 0) sink(next++, problem_.momentum, attitude_);
-    if constexpr (with_control) {
-      if (U.isZero(0)) {
-        if (hold_.holds) {
-          rest(times, next, 0, attitude_, sink);
-          return Status::reached;
-        }
-        t = leave(U);
+    if (U.isZero(0)) {
+      if (hold_.holds || (!with_control && coefficients_.constant.isZero(0))) {
+        rest(times, next, 0, attitude_, sink);
+        return Status::reached;
       }
+      if constexpr (with_control) t = leave(U);
     }
     for (int i = 0; i < 3; ++i) state[static_cast<std::size_t>(i)] = U[i];
     if constexpr (with_attitude) {
@@ -201,6 +199,15 @@ class FullRun {
           status = Status::cancelled;
           break;
         }
+        if constexpr (with_control) {
+          // A step goes at most a part of |U|/torque. Where |U| fades without a stop ahead, the steps only grow shorter.
+          const Scalar fall = falling(U, norm), left = seek ? Scalar(0) : times.back() - now;
+          const auto budget = static_cast<Scalar>(options_.step_cap - trips);
+          if (fall >= 0 && fall * left < norm && left > budget * system.step_limit(solver.state())) {
+            status = Status::step_limit;
+            break;
+          }
+        }
         const Scalar done = seek ? 1 - norm / start_norm : now / times.back();
         report(static_cast<double>(done));
       }
@@ -218,6 +225,8 @@ class FullRun {
   const ode::Counts& counts() const noexcept { return counts_; }
   /// Bound of the angle turned through by U and by the axes up to the last time, rad.
   Scalar phase() const noexcept { return phase_; }
+  /// Angle turned through behind the stop, rad.
+  Scalar phase_at_rest() const noexcept { return phase_at_rest_; }
 
  private:
   /// 1 for double and wider; float cannot resolve 1e-13.
@@ -243,6 +252,7 @@ class FullRun {
     stop_time_ = stop;
     const Vec3<Scalar>& w = coefficients_.rate;
     const Scalar rate = w.norm();
+    if (next < times.size()) phase_at_rest_ = std::max(Scalar(0), times.back() - stop) * rate;
     for (; next < times.size(); ++next) {
       Quat<Scalar> turned = q;
       if (with_attitude && rate > 0) {
@@ -290,7 +300,7 @@ class FullRun {
   const FullMotionOptions<Scalar>& options_;
   double progress_from_, progress_to_;
   Scalar stop_time_ = nan<Scalar>;
-  Scalar phase_ = 0;
+  Scalar phase_ = 0, phase_at_rest_ = 0;
   ode::Counts counts_;
 };
 
@@ -343,7 +353,7 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
   shared[column::angular_velocity] = phase_error * size * problem.inverse_inertia[2];
   shared[column::angular_momentum_norm] = rounding * size;
   shared[column::energy] = rounding * size * both.size()[column::angular_velocity];
-  if constexpr (with_attitude) shared[column::attitude] = 4 * phase_error;
+  if constexpr (with_attitude) shared[column::attitude] = 4 * (phase_error + eps * run.phase_at_rest());
   answer.error = both.relative(margin * both.difference() + shared);
   if (answer.stop_time > 0 && answer.stop_time < infinity<Scalar>) {
     answer.stop_error =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -75,11 +76,26 @@ inline Track full_motion_track(const Problem<double>& problem, std::span<const d
   return track;
 }
 
+/// The angle that U and the axes turn through up to the last time or the stop, to its order, rad.
+inline double turned_angle(const Scene& scene) noexcept {
+  const auto& problem = scene.problem();
+  const FullCoefficients<double> f(problem);
+  const double size = (problem.momentum - f.offset).norm(), b = scene.greatest_control();
+  const double stop = !(b > 0)           ? infinity<double>
+                      : problem.drag > 0 ? std::log1p(problem.drag * size / b) / problem.drag
+                                         : size / b;
+  const double span = std::min(scene.question().times.back(), stop);
+  const double mean = size / (1 + problem.drag * span);
+  const double own = scene.question().wants_attitude ? problem.inverse_inertia[0] : f.quadratic.cwiseAbs().maxCoeff();
+  return span * (own * mean + problem.gyro_rate().norm()) / 2;
+}
+
 /// Rung `full`: the full equations, by Taylor series or by what the scene brings.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
   if (scene.full_equations) return scene.full_equations(scene, monitor);
   const auto& question = scene.question();
   const auto& problem = scene.problem();
+  if (phase_too_long(turned_angle(scene), question.tolerance)) return refused<Track>(Errc::step_limit, phase_lost);
   // A stop far behind the last time asked for is not worth its cost.
   const double longest = scene.opposed().norm() / scene.least_control();
   const bool find_stop =

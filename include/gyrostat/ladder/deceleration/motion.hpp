@@ -68,6 +68,7 @@ namespace warning {
 enum : std::size_t {
   no_control,
   does_not_stop,
+  beyond_validity,
   not_slow,
   near_symmetric,
   near_separatrix,
@@ -83,6 +84,9 @@ enum : std::size_t {
 inline constexpr WarningKind warning_kinds[] = {
     {"no-control", "no control torque acts: the motion decays at best, and never stops"},
     {"does-not-stop", "the law brings M to zero, not the carrier to rest: it ends turning at -J^-1 l"},
+    {"beyond-validity",
+     "the averaged equations do not hold here: the torque changes the motion as fast as the body turns, or the size of "
+     "what they leave out is not known"},
     {"not-slow", "the torque stops the body within a few turns: averaging has no meaning"},
     {"near-symmetric", "two moments of inertia are nearly equal: the libration is slow"},
     {"near-separatrix", "the orbit starts near a separatrix"},

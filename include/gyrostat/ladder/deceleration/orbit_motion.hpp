@@ -173,7 +173,7 @@ class OrbitMotion {
 
   /// Why the motion could not go on.
   Errc failure() const noexcept {
-    if (solver_.status() == ode::Status::step_limit) return Errc::step_limit;
+    if (solver_.status() == ode::Status::step_limit || !(solver_.time() < far_away)) return Errc::step_limit;
     return solver_.rhs().failure == Errc::ok ? Errc::no_convergence : solver_.rhs().failure;
   }
   /// Level and curve at the end of the last accepted step.
@@ -184,6 +184,7 @@ class OrbitMotion {
   const ode::Counts& counts() const noexcept { return solver_.counts(); }
 
  private:
+  /// Where the clock of the mean equations ends: it tells e-folds of what the torque changes, or turns of a free motion.
   static constexpr Scalar far_away = Scalar(1e9);
 
   static ode::StepControl<Scalar, 4> control_of(const Problem<Scalar>& problem, const Level<Scalar>& start,
@@ -202,6 +203,7 @@ class OrbitMotion {
 
   template <class Visitor>
   ode::Status step(Visitor visit) noexcept {
+    if (!(solver_.time() < far_away)) return ode::Status::step_limit;
     solver_.rhs().followed = component_;  // and no sooner: the dense output of the last step still needs the old one
     if (const auto status = solver_.step(far_away); status != ode::Status::reached) return status;
     const Level<Scalar> at = solver_.rhs().level(solver_.state());

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "gyrostat/ladder/deceleration/averaged_rung.hpp"
+#include "gyrostat/ladder/deceleration/averaging.hpp"
 #include "gyrostat/ladder/deceleration/orbit_motion.hpp"
 #include "gyrostat/models/deceleration/capture.hpp"
 
@@ -118,11 +119,11 @@ class OrbitError {
 
 namespace detail {
 
-/// |U| below which a turn of the body takes as long as the rest of the braking, N m s.
-inline double orbit_breakdown(const Problem<double>& problem, double greatest_control) noexcept {
+/// |U| below which a turn of the body takes as long as the rest of the braking by a torque [N m], N m s.
+inline double orbit_breakdown(const Problem<double>& problem, double torque) noexcept {
   const double turn = problem.gyro_rate().norm();
-  const double free = breakdown_momentum(problem, greatest_control);
-  return turn > 0 ? std::min(free, greatest_control / turn) : free;
+  const double free = breakdown_momentum(problem, torque);
+  return turn > 0 ? std::min(free, torque / turn) : free;
 }
 
 inline State<double> slow_state(const Problem<double>& problem, const Level<double>& level, Component component,
@@ -144,8 +145,9 @@ inline State<double> slow_state(const Problem<double>& problem, const Level<doub
 /// Two moments nearer each other than this gap: the body librates slowly.
 inline constexpr double narrow_gap = 1e-3;
 
-inline void warn_of_start(Track& track, const Scene& scene, const Orbit<double>& orbit) {
-  warn_of_start(track, small_parameter(scene), symmetry_gap(scene.problem()), narrow_gap, orbit.modulus().kp2);
+/// kp2: of the first orbit.
+inline void warn_of_start(Track& track, const Scene& scene, double kp2) {
+  warn_of_start(track, small_parameter(scene), symmetry_gap(scene.problem()), narrow_gap, kp2);
 }
 
 /// Why a mean motion cannot be followed on, and the chance of the likelier lobe where it is captured (NaN elsewhere).
@@ -172,13 +174,55 @@ Impasse impasse(const Problem<double>& problem, const Motion& motion) {
   return impasse(problem, motion.last_level(), motion.last_component(), motion.failure());
 }
 
-inline Track not_followed(Errc failure) {
-  if (failure == Errc::undetermined)
-    return refused<Track>(failure, "the motion is captured into one of two lobes, and averaging does not say which");
-  if (failure == Errc::separatrix) return refused<Track>(failure, "the motion comes to a separatrix");
-  if (failure == Errc::step_limit) return refused<Track>(failure, "the mean equations need too many steps");
-  return refused<Track>(failure, "the mean equations could not be integrated");
-}
+/// A mean motion of second order (second_order_track).
+template <class Elliptic>
+class SecondOrderOrbit {
+  using Rates = SecondOrderRates<Elliptic, double>;
+
+ public:
+  SecondOrderOrbit(const Scene& scene, const MeanLevel<double>& start, const Orbit<double, Elliptic>& orbit,
+                   double tolerance, Monitor* monitor) noexcept
+      : problem_(scene.problem()),
+        last_(scene.question().times.back()),
+        monitor_(monitor),
+        phase_error_(std::max(1e-6, scene.question().tolerance * 1e-2)),
+        error_(problem_),
+        motion_(problem_, start.level, start.component, start.phase, tolerance, phase_error_, Rates{orbit}) {}
+
+  Halt advance(double t, double floor) noexcept {
+    const auto visit = [this](const Level<double>& level, Component component, double now) {
+      error_.visit(level, component, now);
+      if (monitor_) monitor_->fraction.store(std::min(1.0, now / last_), std::memory_order_relaxed);
+    };
+    if (motion_.advance(t, floor, visit) != ode::Status::reached) return not_followed(impasse(problem_, motion_).code);
+    if (motion_.rates().phase_lost || motion_.changed_component())
+      return {Errc::separatrix, "the kind of orbit changes: the phase is lost, and M with it"};
+    return error_.known() ? Halt{} : Halt{Errc::no_convergence, "the size of the second order is not known"};
+  }
+  bool floored() const noexcept { return motion_.floored(); }
+  double time() const noexcept { return motion_.time(); }
+
+  Result<State<double>> osculating() noexcept {
+    const auto now = motion_.sample();
+    const auto M = osculating_of<Elliptic>(problem_, {now.level, now.phase, now.component}, &motion_.rates().reference);
+    if (!M) return M.error();
+    return state_on_orbit(problem_, *M);
+  }
+
+  SlowError<double> first_order() const noexcept { return error_.first_order(); }
+  SlowError<double> second_order() const noexcept { return error_.second_order_error(); }
+  double lag(double local) noexcept { return 6 * (10 * phase_error_ + local * std::abs(motion_.sample().phase)); }
+  ode::Counts counts() const noexcept { return motion_.counts(); }
+  void warn(Track&) const noexcept {}
+
+ private:
+  const Problem<double>& problem_;
+  double last_;
+  Monitor* monitor_;
+  double phase_error_;  // local, turns
+  OrbitError<Elliptic> error_;
+  OrbitMotion<Rates, double> motion_;
+};
 
 }  // namespace detail
 
@@ -188,7 +232,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   if (const char* why = detail::not_averaged(scene)) return refused<Track>(Errc::not_applicable, why);
   const auto& problem = scene.problem();
   const auto orbit = Orbit<double>::through(problem, problem.momentum);
-  if (!orbit) return detail::not_followed(orbit.error());
+  if (!orbit) return detail::refused(detail::not_followed(orbit.error()));
 
   Track track;
   OrbitError<Elliptic> error(problem);
@@ -196,23 +240,24 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     error.visit(level, component, t);
   };
   OrbitMotion<FirstOrderRates<Elliptic>, double> motion(problem, orbit->level(), orbit->component(), 0,
-                                                        AveragedRun<Elliptic>::tolerance_of(scene), infinity<double>);
+                                                        mean_tolerance(scene), infinity<double>);
   for (const double t : scene.question().times) {
     if (motion.advance(t, 0, visit) != ode::Status::reached)
-      return detail::not_followed(detail::impasse(problem, motion).code);
+      return detail::refused(detail::not_followed(detail::impasse(problem, motion).code));
     const auto now = motion.sample();
-    if (!std::isfinite(now.level.R)) return detail::not_followed(Errc::separatrix);
+    if (!std::isfinite(now.level.R)) return detail::refused(detail::not_followed(Errc::separatrix));
     track.states.push_back(detail::slow_state(problem, now.level, now.component, now.at_rest));
   }
   const double end = scene.question().times.back();
   const auto in_span = error.first_order();
-  const double local = 10 * AveragedRun<Elliptic>::tolerance_of(scene);
+  const bool known = error.known();
+  const double local = 10 * mean_tolerance(scene);
   double energy = 0;
   for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
   detail::state_errors(
       track, {in_span.norm + local * problem.momentum.norm(), in_span.energy + local * energy, in_span.k2 + local, 0});
 
-  const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
+  const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
   if (!Hold<double>(problem).holds) {
     track.stop_time = infinity<double>;
   } else if (const auto stop = motion.stop_time(visit)) {
@@ -225,7 +270,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     // they say nothing about the stop.
     const bool slow = detail::symmetry_gap(problem) < detail::narrow_gap;
     const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
-    track.stop_error = doubt * (tail + late) / *stop + 1e3 * AveragedRun<Elliptic>::tolerance_of(scene);
+    track.stop_error = doubt * (tail + late) / *stop + 1e3 * mean_tolerance(scene);
   } else if (const auto why = detail::impasse(problem, motion); why.code == Errc::undetermined) {
     track.warn(warning::capture_undetermined, why.chance);
   } else {
@@ -233,9 +278,10 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   }
   if (end >= track.stop_time || motion.changed_component()) track.error[column::modulus_squared] = 1;
   if (motion.changed_component()) track.warn(warning::crosses_separatrix);
-  track.in_domain = error.known() && small_parameter(scene) < 0.1;
+  if (!known || !(small_parameter(scene) < 0.1) || !(breakdown <= scene.opposed().norm() / 3)) track.leave_domain();
+  else if (!error.known() && std::isfinite(track.stop_time)) track.stop_error = infinity<double>;
   track.counts = motion.counts();
-  detail::warn_of_start(track, scene, *orbit);
+  detail::warn_of_start(track, scene, orbit->modulus().kp2);
   withhold(track, scene);
   return track;
 }
@@ -247,12 +293,12 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   const auto& problem = scene.problem();
   Orbit<double, Elliptic> orbit;
   const auto mean = mean_of<Elliptic>(problem, problem.momentum, &orbit);
-  if (!mean) return detail::not_followed(mean.error());
+  if (!mean) return detail::refused(detail::not_followed(mean.error()));
   if (orbit.regime() == Regime::point)
     return refused<Track>(Errc::not_applicable,
                           "the motion starts on an equilibrium: there is nothing to average over");
 
-  const double breakdown = detail::orbit_breakdown(problem, scene.greatest_control());
+  const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
   const double floor = hand_over_share(scene) * breakdown;
   const double opposed = scene.opposed().norm();
   if (!(floor < opposed / 2))
@@ -262,64 +308,12 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   if (scene.question().rung == any_rung && turns < 1000)
     return refused<Track>(Errc::not_applicable, "the full equations are cheaper: the braking takes few turns");
 
-  Track track;
-  OrbitError<Elliptic> error(problem);
-  const auto visit = [&](const Level<double>& level, Component component, double t) {
-    error.visit(level, component, t);
-    if (monitor) monitor->fraction.store(std::min(1.0, t / scene.question().times.back()), std::memory_order_relaxed);
-  };
-  using Rates = SecondOrderRates<Elliptic, double>;
   // f2 is a difference of neighbouring orbits: below its noise a tighter tolerance only costs steps.
-  const double tolerance = std::max(1e-9, AveragedRun<Elliptic>::tolerance_of(scene));
-  const double phase_error = std::max(1e-6, scene.question().tolerance * 1e-2);
-  OrbitMotion<Rates, double> motion(problem, mean->level, mean->component, mean->phase, tolerance, phase_error,
-                                    Rates{orbit});
-  const auto& times = scene.question().times;
-  while (track.states.size() < times.size()) {
-    if (motion.advance(times[track.states.size()], floor, visit) != ode::Status::reached)
-      return detail::not_followed(detail::impasse(problem, motion).code);
-    if (motion.floored()) break;
-    const auto now = motion.sample();
-    const auto M = osculating_of<Elliptic>(problem, {now.level, now.phase, now.component}, &motion.rates().reference);
-    if (!M) return detail::not_followed(M.error());
-    track.states.push_back(detail::state_on_orbit(problem, *M));
-  }
-  const auto in_span = error.second_order_error(), oscillating = error.first_order();
-  const double local = 10 * tolerance, norm0 = problem.momentum.norm();
-  const double lag = 10 * phase_error + local * std::abs(motion.sample().phase);  // turns
-  detail::state_errors(track, {in_span.norm + local * norm0 + lag * oscillating.norm,
-                               in_span.energy + local * problem.energy(problem.momentum) + lag * oscillating.energy,
-                               in_span.k2 + local + lag * oscillating.k2, 0});
-  track.know_momentum(problem, in_span.vector + (local + 6 * lag) * norm0);
-  track.counts = motion.counts();
-  if (motion.rates().phase_lost || motion.changed_component())
-    return refused<Track>(Errc::not_applicable, "the kind of orbit changes: the phase is lost, and M with it");
-  if (!error.known()) return refused<Track>(Errc::no_convergence, "the size of the second order is not known");
-  detail::warn_of_start(track, scene, Orbit<double>::through(problem, problem.momentum).value());
-
-  if (!(scene.greatest_control() > 0)) {
-    track.stop_time = infinity<double>;
-    return track;
-  }
-  const bool in_time = track.states.size() == times.size();
-  const auto reached = motion.advance(infinity<double>, floor, visit);
-  const bool lost = motion.rates().phase_lost || motion.changed_component();
-  if (reached != ode::Status::reached || lost) {
-    if (!in_time)
-      return reached != ode::Status::reached ? detail::not_followed(detail::impasse(problem, motion).code)
-                                             : detail::not_followed(Errc::separatrix);
-    track.warn(warning::crosses_separatrix, nan<double>,
-               "after the asked times the kind of orbit changes: no stop time");
-    return track;
-  }
-  const auto now = motion.sample();
-  const auto M = osculating_of<Elliptic>(problem, {now.level, now.phase, now.component}, &motion.rates().reference);
-  if (!M) return detail::not_followed(M.error());
-  const Errc failure = hand_over(track, scene, *M, motion.time(), error.second_order_error(), monitor);
-  if (failure != Errc::ok) return refused<Track>(failure, "the full equations could not take over near rest");
-  track.stop_error += 100 * tolerance;
-  withhold(track, scene);
-  return track;
+  const double tolerance = std::max(1e-9, mean_tolerance(scene));
+  detail::SecondOrderOrbit<Elliptic> motion(scene, *mean, orbit, tolerance, monitor);
+  Track track;
+  detail::warn_of_start(track, scene, Orbit<double>::through(problem, problem.momentum)->modulus().kp2);
+  return second_order_track(std::move(track), scene, motion, floor, tolerance, monitor);
 }
 
 }  // namespace gyrostat::deceleration

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "gyrostat/body/inertia.hpp"
 #include "gyrostat/core/result.hpp"
@@ -23,6 +24,8 @@ struct Setup {
   Law law = Law::total, drag_law = Law::total;
   Vec3<double> momentum{0, 0, 0};  ///< M at t = 0, N m s
   Quat<double> attitude{};         ///< body to inertial at t = 0, of unit norm
+  /// omega at t = 0, rad/s, where it is what was given and momentum what follows from it: for the first row of an answer.
+  std::optional<Vec3<double>> angular_velocity{};
 };
 
 /// A valid scene: the problem in principal axes and the way back to the body axes.
@@ -110,6 +113,11 @@ inline FinalTorque final_torque(const Scene& scene) noexcept {
   const auto& p = scene.problem();
   const double other = p.law == p.drag_law ? 0 : p.drag * p.rotor_momentum.norm();
   return {std::max(0.0, scene.least_control() - other), scene.greatest_control() + other};
+}
+
+/// The greatest torque of FinalTorque; 0 where no control acts.
+inline double braking_torque(const Scene& scene) noexcept {
+  return scene.greatest_control() > 0 ? final_torque(scene).greatest : 0.0;
 }
 
 /// mu = max(b, drag R) over the rotation rate times R (deceleration.md, section 1): relative change of M in one radian.

@@ -34,6 +34,14 @@ struct Track : Outcome {
     error[column::angular_velocity] = error_of_momentum * problem.inverse_inertia[2];
   }
 
+  /// Computed where its rung has no meaning: no error is known.
+  void leave_domain() {
+    in_domain = false;
+    error = ColumnErrors<double>::all(infinity<double>);
+    if (std::isfinite(stop_time)) stop_error = infinity<double>;
+    warn(warning::beyond_validity);
+  }
+
   std::array<bool, std::size(column_kinds)> known() const noexcept {
     std::array<bool, std::size(column_kinds)> made;
     made.fill(true);
@@ -72,6 +80,15 @@ inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   fill_head(answer, scene.question(), track);
   fill_columns(answer, Row<double>{scene.problem(), scene.R_BP()}, track.states, relative_error(track, scene),
                track.known());
+  const Setup& given = scene.setup();
+  const Vec3<double>& M = given.momentum;
+  const Quat<double>& q = given.attitude;
+  put_start(answer, column_kinds[column::angular_momentum], {M[0], M[1], M[2]});
+  if (given.angular_velocity) {
+    const Vec3<double>& omega = *given.angular_velocity;
+    put_start(answer, column_kinds[column::angular_velocity], {omega[0], omega[1], omega[2]});
+  }
+  put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
   if (std::isnan(track.stop_time)) return;
   answer.quantities.push_back({&scalar_kinds[scalar::stop_time], {track.stop_time}, track.stop_error});
   answer.error = greater(track.stop_error, answer.error);

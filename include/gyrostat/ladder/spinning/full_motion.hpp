@@ -40,7 +40,7 @@ struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
 ///
 /// theta is followed turn by turn (spin_angle.hpp); phi stays within pi of its start. The angles tell an attitude as good as that of
 /// the quaternion; phi and theta by themselves are as good over cos(psi). Where the motion comes so near to cos(psi) = 0 that the error of
-/// the attitude leaves open on which side it passes, or phi so near to the end of its range, turns_known is false.
+/// the attitude does not decide on which side it passes, or phi so near to the end of its range, turns_known is false.
 ///
 /// The error is estimated by a second run of a neighbour: data and start differ by a few roundings, and the steps have a tolerance 64
 /// times looser (two neighbours where rounding is part of the error). Its distance from the answer, watched in every step and

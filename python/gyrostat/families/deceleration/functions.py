@@ -35,12 +35,13 @@ def has_cvode() -> bool:
 def solve(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_momentum: ArrayLike, times: ArrayLike,
           rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), law: str = "total", drag_law: str = "total",
           attitude: ArrayLike | None = None, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto",
-          elliptic: str = "auto", monitor: Monitor | None = None) -> Answer:
+          elliptic: str = "auto", monitor: Monitor | None = None, angular_velocity: ArrayLike | None = None) -> Answer:
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor [kg m^2]; control : (3,) >= 0 [N m]; drag : >= 0 [1/s];
     angular_momentum : (3,) total M at t = 0 [N m s]; rotor_momentum : (3,) [N m s]; attitude : (4,) [x, y, z, w], if wanted;
-    times : (n,) increasing, first >= 0 [s]; tolerance : greatest relative error wanted in any column.
+    times : (n,) increasing, first >= 0 [s]; tolerance : greatest relative error wanted in any column;
+    angular_velocity : (3,) at t = 0 [rad/s], where angular_momentum was made of it: the row at t = 0 then has it to the bit.
     Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError where
     a computation hits its cap, Cancelled where the monitor stopped it.
     """
@@ -51,7 +52,8 @@ def solve(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_moment
         "attitude": None if attitude is None else np.asarray(attitude, dtype=float), "times": np.asarray(times, dtype=float),
         "tolerance": float(tolerance), "model": model, "integrator": integrator, "elliptic": elliptic,
     }
-    return answer_of("deceleration", _core.deceleration_solve(**given, monitor=monitor), given)
+    omega = None if angular_velocity is None else np.asarray(angular_velocity, dtype=float)
+    return answer_of("deceleration", _core.deceleration_solve(**given, monitor=monitor, angular_velocity=omega), given)
 
 
 def integrate(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_momentum: ArrayLike, times: ArrayLike,

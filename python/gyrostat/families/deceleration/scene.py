@@ -50,6 +50,7 @@ def arguments(scene: "Scene") -> dict[str, Any]:
     """What `solve` takes, from a checked scene."""
     solving, body, torque, start = (scene.tables[name] for name in ("solve", "body", "torque", "initial"))
     inertia, rotor = np.array(body["inertia"], dtype=float), np.array(body["rotor_momentum"], dtype=float)
+    omega = None
     if start["angular_momentum"] is not None:
         momentum = np.array(start["angular_momentum"], dtype=float)
     else:
@@ -58,7 +59,7 @@ def arguments(scene: "Scene") -> dict[str, Any]:
     return {
         "inertia": inertia, "rotor_momentum": rotor, "control": np.array(torque["control"], dtype=float),
         "drag": torque["drag"], "law": torque["law"], "drag_law": torque["drag_law"], "angular_momentum": momentum,
-        "attitude": None if start["attitude"] is None else np.array(start["attitude"], dtype=float),
+        "angular_velocity": omega, "attitude": None if start["attitude"] is None else np.array(start["attitude"], dtype=float),
         "times": scene.times, "tolerance": solving["tolerance"], "model": solving["model"],
         "integrator": solving["integrator"], "elliptic": solving["elliptic"],
     }

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/ladder/deceleration/hand_over.hpp"
+
+/// What the averaged rungs share, over polhodes (averaged_rung.hpp) and over orbits with rotor momentum (orbit_rung.hpp).
+namespace gyrostat::deceleration {
+
+/// |M| at which the body turns once while the control stops it, N m s: below, averaging has no meaning.
+inline double breakdown_momentum(const Problem<double>& problem, double greatest_control) noexcept {
+  return std::sqrt(greatest_control / problem.inverse_inertia[1]);
+}
+
+/// Local error of the mean equations: far below what is asked, no smaller than rounding allows.
+inline double mean_tolerance(const Scene& scene) noexcept {
+  return std::max(1e-13, std::min(1e-9, scene.question().tolerance * 1e-3));
+}
+
+namespace detail {
+
+/// Why no averaged rung answers the scene, or nullptr.
+inline const char* not_averaged(const Scene& scene) noexcept {
+  if (scene.question().wants_attitude) return "averaging does not know the attitude";
+  if (scene.sphere()) return "a sphere has no fast polhode to average over";
+  if (!(scene.problem().momentum.norm() > 0)) return "the body is at rest at the start";
+  return nullptr;
+}
+
+/// What averaging does not like at the start. mu: relative change of M in one radian; gap: between the two moments that are nearest
+/// each other, over the widest, and from where on it is narrow; kp2: of the first orbit.
+inline void warn_of_start(Track& track, double mu, double gap, double narrow, double kp2) {
+  if (mu > 0.1) track.warn(warning::not_slow, mu);
+  if (gap < narrow) track.warn(warning::near_symmetric, gap);
+  if (kp2 < std::max(1e-2, 10 * mu)) track.warn(warning::near_separatrix, kp2);
+}
+
+/// The gap between the two principal axes that are nearest each other, over that of the outer two.
+inline double symmetry_gap(const Problem<double>& problem) noexcept {
+  const auto& a = problem.inverse_inertia;
+  return std::min(a[1] - a[0], a[2] - a[1]) / (a[2] - a[0]);
+}
+
+/// The slow columns' errors.
+inline void state_errors(Track& track, const SlowError<double>& error) noexcept {
+  track.error[column::angular_momentum_norm] = error.norm;
+  track.error[column::energy] = error.energy;
+  track.error[column::modulus_squared] = error.k2;
+}
+
+/// Why a mean motion cannot be followed on; ok where it was.
+struct Halt {
+  Errc code = Errc::ok;
+  const char* why = nullptr;
+};
+
+inline Halt not_followed(Errc failure) noexcept {
+  if (failure == Errc::undetermined)
+    return {failure, "the motion is captured into one of two lobes, and averaging does not tell which"};
+  if (failure == Errc::separatrix) return {failure, "the motion comes to a separatrix"};
+  if (failure == Errc::step_limit) return {failure, "the mean equations need too many steps"};
+  return {failure, "the mean equations could not be integrated"};
+}
+
+inline Track refused(const Halt& halt) { return gyrostat::refused<Track>(halt.code, halt.why); }
+
+}  // namespace detail
+
+/// Second order: the osculating states of a mean motion, and so M itself, down to where the control opposes `floor` [N m s]; from there on
+/// the full equations. Begins with a track that has the warnings of the start. `tolerance`: local error of the mean equations.
+///
+/// mean.advance(t, floor) goes on to time t or to the floor, whichever comes first, and gives a Halt; floored() says that it is at the floor,
+/// time() when; osculating() gives the State of that time, as a Result; second_order(), first_order() the SlowError of the span; lag(local)
+/// the angle by which the phase may be wrong, rad; counts() the work; warn(track) what there is to say of the motion.
+template <class Mean>
+Track second_order_track(Track track, const Scene& scene, Mean& mean, double floor, double tolerance,
+                         Monitor* monitor) {
+  const auto& problem = scene.problem();
+  const auto& times = scene.question().times;
+  if (!(times.front() > 0)) track.states.push_back(detail::state_on_orbit(problem, problem.momentum));
+  while (track.states.size() < times.size()) {
+    const auto halt = mean.advance(times[track.states.size()], floor);
+    if (halt.code != Errc::ok) return detail::refused(halt);
+    if (mean.floored()) break;
+    const auto now = mean.osculating();
+    if (!now) return detail::refused(detail::not_followed(now.error()));
+    track.states.push_back(*now);
+  }
+  const bool in_time = track.states.size() == times.size();
+
+  const SlowError<double> in_span = mean.second_order(), oscillating = mean.first_order();
+  const double norm = problem.momentum.norm(), energy = problem.energy(problem.momentum);
+  const double local = 10 * tolerance, lag = mean.lag(local);
+  detail::state_errors(track, {in_span.norm + local * norm + lag * oscillating.norm,
+                               in_span.energy + 2 * local * energy + lag * oscillating.energy,
+                               in_span.k2 + local + lag * oscillating.k2, 0});
+  track.know_momentum(problem, in_span.vector + (local + lag) * norm);
+
+  // The tail, for the stop time and for the samples beyond the hand-over. Where it leads to no stop the full equations tell more, and
+  // nothing is left out to spare them.
+  bool stops = false;
+  if (in_time && !Hold<double>(problem).holds) {
+    track.stop_time = infinity<double>;
+  } else if (const auto halt = mean.advance(infinity<double>, floor); halt.code != Errc::ok) {
+    if (!in_time) return detail::refused(halt);
+    if (halt.code == Errc::separatrix || halt.code == Errc::undetermined)
+      track.warn(warning::crosses_separatrix, nan<double>,
+                 "after the asked times the kind of orbit changes: no stop time");
+    else track.warn(warning::stop_unknown);
+  } else {
+    const auto now = mean.osculating();
+    if (!now) return detail::refused(detail::not_followed(now.error()));
+    const Errc failure = hand_over(track, scene, now->momentum, mean.time(), mean.second_order(), monitor);
+    if (failure != Errc::ok)
+      return gyrostat::refused<Track>(failure, "the full equations could not take over near rest");
+    track.stop_error += 100 * tolerance;
+    stops = true;
+  }
+  track.counts += mean.counts();
+  mean.warn(track);
+  if (stops) withhold(track, scene);
+  return track;
+}
+
+}  // namespace gyrostat::deceleration

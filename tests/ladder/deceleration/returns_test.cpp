@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every rung comes back, whatever is absent: torques, rotors, rotation. Work is counted in steps.
+#include "gyrostat/ladder/deceleration/full_motion.hpp"
+#include "scenes.hpp"
+
+using namespace scenes;
+
+namespace {
+
+constexpr std::uint64_t many_steps = 30'000;
+
+/// An answer without NaN among its errors, or a reason, after not too many steps.
+void check_returns(const Case& c) {
+  Refusal refusal;
+  const Answer answer = c.solve(refusal);
+  if (refusal.code != Errc::ok) {
+    REQUIRE(refusal.why != nullptr);
+    CHECK(std::strlen(refusal.why) > 10);
+    return;
+  }
+  CHECK(answer.counts.steps < many_steps);
+  CHECK(answer.error >= 0);
+  for (const Column& column : answer.columns) {
+    INFO(answer.model << " " << column.kind->name);
+    if (column.kind->measure != Measure::none) CHECK(column.error >= 0);
+    CHECK(std::none_of(column.values.begin(), column.values.end(), [](double v) { return std::isnan(v); }));
+  }
+}
+
+/// Asked for by every rung's name, and by none.
+void check_all_rungs(Case c) {
+  for (int rung = any_rung; rung <= rung::full; ++rung) {
+    CAPTURE(rung);
+    c.data.rung = rung;
+    check_returns(c);
+  }
+}
+
+Problem<double> held_at_its_limit() {
+  Problem<double> problem;
+  problem.inverse_inertia = {1 / 35., 1 / 22., 1 / 16.};
+  problem.rotor_momentum = {0, 2, 0};
+  problem.control.diagonal() = V(.5, .8, 1);
+  problem.drag = .4;  // drag |l| = .8
+  problem.drag_law = Law::carrier;
+  problem.momentum = {35, 46, 48};
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("every rung returns, whatever acts and however the body starts", "[deceleration]") {
+  for (const V& control : {V(0, 0, 0), V(0, .05, 0), V(.03, 0, .05), V(.03, .04, .05)})
+    for (const double drag : {0., .02})
+      for (const Law law : {Law::total, Law::carrier})
+        for (const Law drag_law : {Law::total, Law::carrier})
+          for (const V& l : {V(0, 0, 0), V(0, .3, 0), V(.2, .15, .3)})
+            for (const V& omega : {V(0, 0, 0), V(0, 0, .8), V(.6, .4, .5)})
+              for (const auto& times : {std::vector<double>{100}, until(20, 4)}) {
+                CAPTURE(control.transpose(), drag, int(law), int(drag_law), l.transpose(), omega.transpose());
+                CAPTURE(times.size());
+                if (l.isZero(0) && (law == Law::carrier || drag_law == Law::carrier)) continue;  // one and the same
+                Case c;
+                c.data.control = control;
+                c.data.drag = drag;
+                c.data.law = law;
+                c.data.drag_law = drag_law;
+                c.data.rotor_momentum = l;
+                c.data.momentum = c.moments.cwiseProduct(omega) + l;
+                c.data.times = times;
+                check_all_rungs(c);
+              }
+}
+
+TEST_CASE("a free motion of many turns comes back", "[deceleration]") {
+  Case c;
+  c.data.momentum = V(.8, .5, .33);
+  for (const double last : {3e3, 1e12, 1e300}) {
+    CAPTURE(last);
+    c.data.times = {last / 2, last};
+    c.data.tolerance = 1e-9;
+    check_all_rungs(c);
+    c.data.rotor_momentum = V(.2, .15, .3);
+    check_all_rungs(c);
+    c.data.rotor_momentum.setZero();
+  }
+}
+
+TEST_CASE("units as large and torques as small as doubles go come back", "[deceleration]") {
+  for (const double unit : {1e-60, 1e60}) {
+    CAPTURE(unit);
+    Case c(1e-3, 300);
+    c.moments *= unit;
+    c.data.momentum *= unit;
+    c.data.control *= unit;
+    check_all_rungs(c);
+  }
+  Case c(1e-3, 300);
+  for (const double torque : {1e-100, 1e-300}) {
+    CAPTURE(torque);
+    c.data.control = torque * V(1, 2, 1.5);
+    check_all_rungs(c);
+    c.data.drag = 0;
+    check_all_rungs(c);
+  }
+}
+
+TEST_CASE("a control that only just holds gives up when its steps would not reach the last time", "[deceleration]") {
+  const auto problem = held_at_its_limit();
+  std::vector<V> momentum(2);
+  FullMotionOptions<double> options;
+  options.step_cap = 100'000;
+  const auto answer = full_motion<double>(problem, std::vector<double>{100, 200}, momentum, options);
+  REQUIRE(answer);
+  CHECK(answer->status == ode::Status::step_limit);
+  CHECK(answer->counts.steps < 50'000);
+}
+
+TEST_CASE("beside an axis without control the rest of the momentum ends as zero", "[deceleration]") {
+  Case c;
+  c.moments = V(35, 22, 16);
+  c.data.control = V(0, .5, .8);
+  c.data.drag = .02;
+  c.data.momentum = V(3.5, 4.4, 4.8);
+  c.data.times = {250, 500};
+  const Answer answer = c.with(rung::full, 1e-6).solve();
+  const auto& M = answer.find("angular_momentum")->values;
+  CHECK(M[0] > 0);
+  for (const std::size_t i : {1, 2, 4, 5}) CHECK(M[i] == 0);
+  CHECK(M[3] == Approx(M[0] * std::exp(-.02 * 250)).epsilon(1e-9));
+  CHECK(answer.met);
+  CHECK(answer.counts.steps < many_steps);
+}
+
+TEST_CASE("a phase that no double can hold is refused at once", "[deceleration]") {
+  Case c(1e-12, 1e8);
+  c.data.rotor_momentum = V(.2, .15, .3);
+  Refusal refusal;
+  c.with(rung::full, 1e-9).solve(refusal);
+  CHECK(refusal.code == Errc::step_limit);
+  CHECK(std::strcmp(refusal.why, phase_lost) == 0);
+  c.data.times = {1e-3};
+  CHECK(c.with(rung::full, 1e-9).solve().met);
+}
+
+TEST_CASE("a body at rest that nothing acts on stays at rest", "[deceleration]") {
+  Case c(1e-3, 100);
+  c.data.control.setZero();
+  c.data.momentum.setZero();
+  for (const double drag : {0., .1}) {
+    c.data.drag = drag;
+    const Answer answer = c.solve();
+    CHECK(answer.met);
+    CHECK(answer.error == 0);
+    for (const Column& column : answer.columns)
+      if (column.kind->measure != Measure::none)
+        CHECK(*std::max_element(column.values.begin(), column.values.end()) == 0);
+  }
+}
+
+TEST_CASE("a carrier at rest beside its wheel is answered within the tolerance", "[deceleration]") {
+  Case c(1e-3, 100);
+  c.data.rotor_momentum = c.data.momentum = V(.1, .2, .3);
+  c.data.law = c.data.drag_law = Law::carrier;
+  const Answer answer = c.with(any_rung, 1e-9).solve();
+  CHECK(answer.met);
+  const auto& omega = answer.find("angular_velocity")->values;
+  CHECK(*std::max_element(omega.begin(), omega.end()) == 0);
+}
+
+TEST_CASE("the attitude behind the stop is known as far as the rate at which it goes on", "[deceleration]") {
+  Case c;
+  c.moments = V(35, 22, 16);
+  c.data.rotor_momentum = V(1, 2, 3);
+  c.data.control = V(.5, .8, 1);
+  c.data.drag = .02;
+  c.data.momentum = V(4.5, 6.4, 7.8);
+  c.data.wants_attitude = true;
+  c.data.times = {1e4, 1e9};
+  const Answer answer = c.with(any_rung, 1e-9).solve();
+  CHECK_FALSE(answer.met);
+  CHECK(answer.find("attitude")->error > epsilon<double> * 1e9 * V(1 / 35., 2 / 22., 3 / 16.).norm());
+  c.data.times = {1e4};
+  CHECK(c.with(any_rung, 1e-9).solve().met);
+}
+
+TEST_CASE("averaging by name beyond its validity tells no error, and says so", "[deceleration]") {
+  Mat3<double> near_cube;
+  near_cube << 6.1904577, -9.8214e-5, 2.2098e-5, -9.8214e-5, 6.1906075, -8.6499e-5, 2.2098e-5, -8.6499e-5, 6.1905886;
+  Asked slow;  // a libration slower than the braking
+  slow.control = V(.0006, .0014, .0036);
+  slow.drag = 7.5e-5;
+  slow.momentum = V(.4586, -.9277, .6564);
+  slow.times = until(566);
+  const Mat3<double> slender = V(11723, 196880, 186923).asDiagonal();
+  Asked rotor;
+  rotor.rotor_momentum = V(304.27, .0019, -.0014);
+  rotor.control = V(.254, .254, .52);
+  rotor.momentum = V(11723 * .11206 + 304.27, .0019, -.0014);
+  rotor.times = until(2462);
+  for (auto& [J, asked] : {std::pair{near_cube, slow}, std::pair{slender, rotor}}) {
+    const auto solved = [&](int rung, double tolerance) {
+      Asked other = asked;
+      other.rung = rung;
+      other.tolerance = tolerance;
+      Refusal refusal;
+      const Answer answer = deceleration::solve<>(*make_scene(*Inertia<double>::from_tensor(J), other), refusal);
+      REQUIRE(refusal.code == Errc::ok);
+      return answer;
+    };
+    const Answer named = solved(rung::averaged, 1e-3);
+    CHECK_FALSE(named.met);
+    CHECK(warns(named, "beyond-validity"));
+    CHECK(named.error == infinity<double>);
+    for (const Column& column : named.columns)
+      if (column.kind->measure != Measure::none) CHECK(column.error == infinity<double>);
+    check_honest(solved(any_rung, 1e-3), solved(rung::full, 1e-11));
+  }
+}
+
+TEST_CASE("a torque that tears the carrier off is no torque to average", "[deceleration]") {
+  Case c;  // drag |l| is a hundred times the control
+  c.moments = V(33.045, 591.148, 561.463);
+  c.data.rotor_momentum = V(3110.82, -65.74, 1348.43);
+  c.data.control.setConstant(214.64);
+  c.data.drag = 6.6744;
+  c.data.law = Law::carrier;
+  c.data.momentum = c.data.rotor_momentum + V(0, 0, -561.463 * .25082);
+  c.data.times = until(.34);
+  Refusal refusal;
+  c.with(rung::averaged_2, 1e-2).solve(refusal);
+  CHECK(refusal.code == Errc::not_applicable);
+  check_honest(c.with(any_rung, 1e-2).solve(), c.truth());
+}
+
+TEST_CASE("the first row is the start as it was given, to the bit", "[deceleration]") {
+  for (const double l : {0., .1})
+    for (const int rung : {rung::averaged, rung::averaged_2, rung::full}) {
+      CAPTURE(l, rung);
+      Mat3<double> J;
+      J << 1.4, .1, .02, .1, 1, .05, .02, .05, .7;
+      Asked data = Case(1e-4, 3000).data;
+      data.rotor_momentum = l * V(1, 2, -1);
+      data.momentum = V(.8, .5, .33);
+      data.angular_velocity = V(.1, .2, .3);  // as given, whatever follows from the momentum
+      data.attitude = {.5, .5, .5, -.5};
+      data.wants_attitude = rung == rung::full;
+      data.times.insert(data.times.begin(), 0);
+      data.rung = rung;
+      data.tolerance = 1e-3;
+      Refusal refusal;
+      const Answer answer = deceleration::solve<>(*make_scene(*Inertia<double>::from_tensor(J), data), refusal);
+      REQUIRE(refusal.code == Errc::ok);
+      const auto first = [&](const char* name) { return V(answer.find(name)->values.data()); };
+      if (rung != rung::averaged) {
+        CHECK(first("angular_momentum") == data.momentum);
+        CHECK(first("angular_velocity") == *data.angular_velocity);
+      }
+      if (rung == rung::full) CHECK(answer.find("attitude")->values[3] == .5);
+      CHECK(answer.find("angular_momentum_norm")->values[0] == Approx(data.momentum.norm()).epsilon(1e-15));
+    }
+}
