@@ -9,14 +9,12 @@ namespace gyrostat::honesty {
 
 /// What the estimate of a family's full equations stands on. Lengths in units of the machine epsilon are numbers of roundings.
 struct Companions {
-  double looser;       ///< step tolerance of a companion over that of the answer
-  double least_loose;  ///< least step tolerance of a companion, roundings: below it two runs round alike
-  double data_change;  ///< by how much the data of a companion differ, roundings
-  double
-      two_below;  ///< step tolerance of the answer, in roundings, below which rounding rules (two companions, wider margin)
-  double margin;  ///< stated error over the distance to the companion, where truncation rules
-  double
-      margin_of_rounding;  ///< the same where rounding rules: both runs err alike, and may come near each other by chance
+  double looser;              ///< step tolerance of a companion over that of the answer
+  double least_loose;         ///< least step tolerance of a companion, roundings: below it two runs round alike
+  double data_change;         ///< by how much the data of a companion differ, roundings
+  double two_below;           ///< step tolerance, roundings, below which rounding rules: two companions, wider margin
+  double margin;              ///< stated error over the distance to the companion, where truncation rules
+  double margin_of_rounding;  ///< the same where rounding rules: all runs err alike and may be near by chance
 };
 
 /// Watched in every step, all components moved: rotor, spinning and heavy.
