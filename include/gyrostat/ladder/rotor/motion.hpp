@@ -25,9 +25,9 @@ inline constexpr ColumnKind column_kinds[] = {
     {"angular_momentum", 3, "N m s", Frame::body, Measure::relative, "total angular momentum, body axes",
      "where it vanishes: the momenta of carrier and rotor at t = 0, which cancel"},
     {"rotor_rate", 1, "rad/s", Frame::none, Measure::relative, "rate of the rotor relative to the carrier",
-     "the greatest of the rates of carrier and rotor at t = 0 and the scale of angular_velocity"},
+     "a thousandth of the greatest of the rates of carrier and rotor at t = 0 and the scale of angular_velocity"},
     {"rotor_angle", 1, "rad", Frame::none, Measure::relative, "angle of the rotor in the carrier, from 0 at t = 0",
-     "1 rad"},
+     "0.001 rad"},
     {"lyapunov", 1, "J", Frame::none, Measure::relative,
      "Lyapunov function V: energy less no_load_rate times the rotor's axial momentum, plus a constant; it never grows",
      "the least rotational energy of the whole with the momenta of carrier and rotor at t = 0"},
@@ -100,8 +100,10 @@ ColumnErrors<Scalar> scales(const Gyrostat<Scalar>& body, const State<Scalar>& s
   ColumnErrors<Scalar> made;
   made[column::angular_velocity] = rate;
   made[column::angular_momentum] = start.momentum.isZero(0) ? momentum : Scalar(0);
-  made[column::rotor_rate] = std::max({Omega.norm(), omega, rate});
-  made[column::rotor_angle] = 1;
+  // a rotor that creeps while the body turns fast is still measured by itself
+  constexpr Scalar least = Scalar(1e-3L);
+  made[column::rotor_rate] = least * std::max({Omega.norm(), omega, rate});
+  made[column::rotor_angle] = least;
   made[column::lyapunov] = momentum * rate / 2;
   return made;
 }
