@@ -29,7 +29,7 @@ inline constexpr double fading_angle = 128;
 inline constexpr double first_share = 1.0 / 64;
 /// With the turns it is first_share / (first_base + angle / first_angle), the angle turned through in rad.
 inline constexpr double first_base = 8, first_angle = 16;
-/// Deceleration and spinning, where the error of the phase grows with the square of the angle: first_share / (drifting_base +
+/// Deceleration, where the error of the phase grows with the square of the angle: first_share / (drifting_base +
 /// drifting_phase * angle^2).
 inline constexpr double drifting_base = 4, drifting_phase = 2e-4;
 /// No looser steps: near the radius of convergence of a step all runs may err alike.

@@ -74,7 +74,7 @@ TEST_CASE("failure map: below the end of the fast family", "[heavy]") {
   const auto p = unit_body(0.55, 0.8, towards);
   const Refusal refusal = refusal_of(periodic(p, 0.05, 0.1, 1));
   CHECK(refusal.code == Errc::step_limit);
-  CHECK(std::strstr(refusal.why, "budget of 30 thousand steps"));
+  CHECK(std::strstr(refusal.why, "budget of 100 thousand steps"));
   CHECK(std::strstr(refusal.why, "sqrt(M g l/C)"));
   CHECK(heavy::detail::walk_budget == 30'000);
   // the flat pendulum: to r0 = 2 c exactly
