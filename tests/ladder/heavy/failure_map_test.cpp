@@ -74,9 +74,9 @@ TEST_CASE("failure map: below the end of the fast family", "[heavy]") {
   const auto p = unit_body(0.55, 0.8, towards);
   const Refusal refusal = refusal_of(periodic(p, 0.05, 0.1, 1));
   CHECK(refusal.code == Errc::step_limit);
-  CHECK(std::strstr(refusal.why, "budget of 100 thousand steps"));
+  CHECK(std::strstr(refusal.why, "budget of 50 thousand steps"));
   CHECK(std::strstr(refusal.why, "sqrt(M g l/C)"));
-  CHECK(heavy::detail::walk_budget == 30'000);
+  CHECK(heavy::detail::walk_budget == 50'000);
   // the flat pendulum: to r0 = 2 c exactly
   const auto flat = unit_body(0.55, 0.8, {1, 0, 0});
   const Answer turning = periodic_of(flat, 2.01, 0);

@@ -46,7 +46,7 @@ inline const char* no_orbit(Errc why, const Scene& scene) noexcept {
              "resonance: there is no fast periodic motion; spin it about another principal axis, or give a start";
     case Errc::out_of_domain: return "a periodic motion of this family needs a spin, and an axis that is not vertical";
     case Errc::step_limit:
-      return "no fast periodic motion with this spin was found within the budget of 100 thousand steps along their "
+      return "no fast periodic motion with this spin was found within the budget of 50 thousand steps along their "
              "family, which ends or turns back at a spin of about 0.6 to 2 times sqrt(M g l/C), below which there are "
              "only oscillations about the hanging rest: spin it faster, or give a start";
     case Errc::no_convergence:

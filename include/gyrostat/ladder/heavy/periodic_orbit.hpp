@@ -187,8 +187,8 @@ Result<Closed<Scalar>> member_passed(const Problem<Scalar>& problem, const Orbit
 template <Real Scalar>
 inline constexpr Scalar greatest_trace = Scalar(1e6L);
 
-/// Steps that the walk along a family may take in all, about a second: three times what the longest walk that arrived was seen to take.
-inline constexpr std::uint64_t walk_budget = 100'000;
+/// Steps that the walk along a family may take in all, less than a second; the longest walk that was seen to arrive took 33 thousand.
+inline constexpr std::uint64_t walk_budget = 50'000;
 
 template <Real Scalar>
 struct FoundOrbit {
