@@ -60,7 +60,7 @@ def test_a_scene_shows_its_keys() -> None:
 def test_a_chart_shows_its_points() -> None:
     measures = (Measure("attitude", "attitude", "Attitude", "rad"), Measure("energy", "energy", "Energy", ""))
     point = ChartPoint("rung", "rung full", "tolerance 1e-06", {"attitude": 1.5e-7, "energy": math.nan}, 0.0123, 42, "stated error 2e-07")
-    page = Reader(Chart("a scene", "rotor", "against Taylor", measures, (point,), (LeftOut("rival", "heyoka", ("1e-12",), "takes over 3 s"),))._repr_html_())
-    assert "left out: heyoka (1e-12): takes over 3 s" in page.text
+    page = Reader(Chart("a scene", "rotor", "against Taylor", measures, (point,), (LeftOut("rival", "heyoka", ("tolerance 1e-12",), "takes over 3 s"),))._repr_html_())
+    assert "left out: heyoka, tolerance 1e-12: takes over 3 s" in page.text
     assert page.tables == [[["method", "setting", "attitude", "energy", "CPU seconds", "rhs", ""],
                             ["rung full", "tolerance 1e-06", "1.5e-07", "-", "0.0123", "42", "stated error 2e-07"]]]

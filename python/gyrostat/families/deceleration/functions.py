@@ -53,7 +53,10 @@ def solve(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_moment
         "tolerance": float(tolerance), "model": model, "integrator": integrator, "elliptic": elliptic,
     }
     omega = None if angular_velocity is None else np.asarray(angular_velocity, dtype=float)
-    return answer_of("deceleration", _core.deceleration_solve(**given, monitor=monitor, angular_velocity=omega), given)
+    made = _core.deceleration_solve(**given, monitor=monitor, angular_velocity=omega)
+    # a scene has one of the two
+    start = {"angular_momentum": None, "angular_velocity": omega} if omega is not None else {}
+    return answer_of("deceleration", made, {**given, **start})
 
 
 def integrate(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_momentum: ArrayLike, times: ArrayLike,
