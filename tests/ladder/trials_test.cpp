@@ -71,3 +71,16 @@ TEST_CASE("the first guess of the step tolerance falls with the angle turned thr
   CHECK(first_step_tolerance(1e-9, 1600.0, 1e-8) == Approx(1e-9 / 64 / 108));
   CHECK(first_step_tolerance(1e-30, 0.0, 1e-8) == finest_step_tolerance<double>);
 }
+
+TEST_CASE("a run of so many steps that another would take seconds is not tried again") {
+  std::atomic<double> progress{0};
+  int runs = 0;
+  tightened<double>(Options{1e-9, &progress}, 1e-10, [&](double, double, double, double) {
+    ++runs;
+    Trial trial;
+    trial.error = {1};
+    trial.counts.steps = 4'000'000;
+    return trial;
+  });
+  CHECK(runs == 1);
+}

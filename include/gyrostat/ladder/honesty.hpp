@@ -39,6 +39,8 @@ inline constexpr double loosest_heavy_step = 1e-9;
 
 /// By how much more than the excess over the tolerance the steps of a second try are tightened.
 inline constexpr double retry = 8;
+/// After so many steps of all runs no second try is made: it would take seconds more.
+inline constexpr double retry_steps = 3e6;
 
 /// Deceleration: the margin of the stop time over that of the columns.
 inline constexpr double stop_margin = 4;

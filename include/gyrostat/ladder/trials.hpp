@@ -22,8 +22,8 @@ Scalar first_step_tolerance(Scalar tolerance, Scalar phase, Scalar loosest) noex
 }
 
 /// Runs with a step tolerance, and up to twice more with a tighter one while the estimated error exceeds options.tolerance and a
-/// tighter one may help. run(step_tolerance, tightened, progress_from, progress_to) gives an answer with status, met, greatest_error() and counts;
-/// `tightened` is by how much more was wanted than in the run before, infinite for the finest. The last answer is returned, with the
+/// tighter one may help and the steps so far are not too many. run(step_tolerance, tightened, progress_from, progress_to) gives an
+/// answer with status, met, greatest_error() and counts; `tightened` is by how much more was wanted than in the run before, infinite for the finest. The last answer is returned, with the
 /// counts of all.
 template <Real Scalar, class Options, class Run>
 auto tightened(const Options& options, Scalar step_tolerance, const Run& run) noexcept {
@@ -35,7 +35,8 @@ auto tightened(const Options& options, Scalar step_tolerance, const Run& run) no
     auto answer = run(step_tolerance, by, part[trial], part[trial + 1]);
     counts += answer.counts;
     answer.counts = counts;
-    if (answer.met || trial == 2 || answer.status != ode::Status::reached || step_tolerance <= finest) {
+    if (answer.met || trial == 2 || answer.status != ode::Status::reached || step_tolerance <= finest ||
+        static_cast<double>(counts.steps) > honesty::retry_steps) {
       options.report(1);
       return answer;
     }
