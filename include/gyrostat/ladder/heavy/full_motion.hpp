@@ -135,27 +135,12 @@ class FullMotion {
       return Course(near.problem, near.start, loose, options_.step_cap);
     };
     Course companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
-    const bool rounds = step_tolerance < Scalar(how.two_below) * eps;
-    const auto walk =
-        walk_beside(Row<Scalar>{scales(problem_, start_.angular_velocity.norm())}, course, companion, second, rounds,
-                    start_, rate_, times_, states_, nowhere(), options_, progress_from, progress_to);
-    answer.status = walk.status;
-    answer.counts = course.counts();
-    const std::uint64_t steps = answer.counts.steps;
-    answer.counts += companion.counts();
-    answer.counts += second.counts();
-    if (answer.status != ode::Status::reached) {
-      answer.error = ColumnErrors<Scalar>::all(nan<Scalar>);
-      return answer;
-    }
-
-    // What the runs share: the polynomial of a step, good to its tolerance, and rounding at the asked times.
-    const Scalar margin = Scalar(rounds ? how.margin_of_rounding : how.margin);
-    const Scalar rounding_walk = eps * std::sqrt(static_cast<Scalar>(steps));
-    const Scalar shared = 4 * (4 * eps + rounding_walk + 2 * step_tolerance);
-    const ColumnErrors<Scalar> parts{rate_, 1, Scalar(turning ? 1 : 0)};
-    answer.error = relative_to_truth(walk.asked.relative(margin * walk.distance + shared * parts), column_kinds);
-    answer.met = answer.error.greatest() <= options_.tolerance;
+    // the polynomial of a step, good to its tolerance, and rounding at the asked times
+    const auto rounding = [&](const ColumnErrors<Scalar>&, Scalar steps) noexcept {
+      return 4 * (4 * eps + steps + 2 * step_tolerance) * ColumnErrors<Scalar>{rate_, 1, Scalar(turning ? 1 : 0)};
+    };
+    solve_beside(answer, Row<Scalar>{scales(problem_, start_.angular_velocity.norm())}, course, companion, second, start_,
+                 rate_, times_, states_, nowhere(), options_, progress_from, progress_to, rounding);
     return answer;
   }
 
@@ -175,12 +160,6 @@ class FullMotion {
         : system_(problem, start), solver_(system_, 0, system_.start(), options(system_, tolerance, step_cap)) {}
 
     ode::Status step(Scalar t_max) noexcept { return solver_.step(t_max); }
-    /// Steps until the last of them holds t or ends at t_max.
-    ode::Status reach(Scalar t, Scalar t_max) noexcept {
-      ode::Status status = ode::Status::reached;
-      while (status == ode::Status::reached && time() < t && time() < t_max) status = step(t_max);
-      return status;
-    }
     Scalar time() const noexcept { return solver_.time(); }
     /// The state at t in the last step.
     State<Scalar> at(Scalar t) const noexcept {

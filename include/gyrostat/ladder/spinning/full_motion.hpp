@@ -74,12 +74,6 @@ class Course {
     if (follows_) follow(solver_.time(), sample(solver_.state()));  // before the last step is forgotten
     return solver_.step(t_max);
   }
-  /// Steps until the last of them holds t or ends at t_max.
-  ode::Status reach(Scalar t, Scalar t_max) noexcept {
-    ode::Status status = ode::Status::reached;
-    while (status == ode::Status::reached && time() < t && time() < t_max) status = step(t_max);
-    return status;
-  }
   Scalar time() const noexcept { return solver_.time(); }
 
   /// The state at t in the last step; no time before one that was asked for.
