@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "../tests/ladder/heavy/truth.hpp"
+#include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/heavy/solve.hpp"
+#include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/models/heavy/series_2.hpp"
 #include "honesty.hpp"
 

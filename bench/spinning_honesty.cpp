@@ -13,6 +13,7 @@
 
 #include "../tests/ladder/spinning/truth.hpp"
 #include "gyrostat/ladder/spinning/axial_motion.hpp"
+#include "gyrostat/ladder/spinning/motion.hpp"
 #include "gyrostat/ladder/spinning/solve.hpp"
 #include "gyrostat/models/spinning/pointing.hpp"
 #include "honesty.hpp"

@@ -11,7 +11,7 @@ using namespace gyrostat;
 
 namespace {
 
-struct Writer {
+struct FreeRow {
   using Scalar = double;
   struct State {
     Quat<double> q;
@@ -42,8 +42,8 @@ TEST_CASE("the angle between attitudes keeps its digits and ignores the signs of
 }
 
 TEST_CASE("a comparison measures vectors by their norm, numbers by their size, attitudes by the angle", "[ladder]") {
-  Comparison comparison{Writer{}};
-  const Writer::State a{{}, {3, 0, -4}, -2}, b{quaternion_from_vector<double>({0, 0, 0.01}), {3, 0, -4.5}, -2.5};
+  Comparison comparison{FreeRow{}};
+  const FreeRow::State a{{}, {3, 0, -4}, -2}, b{quaternion_from_vector<double>({0, 0, 0.01}), {3, 0, -4.5}, -2.5};
   comparison.add(a);
   CHECK(comparison.difference().greatest() == 0);
   CHECK(comparison.relative(comparison.difference()).greatest() == 0);
@@ -55,7 +55,7 @@ TEST_CASE("a comparison measures vectors by their norm, numbers by their size, a
   CHECK(relative[0] == Approx(0.01));
   CHECK(relative[1] == Approx(0.1));
   CHECK(relative[2] == Approx(0.25));
-  Writer::State lost = b;
+  FreeRow::State lost = b;
   lost.angle = gyrostat::nan<double>;
   comparison.add(a, lost);
   CHECK(std::isnan(comparison.difference()[2]));

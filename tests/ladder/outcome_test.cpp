@@ -9,13 +9,13 @@
 using namespace gyrostat;
 
 namespace {
-struct Track : Outcome {
+struct Tracked : Outcome {
   int value = 3;
 };
 }  // namespace
 
 TEST_CASE("an outcome warns once a code", "[ladder]") {
-  Track track;
+  Tracked track;
   static constexpr WarningKind kinds[] = {{"far", "it is far"}, {"near", "it is near"}};
   track.warn(kinds[0], 2);
   track.warn(kinds[0], 3, "it is farther");
@@ -29,16 +29,16 @@ TEST_CASE("an outcome warns once a code", "[ladder]") {
 }
 
 TEST_CASE("a refusal says why, an error over the tolerance says how much", "[ladder]") {
-  const auto why = refused<Track>(Errc::separatrix, "too near");
+  const auto why = refused<Tracked>(Errc::separatrix, "too near");
   CHECK(why.failure == Errc::separatrix);
   CHECK(why.refusal == std::string_view("too near"));
   CHECK(std::isnan(why.known_error));
-  const auto much = over_tolerance<Track>(0.25);
+  const auto much = over_tolerance<Tracked>(0.25);
   CHECK(much.failure == Errc::not_applicable);
   CHECK(much.refusal == nullptr);
   CHECK(much.known_error == 0.25);
-  CHECK(Track{}.failure == Errc::ok);
-  CHECK(Track{}.in_domain);
+  CHECK(Tracked{}.failure == Errc::ok);
+  CHECK(Tracked{}.in_domain);
 }
 
 TEST_CASE("an integration that ended early says why", "[outcome]") {

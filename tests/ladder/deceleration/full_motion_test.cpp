@@ -20,7 +20,7 @@ using ode::Status;
 
 namespace {
 
-struct Case {
+struct StoredCase {
   std::string id;
   Problem<double> problem;
   double small = 0;
@@ -29,14 +29,14 @@ struct Case {
   std::vector<Vec3<double>> momentum;
 };
 
-std::vector<Case> reference_cases() {
+std::vector<StoredCase> reference_cases() {
   std::ifstream file(GYROSTAT_TEST_DATA "/deceleration_full_motion.txt");
   REQUIRE(file);
-  std::vector<Case> cases;
+  std::vector<StoredCase> cases;
   std::string line;
   while (std::getline(file, line)) {
     if (line.empty() || line[0] == '#') continue;
-    Case c;
+    StoredCase c;
     std::string law, drag_law, stop;
     Vec3<double> inertia, b;
     std::istringstream in(line);
@@ -125,7 +125,7 @@ Problem<double> simple(double control = 1e-2) {
 TEST_CASE("the full motion of the reference cases") {
   const auto cases = reference_cases();
   REQUIRE(cases.size() == 12);
-  for (const Case& c : cases) {
+  for (const StoredCase& c : cases) {
     CAPTURE(c.id);
     for (const double tolerance : {1e-6, 1e-9, 1e-11}) {
       CAPTURE(tolerance);

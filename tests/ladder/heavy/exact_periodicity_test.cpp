@@ -21,7 +21,7 @@ Problem<double> body(double A, double B, double C, const Vec3<double>& centre, d
   return *made;
 }
 
-State<double> start(const Vec3<double>& rate, const Vec3<double>& down) { return {rate, down.normalized(), {}}; }
+State<double> released(const Vec3<double>& rate, const Vec3<double>& down) { return {rate, down.normalized(), {}}; }
 
 const Vec3<double> hanging{0, 0, 0.03};
 
@@ -32,7 +32,7 @@ TEST_CASE("a planar swing has a period and a plane that stands still, symmetric 
     for (const double rate : {0.0, 3.0, 40.0}) {
       CAPTURE(gradient, rate);
       // about axis 1; with a gradient the symmetric body has a closed form, the uneven one only without weight
-      const auto from = start({rate, 0, 0}, {0, 0.5, 1});
+      const auto from = released({rate, 0, 0}, {0, 0.5, 1});
       const auto even = periodicity_from(body(0.002, 0.002, 0.001, hanging, 9.80665, gradient), from);
       CHECK(even.precession == 0);
       CHECK(even.period_error < 1e-11);
@@ -46,7 +46,7 @@ TEST_CASE("a planar swing has a period and a plane that stands still, symmetric 
   // the gradient alone: half a round repeats the rates, not down
   for (const double rate : {0.5, 40.0}) {
     const auto p = body(0.002, 0.0025, 0.001, {0, 0, 0}, 0, 20);
-    const auto from = start({rate, 0, 0}, {0, 0.5, 1});
+    const auto from = released({rate, 0, 0}, {0, 0.5, 1});
     const auto known = periodicity_from(p, from);
     CHECK(known.precession == 0);
     CHECK(gap(p, from, known.period) < 1e-11);
@@ -95,7 +95,7 @@ TEST_CASE("steady precession has one rate and one period, whichever rung answers
 
 TEST_CASE("mean precession of a nutating top is given by every rung, of an upright one by none", "[heavy]") {
   const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, 0);
-  const auto from = start({1, 2, 60}, {0.6, 0, 0.8});
+  const auto from = released({1, 2, 60}, {0.6, 0, 0.8});
   const auto known = periodicity_from(p, from);
   CHECK(std::isnan(known.period));
   CHECK(std::abs(known.precession) > 0);
@@ -106,7 +106,7 @@ TEST_CASE("mean precession of a nutating top is given by every rung, of an uprig
   const Answer answer = heavy::solve(posed(p, from, 1, question), refusal);
   REQUIRE(answer.quantity("precession_rate"));
   CHECK(answer.quantity("precession_rate")->values[0] == known.precession);
-  CHECK(std::isnan(periodicity_from(p, start({0, 0, 60}, {0, 0, 1})).precession));
+  CHECK(std::isnan(periodicity_from(p, released({0, 0, 60}, {0, 0, 1})).precession));
   // no closed form, no period
   CHECK(std::isnan(periodicity_from(body(0.0011, 0.0016, 0.002, {0.01, 0, 0.01}, 9.8, 0), from).period));
 }

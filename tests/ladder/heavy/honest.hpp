@@ -7,6 +7,7 @@
 
 #include "../column_error.hpp"
 #include "catch.hpp"
+#include "gyrostat/ladder/heavy/track.hpp"
 #include "truth.hpp"
 
 namespace gyrostat::heavy {

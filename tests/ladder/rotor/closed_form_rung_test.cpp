@@ -21,7 +21,7 @@ Gyrostat<double> body(const Mat3<double>& theta, const V& e, double lambda, doub
   return *made;
 }
 
-Asked asked(const V& Omega, double omega, double last) {
+Asked asked_of(const V& Omega, double omega, double last) {
   Asked data;
   data.attitude = normalised(Quat<double>{.5, -.3, .2, .7});
   data.angular_velocity = Omega;
@@ -36,7 +36,7 @@ Track run(const Gyrostat<double>& gyrostat, const Asked& data) {
   return closed_form_track(*scene, nullptr);
 }
 
-void check_honest(const Gyrostat<double>& gyrostat, const Asked& data, const Track& track) {
+void check_closed(const Gyrostat<double>& gyrostat, const Asked& data, const Track& track) {
   const auto truth =
       LongMotion::from(gyrostat, normalised(data.attitude), data.angular_velocity, data.rotor_rate, data.times);
   Comparison seen{Row<double>(gyrostat)};
@@ -44,7 +44,8 @@ void check_honest(const Gyrostat<double>& gyrostat, const Asked& data, const Tra
   const auto found = seen.relative(seen.difference());
   CHECK(found[column::attitude] <= track.error[column::attitude]);
   CHECK(found[column::angular_velocity] <= track.error[column::angular_velocity]);
-  CHECK((found[column::angular_momentum] <= track.error[column::angular_momentum] || track.states[0].momentum.isZero(0)));
+  CHECK(
+      (found[column::angular_momentum] <= track.error[column::angular_momentum] || track.states[0].momentum.isZero(0)));
   CHECK(found[column::rotor_rate] <= track.error[column::rotor_rate]);
   CHECK(found[column::rotor_angle] <= track.error[column::rotor_angle]);
   CHECK(found[column::lyapunov] <= track.error[column::lyapunov]);
@@ -54,20 +55,20 @@ void check_honest(const Gyrostat<double>& gyrostat, const Asked& data, const Tra
 
 TEST_CASE("closed-form rung: spin-up from rest, a symmetric body, and errors that hold", "[rotor]") {
   const auto from_rest = reference_body(0.05, 30);
-  auto data = asked(V(0, 0, 0), 0, 100);
+  auto data = asked_of(V(0, 0, 0), 0, 100);
   Track track = run(from_rest, data);
   CHECK(track.failure == Errc::ok);
   CHECK(track.in_domain);
   CHECK(track.error[column::angular_momentum] == 0);
   CHECK(track.error.greatest() < 1e-11);
-  check_honest(from_rest, data, track);
+  check_closed(from_rest, data, track);
 
   const Mat3<double> symmetric = V(4, 4, 5.5).asDiagonal();
   const auto precessing = body(symmetric, V(0, 0, 1), .6, .5, 12);
-  data = asked(V(.9, -.4, .7), 1.5, 60);
+  data = asked_of(V(.9, -.4, .7), 1.5, 60);
   track = run(precessing, data);
   CHECK(track.error.greatest() < 1e-11);
-  check_honest(precessing, data, track);
+  check_closed(precessing, data, track);
 }
 
 TEST_CASE("closed-form rung: near symmetry the errors cover the departure", "[rotor]") {
@@ -76,18 +77,18 @@ TEST_CASE("closed-form rung: near symmetry the errors cover the departure", "[ro
     Mat3<double> theta = V(4, 4, 5.5).asDiagonal();
     theta(0, 1) = theta(1, 0) = off;
     const auto almost = body(theta, V(0, 0, 1), .6, .5, 12);
-    const auto data = asked(V(.9, -.4, .7), 1.5, 60);
+    const auto data = asked_of(V(.9, -.4, .7), 1.5, 60);
     const Track track = run(almost, data);
     CHECK(track.failure == Errc::ok);
     CHECK(track.error.greatest() > off);
     CHECK(track.error.greatest() < 1e5 * off);
-    check_honest(almost, data, track);
+    check_closed(almost, data, track);
   }
 }
 
 TEST_CASE("closed-form rung: says where there is none", "[rotor]") {
   Bodies bodies(6);
-  const Track track = run(bodies.realisable(), asked(V(1, 2, 3), 0, 10));
+  const Track track = run(bodies.realisable(), asked_of(V(1, 2, 3), 0, 10));
   CHECK(track.failure == Errc::not_applicable);
   CHECK(std::string(track.refusal).find("no closed form") != std::string::npos);
 }
@@ -97,7 +98,7 @@ TEST_CASE("closed-form rung: on an unstable rotation for too long it is out of i
   const Mat3<double> theta = R * V(3, 4, 5).asDiagonal() * R.transpose();
   const auto middle = body(theta, R.col(1), .3, .5, 3);
   const V Omega = R.col(1) * 2;
-  const Track brief = run(middle, asked(Omega, 3, 20)), late = run(middle, asked(Omega, 3, 400));
+  const Track brief = run(middle, asked_of(Omega, 3, 20)), late = run(middle, asked_of(Omega, 3, 400));
   CHECK(brief.in_domain);
   CHECK(brief.error.greatest() < 1e-6);
   CHECK(late.failure == Errc::ok);

@@ -21,7 +21,7 @@ Scene scene_of(const Gyrostat<double>& body, double span, double tolerance) {
   return *make_scene(body, data);
 }
 
-void check_honest(const Scene& scene, Integrator truth_by = Integrator::taylor) {
+void check_by_cvode(const Scene& scene, Integrator truth_by = Integrator::taylor) {
   const Track track = full_track(scene, nullptr);
   REQUIRE(track.failure == Errc::ok);
   Answer answer, truth;
@@ -38,15 +38,15 @@ void check_honest(const Scene& scene, Integrator truth_by = Integrator::taylor) 
 }  // namespace
 
 TEST_CASE("CVODE answers a rotor scene within the error it states", "[rotor]") {
-  for (const double tolerance : {1e-4, 1e-6, 1e-8}) check_honest(scene_of(reference_body(0.05, 30), 20, tolerance));
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) check_by_cvode(scene_of(reference_body(0.05, 30), 20, tolerance));
   Bodies bodies(31);
-  for (int i = 0; i < 5; ++i) check_honest(scene_of(bodies.realisable(), 10, 1e-6));
+  for (int i = 0; i < 5; ++i) check_by_cvode(scene_of(bodies.realisable(), 10, 1e-6));
 }
 
 TEST_CASE("CVODE takes BDF where the motor is stiff", "[rotor]") {
   const Scene scene = scene_of(reference_body(300, 5), 5, 1e-6);
   REQUIRE(is_stiff(scene.gyrostat(), scene.start()));
-  check_honest(scene);
+  check_by_cvode(scene);
   const Track stiffer = full_track(scene_of(reference_body(3e5, 5), 5, 1e-6), nullptr);
   CHECK(stiffer.failure == Errc::ok);
   CHECK(stiffer.counts.steps < 200'000);

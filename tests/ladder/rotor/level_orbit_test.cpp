@@ -20,7 +20,7 @@ TEST_CASE("small orbits about a minimum take the period of the nutation, and the
     double loss[2];
     for (int j = 0; j < 2; ++j) {
       const double tilt = j == 0 ? 1e-4 : 2e-4;
-      const detail::Tangent<double> across(all[0].direction);
+      const rotor::detail::Tangent<double> across(all[0].direction);
       const auto orbit = level_orbit<double>(g, l, (all[0].direction + tilt * across.u).normalized());
       REQUIRE(orbit);
       CHECK(orbit->period == Approx(2 * pi<double> / std::sqrt(s.determinant)).epsilon(1e-4));

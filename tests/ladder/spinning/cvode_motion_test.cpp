@@ -12,7 +12,7 @@ using namespace gyrostat::spinning;
 
 namespace {
 
-Scene scene(const Problem<double>& problem, const std::vector<double>& times) {
+Scene scene_of(const Problem<double>& problem, const std::vector<double>& times) {
   Question question;
   question.times = times;
   question.tolerance = 1e-6;
@@ -28,7 +28,7 @@ Scene scene(const Problem<double>& problem, const std::vector<double>& times) {
 TEST_CASE("CVODE finds the reference motions within what it states", "[spinning]") {
   for (const auto& c : reference_cases<double>()) {
     CAPTURE(c.name);
-    const Track track = full_track(scene(c.problem, c.times), nullptr);
+    const Track track = full_track(scene_of(c.problem, c.times), nullptr);
     REQUIRE(track.failure == Errc::ok);
     Comparison comparison(Row<double>{scales(c.problem, c.times.back())});
     for (std::size_t i = 0; i < c.times.size(); ++i) comparison.add(c.states[i], track.states[i]);
@@ -44,12 +44,12 @@ TEST_CASE("CVODE finds the reference motions within what it states", "[spinning]
 
 TEST_CASE("CVODE at the start, at rest, and cancelled", "[spinning]") {
   Problem<double> p;
-  CHECK(full_by_cvode(scene(p, {0}), nullptr).states.size() == 1);
-  const Track rest = full_by_cvode(scene(p, {0, 10}), nullptr);
+  CHECK(full_by_cvode(scene_of(p, {0}), nullptr).states.size() == 1);
+  const Track rest = full_by_cvode(scene_of(p, {0, 10}), nullptr);
   CHECK(rest.failure == Errc::ok);
   CHECK(rest.error[column::angular_velocity] == 0);
   p.angular_velocity = {0, 0.1, 1};
   Monitor monitor;
   monitor.cancel = true;
-  CHECK(full_by_cvode(scene(p, {0, 100}), &monitor).failure == Errc::cancelled);
+  CHECK(full_by_cvode(scene_of(p, {0, 100}), &monitor).failure == Errc::cancelled);
 }

@@ -2,8 +2,10 @@
 // Scenes of spinning bodies, and answers held against the motion in long double.
 #pragma once
 
+#include "../../models/spinning/spinners.hpp"
 #include "../column_error.hpp"
 #include "catch.hpp"
+#include "gyrostat/ladder/spinning/track.hpp"
 #include "truth.hpp"
 
 namespace gyrostat::spinning {

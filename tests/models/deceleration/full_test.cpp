@@ -17,7 +17,7 @@ namespace {
 
 /// A scene with all terms; control with or without products of axes.
 template <Real S>
-Problem<S> scene(Law law, Law drag_law, bool oblique = true) {
+Problem<S> described(Law law, Law drag_law, bool oblique = true) {
   Problem<S> problem;
   problem.inverse_inertia = {S(1) / S(1.4L), S(1), S(1) / S(0.7L)};
   problem.rotor_momentum = {S(0.2L), S(-0.15L), S(0.3L)};
@@ -40,7 +40,7 @@ constexpr std::array<std::array<Law, 2>, 4> all_laws = {
 
 TEST_CASE("the torques are those of the equations") {
   for (const auto& [law, drag_law] : all_laws) {
-    const auto problem = scene<double>(law, drag_law);
+    const auto problem = described<double>(law, drag_law);
     const Vec3<double> M = problem.momentum;
     const Vec3<double> G = M - problem.rotor_momentum;
     const Vec3<double> omega = problem.angular_velocity(M);
@@ -57,7 +57,7 @@ TEST_CASE("the torques are those of the equations") {
 }
 
 TEST_CASE("a torque that has no value is NaN") {
-  auto problem = scene<double>(Law::total, Law::total);
+  auto problem = described<double>(Law::total, Law::total);
   CHECK(!momentum_rate(problem, Vec3<double>(0, 0, 0)).allFinite());
   problem.control.setZero();
   CHECK(momentum_rate(problem, Vec3<double>(0, 0, 0)).isZero(0));
@@ -65,7 +65,7 @@ TEST_CASE("a torque that has no value is NaN") {
 
 TEST_CASE("the Jacobian is the derivative") {
   for (const auto& [law, drag_law] : all_laws) {
-    const auto problem = scene<long double>(law, drag_law);
+    const auto problem = described<long double>(law, drag_law);
     const Mat3<long double> jacobian = momentum_jacobian(problem, problem.momentum);
     const long double step = 1e-6L;
     for (int j = 0; j < 3; ++j) {
@@ -82,7 +82,7 @@ TEMPLATE_TEST_CASE("the coefficients solve the equations", "", float, double, lo
   using S = TestType;
   constexpr int order = 20;
   for (const auto& [law, drag_law] : all_laws) {
-    const auto problem = scene<S>(law, drag_law);
+    const auto problem = described<S>(law, drag_law);
     const FullCoefficients<S> f(problem);
     using System = FullSystem<S, true, true>;
     const System system(problem);
@@ -118,7 +118,7 @@ TEMPLATE_TEST_CASE("the coefficients solve the equations", "", float, double, lo
 
 TEST_CASE("what a scene lacks is left out without a change") {
   // the same motion with the control compiled out, and with the attitude
-  auto problem = scene<double>(Law::total, Law::total);
+  auto problem = described<double>(Law::total, Law::total);
   problem.control.setZero();
   const auto end = [&](auto system) {
     using System = decltype(system);
@@ -142,7 +142,7 @@ TEST_CASE("a step never jumps over the end") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-1, 1);
   for (const auto& [law, drag_law] : all_laws) {
-    const auto problem = scene<double>(law, drag_law);
+    const auto problem = described<double>(law, drag_law);
     const FullSystem<double, true, false> system(problem);
     const FullCoefficients<double> f(problem);
     for (int i = 0; i < 200; ++i) {
@@ -153,13 +153,13 @@ TEST_CASE("a step never jumps over the end") {
       CHECK(limit * -U.dot(rate) / U.norm() < 0.31 * U.norm());
     }
   }
-  const FullSystem<double, false, false> without(scene<double>(Law::total, Law::total));
+  const FullSystem<double, false, false> without(described<double>(Law::total, Law::total));
   const double x[4] = {1, 0, 0, 0};
   CHECK(without.step_limit(x) == infinity<double>);
 }
 
 TEST_CASE("a projection brings a state back onto its laws") {
-  auto problem = scene<double>(Law::total, Law::total);
+  auto problem = described<double>(Law::total, Law::total);
   problem.rotor_momentum.setZero();
   problem.control = 0.1 * Mat3<double>::Identity();
   const FullSystem<double, true, true> system(problem);
@@ -179,7 +179,7 @@ TEST_CASE("a projection brings a state back onto its laws") {
   CHECK(x[4] == 1);
 
   // no law, no change
-  const auto lawless = scene<double>(Law::carrier, Law::carrier);
+  const auto lawless = described<double>(Law::carrier, Law::carrier);
   const FullSystem<double, true, false> plain(lawless);
   CHECK(!plain.norm_is_known());
   double y[4] = {0.3, 0.2, 0.1, 0}, rest[4] = {};

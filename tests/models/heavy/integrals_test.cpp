@@ -12,8 +12,8 @@ using namespace gyrostat::heavy;
 
 namespace {
 
-Problem<double> body(const Vec3<double>& inertia, const Vec3<double>& centre, double gravity = 9.8,
-                     double gradient = 0) {
+Problem<double> inertial_body(const Vec3<double>& inertia, const Vec3<double>& centre, double gravity = 9.8,
+                              double gradient = 0) {
   const auto made = Problem<double>::make(inertia, 1, 0.01 * centre, gravity * 100, gradient);
   REQUIRE(made);
   return *made;
@@ -60,7 +60,7 @@ TEST_CASE("heavy: the fourth integrals are found and kept, whatever the axes are
   for (const Case& c : cases)
     for (int turn = 0; turn < 3; ++turn) {
       CAPTURE(int(c.kind), turn);
-      const auto p = body(shift(c.inertia, turn), shift(c.centre, turn), 9.8, c.gradient);
+      const auto p = inertial_body(shift(c.inertia, turn), shift(c.centre, turn), 9.8, c.gradient);
       auto s = random.start();
       if (c.level) {
         // no momentum about the vertical
@@ -90,20 +90,21 @@ TEST_CASE("heavy: where a condition fails there is no fourth integral", "[heavy]
   const auto kind = [&](const Problem<double>& p) { return FourthIntegral<double>(p, s).kind(); };
   CHECK(kind(random.body()) == FourthCase::none);
   CHECK(std::isnan(FourthIntegral<double>(random.body(), s)(s)));
-  CHECK(kind(body({1.3, 1.3, 0.7}, {1e-9, 0, -0.8})) == FourthCase::none);
-  CHECK(kind(body({1.2, 1.2, 0.6}, {0.4, 0, 0}, 9.8, 0.1)) == FourthCase::none);
-  CHECK(kind(body({1.2, 1.2, 0.6}, {0.4, 0, 1e-9})) == FourthCase::none);
-  CHECK(kind(body({1.2, 1.2, 0.6 * (1 + 1e-12)}, {0.4, 0, 0})) == FourthCase::none);
-  CHECK(kind(body({1.2, 1.2, 0.3}, {0.4, 0, 0})) == FourthCase::none);  // sigma does not vanish
+  CHECK(kind(inertial_body({1.3, 1.3, 0.7}, {1e-9, 0, -0.8})) == FourthCase::none);
+  CHECK(kind(inertial_body({1.2, 1.2, 0.6}, {0.4, 0, 0}, 9.8, 0.1)) == FourthCase::none);
+  CHECK(kind(inertial_body({1.2, 1.2, 0.6}, {0.4, 0, 1e-9})) == FourthCase::none);
+  CHECK(kind(inertial_body({1.2, 1.2, 0.6 * (1 + 1e-12)}, {0.4, 0, 0})) == FourthCase::none);
+  CHECK(kind(inertial_body({1.2, 1.2, 0.3}, {0.4, 0, 0})) == FourthCase::none);  // sigma does not vanish
   // gravity off is as good as a centre at the point
-  CHECK(kind(body({1, 1.2, 1.5}, {0.1, 0, 0}, 0)) == FourthCase::euler);
-  CHECK(kind(body({1, 1.2, 1.5}, {0.1, 0, 0}, 0, 0.2)) == FourthCase::clebsch);
+  CHECK(kind(inertial_body({1, 1.2, 1.5}, {0.1, 0, 0}, 0)) == FourthCase::euler);
+  CHECK(kind(inertial_body({1, 1.2, 1.5}, {0.1, 0, 0}, 0, 0.2)) == FourthCase::clebsch);
 }
 
 TEST_CASE("heavy: a body that only nearly has a fourth integral does not keep it", "[heavy]") {
   Tops random(3);
   const auto s = random.start();
-  const auto right = body({1.2, 1.2, 0.6}, {0.4, 0, 0}), wrong = body({1.2, 1.2, 0.6001}, {0.4, 0, 0});
+  const auto right = inertial_body({1.2, 1.2, 0.6}, {0.4, 0, 0}),
+             wrong = inertial_body({1.2, 1.2, 0.6001}, {0.4, 0, 0});
   const FourthIntegral<double> fourth(right, s);
   CHECK(std::abs(fourth(after(wrong, s, 10)) - fourth(s)) > 1e-6);
 }

@@ -17,7 +17,7 @@ namespace {
 using V = Vec3<double>;
 using Q = Quat<double>;
 
-Problem<double> top_body(double C, double z0, double N, int axis = 2) {
+Problem<double> gradient_body(double C, double z0, double N, int axis = 2) {
   V inertia = V::Constant(0.002), centre = V::Zero();
   inertia[axis] = C;
   centre[axis] = z0;
@@ -26,17 +26,17 @@ Problem<double> top_body(double C, double z0, double N, int axis = 2) {
   return *made;
 }
 
-LagrangeGradient<double> top(const Problem<double>& problem, const State<double>& start) {
+LagrangeGradient<double> with_gradient(const Problem<double>& problem, const State<double>& start) {
   const auto made = LagrangeGradient<double>::make(problem, start);
   REQUIRE(made);
   return *made;
 }
 
-Q leaning(double tilt) {
+Q tilted(double tilt) {
   return Q{0.8, 0, 0, -0.6} * Q{std::cos(tilt / 2), std::sin(tilt / 2), 0, 0} * Q{0.96, 0, 0, 0.28};
 }
 
-const std::vector<double> grid{0.0, 0.01, 0.033, 0.07, 0.13, 0.2, 0.31, 0.47};
+const std::vector<double> some_times{0.0, 0.01, 0.033, 0.07, 0.13, 0.2, 0.31, 0.47};
 
 }  // namespace
 
@@ -55,18 +55,18 @@ TEST_CASE("lagrange top in a gradient: the full equations from any start", "[hea
   int sound = 0;
   for (int n = 0; n < 40; ++n) {
     const int axis = n % 3;
-    const auto body =
-        top_body(0.0005 + 0.0025 * std::abs(unit(random)), 0.03 * unit(random), 400 * std::abs(unit(random)), axis);
+    const auto body = gradient_body(0.0005 + 0.0025 * std::abs(unit(random)), 0.03 * unit(random),
+                                    400 * std::abs(unit(random)), axis);
     V omega = 10 * V(unit(random), unit(random), unit(random));
     omega[axis] = (n % 2 ? 100 : 5) * unit(random);
     const auto start = start_at(omega, {unit(random), unit(random), unit(random), unit(random)});
-    const auto exact = top(body, start);
-    const auto truth = LongMotion::from(body, start, grid);
-    const auto bound = exact.error(grid.back());
+    const auto exact = with_gradient(body, start);
+    const auto truth = LongMotion::from(body, start, some_times);
+    const auto bound = exact.error(some_times.back());
     CAPTURE(n, exact.truncation(), bound.attitude);
     sound += bound.attitude < 1e-9;
-    for (std::size_t i = 0; i < grid.size(); ++i) {
-      const auto d = distance(exact.at(grid[i]), truth[i]);
+    for (std::size_t i = 0; i < some_times.size(); ++i) {
+      const auto d = distance(exact.at(some_times[i]), truth[i]);
       CHECK(d.attitude < bound.attitude);
       CHECK(d.down < bound.down);
       CHECK(d.angular_velocity < bound.angular_velocity);
@@ -82,14 +82,14 @@ TEST_CASE("lagrange top in a gradient: upright starts, pushed or not, and passag
       for (const auto& [omega, tilt] :
            {std::pair{V(0, 0, 150), 0.0}, std::pair{V(3, 1, 150), 0.0}, std::pair{V(8, 0, 0), 0.0},
             std::pair{V(3, 1, 150), 1e-9}, std::pair{V(0, 0, 150), 0.4}, std::pair{V(12, 0, 0), 0.5}}) {
-        const auto body = top_body(0.001, z0, N);
-        const auto start = start_at(omega, tilt == 0 ? Q{0.8, 0, 0, -0.6} : leaning(tilt));
-        const auto exact = top(body, start);
-        const auto truth = LongMotion::from(body, start, grid);
-        for (std::size_t i = 0; i < grid.size(); ++i) {
-          CAPTURE(N, z0, omega.transpose(), tilt, grid[i]);
-          const auto d = distance(exact.at(grid[i]), truth[i]);
-          const auto bound = exact.error(grid[i]);
+        const auto body = gradient_body(0.001, z0, N);
+        const auto start = start_at(omega, tilt == 0 ? Q{0.8, 0, 0, -0.6} : tilted(tilt));
+        const auto exact = with_gradient(body, start);
+        const auto truth = LongMotion::from(body, start, some_times);
+        for (std::size_t i = 0; i < some_times.size(); ++i) {
+          CAPTURE(N, z0, omega.transpose(), tilt, some_times[i]);
+          const auto d = distance(exact.at(some_times[i]), truth[i]);
+          const auto bound = exact.error(some_times[i]);
           CHECK(d.attitude < 1e-12);
           CHECK(d.attitude < bound.attitude);
           CHECK(d.angular_velocity <= bound.angular_velocity);
@@ -98,10 +98,10 @@ TEST_CASE("lagrange top in a gradient: upright starts, pushed or not, and passag
 }
 
 TEST_CASE("lagrange top in a gradient: without gradient it is Lagrange's", "[heavy]") {
-  const auto body = top_body(0.001, 0.04, 0);
+  const auto body = gradient_body(0.001, 0.04, 0);
   for (const double tilt : {0.3, 1.5, 2.9}) {
-    const auto start = start_at({1, 2, 120}, leaning(tilt));
-    const auto series = top(body, start);
+    const auto start = start_at({1, 2, 120}, tilted(tilt));
+    const auto series = with_gradient(body, start);
     const auto jacobi = LagrangeTop<double>::make(body, start);
     REQUIRE(jacobi);
     CHECK(series.nutation_period() == Approx(jacobi->nutation_period()).epsilon(1e-13));
@@ -117,7 +117,7 @@ TEST_CASE("lagrange top in a gradient: the reference motion, its period and its 
     ++seen;
     const auto& x = row.number;
     const V d(x[12], x[13], x[14]);
-    const auto exact = top(row.problem(), {V(x[9], x[10], x[11]), d, {}});
+    const auto exact = with_gradient(row.problem(), {V(x[9], x[10], x[11]), d, {}});
     const auto s = exact.at(x[15]);
     CHECK((s.angular_velocity - V(x[16], x[17], x[18])).norm() <= 1e-12 * 150);
     CHECK((s.down - V(x[19], x[20], x[21])).norm() <= 1e-12);
@@ -131,14 +131,14 @@ TEST_CASE("lagrange top in a gradient: the reference motion, its period and its 
 }
 
 TEST_CASE("lagrange top in a gradient: what is refused, what it costs", "[heavy]") {
-  const auto start = start_at({1, 2, 150}, leaning(0.6));
+  const auto start = start_at({1, 2, 150}, tilted(0.6));
   const auto uneven = Problem<double>::make({0.002, 0.0021, 0.001}, 0.5, {0, 0, 0.04}, 9.8, 3);
   CHECK(LagrangeGradient<double>::make(*uneven, start).error() == Errc::not_applicable);
   auto broken = start;
   broken.angular_velocity[1] = gyrostat::nan<double>;
-  CHECK(LagrangeGradient<double>::make(top_body(0.001, 0.04, 3), broken).error() == Errc::not_finite);
+  CHECK(LagrangeGradient<double>::make(gradient_body(0.001, 0.04, 3), broken).error() == Errc::not_finite);
   const auto before = allocations();
-  const auto exact = top(top_body(0.001, 0.04, 3), start);
+  const auto exact = with_gradient(gradient_body(0.001, 0.04, 3), start);
   CHECK(exact.at(1).down.norm() == Approx(1));
   CHECK(allocations() == before);
 }

@@ -29,7 +29,7 @@ State<double> swung(int k, double angle, double rate) {
   return s;
 }
 
-Problem<double> body(int k, double gravity, double gradient, double way = 0.3) {
+Problem<double> lined(int k, double gravity, double gradient, double way = 0.3) {
   V I(0.0011, 0.0016, 0.0020), c = V::Zero();
   c[(k + 1) % 3] = 0.012 * std::cos(way);
   c[(k + 2) % 3] = 0.012 * std::sin(way);
@@ -38,9 +38,10 @@ Problem<double> body(int k, double gravity, double gradient, double way = 0.3) {
   return *made;
 }
 
-const std::vector<double> grid{0.0, 0.05, 0.13, 0.4, 0.77, 1.3};
+const std::vector<double> swing_times{0.0, 0.05, 0.13, 0.4, 0.77, 1.3};
 
-Distance worst(const Problem<double>& problem, const State<double>& start, const std::vector<double>& times = grid) {
+Distance worst(const Problem<double>& problem, const State<double>& start,
+               const std::vector<double>& times = swing_times) {
   const auto made = Pendulum<double>::make(problem, start);
   REQUIRE(made);
   const auto truth = LongMotion::from(problem, start, times);
@@ -63,7 +64,7 @@ TEST_CASE("heavy pendulum: libration and rotation about each principal axis", "[
     for (const double angle : {0.0, 0.4, 2.0, -1.1, 3.0})
       for (const double rate : {0.0, 1.0, -7.0, 25.0, -60.0}) {
         CAPTURE(k, angle, rate);
-        const auto d = worst(body(k, 9.8, 0), swung(k, angle, rate));
+        const auto d = worst(lined(k, 9.8, 0), swung(k, angle, rate));
         CHECK(d.attitude < 1e-12);
         CHECK(d.angular_velocity < 1e-11);
       }
@@ -74,14 +75,14 @@ TEST_CASE("heavy pendulum: the gradient alone", "[heavy]") {
     for (const double angle : {0.0, 0.4, 2.0, -1.1})
       for (const double rate : {0.0, 1.0, -4.0, 9.0}) {
         CAPTURE(k, angle, rate);
-        const auto d = worst(body(k, 0, 40), swung(k, angle, rate));
+        const auto d = worst(lined(k, 0, 40), swung(k, angle, rate));
         CHECK(d.attitude < 1e-12);
         CHECK(d.angular_velocity < 1e-11);
       }
 }
 
 TEST_CASE("heavy pendulum: separatrix, rest and small swings", "[heavy]") {
-  const auto problem = body(2, 9.8, 0, 0);
+  const auto problem = lined(2, 9.8, 0, 0);
   const double c = problem.pendulum_rate();
   // hanging at angle pi/2 from the start of swung(): found from down itself
   const auto hanging = [&](double angle, double rate) {
@@ -137,12 +138,12 @@ TEST_CASE("heavy pendulum: the reference motions and their periods", "[heavy]") 
 
 TEST_CASE("heavy pendulum: what is refused", "[heavy]") {
   const auto good = swung(2, 0.3, 1);
-  CHECK(Pendulum<double>::make(body(2, 9.8, 0), good));
-  CHECK(Pendulum<double>::make(body(2, 9.8, 40), good).error() == Errc::not_applicable);
-  CHECK(Pendulum<double>::make(body(1, 9.8, 0), good).error() == Errc::not_applicable);
+  CHECK(Pendulum<double>::make(lined(2, 9.8, 0), good));
+  CHECK(Pendulum<double>::make(lined(2, 9.8, 40), good).error() == Errc::not_applicable);
+  CHECK(Pendulum<double>::make(lined(1, 9.8, 0), good).error() == Errc::not_applicable);
   auto tilted = good;
   tilted.angular_velocity[0] = 1e-9;
-  CHECK(Pendulum<double>::make(body(2, 9.8, 0), tilted).error() == Errc::not_applicable);
+  CHECK(Pendulum<double>::make(lined(2, 9.8, 0), tilted).error() == Errc::not_applicable);
   tilted.angular_velocity[0] = gyrostat::nan<double>;
-  CHECK(Pendulum<double>::make(body(2, 9.8, 0), tilted).error() == Errc::not_finite);
+  CHECK(Pendulum<double>::make(lined(2, 9.8, 0), tilted).error() == Errc::not_finite);
 }

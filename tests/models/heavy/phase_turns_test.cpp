@@ -27,7 +27,7 @@ double greatest_error(const std::vector<double>& times, double rate) {
   return most;
 }
 
-std::vector<double> grid(std::size_t n, double start, double step) {
+std::vector<double> even_times(std::size_t n, double start, double step) {
   std::vector<double> times(n);
   for (std::size_t i = 0; i < n; ++i) times[i] = start + double(i) * step;
   return times;
@@ -38,19 +38,19 @@ std::vector<double> grid(std::size_t n, double start, double step) {
 TEST_CASE("phase turns: grids, blocks that are not full, uneven and few times", "[heavy]") {
   for (const std::size_t n : {1U, 31U, 32U, 33U, 128U, 1001U}) {
     CAPTURE(n);
-    CHECK(greatest_error(grid(n, 0, 0.013), 147.0) < 8 * epsilon<double>);
-    CHECK(greatest_error(grid(n, -3, 0.013), -21.0) < 8 * epsilon<double>);
-    auto uneven = grid(n, 0, 0.013);
+    CHECK(greatest_error(even_times(n, 0, 0.013), 147.0) < 8 * epsilon<double>);
+    CHECK(greatest_error(even_times(n, -3, 0.013), -21.0) < 8 * epsilon<double>);
+    auto uneven = even_times(n, 0, 0.013);
     for (std::size_t i = 0; i < n; i += 3) uneven[i] += 1e-9;
     CHECK(greatest_error(uneven, 147.0) < 8 * epsilon<double>);
   }
-  auto broken = grid(400, 0, 0.01);
+  auto broken = even_times(400, 0, 0.01);
   for (std::size_t i = 200; i < 400; ++i) broken[i] *= 2;
   CHECK(greatest_error(broken, 30.0) < 8 * epsilon<double>);
 }
 
 TEST_CASE("phase turns: NaN stays NaN", "[heavy]") {
-  auto times = grid(200, 0, 0.01);
+  auto times = even_times(200, 0, 0.01);
   times[70] = gyrostat::nan<double>;
   const PhaseTurns<double> turns(times, 3.0);
   double c[32], s[32];

@@ -27,7 +27,7 @@ struct Errors {
 };
 
 template <class Truth>
-Errors errors(const Series2<double>& s, const Truth& truth, double from, double to, int n = 41) {
+Errors orbit_errors(const Series2<double>& s, const Truth& truth, double from, double to, int n = 41) {
   Errors worst;
   for (int i = 0; i < n; ++i) {
     const double t = from + (to - from) * i / (n - 1);
@@ -67,7 +67,7 @@ TEST_CASE("series 2: p and q to order 3 in eps, the rest to order 4", "[heavy]")
     for (double eps : {0.02, 0.01}) {
       const auto truth = Series<double>::make(d.body(), 1 / eps, d.G0, 20);
       REQUIRE(truth);
-      const auto now = errors(closed(d.body(), 1 / eps, d.G0), *truth, 0, truth->period());
+      const auto now = orbit_errors(closed(d.body(), 1 / eps, d.G0), *truth, 0, truth->period());
       if (eps == 0.01) {
         CHECK(std::log2(last.transverse / now.transverse) == Approx(4).margin(0.15));  // over r0: one more than over c
         CHECK(std::log2(last.axial / now.axial) == Approx(4).margin(0.15));
@@ -108,7 +108,7 @@ TEST_CASE("series 2: estimates are never too small, and not idle", "[heavy]") {
     const auto s = closed(d.body(), spin, d.G0);
     for (double turns : {1.0, 100.0}) {
       const double to = truth->period() * turns;
-      const auto error = errors(s, *truth, to * (turns - 1) / turns, to);
+      const auto error = orbit_errors(s, *truth, to * (turns - 1) / turns, to);
       const auto said = s.error(to);
       if (truth->error(to).relative(spin) > 0.01 * said.relative(spin)) continue;
       counted += 1;
@@ -157,7 +157,7 @@ TEST_CASE("series 2: the limits of its domain", "[heavy]") {
         continue;
       }
       INFO(a << " " << b);
-      const auto error = errors(*s, *truth, 0, 1);
+      const auto error = orbit_errors(*s, *truth, 0, 1);
       CHECK(error.down <= s->error(1).down + truth->error(1).down);
       CHECK(error.rates * 20 <= s->error(1).angular_velocity + truth->error(1).angular_velocity);
     }

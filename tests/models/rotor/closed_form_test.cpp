@@ -29,7 +29,7 @@ struct Start {
   State<double> state() const { return body.state(attitude, Omega, omega); }
 };
 
-Gyrostat<double> made(const M& theta, const V& e, double lambda, double S, double target) {
+Gyrostat<double> body_of(const M& theta, const V& e, double lambda, double S, double target) {
   const auto body = Gyrostat<double>::make((theta + theta.transpose()) / 2, e, lambda, S, target);
   REQUIRE(body);
   return *body;
@@ -80,18 +80,18 @@ Start member(Kind kind, Bodies& bodies) {
   switch (kind) {
     case Kind::none: s = {bodies.realisable(), bodies.attitude(), any, 1}; break;
     case Kind::no_momentum:
-      s.body = made(theta(), bodies.direction(), lambda, S, target);
+      s.body = body_of(theta(), bodies.direction(), lambda, S, target);
       s.omega = 0;
       break;
     case Kind::axisymmetric:
       j[1] = j[0];
       if (bodies.uniform(0, 1) < 0.2) j[2] = j[0];
-      s.body = made(theta(), R.col(2), lambda, S, target);
+      s.body = body_of(theta(), R.col(2), lambda, S, target);
       s.Omega = any;
       break;
     case Kind::principal_axis: {
       const int axis = int(bodies.uniform(0, 3));
-      s.body = made(theta(), R.col(axis), lambda, S, target);
+      s.body = body_of(theta(), R.col(axis), lambda, S, target);
       s.Omega = R.col(axis) * bodies.uniform(-2, 2);
       break;
     }
@@ -103,13 +103,13 @@ Start member(Kind kind, Bodies& bodies) {
       const double l = (theta() * any).norm() + psi;
       const V e = l * any.normalized() - theta() * any;
       s.omega = e.norm() / lambda;
-      s.body = made(theta(), e.normalized(), lambda, S, s.omega);
+      s.body = body_of(theta(), e.normalized(), lambda, S, s.omega);
       break;
     }
     case Kind::circular_section: {
       const double j1 = j[2], j2 = j[1], j3 = j[0];
       const V e = R * V(std::sqrt(j2 - j3) / j3, 0, std::sqrt(j1 - j2) / j1);
-      s.body = made(R * V(1 / j3, 1 / j2, 1 / j1).asDiagonal() * R.transpose(), e.normalized(), lambda, S, target);
+      s.body = body_of(R * V(1 / j3, 1 / j2, 1 / j1).asDiagonal() * R.transpose(), e.normalized(), lambda, S, target);
       const V c = (s.body.inverse_inertia() * s.body.axis()).normalized();
       V m = bodies.direction();
       m = (m - m.dot(c) * c).normalized();
@@ -127,7 +127,7 @@ Start member(Kind kind, Bodies& bodies) {
 TEST_CASE("closed forms meet the reference cases", "[rotor]") {
   for (const auto& c : closed_form_cases) {
     const V e(c.axis[0], c.axis[1], c.axis[2]);
-    const auto body = made(Eigen::Map<const M>(c.inertia), e / e.norm(), c.axial_inertia, c.slope, c.no_load_rate);
+    const auto body = body_of(Eigen::Map<const M>(c.inertia), e / e.norm(), c.axial_inertia, c.slope, c.no_load_rate);
     const Q q0 = normalised(Q{c.attitude[0], c.attitude[1], c.attitude[2], c.attitude[3]});
     const ClosedForm<double> form(body, body.state(q0, V(c.Omega[0], c.Omega[1], c.Omega[2]), c.omega));
     CAPTURE(c.id);
@@ -181,8 +181,8 @@ TEST_CASE("a body or a start a little off the family: the bound grows with the d
     const double size = bodies.scale(1e-13, 2e-7);
     const V d = bodies.direction(), f = bodies.direction();
     const M theta = start.body.inertia() + size * (d * d.transpose());
-    start.body = made(theta, (start.body.axis() + size * f).normalized(), start.body.axial_inertia(),
-                      start.body.slope(), start.body.no_load_rate());
+    start.body = body_of(theta, (start.body.axis() + size * f).normalized(), start.body.axial_inertia(),
+                         start.body.slope(), start.body.no_load_rate());
     start.Omega += size * bodies.direction();
     if (i % 8 < 4) start.omega += size;
     const ClosedForm<double> form(start.body, start.state());
@@ -210,7 +210,7 @@ TEST_CASE("circular section: through, into, and on the border between the two", 
   for (const double ratio : {0.2, 0.9, 1 - 1e-9, 1., 1 + 1e-9, 1.1, 5.})
     for (int i = 0; i < 6; ++i) {
       const double l = 2, target = ratio * l * b / (n_norm * lambda) * (i % 2 ? 1 : -1);
-      Start s{made(theta, e, lambda, 0.3, target), bodies.attitude()};
+      Start s{body_of(theta, e, lambda, 0.3, target), bodies.attitude()};
       const double phi = bodies.uniform(-3, 3);
       const V H = l * (std::cos(phi) * V(0, 1, 0) + std::sin(phi) * V(n.normalized().cross(V(0, 1, 0))));
       s.omega = target;
@@ -240,7 +240,7 @@ TEST_CASE("closed forms: no motor, and a motor that holds its rate", "[rotor]") 
     // without slope any rotor rate serves for the steady rotation and the circular section
     for (const Kind kind : {Kind::steady, Kind::circular_section, Kind::axisymmetric}) {
       Start s = member(kind, bodies);
-      s.body = made(s.body.inertia(), s.body.axis(), s.body.axial_inertia(), 0, 77);
+      s.body = body_of(s.body.inertia(), s.body.axis(), s.body.axial_inertia(), 0, 77);
       const ClosedForm<double> form(s.body, s.state());
       CHECK(form.kind() == kind);
       check_honest(measure(s, times(10)));
@@ -267,13 +267,13 @@ TEST_CASE("closed forms: nothing there, nothing claimed", "[rotor]") {
 TEST_CASE("closed forms: an instability multiplies rounding, unless the data rule it out", "[rotor]") {
   const M theta = V(3, 4, 5).asDiagonal();
   // about the middle axis
-  const Start exact{made(theta, V(0, 1, 0), 0.3, 0.5, 0), {}, V(0, 2, 0), 0};
+  const Start exact{body_of(theta, V(0, 1, 0), 0.3, 0.5, 0), {}, V(0, 2, 0), 0};
   const ClosedForm<double> fixed(exact.body, exact.state());
   CHECK(fixed.kind() == Kind::principal_axis);
   CHECK(fixed.exact());
   CHECK(fixed.error(1e4).attitude < 1e-9);
   const M R = to_matrix(normalised(Q{1, .3, -.2, .5}));
-  const Start tilted{made(R * theta * R.transpose(), R.col(1), 0.3, 0.5, 0), {}, R.col(1) * 2, 0};
+  const Start tilted{body_of(R * theta * R.transpose(), R.col(1), 0.3, 0.5, 0), {}, R.col(1) * 2, 0};
   const ClosedForm<double> same(tilted.body, tilted.state());
   CHECK(same.kind() == Kind::principal_axis);
   CHECK_FALSE(same.exact());
@@ -305,9 +305,9 @@ TEST_CASE("closed forms: relaxation without cancellation", "[rotor]") {
       const long double x = z;
       truth = x / 2 * (1 - x / 3 * (1 - x / 4 * (1 - x / 5 * (1 - x / 6 * (1 - x / 7 * (1 - x / 8 * (1 - x / 9)))))));
     }
-    CHECK(std::abs(detail::relaxed_share(z) - truth) < 4e-16L * truth);
+    CHECK(std::abs(rotor::detail::relaxed_share(z) - truth) < 4e-16L * truth);
   }
-  CHECK(detail::relaxed_share(0.) == 0);
+  CHECK(rotor::detail::relaxed_share(0.) == 0);
 }
 
 TEMPLATE_TEST_CASE("closed forms in every scalar", "[rotor]", float, double, long double) {

@@ -63,7 +63,7 @@ struct Off {
   double attitude = 0, momentum = 0, rotor_rate = 0, rotor_angle = 0;
 };
 
-Off distance(const Gyrostat<double>& body, const State<double>& a, const State<double>& b) {
+Off far_apart(const Gyrostat<double>& body, const State<double>& a, const State<double>& b) {
   const auto rate = [&](const State<double>& s) {
     return body.rotor_rate(s.axial_momentum, body.angular_velocity(s.momentum, s.axial_momentum));
   };
@@ -76,7 +76,7 @@ Off measure(const Beside& s, const std::vector<double>& at) {
   const auto tail = s.tail();
   Off most;
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const Off here = distance(s.body, tail.at(at[i]), truth[i]);
+    const Off here = far_apart(s.body, tail.at(at[i]), truth[i]);
     most.attitude = std::max(most.attitude, here.attitude);
     most.momentum = std::max(most.momentum, here.momentum);
     most.rotor_rate = std::max(most.rotor_rate, here.rotor_rate);
@@ -199,12 +199,12 @@ TEST_CASE("linear tail: what errors of the start grow to", "[rotor]") {
     const double off = eps * bodies.scale(1e-6, 1e-2);
     moved.start.momentum = s.l * (s.start.momentum / s.l + off * bodies.direction()).normalized();
     moved.start.axial_momentum += off * s.body.axial_inertia() * bodies.uniform(-1, 1);
-    const Off first = distance(s.body, s.start, moved.start);
+    const Off first = far_apart(s.body, s.start, moved.start);
     const auto carried = tail.carried(first.momentum, first.rotor_rate);
     const auto other = moved.tail();
     for (const double share : {0.01, 0.1, 1., 10.}) {
       const double t = share / tail.decay_rate();
-      const Off now = distance(s.body, tail.at(t), other.at(t));
+      const Off now = far_apart(s.body, tail.at(t), other.at(t));
       // the attitudes of two starts with one P have two L
       CHECK(now.attitude <= carried.attitude + first.momentum / s.l);
       CHECK(now.momentum <= carried.momentum);

@@ -53,7 +53,7 @@ std::array<double, 3> characteristic(const Gyrostat<double>& g, const Vec3<doubl
 }
 
 MomentumMotion beside(const Gyrostat<double>& g, double l, const SteadyRotation<double>& r, double off) {
-  const detail::Tangent<double> t(r.direction);
+  const rotor::detail::Tangent<double> t(r.direction);
   return MomentumMotion::from(g, l, (r.direction + off * (0.8 * t.u + 0.6 * t.v)).normalized(), 0);
 }
 
@@ -143,8 +143,8 @@ TEST_CASE("roots of (d + s)(d^2 + D) + kappa d with real parts without cancellat
     for (const double D : {1.0, -1.0, 1e-6, -1e-6})
       for (double size = 1e-14; size < 1e4; size *= 11)
         for (const double kappa : {size, -size}) {
-          const auto r = detail::nutation_roots<double>(s, D, kappa);
-          const auto truth = detail::nutation_roots<L>(s, D, kappa);
+          const auto r = rotor::detail::nutation_roots<double>(s, D, kappa);
+          const auto truth = rotor::detail::nutation_roots<L>(s, D, kappa);
           INFO(s << ' ' << D << ' ' << kappa);
           // next to a double root the square root of rounding is lost
           const L u = truth[1].real(), v = truth[1].imag(), w = truth[2].real();
@@ -159,14 +159,14 @@ TEST_CASE("roots of (d + s)(d^2 + D) + kappa d with real parts without cancellat
           CHECK(std::abs(a * twice + c - (L(D) + kappa)) <= 1e-17L * (std::abs(a * twice) + std::abs(c)));
           CHECK(std::abs(a + twice + s) <= 1e-17L * (std::abs(a) + std::abs(twice) + s));
         }
-  const auto held = detail::nutation_roots<double>(0, 2, 2);
+  const auto held = rotor::detail::nutation_roots<double>(0, 2, 2);
   CHECK(held[0] == Complex(0, 0));
   CHECK(std::abs(held[1] - Complex(0, 2)) + std::abs(held[2] + Complex(0, 2)) < 1e-15);
 }
 
 TEST_CASE("the laws of a weak, a soft and a stiff motor") {
   const double D = 2.3, kappa = 1e-3;
-  const auto rate = [&](double s) { return -growth(detail::nutation_roots<double>(s, D, kappa)); };
+  const auto rate = [&](double s) { return -growth(rotor::detail::nutation_roots<double>(s, D, kappa)); };
   for (double s = 1e-8; s < 1e8; s *= 10) {
     const double weak = kappa / 2 * s / (s * s + D);
     CHECK(rate(s) == Approx(weak).epsilon(2 * kappa / D));
@@ -180,7 +180,7 @@ TEST_CASE("the fastest damping is the best of all slopes") {
     for (const double c : {1e-6, 0.01, 1.0, 3.9, 4.0, 4.1, 6.0, 7.9, 8.0, 8.1, 9.0, 20.0, 1e3}) {
       const double kappa = c * D;
       const auto best = fastest_damping(D, kappa);
-      const auto decay = [&](double s) { return -growth(detail::nutation_roots<double>(s, D, kappa)); };
+      const auto decay = [&](double s) { return -growth(rotor::detail::nutation_roots<double>(s, D, kappa)); };
       // a triple root loses the third root of rounding
       CHECK(decay(best.relaxation) == Approx(best.rate).epsilon(c >= 7.9 ? 2e-5 : 1e-12));
       for (double s = 1e-3; s < 3e3; s *= 1.0007) CHECK(decay(s * std::sqrt(D)) <= best.rate * (1 + 1e-12));
@@ -210,7 +210,7 @@ TEST_CASE("a start along a mode moves as the mode does") {
     for (const auto& r : steady_rotations(g, l)) {
       const auto s = stability_of(g, l, r);
       // dm = a u + b v, x: the linear equations in these, written out
-      const detail::Tangent<double> t(r.direction);
+      const rotor::detail::Tangent<double> t(r.direction);
       const Vec3<double> n = g.inverse_inertia() * g.axis();
       const Vec3<double> Bu = l * (g.inverse_inertia() * t.u) - r.spin_rate * t.u;
       const Vec3<double> Bv = l * (g.inverse_inertia() * t.v) - r.spin_rate * t.v;

@@ -34,7 +34,7 @@ double distance(const Gyrostat<Scalar>& g, Scalar norm, const SteadyRotation<Sca
   const L l = norm, psi = r.spin_rate;
   const L h = L(g.axial_inertia()) * L(g.no_load_rate());
   const Vec3<L> misfit = J * (psi * theta * m - l * m + h * g.axis().template cast<L>());
-  const detail::Tangent<L> t(m);
+  const rotor::detail::Tangent<L> t(m);
   Eigen::Matrix<L, 2, 2> B;
   const L uv = t.u.dot(J * t.v);
   B << t.u.dot(J * t.u), uv, uv, t.v.dot(J * t.v);
@@ -46,7 +46,7 @@ double distance(const Gyrostat<Scalar>& g, Scalar norm, const SteadyRotation<Sca
 
 /// Smallest over largest |eigenvalue| of B on the tangent plane: small next to a fold.
 double fold_distance(const Gyrostat<double>& g, double l, const SteadyRotation<double>& r) {
-  const detail::Tangent<double> t(r.direction);
+  const rotor::detail::Tangent<double> t(r.direction);
   const Mat3<double>& J = g.inverse_inertia();
   const double sigma = r.spin_rate / l, uv = t.u.dot(J * t.v);
   const double uu = t.u.dot(J * t.u) - sigma, vv = t.v.dot(J * t.v) - sigma;

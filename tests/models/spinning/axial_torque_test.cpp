@@ -20,7 +20,7 @@ static_assert(ode::Projects<AxialTorqueSystem<double>>);
 
 /// The derivative of the numbers of a state at t, from the definitions.
 template <Real S>
-std::array<S, 24> rate(const Problem<S>& p, S t, const S* x) {
+std::array<S, 24> rate_of(const Problem<S>& p, S t, const S* x) {
   const S r = p.spin() + p.torque[2] / p.inertia[2] * t;
   return {p.torque[0] / p.inertia[0] - p.kappa1(r) * x[1],
           p.torque[1] / p.inertia[1] + p.kappa2(r) * x[0],
@@ -78,7 +78,7 @@ TEMPLATE_TEST_CASE("the series solve the linear equations under an axial torque"
           value[k] = value[k] * at + x[j - 1][k];
         }
       }
-      const auto wanted = rate(p, t + at * unit, value);
+      const auto wanted = rate_of(p, t + at * unit, value);
       for (int k = 0; k < width; ++k) {
         CAPTURE(i, k, at);
         S size = 0;

@@ -13,7 +13,7 @@ using grid_oracle::Arrays;
 
 namespace {
 
-Problem<double> stage(Vec3<double> D, double lambda3, double r0, double e_H = 0) {
+Problem<double> stage_of(Vec3<double> D, double lambda3, double r0, double e_H = 0) {
   Problem<double> p;
   p.inertia = D;
   p.mass = 10;
@@ -33,9 +33,10 @@ Problem<double> stage(Vec3<double> D, double lambda3, double r0, double e_H = 0)
 TEST_CASE("a grid by blocks at and near every resonance", "[spinning]") {
   for (const double detuning : {0.3, 1e-3, 1e-6, 1e-9, 1e-14, 0.0}) {
     for (const auto& p :
-         {stage({8, 7, 12}, detuning - 12, 1), stage({8, 7, 12}, 3 + detuning, 1), stage({7, 7, 12}, 2 + detuning, 1),
-          stage({8, 7, 12}, detuning - 5, 1, 0.25), stage({8, 7, 12}, detuning - 4, 1), stage({8, 7, 12}, 2, detuning),
-          stage({7, 7, 7}, detuning, 1), stage({7, 7, 7}, 0, detuning), stage({8, 7, 12}, 12 - detuning, -1, 0.5)}) {
+         {stage_of({8, 7, 12}, detuning - 12, 1), stage_of({8, 7, 12}, 3 + detuning, 1),
+          stage_of({7, 7, 12}, 2 + detuning, 1), stage_of({8, 7, 12}, detuning - 5, 1, 0.25),
+          stage_of({8, 7, 12}, detuning - 4, 1), stage_of({8, 7, 12}, 2, detuning), stage_of({7, 7, 7}, detuning, 1),
+          stage_of({7, 7, 7}, 0, detuning), stage_of({8, 7, 12}, 12 - detuning, -1, 0.5)}) {
       for (const bool pushed : {true, false}) {
         auto problem = p;
         if (!pushed) problem.force = {0, 0, 3};
@@ -54,7 +55,7 @@ TEST_CASE("a grid by blocks at and near every resonance", "[spinning]") {
 }
 
 TEST_CASE("a grid by blocks far out", "[spinning]") {
-  for (const auto& p : {stage({8, 7, 12}, 1e-9 - 12, 1), stage({8, 7, 12}, 3 + 1e-9, 1)}) {
+  for (const auto& p : {stage_of({8, 7, 12}, 1e-9 - 12, 1), stage_of({8, 7, 12}, 3 + 1e-9, 1)}) {
     const std::size_t n = 2'000'000;
     const BlockGrid<double> grid(p, 0, 0.01, n);
     Arrays<double> a(1000);
@@ -66,7 +67,7 @@ TEST_CASE("a grid by blocks far out", "[spinning]") {
 }
 
 TEST_CASE("a grid by blocks through exponential growth", "[spinning]") {
-  auto p = stage({8, 11, 9}, 0, 1);
+  auto p = stage_of({8, 11, 9}, 0, 1);
   p.torque *= 1e-6;
   const double mu = std::sqrt(-p.nutation_squared());
   const std::size_t n = 3000;
@@ -78,7 +79,7 @@ TEST_CASE("a grid by blocks through exponential growth", "[spinning]") {
 
 TEMPLATE_TEST_CASE("a grid by blocks in other precisions", "[spinning]", float, long double) {
   using S = TestType;
-  const auto p = spinning::detail::problem_cast<S>(stage({8, 7, 12}, 3, 1, 0.2));
+  const auto p = spinning::detail::problem_cast<S>(stage_of({8, 7, 12}, 3, 1, 0.2));
   const std::size_t n = 500;
   Arrays<S> a(n);
   BlockGrid<S>(p, 1, S(0.01), n).write(0, n, a.columns);
@@ -87,7 +88,7 @@ TEMPLATE_TEST_CASE("a grid by blocks in other precisions", "[spinning]", float, 
 
 TEST_CASE("any window of a grid by blocks, without the heap; steps of any size", "[spinning]") {
   for (const double step : {0.02, 0.7, 5.0}) {
-    const auto p = stage({8, 7, 12}, 2, 1, 0.2);
+    const auto p = stage_of({8, 7, 12}, 2, 1, 0.2);
     const auto before = allocations();
     const BlockGrid<double> grid(p, -3, step, 900);
     CHECK(allocations() == before);

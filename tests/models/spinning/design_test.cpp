@@ -13,7 +13,7 @@ using namespace gyrostat::spinning;
 
 namespace {
 
-Problem<double> stage() {
+Problem<double> upper_stage() {
   Problem<double> p;
   p.inertia = {2985, 2729, 4183};
   p.mass = 2017;
@@ -81,7 +81,7 @@ TEST_CASE("the least spin points within the budget, and no slower one does", "[s
 
 TEST_CASE("the least spin has no cancellation", "[spinning]") {
   for (const double lambda3 : {1e6, 1e9, -1e6, -1e9}) {
-    auto p = stage();
+    auto p = upper_stage();
     p.rotor_momentum = lambda3;
     const auto made = spin_for_pointing(p, 1e-3);
     REQUIRE(made);
@@ -92,7 +92,7 @@ TEST_CASE("the least spin has no cancellation", "[spinning]") {
 }
 
 TEST_CASE("a spin that cannot be found is refused by name", "[spinning]") {
-  const auto p = stage();
+  const auto p = upper_stage();
   for (const double wrong : {0.0, -1.0, gyrostat::nan<double>, infinity<double>})
     CHECK(spin_for_pointing(p, wrong).error() == Errc::out_of_domain);
   auto still = p;
@@ -150,7 +150,7 @@ TEST_CASE("the greatest torque leans the velocity by the budget, and no smaller 
 }
 
 TEST_CASE("without transverse force the torque is tan(budget) |r X|", "[spinning]") {
-  auto p = stage();
+  auto p = upper_stage();
   p.force = {0, 0, 400};
   const auto made = torque_for_direction(p, 0.01);
   REQUIRE(made);
@@ -160,7 +160,7 @@ TEST_CASE("without transverse force the torque is tan(budget) |r X|", "[spinning
 }
 
 TEST_CASE("a torque that cannot be found is refused by name", "[spinning]") {
-  const auto p = stage();
+  const auto p = upper_stage();
   for (const double wrong : {0.0, -0.1, 1.6, 4.0, gyrostat::nan<double>, infinity<double>})
     CHECK(torque_for_direction(p, wrong).error() == Errc::out_of_domain);
   auto still = p;
@@ -209,7 +209,7 @@ TEST_CASE("a burn ends when the budget is first reached", "[spinning]") {
 
 TEST_CASE("a burn that grazes the budget first is not stepped over", "[spinning]") {
   // without torque a transverse force drives the velocity round a circle
-  auto p = stage();
+  auto p = upper_stage();
   p.torque = {0, 0, 0};
   p.force = {10, 0, 0};
   const double most = 2 * p.force[0] / p.mass / p.spin();
@@ -220,7 +220,7 @@ TEST_CASE("a burn that grazes the budget first is not stepped over", "[spinning]
 }
 
 TEST_CASE("burns at the edges", "[spinning]") {
-  auto p = stage();
+  auto p = upper_stage();
   CHECK(burn_for_displacement(p, 0.0).error() == Errc::out_of_domain);
   CHECK(burn_for_velocity(p, gyrostat::nan<double>).error() == Errc::out_of_domain);
   auto coasting = p;
@@ -252,7 +252,7 @@ TEST_CASE("burns at the edges", "[spinning]") {
 }
 
 TEST_CASE("designs allocate nothing", "[spinning]") {
-  const auto p = stage();
+  const auto p = upper_stage();
   const std::size_t before = allocations();
   const auto spin = spin_for_pointing(p, 0.01), torque = torque_for_direction(p, 0.01);
   const auto drifted = burn_for_displacement(p, 1.0), faster = burn_for_velocity(p, 1.0);

@@ -13,7 +13,7 @@ using grid_oracle::Arrays;
 
 namespace {
 
-Problem<double> stage(double lambda3, double r0 = 1) {
+Problem<double> rolling_stage(double lambda3, double r0 = 1) {
   Problem<double> p;
   p.inertia = {8, 7, 12};
   p.mass = 10;
@@ -31,15 +31,15 @@ TEST_CASE("which kernel", "[spinning]") {
   const auto kernel = [](const Problem<double>& p, double step, std::size_t points) {
     return LinearGrid<double>(p, 0, step, points).kernel();
   };
-  CHECK(kernel(stage(1.3), 0.01, 10000) == GridKernel::modes);
-  CHECK(kernel(stage(1.3), 0.01, 100) == GridKernel::blocks);     // small t
-  CHECK(kernel(stage(-12), 0.01, 10000) == GridKernel::blocks);   // X = 0
-  CHECK(kernel(stage(-4.5), 0.01, 10000) == GridKernel::blocks);  // unstable
-  CHECK(kernel(stage(-12), 10, 100) == GridKernel::points);
-  CHECK(kernel(stage(1.3), 10, 100) == GridKernel::modes);
-  CHECK(LinearGrid<double>(stage(1.3), 0, 0.01, 10000, GridKernel::blocks).kernel() == GridKernel::blocks);
-  CHECK(LinearGrid<double>(stage(1.3), 0, 0.01, 10, GridKernel::modes).kernel() == GridKernel::modes);
-  CHECK(LinearGrid<double>(stage(1.3), 0, 0.01, 10, GridKernel::points).kernel() == GridKernel::points);
+  CHECK(kernel(rolling_stage(1.3), 0.01, 10000) == GridKernel::modes);
+  CHECK(kernel(rolling_stage(1.3), 0.01, 100) == GridKernel::blocks);     // small t
+  CHECK(kernel(rolling_stage(-12), 0.01, 10000) == GridKernel::blocks);   // X = 0
+  CHECK(kernel(rolling_stage(-4.5), 0.01, 10000) == GridKernel::blocks);  // unstable
+  CHECK(kernel(rolling_stage(-12), 10, 100) == GridKernel::points);
+  CHECK(kernel(rolling_stage(1.3), 10, 100) == GridKernel::modes);
+  CHECK(LinearGrid<double>(rolling_stage(1.3), 0, 0.01, 10000, GridKernel::blocks).kernel() == GridKernel::blocks);
+  CHECK(LinearGrid<double>(rolling_stage(1.3), 0, 0.01, 10, GridKernel::modes).kernel() == GridKernel::modes);
+  CHECK(LinearGrid<double>(rolling_stage(1.3), 0, 0.01, 10, GridKernel::points).kernel() == GridKernel::points);
 }
 
 TEST_CASE("the kernel chosen is accurate, whatever the scene", "[spinning]") {
@@ -48,7 +48,7 @@ TEST_CASE("the kernel chosen is accurate, whatever the scene", "[spinning]") {
   double worst = 0;
   int used[4] = {};
   for (int trial = 0; trial < 300; ++trial) {
-    Problem<double> p = stage(0, u(-1, 1));
+    Problem<double> p = rolling_stage(0, u(-1, 1));
     Vec3<double> D;
     do D = {u(.3, 3), u(.3, 3), u(.3, 3)};
     while (2 * D.maxCoeff() > D.sum());
@@ -80,6 +80,6 @@ TEST_CASE("a grid takes no memory from the heap", "[spinning]") {
   Arrays<double> a(500);
   const auto before = allocations();
   for (const auto kernel : {GridKernel::modes, GridKernel::blocks, GridKernel::points})
-    LinearGrid<double>(stage(1.3), 0, 0.01, 500, kernel).write(0, 500, a.columns);
+    LinearGrid<double>(rolling_stage(1.3), 0, 0.01, 500, kernel).write(0, 500, a.columns);
   CHECK(allocations() == before);
 }

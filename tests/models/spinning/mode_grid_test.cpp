@@ -14,7 +14,7 @@ using grid_oracle::Arrays;
 namespace {
 
 template <class S>
-Problem<S> stage(S r0 = 1) {
+Problem<S> grid_stage(S r0 = 1) {
   Problem<S> p;
   p.inertia = {S(8.7), S(8.2), S(11.1)};
   p.mass = 10;
@@ -35,7 +35,7 @@ TEMPLATE_TEST_CASE("a grid by modes is the linear motion", "[spinning]", float, 
   using S = TestType;
   for (const S r0 : {S(1.1), S(-0.8)}) {
     for (const bool pushed : {true, false}) {
-      auto p = stage<S>(r0);
+      auto p = grid_stage<S>(r0);
       if (!pushed) p.force = {0, 0, 3};
       for (const std::size_t n : {1u, 7u, 256u, 3000u}) {
         const S start = S(40), step = S(0.0371);
@@ -49,7 +49,7 @@ TEMPLATE_TEST_CASE("a grid by modes is the linear motion", "[spinning]", float, 
 }
 
 TEST_CASE("a grid by modes does not drift", "[spinning]") {
-  const auto p = stage<double>();
+  const auto p = grid_stage<double>();
   const ModeGrid<double> grid(p, 0, 0.01);
   Arrays<double> a(1000);
   grid.write(0, 1000, a.columns);
@@ -67,7 +67,7 @@ TEST_CASE("a grid by modes does not drift", "[spinning]") {
 }
 
 TEST_CASE("any window of a grid by modes, without the heap", "[spinning]") {
-  const auto p = stage<double>();
+  const auto p = grid_stage<double>();
   const ModeGrid<double> grid(p, 3, 0.02);
   Arrays<double> whole(900), part(300);
   const auto before = allocations();
@@ -86,7 +86,7 @@ TEST_CASE("modes next to a resonance that turns through 10 rad", "[spinning]") {
   const auto u = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
   double worst = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    auto p = stage<double>(u(0.5, 2));
+    auto p = grid_stage<double>(u(0.5, 2));
     const double detuning = std::pow(10, u(-4, -1)), Lambda = p.charge_momentum + detuning;
     if (trial % 4 == 0) p.rotor_momentum = Lambda - 11.1 * p.spin();
     if (trial % 4 == 1) p.rotor_momentum = Lambda + (8.7 + 8.2 - 11.1) * p.spin();

@@ -52,7 +52,7 @@ Problem<S> symmetric() {
 }
 
 /// Error of each value, and its size in the truth: rates, tilt, G, v, v3, x, x3.
-struct Comparison {
+struct Compared {
   std::array<double, 7> error, size;
 
   double relative() const {
@@ -63,8 +63,8 @@ struct Comparison {
 };
 
 template <class S>
-Comparison compare(const published::Values<double>& y, const State<S>& s) {
-  Comparison made;
+Compared compare(const published::Values<double>& y, const State<S>& s) {
+  Compared made;
   const auto pair = [&](std::size_t i, C value, S re, S im) {
     made.error[i] = double(std::hypot(S(value.re) - re, S(value.im) - im));
     made.size[i] = double(std::hypot(re, im));
@@ -79,7 +79,7 @@ Comparison compare(const published::Values<double>& y, const State<S>& s) {
   return made;
 }
 
-Comparison compare(const Problem<double>& p, Reading reading, double t) {
+Compared compare(const Problem<double>& p, Reading reading, double t) {
   return compare(Motion<double>(p, reading).at(t), Linear<double>(p).at(t));
 }
 
@@ -361,10 +361,10 @@ TEST_CASE("what the published forms lose near a resonance", "[spinning]") {
     p.angular_velocity[2] = 1;
     p.charge_momentum = 0;
     p.rotor_momentum = X - 12;
-    const auto truth = Linear<long double>(detail::problem_cast<long double>(p)).at(10);
+    const auto truth = Linear<long double>(spinning::detail::problem_cast<long double>(p)).at(10);
     const auto ours = compare(values(Linear<double>(p).at(10)), truth);
     const auto lost = compare(Motion<double>(p, Reading::corrected).at(10), truth);
-    const auto part = [](const Comparison& made, std::size_t i) { return made.error[i] / made.size[i]; };
+    const auto part = [](const Compared& made, std::size_t i) { return made.error[i] / made.size[i]; };
     INFO(X << " " << part(lost, 1) << " " << part(lost, 3) << " " << part(lost, 5));
     CHECK(ours.relative() < 2e-13);
     CHECK(part(lost, 3) > 20 * before[1]);

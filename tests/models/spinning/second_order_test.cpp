@@ -18,7 +18,7 @@ namespace {
 
 using Real80 = long double;
 
-State<Real80> truth(const Problem<Real80>& p, Real80 t) {
+State<Real80> true_end(const Problem<Real80>& p, Real80 t) {
   const std::array<Real80, 1> times{t};
   std::array<State<Real80>, 1> states;
   FullMotionOptions<Real80> options;
@@ -99,7 +99,7 @@ TEST_CASE("orders in the tilt", "[spinning]") {
     std::array<Real80, 8> linear[2], second[2];
     for (int k = 0; k < 2; ++k) {
       const auto q = scaled(p, k == 0 ? 0.1L : 0.05L);
-      const auto right = truth(q, end);
+      const auto right = true_end(q, end);
       linear[k] = errors(Linear<Real80>(q).at(end), right);
       second[k] = errors(SecondOrder<Real80>(q, end).at(end), right);
     }
@@ -197,7 +197,7 @@ TEST_CASE("corrections help where they say so, and their errors are stated", "[s
                                s.velocity.cast<Real80>(),
                                s.position.cast<Real80>()};
         }(),
-        truth(cast<Real80>(p), end));
+        true_end(cast<Real80>(p), end));
     const double limits[] = {stated.spin,     stated.theta,          stated.momentum, stated.axial_momentum,
                              stated.velocity, stated.axial_velocity, stated.position, stated.axial_position};
     const auto s = second.at(end);
