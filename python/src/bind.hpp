@@ -6,7 +6,7 @@
 
 void bind_elliptic(pybind11::module_& module);
 void bind_families(pybind11::module_& module);
-void bind_published(pybind11::module_& module);
+void bind_deceleration_published(pybind11::module_& module);
 void bind_rotation(pybind11::module_& module);
 void bind_text(pybind11::module_& module);
 void bind_deceleration(pybind11::module_& module);

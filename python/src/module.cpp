@@ -48,8 +48,9 @@ BuildInfo build_info() {
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Compiled core of gyrostat.";
   module.attr("__version__") = gyrostat::library_version();
-  module.def("build_info", &build_info,
-             "Version of the library, of the compiler, and of each optional library (None: this installation has it not).");
+  module.def(
+      "build_info", &build_info,
+      "Version of the library, of the compiler, and of each optional library (None: this installation has it not).");
   py::class_<gyrostat::Monitor, std::shared_ptr<gyrostat::Monitor>>(module, "Monitor",
                                                                     "Watches and stops long work from another thread.")
       .def(py::init<>())
@@ -67,7 +68,7 @@ PYBIND11_MODULE(_core, module) {
   bind_families(module);
   bind_deceleration(module);
   bind_deceleration_integrators(module);
-  bind_published(module);
+  bind_deceleration_published(module);
   bind_rotor(module);
   bind_rotor_integrators(module);
   bind_rotor_steady(module);

@@ -45,7 +45,7 @@ Start start(const Array& inertia, const Array& control, const Array& angular_mom
   return {list(m), list(in_principal.diagonal()), symbol(p.regime), p.modulus.k2};
 }
 
-double torque_balance(double modulus_squared) {
+double balance_at(double modulus_squared) {
   if (!(modulus_squared >= 0 && modulus_squared <= 1))
     raise("DomainError", "modulus_squared = " + text(modulus_squared) + ": not in [0, 1]");
   return deceleration::torque_balance(Modulus<double>::from_k2(modulus_squared));
@@ -112,7 +112,7 @@ double printed_ratio(double kappa2, double modulus_squared) {
 
 }  // namespace
 
-void bind_published(py::module_& module) {
+void bind_deceleration_published(py::module_& module) {
   using Data = pub::Data<double>;
   py::class_<Start>(module, "PolhodeStart", "A scene without rotor momentum in principal axes 1, 2, 3, A > B > C.")
       .def_readonly("moments", &Start::moments, "(3,) [kg m2]")
@@ -122,7 +122,7 @@ void bind_published(py::module_& module) {
   module.def("deceleration_polhode_start", &start, py::kw_only(), py::arg("inertia"), py::arg("control"),
              py::arg("angular_momentum"),
              "Regime and k2 of a start; inertia (3,) or (3, 3), control (3,), angular_momentum (3,), body axes.");
-  module.def("deceleration_torque_balance", py::vectorize(torque_balance), py::arg("modulus_squared"),
+  module.def("deceleration_torque_balance", py::vectorize(balance_at), py::arg("modulus_squared"),
              "phi(k2) = kp2 W/(k2 F): falls from 1/2 at k2 = 0 to 0 at k2 = 1.");
 
   py::class_<Data>(module, "PublishedData", "Data of a figure of the deceleration paper, principal axes, A > B > C.")
