@@ -8,3 +8,7 @@ template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<doub
                                                               const Quat<double>*, std::span<Quat<double>>) noexcept;
 
 }  // namespace gyrostat::deceleration
+
+// for who steps the equations without the ladder
+template class gyrostat::ode::Taylor<gyrostat::deceleration::FullSystem<double, true, false>>;
+template class gyrostat::ode::Taylor<gyrostat::deceleration::FullSystem<double, false, false>>;

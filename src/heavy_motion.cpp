@@ -8,3 +8,7 @@ template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<doub
                                                               const FullMotionOptions<double>&) noexcept;
 
 }  // namespace gyrostat::heavy
+
+// for who steps the equations without the ladder
+template class gyrostat::ode::Taylor<gyrostat::heavy::FullSystem<double, true>>;
+template class gyrostat::ode::Taylor<gyrostat::heavy::FullSystem<double, false>>;

@@ -8,3 +8,6 @@ template Result<FullMotionAnswer<double>> full_motion<double>(const Gyrostat<dou
                                                               const FullMotionOptions<double>&) noexcept;
 
 }  // namespace gyrostat::rotor
+
+// for who steps the equations without the ladder
+template class gyrostat::ode::Taylor<gyrostat::rotor::FullSystem<double>>;

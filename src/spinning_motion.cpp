@@ -8,3 +8,6 @@ template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<doub
                                                               const FullMotionOptions<double>&) noexcept;
 
 }  // namespace gyrostat::spinning
+
+// for who steps the equations without the ladder
+template class gyrostat::ode::Taylor<gyrostat::spinning::FullSystem<double>>;

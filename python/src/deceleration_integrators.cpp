@@ -5,6 +5,10 @@
 #include "integrators.hpp"
 #include "scene_arguments.hpp"
 
+// the library has them
+extern template class gyrostat::ode::Taylor<gyrostat::deceleration::FullSystem<double, true, false>>;
+extern template class gyrostat::ode::Taylor<gyrostat::deceleration::FullSystem<double, false, false>>;
+
 namespace {
 
 using namespace gyrostat;

@@ -10,6 +10,10 @@
 #include "heavy_arguments.hpp"
 #include "integrators.hpp"
 
+// the library has them
+extern template class gyrostat::ode::Taylor<gyrostat::heavy::FullSystem<double, true>>;
+extern template class gyrostat::ode::Taylor<gyrostat::heavy::FullSystem<double, false>>;
+
 namespace {
 
 using namespace gyrostat;

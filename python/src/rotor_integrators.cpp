@@ -7,6 +7,9 @@
 #include "integrators.hpp"
 #include "rotor_arguments.hpp"
 
+// the library has them
+extern template class gyrostat::ode::Taylor<gyrostat::rotor::FullSystem<double>>;
+
 namespace {
 
 using namespace gyrostat;

@@ -7,6 +7,9 @@
 #include "integrators.hpp"
 #include "spinning_arguments.hpp"
 
+// the library has them
+extern template class gyrostat::ode::Taylor<gyrostat::spinning::FullSystem<double>>;
+
 namespace {
 
 using namespace gyrostat;
