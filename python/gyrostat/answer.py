@@ -3,8 +3,9 @@
 
 import math
 import os
-from collections.abc import Iterator, KeysView, Mapping
+from collections.abc import Callable, Iterator, KeysView, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,10 +50,11 @@ class Answer:
     scale : name -> what the scene makes of a column's scale, in its unit, so that no error is relative to a column that vanishes.
     scalars : name -> number, vector, truth value, or None where it is not known.
     scalar_error : name -> estimated error, relative; NaN where the scalar has none, being a definition, infinite or not known.
+    tolerances : name -> what the error of a column or scalar was held against; what was not asked for is not there.
     gyrostat.facts has units and meanings; `gyrostat info --columns` prints them.
     """
 
-    scene: dict[str, Any]
+    told: Callable[[], dict[str, Any]] = field(repr=False)
     model: str
     tolerance: float
     met: bool
@@ -63,33 +65,46 @@ class Answer:
     scalars: dict[str, Any]
     scalar_error: dict[str, float]
     scale: dict[str, float]
+    tolerances: dict[str, float]
     counts: dict[str, int]
     seconds: float
     tried: tuple[Attempt, ...] = field(default=())
 
     @classmethod
-    def of(cls, scene: Mapping[str, Any], times: NDArray[np.float64], tolerance: float, made: Mapping[str, Any]) -> "Answer":
-        """The answer that the compiled ladder `made` for a scene."""
+    def of(cls, told: Callable[[], dict[str, Any]], times: NDArray[np.float64], tolerance: float, made: Mapping[str, Any]) -> "Answer":
+        """The answer that the compiled ladder `made` for the scene that `told` tells."""
         return cls(
-            scene=dict(scene), model=made["model"], tolerance=tolerance, met=made["met"], error=dict(made["error"]),
+            told=told, model=made["model"], tolerance=tolerance, met=made["met"], error=dict(made["error"]),
             warnings=tuple(Warning_(w["code"], w["message"]) for w in made["warnings"]), t=times,
             columns={name: np.asarray(values) for name, values in made["columns"].items()},
             scalars=dict(made["scalars"]), scalar_error={name: made["scalar_error"].get(name, math.nan) for name in made["scalars"]},
-            scale=dict(made["scale"]), counts=dict(made["counts"]), seconds=made["seconds"],
+            scale=dict(made["scale"]), tolerances=dict(made["tolerances"]), counts=dict(made["counts"]), seconds=made["seconds"],
             tried=tuple(Attempt(a["model"], a["error"], a["accepted"], a["why"]) for a in made["tried"]),
         )
 
+    @cached_property
+    def scene(self) -> dict[str, Any]:
+        """The scene in the layout of a scene file; it is written out when it is first looked at."""
+        return self.told()
+
+    def of_scene(self, told: Callable[[], dict[str, Any]]) -> "Answer":
+        """This answer, as that of the scene that `told` tells."""
+        self.__dict__.pop("scene", None)
+        self.__dict__["told"] = told
+        return self
+
     @property
     def greatest_error(self) -> float:
-        """The estimated error that was held against the tolerance: the greatest of the columns and, of a deceleration, of the stop time."""
+        """The greatest of the estimated errors of what is asked for."""
         accepted = next((attempt for attempt in self.tried if attempt.accepted), None)
         return math.nan if accepted is None or accepted.error is None else accepted.error
 
     @property
     def least_certain(self) -> str:
-        """The column or scalar that has the greatest error; empty where none is known."""
+        """The column or scalar whose error is the greatest share of its tolerance; empty where none is known."""
         errors = {**self.error, **self.scalar_error}
-        return next((name for name, error in errors.items() if error == self.greatest_error), "")
+        shares = {name: errors[name] / tolerance for name, tolerance in self.tolerances.items() if errors[name] > 0}
+        return max(shares, key=lambda name: shares[name], default="")
 
     def keys(self) -> KeysView[str]:
         """Names of the columns."""

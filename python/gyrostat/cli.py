@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Final, TypeVar
 
 import gyrostat
+from gyrostat.asking import parse_ask
 from gyrostat.console import Progress, say, short, show_table, small
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError
 from gyrostat.families import FAMILIES
@@ -83,6 +84,8 @@ def _arguments() -> argparse.ArgumentParser:
     form.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
     form.add_argument("--csv", action="store_const", const="csv", dest="form", help="print the columns as CSV")
     form.add_argument("--netcdf", action="store_const", const="netcdf", dest="form", help="write a NetCDF file (needs -o)")
+    solve.add_argument("--ask", metavar="WHAT", help="columns and scalars wanted, with tolerances of their own where they need one: "
+                       "attitude=0.1deg,stop_time; or all")
     solve.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of to the standard output, in the form of the ending")
     solve.add_argument("--plot", type=Path, metavar="FILE", help="write a figure (PNG, SVG or PDF by its ending)")
 
@@ -165,7 +168,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _scene(arguments: argparse.Namespace) -> Scene:
-    return load(arguments.scene, **dict(parse_override(text) for text in arguments.overrides))
+    overrides = dict(parse_override(text) for text in arguments.overrides)
+    if getattr(arguments, "ask", None) is not None:
+        overrides["solve.ask"] = parse_ask(arguments.ask)
+    return load(arguments.scene, **overrides)
 
 
 def _in_thread(work: Callable[[Any], T], title: str) -> T:

@@ -35,7 +35,7 @@ def _parts(answer: Answer) -> dict[str, Any]:
         "t": answer.t, "columns": answer.columns, "scalars": answer.scalars, "scalar_error": answer.scalar_error,
         "counts": answer.counts, "seconds": answer.seconds,
         "tried": [{"model": a.model, "error": a.error, "accepted": a.accepted, "why": a.why} for a in answer.tried],
-        "units": _units(answer), "scale": answer.scale,
+        "units": _units(answer), "scale": answer.scale, "tolerances": answer.tolerances,
     }
 
 
@@ -132,6 +132,8 @@ def to_xarray(answer: Answer) -> "xarray.Dataset":
         attributes: dict[str, Any] = {"units": UNITS.get(name, ""), "long_name": MEANINGS.get(name, name)}
         if name in answer.error and math.isfinite(answer.error[name]):
             attributes["estimated_error"] = answer.error[name]
+        if name in answer.tolerances:
+            attributes["tolerance"] = answer.tolerances[name]
         variables[name] = (("t", *axis), values, attributes)
     coordinates: dict[str, Any] = {"t": ("t", answer.t, {"units": UNITS["t"], "long_name": MEANINGS["t"]})}
     if any("axis" in dims for dims, _, _ in variables.values()):

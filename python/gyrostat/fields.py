@@ -8,7 +8,7 @@ from typing import Any, Final, Literal
 __all__ = ["Choice", "Choices", "Field", "Found", "LIMIT", "MOST_SAMPLES", "REQUIRED", "ROUNDING", "TIMES", "Table", "UNSET", "Values",
            "head_keys", "needed", "solve_keys", "table_of"]
 
-Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "moments", "times", "record"]
+Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "moments", "times", "record", "ask"]
 
 REQUIRED: Final = "required"  # the key must be given
 UNSET: Final = None  # the key may be left out and then has no value
@@ -59,7 +59,8 @@ def solve_keys(rungs: Iterable[str], integrators: Iterable[str]) -> Table:
         Field("duration", "number", "end of an even grid of times from 0", "s", UNSET, low=0, open_low=True),
         Field("samples", "count", "number of times of the even grid", "", UNSET, low=2, high=MOST_SAMPLES),
         Field("times", "times", "times of the answer, increasing, first >= 0", "s", UNSET, low=0),
-        Field("tolerance", "number", "greatest relative error wanted in any output column", "", 1e-6, low=1e-15, high=0.5),
+        Field("tolerance", "number", "greatest relative error wanted in what is asked", "", 1e-6, low=1e-15, high=0.5),
+        Field("ask", "ask", "columns and scalars wanted: names, \"all\", or a table of name = tolerance, relative or with a unit", "", UNSET),
         Field("model", "choice", "rung of the ladder, or auto", "", "auto", ("auto", *rungs)),
         Field("integrator", "choice", "for rungs that integrate", "", "auto", ("auto", *integrators)),
     )

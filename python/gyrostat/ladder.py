@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From a scene to its answer and to its chart."""
 
-import dataclasses
 import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -40,7 +39,7 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, **overrides: Any)
     """
     checked = scene_of(scene, overrides)
     family = FAMILIES[checked.kind]
-    return dataclasses.replace(family.solve(**family.arguments(checked), monitor=monitor), scene=checked.to_dict())
+    return family.solve(**family.arguments(checked), monitor=monitor).of_scene(checked.to_dict)
 
 
 def chart(scene: SceneLike, **overrides: Any) -> "Chart":

@@ -5,12 +5,16 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any, Final
 
-from gyrostat.drawing import COLOURS, new_figure, save
+from gyrostat.drawing import COLOURS, Panel, components, curve, error_text, new_figure, note, save, stacked
+from gyrostat.errors import DomainError
+from gyrostat.facts import FACTS, MEANINGS, UNITS
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import scene_from
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
     from gyrostat.answer import Answer
     from gyrostat.charts import Chart
@@ -23,11 +27,38 @@ def plot_answer(answer: "Answer") -> "Figure":
     scene = scene_from(answer.scene)
     family = FAMILIES[scene.kind]
     figures = family.part("figures")
-    made: Figure = figures.figure(answer, family.arguments(scene))
+    whole = scene.tables["solve"]["ask"] in (None, "default", "all")
+    made: Figure = figures.figure(answer, family.arguments(scene)) if whole else _asked(answer)
     verdict = "met" if answer.met else "NOT met"
     title = f"{scene.name}: rung {answer.model}, estimated error {answer.greatest_error:.1e} (tolerance {answer.tolerance:g} {verdict})"
-    made.suptitle("\n".join([title, *figures.remarks(answer)]), fontsize=11)
+    remarks = figures.remarks(answer) if whole else []
+    made.suptitle("\n".join([title, *remarks]), fontsize=11)
     return made
+
+
+def _asked(answer: "Answer") -> "Figure":
+    """A panel for each column of numbers that was asked for."""
+    panels = [_column(name) for name, values in answer.columns.items() if values.dtype.kind == "f"]
+    if not panels:
+        raise DomainError("nothing that varies over time was asked for: ask for a column, such as "
+                          f"{next(iter(FACTS[answer.scene['kind']].columns))}, to have a figure")
+    return stacked(answer, panels)
+
+
+def _column(name: str) -> Panel:
+    def draw(axes: "Axes", answer: "Answer", t: "NDArray[Any]") -> None:
+        values, title = answer[name], f"{name}: {MEANINGS[name]}"
+        unit = "" if UNITS[name] == "1" else UNITS[name]
+        if values.ndim == 1:
+            curve(axes, t, values, [f"_{name}"])
+            axes.set_ylabel(f"[{unit}]" if unit else "")
+            axes.set_title(title, loc="left", fontsize=10)
+        else:
+            components(axes, t, values, "", unit, title)
+            axes.set_ylabel(f"[{unit}]" if unit else "")
+        note(axes, error_text(answer, name))
+
+    return draw
 
 
 # ---- charts ----

@@ -17,9 +17,11 @@ Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
 
 def summary(answer: Answer) -> str:
     """How the answer was found and how good it is, in a line."""
-    of = f" ({answer.least_certain})" if answer.least_certain else ""
-    met = "met" if answer.met else "NOT met"
-    return f"answered by {answer.model}: estimated error {small(answer.greatest_error)}{of}, tolerance {answer.tolerance:g} {met}"
+    name, met = answer.least_certain, "met" if answer.met else "NOT met"
+    error = {**answer.error, **answer.scalar_error}.get(name, answer.greatest_error)
+    of = f" ({name})" if name else ""
+    return (f"answered by {answer.model}: estimated error {small(error)}{of}, "
+            f"tolerance {answer.tolerances.get(name, answer.tolerance):.3g} {met}")
 
 
 def head(answer: Answer) -> list[str]:

@@ -8,12 +8,14 @@ import re
 import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gyrostat.asking import AskError, asked, knows_attitude
 from gyrostat.errors import Mistake, SceneError
 from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, UNSET, Choices, Field, Table, Values, table_of
@@ -47,6 +49,10 @@ class Scene:
     @property
     def times(self) -> NDArray[np.float64]:
         """Times of the answer (n,) [s]."""
+        return self._times.copy()
+
+    @cached_property
+    def _times(self) -> NDArray[np.float64]:
         solve = self.tables["solve"]
         if solve["times"] is not UNSET:
             return np.array(solve["times"], dtype=np.float64)
@@ -76,7 +82,27 @@ class Scene:
         """The same scene with some keys changed: by name (`tolerance=1e-9`) or dotted (`**{"torque.drag": 0.0}`)."""
         if not overrides:
             return self
-        return _check(self.to_dict(), _Source(self._label(), path=self.path), overrides)
+        return self._changed(overrides) or _check(self.to_dict(), _Source(self._label(), path=self.path), overrides)
+
+    def _changed(self, overrides: Mapping[str, Any]) -> "Scene | None":
+        """The scene with keys changed that stand alone, where all is well; None: the whole is to be checked."""
+        family = FAMILIES[self.kind]
+        tables = dict(self.tables)
+        for key, value in overrides.items():
+            found = family.single_keys.get(key)
+            if found is None:
+                return None
+            table, field = found
+            try:
+                tables[table] = {**tables[table], field.name: _READERS[field.form](field, _plain(value))}
+            except _Wrong:
+                return None
+        if any(family.mistakes(tables)):
+            return None
+        made = Scene(self.name, self.kind, self.source, tables, self.path)
+        if tables["solve"] is self.tables["solve"]:
+            made.__dict__["_times"] = self._times
+        return made
 
     def _label(self) -> str:
         return self.name if self.path is None else str(self.path)
@@ -339,9 +365,18 @@ def _record(field: Field, value: Any) -> dict[str, float]:
     return made
 
 
+def _ask(field: Field, value: Any) -> Any:
+    """Names and units are looked at when the kind is known."""
+    if value in ("all", "default") or isinstance(value, dict):
+        return value
+    if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
+        raise _Wrong(f"this is {_kind_of(value)}, not an array of names", 'write "all", names such as ["attitude"], or { attitude = "0.1 deg" }')
+    return tuple(value)
+
+
 _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
     "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "direction": _direction,
-    "quaternion": _quaternion, "inertia": _inertia, "moments": _moments, "times": _times, "record": _record,
+    "quaternion": _quaternion, "inertia": _inertia, "moments": _moments, "times": _times, "record": _record, "ask": _ask,
 }
 
 
@@ -407,6 +442,10 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         if not any(table_of(key) in unread for choice in choices for key in choice):
             _one_of(choices, tree, wrong)
     if not mistakes:
+        try:
+            asked(kind, read["solve"]["ask"], knows_attitude(read))
+        except AskError as error:
+            wrong("solve.ask", read["solve"]["ask"], error.problem, error.remedy)
         for key, value, problem, remedy in family.mistakes(read):
             wrong(key, _plain(value), problem, remedy)
     if mistakes:

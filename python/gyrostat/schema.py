@@ -42,6 +42,10 @@ def _form(field: Field) -> dict[str, Any]:
         case "inertia" | "moments":
             tensor = _array(_array({"type": "number", "minimum": -field.high, "maximum": field.high}, 3), 3)
             return {"oneOf": [_array(_number(field), 3), tensor]}
+        case "ask":
+            tolerance = {"oneOf": [{"type": "number", "exclusiveMinimum": 0}, {"type": "string"}]}
+            return {"oneOf": [{"enum": ["all", "default"]}, {"type": "array", "items": {"type": "string"}, "minItems": 1},
+                              {"type": "object", "additionalProperties": tolerance, "minProperties": 1}]}
         case "record":
             return {"type": "object", "properties": {part.name: _property(part) for part in field.parts},
                     "required": [part.name for part in field.parts], "additionalProperties": False}
@@ -130,6 +134,8 @@ def _form_text(field: Field) -> str:
             return "3 or 3x3 numbers"
         case "times":
             return "numbers"
+        case "ask":
+            return "names, all or { name = tolerance }"
         case "record":
             return "{ " + ", ".join(part.name for part in field.parts) + " }"
         case _:

@@ -20,7 +20,8 @@ inline py::object values_of(Column& column) {
   const ColumnKind& kind = *column.kind;
   if (kind.kind == Kind::word) {
     py::list words;
-    for (const double place : column.values) words.append(kind.words[std::size_t(place)]);
+    for (const double place : column.values)
+      words.append(std::isnan(place) ? py::object(py::str("")) : py::object(py::str(kind.words[std::size_t(place)])));
     return words;
   }
   const auto n = py::ssize_t(column.values.size()) / kind.width;
@@ -42,20 +43,24 @@ inline py::object value_of(const Quantity& quantity) {
   return array(std::move(values), {quantity.kind->width});
 }
 
-/// The answer as plain data. Every scalar of the family is there, None where this answer has no value of it.
-inline Data to_python(Answer& answer, const Family& family, double seconds) {
-  py::dict columns, error, scale, scalars, scalar_error, counts;
+/// The answer as plain data. Every scalar that is asked for, and where nothing was named every one of the family, is there, None where
+/// this answer has no value of it.
+inline Data to_python(Answer& answer, const Question& question, const Family& family, double seconds) {
+  const bool explicit_scalars = !question.asked.empty();
+  py::dict columns, error, scale, scalars, scalar_error, tolerances, counts;
   for (Column& column : answer.columns) {
     columns[column.kind->name] = values_of(column);
     if (column.kind->measure != Measure::none) error[column.kind->name] = column.error;
+    if (!std::isnan(column.tolerance)) tolerances[column.kind->name] = column.tolerance;
     if (column.kind->measure == Measure::relative) scale[column.kind->name] = column.scale;
   }
   for (const Quantity& quantity : answer.quantities) {
     scalars[quantity.kind->name] = value_of(quantity);
+    if (!std::isnan(quantity.tolerance)) tolerances[quantity.kind->name] = quantity.tolerance;
     scalar_error[quantity.kind->name] = std::isfinite(quantity.values[0]) ? quantity.error : missing;
   }
   for (const ScalarKind& kind : family.scalars) {
-    if (scalars.contains(kind.name)) continue;
+    if (explicit_scalars || scalars.contains(kind.name)) continue;
     scalars[kind.name] = py::none();
     scalar_error[kind.name] = missing;
   }
@@ -72,9 +77,10 @@ inline Data to_python(Answer& answer, const Family& family, double seconds) {
     item["error"] = std::isnan(a.error) ? py::object(py::none()) : py::object(py::float_(a.error));
     item["accepted"] = a.accepted;
     std::string why = a.why ? a.why : "";
+    const double tolerance = a.excess > 0 && a.excess < infinity<double> ? a.error / a.excess : answer.tolerance;
     char over[80];
-    std::snprintf(over, sizeof over, "error %.2g over tolerance %.2g", a.error, answer.tolerance);
-    if (a.error > answer.tolerance) why += (why.empty() ? "" : "; ") + std::string(over);
+    std::snprintf(over, sizeof over, "error %.2g over tolerance %.2g", a.error, tolerance);
+    if (std::isnan(a.excess) ? a.error > tolerance : a.excess > 1) why += (why.empty() ? "" : "; ") + std::string(over);
     item["why"] = why;
     tried.append(item);
   }
@@ -90,6 +96,7 @@ inline Data to_python(Answer& answer, const Family& family, double seconds) {
   made["columns"] = columns;
   made["scalars"] = scalars;
   made["scalar_error"] = scalar_error;
+  made["tolerances"] = tolerances;
   made["counts"] = counts;
   made["seconds"] = seconds;
   made["tried"] = tried;

@@ -29,7 +29,8 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
                  const std::string& control_law, const std::string& drag_law, const Array& angular_momentum,
                  const std::optional<Array>& attitude, const Array& at, double tolerance, const std::string& rung,
                  const std::string& integrator, const std::string& elliptic,
-                 const std::optional<std::shared_ptr<Monitor>>& monitor, const std::optional<Array>& angular_velocity) {
+                 const std::optional<std::shared_ptr<Monitor>>& monitor, const std::optional<Array>& angular_velocity,
+                 const Ask& ask) {
   Setup setup;
   setup.rotor_momentum = vector("rotor_momentum", rotor_momentum);
   setup.control = vector("control", control);
@@ -40,7 +41,7 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
   setup.momentum = vector("angular_momentum", angular_momentum);
   if (angular_velocity) setup.angular_velocity = vector("angular_velocity", *angular_velocity);
   if (attitude) setup.attitude = quaternion("attitude", *attitude);
-  Question question = question_of(tables, at, tolerance, rung);
+  Question question = question_of(tables, at, tolerance, rung, ask);
   question.wants_attitude = attitude.has_value();
   const bool cvode = takes_cvode(tables, integrator, question);
   const EllipticBackend& functions = elliptic_backend(elliptic);
@@ -52,9 +53,10 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
 #endif
 
   Refusal refusal;
-  auto [answer, seconds] = timed([&] { return functions.decelerate(scene, refusal, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] =
+      timed([&] { return functions.decelerate(scene, refusal, monitor ? monitor->get() : nullptr); });
   require_answer(refusal);
-  return to_python(answer, tables, seconds);
+  return to_python(answer, scene.question(), tables, seconds);
 }
 
 /// The rung `averaged` for many bodies: rows of inertia, rotor_momentum, control, momentum (n, 3) and drag (n).
@@ -160,7 +162,7 @@ void bind_deceleration(py::module_& module) {
              py::arg("control"), py::arg("drag"), py::arg("law"), py::arg("drag_law"), py::arg("angular_momentum"),
              py::arg("attitude"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),
              py::arg("elliptic"), py::arg("monitor"), py::arg("angular_velocity") = py::none(),
-             "Answer of the ladder as plain data.");
+             py::arg("ask") = py::none(), "Answer of the ladder as plain data.");
   module.def("deceleration_averaged", &averaged_rows, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"),
              py::arg("control"), py::arg("drag"), py::arg("angular_momentum"), py::arg("law"), py::arg("drag_law"),
              py::arg("times"), py::arg("tolerance"), py::arg("elliptic"), "The rung averaged over rows of bodies.");

@@ -8,6 +8,7 @@
 #include "gyrostat/ladder/family.hpp"
 #include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/rotor/motion.hpp"
+#include "gyrostat/ladder/rung.hpp"
 #include "gyrostat/ladder/spinning/motion.hpp"
 
 namespace {
@@ -62,12 +63,14 @@ py::list families() {
       item["meaning"] = rung.meaning;
       rungs.append(item);
     }
-    for (const WarningKind& warning : family->warnings) {
+    const auto append = [&](const WarningKind& warning) {
       py::dict item;
       item["code"] = warning.code;
       item["text"] = warning.text;
       warnings.append(item);
-    }
+    };
+    for (const WarningKind& warning : family->warnings) append(warning);
+    append(no_value);
     for (const char* name : family->integrators) integrators.append(name);
     py::dict item;
     item["name"] = family->name;

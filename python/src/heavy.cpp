@@ -27,10 +27,12 @@ Data solve_scene(const Array& inertia, double mass, const Array& centre_of_mass,
                  const std::optional<Array>& angular_velocity, const std::optional<Array>& down,
                  const std::optional<Array>& attitude, const std::optional<std::pair<double, double>>& periodic,
                  const Array& at, double tolerance, const std::string& model, const std::string& integrator,
-                 const std::optional<std::shared_ptr<Monitor>>& monitor) {
-  Question question = question_of(tables, at, tolerance, model);
+                 const std::optional<std::shared_ptr<Monitor>>& monitor, const Ask& ask) {
+  Question question = question_of(tables, at, tolerance, model, ask);
   const bool cvode = takes_cvode(tables, integrator, question);
   const Start start = heavy_start(angular_velocity, down, attitude, periodic, question);
+  if (!start.oriented && !question.asked.empty() && needs_column(question, tables, column::attitude))
+    raise("DomainError", "ask: the attitude follows from that of the start alone: give attitude in place of down");
   Scene scene = checked(Scene::make(heavy_body(inertia, mass, centre_of_mass, gravity, gradient), start, question));
 #ifdef GYROSTAT_HAVE_CVODE
   if (cvode) scene.full_equations = &full_by_cvode;
@@ -41,7 +43,7 @@ Data solve_scene(const Array& inertia, double mass, const Array& centre_of_mass,
   Refusal refusal;
   auto [answer, seconds] = timed([&] { return solve(scene, refusal, monitor ? monitor->get() : nullptr); });
   require_answer(refusal);
-  return to_python(answer, tables, seconds);
+  return to_python(answer, scene.question(), tables, seconds);
 }
 
 }  // namespace
@@ -55,5 +57,6 @@ void bind_heavy(py::module_& module) {
   module.def("heavy_solve", &solve_scene, py::kw_only(), py::arg("inertia"), py::arg("mass"), py::arg("centre_of_mass"),
              py::arg("gravity"), py::arg("gravity_gradient"), py::arg("angular_velocity"), py::arg("down"),
              py::arg("attitude"), py::arg("periodic"), py::arg("times"), py::arg("tolerance"), py::arg("model"),
-             py::arg("integrator"), py::arg("monitor"), "Answer of the ladder as plain data.");
+             py::arg("integrator"), py::arg("monitor"), py::arg("ask") = py::none(),
+             "Answer of the ladder as plain data.");
 }

@@ -114,6 +114,7 @@ inline heavy::Start heavy_start(const std::optional<Array>& angular_velocity, co
   }
   if (attitude) {
     start.state.attitude = quaternion("attitude", *attitude);
+    start.oriented = true;
     question.wants_attitude = true;
   }
   return start;

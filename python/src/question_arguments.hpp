@@ -3,9 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/family.hpp"
 #include "gyrostat/ladder/question.hpp"
@@ -43,8 +46,28 @@ inline bool takes_cvode(const Family& family, const std::string& name, Question&
   return name == "cvode";
 }
 
-inline Question question_of(const Family& family, const Array& at, double tolerance, const std::string& model) {
+/// What is asked for: name, tolerance (NaN: that of the question), whether it is in the unit, whether a value has to be there. None: the
+/// default of the family.
+using Ask = std::optional<std::vector<std::tuple<std::string, double, bool, bool>>>;
+
+inline std::vector<AskedQuantity> asked_of(const Family& family, const Ask& ask) {
+  std::vector<AskedQuantity> made;
+  if (!ask) return made;
+  for (const auto& [name, tolerance, absolute, needed] : *ask) {
+    const int column = place_of(family.columns, name), scalar = place_of(family.scalars, name);
+    if (column < 0 && scalar < 0) raise("DomainError", "ask: there is no column or scalar " + name);
+    if (tolerance <= 0 || tolerance == infinity<double>)
+      raise("DomainError", "ask: " + name + " = " + text(tolerance) + ": give a finite tolerance > 0");
+    made.push_back({std::size_t(column < 0 ? scalar : column), column < 0, tolerance, absolute, needed});
+  }
+  if (made.empty()) raise("DomainError", "ask: nothing is asked for; name a column or scalar, or leave it out");
+  return made;
+}
+
+inline Question question_of(const Family& family, const Array& at, double tolerance, const std::string& model,
+                            const Ask& ask) {
   Question question;
+  question.asked = asked_of(family, ask);
   question.times = times(at);
   question.tolerance = relative_tolerance(tolerance);
   question.rung = rung_named(family, model);

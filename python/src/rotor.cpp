@@ -26,11 +26,11 @@ using namespace gyrostat::rotor;
 Data solve_scene(const Array& inertia, const Array& axis, double axial_inertia, double slope, double no_load_rate,
                  const Array& angular_velocity, double rotor_rate, const Array& attitude, const Array& at,
                  double tolerance, const std::string& model, const std::string& integrator,
-                 const std::optional<std::shared_ptr<Monitor>>& monitor) {
+                 const std::optional<std::shared_ptr<Monitor>>& monitor, const Ask& ask) {
   const Gyrostat<double> gyrostat = gyrostat_of(inertia, axis, axial_inertia, slope, no_load_rate);
   const Start start{quaternion("attitude", attitude), vector("angular_velocity", angular_velocity),
                     finite("rotor_rate", rotor_rate)};
-  Question question = question_of(tables, at, tolerance, model);
+  Question question = question_of(tables, at, tolerance, model, ask);
   const bool cvode = takes_cvode(tables, integrator, question);
   Scene scene = checked(Scene::make(gyrostat, start, question));
 #ifdef GYROSTAT_HAVE_CVODE
@@ -42,7 +42,7 @@ Data solve_scene(const Array& inertia, const Array& axis, double axial_inertia, 
   Refusal refusal;
   auto [answer, seconds] = timed([&] { return solve(scene, refusal, monitor ? monitor->get() : nullptr); });
   require_answer(refusal);
-  return to_python(answer, tables, seconds);
+  return to_python(answer, scene.question(), tables, seconds);
 }
 
 /// theta (3, 3) of carrier and rotor given apart.
@@ -71,7 +71,7 @@ void bind_rotor(py::module_& module) {
   module.def("rotor_solve", &solve_scene, py::kw_only(), py::arg("inertia"), py::arg("axis"), py::arg("axial_inertia"),
              py::arg("slope"), py::arg("no_load_rate"), py::arg("angular_velocity"), py::arg("rotor_rate"),
              py::arg("attitude"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),
-             py::arg("monitor"), "Answer of the ladder as plain data.");
+             py::arg("monitor"), py::arg("ask") = py::none(), "Answer of the ladder as plain data.");
   module.def("rotor_assembly", &assembled, py::kw_only(), py::arg("carrier_inertia"), py::arg("carrier_mass"),
              py::arg("rotor_mass"), py::arg("axis"), py::arg("axial_inertia"), py::arg("equatorial_inertia"),
              py::arg("offset"), "(3, 3): inertia of the whole about the common mass centre.");

@@ -30,8 +30,9 @@ using namespace gyrostat::python;
 using namespace gyrostat::spinning;
 
 Data solve_scene(const SpinningProblems& problems, const Array& at, double tolerance, const std::string& model,
-                 const std::string& integrator, const std::optional<std::shared_ptr<Monitor>>& monitor) {
-  Question question = question_of(tables, at, tolerance, model);
+                 const std::string& integrator, const std::optional<std::shared_ptr<Monitor>>& monitor,
+                 const Ask& ask) {
+  Question question = question_of(tables, at, tolerance, model, ask);
   const bool cvode = takes_cvode(tables, integrator, question);
   Scene scene = checked(Scene::make(problems.single(), question));
 #ifdef GYROSTAT_HAVE_CVODE
@@ -43,7 +44,7 @@ Data solve_scene(const SpinningProblems& problems, const Array& at, double toler
   Refusal refusal;
   auto [answer, seconds] = timed([&] { return solve(scene, refusal, monitor ? monitor->get() : nullptr); });
   require_answer(refusal);
-  return to_python(answer, tables, seconds);
+  return to_python(answer, scene.question(), tables, seconds);
 }
 
 /// The linear motion of every row at the times (n,), any sign and order, and its a-priori errors until the farthest of them.
@@ -151,7 +152,8 @@ void bind_spinning(py::module_& module) {
            py::arg("position"))
       .def("__len__", [](const SpinningProblems& problems) { return problems.rows().size(); });
   module.def("spinning_solve", &solve_scene, py::arg("problem"), py::kw_only(), py::arg("times"), py::arg("tolerance"),
-             py::arg("model"), py::arg("integrator"), py::arg("monitor"), "Answer of the ladder as plain data.");
+             py::arg("model"), py::arg("integrator"), py::arg("monitor"), py::arg("ask") = py::none(),
+             "Answer of the ladder as plain data.");
   module.def("spinning_linear", &linear_rows, py::arg("problems"), py::arg("t"),
              "The linear motion of every row at the times.");
   module.def("spinning_linear_grid", &linear_grid_rows, py::arg("problems"), py::arg("start"), py::arg("step"),

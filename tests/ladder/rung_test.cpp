@@ -16,8 +16,14 @@ struct Scene {
   std::array<Errc, 4> failure{};
   std::array<bool, 4> in_domain{true, true, true, true};
   mutable int looked_at = 0;
-  Question asked{};
-  const Question& question() const { return asked; }
+  Question its_question{};
+  double value = 1;  ///< of the column, its size
+  const Question& question() const { return its_question; }
+  Scene asked(const Question& question) const {
+    Scene other = *this;
+    other.its_question = question;
+    return other;
+  }
 };
 struct Track {
   Errc failure;
@@ -26,8 +32,16 @@ struct Track {
   bool in_domain;
   double error;
 };
-void fill(Answer& answer, const Scene&, const Track& track) { answer.error = track.error; }
-void describe(Answer& answer, const Scene&, const Track& track) { answer.counts.steps = std::uint64_t(track.error * 1e9); }
+constexpr ColumnKind columns[] = {{"number", 1, "m", Frame::none, Measure::relative, ""},
+                                  {"vector", 3, "m", Frame::body, Measure::relative, ""}};
+constexpr ScalarKind scalars[] = {{"period", 1, "s", Frame::none, Measure::relative, ""}};
+void fill(Answer& answer, const Scene& scene, const Track& track) {
+  answer.columns.push_back({&columns[0], {scene.value}, track.error});
+}
+void describe(Answer& answer, const Scene&, const Track& track) {
+  answer.counts.steps = std::uint64_t(track.error * 1e9);
+  answer.quantities.push_back({&scalars[0], {3}, 10 * track.error});
+}
 
 template <std::size_t i>
 Track answer(const Scene& scene, Monitor*) {
@@ -36,7 +50,8 @@ Track answer(const Scene& scene, Monitor*) {
           scene.in_domain[i], scene.error[i]};
 }
 
-constexpr RungKind names[] = {{"first", ""}, {"second", ""}, {"third", ""}, {"fourth", ""}};
+constexpr RungKind names[] = {{"first", "", column_set(1U)}, {"second", ""}, {"third", ""}, {"fourth", ""}};
+constexpr Family family{"invented", columns, scalars, {}, names, {}, column_set(1U)};
 constexpr Rung<Scene, Track> ladder[] = {&answer<0>, &answer<1>, &answer<2>, &answer<3>};
 
 struct Climb {
@@ -45,9 +60,9 @@ struct Climb {
   int looked_at;
 
   explicit Climb(Scene scene, double tolerance, int only = any_rung) {
-    scene.asked.tolerance = tolerance;
-    scene.asked.rung = only;
-    answer = climb<Scene, Track>(names, ladder, scene, nullptr, refusal);
+    scene.its_question.tolerance = tolerance;
+    scene.its_question.rung = only;
+    answer = climb<Scene, Track>(family, ladder, scene, nullptr, refusal);
     looked_at = scene.looked_at;
   }
   bool is(const char* model) const { return std::strcmp(answer.model, model) == 0; }
@@ -130,4 +145,58 @@ TEST_CASE("a NaN error never meets a tolerance and loses against any number", "[
   const Climb c(Scene{{gyrostat::nan<double>, 1e-2, gyrostat::nan<double>, 1e-1}}, 1e-5);
   CHECK(c.is("second"));
   CHECK_FALSE(c.answer.met);
+}
+
+TEST_CASE("only what is asked decides, each to its own tolerance", "[ladder]") {
+  Scene scene{{1e-2, 1e-4, 1e-6, 1e-8}};
+  scene.its_question.asked = {{0, false, 1e-5}};
+  const Climb column(scene, 0.5);
+  CHECK(column.is("third"));
+  CHECK(column.answer.quantities.empty());
+  CHECK(column.answer.columns[0].tolerance == 1e-5);
+
+  scene.its_question.asked = {{0, true, 1e-4}};  // ten times the column's error
+  const Climb scalar(scene, 0.5);
+  CHECK(scalar.is("third"));
+  CHECK(scalar.answer.excess == Approx(0.1));
+  REQUIRE(scalar.answer.quantities.size() == 1);
+  CHECK(scalar.answer.quantities[0].tolerance == 1e-4);
+}
+
+TEST_CASE("a rung that lacks what is asked is passed over unsolved, and by name says so", "[ladder]") {
+  Scene scene{{1e-9, 1e-9, 1e-9, 1e-9}};
+  scene.its_question.asked = {{1}};
+  const Climb c(scene, 1e-3);
+  CHECK(c.is("second"));
+  REQUIRE(c.answer.tried.size() == 2);
+  CHECK(std::isnan(c.answer.tried[0].error));
+  CHECK(c.answer.tried[0].why != nullptr);
+}
+
+TEST_CASE("a scalar that no rung gives is there without a value, with a warning", "[ladder]") {
+  static constexpr ScalarKind more[] = {scalars[0], {"trace", 1, "1", Frame::none, Measure::absolute, ""}};
+  static constexpr Family wider{"invented", columns, more, {}, names, {}};
+  Scene scene{{1e-9, 1e-9, 1e-9, 1e-9}};
+  scene.its_question.asked = {{0}, {1, true}};
+  Refusal refusal;
+  const Answer answer = climb<Scene, Track>(wider, ladder, scene, nullptr, refusal);
+  CHECK_FALSE(answer.met);
+  CHECK(answer.warns("no-value"));
+  REQUIRE(answer.quantity("trace"));
+  CHECK(std::isnan(answer.quantity("trace")->values[0]));
+  scene.its_question.asked[1].needed = false;
+  CHECK(climb<Scene, Track>(wider, ladder, scene, nullptr, refusal).met);
+}
+
+TEST_CASE("a tolerance in the unit is held against the size that the answer found", "[ladder]") {
+  Scene scene{{1e-2, 1e-4, 1e-6, 1e-8}};
+  scene.value = 1e4;
+  scene.its_question.asked = {{0, false, 1e-1, true}};  // m, of 1e4 m
+  const Climb c(scene, 0.5);
+  CHECK(c.is("third"));
+  CHECK(c.answer.columns[0].tolerance == Approx(1e-5));
+  scene.error = {1e-2, 1e-4, 1e-4, 1e-4};  // the last rung is asked again, with what the tolerance comes to
+  const Climb again(scene, 0.5);
+  CHECK_FALSE(again.answer.met);
+  CHECK(again.answer.tried.size() == 5);
 }

@@ -18,6 +18,7 @@ struct Column {
   std::vector<double> values;
   double error;      ///< estimated greatest error over the span, as kind->measure says; NaN where it has none
   double scale = 0;  ///< kind->scale of this scene, in the unit of the column
+  double tolerance = nan<double>;  ///< what `error` is held against; NaN: nothing
 
   std::string_view name() const noexcept { return kind->name; }
 };
@@ -26,7 +27,8 @@ struct Column {
 struct Quantity {
   const ScalarKind* kind;
   std::array<double, 3> values;
-  double error = nan<double>;  ///< estimated, relative; NaN where it is a definition and has none
+  double error = nan<double>;      ///< estimated, as kind->measure says; NaN where it is a definition and has none
+  double tolerance = nan<double>;  ///< what `error` is held against; NaN: nothing
 
   std::string_view name() const noexcept { return kind->name; }
 };
@@ -45,13 +47,15 @@ struct Attempt {
   const char* model;
   double error;  ///< its own estimate; NaN where it was passed over unsolved
   bool accepted;
-  const char* why;  ///< why it was passed over; nullptr where only the error decided
+  const char* why;              ///< why it was passed over; nullptr where only the error decided
+  double excess = nan<double>;  ///< greatest error over its tolerance; NaN where that was not looked at
 };
 
 struct Answer {
   const char* model = "";
   double tolerance = 0;
-  double error = nan<double>;  ///< greatest error of any column
+  double error = nan<double>;   ///< greatest error of what is asked
+  double excess = nan<double>;  ///< greatest error over its tolerance
   bool met = false;
   std::vector<double> times;
   std::vector<Column> columns;

@@ -40,9 +40,8 @@ template <class Writer, class Course>
 Walk<Writer> walk_beside(const Writer& writer, Course& course, Course& companion, Course& second, bool rounds,
                          const typename Writer::State& start, typename Writer::Scalar rate,
                          std::span<const typename Writer::Scalar> times, std::span<typename Writer::State> states,
-                         const typename Writer::State& nowhere,
-                         const MotionOptions<typename Writer::Scalar>& options, double progress_from,
-                         double progress_to) noexcept {
+                         const typename Writer::State& nowhere, const MotionOptions<typename Writer::Scalar>& options,
+                         double progress_from, double progress_to) noexcept {
   using Scalar = typename Writer::Scalar;
   using State = typename Writer::State;
   using ode::Status;
@@ -119,7 +118,7 @@ void solve_beside(Answer& answer, const Writer& writer, Course& course, Course& 
   const Scalar margin = Scalar(rounds ? how.margin_of_rounding : how.margin);
   const auto error = margin * walk.distance + rounding(walk.asked.size(), steps);
   answer.error = relative_to_truth(walk.asked.relative(error), Writer::columns);
-  answer.met = answer.error.greatest() <= options.tolerance;
+  answer.met = options.excess(answer.error) <= 1;
 }
 
 }  // namespace gyrostat

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -65,10 +66,20 @@ struct WarningKind {
   const char* text;
 };
 
+/// A set of columns: one bit for the place of each.
+using ColumnSet = std::uint32_t;
+
+template <std::convertible_to<std::size_t>... Places>
+constexpr ColumnSet column_set(Places... places) noexcept {
+  return ((ColumnSet{1} << std::size_t{places}) | ... | ColumnSet{0});
+}
+constexpr bool has(ColumnSet set, std::size_t place) noexcept { return (set >> place & 1U) != 0; }
+
 /// A model of the ladder, and what it is in a few words.
 struct RungKind {
   const char* name;
   const char* meaning;
+  ColumnSet lacks = 0;  ///< columns that it never gives
 };
 
 /// The tables of one family. Rungs stand cheapest first.
@@ -79,6 +90,8 @@ struct Family {
   std::span<const WarningKind> warnings;
   std::span<const RungKind> rungs;
   std::span<const char* const> integrators;
+  ColumnSet unasked = 0;                         ///< columns that an answer lacks where nobody asks for them
+  std::span<const std::size_t> asked_scalars{};  ///< scalars whose errors count where nobody says what is asked
 };
 
 /// Place of the row of a table with this name or code; -1 where there is none.

@@ -10,6 +10,7 @@
 #include "gyrostat/ladder/answer.hpp"
 #include "gyrostat/ladder/errors.hpp"
 #include "gyrostat/ladder/family.hpp"
+#include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/outcome.hpp"
 #include "gyrostat/ladder/question.hpp"
 
@@ -22,48 +23,44 @@ inline void fill_head(Answer& answer, const Question& question, const Outcome& o
   answer.counts = outcome.counts;
 }
 
-/// Columns of the writer's table from states, those that are `kept`; the answer's error is the greatest of theirs.
+/// Columns of the writer's table from states: those that are asked for, or of a rung that is named and asked for nothing those that it has.
+/// What it has not, `known` says; it is NaN, its error infinite.
 template <class Writer>
 void fill_columns(Answer& answer, const Writer& writer, std::span<const typename Writer::State> states,
-                  const Errors<std::size(Writer::columns)>& error,
-                  const std::array<bool, std::size(Writer::columns)>& kept) {
+                  const Errors<std::size(Writer::columns)>& error, const Question& question, const Family& family,
+                  ColumnSet unknown = 0) {
   constexpr std::size_t count = std::size(Writer::columns);
+  const bool all = question.asked.empty() && question.rung != any_rung;
   std::array<double*, count> to{};
   answer.columns.reserve(count);
-  answer.error = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!kept[i]) continue;
     const ColumnKind& kind = Writer::columns[i];
-    const bool measured = kind.measure != Measure::none;
-    answer.columns.push_back(
-        {&kind, std::vector<double>(states.size() * std::size_t(kind.width)), measured ? error[i] : nan<double>});
+    if (all ? has(unknown, i) : !aim_of(question, family, false, i)) continue;
+    const std::size_t size = states.size() * std::size_t(kind.width);
+    const double its_error = kind.measure == Measure::none ? nan<double> : error[i];
+    if (has(unknown, i)) {
+      answer.columns.push_back({&kind, std::vector<double>(size, nan<double>), infinity<double>});
+    } else {
+      answer.columns.push_back({&kind, std::vector<double>(size), its_error});
+      to[i] = answer.columns.back().values.data();
+    }
     if constexpr (requires { writer.scale; }) answer.columns.back().scale = writer.scale[i];
-    to[i] = answer.columns.back().values.data();
-    if (measured) answer.error = greater(error[i], answer.error);
   }
   double row[row_width(Writer::columns)];
   for (const auto& state : states) {
     writer(state, row);
     const double* from = row;
     for (std::size_t i = 0; i < count; from += Writer::columns[i++].width)
-      if (kept[i]) to[i] = std::copy_n(from, Writer::columns[i].width, to[i]);
+      if (to[i]) to[i] = std::copy_n(from, Writer::columns[i].width, to[i]);
   }
-}
-
-/// The first `count` columns.
-template <class Writer>
-void fill_columns(Answer& answer, const Writer& writer, std::span<const typename Writer::State> states,
-                  const Errors<std::size(Writer::columns)>& error, std::size_t count = std::size(Writer::columns)) {
-  std::array<bool, std::size(Writer::columns)> kept{};
-  std::fill_n(kept.begin(), count, true);
-  fill_columns(answer, writer, states, error, kept);
 }
 
 /// The row at t = 0, where it is asked for, is the start as it was given, to the bit.
 inline void put_start(Answer& answer, const ColumnKind& kind, std::initializer_list<double> given) {
   if (answer.times.front() != 0) return;
-  for (Column& column : answer.columns)
-    if (column.kind == &kind) std::copy(given.begin(), given.end(), column.values.begin());
+  for (Column& column : answer.columns)  // but where the rung knows nothing of it
+    if (column.kind == &kind && column.values.front() == column.values.front())
+      std::copy(given.begin(), given.end(), column.values.begin());
 }
 
 }  // namespace gyrostat

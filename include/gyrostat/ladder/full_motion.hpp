@@ -46,10 +46,21 @@ inline constexpr const char* phase_lost =
 template <Real Scalar>
 struct MotionOptions {
   Scalar tolerance = Scalar(1e-9L);  ///< greatest error wanted in any column
+  /// The same of each column, infinite where nobody asks; empty: `tolerance` for all.
+  std::span<const double> wanted{};
   std::uint64_t step_cap = step_budget;
   std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
   const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
 
+  /// The greatest error over its tolerance; NaN if one is.
+  template <std::size_t columns>
+  Scalar excess(const Errors<columns, Scalar>& error) const noexcept {
+    if (wanted.empty()) return error.greatest() / tolerance;
+    Scalar most = 0;
+    for (std::size_t i = 0; i < columns; ++i)
+      if (wanted[i] < infinity<double>) most = greater(over(error[i], static_cast<Scalar>(wanted[i])), most);
+    return most;
+  }
   void report(double done) const noexcept {
     if (progress != nullptr) progress->store(std::min(done, 1.0), std::memory_order_relaxed);
   }

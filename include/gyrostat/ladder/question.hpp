@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 
 namespace gyrostat {
@@ -17,13 +19,23 @@ enum class Integrator : std::uint8_t { any, taylor, radau };
 /// In place of a rung's place in the table of its family: climb the ladder.
 inline constexpr int any_rung = -1;
 
+/// One column or scalar that is asked for.
+struct AskedQuantity {
+  std::size_t place;  ///< in its family's table of columns, or of scalars
+  bool scalar = false;
+  double tolerance = nan<double>;  ///< greatest error wanted, as its table measures it; NaN: that of the question
+  bool absolute = false;           ///< the tolerance is in the unit of the column or scalar
+  bool needed = true;              ///< false: an answer without a value of it will do
+};
+
 /// What is asked of a scene, the same for every family.
 struct Question {
   std::vector<double> times;  ///< s, increasing, the first >= 0
-  double tolerance = 1e-6;    ///< greatest error wanted in any column, as its table measures it
+  double tolerance = 1e-6;    ///< greatest error wanted in what is asked, as its table measures it
   int rung = any_rung;        ///< place in the family's table of the one rung that is to answer
   Integrator integrator = Integrator::any;
-  bool wants_attitude = false;  ///< of families that can leave it out
+  bool wants_attitude = false;         ///< of families that can leave it out
+  std::vector<AskedQuantity> asked{};  ///< empty: what the family gives by default; of a rung that is named, all it has
 };
 
 /// Whether an answer can be asked for at these times, s, to this tolerance. Errc::not_finite; out_of_domain: no times, or a

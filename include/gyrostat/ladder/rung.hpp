@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <concepts>
+#include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/answer.hpp"
 #include "gyrostat/ladder/family.hpp"
+#include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/question.hpp"
 
 namespace gyrostat {
 
 /// What a rung hands back: the answer in its own terms, or why it has none. `fill(answer, scene, track)` turns it into
-/// columns and sets answer.error; `describe(answer, scene, track)` adds to the answer that is given what belongs to the scene, whichever
-/// rung answers.
+/// columns; `describe(answer, scene, track)` adds to the answer what belongs to the scene, whichever rung answers.
 template <class Track, class Scene>
 concept RungResult = requires(const Track& track, const Scene& scene, Answer& answer) {
   { track.failure } -> std::convertible_to<Errc>;
@@ -38,50 +42,126 @@ struct Refusal {
   const char* why = "";
 };
 
-/// The answer of the first rung, cheapest first, whose own error estimate meets the tolerance; failing that the most
-/// accurate of those that answered, one in its domain before any outside, with met false. The rung that the question names answers alone,
-/// wherever it can. `kinds` names the rungs. On failure the answer's `tried` still lists what was looked at.
+inline constexpr WarningKind no_value{
+    "no-value", "this rung does not give all that is asked for: what it lacks is left without a value"};
+
+namespace detail {
+
+/// Whether the rung lacks a column that has to be there.
+inline bool lacks_needed(const RungKind& kind, const Question& question, const Family& family) noexcept {
+  for (std::size_t i = 0; i < family.columns.size(); ++i)
+    if (has(kind.lacks, i) && needs_column(question, family, i)) return true;
+  return false;
+}
+
+inline bool asks_for_scalars(const Question& question) noexcept {
+  return std::any_of(question.asked.begin(), question.asked.end(),
+                     [](const AskedQuantity& each) { return each.scalar; });
+}
+
+/// The question with its tolerances in units as relative ones, by the sizes that an answer found; nothing where none of them is in a unit.
+inline std::optional<Question> in_relative_terms(const Question& question, const Answer& answer, const Family& family) {
+  Question made = question;
+  bool changed = false;
+  for (AskedQuantity& each : made.asked) {
+    if (!each.absolute) continue;
+    double tolerance = nan<double>;
+    if (each.scalar) {
+      if (const Quantity* found = answer.quantity(family.scalars[each.place].name)) tolerance = found->tolerance;
+    } else if (const Column* found = answer.find(family.columns[each.place].name)) {
+      tolerance = found->tolerance;
+    }
+    if (!(tolerance > 0)) continue;
+    each = {each.place, each.scalar, std::min(tolerance, 0.5), false, each.needed};
+    changed = true;
+  }
+  return changed ? std::optional(made) : std::nullopt;
+}
+
+/// Leaves the scalars that were asked for, each of them, and says where one has no value.
+inline void keep_asked(Answer& answer, const Question& question, const Family& family) {
+  const auto without_value = [](const Column& column) {
+    return column.error == infinity<double> && !(column.values[0] == column.values[0]);
+  };
+  bool lacking = std::any_of(answer.columns.begin(), answer.columns.end(), without_value);
+  if (!question.asked.empty()) {
+    std::vector<Quantity> kept;
+    for (const AskedQuantity& each : question.asked) {
+      if (!each.scalar) continue;
+      const Quantity* found = answer.quantity(family.scalars[each.place].name);
+      kept.push_back(found ? *found : Quantity{&family.scalars[each.place], {nan<double>, nan<double>, nan<double>}});
+      lacking = lacking || (each.needed && std::isnan(kept.back().values[0]));
+    }
+    answer.quantities = std::move(kept);
+  }
+  if (lacking) answer.warnings.push_back({&no_value, no_value.text, nan<double>});
+}
+
+}  // namespace detail
+
+/// The answer of the first rung, cheapest first, whose own error estimates meet what is asked; failing that of the rung that comes nearest
+/// to it, one in its domain before any outside, with met false. The rung that the question names answers alone, wherever it can. On failure
+/// the answer's `tried` still lists what was looked at.
 template <class Scene, class Track>
   requires RungResult<Track, Scene>
-Answer climb(std::span<const RungKind> kinds, std::span<const Rung<Scene, Track>> rungs, const Scene& scene,
-             Monitor* monitor, Refusal& refusal) {
-  const double tolerance = scene.question().tolerance;
-  const int only = scene.question().rung;
+Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, const Scene& scene, Monitor* monitor,
+             Refusal& refusal) {
+  const Question& question = scene.question();
+  const auto& kinds = family.rungs;
+  const bool describes_all = detail::asks_for_scalars(question);
+  const int only = question.rung;
   Answer best;
   Track best_track;
   std::vector<Attempt> tried;
   bool answered = false, best_in_domain = false;
-  for (std::size_t i = 0; i < rungs.size(); ++i) {
-    if (only >= 0 && i != std::size_t(only)) continue;
-    Track track = rungs[i](scene, monitor);
+  // Asks one rung of the scene, or of the same scene with tighter tolerances; false: there is no need to go on.
+  const auto ask = [&](std::size_t i, const Scene& tightened) {
+    Track track = rungs[i](tightened, monitor);
     if (track.failure != Errc::ok) {
       tried.push_back({kinds[i].name, track.known_error, false, track.refusal});
       refusal = {track.failure, kinds[i].name, track.refusal ? track.refusal : message(track.failure)};
-      if (track.failure == Errc::cancelled) break;
-      continue;
+      return track.failure != Errc::cancelled;
     }
     Answer answer;
     answer.model = kinds[i].name;
-    answer.tolerance = tolerance;
+    answer.tolerance = question.tolerance;
     fill(answer, scene, track);
-    answer.met = track.in_domain && answer.error <= tolerance;
+    if (describes_all) describe(answer, scene, track);
+    judge(answer, question, family);
+    answer.met = track.in_domain && answer.excess <= 1;
     tried.push_back({kinds[i].name, answer.error, answer.met || only >= 0,
-                     track.in_domain ? nullptr : "the scene leaves its domain"});
+                     track.in_domain ? nullptr : "the scene leaves its domain", answer.excess});
     const bool same_kind = track.in_domain == best_in_domain;
     if (!answered || answer.met ||
-        (same_kind ? answer.error < best.error || best.error != best.error : track.in_domain)) {
+        (same_kind ? answer.excess < best.excess || best.excess != best.excess : track.in_domain)) {
       best_in_domain = track.in_domain;
       best = std::move(answer);
       best_track = std::move(track);
     }
     answered = true;
-    if (best.met) break;
+    return !best.met;
+  };
+  std::size_t last = 0;
+  bool goes_on = true;
+  for (std::size_t i = 0; i < rungs.size() && goes_on; ++i) {
+    if (only >= 0 && i != std::size_t(only)) continue;
+    if (only < 0 && detail::lacks_needed(kinds[i], question, family)) {
+      tried.push_back({kinds[i].name, nan<double>, false, "it does not give all that is asked for"});
+      continue;
+    }
+    last = i;
+    goes_on = ask(i, scene);
   }
+  // Only now it is known what the tolerances in units come to.
+  if (goes_on && answered)
+    if (const auto tighter = detail::in_relative_terms(question, best, family)) ask(last, scene.asked(*tighter));
   best.tried = std::move(tried);
   if (answered) {
     refusal = {};
-    for (Attempt& attempt : best.tried) attempt.accepted = attempt.model == best.model;
-    describe(best, scene, best_track);
+    for (Attempt& attempt : best.tried)
+      attempt.accepted = attempt.model == best.model && !(attempt.error != best.error);
+    if (!describes_all) describe(best, scene, best_track);
+    detail::keep_asked(best, question, family);
   }
   return best;
 }

@@ -23,7 +23,7 @@ Scalar first_step_tolerance(Scalar tolerance, Scalar phase, Scalar loosest) noex
 
 /// Runs with a step tolerance, and up to twice more with a tighter one while the estimated error exceeds options.tolerance and a
 /// tighter one may help and the steps so far are not too many. run(step_tolerance, tightened, progress_from, progress_to) gives an
-/// answer with status, met, greatest_error() and counts; `tightened` is by how much more was wanted than in the run before, infinite for the finest. The last answer is returned, with the
+/// answer with status, met, error and counts; `tightened` is by how much more was wanted than in the run before, infinite for the finest. The last answer is returned, with the
 /// counts of all.
 template <Real Scalar, class Options, class Run>
 auto tightened(const Options& options, Scalar step_tolerance, const Run& run) noexcept {
@@ -40,7 +40,7 @@ auto tightened(const Options& options, Scalar step_tolerance, const Run& run) no
       options.report(1);
       return answer;
     }
-    const Scalar excess = answer.greatest_error() / options.tolerance;
+    const Scalar excess = options.excess(answer.error);
     by = excess > 1 ? Scalar(honesty::retry) * excess : infinity<Scalar>;
     step_tolerance = std::max(finest, step_tolerance / by);
   }

@@ -14,7 +14,7 @@ Columns, scalars, rungs and integrators are those of the compiled ladder (facts.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, Final
@@ -23,7 +23,7 @@ import numpy as np
 
 from gyrostat.answer import Answer
 from gyrostat.facts import FACTS, Facts
-from gyrostat.fields import TIMES, Choices, Found, Table, Values, head_keys, needed, solve_keys
+from gyrostat.fields import TIMES, Choices, Field, Found, Table, Values, head_keys, needed, solve_keys
 
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
@@ -33,6 +33,11 @@ __all__ = ["FAMILIES", "Family", "answer_of"]
 
 def _nothing(_: Values) -> Found:
     yield from ()
+
+
+@cache
+def _module(kind: str, name: str) -> Any:
+    return import_module(f"{__name__}.{kind}.{name}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,11 +66,22 @@ class Family:
     @cached_property
     def example(self) -> dict[str, Any]:
         """A value of every key without default, by full key: a body to start from."""
-        return {"name": f"my-{self.name}", "kind": self.name, "solve.times": (0.0, 10.0, 25.0), **self._module("scene").EXAMPLE}
+        return {"name": f"my-{self.name}", "kind": self.name, "solve.times": (0.0, 10.0, 25.0), "solve.ask": "all", **self._module("scene").EXAMPLE}
 
     def needs(self, table: str) -> bool:
         """No scene can do without the table."""
         return needed(table, self.keys, self.alternatives)
+
+    @cached_property
+    def single_keys(self) -> dict[str, tuple[str, Field]]:
+        """Table and field by full key, and by name where one table has it, of what stands alone: no alternative to anything, and not
+        what is asked, which hangs on the rest."""
+        tied = {key for choices in self.alternatives for choice in choices for key in choice}
+        fields = [(table, field) for table, own in self.keys.items() if table for field in own]
+        names = [field.name for table, own in self.keys.items() for field in own]
+        alone = [(table, field) for table, field in fields if f"{table}.{field.name}" not in tied and field.name not in ("ask", "attitude")]
+        return {**{f"{table}.{field.name}": (table, field) for table, field in alone},
+                **{field.name: (table, field) for table, field in alone if names.count(field.name) == 1}}
 
     @cached_property
     def mistakes(self) -> Callable[[Values], Found]:
@@ -81,8 +97,7 @@ class Family:
 
     def arguments(self, scene: "Scene") -> dict[str, Any]:
         """What `solve` takes, from a checked scene."""
-        made: dict[str, Any] = self._module("scene").arguments(scene)
-        return made
+        return {**self._module("scene").arguments(scene), "ask": scene.tables["solve"]["ask"]}
 
     def solve(self, **arguments: Any) -> Answer:
         """The answer of the ladder."""
@@ -94,7 +109,7 @@ class Family:
         return self._module(name) if find_spec(f"{__name__}.{self.name}.{name}") else None
 
     def _module(self, name: str) -> Any:
-        return import_module(f"{__name__}.{self.name}.{name}")
+        return _module(self.name, name)
 
 
 FAMILIES: Final[dict[str, Family]] = {name: Family(name) for name in FACTS}
@@ -102,10 +117,13 @@ FAMILIES: Final[dict[str, Family]] = {name: Family(name) for name in FACTS}
 
 def answer_of(kind: str, made: Mapping[str, Any], arguments: Mapping[str, Any]) -> Answer:
     """What the compiled ladder `made` of the arguments of a family's `solve`, which stand in the answer as a scene."""
-    family = FAMILIES[kind]
-    scene: dict[str, Any] = {"name": f"gyrostat.{kind}.solve", "kind": kind}
-    for name, value in arguments.items():
-        if value is not None:
-            table, key = family.places[name]
-            scene.setdefault(table, {})[key] = value.tolist() if isinstance(value, np.ndarray) else value
-    return Answer.of(scene, np.array(arguments["times"], dtype=float), arguments["tolerance"], made)
+    def told() -> dict[str, Any]:
+        places = FAMILIES[kind].places
+        scene: dict[str, Any] = {"name": f"gyrostat.{kind}.solve", "kind": kind}
+        for name, value in arguments.items():
+            if value is not None:
+                table, key = places[name]
+                scene.setdefault(table, {})[key] = value.tolist() if isinstance(value, np.ndarray) else value
+        return scene
+
+    return Answer.of(told, np.array(arguments["times"], dtype=float), arguments["tolerance"], made)

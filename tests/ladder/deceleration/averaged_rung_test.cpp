@@ -108,11 +108,10 @@ TEST_CASE("averaged-2 rung: M itself, against the reference in quadruple precisi
 
 TEST_CASE("averaged rung: refusals", "[deceleration]") {
   Case c(1e-3, 300);
-  Case attitude = c, sphere = c, rest = c;
-  attitude.data.wants_attitude = true;
+  Case sphere = c, rest = c;
   sphere.moments = V(1, 1, 1);
   rest.data.momentum.setZero();
-  for (const Case* bad : {&attitude, &sphere, &rest}) {
+  for (const Case* bad : {&sphere, &rest}) {
     const Track first = averaged_track<math::Native>(bad->scene());
     const Track second = averaged_2_track<math::Native>(bad->scene(), nullptr);
     CHECK(first.failure == Errc::not_applicable);

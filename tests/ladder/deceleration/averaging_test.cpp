@@ -82,12 +82,10 @@ TEST_CASE("second order: a mean motion that halts within the times is refused, b
 TEST_CASE("what no averaged rung answers has a reason", "[deceleration]") {
   Case c(1e-3, 300);
   CHECK(deceleration::detail::not_averaged(c.scene()) == nullptr);
-  Case attitude = c, sphere = c, rest = c;
-  attitude.data.wants_attitude = true;
+  Case sphere = c, rest = c;
   sphere.moments = V(1, 1, 1);
   rest.data.momentum.setZero();
-  for (const Case* bad : {&attitude, &sphere, &rest})
-    CHECK(deceleration::detail::not_averaged(bad->scene()) != nullptr);
+  for (const Case* bad : {&sphere, &rest}) CHECK(deceleration::detail::not_averaged(bad->scene()) != nullptr);
 }
 
 TEST_CASE("averaging warns of a fast torque, of near symmetry and of a separatrix", "[deceleration]") {

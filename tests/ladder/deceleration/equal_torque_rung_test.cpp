@@ -30,11 +30,9 @@ TEST_CASE("equal-torque rung: says why it does not apply", "[deceleration]") {
   CHECK(why(c).find("not equal") != std::string::npos);
   c.data.control.setConstant(1e-3);
   CHECK(equal_torque_track<math::Native>(c.scene()).failure == Errc::ok);
-  Case rotor = c, attitude = c, rest = c;
+  Case rotor = c, rest = c;
   rotor.data.rotor_momentum = V(0, 0, 1e-9);
   CHECK(why(rotor).find("rotor") != std::string::npos);
-  attitude.data.wants_attitude = true;
-  CHECK(why(attitude).find("attitude") != std::string::npos);
   rest.data.momentum.setZero();
   CHECK(why(rest).find("rest") != std::string::npos);
   Case separatrix = c;  // exactly: 1/J = (1, 1.5, 2)

@@ -116,11 +116,10 @@ TEST_CASE("orbit rung: honest with rotor momentum, to the stop and behind it", "
 
 TEST_CASE("orbit rung: refusals and the size of breakdown", "[deceleration]") {
   Case c = gyrostat_case(1e-3, Law::total);
-  Case attitude = c, sphere = c, rest = c;
-  attitude.data.wants_attitude = true;
+  Case sphere = c, rest = c;
   sphere.moments = V(1, 1, 1);
   rest.data.momentum.setZero();
-  for (const Case* bad : {&attitude, &sphere, &rest}) {
+  for (const Case* bad : {&sphere, &rest}) {
     Refusal refusal;
     bad->with(rung::averaged, 1e-3).solve(refusal);
     CHECK(refusal.code != Errc::ok);

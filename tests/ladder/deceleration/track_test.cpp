@@ -35,7 +35,7 @@ Track track_of(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("columns come in the caller's axes with relative errors", "[deceleration]") {
-  const Scene scene = scene_of(V(.7, 1.4, 1));  // the caller's order is C, A, B
+  const Scene scene = scene_of(V(.7, 1.4, 1), rung::full);  // the caller's order is C, A, B
   const Track track = track_of(scene);
   Answer answer;
   fill(answer, scene, track);
@@ -89,18 +89,24 @@ TEST_CASE("an attitude of principal axes becomes one of body axes", "[decelerati
   CHECK(std::abs(back.w * body.w + back.x * body.x + back.y * body.y + back.z * body.z) == Approx(1).epsilon(1e-14));
 }
 
-TEST_CASE("vectors that miss the tolerance alone are left out, unless asked for", "[deceleration]") {
-  const auto left = [](int model, double tolerance) {
-    const Scene scene = scene_of(V(1.4, 1, .7), model, tolerance);
+TEST_CASE("a stop behind the times that misses the tolerance is left out, unless it is asked for", "[deceleration]") {
+  const auto left = [](int model, double tolerance, bool asked, double stop) {
+    Scene scene = scene_of(V(1.4, 1, .7), model, tolerance);
+    Question question = scene.question();
+    if (asked) question.asked = {{scalar::stop_time, true}};
+    scene = scene.asked(question);
     Track track = track_of(scene);
-    withhold(track, scene);
-    CHECK(track.states.size() == 2);
-    CHECK(track.knows_momentum == track.warnings.empty());
-    return track.knows_momentum;
+    track.stop_time = stop;
+    track.stop_error = 1e-5;
+    withhold_stop(track, scene);
+    CHECK(std::isnan(track.stop_time) != track.warnings.empty());
+    return !std::isnan(track.stop_time);
   };
-  CHECK(left(any_rung, 1e-3));
-  CHECK_FALSE(left(any_rung, 1e-7));
-  CHECK(left(rung::averaged_2, 1e-7));
+  CHECK(left(any_rung, 1e-3, false, 1e9));
+  CHECK_FALSE(left(any_rung, 1e-7, false, 1e9));
+  CHECK(left(any_rung, 1e-7, false, 1e-9));
+  CHECK(left(any_rung, 1e-7, true, 1e9));
+  CHECK(left(rung::averaged_2, 1e-7, false, 1e9));
 }
 
 TEST_CASE("a warning is given once", "[deceleration]") {

@@ -150,7 +150,7 @@ class AveragedMotion {
     Polhode<Scalar> p = solver_.rhs().polhode(y);
     const Polhode<Scalar> here = p;
     p.regime = p.regime == Regime::about_largest ? Regime::about_smallest : Regime::about_largest;
-    p.axes = PolhodeAxes<Scalar>::of(problem_.inverse_inertia, p.regime);
+    p.axes = PolhodeAxes<Scalar>::of(problem_.inverse_inertia, problem_.inverse_gaps(), p.regime);
     p = at_modulus(p, p.modulus);
     crossing_norm_ = solver_.rhs().norm(y);
     equations_ = Equations(p, problem_.control, problem_.drag, norm0_);

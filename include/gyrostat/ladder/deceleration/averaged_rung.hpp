@@ -55,7 +55,8 @@ struct PolhodeStart {
 
 inline PolhodeStart start_of(const Scene& scene) {
   if (const char* why = not_averaged(scene)) return {{}, refused<Track>(Errc::not_applicable, why)};
-  const auto p = polhode_through<double>(scene.problem().inverse_inertia, scene.problem().momentum);
+  const auto& problem = scene.problem();
+  const auto p = polhode_through<double>(problem.inverse_inertia, problem.inverse_gaps(), problem.momentum);
   if (!std::isfinite(p.modulus.k2) || !std::isfinite(p.modulus.kp2))
     return {p, refused<Track>(Errc::not_applicable,
                               "M lies across an axis of symmetry: there is no polhode to average over")};
@@ -143,8 +144,11 @@ Track averaged_track(const Scene& scene) {
   const double energy0 = problem.energy(M0);
   if (scene.question().rung == any_rung) {
     const auto least = run.error().first_order(norm0, energy0);
-    const double error = std::max({least.norm / norm0, least.energy / energy0, least.k2});
-    if (error > scene.question().tolerance) return over_tolerance<Track>(error);
+    ColumnErrors<double> error;
+    error[column::angular_momentum_norm] = least.norm / norm0;
+    error[column::energy] = least.energy / energy0;
+    error[column::modulus_squared] = least.k2;
+    if (scene.goal().excess(error) > 1) return over_tolerance<Track>(error.greatest());
   }
   for (const double t : scene.question().times) {
     if (run.advance(t) != ode::Status::reached)
@@ -171,10 +175,10 @@ Track averaged_track(const Scene& scene) {
   if (late > 1) late = infinity<double>;  // not an estimate any more
   track.stop_error = std::isfinite(track.stop_time) ? late + 1e3 * tolerance : 0;
 
-  const double local = 10 * tolerance;
+  const double local = 10 * tolerance, doubt = k2_of_data(problem, start, M0);
   error.norm += local * norm0;
   error.energy += local * energy0;
-  error.k2 += local;
+  error.k2 += local + doubt;
   if (track.states.back().norm < low) {
     error.norm += std::min(low, norm0) * std::min(1.0, late * track.stop_time * scene.greatest_control() / low);
     error.k2 = 1;
@@ -184,7 +188,7 @@ Track averaged_track(const Scene& scene) {
   track.counts = run.motion().counts();
   detail::warn_of_start(track, scene, start);
   detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());
-  withhold(track, scene);
+  withhold_stop(track, scene);
   return track;
 }
 
@@ -212,7 +216,7 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
 
   // A relative error of the mean orbit becomes one of the phase, times the turns made.
   const double tolerance = 1e-3 * mean_tolerance(scene) + 1e-13;
-  const double phase_error = std::max(1e-7, scene.question().tolerance * 1e-2);
+  const double phase_error = std::max(1e-7, scene.goal().tightest * 1e-2);
   AveragedRun<Elliptic> run(scene, mean.polhode, norm0 * (1 - away.norm), u0 / Elliptic::complete(start.modulus).K,
                             tolerance, phase_error);
   detail::SecondOrderPolhode<Elliptic> motion{problem, run, phase_error};

@@ -16,14 +16,13 @@ inline double breakdown_momentum(const Problem<double>& problem, double greatest
 
 /// Local error of the mean equations: far below what is asked, no smaller than rounding allows.
 inline double mean_tolerance(const Scene& scene) noexcept {
-  return std::max(1e-13, std::min(1e-9, scene.question().tolerance * 1e-3));
+  return std::max(1e-13, std::min(1e-9, scene.goal().tightest * 1e-3));
 }
 
 namespace detail {
 
 /// Why no averaged rung answers the scene, or nullptr.
 inline const char* not_averaged(const Scene& scene) noexcept {
-  if (scene.question().wants_attitude) return "averaging does not know the attitude";
   if (scene.sphere()) return "a sphere has no fast polhode to average over";
   if (!(scene.problem().momentum.norm() > 0)) return "the body is at rest at the start";
   return nullptr;
@@ -120,7 +119,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   }
   track.counts += mean.counts();
   mean.warn(track);
-  if (stops) withhold(track, scene);
+  if (stops) withhold_stop(track, scene);
   return track;
 }
 

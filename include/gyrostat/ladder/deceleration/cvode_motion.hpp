@@ -125,7 +125,7 @@ inline StoppedRun cvode_run(const Scene& scene, double tolerance, Monitor* monit
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   double stops[2];  // of the tighter run and of the looser one
   double* stop = stops;
-  const auto pair = cvode_pair(Row<double>{scene.problem()}, scene.question().tolerance, 1e-5, [&](double tolerance) {
+  const auto pair = cvode_pair(Row<double>{scene.problem()}, scene.goal().tightest, 1e-5, [&](double tolerance) {
     auto run = detail::cvode_run(scene, tolerance, monitor);
     *stop++ = run.stop_time;
     return run;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "gyrostat/ladder/deceleration/orbit_kind.hpp"
 #include "gyrostat/ladder/deceleration/track.hpp"
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/models/deceleration/equal_torque.hpp"
@@ -15,11 +16,11 @@ Track equal_torque_track(const Scene& scene) {
   if (!scene.equal_control()) return refused<Track>(Errc::not_applicable, "the control torques are not equal");
   if (scene.has_rotor())
     return refused<Track>(Errc::not_applicable, "with rotor momentum only |M| has a closed form, not the energy");
-  if (scene.question().wants_attitude) return refused<Track>(Errc::not_applicable, "the closed form has no attitude");
   if (!(scene.problem().momentum.norm() > 0))
     return refused<Track>(Errc::not_applicable, "the body is at rest at the start");
 
-  const EqualTorqueMotion<double, Elliptic> motion(scene.problem());
+  const auto& problem = scene.problem();
+  const EqualTorqueMotion<double, Elliptic> motion(problem);
   if (!(motion.modulus().kp2 > 0)) return refused<Track>(Errc::separatrix, "the motion starts on the separatrix");
   Track track;
   double rounding = 0;
@@ -36,11 +37,12 @@ Track equal_torque_track(const Scene& scene) {
     rounding = std::max(rounding, motion.rounding(t));
   }
   track.stop_time = motion.stop_time();
-  const double norm = scene.problem().momentum.norm();
+  const double norm = problem.momentum.norm();
   track.error[column::angular_momentum_norm] = 8 * epsilon<double> * norm;
   track.error[column::energy] = 16 * epsilon<double> * norm * norm * motion.energy_ratio() / 2;
-  track.error[column::modulus_squared] = 16 * epsilon<double>;
-  track.know_momentum(scene.problem(), rounding * norm);
+  track.error[column::modulus_squared] =
+      motion.polhode() ? 2 * k2_of_data(problem, *motion.polhode(), problem.momentum) : 0;
+  track.know_momentum(problem, rounding * norm);
   track.stop_error = 8 * epsilon<double>;
   return track;
 }

@@ -360,7 +360,7 @@ FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, 
         Scalar(honesty::stop_margin) * margin * std::abs(companion.stop_time() - answer.stop_time) / answer.stop_time +
         2 * step_tolerance + Scalar(2e-13L) * std::max(Scalar(1), eps / Scalar(1e-15L));
   }
-  answer.met = answer.greatest_error() <= options.tolerance;
+  answer.met = options.excess(answer.error) <= 1;
   return answer;
 }
 

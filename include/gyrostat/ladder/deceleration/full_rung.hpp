@@ -56,13 +56,15 @@ inline Track track_of(const Problem<double>& problem, std::span<const Vec3<doubl
 
 }  // namespace detail
 
-/// The full equations of a problem in principal axes at times >= 0, by Taylor series.
+/// The full equations of a problem in principal axes at times >= 0, by Taylor series. `wanted`: as in MotionOptions.
 inline Track full_motion_track(const Problem<double>& problem, std::span<const double> times, double tolerance,
-                               bool find_stop, const Quat<double>* attitude, Monitor* monitor) {
+                               std::span<const double> wanted, bool find_stop, const Quat<double>* attitude,
+                               Monitor* monitor) {
   std::vector<Vec3<double>> momentum(times.size());
   std::vector<Quat<double>> turned(attitude ? times.size() : 0);
   FullMotionOptions<double> options;
   options.tolerance = tolerance;
+  options.wanted = wanted;
   options.find_stop = find_stop;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(problem, times, momentum, options, attitude, turned);
@@ -90,26 +92,44 @@ inline double turned_angle(const Scene& scene) noexcept {
   return span * (own * mean + problem.gyro_rate().norm()) / 2;
 }
 
+/// Angle, rad, that the budget of steps does not reach.
+inline constexpr double unreachable_angle = 1e8;
+
+/// Why the full equations are not worth a try; nullptr: they are. Slow columns do not need the phase.
+inline const char* not_worth(const Scene& scene, const Goal<std::size(column_kinds)>& goal) noexcept {
+  const double angle = turned_angle(scene);
+  double phase = infinity<double>;
+  for (std::size_t i = 0; i < std::size(column_kinds); ++i)
+    if (has(fast_columns, i)) phase = std::min(phase, goal.columns[i]);
+  if (phase < infinity<double> && phase_too_long(angle, phase)) return phase_lost;
+  return angle > unreachable_angle ? "the body turns so often that the budget of 10 million steps would end before the "
+                                     "last time: ask for a shorter span"
+                                   : nullptr;
+}
+
 /// Rung `full`: the full equations, by Taylor series or by what the scene brings.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
   if (scene.full_equations) return scene.full_equations(scene, monitor);
   const auto& question = scene.question();
   const auto& problem = scene.problem();
-  if (phase_too_long(turned_angle(scene), question.tolerance)) return refused<Track>(Errc::step_limit, phase_lost);
+  const auto goal = scene.goal();
+  if (const char* why = not_worth(scene, goal)) return refused<Track>(Errc::step_limit, why);
   // A stop far behind the last time asked for is not worth its cost.
   const double longest = scene.opposed().norm() / scene.least_control();
-  const bool find_stop =
-      longest <= 20 * question.times.back() || longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
+  const bool find_stop = scene.needs_stop() || longest <= 20 * question.times.back() ||
+                         longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
   const Quat<double> q_IP = scene.attitude();
   const auto at_tolerance = [&](double tolerance) {
-    return full_motion_track(problem, question.times, tolerance, find_stop, question.wants_attitude ? &q_IP : nullptr,
-                             monitor);
+    return full_motion_track(problem, question.times, tolerance, goal.columns.of, find_stop,
+                             question.wants_attitude ? &q_IP : nullptr, monitor);
   };
-  Track track = at_tolerance(question.tolerance);
-  // The modulus may need more digits of M than M itself was asked for.
-  double tolerance = question.tolerance;
+  double tolerance = goal.tightest;
+  Track track = at_tolerance(tolerance);
+  // The modulus and the stop may need more digits of M than M itself was asked for.
+  const bool stop_counts = scene.needs_stop();
   for (int trial = 0; trial < 3 && track.failure == Errc::ok; ++trial) {
-    const double excess = 4 * track.error[column::modulus_squared] / question.tolerance;
+    const double of_modulus = track.error[column::modulus_squared] / goal.columns[column::modulus_squared];
+    const double excess = 4 * std::max(of_modulus, stop_counts ? track.stop_error / goal.tightest : 0.0);
     if (!(excess > 4) || excess > 1e5 || tolerance <= 1e-13) break;
     tolerance = std::max(1e-13, tolerance / excess);
     Track finer = at_tolerance(tolerance);

@@ -13,7 +13,7 @@ namespace gyrostat::deceleration {
 /// How many breakdown momenta are left when the full equations take over from the averaged ones: the later, the less the
 /// mean equations err there and the more turns the full ones make.
 inline double hand_over_share(const Scene& scene) noexcept {
-  return std::clamp(std::pow(scene.question().tolerance, -0.25), 8.0, 100.0);
+  return std::clamp(std::pow(scene.goal().tightest, -0.25), 8.0, 100.0);
 }
 
 namespace detail {
@@ -33,7 +33,7 @@ inline double opposed_error(const Problem<double>& problem, const SlowError<doub
 inline Errc hand_over(Track& track, const Scene& scene, const Vec3<double>& M, double begin,
                       const SlowError<double>& error, Monitor* monitor) {
   const auto& times = scene.question().times;
-  const double tolerance = scene.question().tolerance;
+  const double tolerance = scene.goal().tightest;
   Problem<double> problem = scene.problem();
   problem.momentum = M;
   std::vector<double> rest(times.begin() + std::ptrdiff_t(track.states.size()), times.end());
@@ -41,11 +41,11 @@ inline Errc hand_over(Track& track, const Scene& scene, const Vec3<double>& M, d
   // What the control opposes is late by its own error over the weakest control.
   const double late =
       detail::opposed_error(problem, error, (M - problem.rotor_momentum).norm()) / final_torque(scene).least;
-  if (rest.empty() && scene.question().rung == any_rung && late > tolerance * 2 * begin) {
+  if (rest.empty() && scene.question().rung == any_rung && !scene.needs_stop() && late > tolerance * 2 * begin) {
     track.warn(warning::stop_withheld);
     return Errc::ok;
   }
-  const auto solve = [&] { return full_motion_track(problem, rest, tolerance, true, nullptr, monitor); };
+  const auto solve = [&] { return full_motion_track(problem, rest, tolerance, {}, true, nullptr, monitor); };
   const Track full = solve();
   if (full.failure != Errc::ok) return full.failure;
   const Vec3<double> flow = cross<double>(M, problem.angular_velocity(M));

@@ -75,7 +75,6 @@ enum : std::size_t {
   crosses_separatrix,
   sticks_to_separatrix,
   capture_undetermined,
-  phase_withheld,
   stop_withheld,
   stop_unknown,
 };
@@ -95,12 +94,14 @@ inline constexpr WarningKind warning_kinds[] = {
     {"capture-undetermined",
      "after the asked times the motion is captured into one of two lobes, the likelier one with this chance: no stop "
      "time"},
-    {"phase-withheld",
-     "the vectors are left out: their error is over the tolerance, that of the slow columns need not be"},
     {"stop-withheld",
      "the stop lies behind the times asked for and its time misses the tolerance; ask for times up to it"},
     {"stop-unknown", "after the asked times the mean equations do not reach the stop"},
 };
+
+/// Columns that turn with the body: what is asked for without them needs no phase.
+inline constexpr ColumnSet fast_columns =
+    column_set(column::angular_momentum, column::angular_velocity, column::attitude);
 
 /// Places in rung_kinds, cheapest first.
 namespace rung {
@@ -108,15 +109,21 @@ enum : int { equal_torque, averaged, averaged_2, full };
 }
 
 inline constexpr RungKind rung_kinds[] = {
-    {"equal-torque", "one control torque for all axes and no rotor momentum: exact, in elliptic functions"},
-    {"averaged", "the torques averaged over the free motion, first order: slow columns only, not the phase"},
-    {"averaged-2", "averaged to second order, and so with the phase; the full equations take over near the stop"},
+    {"equal-torque", "one control torque for all axes and no rotor momentum: exact, in elliptic functions",
+     column_set(column::attitude)},
+    {"averaged", "the torques averaged over the free motion, first order: slow columns only, not the phase",
+     fast_columns},
+    {"averaged-2", "averaged to second order, and so with the phase; the full equations take over near the stop",
+     column_set(column::attitude)},
     {"full", "the full equations"},
 };
 
 inline constexpr const char* integrator_names[] = {"taylor", "cvode"};
 
-inline constexpr Family tables{"deceleration", column_kinds, scalar_kinds, warning_kinds, rung_kinds, integrator_names};
+inline constexpr std::size_t asked_scalars[] = {scalar::stop_time};
+
+inline constexpr Family tables{"deceleration", column_kinds,     scalar_kinds, warning_kinds,
+                               rung_kinds,     integrator_names, fast_columns, asked_scalars};
 
 /// What is known of the motion at one time, in principal axes.
 template <Real Scalar>

@@ -19,7 +19,7 @@ struct OrbitKind {
 inline OrbitKind orbit_kind(const Problem<double>& problem, const Vec3<double>& M) noexcept {
   if (M.isZero(0) || M == problem.rotor_momentum) return {};
   if (problem.rotor_momentum.isZero(0)) {
-    const auto p = polhode_through<double>(problem.inverse_inertia, M);
+    const auto p = polhode_through<double>(problem.inverse_inertia, problem.inverse_gaps(), M);
     if (!std::isfinite(p.modulus.k2)) return {Regime::point, 0};
     if (!(p.modulus.kp2 > 0)) return {Regime::separatrix, 1};
     return {p.regime, p.modulus.k2};
@@ -27,6 +27,21 @@ inline OrbitKind orbit_kind(const Problem<double>& problem, const Vec3<double>& 
   const auto orbit = Orbit<double>::through(problem, M);
   if (orbit) return {orbit->regime(), orbit->modulus().k2};
   return orbit.error() == Errc::separatrix ? OrbitKind{Regime::separatrix, 1} : OrbitKind{Regime::point, 0};
+}
+
+/// How far the modulus of the polhode through M, no rotors, can be off by what rounding makes of the data.
+inline double k2_of_data(const Problem<double>& problem, const Polhode<double>& p, const Vec3<double>& M) noexcept {
+  const auto& x = p.axes;
+  const Vec3<double> error = problem.gap_errors();
+  const double near_mid = error[x.near / 2], mid_far = error[1 - x.near / 2];
+  double k2 = p.tilt / p.along / x.near_mid * (mid_far + x.mid_far * near_mid / x.near_mid);
+  if (!problem.exact_gaps) {
+    // a tensor that is off by the rounding of its greatest element turns the axes, too: what that does to 2H/M^2
+    const double ratio =
+        4 * epsilon<double> / problem.inverse_inertia[0] * problem.angular_velocity(M).squaredNorm() / M.squaredNorm();
+    k2 += x.mid_far / x.near_mid * ratio / x.near_far / (p.along * p.along);
+  }
+  return k2 < 1 ? k2 + 8 * epsilon<double> : 1.0;
 }
 
 /// How far the modulus at M can be off when |M| and the energy are off by the given errors, N m s and J: an error along
@@ -40,21 +55,29 @@ inline double k2_uncertainty(const Problem<double>& problem, const Vec3<double>&
   const double R = M.norm();
   norm = std::max(norm, 2 * epsilon<double> * R);
   if (problem.rotor_momentum.isZero(0)) {
-    const auto p = polhode_through<double>(problem.inverse_inertia, M);
+    const auto p = polhode_through<double>(problem.inverse_inertia, problem.inverse_gaps(), M);
     const double ratio = (2 * energy / R + 2 * p.energy_ratio() * norm) / R;  // of 2H/M^2
     const double tilt = ratio / p.axes.near_far;
     const double slope = p.axes.mid_far / (p.axes.near_mid * (1 - p.tilt) * (1 - p.tilt));
-    const double k2 = slope * tilt + 4 * epsilon<double>;
+    const double k2 = slope * tilt + k2_of_data(problem, p, M);
     return k2 < 1 ? k2 : 1.0;
   }
   const auto level = level_of(problem, M);
   const double eta = (energy + (std::abs(level.eta) + problem.angular_velocity(M).norm()) * norm) / R;
   double most = 4 * epsilon<double>;
-  for (const auto& moved :
-       {Level<double>{R + norm, level.eta}, Level<double>{R, level.eta + eta}, Level<double>{R, level.eta - eta}}) {
-    const auto orbit = Orbit<double>::at(problem, moved, {at.regime, 1});
+  const auto look = [&](const Problem<double>& of, const Level<double>& moved) {
+    const auto orbit = Orbit<double>::at(of, moved, {at.regime, 1});
     most += orbit ? std::abs(orbit->modulus().k2 - at.k2) : orbit.error() == Errc::separatrix ? 1 - at.k2 : 1.0;
+  };
+  // rounding of the moments, which the orbit takes differences of
+  for (const double change : {4 * epsilon<double>, -4 * epsilon<double>}) {
+    Problem<double> off = problem;
+    off.inverse_inertia[1] *= 1 + change;
+    look(off, level_of(off, M));
   }
+  for (const auto& moved :
+       {Level<double>{R + norm, level.eta}, Level<double>{R, level.eta + eta}, Level<double>{R, level.eta - eta}})
+    look(problem, moved);
   return std::min(1.0, most);
 }
 

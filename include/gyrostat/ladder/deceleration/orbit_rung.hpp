@@ -185,7 +185,7 @@ class SecondOrderOrbit {
       : problem_(scene.problem()),
         last_(scene.question().times.back()),
         monitor_(monitor),
-        phase_error_(std::max(1e-6, scene.question().tolerance * 1e-2)),
+        phase_error_(std::max(1e-6, scene.goal().tightest * 1e-2)),
         error_(problem_),
         motion_(problem_, start.level, start.component, start.phase, tolerance, phase_error_, Rates{orbit}) {}
 
@@ -282,7 +282,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   else if (!error.known() && std::isfinite(track.stop_time)) track.stop_error = infinity<double>;
   track.counts = motion.counts();
   detail::warn_of_start(track, scene, orbit->modulus().kp2);
-  withhold(track, scene);
+  withhold_stop(track, scene);
   return track;
 }
 

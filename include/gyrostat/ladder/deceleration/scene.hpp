@@ -7,6 +7,8 @@
 
 #include "gyrostat/body/inertia.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/deceleration/motion.hpp"
+#include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
@@ -46,7 +48,7 @@ class Scene {
 
     Scene scene;
     scene.setup_ = setup;
-    scene.question_ = question;
+    scene.ask(question);
     scene.R_BP_ = body.R_BP();
     const Mat3<double> R_PB = scene.R_BP_.transpose();
     scene.problem_.inverse_inertia = body.inverse_principal();
@@ -62,13 +64,22 @@ class Scene {
   /// The same motion, asked otherwise; `question` must be one that make would take.
   Scene asked(const Question& question) const {
     Scene other = *this;
-    other.question_ = question;
+    other.ask(question);
     return other;
   }
 
   const Problem<double>& problem() const noexcept { return problem_; }
   const Setup& setup() const noexcept { return setup_; }
   const Question& question() const noexcept { return question_; }
+  /// What is asked of the columns.
+  Goal<std::size(column_kinds)> goal() const noexcept {
+    return Goal<std::size(column_kinds)>::of(question_, tables, scales(problem_));
+  }
+  /// Whether a stop time has to be given wherever the stop lies.
+  bool needs_stop() const noexcept {
+    const auto aim = aim_of(question_, tables, true, scalar::stop_time);
+    return aim && aim->needed;
+  }
   const Mat3<double>& R_BP() const noexcept { return R_BP_; }  ///< principal axes to body axes
 
   /// Principal axes to inertial at t = 0.
@@ -93,6 +104,11 @@ class Scene {
   double least_control() const noexcept { return setup_.control.minCoeff(); }
 
  private:
+  void ask(const Question& question) {
+    question_ = question;
+    if (!question.asked.empty()) question_.wants_attitude = needs_column(question, tables, column::attitude);
+  }
+
   Problem<double> problem_;
   Setup setup_;
   Question question_;

@@ -67,7 +67,7 @@ template <class Elliptic>
 Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   static constexpr Rung<Scene, Track> models[] = {&detail::equal_torque<Elliptic>, &detail::averaged<Elliptic>,
                                                   &detail::averaged_2<Elliptic>, &full_track};
-  return climb<Scene, Track>(rung_kinds, models, scene, monitor, refusal);
+  return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 
 }  // namespace gyrostat::deceleration

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -42,12 +41,9 @@ struct Track : Outcome {
     warn(warning::beyond_validity);
   }
 
-  std::array<bool, std::size(column_kinds)> known() const noexcept {
-    std::array<bool, std::size(column_kinds)> made;
-    made.fill(true);
-    made[column::angular_momentum] = made[column::angular_velocity] = knows_momentum;
-    made[column::attitude] = knows_attitude;
-    return made;
+  ColumnSet unknown() const noexcept {
+    const ColumnSet vectors = knows_momentum ? 0 : column_set(column::angular_momentum, column::angular_velocity);
+    return vectors | (knows_attitude ? 0 : column_set(column::attitude));
   }
 };
 
@@ -58,28 +54,21 @@ inline ColumnErrors<double> relative_error(const Track& track, const Scene& scen
   return sizes.relative(track.error);
 }
 
-/// Leaves out what alone would miss the tolerance, where the rest is worth having and nobody named the rung: M and with it
-/// omega, whose phase is the hardest; and a stop that lies behind the times asked for.
-inline void withhold(Track& track, const Scene& scene) {
+/// Leaves out a stop time that alone would miss the tolerance, where the stop lies behind the times asked for and nobody asked for it.
+inline void withhold_stop(Track& track, const Scene& scene) {
   const Question& question = scene.question();
-  if (question.rung != any_rung || question.wants_attitude) return;
+  if (question.rung != any_rung || scene.needs_stop()) return;
   if (track.stop_error > question.tolerance && track.stop_time > question.times.back()) {
     track.warn(warning::stop_withheld, track.stop_time);
     track.stop_time = nan<double>;
   }
-  if (!track.knows_momentum) return;
-  const auto relative = relative_error(track, scene);
-  const double error = greater(relative[column::angular_momentum], relative[column::angular_velocity]);
-  if (error <= question.tolerance) return;
-  track.knows_momentum = false;
-  track.warn(warning::phase_withheld, error);
 }
 
-/// The columns that the rung knows, in the caller's axes. The answer's error is the greatest of all columns and of the stop time.
+/// The columns that are asked for, in the caller's axes, and the stop time.
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   fill_head(answer, scene.question(), track);
   fill_columns(answer, Row<double>{scene.problem(), scene.R_BP()}, track.states, relative_error(track, scene),
-               track.known());
+               scene.question(), tables, track.unknown());
   const Setup& given = scene.setup();
   const Vec3<double>& M = given.momentum;
   const Quat<double>& q = given.attitude;
@@ -91,7 +80,6 @@ inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
   if (std::isnan(track.stop_time)) return;
   answer.quantities.push_back({&scalar_kinds[scalar::stop_time], {track.stop_time}, track.stop_error});
-  answer.error = greater(track.stop_error, answer.error);
 }
 
 }  // namespace gyrostat::deceleration

@@ -57,18 +57,18 @@ template <class Motion>
 Track series_track(const Scene& scene, const Motion& motion, const MotionError<double>& error, int rung) {
   const Question& question = scene.question();
   const double spin = motion.scaled().spin;
-  const double known =
-      std::max({error.angular_velocity / std::abs(spin), error.down, question.wants_attitude ? error.attitude : 0.0});
+  const ColumnErrors<double> known{{error.angular_velocity / std::abs(spin), error.down, error.attitude}};
+  const double greatest = std::max({known[0], known[1], question.wants_attitude ? known[2] : 0.0});
   // |w| may exceed the spin
-  if (question.rung != rung && !(known <= 4 * question.tolerance)) return over_tolerance<Track>(known);
+  if (question.rung != rung && !(scene.goal().excess(known) <= 4)) return over_tolerance<Track>(greatest);
   Track track;
   track.states.resize(question.times.size());
   motion.at(question.times, track.states, question.wants_attitude);
   Comparison sizes(row_of(scene));
   for (const State<double>& state : track.states) sizes.add(state);
   track.error = relative_to_truth(sizes.relative({error.angular_velocity, error.down, error.attitude}), column_kinds);
-  track.in_domain = known < 0.3;
-  if (!track.in_domain) track.warn(warning_kinds[warning::beyond_validity], known);
+  track.in_domain = greatest < 0.3;
+  if (!track.in_domain) track.warn(warning_kinds[warning::beyond_validity], greatest);
   return track;
 }
 

@@ -17,13 +17,15 @@ namespace detail {
 /// @param converted body and start come from conversions
 inline Track full_from_start(const Scene& scene, bool converted, Monitor* monitor) {
   const Question& question = scene.question();
-  if (phase_too_long(rate_size(scene.problem(), scene.start()) * question.times.back(), question.tolerance))
+  const auto goal = scene.goal();
+  if (phase_too_long(rate_size(scene.problem(), scene.start()) * question.times.back(), goal.tightest))
     return refused<Track>(Errc::step_limit, phase_lost);
   if (scene.full_equations) return scene.full_equations(scene, monitor);
   Track track;
   track.states.resize(question.times.size());
   FullMotionOptions<double> options;
-  options.tolerance = question.tolerance;
+  options.tolerance = goal.tightest;
+  options.wanted = goal.columns.of;
   options.attitude = question.wants_attitude;
   options.converted = converted;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
@@ -74,8 +76,9 @@ inline Track periodic_full(const Scene& scene, Monitor* monitor) {
 
   Question once = scene.question();
   once.times = motion.once();
+  once.asked.clear();
   once.wants_attitude = true;
-  once.tolerance = std::max(scene.question().tolerance / 4 / (1 + motion.periods()), 1e-300);
+  once.tolerance = std::max(scene.goal().tightest / 4 / (1 + motion.periods()), 1e-300);
   Body body;
   body.problem = scene.problem();
   const auto made_once = Scene::make(body, {orbit.start}, once);

@@ -99,7 +99,8 @@ inline constexpr RungKind rung_kinds[] = {
 
 inline constexpr const char* integrator_names[] = {"taylor", "cvode"};
 
-inline constexpr Family tables{"heavy", column_kinds, scalar_kinds, warning_kinds, rung_kinds, integrator_names};
+inline constexpr Family tables{
+    "heavy", column_kinds, scalar_kinds, warning_kinds, rung_kinds, integrator_names, column_set(column::attitude)};
 
 template <Real Scalar>
 using ColumnErrors = Errors<std::size(column_kinds), Scalar>;

@@ -6,6 +6,8 @@
 
 #include "gyrostat/body/principal_axes.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/goal.hpp"
+#include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
@@ -23,8 +25,9 @@ struct Periodic {
 
 /// What a motion starts from: a state, or a periodic motion whose start is to be found.
 struct Start {
-  State<double> state;  ///< body axes; where the attitude is wanted down is taken from it, else only down counts
+  State<double> state;  ///< body axes
   std::optional<Periodic> periodic{};
+  bool oriented = false;  ///< down is taken from the attitude; so it is where the attitude is wanted
 };
 
 /// A state in other axes: v_new = R v for the body vectors.
@@ -66,8 +69,11 @@ class Scene {
     scene.given_ = start;
     scene.given_.state.attitude = as_unit(start.state.attitude);
     scene.question_ = question;
+    bool& turning = scene.question_.wants_attitude;
+    if (!question.asked.empty()) turning = needs_column(question, tables, column::attitude);
+    scene.given_.oriented = start.oriented || turning;
     State<double> from = start.state;
-    if (question.wants_attitude) {
+    if (scene.given_.oriented) {
       const double length = norm(from.attitude);
       if (!std::isfinite(length)) return Errc::not_finite;
       if (!(length > 0)) return Errc::zero_vector;
@@ -87,17 +93,32 @@ class Scene {
     return scene;
   }
 
+  /// The same motion, asked otherwise; `question` must be one that make would take.
+  Scene asked(const Question& question) const {
+    Scene other = *this;
+    other.question_ = question;
+    other.question_.wants_attitude = question_.wants_attitude;
+    return other;
+  }
+
   const Problem<double>& problem() const noexcept { return body_.problem; }
   const Mat3<double>& R_BP() const noexcept { return body_.R_BP; }  ///< principal axes to body axes
   /// Principal axes; the attitude takes them to inertial ones.
   const State<double>& start() const noexcept { return start_; }
   /// The body comes from a tensor that is not diagonal; a start through it, or its down from an attitude. Conversions round.
   bool converts_body() const noexcept { return body_.R_BP != Mat3<double>::Identity(); }
-  bool converts_start() const noexcept { return converts_body() || (question_.wants_attitude && !given_.periodic); }
+  bool converts_start() const noexcept { return converts_body() || (given_.oriented && !given_.periodic); }
+  /// Down was taken from the attitude.
+  bool oriented() const noexcept { return given_.oriented; }
   /// As the caller gave it, but for the norm of the attitude.
   const State<double>& given() const noexcept { return given_.state; }
   const std::optional<Periodic>& periodic() const noexcept { return given_.periodic; }
   const Question& question() const noexcept { return question_; }
+  /// What is asked of the columns.
+  Goal<std::size(column_kinds)> goal() const noexcept {
+    const double spin = given_.periodic ? given_.periodic->spin : start_.angular_velocity.norm();
+    return Goal<std::size(column_kinds)>::of(question_, tables, scales(problem(), spin));
+  }
 
   /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
   Track (*full_equations)(const Scene&, Monitor*) = nullptr;

@@ -15,7 +15,7 @@ inline Track series_track(const Scene& scene, Monitor*) {
         "the start is not that of the periodic motion: it has a free nutation, which the series leave out");
   const auto [spin, cosine] = forced_start(scene);
   // what the series leave out of a given start is a free nutation, wider by what departed() allows for
-  const double tolerance = scene.question().tolerance / (scene.periodic() ? 2 : 128);
+  const double tolerance = scene.goal().tightest / (scene.periodic() ? 2 : 128);
   const auto motion =
       Series<double>::to_tolerance(scene.problem(), spin, cosine, tolerance, scene.question().times.back());
   if (!motion) return refused<Track>(motion.error(), detail::no_series(motion.error()));

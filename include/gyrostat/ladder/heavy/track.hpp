@@ -51,12 +51,12 @@ struct CallersRow : Row<double> {
 
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   fill_head(answer, scene.question(), track);
-  fill_columns(answer, CallersRow{row_of(scene), scene.R_BP()}, track.states, track.error,
-               scene.question().wants_attitude ? std::size(column_kinds) : std::size_t(column::attitude));
+  fill_columns(answer, CallersRow{row_of(scene), scene.R_BP()}, track.states, track.error, scene.question(), tables,
+               scene.question().wants_attitude ? 0 : column_set(column::attitude));
   if (!scene.periodic()) {
     const auto& [w, d, q] = scene.given();
     put_start(answer, column_kinds[column::angular_velocity], {w[0], w[1], w[2]});
-    if (!scene.question().wants_attitude) put_start(answer, column_kinds[column::down], {d[0], d[1], d[2]});
+    if (!scene.oriented()) put_start(answer, column_kinds[column::down], {d[0], d[1], d[2]});
     put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
   }
 }

@@ -86,7 +86,7 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   const auto& times = scene.question().times;
   const auto& body = scene.gyrostat();
   const auto& start = scene.start();
-  auto pair = cvode_pair(Row<double>(body, start), scene.question().tolerance, 1e-5, [&](double tolerance) {
+  auto pair = cvode_pair(Row<double>(body, start), scene.goal().tightest, 1e-5, [&](double tolerance) {
     CvodeEquations equations(body, start, times.back());
     return run_cvode(equations, start, times, {method, tolerance, tolerance}, monitor);
   });

@@ -9,13 +9,15 @@ namespace gyrostat::rotor {
 /// Rung `full`: the full equations, by the library's own integrators or by those that the scene brings.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
+  const auto goal = scene.goal();
   if (scene.full_equations) return scene.full_equations(scene, monitor);
-  if (phase_too_long(turning_rate(scene.gyrostat(), scene.start()) * question.times.back(), question.tolerance))
+  if (phase_too_long(turning_rate(scene.gyrostat(), scene.start()) * question.times.back(), goal.tightest))
     return refused<Track>(Errc::step_limit, phase_lost);
   Track track;
   track.states.resize(question.times.size());
   FullMotionOptions<double> options;
-  options.tolerance = question.tolerance;
+  options.tolerance = goal.tightest;
+  options.wanted = goal.columns.of;
   options.integrator = question.integrator;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(scene.gyrostat(), scene.start(), question.times, track.states, options);

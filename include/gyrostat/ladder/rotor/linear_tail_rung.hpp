@@ -52,7 +52,7 @@ inline double wanted_distance(const LinearTail<double>& tail, double t, double t
 inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttractors& attractors, Monitor* monitor) {
   const auto& body = scene.gyrostat();
   const auto& times = scene.question().times;
-  const double last = times.back(), tolerance = scene.question().tolerance, l = scene.start().momentum.norm();
+  const double last = times.back(), tolerance = scene.goal().tightest, l = scene.start().momentum.norm();
   const double fast = (l + std::abs(body.target_momentum())) / body.principal()[0];
   // greatest share of the times that the full equations may take: they are solved twice where the first window was too short
   const double worth = scene.question().rung == rung::linear_tail ? 0.9 : 0.25;
@@ -72,6 +72,7 @@ inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttract
     if (!(window <= worth * last)) return not_worth;
     Question inside = scene.question();
     inside.tolerance = std::max(inner, 1e-15);
+    inside.asked.clear();
     inside.times.resize(std::size_t(std::lower_bound(times.begin(), times.end(), window) - times.begin()));
     inside.times.push_back(window);
     Track track = full_track(scene.asked(inside), monitor);
@@ -83,9 +84,8 @@ inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttract
     const auto tail = attractors.tail(body, track.states.back());
     track.states.pop_back();
     auto bound = tail.error(last - window);
-    const auto carried =
-        tail.carried(track.error[column::angular_momentum] * sizes.unit(column::angular_momentum),
-                     track.error[column::rotor_rate] * sizes.unit(column::rotor_rate));
+    const auto carried = tail.carried(track.error[column::angular_momentum] * sizes.unit(column::angular_momentum),
+                                      track.error[column::rotor_rate] * sizes.unit(column::rotor_rate));
     bound.attitude += carried.attitude + 4 * epsilon<double> * last * fast;
     bound.momentum += carried.momentum;
     bound.rotor_rate += carried.rotor_rate;
@@ -142,7 +142,7 @@ inline Track linear_tail_track(const Scene& scene, Monitor* monitor) {
   Track track;
   if (near) {
     track = alone();
-    if (track.error.greatest() <= question.tolerance) return track;
+    if (scene.goal().excess(track.error) <= 1) return track;
   }
   Track handed = detail::tail_after_full_motion(scene, attractors, monitor);
   if (handed.failure == Errc::ok || handed.failure == Errc::cancelled) return handed;

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/question.hpp"
+#include "gyrostat/ladder/rotor/motion.hpp"
 #include "gyrostat/models/rotor/gyrostat.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 
@@ -53,6 +55,10 @@ class Scene {
   const Start& given() const noexcept { return given_; }
   const State<double>& start() const noexcept { return start_; }
   const Question& question() const noexcept { return question_; }
+  /// What is asked of the columns.
+  Goal<std::size(column_kinds)> goal() const noexcept {
+    return Goal<std::size(column_kinds)>::of(question_, tables, scales(gyrostat_, start_));
+  }
 
   /// Solves the full equations in place of the library's own integrators (cvode_motion.hpp); nullptr: its own.
   Track (*full_equations)(const Scene&, Monitor*) = nullptr;

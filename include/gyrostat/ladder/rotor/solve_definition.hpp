@@ -52,7 +52,7 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
 
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   static constexpr Rung<Scene, Track> models[] = {&closed_form_track, &linear_tail_track, &full_track};
-  return climb<Scene, Track>(rung_kinds, models, scene, monitor, refusal);
+  return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 
 }  // namespace gyrostat::rotor

@@ -19,7 +19,8 @@ struct Track : Outcome {
 
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   fill_head(answer, scene.question(), track);
-  fill_columns(answer, Row<double>(scene.gyrostat(), scene.start()), track.states, track.error);
+  fill_columns(answer, Row<double>(scene.gyrostat(), scene.start()), track.states, track.error, scene.question(),
+               tables);
   const auto& [q, Omega, omega] = scene.given();
   put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
   put_start(answer, column_kinds[column::angular_velocity], {Omega[0], Omega[1], Omega[2]});

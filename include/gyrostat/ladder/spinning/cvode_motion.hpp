@@ -135,7 +135,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const Row<double> row{scales(scene.problem(), scene.question().times.back())};
   double least_cosine[2] = {1, 1};
   int runs = 0;
-  auto pair = cvode_pair(row, scene.question().tolerance, 1e-6, [&](double tolerance) {
+  auto pair = cvode_pair(row, scene.goal().tightest, 1e-6, [&](double tolerance) {
     return detail::cvode_run(scene, tolerance, least_cosine[runs++], monitor);
   });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));

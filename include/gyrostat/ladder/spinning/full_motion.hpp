@@ -205,7 +205,7 @@ class FullMotion {
     answer.turns_known =
         !loses_turns<Scalar>(states_, problem_.angles.phi, answer.least_cosine, error[column::attitude]);
     answer.error = relative_to_truth(walk.asked.relative(error), column_kinds);
-    answer.met = answer.error.greatest() <= options_.tolerance;
+    answer.met = options_.excess(answer.error) <= 1;
     return answer;
   }
 

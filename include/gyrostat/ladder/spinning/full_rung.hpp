@@ -17,13 +17,15 @@ inline void warn_of_gimbal_lock(Track& track, double least_cosine) {
 /// Rung `full`: the full equations, by Taylor series or by what the scene brings.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
-  if (phase_too_long(scene.problem().phase(question.times.back()), question.tolerance))
+  const auto goal = scene.goal();
+  if (phase_too_long(scene.problem().phase(question.times.back()), goal.tightest))
     return refused<Track>(Errc::step_limit, phase_lost);
   if (scene.full_equations) return scene.full_equations(scene, monitor);
   Track track;
   track.states.resize(question.times.size());
   FullMotionOptions<double> options;
-  options.tolerance = question.tolerance;
+  options.tolerance = goal.tightest;
+  options.wanted = goal.columns.of;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(scene.problem(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));

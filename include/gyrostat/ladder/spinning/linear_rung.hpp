@@ -79,9 +79,9 @@ inline void warn_beyond_validity(Track& track, const LinearErrors<double>& error
   track.warn(warning_kinds[warning::beyond_validity], error.size.tilt);
 }
 
-/// Gives up before the motion is computed, where another rung may answer: `error` is that of the attitude.
+/// Gives up before the motion is computed, where another rung may answer.
 inline bool gives_up(const Scene& scene, int rung, const LinearErrors<double>& error) noexcept {
-  return scene.question().rung != rung && !(holds(error) && error.attitude <= scene.question().tolerance);
+  return scene.question().rung != rung && !(holds(error) && error.attitude <= scene.goal().columns[column::attitude]);
 }
 
 inline Track given_up(const LinearErrors<double>& error) {

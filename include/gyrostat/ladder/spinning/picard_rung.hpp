@@ -39,7 +39,7 @@ inline Track picard_track(const Scene& scene, Monitor* monitor) {
     const auto error = made->error.all(), size = made->size.all();
     for (std::size_t i = 0; i < error.size(); ++i) track.error[i] = over(error[i], std::max(size[i], scale[i]));
     track.error[column::euler_312] = angles_error<double>(track.error[column::attitude], track.states);
-    if (track.error.greatest() <= question.tolerance) break;
+    if (scene.goal().excess(track.error) <= 1) break;
   }
   if (!converges)
     return refused<Track>(Errc::no_convergence, "the sweeps do not converge: the tilt is too large for so many turns");

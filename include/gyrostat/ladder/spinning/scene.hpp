@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/question.hpp"
+#include "gyrostat/ladder/spinning/motion.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
 
 namespace gyrostat::spinning {
@@ -45,6 +47,10 @@ class Scene {
 
   const Problem<double>& problem() const noexcept { return problem_; }
   const Question& question() const noexcept { return question_; }
+  /// What is asked of the columns.
+  Goal<std::size(column_kinds)> goal() const noexcept {
+    return Goal<std::size(column_kinds)>::of(question_, tables, scales(problem_, question_.times.back()));
+  }
 
   /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.
   Track (*full_equations)(const Scene&, Monitor*) = nullptr;

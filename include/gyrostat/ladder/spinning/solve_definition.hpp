@@ -76,7 +76,7 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
 
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   static constexpr Rung<Scene, Track> models[] = {&linear_track, &second_order_track, &picard_track, &full_track};
-  return climb<Scene, Track>(rung_kinds, models, scene, monitor, refusal);
+  return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 
 }  // namespace gyrostat::spinning

@@ -19,7 +19,8 @@ struct Track : Outcome {
 
 inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   fill_head(answer, scene.question(), track);
-  fill_columns(answer, Row<double>{scales(scene.problem(), scene.question().times.back())}, track.states, track.error);
+  fill_columns(answer, Row<double>{scales(scene.problem(), scene.question().times.back())}, track.states, track.error,
+               scene.question(), tables);
 }
 
 }  // namespace gyrostat::spinning

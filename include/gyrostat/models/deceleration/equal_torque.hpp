@@ -53,6 +53,8 @@ class EqualTorqueMotion {
   }
 
   math::Modulus<Scalar> modulus() const noexcept { return steady_ ? math::Modulus<Scalar>{0, 1} : polhode_.modulus; }
+  /// nullptr where omega is parallel to M for ever.
+  const Polhode<Scalar>* polhode() const noexcept { return steady_ ? nullptr : &polhode_; }
   Regime regime() const noexcept { return steady_ ? Regime::point : polhode_.regime; }
   Scalar energy_ratio() const noexcept { return ratio_; }  ///< 2h/M^2, constant, 1/(kg m^2)
 

@@ -19,7 +19,8 @@ enum class Law : std::uint8_t { total, carrier };
 template <Real Scalar>
 struct Problem {
   Vec3<Scalar> inverse_inertia{1, 1, 1};  ///< a = (1/A, 1/B, 1/C), ascending, 1/(kg m^2)
-  /// (a2 - a1, a3 - a2, a3 - a1), 1/(kg m^2), where they are known better than a tells (Inertia::inverse_gaps).
+  /// (a2 - a1, a3 - a2, a3 - a1), 1/(kg m^2), where the moments are exact and the differences so known better than a tells
+  /// (Inertia::inverse_gaps).
   std::optional<Vec3<Scalar>> exact_gaps{};
   Vec3<Scalar> rotor_momentum{0, 0, 0};  ///< l, constant in the carrier and relative to it, N m s
   Mat3<Scalar> control =
@@ -33,6 +34,14 @@ struct Problem {
   Vec3<Scalar> inverse_gaps() const noexcept {
     const Vec3<Scalar>& a = inverse_inertia;
     return exact_gaps ? *exact_gaps : Vec3<Scalar>(a[1] - a[0], a[2] - a[1], a[2] - a[0]);
+  }
+
+  /// How far off the inverse_gaps may be: by their own rounding where the moments are exact, else by that of the greatest
+  /// moment in all of them, 1/(kg m^2).
+  Vec3<Scalar> gap_errors() const noexcept {
+    const Vec3<Scalar>& a = inverse_inertia;
+    if (exact_gaps) return 2 * epsilon<Scalar> * *exact_gaps;
+    return 4 * epsilon<Scalar> * Vec3<Scalar>(a[1], a[1] * a[2] / a[0], a[2] * a[2] / a[0]);
   }
 
   /// g = J^-1 l, the rate at which the carrier would turn if all of l were its own, rad/s.

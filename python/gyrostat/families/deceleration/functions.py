@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from gyrostat import _core
 from gyrostat._core import Monitor, build_info
 from gyrostat.answer import Answer
+from gyrostat.asking import Ask, asked
 from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
@@ -35,13 +36,15 @@ def has_cvode() -> bool:
 def solve(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_momentum: ArrayLike, times: ArrayLike,
           rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), law: str = "total", drag_law: str = "total",
           attitude: ArrayLike | None = None, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto",
-          elliptic: str = "auto", monitor: Monitor | None = None, angular_velocity: ArrayLike | None = None) -> Answer:
+          elliptic: str = "auto", monitor: Monitor | None = None, angular_velocity: ArrayLike | None = None,
+          ask: Ask | None = None) -> Answer:
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor [kg m^2]; control : (3,) >= 0 [N m]; drag : >= 0 [1/s];
     angular_momentum : (3,) total M at t = 0 [N m s]; rotor_momentum : (3,) [N m s]; attitude : (4,) [x, y, z, w], if wanted;
     times : (n,) increasing, first >= 0 [s]; tolerance : greatest relative error wanted in any column;
     angular_velocity : (3,) at t = 0 [rad/s], where angular_momentum was made of it: the row at t = 0 then has it to the bit.
+    ask : columns and scalars wanted: names, "all", or name -> tolerance, relative or with a unit ("0.1 deg"); None: the default set.
     Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError where
     a computation hits its cap, Cancelled where the monitor stopped it.
     """
@@ -53,10 +56,11 @@ def solve(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_moment
         "tolerance": float(tolerance), "model": model, "integrator": integrator, "elliptic": elliptic,
     }
     omega = None if angular_velocity is None else np.asarray(angular_velocity, dtype=float)
-    made = _core.deceleration_solve(**given, monitor=monitor, angular_velocity=omega)
+    made = _core.deceleration_solve(**given, monitor=monitor, angular_velocity=omega,
+                                    ask=asked("deceleration", ask, attitude is not None))
     # a scene has one of the two
     start = {"angular_momentum": None, "angular_velocity": omega} if omega is not None else {}
-    return answer_of("deceleration", made, {**given, **start})
+    return answer_of("deceleration", made, {**given, **start, "ask": ask})
 
 
 def integrate(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_momentum: ArrayLike, times: ArrayLike,

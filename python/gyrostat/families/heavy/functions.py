@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
+from gyrostat.asking import Ask, asked
 from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
@@ -86,7 +87,7 @@ def _floats(value: ArrayLike | None) -> Floats | None:
 def solve(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gravity: float, times: ArrayLike, gravity_gradient: float = 0.0,
           angular_velocity: ArrayLike | None = None, down: ArrayLike | None = None, attitude: ArrayLike | None = None,
           periodic: Mapping[str, float] | None = None, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto",
-          monitor: Monitor | None = None) -> Answer:
+          monitor: Monitor | None = None, ask: Ask | None = None) -> Answer:
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments along the body axes, or (3, 3), about the fixed point [kg m^2]; mass [kg]; centre_of_mass : (3,) [m];
@@ -94,6 +95,7 @@ def solve(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gravity
     The start: angular_velocity (3,) [rad/s] with down (3,), unit, or attitude (4,) [x, y, z, w]; or periodic = {"spin", "cos_inclination"}, the
     periodic motion with r = spin [rad/s] and down = [sqrt(1 - c^2), 0, c] at t = 0, in principal axes.
     tolerance : greatest relative error wanted in any column; model : "auto" or a rung; integrator : "auto", "taylor" or "cvode", for full.
+    ask : columns and scalars wanted: names, "all", or name -> tolerance, relative or with a unit ("0.1 deg"); None: the default set.
     Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError where
     a computation hits its cap, Cancelled where the monitor stopped it.
     """
@@ -104,8 +106,8 @@ def solve(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gravity
         "down": _floats(down), "attitude": _floats(attitude), "times": np.asarray(times, dtype=float), "tolerance": float(tolerance),
         "model": model, "integrator": integrator,
     }
-    made = _core.heavy_solve(**given, periodic=wanted, monitor=monitor)
-    return answer_of("heavy", made, {**given, "periodic": periodic if periodic is None else dict(periodic)})
+    made = _core.heavy_solve(**given, periodic=wanted, monitor=monitor, ask=asked("heavy", ask, attitude is not None))
+    return answer_of("heavy", made, {**given, "ask": ask, "periodic": periodic if periodic is None else dict(periodic)})
 
 
 def integrate(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gravity: float, angular_velocity: ArrayLike, times: ArrayLike,

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
+from gyrostat.asking import Ask, asked
 from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.families import answer_of
 
@@ -47,7 +48,7 @@ def assembled_inertia(*, carrier_inertia: ArrayLike, carrier_mass: float, rotor_
 
 def solve(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slope: float, no_load_rate: float,
           angular_velocity: ArrayLike, times: ArrayLike, rotor_rate: float = 0.0, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
-          tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto", monitor: Monitor | None = None) -> Answer:
+          tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto", monitor: Monitor | None = None, ask: Ask | None = None) -> Answer:
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor of the whole about its mass centre, rotor locked [kg m^2]; axis : (3,) e, unit
@@ -55,6 +56,7 @@ def solve(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slope: f
     [rad/s]; angular_velocity : (3,) Omega of the carrier at t = 0 [rad/s]; rotor_rate : omega at t = 0, relative to the carrier
     [rad/s]; attitude : (4,) [x, y, z, w] at t = 0, body to inertial; times : (n,) increasing, first >= 0 [s]; tolerance : greatest
     relative error wanted in any column.
+    ask : columns and scalars wanted: names, "all", or name -> tolerance, relative or with a unit ("0.1 deg"); None: the default set.
     Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError where
     a computation hits its cap, Cancelled where the monitor stopped it.
     """
@@ -64,7 +66,7 @@ def solve(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slope: f
         "rotor_rate": float(rotor_rate), "attitude": np.asarray(attitude, dtype=float), "times": np.asarray(times, dtype=float),
         "tolerance": float(tolerance), "model": model, "integrator": integrator,
     }
-    return answer_of("rotor", _core.rotor_solve(**given, monitor=monitor), given)
+    return answer_of("rotor", _core.rotor_solve(**given, monitor=monitor, ask=asked("rotor", ask)), {**given, "ask": ask})
 
 
 def integrate(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slope: float, no_load_rate: float,

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
+from gyrostat.asking import Ask, asked
 from gyrostat.broadcast import Floats, rows, shaped
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
@@ -67,7 +68,7 @@ def _single(given: Mapping[str, ArrayLike]) -> _core.SpinningProblems:
 def solve(*, inertia: ArrayLike, mass: float, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike, times: ArrayLike,
           rotor_momentum: float = 0.0, charge_momentum: float = 0.0, euler_312: ArrayLike = ORIGIN, velocity: ArrayLike = ORIGIN,
           position: ArrayLike = ORIGIN, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto",
-          monitor: Monitor | None = None) -> Answer:
+          monitor: Monitor | None = None, ask: Ask | None = None) -> Answer:
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) D1, D2, D3, principal moments along the body axes, axis 3 the spin axis [kg m^2]; mass [kg]; torque : (3,) M in body
@@ -75,14 +76,15 @@ def solve(*, inertia: ArrayLike, mass: float, torque: ArrayLike, force: ArrayLik
     rotor_momentum : lambda3 along axis 3 [N m s]; charge_momentum : e_H [N m s]; euler_312 : (3,) psi, phi, theta at t = 0 [rad];
     velocity, position : (3,) of the mass centre at t = 0, inertial axes [m/s, m]; tolerance : greatest relative error wanted in any
     column; model : "auto" or a rung; integrator : "auto", "taylor" or "cvode", for the rung full.
+    ask : columns and scalars wanted: names, "all", or name -> tolerance, relative or with a unit ("0.1 deg"); None: the default set.
     Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError where
     a computation hits its cap, Cancelled where the monitor stopped it.
     """
     physics = {"inertia": inertia, "mass": mass, "rotor_momentum": rotor_momentum, "charge_momentum": charge_momentum, "torque": torque,
                "force": force, "angular_velocity": angular_velocity, "euler_312": euler_312, "velocity": velocity, "position": position}
     solving: dict[str, Any] = {"times": np.asarray(times, dtype=float), "tolerance": float(tolerance), "model": model, "integrator": integrator}
-    made = _core.spinning_solve(_single(physics), **solving, monitor=monitor)
-    return answer_of("spinning", made, {**{name: np.asarray(value, dtype=float) for name, value in physics.items()}, **solving})
+    made = _core.spinning_solve(_single(physics), **solving, monitor=monitor, ask=asked("spinning", ask))
+    return answer_of("spinning", made, {**{name: np.asarray(value, dtype=float) for name, value in physics.items()}, **solving, "ask": ask})
 
 
 def integrate(*, inertia: ArrayLike, mass: float, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike, times: ArrayLike,

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is asked of a scene: columns and scalars by name, each to the tolerance of the scene or to one of its own."""
+
+import difflib
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from gyrostat.errors import DomainError
+from gyrostat.facts import FACTS, Facts, Quantity
+from gyrostat.units import dimension_of, quantity
+
+__all__ = ["Ask", "AskError", "Asked", "asked", "knows_attitude", "parse_ask"]
+
+# "default", "all", names, or name -> tolerance: a number, as the column measures its errors, or a text with a unit.
+Ask = str | Iterable[str] | Mapping[str, float | str]
+
+# As the compiled ladder takes it: name, tolerance (NaN: that of the scene), whether it is in the unit, whether a value has to be there.
+Asked = tuple[str, float, bool, bool]
+
+
+class AskError(DomainError):
+    """What is wrong with it, and what would be right."""
+
+    def __init__(self, problem: str, remedy: str) -> None:
+        super().__init__(problem, remedy)
+        self.problem, self.remedy = problem, remedy
+
+    def __str__(self) -> str:
+        return f"ask: {self.problem}; {self.remedy}"
+
+
+def _known(facts: Facts, name: Any) -> Quantity:
+    found = facts.quantities.get(name) if isinstance(name, str) else None
+    if found is None:
+        near = difflib.get_close_matches(str(name), facts.quantities, 1, 0.6)
+        raise AskError(f"there is no column or scalar {name}",
+                       f"did you mean {near[0]}?" if near else f"use {', '.join(facts.quantities)}, or \"all\"")
+    return found
+
+
+def _tolerance(of: Quantity, value: Any) -> tuple[float, bool]:
+    """The tolerance, and whether it is in the unit."""
+    example = f'write a number, as {of.name} = 1e-3, or one with a unit, as {of.name} = "{"0.1 deg" if of.measure == "angle" else f"0.1 {of.unit}".strip()}"'
+    if value in (None, "", "default"):
+        return math.nan, False
+    if not of.measure:
+        raise AskError(f"{of.name} has no error", "name it without a tolerance")
+    number: float
+    if isinstance(value, str):
+        try:
+            number, dimension = quantity(value)
+        except ValueError as error:
+            raise AskError(f'{of.name} = "{value}": {error}', example) from None
+        unit = "rad" if of.measure == "angle" else of.unit
+        share = dimension == dimension_of("1") and ("%" in value or "ppm" in value)
+        absolute = dimension is not None and not (share and of.measure == "relative")
+        if absolute and dimension != dimension_of(unit):
+            raise AskError(f'{of.name} = "{value}": its unit is {unit}', example)
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        number, absolute = float(value), False
+    else:
+        raise AskError(f"the tolerance of {of.name} is neither a number nor a text", example)
+    if not (number > 0 and math.isfinite(number)):
+        raise AskError(f"the tolerance of {of.name} is {value}", "give a finite number > 0")
+    if not absolute and of.measure == "relative" and number >= 1:
+        raise AskError(f"the relative tolerance of {of.name} is {value}", "give a number below 1, or one with a unit")
+    return number, absolute
+
+
+def asked(kind: str, ask: Ask | None, knows_attitude: bool = True) -> list[Asked] | None:
+    """What the compiled ladder of the kind takes; None for the default. `knows_attitude`: the start has one. Raises AskError."""
+    facts = FACTS[kind]
+    if ask is None or ask == "default":
+        return None
+    if ask == "all":
+        columns = [name for name in facts.columns if name != "attitude" or knows_attitude]
+        return [*((name, math.nan, False, True) for name in columns), *((name, math.nan, False, False) for name in facts.scalars)]
+    if isinstance(ask, str):
+        raise AskError(f'"{ask}" stands alone', f'write "all", or a list of names: ["{ask}"]')
+    names = list(ask)
+    if not names:
+        raise AskError("nothing is asked for", "name a column or scalar, or leave it out")
+    for name in names:
+        _known(facts, name)
+        if names.count(name) > 1:
+            raise AskError(f"{name} is there twice", "name it once")
+    if not isinstance(ask, Mapping):
+        return [(name, math.nan, False, True) for name in names]
+    return [(name, *_tolerance(facts.quantities[name], value), True) for name, value in ask.items()]
+
+
+def knows_attitude(tables: Mapping[str, Mapping[str, Any]]) -> bool:
+    """The start of a checked scene has an attitude."""
+    start = tables.get("initial", {})
+    return "attitude" not in start or start["attitude"] is not None
+
+
+def parse_ask(text: str) -> Ask:
+    """`--ask attitude=0.1deg,stop_time` of the command line."""
+    parts = [part.strip() for part in text.split(",") if part.strip()]
+    if parts in (["all"], ["default"]):
+        return parts[0]
+    if not any("=" in part for part in parts):
+        return parts
+    pairs = [part.partition("=") for part in parts]
+    return {name.strip(): value.strip() for name, _, value in pairs}
