@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <initializer_list>
 #include <map>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -80,7 +81,7 @@ struct Tally {
     if (!good) worst.push_back({most, which + " " + scene});
   }
   void print(double tolerance) {
-    std::printf("tolerance %.0e: %d answered, %d refused, %d outside the rung's domain, %d without a truth\n",
+    std::printf("tolerance %.0e: %d answered, %d refused, %d of them outside the rung's domain, %d without a truth\n",
                 tolerance, answered, refused, outside, unknown);
     std::printf("  slowest %.3f s: %s\n", slowest, slow.c_str());
     for (const auto& [name, n] : outcomes) std::printf("  %6d %s\n", n, name.c_str());
@@ -89,12 +90,14 @@ struct Tally {
     std::vector<double> all;
     for (auto& [name, values] : ratios) {
       std::sort(values.begin(), values.end());
-      std::printf("  stated/true %-36s n %6zu  least %9.3g  1 %% %9.3g  median %9.3g\n", name.c_str(), values.size(),
-                  values.front(), values[values.size() / 100], values[values.size() / 2]);
+      const std::size_t n = values.size();
+      std::printf("  stated/true %-36s n %6zu  least %9.3g  1 %% %9.3g  median %9.3g  90 %% %9.3g\n", name.c_str(), n,
+                  values.front(), values[n / 100], values[n / 2], values[n * 9 / 10]);
       all.insert(all.end(), values.begin(), values.end());
     }
     std::sort(all.begin(), all.end());
-    if (!all.empty()) std::printf("  stated/true of all: least %.3g, median %.3g\n", all.front(), all[all.size() / 2]);
+    if (const std::size_t n = all.size(); n > 0)
+      std::printf("  stated/true of all: least %.3g, median %.3g, 90 %% %.3g\n", all[0], all[n / 2], all[n * 9 / 10]);
     for (const auto& text : examples) std::printf("  refused: %s\n", text.c_str());
     std::sort(worst.begin(), worst.end(), [](const Case& a, const Case& b) { return a.ratio > b.ratio; });
     for (std::size_t i = 0; i < std::min<std::size_t>(8, worst.size()); ++i)
@@ -105,14 +108,40 @@ struct Tally {
 /// The seed on the command line.
 inline unsigned seed_of(int argc, char** argv) { return argc > 2 ? unsigned(std::atoi(argv[2])) : 1; }
 
-/// The run of a family: [SCENES] [SEED] [RUNG = auto] on the command line. source.next() gives a scene of some kind; a `Made` has
-/// posed(question), a Result of the scene of the family under that question (its times left to it), and text(), all that is needed to make it anew;
-/// truth(scene, answer) fills in the true motion, false where it cannot be had. Each scene is solved at every tolerance.
+/// Times up to `span`, s: evenly from 0, anywhere, or a few late ones, of which an estimate sees least.
+inline std::vector<double> asked_times(std::mt19937_64& random, double span) {
+  const auto unit = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
+  const double kind = unit();
+  const int n = kind < 0.3 ? 12 : kind < 0.4 ? 200 : 1 + int(kind < 0.7 ? 20 * unit() : 4 * unit() * unit());
+  std::vector<double> times;
+  for (int i = 0; i <= n && kind < 0.4; ++i) times.push_back(span * i / n);
+  for (int i = 1; i < n && kind >= 0.4; ++i)
+    times.push_back(kind < 0.7 ? span * unit() : span * (1 - std::pow(10, -6 * unit())));
+  if (kind >= 0.4) times.push_back(span);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+/// All of them where they are few, else the number of those that go evenly from 0 to the last.
+inline std::string text_of(const std::vector<double>& times) {
+  char word[40];
+  if (times.size() > 24) return std::snprintf(word, sizeof word, " T %.17g n %zu", times.back(), times.size()), word;
+  std::string text = " times";
+  for (const double t : times) std::snprintf(word, sizeof word, " %.17g", t), text += word;
+  return text;
+}
+
+/// The run of a family: [SCENES] [SEED] [RUNG] on the command line; without a rung the ladder, and every fourth answer by the rungs in turn,
+/// by name. source.next() gives a scene of some kind; a `Made` has posed(question), a Result of the scene of the family under that question
+/// (its times left to it), and text(), all that is needed to make it anew; truth(scene, answer), or truth(made, scene, answer) where the
+/// scene keeps less than was given, fills in the true motion, false where it cannot be had. Each scene is solved at every tolerance.
 template <class Scenes, class Truth, class Solve>
 void run(int argc, char** argv, const Family& family, int count, Scenes source, const Truth& truth, const Solve& solve,
          std::initializer_list<double> tolerances, std::initializer_list<std::string_view> scalars = {}) {
   if (argc > 1) count = std::atoi(argv[1]);
-  const int rung = argc > 3 ? place_of(family.rungs, argv[3]) : any_rung;
+  const int named = argc > 3 ? place_of(family.rungs, argv[3]) : any_rung;
+  const std::size_t rungs = family.rungs.size();
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
 
   std::vector<Tally> tallies(tolerances.size());
@@ -123,7 +152,8 @@ void run(int argc, char** argv, const Family& family, int count, Scenes source, 
     for (std::size_t k = 0; k < tolerances.size(); ++k) {
       Question question;
       question.tolerance = tolerances.begin()[k];
-      question.rung = rung;
+      const std::size_t round = std::size_t(i) + k;
+      question.rung = named != any_rung ? named : round % 4 == 0 ? int(round / 4 % rungs) : any_rung;
       const auto scene = made.posed(question);
       if (!scene) {
         std::printf("no scene: %s\n", message(scene.error()));
@@ -136,14 +166,17 @@ void run(int argc, char** argv, const Family& family, int count, Scenes source, 
       const std::string text = std::string(answer.model) + ", " + made.text();
       tallies[k].time(seconds, text);
       if (refusal.code != Errc::ok) {
-        tallies[k].refuse(refusal, text);
+        if (question.rung == any_rung || named != any_rung) tallies[k].refuse(refusal, text);
         continue;
       }
-      if (rung != any_rung && answer.tried.back().why) {
-        ++tallies[k].outside;
-        continue;
+      tallies[k].outside += question.rung != any_rung && answer.tried.back().why;
+      if (!known) {
+        if constexpr (requires { truth(made, *scene, right); }) has_truth = truth(made, *scene, right);
+        else has_truth = truth(*scene, right);
+        // a truth that is hardly known itself, behind an instability, judges nothing
+        for (const Column& column : right.columns)
+          has_truth = has_truth && (column.kind->measure == Measure::none || column.error < 0.01);
       }
-      if (!known) has_truth = truth(*scene, right);
       known = true;
       if (!has_truth) ++tallies[k].unknown;
       else tallies[k].compare(answer, right, text, scalars);

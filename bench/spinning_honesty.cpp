@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How honest the answers are: random scenes of the spinning family, solved at three tolerances, against the full equations in long
+// How honest the answers are: random scenes of the spinning family, solved at four tolerances, against the full equations in long
 // double. Prints the fraction of answers whose true error is within the stated one in every column, the median of stated over true, and
 // the worst cases with their scenes.
 //
@@ -43,16 +43,53 @@ class Scenes {
       std::snprintf(
           line, sizeof line,
           "%s: D %.17g %.17g %.17g m %.17g l %.17g e %.17g M %.17g %.17g %.17g f %.17g %.17g %.17g w %.17g %.17g %.17g "
-          "angles %.17g %.17g %.17g v %.17g %.17g %.17g x %.17g %.17g %.17g T %.17g n %zu",
+          "angles %.17g %.17g %.17g v %.17g %.17g %.17g x %.17g %.17g %.17g",
           kind, p.inertia[0], p.inertia[1], p.inertia[2], p.mass, p.rotor_momentum, p.charge_momentum, p.torque[0],
           p.torque[1], p.torque[2], p.force[0], p.force[1], p.force[2], p.angular_velocity[0], p.angular_velocity[1],
           p.angular_velocity[2], p.angles.psi, p.angles.phi, p.angles.theta, p.velocity[0], p.velocity[1],
-          p.velocity[2], p.position[0], p.position[1], p.position[2], times.back(), times.size());
-      return line;
+          p.velocity[2], p.position[0], p.position[1], p.position[2]);
+      return line + honesty::text_of(times);
     }
   };
 
   Made next() {
+    Made made = unit() < 0.12 ? flipping() : pushed();
+    const double mass = unit() < 0.8 ? 1 : scale(1e-20, 1e20), length = unit() < 0.9 ? 1 : scale(1e-7, 1e7);
+    const double clock = unit() < 0.8 ? 1 : scale(1e-7, 1e7), momentum = mass * length * length * clock;
+    Problem<double>& p = made.problem;
+    p.inertia *= mass * length * length, p.mass *= mass;
+    p.rotor_momentum *= momentum, p.charge_momentum *= momentum;
+    p.torque *= momentum * clock, p.force *= mass * length * clock * clock;
+    p.angular_velocity *= clock, p.velocity *= length * clock, p.position *= length;
+    for (double& t : made.times) t /= clock;
+    return made;
+  }
+
+ private:
+  /// Turning about a principal axis, mostly the middle one, exactly or nearly, which it leaves by what rounds; hardly pushed.
+  Made flipping() {
+    Made made{{}, {}, "about a principal axis"};
+    Problem<double>& p = made.problem;
+    do p.inertia = {scale(0.3, 3), scale(0.3, 3), scale(0.3, 3)};
+    while (2 * p.inertia.maxCoeff() > p.inertia.sum());
+    const Vec3<double>& D = p.inertia;
+    int k = int(3 * unit());
+    for (int i = 0; i < 3 && unit() < 0.8; ++i)
+      if (D.minCoeff() < D[i] && D[i] < D.maxCoeff()) k = i, made.kind = "about the middle axis";
+    const double spin = sign() * scale(0.03, 30), off = unit() < 0.3 ? 0 : scale(1e-17, 1e-2);
+    p.angular_velocity = off * spin * vector();
+    p.angular_velocity[k] = spin;
+    if (unit() < 0.3) p.angular_velocity[(k + 1) % 3] = 0;
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const double growth = std::sqrt(std::abs((D[k] - D[i]) * (D[j] - D[k]) / (D[i] * D[j]))) * std::abs(spin);
+    if (unit() < 0.5) p.angles = {2 * unit() - 1, 6 * unit() - 3, 6 * unit() - 3};
+    if (unit() < 0.3) p.torque = scale(1e-12, 1e-3) * D.maxCoeff() * spin * spin * vector();
+    if (unit() < 0.5) p.force = vector();
+    made.times = honesty::asked_times(random_, scale(1, 100) / growth);
+    return made;
+  }
+
+  Made pushed() {
     for (;;) {
       Made made{{}, {}, "generic"};
       Problem<double>& p = made.problem;
@@ -128,21 +165,11 @@ class Scenes {
         p.angular_velocity[0] *= by, p.angular_velocity[1] *= by;
         p.angles.psi *= by, p.angles.phi *= by;
       }
-      const double grid = unit();
-      const int n = grid < 0.4 ? 12 : grid < 0.5 ? 600 : 1 + int(20 * unit());
-      if (grid < 0.5) {
-        for (int i = 0; i <= n; ++i) made.times.push_back(span * i / n);
-      } else {
-        for (int i = 0; i < n; ++i) made.times.push_back(span * unit());
-        made.times.back() = span;
-        std::sort(made.times.begin(), made.times.end());
-        made.times.erase(std::unique(made.times.begin(), made.times.end()), made.times.end());
-      }
+      made.times = honesty::asked_times(random_, span);
       return made;
     }
   }
 
- private:
   static double tilt_of(const Problem<double>& p, double span) {
     if (p.torque[2] == 0) return amplitudes(p, span).tilt;
     const std::vector<double> times{span};
@@ -163,6 +190,18 @@ class Scenes {
 }  // namespace
 
 int main(int argc, char** argv) {
-  honesty::run(argc, argv, tables, 5000, Scenes(honesty::seed_of(argc, argv)), &true_motion,
-               [](const Scene& scene, Refusal& refusal) { return solve(scene, refusal); }, {1e-3, 1e-6, 1e-9});
+  const auto truth = [](const Scene& scene, Answer& right) {
+    if (!true_motion(scene, right)) return false;
+    const Column& attitude = *right.find("attitude");
+    double tilt = 0;
+    for (std::size_t i = 0; i < attitude.values.size(); i += 4) {
+      const double* q = &attitude.values[i];
+      tilt = std::max(tilt, 2 * std::atan2(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])));
+    }
+    right.quantities.push_back({&scalar_kinds[scalar::tilt_max], {tilt}, attitude.error});
+    return true;
+  };
+  honesty::run(argc, argv, tables, 5000, Scenes(honesty::seed_of(argc, argv)), truth,
+               [](const Scene& scene, Refusal& refusal) { return solve(scene, refusal); }, {1e-2, 1e-5, 1e-8, 1e-11},
+               {"tilt_max"});
 }
