@@ -175,8 +175,8 @@ struct Neighbour {
     const Vec3<Scalar> Omega = of.angular_velocity(from.momentum, from.axial_momentum);
     const Scalar omega = of.rotor_rate(from.axial_momentum, Omega);
     const Scalar lambda = of.axial_inertia();
-    // what cancels in H; a momentum that is exactly 0 stays so
-    const Scalar parts = (of.inertia() * Omega).norm() + lambda * std::abs(omega);
+    // what cancels in H, and in the product with the tensor of a slim body; a momentum that is exactly 0 stays so
+    const Scalar parts = (of.inertia().cwiseAbs() * Omega.cwiseAbs()).norm() + lambda * std::abs(omega);
     if (!from.momentum.isZero(0)) start.momentum += amount * parts * direction;
     start.axial_momentum += amount * lambda * (std::abs(omega) + Omega.norm());
   }
@@ -202,9 +202,17 @@ ColumnErrors<Scalar> rounding_of_columns(const Row<Scalar>& row, const State<Sca
   const Scalar turning = turning_rate(gyrostat, start);
   if (turning > 0 && size[column::rotor_angle] > 0) error[column::rotor_angle] += error[column::rotor_rate] / turning;
   // V is a sum of squares
-  const Scalar root =
-      2 * relative * (H + wheel) / std::sqrt(gyrostat.principal()[0]) + std::sqrt(lambda * k / 2) * error[column::rotor_rate];
+  const Scalar root = 2 * relative * (H + wheel) / std::sqrt(gyrostat.principal()[0]) +
+                      std::sqrt(lambda * k / 2) * error[column::rotor_rate];
   error[column::lyapunov] = std::sqrt(2 * size[column::lyapunov]) * root + root * root;
+  if (const Scalar condition = gyrostat.condition(); condition > 1) {
+    const Scalar blur = 4 * epsilon<Scalar> * condition;
+    error[column::angular_momentum] +=
+        4 * epsilon<Scalar> * gyrostat.momentum_blur(gyrostat.angular_velocity(start.momentum, start.axial_momentum));
+    error[column::angular_velocity] += blur * size[column::angular_velocity];
+    error[column::rotor_rate] += blur * size[column::angular_velocity];
+    error[column::lyapunov] += blur * size[column::lyapunov];
+  }
   return error;
 }
 
@@ -247,8 +255,8 @@ class FullMotion {
       const Scalar between = answer.used == Integrator::radau ? 2 * inside : 0;
       return rounding_of_columns(row, start_, size, 4 * eps + steps + 2 * step_tolerance + between);
     };
-    solve_beside(answer, row, course, companion, second, start_, turning_, times_, states_,
-                 nowhere(), options_, progress_from, progress_to, rounding);
+    solve_beside(answer, row, course, companion, second, start_, turning_, times_, states_, nowhere(), options_,
+                 progress_from, progress_to, rounding);
     return answer;
   }
 
@@ -290,8 +298,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Gyrostat<Scalar>& gyrostat, c
   State<Scalar> from = start;
   from.attitude = as_unit(start.attitude);
   const detail::FullMotion<Scalar> motion(gyrostat, from, times, states, options);
-  const Scalar first =
-      first_step_tolerance<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_step));
+  const Scalar first = first_step_tolerance<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_step));
   Scalar inside = options.tolerance / 512;
   return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar by, double begin, double end) noexcept {
     inside = std::max(step_tolerance, inside / by);

@@ -86,10 +86,8 @@ inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttract
     auto bound = tail.error(last - window);
     const auto carried = tail.carried(track.error[column::angular_momentum] * sizes.unit(column::angular_momentum),
                                       track.error[column::rotor_rate] * sizes.unit(column::rotor_rate));
-    bound.attitude += carried.attitude + 4 * epsilon<double> * last * fast;
-    bound.momentum += carried.momentum;
-    bound.rotor_rate += carried.rotor_rate;
-    bound.rotor_angle += carried.rotor_angle;
+    bound += carried;
+    bound.attitude += 4 * epsilon<double> * last * fast;
     if (bound.attitude + track.error[column::attitude] <= tolerance && bound.momentum <= tolerance * l) {
       for (std::size_t i = track.states.size(); i < times.size(); ++i)
         track.states.push_back(tail.at(times[i] - window));
@@ -128,7 +126,13 @@ inline Track linear_tail_track(const Scene& scene, Monitor* monitor) {
                           "no steady rotation attracts exponentially: the rotor does not feel the nutation");
 
   const auto tail = attractors.tail(body, start);
-  const auto bound = tail.error(question.times.back());
+  auto bound = tail.error(question.times.back());
+  if (const double condition = body.condition(); condition > 1) {
+    const auto Omega = body.angular_velocity(start.momentum, start.axial_momentum);
+    const double off = 4 * epsilon<double> * condition * Omega.norm();
+    bound += tail.carried(4 * epsilon<double> * body.momentum_blur(Omega), off);
+    bound.attitude += off * question.times.back();
+  }
   const bool near = bound.attitude < infinity<double>;
   const Row<double> row(body, start);
   const auto alone = [&] {

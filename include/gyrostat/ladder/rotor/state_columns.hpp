@@ -16,7 +16,7 @@ ColumnErrors<double> state_columns(const Row<double>& row, std::span<const State
                                    const Bound& bound) noexcept {
   const Gyrostat<double>& body = row.body;
   Comparison sizes(row);
-  double lyapunov = 0, rounding = 0;
+  double lyapunov = 0, rounding = 0, blur = 0;
   const double j = 1 / body.principal()[0], lambda = body.axial_inertia(), k = body.coupling();
   const double j_free = 1 / body.free_principal()[0];
   const double e_n = (body.inverse_inertia() * body.axis()).norm();
@@ -27,9 +27,10 @@ ColumnErrors<double> state_columns(const Row<double>& row, std::span<const State
     const Vec3<double> Omega = body.angular_velocity(s.momentum, s.axial_momentum);
     const double x = body.rotor_rate(s.axial_momentum, Omega) - body.no_load_rate();
     const Vec3<double> gradient = body.inverse_inertia() * (s.momentum - body.target_momentum() * body.axis());
-    const double dH = bound.momentum + ulps * (l + h);
+    const double dH = bound.momentum + ulps * (l + h + body.momentum_blur(Omega));
     const double dx = bound.rotor_rate + ulps * (p / lambda + j_free * (l + p) + std::abs(body.no_load_rate()));
-    rounding = greater(rounding, ulps * j_free * (l + p));
+    rounding = greater(rounding, ulps * j_free * (l + p + body.momentum_blur(Omega)));
+    blur = greater(blur, ulps * body.momentum_blur(Omega));
     // 0 times an infinite bound is NaN: not known
     lyapunov = greater(lyapunov, gradient.norm() * dH + lambda * k * std::abs(x) * dx +
                                      (j * dH * dH + lambda * k * dx * dx) / 2 +
@@ -38,8 +39,10 @@ ColumnErrors<double> state_columns(const Row<double>& row, std::span<const State
   ColumnErrors<double> errors;
   errors[column::attitude] = std::min(bound.attitude, pi<double>);
   errors[column::angular_momentum] = bound.momentum + 16 * epsilon<double> * row.scale[column::angular_momentum];
+  // a body that starts at rest has none, to the bit
+  if (sizes.unit(column::angular_momentum) > 0) errors[column::angular_momentum] += blur;
   errors[column::angular_velocity] = j * bound.momentum + lambda * e_n * bound.rotor_rate + rounding;
-  errors[column::rotor_rate] = bound.rotor_rate;
+  errors[column::rotor_rate] = bound.rotor_rate + e_n * blur;
   errors[column::rotor_angle] = bound.rotor_angle;
   errors[column::lyapunov] = lyapunov == lyapunov ? lyapunov : infinity<double>;
   return relative_to_truth(sizes.relative(errors), column_kinds);

@@ -314,7 +314,8 @@ auto ClosedForm<Scalar>::sizes() const noexcept -> Sizes {
   const Scalar lambda = gyrostat_.axial_inertia(), k = gyrostat_.coupling();
   const Scalar l = norm_, e_n = (gyrostat_.inverse_inertia() * gyrostat_.axis()).norm();
   const Scalar h = lambda * std::max(std::abs(rate_), std::abs(final_rate_));
-  return {j, lambda, k, l, e_n, h, j * (l + h), 4 * epsilon<Scalar> * (l + 2 * h)};
+  const Scalar blur = gyrostat_.momentum_blur(gyrostat_.angular_velocity(start_.momentum, start_.axial_momentum));
+  return {j, lambda, k, l, e_n, h, j * (l + h), 4 * epsilon<Scalar> * (l + 2 * h + blur)};
 }
 
 template <Real Scalar>
@@ -434,7 +435,10 @@ ClosedFormError<Scalar> ClosedForm<Scalar>::error(Scalar t) const noexcept {
   const Scalar p = std::abs(start_.axial_momentum);
   const Scalar ulps = 8 * epsilon<Scalar>;
   const Scalar rate =
-      ulps * (omega + fast + p / gyrostat_.axial_inertia() + (norm_ + p) / gyrostat_.free_principal()[0]);
+      ulps *
+      (gyrostat_.condition() * omega + fast + p / gyrostat_.axial_inertia() +
+       (norm_ + p + gyrostat_.momentum_blur(gyrostat_.angular_velocity(start_.momentum, start_.axial_momentum))) /
+           gyrostat_.free_principal()[0]);
   const Scalar angle = rate * (decay_ * t > 1 ? 1 / decay_ : t);
   const Scalar phase = ulps * (1 + (std::abs(turn_) + std::abs(steady_turn_) + std::abs(rotor_turn_) * omega) * t) +
                        std::abs(rotor_turn_) * angle;

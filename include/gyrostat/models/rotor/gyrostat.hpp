@@ -86,6 +86,16 @@ class Gyrostat {
   Scalar relaxation_rate() const noexcept { return slope_ / (axial_inertia() * coupling_); }  ///< S/(lambda k), 1/s
   Scalar target_momentum() const noexcept { return axial_inertia() * no_load_rate_; }  ///< h = lambda omega*, N m s
 
+  /// By how much the inverse of R magnifies rounding: its greatest moment over the least, and 1 where R is diagonal.
+  Scalar condition() const noexcept {
+    const bool diagonal = free_inverse_(0, 1) == 0 && free_inverse_(0, 2) == 0 && free_inverse_(1, 2) == 0;
+    return diagonal ? Scalar(1) : free_principal_[2] / free_principal_[0];
+  }
+  /// What a rounding of the tensor, over epsilon, comes to in H where the carrier turns with Omega, N m s; 0 where R is diagonal.
+  Scalar momentum_blur(const Vec3<Scalar>& Omega) const noexcept {
+    return condition() > 1 ? principal_[2] * Omega.norm() : Scalar(0);
+  }
+
   /// Omega of H and p, rad/s.
   Vec3<Scalar> angular_velocity(const Vec3<Scalar>& H, Scalar p) const noexcept {
     return free_inverse_ * (H - p * axis());

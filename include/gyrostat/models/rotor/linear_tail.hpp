@@ -21,6 +21,11 @@ struct TailError {
   Scalar momentum = infinity<Scalar>;     ///< of H, N m s
   Scalar rotor_rate = infinity<Scalar>;   ///< rad/s
   Scalar rotor_angle = infinity<Scalar>;  ///< rad
+
+  constexpr TailError& operator+=(const TailError& by) noexcept {
+    attitude += by.attitude, momentum += by.momentum, rotor_rate += by.rotor_rate, rotor_angle += by.rotor_angle;
+    return *this;
+  }
 };
 
 /// The motion near an asymptotically stable steady rotation to second order in the distance eps from it, in closed form: linear
