@@ -32,10 +32,8 @@ inline constexpr double first_base = 8, first_angle = 16;
 /// Deceleration, where the error of the phase grows with the square of the angle: first_share / (drifting_base +
 /// drifting_phase * angle^2).
 inline constexpr double drifting_base = 4, drifting_phase = 2e-4;
-/// No looser steps: near the radius of convergence of a step all runs may err alike.
-inline constexpr double loosest_step = 1e-8;
-/// The same of a heavy body: at 1e-8 all runs of a long motion from rest were seen to err alike, asked for 1e-3.
-inline constexpr double loosest_heavy_step = 1e-9;
+/// No looser steps: at 1e-8, near the radius of convergence of a step, all runs were seen to err alike.
+inline constexpr double loosest_step = 1e-9;
 
 /// By how much more than the excess over the tolerance the steps of a second try are tightened.
 inline constexpr double retry = 8;

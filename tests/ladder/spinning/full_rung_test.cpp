@@ -5,6 +5,7 @@
 
 #include <string_view>
 
+#include "honest.hpp"
 #include "reference_table.hpp"
 
 using namespace gyrostat;
@@ -84,4 +85,21 @@ TEST_CASE("rung full warns where theta loses a turn", "[spinning]") {
   CHECK(lost.error.greatest() <= 1e-8);  // the attitude is as good as elsewhere
   p.angles.phi = 0.1;
   CHECK(full_track(scene(p, {0, 3}), nullptr).warnings.empty());
+}
+
+TEST_CASE("steps so loose that all runs would err alike are not taken", "[spinning]") {
+  Problem<double> p;
+  p.inertia = {0.12714649364685768, 0.43650254328055438, 0.46604156340318081};
+  p.mass = 885.35518260560491;
+  p.rotor_momentum = 0.98529570580438508;
+  p.torque = {-0.0065033728313297215, 0.0025148234811936936, 0};
+  p.force = {0, 0, -4.5507025692727403};
+  p.angular_velocity = {0, 0, 1.4929888352999099};
+  p.angles.theta = -2.7204082884987359;
+  Question question;
+  question.times = {27.430185024224794, 33.620101041737861, 121.12097945300282};
+  question.tolerance = 1e-2;
+  const auto scene = Scene::make(p, question);
+  REQUIRE(scene);
+  check_honest(*scene, full_track(*scene, nullptr));
 }

@@ -69,9 +69,12 @@ struct Neighbour {
     const auto changed = [](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c) noexcept {
       return Vec3<Scalar>(x[0] * (1 + a), x[1] * (1 + b), x[2] * (1 + c));
     };
-    const Vec3<Scalar> centre = changed(of.centre_of_mass(), v[2], v[0], v[1]);
+    Vec3<Scalar> centre = changed(of.centre_of_mass(), v[2], v[0], v[1]);
     Vec3<Scalar> inertia = changed(of.inertia(), v[0], v[1], v[2]);
-    if (converted) inertia = of.inertia() + of.inertia().maxCoeff() * v;
+    if (converted) {
+      inertia = of.inertia() + of.inertia().maxCoeff() * v;
+      centre = of.centre_of_mass() + of.centre_of_mass().norm() * Vec3<Scalar>(v[2], v[0], v[1]);
+    }
     auto made =
         Problem<Scalar>::make(inertia, of.mass(), centre, of.gravity() * (1 + v[0]), of.gradient() * (1 + v[1]));
     // a body of the least extent that is real, of which not all moments can be changed
@@ -139,8 +142,8 @@ class FullMotion {
     const auto rounding = [&](const ColumnErrors<Scalar>&, Scalar steps) noexcept {
       return 4 * (4 * eps + steps + 2 * step_tolerance) * ColumnErrors<Scalar>{rate_, 1, Scalar(turning ? 1 : 0)};
     };
-    solve_beside(answer, Row<Scalar>{scales(problem_, start_.angular_velocity.norm())}, course, companion, second, start_,
-                 rate_, times_, states_, nowhere(), options_, progress_from, progress_to, rounding);
+    solve_beside(answer, Row<Scalar>{scales(problem_, start_.angular_velocity.norm())}, course, companion, second,
+                 start_, rate_, times_, states_, nowhere(), options_, progress_from, progress_to, rounding);
     return answer;
   }
 
@@ -223,8 +226,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, con
     return answer;
   }
   const auto solve = [&](const auto& motion) noexcept {
-    const Scalar first =
-        first_step_tolerance<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_heavy_step));
+    const Scalar first = first_step_tolerance<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_step));
     return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar, double begin, double end) noexcept {
       return motion.run(step_tolerance, begin, end);
     });
