@@ -110,3 +110,42 @@ TEST_CASE("mean precession of a nutating top is given by every rung, of an uprig
   // no closed form, no period
   CHECK(std::isnan(periodicity_from(body(0.0011, 0.0016, 0.002, {0.01, 0, 0.01}, 9.8, 0), from).period));
 }
+
+TEST_CASE("what a conversion errs is in the errors of period and precession", "[heavy]") {
+  using Long = long double;
+  // the start of a nodding top and of a swing, by an attitude that rounds
+  struct Case {
+    Vec3<double> rate;
+    Quat<double> attitude;
+  };
+  for (const Case& given : {Case{{1, 2, 60}, {0.6, 0.3, -0.2, 0.7}}, Case{{0.3, -0.1, 9}, {0.1, 0.9, 0.3, 0.2}}}) {
+    const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, 0);
+    State<double> from;
+    from.attitude = normalised(given.attitude);
+    from.angular_velocity = given.rate;
+    Question question;
+    question.wants_attitude = true;
+    const auto scene = posed(p, from, 1, question);
+    const auto known = periodicity_from(scene);
+    const auto problem = Problem<Long>::make(p.inertia().cast<Long>(), p.mass(), p.centre_of_mass().cast<Long>(),
+                                             p.gravity(), p.gradient());
+    const auto& q = scene.given().attitude;
+    State<Long> start;
+    start.attitude = normalised(Quat<Long>{q.w, q.x, q.y, q.z});
+    start.angular_velocity = given.rate.cast<Long>();
+    start.down = rotate<Long>(conjugate(start.attitude), {0, 0, -1});
+    const Exact<Long> exact(*problem, start);
+    REQUIRE(exact.top());
+    CHECK(std::abs(known.precession - double(exact.top()->mean_precession())) <= known.precession_error);
+    CHECK(known.precession_error < 1e-11);
+    CHECK(known.precession_error > periodicity_from(p, scene.start()).precession_error);
+  }
+  // a swing that may as well go over the top is known by neither
+  const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, 0);
+  State<double> upright;
+  upright.attitude = normalised(Quat<double>{1e-17, 1, 0, 0});
+  Question question;
+  question.wants_attitude = true;
+  const auto known = periodicity_from(posed(p, upright, 1, question));
+  CHECK_FALSE(known.period_error < 1e-9);
+}

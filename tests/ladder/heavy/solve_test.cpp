@@ -189,3 +189,22 @@ TEST_CASE("a heavy answer is in the caller's axes and ends when cancelled", "[he
   const Solved stopped = solved(posed(stone, random.start(50), 100, {}), &monitor);
   CHECK(stopped.refusal.code == Errc::cancelled);
 }
+
+TEST_CASE("of two periodic motions with one spin and inclination every tolerance gives the same", "[heavy]") {
+  const auto body = Problem<double>::make({0.21447220887664814, 0.08085594585809386, 0.2144722089216924}, 1,
+                                          {0, 0.041439691240659625, -0.024197330077693723}, 9.80665, 0);
+  REQUIRE(body);
+  double period = 0;
+  for (const double tolerance : {1e-3, 1e-6, 1e-8, 1e-10}) {
+    const Solved made = solved(periodic(*body, 4.508929291625993, 0.07921321335229115, 0.5, tolerance));
+    REQUIRE(made.refusal.code == Errc::ok);
+    CHECK(made.answer.warns("not-unique"));
+    const double found = made.scalar("period")->values[0];
+    if (period > 0) CHECK(found == period);
+    period = found;
+  }
+  // a series answers where it is asked for, and says so; a motion that is alone has no such warning
+  CHECK(solved(periodic(*body, 4.508929291625993, 0.07921321335229115, 0.5, 1e-6, rung::series))
+            .answer.warns("not-unique"));
+  CHECK_FALSE(solved(periodic(stone, 150, 0.1, 3)).answer.warns("not-unique"));
+}

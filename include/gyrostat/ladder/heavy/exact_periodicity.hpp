@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "gyrostat/ladder/heavy/conversion_error.hpp"
 #include "gyrostat/ladder/heavy/track.hpp"
 #include "gyrostat/models/heavy/exact.hpp"
 #include "gyrostat/models/heavy/scaled.hpp"
@@ -80,6 +81,25 @@ inline Periodicity periodicity_from(const Problem<double>& problem, const State<
   };
   if (const auto* top = exact.top()) of_top(*top);
   if (const auto* top = exact.top_in_gradient()) of_top(*top);
+  return known;
+}
+
+/// The same of a scene, with what its conversions err: by the bodies and starts that are off by as much. What they lose is not known.
+inline Periodicity periodicity_from(const Scene& scene) {
+  const Problem<double>& problem = scene.problem();
+  Periodicity known = periodicity_from(problem, scene.start());
+  if (!scene.converts_start() || (std::isnan(known.period) && std::isnan(known.precession))) return known;
+  const Exact<double> exact(problem, scene.start());
+  const int plane = exact.pendulum() ? exact.pendulum()->axis() : -1;
+  constexpr double margin = 4;
+  for (const int which : {0, 1}) {
+    const Problem<double> body = scene.converts_body() ? off_body(problem, which) : problem;
+    const auto off = periodicity_from(body, off_start(scene.start(), which, plane));
+    if (std::isnan(off.precession)) known.precession = nan<double>;
+    known.precession_error += margin * std::abs(off.precession - known.precession);
+    // a top whose inclination is steady nods a little in a start that is off
+    if (!std::isnan(off.period)) known.period_error += margin * std::abs(off.period / known.period - 1);
+  }
   return known;
 }
 

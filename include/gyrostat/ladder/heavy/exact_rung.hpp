@@ -38,6 +38,9 @@ inline Track exact_track(const Scene& scene, Monitor*) {
     track.states.push_back(exact.at(t));
     sizes.add(track.states.back());
   }
+  if (!std::isfinite(sizes.size()[column::down]))
+    return refused<Track>(Errc::no_convergence,
+                          "the closed form is lost in rounding: axis 3 starts too near the vertical, next to at rest");
   auto bound = exact.error(question.times.back());
   if (scene.converts_start() && bound.attitude < infinity<double>) {
     const int k = exact.pendulum() ? exact.pendulum()->axis() : -1;

@@ -75,6 +75,11 @@ Track series_track(const Scene& scene, const Motion& motion, const MotionError<d
 /// Of a motion that repeats.
 template <class Motion>
 Track forced_track(const Scene& scene, const Motion& motion, int rung) {
+  const Floquet<double> floquet(motion.scaled());
+  // the motion must not depend on the rung, and so on the tolerance
+  if (scene.periodic() && !floquet.alone && scene.question().rung != rung)
+    return refused<Track>(Errc::not_applicable,
+                          "another periodic motion may be near, and the full equations say which one is meant");
   Track track = series_track(scene, motion, forced_error(scene, motion), rung);
   if (track.failure != Errc::ok) return track;
   if (!scene.periodic()) {
@@ -82,7 +87,6 @@ Track forced_track(const Scene& scene, const Motion& motion, int rung) {
     for (State<double>& state : track.states) state.attitude = turned * state.attitude;
     return track;
   }
-  const Floquet<double> floquet(motion.scaled());
   // trace = 2 cos sqrt y, y = 4 pi^2 nu^2; 4: twice the largest of 3000 bodies
   const double low = std::sqrt(std::max(floquet.squared_error - floquet.squared, 0.0));  // nu may be i low
   const double growth = std::max(floquet.growth, 2 * pi<double> * low);

@@ -56,6 +56,7 @@ enum : std::size_t {
   unstable,
   unstable_sleep,
   gradient,
+  not_unique,
 };
 }
 
@@ -83,6 +84,10 @@ inline constexpr WarningKind warning_kinds[] = {
     {"gradient",
      "gravity and gravity gradient belong to a centre at 3 g/N, which is not far beside the body's size: give them on "
      "purpose only; m"},
+    {"not-unique",
+     "another periodic motion with this spin and inclination may be near, for a free nutation hardly turns beside this "
+     "one, or keeps pace with it: the full equations answer at every tolerance with the one that shooting finds from "
+     "the first order; nu^2 is"},
 };
 
 /// Places in rung_kinds, in the order in which the ladder is climbed.

@@ -40,10 +40,14 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   const auto warn = [&](std::size_t which, double value) {
     answer.warnings.push_back({&warning_kinds[which], warning_kinds[which].text, value});
   };
-  tell(answer, scene.periodic() ? track.periodicity : periodicity_from(problem, scene.start()));
+  tell(answer, scene.periodic() ? track.periodicity : periodicity_from(scene));
   if (scene.periodic()) {
     const auto& [spin, cosine] = *scene.periodic();
-    if (const auto scaled = Scaled<double>::make(problem, spin, cosine)) detail::warn_of_periodic(*scaled, warn);
+    if (const auto scaled = Scaled<double>::make(problem, spin, cosine)) {
+      detail::warn_of_periodic(*scaled, warn);
+      const Floquet<double> floquet(*scaled);
+      if (!floquet.alone && answer.model != rung_kinds[rung::exact].name) warn(warning::not_unique, floquet.squared);
+    }
     if (stability(track.periodicity) == 0) warn(warning::unstable, multipliers(track.periodicity.trace).first.re);
   } else if (const auto top = SymmetricTop<double>::of(problem)) {
     const Vec3<double> down = top->axes.transpose() * scene.start().down;

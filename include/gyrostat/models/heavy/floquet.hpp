@@ -26,6 +26,7 @@ struct Floquet {
   Scalar tongue = 0;         ///< |kr| eps^2, over nu
   Scalar trace_minus_4 = 2;  ///< the sum of the two, 2 cos(2 pi nu) outside of the tongue
   Scalar growth = 0;         ///< ln of the larger one in size, 0 where they lie on the circle
+  bool alone = false;        ///< neither comes to one within the error of nu: no other such motion is near
   FastStability verdict = FastStability::undecided;
 
   /// nu as the tongue draws it towards 1/2, and 1/2 inside; NaN where it is imaginary.
@@ -67,6 +68,7 @@ struct Floquet {
       trace_minus_4 = -2 * std::cos(circle * std::sqrt((detuned - tongue) * (detuned + tongue)));
     }
     const bool known = squared_error < infinity<Scalar>;
+    alone = known && std::abs(squared) > squared_error && std::abs(nu - 1) > nu_error;
     if (known && (squared < -squared_error || detuned + nu_error < tongue)) {
       verdict = FastStability::unstable;
     } else if (known && squared > squared_error && std::abs(nu - 1) > nu_error && detuned > tongue + nu_error) {
