@@ -122,6 +122,17 @@ const Given scenes[] = {
      std::nullopt,
      {0.0, 9.238136888035429, 18.476273776070858},
      1e-06},
+    // slim, across two moments that are nearly equal: their axes are known to rounding over the difference
+    {{0.98183664006236571, 0.12065909085349667, -0.057226032239601377, 0.12065909085349667, 0.19846238495625657,
+      0.38015218808038143, -0.057226032239601377, 0.38015218808038143, 0.81970192865569391},
+     {-0.032335853858175952, 0.21480688275163015, -0.10187832106706762},
+     0.0,
+     0.0002793411229740062,
+     {-0.052143009575265936, -0.12263019835481163, -0.24201880429979084},
+     {0.0, 0.0, -1.0},
+     Quat<double>{-0.64656809945209692, 0.3864394906819475, -0.546821007100599, -0.36551470422661125},
+     {0.0, 66.224290883297627, 132.44858176659525},
+     1e-08},
 };
 
 Answer answer_of(const Given& given, int rung) {
@@ -184,6 +195,7 @@ TEST_CASE("what conversions of body and start make of a motion is in its error",
   for (const Given& given : scenes) {
     const Truth truth = truth_of(given);
     for (const int rung : {any_rung, int(rung::exact)}) {
+      if (rung != any_rung && which == int(std::size(scenes)) - 1) continue;  // has no closed form
       const Answer answer = answer_of(given, rung);
       CAPTURE(which, rung, answer.model, answer.met, truth.error);
       const auto check = [&](const char* name, const std::vector<Vec3<double>>& right) {

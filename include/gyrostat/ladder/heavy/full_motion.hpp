@@ -58,6 +58,8 @@ template <Real Scalar>
 struct Neighbour {
   Problem<Scalar> problem;
   State<Scalar> start;
+  Mat3<Scalar> turn =
+      Mat3<Scalar>::Identity();  ///< the given axes to those of this body, which a conversion may find elsewhere
 
   /// which: 0 or 1, in another direction.
   Neighbour(const Problem<Scalar>& of, const State<Scalar>& from, Scalar amount, int which,
@@ -73,7 +75,8 @@ struct Neighbour {
     Vec3<Scalar> inertia = changed(of.inertia(), v[0], v[1], v[2]);
     if (converted) {
       inertia = of.inertia() + of.inertia().maxCoeff() * v;
-      centre = of.centre_of_mass() + of.centre_of_mass().norm() * Vec3<Scalar>(v[2], v[0], v[1]);
+      turn = misaligned(of.inertia(), v);
+      centre = turn * of.centre_of_mass() + of.centre_of_mass().norm() * Vec3<Scalar>(v[2], v[0], v[1]);
     }
     auto made =
         Problem<Scalar>::make(inertia, of.mass(), centre, of.gravity() * (1 + v[0]), of.gradient() * (1 + v[1]));
@@ -94,11 +97,27 @@ struct Neighbour {
     start.down = moved(from.down, v[2], v[0], v[1], from.down.norm());
     start.down *= from.down.norm() / start.down.norm();
     // the attitude keeps its turn about the vertical but for what brings its down onto the new one
-    const Vec3<Scalar> turn = cross<Scalar>(start.down, from.down) / from.down.squaredNorm();
-    start.attitude = normalised(from.attitude * Quat<Scalar>{1, turn[0] / 2, turn[1] / 2, turn[2] / 2});
+    const Vec3<Scalar> tilt = cross<Scalar>(start.down, from.down) / from.down.squaredNorm();
+    start.attitude = normalised(from.attitude * Quat<Scalar>{1, tilt[0] / 2, tilt[1] / 2, tilt[2] / 2});
+    if (converted) start = in_turned_axes(turn, start);
+  }
+
+  /// A state in other axes: v_new = R v for the body vectors.
+  static State<Scalar> in_turned_axes(const Mat3<Scalar>& R, const State<Scalar>& s) noexcept {
+    return {R * s.angular_velocity, R * s.down, s.attitude * conjugate(from_matrix(R))};
   }
 
  private:
+  /// The turn of principal axes that the roundings v of a tensor make: about each axis by that of the greatest moment over the difference of
+  /// the other two, half a radian at most.
+  static Mat3<Scalar> misaligned(const Vec3<Scalar>& inertia, const Vec3<Scalar>& v) noexcept {
+    Vec3<Scalar> by;
+    for (int k = 0; k < 3; ++k) {
+      const Scalar apart = std::abs(inertia[(k + 1) % 3] - inertia[(k + 2) % 3]), error = v[k] * inertia.maxCoeff();
+      by[k] = error / std::max(apart, 2 * std::abs(error));
+    }
+    return to_matrix(normalised(Quat<Scalar>{1, by[0] / 2, by[1] / 2, by[2] / 2}));
+  }
   /// Turning about one principal axis that stays vertical or horizontal, the weight in its line or across it.
   static bool keeps_zeros(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept {
     const auto &w = start.angular_velocity, &d = start.down;
@@ -135,7 +154,7 @@ class FullMotion {
     Course course(problem_, start_, step_tolerance, options_.step_cap);
     const auto beside = [&](const Neighbour<Scalar>& near) noexcept {
       const Scalar loose = std::max(Scalar(how.looser) * step_tolerance, Scalar(how.least_loose) * eps);
-      return Course(near.problem, near.start, loose, options_.step_cap);
+      return Course(near.problem, near.start, loose, options_.step_cap, near.turn);
     };
     Course companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
     // the polynomial of a step, good to its tolerance, and rounding at the asked times
@@ -158,9 +177,13 @@ class FullMotion {
   /// One run.
   class Course {
    public:
-    Course(const Problem<Scalar>& problem, const State<Scalar>& start, Scalar tolerance,
-           std::uint64_t step_cap) noexcept
-        : system_(problem, start), solver_(system_, 0, system_.start(), options(system_, tolerance, step_cap)) {}
+    /// turn: the axes of the states that are given to those of the problem
+    Course(const Problem<Scalar>& problem, const State<Scalar>& start, Scalar tolerance, std::uint64_t step_cap,
+           const Mat3<Scalar>& turn = Mat3<Scalar>::Identity()) noexcept
+        : system_(problem, start),
+          solver_(system_, 0, system_.start(), options(system_, tolerance, step_cap)),
+          turned_(turn != Mat3<Scalar>::Identity()),
+          back_(turn.transpose()) {}
 
     ode::Status step(Scalar t_max) noexcept { return solver_.step(t_max); }
     Scalar time() const noexcept { return solver_.time(); }
@@ -168,7 +191,11 @@ class FullMotion {
     State<Scalar> at(Scalar t) const noexcept {
       alignas(32) Scalar x[System::width];
       solver_.at(t, x);
-      return system_.state(x);
+      State<Scalar> state = system_.state(x);
+      if (!turned_) return state;
+      state = Neighbour<Scalar>::in_turned_axes(back_, state);
+      if constexpr (!turning) state.attitude = {};
+      return state;
     }
     const ode::Counts& counts() const noexcept { return solver_.counts(); }
 
@@ -182,6 +209,8 @@ class FullMotion {
     }
     System system_;
     Solver solver_;
+    bool turned_;
+    Mat3<Scalar> back_;
   };
 
   static State<Scalar> nowhere() noexcept {
