@@ -106,13 +106,13 @@ BENCHMARK(taylor_series<20, true>)->Apply(arguments);
 void full_motion_rung(benchmark::State& state) {
   measure(state, [](double epsilon, double tolerance, double t_end) {
     const std::array<double, 1> times{t_end};
-    std::array<Vec3<double>, 1> momentum;
+    std::array<State<double>, 1> states;
     FullMotionOptions<double> options;
     options.tolerance = tolerance;
     options.find_stop = false;
-    const auto answer = full_motion<double>(scene<double>(epsilon), times, momentum, options);
+    const auto answer = full_motion<double>(scene<double>(epsilon), times, states, options);
     benchmark::DoNotOptimize(answer);
-    return momentum[0];
+    return states[0].momentum;
   });
 }
 BENCHMARK(full_motion_rung)->Apply([](benchmark::internal::Benchmark* bench) {

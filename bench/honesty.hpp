@@ -91,8 +91,9 @@ struct Tally {
     for (auto& [name, values] : ratios) {
       std::sort(values.begin(), values.end());
       const std::size_t n = values.size();
-      std::printf("  stated/true %-36s n %6zu  least %9.3g  1 %% %9.3g  median %9.3g  90 %% %9.3g\n", name.c_str(), n,
-                  values.front(), values[n / 100], values[n / 2], values[n * 9 / 10]);
+      const auto lies = std::lower_bound(values.begin(), values.end(), 1.0) - values.begin();
+      std::printf("  stated/true %-36s n %6zu  below 1: %4td  least %9.3g  1 %% %9.3g  median %9.3g  90 %% %9.3g\n",
+                  name.c_str(), n, lies, values.front(), values[n / 100], values[n / 2], values[n * 9 / 10]);
       all.insert(all.end(), values.begin(), values.end());
     }
     std::sort(all.begin(), all.end());

@@ -4,8 +4,9 @@
 namespace gyrostat::deceleration {
 
 template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
-                                                              std::span<Vec3<double>>, const FullMotionOptions<double>&,
-                                                              const Quat<double>*, std::span<Quat<double>>) noexcept;
+                                                              std::span<State<double>>,
+                                                              const FullMotionOptions<double>&,
+                                                              const Quat<double>*) noexcept;
 
 }  // namespace gyrostat::deceleration
 

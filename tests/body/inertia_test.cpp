@@ -132,3 +132,11 @@ TEST_CASE("differences of the inverse moments are right to rounding, however nea
   }
   CHECK(Inertia<double>::from_moments(2, 2, 1)->inverse_gaps()[0] == 0);
 }
+
+TEST_CASE("moments are exact where the body axes are principal") {
+  CHECK(Inertia<double>::from_moments(3, 1, 2.5)->has_exact_moments());
+  Mat3<double> J = Vec3<double>(3, 2, 2.5).asDiagonal();
+  CHECK(Inertia<double>::from_tensor(J)->has_exact_moments());
+  J(0, 1) = J(1, 0) = 1e-9;
+  CHECK(!Inertia<double>::from_tensor(J)->has_exact_moments());
+}

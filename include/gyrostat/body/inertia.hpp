@@ -51,6 +51,9 @@ class Inertia {
     return {(A - B) / A / B, (B - C) / B / C, (A - C) / A / C};
   }
 
+  /// The body axes are principal: the moments are those given, to the last bit.
+  bool has_exact_moments() const noexcept { return tensor_(0, 1) == 0 && tensor_(0, 2) == 0 && tensor_(1, 2) == 0; }
+
   /// R_BP: v_B = R_BP v_P, columns are the principal axes 1, 2, 3 in body axes. A proper rotation; for moments and
   /// diagonal tensors a signed permutation, exact, and the identity where they already descend.
   const Mat3<Scalar>& R_BP() const noexcept { return axes_; }

@@ -99,9 +99,9 @@ void solve_beside(Answer& answer, const Writer& writer, Course& course, Course& 
                   const typename Writer::State& start, typename Writer::Scalar rate,
                   std::span<const typename Writer::Scalar> times, std::span<typename Writer::State> states,
                   const typename Writer::State& nowhere, const MotionOptions<typename Writer::Scalar>& options,
-                  double progress_from, double progress_to, const Rounding& rounding) noexcept {
+                  double progress_from, double progress_to, const Rounding& rounding,
+                  const honesty::Companions& how = honesty::side_by_side) noexcept {
   using Scalar = typename Writer::Scalar;
-  constexpr auto& how = honesty::side_by_side;
   constexpr Scalar eps = epsilon<Scalar>;
   const bool rounds = answer.step_tolerance < Scalar(how.two_below) * eps;
   const auto walk = walk_beside(writer, course, companion, second, rounds, start, rate, times, states, nowhere, options,

@@ -19,11 +19,14 @@ struct Companions {
 
 /// Watched in every step, all components moved: rotor, spinning and heavy.
 inline constexpr Companions side_by_side{64, 64, 8, 512, 6, 8};
-/// Compared at the asked times, the same data in another step sequence: deceleration.
-inline constexpr Companions deceleration_run{64, 32, 0, 16, 3, 6};
+/// The same of deceleration: nearer neighbours, whose first steps end elsewhere than those of the answer, and always two of them.
+inline constexpr Companions deceleration_run{8, 8, 3, 1e16, 3, 3};
 
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;
+
+/// Deceleration: errors sink with the motion, and a distance fades so many times as fast.
+inline constexpr double sinking = 8;
 
 /// First guess of the step tolerance over the tolerance asked for, before the turns count: the estimate is some hundred times the error.
 inline constexpr double first_share = 1.0 / 64;
@@ -41,9 +44,9 @@ inline constexpr double retry = 8;
 inline constexpr double retry_steps = 3e6;
 
 /// Deceleration: the margin of the stop time over that of the columns.
-inline constexpr double stop_margin = 4;
-/// Deceleration: the part of the work that the answer's run is, its companion's left out; for the progress shown.
-inline constexpr double answers_share = 0.55;
+inline constexpr double stop_margin = 3;
+/// Deceleration: to the error of the stop time so many step tolerances are added; it is one number, at which two runs may be near by chance.
+inline constexpr double stop_steps = 8;
 
 /// CVODE is compared with itself at a tolerance so many times looser.
 inline constexpr double cvode_looser = 10;

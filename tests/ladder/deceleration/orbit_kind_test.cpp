@@ -2,6 +2,7 @@
 #include "gyrostat/ladder/deceleration/orbit_kind.hpp"
 
 #include "catch.hpp"
+#include "gyrostat/body/inertia.hpp"
 
 using namespace gyrostat;
 using namespace gyrostat::deceleration;
@@ -43,4 +44,22 @@ TEST_CASE("uncertainty of k2 covers what an error of M does to it", "[decelerati
           CHECK(std::abs(orbit_kind(p, moved).k2 - at.k2) <= bound * 1.01 + 1e-14);
         }
     }
+}
+
+TEST_CASE("k2 of nearly equal moments, from their exact differences and with the error of rounded ones",
+          "[deceleration]") {
+  // A = B to 3e-11: 1/A - 1/B has lost five digits, A - B has not
+  const V moments(268, 167.673442904923, 167.67344290011644), M(-3e-4, 14.2, -1.9e-4);
+  Problem<double> p;
+  p.inverse_inertia = moments.cwiseInverse();
+  const Vec3<long double> J = moments.cast<long double>();
+  const Vec3<long double> gaps((J[0] - J[1]) / J[0] / J[1], (J[1] - J[2]) / J[1] / J[2], (J[0] - J[2]) / J[0] / J[2]);
+  const auto truth = polhode_through<long double>(J.cwiseInverse(), gaps, M.cast<long double>());
+  const auto error = [&] { return std::abs(orbit_kind(p, M).k2 - static_cast<double>(truth.modulus.k2)); };
+  const auto doubt = [&] { return k2_of_data(p, polhode_through<double>(p.inverse_inertia, p.inverse_gaps(), M), M); };
+  CHECK(error() > 1e-9);
+  CHECK(error() <= doubt());
+  p.exact_gaps = Inertia<double>::from_moments(moments[0], moments[1], moments[2])->inverse_gaps();
+  CHECK(error() <= doubt());
+  CHECK(doubt() < 1e-14);
 }

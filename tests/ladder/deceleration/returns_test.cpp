@@ -107,10 +107,10 @@ TEST_CASE("units as large and torques as small as doubles go come back", "[decel
 
 TEST_CASE("a control that only just holds gives up when its steps would not reach the last time", "[deceleration]") {
   const auto problem = held_at_its_limit();
-  std::vector<V> momentum(2);
+  std::vector<State<double>> states(2);
   FullMotionOptions<double> options;
   options.step_cap = 100'000;
-  const auto answer = full_motion<double>(problem, std::vector<double>{100, 200}, momentum, options);
+  const auto answer = full_motion<double>(problem, std::vector<double>{100, 200}, states, options);
   REQUIRE(answer);
   CHECK(answer->status == ode::Status::step_limit);
   CHECK(answer->counts.steps < 50'000);

@@ -177,7 +177,7 @@ Track averaged_track(const Scene& scene) {
 
   const double local = 10 * tolerance, doubt = k2_of_data(problem, start, M0);
   error.norm += local * norm0;
-  error.energy += local * energy0;
+  error.energy += local * energy0 + problem.energy_error(M0);
   error.k2 += local + doubt;
   if (track.states.back().norm < low) {
     error.norm += std::min(low, norm0) * std::min(1.0, late * track.stop_time * scene.greatest_control() / low);

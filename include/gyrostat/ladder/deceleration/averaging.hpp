@@ -92,9 +92,10 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   const SlowError<double> in_span = mean.second_order(), oscillating = mean.first_order();
   const double norm = problem.momentum.norm(), energy = problem.energy(problem.momentum);
   const double local = 10 * tolerance, lag = mean.lag(local);
-  detail::state_errors(track, {in_span.norm + local * norm + lag * oscillating.norm,
-                               in_span.energy + 2 * local * energy + lag * oscillating.energy,
-                               in_span.k2 + local + lag * oscillating.k2, 0});
+  detail::state_errors(
+      track, {in_span.norm + local * norm + lag * oscillating.norm,
+              in_span.energy + 2 * local * energy + problem.energy_error(problem.momentum) + lag * oscillating.energy,
+              in_span.k2 + local + lag * oscillating.k2, 0});
   track.know_momentum(problem, in_span.vector + (local + lag) * norm);
 
   // The tail, for the stop time and for the samples beyond the hand-over. Where it leads to no stop the full equations tell more, and

@@ -134,13 +134,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
 
   const auto error =
       pair.both.relative(pair.margin * pair.both.difference()) + ColumnErrors<double>::all(pair.tolerance);
-  std::vector<Vec3<double>> momentum;
-  std::vector<Quat<double>> attitude;
-  for (const State<double>& state : pair.states) {
-    momentum.push_back(state.momentum);
-    if (scene.question().wants_attitude) attitude.push_back(state.attitude);
-  }
-  Track track = detail::track_of(scene.problem(), momentum, attitude, error);
+  Track track = detail::track_of(scene.problem(), pair.states, scene.question().wants_attitude, error);
   track.counts = pair.counts;
   if (std::isfinite(stops[0])) {
     track.stop_time = stops[0];

@@ -40,6 +40,7 @@ Track equal_torque_track(const Scene& scene) {
   const double norm = problem.momentum.norm();
   track.error[column::angular_momentum_norm] = 8 * epsilon<double> * norm;
   track.error[column::energy] = 16 * epsilon<double> * norm * norm * motion.energy_ratio() / 2;
+  track.error[column::energy] += problem.energy_error(problem.momentum);
   track.error[column::modulus_squared] =
       motion.polhode() ? 2 * k2_of_data(problem, *motion.polhode(), problem.momentum) : 0;
   track.know_momentum(problem, rounding * norm);

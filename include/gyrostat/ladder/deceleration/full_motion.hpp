@@ -2,15 +2,17 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 
+#include "gyrostat/body/principal_axes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
-#include "gyrostat/ladder/comparison.hpp"
+#include "gyrostat/ladder/companions.hpp"
 #include "gyrostat/ladder/deceleration/motion.hpp"
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/honesty.hpp"
@@ -19,6 +21,7 @@
 #include "gyrostat/models/deceleration/problem.hpp"
 #include "gyrostat/ode/status.hpp"
 #include "gyrostat/ode/taylor.hpp"
+#include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full motion of a decelerated gyrostat: Taylor series from the start to the last time asked for, through the stop.
@@ -77,28 +80,26 @@ struct Hold {
   }
 };
 
-/// The full motion at the given times (s from the start, increasing, the first >= 0): the total momentum in principal axes,
-/// and with a start attitude (principal axes to inertial) the attitude. What lies behind a failure is NaN.
+/// The full motion at the given times (s from the start, increasing, the first >= 0): the states in principal axes, but for modulus and
+/// regime, which the equations do not need; the attitude only where one is given for the start. What lies behind a failure is NaN.
 ///
 /// The stop is found to 1e-12 of its time: the steps shrink with |U| (FullSystem::step_limit) until the rest of the motion, |U| over the
 /// torque, is below 1e-13 of the time. Behind it law total stays at M = 0, omega = -J^-1 l, and law carrier at M = l, omega = 0.
 /// Where the control cannot hold U = 0 against the drag of the other law there is no stop.
 ///
-/// The error is estimated by a second run with a step tolerance 64 times looser, whose distance from the answer is some ten to a
-/// hundred times the error of the answer, plus what rounding of the data does to the phase and no second run can show. So the
-/// estimate is safe rather than sharp. A run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
+/// The error is estimated by runs of neighbours in looser steps (companions.hpp), of the stop time by their stops. A run that misses the
+/// tolerance is repeated with a tighter step tolerance, at most twice.
 ///
-/// Errors: not_increasing (times), not_finite (problem or times), out_of_domain (a span of the wrong length).
+/// Errors: not_increasing (times), not_finite (problem or times), out_of_domain (the spans differ in length).
 template <Real Scalar>
 Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
-                                             std::span<Vec3<Scalar>> momentum,
+                                             std::span<State<Scalar>> states,
                                              const FullMotionOptions<Scalar>& options = {},
-                                             const Quat<Scalar>* start_attitude = nullptr,
-                                             std::span<Quat<Scalar>> attitude = {}) noexcept;
+                                             const Quat<Scalar>* start_attitude = nullptr) noexcept;
 
 namespace detail {
 
-/// But for modulus and regime, which the equations do not need.
+/// But for modulus and regime.
 template <Real Scalar>
 State<Scalar> state_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
   State<Scalar> state;
@@ -109,132 +110,189 @@ State<Scalar> state_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M, co
   return state;
 }
 
-/// One run: hands (index, M, q) of every time to the sink, in order.
+/// A problem that differs from the given one by about `amount`: by what rounding makes of its data. What is zero stays so where the
+/// motion keeps it.
+///
+/// Where the moments are exact (Problem::exact_gaps) they and their differences change relatively, and the momentum component by component.
+/// Else tensor and vectors come from a rotation, and every component errs as the greatest does: `R` takes the neighbour's principal axes to
+/// those of the given problem.
+template <Real Scalar>
+struct Neighbour {
+  Problem<Scalar> problem;
+  Mat3<Scalar> R = Mat3<Scalar>::Identity();
+
+  /// The problem itself.
+  explicit Neighbour(const Problem<Scalar>& of) noexcept : problem(of) {}
+
+  /// which: 0 or 1, in another direction.
+  Neighbour(const Problem<Scalar>& of, Scalar amount, int which) noexcept : problem(of) {
+    const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
+    const Vec3<Scalar> v = amount * (which == 0 ? Vec3<Scalar>(number(0.6L), number(-0.64L), number(0.48L))
+                                                : Vec3<Scalar>(number(-0.48L), number(0.6L), number(0.64L)));
+    const Vec3<Scalar>& l = of.rotor_momentum;
+    const Vec3<Scalar> parts = (of.momentum - l).cwiseAbs() + l.cwiseAbs();
+    problem.drag *= 1 + v[0];
+    problem.control *= 1 + v[1];
+    if (of.exact_gaps) {
+      const Vec3<Scalar>& gaps = *of.exact_gaps;
+      const Vec3<Scalar> moved{gaps[0] * (1 + v[1]), gaps[1] * (1 + v[2]), gaps[0] * (1 + v[1]) + gaps[1] * (1 + v[2])};
+      const Scalar first = of.inverse_inertia[0] * (1 + v[0]);
+      problem.exact_gaps = moved;
+      problem.inverse_inertia = {first, first + moved[0], first + moved[2]};
+      problem.momentum += v.cwiseProduct(parts.cwiseMax(swing(of)));
+      return;
+    }
+    Mat3<Scalar> tensor = of.inverse_inertia.cwiseInverse().asDiagonal();
+    const Scalar most = tensor(0, 0);
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      tensor(i, i) += v[i] * most;
+      tensor(j, k) = tensor(k, j) = v[k] * most;
+    }
+    const auto axes = PrincipalAxes<Scalar>::nearest(tensor);
+    if (!(axes.moments.minCoeff() > 0)) return;
+    R = axes.R_BP;
+    const Mat3<Scalar> back = R.transpose();
+    problem.inverse_inertia = axes.moments.cwiseInverse();
+    problem.rotor_momentum = back * Vec3<Scalar>(l + l.norm() * v);
+    problem.control = back * problem.control * R;
+    problem.momentum = back * Vec3<Scalar>(of.momentum + parts.norm() * v);
+  }
+
+ private:
+  /// How far each component of the momentum moves in one radian of the motion, N m s: 0 where it is zero for ever.
+  static Vec3<Scalar> swing(const Problem<Scalar>& of) noexcept {
+    const FullCoefficients<Scalar> f(of);
+    const Vec3<Scalar> U = of.momentum - f.offset, size = U.cwiseAbs();
+    const Scalar norm = U.norm();
+    Vec3<Scalar> torque = f.linear.cwiseAbs() * size + f.constant.cwiseAbs();
+    if (norm > 0) torque += of.control.cwiseAbs() * (size / norm);
+    for (int i = 0; i < 3; ++i) torque[i] += std::abs(f.quadratic[i]) * size[(i + 1) % 3] * size[(i + 2) % 3];
+    const Scalar rate = f.quadratic.cwiseAbs().maxCoeff() * norm + f.linear.norm();
+    return rate > 0 ? Vec3<Scalar>((torque / rate).cwiseMin(norm + of.rotor_momentum.norm())) : Vec3<Scalar>(0, 0, 0);
+  }
+};
+
+/// One run of the equations, through the stop; of a neighbour, told in the axes of the given problem.
 template <Real Scalar, bool with_control, bool with_attitude>
-class FullRun {
- public:
+class Course {
   using System = FullSystem<Scalar, with_control, with_attitude>;
   using Solver = ode::Taylor<System>;
   static constexpr int width = System::width;
 
-  FullRun(const Problem<Scalar>& problem, const Quat<Scalar>& attitude, Scalar step_tolerance, Scalar reach,
-          const FullMotionOptions<Scalar>& options, double progress_from, double progress_to) noexcept
-      : problem_(problem),
-        coefficients_(problem),
-        hold_(problem),
-        attitude_(attitude),
-        step_tolerance_(step_tolerance),
-        reach_(reach),
-        options_(options),
-        progress_from_(progress_from),
-        progress_to_(progress_to) {}
+ public:
+  /// reach: part of the way to U = 0 that one step may go at most.
+  Course(const Neighbour<Scalar>& of, const Quat<Scalar>& attitude, Scalar step_tolerance, Scalar reach,
+         std::uint64_t step_cap) noexcept
+      : problem_(of.problem),
+        R_(of.R),
+        turn_(from_matrix(of.R)),
+        turned_(!of.R.isIdentity(0)),
+        f_(problem_),
+        hold_(problem_),
+        start_(start_of(turned_ ? attitude * turn_ : attitude)),
+        system_(problem_, reach),
+        solver_(system_, start_.time, start_.numbers, options_of(step_tolerance, step_cap)),
+        step_cap_(step_cap),
+        may_stop_(with_control && hold_.holds) {
+    if (!may_stop_ && !(with_control && hold_.weakest > 0)) stop_time_ = infinity<Scalar>;
+    if (start_.at_rest) come_to_rest(0, start_.numbers.data());
+    time_ = start_.at_rest ? Scalar(0) : start_.time;
+  }
 
-  template <class Sink>
-  ode::Status operator()(std::span<const Scalar> times, Sink&& sink) noexcept {
-    using ode::Status;
-    typename Solver::State state{};
-    Vec3<Scalar> U = problem_.momentum - coefficients_.offset;
-    Scalar t = 0;
-    stop_time_ = with_control && (hold_.weakest > 0 || hold_.holds) ? nan<Scalar> : infinity<Scalar>;
-    std::size_t next = 0;
-    while (next < times.size() && times[next] <= 0) sink(next++, problem_.momentum, attitude_);
+  /// One step, at most up to t_max; where the motion has come to rest, all the way.
+  ode::Status step(Scalar t_max) noexcept {
+    if (rests_) {
+      time_ = t_max;
+      return ode::Status::reached;
+    }
+    const ode::Status status = solver_.step(t_max);
+    if (status != ode::Status::reached) return status;
+    time_ = solver_.time();
+    const Vec3<Scalar> U = opposed(solver_.state());
+    const Scalar norm = U.norm();
+    if (may_stop_) {
+      // the rest of the motion: |U| falls at least at the weakest rate, in the end at the rate of its direction
+      const Scalar fall = falling(U, norm), slowest = hold_.weakest > 0 ? std::min(hold_.weakest, fall) : fall;
+      if (!(norm > 0) || norm <= Scalar(1e-13L) * precision_factor * time_ * slowest)
+        come_to_rest(time_ + (norm > 0 ? norm / fall : Scalar(0)), solver_.state());
+    }
+    if constexpr (with_control)
+      if ((++trips_ & 255U) == 0 && fades(U, norm, t_max - time_)) return ode::Status::step_limit;
+    return status;
+  }
+
+  Scalar time() const noexcept { return time_; }
+
+  /// The state at t in the last step.
+  State<Scalar> at(Scalar t) const noexcept {
+    if (rests_ && t > solver_.time()) return seen(state_of(problem_, f_.offset, at_rest(t)));
+    alignas(32) Scalar x[width];
+    solver_.at(t, x);
+    return seen(state_of(problem_, Vec3<Scalar>(opposed(x) + f_.offset), quaternion(x)));
+  }
+
+  ode::Counts counts() const noexcept { return solver_.counts(); }
+  bool rests() const noexcept { return rests_; }
+  /// When U = 0 is reached and held, s; infinite where it never is, NaN before.
+  Scalar stop_time() const noexcept { return stop_time_; }
+  /// Whether the motion is bound to come to a stop.
+  bool stops() const noexcept { return may_stop_ && hold_.weakest > 0; }
+
+ private:
+  struct Start {
+    Scalar time = 0;
+    std::array<Scalar, width> numbers{};
+    bool at_rest = false;
+  };
+
+  /// 1 for double and wider; float cannot resolve 1e-13.
+  static constexpr Scalar precision_factor = std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
+
+  static Vec3<Scalar> opposed(const Scalar* x) noexcept { return {x[0], x[1], x[2]}; }
+
+  Start start_of(const Quat<Scalar>& attitude) const noexcept {
+    Start start;
+    Vec3<Scalar> U = problem_.momentum - f_.offset;
     if (U.isZero(0)) {
-      if (hold_.holds || (!with_control && coefficients_.constant.isZero(0))) {
-        rest(times, next, 0, attitude_, sink);
-        return Status::reached;
-      }
-      if constexpr (with_control) t = leave(U);
+      start.at_rest = hold_.holds || (!with_control && f_.constant.isZero(0));
+      if (with_control && !start.at_rest) start.time = leave(U);
     }
-    for (int i = 0; i < 3; ++i) state[static_cast<std::size_t>(i)] = U[i];
+    for (int i = 0; i < 3; ++i) start.numbers[static_cast<std::size_t>(i)] = U[i];
     if constexpr (with_attitude) {
-      state[4] = attitude_.w;
-      state[5] = attitude_.x;
-      state[6] = attitude_.y;
-      state[7] = attitude_.z;
+      start.numbers[4] = attitude.w;
+      start.numbers[5] = attitude.x;
+      start.numbers[6] = attitude.y;
+      start.numbers[7] = attitude.z;
     }
+    return start;
+  }
 
+  auto options_of(Scalar step_tolerance, std::uint64_t step_cap) const noexcept {
     ode::TaylorOptions<Scalar, width> how;
-    how.tolerance = step_tolerance_;
-    how.step_cap = options_.step_cap;
+    how.tolerance = step_tolerance;
+    how.step_cap = step_cap;
     // the carrier's share of the momentum sets the energy; where it is the small part of M it needs its own digits
-    const Scalar whole = std::max(problem_.momentum.norm(), U.norm());
+    const Scalar whole = std::max(problem_.momentum.norm(), (problem_.momentum - f_.offset).norm());
     const Scalar share = (problem_.momentum - problem_.rotor_momentum).norm();
     const Scalar size = share > Scalar(1e-4L) * whole ? std::min(share, whole) : whole;
     for (std::size_t i = 0; i < 3; ++i) how.scale[i] = size > 0 ? size : std::numeric_limits<Scalar>::min();
     for (std::size_t i = 4; i < width; ++i) how.scale[i] = 1;
-    const System system(problem_, reach_);
-    Solver solver(system, t, state, how);
-
-    const bool may_stop = with_control && hold_.holds;
-    const bool seek = may_stop && hold_.weakest > 0 && options_.find_stop;
-    const Scalar start_norm = U.norm();
-    const Scalar rate_scale = coefficients_.quadratic.cwiseAbs().maxCoeff();
-    const Scalar linear_scale = coefficients_.linear.norm() + coefficients_.rate.norm();
-    alignas(32) Scalar x[width];
-    Status status = Status::reached;
-    std::uint32_t trips = 0;
-    while (next < times.size() || seek) {
-      const Scalar before = solver.time();
-      status = solver.step();
-      if (status != Status::reached) break;
-      const Scalar now = solver.time();
-      U = {solver.state()[0], solver.state()[1], solver.state()[2]};
-      const Scalar norm = U.norm();
-      if (next < times.size()) phase_ += (now - before) * (rate_scale * norm + linear_scale);
-      for (; next < times.size() && times[next] <= now; ++next) {
-        solver.at(times[next], x);
-        sink(next, Vec3<Scalar>(Vec3<Scalar>(x[0], x[1], x[2]) + coefficients_.offset), quaternion(x));
-      }
-      if (may_stop) {
-        // the rest of the motion: |U| falls at least at the weakest rate, in the end at the rate of its direction
-        const Scalar fall = falling(U, norm);
-        const Scalar slowest = hold_.weakest > 0 ? std::min(hold_.weakest, fall) : fall;
-        if (!(norm > 0) || norm <= Scalar(1e-13L) * precision_factor * now * slowest) {
-          rest(times, next, now + (norm > 0 ? norm / fall : Scalar(0)), quaternion(solver.state()), sink);
-          break;
-        }
-      }
-      if ((++trips & 255U) == 0) {
-        if (options_.cancelled()) {
-          status = Status::cancelled;
-          break;
-        }
-        if constexpr (with_control) {
-          // A step goes at most a part of |U|/torque. Where |U| fades without a stop ahead, the steps only grow shorter.
-          const Scalar fall = falling(U, norm), left = seek ? Scalar(0) : times.back() - now;
-          const auto budget = static_cast<Scalar>(options_.step_cap - trips);
-          if (fall >= 0 && fall * left < norm && left > budget * system.step_limit(solver.state())) {
-            status = Status::step_limit;
-            break;
-          }
-        }
-        const Scalar done = seek ? 1 - norm / start_norm : now / times.back();
-        report(static_cast<double>(done));
-      }
-    }
-    counts_ = solver.counts();
-    for (; next < times.size(); ++next) {
-      sink(next, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)),
-           Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
-    }
-    report(1);
-    return status;
+    return how;
   }
-
-  Scalar stop_time() const noexcept { return stop_time_; }
-  const ode::Counts& counts() const noexcept { return counts_; }
-  /// Bound of the angle turned through by U and by the axes up to the last time, rad.
-  Scalar phase() const noexcept { return phase_; }
-  /// Angle turned through behind the stop, rad.
-  Scalar phase_at_rest() const noexcept { return phase_at_rest_; }
-
- private:
-  /// 1 for double and wider; float cannot resolve 1e-13.
-  static constexpr Scalar precision_factor = std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
 
   Scalar falling(const Vec3<Scalar>& U, Scalar norm) const noexcept {
     const Vec3<Scalar> n = U / norm;
-    return n.dot(problem_.control * n) - n.dot(coefficients_.constant);
+    return n.dot(problem_.control * n) - n.dot(f_.constant);
+  }
+
+  /// A step goes at most a part of |U|/torque. Where |U| fades without a stop ahead, the steps only grow shorter: whether `left` seconds are
+  /// more than all that are allowed will cover.
+  bool fades(const Vec3<Scalar>& U, Scalar norm, Scalar left) const noexcept {
+    if (stops()) return false;
+    const Scalar fall = falling(U, norm);
+    const auto budget = static_cast<Scalar>(step_cap_ - std::min<std::uint64_t>(step_cap_, solver_.counts().steps));
+    return fall >= 0 && fall * left < norm && left > budget * system_.step_limit(solver_.state());
   }
 
   Quat<Scalar> quaternion(const Scalar* x) const noexcept {
@@ -242,34 +300,39 @@ class FullRun {
       const Scalar size = 1 / std::sqrt(x[4] * x[4] + x[5] * x[5] + x[6] * x[6] + x[7] * x[7]);
       return {x[4] * size, x[5] * size, x[6] * size, x[7] * size};
     } else {
-      return attitude_;
+      return {};
     }
   }
 
-  /// Behind the stop: U = 0.
-  template <class Sink>
-  void rest(std::span<const Scalar> times, std::size_t& next, Scalar stop, const Quat<Scalar>& q, Sink& sink) noexcept {
+  /// Behind the stop U = 0.
+  void come_to_rest(Scalar stop, const Scalar* x) noexcept {
+    rests_ = true;
     stop_time_ = stop;
-    const Vec3<Scalar>& w = coefficients_.rate;
+    attitude_at_rest_ = quaternion(x);
+  }
+
+  /// In the axes of the given problem.
+  State<Scalar> seen(State<Scalar> state) const noexcept {
+    if (!turned_) return state;
+    state.momentum = R_ * state.momentum;
+    state.attitude = state.attitude * conjugate(turn_);
+    return state;
+  }
+
+  Quat<Scalar> at_rest(Scalar t) const noexcept {
+    const Vec3<Scalar>& w = f_.rate;
     const Scalar rate = w.norm();
-    if (next < times.size()) phase_at_rest_ = std::max(Scalar(0), times.back() - stop) * rate;
-    for (; next < times.size(); ++next) {
-      Quat<Scalar> turned = q;
-      if (with_attitude && rate > 0) {
-        const Scalar half = std::max(Scalar(0), times[next] - stop) * rate / 2;
-        const Scalar c = std::cos(half), s = std::sin(half) / rate;
-        const Scalar x = w[0] * s, y = w[1] * s, z = w[2] * s;
-        turned = {q.w * c - q.x * x - q.y * y - q.z * z, q.w * x + q.x * c + q.y * z - q.z * y,
-                  q.w * y - q.x * z + q.y * c + q.z * x, q.w * z + q.x * y - q.y * x + q.z * c};
-      }
-      sink(next, coefficients_.offset, turned);
-    }
+    const Quat<Scalar>& q = attitude_at_rest_;
+    if (!with_attitude || !(rate > 0)) return q;
+    const Scalar half = std::max(Scalar(0), t - stop_time_) * rate / 2;
+    const Scalar c = std::cos(half), s = std::sin(half) / rate;
+    return q * Quat<Scalar>{c, w[0] * s, w[1] * s, w[2] * s};
   }
 
   /// U = 0 that the control cannot hold: U leaves along the one direction n with (s + control) n = c, s > 0. Sets U a moment later
   /// and returns that moment; it is so short that the square of it is lost in rounding.
   Scalar leave(Vec3<Scalar>& U) const noexcept {
-    const Vec3<Scalar>& c = coefficients_.constant;
+    const Vec3<Scalar>& c = f_.constant;
     Scalar low = 0, high = c.norm();
     Vec3<Scalar> n = c / high;
     for (int trip = 0; trip < 2 * std::numeric_limits<Scalar>::digits; ++trip) {
@@ -281,88 +344,150 @@ class FullRun {
       (n.norm() > 1 ? low : high) = s;
     }
     const Scalar s = (low + high) / 2;
-    const Scalar rate =
-        coefficients_.linear.norm() + coefficients_.quadratic.cwiseAbs().maxCoeff() * problem_.rotor_momentum.norm();
+    const Scalar rate = f_.linear.norm() + f_.quadratic.cwiseAbs().maxCoeff() * problem_.rotor_momentum.norm();
     const Scalar moment = epsilon<Scalar> / (rate > 0 ? rate : Scalar(1));
     U = s * moment * n.normalized();
     return moment;
   }
 
-  void report(double done) const noexcept {
-    options_.report(progress_from_ + std::clamp(done, 0.0, 1.0) * (progress_to_ - progress_from_));
-  }
-
-  const Problem<Scalar>& problem_;
-  FullCoefficients<Scalar> coefficients_;
+  Problem<Scalar> problem_;
+  Mat3<Scalar> R_;
+  Quat<Scalar> turn_;
+  bool turned_;
+  FullCoefficients<Scalar> f_;
   Hold<Scalar> hold_;
-  Quat<Scalar> attitude_;
-  Scalar step_tolerance_, reach_;
-  const FullMotionOptions<Scalar>& options_;
-  double progress_from_, progress_to_;
-  Scalar stop_time_ = nan<Scalar>;
-  Scalar phase_ = 0, phase_at_rest_ = 0;
-  ode::Counts counts_;
+  Start start_;
+  System system_;
+  Solver solver_;
+  std::uint64_t step_cap_;
+  std::uint32_t trips_ = 0;
+  bool may_stop_, rests_ = false;
+  Scalar time_ = 0, stop_time_ = nan<Scalar>;
+  Quat<Scalar> attitude_at_rest_{};
 };
 
-/// The answer's run, the companion's run, and their distance.
+/// Goes on to the stop, at most up to t_max.
+template <class Course, Real Scalar>
+ode::Status go_to_rest(Course& course, Scalar t_max, const MotionOptions<Scalar>& options) noexcept {
+  ode::Status status = ode::Status::reached;
+  for (std::uint32_t trips = 1; status == ode::Status::reached && !course.rests() && course.time() < t_max; ++trips) {
+    status = course.step(t_max);
+    if ((trips & 255U) == 0 && options.cancelled()) status = ode::Status::cancelled;
+  }
+  return status;
+}
+
+/// How fast U and the axes turn at the start, rad/s.
+template <Real Scalar>
+Scalar turning_rate(const Problem<Scalar>& problem) noexcept {
+  const FullCoefficients<Scalar> f(problem);
+  return f.quadratic.cwiseAbs().maxCoeff() * (problem.momentum - f.offset).norm() + f.linear.norm() + f.rate.norm();
+}
+
+/// What an evaluation of the columns loses, in their units, where the state is known to `relative`; at_rest: angle turned through behind the
+/// stop, rad.
+template <Real Scalar>
+ColumnErrors<Scalar> rounding_of_columns(const Problem<Scalar>& problem, const ColumnErrors<Scalar>& size,
+                                         Scalar relative, Scalar at_rest) noexcept {
+  const Scalar M = size[column::angular_momentum] + problem.rotor_momentum.norm();
+  const Scalar omega = size[column::angular_velocity];
+  // moments that come from a tensor err as the greatest does
+  const Scalar slim = problem.exact_gaps ? Scalar(1) : problem.inverse_inertia[2] / problem.inverse_inertia[0];
+  ColumnErrors<Scalar> error;
+  error[column::angular_momentum] = relative * M;
+  error[column::angular_velocity] = relative * (M * problem.inverse_inertia[2] + slim * omega);
+  error[column::angular_momentum_norm] = relative * M;
+  error[column::energy] = relative * M * omega;
+  error[column::attitude] = 4 * (relative + epsilon<Scalar> * at_rest);
+  return error;
+}
+
+/// The answer's run, its neighbours' side by side, and their distance.
 template <Real Scalar, bool with_control, bool with_attitude>
-FullMotionAnswer<Scalar> full_motion_with_error(const Problem<Scalar>& problem, std::span<const Scalar> times,
-                                                std::span<Vec3<Scalar>> momentum,
-                                                const FullMotionOptions<Scalar>& options,
-                                                const Quat<Scalar>& start_attitude, std::span<Quat<Scalar>> attitude,
-                                                Scalar step_tolerance, double progress_from,
-                                                double progress_to) noexcept {
-  using Run = FullRun<Scalar, with_control, with_attitude>;
-  constexpr Scalar eps = epsilon<Scalar>;
-  constexpr auto& how = honesty::deceleration_run;
-  FullMotionAnswer<Scalar> answer;
-  answer.step_tolerance = step_tolerance;
-  const double middle = progress_from + honesty::answers_share * (progress_to - progress_from);
+class FullMotion {
+ public:
+  FullMotion(const Problem<Scalar>& problem, std::span<const Scalar> times, std::span<State<Scalar>> states,
+             const FullMotionOptions<Scalar>& options, const Quat<Scalar>& attitude) noexcept
+      : problem_(problem),
+        times_(times),
+        states_(states),
+        options_(options),
+        attitude_(attitude),
+        itself_(problem),
+        neighbours_{{problem, change, 0}, {problem, change, 1}} {}
 
-  Run run(problem, start_attitude, step_tolerance, Scalar(0.3L), options, progress_from, middle);
-  answer.status = run(times, [&](std::size_t i, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
-    momentum[i] = M;
-    if constexpr (with_attitude) attitude[i] = q;
-  });
-  answer.stop_time = run.stop_time();
-  answer.counts = run.counts();
-  if (answer.status != ode::Status::reached) return answer;
-
-  const Scalar margin = Scalar(step_tolerance < Scalar(how.two_below) * eps ? how.margin_of_rounding : how.margin);
-  const Scalar looser = std::max(step_tolerance * Scalar(how.looser), Scalar(how.least_loose) * eps);
-  Run companion(problem, start_attitude, looser, Scalar(0.45L), options, middle, progress_to);
-  Comparison both(Row<Scalar>{problem});
-  const auto status = companion(times, [&](std::size_t i, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
-    both.add(state_of(problem, momentum[i], with_attitude ? attitude[i] : q), state_of(problem, M, q));
-  });
-  answer.counts += companion.counts();
-  if (status != ode::Status::reached) {
-    answer.status = status;
+  FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
+    constexpr Scalar eps = epsilon<Scalar>;
+    FullMotionAnswer<Scalar> answer;
+    answer.step_tolerance = step_tolerance;
+    const Scalar loose = std::max(Scalar(how.looser) * step_tolerance, Scalar(how.least_loose) * eps);
+    Run course(itself_, attitude_, step_tolerance, Scalar(0.3L), options_.step_cap);
+    Run companion(neighbours_[0], attitude_, loose, Scalar(0.33L), options_.step_cap);
+    Run second(neighbours_[1], attitude_, loose, Scalar(0.35L), options_.step_cap);
+    if (!times_.empty()) {
+      const Row<Scalar> row(problem_);
+      const Scalar last = times_.back();
+      keep_apart(course, companion, second, last);
+      const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
+        const Scalar rest = last > course.stop_time() ? last - course.stop_time() : Scalar(0);
+        return rounding_of_columns(problem_, size, 4 * eps + steps, rest * problem_.gyro_rate().norm());
+      };
+      const State<Scalar> start = state_of(problem_, problem_.momentum, attitude_);
+      const State<Scalar> nowhere = state_of(problem_, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)),
+                                             Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
+      solve_beside(answer, row, course, companion, second, start, honesty::sinking * turning_rate(problem_), times_,
+                   states_, nowhere, options_, progress_from, progress_to, rounding, how);
+      if (!with_attitude) answer.error[column::attitude] = 0;
+    }
+    look_for_stop(answer, course, companion, second);
+    answer.counts = course.counts();
+    answer.counts += companion.counts();
+    answer.counts += second.counts();
+    answer.met = answer.status == ode::Status::reached && options_.excess(answer.error) <= 1;
     return answer;
   }
 
-  // Rounding in every step adds up like a random walk, which the second run may miss by chance.
-  const Scalar walk = eps * std::sqrt(static_cast<Scalar>(run.counts().steps));
-  // What both runs share: the polynomial of a step that both take, good to the step tolerance; and the rounding of the data on their
-  // way into the recurrences, a relative change of all rates by about a rounding, which turns the phase.
-  const Scalar rounding = 4 * eps + walk + 2 * step_tolerance;
-  const Scalar phase_error = rounding + eps * run.phase();
-  const Scalar size = both.size()[column::angular_momentum] + problem.rotor_momentum.norm();
-  ColumnErrors<Scalar> shared;
-  shared[column::angular_momentum] = phase_error * size;
-  shared[column::angular_velocity] = phase_error * size * problem.inverse_inertia[2];
-  shared[column::angular_momentum_norm] = rounding * size;
-  shared[column::energy] = rounding * size * both.size()[column::angular_velocity];
-  if constexpr (with_attitude) shared[column::attitude] = 4 * (phase_error + eps * run.phase_at_rest());
-  answer.error = both.relative(margin * both.difference() + shared);
-  if (answer.stop_time > 0 && answer.stop_time < infinity<Scalar>) {
-    answer.stop_error =
-        Scalar(honesty::stop_margin) * margin * std::abs(companion.stop_time() - answer.stop_time) / answer.stop_time +
-        2 * step_tolerance + Scalar(2e-13L) * std::max(Scalar(1), eps / Scalar(1e-15L));
+ private:
+  using Run = Course<Scalar, with_control, with_attitude>;
+  static constexpr const auto& how = honesty::deceleration_run;
+  static constexpr Scalar change = Scalar(how.data_change) * epsilon<Scalar>;
+
+  /// From one start all runs would take the same polynomial for their first step, and err alike in it.
+  static void keep_apart(Run& course, Run& companion, Run& second, Scalar last) noexcept {
+    if (!(last > 0) || course.step(last) != ode::Status::reached) return;
+    companion.step(course.time() / 2);
+    second.step(course.time() / 3);
   }
-  answer.met = options.excess(answer.error) <= 1;
-  return answer;
-}
+
+  void look_for_stop(FullMotionAnswer<Scalar>& answer, Run& course, Run& companion, Run& second) const noexcept {
+    const auto go = [&](Run& run, Scalar t_max) noexcept {
+      if (answer.status == ode::Status::reached) answer.status = go_to_rest(run, t_max, options_);
+    };
+    if (options_.find_stop && course.stops()) go(course, infinity<Scalar>);
+    if (answer.status != ode::Status::reached) return;
+    const Scalar stop = answer.stop_time = course.stop_time();
+    if (!(stop > 0 && stop < infinity<Scalar>)) return;
+    const bool rounds = answer.step_tolerance < Scalar(how.two_below) * epsilon<Scalar>;
+    Scalar apart = 0;
+    const auto look = [&](Run& run) noexcept {
+      go(run, 2 * stop);
+      const Scalar there = run.stop_time();
+      apart = std::max(apart, there < 2 * stop ? std::abs(there - stop) : stop);
+    };
+    look(companion);
+    if (rounds) look(second);
+    const Scalar margin = Scalar(honesty::stop_margin) * Scalar(rounds ? how.margin_of_rounding : how.margin);
+    answer.stop_error = margin * apart / stop + Scalar(honesty::stop_steps) * answer.step_tolerance +
+                        Scalar(2e-13L) * std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
+  }
+
+  const Problem<Scalar>& problem_;
+  std::span<const Scalar> times_;
+  std::span<State<Scalar>> states_;
+  const FullMotionOptions<Scalar>& options_;
+  Quat<Scalar> attitude_;
+  Neighbour<Scalar> itself_, neighbours_[2];
+};
 
 /// The error of |U| grows with the number of turns, that of the phase with its square.
 template <Real Scalar>
@@ -388,11 +513,9 @@ Scalar first_step_tolerance(const Problem<Scalar>& problem, std::span<const Scal
 
 template <Real Scalar>
 Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
-                                             std::span<Vec3<Scalar>> momentum, const FullMotionOptions<Scalar>& options,
-                                             const Quat<Scalar>* start_attitude,
-                                             std::span<Quat<Scalar>> attitude) noexcept {
-  if (momentum.size() != times.size()) return Errc::out_of_domain;
-  if (start_attitude != nullptr && attitude.size() != times.size()) return Errc::out_of_domain;
+                                             std::span<State<Scalar>> states, const FullMotionOptions<Scalar>& options,
+                                             const Quat<Scalar>* start_attitude) noexcept {
+  if (states.size() != times.size()) return Errc::out_of_domain;
   if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
   const auto finite = [](const auto& m) noexcept { return (m - m).isZero(0); };
   if (!finite(problem.inverse_inertia) || !finite(problem.rotor_momentum) || !finite(problem.control) ||
@@ -401,26 +524,25 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
     return Errc::not_finite;
   }
 
-  const Scalar step_tolerance = detail::first_step_tolerance(problem, times, options);
-  const bool with_control = !problem.control.isZero(0);
-  const Quat<Scalar> q = start_attitude != nullptr ? *start_attitude : Quat<Scalar>{};
-  return tightened<Scalar>(options, step_tolerance, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
-    const auto once = [&]<bool control, bool turning>() noexcept {
-      return detail::full_motion_with_error<Scalar, control, turning>(problem, times, momentum, options, q, attitude,
-                                                                      tolerance, begin, end);
-    };
-    if (start_attitude != nullptr)
-      return with_control ? once.template operator()<true, true>() : once.template operator()<false, true>();
-    return with_control ? once.template operator()<true, false>() : once.template operator()<false, false>();
-  });
+  const Scalar first = detail::first_step_tolerance(problem, times, options);
+  const auto solve = [&]<bool control, bool turning>() noexcept {
+    const Quat<Scalar> q = turning ? *start_attitude : Quat<Scalar>{};
+    const detail::FullMotion<Scalar, control, turning> motion(problem, times, states, options, q);
+    return tightened<Scalar>(options, first, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
+      return motion.run(tolerance, begin, end);
+    });
+  };
+  const bool turning = start_attitude != nullptr;
+  if (!problem.control.isZero(0))
+    return turning ? solve.template operator()<true, true>() : solve.template operator()<true, false>();
+  return turning ? solve.template operator()<false, true>() : solve.template operator()<false, false>();
 }
 
 #if defined(GYROSTAT_COMPILED)
 extern template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
-                                                                     std::span<Vec3<double>>,
+                                                                     std::span<State<double>>,
                                                                      const FullMotionOptions<double>&,
-                                                                     const Quat<double>*,
-                                                                     std::span<Quat<double>>) noexcept;
+                                                                     const Quat<double>*) noexcept;
 #endif
 
 }  // namespace gyrostat::deceleration

@@ -37,17 +37,18 @@ inline double k2_error(const Track& track, const Problem<double>& problem) noexc
 }
 
 /// The track of the full equations from their states and errors, relative where the columns measure them so.
-inline Track track_of(const Problem<double>& problem, std::span<const Vec3<double>> momentum,
-                      std::span<const Quat<double>> attitude, const ColumnErrors<double>& error) {
+inline Track track_of(const Problem<double>& problem, std::vector<State<double>> states, bool knows_attitude,
+                      const ColumnErrors<double>& error) {
   Track track;
   track.knows_momentum = true;
-  track.knows_attitude = !attitude.empty();
-  track.states.reserve(momentum.size());
+  track.knows_attitude = knows_attitude;
+  track.states = std::move(states);
   Comparison sizes(Row<double>{problem});
-  for (std::size_t i = 0; i < momentum.size(); ++i) {
-    track.states.push_back(state_on_orbit(problem, momentum[i]));
-    if (track.knows_attitude) track.states.back().attitude = attitude[i];
-    sizes.add(track.states.back());
+  for (State<double>& state : track.states) {
+    const OrbitKind kind = orbit_kind(problem, state.momentum);
+    state.k2 = kind.k2;
+    state.regime = kind.regime;
+    sizes.add(state);
   }
   track.error = sizes.absolute(error);
   track.error[column::modulus_squared] = k2_error(track, problem);
@@ -60,18 +61,17 @@ inline Track track_of(const Problem<double>& problem, std::span<const Vec3<doubl
 inline Track full_motion_track(const Problem<double>& problem, std::span<const double> times, double tolerance,
                                std::span<const double> wanted, bool find_stop, const Quat<double>* attitude,
                                Monitor* monitor) {
-  std::vector<Vec3<double>> momentum(times.size());
-  std::vector<Quat<double>> turned(attitude ? times.size() : 0);
+  std::vector<State<double>> states(times.size());
   FullMotionOptions<double> options;
   options.tolerance = tolerance;
   options.wanted = wanted;
   options.find_stop = find_stop;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
-  const auto answer = full_motion<double>(problem, times, momentum, options, attitude, turned);
+  const auto answer = full_motion<double>(problem, times, states, options, attitude);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
-  Track track = detail::track_of(problem, momentum, turned, answer->error);
+  Track track = detail::track_of(problem, std::move(states), attitude != nullptr, answer->error);
   track.counts = answer->counts;
   track.stop_time = answer->stop_time;
   track.stop_error = answer->stop_error;

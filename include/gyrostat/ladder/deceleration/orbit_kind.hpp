@@ -37,11 +37,22 @@ inline double k2_of_data(const Problem<double>& problem, const Polhode<double>& 
   double k2 = p.tilt / p.along / x.near_mid * (mid_far + x.mid_far * near_mid / x.near_mid);
   if (!problem.exact_gaps) {
     // a tensor that is off by the rounding of its greatest element turns the axes, too: what that does to 2H/M^2
-    const double ratio =
-        4 * epsilon<double> / problem.inverse_inertia[0] * problem.angular_velocity(M).squaredNorm() / M.squaredNorm();
+    const double ratio = problem.energy_error(M) / M.squaredNorm();
     k2 += x.mid_far / x.near_mid * ratio / x.near_far / (p.along * p.along);
   }
   return k2 < 1 ? k2 + 8 * epsilon<double> : 1.0;
+}
+
+/// How far the modulus of the orbit on a level can be off when the level is, N m s and rad/s.
+inline double k2_of_level(const Problem<double>& problem, const Level<double>& level, const OrbitKind& at, double R,
+                          double eta) noexcept {
+  double most = 0;
+  for (const auto& moved : {Level<double>{level.R + R, level.eta}, Level<double>{level.R, level.eta + eta},
+                            Level<double>{level.R, level.eta - eta}}) {
+    const auto orbit = Orbit<double>::at(problem, moved, {at.regime, 1});
+    most += orbit ? std::abs(orbit->modulus().k2 - at.k2) : orbit.error() == Errc::separatrix ? 1 - at.k2 : 1.0;
+  }
+  return std::min(1.0, most);
 }
 
 /// How far the modulus at M can be off when |M| and the energy are off by the given errors, N m s and J: an error along
@@ -64,20 +75,14 @@ inline double k2_uncertainty(const Problem<double>& problem, const Vec3<double>&
   }
   const auto level = level_of(problem, M);
   const double eta = (energy + (std::abs(level.eta) + problem.angular_velocity(M).norm()) * norm) / R;
-  double most = 4 * epsilon<double>;
-  const auto look = [&](const Problem<double>& of, const Level<double>& moved) {
-    const auto orbit = Orbit<double>::at(of, moved, {at.regime, 1});
-    most += orbit ? std::abs(orbit->modulus().k2 - at.k2) : orbit.error() == Errc::separatrix ? 1 - at.k2 : 1.0;
-  };
+  double most = 4 * epsilon<double> + k2_of_level(problem, level, at, norm, eta);
   // rounding of the moments, which the orbit takes differences of
   for (const double change : {4 * epsilon<double>, -4 * epsilon<double>}) {
     Problem<double> off = problem;
     off.inverse_inertia[1] *= 1 + change;
-    look(off, level_of(off, M));
+    const OrbitKind moved = orbit_kind(off, M);
+    most += std::abs(moved.k2 - at.k2);
   }
-  for (const auto& moved :
-       {Level<double>{R + norm, level.eta}, Level<double>{R, level.eta + eta}, Level<double>{R, level.eta - eta}})
-    look(problem, moved);
   return std::min(1.0, most);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gyrostat/ladder/deceleration/averaging.hpp"
+#include "gyrostat/ladder/deceleration/orbit_kind.hpp"
 #include "gyrostat/ladder/deceleration/orbit_motion.hpp"
 #include "gyrostat/models/deceleration/capture.hpp"
 
@@ -142,6 +143,15 @@ inline State<double> slow_state(const Problem<double>& problem, const Level<doub
   return state;
 }
 
+/// How far the modulus of a state can be off when |M| and the energy are, N m s and J.
+inline double k2_beside(const Problem<double>& problem, const State<double>& state, double norm,
+                        double energy) noexcept {
+  if (!(state.norm > 0) || state.regime == Regime::rest || state.regime == Regime::point) return 0;
+  const Level<double> level{state.norm, (state.energy - problem.rotor_energy_scale() / 2) / state.norm};
+  return k2_of_level(problem, level, {state.regime, state.k2}, norm,
+                     (energy + std::abs(level.eta) * norm) / state.norm);
+}
+
 /// Two moments nearer each other than this gap: the body librates slowly.
 inline constexpr double narrow_gap = 1e-3;
 
@@ -252,10 +262,15 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   const auto in_span = error.first_order();
   const bool known = error.known();
   const double local = 10 * mean_tolerance(scene);
-  double energy = 0;
+  // the energy is a difference of numbers of the size of what the rotors hold
+  double energy = problem.rotor_energy_scale() / 2;
   for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
-  detail::state_errors(
-      track, {in_span.norm + local * problem.momentum.norm(), in_span.energy + local * energy, in_span.k2 + local, 0});
+  const double norm = local * problem.momentum.norm();
+  energy = local * energy + problem.energy_error(problem.momentum);
+  double k2 = local;
+  for (const std::size_t i : {std::size_t(0), track.states.size() - 1})
+    k2 = std::max(k2, detail::k2_beside(problem, track.states[i], norm, energy));
+  detail::state_errors(track, {in_span.norm + norm, in_span.energy + energy, std::min(1.0, in_span.k2 + k2), 0});
 
   const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
   if (!Hold<double>(problem).holds) {

@@ -52,8 +52,11 @@ class Scene {
     scene.R_BP_ = body.R_BP();
     const Mat3<double> R_PB = scene.R_BP_.transpose();
     scene.problem_.inverse_inertia = body.inverse_principal();
+    // of a tensor that is not diagonal the moments are rounded, and so are their differences
+    if (body.has_exact_moments()) scene.problem_.exact_gaps = body.inverse_gaps();
     scene.problem_.rotor_momentum = R_PB * setup.rotor_momentum;
     scene.problem_.control = R_PB * setup.control.asDiagonal() * scene.R_BP_;
+    if (scene.equal_control()) scene.problem_.control = setup.control.asDiagonal();  // in any axes
     scene.problem_.drag = setup.drag;
     scene.problem_.law = setup.law;
     scene.problem_.drag_law = setup.drag_law;

@@ -31,6 +31,10 @@ struct Track : Outcome {
     knows_momentum = true;
     error[column::angular_momentum] = error_of_momentum;
     error[column::angular_velocity] = error_of_momentum * problem.inverse_inertia[2];
+    // moments that come from a tensor err as the greatest does
+    if (!problem.exact_gaps)
+      error[column::angular_velocity] += 8 * epsilon<double> * problem.inverse_inertia[2] / problem.inverse_inertia[0] *
+                                         problem.angular_velocity(problem.momentum).norm();
   }
 
   /// Computed where its rung has no meaning: no error is known.

@@ -26,7 +26,12 @@ class EqualTorqueMotion {
     // A sphere, or M across an axis of symmetry: omega is parallel to M for ever.
     steady_ = !std::isfinite(polhode_.modulus.k2) || !std::isfinite(polhode_.modulus.kp2);
     ratio_ = start_.dot(problem.inverse_inertia.cwiseProduct(start_)) / (norm_ * norm_);
-    if (!steady_) argument_ = argument_of<Elliptic>(polhode_, start_);
+    if (steady_) return;
+    argument_ = argument_of<Elliptic>(polhode_, start_);
+    const auto& x = polhode_.axes;
+    const Vec3<Scalar> off = problem.gap_errors();
+    const Scalar near_mid = off[x.near / 2] / x.near_mid;
+    gap_error_ = near_mid + polhode_.tilt / polhode_.along * (off[1 - x.near / 2] + x.mid_far * near_mid) / x.near_mid;
   }
 
   /// Time at which M vanishes, s; infinite without control.
@@ -49,7 +54,8 @@ class EqualTorqueMotion {
     if (steady_) return 8 * epsilon<Scalar>;
     const auto& x = polhode_.axes;
     const Scalar gap = x.axisymmetric() ? x.near_mid : std::min(x.near_mid, x.mid_far);
-    return 3 * epsilon<Scalar> * (1 + std::sqrt(x.near_far / gap)) * (2 + turn(far)) / polhode_.modulus.kp2;
+    const Scalar start = 3 * epsilon<Scalar> * (1 + std::sqrt(x.near_far / gap));
+    return (start + gap_error_) * (2 + turn(far)) / polhode_.modulus.kp2;
   }
 
   math::Modulus<Scalar> modulus() const noexcept { return steady_ ? math::Modulus<Scalar>{0, 1} : polhode_.modulus; }
@@ -81,6 +87,7 @@ class EqualTorqueMotion {
   Scalar norm_;
   Polhode<Scalar> polhode_{};
   Scalar argument_ = 0, ratio_ = 0;
+  Scalar gap_error_ = 0;  ///< relative, of the rate and of k2, from the differences of the moments
   bool steady_ = false;
 };
 

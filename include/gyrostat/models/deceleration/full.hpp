@@ -30,7 +30,8 @@ struct FullCoefficients {
     const Vec3<Scalar>& a = problem.inverse_inertia;
     const Vec3<Scalar>& l = problem.rotor_momentum;
     const bool total = problem.law == Law::total || problem.control.isZero(0);  // without control U is ours to choose
-    quadratic = {a[2] - a[1], a[0] - a[2], a[1] - a[0]};
+    const Vec3<Scalar> gaps = problem.inverse_gaps();
+    quadratic = {gaps[1], -gaps[2], gaps[0]};
     const Vec3<Scalar> g = problem.gyro_rate();
     if (total) {
       // M x a(M - l) = M x aM - M x g

@@ -44,6 +44,11 @@ struct Problem {
     return 4 * epsilon<Scalar> * Vec3<Scalar>(a[1], a[1] * a[2] / a[0], a[2] * a[2] / a[0]);
   }
 
+  /// How far off the carrier energy of M may be because the moments come from a tensor, by the rounding of its greatest element, J.
+  Scalar energy_error(const Vec3<Scalar>& M) const noexcept {
+    return exact_gaps ? Scalar(0) : 4 * epsilon<Scalar> / inverse_inertia[0] * angular_velocity(M).squaredNorm();
+  }
+
   /// g = J^-1 l, the rate at which the carrier would turn if all of l were its own, rad/s.
   Vec3<Scalar> gyro_rate() const noexcept { return inverse_inertia.cwiseProduct(rotor_momentum); }
 
