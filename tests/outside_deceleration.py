@@ -50,8 +50,11 @@ class Motion:
         J = np.array(body["inertia"], dtype=Long)
         self.J = np.diag(J) if J.ndim == 1 else (J + J.T) / 2
         self.inverse = inverse(self.J)
+        self.gaps = None
         if J.ndim == 1:
             self.inverse = np.diag(1 / J)
+            # of a slender body the parts of M x omega cancel
+            self.gaps = np.array([(J[j] - J[k]) / J[j] / J[k] for j, k in ((1, 2), (2, 0), (0, 1))])
         self.l = np.array(body.get("rotor_momentum", (0, 0, 0)), dtype=Long)
         self.b = np.array(torque["control"], dtype=Long)
         self.drag = Long(torque["drag"])
@@ -97,7 +100,11 @@ class Motion:
             G = M[k] - self.l if k == 0 else M[k]
             w[k] = self.inverse @ G
             P, Q = M[: k + 1].T @ w[back], q[: k + 1].T @ w[back]
-            rate = np.array([P[1, 2] - P[2, 1], P[2, 0] - P[0, 2], P[0, 1] - P[1, 0]])
+            if self.gaps is None:
+                rate = np.array([P[1, 2] - P[2, 1], P[2, 0] - P[0, 2], P[0, 1] - P[1, 0]])
+            else:
+                P = M[: k + 1].T @ M[back]
+                rate = self.gaps * np.array([P[1, 2], P[2, 0], P[0, 1]]) - np.cross(M[k], self.inverse @ self.l)
             rate -= self.drag * (G if self.carrier_drag else M[k])
             if self.controlled:
                 if k == 0:

@@ -27,7 +27,7 @@ from gyrostat.scenes import load  # noqa: E402
 SCENES = pathlib.Path(__file__).resolve().parent / "data" / "outside"
 # kind of the scene -> truth(plain data of the scene, times, names of the answer's scalars) -> (columns, scalars)
 TRUTHS = {"deceleration": outside_deceleration.truth}
-# What the truth itself is good to: long double, grown by the motion, and the last bit of the answer's own numbers.
+# The last bit of the answer's own numbers.
 GRAIN = 2.0 ** -52
 
 
@@ -56,15 +56,19 @@ def column_error(measure, values, true, scale):
     return most / size if size > 0 else most
 
 
+def honest(stated, true, met, tolerance):
+    """Neither the stated error nor `met` lies."""
+    return true <= max(stated, GRAIN) and (not met or true <= max(tolerance, GRAIN))
+
+
 def verdicts(scene):
-    """(answer, rows): a row is (name, stated, true, right); right: neither the stated error nor `met` lies."""
+    """(answer, rows): a row is (name, stated, true, right)."""
     answer = gyrostat.solve(scene)
     columns, scalars = TRUTHS[scene.kind](scene.to_dict(), scene.times, answer.scalars)
     facts, rows = FACTS[scene.kind], []
 
     def judge(name, stated, true):
-        honest = true <= max(stated, GRAIN)
-        rows.append((name, stated, true, honest and (not answer.met or true <= max(answer.tolerance, GRAIN))))
+        rows.append((name, stated, true, honest(stated, true, answer.met, answer.tolerance)))
 
     for name, true in columns.items():
         if name in answer.columns and facts.columns[name].measure:
