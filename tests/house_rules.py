@@ -7,7 +7,7 @@
     house_rules.py --self-test      break each rule in a scratch tree and see that it is noticed
 
 Layers: core <- math <- rotation <- body <- models <- ladder; ode sees core and math only. core, math and ode know no Eigen;
-GSL is included by math/gsl.hpp alone, SUNDIALS by src/cvode.cpp alone. No function is longer than 80 lines but those of LONG;
+GSL is included by math/gsl.hpp alone, SUNDIALS by src/cvode.cpp alone. No function is longer than 80 lines;
 what a comment cites (docs/x.md, section 3; math/root.hpp) exists. Needs Python 3.9 and nothing else.
 """
 import argparse

@@ -35,8 +35,8 @@ TEST_CASE("equal-torque rung: says why it does not apply", "[deceleration]") {
   CHECK(why(rotor).find("rotor") != std::string::npos);
   rest.data.momentum.setZero();
   CHECK(why(rest).find("rest") != std::string::npos);
-  Case separatrix = c;  // exactly: 1/J = (1, 1.5, 2)
-  separatrix.moments = V(1, 1 / 1.5, .5);
+  Case separatrix = c;  // exactly: the differences of 1/J are 1/6 and 1/6
+  separatrix.moments = V(3, 2, 1.5);
   separatrix.data.momentum = V(.5, .3, .5);
   CHECK(equal_torque_track<math::Native>(separatrix.scene()).failure == Errc::separatrix);
 }

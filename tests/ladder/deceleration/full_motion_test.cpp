@@ -514,3 +514,15 @@ TEST_CASE("a neighbour keeps what the motion keeps") {
   problem.momentum = {0, 2, 0};
   CHECK(moved().momentum[0] != 0);  // out of a rotation
 }
+
+TEST_CASE("the attitude turns on while the last of the momentum goes") {
+  auto problem = simple(0.1);
+  problem.rotor_momentum = {300, -100, 200};
+  const auto solved = solve(problem, {40.0}, 1e-11, true);
+  const auto truth = solve(cast<long double>(problem), {40.0L}, 1e-17L, true);
+  REQUIRE(solved.answer.stop_time < 40);
+  const Quat<double>& p = solved.attitude[0];
+  const Quat<long double>& q = truth.attitude[0];
+  const auto turned = conjugate(Quat<long double>{p.w, p.x, p.y, p.z}) * q;
+  CHECK(2 * std::hypot(turned.x, turned.y, turned.z) <= solved.answer.error[column::attitude]);
+}

@@ -308,6 +308,7 @@ class Course {
   void come_to_rest(Scalar stop, const Scalar* x) noexcept {
     rests_ = true;
     stop_time_ = stop;
+    rest_begins_ = time_;
     attitude_at_rest_ = quaternion(x);
   }
 
@@ -324,7 +325,7 @@ class Course {
     const Scalar rate = w.norm();
     const Quat<Scalar>& q = attitude_at_rest_;
     if (!with_attitude || !(rate > 0)) return q;
-    const Scalar half = std::max(Scalar(0), t - stop_time_) * rate / 2;
+    const Scalar half = (t - rest_begins_) * rate / 2;
     const Scalar c = std::cos(half), s = std::sin(half) / rate;
     return q * Quat<Scalar>{c, w[0] * s, w[1] * s, w[2] * s};
   }
@@ -362,7 +363,7 @@ class Course {
   std::uint64_t step_cap_;
   std::uint32_t trips_ = 0;
   bool may_stop_, rests_ = false;
-  Scalar time_ = 0, stop_time_ = nan<Scalar>;
+  Scalar time_ = 0, stop_time_ = nan<Scalar>, rest_begins_ = 0;
   Quat<Scalar> attitude_at_rest_{};
 };
 

@@ -28,6 +28,7 @@ class EqualTorqueMotion {
     ratio_ = start_.dot(problem.inverse_inertia.cwiseProduct(start_)) / (norm_ * norm_);
     if (steady_) return;
     argument_ = argument_of<Elliptic>(polhode_, start_);
+    if (problem.exact_gaps) return;
     const auto& x = polhode_.axes;
     const Vec3<Scalar> off = problem.gap_errors();
     const Scalar near_mid = off[x.near / 2] / x.near_mid;
