@@ -35,6 +35,7 @@
 #include "gyrostat/ladder/family.hpp"
 #include "gyrostat/ladder/fill.hpp"
 #include "gyrostat/ladder/full_motion.hpp"
+#include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/heavy/conversion_error.hpp"
 #include "gyrostat/ladder/heavy/exact_periodicity.hpp"
 #include "gyrostat/ladder/heavy/exact_rung.hpp"

@@ -2,6 +2,7 @@
 Compiled core of gyrostat.
 """
 from __future__ import annotations
+import collections.abc
 import numpy
 import numpy.typing
 import typing
@@ -135,7 +136,7 @@ def deceleration_regimes() -> list[str]:
     """
     Symbols of the regimes, in the order of their numbers.
     """
-def deceleration_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, law: str, drag_law: str, angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, elliptic: str, monitor: Monitor | None, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> dict[str, typing.Any]:
+def deceleration_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], drag: typing.SupportsFloat | typing.SupportsIndex, law: str, drag_law: str, angular_momentum: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, elliptic: str, monitor: Monitor | None, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None) -> dict[str, typing.Any]:
     """
     Answer of the ladder as plain data.
     """
@@ -213,7 +214,7 @@ def heavy_sleeping(bodies: HeavyBodies, *, spin: typing.Annotated[numpy.typing.A
     """
     Sleeping tops; numbers (rows, 3): threshold, frequency squared, amplification.
     """
-def heavy_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], mass: typing.SupportsFloat | typing.SupportsIndex, centre_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity: typing.SupportsFloat | typing.SupportsIndex, gravity_gradient: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, periodic: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None) -> dict[str, typing.Any]:
+def heavy_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], mass: typing.SupportsFloat | typing.SupportsIndex, centre_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gravity: typing.SupportsFloat | typing.SupportsIndex, gravity_gradient: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, periodic: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] | None, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None) -> dict[str, typing.Any]:
     """
     Answer of the ladder as plain data.
     """
@@ -275,7 +276,7 @@ def rotor_published_run(*, reading: str, times: typing.Annotated[numpy.typing.Ar
     """
     gamma1, gamma2, beta*' and gamma3 (n, 4) of the paper's linear equations, printed, corrected, repaired or realisable.
     """
-def rotor_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None) -> dict[str, typing.Any]:
+def rotor_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], axial_inertia: typing.SupportsFloat | typing.SupportsIndex, slope: typing.SupportsFloat | typing.SupportsIndex, no_load_rate: typing.SupportsFloat | typing.SupportsIndex, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rotor_rate: typing.SupportsFloat | typing.SupportsIndex, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None) -> dict[str, typing.Any]:
     """
     Answer of the ladder as plain data.
     """
@@ -307,7 +308,7 @@ def spinning_published(problem: SpinningProblems, *, reading: str, t: typing.Ann
     """
     The paper's closed forms for one body, printed, corrected or exact: rates p, q (22), tilt psi, phi (20), spin angle (16), momentum G (33), circle G (35), velocity (43), (47), position (58), (63); nutation [rad/s], secular_velocity_ratio (53), (54), and centre and radius of the circle of G [N m s].
     """
-def spinning_solve(problem: SpinningProblems, *, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None) -> dict[str, typing.Any]:
+def spinning_solve(problem: SpinningProblems, *, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None) -> dict[str, typing.Any]:
     """
     Answer of the ladder as plain data.
     """

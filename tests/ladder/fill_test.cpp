@@ -21,7 +21,7 @@ struct Writer {
     for (const double x : {s.a, s.b, s.c, s.d}) *row++ = x;
   }
 };
-constexpr Family family{"invented", Writer::columns, {}, {}, {}, {}};
+constexpr Family writer_family{"invented", Writer::columns, {}, {}, {}, {}};
 
 }  // namespace
 
@@ -29,7 +29,7 @@ TEST_CASE("states become columns row by row: those that are asked for", "[ladder
   const std::vector<Writer::State> states{{1, 2, 3, 4}, {5, 6, 7, 8}};
   Question question;
   Answer answer;
-  fill_columns(answer, Writer{}, states, {{1e-3, 1e-2}}, question, family);
+  fill_columns(answer, Writer{}, states, {{1e-3, 1e-2}}, question, writer_family);
   REQUIRE(answer.columns.size() == 2);
   CHECK(answer.find("vector")->values == std::vector<double>{1, 2, 3, 5, 6, 7});
   CHECK(answer.find("number")->values == std::vector<double>{4, 8});
@@ -37,7 +37,7 @@ TEST_CASE("states become columns row by row: those that are asked for", "[ladder
 
   question.asked = {{0}};
   Answer first;
-  fill_columns(first, Writer{}, states, {{1e-3, 1e-2}}, question, family);
+  fill_columns(first, Writer{}, states, {{1e-3, 1e-2}}, question, writer_family);
   REQUIRE(first.columns.size() == 1);
   CHECK(first.columns[0].error == 1e-3);
 }
@@ -46,7 +46,7 @@ TEST_CASE("what a rung does not know has no value, and of a named rung no column
   const std::vector<Writer::State> states{{1, 2, 3, 4}, {5, 6, 7, 8}};
   Question question;
   Answer answer;
-  fill_columns(answer, Writer{}, states, {{1e-3, 1e-2}}, question, family, column_set(0U));
+  fill_columns(answer, Writer{}, states, {{1e-3, 1e-2}}, question, writer_family, column_set(0U));
   REQUIRE(answer.columns.size() == 2);
   CHECK(answer.columns[0].error == infinity<double>);
   CHECK(answer.columns[0].values.size() == 6);
@@ -55,7 +55,7 @@ TEST_CASE("what a rung does not know has no value, and of a named rung no column
 
   question.rung = 1;
   Answer named;
-  fill_columns(named, Writer{}, states, {{1e-3, 1e-2}}, question, family, column_set(0U));
+  fill_columns(named, Writer{}, states, {{1e-3, 1e-2}}, question, writer_family, column_set(0U));
   REQUIRE(named.columns.size() == 1);
   CHECK(named.columns[0].kind == &Writer::columns[1]);
 }
@@ -79,7 +79,7 @@ TEST_CASE("the row at zero is the start as given", "[ladder]") {
   for (const double first : {0.0, 0.5}) {
     Answer answer;
     answer.times = {first, 1};
-    fill_columns(answer, Writer{}, states, {{0, 0}}, Question{}, family);
+    fill_columns(answer, Writer{}, states, {{0, 0}}, Question{}, writer_family);
     put_start(answer, Writer::columns[0], {1.5, 2.5, 3.5});
     const bool at_start = first == 0;
     CHECK(answer.find("vector")->values ==

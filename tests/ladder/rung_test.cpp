@@ -32,15 +32,15 @@ struct Track {
   bool in_domain;
   double error;
 };
-constexpr ColumnKind columns[] = {{"number", 1, "m", Frame::none, Measure::relative, ""},
-                                  {"vector", 3, "m", Frame::body, Measure::relative, ""}};
-constexpr ScalarKind scalars[] = {{"period", 1, "s", Frame::none, Measure::relative, ""}};
+constexpr ColumnKind rung_columns[] = {{"number", 1, "m", Frame::none, Measure::relative, ""},
+                                       {"vector", 3, "m", Frame::body, Measure::relative, ""}};
+constexpr ScalarKind rung_scalars[] = {{"period", 1, "s", Frame::none, Measure::relative, ""}};
 void fill(Answer& answer, const Scene& scene, const Track& track) {
-  answer.columns.push_back({&columns[0], {scene.value}, track.error});
+  answer.columns.push_back({&rung_columns[0], {scene.value}, track.error});
 }
 void describe(Answer& answer, const Scene&, const Track& track) {
   answer.counts.steps = std::uint64_t(track.error * 1e9);
-  answer.quantities.push_back({&scalars[0], {3}, 10 * track.error});
+  answer.quantities.push_back({&rung_scalars[0], {3}, 10 * track.error});
 }
 
 template <std::size_t i>
@@ -51,7 +51,7 @@ Track answer(const Scene& scene, Monitor*) {
 }
 
 constexpr RungKind names[] = {{"first", "", column_set(1U)}, {"second", ""}, {"third", ""}, {"fourth", ""}};
-constexpr Family family{"invented", columns, scalars, {}, names, {}, column_set(1U)};
+constexpr Family rung_family{"invented", rung_columns, rung_scalars, {}, names, {}, column_set(1U)};
 constexpr Rung<Scene, Track> ladder[] = {&answer<0>, &answer<1>, &answer<2>, &answer<3>};
 
 struct Climb {
@@ -62,7 +62,7 @@ struct Climb {
   explicit Climb(Scene scene, double tolerance, int only = any_rung) {
     scene.its_question.tolerance = tolerance;
     scene.its_question.rung = only;
-    answer = climb<Scene, Track>(family, ladder, scene, nullptr, refusal);
+    answer = climb<Scene, Track>(rung_family, ladder, scene, nullptr, refusal);
     looked_at = scene.looked_at;
   }
   bool is(const char* model) const { return std::strcmp(answer.model, model) == 0; }
@@ -174,8 +174,8 @@ TEST_CASE("a rung that lacks what is asked is passed over unsolved, and by name 
 }
 
 TEST_CASE("a scalar that no rung gives is there without a value, with a warning", "[ladder]") {
-  static constexpr ScalarKind more[] = {scalars[0], {"trace", 1, "1", Frame::none, Measure::absolute, ""}};
-  static constexpr Family wider{"invented", columns, more, {}, names, {}};
+  static constexpr ScalarKind more[] = {rung_scalars[0], {"trace", 1, "1", Frame::none, Measure::absolute, ""}};
+  static constexpr Family wider{"invented", rung_columns, more, {}, names, {}};
   Scene scene{{1e-9, 1e-9, 1e-9, 1e-9}};
   scene.its_question.asked = {{0}, {1, true}};
   Refusal refusal;

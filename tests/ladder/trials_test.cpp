@@ -16,12 +16,12 @@ struct Trial {
   bool met = false;
   double error = 0;
   ode::Counts counts{1, 10, 0};
-  double greatest_error() const { return error; }
 };
 struct Options {
   double tolerance = 1e-9;
   std::atomic<double>* progress = nullptr;
   void report(double done) const { progress->store(done); }
+  double excess(double error) const { return error / tolerance; }
 };
 
 /// Errors are `gain` step tolerances.

@@ -290,7 +290,7 @@ def test_over_the_tolerance_it_answers_with_met_false() -> None:
 
 def test_a_monitor_cancels_long_work() -> None:
     monitor = Monitor()
-    long = {**BRAKE, "torque": {"control": [5e-13, 8e-13, 1e-12], "drag": 0.0}, "solve": {"times": [3e7], "model": "full", "tolerance": 1e-3}}
+    long = {**BRAKE, "torque": {"control": [5e-13, 8e-13, 1e-12], "drag": 0.0}, "solve": {"times": [5e6], "model": "full", "tolerance": 1e-3}}
     caught: list[BaseException] = []
 
     def work() -> None:

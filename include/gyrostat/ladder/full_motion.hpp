@@ -76,8 +76,6 @@ struct MotionOutcome {
   Errors<columns, Scalar> error;
   ode::Counts counts;         ///< of all runs, the companions' included
   Scalar step_tolerance = 0;  ///< of the steps that gave the answer
-
-  Scalar greatest_error() const noexcept { return error.greatest(); }
 };
 
 /// Errc::not_finite, or not_increasing (a time before the start, or before the one ahead of it).

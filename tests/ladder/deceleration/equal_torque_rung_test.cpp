@@ -11,6 +11,7 @@ TEST_CASE("equal-torque rung: the cheapest answer, exact at any tolerance", "[de
     c.data.control.setConstant(eps);
     const Answer truth = c.truth();
     c.data.tolerance = 1e-11;
+    c.data.asked = all_but_attitude();
     const Answer answer = c.solve();
     CHECK(std::strcmp(answer.model, "equal-torque") == 0);
     CHECK(answer.tried.size() == 1);

@@ -151,6 +151,7 @@ TEST_CASE("failure map: M = 0 at the start", "[deceleration]") {
   CHECK_FALSE(passed_over(answer, "averaged-2").empty());
 
   c.data.rotor_momentum = V(.1, .2, .3);  // M = 0 with turning rotors: the body turns at -J^-1 l
+  c.data.asked = all_but_attitude();
   const Answer turning = c.solve();
   CHECK(turning.met);
   for (int i = 0; i < 3; ++i)

@@ -17,6 +17,7 @@ Answer answer_of(const Body& body, const Track& track, bool attitude) {
   REQUIRE(scene);
   Answer answer;
   fill(answer, *scene, track);
+  judge(answer, scene->question(), tables);
   tell(answer, track.periodicity);
   return answer;
 }

@@ -26,6 +26,7 @@ void check_by_cvode(const Scene& scene, Integrator truth_by = Integrator::taylor
   REQUIRE(track.failure == Errc::ok);
   Answer answer, truth;
   fill(answer, scene, track);
+  judge(answer, scene.question(), tables);
   REQUIRE(true_motion(scene, truth, truth_by));
   for (const Column& column : answer.columns) {
     const double error = column_error(column, *truth.find(column.name())) - truth.find(column.name())->error;

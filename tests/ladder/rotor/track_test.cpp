@@ -23,6 +23,7 @@ TEST_CASE("a rotor track becomes the columns of the contract", "[rotor]") {
   track.counts.steps = 12;
   Answer answer;
   fill(answer, *scene, track);
+  judge(answer, scene->question(), tables);
   const char* names[] = {"attitude", "angular_velocity", "angular_momentum", "rotor_rate", "rotor_angle", "lyapunov"};
   const int widths[] = {4, 3, 3, 1, 1, 1};
   REQUIRE(answer.columns.size() == 6);

@@ -23,6 +23,7 @@ TEST_CASE("a spinning track becomes the columns of the contract", "[spinning]") 
   track.error = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
   Answer answer;
   fill(answer, *scene, track);
+  judge(answer, scene->question(), tables);
   const char* names[] = {"angular_velocity",          "euler_312", "attitude",
                          "angular_momentum_inertial", "velocity",  "position"};
   REQUIRE(answer.columns.size() == 6);

@@ -38,8 +38,6 @@ struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
   /// When U = 0 is reached and held, s; infinity if never; NaN if it was not looked for or the integration ended before.
   Scalar stop_time = nan<Scalar>;
   Scalar stop_error = 0;  ///< of the stop time, relative
-
-  Scalar greatest_error() const noexcept { return greater(stop_error, this->error.greatest()); }
 };
 
 /// How the control acts at U = 0, where its torque can be any -control n with |n| <= 1 (Filippov).
@@ -436,8 +434,8 @@ class FullMotion {
       const State<Scalar> start = state_of(problem_, problem_.momentum, attitude_);
       const State<Scalar> nowhere = state_of(problem_, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)),
                                              Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
-      solve_beside(answer, row, course, companion, second, start, honesty::sinking * turning_rate(problem_), times_,
-                   states_, nowhere, options_, progress_from, progress_to, rounding, how);
+      solve_beside(answer, row, course, companion, second, start, Scalar(honesty::sinking) * turning_rate(problem_),
+                   times_, states_, nowhere, options_, progress_from, progress_to, rounding, how);
       if (!with_attitude) answer.error[column::attitude] = 0;
     }
     look_for_stop(answer, course, companion, second);

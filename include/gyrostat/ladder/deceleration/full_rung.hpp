@@ -93,7 +93,7 @@ inline double turned_angle(const Scene& scene) noexcept {
 }
 
 /// Angle, rad, that the budget of steps does not reach.
-inline constexpr double unreachable_angle = 1e8;
+inline constexpr double unreachable_angle = 2e7;
 
 /// Why the full equations are not worth a try; nullptr: they are. Slow columns do not need the phase.
 inline const char* not_worth(const Scene& scene, const Goal<std::size(column_kinds)>& goal) noexcept {
@@ -116,8 +116,9 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   if (const char* why = not_worth(scene, goal)) return refused<Track>(Errc::step_limit, why);
   // A stop far behind the last time asked for is not worth its cost.
   const double longest = scene.opposed().norm() / scene.least_control();
-  const bool find_stop = scene.needs_stop() || longest <= 20 * question.times.back() ||
-                         longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
+  const bool near =
+      longest <= 20 * question.times.back() || longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
+  const bool find_stop = scene.needs_stop() || (scene.asks_for_stop() && near);
   const Quat<double> q_IP = scene.attitude();
   const auto at_tolerance = [&](double tolerance) {
     return full_motion_track(problem, question.times, tolerance, goal.columns.of, find_stop,
@@ -126,7 +127,7 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   double tolerance = goal.tightest;
   Track track = at_tolerance(tolerance);
   // The modulus and the stop may need more digits of M than M itself was asked for.
-  const bool stop_counts = scene.needs_stop();
+  const bool stop_counts = scene.needs_stop() || (scene.asks_for_stop() && track.stop_time <= question.times.back());
   for (int trial = 0; trial < 3 && track.failure == Errc::ok; ++trial) {
     const double of_modulus = track.error[column::modulus_squared] / goal.columns[column::modulus_squared];
     const double excess = 4 * std::max(of_modulus, stop_counts ? track.stop_error / goal.tightest : 0.0);

@@ -78,10 +78,10 @@ class Scene {
   Goal<std::size(column_kinds)> goal() const noexcept {
     return Goal<std::size(column_kinds)>::of(question_, tables, scales(problem_));
   }
-  /// Whether a stop time has to be given wherever the stop lies.
+  /// Whether a stop time is asked for; and whether it has to be given wherever the stop lies.
+  bool asks_for_stop() const noexcept { return aim_of(question_, tables, true, scalar::stop_time).has_value(); }
   bool needs_stop() const noexcept {
-    const auto aim = aim_of(question_, tables, true, scalar::stop_time);
-    return aim && aim->needed;
+    return asks_for_stop() && aim_of(question_, tables, true, scalar::stop_time)->needed;
   }
   const Mat3<double>& R_BP() const noexcept { return R_BP_; }  ///< principal axes to body axes
 
