@@ -41,7 +41,9 @@ class Scenes {
     Result<Scene> posed(Question question) const {
       question.times = times;
       question.wants_attitude = wants_attitude;
-      return Scene::make(body, start, question);
+      Start from = start;
+      from.oriented = wants_attitude;
+      return Scene::make(body, from, question);
     }
     bool true_motion(const Scene& scene, Answer& truth) const;
     std::string text() const;

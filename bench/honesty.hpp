@@ -63,6 +63,7 @@ struct Tally {
     for (const Column& column : answer.columns) {
       if (column.kind->measure == Measure::none) continue;
       const Column* right = truth.find(column.name());
+      if (!right) continue;
       one(column.kind->name, column_error(column, *right), column.error, right->error);
     }
     for (const Quantity& q : answer.quantities)
@@ -133,7 +134,15 @@ inline std::string text_of(const std::vector<double>& times) {
   return text;
 }
 
-/// The run of a family: [SCENES] [SEED] [RUNG] on the command line; without a rung the ladder, and every fourth answer by the rungs in turn,
+/// Every column by name, but for an attitude that the start need not have.
+inline std::vector<AskedQuantity> every_column(const Family& family) {
+  std::vector<AskedQuantity> asked;
+  for (std::size_t i = 0; i < family.columns.size(); ++i)
+    if (family.columns[i].measure != Measure::angle || !has(family.unasked, i)) asked.push_back({i});
+  return asked;
+}
+
+/// The run of a family: [SCENES] [SEED] [RUNG] on the command line; every other answer of the ladder is asked for every column by name; without a rung the ladder, and every fourth answer by the rungs in turn,
 /// by name. source.next() gives a scene of some kind; a `Made` has posed(question), a Result of the scene of the family under that question
 /// (its times left to it), and text(), all that is needed to make it anew; truth(scene, answer), or truth(made, scene, answer) where the
 /// scene keeps less than was given, fills in the true motion, false where it cannot be had. Each scene is solved at every tolerance.
@@ -155,6 +164,7 @@ void run(int argc, char** argv, const Family& family, int count, Scenes source, 
       question.tolerance = tolerances.begin()[k];
       const std::size_t round = std::size_t(i) + k;
       question.rung = named != any_rung ? named : round % 4 == 0 ? int(round / 4 % rungs) : any_rung;
+      if (question.rung == any_rung && round % 2 != 0) question.asked = every_column(family);
       const auto scene = made.posed(question);
       if (!scene) {
         std::printf("no scene: %s\n", message(scene.error()));
@@ -172,8 +182,11 @@ void run(int argc, char** argv, const Family& family, int count, Scenes source, 
       }
       tallies[k].outside += question.rung != any_rung && answer.tried.back().why;
       if (!known) {
-        if constexpr (requires { truth(made, *scene, right); }) has_truth = truth(made, *scene, right);
-        else has_truth = truth(*scene, right);
+        Question whole;
+        whole.rung = int(rungs) - 1;
+        const auto full = made.posed(whole);
+        if constexpr (requires { truth(made, *full, right); }) has_truth = truth(made, *full, right);
+        else has_truth = truth(*full, right);
         // a truth that is hardly known itself, behind an instability, judges nothing
         for (const Column& column : right.columns)
           has_truth = has_truth && (column.kind->measure == Measure::none || column.error < 0.01);
