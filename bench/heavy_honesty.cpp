@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "../tests/ladder/heavy/truth.hpp"
+#include "gyrostat/ladder/heavy/full_motion.hpp"
 #include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/heavy/solve.hpp"
+#include "gyrostat/ladder/heavy/track.hpp"
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/models/heavy/series_2.hpp"
 #include "honesty.hpp"
