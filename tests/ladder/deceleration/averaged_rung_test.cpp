@@ -130,3 +130,20 @@ TEST_CASE("averaged rung: gives up early where the start already misses the tole
   CHECK(track.known_error > 1e-5);
   CHECK(track.counts.rhs < 50);
 }
+
+TEST_CASE("averaged-2 rung: on a separatrix but for the rounding of a tensor the phase is not known",
+          "[deceleration]") {
+  Mat3<double> J;
+  J << 2501.1470341335594, 262.82141347399829, 412.82486097680624, 262.82141347399829, 2087.8904955235985,
+      443.76848990818837, 412.82486097680624, 443.76848990818837, 1624.8050419003171;
+  Asked data;
+  data.momentum = V(1881.5431496343533, -478.60845241972555, -607.46222977614866);
+  data.times = until(643.56563054450805, 12);
+  data.rung = rung::averaged_2;
+  data.tolerance = 1e-4;
+  Refusal refusal;
+  const Answer answer = deceleration::solve<>(*make_scene(*Inertia<double>::from_tensor(J), data), refusal);
+  REQUIRE(refusal.code == Errc::ok);
+  CHECK_FALSE(answer.met);
+  CHECK(answer.find("angular_momentum")->error > 7.5e-3);  // which its M is off by
+}

@@ -97,6 +97,8 @@ struct SecondOrderPolhode {
   const Problem<double>& problem;
   AveragedRun<Elliptic>& run;
   double phase_error;  ///< local, quarter periods
+  /// What the rounding of the data leaves open of the first complement of k2, over itself: near a separatrix it moves the phase.
+  double doubt;
 
   Halt advance(double t, double floor) noexcept {
     if (run.advance(t, floor) != ode::Status::reached) return not_followed(Errc::no_convergence);
@@ -122,7 +124,9 @@ struct SecondOrderPolhode {
     return run.error().first_order(problem.momentum.norm(), problem.energy(problem.momentum));
   }
   SlowError<double> second_order() const noexcept { return run.error().second_order(); }
-  double lag(double local) noexcept { return 2 * (10 * phase_error + local * std::abs(run.motion().state().phase)); }
+  double lag(double local) noexcept {
+    return 2 * (10 * phase_error + (local + doubt) * std::abs(run.motion().state().phase));
+  }
   ode::Counts counts() const noexcept { return run.motion().counts(); }
   void warn(Track& track) const { warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck()); }
 };
@@ -219,7 +223,8 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
   const double phase_error = std::max(1e-7, scene.goal().tightest * 1e-2);
   AveragedRun<Elliptic> run(scene, mean.polhode, norm0 * (1 - away.norm), u0 / Elliptic::complete(start.modulus).K,
                             tolerance, phase_error);
-  detail::SecondOrderPolhode<Elliptic> motion{problem, run, phase_error};
+  const double doubt = std::min(k2_of_data(problem, start, M0) / start.modulus.kp2, 1e300);
+  detail::SecondOrderPolhode<Elliptic> motion{problem, run, phase_error, doubt};
   Track track;
   detail::warn_of_start(track, scene, start);
   return second_order_track(std::move(track), scene, motion, last_norm, tolerance, monitor);
