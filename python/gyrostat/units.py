@@ -30,13 +30,14 @@ UNITS_KNOWN: Final[dict[str, tuple[float, Dimension]]] = {
     "A": (1.0, (0, 0, 0, 1)), "T": (1.0, (0, 1, -2, -1)), "mT": (1e-3, (0, 1, -2, -1)), "uT": (1e-6, (0, 1, -2, -1)),
     "nT": (1e-9, (0, 1, -2, -1)),
 }
-_NAME: Final = r"[A-Za-z%°]+"
+# Sign before it, name, power.
+_FACTOR: Final = re.compile(r"\s*([*/]?)\s*([A-Za-z%°]+|1(?![\d.]))(?:\^?(-?\d+))?")
 
 
 def _unit(text: str) -> tuple[float, Dimension]:
     """Factor to SI and dimension of a unit, such as "N m s" or "deg/s^2". Raises ValueError, saying what is not known."""
     factor, powers, below = 1.0, [0, 0, 0, 0], False
-    for sign, name, power in re.findall(rf"\s*([*/]?)\s*({_NAME}|1(?![\d.]))(?:\^?(-?\d+))?", text):
+    for sign, name, power in _FACTOR.findall(text):
         if name not in UNITS_KNOWN:
             raise ValueError(f"there is no unit {name}")
         below = below or sign == "/"
@@ -45,7 +46,7 @@ def _unit(text: str) -> tuple[float, Dimension]:
         size, dimension = UNITS_KNOWN[name]
         factor *= size**exponent
         powers = [have + exponent * each for have, each in zip(powers, dimension, strict=True)]
-    if re.sub(rf"\s*([*/]?)\s*({_NAME}|1(?![\d.]))(?:\^?(-?\d+))?", "", text).strip():
+    if _FACTOR.sub("", text).strip():
         raise ValueError(f'"{text.strip()}" is no unit')
     return factor, (powers[0], powers[1], powers[2], powers[3])
 

@@ -62,8 +62,7 @@ struct CvodePair {
 template <class Writer, class Run>
 CvodePair<Writer> cvode_pair(const Writer& writer, double tolerance, double share, const Run& run) {
   tolerance = std::max(honesty::cvode_tightest, tolerance * share);
-  const double margin =
-      tolerance > honesty::cvode_tightest ? honesty::cvode_margin : honesty::cvode_margin_of_rounding;
+  const double margin = tolerance > honesty::cvode_tightest ? honesty::cvode_margin : honesty::cvode_margin_of_rounding;
   CvodePair<Writer> pair{{}, Errc::ok, {}, tolerance, margin, Comparison<Writer>(writer)};
   auto tight = run(tolerance);
   if (tight.failure != Errc::ok) return pair.failure = tight.failure, pair;

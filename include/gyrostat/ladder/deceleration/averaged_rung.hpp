@@ -97,7 +97,7 @@ struct SecondOrderPolhode {
   const Problem<double>& problem;
   AveragedRun<Elliptic>& run;
   double phase_error;  ///< local, quarter periods
-  /// What the rounding of the data leaves open of the first complement of k2, over itself: near a separatrix it moves the phase.
+  /// How far rounding of the data may move the first 1 - k2, relative: near a separatrix that moves the phase.
   double doubt;
 
   Halt advance(double t, double floor) noexcept {
