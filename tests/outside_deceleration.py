@@ -67,6 +67,7 @@ class Motion:
         q = np.array(start.get("attitude", (0, 0, 0, 1)), dtype=Long)  # [x, y, z, w]
         self.q = q / np.sqrt(q @ q)
         self.offset = self.l if self.carrier else 0 * self.l
+        self.fixed = self.inverse @ self.l
         self.controlled = bool(self.b.any())
         # torque at U = 0, which the control has to hold
         self.constant = self.drag * self.rest_torque()
@@ -104,7 +105,9 @@ class Motion:
                 rate = np.array([P[1, 2] - P[2, 1], P[2, 0] - P[0, 2], P[0, 1] - P[1, 0]])
             else:
                 P = M[: k + 1].T @ M[back]
-                rate = self.gaps * np.array([P[1, 2], P[2, 0], P[0, 1]]) - np.cross(M[k], self.inverse @ self.l)
+                a, b = M[k], self.fixed  # their product by hand: numpy's cross costs more than all the rest
+                rate = self.gaps * np.array([P[1, 2], P[2, 0], P[0, 1]]) - np.array(
+                    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
             rate -= self.drag * (G if self.carrier_drag else M[k])
             if self.controlled:
                 if k == 0:

@@ -25,6 +25,8 @@ COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E
 # Units of time [s], and the span from which on each is used [s].
 TIME_UNITS: Final = ((1e-6, "µs", 0.0), (1e-3, "ms", 1e-3), (1.0, "s", 1.0), (60.0, "min", 240.0), (3600.0, "h", 14400.0),
                      (86400.0, "days", 345600.0), (31557600.0, "years", 126230400.0))
+# Dots an inch of a picture.
+DENSITY = 150
 # What varies by less than this share of its size is constant but for rounding.
 CONSTANT: Final = 1e-10
 
@@ -48,7 +50,7 @@ def save(figure: "Figure", file: Path) -> None:
     known = figure.canvas.get_supported_filetypes()
     if file.suffix[1:].lower() not in known:
         raise DomainError(f"plot file {file}: unknown ending {file.suffix or '(none)'!r}; use one of {', '.join(sorted(known))}")
-    figure.savefig(file, dpi=150)
+    figure.savefig(file, dpi=DENSITY)
 
 
 def finish(figure: "Figure", title: str, seen: Sequence[str]) -> None:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from gyrostat.drawing import save
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
 
@@ -49,7 +50,7 @@ def reproduce(paper: str, figure: int | str | None, directory: Path, progress: P
         if progress is not None:
             progress(done / len(drawings), name)
         file = directory / f"{name}.png"
-        draw().savefig(file, dpi=130)
+        save(draw(), file)
         files.append(file)
     if progress is not None:
         progress(1.0, "")

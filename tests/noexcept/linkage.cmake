@@ -5,7 +5,7 @@ execute_process(COMMAND "${NM}" -C --defined-only "${OBJECT}" OUTPUT_VARIABLE sy
 if(NOT symbols MATCHES " W gyrostat::")
   message(FATAL_ERROR "${OBJECT} holds nothing of gyrostat:\n${symbols}")
 endif()
-string(REGEX MATCHALL "[^\n]* [TDBR] gyrostat::[^\n]*" strong "${symbols}")
+string(REGEX MATCHALL " [TDBR] gyrostat::[^\n]*" strong "${symbols}")
 if(strong)
   list(JOIN strong "\n" strong)
   message(FATAL_ERROR "defined in a header without inline:\n${strong}")

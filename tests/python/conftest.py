@@ -4,6 +4,7 @@
 from pathlib import Path
 
 import pytest
+from gyrostat import drawing
 
 GOOD = """\
 name = "test"
@@ -136,6 +137,12 @@ down = [0.6, 0.0, 0.8]
 PERIODIC = HEAVY.replace("""angular_velocity = [0.1, -0.2, 150.0]
 down = [0.6, 0.0, 0.8]
 """, "periodic = { spin = 150.0, cos_inclination = 0.1 }\n")
+
+
+@pytest.fixture(autouse=True)
+def coarse_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures of few dots: their files are looked for, not at."""
+    monkeypatch.setattr(drawing, "DENSITY", 40)
 
 
 @pytest.fixture
