@@ -36,9 +36,31 @@ struct Tally {
   std::vector<std::string> examples;
   double slowest = 0;
   std::string slow;
+  /// What a rung took: where it gave an answer, s and over what it had predicted; where it gave none, s.
+  struct Cost {
+    std::vector<double> seconds, share;
+    int in_vain = 0;
+    double vain_seconds = 0;
+  };
+  std::map<std::string, Cost> costs;
 
   void time(double seconds, const std::string& scene) {
     if (seconds > slowest) slowest = seconds, slow = scene;
+  }
+  /// By the ladder.
+  void spend(const Answer& answer) {
+    for (const Attempt& a : answer.tried) {
+      if (a.why == costs_more) ++outcomes[std::string("left out, predicted to cost more: ") + a.model];
+      if (!(a.spent > 0)) continue;
+      Cost& cost = costs[a.model];
+      if (a.accepted) {
+        cost.seconds.push_back(a.spent);
+        cost.share.push_back(a.spent / a.predicted);
+      } else {
+        ++cost.in_vain;
+        cost.vain_seconds += a.spent;
+      }
+    }
   }
   void refuse(const Refusal& refusal, const std::string& scene) {
     ++refused;
@@ -100,6 +122,19 @@ struct Tally {
     std::sort(all.begin(), all.end());
     if (const std::size_t n = all.size(); n > 0)
       std::printf("  stated/true of all: least %.3g, median %.3g, 90 %% %.3g\n", all[0], all[n / 2], all[n * 9 / 10]);
+    for (auto& [name, cost] : costs) {
+      auto &seconds = cost.seconds, &share = cost.share;
+      std::sort(seconds.begin(), seconds.end());
+      std::sort(share.begin(), share.end());
+      const std::size_t n = seconds.size();
+      double total = 0;
+      for (const double t : seconds) total += t;
+      std::printf("  cost of %-12s answers %5zu  %8.2f ms", name.c_str(), n, 1e3 * total);
+      if (n > 0)
+        std::printf("  median %8.1f us  over predicted: 10 %% %5.2f  median %5.2f  90 %% %5.2f", 1e6 * seconds[n / 2],
+                    share[n / 10], share[n / 2], share[n * 9 / 10]);
+      std::printf("  in vain %5d  %8.2f ms\n", cost.in_vain, 1e3 * cost.vain_seconds);
+    }
     for (const auto& text : examples) std::printf("  refused: %s\n", text.c_str());
     std::sort(worst.begin(), worst.end(), [](const Case& a, const Case& b) { return a.ratio > b.ratio; });
     for (std::size_t i = 0; i < std::min<std::size_t>(8, worst.size()); ++i)
@@ -176,6 +211,7 @@ void run(int argc, char** argv, const Family& family, int count, Scenes source, 
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       const std::string text = std::string(answer.model) + ", " + made.text();
       tallies[k].time(seconds, text);
+      if (question.rung == any_rung || named != any_rung) tallies[k].spend(answer);
       if (refusal.code != Errc::ok) {
         if (question.rung == any_rung || named != any_rung) tallies[k].refuse(refusal, text);
         continue;

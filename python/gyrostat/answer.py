@@ -32,12 +32,19 @@ class Warning_:
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """A rung that was looked at; `error` is its own estimate, None where it was passed over unsolved."""
+    """A rung that was looked at.
+
+    error : its own estimate, None where it was passed over unsolved.
+    predicted, spent : what an answer by it was to cost, and what it took [s]. Rungs are asked in the order of the predictions, which are made
+        for a core of some 3 GHz; None where there is none. Nothing is spent on a rung that was left out since it would have cost more.
+    """
 
     model: str
     error: float | None
     accepted: bool
     why: str
+    predicted: float | None
+    spent: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +86,7 @@ class Answer:
             columns={name: np.asarray(values) for name, values in made["columns"].items()},
             scalars=dict(made["scalars"]), scalar_error={name: made["scalar_error"].get(name, math.nan) for name in made["scalars"]},
             scale=dict(made["scale"]), tolerances=dict(made["tolerances"]), counts=dict(made["counts"]), seconds=made["seconds"],
-            tried=tuple(Attempt(a["model"], a["error"], a["accepted"], a["why"]) for a in made["tried"]),
+            tried=tuple(Attempt(a["model"], a["error"], a["accepted"], a["why"], a["predicted"], a["spent"]) for a in made["tried"]),
         )
 
     @cached_property

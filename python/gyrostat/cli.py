@@ -33,10 +33,12 @@ ENDINGS: Final = {".json": "json", ".csv": "csv", ".nc": "netcdf", ".txt": "repo
 
 LADDER: Final = """\
 Each kind of scene has a ladder of models, its rungs, from the cheapest to the
-full equations. They are asked in this order, and the first whose own error
-estimate meets the tolerance answers. A rung is passed over where its estimate
-is over the tolerance, where the scene leaves its domain, or where it has no
-answer to the scene; the report says which and why. Where none meets the
+full equations. They are asked in this order, but for a rung that is predicted
+to cost clearly less for this scene than one before it, and the first whose own
+error estimate meets the tolerance answers. A rung is passed over where its
+estimate is over the tolerance, where the scene leaves its domain, where it has
+no answer to the scene, or where it would have cost more; the report says which
+and why. Where none meets the
 tolerance the most accurate answers, with exit status 3. --set model=NAME takes
 one rung, which then answers wherever it can.
 

@@ -34,7 +34,8 @@ def _parts(answer: Answer) -> dict[str, Any]:
         "warnings": [{"code": w.code, "message": w.message} for w in answer.warnings],
         "t": answer.t, "columns": answer.columns, "scalars": answer.scalars, "scalar_error": answer.scalar_error,
         "counts": answer.counts, "seconds": answer.seconds,
-        "tried": [{"model": a.model, "error": a.error, "accepted": a.accepted, "why": a.why} for a in answer.tried],
+        "tried": [{"model": a.model, "error": a.error, "accepted": a.accepted, "why": a.why, "predicted": a.predicted, "spent": a.spent}
+                  for a in answer.tried],
         "units": _units(answer), "scale": answer.scale, "tolerances": answer.tolerances,
     }
 

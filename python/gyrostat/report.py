@@ -45,10 +45,18 @@ def _scalar(name: str, value: Any) -> str:
     return short(value)
 
 
+def _time(seconds: float | None) -> str:
+    """A cost, in a unit that suits it."""
+    if not seconds:
+        return "-"
+    unit, size = next((u, s) for u, s in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)) if seconds >= s or u == "us")
+    return f"{seconds / size:.3g} {unit}"
+
+
 def tables(answer: Answer) -> Iterator[Table]:
     """What was tried, scalars and columns."""
-    tried = [[a.model, small(a.error), "answered" if a.accepted else "passed over", a.why] for a in answer.tried]
-    yield "What was tried", ["rung", "estimated error", "", "why"], tried
+    tried = [[a.model, small(a.error), "answered" if a.accepted else "passed over", a.why, _time(a.predicted), _time(a.spent)] for a in answer.tried]
+    yield "What was tried", ["rung", "estimated error", "", "why", "predicted", "spent"], tried
     scalars = [[name, _scalar(name, value), UNITS.get(name, ""), small(answer.scalar_error[name])] for name, value in answer.scalars.items()]
     yield "Scalars", ["name", "value", "unit", "estimated error"], scalars
     columns = []

@@ -82,6 +82,8 @@ inline Data to_python(Answer& answer, const Question& question, const Family& fa
     std::snprintf(over, sizeof over, "error %.2g over tolerance %.2g", a.error, tolerance);
     if (std::isnan(a.excess) ? a.error > tolerance : a.excess > 1) why += (why.empty() ? "" : "; ") + std::string(over);
     item["why"] = why;
+    item["predicted"] = std::isfinite(a.predicted) ? py::object(py::float_(a.predicted)) : py::object(py::none());
+    item["spent"] = a.spent;
     tried.append(item);
   }
   counts["rhs"] = answer.counts.rhs;

@@ -20,11 +20,12 @@ const EllipticBackend& elliptic_backend(const std::string& name) {
     return *capsule.get_pointer<EllipticBackend>();
   } catch (py::error_already_set& error) {
     if (!error.matches(PyExc_ImportError)) throw;
-    raise("DomainError", std::string("elliptic = 'gsl': this installation has no GSL: the extension gyrostat._gsl cannot "
-                                     "be imported (") +
-                             error.what() +
-                             "). Install GSL (Debian: apt-get install libgsl-dev) and build the package anew, or use "
-                             "native");
+    raise("DomainError",
+          std::string("elliptic = 'gsl': this installation has no GSL: the extension gyrostat._gsl cannot "
+                      "be imported (") +
+              error.what() +
+              "). Install GSL (Debian: apt-get install libgsl-dev) and build the package anew, or use "
+              "native");
   }
 }
 
@@ -48,8 +49,7 @@ py::array_t<double> each(py::ssize_t n, int width, Work&& work) {
 
 py::array_t<double> complete(const Array& k2, const Array& kp2, const std::string& backend) {
   const EllipticBackend& elliptic = elliptic_backend(backend);
-  return each(k2.size(), 2,
-              [&](std::size_t n, double* out) { elliptic.complete(n, k2.data(), kp2.data(), out); });
+  return each(k2.size(), 2, [&](std::size_t n, double* out) { elliptic.complete(n, k2.data(), kp2.data(), out); });
 }
 
 py::array_t<double> jacobi(const Array& u, const Array& k2, const Array& kp2, const std::string& backend) {

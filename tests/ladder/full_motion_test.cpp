@@ -33,7 +33,8 @@ TEST_CASE("progress is reported where it is asked for and never passes one; a se
   CHECK(options.cancelled());
 }
 
-TEST_CASE("a phase that no double holds is known before it is followed; a short motion is followed in any case", "[ladder]") {
+TEST_CASE("a phase that no double holds is known before it is followed; a short motion is followed in any case",
+          "[ladder]") {
   CHECK(phase_too_long(1e12, 1e-6));
   CHECK_FALSE(phase_too_long(1e9, 1e-6));
   CHECK_FALSE(phase_too_long(1e5, 1e-15));

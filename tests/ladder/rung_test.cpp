@@ -18,6 +18,7 @@ struct Scene {
   mutable int looked_at = 0;
   Question its_question{};
   double value = 1;  ///< of the column, its size
+  std::array<double, 4> cost{1, 2, 3, 4};
   const Question& question() const { return its_question; }
   Scene asked(const Question& question) const {
     Scene other = *this;
@@ -52,7 +53,12 @@ Track answer(const Scene& scene, Monitor*) {
 
 constexpr RungKind names[] = {{"first", "", column_set(1U)}, {"second", ""}, {"third", ""}, {"fourth", ""}};
 constexpr Family rung_family{"invented", rung_columns, rung_scalars, {}, names, {}, column_set(1U)};
-constexpr Rung<Scene, Track> ladder[] = {&answer<0>, &answer<1>, &answer<2>, &answer<3>};
+template <std::size_t i>
+double cost(const Scene& scene) noexcept {
+  return scene.cost[i];
+}
+constexpr Rung<Scene, Track> ladder[] = {
+    {&answer<0>, &cost<0>}, {&answer<1>, &cost<1>}, {&answer<2>, &cost<2>}, {&answer<3>, &cost<3>}};
 
 struct Climb {
   Answer answer;
@@ -96,6 +102,31 @@ TEST_CASE("no rung meets the tolerance: the most accurate answers and says so", 
   CHECK(c.answer.tried.size() == 4);
   CHECK(c.answer.tried[1].accepted);
   CHECK_FALSE(c.answer.tried[3].accepted);
+}
+
+TEST_CASE("rungs are asked in the order of what they predict to cost", "[ladder]") {
+  Scene scene{{1e-2, 1e-9, 1e-9, 1e-9}};
+  scene.cost = {5, 2, 0.5, 0.9};
+  const Climb c(scene, 1e-4);
+  CHECK(c.is("third"));
+  CHECK(c.looked_at == 1);
+  REQUIRE(c.answer.tried.size() == 3);  // the fourth stands behind the one that answers
+  CHECK((c.answer.tried[2].accepted && c.answer.tried[2].predicted == 0.5 && c.answer.tried[2].spent > 0));
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(c.answer.tried[i].model == names[i].name);
+    CHECK(c.answer.tried[i].why == costs_more);
+    CHECK((c.answer.tried[i].predicted == scene.cost[i] && c.answer.tried[i].spent == 0));
+    CHECK(std::isnan(c.answer.tried[i].error));
+  }
+  scene.cost[2] = 1.5;  // no clear difference from the second: the table decides
+  CHECK(Climb(scene, 1e-4).is("second"));
+  scene.cost[2] = 0.5;
+  scene.error[2] = scene.error[3] = 1e-3;
+  const Climb on(scene, 1e-4);
+  CHECK(on.is("second"));
+  CHECK(on.looked_at == 3);
+  CHECK(Climb(scene, 1e-12).looked_at == 4);
+  CHECK(Climb(scene, 1e-4, 0).is("first"));  // by name
 }
 
 TEST_CASE("rungs that do not apply are passed over with their reason", "[ladder]") {

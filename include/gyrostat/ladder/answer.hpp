@@ -47,8 +47,10 @@ struct Attempt {
   const char* model;
   double error;  ///< its own estimate; NaN where it was passed over unsolved
   bool accepted;
-  const char* why;              ///< why it was passed over; nullptr where only the error decided
-  double excess = nan<double>;  ///< greatest error over its tolerance; NaN where that was not looked at
+  const char* why;                 ///< why it was passed over; nullptr where only the error decided
+  double excess = nan<double>;     ///< greatest error over its tolerance; NaN where that was not looked at
+  double predicted = nan<double>;  ///< cost foreseen, s of one core (RungCost); NaN where the rung could not be asked
+  double spent = 0;                ///< what it took on this machine, s
 };
 
 struct Answer {

@@ -32,12 +32,13 @@ ode::Status reach(Course& course, Scalar t, Scalar t_max) noexcept {
   return status;
 }
 
-/// Steps `course`, and beside it its companions, over the asked times, and keeps its states there. A course has step(t_max), time(), at(t)
-/// within the last step, and counts(). The first companion leads, and all are compared at the end of each of its steps and at the asked times; the second
-/// goes along where `rounds`. A distance that was seen fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that
-/// one asked time at which all are near by chance does not hide it. States behind a failure are `nowhere`.
+/// Steps `course`, and beside it its two companions, over the asked times, and keeps its states there. A course has step(t_max), time(), at(t)
+/// within the last step, and counts(). The first companion leads, and all are compared at the end of each of its steps and at the asked times.
+/// Their first steps end apart: from one start all would take the same polynomial, and err alike. A distance that was seen fades while the
+/// body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which all are near by chance does not hide it.
+/// States behind a failure are `nowhere`.
 template <class Writer, class Course>
-Walk<Writer> walk_beside(const Writer& writer, Course& course, Course& companion, Course& second, bool rounds,
+Walk<Writer> walk_beside(const Writer& writer, Course& course, Course& companion, Course& second,
                          const typename Writer::State& start, typename Writer::Scalar rate,
                          std::span<const typename Writer::Scalar> times, std::span<typename Writer::State> states,
                          const typename Writer::State& nowhere, const MotionOptions<typename Writer::Scalar>& options,
@@ -50,13 +51,13 @@ Walk<Writer> walk_beside(const Writer& writer, Course& course, Course& companion
   const auto look = [&](const State& here, Scalar t) noexcept {
     Comparison<Writer> now(writer);
     now.add(here, companion.at(t));
-    if (rounds) now.add(here, second.at(t));
+    now.add(here, second.at(t));
     kept.raise(now.difference());
   };
   const Scalar last = times.back();
   const auto all_reach = [&](Scalar t) noexcept {
     walk.status = reach(course, t, last);
-    if (walk.status == Status::reached && rounds) walk.status = reach(second, t, last);
+    if (walk.status == Status::reached) walk.status = reach(second, t, last);
     return walk.status == Status::reached;
   };
 
@@ -65,10 +66,13 @@ Walk<Writer> walk_beside(const Writer& writer, Course& course, Course& companion
     states[next] = start;
     walk.asked.add(start);
   }
+  if (next < times.size()) walk.status = course.step(last);
+  const Scalar first = course.time();
+  if (next < times.size() && walk.status == Status::reached) walk.status = second.step(first / 3);
   std::uint32_t trips = 0;
-  while (next < times.size()) {
+  while (next < times.size() && walk.status == Status::reached) {
     const Scalar before = companion.time();
-    walk.status = companion.step(last);
+    walk.status = companion.step(trips == 0 ? first / 2 : last);
     if (walk.status != Status::reached) break;
     const Scalar now = companion.time();
     kept *= 1 / (1 + (now - before) * rate / Scalar(honesty::fading_angle));
@@ -99,12 +103,10 @@ void solve_beside(Answer& answer, const Writer& writer, Course& course, Course& 
                   const typename Writer::State& start, typename Writer::Scalar rate,
                   std::span<const typename Writer::Scalar> times, std::span<typename Writer::State> states,
                   const typename Writer::State& nowhere, const MotionOptions<typename Writer::Scalar>& options,
-                  double progress_from, double progress_to, const Rounding& rounding,
-                  const honesty::Companions& how = honesty::side_by_side) noexcept {
+                  double progress_from, double progress_to, const Rounding& rounding) noexcept {
   using Scalar = typename Writer::Scalar;
   constexpr Scalar eps = epsilon<Scalar>;
-  const bool rounds = answer.step_tolerance < Scalar(how.two_below) * eps;
-  const auto walk = walk_beside(writer, course, companion, second, rounds, start, rate, times, states, nowhere, options,
+  const auto walk = walk_beside(writer, course, companion, second, start, rate, times, states, nowhere, options,
                                 progress_from, progress_to);
   answer.status = walk.status;
   answer.counts = course.counts();
@@ -115,8 +117,7 @@ void solve_beside(Answer& answer, const Writer& writer, Course& course, Course& 
     answer.error = decltype(answer.error)::all(nan<Scalar>);
     return;
   }
-  const Scalar margin = Scalar(rounds ? how.margin_of_rounding : how.margin);
-  const auto error = margin * walk.distance + rounding(walk.asked.size(), steps);
+  const auto error = honesty::margin(answer.step_tolerance) * walk.distance + rounding(walk.asked.size(), steps);
   answer.error = relative_to_truth(walk.asked.relative(error), Writer::columns);
   answer.met = options.excess(answer.error) <= 1;
 }

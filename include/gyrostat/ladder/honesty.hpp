@@ -7,20 +7,26 @@
 /// answer is compared with companions: runs of a neighbour, whose data differ by a few roundings, in looser steps.
 namespace gyrostat::honesty {
 
-/// What the estimate of a family's full equations stands on. Lengths in units of the machine epsilon are numbers of roundings.
+/// What the estimate of the full equations stands on, the same in every family. Lengths in units of the machine epsilon are numbers of roundings.
 struct Companions {
   double looser;              ///< step tolerance of a companion over that of the answer
   double least_loose;         ///< least step tolerance of a companion, roundings: below it two runs round alike
   double data_change;         ///< by how much the data of a companion differ, roundings
-  double two_below;           ///< step tolerance, roundings, below which rounding rules: two companions, wider margin
-  double margin;              ///< stated error over the distance to the companion, where truncation rules
+  double margin;              ///< stated error over the greatest distance to a companion, where truncation rules
   double margin_of_rounding;  ///< the same where rounding rules: all runs err alike and may be near by chance
 };
 
-/// Watched in every step, all components moved: rotor, spinning and heavy.
-inline constexpr Companions side_by_side{64, 64, 8, 512, 6, 8};
-/// The same of deceleration: nearer neighbours, whose first steps end elsewhere than those of the answer, and always two of them.
-inline constexpr Companions deceleration_run{8, 8, 3, 1e16, 3, 3};
+/// All families, watched in every step, all components moved.
+inline constexpr Companions side_by_side{8, 8, 4, 5, 6};
+/// Step tolerance, roundings, below which rounding rules.
+inline constexpr double rounding_below = 512;
+
+/// The margin of an answer by steps of this tolerance.
+template <Real Scalar>
+constexpr Scalar margin(Scalar step_tolerance) noexcept {
+  const bool rounds = step_tolerance < Scalar(rounding_below) * epsilon<Scalar>;
+  return Scalar(rounds ? side_by_side.margin_of_rounding : side_by_side.margin);
+}
 
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <concepts>
 #include <optional>
@@ -31,9 +32,14 @@ concept RungResult = requires(const Track& track, const Scene& scene, Answer& an
   describe(answer, scene, track);
 };
 
-/// A model of a scene: says whether it applies, answers, estimates its own error and counts its work.
+/// A model of a scene: says whether it applies, answers, estimates its own error and counts its work; and before that what an answer would
+/// cost where it applies, in seconds of one core of some 3 GHz, to within a factor of a few. Costs are there to be compared with each other; infinite: the rung is there
+/// to be named, and otherwise asked when all others failed.
 template <class Scene, class Track>
-using Rung = Track (*)(const Scene&, Monitor*);
+struct Rung {
+  Track (*answer)(const Scene&, Monitor*);
+  double (*cost)(const Scene&) noexcept;
+};
 
 /// Why a climb ended without an answer.
 struct Refusal {
@@ -42,10 +48,38 @@ struct Refusal {
   const char* why = "";
 };
 
+/// Predicted costs hold to a factor of two or so: a rung comes before one that stands before it in the table where it is to cost less than
+/// this share of it.
+inline constexpr double clearly_cheaper = 0.5;
+
+inline constexpr const char* costs_more = "an answer of it is predicted to cost more";
+
 inline constexpr WarningKind no_value{
     "no-value", "this rung does not give all that is asked for: what it lacks is left without a value"};
 
 namespace detail {
+
+/// A rung that may answer, by its place in the table, and what it would cost, s.
+struct Candidate {
+  std::size_t rung;
+  double cost;
+};
+
+/// Puts a rung in the order in which they are asked: behind those that stand before it in the table, unless it is clearly cheaper.
+inline void enlist(std::vector<Candidate>& order, const Candidate& candidate) {
+  auto place = order.end();
+  while (place != order.begin() && candidate.cost < clearly_cheaper * (place - 1)->cost) --place;
+  order.insert(place, candidate);
+}
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_ = Clock::now();
+};
 
 /// Whether the rung lacks a column that has to be there.
 inline bool lacks_needed(const RungKind& kind, const Question& question, const Family& family) noexcept {
@@ -99,9 +133,11 @@ inline void keep_asked(Answer& answer, const Question& question, const Family& f
 
 }  // namespace detail
 
-/// The answer of the first rung, cheapest first, whose own error estimates meet what is asked; failing that of the rung that comes nearest
-/// to it, one in its domain before any outside, with met false. The rung that the question names answers alone, wherever it can. On failure
-/// the answer's `tried` still lists what was looked at.
+/// The answer of the first rung whose own error estimates meet what is asked, in the order of the family's table but for those that predict
+/// to be clearly cheaper for this scene; failing that of the rung that comes nearest to it, one in its domain before any outside, with met
+/// false. The rung that the question names answers alone, wherever it can. The answer's `tried` lists the rungs that were not asked for a
+/// reason, those that stand before the one that answers and would have cost more among them, and then what was asked, in this order; on
+/// failure too.
 template <class Scene, class Track>
   requires RungResult<Track, Scene>
 Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, const Scene& scene, Monitor* monitor,
@@ -114,11 +150,15 @@ Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, co
   Track best_track;
   std::vector<Attempt> tried;
   bool answered = false, best_in_domain = false;
+  std::size_t best_rung = 0;
   // Asks one rung of the scene, or of the same scene with tighter tolerances; false: there is no need to go on.
-  const auto ask = [&](std::size_t i, const Scene& tightened) {
-    Track track = rungs[i](tightened, monitor);
+  const auto ask = [&](const detail::Candidate& candidate, const Scene& tightened) {
+    const std::size_t i = candidate.rung;
+    const detail::Stopwatch watch;
+    Track track = rungs[i].answer(tightened, monitor);
     if (track.failure != Errc::ok) {
-      tried.push_back({kinds[i].name, track.known_error, false, track.refusal});
+      tried.push_back(
+          {kinds[i].name, track.known_error, false, track.refusal, nan<double>, candidate.cost, watch.seconds()});
       refusal = {track.failure, kinds[i].name, track.refusal ? track.refusal : message(track.failure)};
       return track.failure != Errc::cancelled;
     }
@@ -130,31 +170,43 @@ Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, co
     judge(answer, question, family);
     answer.met = track.in_domain && answer.excess <= 1;
     tried.push_back({kinds[i].name, answer.error, answer.met || only >= 0,
-                     track.in_domain ? nullptr : "the scene leaves its domain", answer.excess});
+                     track.in_domain ? nullptr : "the scene leaves its domain", answer.excess, candidate.cost,
+                     watch.seconds()});
     const bool same_kind = track.in_domain == best_in_domain;
     if (!answered || answer.met ||
         (same_kind ? answer.excess < best.excess || best.excess != best.excess : track.in_domain)) {
       best_in_domain = track.in_domain;
+      best_rung = i;
       best = std::move(answer);
       best_track = std::move(track);
     }
     answered = true;
     return !best.met;
   };
-  std::size_t last = 0;
-  bool goes_on = true;
-  for (std::size_t i = 0; i < rungs.size() && goes_on; ++i) {
+  std::vector<detail::Candidate> order;
+  std::vector<std::size_t> lacking;
+  for (std::size_t i = 0; i < rungs.size(); ++i) {
     if (only >= 0 && i != std::size_t(only)) continue;
-    if (only < 0 && detail::lacks_needed(kinds[i], question, family)) {
-      tried.push_back({kinds[i].name, nan<double>, false, "it does not give all that is asked for"});
-      continue;
-    }
-    last = i;
-    goes_on = ask(i, scene);
+    const bool lacks = only < 0 && detail::lacks_needed(kinds[i], question, family);
+    if (lacks) lacking.push_back(i);
+    else detail::enlist(order, {i, rungs[i].cost(scene)});
   }
+  std::size_t next = 0;
+  bool goes_on = true;
+  while (next < order.size() && goes_on) goes_on = ask(order[next++], scene);
   // Only now it is known what the tolerances in units come to.
   if (goes_on && answered)
-    if (const auto tighter = detail::in_relative_terms(question, best, family)) ask(last, scene.asked(*tighter));
+    if (const auto tighter = detail::in_relative_terms(question, best, family)) {
+      const auto most = std::max_element(order.begin(), order.end(), [](auto a, auto b) { return a.rung < b.rung; });
+      ask(*most, scene.asked(*tighter));
+    }
+  const auto leave_out = [&](std::size_t i, const char* why, double cost) {
+    if (!best.met || i < best_rung)
+      tried.insert(tried.begin(), {kinds[i].name, nan<double>, false, why, nan<double>, cost});
+  };
+  for (const std::size_t i : lacking) leave_out(i, "it does not give all that is asked for", nan<double>);
+  for (; next < order.size() && order[next].cost < infinity<double>; ++next)
+    leave_out(order[next].rung, costs_more, order[next].cost);
   best.tried = std::move(tried);
   if (answered) {
     refusal = {};

@@ -226,7 +226,8 @@ class TaylorBatch {
 };
 
 template <BatchSystem System, int Order>
-bool TaylorBatch<System, Order>::change_unit(int b, int trial, Scalar last, Scalar last_but_one, Scalar& theta) noexcept {
+bool TaylorBatch<System, Order>::change_unit(int b, int trial, Scalar last, Scalar last_but_one,
+                                             Scalar& theta) noexcept {
   theta = 8;
   if (last < large && last_but_one < large) {
     if (last > small || last_but_one > small) {

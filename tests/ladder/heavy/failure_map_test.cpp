@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "catch.hpp"
+#include "gyrostat/ladder/heavy/periodic_orbit.hpp"
 #include "gyrostat/ladder/heavy/solve.hpp"
 #include "gyrostat/models/heavy/floquet.hpp"
 #include "gyrostat/models/heavy/series_2.hpp"

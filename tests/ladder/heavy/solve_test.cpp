@@ -46,7 +46,6 @@ TEST_CASE("a fast periodic motion of a heavy body: each rung where it is enough"
     const Solved made = solved(scene);
     CHECK(made.refusal.code == Errc::ok);
     CHECK(made.answer.met);
-    CHECK(made.answer.tried.front().model == std::string_view("exact"));
     CHECK(made.answer.tried.back().accepted);
     check_honest(scene, made.answer);
     CHECK(made.scalar("period")->values[0] == Approx(4.196818797409593e-02).epsilon(tolerance));

@@ -88,7 +88,8 @@ TEST_CASE("a momentum that cancels to rounding is known to rounding of its parts
   REQUIRE(start.momentum.isZero(0));
   const Row<double> row(body, start);
   CHECK(row.scale[column::angular_momentum] > 0.35 * 7);
-  const double stated = state_columns(row, std::vector<State<double>>{start}, Bound{0, 0, 0, 0})[column::angular_momentum];
+  const double stated =
+      state_columns(row, std::vector<State<double>>{start}, Bound{0, 0, 0, 0})[column::angular_momentum];
   CHECK(stated > 8 * epsilon<double>);
   CHECK(stated < 64 * epsilon<double>);
 }

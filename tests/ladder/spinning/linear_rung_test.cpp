@@ -128,10 +128,6 @@ TEST_CASE("rung linear under an axial torque", "[spinning]") {
   CHECK(early.failure == Errc::not_applicable);
   CHECK(early.known_error > 1e-10);
   CHECK(early.states.empty());
-  // no cheaper than the full equations at few times
-  const Track few = linear_track(posed(p, span, 1e-2), nullptr);
-  CHECK(few.failure == Errc::not_applicable);
-  CHECK(few.refusal != nullptr);
 
   Monitor monitor;
   monitor.cancel = true;

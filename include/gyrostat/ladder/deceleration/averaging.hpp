@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gyrostat/ladder/deceleration/hand_over.hpp"
+#include "gyrostat/ladder/deceleration/orbit_kind.hpp"
 
 /// What the averaged rungs share, over polhodes (averaged_rung.hpp) and over orbits with rotor momentum (orbit_rung.hpp).
 namespace gyrostat::deceleration {
@@ -92,10 +93,14 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   const SlowError<double> in_span = mean.second_order(), oscillating = mean.first_order();
   const double norm = problem.momentum.norm(), energy = problem.energy(problem.momentum);
   const double local = 10 * tolerance, lag = mean.lag(local);
-  detail::state_errors(
-      track, {in_span.norm + local * norm + lag * oscillating.norm,
-              in_span.energy + 2 * local * energy + problem.energy_error(problem.momentum) + lag * oscillating.energy,
-              in_span.k2 + local + lag * oscillating.k2, 0});
+  const double own_energy = 2 * local * energy + problem.energy_error(problem.momentum);
+  double own_k2 = 0;
+  for (const auto& state : track.states)
+    own_k2 =
+        std::max(own_k2, k2_uncertainty(problem, state.momentum, {state.regime, state.k2}, local * norm, own_energy));
+  detail::state_errors(track, {in_span.norm + local * norm + lag * oscillating.norm,
+                               in_span.energy + own_energy + lag * oscillating.energy,
+                               std::min(1.0, in_span.k2 + own_k2 + lag * oscillating.k2), 0});
   track.know_momentum(problem, in_span.vector + (local + lag) * norm);
 
   // The tail, for the stop time and for the samples beyond the hand-over. Where it leads to no stop the full equations tell more, and

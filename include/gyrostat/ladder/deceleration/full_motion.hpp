@@ -426,7 +426,6 @@ class FullMotion {
     if (!times_.empty()) {
       const Row<Scalar> row(problem_);
       const Scalar last = times_.back();
-      keep_apart(course, companion, second, last);
       const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
         const Scalar rest = last > course.stop_time() ? last - course.stop_time() : Scalar(0);
         return rounding_of_columns(problem_, size, 4 * eps + steps, rest * problem_.gyro_rate().norm());
@@ -435,7 +434,7 @@ class FullMotion {
       const State<Scalar> nowhere = state_of(problem_, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)),
                                              Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
       solve_beside(answer, row, course, companion, second, start, Scalar(honesty::sinking) * turning_rate(problem_),
-                   times_, states_, nowhere, options_, progress_from, progress_to, rounding, how);
+                   times_, states_, nowhere, options_, progress_from, progress_to, rounding);
       if (!with_attitude) answer.error[column::attitude] = 0;
     }
     look_for_stop(answer, course, companion, second);
@@ -448,15 +447,8 @@ class FullMotion {
 
  private:
   using Run = Course<Scalar, with_control, with_attitude>;
-  static constexpr const auto& how = honesty::deceleration_run;
+  static constexpr const auto& how = honesty::side_by_side;
   static constexpr Scalar change = Scalar(how.data_change) * epsilon<Scalar>;
-
-  /// From one start all runs would take the same polynomial for their first step, and err alike in it.
-  static void keep_apart(Run& course, Run& companion, Run& second, Scalar last) noexcept {
-    if (!(last > 0) || course.step(last) != ode::Status::reached) return;
-    companion.step(course.time() / 2);
-    second.step(course.time() / 3);
-  }
 
   void look_for_stop(FullMotionAnswer<Scalar>& answer, Run& course, Run& companion, Run& second) const noexcept {
     const auto go = [&](Run& run, Scalar t_max) noexcept {
@@ -466,7 +458,6 @@ class FullMotion {
     if (answer.status != ode::Status::reached) return;
     const Scalar stop = answer.stop_time = course.stop_time();
     if (!(stop > 0 && stop < infinity<Scalar>)) return;
-    const bool rounds = answer.step_tolerance < Scalar(how.two_below) * epsilon<Scalar>;
     Scalar apart = 0;
     const auto look = [&](Run& run) noexcept {
       go(run, 2 * stop);
@@ -474,8 +465,8 @@ class FullMotion {
       apart = std::max(apart, there < 2 * stop ? std::abs(there - stop) : stop);
     };
     look(companion);
-    if (rounds) look(second);
-    const Scalar margin = Scalar(honesty::stop_margin) * Scalar(rounds ? how.margin_of_rounding : how.margin);
+    look(second);
+    const Scalar margin = Scalar(honesty::stop_margin) * honesty::margin(answer.step_tolerance);
     answer.stop_error = margin * apart / stop + Scalar(honesty::stop_steps) * answer.step_tolerance +
                         Scalar(2e-13L) * std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
   }

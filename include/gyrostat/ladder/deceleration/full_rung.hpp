@@ -78,7 +78,16 @@ inline Track full_motion_track(const Problem<double>& problem, std::span<const d
   return track;
 }
 
-/// The angle that U and the axes turn through up to the last time or the stop, to its order, rad.
+/// Whether the full equations are followed to the stop: not where it lies so far behind the last time that it is not worth its cost.
+inline bool goes_to_stop(const Scene& scene) noexcept {
+  if (!scene.asks_for_stop()) return false;
+  const auto& problem = scene.problem();
+  const double longest = scene.opposed().norm() / scene.least_control();
+  return scene.needs_stop() || longest <= 20 * scene.question().times.back() ||
+         longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
+}
+
+/// The angle that U and the axes turn through up to the last time, or the stop where that is reached before or looked for, to its order, rad.
 inline double turned_angle(const Scene& scene) noexcept {
   const auto& problem = scene.problem();
   const FullCoefficients<double> f(problem);
@@ -86,7 +95,8 @@ inline double turned_angle(const Scene& scene) noexcept {
   const double stop = !(b > 0)           ? infinity<double>
                       : problem.drag > 0 ? std::log1p(problem.drag * size / b) / problem.drag
                                          : size / b;
-  const double span = std::min(scene.question().times.back(), stop);
+  const double last = scene.question().times.back();
+  const double span = goes_to_stop(scene) && stop < infinity<double> ? stop : std::min(last, stop);
   const double mean = size / (1 + problem.drag * span);
   const double own = scene.question().wants_attitude ? problem.inverse_inertia[0] : f.quadratic.cwiseAbs().maxCoeff();
   return span * (own * mean + problem.gyro_rate().norm()) / 2;
@@ -114,11 +124,7 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   const auto& problem = scene.problem();
   const auto goal = scene.goal();
   if (const char* why = not_worth(scene, goal)) return refused<Track>(Errc::step_limit, why);
-  // A stop far behind the last time asked for is not worth its cost.
-  const double longest = scene.opposed().norm() / scene.least_control();
-  const bool near =
-      longest <= 20 * question.times.back() || longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
-  const bool find_stop = scene.needs_stop() || (scene.asks_for_stop() && near);
+  const bool find_stop = goes_to_stop(scene);
   const Quat<double> q_IP = scene.attitude();
   const auto at_tolerance = [&](double tolerance) {
     return full_motion_track(problem, question.times, tolerance, goal.columns.of, find_stop,

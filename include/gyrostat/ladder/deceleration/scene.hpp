@@ -122,6 +122,9 @@ class Scene {
   Track (*full_equations)(const Scene&, Monitor*) = nullptr;
 };
 
+/// Rotor momentum, or actuators off the principal axes: the orbit algorithm; otherwise the closed forms of Euler.
+inline bool needs_orbit(const Scene& scene) noexcept { return scene.has_rotor() || !scene.principal_control(); }
+
 /// Bounds of the rate at which the control brings down what it opposes near the goal, N m: a drag that acts on the other
 /// momentum helps or hinders by drag |l|. The lower bound is 0 where the control may not get there.
 struct FinalTorque {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "gyrostat/ladder/deceleration/averaged_rung.hpp"
+#include "gyrostat/ladder/deceleration/cost.hpp"
 #include "gyrostat/ladder/deceleration/equal_torque_rung.hpp"
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 #include "gyrostat/ladder/deceleration/orbit_rung.hpp"
@@ -13,9 +14,6 @@
 namespace gyrostat::deceleration {
 
 namespace detail {
-
-/// Rotor momentum, or actuators off the principal axes: the orbit algorithm; otherwise the closed forms of Euler.
-inline bool needs_orbit(const Scene& scene) noexcept { return scene.has_rotor() || !scene.principal_control(); }
 
 template <class Elliptic>
 Track averaged(const Scene& scene, Monitor* monitor) {
@@ -65,8 +63,10 @@ inline void describe(Answer& answer, const Scene& scene, const Track&) {
 
 template <class Elliptic>
 Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
-  static constexpr Rung<Scene, Track> models[] = {&detail::equal_torque<Elliptic>, &detail::averaged<Elliptic>,
-                                                  &detail::averaged_2<Elliptic>, &full_track};
+  static constexpr Rung<Scene, Track> models[] = {{&detail::equal_torque<Elliptic>, &cost_of_equal_torque},
+                                                  {&detail::averaged<Elliptic>, &cost_of_averaged},
+                                                  {&detail::averaged_2<Elliptic>, &cost_of_averaged_2},
+                                                  {&full_track, &cost_of_full}};
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 

@@ -157,9 +157,9 @@ class FullMotion {
       return Course(near.problem, near.start, loose, options_.step_cap, near.turn);
     };
     Course companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
-    // the polynomial of a step, good to its tolerance, and rounding at the asked times
+    // rounding at the asked times
     const auto rounding = [&](const ColumnErrors<Scalar>&, Scalar steps) noexcept {
-      return 4 * (4 * eps + steps + 2 * step_tolerance) * ColumnErrors<Scalar>{rate_, 1, Scalar(turning ? 1 : 0)};
+      return 4 * (4 * eps + steps) * ColumnErrors<Scalar>{rate_, 1, Scalar(turning ? 1 : 0)};
     };
     solve_beside(answer, Row<Scalar>{scales(problem_, start_.angular_velocity.norm())}, course, companion, second,
                  start_, rate_, times_, states_, nowhere(), options_, progress_from, progress_to, rounding);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "gyrostat/ladder/heavy/cost.hpp"
 #include "gyrostat/ladder/heavy/exact_rung.hpp"
 #include "gyrostat/ladder/heavy/full_rung.hpp"
 #include "gyrostat/ladder/heavy/series_2_rung.hpp"
@@ -64,7 +65,10 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
 }
 
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
-  static constexpr Rung<Scene, Track> models[] = {&exact_track, &series_2_track, &series_track, &full_track};
+  static constexpr Rung<Scene, Track> models[] = {{&exact_track, &cost_of_exact},
+                                                  {&series_2_track, &cost_of_series_2},
+                                                  {&series_track, &cost_of_series},
+                                                  {&full_track, &cost_of_full}};
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 

@@ -55,11 +55,10 @@ bool is_stiff(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& state) noex
 
 /// The full motion from `start` at t = 0 at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN.
 ///
-/// The error is estimated by a second run of a neighbour: the body and the start differ by a few roundings, and the steps have a
-/// tolerance 64 times looser (two neighbours where rounding contributes to the error). Its distance from the answer, watched in every step and kept for some twenty turns, is some ten to a
-/// hundred times the error of the answer, and shows what the motion makes of errors: that phases drift, and that all
-/// differences grow where it leaves an unstable rotation. So the estimate is safe rather than sharp. A run that misses the tolerance is
-/// repeated with a tighter step tolerance, at most twice.
+/// The error is estimated by the runs of two neighbours: body and start differ by a few roundings, and the steps have a tolerance 8 times
+/// looser. Their distance from the answer, watched in every step and kept for some twenty turns, is some ten times the error of the answer,
+/// and shows what the motion makes of errors: that phases drift, and that all differences grow where it leaves an unstable rotation. A run
+/// that misses the tolerance is repeated with a tighter step tolerance, at most twice.
 ///
 /// Errors: not_increasing (times), not_finite (start, times or tolerance), out_of_domain (the spans differ in length), zero_vector
 /// (an attitude without length).
@@ -226,7 +225,7 @@ class FullMotion {
         times_(times),
         states_(states),
         options_(options),
-        neighbours_{{{gyrostat, start, 8 * epsilon<Scalar>, 0}, {gyrostat, start, 8 * epsilon<Scalar>, 1}}},
+        neighbours_{{{gyrostat, start, change, 0}, {gyrostat, start, change, 1}}},
         turning_(turning_rate(gyrostat, start)) {
     const bool stiff = is_stiff(gyrostat, start);
     const bool collocates = options.integrator == Integrator::radau || (options.integrator == Integrator::any && stiff);
@@ -249,11 +248,11 @@ class FullMotion {
                             std::max(looser * inside, least), options_.step_cap);
     };
     Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
-    // the polynomial of a step, good to its tolerance, and rounding at the asked times
+    // rounding at the asked times
     const Row<Scalar> row(gyrostat_, start_);
     const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
       const Scalar between = answer.used == Integrator::radau ? 2 * inside : 0;
-      return rounding_of_columns(row, start_, size, 4 * eps + steps + 2 * step_tolerance + between);
+      return rounding_of_columns(row, start_, size, 4 * eps + steps + between);
     };
     solve_beside(answer, row, course, companion, second, start_, turning_, times_, states_, nowhere(), options_,
                  progress_from, progress_to, rounding);
@@ -264,6 +263,8 @@ class FullMotion {
   Scalar phase() const noexcept { return turning_ * times_.back(); }
 
  private:
+  static constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
+
   static State<Scalar> nowhere() noexcept {
     constexpr Scalar no = nan<Scalar>;
     return {{no, no, no, no}, {no, no, no}, no, no};

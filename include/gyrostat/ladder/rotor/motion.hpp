@@ -78,7 +78,8 @@ enum : int { closed_form, linear_tail, full };
 }
 
 inline constexpr RungKind rung_kinds[] = {
-    {"closed-form", "exact special cases: no momentum, symmetry about the rotor's axis, steady rotations, circular sections"},
+    {"closed-form",
+     "exact special cases: no momentum, symmetry about the rotor's axis, steady rotations, circular sections"},
     {"linear-tail", "near a steady rotation that attracts: the motion in closed form to second order in the distance"},
     {"full", "the full equations"},
 };

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "gyrostat/ladder/rotor/closed_form_rung.hpp"
+#include "gyrostat/ladder/rotor/cost.hpp"
 #include "gyrostat/ladder/rotor/full_rung.hpp"
 #include "gyrostat/ladder/rotor/linear_tail_rung.hpp"
 #include "gyrostat/ladder/rotor/solve.hpp"
@@ -51,7 +52,9 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
 }
 
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
-  static constexpr Rung<Scene, Track> models[] = {&closed_form_track, &linear_tail_track, &full_track};
+  static constexpr Rung<Scene, Track> models[] = {{&closed_form_track, &cost_of_closed_form},
+                                                  {&linear_tail_track, &cost_of_linear_tail},
+                                                  {&full_track, &cost_of_full}};
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 

@@ -181,10 +181,8 @@ class FullMotion {
       return Course<Scalar>(near, span, loose, options_.step_cap, false);
     };
     Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
-    const bool rounds = step_tolerance < Scalar(how.two_below) * eps;
-    const auto walk =
-        walk_beside(Row<Scalar>{scales(problem_, span)}, course, companion, second, rounds, start_state(problem_),
-                    rate_, times_, states_, nowhere(), options_, progress_from, progress_to);
+    const auto walk = walk_beside(Row<Scalar>{scales(problem_, span)}, course, companion, second, start_state(problem_),
+                                  rate_, times_, states_, nowhere(), options_, progress_from, progress_to);
     answer.status = walk.status;
     answer.counts = course.counts();
     const std::uint64_t steps = answer.counts.steps;
@@ -195,10 +193,10 @@ class FullMotion {
       return answer;
     }
 
-    // What the runs share: the polynomial of a step, good to its tolerance, and rounding at the asked times.
-    const Scalar margin = Scalar(rounds ? how.margin_of_rounding : how.margin);
+    // What the runs share: rounding at the asked times.
+    const Scalar margin = honesty::margin(step_tolerance);
     const Scalar rounding_walk = eps * std::sqrt(static_cast<Scalar>(steps));
-    const Scalar shared = 4 * (4 * eps + rounding_walk + 2 * step_tolerance);
+    const Scalar shared = 4 * (4 * eps + rounding_walk);
     ColumnErrors<Scalar> error = margin * walk.distance + shared * rounded_in(walk.asked.size());
     error[column::euler_312] = angles_error<Scalar>(error[column::attitude], states_);
     answer.least_cosine = course.least_cosine();

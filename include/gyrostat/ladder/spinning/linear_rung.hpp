@@ -125,10 +125,6 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
   };
   LinearErrors<double> error{};
   if (question.rung != rung::linear) {
-    const double r0 = scene.problem().spin(), r1 = r0 + scene.problem().torque[2] / scene.problem().inertia[2] * end;
-    if (double(question.times.size()) < std::max(std::abs(r0), std::abs(r1)) * end)
-      return refused<Track>(Errc::not_applicable,
-                            "under an axial torque, at less than a time a radian, the full equations cost less");
     // the errors only grow: a sixteenth of the motion often suffices
     const std::array<double, 1> early{end / 16};
     std::array<State<double>, 1> unused;
@@ -145,7 +141,7 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
 }  // namespace detail
 
 /// Rung `linear`: the exact motion for small tilt (docs/spinning.md, section 3), under a torque about the spin axis by Taylor series
-/// (section 6.3), which cost less than those of the full equations only at many times.
+/// (section 6.3).
 inline Track linear_track(const Scene& scene, Monitor* monitor) {
   const Problem<double>& problem = scene.problem();
   if (problem.torque[2] != 0) return detail::axial_track(scene, monitor);

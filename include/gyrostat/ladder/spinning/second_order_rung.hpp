@@ -12,8 +12,7 @@
 namespace gyrostat::spinning {
 
 /// Rung `second-order`: the linear motion with spin rate, spin angle, momentum and thrust right to the next order (docs/spinning.md,
-/// section 6.1). Passed over where that would not make it better, and where so many times are asked that the full
-/// equations cost less.
+/// section 6.1). Passed over where that would not make it better.
 inline Track second_order_track(const Scene& scene, Monitor*) {
   const Problem<double>& problem = scene.problem();
   if (problem.torque[2] != 0)
@@ -21,8 +20,6 @@ inline Track second_order_track(const Scene& scene, Monitor*) {
                           "a torque acts about the spin axis: the spin is not constant to first order");
   const auto& times = scene.question().times;
   const double end = times.back();
-  if (scene.question().rung != rung::second_order && double(times.size()) > 4 * problem.phase(end) / (2 * pi<double>))
-    return refused<Track>(Errc::not_applicable, "at more than four times a turn the full equations cost less");
   const auto error = second_order_errors(problem, end);
   if (detail::gives_up(scene, rung::second_order, error)) return detail::given_up(error);
   const SecondOrder<double> motion(problem, end > 0 ? end : 1e-6);  // of the start alone any span will do

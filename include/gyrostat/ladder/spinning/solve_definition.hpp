@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <span>
 
+#include "gyrostat/ladder/spinning/cost.hpp"
 #include "gyrostat/ladder/spinning/full_rung.hpp"
 #include "gyrostat/ladder/spinning/linear_rung.hpp"
 #include "gyrostat/ladder/spinning/picard_rung.hpp"
@@ -75,7 +76,10 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
 }
 
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
-  static constexpr Rung<Scene, Track> models[] = {&linear_track, &second_order_track, &picard_track, &full_track};
+  static constexpr Rung<Scene, Track> models[] = {{&linear_track, &cost_of_linear},
+                                                  {&second_order_track, &cost_of_second_order},
+                                                  {&picard_track, &cost_of_picard},
+                                                  {&full_track, &cost_of_full}};
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 

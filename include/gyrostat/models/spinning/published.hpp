@@ -17,9 +17,9 @@
 namespace gyrostat::spinning::published {
 
 enum class Reading : std::uint8_t {
-  printed,  ///< literally; brackets that are never closed are closed, zeta3 and zeta4 of (64) are those of (23)
-  corrected,   ///< without the misprints; the nutation is still that of D1 = D2, right where that or Lambda = 0 holds
-  exact,    ///< with kappa for zeta: the linear motion, but for what the divisors lose
+  printed,    ///< literally; brackets that are never closed are closed, zeta3 and zeta4 of (64) are those of (23)
+  corrected,  ///< without the misprints; the nutation is still that of D1 = D2, right where that or Lambda = 0 holds
+  exact,      ///< with kappa for zeta: the linear motion, but for what the divisors lose
 };
 
 /// The motion at one time, by equation.

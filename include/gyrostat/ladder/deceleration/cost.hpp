@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/ladder/cost.hpp"
+#include "gyrostat/ladder/deceleration/full_rung.hpp"
+#include "gyrostat/ladder/deceleration/scene.hpp"
+
+/// What the rungs of the family `deceleration` cost, s.
+namespace gyrostat::deceleration {
+
+inline constexpr FormulaCost equal_torque_cost{2e-6, 0.15e-6};
+inline constexpr FormulaCost averaged_cost{40e-6, 0.3e-6}, averaged_orbit_cost{300e-6, 0.5e-6};
+inline constexpr FormulaCost averaged_2_cost{300e-6, 0.5e-6}, averaged_2_orbit_cost{1.5e-3, 1e-6};
+inline constexpr SeriesCost series_cost{5e-6, 3e-6, 1e-6, 1};
+
+inline double cost_of_equal_torque(const Scene& scene) noexcept {
+  return equal_torque_cost(scene.question().times.size());
+}
+inline double cost_of_averaged(const Scene& scene) noexcept {
+  return (needs_orbit(scene) ? averaged_orbit_cost : averaged_cost)(scene.question().times.size());
+}
+inline double cost_of_averaged_2(const Scene& scene) noexcept {
+  return (needs_orbit(scene) ? averaged_2_orbit_cost : averaged_2_cost)(scene.question().times.size());
+}
+inline double cost_of_full(const Scene& scene) noexcept {
+  const auto& problem = scene.problem();
+  const FullCoefficients<double> f(problem);
+  const double size = (problem.momentum - f.offset).norm(), b = scene.least_control(), drag = problem.drag;
+  const double last = scene.question().times.back();
+  const double stop = !(b > 0) ? infinity<double> : drag > 0 ? std::log1p(drag * size / b) / drag : size / b;
+  const double span = goes_to_stop(scene) && stop < infinity<double> ? stop : std::min(last, stop);
+  const double mean = size / (1 + drag * span) * (stop <= span ? 0.5 : 1.0);
+  const double own = scene.question().wants_attitude ? problem.inverse_inertia[0] : f.quadratic.cwiseAbs().maxCoeff();
+  const double angle = span * (own * mean + f.linear.norm() + f.rate.norm() + problem.gyro_rate().norm());
+  return series_cost(angle, 1e-9, scene.question().times.size()) + (stop <= span ? 100e-6 : 0);
+}
+
+}  // namespace gyrostat::deceleration
