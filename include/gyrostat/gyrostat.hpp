@@ -8,6 +8,7 @@
 #include "gyrostat/body/realisability.hpp"
 #include "gyrostat/body/rotor.hpp"
 #include "gyrostat/core/compensated.hpp"
+#include "gyrostat/core/double_double.hpp"
 #include "gyrostat/core/lane_pair.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/linkage.hpp"
