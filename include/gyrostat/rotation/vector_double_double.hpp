@@ -12,7 +12,7 @@ struct Eigen::NumTraits<gyrostat::DoubleDouble> : Eigen::GenericNumTraits<gyrost
   using Real = gyrostat::DoubleDouble;
   using NonInteger = gyrostat::DoubleDouble;
   using Nested = gyrostat::DoubleDouble;
-  using Literal = double;
+  using Literal = gyrostat::DoubleDouble;
   enum { IsInteger = 0, IsSigned = 1, IsComplex = 0, RequireInitialization = 0, ReadCost = 2, AddCost = 20, MulCost = 10 };
   static Real epsilon() { return gyrostat::epsilon<Real>; }
   static Real dummy_precision() { return 64 * gyrostat::epsilon<Real>; }
