@@ -76,12 +76,11 @@ struct ThetaPair {
       C one{0, 0}, two{0, 0};
       const Scalar up2 = up * up, down2 = down * down;
       rise = up, fall = down;
-      for (int m = 1; m <= powers; m += 2) {
-        one.re += x[m] * rise, one.im += y[m] * rise;
-        two.re -= x[m] * fall, two.im += y[m] * fall;
-        const Scalar next = fall * down2;
-        fall = rise * up2;
-        rise = next;
+      for (int m = 1; m <= powers; m += 4) {
+        one.re += x[m] * rise + x[m + 2] * (fall * down2), one.im += y[m] * rise + y[m + 2] * (fall * down2);
+        two.re -= x[m] * fall + x[m + 2] * (rise * up2), two.im += y[m] * fall + y[m + 2] * (rise * up2);
+        rise *= up2 * up2;
+        fall *= down2 * down2;
       }
       return {one, two};
     }
