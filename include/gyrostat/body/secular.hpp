@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 
 #include "gyrostat/core/real.hpp"
@@ -219,7 +220,11 @@ class Secular {
       const Scalar y = -clo / (chi - clo);
       if (y > 0 && y < 1) x = lo + (hi - lo) * (Scalar(.5) - Scalar(std::sin(std::asin(static_cast<double>(1 - 2 * y)) / 3)));
     }
-    for (int trip = 0; trip < 100; ++trip) {
+    // a class of numbers rounds its own operations less well than a processor does
+    constexpr bool native = std::floating_point<Scalar>;
+    constexpr int trips = native ? 100 : 300;
+    const Scalar noise = (native ? 4 : 32) * epsilon<Scalar>;
+    for (int trip = 0; trip < trips; ++trip) {
       Scalar rest = constant + R_ * R_ * x, steep = R_ * R_, size = abs(constant) + abs(R_ * R_ * x);
       for (int i = 0; i < 3; ++i)
         if (i != origin && active(i)) {
@@ -230,7 +235,7 @@ class Secular {
         }
       const Scalar f = rest + (weight > 0 ? weight / x : Scalar(0));
       // late trips stop at the rounding of c
-      if (f == 0 || (trip > 12 && abs(f) <= 4 * epsilon<Scalar> * size)) return Point{origin, x};
+      if (f == 0 || (trip > 12 && abs(f) <= noise * size)) return Point{origin, x};
       if ((f > 0) == (slope > 0)) hi = x;
       else lo = x;
       Scalar next;

@@ -33,13 +33,11 @@ struct NullPlane {
     p.v = second;
     p.v.x -= pencil.S(p.v.x, p.u.x) * p.u.x;
     p.v.x /= sqrt(pencil.S(p.v.x, p.v.x));
-    p.Yu = pencil.along(p.u);
-    p.Yv = pencil.along(p.v);
     const auto& X = pencil.start();
+    p.Yu = pencil.along(p.u, X);
+    p.Yv = pencil.along(p.v, X);
     const Vec4<Scalar> W = X - p.Yu * p.u.x - p.Yv * p.v.x;
-    Vec4<Scalar> V;  // timelike, unit
-    V << -pencil.shift()[0], -pencil.shift()[1], -pencil.shift()[2], Scalar(1);
-    V = p.across(pencil, V);
+    Vec4<Scalar> V = p.across(pencil, pencil.timelike());
     V /= sqrt(-pencil.S(V, V));
     const Scalar s = -pencil.S(W, V);
     // a spacelike unit vector of the plane: along the start's, or where that is small along a principal axis
@@ -76,16 +74,14 @@ struct NullPlane {
 
  private:
   Vec4<Scalar> across(const Pencil<Scalar>& pencil, const Vec4<Scalar>& x) const noexcept {
-    return x - pencil.S(x, u.x) * u.x - pencil.S(x, v.x) * v.x;
+    return x - pencil.along(u, x) * u.x - pencil.along(v, x) * v.x;
   }
   Vec4<Scalar> spacelike(const Pencil<Scalar>& pencil, const Vec4<Scalar>& V) const noexcept {
     using std::sqrt;
     Vec4<Scalar> best = Vec4<Scalar>::Zero();
     Scalar most = 0;
     for (int i = 0; i < 3; ++i) {
-      Vec4<Scalar> e = Vec4<Scalar>::Zero();
-      e[i] = 1;
-      e = across(pencil, e);
+      Vec4<Scalar> e = across(pencil, pencil.timelike(i));
       e += pencil.S(e, V) * V;
       const Scalar square = pencil.S(e, e);
       if (square > most) most = square, best = e;

@@ -77,10 +77,8 @@ class Motion {
     const Setup R = p.M.stableNorm();
     const Quat<Setup> q0 = as_unit(problem.attitude);
     motion.common(p, R, q0);
-    const Setup along = p.omega.stableNorm();
-    const Vec3<Setup> steady = R > 0 ? cross<Setup>(p.omega, p.M / R) : Vec3<Setup>(Vec3<Setup>::Zero());
     const Setup floor = Setup(1e-140) * (p.l.cwiseAbs().maxCoeff() + p.G.cwiseAbs().maxCoeff());
-    if (R <= floor || steady.stableNorm() <= 4 * epsilon<Setup> * along) {
+    if (R <= floor || p.steady(R)) {
       motion.set_steady(p, R);
       return motion;
     }

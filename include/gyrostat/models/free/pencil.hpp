@@ -90,9 +90,19 @@ class Pencil {
     return secular_.difference(p.place, q.place);
   }
 
-  /// S(X, u) of the start X and an axis u.
-  Scalar along(const PencilAxis<Scalar>& u) const noexcept {
-    return shifted_ && !u.exact ? E(start_, u.x) / sigma(u) : S(start_, u.x);
+  /// S(x, u) of an axis u, without cancellation where the shifted x is small.
+  Scalar along(const PencilAxis<Scalar>& u, const Vec4<Scalar>& x) const noexcept {
+    return shifted_ && !u.exact ? E(x, u.x) / sigma(u) : S(x, u.x);
+  }
+
+  /// A timelike vector, S(x, x) < 0, near the start where that is small in shifted form; moved along a principal axis on request.
+  Vec4<Scalar> timelike(int axis = -1) const noexcept {
+    Vec4<Scalar> x = Vec4<Scalar>::Zero();
+    const Scalar g = start_.template head<3>().norm(), step = shifted_ && 4 * g < 1 ? 3 * g : Scalar(1);
+    for (int i = 0; i < 3; ++i) x[i] = -step * d_[i];
+    x[3] = 1;
+    if (axis >= 0) x[axis] += step;
+    return x;
   }
 
   /// M/R and the fourth coordinate of X, from (Z, x4).

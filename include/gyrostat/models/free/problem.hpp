@@ -101,6 +101,17 @@ struct PrincipalProblem {
     return p;
   }
 
+  /// omega is parallel to M to rounding, component by component: a start 1e-300 off a principal axis is not.
+  bool steady(const Scalar& R) const noexcept {
+    using std::abs;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const Scalar first = M[j] / R * omega[k], second = M[k] / R * omega[j];
+      if (abs(first - second) > 2 * epsilon<Scalar> * (abs(first) + abs(second))) return false;
+    }
+    return true;
+  }
+
   /// J is a sphere to rounding.
   bool spherical() const noexcept { return gaps(0, 2) <= 8 * epsilon<Scalar> * inverse[2]; }
 };
