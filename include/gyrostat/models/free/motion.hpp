@@ -75,6 +75,7 @@ class Motion {
     Motion motion;
     const auto p = PrincipalProblem<Setup>::of(problem);
     const Setup R = p.M.stableNorm();
+    if (!(R - R == 0)) return Errc::not_finite;
     const Quat<Setup> q0 = as_unit(problem.attitude);
     motion.common(p, R, q0);
     const Setup floor = Setup(1e-140) * (p.l.cwiseAbs().maxCoeff() + p.G.cwiseAbs().maxCoeff());
@@ -207,7 +208,7 @@ class Motion {
   bool set_regular(const Pencil<Setup>& pencil, const Frame<Setup>& frame, const PrincipalProblem<Setup>& p,
                    const Setup& R) noexcept {
     using std::abs, std::isfinite;
-    const ThetaPair<Setup> pair(frame, Setup(epsilon<Scalar>) / 512);
+    const ThetaPair<Setup> pair(frame);
     pair_ = pair.template cast<Scalar>();
     modulus_ = {static_cast<Scalar>(frame.modulus.k2), static_cast<Scalar>(frame.modulus.kp2)};
     const bool endless = frame.modulus.kp2 == 0;

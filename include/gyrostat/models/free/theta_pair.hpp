@@ -37,9 +37,7 @@ struct ThetaPair {
   };
 
   ThetaPair() = default;
-  /// @param least terms below it, relative to the largest, are left out
-  explicit ThetaPair(const Frame<Scalar>& frame, Scalar least = epsilon<Scalar> / 512) noexcept
-      : single(frame.form == PathForm::single), least_(least) {
+  explicit ThetaPair(const Frame<Scalar>& frame) noexcept : single(frame.form == PathForm::single) {
     K = math::complete(frame.modulus).K;
     Kp = frame.eta + frame.eta_rest;
     hyperbolic = single ? frame.modulus.k2 > frame.modulus.kp2 : frame.form == PathForm::separatrix;
@@ -93,13 +91,14 @@ struct ThetaPair {
     return {odd, even};
   }
 
-  /// The same in other numbers.
+  /// The same in other numbers, with the terms that these can show.
   template <Real To>
   ThetaPair<To> cast() const noexcept {
     ThetaPair<To> pair;
     pair.hyperbolic = hyperbolic;
     pair.single = single;
-    pair.powers = powers;
+    for (int m = 1; m <= powers; ++m)
+      if (weight_[m] > negligible<To>) pair.powers = m;
     for (int m = 0; m < most; ++m) pair.x[m] = static_cast<To>(x[m]), pair.y[m] = static_cast<To>(y[m]);
     pair.h = static_cast<To>(h);
     pair.K = static_cast<To>(K);
@@ -137,7 +136,8 @@ struct ThetaPair {
 
  private:
   void put(int m, Scalar size, Scalar a, Scalar b) noexcept {
-    if (!(size > least_) || m >= most) return;
+    weight_[m] = static_cast<double>(size);
+    if (!(weight_[m] > negligible<Scalar>)) return;
     x[m] = a;
     y[m] = b;
     powers = std::max(powers, m);
@@ -196,7 +196,10 @@ struct ThetaPair {
     }
   }
 
-  Scalar least_ = 0;
+  template <Real S>
+  static constexpr double negligible = static_cast<double>(epsilon<S>) / 512;
+
+  double weight_[most] = {};  // of the powers, relative to the largest term
 };
 
 }  // namespace gyrostat::free
