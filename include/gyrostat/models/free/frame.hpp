@@ -19,7 +19,7 @@ namespace gyrostat::free {
 template <Real Scalar>
 struct NullPlane {
   PencilAxis<Scalar> u, v;         ///< v made orthogonal to u
-  Vec4<Scalar> plus, minus;        ///< P+ and P-, future directed, S(P+, P-) = -2; P+ is the one that the start is nearer to
+  Vec4<Scalar> plus = Vec4<Scalar>::Zero(), minus = plus;  ///< P+ and P-, future directed, S(P+, P-) = -2; P+ is the one that the start is nearer to
   Scalar E_plus = 0, E_minus = 0;  ///< E(P+, P+)/2, E(P-, P-)/2
   Scalar al = 0, be = 0;           ///< the start is X0 = al P+ + be P- + Yu u + Yv v
   Scalar Yu = 0, Yv = 0;
@@ -102,7 +102,7 @@ struct Frame {
   PathForm form = PathForm::single;
   int side = 0;        ///< of two components: 1 where M surrounds the axis of the largest moment, -1 that of the smallest
   bool exact = false;  ///< the axis next to the timelike one is a principal axis: kp2 is known as well as the data
-  Vec4<Scalar> plus, minus, xa, xb;  ///< N+, N- (null, S = -2) and two spacelike vectors, an orthogonal frame with (N+ +- N-)/2
+  Vec4<Scalar> plus = Vec4<Scalar>::Zero(), minus = plus, xa = plus, xb = plus;  ///< N+, N- (null, S = -2) and two spacelike vectors, an orthogonal frame with (N+ +- N-)/2
   int delta = 1;                     ///< orientation
   math::Modulus<Scalar> modulus;
   Scalar rate = 0;                ///< du/dt over R

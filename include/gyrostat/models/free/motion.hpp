@@ -107,6 +107,19 @@ class Motion {
   void grid(Scalar first, Scalar step, std::size_t count, Scalar* angular_velocity, Scalar* attitude,
             Scalar* angular_momentum) const noexcept;
 
+  /// By how much rounding in at(t) grows since terms of opposite sign are added, 1 or more; near 1 but where the frame is boosted.
+  Scalar cancellation(Scalar t) const noexcept {
+    using std::abs;
+    if (kind_ == Kind::steady || kind_ == Kind::spherical) return 1;
+    const Place place = place_at(t);
+    const Value zeta = pair_.at(place.exponent, place.rest);
+    const Scalar a = zeta.one.re * zeta.one.re + zeta.one.im * zeta.one.im, b = zeta.two.re * zeta.two.re + zeta.two.im * zeta.two.im;
+    const Scalar re = zeta.one.re * zeta.two.re + zeta.one.im * zeta.two.im;
+    const Scalar im = zeta.one.re * zeta.two.im - zeta.one.im * zeta.two.re;
+    const Scalar parts = abs(size_[0] * a) + abs(size_[1] * b) + abs(size_[2] * re) + abs(size_[3] * im);
+    return parts / abs(size_[0] * a + size_[1] * b + size_[2] * re + size_[3] * im);
+  }
+
   Kind kind() const noexcept { return kind_; }
   /// Of omega in the body, s; infinite on a separatrix, NaN in a permanent rotation.
   Scalar period() const noexcept { return period_; }

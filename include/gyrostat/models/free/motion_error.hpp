@@ -110,7 +110,7 @@ class MotionError {
       b.attitude += 4 * (turned + late * attitude_change_);
       if (!agree_) b.attitude = infinity<Scalar>;
     }
-    const Scalar rounding = 16 * epsilon<Scalar>;
+    const Scalar rounding = 8 * cancellation_ * epsilon<Scalar>;
     if (!(b.attitude <= Scalar(0.2) && b.angular_momentum <= Scalar(0.2)))  // four times 0.05
       return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
     return {b.angular_velocity + rounding, b.angular_momentum + rounding, b.attitude + rounding};
@@ -152,15 +152,20 @@ class MotionError {
     for (int i = 0; i < nodes; ++i) {
       const State<Scalar> at = motion.at(T * Scalar(i) / nodes);
       const Vec3<Scalar> flow = cross<Scalar>(at.angular_momentum, at.angular_velocity);
+      cancellation_ = max(cancellation_, motion.cancellation(T * Scalar(i) / nodes));
       fastest_ = max(fastest_, at.angular_velocity.norm());
       momentum_change_ = max(momentum_change_, flow.norm());
       rates_change_ = max(rates_change_, Vec3<Scalar>(inverse * flow).norm());
       attitude_change_ = max(attitude_change_, Vec3<Scalar>(at.angular_velocity - turn / R * at.angular_momentum).norm());
     }
+    // E = exp(h u) grows along a half period, and its rounding with it
+    if (motion.hyperbolic() && isfinite(motion.quarter_period()))
+      cancellation_ += motion.quarter_period() / motion.quarter_period_conjugate() / 8;
     // per period that the phase is late, with a margin for what lies between the nodes
-    rates_change_ *= 2 * T / fastest_;
-    momentum_change_ *= 2 * T / R;
-    attitude_change_ *= 2 * T;
+    const Scalar margin = Scalar(1.25);
+    rates_change_ *= margin * T / fastest_;
+    momentum_change_ *= margin * T / R;
+    attitude_change_ *= margin * T;
   }
 
   void start_steady(const Motion<Scalar>& motion) noexcept {
@@ -239,7 +244,7 @@ class MotionError {
   Scalar period_ = 1, span_ = 1, fastest_ = 0, speed_ = 0;
   Scalar rates_change_ = 0, momentum_change_ = 0, attitude_change_ = 0;  // by a phase late by a period
   Scalar share_ = 0, turn_rate_ = 0, turn_ = 0;  // periods late a second; rad/s about M; rad a period
-  Scalar modulus_ = 0, energy_ = 0, norm_ = 0;
+  Scalar modulus_ = 0, energy_ = 0, norm_ = 0, cancellation_ = 1;
   Scalar offset_ = 0, unstable_ = 0, frequency_ = 0, wandering_ = 0, gain_ = 0;  // of a steady rotation
   std::array<Bound, nodes + 1> first_{};
 };
