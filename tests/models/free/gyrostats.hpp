@@ -226,7 +226,8 @@ Off off(const State<Scalar>& s, const State<Truth>& truth) {
   const Quat<Truth> q{s.attitude.w, s.attitude.x, s.attitude.y, s.attitude.z}, r = gyrostat::conjugate(truth.attitude) * q;
   Off o;
   o.rates = double((vector_cast<Truth>(s.angular_velocity) - truth.angular_velocity).norm() / truth.angular_velocity.norm());
-  o.momentum = double((vector_cast<Truth>(s.angular_momentum) - truth.angular_momentum).norm() / truth.angular_momentum.norm());
+  const double R = double(truth.angular_momentum.norm()), gap = double((vector_cast<Truth>(s.angular_momentum) - truth.angular_momentum).norm());
+  o.momentum = R > 0 ? gap / R : gap;
   using std::sqrt;
   o.attitude = double(2 * sqrt(r.x * r.x + r.y * r.y + r.z * r.z));
   if (!(o.rates >= 0)) o.rates = 1e300;

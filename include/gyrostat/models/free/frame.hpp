@@ -275,14 +275,16 @@ struct Frame {
     if (!(p.E_plus > 0)) plus.swap(minus), std::swap(al, be);
     const Scalar width = pencil.difference(p.u, p.v), rho = hypot(p.from_u, B), rho2 = hypot(p.from_v, B);
     rate = sqrt(rho * rho2);
-    const Scalar r = (-p.from_u * p.from_v - B * B) / (B * width), root = hypot(Scalar(1), r);
-    const Scalar small = std::max(1 / (2 * root * (root + abs(r))), Scalar(1e-290));
-    modulus = r > 0 ? math::Modulus<Scalar>::from_kp2(small) : math::Modulus<Scalar>::from_k2(small);
-    const Scalar xc2 = r > 0 ? root + r : 1 / (root - r), cosine = p.from_u / rho, sine = B / rho;
+    // r = reach/width; without dividing, since the roots of a symmetric body agree
+    const Scalar reach = (-p.from_u * p.from_v - B * B) / B, root = hypot(width, reach);
+    const Scalar small = std::max(width / (2 * root) * (width / (root + abs(reach))), Scalar(1e-290));
+    modulus = reach > 0 ? math::Modulus<Scalar>::from_kp2(small) : math::Modulus<Scalar>::from_k2(small);
+    const Scalar xc2_width = reach > 0 ? (root + reach) / width / width : 1 / (root - reach), xc2 = xc2_width * width;
+    const Scalar cosine = p.from_u / rho, sine = B / rho;
     Scalar cg, sg;  // of half the angle of m - s1 + i B
     if (cosine > 0) cg = sqrt((1 + cosine) / 2), sg = sine / (2 * cg);
     else sg = sqrt((1 - cosine) / 2), cg = sine / (2 * sg);
-    const Scalar f = cg * al + sg * be, ns = sqrt(2 * sine * (xc2 * xc2 + 1)), nc = 2 * sqrt(xc2 * rho / width);
+    const Scalar f = cg * al + sg * be, ns = sqrt(2 * sine * (xc2 * xc2 + 1)), nc = 2 * sqrt(xc2_width * rho);
     Vec4<Scalar> x1 = p.u.x, x2 = p.v.x;
     cn = p.Yv / (nc * f);
     if (cn < 0) cn = -cn, x2 = -x2;
@@ -296,7 +298,7 @@ struct Frame {
     xa = x1;
     xb = -Scalar(delta) * x2;
     const Scalar k = sqrt(modulus.k2), kp = sqrt(modulus.kp2), tangent = sg / cg;
-    const Scalar bez = sg + cg * xc2, alz = xc2 * rho / (width * bez), sum = k + kp * tangent;
+    const Scalar bez = sg + cg * xc2, alz = xc2_width * rho / bez, sum = k + kp * tangent;
     eta = sqrt(alz / cg) * math::carlson_RF<Scalar>(tangent * k / kp, k * sum, Scalar(1));
     eta_rest = sqrt(tangent / (kp * sum)) * math::carlson_RF<Scalar>(k * alz / cg / sum, k / sum, Scalar(1));
     size[0] = alz;

@@ -304,8 +304,8 @@ class Motion {
     using std::fma, std::nearbyint;
     const auto x = detail::Fraction<Scalar>::of(rate_, t, start_), f = detail::Fraction<Scalar>::of(phase_rate_, t, {});
     if (!pair_.hyperbolic) return {2 * pi<Scalar> * (x.high + x.low), Scalar(0), f.high + f.low, false};
-    if (kind_ == Kind::separatrix) {  // no period: beyond e^300 the motion has reached its end to any rounding
-      const Scalar end = 300, u = span_.high * (x.whole + (x.high + x.low));
+    if (kind_ == Kind::separatrix) {  // no period: beyond e^100 the motion has reached its end to any rounding
+      const Scalar end = 100, u = span_.high * (x.whole + (x.high + x.low));
       return {u > end ? end : u < -end ? -end : u, Scalar(0), f.high + f.low, false};
     }
     const auto jump = detail::Fraction<Scalar>::of(jump_, x.whole, {});
@@ -406,7 +406,7 @@ void Motion<Scalar>::fill(Block& b, Scalar first, Scalar step, int count) const 
     return;
   }
   const bool endless = kind_ == Kind::separatrix;
-  const Scalar rise = rate_.high * step * span_.high, end = endless ? Scalar(300) : span_.high / 2;
+  const Scalar rise = rate_.high * step * span_.high, end = endless ? Scalar(100) : span_.high / 2;
   const Scalar by = exp(rise), back = 1 / by;
   Scalar exponent = end;  // beyond the end of a window: anew
   bool odd = false;

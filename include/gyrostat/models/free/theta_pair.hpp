@@ -115,15 +115,16 @@ struct ThetaPair {
     C slope[2] = {{0, 0}, {0, 0}};  // of even and odd powers
     for (int m = 1; m <= powers; ++m) {
       C& to = slope[m & 1];
+      const Scalar n = Scalar(m);
       if (!hyperbolic) {
-        to.im += m * y[m];  // d/dz of y sin mz; that of x cos mz vanishes
+        to.im += n * y[m];  // d/dz of y sin mz; that of x cos mz vanishes
       } else if (!single) {
-        to.re += m * (m % 4 == 1 ? x[m] : -x[m]);
-        to.im += m * (m % 4 == 1 ? y[m] : -y[m]);
+        to.re += n * (m % 4 == 1 ? x[m] : -x[m]);
+        to.im += n * (m % 4 == 1 ? y[m] : -y[m]);
       } else if (m & 1) {
-        to.re += 2 * m * x[m];
+        to.re += 2 * n * x[m];
       } else {
-        to.im += 2 * m * y[m];
+        to.im += 2 * n * y[m];
       }
     }
     const auto turn = [this](C s, C v) { return h * (s.im * v.re - s.re * v.im) / (v.re * v.re + v.im * v.im); };
@@ -156,30 +157,31 @@ struct ThetaPair {
         const int d = k * f.delta;
         const int rest = single && m % 2 ? k * k - 1 : k * k;
         const int turn = single ? (m % 2 ? (d + 1) * (d + 1) : d * d + 2 * d) : d * d + d;
-        return exp(-unit * (rest * f.eta_rest + turn * f.eta));
+        return exp(-unit * (Scalar(rest) * f.eta_rest + Scalar(turn) * f.eta));
       };
       const Scalar up = size(m), down = size(-m), largest = std::max(up, down);
-      if (m % 2) put(m, largest, s * (up - down), s * (up + down));  // of (-1)^n, and its opposite at -m
+      const Scalar sign = Scalar(s);
+      if (m % 2) put(m, largest, sign * (up - down), sign * (up + down));  // of (-1)^n, and its opposite at -m
       else if (single) put(m, largest, up + down, up - down);
-      else put(m, largest, s * (up + down), s * (up - down));
+      else put(m, largest, sign * (up + down), sign * (up - down));
     }
   }
 
   void hyperbolic_sums(const Frame<Scalar>& f) noexcept {
     using std::cos, std::exp, std::sin;
     h = pi<Scalar> / (single ? 2 * Kp : 4 * Kp);
-    const Scalar angle = h * f.eta * f.delta, log_Q = -2 * h * K;  // |u| <= K: E >= Q^(1/2)
+    const Scalar angle = h * f.eta * Scalar(f.delta), log_Q = -2 * h * K;  // |u| <= K: E >= Q^(1/2)
     if (single) x[0] = 1;
     for (int m = 1; m < most; m += single ? 1 : 2) {
       const int quarters = m % 2 ? m * m - 1 : m * m, n = m / 2;
-      const Scalar size = quarters == 0 ? Scalar(1) : exp(log_Q * quarters / 4);
-      const Scalar edge = quarters == 0 ? Scalar(1) : exp(log_Q * (quarters - 2 * m + 2 * (m % 2)) / 4);
+      const Scalar size = quarters == 0 ? Scalar(1) : exp(log_Q * Scalar(quarters) / 4);
+      const Scalar edge = quarters == 0 ? Scalar(1) : exp(log_Q * Scalar(quarters - 2 * m + 2 * (m % 2)) / 4);
       if (single) {
-        const int s = m % 2 && n % 2 ? -1 : 1;
-        put(m, edge, s * size * cos(m * angle), s * size * sin(m * angle));
+        const Scalar turned = Scalar(m) * angle, signed_size = m % 2 && n % 2 ? -size : size;
+        put(m, edge, signed_size * cos(turned), signed_size * sin(turned));
       } else {
-        const int s = n % 2 ? -m : m;
-        put(m, edge, size * cos(s * angle), size * sin(s * angle));
+        const Scalar turned = Scalar(n % 2 ? -m : m) * angle;
+        put(m, edge, size * cos(turned), size * sin(turned));
       }
     }
   }
