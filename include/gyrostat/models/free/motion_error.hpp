@@ -111,8 +111,10 @@ class MotionError {
       if (!agree_) b.attitude = infinity<Scalar>;
     }
     const Scalar rounding = 8 * cancellation_ * epsilon<Scalar>;
-    if (!(b.attitude <= Scalar(0.2) && b.angular_momentum <= Scalar(0.2)))  // four times 0.05
-      return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
+    const Scalar most = Scalar(0.2);  // four times 0.05
+    if (!(b.attitude <= most && b.angular_velocity <= most)) return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
+    // M may be all rounding and the body's motion not
+    if (!(b.angular_momentum <= most)) b.angular_momentum = infinity<Scalar>;
     return {b.angular_velocity + rounding, b.angular_momentum + rounding, b.attitude + rounding};
   }
 
