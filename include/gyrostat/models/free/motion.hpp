@@ -353,9 +353,9 @@ class Motion {
 
   static constexpr int block = 64;
   struct Block;
-  void fill(Block& b, Scalar first, Scalar step, int count) const noexcept;
-  void sums(Block& b, int count) const noexcept;
-  void put(const Block& b, int count, Scalar* angular_velocity, Scalar* attitude, Scalar* angular_momentum) const noexcept;
+  void fill(Block& b, Scalar first, Scalar step) const noexcept;
+  void sums(Block& b) const noexcept;
+  void forms(Block& b) const noexcept;
 
   Kind kind_ = Kind::steady;
   State<Scalar> initial_;
@@ -376,79 +376,145 @@ class Motion {
   Scalar kappa_[2] = {0, 0}, u_rate_ = 0, u_start_ = 0;
 };
 
-/// What a block of a grid works on, number by number.
+/// What a block of a grid works on, array by array so that compilers make vector instructions of the loops.
 template <Real Scalar>
 struct Motion<Scalar>::Block {
-  Scalar up[block], down[block];    // cos and sin of the angle of E, or E and 1/E
-  Scalar cosine[block], sine[block];  // of the spinor's phase
-  Scalar zeta[4][block];            // zeta_1 and zeta_2, real and imaginary parts
-  bool odd[block];
+  using Row = Scalar[block];
+  Row up, down;                 // cos and sin of the angle of E, or E and 1/E
+  Row cosine, sine;             // of the spinor's phase
+  Row sign;                     // -1 an odd number of half periods on (hyperbolic form)
+  Row zeta[4];                  // zeta_1 and zeta_2, real and imaginary parts
+  Row rate[3], momentum[3], attitude[4];
 };
 
+namespace detail {
+
+/// z_k = z_0 turn^k: eight in a row, and every further one from that eight before it.
+template <Real Scalar, std::size_t N>
+void wind(Scalar (&re)[N], Scalar (&im)[N], math::Complex<Scalar> z, math::Complex<Scalar> turn) noexcept {
+  math::Complex<Scalar> leap{1, 0};
+  for (std::size_t k = 0; k < 8; ++k) {
+    re[k] = z.re, im[k] = z.im;
+    z = z * turn;
+    leap = leap * turn;
+  }
+  for (std::size_t k = 8; k < N; ++k) {
+    re[k] = re[k - 8] * leap.re - im[k - 8] * leap.im;
+    im[k] = re[k - 8] * leap.im + im[k - 8] * leap.re;
+  }
+}
+
+}  // namespace detail
+
 template <Real Scalar>
-void Motion<Scalar>::fill(Block& b, Scalar first, Scalar step, int count) const noexcept {
-  using std::cos, std::exp, std::sin;
-  const auto wind = [](Scalar turns) { return math::unit(2 * pi<Scalar> * turns); };
+void Motion<Scalar>::fill(Block& b, Scalar first, Scalar step) const noexcept {
+  using std::exp;
+  const auto turned = [](Scalar turns) { return math::unit(2 * pi<Scalar> * turns); };
   const auto f = detail::Fraction<Scalar>::of(phase_rate_, step, {});
-  const C turn = wind(f.high + f.low);
-  C phase{1, 0};
+  const C turn = turned(f.high + f.low);
   if (!pair_.hyperbolic) {
     const auto x = detail::Fraction<Scalar>::of(rate_, step, {});
     const Place place = place_at(first);
-    const C by = wind(x.high + x.low);
-    C E = math::unit(place.exponent);
-    phase = wind(place.turns);
-    for (int k = 0; k < count; ++k) {
-      b.up[k] = E.re, b.down[k] = E.im, b.cosine[k] = phase.re, b.sine[k] = phase.im, b.odd[k] = false;
-      E = E * by;
-      phase = phase * turn;
-    }
+    detail::wind(b.up, b.down, math::unit(place.exponent), turned(x.high + x.low));
+    detail::wind(b.cosine, b.sine, turned(place.turns), turn);
     return;
   }
   const bool endless = kind_ == Kind::separatrix;
   const Scalar rise = rate_.high * step * span_.high, end = endless ? Scalar(100) : span_.high / 2;
   const Scalar by = exp(rise), back = 1 / by;
-  Scalar exponent = end;  // beyond the end of a window: anew
-  bool odd = false;
-  for (int k = 0; k < count; ++k) {
+  C phase{1, 0};
+  Scalar exponent = end, sign = 1;  // beyond the end of a window: anew
+  for (int k = 0; k < block; ++k) {
     if (k == 0 || !(exponent < end && exponent > -end)) {
       const Place place = place_at(first + step * Scalar(k));
       exponent = place.exponent;
       b.up[k] = exp(exponent) * (1 + place.rest);
       b.down[k] = 1 / b.up[k];
-      phase = wind(place.turns);
-      odd = place.odd;
+      phase = turned(place.turns);
+      sign = place.odd ? -1 : 1;
     } else {
       b.up[k] = b.up[k - 1] * by;
       b.down[k] = b.down[k - 1] * back;
       phase = phase * turn;
     }
-    b.cosine[k] = phase.re, b.sine[k] = phase.im, b.odd[k] = odd;
+    b.cosine[k] = phase.re, b.sine[k] = phase.im, b.sign[k] = sign;
     exponent += rise;
   }
 }
 
+/// ThetaPair::at for a whole block.
 template <Real Scalar>
-void Motion<Scalar>::sums(Block& b, int count) const noexcept {
-  for (int k = 0; k < count; ++k) {
-    Value v = pair_.hyperbolic ? pair_.hyperbolic_at(b.up[k], b.down[k]) : pair_.trigonometric(b.up[k], b.down[k]);
-    if (b.odd[k]) v = half_period(v);
-    b.zeta[0][k] = v.one.re, b.zeta[1][k] = v.one.im, b.zeta[2][k] = v.two.re, b.zeta[3][k] = v.two.im;
+void Motion<Scalar>::sums(Block& b) const noexcept {
+  typename Block::Row re, im, sum[2][2];
+  const bool hyperbolic = pair_.hyperbolic, single = pair_.single;
+  for (int k = 0; k < block; ++k) {
+    re[k] = im[k] = 1;  // E^m and E^-m, or its real and imaginary part
+    if (!hyperbolic) im[k] = 0;
+    sum[0][0][k] = pair_.x[0], sum[0][1][k] = sum[1][0][k] = sum[1][1][k] = 0;
+  }
+  for (int m = 1; m <= pair_.powers; ++m) {
+    const Scalar x = pair_.x[m], y = pair_.y[m];
+    auto& s = sum[m & 1];
+    if (!hyperbolic) {
+      for (int k = 0; k < block; ++k) {
+        const Scalar r = re[k] * b.up[k] - im[k] * b.down[k];
+        im[k] = re[k] * b.down[k] + im[k] * b.up[k];
+        re[k] = r;
+        s[0][k] += x * re[k];
+        s[1][k] += y * im[k];
+      }
+      continue;
+    }
+    for (int k = 0; k < block; ++k) re[k] *= b.up[k], im[k] *= b.down[k];
+    if (single) {
+      const Scalar odd = m & 1 ? -1 : 1;
+      for (int k = 0; k < block; ++k) s[0][k] += x * (re[k] + odd * im[k]), s[1][k] += y * (re[k] - odd * im[k]);
+    } else if (m & 1) {
+      const bool swapped = m % 4 == 3;
+      for (int k = 0; k < block; ++k) {
+        const Scalar one = swapped ? im[k] : re[k], two = swapped ? re[k] : im[k];
+        sum[1][0][k] += x * one, sum[1][1][k] += y * one;
+        sum[0][0][k] -= x * two, sum[0][1][k] += y * two;
+      }
+    }
+  }
+  for (int k = 0; k < block; ++k) {
+    Scalar a = sum[1][0][k], c = sum[1][1][k], e = sum[0][0][k], g = sum[0][1][k];
+    if (!hyperbolic) {
+      const Scalar turned = a;  // -i times the odd sum
+      a = c, c = -turned;
+      b.zeta[0][k] = single ? a : e, b.zeta[1][k] = single ? c : g;
+      b.zeta[2][k] = single ? e : a, b.zeta[3][k] = single ? g : c;
+    } else if (single) {
+      b.zeta[0][k] = b.sign[k] * a, b.zeta[1][k] = b.sign[k] * c, b.zeta[2][k] = e, b.zeta[3][k] = g;
+    } else {
+      const bool odd = b.sign[k] < 0;
+      b.zeta[0][k] = odd ? -e : a, b.zeta[1][k] = odd ? -g : c, b.zeta[2][k] = odd ? -a : e, b.zeta[3][k] = odd ? -c : g;
+    }
   }
 }
 
+/// assemble() for a whole block.
 template <Real Scalar>
-void Motion<Scalar>::put(const Block& b, int count, Scalar* angular_velocity, Scalar* attitude,
-                         Scalar* angular_momentum) const noexcept {
-  for (int k = 0; k < count; ++k) {
-    const State<Scalar> s = assemble({{b.zeta[0][k], b.zeta[1][k]}, {b.zeta[2][k], b.zeta[3][k]}}, {b.cosine[k], b.sine[k]});
+void Motion<Scalar>::forms(Block& b) const noexcept {
+  using std::sqrt;
+  const Quat<Scalar>& l = lay_;
+  for (int k = 0; k < block; ++k) {
+    const Scalar ar = b.zeta[0][k], ai = b.zeta[1][k], br = b.zeta[2][k], bi = b.zeta[3][k];
+    const Scalar f0 = ar * ar + ai * ai, f1 = br * br + bi * bi, f2 = ar * br + ai * bi, f3 = ar * bi - ai * br;
+    const Scalar inverse = 1 / (size_[0] * f0 + size_[1] * f1 + size_[2] * f2 + size_[3] * f3);
     for (int i = 0; i < 3; ++i) {
-      if (angular_velocity) angular_velocity[3 * k + i] = s.angular_velocity[i];
-      if (angular_momentum) angular_momentum[3 * k + i] = s.angular_momentum[i];
+      b.rate[i][k] = (W_(i, 0) * f0 + W_(i, 1) * f1 + W_(i, 2) * f2 + W_(i, 3) * f3) * inverse;
+      b.momentum[i][k] = (M_(i, 0) * f0 + M_(i, 1) * f1 + M_(i, 2) * f2 + M_(i, 3) * f3) * inverse;
     }
-    if (!attitude) continue;
-    attitude[4 * k] = s.attitude.x, attitude[4 * k + 1] = s.attitude.y;
-    attitude[4 * k + 2] = s.attitude.z, attitude[4 * k + 3] = s.attitude.w;
+    const C one{ar, ai}, two{br, bi}, turn{b.cosine[k], b.sine[k]};
+    const C up = (spinor_[0][0] * one + spinor_[0][1] * two) * turn, down = (spinor_[1][0] * one + spinor_[1][1] * two) * turn;
+    const Scalar length = 1 / sqrt(up.re * up.re + up.im * up.im + down.re * down.re + down.im * down.im);
+    const Scalar w = up.re * length, x = down.im * length, y = -down.re * length, z = up.im * length;
+    b.attitude[0][k] = l.w * x + l.x * w + l.y * z - l.z * y;
+    b.attitude[1][k] = l.w * y - l.x * z + l.y * w + l.z * x;
+    b.attitude[2][k] = l.w * z + l.x * y - l.y * x + l.z * w;
+    b.attitude[3][k] = l.w * w - l.x * x - l.y * y - l.z * z;
   }
 }
 
@@ -456,30 +522,27 @@ template <Real Scalar>
 void Motion<Scalar>::grid(Scalar first, Scalar step, std::size_t count, Scalar* angular_velocity, Scalar* attitude,
                           Scalar* angular_momentum) const noexcept {
   const bool special = kind_ == Kind::steady || kind_ == Kind::spherical;
+  Block b{};
   for (std::size_t begin = 0; begin < count; begin += block) {
     const int n = static_cast<int>(std::min<std::size_t>(block, count - begin));
-    Block b;
-    const Scalar t = first + step * Scalar(begin);
     if (!special) {
-      fill(b, t, step, n);
-      sums(b, n);
-      put(b, n, angular_velocity, attitude, angular_momentum);
-    } else {
-      for (int k = 0; k < n; ++k) {
-        const State<Scalar> s = at(first + step * Scalar(begin + std::size_t(k)));
-        for (int i = 0; i < 3; ++i) {
-          if (angular_velocity) angular_velocity[3 * k + i] = s.angular_velocity[i];
-          if (angular_momentum) angular_momentum[3 * k + i] = s.angular_momentum[i];
-        }
-        if (attitude) {
-          attitude[4 * k] = s.attitude.x, attitude[4 * k + 1] = s.attitude.y;
-          attitude[4 * k + 2] = s.attitude.z, attitude[4 * k + 3] = s.attitude.w;
-        }
-      }
+      fill(b, first + step * Scalar(begin), step);
+      sums(b);
+      forms(b);
     }
-    if (angular_velocity) angular_velocity += 3 * n;
-    if (attitude) attitude += 4 * n;
-    if (angular_momentum) angular_momentum += 3 * n;
+    for (int k = 0; special && k < n; ++k) {
+      const State<Scalar> s = at(first + step * Scalar(begin + std::size_t(k)));
+      for (int i = 0; i < 3; ++i) b.rate[i][k] = s.angular_velocity[i], b.momentum[i][k] = s.angular_momentum[i];
+      b.attitude[0][k] = s.attitude.x, b.attitude[1][k] = s.attitude.y, b.attitude[2][k] = s.attitude.z, b.attitude[3][k] = s.attitude.w;
+    }
+    const auto put = [n](Scalar*& to, const auto& rows, int width) {
+      if (!to) return;
+      for (int k = 0; k < n; ++k)
+        for (int i = 0; i < width; ++i) *to++ = rows[i][k];
+    };
+    put(angular_velocity, b.rate, 3);
+    put(attitude, b.attitude, 4);
+    put(angular_momentum, b.momentum, 3);
   }
 }
 
