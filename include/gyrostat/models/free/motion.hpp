@@ -498,24 +498,32 @@ void Motion<Scalar>::sums(Block& b) const noexcept {
 template <Real Scalar>
 void Motion<Scalar>::forms(Block& b) const noexcept {
   using std::sqrt;
-  const Quat<Scalar>& l = lay_;
+  // copies: what the loops write could be members, for all the compiler knows
+  const Mat34<Scalar> W = W_, M = M_;
+  const Scalar size[4] = {size_[0], size_[1], size_[2], size_[3]};
+  const Quat<Scalar> l = lay_;
+  const C o[2] = {spinor_[0][0], spinor_[1][0]}, iota[2] = {spinor_[0][1], spinor_[1][1]};
+  typename Block::Row square;
   for (int k = 0; k < block; ++k) {
     const Scalar ar = b.zeta[0][k], ai = b.zeta[1][k], br = b.zeta[2][k], bi = b.zeta[3][k];
     const Scalar f0 = ar * ar + ai * ai, f1 = br * br + bi * bi, f2 = ar * br + ai * bi, f3 = ar * bi - ai * br;
-    const Scalar inverse = 1 / (size_[0] * f0 + size_[1] * f1 + size_[2] * f2 + size_[3] * f3);
+    const Scalar inverse = 1 / (size[0] * f0 + size[1] * f1 + size[2] * f2 + size[3] * f3);
     for (int i = 0; i < 3; ++i) {
-      b.rate[i][k] = (W_(i, 0) * f0 + W_(i, 1) * f1 + W_(i, 2) * f2 + W_(i, 3) * f3) * inverse;
-      b.momentum[i][k] = (M_(i, 0) * f0 + M_(i, 1) * f1 + M_(i, 2) * f2 + M_(i, 3) * f3) * inverse;
+      b.rate[i][k] = (W(i, 0) * f0 + W(i, 1) * f1 + W(i, 2) * f2 + W(i, 3) * f3) * inverse;
+      b.momentum[i][k] = (M(i, 0) * f0 + M(i, 1) * f1 + M(i, 2) * f2 + M(i, 3) * f3) * inverse;
     }
     const C one{ar, ai}, two{br, bi}, turn{b.cosine[k], b.sine[k]};
-    const C up = (spinor_[0][0] * one + spinor_[0][1] * two) * turn, down = (spinor_[1][0] * one + spinor_[1][1] * two) * turn;
-    const Scalar length = 1 / sqrt(up.re * up.re + up.im * up.im + down.re * down.re + down.im * down.im);
-    const Scalar w = up.re * length, x = down.im * length, y = -down.re * length, z = up.im * length;
+    const C up = (o[0] * one + iota[0] * two) * turn, down = (o[1] * one + iota[1] * two) * turn;
+    const Scalar w = up.re, x = down.im, y = -down.re, z = up.im;
+    square[k] = w * w + x * x + y * y + z * z;
     b.attitude[0][k] = l.w * x + l.x * w + l.y * z - l.z * y;
     b.attitude[1][k] = l.w * y - l.x * z + l.y * w + l.z * x;
     b.attitude[2][k] = l.w * z + l.x * y - l.y * x + l.z * w;
     b.attitude[3][k] = l.w * w - l.x * x - l.y * y - l.z * z;
   }
+  for (int k = 0; k < block; ++k) square[k] = sqrt(square[k]);
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < block; ++k) b.attitude[i][k] /= square[k];
 }
 
 template <Real Scalar>
