@@ -154,10 +154,18 @@ inline DoubleDouble hypot(const DoubleDouble& x, const DoubleDouble& y, const Do
 inline DoubleDouble exp(const DoubleDouble& x) noexcept {
   if (!(std::abs(x.high) < 709)) return std::exp(x.high);
   constexpr DoubleDouble ln2 = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
+  // 1/k
+  constexpr DoubleDouble inverse[] = {
+      {0x1.0000000000000p+0, 0x0.0p+0}, {0x1.0000000000000p-1, 0x0.0p+0}, {0x1.5555555555555p-2,
+      0x1.5555555555555p-56}, {0x1.0000000000000p-2, 0x0.0p+0}, {0x1.999999999999ap-3, -0x1.999999999999ap-57},
+      {0x1.5555555555555p-3, 0x1.5555555555555p-57}, {0x1.2492492492492p-3, 0x1.2492492492492p-57},
+      {0x1.0000000000000p-3, 0x0.0p+0}, {0x1.c71c71c71c71cp-4, 0x1.c71c71c71c71cp-58}, {0x1.999999999999ap-4,
+      -0x1.999999999999ap-58}, {0x1.745d1745d1746p-4, -0x1.745d1745d1746p-59}, {0x1.5555555555555p-4,
+      0x1.5555555555555p-58}};
   const double n = std::nearbyint(x.high / ln2.high);
   const DoubleDouble r = ldexp(x - n * ln2, -8);
   DoubleDouble rest = 0;
-  for (int k = 12; k >= 1; --k) rest = r / k * (1 + rest);
+  for (int k = 12; k >= 1; --k) rest = r * inverse[k - 1] * (1 + rest);
   for (int i = 0; i < 8; ++i) rest = rest * (2 + rest);
   return ldexp(1 + rest, static_cast<int>(n));
 }

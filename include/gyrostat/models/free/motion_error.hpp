@@ -110,7 +110,7 @@ class MotionError {
       b.attitude += 4 * (turned + late * attitude_change_);
       if (!agree_) b.attitude = infinity<Scalar>;
     }
-    const Scalar rounding = 8 * cancellation_ * epsilon<Scalar>;
+    const Scalar rounding = 10 * cancellation_ * epsilon<Scalar>;
     const Scalar most = Scalar(0.2);  // four times 0.05
     if (!(b.attitude <= most && b.angular_velocity <= most)) return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
     // M may be all rounding and the body's motion not

@@ -157,9 +157,11 @@ struct ThetaPair {
         const int d = k * f.delta;
         const int rest = single && m % 2 ? k * k - 1 : k * k;
         const int turn = single ? (m % 2 ? (d + 1) * (d + 1) : d * d + 2 * d) : d * d + d;
-        return exp(-unit * (Scalar(rest) * f.eta_rest + Scalar(turn) * f.eta));
+        const Scalar exponent = -unit * (Scalar(rest) * f.eta_rest + Scalar(turn) * f.eta);
+        return exponent > Scalar(-100) ? exp(exponent) : Scalar(0);
       };
       const Scalar up = size(m), down = size(-m), largest = std::max(up, down);
+      if (largest == 0) continue;
       const Scalar sign = Scalar(s);
       if (m % 2) put(m, largest, sign * (up - down), sign * (up + down));  // of (-1)^n, and its opposite at -m
       else if (single) put(m, largest, up + down, up - down);
@@ -176,6 +178,7 @@ struct ThetaPair {
       const int quarters = m % 2 ? m * m - 1 : m * m, n = m / 2;
       const Scalar size = quarters == 0 ? Scalar(1) : exp(log_Q * Scalar(quarters) / 4);
       const Scalar edge = quarters == 0 ? Scalar(1) : exp(log_Q * Scalar(quarters - 2 * m + 2 * (m % 2)) / 4);
+      if (edge < Scalar(1e-40)) continue;
       if (single) {
         const Scalar turned = Scalar(m) * angle, signed_size = m % 2 && n % 2 ? -size : size;
         put(m, edge, signed_size * cos(turned), signed_size * sin(turned));
