@@ -136,6 +136,23 @@ TEST_CASE("the start is met and both components of the spinor give one kappa", "
   }
 }
 
+TEST_CASE("a free motion with exact data is right after a thousand million periods", "[free]") {
+  for (const Regime regime : {Regime::generic, Regime::middle_axis, Regime::unstable_axis}) {
+    Bodies bodies(28);
+    for (int i = 0; i < 60; ++i) {
+      const auto p = bodies.of(regime, i);
+      const auto m = finely(p);
+      const auto full = finely<Wide>(p);
+      if (!std::isfinite(m.period())) continue;
+      const double t = 1e9 * m.period() * bodies.uniform();
+      const Off o = off(m.at(t), full.at(t));
+      CAPTURE(free_bodies::name(regime), i, m.modulus().kp2);
+      CHECK(o.attitude < 4e-15 * m.cancellation(t));
+      CHECK(o.momentum < 4e-15 * m.cancellation(t));
+    }
+  }
+}
+
 TEST_CASE("a restart, time reversal, other axes and other units change nothing", "[free]") {
   Bodies bodies(24);
   for (int i = 0; i < 60; ++i) {

@@ -53,7 +53,8 @@ struct Fraction {
     const Scalar part = p - n, sum = part + start.high, back = sum - part;
     const Scalar low = ((part - (sum - back)) + (start.high - back)) + (rest + start.low);
     const Scalar more = nearbyint(sum + low);
-    return {n + more, sum - more, low};
+    const Scalar left = sum - more, high = left + low;
+    return {n + more, high, low - (high - left)};
   }
 };
 
