@@ -6,9 +6,14 @@
 
 namespace gyrostat {
 
+/// True of a class of numbers that stands for a floating-point type (core/double_double.hpp): with the operators, the limits of
+/// std::numeric_limits, and the functions of <cmath> found by the type of their argument.
+template <class T>
+inline constexpr bool is_real_class = false;
+
 /// The scalar of every model: float, double and long double are tested.
 template <class T>
-concept Real = std::floating_point<T>;
+concept Real = std::floating_point<T> || is_real_class<T>;
 
 /// Spacing of the numbers just above one.
 template <Real Scalar>

@@ -17,7 +17,8 @@ inline constexpr int carlson_steps = 40;
 /// Spread at which the series of degree 7 beyond it is below rounding: (3 eps)^(1/8), Carlson 1995 with degree 7.
 template <Real Scalar>
 inline Scalar carlson_reach() noexcept {
-  return std::sqrt(std::sqrt(std::sqrt(epsilon<Scalar> / 4)));
+  using std::sqrt;
+  return sqrt(sqrt(sqrt(epsilon<Scalar> / 4)));
 }
 
 /// 1 - E2/10 + E3/14 + E2^2/24 - 3 E2 E3/44 ... (DLMF 19.36.1).
@@ -42,6 +43,7 @@ constexpr Scalar series_RD(Scalar e2, Scalar e3, Scalar e4, Scalar e5) noexcept 
 /// (two or three zeros: infinity). By duplication (Carlson 1995), relative error 3 eps. Negative or NaN: NaN.
 template <Real Scalar>
 inline Scalar carlson_RF(Scalar x, Scalar y, Scalar z) noexcept {
+  using std::abs, std::sqrt;
   if (!(x >= 0 && y >= 0 && z >= 0)) return nan<Scalar>;
   if ((x == 0) + (y == 0) + (z == 0) > 1) return infinity<Scalar>;
   Scalar mean = (x + y + z) / 3;
@@ -49,10 +51,10 @@ inline Scalar carlson_RF(Scalar x, Scalar y, Scalar z) noexcept {
   Scalar b = mean - y;
   const Scalar reach = detail::carlson_reach<Scalar>();
   for (int step = 0; step < detail::carlson_steps; ++step) {
-    if (!(std::max(std::max(std::abs(a), std::abs(b)), std::abs(a + b)) > reach * mean)) break;
-    const Scalar rx = std::sqrt(x);
-    const Scalar ry = std::sqrt(y);
-    const Scalar rz = std::sqrt(z);
+    if (!(std::max(std::max(abs(a), abs(b)), abs(a + b)) > reach * mean)) break;
+    const Scalar rx = sqrt(x);
+    const Scalar ry = sqrt(y);
+    const Scalar rz = sqrt(z);
     const Scalar lambda = rx * (ry + rz) + ry * rz;
     x = (x + lambda) / 4;
     y = (y + lambda) / 4;
@@ -64,7 +66,7 @@ inline Scalar carlson_RF(Scalar x, Scalar y, Scalar z) noexcept {
   const Scalar X = a / mean;
   const Scalar Y = b / mean;
   const Scalar Z = -X - Y;
-  return detail::series_RF<Scalar>(X * Y - Z * Z, X * Y * Z) / std::sqrt(mean);
+  return detail::series_RF<Scalar>(X * Y - Z * Z, X * Y * Z) / sqrt(mean);
 }
 
 /// Carlson's R_C(x, y) = R_F(x, y, y) for x >= 0, y > 0 (y = 0: infinity). Negative y (a principal value) or NaN: NaN.

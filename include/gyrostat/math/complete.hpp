@@ -41,7 +41,8 @@ inline Means<Scalar> means_by_nome(Modulus<Scalar> m) noexcept {
   const Scalar w = 8 * q * theta.curvature / (theta.four * square * square);  // W of n
   const Scalar v = n.k2 - w;                                                  // V of n
   if (small) return {quarter, 1 - w, w, v};
-  const Scalar log_q = -std::log(q);
+  using std::log;
+  const Scalar log_q = -log(q);
   const Scalar K = square * log_q / 2;
   const Scalar legendre = 2 / (square * square * log_q);  // pi/(2 K K')
   const Scalar F = w + legendre;

@@ -39,7 +39,8 @@ constexpr Complex<Scalar> turned(Complex<Scalar> a) noexcept {
 /// |a|, without overflow of the squares.
 template <Real Scalar>
 Scalar magnitude(Complex<Scalar> a) noexcept {
-  return std::hypot(a.re, a.im);
+  using std::hypot;
+  return hypot(a.re, a.im);
 }
 
 /// 1/a, without overflow of the squares.
@@ -52,14 +53,16 @@ Complex<Scalar> inverse(Complex<Scalar> a) noexcept {
 /// e^a; of length one to rounding where a.re = 0.
 template <Real Scalar>
 Complex<Scalar> exponential(Complex<Scalar> a) noexcept {
-  const Scalar size = a.re == 0 ? Scalar(1) : std::exp(a.re);
-  return {size * std::cos(a.im), size * std::sin(a.im)};
+  using std::cos, std::exp, std::sin;
+  const Scalar size = a.re == 0 ? Scalar(1) : exp(a.re);
+  return {size * cos(a.im), size * sin(a.im)};
 }
 
 /// e^(i angle).
 template <Real Scalar>
 Complex<Scalar> unit(Scalar angle) noexcept {
-  return {std::cos(angle), std::sin(angle)};
+  using std::cos, std::sin;
+  return {cos(angle), sin(angle)};
 }
 
 template <Real To, Real From>

@@ -28,8 +28,9 @@ GYROSTAT_FLATTEN Scalar nome(Modulus<Scalar> m) noexcept {
   if constexpr (std::same_as<Scalar, double>) {
     return m.k2 * detail::polynomial(detail::nome_over_k2, detail::Powers::of(m.k2));
   } else {
-    const Scalar kp = std::sqrt(m.kp2);
-    const Scalar root = 1 + std::sqrt(kp);
+    using std::sqrt;
+    const Scalar kp = sqrt(m.kp2);
+    const Scalar root = 1 + sqrt(kp);
     const Scalar l = m.k2 / (2 * (1 + kp) * (root * root));
     const Scalar l2 = l * l;
     const Scalar x = l2 * l2;

@@ -23,7 +23,8 @@ constexpr Quat<Scalar> conjugate(const Quat<Scalar>& q) noexcept {
 /// Without overflow or underflow of the squares.
 template <Real Scalar>
 Scalar norm(const Quat<Scalar>& q) noexcept {
-  return std::hypot(std::hypot(q.w, q.x), std::hypot(q.y, q.z));
+  using std::hypot;
+  return hypot(hypot(q.w, q.x), hypot(q.y, q.z));
 }
 
 /// q / |q|; NaN where q vanishes or is not finite.
@@ -36,7 +37,8 @@ Quat<Scalar> normalised(const Quat<Scalar>& q) noexcept {
 /// q as it stands where it is of unit norm to rounding, else q / |q|.
 template <Real Scalar>
 Quat<Scalar> as_unit(const Quat<Scalar>& q) noexcept {
-  return std::abs(norm(q) - 1) <= 4 * epsilon<Scalar> ? q : normalised(q);
+  using std::abs;
+  return abs(norm(q) - 1) <= 4 * epsilon<Scalar> ? q : normalised(q);
 }
 
 /// q v q*, for a unit quaternion.
@@ -75,7 +77,8 @@ Quat<Scalar> from_matrix(const Mat3<Scalar>& R) noexcept {
   } else {
     q = {R(1, 0) - R(0, 1), R(0, 2) + R(2, 0), R(2, 1) + R(1, 2), 1 + R(2, 2) - (R(0, 0) + R(1, 1))};
   }
-  const Scalar n = std::copysign(norm(q), q.w);
+  using std::copysign;
+  const Scalar n = copysign(norm(q), q.w);
   return {q.w / n, q.x / n, q.y / n, q.z / n};
 }
 

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "gyrostat/models/deceleration/secular.hpp"
+#include "gyrostat/body/secular.hpp"
 
 #include <cmath>
 #include <random>
 
 #include "catch.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 using namespace gyrostat;
-using namespace gyrostat::deceleration;
-using V = Vec3<double>;
 
-TEST_CASE("turning points are relative equilibria", "[deceleration]") {
+namespace {
+using V = Vec3<double>;
+}
+
+TEST_CASE("turning points are relative equilibria", "[body]") {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> u(0, 1);
   std::normal_distribution<double> z;
@@ -59,7 +62,7 @@ TEST_CASE("turning points are relative equilibria", "[deceleration]") {
   CHECK(rises > 100);
 }
 
-TEST_CASE("no rotor momentum: the rises fill the gaps", "[deceleration]") {
+TEST_CASE("no rotor momentum: the rises fill the gaps", "[body]") {
   const Secular<double> q(V(1, 2, 4), V(0, 0, 0), 1.5);
   const auto r = q.rise(0);
   REQUIRE(r.exists);
@@ -70,7 +73,7 @@ TEST_CASE("no rotor momentum: the rises fill the gaps", "[deceleration]") {
   CHECK(q.sigma(*root) == Approx(1.75));
 }
 
-TEST_CASE("weights below rounding are dropped and equal poles become one", "[deceleration]") {
+TEST_CASE("weights below rounding are dropped and equal poles become one", "[body]") {
   const Secular<double> dropped(V(1, 2, 4), V(1, 1e-17, 1), 1.);
   CHECK_FALSE(dropped.active(1));
   const Secular<double> merged(V(2, 2, 4), V(.3, .4, 1), 1.);
@@ -82,4 +85,22 @@ TEST_CASE("weights below rounding are dropped and equal poles become one", "[dec
   CHECK((back - V(.6, .8, 0)).norm() < 1e-15);
   const V mirrored = merged.mirrored().to_principal(V(0, 0, 1));
   CHECK((mirrored - V(0, .8, .6)).norm() < 1e-15);
+}
+
+TEST_CASE("a secular equation takes gaps that the poles themselves cannot show", "[body]") {
+  using D = DoubleDouble;
+  const double gap = 1e-18;
+  Mat3<double> gaps;
+  gaps << 0, gap, 2, -gap, 0, 2, -2, -2, 0;
+  const Secular<double> q(V(1, 1, 3), gaps, V(.1, 1e-20, .2), 1.);
+  CHECK(q.active(1));
+  const auto root = q.falling_root(0, 1, {0, 0.}, {1, 0.}, .9);
+  REQUIRE(root);
+  Mat3<D> wide_gaps = gaps.cast<D>();
+  wide_gaps(0, 2) += gap, wide_gaps(2, 0) -= gap;
+  const Secular<D> wide(Vec3<D>(1, D(1, gap), 3), wide_gaps, Vec3<D>(.1, 1e-20, .2), D(1));
+  const auto wide_root = wide.falling_root(0, 1, {0, D(0)}, {1, D(0)}, D(.9));
+  REQUIRE(wide_root);
+  CHECK(q.difference({0, 0.}, *root) / gap == Approx(static_cast<double>(wide.difference({0, D(0)}, *wide_root)) / gap).epsilon(1e-14));
+  CHECK(abs(wide.value(*wide_root, D(.9))) < 1e-28 * D(.01) / D(gap));
 }

@@ -3,16 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <limits>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-/// The Volterra quartic as a secular equation (deceleration.md, section 4.1). On the level |M| = R, eta = (h - S0/2)/R
+/// The Volterra quartic as a secular equation (docs/deceleration.md, section 4.1). On the level |M| = R, eta = (h - S0/2)/R
 ///     c(sigma) = R^2 sigma - 2 R eta - sum g_i^2/(a_i - sigma) = 0,   a ascending,
 /// has the eigenvector (g_i/(a_i - sigma), R), spacelike where c' < 0 and timelike where c' > 0. A zero of c' is a
 /// relative equilibrium: omega = sigma M, M = g/(a - sigma).
-namespace gyrostat::deceleration {
+namespace gyrostat {
 
 /// A place sigma = a[origin] + offset. The distance to the nearest pole is what the eigenvector needs to full relative
 /// accuracy, so it is never formed as a difference.
@@ -40,14 +42,27 @@ class Secular {
 
   /// @param a ascending inverse moments, 1/(kg m^2); @param g = a l, rad/s; @param R = |M| > 0, N m s
   Secular(const Vec3<Scalar>& a, const Vec3<Scalar>& g, Scalar R) noexcept : a_(a), g_(g), R_(R) {
+    using std::abs;
     const Scalar scale = std::max(g_.cwiseAbs().maxCoeff(), R * a_.cwiseAbs().maxCoeff());
     const Scalar floor = epsilon<Scalar> * scale;
     for (int i = 0; i < 2; ++i)
       if (a_[i + 1] - a_[i] <= 4 * epsilon<Scalar> * a_[2]) merge(i);
     for (int i = 0; i < 3; ++i) {
-      if (std::abs(g_[i]) <= floor) g_[i] = 0;
+      if (abs(g_[i]) <= floor) g_[i] = 0;
       g2_[i] = g_[i] * g_[i];
       for (int j = 0; j < 3; ++j) gap_[i][j] = a_[j] - a_[i];
+    }
+  }
+
+  /// The same with gaps[i][j] = a_j - a_i given, which may have digits that a has not. No poles are merged, and only weights are
+  /// dropped whose squares would underflow.
+  Secular(const Vec3<Scalar>& a, const Mat3<Scalar>& gaps, const Vec3<Scalar>& g, Scalar R) noexcept : a_(a), g_(g), R_(R) {
+    using std::abs, std::sqrt;
+    const Scalar floor = sqrt(std::numeric_limits<Scalar>::min()) * std::max(Scalar(1), R * a_[2]);
+    for (int i = 0; i < 3; ++i) {
+      if (abs(g_[i]) <= floor) g_[i] = 0;
+      g2_[i] = g_[i] * g_[i];
+      for (int j = 0; j < 3; ++j) gap_[i][j] = gaps(i, j);
     }
   }
 
@@ -102,12 +117,13 @@ class Secular {
   /// The zero of c' next to a[origin] on the side `direction` (+1, -1), at most `reach` away; false where c' < 0 there
   /// throughout. 1/|vertex| is concave between poles, so Newton's steps on it approach from the pole without overshoot.
   bool turning_point(int origin, int direction, Scalar reach, Point& found) const noexcept {
+    using std::abs, std::sqrt;
     Scalar pole = 0;
     for (int i = 0; i < 3; ++i)
-      if (gap_[origin][i] == 0) pole = std::max(pole, std::abs(g_[i]));
+      if (gap_[origin][i] == 0) pole = std::max(pole, abs(g_[i]));
     found = {origin, Scalar(direction) * pole / R_};
     for (int trip = 0; trip < 80; ++trip) {
-      if (std::abs(found.offset) > reach) return false;
+      if (abs(found.offset) > reach) return false;
       Scalar second = 0, third = 0;
       for (int i = 0; i < 3; ++i)
         if (active(i)) {
@@ -115,13 +131,13 @@ class Secular {
           second += square;
           third += square * inverse;
         }
-      const Scalar excess = std::sqrt(second) / R_ - 1;
+      const Scalar excess = sqrt(second) / R_ - 1;
       if (found.offset == 0 && excess <= 0) return true;
-      if (!(Scalar(direction) * third < 0)) return std::abs(excess) <= 8 * epsilon<Scalar>;
+      if (!(Scalar(direction) * third < 0)) return abs(excess) <= 8 * epsilon<Scalar>;
       const Scalar step = -second * excess / third;
-      if (Scalar(direction) * step <= epsilon<Scalar> * std::abs(found.offset)) return true;
+      if (Scalar(direction) * step <= epsilon<Scalar> * abs(found.offset)) return true;
       found.offset += step;
-      if (std::abs(step) <= std::sqrt(epsilon<Scalar>) * std::abs(found.offset)) return std::abs(found.offset) <= reach;
+      if (abs(step) <= sqrt(epsilon<Scalar>) * abs(found.offset)) return abs(found.offset) <= reach;
     }
     return false;
   }
@@ -169,7 +185,8 @@ class Secular {
  private:
   /// a_i and a_{i+1} agree to rounding: the axes are turned so that e_i carries the whole weight.
   void merge(int i) noexcept {
-    const Scalar weight = std::hypot(g_[i], g_[i + 1]);
+    using std::hypot;
+    const Scalar weight = hypot(g_[i], g_[i + 1]);
     a_[i] = a_[i + 1] = (a_[i] + a_[i + 1]) / 2;
     if (weight == 0 || g_[i + 1] == 0) return;
     merged_ = i;
@@ -190,6 +207,7 @@ class Secular {
   /// Root of c between two offsets. c = g_o^2/offset + rest: the pole is kept and only the rest made linear, so the steps
   /// do not stall at the pole; a step out of the bracket becomes a bisection.
   Result<Point> solve(int origin, Scalar lo, Scalar hi, Scalar eta, int slope) const noexcept {
+    using std::abs, std::copysign, std::isfinite, std::sqrt;
     const Scalar side = lo + hi > 0 ? Scalar(1) : Scalar(-1);
     const Scalar constant = R_ * (R_ * a_[origin] - 2 * eta);
     const Scalar weight = g2_[origin];
@@ -200,27 +218,31 @@ class Secular {
       if (clo >= 0) return Point{origin, lo};
       if (chi <= 0) return Point{origin, hi};
       const Scalar y = -clo / (chi - clo);
-      if (y > 0 && y < 1) x = lo + (hi - lo) * (Scalar(.5) - std::sin(std::asin(1 - 2 * y) / 3));
+      if (y > 0 && y < 1) x = lo + (hi - lo) * (Scalar(.5) - Scalar(std::sin(std::asin(static_cast<double>(1 - 2 * y)) / 3)));
     }
-    for (int trip = 0; trip < 100; ++trip) {
-      Scalar rest = constant + R_ * R_ * x, steep = R_ * R_, size = std::abs(constant) + std::abs(R_ * R_ * x);
+    // a class of numbers rounds its own operations less well than a processor does
+    constexpr bool native = std::floating_point<Scalar>;
+    constexpr int trips = native ? 100 : 300;
+    const Scalar noise = (native ? 4 : 32) * epsilon<Scalar>;
+    for (int trip = 0; trip < trips; ++trip) {
+      Scalar rest = constant + R_ * R_ * x, steep = R_ * R_, size = abs(constant) + abs(R_ * R_ * x);
       for (int i = 0; i < 3; ++i)
         if (i != origin && active(i)) {
           const Scalar inverse = 1 / (gap_[origin][i] - x), term = g2_[i] * inverse;
           rest -= term;
           steep -= term * inverse;
-          size += std::abs(term);
+          size += abs(term);
         }
       const Scalar f = rest + (weight > 0 ? weight / x : Scalar(0));
       // late trips stop at the rounding of c
-      if (f == 0 || (trip > 12 && std::abs(f) <= 4 * epsilon<Scalar> * size)) return Point{origin, x};
+      if (f == 0 || (trip > 12 && abs(f) <= noise * size)) return Point{origin, x};
       if ((f > 0) == (slope > 0)) hi = x;
       else lo = x;
       Scalar next;
       if (slope < 0 && weight > 0) {
         const Scalar beta = rest - steep * x;
-        const Scalar root = std::sqrt(std::max(Scalar(0), beta * beta - 4 * steep * weight));
-        const Scalar q = -(beta + std::copysign(root, beta)) / 2;
+        const Scalar root = sqrt(std::max(Scalar(0), beta * beta - 4 * steep * weight));
+        const Scalar q = -(beta + copysign(root, beta)) / 2;
         next = weight / q;
         if (!(next * side > 0)) next = q / steep;
       } else {
@@ -229,13 +251,13 @@ class Secular {
       // c may have a hump in the bracket that throws the steps to and fro: beyond ten trips every other one halves it
       if (!(next > lo && next < hi) || (trip > 10 && trip % 2 == 0)) {
         // both ends on one side of the pole: halving the logarithm where they are far apart
-        const Scalar small = std::min(std::abs(lo), std::abs(hi)), large = std::max(std::abs(lo), std::abs(hi));
-        next = small > 0 && large > 16 * small ? side * std::sqrt(small * large) : (lo + hi) / 2;
+        const Scalar small = std::min(abs(lo), abs(hi)), large = std::max(abs(lo), abs(hi));
+        next = small > 0 && large > 16 * small ? side * sqrt(small * large) : (lo + hi) / 2;
         if (!(next > lo && next < hi)) return Point{origin, x};
       }
-      if (std::abs(next - x) <= 2 * epsilon<Scalar> * std::abs(next)) return Point{origin, next};
+      if (abs(next - x) <= 2 * epsilon<Scalar> * abs(next)) return Point{origin, next};
       x = next;
-      if (!std::isfinite(x)) return Errc::not_finite;
+      if (!isfinite(x)) return Errc::not_finite;
     }
     return Errc::no_convergence;
   }
@@ -247,4 +269,4 @@ class Secular {
   Scalar cos_ = 1, sin_ = 0;
 };
 
-}  // namespace gyrostat::deceleration
+}  // namespace gyrostat

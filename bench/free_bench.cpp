@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Free motions in closed form. Time: one evaluation (rates and attitude) beside libm's sine and cosine and beside the elliptic functions
+// and the integral of the third kind of GSL that the classical formulas need; a point of an even grid; the set-up in double and in
+// double-double. Accuracy: median and greatest error over random bodies of every regime, 1.05 to 1.5 periods on, against Taylor series in
+// double-double, with the set-up in two words and in one, and the greatest effect of a rounding of every datum.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../tests/models/free/gyrostats.hpp"
+#include "gyrostat/models/free/motion.hpp"
+#include "gyrostat/models/free/motion_error.hpp"
+#ifdef GYROSTAT_HAVE_GSL
+#include "gyrostat/math/gsl.hpp"
+#endif
+
+namespace {
+
+using namespace gyrostat;
+using namespace free_bodies;
+using gyrostat::free::Motion;
+
+enum class Scene { rigid, rigid_separatrix, one_component, lobe, gyrostat_separatrix };
+
+Problem<double> problem(Scene scene) {
+  const Vec3<double> J(35, 22, 16);
+  const Quat<double> q = normalised(Quat<double>{.927, .1, -.3, .2});
+  switch (scene) {
+    case Scene::rigid: return Problem<double>::from_moments(J, {0, 0, 0}, {.4, .55, .7}, q);
+    case Scene::rigid_separatrix: return Problem<double>::from_moments(J, {0, 0, 0}, {1e-5, .55, 1e-6}, q);
+    case Scene::one_component: return Problem<double>::from_moments(J, {5, -3, 2}, {.2, .3, -.35}, q);
+    case Scene::lobe: return Problem<double>::from_moments(J, {-.4, .6, 1.2}, {.1, -.3, 1.4}, q);
+    case Scene::gyrostat_separatrix: return Problem<double>::from_moments(J, {0, 3, 0}, {0, .9, 1e-5}, q);
+  }
+  return {};
+}
+
+void sine_and_cosine(benchmark::State& state) {
+  double x = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(std::sin(x) + std::cos(x));
+    x += .37;
+  }
+}
+
+#ifdef GYROSTAT_HAVE_GSL
+void gsl_functions_and_third_kind(benchmark::State& state) {
+  const auto m = math::Modulus<double>::from_k2(.74271);
+  double u = 0;
+  for (auto _ : state) {
+    const auto j = math::Gsl::jacobi(u, m);
+    benchmark::DoNotOptimize(j);
+    benchmark::DoNotOptimize(math::Gsl::incomplete_Pi(j.am, -.3, m));
+    u += .037;
+  }
+}
+BENCHMARK(gsl_functions_and_third_kind);
+#endif
+
+void evaluation(benchmark::State& state, Scene scene) {
+  const auto m = *Motion<double>::make(problem(scene));
+  double t = 0;
+  for (auto _ : state) {
+    auto s = m.at(t);
+    benchmark::DoNotOptimize(s);
+    t += .37;
+  }
+}
+
+void grid_point(benchmark::State& state, Scene scene) {
+  const auto m = *Motion<double>::make(problem(scene));
+  constexpr std::size_t n = 4096;
+  std::vector<double> w(3 * n), q(4 * n);
+  for (auto _ : state) {
+    m.grid(0, .037, n, w.data(), q.data(), nullptr);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(std::int64_t(state.iterations()) * std::int64_t(n));
+}
+
+template <class Setup>
+void set_up(benchmark::State& state, Scene scene) {
+  auto p = problem(scene).cast<Setup>();
+  for (auto _ : state) {
+    auto m = Motion<double>::make<Setup>(p);
+    benchmark::DoNotOptimize(m);
+  }
+}
+
+void set_up_double(benchmark::State& state, Scene scene) { set_up<double>(state, scene); }
+void set_up_double_double(benchmark::State& state, Scene scene) { set_up<DoubleDouble>(state, scene); }
+
+template <class Setup>
+void stated_error(benchmark::State& state) {
+  const gyrostat::free::Assembly<double> given{problem(Scene::lobe), {}};
+  for (auto _ : state) {
+    auto error = gyrostat::free::MotionError<double>::of<Setup>(given);
+    benchmark::DoNotOptimize(error);
+  }
+}
+
+void accuracy(benchmark::State& state, Regime regime) {
+  std::vector<double> rates[3], attitude[3];  // set-up in two words, in one; data
+  for (auto _ : state) {
+    Bodies bodies(7);
+    for (int i = 0; i < 150; ++i) {
+      const auto p = bodies.of(regime, i);
+      auto wide = p.cast<DoubleDouble>();
+      wide.attitude = normalised(wide.attitude);
+      const auto fine = Motion<double>::make<DoubleDouble>(wide), quick = Motion<double>::make(p);
+      if (!fine || !quick || !std::isfinite(fine->period())) continue;
+      const double t = bodies.uniform(1.05, 1.5) * fine->period();
+      const auto truth = Taylor<DoubleDouble>(wide).advance(t);
+      Off data;
+      for (int k = 0; k < 6; ++k) {
+        auto near = bodies.jittered(p).cast<DoubleDouble>();
+        near.attitude = wide.attitude;
+        data.see(off(Motion<double>::make<DoubleDouble>(near)->at(t), truth));
+      }
+      const Off all[3] = {off(fine->at(t), truth), off(quick->at(t), truth), data};
+      for (int k = 0; k < 3; ++k) rates[k].push_back(all[k].rates), attitude[k].push_back(all[k].attitude);
+    }
+  }
+  const char* names[3] = {"wide", "double", "data"};
+  for (int k = 0; k < 3; ++k) {
+    std::sort(rates[k].begin(), rates[k].end());
+    std::sort(attitude[k].begin(), attitude[k].end());
+    const std::string name = names[k];
+    state.counters[name + "_rates"] = rates[k][rates[k].size() / 2];
+    state.counters[name + "_rates_max"] = rates[k].back();
+    state.counters[name + "_attitude"] = attitude[k][attitude[k].size() / 2];
+    state.counters[name + "_attitude_max"] = attitude[k].back();
+  }
+}
+
+BENCHMARK(sine_and_cosine);
+#define EVERY_SCENE(function)                                            \
+  BENCHMARK_CAPTURE(function, rigid, Scene::rigid);                       \
+  BENCHMARK_CAPTURE(function, rigid_separatrix, Scene::rigid_separatrix); \
+  BENCHMARK_CAPTURE(function, one_component, Scene::one_component);       \
+  BENCHMARK_CAPTURE(function, lobe, Scene::lobe);                         \
+  BENCHMARK_CAPTURE(function, gyrostat_separatrix, Scene::gyrostat_separatrix)
+EVERY_SCENE(evaluation);
+EVERY_SCENE(grid_point);
+EVERY_SCENE(set_up_double);
+EVERY_SCENE(set_up_double_double);
+BENCHMARK(stated_error<double>);
+BENCHMARK(stated_error<DoubleDouble>);
+BENCHMARK_CAPTURE(accuracy, generic, Regime::generic)->Iterations(1);
+BENCHMARK_CAPTURE(accuracy, middle_axis, Regime::middle_axis)->Iterations(1);
+BENCHMARK_CAPTURE(accuracy, outer_axis, Regime::outer_axis)->Iterations(1);
+BENCHMARK_CAPTURE(accuracy, much_momentum, Regime::much_momentum)->Iterations(1);
+BENCHMARK_CAPTURE(accuracy, little_momentum, Regime::little_momentum)->Iterations(1);
+BENCHMARK_CAPTURE(accuracy, total_near_zero, Regime::total_near_zero)->Iterations(1);
+BENCHMARK_CAPTURE(accuracy, close_moments, Regime::close_moments)->Iterations(1);
+BENCHMARK_CAPTURE(accuracy, equal_moments, Regime::equal_moments)->Iterations(1);
+BENCHMARK_CAPTURE(accuracy, unstable_axis, Regime::unstable_axis)->Iterations(1);
+BENCHMARK_CAPTURE(accuracy, bisected, Regime::bisected)->Iterations(1);
+
+}  // namespace

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+#include "gyrostat/core/real.hpp"
+
+namespace gyrostat {
+
+/// A number of about 106 bits as the unevaluated sum of two doubles, |low| no more than half a unit in the last place of high (Dekker
+/// 1971). With the exponents of double. Sums, products, quotients and roots have a relative error of a few epsilon = 2^-104, the
+/// elementary functions below of some tens. Needs rounding to nearest and no reordering by the compiler (-ffast-math).
+struct DoubleDouble {
+  double high = 0, low = 0;
+
+  constexpr DoubleDouble() = default;
+  template <class T>
+    requires std::integral<T>
+  constexpr DoubleDouble(T x) noexcept
+      : high(static_cast<double>(x)), low(static_cast<double>(x - static_cast<T>(high))) {}
+  template <class T>
+    requires std::floating_point<T>
+  constexpr DoubleDouble(T x) noexcept : high(static_cast<double>(x)) {
+    if constexpr (sizeof(T) > sizeof(double))
+      if (x - x == 0) low = static_cast<double>(x - static_cast<T>(high));
+  }
+  constexpr DoubleDouble(double h, double l) noexcept : high(h), low(l) {}
+
+  template <class T>
+    requires std::floating_point<T>
+  constexpr explicit operator T() const noexcept {
+    return static_cast<T>(high) + static_cast<T>(low);
+  }
+  template <class T>
+    requires std::integral<T>
+  constexpr explicit operator T() const noexcept {
+    return static_cast<T>(high) + static_cast<T>(low);
+  }
+
+  /// a + b, |a| >= |b| or a = 0, with its rounding error (Dekker 1971).
+  static constexpr DoubleDouble quick_sum(double a, double b) noexcept {
+    const double s = a + b;
+    return {s, b - (s - a)};
+  }
+  /// a + b with its rounding error (Knuth 1969).
+  static constexpr DoubleDouble sum(double a, double b) noexcept {
+    const double s = a + b, part = s - a;
+    return {s, (a - (s - part)) + (b - part)};
+  }
+  static DoubleDouble product(double a, double b) noexcept {
+    const double p = a * b;
+    return {p, std::fma(a, b, -p)};
+  }
+
+  friend constexpr DoubleDouble operator+(const DoubleDouble& a) noexcept { return a; }
+  friend constexpr DoubleDouble operator-(const DoubleDouble& a) noexcept { return {-a.high, -a.low}; }
+  friend constexpr DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) noexcept {
+    const DoubleDouble s = sum(a.high, b.high), t = sum(a.low, b.low);
+    if (!(s.high - s.high == 0)) return {s.high, 0};  // infinite or NaN
+    const DoubleDouble u = quick_sum(s.high, s.low + t.high);
+    return quick_sum(u.high, u.low + t.low);
+  }
+  friend constexpr DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) noexcept { return a + (-b); }
+  friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) noexcept {
+    const DoubleDouble p = product(a.high, b.high);
+    if (!(p.high - p.high == 0)) return {p.high, 0};
+    return quick_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
+  }
+  friend DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) noexcept {
+    const double first = a.high / b.high;
+    if (!(first - first == 0) || b.high - b.high != 0) return {first, 0};
+    DoubleDouble rest = a - DoubleDouble(first) * b;
+    const double second = rest.high / b.high;
+    rest = rest - DoubleDouble(second) * b;
+    const DoubleDouble q = quick_sum(first, second);
+    return quick_sum(q.high, q.low + rest.high / b.high);
+  }
+  DoubleDouble& operator+=(const DoubleDouble& b) noexcept { return *this = *this + b; }
+  DoubleDouble& operator-=(const DoubleDouble& b) noexcept { return *this = *this - b; }
+  DoubleDouble& operator*=(const DoubleDouble& b) noexcept { return *this = *this * b; }
+  DoubleDouble& operator/=(const DoubleDouble& b) noexcept { return *this = *this / b; }
+
+  friend constexpr bool operator==(const DoubleDouble& a, const DoubleDouble& b) noexcept {
+    return a.high == b.high && a.low == b.low;
+  }
+  friend constexpr bool operator<(const DoubleDouble& a, const DoubleDouble& b) noexcept {
+    return a.high < b.high || (a.high == b.high && a.low < b.low);
+  }
+  friend constexpr bool operator>(const DoubleDouble& a, const DoubleDouble& b) noexcept { return b < a; }
+  friend constexpr bool operator<=(const DoubleDouble& a, const DoubleDouble& b) noexcept { return a < b || a == b; }
+  friend constexpr bool operator>=(const DoubleDouble& a, const DoubleDouble& b) noexcept { return b <= a; }
+};
+
+template <>
+inline constexpr bool is_real_class<DoubleDouble> = true;
+
+template <>
+inline constexpr DoubleDouble pi<DoubleDouble> = {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
+
+inline bool isnan(const DoubleDouble& x) noexcept { return std::isnan(x.high); }
+inline bool isinf(const DoubleDouble& x) noexcept { return std::isinf(x.high); }
+inline bool isfinite(const DoubleDouble& x) noexcept { return std::isfinite(x.high); }
+inline bool signbit(const DoubleDouble& x) noexcept { return std::signbit(x.high); }
+inline DoubleDouble abs(const DoubleDouble& x) noexcept { return std::signbit(x.high) ? -x : x; }
+inline DoubleDouble fabs(const DoubleDouble& x) noexcept { return abs(x); }
+inline DoubleDouble copysign(const DoubleDouble& x, const DoubleDouble& sign) noexcept {
+  return std::signbit(x.high) == std::signbit(sign.high) ? x : -x;
+}
+
+/// The nearest whole number; halves to the even one, or to a neighbour where the low word decides.
+inline DoubleDouble nearbyint(const DoubleDouble& x) noexcept {
+  const double n = std::nearbyint(x.high);
+  if (n == x.high) return DoubleDouble::quick_sum(n, std::nearbyint(x.low));
+  const double over = x.high - n;  // exact
+  if (std::abs(over) == 0.5 && x.low != 0 && (over > 0) == (x.low > 0)) return n + (over > 0 ? 1 : -1);
+  return n;
+}
+
+inline DoubleDouble floor(const DoubleDouble& x) noexcept {
+  const double n = std::floor(x.high);
+  return n == x.high ? DoubleDouble::quick_sum(n, std::floor(x.low)) : DoubleDouble(n);
+}
+
+/// x 2^n, exact but for underflow.
+inline DoubleDouble ldexp(const DoubleDouble& x, int n) noexcept {
+  return {std::ldexp(x.high, n), std::ldexp(x.low, n)};
+}
+
+/// a b + c, rounded as a product and a sum are.
+inline DoubleDouble fma(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c) noexcept { return a * b + c; }
+
+/// NaN for x < 0. One step of Karp and Markstein (1997) from the root of the high word.
+inline DoubleDouble sqrt(const DoubleDouble& x) noexcept {
+  if (!(x.high > 0) || std::isinf(x.high)) return std::sqrt(x.high);
+  const double inverse = 1 / std::sqrt(x.high), root = x.high * inverse;
+  const DoubleDouble square = DoubleDouble::product(root, root);
+  const DoubleDouble first = DoubleDouble::quick_sum(root, (x - square).high * (inverse / 2));
+  return first + (x - first * first) / (2 * first);
+}
+
+inline DoubleDouble hypot(const DoubleDouble& x, const DoubleDouble& y) noexcept {
+  const DoubleDouble a = abs(x) < abs(y) ? abs(y) : abs(x), b = abs(x) < abs(y) ? abs(x) : abs(y);
+  if (a.high == 0 || std::isinf(a.high)) return a;
+  const DoubleDouble ratio = b / a;
+  return a * sqrt(1 + ratio * ratio);
+}
+inline DoubleDouble hypot(const DoubleDouble& x, const DoubleDouble& y, const DoubleDouble& z) noexcept {
+  return hypot(hypot(x, y), z);
+}
+
+/// By the power series of exp(r/256) - 1 and eight squarings.
+inline DoubleDouble exp(const DoubleDouble& x) noexcept {
+  if (!(std::abs(x.high) < 709)) return std::exp(x.high);
+  constexpr DoubleDouble ln2 = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
+  // 1/k
+  constexpr DoubleDouble inverse[] = {
+      {0x1.0000000000000p+0, 0x0.0p+0}, {0x1.0000000000000p-1, 0x0.0p+0}, {0x1.5555555555555p-2,
+      0x1.5555555555555p-56}, {0x1.0000000000000p-2, 0x0.0p+0}, {0x1.999999999999ap-3, -0x1.999999999999ap-57},
+      {0x1.5555555555555p-3, 0x1.5555555555555p-57}, {0x1.2492492492492p-3, 0x1.2492492492492p-57},
+      {0x1.0000000000000p-3, 0x0.0p+0}, {0x1.c71c71c71c71cp-4, 0x1.c71c71c71c71cp-58}, {0x1.999999999999ap-4,
+      -0x1.999999999999ap-58}, {0x1.745d1745d1746p-4, -0x1.745d1745d1746p-59}, {0x1.5555555555555p-4,
+      0x1.5555555555555p-58}};
+  const double n = std::nearbyint(x.high / ln2.high);
+  const DoubleDouble r = ldexp(x - n * ln2, -8);
+  DoubleDouble rest = 0;
+  for (int k = 12; k >= 1; --k) rest = r * inverse[k - 1] * (1 + rest);
+  for (int i = 0; i < 8; ++i) rest = rest * (2 + rest);
+  return ldexp(1 + rest, static_cast<int>(n));
+}
+
+/// One step of Newton's method on exp from the logarithm of the high word.
+inline DoubleDouble log(const DoubleDouble& x) noexcept {
+  const double first = std::log(x.high);
+  if (!std::isfinite(first)) return first;
+  const DoubleDouble off = x * exp(-DoubleDouble(first)) - 1;
+  return first + (off - off * off / 2);
+}
+
+namespace detail {
+
+/// sin x and cos x by the power series, |x| <= pi/4 or little more.
+struct SineCosineSeries {
+  DoubleDouble s, c;
+  explicit SineCosineSeries(const DoubleDouble& x) noexcept : s(0), c(0) {
+    const DoubleDouble square = x * x;
+    for (int k = 14; k >= 1; --k) {
+      s = square / ((2 * k) * (2 * k + 1)) * (1 - s);
+      c = square / ((2 * k - 1) * (2 * k)) * (1 - c);
+    }
+    s = x - x * s;
+    c = 1 - c;
+  }
+};
+
+/// x less the nearest multiple of pi/2 (three words of pi/2), and the multiple modulo 4. |x| < 2^50.
+struct QuarterTurn {
+  DoubleDouble rest;
+  int quarter;
+  explicit QuarterTurn(const DoubleDouble& x) noexcept {
+    const double n = std::nearbyint(x.high * 0x1.45f306dc9c883p-1);
+    rest = ((x - DoubleDouble::product(n, 0x1.921fb54442d18p+0)) - DoubleDouble::product(n, 0x1.1a62633145c07p-54)) -
+           n * -0x1.f1976b7ed8fbcp-110;
+    quarter = static_cast<int>(n - 4 * std::floor(n / 4));
+  }
+};
+
+}  // namespace detail
+
+/// NaN for |x| >= 2^50.
+inline DoubleDouble sin(const DoubleDouble& x) noexcept {
+  if (!(std::abs(x.high) < 0x1p50)) return nan<double>;
+  const detail::QuarterTurn turn(x);
+  const detail::SineCosineSeries at(turn.rest);
+  const DoubleDouble y = turn.quarter % 2 ? at.c : at.s;
+  return turn.quarter >= 2 ? -y : y;
+}
+inline DoubleDouble cos(const DoubleDouble& x) noexcept {
+  if (!(std::abs(x.high) < 0x1p50)) return nan<double>;
+  const detail::QuarterTurn turn(x);
+  const detail::SineCosineSeries at(turn.rest);
+  const DoubleDouble y = turn.quarter % 2 ? at.s : at.c;
+  return turn.quarter == 1 || turn.quarter == 2 ? -y : y;
+}
+
+/// One step of Newton's method from the angle of the high words.
+inline DoubleDouble atan2(const DoubleDouble& y, const DoubleDouble& x) noexcept {
+  const double first = std::atan2(y.high, x.high);
+  const DoubleDouble size = hypot(x, y);
+  if (!(size.high > 0) || !std::isfinite(size.high)) return first;
+  const DoubleDouble s = sin(DoubleDouble(first)), c = cos(DoubleDouble(first));
+  return first + (y / size * c - x / size * s);
+}
+inline DoubleDouble asin(const DoubleDouble& x) noexcept { return atan2(x, sqrt((1 - x) * (1 + x))); }
+
+}  // namespace gyrostat
+
+template <>
+struct std::numeric_limits<gyrostat::DoubleDouble> : std::numeric_limits<double> {
+  static constexpr int digits = 105;
+  static constexpr int digits10 = 31;
+  static constexpr int max_digits10 = 33;
+  static constexpr gyrostat::DoubleDouble epsilon() noexcept { return 0x1p-104; }
+  static constexpr gyrostat::DoubleDouble min() noexcept { return 0x1p-916; }  // where the low word is normal too
+  static constexpr gyrostat::DoubleDouble max() noexcept { return {0x1.fffffffffffffp+1023, 0x1.fffffffffffffp+969}; }
+  static constexpr gyrostat::DoubleDouble lowest() noexcept { return -max(); }
+  static constexpr gyrostat::DoubleDouble infinity() noexcept { return std::numeric_limits<double>::infinity(); }
+  static constexpr gyrostat::DoubleDouble quiet_NaN() noexcept { return std::numeric_limits<double>::quiet_NaN(); }
+};

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/math/complex.hpp"
+#include "gyrostat/math/periodic.hpp"
+#include "gyrostat/math/root.hpp"
+#include "gyrostat/models/free/flips.hpp"
+#include "gyrostat/models/free/motion.hpp"
+
+/// Means of a free motion over its period, by the trapezoid rule on the period, which converges like a geometric series; and what turns
+/// on the average.
+namespace gyrostat::free {
+
+/// Body axes. Of a motion without a period what it has for ever (steady) or tends to (separatrix).
+template <Real Scalar>
+struct Averages {
+  Vec3<Scalar> angular_velocity{0, 0, 0};              ///< <omega>, rad/s
+  Vec3<Scalar> angular_momentum{0, 0, 0};              ///< <M>, N m s
+  Mat3<Scalar> second_moment = Mat3<Scalar>::Zero();   ///< <M M^T>, (N m s)^2
+  Scalar error = 0;                                    ///< estimate, relative to the greatest
+};
+
+template <Real Scalar>
+Averages<Scalar> averages(const Motion<Scalar>& motion) noexcept {
+  Averages<Scalar> mean;
+  const Scalar T = motion.period();
+  if (!(T < infinity<Scalar>)) {
+    const auto s = motion.at(motion.kind() == Kind::separatrix ? 80 / motion.jacobi_rate() : Scalar(0));
+    mean.angular_velocity = s.angular_velocity;
+    mean.angular_momentum = s.angular_momentum;
+    mean.second_moment = s.angular_momentum * s.angular_momentum.transpose();
+    return mean;
+  }
+  const auto means = math::periodic_means<Scalar, 12>(
+      [&](Scalar x) {
+        const auto s = motion.at(x * T);
+        const Vec3<Scalar>&w = s.angular_velocity, &M = s.angular_momentum;
+        return std::array<Scalar, 12>{w[0], w[1], w[2], M[0], M[1], M[2], M[0] * M[0], M[1] * M[1], M[2] * M[2], M[0] * M[1], M[1] * M[2], M[2] * M[0]};
+      },
+      64 * epsilon<Scalar>, 16, 16384);
+  const auto& v = means.value;
+  for (int i = 0; i < 3; ++i) {
+    mean.angular_velocity[i] = v[std::size_t(i)];
+    mean.angular_momentum[i] = v[std::size_t(3 + i)];
+    mean.second_moment(i, i) = v[std::size_t(6 + i)];
+    const int j = (i + 1) % 3;
+    mean.second_moment(i, j) = mean.second_moment(j, i) = v[std::size_t(9 + i)];
+    mean.error = std::max(mean.error, means.error[std::size_t(3 + i)] / motion.angular_momentum_norm());
+  }
+  return mean;
+}
+
+/// How a body axis b moves about the direction of M, on the average over a period: its azimuth about M, and the turning of the body about
+/// b as seen from the plane of b and M, rad/s. Tumbling asteroids: the periods 2 pi over these.
+template <Real Scalar>
+struct Precession {
+  Scalar about_momentum = 0, about_axis = 0;
+  bool converged = true;  ///< false where M passes (near) the axis
+};
+
+/// @param axis unit, body axes
+template <Real Scalar>
+Precession<Scalar> precession(const Motion<Scalar>& motion, const Vec3<Scalar>& axis) noexcept {
+  const Scalar T = motion.period();
+  const auto rates = [&](Scalar t) {
+    const auto s = motion.at(t);
+    const Vec3<Scalar> n = s.angular_momentum / motion.angular_momentum_norm();
+    const Scalar along = axis.dot(n), b = axis.dot(s.angular_velocity), m = n.dot(s.angular_velocity);
+    const Scalar across = cross<Scalar>(axis, n).squaredNorm();
+    return std::array<Scalar, 2>{(m - along * b) / across, (b - along * m) / across};
+  };
+  if (!(T < infinity<Scalar>)) {
+    const auto r = rates(Scalar(0));
+    return {r[0], r[1], motion.kind() == Kind::steady};
+  }
+  const auto means = math::periodic_means<Scalar, 2>([&](Scalar x) { return rates(x * T); }, 256 * epsilon<Scalar>, 16, 16384);
+  return {means.value[0], means.value[1], means.converged};
+}
+
+/// Least and greatest angle between a body axis and M, rad.
+template <Real Scalar>
+struct Nutation {
+  Scalar least = 0, greatest = 0;
+};
+
+/// @param axis unit, body axes
+template <Real Scalar>
+Nutation<Scalar> nutation(const Motion<Scalar>& motion, const Vec3<Scalar>& axis) noexcept {
+  using std::atan2;
+  const auto angle = [&](Scalar t) {
+    const Vec3<Scalar> M = motion.at(t).angular_momentum;
+    return atan2(cross<Scalar>(axis, M).norm(), axis.dot(M));
+  };
+  Nutation<Scalar> range{angle(Scalar(0)), angle(Scalar(0))};
+  const auto see = [&](Scalar t) {
+    range.least = std::min(range.least, angle(t));
+    range.greatest = std::max(range.greatest, angle(t));
+  };
+  const Scalar T = motion.period();
+  if (T < infinity<Scalar>) {
+    const auto slope = [&](Scalar t) {
+      const auto s = motion.at(t);
+      return axis.dot(cross<Scalar>(s.angular_momentum, s.angular_velocity));
+    };
+    for (const Scalar t : periodic_zeros(motion, slope, Scalar(0), T)) see(t);
+  } else if (motion.kind() == Kind::separatrix) {
+    for (int i = -400; i <= 400; ++i) see(Scalar(i) / (5 * motion.jacobi_rate()));
+  }
+  return range;
+}
+
+/// A period of omega in the body after which the attitude repeats too, nearly: after `periods` of them the body has made `turns` whole
+/// turns about M, but for `rest` rad.
+template <Real Scalar>
+struct Resonance {
+  int turns = 0, periods = 1;
+  Scalar rest = 0;
+};
+
+/// The best with at most `most` periods, by the continued fraction of the turn in a period.
+template <Real Scalar>
+Resonance<Scalar> resonance(const Motion<Scalar>& motion, int most) noexcept {
+  using std::abs, std::floor;
+  const Scalar share = motion.turn_per_period() / (2 * pi<Scalar>);
+  if (!(share - share == 0)) return {0, 0, nan<Scalar>};
+  Scalar x = share;
+  long p = 1, q = 0, last_p = 0, last_q = 1;
+  for (int trip = 0; trip < 40; ++trip) {
+    const Scalar whole = floor(x);
+    if (!(abs(whole) < Scalar(1e9))) break;
+    const long n = static_cast<long>(whole), next_p = n * p + last_p, next_q = n * q + last_q;
+    if (next_q > most) break;
+    last_p = p, last_q = q, p = next_p, q = next_q;
+    if (x == whole) break;
+    x = 1 / (x - whole);
+  }
+  return {static_cast<int>(p), static_cast<int>(q), 2 * pi<Scalar> * (Scalar(q) * share - Scalar(p))};
+}
+
+/// The integral of omega over time since t = 0, body axes, rad: what the angle of a rotor that turns freely needs. A mean rate and a
+/// Fourier series of the period; beside the separatrix the sum of a quadrature. Allocates at construction.
+template <Real Scalar>
+class RateIntegral {
+ public:
+  explicit RateIntegral(const Motion<Scalar>& motion) noexcept : motion_(motion), period_(motion.period()) {
+    steady_ = motion.at(Scalar(0)).angular_velocity;
+    if (!(period_ < infinity<Scalar>)) return;
+    std::size_t n = 64;
+    while (n < 8192 && n < std::size_t(4 * nodes_of(motion))) n *= 2;
+    for (; n <= 16384; n *= 2) {
+      transform(n);
+      if (settled()) break;
+    }
+    steady_ = mean_;
+    start_ = periodic(Scalar(0));
+  }
+
+  Vec3<Scalar> at(Scalar t) const noexcept {
+    if (motion_.kind() == Kind::separatrix) return quadrature(t);
+    if (coefficients_.empty()) return steady_ * t;
+    return mean_ * t + (periodic(t) - start_);
+  }
+  /// <omega>.
+  const Vec3<Scalar>& mean_rate() const noexcept { return steady_; }
+
+ private:
+  using C = math::Complex<Scalar>;
+
+  /// Coefficients of exp(2 pi i k t/T), k = 1..n/2 - 1, of the integral.
+  void transform(std::size_t n) noexcept {
+    std::vector<Vec3<Scalar>> node(n);
+    mean_.setZero();
+    for (std::size_t j = 0; j < n; ++j) {
+      node[j] = motion_.at(period_ * Scalar(j) / Scalar(n)).angular_velocity;
+      mean_ += node[j] / Scalar(n);
+    }
+    std::vector<C> turn(n);
+    for (std::size_t j = 0; j < n; ++j) turn[j] = math::unit(-2 * pi<Scalar> * Scalar(j) / Scalar(n));
+    coefficients_.assign(n / 2 - 1, {});
+    for (int i = 0; i < 3; ++i) {
+      std::vector<C> x(n);
+      for (std::size_t j = 0; j < n; ++j) x[j] = {node[j][i] - mean_[i], Scalar(0)};
+      fourier(x, turn);
+      for (std::size_t k = 1; k < n / 2; ++k)
+        coefficients_[k - 1][std::size_t(i)] = Scalar(2) / Scalar(n) * period_ / (2 * pi<Scalar> * Scalar(k)) * C{x[k].im, -x[k].re};
+    }
+    size_ = node[0].norm();
+    for (const auto& w : node) size_ = std::max(size_, w.norm());
+  }
+
+  /// In place, by halves (Cooley and Tukey 1965); n a power of two, turn[j] = exp(-2 pi i j/n).
+  static void fourier(std::vector<C>& x, const std::vector<C>& turn) noexcept {
+    const std::size_t n = x.size();
+    for (std::size_t i = 1, j = 0; i < n; ++i) {
+      std::size_t bit = n >> 1;
+      for (; j & bit; bit >>= 1) j ^= bit;
+      j ^= bit;
+      if (i < j) std::swap(x[i], x[j]);
+    }
+    for (std::size_t half = 1; half < n; half *= 2)
+      for (std::size_t i = 0; i < n; i += 2 * half)
+        for (std::size_t j = 0; j < half; ++j) {
+          const C odd = turn[j * (n / (2 * half))] * x[i + j + half], even = x[i + j];
+          x[i + j] = even + odd;
+          x[i + j + half] = even - odd;
+        }
+  }
+
+  /// The last eighth of the coefficients is rounding.
+  bool settled() const noexcept {
+    Scalar tail = 0;
+    for (std::size_t k = coefficients_.size() * 7 / 8; k < coefficients_.size(); ++k)
+      for (const C& c : coefficients_[k]) tail = std::max(tail, std::max(std::abs(c.re), std::abs(c.im)) * Scalar(k));
+    return tail <= 64 * epsilon<Scalar> * size_ * period_;
+  }
+
+  Vec3<Scalar> periodic(Scalar t) const noexcept {
+    const auto x = detail::Fraction<Scalar>::of(detail::Turns<Scalar>{1 / period_, 0}, t, {});
+    const C z = math::unit(2 * pi<Scalar> * (x.high + x.low));
+    std::array<C, 3> sum{};
+    for (std::size_t k = coefficients_.size(); k-- > 0;)
+      for (std::size_t i = 0; i < 3; ++i) sum[i] = (sum[i] + coefficients_[k][i]) * z;
+    return {sum[0].re, sum[1].re, sum[2].re};
+  }
+
+  /// Gauss's rule of five points on panels of half a unit of u, and the constant rate beyond 40 units.
+  Vec3<Scalar> quadrature(Scalar t) const noexcept {
+    static constexpr Scalar x[5] = {Scalar(-0.906179845938663992797626878299392965L), Scalar(-0.538469310105683091036314420700208805L),
+                                    Scalar(0), Scalar(0.538469310105683091036314420700208805L), Scalar(0.906179845938663992797626878299392965L)};
+    static constexpr Scalar weight[5] = {Scalar(0.236926885056189087514264040719917363L), Scalar(0.478628670499366468041291514835638193L),
+                                         Scalar(0.568888888888888888888888888888888889L), Scalar(0.478628670499366468041291514835638193L),
+                                         Scalar(0.236926885056189087514264040719917363L)};
+    const Scalar rate = motion_.jacobi_rate(), end = (t < 0 ? -40 - motion_.jacobi_start() : 40 - motion_.jacobi_start()) / rate;
+    const bool past = t < 0 ? t < end && end < 0 : t > end && end > 0;
+    const Scalar to = past ? end : t;
+    const int panels = 1 + static_cast<int>(std::min(std::abs(to) * rate * 4, Scalar(1000)));
+    Vec3<Scalar> sum(0, 0, 0);
+    for (int i = 0; i < panels; ++i)
+      for (int k = 0; k < 5; ++k)
+        sum += weight[k] / 2 * motion_.at(to * (Scalar(i) + (1 + x[k]) / 2) / Scalar(panels)).angular_velocity;
+    sum *= to / Scalar(panels);
+    return past ? Vec3<Scalar>(sum + (t - end) * motion_.at(end).angular_velocity) : sum;
+  }
+
+  Motion<Scalar> motion_;
+  Scalar period_, size_ = 0;
+  Vec3<Scalar> steady_{0, 0, 0}, mean_{0, 0, 0}, start_{0, 0, 0};
+  std::vector<std::array<C, 3>> coefficients_;
+};
+
+}  // namespace gyrostat::free

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/math/root.hpp"
+#include "gyrostat/models/free/motion.hpp"
+
+namespace gyrostat::free {
+
+/// Points in a period that show every turn of the path of M: more beside a separatrix.
+template <Real Scalar>
+int nodes_of(const Motion<Scalar>& motion) noexcept {
+  using std::ceil, std::min;
+  if (motion.kind() == Kind::spherical || !(motion.quarter_period() < infinity<Scalar>)) return 32;
+  const Scalar ratio = motion.quarter_period() / motion.quarter_period_conjugate();
+  return 32 + 24 * static_cast<int>(ceil(min(ratio, Scalar(1000))));
+}
+
+/// Times of [begin, end] at which a function that repeats with the motion's period crosses zero, in order; `value(t)`, at most `most` of
+/// them. Empty where the motion has no period.
+template <Real Scalar, class Function>
+std::vector<Scalar> periodic_zeros(const Motion<Scalar>& motion, const Function& value, Scalar begin, Scalar end,
+                                   std::size_t most = 1000000) noexcept {
+  using std::ceil, std::floor;
+  std::vector<Scalar> first, times;
+  const Scalar T = motion.period();
+  if (!(T < infinity<Scalar>) || !(begin <= end)) return times;
+  const int nodes = nodes_of(motion);
+  Scalar last = value(Scalar(0));
+  for (int i = 1; i <= nodes; ++i) {
+    const Scalar low = T * Scalar(i - 1) / Scalar(nodes), high = T * Scalar(i) / Scalar(nodes), next = value(high);
+    if (last == 0) first.push_back(low);
+    else if ((last < 0) != (next < 0) && next != 0)
+      if (const auto root = math::bracketed_root<Scalar>(value, low, high)) first.push_back(*root);
+    last = next;
+  }
+  if (first.empty()) return times;
+  for (Scalar turn = floor(begin / T); turn * T <= end && times.size() < most; turn += 1)
+    for (const Scalar t : first)
+      if (const Scalar at = turn * T + t; at >= begin && at <= end && times.size() < most) times.push_back(at);
+  return times;
+}
+
+/// Times of [begin, end], s, at which M crosses the plane across a body axis: of a rigid body spun about its middle axis, and that axis,
+/// the flips that Dzhanibekov saw in 1985; they are half a period apart. Each is as uncertain as the motion's phase.
+template <Real Scalar>
+std::vector<Scalar> flips(const Motion<Scalar>& motion, const Vec3<Scalar>& axis, Scalar begin, Scalar end) noexcept {
+  return periodic_zeros(motion, [&](Scalar t) { return axis.dot(motion.at(t).angular_momentum); }, begin, end);
+}
+
+/// Time between flips about the middle principal axis, s: half a period where M surrounds another axis and the body has no rotor
+/// momentum; NaN else.
+template <Real Scalar>
+Scalar flip_interval(const Motion<Scalar>& motion) noexcept {
+  const bool rigid = motion.rotor_momentum() == Vec3<Scalar>(0, 0, 0);
+  const bool lobe = motion.kind() == Kind::about_largest || motion.kind() == Kind::about_smallest;
+  return rigid && lobe ? motion.period() / 2 : nan<Scalar>;
+}
+
+}  // namespace gyrostat::free

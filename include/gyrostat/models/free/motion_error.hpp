@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+#include "gyrostat/core/double_double.hpp"
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/models/free/motion.hpp"
+#include "gyrostat/models/free/reduced.hpp"
+
+namespace gyrostat::free {
+
+/// What is known of the data: `rounded`, each is right to a rounding of Scalar; `exact`, each is meant to its last bit, and the rounding
+/// of the set-up alone counts.
+enum class Data : std::uint8_t { rounded, exact };
+
+namespace detail {
+
+inline constexpr int neighbours = 4;
+
+/// Sign of what the n-th datum of the k-th neighbour is moved by: fixed, and without a pattern that the data could share.
+constexpr int neighbour_sign(int k, int n) noexcept {
+  constexpr unsigned long long patterns[neighbours] = {0x9e3779b97f4a7c15ULL, 0xd1b54a32d192ed03ULL, 0x8cb92ba72f3d8dd7ULL,
+                                                       0xaef17502108ef2d9ULL};
+  return (patterns[k] >> (n % 61)) & 1 ? 1 : -1;
+}
+
+}  // namespace detail
+
+/// The k-th neighbour of an assembly: every datum times 1 +- by; zeros stay.
+template <Real Scalar>
+Assembly<Scalar> neighbour(Assembly<Scalar> given, int k, Scalar by) noexcept {
+  int n = 0;
+  const auto move = [&](Scalar& x) { x *= 1 + Scalar(detail::neighbour_sign(k, n++)) * by; };
+  auto& body = given.body;
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) {
+      move(body.inertia(i, j));
+      body.inertia(j, i) = body.inertia(i, j);
+    }
+  for (int i = 0; i < 3; ++i) {
+    move(body.rotor_momentum[i]);
+    move(body.angular_velocity[i]);
+    move(body.angular_momentum[i]);
+  }
+  for (auto& wheel : given.wheels) {
+    for (int i = 0; i < 3; ++i) move(wheel.axis[i]);
+    move(wheel.axial_inertia);
+    move(wheel.rate);
+  }
+  return given;
+}
+
+/// How wrong a motion may be, from four neighbours whose data are a rounding away, made by the same arithmetic: over the first period
+/// they are compared time by time, beyond it by their periods and turns.
+template <Real Scalar>
+class MotionError {
+ public:
+  struct Bound {
+    Scalar angular_velocity = 0;  ///< over the greatest |omega|
+    Scalar angular_momentum = 0;  ///< over |M|
+    Scalar attitude = 0;          ///< rad
+  };
+
+  MotionError() = default;
+
+  /// Of the motion that make<Setup> gives for the reduced assembly. Errors: those of Reduced::of and Motion::make.
+  template <Real Setup = Scalar>
+  static Result<MotionError> of(const Assembly<Scalar>& assembly, Data data = Data::rounded) noexcept {
+    const auto motion_of = [](const Assembly<Setup>& given) -> Result<Motion<Scalar>> {
+      return Motion<Scalar>::template make<Setup>(Reduced<Setup>::taken(given).problem);
+    };
+    if (const auto sound = Reduced<Scalar>::of(assembly); !sound) return sound.error();
+    const Assembly<Setup> given = cast<Setup>(assembly);
+    const auto motion = motion_of(given);
+    if (!motion) return motion.error();
+    MotionError error;
+    error.start(*motion);
+    const Setup by = data == Data::exact ? epsilon<Setup> : Setup(epsilon<Scalar>);
+    for (int k = 0; k < detail::neighbours; ++k) error.see(*motion, motion_of(neighbour<Setup>(given, k, by)));
+    // what rounding did to this very set-up
+    if constexpr (std::is_same_v<Setup, double>)
+      error.see(*motion, Motion<Scalar>::template make<DoubleDouble>(Reduced<DoubleDouble>::taken(cast<DoubleDouble>(assembly)).problem));
+    if (error.kind_ != Kind::steady) {  // and what the rounding of the period and the turn hides
+      const Scalar hidden = static_cast<Scalar>(by);
+      error.share_ += hidden / error.period_;
+      error.turn_rate_ += 2 * pi<Scalar> * hidden / error.period_;
+    }
+    return error;
+  }
+
+  /// Of every time up to |t|. Infinite where the data fix the phase to less than 0.05 rad only.
+  Bound at(Scalar t) const noexcept {
+    using std::abs, std::exp;
+    Bound b = near(abs(t));
+    const Scalar beyond = abs(t);
+    const Scalar late = beyond * share_, turned = beyond * turn_rate_;
+    if (kind_ == Kind::steady) {
+      const Scalar off = unstable_ > 0 ? offset_ * exp(unstable_ * beyond) : settled_ ? offset_ : offset_ * (1 + wandering_ * beyond);
+      b.angular_momentum += 4 * off;
+      b.angular_velocity += 4 * off * gain_;
+      b.attitude += 4 * (off * gain_ + 2 * epsilon<Scalar>) * speed_ * beyond;
+    } else if (!(beyond <= period_)) {
+      b.angular_velocity += 4 * late * rates_change_;
+      b.angular_momentum += 4 * late * momentum_change_;
+      b.attitude += 4 * (turned + late * attitude_change_);
+      if (!agree_) b.attitude = infinity<Scalar>;
+    }
+    const Scalar rounding = 10 * cancellation_ * epsilon<Scalar>;
+    const Scalar most = Scalar(0.2);  // four times 0.05
+    if (!(b.attitude <= most && b.angular_velocity <= most)) return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
+    // M may be all rounding and the body's motion not
+    if (!(b.angular_momentum <= most)) b.angular_momentum = infinity<Scalar>;
+    return {b.angular_velocity + rounding, b.angular_momentum + rounding, b.attitude + rounding};
+  }
+
+  Scalar period() const noexcept { return 4 * share_ * period_ + 4 * epsilon<Scalar>; }  ///< relative
+  Scalar turn_per_period() const noexcept {                                    ///< rad
+    return 4 * turn_ + 16 * epsilon<Scalar>;
+  }
+  Scalar modulus_squared() const noexcept { return 4 * modulus_ + 4 * epsilon<Scalar>; }  ///< absolute
+  Scalar energy() const noexcept { return 4 * energy_ + 4 * epsilon<Scalar>; }            ///< relative
+  Scalar angular_momentum_norm() const noexcept { return 4 * norm_ + 4 * epsilon<Scalar>; }
+  /// The neighbours are motions of the same kind; else the data do not tell on which side of a separatrix the motion is.
+  bool kinds_agree() const noexcept { return agree_; }
+
+ private:
+  static constexpr int nodes = 128;
+
+  template <Real Setup>
+  static Assembly<Setup> cast(const Assembly<Scalar>& given) noexcept {
+    Assembly<Setup> made;
+    made.body = given.body.template cast<Setup>();
+    for (const auto& w : given.wheels)
+      made.wheels.push_back({vector_cast<Setup>(w.axis), Setup(w.axial_inertia), Setup(w.rate), w.turns_freely});
+    return made;
+  }
+
+  void start(const Motion<Scalar>& motion) noexcept {
+    using std::isfinite, std::max;
+    kind_ = motion.kind();
+    const State<Scalar> s = motion.at(0);
+    speed_ = s.angular_velocity.norm();
+    if (kind_ == Kind::steady) return start_steady(motion);
+    period_ = motion.period();
+    span_ = isfinite(period_) ? period_ : 80 / motion.jacobi_rate();
+    const Scalar T = span_, turn = motion.turn_per_period() / T;
+    const Mat3<Scalar> inverse = motion.R_BP() * motion.principal_moments().cwiseInverse().asDiagonal() * motion.R_BP().transpose();
+    const Scalar R = motion.angular_momentum_norm();
+    for (int i = 0; i < nodes; ++i) {
+      const State<Scalar> at = motion.at(T * Scalar(i) / nodes);
+      const Vec3<Scalar> flow = cross<Scalar>(at.angular_momentum, at.angular_velocity);
+      cancellation_ = max(cancellation_, motion.cancellation(T * Scalar(i) / nodes));
+      fastest_ = max(fastest_, at.angular_velocity.norm());
+      momentum_change_ = max(momentum_change_, flow.norm());
+      rates_change_ = max(rates_change_, Vec3<Scalar>(inverse * flow).norm());
+      attitude_change_ = max(attitude_change_, Vec3<Scalar>(at.angular_velocity - turn / R * at.angular_momentum).norm());
+    }
+    // E = exp(h u) grows along a half period, and its rounding with it
+    if (motion.hyperbolic() && isfinite(motion.quarter_period()))
+      cancellation_ += motion.quarter_period() / motion.quarter_period_conjugate() / 8;
+    // per period that the phase is late, with a margin for what lies between the nodes
+    const Scalar margin = Scalar(1.25);
+    rates_change_ *= margin * T / fastest_;
+    momentum_change_ *= margin * T / R;
+    attitude_change_ *= margin * T;
+  }
+
+  void start_steady(const Motion<Scalar>& motion) noexcept {
+    using std::sqrt;
+    const Scalar square = motion.steady_square(), R = motion.angular_momentum_norm();
+    fastest_ = speed_;
+    offset_ = 4 * epsilon<Scalar>;
+    unstable_ = square < 0 ? sqrt(-square) : Scalar(0);
+    frequency_ = square > 0 ? sqrt(square) : Scalar(0);
+    wandering_ = R / motion.principal_moments()[2];
+    settled_ = frequency_ > 0;
+    gain_ = speed_ > 0 ? wandering_ / speed_ : Scalar(0);
+    span_ = period_ = speed_ > 0 ? 2 * pi<Scalar> / speed_ : Scalar(1);
+  }
+
+  void see(const Motion<Scalar>& motion, const Result<Motion<Scalar>>& made) noexcept {
+    using std::abs, std::max;
+    if (!made) {
+      agree_ = false;
+      first_.fill({infinity<Scalar>, infinity<Scalar>, infinity<Scalar>});
+      return;
+    }
+    const Motion<Scalar>& other = *made;
+    const auto relative = [](Scalar a, Scalar b) { return a == b ? Scalar(0) : abs(a - b) / abs(a); };
+    energy_ = max(energy_, relative(motion.energy(), other.energy()));
+    norm_ = max(norm_, relative(motion.angular_momentum_norm(), other.angular_momentum_norm()));
+    if (kind_ == Kind::steady) return see_steady(other);
+    modulus_ = max(modulus_, abs(motion.modulus_squared() - other.modulus_squared()));
+    if (kind_ != Kind::spherical && other.kind() != kind_) agree_ = false;
+    Bound worst;
+    for (int i = 0; i <= nodes; ++i) {
+      // running greatest differences, with time forward and back
+      for (const Scalar t : {span_ * Scalar(i) / nodes, -span_ * Scalar(i) / nodes}) {
+        const State<Scalar> a = motion.at(t), b = other.at(t);
+        const Quat<Scalar> q = conjugate(a.attitude) * b.attitude;
+        worst.angular_velocity = max(worst.angular_velocity, Vec3<Scalar>(a.angular_velocity - b.angular_velocity).norm() / fastest_);
+        worst.angular_momentum = max(worst.angular_momentum, Vec3<Scalar>(a.angular_momentum - b.angular_momentum).norm() /
+                                                                 motion.angular_momentum_norm());
+        worst.attitude = max(worst.attitude, Vec3<Scalar>(2 * q.x, 2 * q.y, 2 * q.z).norm());
+      }
+      Bound& to = first_[std::size_t(i)];
+      to.angular_velocity = max(to.angular_velocity, 4 * worst.angular_velocity);
+      to.angular_momentum = max(to.angular_momentum, 4 * worst.angular_momentum);
+      to.attitude = max(to.attitude, 4 * worst.attitude);
+    }
+    share_ = max(share_, relative(motion.period(), other.period()) / period_);
+    const Scalar turn = motion.turn_per_period(), raw = other.turn_per_period() - turn;
+    const Scalar turned = raw - 2 * pi<Scalar> * std::nearbyint(raw / (2 * pi<Scalar>));
+    turn_ = max(turn_, abs(turned));
+    turn_rate_ = max(turn_rate_, abs((turned - turn * (other.period() - period_) / period_) / other.period()));
+  }
+
+  /// How far the momentum of a neighbour may wander from that of a steady rotation, over |M|.
+  void see_steady(const Motion<Scalar>& other) noexcept {
+    using std::max;
+    const State<Scalar> s = other.at(0);
+    const Scalar residual = cross<Scalar>(s.angular_momentum, s.angular_velocity).norm();
+    if (!(residual > 0)) return;
+    const Scalar pace = frequency_ > 0 ? frequency_ : unstable_ > 0 ? unstable_ : Scalar(0);
+    const Scalar off = residual / other.angular_momentum_norm() / (pace > 0 ? pace : speed_);
+    // the path about the equilibrium is an ellipse
+    offset_ = max(offset_, off * (pace > 0 ? max(Scalar(1), wandering_ / pace) : Scalar(1)));
+  }
+
+  /// Over the first period, at the node at or after t.
+  Bound near(Scalar t) const noexcept {
+    if (kind_ == Kind::steady) return {};
+    using std::ceil, std::min;
+    const Scalar place = ceil(t / span_ * nodes);
+    if (!(place < nodes)) return t - t == 0 ? first_[nodes] : Bound{infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
+    return first_[std::size_t(place)];
+  }
+
+  Kind kind_ = Kind::steady;
+  bool agree_ = true, settled_ = false;
+  Scalar period_ = 1, span_ = 1, fastest_ = 0, speed_ = 0;
+  Scalar rates_change_ = 0, momentum_change_ = 0, attitude_change_ = 0;  // by a phase late by a period
+  Scalar share_ = 0, turn_rate_ = 0, turn_ = 0;  // periods late a second; rad/s about M; rad a period
+  Scalar modulus_ = 0, energy_ = 0, norm_ = 0, cancellation_ = 1;
+  Scalar offset_ = 0, unstable_ = 0, frequency_ = 0, wandering_ = 0, gain_ = 0;  // of a steady rotation
+  std::array<Bound, nodes + 1> first_{};
+};
+
+}  // namespace gyrostat::free

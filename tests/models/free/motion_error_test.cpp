@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/models/free/motion_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+#include "gyrostats.hpp"
+
+namespace free_error_test {
+
+using namespace gyrostat;
+using namespace free_bodies;
+using gyrostat::free::Assembly;
+using gyrostat::free::Data;
+using gyrostat::free::Kind;
+using gyrostat::free::Motion;
+using gyrostat::free::MotionError;
+using Wide = DoubleDouble;
+
+struct Tally {
+  int asked = 0, understated = 0, endless = 0;
+  std::vector<double> ratio;
+  double median() {
+    std::sort(ratio.begin(), ratio.end());
+    return ratio.empty() ? 0 : ratio[ratio.size() / 2];
+  }
+};
+
+/// True errors against what is stated. Truth: the data as given (`exact`), or each a rounding of 2^-52 away.
+template <Real Setup>
+Tally tally(Regime regime, Data data, int count, unsigned seed) {
+  Bodies bodies(seed);
+  Tally tally;
+  for (int i = 0; i < count; ++i) {
+    const auto p = bodies.of(regime, i);
+    auto given = p.cast<Wide>();
+    const auto m = Motion<double>::make<Setup>(p.cast<Setup>());
+    const auto error = MotionError<double>::of<Setup>(Assembly<double>{p, {}}, data);
+    if (data == Data::rounded) given = bodies.jittered(p).cast<Wide>();
+    const auto truth = Motion<Wide>::make<Wide>(given);
+    REQUIRE((m && error && truth));
+    const double T = std::isfinite(m->period()) ? m->period() : 10;
+    double fastest = 0;
+    for (int k = 0; k < 16; ++k) fastest = std::max(fastest, m->at(T * k / 16).angular_velocity.norm());
+    for (const double turns : {.01, .3, 1.3, 40., 1e4}) {
+      const double t = turns * T * bodies.uniform(.7, 1);
+      const auto bound = error->at(t);
+      ++tally.asked;
+      if (!std::isfinite(bound.attitude)) {
+        ++tally.endless;
+        continue;
+      }
+      const auto s = m->at(t);
+      const Off o = off(s, truth->at(t));
+      const double rates = o.rates * s.angular_velocity.norm() / fastest;
+      if (o.attitude > bound.attitude || rates > bound.angular_velocity || o.momentum > bound.angular_momentum) {
+        ++tally.understated;
+        UNSCOPED_INFO(free_bodies::name(regime) << ' ' << i << " after " << turns << ": attitude " << o.attitude << " of " << bound.attitude
+                                                << ", rates " << rates << " of " << bound.angular_velocity << ", momentum " << o.momentum
+                                                << " of " << bound.angular_momentum);
+      }
+      if (o.attitude > 0) tally.ratio.push_back(bound.attitude / o.attitude);
+    }
+  }
+  return tally;
+}
+
+TEST_CASE("the stated error of a free motion is never too small where the set-up has two words", "[free]") {
+  for (const Regime regime : regimes)
+    for (const Data data : {Data::rounded, Data::exact}) {
+      auto t = tally<Wide>(regime, data, 60, 31);
+      CAPTURE(free_bodies::name(regime), data == Data::exact, t.asked, t.endless);
+      CHECK(t.understated == 0);
+      CHECK(t.median() < (data == Data::exact ? 20 : 80));
+      if (regime != Regime::bisected) CHECK(t.endless == 0);
+    }
+}
+
+TEST_CASE("the stated error of a free motion set up in double is hardly ever too small", "[free]") {
+  int asked = 0, understated = 0;
+  for (const Regime regime : regimes) {
+    auto t = tally<double>(regime, Data::rounded, 60, 32);
+    asked += t.asked, understated += t.understated;
+    CAPTURE(free_bodies::name(regime));
+    CHECK(t.median() < 80);
+  }
+  CHECK(understated <= asked / 500);
+}
+
+TEST_CASE("ten thousand stated errors of free motions", "[.long]") {
+  int asked = 0, understated = 0;
+  for (const Regime regime : regimes) {
+    const auto t = tally<Wide>(regime, Data::rounded, 200, 33);
+    asked += t.asked, understated += t.understated;
+  }
+  CHECK(asked >= 10000);
+  CHECK(understated <= asked / 2000);
+}
+
+TEST_CASE("where the data fix no phase the error of a free motion is infinite", "[free]") {
+  const auto error_of = [](const Vec3<double>& l, const Vec3<double>& w, Data data = Data::rounded) {
+    return *MotionError<double>::of<Wide>(Assembly<double>{Problem<double>::from_moments({6, 4, 3}, l, w), {}}, data);
+  };
+  // the separatrix: the data decide nothing after ln(1/eps) of the rate
+  const auto separatrix = error_of({0, 0, 0}, {1, 1, 2});
+  CHECK(separatrix.at(1).attitude < 1e-13);
+  CHECK(std::isinf(separatrix.at(200).attitude));
+  CHECK_FALSE(separatrix.kinds_agree());
+  // long after the start a generic motion too, unless the data are exact
+  const auto generic = error_of({.1, -.2, .3}, {1, 2, 3});
+  CHECK(generic.kinds_agree());
+  CHECK(generic.at(1e3).attitude < 1e-10);
+  CHECK(std::isinf(generic.at(1e18).attitude));
+  CHECK(std::isinf(generic.at(infinity<double>).attitude));
+  CHECK(std::isinf(generic.at(gyrostat::nan<double>).attitude));
+  CHECK(error_of({.1, -.2, .3}, {1, 2, 3}, Data::exact).at(1e18).attitude < 1e-9);
+  // permanent rotations: stable ones drift, an unstable one leaves
+  CHECK(error_of({0, 0, 0}, {2, 0, 0}).at(1e3).attitude < 1e-10);
+  const auto unstable = error_of({0, 0, 0}, {0, 2, 0});
+  CHECK(unstable.at(1).attitude < 1e-12);
+  CHECK(std::isinf(unstable.at(100).attitude));
+  // grows with time, never falls
+  double last = 0;
+  for (double t = 0; t < 300; t += .37) {
+    CHECK(generic.at(t).attitude >= last);
+    CHECK(generic.at(-t).attitude == generic.at(t).attitude);
+    last = generic.at(t).attitude;
+  }
+  CHECK(generic.period() < 1e-14);
+  CHECK(generic.turn_per_period() < 1e-12);
+  CHECK(generic.modulus_squared() < 1e-14);
+  CHECK(generic.energy() < 1e-14);
+  CHECK(generic.angular_momentum_norm() < 1e-14);
+}
+
+TEST_CASE("errors of special free motions are bounds too", "[free]") {
+  Bodies bodies(34);
+  for (int i = 0; i < 60; ++i) {
+    const auto l = bodies.vector(), w = bodies.vector();
+    const Vec3<double> J = bodies.moments();
+    Problem<double> p;
+    if (i % 3 == 0) p = Problem<double>::from_moments({2, 2, 2}, l, w);  // a sphere
+    if (i % 3 == 1) p = Problem<double>::from_moments(J, (J * -1).cwiseProduct(w), w);  // M = 0
+    if (i % 3 == 2) {  // about the axis of the largest or smallest moment
+      const int k = i % 2 ? 0 : 2;
+      p = Problem<double>::from_moments(J, {0, 0, 0}, Vec3<double>::Unit(k) * w[0]);
+    }
+    const auto m = Motion<double>::make<Wide>(p.cast<Wide>());
+    const auto error = MotionError<double>::of<Wide>(Assembly<double>{p, {}});
+    REQUIRE((m && error));
+    const auto truth = Motion<Wide>::make<Wide>(bodies.jittered(p).cast<Wide>());
+    for (const double t : {.1, 3., 40., 1e3}) {
+      CAPTURE(i, t);
+      CHECK(off(m->at(t), truth->at(t)).attitude <= error->at(t).attitude);
+      CHECK(error->at(t).attitude < 1e-12 * (1 + t) * (1 + w.norm()) * (i % 3 ? 1 : 1 + l.norm()));
+    }
+  }
+}
+
+}  // namespace free_error_test

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/models/free/view.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "gyrostats.hpp"
+
+namespace free_view_test {
+
+using namespace gyrostat;
+using namespace free_bodies;
+using gyrostat::free::long_run_view;
+using gyrostat::free::Motion;
+using gyrostat::free::view_fraction;
+using V = Vec3<double>;
+
+TEST_CASE("the view of the long run is what a long span of the motion shows", "[free]") {
+  Bodies bodies(46);
+  for (int i = 0; i < 12; ++i) {
+    const auto m = *Motion<double>::make<DoubleDouble>(bodies.of(Regime::generic, i).cast<DoubleDouble>());
+    const V b = bodies.vector().normalized(), s = bodies.vector().normalized();
+    const double cone = bodies.uniform(.3, 1.6);
+    const auto view = long_run_view<double>(m, b, s, cone);
+    // an irrational step through the torus
+    double seen = 0, cosine = 0;
+    constexpr int n = 200000;
+    for (int k = 0; k < n; ++k) {
+      const double c = s.dot(rotate<double>(m.at(m.period() * (std::sqrt(2.) * k)).attitude, b));
+      seen += c >= std::cos(cone), cosine += std::max(0., c);
+    }
+    CHECK(view.fraction == Approx(seen / n).margin(6e-3));
+    CHECK(view.mean_cosine == Approx(cosine / n).margin(6e-3));
+    const double span = 400 * m.period();
+    CHECK(view_fraction<double>(m, b, s, cone, 0, span) == Approx(view.fraction).margin(2e-2));
+  }
+}
+
+TEST_CASE("the view from a steady rotation and its limits", "[free]") {
+  const auto m = *Motion<double>::make(Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {0, 0, 2}));
+  const V z(0, 0, 1), x(1, 0, 0);
+  CHECK(long_run_view<double>(m, x, x, pi<double> / 2).fraction == Approx(.5));
+  CHECK(long_run_view<double>(m, x, x, pi<double> / 2).mean_cosine == Approx(1 / pi<double>));
+  CHECK(long_run_view<double>(m, x, x, .3).fraction == Approx(.3 / pi<double>));
+  CHECK(long_run_view<double>(m, z, z, .1).fraction == 1);
+  CHECK(long_run_view<double>(m, z, x, .1).fraction == 0);
+  CHECK(long_run_view<double>(m, x, x, 0).fraction == Approx(0).margin(1e-7));
+  CHECK(long_run_view<double>(m, x, x, pi<double>).fraction == 1);
+  CHECK(view_fraction<double>(m, x, x, .3, 0, pi<double>) == Approx(.3 / pi<double>));
+  CHECK(view_fraction<double>(m, x, x, .3, 0, .1) == Approx(1));
+  const auto rest = *Motion<double>::make(Problem<double>::from_moments({6, 4, 3}, {1, 0, 0}, {0, 0, 0}));
+  CHECK(long_run_view<double>(rest, x, x, .1).fraction == 1);
+  CHECK(long_run_view<double>(rest, z, x, .1).fraction == 0);
+  const auto separatrix = *Motion<double>::make(Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {1, 1, 2}));
+  CHECK(std::isnan(long_run_view<double>(separatrix, x, x, 1).fraction));
+}
+
+}  // namespace free_view_test
