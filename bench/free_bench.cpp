@@ -137,7 +137,7 @@ void accuracy(benchmark::State& state, Regime regime) {
 }
 
 BENCHMARK(sine_and_cosine);
-#define EVERY_SCENE(function)                                            \
+#define EVERY_SCENE(function)                                             \
   BENCHMARK_CAPTURE(function, rigid, Scene::rigid);                       \
   BENCHMARK_CAPTURE(function, rigid_separatrix, Scene::rigid_separatrix); \
   BENCHMARK_CAPTURE(function, one_component, Scene::one_component);       \

@@ -41,7 +41,7 @@ def cells(row: str) -> list[str]:
 
 def values(kind: str, what: str, *cells: str) -> Iterator[list[str]]:
     for each in COMPILED[kind][what]:
-        yield [f"`{each['name']}`", str(each["width"]), *(each[cell] or "-" for cell in cells), MEASURES[each["measure"]], each["meaning"]]
+        yield [f"`{each['name']}`", str(each["width"] or "wheels"), *(each[cell] or "-" for cell in cells), MEASURES[each["measure"]], each["meaning"]]
 
 
 def columns(kind: str, _: str) -> str:

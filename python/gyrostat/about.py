@@ -30,7 +30,7 @@ def build_table() -> list[list[str]]:
 def family_tables(kind: str) -> Iterator[tuple[str, list[str], list[list[str]]]]:
     """Title, heads and rows of the columns, the scalars and the rungs of a kind of scene."""
     facts = FACTS[kind]
-    columns = [[q.name, str(q.width), q.unit, q.frame, q.measure, q.meaning] for q in facts.columns.values()]
+    columns = [[q.name, str(q.width or "wheels"), q.unit, q.frame, q.measure, q.meaning] for q in facts.columns.values()]
     yield f"{kind}: columns", ["name", "width", "unit", "frame", "error", "meaning"], columns
-    yield f"{kind}: scalars", ["name", "width", "unit", "meaning"], [[q.name, str(q.width), q.unit, q.meaning] for q in facts.scalars.values()]
+    yield f"{kind}: scalars", ["name", "width", "unit", "meaning"], [[q.name, str(q.width or "wheels"), q.unit, q.meaning] for q in facts.scalars.values()]
     yield f"{kind}: rungs, cheapest first", ["name", "meaning"], [[name, meaning] for name, meaning in facts.rungs.items()]

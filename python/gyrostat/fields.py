@@ -8,7 +8,7 @@ from typing import Any, Final, Literal
 __all__ = ["Choice", "Choices", "Field", "Found", "LIMIT", "MOST_SAMPLES", "REQUIRED", "ROUNDING", "TIMES", "Table", "UNSET", "Values",
            "head_keys", "needed", "solve_keys", "table_of"]
 
-Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "moments", "times", "record", "ask"]
+Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "moments", "times", "record", "records", "ask"]
 
 REQUIRED: Final = "required"  # the key must be given
 UNSET: Final = None  # the key may be left out and then has no value
@@ -34,7 +34,7 @@ class Field:
     high: float = LIMIT
     open_low: bool = False  # the lower bound itself is not allowed
     open_high: bool = False
-    parts: tuple["Field", ...] = ()  # of a record: its keys, all of them wanted
+    parts: tuple["Field", ...] = ()  # of a record, or of each of several: its keys
 
 
 Table = tuple[Field, ...]

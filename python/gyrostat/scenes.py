@@ -8,6 +8,7 @@ import re
 import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from dataclasses import field as member
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Final
@@ -45,6 +46,7 @@ class Scene:
     source: str
     tables: Values
     path: Path | None = None
+    top: Mapping[str, Any] = member(default_factory=dict)  # keys of the kind's own at the top, such as the wheels
 
     @property
     def times(self) -> NDArray[np.float64]:
@@ -73,6 +75,7 @@ class Scene:
         made: dict[str, Any] = {"name": self.name, "kind": self.kind}
         if self.source:
             made["source"] = self.source
+        made |= {key: _plain(value) for key, value in self.top.items() if value}
         for table, values in self.tables.items():
             if given := {key: _plain(value) for key, value in values.items() if value is not UNSET}:
                 made[table] = given
@@ -99,7 +102,7 @@ class Scene:
                 return None
         if any(family.mistakes(tables)):
             return None
-        made = Scene(self.name, self.kind, self.source, tables, self.path)
+        made = Scene(self.name, self.kind, self.source, tables, self.path, self.top)
         if tables["solve"] is self.tables["solve"]:
             made.__dict__["_times"] = self._times
         return made
@@ -348,20 +351,42 @@ def _triangle(moments: Iterable[float], tolerance: float = TENSOR_TOLERANCE) -> 
                      "no rigid body has these moments (triangle inequality): check the numbers, or the signs of the products of inertia")
 
 
-def _record(field: Field, value: Any) -> dict[str, float]:
+def _record(field: Field, value: Any) -> dict[str, Any]:
     example = "{ " + ", ".join(f"{part.name} = ..." for part in field.parts) + " }"
     if not isinstance(value, dict):
         raise _Wrong(f"this is {_kind_of(value)}, not a table", f"write {field.name} = {example}")
+    return _parts(field, value, "", f"{field.name} = {example}")
+
+
+def _records(field: Field, value: Any) -> tuple[dict[str, Any], ...]:
+    if not isinstance(value, list):
+        raise _Wrong(f"this is {_kind_of(value)}, not an array of tables", f"write [[{field.name}]] above the keys of each")
+    made = []
+    for i, item in enumerate(value, 1):
+        if not isinstance(item, dict):
+            raise _Wrong(f"element {i} is {_kind_of(item)}, not a table", f"write [[{field.name}]] above the keys of each")
+        made.append(_parts(field, item, f"{field.name} {i}: ", f"[[{field.name}]] with {', '.join(part.name for part in field.parts)}"))
+    return tuple(made)
+
+
+def _parts(field: Field, value: Mapping[str, Any], where: str, example: str) -> dict[str, Any]:
+    """The keys of one record; `where` says which of several."""
     names = [part.name for part in field.parts]
     for key in value:
         if key not in names:
             near = _near(str(key), names)
-            raise _Wrong(f"unknown key {_show(str(key))}", f"did you mean {near}?" if near else f"the keys here are {', '.join(names)}")
-    made = {}
+            raise _Wrong(f"{where}unknown key {_show(str(key))}", f"did you mean {near}?" if near else f"the keys here are {', '.join(names)}")
+    made: dict[str, Any] = {}
     for part in field.parts:
-        if part.name not in value:
-            raise _Wrong(f"the key {part.name} is missing", f"give the {_meaning(part)}: {field.name} = {example}")
-        made[part.name] = _number(part, value[part.name], part.name)
+        if part.name not in value and part.default is REQUIRED:
+            raise _Wrong(f"{where}the key {part.name} is missing", f"give the {_meaning(part)}: {example}")
+        try:
+            given = value.get(part.name, part.default)
+            made[part.name] = _number(part, given, part.name) if part.form == "number" else _READERS[part.form](part, given)
+        except _Wrong as error:
+            problem, remedy = error.args
+            named = problem if part.form == "number" else f"{part.name} = {_show(value[part.name])}: {problem}"
+            raise _Wrong(where + named, remedy) from None
     return made
 
 
@@ -376,7 +401,7 @@ def _ask(field: Field, value: Any) -> Any:
 
 _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
     "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "direction": _direction,
-    "quaternion": _quaternion, "inertia": _inertia, "moments": _moments, "times": _times, "record": _record, "ask": _ask,
+    "quaternion": _quaternion, "inertia": _inertia, "moments": _moments, "times": _times, "record": _record, "records": _records, "ask": _ask,
 }
 
 
@@ -451,7 +476,8 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
     if mistakes:
         raise SceneError(*mistakes)
     head = read.pop("")
-    return Scene(head["name"], kind, head["source"], read, source.path)
+    top = {key: value for key, value in head.items() if key not in ("name", "kind", "source")}
+    return Scene(head["name"], kind, head["source"], read, source.path, top)
 
 
 def _meaning(field: Field) -> str:

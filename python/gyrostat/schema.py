@@ -2,6 +2,7 @@
 """The keys of scene files as a JSON Schema and as tables for reading, made from what the validator reads."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 from gyrostat.families import FAMILIES, Family
@@ -48,7 +49,9 @@ def _form(field: Field) -> dict[str, Any]:
                               {"type": "object", "additionalProperties": tolerance, "minProperties": 1}]}
         case "record":
             return {"type": "object", "properties": {part.name: _property(part) for part in field.parts},
-                    "required": [part.name for part in field.parts], "additionalProperties": False}
+                    "required": [part.name for part in field.parts if part.default is REQUIRED], "additionalProperties": False}
+        case "records":
+            return {"type": "array", "items": _form(replace(field, form="record"))}
 
 
 def _property(field: Field) -> dict[str, Any]:
@@ -138,6 +141,8 @@ def _form_text(field: Field) -> str:
             return "names, all or { name = tolerance }"
         case "record":
             return "{ " + ", ".join(part.name for part in field.parts) + " }"
+        case "records":
+            return f"[[{field.name}]] each"
         case _:
             return field.form
 
@@ -159,7 +164,7 @@ def key_tables(kind: str) -> Iterator[tuple[str, list[str], list[list[str]]]]:
         for field in fields:
             default = _default_text(field, alternatives, f"{table}.{field.name}")
             rows.append([field.name, _form_text(field), field.unit, default, interval(field), field.meaning])
-            rows += [[f"  {part.name}", _form_text(part), part.unit, "", interval(part), part.meaning] for part in field.parts]
+            rows += [[f"  {part.name}", _form_text(part), part.unit, "" if part.default is REQUIRED else toml_value(part.default), interval(part), part.meaning] for part in field.parts]
         title = f"[{table}]" if table else "at the top"
         yield title, ["key", "form", "unit", "default", "interval", "meaning"], rows
 

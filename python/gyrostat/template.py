@@ -59,7 +59,7 @@ def template(kind: str) -> str:
         lines += ["", f"{'' if used else '#'}[{table}]"] if table else []
         for field in fields:
             key = _full(table, field)
-            value = family.example[key] if field.default in (REQUIRED, UNSET) else field.default
+            value = family.example[key] if field.default in (REQUIRED, UNSET, ()) else field.default
             lines += _comment(field, "" if key in wanted else "; ".join(_remarks(family, key)))
             lines.append(f"{'' if key in wanted else '#'}{field.name} = {toml_value(value)}")
     return "\n".join(lines) + "\n"

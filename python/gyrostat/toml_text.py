@@ -10,10 +10,15 @@ __all__ = ["toml_text", "toml_value"]
 
 def toml_text(data: Mapping[str, Any]) -> str:
     """Plain data in the layout of a scene file (tables of values) as TOML; every number reads back as it was."""
-    top = [f"{key} = {toml_value(value)}" for key, value in data.items() if not isinstance(value, Mapping)]
+    def several(value: Any) -> bool:
+        return isinstance(value, list | tuple) and len(value) > 0 and all(isinstance(item, Mapping) for item in value)
+
+    top = [f"{key} = {toml_value(value)}" for key, value in data.items() if not isinstance(value, Mapping) and not several(value)]
+    listed = [[f"[[{name}]]", *(f"{key} = {toml_value(value)}" for key, value in item.items())]
+              for name, items in data.items() if several(items) for item in items]
     tables = [[f"[{name}]", *(f"{key} = {toml_value(value)}" for key, value in table.items())]
               for name, table in data.items() if isinstance(table, Mapping)]
-    return "\n\n".join("\n".join(lines) for lines in (top, *tables) if lines) + "\n"
+    return "\n\n".join("\n".join(lines) for lines in (top, *tables, *listed) if lines) + "\n"
 
 
 def toml_value(value: Any) -> str:

@@ -24,9 +24,10 @@ inline py::object values_of(Column& column) {
       words.append(std::isnan(place) ? py::object(py::str("")) : py::object(py::str(kind.words[std::size_t(place)])));
     return words;
   }
-  const auto n = py::ssize_t(column.values.size()) / kind.width;
+  const int width = column.row_width();
+  const auto n = py::ssize_t(column.values.size()) / width;
   if (kind.width == 1) return array(std::move(column.values), {n});
-  return array(std::move(column.values), {n, kind.width});
+  return array(std::move(column.values), {n, width});
 }
 
 /// A number or a vector, a truth value, a place; None where a truth value or a place is not known.
@@ -35,6 +36,9 @@ inline py::object value_of(const Quantity& quantity) {
   switch (quantity.kind->kind) {
     case Kind::flag: return std::isnan(first) ? py::object(py::none()) : py::object(py::bool_(first != 0));
     case Kind::place: return std::isnan(first) ? py::object(py::none()) : py::object(py::int_(int(first)));
+    case Kind::word:
+      return std::isnan(first) ? py::object(py::none())
+                               : py::object(py::str(quantity.kind->words[std::size_t(first)]));
     default: break;
   }
   if (quantity.kind->width == 1) return py::float_(first + 0.0);  // no -0

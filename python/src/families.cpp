@@ -6,6 +6,7 @@
 #include "convert.hpp"
 #include "gyrostat/ladder/deceleration/motion.hpp"
 #include "gyrostat/ladder/family.hpp"
+#include "gyrostat/ladder/free/motion.hpp"
 #include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/rotor/motion.hpp"
 #include "gyrostat/ladder/rung.hpp"
@@ -55,7 +56,8 @@ py::list values(const Kinds& kinds) {
 
 py::list families() {
   py::list made;
-  for (const Family* family : {&deceleration::tables, &rotor::tables, &spinning::tables, &heavy::tables}) {
+  for (const Family* family : {&deceleration::tables, &rotor::tables, &spinning::tables, &heavy::tables,
+                                &free::tables}) {
     py::list rungs, warnings, integrators;
     for (const RungKind& rung : family->rungs) {
       py::dict item;

@@ -69,6 +69,8 @@ PYBIND11_MODULE(_core, module) {
   bind_deceleration(module);
   bind_deceleration_integrators(module);
   bind_deceleration_published(module);
+  bind_free(module);
+  bind_free_integrators(module);
   bind_rotor(module);
   bind_rotor_integrators(module);
   bind_rotor_steady(module);

@@ -101,6 +101,7 @@ TEST_CASE("a secular equation takes gaps that the poles themselves cannot show",
   const Secular<D> wide(Vec3<D>(1, D(1, gap), 3), wide_gaps, Vec3<D>(.1, 1e-20, .2), D(1));
   const auto wide_root = wide.falling_root(0, 1, {0, D(0)}, {1, D(0)}, D(.9));
   REQUIRE(wide_root);
-  CHECK(q.difference({0, 0.}, *root) / gap == Approx(static_cast<double>(wide.difference({0, D(0)}, *wide_root)) / gap).epsilon(1e-14));
+  CHECK(q.difference({0, 0.}, *root) / gap ==
+        Approx(static_cast<double>(wide.difference({0, D(0)}, *wide_root)) / gap).epsilon(1e-14));
   CHECK(abs(wide.value(*wide_root, D(.9))) < 1e-28 * D(.01) / D(gap));
 }

@@ -31,7 +31,8 @@ TEST_CASE("vectors, tensors and quaternions work in double-double", "[rotation]"
 
 TEST_CASE("eigenvectors of a symmetric tensor in double-double", "[rotation]") {
   Mat3<Wide> S;
-  S << Wide(41) / 10, Wide(-3) / 7, Wide(1) / 9, Wide(-3) / 7, Wide(39) / 10, Wide(2) / 11, Wide(1) / 9, Wide(2) / 11, 1;
+  S << Wide(41) / 10, Wide(-3) / 7, Wide(1) / 9, Wide(-3) / 7, Wide(39) / 10, Wide(2) / 11, Wide(1) / 9, Wide(2) / 11,
+      1;
   const auto e = symmetric_eigen<Wide>(S);
   CHECK(in_epsilons((S * e.axes - e.axes * e.values.asDiagonal()).cwiseAbs().maxCoeff()) < 100);
   CHECK(in_epsilons((e.axes.transpose() * e.axes - Mat3<Wide>::Identity()).cwiseAbs().maxCoeff()) < 100);

@@ -56,7 +56,8 @@ class Secular {
 
   /// The same with gaps[i][j] = a_j - a_i given, which may have digits that a has not. No poles are merged, and only weights are
   /// dropped whose squares would underflow.
-  Secular(const Vec3<Scalar>& a, const Mat3<Scalar>& gaps, const Vec3<Scalar>& g, Scalar R) noexcept : a_(a), g_(g), R_(R) {
+  Secular(const Vec3<Scalar>& a, const Mat3<Scalar>& gaps, const Vec3<Scalar>& g, Scalar R) noexcept
+      : a_(a), g_(g), R_(R) {
     using std::abs, std::sqrt;
     const Scalar floor = sqrt(std::numeric_limits<Scalar>::min()) * std::max(Scalar(1), R * a_[2]);
     for (int i = 0; i < 3; ++i) {
@@ -218,7 +219,8 @@ class Secular {
       if (clo >= 0) return Point{origin, lo};
       if (chi <= 0) return Point{origin, hi};
       const Scalar y = -clo / (chi - clo);
-      if (y > 0 && y < 1) x = lo + (hi - lo) * (Scalar(.5) - Scalar(std::sin(std::asin(static_cast<double>(1 - 2 * y)) / 3)));
+      if (y > 0 && y < 1)
+        x = lo + (hi - lo) * (Scalar(.5) - Scalar(std::sin(std::asin(static_cast<double>(1 - 2 * y)) / 3)));
     }
     // a class of numbers rounds its own operations less well than a processor does
     constexpr bool native = std::floating_point<Scalar>;

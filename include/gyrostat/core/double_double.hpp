@@ -129,7 +129,9 @@ inline DoubleDouble ldexp(const DoubleDouble& x, int n) noexcept {
 }
 
 /// a b + c, rounded as a product and a sum are.
-inline DoubleDouble fma(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c) noexcept { return a * b + c; }
+inline DoubleDouble fma(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c) noexcept {
+  return a * b + c;
+}
 
 /// NaN for x < 0. One step of Karp and Markstein (1997) from the root of the high word.
 inline DoubleDouble sqrt(const DoubleDouble& x) noexcept {
@@ -155,13 +157,18 @@ inline DoubleDouble exp(const DoubleDouble& x) noexcept {
   if (!(std::abs(x.high) < 709)) return std::exp(x.high);
   constexpr DoubleDouble ln2 = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
   // 1/k
-  constexpr DoubleDouble inverse[] = {
-      {0x1.0000000000000p+0, 0x0.0p+0}, {0x1.0000000000000p-1, 0x0.0p+0}, {0x1.5555555555555p-2,
-      0x1.5555555555555p-56}, {0x1.0000000000000p-2, 0x0.0p+0}, {0x1.999999999999ap-3, -0x1.999999999999ap-57},
-      {0x1.5555555555555p-3, 0x1.5555555555555p-57}, {0x1.2492492492492p-3, 0x1.2492492492492p-57},
-      {0x1.0000000000000p-3, 0x0.0p+0}, {0x1.c71c71c71c71cp-4, 0x1.c71c71c71c71cp-58}, {0x1.999999999999ap-4,
-      -0x1.999999999999ap-58}, {0x1.745d1745d1746p-4, -0x1.745d1745d1746p-59}, {0x1.5555555555555p-4,
-      0x1.5555555555555p-58}};
+  constexpr DoubleDouble inverse[] = {{0x1.0000000000000p+0, 0x0.0p+0},
+                                      {0x1.0000000000000p-1, 0x0.0p+0},
+                                      {0x1.5555555555555p-2, 0x1.5555555555555p-56},
+                                      {0x1.0000000000000p-2, 0x0.0p+0},
+                                      {0x1.999999999999ap-3, -0x1.999999999999ap-57},
+                                      {0x1.5555555555555p-3, 0x1.5555555555555p-57},
+                                      {0x1.2492492492492p-3, 0x1.2492492492492p-57},
+                                      {0x1.0000000000000p-3, 0x0.0p+0},
+                                      {0x1.c71c71c71c71cp-4, 0x1.c71c71c71c71cp-58},
+                                      {0x1.999999999999ap-4, -0x1.999999999999ap-58},
+                                      {0x1.745d1745d1746p-4, -0x1.745d1745d1746p-59},
+                                      {0x1.5555555555555p-4, 0x1.5555555555555p-58}};
   const double n = std::nearbyint(x.high / ln2.high);
   const DoubleDouble r = ldexp(x - n * ln2, -8);
   DoubleDouble rest = 0;

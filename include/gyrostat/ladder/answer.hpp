@@ -12,15 +12,17 @@
 /// What the ladder says of a scene. Names and texts are string literals; numbers are formatted at the edge.
 namespace gyrostat {
 
-/// One output column: n rows of `kind->width` numbers, row after row.
+/// One output column: n rows of row_width() numbers, row after row.
 struct Column {
   const ColumnKind* kind;
   std::vector<double> values;
   double error;      ///< estimated greatest error over the span, as kind->measure says; NaN where it has none
   double scale = 0;  ///< kind->scale of this scene, in the unit of the column
   double tolerance = nan<double>;  ///< what `error` is held against; NaN: nothing
+  int width = 0;                   ///< of a kind that has per_rotor
 
   std::string_view name() const noexcept { return kind->name; }
+  int row_width() const noexcept { return kind->width == per_rotor ? width : kind->width; }
 };
 
 /// One number, or one vector, about the whole motion.

@@ -35,10 +35,13 @@ enum class Kind : std::uint8_t {
   word,    ///< a place in a list of names
 };
 
+/// In place of a width: one number for each rotor of the scene.
+inline constexpr int per_rotor = 0;
+
 /// One output column: a row of `width` numbers at each time.
 struct ColumnKind {
   const char* name;
-  int width;
+  int width;  ///< or per_rotor
   const char* unit;
   Frame frame;
   Measure measure;
@@ -58,6 +61,7 @@ struct ScalarKind {
   Measure measure;
   const char* meaning;
   Kind kind = Kind::number;
+  std::span<const char* const> words{};  ///< of Kind::word
 };
 
 /// Something that the user should know: a code to test for and a sentence, to which the number that raised it is added.

@@ -80,7 +80,7 @@ struct Goal {
 /// The greatest norm of a column's rows, or its scale, whichever is greater.
 inline double size_of(const Column& column) noexcept {
   double size = column.scale;
-  const auto width = std::size_t(column.kind->width);
+  const auto width = std::size_t(column.row_width());
   for (std::size_t row = 0; row + width <= column.values.size(); row += width) {
     double square = 0;
     for (std::size_t i = 0; i < width; ++i) square += column.values[row + i] * column.values[row + i];

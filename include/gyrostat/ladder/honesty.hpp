@@ -17,7 +17,7 @@ struct Companions {
 };
 
 /// All families, watched in every step, all components moved.
-inline constexpr Companions side_by_side{8, 8, 4, 5, 6};
+inline constexpr Companions side_by_side{8, 8, 4, 6, 8};
 /// Step tolerance, roundings, below which rounding rules.
 inline constexpr double rounding_below = 512;
 

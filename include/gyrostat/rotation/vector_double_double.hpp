@@ -13,7 +13,15 @@ struct Eigen::NumTraits<gyrostat::DoubleDouble> : Eigen::GenericNumTraits<gyrost
   using NonInteger = gyrostat::DoubleDouble;
   using Nested = gyrostat::DoubleDouble;
   using Literal = gyrostat::DoubleDouble;
-  enum { IsInteger = 0, IsSigned = 1, IsComplex = 0, RequireInitialization = 0, ReadCost = 2, AddCost = 20, MulCost = 10 };
+  enum {
+    IsInteger = 0,
+    IsSigned = 1,
+    IsComplex = 0,
+    RequireInitialization = 0,
+    ReadCost = 2,
+    AddCost = 20,
+    MulCost = 10
+  };
   static Real epsilon() { return gyrostat::epsilon<Real>; }
   static Real dummy_precision() { return 64 * gyrostat::epsilon<Real>; }
   static Real highest() { return std::numeric_limits<Real>::max(); }

@@ -56,7 +56,7 @@ class Family:
         """The keys of the scene file by table; "" is the top."""
         own: dict[str, Table] = dict(self._module("scene").KEYS)
         solve = (*solve_keys(self.facts.rungs, self.facts.integrators), *own.pop("solve", ()))
-        return {"": head_keys(self.name), "solve": solve, **own}
+        return {"": (*head_keys(self.name), *own.pop("", ())), "solve": solve, **own}
 
     @cached_property
     def alternatives(self) -> tuple[Choices, ...]:
@@ -123,7 +123,8 @@ def answer_of(kind: str, made: Mapping[str, Any], arguments: Mapping[str, Any]) 
         for name, value in arguments.items():
             if value is not None:
                 table, key = places[name]
-                scene.setdefault(table, {})[key] = value.tolist() if isinstance(value, np.ndarray) else value
+                home = scene.setdefault(table, {}) if table else scene
+                home[key] = value.tolist() if isinstance(value, np.ndarray) else value
         return scene
 
     return Answer.of(told, np.array(arguments["times"], dtype=float), arguments["tolerance"], made)

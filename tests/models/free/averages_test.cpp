@@ -38,7 +38,8 @@ TEST_CASE("means of a rigid body are those of the elliptic functions", "[free]")
     CHECK(mean.angular_momentum[near] ==
           Approx(std::copysign(pi<double> / 2 / m.quarter_period() * std::sqrt(c2), M[near])).epsilon(1e-11));
     CHECK(mean.second_moment.trace() == Approx(R * R));
-    for (int i = 0; i < 3; ++i) CHECK(mean.angular_velocity[i] * V(35, 22, 16)[i] == Approx(mean.angular_momentum[i]).margin(1e-13 * R));
+    for (int i = 0; i < 3; ++i)
+      CHECK(mean.angular_velocity[i] * V(35, 22, 16)[i] == Approx(mean.angular_momentum[i]).margin(1e-13 * R));
     CHECK(mean.error < 1e-12);
   }
 }
@@ -68,7 +69,8 @@ TEST_CASE("precession and spin of tumbling bodies", "[free]") {
 }
 
 TEST_CASE("nutation of a rigid body ends where the elliptic functions do", "[free]") {
-  const auto m = *Motion<double>::make<Wide>(Problem<double>::from_moments({35, 22, 16}, {0, 0, 0}, {.9, .2, .1}).cast<Wide>());
+  const auto m =
+      *Motion<double>::make<Wide>(Problem<double>::from_moments({35, 22, 16}, {0, 0, 0}, {.9, .2, .1}).cast<Wide>());
   const auto range = gyrostat::free::nutation<double>(m, V(1, 0, 0));
   double least = 10, greatest = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -97,7 +99,8 @@ TEST_CASE("resonances are the convergents of the turn in a period", "[free]") {
       last = std::abs(r.rest);
       const auto a = m.at(0), b = m.at(r.periods * m.period());
       const Quat<double> q = conjugate(a.attitude) * b.attitude;
-      CHECK(2 * std::asin(std::min(1., V(q.x, q.y, q.z).norm())) == Approx(std::abs(std::remainder(r.rest, 2 * pi<double>))).margin(1e-9));
+      CHECK(2 * std::asin(std::min(1., V(q.x, q.y, q.z).norm())) ==
+            Approx(std::abs(std::remainder(r.rest, 2 * pi<double>))).margin(1e-9));
     }
   }
   const auto steady = *Motion<double>::make(Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {0, 2, 0}));
@@ -115,7 +118,8 @@ TEST_CASE("angles of rotors meet the reference cases", "[free]") {
     for (const auto& at : c.at)
       for (std::size_t i = 0; i < c.rotors.size(); ++i) {
         const auto& wheel = reduced->wheels[i];
-        const double angle = double(wheel.rate) * at.t - (wheel.turns_freely ? vector_cast<double>(wheel.axis).dot(turned.at(at.t)) : 0);
+        const double angle =
+            double(wheel.rate) * at.t - (wheel.turns_freely ? vector_cast<double>(wheel.axis).dot(turned.at(at.t)) : 0);
         CHECK(angle == Approx(double(at.rotor_angle[i])).epsilon(2e-15).margin(1e-14));
       }
   }

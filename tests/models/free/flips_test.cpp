@@ -49,7 +49,8 @@ TEST_CASE("flips of a gyrostat are all the changes of sign", "[free]") {
     int changes = 0;
     constexpr int n = 20000;
     for (int k = 1; k <= n; ++k)
-      changes += (b.dot(m.at(end * (k - 1) / n).angular_momentum) < 0) != (b.dot(m.at(end * k / n).angular_momentum) < 0);
+      changes +=
+          (b.dot(m.at(end * (k - 1) / n).angular_momentum) < 0) != (b.dot(m.at(end * k / n).angular_momentum) < 0);
     CHECK(changes == int(times.size()));
   }
 }

@@ -10,10 +10,10 @@ namespace free_frame_test {
 
 using namespace gyrostat;
 using namespace free_bodies;
-using gyrostat::free::Frame;
 using gyrostat::free::PathForm;
 using gyrostat::free::Pencil;
 using gyrostat::free::PrincipalProblem;
+using gyrostat::free::SpinorFrame;
 
 using Wide = DoubleDouble;
 
@@ -30,7 +30,7 @@ TEST_CASE("the frame of a free motion is orthogonal and its functions of the sta
   for (const Regime regime : regimes)
     for (int i = 0; i < 60; ++i) {
       const auto pencil = pencil_of<Wide>(bodies.of(regime, i));
-      const auto frame = Frame<Wide>::of(pencil);
+      const auto frame = SpinorFrame<Wide>::of(pencil);
       REQUIRE(frame);
       const auto& f = *frame;
       ++forms[int(f.form)];
@@ -58,21 +58,24 @@ TEST_CASE("the frame of a free motion is orthogonal and its functions of the sta
 TEST_CASE("the modulus of a rigid body beside the separatrix is that of its components", "[free]") {
   const Vec3<double> J(3, 2, 1);
   for (const double e : {1e-3, 1e-8, 1e-15, 1e-40, 1e-100}) {
-    const auto frame = Frame<double>::of(pencil_of<double>(Problem<double>::from_moments(J, {0, 0, 0}, {0, 1, e})));
+    const auto frame =
+        SpinorFrame<double>::of(pencil_of<double>(Problem<double>::from_moments(J, {0, 0, 0}, {0, 1, e})));
     REQUIRE(frame);
     CHECK(frame->form == PathForm::separatrix);
     CHECK(frame->side == -1);
     CHECK(frame->exact);
     // kp2 = (a3 - a1) (a3 - a2) n3^2/((a2 - a1) ...), M = (0, 2, e)
     const double a[3] = {1. / 3, .5, 1}, n2 = 2, n3 = e;
-    const double kp2 = (a[2] - a[0]) * (a[2] - a[1]) * n3 * n3 / ((a[2] - a[1]) * ((a[2] - a[0]) * n3 * n3 + (a[1] - a[0]) * n2 * n2));
+    const double kp2 =
+        (a[2] - a[0]) * (a[2] - a[1]) * n3 * n3 / ((a[2] - a[1]) * ((a[2] - a[0]) * n3 * n3 + (a[1] - a[0]) * n2 * n2));
     CHECK(frame->modulus.kp2 == Approx(kp2).epsilon(1e-14));
   }
 }
 
 TEST_CASE("on the separatrix itself the second modulus is zero and nothing else is lost", "[free]") {
   // inverse moments 2, 3, 4 twelfths, M1 = M3
-  const auto frame = Frame<double>::of(pencil_of<double>(Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {1, 1, 2})));
+  const auto frame =
+      SpinorFrame<double>::of(pencil_of<double>(Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {1, 1, 2})));
   REQUIRE(frame);
   CHECK(frame->modulus.kp2 == 0);
   CHECK(frame->rate > 0);

@@ -18,23 +18,24 @@ using gyrostat::free::Problem;
 using gyrostat::free::State;
 
 enum class Regime {
-  generic,            ///< l from 1e-2 to 10, a quarter without
-  middle_axis,        ///< no l, start 1 to 1e-15 off the middle axis
-  outer_axis,         ///< no l, start 1 to 1e-15 off the axis of the largest or smallest moment
-  much_momentum,      ///< l over J omega from 1 to 1e12
-  little_momentum,    ///< from 1 to 1e-12
-  total_near_zero,    ///< M over l from 1 to 1e-12
-  close_moments,      ///< two moments equal to 1..1e-15, l oblique
-  equal_moments,      ///< two moments equal, l oblique
-  unstable_axis,      ///< l along the middle axis, start 1 to 1e-15 off it
-  bisected,           ///< l oblique, start between two kinds of motion, as near as halving brings it
+  generic,          ///< l from 1e-2 to 10, a quarter without
+  middle_axis,      ///< no l, start 1 to 1e-15 off the middle axis
+  outer_axis,       ///< no l, start 1 to 1e-15 off the axis of the largest or smallest moment
+  much_momentum,    ///< l over J omega from 1 to 1e12
+  little_momentum,  ///< from 1 to 1e-12
+  total_near_zero,  ///< M over l from 1 to 1e-12
+  close_moments,    ///< two moments equal to 1..1e-15, l oblique
+  equal_moments,    ///< two moments equal, l oblique
+  unstable_axis,    ///< l along the middle axis, start 1 to 1e-15 off it
+  bisected,         ///< l oblique, start between two kinds of motion, as near as halving brings it
 };
-inline constexpr Regime regimes[] = {Regime::generic,         Regime::middle_axis,     Regime::outer_axis,    Regime::much_momentum,
-                                     Regime::little_momentum, Regime::total_near_zero, Regime::close_moments, Regime::equal_moments,
-                                     Regime::unstable_axis,   Regime::bisected};
+inline constexpr Regime regimes[] = {Regime::generic,       Regime::middle_axis,     Regime::outer_axis,
+                                     Regime::much_momentum, Regime::little_momentum, Regime::total_near_zero,
+                                     Regime::close_moments, Regime::equal_moments,   Regime::unstable_axis,
+                                     Regime::bisected};
 inline const char* name(Regime r) {
-  static const char* names[] = {"generic",         "middle axis",     "outer axis",    "much momentum", "little momentum",
-                                "total near zero", "close moments",   "equal moments", "unstable axis", "bisected"};
+  static const char* names[] = {"generic",         "middle axis",   "outer axis",    "much momentum", "little momentum",
+                                "total near zero", "close moments", "equal moments", "unstable axis", "bisected"};
   return names[int(r)];
 }
 
@@ -138,7 +139,8 @@ struct Bodies {
 template <Real Scalar>
 class Taylor {
  public:
-  explicit Taylor(const Problem<Scalar>& p) : J_(p.inertia), l_(p.rotor_momentum), q_(gyrostat::normalised(p.attitude)) {
+  explicit Taylor(const Problem<Scalar>& p)
+      : J_(p.inertia), l_(p.rotor_momentum), q_(gyrostat::normalised(p.attitude)) {
     using Mat = gyrostat::Mat3<Scalar>;
     const Mat& J = J_;
     Mat cofactors;
@@ -149,7 +151,8 @@ class Taylor {
         cofactors(i, j) = J(a, c) * J(b, d) - J(a, d) * J(b, c);
       }
     }
-    inverse_ = cofactors.transpose() / (J(0, 0) * cofactors(0, 0) + J(0, 1) * cofactors(0, 1) + J(0, 2) * cofactors(0, 2));
+    inverse_ =
+        cofactors.transpose() / (J(0, 0) * cofactors(0, 0) + J(0, 1) * cofactors(0, 1) + J(0, 2) * cofactors(0, 2));
     G_ = p.momentum_given ? Vec3<Scalar>(p.angular_momentum - l_) : Vec3<Scalar>(J * p.angular_velocity);
     pace_ = (inverse_ * (G_ + l_)).norm() + (inverse_ * G_).norm() + (inverse_ * l_).norm();
   }
@@ -223,10 +226,13 @@ struct Off {
 template <Real Scalar, Real Truth>
 Off off(const State<Scalar>& s, const State<Truth>& truth) {
   using gyrostat::vector_cast;
-  const Quat<Truth> q{s.attitude.w, s.attitude.x, s.attitude.y, s.attitude.z}, r = gyrostat::conjugate(truth.attitude) * q;
+  const Quat<Truth> q{s.attitude.w, s.attitude.x, s.attitude.y, s.attitude.z},
+      r = gyrostat::conjugate(truth.attitude) * q;
   Off o;
-  o.rates = double((vector_cast<Truth>(s.angular_velocity) - truth.angular_velocity).norm() / truth.angular_velocity.norm());
-  const double R = double(truth.angular_momentum.norm()), gap = double((vector_cast<Truth>(s.angular_momentum) - truth.angular_momentum).norm());
+  o.rates =
+      double((vector_cast<Truth>(s.angular_velocity) - truth.angular_velocity).norm() / truth.angular_velocity.norm());
+  const double R = double(truth.angular_momentum.norm()),
+               gap = double((vector_cast<Truth>(s.angular_momentum) - truth.angular_momentum).norm());
   o.momentum = R > 0 ? gap / R : gap;
   using std::sqrt;
   o.attitude = double(2 * sqrt(r.x * r.x + r.y * r.y + r.z * r.z));

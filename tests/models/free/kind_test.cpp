@@ -9,7 +9,8 @@
 TEST_CASE("every kind of a free motion has a name of its own", "[free]") {
   using gyrostat::free::Kind;
   std::set<std::string> names;
-  for (const Kind kind : {Kind::about_largest, Kind::about_smallest, Kind::one_component, Kind::separatrix, Kind::steady, Kind::spherical})
+  for (const Kind kind : {Kind::about_largest, Kind::about_smallest, Kind::one_component, Kind::separatrix,
+                          Kind::steady, Kind::spherical})
     names.insert(gyrostat::free::name(kind));
   CHECK(names.size() == 6);
   CHECK(names.count("") == 0);

@@ -57,9 +57,10 @@ Tally tally(Regime regime, Data data, int count, unsigned seed) {
       const double rates = o.rates * s.angular_velocity.norm() / fastest;
       if (o.attitude > bound.attitude || rates > bound.angular_velocity || o.momentum > bound.angular_momentum) {
         ++tally.understated;
-        UNSCOPED_INFO(free_bodies::name(regime) << ' ' << i << " after " << turns << ": attitude " << o.attitude << " of " << bound.attitude
-                                                << ", rates " << rates << " of " << bound.angular_velocity << ", momentum " << o.momentum
-                                                << " of " << bound.angular_momentum);
+        UNSCOPED_INFO(free_bodies::name(regime)
+                      << ' ' << i << " after " << turns << ": attitude " << o.attitude << " of " << bound.attitude
+                      << ", rates " << rates << " of " << bound.angular_velocity << ", momentum " << o.momentum
+                      << " of " << bound.angular_momentum);
       }
       if (o.attitude > 0) tally.ratio.push_back(bound.attitude / o.attitude);
     }
@@ -141,7 +142,7 @@ TEST_CASE("errors of special free motions are bounds too", "[free]") {
     const auto l = bodies.vector(), w = bodies.vector();
     const Vec3<double> J = bodies.moments();
     Problem<double> p;
-    if (i % 3 == 0) p = Problem<double>::from_moments({2, 2, 2}, l, w);  // a sphere
+    if (i % 3 == 0) p = Problem<double>::from_moments({2, 2, 2}, l, w);                 // a sphere
     if (i % 3 == 1) p = Problem<double>::from_moments(J, (J * -1).cwiseProduct(w), w);  // M = 0
     if (i % 3 == 2) {  // about the axis of the largest or smallest moment
       const int k = i % 2 ? 0 : 2;

@@ -106,7 +106,8 @@ TEST_CASE("energy, momentum and the length of the quaternion are kept at any tim
                                           m.angular_momentum_norm() / m.cancellation(share * T));
         length = std::max(length, std::abs(norm(s.attitude) - 1));
         identity = std::max(identity, (M - s.angular_momentum).norm() / (p.inertia * s.angular_velocity).norm() /
-                                          (1 + p.rotor_momentum.norm() / (p.inertia * s.angular_velocity).norm()) / m.cancellation(share * T));
+                                          (1 + p.rotor_momentum.norm() / (p.inertia * s.angular_velocity).norm()) /
+                                          m.cancellation(share * T));
       }
     }
     CAPTURE(free_bodies::name(regime));
@@ -125,7 +126,8 @@ TEST_CASE("the start is met and both components of the spinor give one kappa", "
       const auto fine = finely(p);
       const auto full = finely<Wide>(p);
       const State<Wide> start{vector_cast<Wide>(p.angular_velocity),
-                              Vec3<Wide>(wide(p).inertia * wide(p).angular_velocity + wide(p).rotor_momentum), wide(p).attitude};
+                              Vec3<Wide>(wide(p).inertia * wide(p).angular_velocity + wide(p).rotor_momentum),
+                              wide(p).attitude};
       const Off o = off(fine.at(0), start);
       CAPTURE(free_bodies::name(regime), i);
       CHECK(o.rates < 2e-15 * fine.cancellation(0));
@@ -177,7 +179,8 @@ TEST_CASE("a restart, time reversal, other axes and other units change nothing",
     later.rotor_momentum = -later.rotor_momentum;
     later.attitude = end.attitude;
     const auto back = Motion<Wide>::make<Wide>(later)->at(t1 + t2);
-    CHECK(double((back.angular_velocity + m.at(Wide(0)).angular_velocity).norm()) < slack * double(end.angular_velocity.norm()));
+    CHECK(double((back.angular_velocity + m.at(Wide(0)).angular_velocity).norm()) <
+          slack * double(end.angular_velocity.norm()));
     // turned axes, as a full tensor
     const Quat<Wide> r = normalised(Quat<Wide>{bodies.normal(), bodies.normal(), bodies.normal(), bodies.normal()});
     const Mat3<Wide> R = to_matrix(r);
@@ -265,7 +268,9 @@ TEST_CASE("special free motions are named and exact", "[free]") {
     CHECK((s.angular_velocity - w).norm() < 1e-15);
     const Q turned = s.attitude * conjugate(start.attitude);
     const V axis = m.inertial_momentum().normalized();
-    CHECK(std::abs(std::remainder(2 * std::atan2(axis.dot(V(turned.x, turned.y, turned.z)), turned.w) - m.turn_per_period(), 2 * pi<double>)) < 1e-14);
+    CHECK(std::abs(
+              std::remainder(2 * std::atan2(axis.dot(V(turned.x, turned.y, turned.z)), turned.w) - m.turn_per_period(),
+                             2 * pi<double>)) < 1e-14);
   }
   {  // M = 0: the body turns against its rotors
     const auto m = quickly(Problem<double>::from_moments({4, 3, 2}, {-2, -3, -.5}, {.5, 1, .25}, q0));
@@ -325,7 +330,8 @@ TEST_CASE("a grid of a free motion gives the numbers of single calls", "[free]")
         CAPTURE(free_bodies::name(regime), i, step / T, m.modulus().kp2);
         // k steps are rounded as often as a time: the phase of the body and that of its attitude
         const double speed = m.quarter_period() > 0 ? m.quarter_period() * 4 : 1;
-        CHECK(worst < 1e-13 * (m.cancellation(0) + speed) + 3e-16 * 300 * std::abs(step / T) * (speed + 100 + std::abs(m.kappa(0)) * T));
+        CHECK(worst < 1e-13 * (m.cancellation(0) + speed) +
+                          3e-16 * 300 * std::abs(step / T) * (speed + 100 + std::abs(m.kappa(0)) * T));
       }
     }
   }
@@ -344,9 +350,10 @@ TEST_CASE("free motions allocate nothing and answer NaN by NaN", "[free]") {
   }
   CHECK(allocations() == before);
   CHECK(std::isfinite(sum));
-  for (const Problem<double>& p :
-       {Problem<double>::from_moments({3, 2, 1.5}, {.1, 0, 0}, {1, 2, 3}), Problem<double>::from_moments({3, 2, 1.5}, {0, 0, 0}, {0, 2, 0}),
-        Problem<double>::from_moments({3, 3, 3}, {1, 0, 0}, {1, 2, 3}), Problem<double>::from_moments({3, 2, 1.5}, {0, 0, 0}, {1e-8, 2, 0})}) {
+  for (const Problem<double>& p : {Problem<double>::from_moments({3, 2, 1.5}, {.1, 0, 0}, {1, 2, 3}),
+                                   Problem<double>::from_moments({3, 2, 1.5}, {0, 0, 0}, {0, 2, 0}),
+                                   Problem<double>::from_moments({3, 3, 3}, {1, 0, 0}, {1, 2, 3}),
+                                   Problem<double>::from_moments({3, 2, 1.5}, {0, 0, 0}, {1e-8, 2, 0})}) {
     const auto m = quickly(p);
     for (const double t : {gyrostat::nan<double>, infinity<double>, -infinity<double>}) {
       const auto s = m.at(t);
@@ -373,8 +380,9 @@ TEST_CASE("thousands of random free motions are found in double", "[free]") {
       refused += !m;
       if (!m) continue;
       const auto s = m->at(1);
-      wild += !(std::abs(rotate<double>(s.attitude, s.angular_momentum).dot(m->inertial_momentum()) / m->angular_momentum_norm() /
-                             m->angular_momentum_norm() - 1) < 1e-9 * std::max(1., m->cancellation(1)));
+      wild += !(std::abs(rotate<double>(s.attitude, s.angular_momentum).dot(m->inertial_momentum()) /
+                             m->angular_momentum_norm() / m->angular_momentum_norm() -
+                         1) < 1e-9 * std::max(1., m->cancellation(1)));
     }
     CAPTURE(free_bodies::name(regime));
     CHECK(refused == 0);

@@ -38,7 +38,8 @@ TEST_CASE("both quadrics of the pencil vanish at the start and its axes are conj
         for (int j = 0; j < 4; ++j) {
           gyrostat::free::Vec4<DoubleDouble> e = gyrostat::free::Vec4<DoubleDouble>::Zero();
           e[j] = 1;
-          const double size = double((abs(pencil.sigma(p)) + pencil.a(2)) * p.x.norm()) * (1 + double(abs(pencil.E(e, e))));
+          const double size =
+              double((abs(pencil.sigma(p)) + pencil.a(2)) * p.x.norm()) * (1 + double(abs(pencil.E(e, e))));
           eigen = std::max(eigen, double(abs(pencil.form(p, p.x, e))) / size);
         }
         for (int m = 0; m < k; ++m) {
@@ -57,7 +58,8 @@ TEST_CASE("both quadrics of the pencil vanish at the start and its axes are conj
 TEST_CASE("without rotor momentum the start and not a root decides which axis is surrounded", "[free]") {
   const double e = 1e-12;
   for (const bool largest : {true, false}) {
-    const auto pencil = pencil_of<double>(Problem<double>::from_moments({3, 2, 1}, {0, 0, 0}, {largest ? e : 0., 1, largest ? 0. : e}));
+    const auto pencil =
+        pencil_of<double>(Problem<double>::from_moments({3, 2, 1}, {0, 0, 0}, {largest ? e : 0., 1, largest ? 0. : e}));
     const auto axes = pencil.axes();
     REQUIRE(axes);
     CHECK(axes->count == 3);

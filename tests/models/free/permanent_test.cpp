@@ -31,7 +31,8 @@ TEST_CASE("permanent rotations are steady, two, four or six, and as many stable 
       const auto& r = all->rotation[k];
       CAPTURE(i, k, all->count);
       CHECK(r.angular_momentum.norm() == Approx(R));
-      CHECK((p.inertia * r.angular_velocity + p.rotor_momentum - r.angular_momentum).norm() < 1e-11 * (R + p.rotor_momentum.norm()));
+      CHECK((p.inertia * r.angular_velocity + p.rotor_momentum - r.angular_momentum).norm() <
+            1e-11 * (R + p.rotor_momentum.norm()));
       CHECK((r.angular_velocity - r.ratio * r.angular_momentum).norm() < 1e-14 * R * std::abs(r.ratio));
       (r.stable() ? stable : unstable)++;
       // a start beside a stable one stays there, with the period of small oscillations
@@ -69,7 +70,8 @@ TEST_CASE("without rotors the permanent rotations are those about the principal 
   CHECK(strong->count == 2);
   for (int k = 0; k < 2; ++k) CHECK(strong->rotation[k].stable());
   CHECK(permanent_rotations(p, 0.).error() == Errc::not_positive);
-  CHECK(permanent_rotations(Problem<double>::from_moments({4, 4, 4}, {9, 0, 0}, {1, 2, 3}), 6.).error() == Errc::not_applicable);
+  CHECK(permanent_rotations(Problem<double>::from_moments({4, 4, 4}, {9, 0, 0}, {1, 2, 3}), 6.).error() ==
+        Errc::not_applicable);
 }
 
 }  // namespace free_permanent_test

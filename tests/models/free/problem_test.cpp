@@ -62,7 +62,8 @@ TEST_CASE("axes of equal moments are turned to the rotor momentum, and gaps keep
   CHECK(equal.l[1] == 0);
   CHECK((equal.R_BP * equal.l - V(3, 4, 1)).norm() < 1e-15);
   CHECK_FALSE(equal.spherical());
-  const auto close = PrincipalProblem<double>::of(Problem<double>::from_moments({3, 3 * (1 - 0x1p-40), 2}, {3, 4, 1}, {1, 2, 3}));
+  const auto close =
+      PrincipalProblem<double>::of(Problem<double>::from_moments({3, 3 * (1 - 0x1p-40), 2}, {3, 4, 1}, {1, 2, 3}));
   CHECK(close.gaps(0, 1) == Approx(0x1p-40 / 3).epsilon(1e-11));
   CHECK(PrincipalProblem<double>::of(Problem<double>::from_moments({3, 3, 3}, {3, 4, 1}, {1, 2, 3})).spherical());
 }

@@ -98,12 +98,14 @@ TEST_CASE("rates that follow from a given total momentum are those that give it"
   Assembly<double> a;
   a.body = Problem<double>::from_moments({5, 4, 3}, {.1, .2, .3}, {.3, -.5, .8});
   a.wheels = {{V(0, .6, .8), .3, 6, true}, {V(1, 0, 0), .2, -4, false}};
-  const V M = a.body.inertia * a.body.angular_velocity + a.body.rotor_momentum + .3 * 6 * V(0, .6, .8) + .2 * -4 * V(1, 0, 0);
+  const V M =
+      a.body.inertia * a.body.angular_velocity + a.body.rotor_momentum + .3 * 6 * V(0, .6, .8) + .2 * -4 * V(1, 0, 0);
   auto b = a;
   b.body.momentum_given = true;
   b.body.angular_momentum = M;
   b.body.angular_velocity = {7, 7, 7};
-  const auto first = Motion<double>::make(Reduced<double>::of(a)->problem), second = Motion<double>::make(Reduced<double>::of(b)->problem);
+  const auto first = Motion<double>::make(Reduced<double>::of(a)->problem),
+             second = Motion<double>::make(Reduced<double>::of(b)->problem);
   REQUIRE((first && second));
   CHECK((first->at(3).angular_velocity - second->at(3).angular_velocity).norm() < 1e-14);
   CHECK((first->at(0).angular_momentum - M).norm() < 1e-14);

@@ -11,9 +11,9 @@ namespace free_theta_test {
 
 using namespace gyrostat;
 using namespace free_bodies;
-using gyrostat::free::Frame;
 using gyrostat::free::Pencil;
 using gyrostat::free::PrincipalProblem;
+using gyrostat::free::SpinorFrame;
 using gyrostat::free::ThetaPair;
 
 /// Theta functions by their definition (DLMF 20.2), summed far beyond need.
@@ -35,7 +35,7 @@ TEST_CASE("both forms of the theta pair are theta functions", "[free]") {
     const auto p = bodies.of(k % 3 ? Regime::generic : Regime::bisected, k);
     const auto d = PrincipalProblem<double>::of(p);
     const Pencil<double> pencil(d.inverse, d.gaps, d.G, d.l, d.M, d.M.norm());
-    const auto frame = Frame<double>::of(pencil);
+    const auto frame = SpinorFrame<double>::of(pencil);
     REQUIRE(frame);
     const ThetaPair<double> pair(*frame);
     if (!(pair.K < 6 * pair.Kp)) continue;  // the definition needs more digits there
@@ -44,7 +44,8 @@ TEST_CASE("both forms of the theta pair are theta functions", "[free]") {
     for (const double share : {-.45, -.2, 0., .1, .37}) {
       const double u = 2 * pair.K * share;
       const auto v = pair.at(pair.h * u);
-      const std::complex<double> z(pi<double> * u / (2 * pair.K), frame->delta * pi<double> * frame->eta / (2 * pair.K));
+      const std::complex<double> z(pi<double> * u / (2 * pair.K),
+                                   frame->delta * pi<double> * frame->eta / (2 * pair.K));
       const std::complex<double> one = theta(pair.single ? 1 : 4, z, log_q), two = theta(pair.single ? 3 : 1, z, log_q);
       // the ratio of the two, up to the constants A and B and, after the imaginary transformation, a fixed pair of frames
       const std::complex<double> a(v.one.re, v.one.im), b(v.two.re, v.two.im);
@@ -53,7 +54,8 @@ TEST_CASE("both forms of the theta pair are theta functions", "[free]") {
       } else if (!pair.hyperbolic) {
         const auto start = pair.at(0);
         const std::complex<double> z0(0, z.imag()), ratio0(start.one.re, start.one.im);
-        const std::complex<double> c = theta(1, z0, log_q) / theta(3, z0, log_q) / (ratio0 / std::complex<double>(start.two.re, start.two.im));
+        const std::complex<double> c =
+            theta(1, z0, log_q) / theta(3, z0, log_q) / (ratio0 / std::complex<double>(start.two.re, start.two.im));
         CHECK(std::abs(a / b * c - one / two) < 1e-12 * (1 + std::abs(one / two)));
       }
       CHECK(std::isfinite(std::abs(a) + std::abs(b)));
@@ -62,8 +64,14 @@ TEST_CASE("both forms of the theta pair are theta functions", "[free]") {
     const double step = 1e-5 / pair.h;
     const auto rise = pair.at(pair.h * step), fall = pair.at(-pair.h * step);
     const auto turning = pair.turning();
-    CHECK(turning.one == Approx(std::arg(std::complex<double>(rise.one.re, rise.one.im) / std::complex<double>(fall.one.re, fall.one.im)) / (2 * step)).margin(1e-8));
-    CHECK(turning.two == Approx(std::arg(std::complex<double>(rise.two.re, rise.two.im) / std::complex<double>(fall.two.re, fall.two.im)) / (2 * step)).margin(1e-8));
+    CHECK(turning.one == Approx(std::arg(std::complex<double>(rise.one.re, rise.one.im) /
+                                         std::complex<double>(fall.one.re, fall.one.im)) /
+                                (2 * step))
+                             .margin(1e-8));
+    CHECK(turning.two == Approx(std::arg(std::complex<double>(rise.two.re, rise.two.im) /
+                                         std::complex<double>(fall.two.re, fall.two.im)) /
+                                (2 * step))
+                             .margin(1e-8));
   }
   for (const auto& row : seen)
     for (const int count : row) CHECK(count > 3);
@@ -74,7 +82,8 @@ TEST_CASE("the sums of a theta pair are short", "[free]") {
   for (const Regime regime : regimes)
     for (int k = 0; k < 100; ++k) {
       const auto d = PrincipalProblem<DoubleDouble>::of(bodies.of(regime, k).cast<DoubleDouble>());
-      const auto frame = Frame<DoubleDouble>::of(Pencil<DoubleDouble>(d.inverse, d.gaps, d.G, d.l, d.M, d.M.norm()));
+      const auto frame =
+          SpinorFrame<DoubleDouble>::of(Pencil<DoubleDouble>(d.inverse, d.gaps, d.G, d.l, d.M, d.M.norm()));
       REQUIRE(frame);
       const ThetaPair<DoubleDouble> pair(*frame);
       CHECK(pair.powers < ThetaPair<DoubleDouble>::most - 1);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "gyrostat/ladder/even_times.hpp"
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/spinning/axial_motion.hpp"
 #include "gyrostat/ladder/spinning/tilt_errors.hpp"
@@ -26,14 +27,6 @@ namespace detail {
 
 inline constexpr const char* tilt_too_large =
     "the tilt, or the error of the spin angle, may exceed 0.3 rad: equations for small tilt do not hold";
-
-/// Whether the times lie on an even grid, to rounding.
-inline bool even(std::span<const double> times) noexcept {
-  const double start = times.front(), step = (times.back() - start) / double(times.size() - 1);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    if (!(std::abs(times[i] - (start + double(i) * step)) <= 4 * epsilon<double> * times.back())) return false;
-  return true;
-}
 
 /// The linear motion on an even grid.
 inline void linear_on_grid(const LinearGrid<double>& grid, double spin, std::span<State<double>> states) noexcept {

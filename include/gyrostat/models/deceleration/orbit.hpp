@@ -7,12 +7,12 @@
 
 #include <Eigen/Geometry>
 
+#include "gyrostat/body/secular.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/math/elliptic.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
 #include "gyrostat/models/deceleration/regime.hpp"
-#include "gyrostat/body/secular.hpp"
 
 /// The free motion of a gyrostat with constant rotor momentum (Zhukovskii, Volterra) in closed form, and without it
 /// (Euler, Poinsot) by the same code: deceleration.md, section 4.1.

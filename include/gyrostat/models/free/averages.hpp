@@ -20,10 +20,10 @@ namespace gyrostat::free {
 /// Body axes. Of a motion without a period what it has for ever (steady) or tends to (separatrix).
 template <Real Scalar>
 struct Averages {
-  Vec3<Scalar> angular_velocity{0, 0, 0};              ///< <omega>, rad/s
-  Vec3<Scalar> angular_momentum{0, 0, 0};              ///< <M>, N m s
-  Mat3<Scalar> second_moment = Mat3<Scalar>::Zero();   ///< <M M^T>, (N m s)^2
-  Scalar error = 0;                                    ///< estimate, relative to the greatest
+  Vec3<Scalar> angular_velocity{0, 0, 0};             ///< <omega>, rad/s
+  Vec3<Scalar> angular_momentum{0, 0, 0};             ///< <M>, N m s
+  Mat3<Scalar> second_moment = Mat3<Scalar>::Zero();  ///< <M M^T>, (N m s)^2
+  Scalar error = 0;                                   ///< estimate, relative to the greatest
 };
 
 template <Real Scalar>
@@ -41,7 +41,8 @@ Averages<Scalar> averages(const Motion<Scalar>& motion) noexcept {
       [&](Scalar x) {
         const auto s = motion.at(x * T);
         const Vec3<Scalar>&w = s.angular_velocity, &M = s.angular_momentum;
-        return std::array<Scalar, 12>{w[0], w[1], w[2], M[0], M[1], M[2], M[0] * M[0], M[1] * M[1], M[2] * M[2], M[0] * M[1], M[1] * M[2], M[2] * M[0]};
+        return std::array<Scalar, 12>{w[0],        w[1],        w[2],        M[0],        M[1],        M[2],
+                                      M[0] * M[0], M[1] * M[1], M[2] * M[2], M[0] * M[1], M[1] * M[2], M[2] * M[0]};
       },
       64 * epsilon<Scalar>, 16, 16384);
   const auto& v = means.value;
@@ -79,7 +80,8 @@ Precession<Scalar> precession(const Motion<Scalar>& motion, const Vec3<Scalar>& 
     const auto r = rates(Scalar(0));
     return {r[0], r[1], motion.kind() == Kind::steady};
   }
-  const auto means = math::periodic_means<Scalar, 2>([&](Scalar x) { return rates(x * T); }, 256 * epsilon<Scalar>, 16, 16384);
+  const auto means =
+      math::periodic_means<Scalar, 2>([&](Scalar x) { return rates(x * T); }, 256 * epsilon<Scalar>, 16, 16384);
   return {means.value[0], means.value[1], means.converged};
 }
 
@@ -188,7 +190,8 @@ class RateIntegral {
       for (std::size_t j = 0; j < n; ++j) x[j] = {node[j][i] - mean_[i], Scalar(0)};
       fourier(x, turn);
       for (std::size_t k = 1; k < n / 2; ++k)
-        coefficients_[k - 1][std::size_t(i)] = Scalar(2) / Scalar(n) * period_ / (2 * pi<Scalar> * Scalar(k)) * C{x[k].im, -x[k].re};
+        coefficients_[k - 1][std::size_t(i)] =
+            Scalar(2) / Scalar(n) * period_ / (2 * pi<Scalar> * Scalar(k)) * C{x[k].im, -x[k].re};
     }
     size_ = node[0].norm();
     for (const auto& w : node) size_ = std::max(size_, w.norm());
@@ -231,12 +234,15 @@ class RateIntegral {
 
   /// Gauss's rule of five points on panels of half a unit of u, and the constant rate beyond 40 units.
   Vec3<Scalar> quadrature(Scalar t) const noexcept {
-    static constexpr Scalar x[5] = {Scalar(-0.906179845938663992797626878299392965L), Scalar(-0.538469310105683091036314420700208805L),
-                                    Scalar(0), Scalar(0.538469310105683091036314420700208805L), Scalar(0.906179845938663992797626878299392965L)};
-    static constexpr Scalar weight[5] = {Scalar(0.236926885056189087514264040719917363L), Scalar(0.478628670499366468041291514835638193L),
-                                         Scalar(0.568888888888888888888888888888888889L), Scalar(0.478628670499366468041291514835638193L),
-                                         Scalar(0.236926885056189087514264040719917363L)};
-    const Scalar rate = motion_.jacobi_rate(), end = (t < 0 ? -40 - motion_.jacobi_start() : 40 - motion_.jacobi_start()) / rate;
+    static constexpr Scalar x[5] = {
+        Scalar(-0.906179845938663992797626878299392965L), Scalar(-0.538469310105683091036314420700208805L), Scalar(0),
+        Scalar(0.538469310105683091036314420700208805L), Scalar(0.906179845938663992797626878299392965L)};
+    static constexpr Scalar weight[5] = {
+        Scalar(0.236926885056189087514264040719917363L), Scalar(0.478628670499366468041291514835638193L),
+        Scalar(0.568888888888888888888888888888888889L), Scalar(0.478628670499366468041291514835638193L),
+        Scalar(0.236926885056189087514264040719917363L)};
+    const Scalar rate = motion_.jacobi_rate(),
+                 end = (t < 0 ? -40 - motion_.jacobi_start() : 40 - motion_.jacobi_start()) / rate;
     const bool past = t < 0 ? t < end && end < 0 : t > end && end > 0;
     const Scalar to = past ? end : t;
     const int panels = 1 + static_cast<int>(std::min(std::abs(to) * rate * 4, Scalar(1000)));

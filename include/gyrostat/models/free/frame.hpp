@@ -18,8 +18,9 @@ namespace gyrostat::free {
 /// lobe is born) their eigenvectors lie IN this plane, and nothing here is singular.
 template <Real Scalar>
 struct NullPlane {
-  PencilAxis<Scalar> u, v;         ///< v made orthogonal to u
-  Vec4<Scalar> plus = Vec4<Scalar>::Zero(), minus = plus;  ///< P+ and P-, future directed, S(P+, P-) = -2; P+ is the one that the start is nearer to
+  PencilAxis<Scalar> u, v;  ///< v made orthogonal to u
+  Vec4<Scalar> plus = Vec4<Scalar>::Zero(),
+               minus = plus;  ///< P+ and P-, future directed, S(P+, P-) = -2; P+ is the one that the start is nearer to
   Scalar E_plus = 0, E_minus = 0;  ///< E(P+, P+)/2, E(P-, P-)/2
   Scalar al = 0, be = 0;           ///< the start is X0 = al P+ + be P- + Yu u + Yv v
   Scalar Yu = 0, Yv = 0;
@@ -92,18 +93,19 @@ struct NullPlane {
 
 /// The path of M as a curve in Jacobi's functions of u, du/dt = rate R, and the frame in which its spinor is a pair of theta functions.
 enum class PathForm : std::uint8_t {
-  lobe,        ///< two components, frame of the plane of the lobe's axis and the timelike one: theta functions in trigonometric form
+  lobe,  ///< two components, frame of the plane of the lobe's axis and the timelike one: theta functions in trigonometric form
   separatrix,  ///< two components, frame of the plane through which the separatrix goes: theta functions in hyperbolic form
   single,      ///< one component
 };
 
 template <Real Scalar>
-struct Frame {
+struct SpinorFrame {
   PathForm form = PathForm::single;
-  int side = 0;        ///< of two components: 1 where M surrounds the axis of the largest moment, -1 that of the smallest
+  int side = 0;  ///< of two components: 1 where M surrounds the axis of the largest moment, -1 that of the smallest
   bool exact = false;  ///< the axis next to the timelike one is a principal axis: kp2 is known as well as the data
-  Vec4<Scalar> plus = Vec4<Scalar>::Zero(), minus = plus, xa = plus, xb = plus;  ///< N+, N- (null, S = -2) and two spacelike vectors, an orthogonal frame with (N+ +- N-)/2
-  int delta = 1;                     ///< orientation
+  Vec4<Scalar> plus = Vec4<Scalar>::Zero(), minus = plus, xa = plus,
+               xb = plus;  ///< N+, N- (null, S = -2) and two spacelike vectors, an orthogonal frame with (N+ +- N-)/2
+  int delta = 1;           ///< orientation
   math::Modulus<Scalar> modulus;
   Scalar rate = 0;                ///< du/dt over R
   Scalar sn = 0, cn = 1, dn = 1;  ///< of the start, cn >= 0
@@ -112,10 +114,10 @@ struct Frame {
   Scalar psi[2] = {0, 0};         ///< rate of the phase of a spinor's components at u = 0, over R
 
   /// Errors: those of Pencil::axes(); separatrix where the two roots cannot be told apart.
-  static Result<Frame> of(const Pencil<Scalar>& pencil) noexcept {
+  static Result<SpinorFrame> of(const Pencil<Scalar>& pencil) noexcept {
     const auto axes = pencil.axes();
     if (!axes) return axes.error();
-    Frame frame;
+    SpinorFrame frame;
     const PencilAxis<Scalar>* axis = axes->axis;
     if (axes->count == 2) return frame.take(pencil, NullPlane<Scalar>::of(pencil, axis[0], axis[1]), nullptr, nullptr);
     // lobe, then the near and the far one of the others
@@ -127,7 +129,7 @@ struct Frame {
     };
     bool of_lobe = 2 * axes->share < 1;
     for (int trip = 0; trip < 2; ++trip) {
-      frame = Frame();
+      frame = SpinorFrame();
       const auto p = plane(of_lobe);
       const auto taken = frame.take(pencil, p, of_lobe ? &lobe : nullptr, &near);
       if (!taken || frame.form == PathForm::single) return taken;
@@ -144,7 +146,7 @@ struct Frame {
   using Axis = PencilAxis<Scalar>;
   using Plane = NullPlane<Scalar>;
 
-  Result<Frame> take(const Pencil<Scalar>& pencil, Plane plane, const Axis* lobe, const Axis* near) noexcept {
+  Result<SpinorFrame> take(const Pencil<Scalar>& pencil, Plane plane, const Axis* lobe, const Axis* near) noexcept {
     const bool known = near && near->exact;  // of a level with two components for certain
     if (!known && !plane.real_roots()) {
       single(pencil, plane);
@@ -310,7 +312,9 @@ struct Frame {
 
   static Scalar determinant(const Vec4<Scalar>& a, const Vec4<Scalar>& b, const Vec4<Scalar>& c,
                             const Vec4<Scalar>& d) noexcept {
-    const auto minor = [](const Vec4<Scalar>& x, const Vec4<Scalar>& y, int i, int j) { return x[i] * y[j] - x[j] * y[i]; };
+    const auto minor = [](const Vec4<Scalar>& x, const Vec4<Scalar>& y, int i, int j) {
+      return x[i] * y[j] - x[j] * y[i];
+    };
     return minor(a, b, 0, 1) * minor(c, d, 2, 3) - minor(a, b, 0, 2) * minor(c, d, 1, 3) +
            minor(a, b, 0, 3) * minor(c, d, 1, 2) + minor(a, b, 1, 2) * minor(c, d, 0, 3) -
            minor(a, b, 1, 3) * minor(c, d, 0, 2) + minor(a, b, 2, 3) * minor(c, d, 0, 1);

@@ -89,7 +89,7 @@ class Motion {
       return motion;
     }
     const Pencil<Setup> pencil(p.inverse, p.gaps, p.G, p.l, p.M, R);
-    const auto frame = Frame<Setup>::of(pencil);
+    const auto frame = SpinorFrame<Setup>::of(pencil);
     if (!frame) return frame.error();
     return motion.set_regular(pencil, *frame, p, R) ? Result<Motion>(motion) : Result<Motion>(Errc::no_convergence);
   }
@@ -114,7 +114,8 @@ class Motion {
     if (kind_ == Kind::steady || kind_ == Kind::spherical) return 1;
     const Place place = place_at(t);
     const Value zeta = pair_.at(place.exponent, place.rest);
-    const Scalar a = zeta.one.re * zeta.one.re + zeta.one.im * zeta.one.im, b = zeta.two.re * zeta.two.re + zeta.two.im * zeta.two.im;
+    const Scalar a = zeta.one.re * zeta.one.re + zeta.one.im * zeta.one.im,
+                 b = zeta.two.re * zeta.two.re + zeta.two.im * zeta.two.im;
     const Scalar re = zeta.one.re * zeta.two.re + zeta.one.im * zeta.two.im;
     const Scalar im = zeta.one.re * zeta.two.im - zeta.one.im * zeta.two.re;
     const Scalar parts = abs(size_[0] * a) + abs(size_[1] * b) + abs(size_[2] * re) + abs(size_[3] * im);
@@ -129,12 +130,12 @@ class Motion {
   math::Modulus<Scalar> modulus() const noexcept { return modulus_; }
   Scalar modulus_squared() const noexcept { return modulus_.k2; }
 
-  Scalar energy() const noexcept { return energy_; }                                  ///< omega.J omega/2, J
-  Scalar angular_momentum_norm() const noexcept { return R_; }                        ///< N m s
-  const Vec3<Scalar>& inertial_momentum() const noexcept { return M_I_; }             ///< inertial axes, N m s
-  const Vec3<Scalar>& rotor_momentum() const noexcept { return l_B_; }                ///< body axes, N m s
-  const Mat3<Scalar>& R_BP() const noexcept { return R_BP_; }                         ///< principal axes to body axes
-  const Vec3<Scalar>& principal_moments() const noexcept { return moments_; }         ///< descending, kg m^2
+  Scalar energy() const noexcept { return energy_; }                           ///< omega.J omega/2, J
+  Scalar angular_momentum_norm() const noexcept { return R_; }                 ///< N m s
+  const Vec3<Scalar>& inertial_momentum() const noexcept { return M_I_; }      ///< inertial axes, N m s
+  const Vec3<Scalar>& rotor_momentum() const noexcept { return l_B_; }         ///< body axes, N m s
+  const Mat3<Scalar>& R_BP() const noexcept { return R_BP_; }                  ///< principal axes to body axes
+  const Vec3<Scalar>& principal_moments() const noexcept { return moments_; }  ///< descending, kg m^2
   /// Square of the frequency of small oscillations about a steady rotation, negative where it is unstable, 1/s^2; 0 for other kinds.
   Scalar steady_square() const noexcept { return steady_square_; }
   /// kappa of the attitude's phase by either component of the spinor, rad/s: equal but for rounding.
@@ -142,9 +143,9 @@ class Motion {
   /// Phase at time 0, in periods from a point of symmetry of the path (in half periods where hyperbolic()).
   Scalar start_phase() const noexcept { return start_.high; }
   bool hyperbolic() const noexcept { return pair_.hyperbolic; }
-  Scalar jacobi_rate() const noexcept { return u_rate_; }         ///< du/dt, rad/s
-  Scalar jacobi_start() const noexcept { return u_start_; }       ///< u at time 0
-  Scalar quarter_period() const noexcept { return pair_.K; }      ///< K
+  Scalar jacobi_rate() const noexcept { return u_rate_; }                ///< du/dt, rad/s
+  Scalar jacobi_start() const noexcept { return u_start_; }              ///< u at time 0
+  Scalar quarter_period() const noexcept { return pair_.K; }             ///< K
   Scalar quarter_period_conjugate() const noexcept { return pair_.Kp; }  ///< K'
 
  private:
@@ -219,16 +220,17 @@ class Motion {
   }
 
   template <Real Setup>
-  bool set_regular(const Pencil<Setup>& pencil, const Frame<Setup>& frame, const PrincipalProblem<Setup>& p,
+  bool set_regular(const Pencil<Setup>& pencil, const SpinorFrame<Setup>& frame, const PrincipalProblem<Setup>& p,
                    const Setup& R) noexcept {
     using std::abs, std::isfinite;
     const ThetaPair<Setup> pair(frame);
     pair_ = pair.template cast<Scalar>();
     modulus_ = {static_cast<Scalar>(frame.modulus.k2), static_cast<Scalar>(frame.modulus.kp2)};
     const bool endless = frame.modulus.kp2 == 0;
-    kind_ = endless ? Kind::separatrix
+    kind_ = endless                          ? Kind::separatrix
             : frame.form == PathForm::single ? Kind::one_component
-            : frame.side > 0 ? Kind::about_largest : Kind::about_smallest;
+            : frame.side > 0                 ? Kind::about_largest
+                                             : Kind::about_smallest;
     const Setup u_rate = frame.rate * R, u_start = math::jacobi_argument(frame.sn, frame.cn, frame.dn);
     // a window of the argument: a period in trigonometric form, half of one in hyperbolic form
     const Setup window = endless ? Setup(1) : (pair.hyperbolic ? 2 : 4) * pair.K;
@@ -239,11 +241,14 @@ class Motion {
     u_start_ = static_cast<Scalar>(u_start);
 
     const auto turning = pair.turning();
-    const Setup kappa[2] = {R * (frame.psi[0] - frame.rate * turning.one), R * (frame.psi[1] - frame.rate * turning.two)};
+    const Setup kappa[2] = {R * (frame.psi[0] - frame.rate * turning.one),
+                            R * (frame.psi[1] - frame.rate * turning.two)};
     const auto value = pair.at(Setup(0));
     const auto square = [](const math::Complex<Setup>& z) { return z.re * z.re + z.im * z.im; };
     const Setup phase_rate = kappa[square(value.one) >= square(value.two) ? 0 : 1] / (2 * pi<Setup>);
-    const Setup jump = pair.hyperbolic ? Setup(frame.delta) * frame.eta / ((frame.form == PathForm::single ? 2 : 4) * pair.Kp) : Setup(0);
+    const Setup jump = pair.hyperbolic
+                           ? Setup(frame.delta) * frame.eta / ((frame.form == PathForm::single ? 2 : 4) * pair.Kp)
+                           : Setup(0);
     for (int j = 0; j < 2; ++j) kappa_[j] = static_cast<Scalar>(kappa[j]);
     phase_rate_ = detail::Turns<Scalar>::split(phase_rate);
     jump_ = detail::Turns<Scalar>::split(endless ? Setup(0) : jump);
@@ -259,7 +264,7 @@ class Motion {
 
   /// Rates, momentum and spinor as forms of zeta; body axes.
   template <Real Setup>
-  void set_forms(const Pencil<Setup>& pencil, const Frame<Setup>& frame, const PrincipalProblem<Setup>& p,
+  void set_forms(const Pencil<Setup>& pencil, const SpinorFrame<Setup>& frame, const PrincipalProblem<Setup>& p,
                  const Setup& R) noexcept {
     using std::sqrt;
     using CS = math::Complex<Setup>;
@@ -332,7 +337,8 @@ class Motion {
       s.angular_velocity[i] = (W_(i, 0) * f[0] + W_(i, 1) * f[1] + W_(i, 2) * f[2] + W_(i, 3) * f[3]) * inverse;
       s.angular_momentum[i] = (M_(i, 0) * f[0] + M_(i, 1) * f[1] + M_(i, 2) * f[2] + M_(i, 3) * f[3]) * inverse;
     }
-    const C up = (spinor_[0][0] * a + spinor_[0][1] * b) * phase, down = (spinor_[1][0] * a + spinor_[1][1] * b) * phase;
+    const C up = (spinor_[0][0] * a + spinor_[0][1] * b) * phase,
+            down = (spinor_[1][0] * a + spinor_[1][1] * b) * phase;
     const Scalar length = 1 / sqrt(up.re * up.re + up.im * up.im + down.re * down.re + down.im * down.im);
     s.attitude = lay_ * Quat<Scalar>{up.re * length, down.im * length, -down.re * length, up.im * length};
     return s;
@@ -370,7 +376,8 @@ class Motion {
   detail::Turns<Scalar> rate_, start_, span_, phase_rate_, jump_, precession_;
   Vec3<Scalar> axis_{0, 0, 0}, precession_axis_{0, 0, 0};
   ThetaPair<Scalar> pair_;
-  Mat34<Scalar> M_ = Mat34<Scalar>::Zero(), W_ = Mat34<Scalar>::Zero();  // forms of |zeta_1|^2, |zeta_2|^2, Re and Im conj(zeta_1) zeta_2
+  Mat34<Scalar> M_ = Mat34<Scalar>::Zero(),
+                W_ = Mat34<Scalar>::Zero();  // forms of |zeta_1|^2, |zeta_2|^2, Re and Im conj(zeta_1) zeta_2
   Scalar size_[4] = {1, 1, 0, 0};
   C spinor_[2][2] = {};
   Quat<Scalar> lay_{};  // inertial axes from those with M along 3
@@ -381,10 +388,10 @@ class Motion {
 template <Real Scalar>
 struct Motion<Scalar>::Block {
   using Row = Scalar[block];
-  Row up, down;                 // cos and sin of the angle of E, or E and 1/E
-  Row cosine, sine;             // of the spinor's phase
-  Row sign;                     // -1 an odd number of half periods on (hyperbolic form)
-  Row zeta[4];                  // zeta_1 and zeta_2, real and imaginary parts
+  Row up, down;      // cos and sin of the angle of E, or E and 1/E
+  Row cosine, sine;  // of the spinor's phase
+  Row sign;          // -1 an odd number of half periods on (hyperbolic form)
+  Row zeta[4];       // zeta_1 and zeta_2, real and imaginary parts
   Row rate[3], momentum[3], attitude[4];
 };
 
@@ -490,7 +497,8 @@ void Motion<Scalar>::sums(Block& b) const noexcept {
       b.zeta[0][k] = b.sign[k] * a, b.zeta[1][k] = b.sign[k] * c, b.zeta[2][k] = e, b.zeta[3][k] = g;
     } else {
       const bool odd = b.sign[k] < 0;
-      b.zeta[0][k] = odd ? -e : a, b.zeta[1][k] = odd ? -g : c, b.zeta[2][k] = odd ? -a : e, b.zeta[3][k] = odd ? -c : g;
+      b.zeta[0][k] = odd ? -e : a, b.zeta[1][k] = odd ? -g : c, b.zeta[2][k] = odd ? -a : e,
+      b.zeta[3][k] = odd ? -c : g;
     }
   }
 }
@@ -542,7 +550,8 @@ void Motion<Scalar>::grid(Scalar first, Scalar step, std::size_t count, Scalar* 
     for (int k = 0; special && k < n; ++k) {
       const State<Scalar> s = at(first + step * Scalar(begin + std::size_t(k)));
       for (int i = 0; i < 3; ++i) b.rate[i][k] = s.angular_velocity[i], b.momentum[i][k] = s.angular_momentum[i];
-      b.attitude[0][k] = s.attitude.x, b.attitude[1][k] = s.attitude.y, b.attitude[2][k] = s.attitude.z, b.attitude[3][k] = s.attitude.w;
+      b.attitude[0][k] = s.attitude.x, b.attitude[1][k] = s.attitude.y, b.attitude[2][k] = s.attitude.z,
+      b.attitude[3][k] = s.attitude.w;
     }
     const auto put = [n](Scalar*& to, const auto& rows, int width) {
       if (!to) return;

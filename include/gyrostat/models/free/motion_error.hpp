@@ -24,8 +24,8 @@ inline constexpr int neighbours = 4;
 
 /// Sign of what the n-th datum of the k-th neighbour is moved by: fixed, and without a pattern that the data could share.
 constexpr int neighbour_sign(int k, int n) noexcept {
-  constexpr unsigned long long patterns[neighbours] = {0x9e3779b97f4a7c15ULL, 0xd1b54a32d192ed03ULL, 0x8cb92ba72f3d8dd7ULL,
-                                                       0xaef17502108ef2d9ULL};
+  constexpr unsigned long long patterns[neighbours] = {0x9e3779b97f4a7c15ULL, 0xd1b54a32d192ed03ULL,
+                                                       0x8cb92ba72f3d8dd7ULL, 0xaef17502108ef2d9ULL};
   return (patterns[k] >> (n % 61)) & 1 ? 1 : -1;
 }
 
@@ -71,20 +71,28 @@ class MotionError {
   /// Of the motion that make<Setup> gives for the reduced assembly. Errors: those of Reduced::of and Motion::make.
   template <Real Setup = Scalar>
   static Result<MotionError> of(const Assembly<Scalar>& assembly, Data data = Data::rounded) noexcept {
-    const auto motion_of = [](const Assembly<Setup>& given) -> Result<Motion<Scalar>> {
-      return Motion<Scalar>::template make<Setup>(Reduced<Setup>::taken(given).problem);
-    };
     if (const auto sound = Reduced<Scalar>::of(assembly); !sound) return sound.error();
-    const Assembly<Setup> given = cast<Setup>(assembly);
-    const auto motion = motion_of(given);
+    const auto motion = motion_of(assembly.template cast<Setup>());
     if (!motion) return motion.error();
+    return of<Setup>(*motion, assembly, data);
+  }
+
+  /// The same where that motion is there already, of a sound assembly.
+  template <Real Setup = Scalar>
+  static MotionError of(const Motion<Scalar>& motion, const Assembly<Scalar>& assembly,
+                        Data data = Data::rounded) noexcept {
     MotionError error;
-    error.start(*motion);
+    error.start(motion);
     const Setup by = data == Data::exact ? epsilon<Setup> : Setup(epsilon<Scalar>);
-    for (int k = 0; k < detail::neighbours; ++k) error.see(*motion, motion_of(neighbour<Setup>(given, k, by)));
+    constexpr bool wide = !std::is_same_v<Setup, Scalar>;
+    if (!(wide && data == Data::rounded && error.see_from_afar(assembly))) {
+      const Assembly<Setup> given = assembly.template cast<Setup>();
+      const Centre centre(motion, error.span_);
+      for (int k = 0; k < detail::neighbours; ++k) error.see(centre, motion_of(neighbour<Setup>(given, k, by)));
+    }
     // what rounding did to this very set-up
     if constexpr (std::is_same_v<Setup, double>)
-      error.see(*motion, Motion<Scalar>::template make<DoubleDouble>(Reduced<DoubleDouble>::taken(cast<DoubleDouble>(assembly)).problem));
+      error.see(Centre(motion, error.span_), motion_of(assembly.template cast<DoubleDouble>()));
     if (error.kind_ != Kind::steady) {  // and what the rounding of the period and the turn hides
       const Scalar hidden = static_cast<Scalar>(by);
       error.share_ += hidden / error.period_;
@@ -100,10 +108,12 @@ class MotionError {
     const Scalar beyond = abs(t);
     const Scalar late = beyond * share_, turned = beyond * turn_rate_;
     if (kind_ == Kind::steady) {
-      const Scalar off = unstable_ > 0 ? offset_ * exp(unstable_ * beyond) : settled_ ? offset_ : offset_ * (1 + wandering_ * beyond);
+      const Scalar off = unstable_ > 0 ? offset_ * exp(unstable_ * beyond)
+                         : settled_    ? offset_
+                                       : offset_ * (1 + wandering_ * beyond);
       b.angular_momentum += 4 * off;
       b.angular_velocity += 4 * off * gain_;
-      b.attitude += 4 * (off * gain_ + 2 * epsilon<Scalar>) * speed_ * beyond;
+      b.attitude += 4 * (off * gain_ + 2 * epsilon<Scalar>)*speed_ * beyond;
     } else if (!(beyond <= period_)) {
       b.angular_velocity += 4 * late * rates_change_;
       b.angular_momentum += 4 * late * momentum_change_;
@@ -112,19 +122,22 @@ class MotionError {
     }
     const Scalar rounding = 10 * cancellation_ * epsilon<Scalar>;
     const Scalar most = Scalar(0.2);  // four times 0.05
-    if (!(b.attitude <= most && b.angular_velocity <= most)) return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
+    if (!(b.attitude <= most && b.angular_velocity <= most))
+      return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
     // M may be all rounding and the body's motion not
     if (!(b.angular_momentum <= most)) b.angular_momentum = infinity<Scalar>;
     return {b.angular_velocity + rounding, b.angular_momentum + rounding, b.attitude + rounding};
   }
 
   Scalar period() const noexcept { return 4 * share_ * period_ + 4 * epsilon<Scalar>; }  ///< relative
-  Scalar turn_per_period() const noexcept {                                    ///< rad
+  Scalar turn_per_period() const noexcept {                                              ///< rad
     return 4 * turn_ + 16 * epsilon<Scalar>;
   }
   Scalar modulus_squared() const noexcept { return 4 * modulus_ + 4 * epsilon<Scalar>; }  ///< absolute
   Scalar energy() const noexcept { return 4 * energy_ + 4 * epsilon<Scalar>; }            ///< relative
   Scalar angular_momentum_norm() const noexcept { return 4 * norm_ + 4 * epsilon<Scalar>; }
+  /// The greatest |omega| over a period, rad/s: what bounds of the rates are relative to.
+  Scalar fastest() const noexcept { return fastest_; }
   /// The neighbours are motions of the same kind; else the data do not tell on which side of a separatrix the motion is.
   bool kinds_agree() const noexcept { return agree_; }
 
@@ -132,12 +145,42 @@ class MotionError {
   static constexpr int nodes = 128;
 
   template <Real Setup>
-  static Assembly<Setup> cast(const Assembly<Scalar>& given) noexcept {
-    Assembly<Setup> made;
-    made.body = given.body.template cast<Setup>();
-    for (const auto& w : given.wheels)
-      made.wheels.push_back({vector_cast<Setup>(w.axis), Setup(w.axial_inertia), Setup(w.rate), w.turns_freely});
-    return made;
+  static Result<Motion<Scalar>> motion_of(const Assembly<Setup>& given) noexcept {
+    return Motion<Scalar>::template make<Setup>(Reduced<Setup>::taken(given).problem);
+  }
+
+  /// A motion and its states at the nodes, from a period before the start to one behind it.
+  class Centre {
+   public:
+    Centre(const Motion<Scalar>& of, const Scalar& span) noexcept : motion(of) {
+      for (int i = -nodes; i <= nodes; ++i) states_[std::size_t(i + nodes)] = of.at(Scalar(i) * span / nodes);
+    }
+    const State<Scalar>& at(int node) const noexcept { return states_[std::size_t(node + nodes)]; }
+    const Motion<Scalar>& motion;
+
+   private:
+    std::array<State<Scalar>, 2 * nodes + 1> states_;
+  };
+
+  /// Looks at neighbours a thousand roundings away, which the arithmetic of Scalar tells apart well, and takes a thousandth of what it sees;
+  /// false, and nothing seen, where the motion is not smooth enough in its data for that.
+  bool see_from_afar(const Assembly<Scalar>& assembly) noexcept {
+    constexpr Scalar far = 1024, straight = Scalar(1e-3);
+    if (kind_ == Kind::steady || kind_ == Kind::separatrix) return false;
+    const auto made = motion_of(assembly);
+    if (!made || made->kind() != kind_ || !(made->modulus().kp2 > Scalar(1e-4))) return false;
+    const Centre centre(*made, span_);
+    const MotionError unseen = *this;
+    shrink_ = 1 / far;
+    for (int k = 0; k < detail::neighbours; ++k)
+      see(centre, motion_of(neighbour<Scalar>(assembly, k, far * epsilon<Scalar>)));
+    shrink_ = 1;
+    const Bound& period = first_[nodes];
+    if (agree_ && far * modulus_ < straight * made->modulus().kp2 && far * share_ * span_ < straight &&
+        far * period.attitude < straight && far * period.angular_velocity < straight)
+      return true;
+    *this = unseen;
+    return false;
   }
 
   void start(const Motion<Scalar>& motion) noexcept {
@@ -149,7 +192,8 @@ class MotionError {
     period_ = motion.period();
     span_ = isfinite(period_) ? period_ : 80 / motion.jacobi_rate();
     const Scalar T = span_, turn = motion.turn_per_period() / T;
-    const Mat3<Scalar> inverse = motion.R_BP() * motion.principal_moments().cwiseInverse().asDiagonal() * motion.R_BP().transpose();
+    const Mat3<Scalar> inverse =
+        motion.R_BP() * motion.principal_moments().cwiseInverse().asDiagonal() * motion.R_BP().transpose();
     const Scalar R = motion.angular_momentum_norm();
     for (int i = 0; i < nodes; ++i) {
       const State<Scalar> at = motion.at(T * Scalar(i) / nodes);
@@ -158,7 +202,8 @@ class MotionError {
       fastest_ = max(fastest_, at.angular_velocity.norm());
       momentum_change_ = max(momentum_change_, flow.norm());
       rates_change_ = max(rates_change_, Vec3<Scalar>(inverse * flow).norm());
-      attitude_change_ = max(attitude_change_, Vec3<Scalar>(at.angular_velocity - turn / R * at.angular_momentum).norm());
+      attitude_change_ =
+          max(attitude_change_, Vec3<Scalar>(at.angular_velocity - turn / R * at.angular_momentum).norm());
     }
     // E = exp(h u) grows along a half period, and its rounding with it
     if (motion.hyperbolic() && isfinite(motion.quarter_period()))
@@ -183,7 +228,8 @@ class MotionError {
     span_ = period_ = speed_ > 0 ? 2 * pi<Scalar> / speed_ : Scalar(1);
   }
 
-  void see(const Motion<Scalar>& motion, const Result<Motion<Scalar>>& made) noexcept {
+  void see(const Centre& centre, const Result<Motion<Scalar>>& made) noexcept {
+    const Motion<Scalar>& motion = centre.motion;
     using std::abs, std::max;
     if (!made) {
       agree_ = false;
@@ -192,32 +238,37 @@ class MotionError {
     }
     const Motion<Scalar>& other = *made;
     const auto relative = [](Scalar a, Scalar b) { return a == b ? Scalar(0) : abs(a - b) / abs(a); };
-    energy_ = max(energy_, relative(motion.energy(), other.energy()));
-    norm_ = max(norm_, relative(motion.angular_momentum_norm(), other.angular_momentum_norm()));
+    energy_ = max(energy_, shrink_ * relative(motion.energy(), other.energy()));
+    norm_ = max(norm_, shrink_ * relative(motion.angular_momentum_norm(), other.angular_momentum_norm()));
     if (kind_ == Kind::steady) return see_steady(other);
-    modulus_ = max(modulus_, abs(motion.modulus_squared() - other.modulus_squared()));
+    modulus_ = max(modulus_, shrink_ * abs(motion.modulus_squared() - other.modulus_squared()));
     if (kind_ != Kind::spherical && other.kind() != kind_) agree_ = false;
     Bound worst;
     for (int i = 0; i <= nodes; ++i) {
       // running greatest differences, with time forward and back
-      for (const Scalar t : {span_ * Scalar(i) / nodes, -span_ * Scalar(i) / nodes}) {
-        const State<Scalar> a = motion.at(t), b = other.at(t);
+      for (const int side : {1, -1}) {
+        const Scalar t = Scalar(side * i) * span_ / nodes;
+        const State<Scalar>&a = centre.at(side * i), b = other.at(t);
         const Quat<Scalar> q = conjugate(a.attitude) * b.attitude;
-        worst.angular_velocity = max(worst.angular_velocity, Vec3<Scalar>(a.angular_velocity - b.angular_velocity).norm() / fastest_);
-        worst.angular_momentum = max(worst.angular_momentum, Vec3<Scalar>(a.angular_momentum - b.angular_momentum).norm() /
-                                                                 motion.angular_momentum_norm());
+        worst.angular_velocity =
+            max(worst.angular_velocity, Vec3<Scalar>(a.angular_velocity - b.angular_velocity).norm() / fastest_);
+        worst.angular_momentum =
+            max(worst.angular_momentum,
+                Vec3<Scalar>(a.angular_momentum - b.angular_momentum).norm() / motion.angular_momentum_norm());
         worst.attitude = max(worst.attitude, Vec3<Scalar>(2 * q.x, 2 * q.y, 2 * q.z).norm());
       }
       Bound& to = first_[std::size_t(i)];
-      to.angular_velocity = max(to.angular_velocity, 4 * worst.angular_velocity);
-      to.angular_momentum = max(to.angular_momentum, 4 * worst.angular_momentum);
-      to.attitude = max(to.attitude, 4 * worst.attitude);
+      const Scalar margin = 4 * shrink_;
+      to.angular_velocity = max(to.angular_velocity, margin * worst.angular_velocity);
+      to.angular_momentum = max(to.angular_momentum, margin * worst.angular_momentum);
+      to.attitude = max(to.attitude, margin * worst.attitude);
     }
-    share_ = max(share_, relative(motion.period(), other.period()) / period_);
+    share_ = max(share_, shrink_ * relative(motion.period(), other.period()) / period_);
     const Scalar turn = motion.turn_per_period(), raw = other.turn_per_period() - turn;
     const Scalar turned = raw - 2 * pi<Scalar> * std::nearbyint(raw / (2 * pi<Scalar>));
-    turn_ = max(turn_, abs(turned));
-    turn_rate_ = max(turn_rate_, abs((turned - turn * (other.period() - period_) / period_) / other.period()));
+    turn_ = max(turn_, shrink_ * abs(turned));
+    turn_rate_ =
+        max(turn_rate_, shrink_ * abs((turned - turn * (other.period() - period_) / period_) / other.period()));
   }
 
   /// How far the momentum of a neighbour may wander from that of a steady rotation, over |M|.
@@ -237,12 +288,14 @@ class MotionError {
     if (kind_ == Kind::steady) return {};
     using std::ceil, std::min;
     const Scalar place = ceil(t / span_ * nodes);
-    if (!(place < nodes)) return t - t == 0 ? first_[nodes] : Bound{infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
+    if (!(place < nodes))
+      return t - t == 0 ? first_[nodes] : Bound{infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
     return first_[std::size_t(place)];
   }
 
   Kind kind_ = Kind::steady;
   bool agree_ = true, settled_ = false;
+  Scalar shrink_ = 1;  ///< a difference that is seen counts by so much
   Scalar period_ = 1, span_ = 1, fastest_ = 0, speed_ = 0;
   Scalar rates_change_ = 0, momentum_change_ = 0, attitude_change_ = 0;  // by a phase late by a period
   Scalar share_ = 0, turn_rate_ = 0, turn_ = 0;  // periods late a second; rad/s about M; rad a period

@@ -33,8 +33,9 @@ template <Real Scalar>
 struct PencilAxes {
   int count = 0;
   PencilAxis<Scalar> axis[3];
-  bool lobe_lowest = true;  ///< of three: the motion surrounds the axis with the lowest root, else that with the highest
-  Scalar share = 0;         ///< of three: 0 where the lobe is born or ends as a point, 1 on the separatrix
+  bool lobe_lowest =
+      true;          ///< of three: the motion surrounds the axis with the lowest root, else that with the highest
+  Scalar share = 0;  ///< of three: 0 where the lobe is born or ends as a point, 1 on the separatrix
 };
 
 /// The two quadrics, in principal axes. `shifted`: d = l/R, so that Z = J omega/R keeps the relative accuracy of omega where the

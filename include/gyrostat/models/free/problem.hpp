@@ -49,9 +49,12 @@ struct Problem {
   template <Real To>
   Problem<To> cast() const noexcept {
     const auto& q = attitude;
-    return {matrix_cast<To>(inertia),          vector_cast<To>(rotor_momentum),
-            vector_cast<To>(angular_velocity), vector_cast<To>(angular_momentum),
-            momentum_given,                    {static_cast<To>(q.w), static_cast<To>(q.x), static_cast<To>(q.y), static_cast<To>(q.z)}};
+    return {matrix_cast<To>(inertia),
+            vector_cast<To>(rotor_momentum),
+            vector_cast<To>(angular_velocity),
+            vector_cast<To>(angular_momentum),
+            momentum_given,
+            {static_cast<To>(q.w), static_cast<To>(q.x), static_cast<To>(q.y), static_cast<To>(q.z)}};
   }
 };
 

@@ -29,6 +29,14 @@ template <Real Scalar>
 struct Assembly {
   Problem<Scalar> body;
   std::vector<Wheel<Scalar>> wheels;
+
+  template <Real To>
+  Assembly<To> cast() const {
+    Assembly<To> made{body.template cast<To>(), {}};
+    for (const auto& w : wheels)
+      made.wheels.push_back({vector_cast<To>(w.axis), To(w.axial_inertia), To(w.rate), w.turns_freely});
+    return made;
+  }
 };
 
 /// Why an assembly was refused: which wheel (-1: the body), and the axial inertia that it would have to stay below, kg m^2.
@@ -108,7 +116,10 @@ struct Reduced {
                realisability<Given>(assembly.body.inertia, parts) >= -64 * epsilon<Given> * J.trace();
       };
       if (!allowed(wheel.axial_inertia)) {
-        if (refusal) refusal->limit = math::Bracket<Given>{0, wheel.axial_inertia}.halved(200, [&](Given I) { return I > 0 && allowed(I); }).yes;
+        if (refusal)
+          refusal->limit = math::Bracket<Given>{0, wheel.axial_inertia}
+                               .halved(200, [&](Given I) { return I > 0 && allowed(I); })
+                               .yes;
         return Errc::triangle_inequality;
       }
       J = rotor->inertia_without(J);

@@ -26,9 +26,9 @@ struct ThetaPair {
   using C = math::Complex<Scalar>;
 
   bool hyperbolic = false, single = false;
-  int powers = 0;          ///< the highest power of E
+  int powers = 0;                     ///< the highest power of E
   Scalar x[most] = {}, y[most] = {};  ///< coefficients; see at()
-  Scalar h = 1;            ///< E = exp(i h u) or exp(h u)
+  Scalar h = 1;                       ///< E = exp(i h u) or exp(h u)
   Scalar K = 0, Kp = 0;
 
   /// zeta_1, zeta_2 from E^m and E^-m. Trigonometric: these are cos mz +- i sin mz.
@@ -37,7 +37,7 @@ struct ThetaPair {
   };
 
   ThetaPair() = default;
-  explicit ThetaPair(const Frame<Scalar>& frame) noexcept : single(frame.form == PathForm::single) {
+  explicit ThetaPair(const SpinorFrame<Scalar>& frame) noexcept : single(frame.form == PathForm::single) {
     K = math::complete(frame.modulus).K;
     Kp = frame.eta + frame.eta_rest;
     hyperbolic = single ? frame.modulus.k2 > frame.modulus.kp2 : frame.form == PathForm::separatrix;
@@ -146,7 +146,7 @@ struct ThetaPair {
 
   /// c_m E^m + c_-m E^-m = (c_m + c_-m) cos mz + i (c_m - c_-m) sin mz with real c, for odd m up to the factor -i. Exponents in
   /// multiples of eta and K' - eta, none of which cancel.
-  void trigonometric_sums(const Frame<Scalar>& f) noexcept {
+  void trigonometric_sums(const SpinorFrame<Scalar>& f) noexcept {
     using std::exp;
     h = pi<Scalar> / (2 * K);
     const Scalar unit = single ? h / 2 : h;
@@ -169,7 +169,7 @@ struct ThetaPair {
     }
   }
 
-  void hyperbolic_sums(const Frame<Scalar>& f) noexcept {
+  void hyperbolic_sums(const SpinorFrame<Scalar>& f) noexcept {
     using std::cos, std::exp, std::sin;
     h = pi<Scalar> / (single ? 2 * Kp : 4 * Kp);
     const Scalar angle = h * f.eta * Scalar(f.delta), log_Q = -2 * h * K;  // |u| <= K: E >= Q^(1/2)
@@ -190,7 +190,7 @@ struct ThetaPair {
   }
 
   /// A and B.
-  void scale(const Frame<Scalar>& f) noexcept {
+  void scale(const SpinorFrame<Scalar>& f) noexcept {
     using std::sqrt;
     const Value v = at(0);
     const Scalar A = sqrt(f.size[0] / (v.one.re * v.one.re + v.one.im * v.one.im));

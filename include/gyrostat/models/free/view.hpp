@@ -32,7 +32,8 @@ View<Scalar> long_run_view(const Motion<Scalar>& motion, const Vec3<Scalar>& axi
   const bool steady = motion.kind() == Kind::steady;
   const auto start = motion.at(Scalar(0));
   // the axis about which all goes round: M, or omega where that is steady
-  const Vec3<Scalar> pole = steady ? rotate<Scalar>(start.attitude, start.angular_velocity) : motion.inertial_momentum();
+  const Vec3<Scalar> pole =
+      steady ? rotate<Scalar>(start.attitude, start.angular_velocity) : motion.inertial_momentum();
   const Scalar length = pole.norm();
   const Scalar s = length > 0 ? direction.dot(pole) / length : direction.dot(rotate<Scalar>(start.attitude, axis));
   const Scalar limit = cos(half_angle);
@@ -45,13 +46,15 @@ View<Scalar> long_run_view(const Motion<Scalar>& motion, const Vec3<Scalar>& axi
     return {angle(limit - A, B) / pi<Scalar>, (A * lit + B * sin(lit)) / pi<Scalar>};
   };
   if (steady) {
-    const auto v = length > 0 ? at(axis.dot(start.angular_velocity) / length) : std::array<Scalar, 2>{Scalar(s >= limit), std::max(s, Scalar(0))};
+    const auto v = length > 0 ? at(axis.dot(start.angular_velocity) / length)
+                              : std::array<Scalar, 2>{Scalar(s >= limit), std::max(s, Scalar(0))};
     return {v[0], v[1]};
   }
   constexpr int nodes = 16384;
   View<Scalar> view;
   for (int i = 0; i < nodes; ++i) {
-    const auto v = at(axis.dot(motion.at(motion.period() * (Scalar(i) + Scalar(0.5)) / nodes).angular_momentum) / length);
+    const auto v =
+        at(axis.dot(motion.at(motion.period() * (Scalar(i) + Scalar(0.5)) / nodes).angular_momentum) / length);
     view.fraction += v[0] / nodes;
     view.mean_cosine += v[1] / nodes;
   }
@@ -60,8 +63,8 @@ View<Scalar> long_run_view(const Motion<Scalar>& motion, const Vec3<Scalar>& axi
 
 /// The fraction over [begin, end], by the times at which the axis enters and leaves the cone; about 1/turns from that of the long run.
 template <Real Scalar>
-Scalar view_fraction(const Motion<Scalar>& motion, const Vec3<Scalar>& axis, const Vec3<Scalar>& direction, Scalar half_angle,
-                     Scalar begin, Scalar end) noexcept {
+Scalar view_fraction(const Motion<Scalar>& motion, const Vec3<Scalar>& axis, const Vec3<Scalar>& direction,
+                     Scalar half_angle, Scalar begin, Scalar end) noexcept {
   using std::abs, std::ceil, std::cos, std::min;
   const Scalar limit = cos(half_angle);
   const auto above = [&](Scalar t) { return direction.dot(rotate<Scalar>(motion.at(t).attitude, axis)) - limit; };

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/even_times.hpp"
+#include "gyrostat/ladder/free/track.hpp"
+#include "gyrostat/ladder/monitor.hpp"
+#include "gyrostat/models/free/averages.hpp"
+#include "gyrostat/models/free/motion.hpp"
+
+namespace gyrostat::free {
+
+namespace detail {
+
+/// The motion at the times; on an even grid by its recurrence.
+inline std::vector<State<double>> states_of(const Motion<double>& motion, std::span<const double> times) {
+  std::vector<State<double>> states(times.size());
+  constexpr std::size_t worth = 64;  // below, at() costs less
+  if (times.size() < worth || !even(times)) {
+    for (std::size_t i = 0; i < times.size(); ++i) states[i] = motion.at(times[i]);
+    return states;
+  }
+  const std::size_t n = times.size();
+  const double step = (times.back() - times.front()) / double(n - 1);
+  constexpr std::size_t chunk = 256;
+  double w[3 * chunk], q[4 * chunk], M[3 * chunk];
+  for (std::size_t first = 0; first < n; first += chunk) {
+    const std::size_t count = std::min(chunk, n - first);
+    motion.grid(times.front() + double(first) * step, step, count, w, q, M);
+    for (std::size_t i = 0; i < count; ++i) {
+      State<double>& s = states[first + i];
+      s.angular_velocity = {w[3 * i], w[3 * i + 1], w[3 * i + 2]};
+      s.angular_momentum = {M[3 * i], M[3 * i + 1], M[3 * i + 2]};
+      s.attitude = {q[4 * i + 3], q[4 * i], q[4 * i + 1], q[4 * i + 2]};
+    }
+  }
+  return states;
+}
+
+/// What the asked wheels turned through, and how far that may be off, rad: the greatest difference to neighbours whose data are a rounding away.
+inline void turn_wheels(Track& track, const Scene& scene, const Motion<double>& motion) {
+  const auto& times = scene.question().times;
+  const RateIntegral<double> integral(motion);
+  for (const double t : times) track.turned.push_back(integral.at(t));
+  const auto& wheels = scene.gyrostat().wheels;
+  double off = 0, size = 1e-3, fastest = 0;
+  const std::size_t stride = 1 + times.size() / 64;
+  for (int k = 0; k < neighbours; ++k) {
+    const auto near = Reduced<DoubleDouble>::taken(
+        neighbour<DoubleDouble>(scene.assembly().cast<DoubleDouble>(), k, DoubleDouble(epsilon<double>)));
+    const auto moved = Motion<double>::make<DoubleDouble>(near.problem);
+    if (!moved) {
+      off = infinity<double>;
+      break;
+    }
+    const RateIntegral<double> other(*moved);
+    for (std::size_t i = times.size(); i-- > 0;) {
+      if (i % stride != 0 && i + 1 != times.size()) continue;
+      const Vec3<double> turned = other.at(times[i]);
+      double square = 0;
+      for (std::size_t w = 0; w < wheels.size(); ++w) {
+        const Reduced<double>::Turning wheel{vector_cast<double>(near.wheels[w].axis), double(near.wheels[w].rate),
+                                             near.wheels[w].turns_freely};
+        const double d = rotor_angle(wheel, times[i], turned) - rotor_angle(wheels[w], times[i], track.turned[i]);
+        square += d * d;
+      }
+      off = std::max(off, std::sqrt(square));
+    }
+  }
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    double square = 0;
+    for (const auto& wheel : wheels) {
+      const double angle = rotor_angle(wheel, times[i], track.turned[i]);
+      square += angle * angle;
+      fastest = std::max(fastest, std::abs(wheel.rate) * times[i]);
+    }
+    size = std::max(size, std::sqrt(square));
+  }
+  track.error[column::rotor_angle] = relative_to_truth((4 * off + 16 * epsilon<double> * fastest) / size);
+}
+
+/// Of the rates of the wheels, which follow those of the body.
+inline double rate_error(const Scene& scene, std::span<const State<double>> states, double of_velocity) noexcept {
+  double size = scene.scales()[column::rotor_rate], fastest = 0;
+  double freely = 0, greatest = 0;
+  const auto& reduced = scene.gyrostat();
+  for (const auto& wheel : reduced.wheels) {
+    freely += wheel.turns_freely;
+    greatest = std::max(greatest, std::abs(wheel.rate));
+  }
+  for (const auto& s : states) {
+    double square = 0;
+    for (std::size_t w = 0; w < reduced.wheels.size(); ++w)
+      square += std::pow(reduced.wheel_rate(w, s.angular_velocity), 2);
+    size = std::max(size, std::sqrt(square));
+    fastest = std::max(fastest, s.angular_velocity.norm());
+  }
+  const double off = std::sqrt(freely) * of_velocity * fastest + 8 * epsilon<double> * (greatest + fastest);
+  return relative_to_truth(over(off, size));
+}
+
+inline void warn_of_form(Track& track, const ClosedForm& form, double last, bool known) {
+  const Motion<double>& motion = form.motion;
+  if (motion.kind() == Kind::steady && motion.steady_square() < 0)
+    track.warn(warning_kinds[warning::unstable_rotation], std::sqrt(-motion.steady_square()));
+  else if (motion.modulus().kp2 < 1e-6 || !form.error.kinds_agree())
+    track.warn(warning_kinds[warning::near_separatrix], motion.modulus().kp2);
+  if (!known) track.warn(warning_kinds[warning::phase_unknown], last);
+}
+
+}  // namespace detail
+
+/// Rung `closed-form`: the motion as a pair of theta functions (docs/free.md), set up to twice the digits of a double, so that the data
+/// are what limits it.
+inline Track closed_form_track(const Scene& scene, Monitor*) {
+  const auto form = closed_form_of(scene);
+  if (!form) return refused<Track>(form.error(), "rounding hides on which side of a separatrix the motion runs");
+  const auto& times = scene.question().times;
+  Track track;
+  track.states = detail::states_of(form->motion, times);
+  const auto bound = form->error.at(times.back());
+  double fastest = 0;
+  for (const auto& s : track.states) fastest = std::max(fastest, s.angular_velocity.norm());
+  // over the greatest rate of the asked times, which may all lie where the body turns slowly
+  const double velocity = bound.angular_velocity * over(form->error.fastest(), fastest);
+  track.error[column::attitude] = bound.attitude;
+  track.error[column::angular_velocity] = relative_to_truth(velocity);
+  track.error[column::angular_momentum] = relative_to_truth(bound.angular_momentum);
+  if (scene.wheels() > 0) {
+    track.error[column::rotor_rate] = detail::rate_error(scene, track.states, velocity);
+    if (scene.gives(column::rotor_angle)) detail::turn_wheels(track, scene, form->motion);
+  }
+  detail::warn_of_form(track, *form, times.back(), bound.attitude < infinity<double>);
+  track.form = *form;
+  return track;
+}
+
+}  // namespace gyrostat::free

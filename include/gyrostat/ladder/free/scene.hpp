@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "gyrostat/core/double_double.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/free/motion.hpp"
+#include "gyrostat/ladder/goal.hpp"
+#include "gyrostat/ladder/question.hpp"
+#include "gyrostat/models/free/reduced.hpp"
+
+namespace gyrostat::free {
+
+/// A cone about an axis of the body, and a direction of space that may be in it.
+struct ViewRequest {
+  Vec3<double> axis{0, 0, 1};       ///< unit, body axes
+  Vec3<double> direction{1, 0, 0};  ///< unit, inertial axes
+  double half_angle = 0;            ///< rad, in [0, pi]
+};
+
+/// A valid scene: body and wheels as given, and the gyrostat that they come to.
+class Scene {
+ public:
+  Scene() = default;
+
+  /// What Reduced::of and check_times find; of an unsound wheel `refusal` tells which.
+  static Result<Scene> make(const Assembly<double>& assembly, const std::optional<ViewRequest>& view,
+                            const Question& question, Refusal<double>* refusal = nullptr) {
+    if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
+    const auto sound = Reduced<double>::of(assembly, refusal);
+    if (!sound) return sound.error();
+    Scene scene;
+    scene.assembly_ = assembly;
+    scene.reduced_ = Reduced<DoubleDouble>::taken(assembly);
+    scene.gyrostat_ = *sound;
+    scene.view_ = view;
+    scene.question_ = question;
+    return scene;
+  }
+
+  /// The same motion, asked otherwise; `question` must be one that make would take.
+  Scene asked(const Question& question) const {
+    Scene other = *this;
+    other.question_ = question;
+    return other;
+  }
+
+  const Assembly<double>& assembly() const noexcept { return assembly_; }
+  const Reduced<double>& gyrostat() const noexcept { return gyrostat_; }
+  /// The same to twice the digits, of the data as they are.
+  const Reduced<DoubleDouble>& precise() const noexcept { return reduced_; }
+  const std::optional<ViewRequest>& view() const noexcept { return view_; }
+  const Question& question() const noexcept { return question_; }
+  std::size_t wheels() const noexcept { return gyrostat_.wheels.size(); }
+
+  /// What moves at t = 0: omega, rad/s, and M, N m s.
+  Vec3<double> angular_velocity() const noexcept {
+    const auto& p = gyrostat_.problem;
+    return p.momentum_given ? Vec3<double>(p.inertia.inverse() * (p.angular_momentum - p.rotor_momentum))
+                            : p.angular_velocity;
+  }
+  Vec3<double> angular_momentum() const noexcept {
+    const auto& p = gyrostat_.problem;
+    return p.momentum_given ? p.angular_momentum : Vec3<double>(p.inertia * p.angular_velocity + p.rotor_momentum);
+  }
+
+  /// The scales of the columns, in their units.
+  ColumnErrors<double> scales() const noexcept {
+    constexpr double least = 1e-3;
+    double fastest = angular_velocity().norm();
+    for (const auto& wheel : assembly_.wheels) fastest = std::max(fastest, std::abs(wheel.rate));
+    ColumnErrors<double> scale;
+    scale[column::angular_momentum] = least * gyrostat_.problem.rotor_momentum.norm();
+    scale[column::rotor_rate] = least * fastest;
+    scale[column::rotor_angle] = least;
+    return scale;
+  }
+  /// What is asked of the columns.
+  Goal<std::size(column_kinds)> goal() const noexcept {
+    return Goal<std::size(column_kinds)>::of(question_, tables, scales());
+  }
+  /// Whether a column is asked for, and the scene has it.
+  bool gives(std::size_t column) const noexcept {
+    const bool all = question_.asked.empty() && question_.rung != any_rung;
+    return (all || aim_of(question_, tables, false, column)) &&
+           (tables.columns[column].width != per_rotor || wheels() > 0);
+  }
+
+ private:
+  Assembly<double> assembly_;
+  Reduced<double> gyrostat_;
+  Reduced<DoubleDouble> reduced_;
+  std::optional<ViewRequest> view_;
+  Question question_;
+};
+
+}  // namespace gyrostat::free

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gyrostat/core/linkage.hpp"
+#include "gyrostat/ladder/free/track.hpp"
+#include "gyrostat/ladder/monitor.hpp"
+#include "gyrostat/ladder/rung.hpp"
+
+namespace gyrostat::free {
+
+/// Answers a scene with the cheapest rung whose own error estimate meets the tolerance: closed-form, full. Where no rung answers, the
+/// refusal says why and the answer holds only what was tried. Beside the columns the answer has the scalars of the table: kind, period,
+/// turn about the angular momentum in a period, and so on.
+GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor = nullptr);
+
+}  // namespace gyrostat::free
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/free/solve_definition.hpp"
+#endif

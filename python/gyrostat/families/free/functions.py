@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A rigid body, with or without wheels, that no torque acts on.
+
+    M = J w + l,   dM/dt = M x w,   dq/dt = q (0, w)/2,
+J the inertia with the wheels locked, less that of wheels that turn freely about their axes, l the momentum of the wheels. All in body axes and
+SI units. Equations and closed form: docs/free.md.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gyrostat import _core
+from gyrostat._core import Monitor
+from gyrostat.answer import Answer
+from gyrostat.asking import Ask, asked
+from gyrostat.families import answer_of
+
+__all__ = ["Monitor", "PermanentRotations", "flips", "integrate", "permanent_rotations", "solve"]
+
+Floats = NDArray[np.float64]
+# One wheel: axis (3,), axial_inertia, rate and type ("held" or "free"), the keys of the table [[wheel]] of a scene file.
+Wheel = Mapping[str, Any]
+
+
+@dataclass(frozen=True, eq=False)
+class PermanentRotations:
+    """The rotations that last, by ascending energy.
+
+    angular_velocity : (n, 3) [rad/s]; angular_momentum : (n, 3), all of the start's length [N m s], body axes; energy : (n,) w.J w/2 [J];
+    square : (n,) of the frequency of small oscillations about each, negative where it is unstable [1/s^2]; stable : (n,).
+    """
+
+    angular_velocity: Floats
+    angular_momentum: Floats
+    energy: Floats
+    square: Floats
+
+    @property
+    def stable(self) -> NDArray[np.bool_]:
+        """(n,) neighbours stay neighbours."""
+        made: NDArray[np.bool_] = self.square > 0
+        return made
+
+
+def _body(inertia: ArrayLike, rotor_momentum: ArrayLike, wheels: Sequence[Wheel], angular_velocity: ArrayLike | None,
+          angular_momentum: ArrayLike | None, attitude: ArrayLike) -> dict[str, Any]:
+    listed = (np.array([wheel["axis"] for wheel in wheels], dtype=float).reshape(-1, 3),
+              np.array([wheel["axial_inertia"] for wheel in wheels], dtype=float), np.array([wheel["rate"] for wheel in wheels], dtype=float),
+              np.array([wheel.get("type", "held") == "free" for wheel in wheels], dtype=float))
+    return {
+        "inertia": np.asarray(inertia, dtype=float), "rotor_momentum": np.asarray(rotor_momentum, dtype=float), "wheels": listed,
+        "angular_velocity": None if angular_velocity is None else np.asarray(angular_velocity, dtype=float),
+        "angular_momentum": None if angular_momentum is None else np.asarray(angular_momentum, dtype=float),
+        "attitude": np.asarray(attitude, dtype=float),
+    }
+
+
+def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike | None = None, angular_momentum: ArrayLike | None = None,
+          rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), wheels: Sequence[Wheel] = (), attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
+          view: Mapping[str, Any] | None = None, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto",
+          monitor: Monitor | None = None, ask: Ask | None = None) -> Answer:
+    """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
+
+    inertia : (3,) principal moments or (3, 3) tensor about the mass centre, wheels locked [kg m^2]; angular_velocity : (3,) at t = 0
+    [rad/s], or angular_momentum : (3,) total, body axes [N m s]; rotor_momentum : (3,) of wheels that are not listed, relative and constant
+    [N m s]; wheels : each with axis (3,), unit within 1e-8, axial_inertia [kg m^2], rate at t = 0 relative to the body [rad/s], and type
+    "held" (a motor keeps the rate) or "free" (no friction); attitude : (4,) [x, y, z, w] at t = 0, body to inertial; view : axis (3,) body,
+    direction (3,) inertial, half_angle [rad], for the scalars view_fraction and view_cosine; times : (n,) increasing, first >= 0 [s];
+    tolerance : greatest relative error wanted in any column.
+    ask : columns and scalars wanted: names, "all", or name -> tolerance, relative or with a unit ("0.1 deg"); None: the default set.
+    Raises DomainError for an argument outside its domain, for a wheel that the body cannot hold, and for a rung that cannot compute the
+    motion; ConvergenceError where a computation hits its cap; Cancelled where the monitor stopped it.
+    """
+    given = _body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude)
+    asking = {"times": np.asarray(times, dtype=float), "tolerance": float(tolerance), "model": model, "integrator": integrator}
+    seen = None if view is None else (np.asarray(view["axis"], dtype=float), np.asarray(view["direction"], dtype=float), float(view["half_angle"]))
+    made = _core.free_solve(**given, **asking, view=seen, monitor=monitor, ask=asked("free", ask))
+    return answer_of("free", made, {**given, **asking, "wheels": [dict(wheel) for wheel in wheels] or None, "view": view, "ask": ask})
+
+
+def integrate(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike | None = None, angular_momentum: ArrayLike | None = None,
+              rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), wheels: Sequence[Wheel] = (), attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
+              method: str = "taylor", order: int = 20, tolerance: float = 1e-9, precision: str = "double",
+              patience: float = math.inf) -> dict[str, Any]:
+    """The full equations under one integrator at one setting, timed: no error estimate.
+
+    Arguments as in `solve`. method : "taylor" (order 8, 12 or 20; 30 in precision "long double"), "dop853", "cvode-adams", "cvode-bdf".
+    tolerance : local, relative to the sizes of the state; patience : CPU time after which it gives up [s].
+    Returns attitude (n, 4), angular_velocity (n, 3) [rad/s], angular_momentum (n, 3) [N m s], seconds, rhs, steps, status ("reached" where
+    all went well, "cancelled" out of patience). Raises DomainError for an argument outside its domain and for a method that the build lacks.
+    """
+    made: dict[str, Any] = _core.free_integrate(
+        **_body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude), times=np.asarray(times, dtype=float),
+        method=method, order=int(order), tolerance=float(tolerance), precision=precision, patience=float(patience))
+    return made
+
+
+def permanent_rotations(*, inertia: ArrayLike, angular_velocity: ArrayLike | None = None, angular_momentum: ArrayLike | None = None,
+                        rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), wheels: Sequence[Wheel] = ()) -> PermanentRotations:
+    """The rotations with constant angular velocity that have the angular momentum of the start: two, four or six (Volterra 1899).
+
+    Arguments as of `solve`. Raises DomainError as `solve` does, and where the momentum is zero.
+    """
+    made = _core.free_permanent(**_body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, (0.0, 0.0, 0.0, 1.0)))
+    order = np.argsort(made["energy"], kind="stable")
+    return PermanentRotations(*(np.asarray(made[name])[order] for name in ("angular_velocity", "angular_momentum", "energy", "square")))
+
+
+def flips(*, inertia: ArrayLike, axis: ArrayLike, begin: float, end: float, angular_velocity: ArrayLike | None = None,
+          angular_momentum: ArrayLike | None = None, rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), wheels: Sequence[Wheel] = ()) -> Floats:
+    """Times (n,) of [begin, end] [s] at which the angular momentum crosses the plane across a body axis.
+
+    axis : (3,) unit, body axes: of a body spun about its middle axis that axis, and the times are those of its flips. Other arguments as of `solve`.
+    """
+    made: Floats = _core.free_flips(**_body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, (0.0, 0.0, 0.0, 1.0)),
+                                    axis=np.asarray(axis, dtype=float), begin=float(begin), end=float(end))
+    return made

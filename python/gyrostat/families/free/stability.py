@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The rotations that last for a free body with wheels, and whether they are stable: table, report and figure."""
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gyrostat.drawing import new_figure
+from gyrostat.families.free.figures import sphere
+from gyrostat.families.free.functions import permanent_rotations, solve
+from gyrostat.families.free.scene import arguments
+from gyrostat.scenes import Scene
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["plot", "report", "sentence", "tables"]
+
+
+def _body(given: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: given[name] for name in ("inertia", "rotor_momentum", "wheels", "angular_velocity", "angular_momentum")}
+
+
+def report(scene: Scene) -> dict[str, Any]:
+    """The permanent rotations with the momentum of the start, as plain data.
+
+    rotations : by ascending energy, each with angular_velocity [rad/s], energy [J], stable, frequency of small oscillations about it [rad/s]
+    (None where it is unstable) and growth rate of what leaves it [1/s] (None where it is stable); motion : what the start does.
+    Raises DomainError where the momentum is zero.
+    """
+    given = arguments(scene)
+    found = permanent_rotations(**_body(given))
+    rotations = [
+        {"angular_velocity": w.tolist(), "energy": float(e), "stable": bool(s > 0), "frequency": math.sqrt(s) if s > 0 else None,
+         "growth_rate": math.sqrt(-s) if s < 0 else None}
+        for w, e, s in zip(found.angular_velocity, found.energy, found.square, strict=True)]
+    answer = solve(**{**given, "times": [0.0], "model": "closed-form", "ask": ["kind", "period", "modulus_squared", "energy"]})
+    return {"scene": scene.name, "rotations": rotations, "motion": {name: answer.scalars[name] for name in ("kind", "period", "modulus_squared", "energy")}}
+
+
+def _text(value: float | None) -> str:
+    return "-" if value is None else f"{value:.6g}"
+
+
+def tables(report: Mapping[str, Any]) -> list[tuple[str, list[str], list[list[str]]]]:
+    """For the terminal."""
+    rows = [[", ".join(f"{x:.6g}" for x in r["angular_velocity"]), _text(r["energy"]), "stable" if r["stable"] else "unstable",
+             _text(r["frequency"]), _text(r["growth_rate"])] for r in report["rotations"]]
+    return [("Rotations that last, with the momentum of the start",
+             ["angular velocity [rad/s]", "energy [J]", "", "frequency [rad/s]", "growth rate [1/s]"], rows)]
+
+
+def sentence(report: Mapping[str, Any]) -> str:
+    """What the start does."""
+    motion = report["motion"]
+    energy, period = motion["energy"], motion["period"]
+    words = {"about-largest": "the momentum goes round near the axis of the greatest moment",
+             "about-smallest": "the momentum goes round near the axis of the least moment",
+             "one-component": "the momentum goes round all the rotations of one kind", "separatrix": "the motion runs from one unstable rotation to another",
+             "steady": "the start is one of them", "spherical": "the angular velocity goes round the momentum of the wheels"}[str(motion["kind"])]
+    return f"From this start {words}" + (f", once in {period:.6g} s" if period is not None and math.isfinite(period) else "") + f", at {energy:.6g} J."
+
+
+def plot(scene: Scene, report: Mapping[str, Any]) -> "Figure":
+    """The momentum sphere with the rotations, the separatrix and the path from the start."""
+    given = arguments(scene)
+    period = report["motion"]["period"]
+    end = period if period is not None and math.isfinite(period) else float(given["times"][-1])
+    answer = solve(**{**given, "times": np.linspace(0.0, end, 721), "model": "closed-form", "tolerance": 1e-3, "ask": None})
+    figure = new_figure(8.5, 6.5)
+    sphere(_body(given))(figure.add_subplot(), answer)
+    figure.suptitle(f"Rotations that last: {scene.name}", fontsize=13)
+    return figure
