@@ -188,7 +188,7 @@ def test_help_and_info_explain_columns_scalars_and_rungs(kind: str, capsys: pyte
     assert status == 0
     for text in (" ".join(help_text.split()), " ".join(told.split())):
         for quantity in FACTS[kind].quantities.values():
-            assert f"{quantity.name} {quantity.width} {quantity.unit}".strip() in text
+            assert f"{quantity.name} {quantity.width or 'wheels'} {quantity.unit}".strip() in text
         assert all(rung in text for rung in FACTS[kind].rungs)
     assert told in run(capsys, "info", "--columns")[1]
     found = json.loads(run(capsys, "info", "--columns", kind, "--json")[1])[kind]

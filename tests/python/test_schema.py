@@ -61,6 +61,8 @@ def test_schema_has_every_key_once() -> None:
 
 
 SPOILT = {
+    "free": [("view", "half_angle", 4.0), ("body", "inertia", [1, 2]), ("body", "rotor_momentum", 1.0), ("solve", "model", "averaged"),
+             ("body", "mass", 1.0), ("initial", "angular_velocity", [1.0, 2.0])],
     "deceleration": [("torque", "drag", -1.0), ("torque", "drag", "1"), ("torque", "law", "both"), ("body", "inertia", [1, 2]),
                      ("body", "mass", 1.0), ("solve", "model", "linear-tail")],
     "rotor": [("motor", "slope", -1.0), ("motor", "slope", "1"), ("rotor", "axis", [0, 0, 2]), ("rotor", "axis", [0, 1]),

@@ -34,6 +34,9 @@ constexpr const char* why_stopped(ode::Status status) noexcept {
 /// says what it is worth.
 inline constexpr double vain_angle = 1e6;
 
+/// Angle, rad, that the budget of steps does not reach.
+inline constexpr double unreachable_angle = 2e7;
+
 /// Whether a motion turns through so large an angle, rad, that no double can hold its phase to the tolerance.
 constexpr bool phase_too_long(double angle, double tolerance) noexcept {
   return angle > vain_angle && epsilon<double> * angle > tolerance;

@@ -30,4 +30,6 @@ TEST_CASE("rung full of a free body refuses what no double can follow", "[free]"
   gyrostat::Refusal refusal;
   (void)free::solve(posed(body({3, 2, 1}, {0, 0, 0}, {1, 1, 1}), {1e12}, 1e-9, free::rung::full), refusal);
   CHECK(refusal.code == Errc::step_limit);
+  (void)free::solve(posed(body({3, 2, 1}, {0, 0, 0}, {1, 1, 1}), {1e9}, 1e-2, free::rung::full), refusal);
+  CHECK(refusal.code == Errc::step_limit);
 }

@@ -107,8 +107,8 @@ TEST_CASE("rung linear on long even grids is the linear motion at each time", "[
       CHECK(found[i] <= e[i]);
     }
   }
-  CHECK(spinning::detail::even(std::vector<double>{1, 2, 3, 4}));
-  CHECK_FALSE(spinning::detail::even(std::vector<double>{1, 2, 3.001, 4}));
+  CHECK(even(std::vector<double>{1, 2, 3, 4}));
+  CHECK_FALSE(even(std::vector<double>{1, 2, 3.001, 4}));
 }
 
 TEST_CASE("rung linear under an axial torque", "[spinning]") {

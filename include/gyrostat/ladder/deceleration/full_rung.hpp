@@ -102,9 +102,6 @@ inline double turned_angle(const Scene& scene) noexcept {
   return span * (own * mean + problem.gyro_rate().norm()) / 2;
 }
 
-/// Angle, rad, that the budget of steps does not reach.
-inline constexpr double unreachable_angle = 2e7;
-
 /// Why the full equations are not worth a try; nullptr: they are. Slow columns do not need the phase.
 inline const char* not_worth(const Scene& scene, const Goal<std::size(column_kinds)>& goal) noexcept {
   const double angle = turned_angle(scene);

@@ -17,8 +17,12 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   const auto& times = question.times;
   const auto goal = scene.goal();
   const Problem<double>& problem = scene.gyrostat().problem;
-  if (phase_too_long(turning_rate(problem) * times.back(), goal.tightest))
-    return refused<Track>(Errc::step_limit, phase_lost);
+  const double phase = turning_rate(problem) * times.back();
+  if (phase_too_long(phase, goal.tightest)) return refused<Track>(Errc::step_limit, phase_lost);
+  if (phase > (question.rung == any_rung ? vain_angle : unreachable_angle))
+    return refused<Track>(
+        Errc::step_limit,
+        "the body turns so often that the full equations would take too many steps: the closed form takes none");
   std::vector<FullState<double>> found(times.size());
   // what the wheels turned through hangs on the integral of omega
   const Errors<std::size(full_columns)> wanted{

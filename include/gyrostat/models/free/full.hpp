@@ -102,19 +102,38 @@ class FullSystem {
   GYROSTAT_INLINE void turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, const Row& motion,
                             const Row& share) const noexcept;
 
-  /// Two functions of X that stay, omega.J omega/2 and M.M/2 less constants, and the sums of the magnitudes of their terms.
+  /// Two functions of X that stay, in two words: M.M/2, and omega.J omega/2 less a2 times that, in which differences of a alone are left, so that
+  /// beside the middle axis it is known relative to itself; and the sums of the magnitudes of their terms. Less constants.
   struct Levels {
-    Scalar energy, momentum, energy_parts, momentum_parts;
+    Sum<Scalar> energy{0, 0}, momentum{0, 0};
+    Scalar energy_parts = 0, momentum_parts = 0;
   };
-  Levels levels(const Vec3<Scalar>& X) const noexcept {
-    const Scalar e = X.dot(a_.cwiseProduct(X)) / 2, m = X.squaredNorm() / 2;
-    return {e - g_.dot(X), m + l_.dot(X), e + g_.cwiseAbs().dot(X.cwiseAbs()), m + l_.cwiseAbs().dot(X.cwiseAbs())};
+  static void add_term(Sum<Scalar>& sum, Scalar& parts, Scalar factor, Scalar x, Scalar rest) noexcept {
+    using std::abs, std::fma;
+    const Scalar term = factor * x, error = fma(factor, x, -term) + factor * rest;
+    const Scalar total = sum.high + term, part = total - sum.high;
+    sum.low += ((sum.high - (total - part)) + (term - part)) + error;
+    sum.high = total;
+    parts += abs(term);
+  }
+  /// low: what rounding left over of X.
+  Levels levels(const Vec3<Scalar>& X, const Vec3<Scalar>& low) const noexcept {
+    Levels at;
+    for (int i = 0; i < 3; ++i) {
+      const Scalar square = X[i] * X[i], rest = std::fma(X[i], X[i], -square) + 2 * X[i] * low[i];
+      add_term(at.energy, at.energy_parts, gap_[i] / 2, square, rest);
+      add_term(at.momentum, at.momentum_parts, Scalar(0.5L), square, rest);
+      add_term(at.energy, at.energy_parts, -pull_[i], X[i], low[i]);
+      add_term(at.momentum, at.momentum_parts, l_[i], X[i], low[i]);
+    }
+    return at;
   }
   /// By which shares of themselves the components of X have to change so that energy and |M| are those of the start.
   Vec3<Scalar> missing(const Vec3<Scalar>& X, const Vec3<Scalar>& low) const noexcept;
 
   Vec3<Scalar> a_, quadratic_;  ///< 1/J and (a3 - a2, a1 - a3, a2 - a1)
   Vec3<Scalar> g_, l_;          ///< one of the two is 0
+  Vec3<Scalar> gap_, pull_;     ///< of the energy kept: a - a2 and g + a2 l, or a and g
   Mat3<Scalar> linear_;         ///< of dX/dt
   Mat3<Scalar> R_BP_;
   Quat<Scalar> q_BP_;
@@ -134,6 +153,10 @@ FullSystem<Real_>::FullSystem(const Problem<Scalar>& problem) noexcept {
   g_ = l_ = Vec3<Scalar>(0, 0, 0);
   if (steps_momentum) g_ = a_.cwiseProduct(p.l);
   else l_ = p.l;
+  // beside much rotor momentum the energy is known better by itself
+  const bool alone = l_.stableNorm() > p.G.stableNorm();
+  gap_ = alone ? a_ : Vec3<Scalar>(-quadratic_[2], Scalar(0), quadratic_[0]);
+  pull_ = alone ? g_ : Vec3<Scalar>(g_ + a_[1] * l_);
   linear_ = cross_matrix<Scalar>(l_) * a_.asDiagonal();
   linear_ += cross_matrix<Scalar>(g_);
   R_BP_ = p.R_BP;
@@ -141,7 +164,7 @@ FullSystem<Real_>::FullSystem(const Problem<Scalar>& problem) noexcept {
   const Quat<Scalar> q = as_unit(problem.attitude) * q_BP_;
   L_I_ = rotate<Scalar>(q, p.M);
   const Vec3<Scalar> X = steps_momentum ? p.M : p.G;
-  level_ = levels(X);
+  level_ = levels(X, Vec3<Scalar>(0, 0, 0));
   // J omega lies on an ellipsoid of constant energy
   greatest_ = steps_momentum ? X.norm() : std::sqrt(p.moments[0]) * a_.cwiseSqrt().cwiseProduct(X).norm();
   start_ = {q.w, q.x, q.y, q.z, X[0], X[1], X[2], 0, 0, 0, 0, 0};
@@ -234,15 +257,21 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
 
 template <Real Real_>
 Vec3<Real_> FullSystem<Real_>::missing(const Vec3<Scalar>& X, const Vec3<Scalar>& low) const noexcept {
-  const Levels at = levels(X);
-  const Vec3<Scalar> omega = a_.cwiseProduct(X) - g_, M = X + l_;
-  const Scalar e = (level_.energy - at.energy - omega.dot(low)) / at.energy_parts;
-  const Scalar m = (level_.momentum - at.momentum - M.dot(low)) / at.momentum_parts;
-  // What is more than rounding explains comes of truncation, which has to be seen by a comparison of runs. (NaN: X = 0.)
+  const Levels at = levels(X, low);
+  const auto lacks = [](const Sum<Scalar>& wanted, const Sum<Scalar>& found, Scalar parts) noexcept {
+    return parts > 0 ? ((wanted.high - found.high) + (wanted.low - found.low)) / parts : Scalar(0);
+  };
+  const Scalar e = lacks(level_.energy, at.energy, at.energy_parts);
+  const Scalar m = lacks(level_.momentum, at.momentum, at.momentum_parts);
+  // What is more than rounding explains comes of truncation, which has to be seen by a comparison of runs.
   if (!(std::abs(e) <= slack_ && std::abs(m) <= slack_)) return {0, 0, 0};
-  // least squares, damped so that rounding of the levels, which is new in every step, changes X by a fifth of itself
-  constexpr Scalar damping = Scalar(8);
-  const Vec3<Scalar> u = X.cwiseProduct(omega) / at.energy_parts, v = X.cwiseProduct(M) / at.momentum_parts;
+  // least squares, damped where the two can hardly be told apart
+  constexpr Scalar damping = Scalar(1e-4L);
+  const Vec3<Scalar> slope = gap_.cwiseProduct(X) - pull_, M = X + l_;
+  const Vec3<Scalar> u =
+      at.energy_parts > 0 ? Vec3<Scalar>(X.cwiseProduct(slope) / at.energy_parts) : Vec3<Scalar>(0, 0, 0);
+  const Vec3<Scalar> v =
+      at.momentum_parts > 0 ? Vec3<Scalar>(X.cwiseProduct(M) / at.momentum_parts) : Vec3<Scalar>(0, 0, 0);
   const Scalar uu = u.squaredNorm() + damping, uv = u.dot(v), vv = v.squaredNorm() + damping;
   return (u * (vv * e - uv * m) + v * (uu * m - uv * e)) / (uu * vv - uv * uv);
 }
