@@ -32,7 +32,7 @@ def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
     maps = [sphere(body), _space(body)] if turning else []
     panels: list[Panel] = [_rates(body), vector("attitude", "q", "", "Attitude, body to inertial")]
     if "rotor_rate" in answer.columns:
-        panels += [_wheels("rotor_rate", "rate", "rad/s", "Rates of the wheels, relative to the body"),
+        panels += [_wheels("rotor_rate", "rate", "rad/s", "Rates of the wheels"),
                    _wheels("rotor_angle", "angle", "rad", "Angles of the wheels")]
     return laid_out(answer, maps, panels)
 
@@ -75,6 +75,11 @@ def _frame(axes: "Axes", title: str) -> None:
     axes.set_title(title, fontsize=10)
 
 
+def _legend(axes: "Axes") -> None:
+    """Names below the map."""
+    axes.legend(loc="upper center", fontsize=8, bbox_to_anchor=(0.5, 0.0), borderaxespad=0, ncols=3, markerscale=1.0)
+
+
 def sphere(body: Mapping[str, Any]) -> Any:
     """The map of M in the body, with the permanent rotations and the separatrix, of a `body` as `solve` takes it."""
 
@@ -100,7 +105,7 @@ def sphere(body: Mapping[str, Any]) -> Any:
         points = _shown(n, centre)
         axes.plot(points[:, 0], points[:, 1], ".", color=COLOURS[0], markersize=2, label="M")
         axes.plot(*points[0], "o", color=COLOURS[0], markersize=5, label="start")
-        axes.legend(loc="lower left", fontsize=8, bbox_to_anchor=(0.9, 0.0), borderaxespad=0)
+        _legend(axes)
 
     return draw
 
@@ -148,7 +153,7 @@ def _space(body: Mapping[str, Any]) -> Any:
                   label=f"axis of the {('least', 'middle', 'greatest')[which]} moment")
         axes.plot(*points[0], "o", color=COLOURS[3], markersize=5, label="start")
         axes.plot(0, 0, "+", color="#000000", markersize=8, label="angular momentum")
-        axes.legend(loc="lower left", fontsize=8, bbox_to_anchor=(0.85, 0.0), borderaxespad=0)
+        _legend(axes)
 
     return draw
 
@@ -177,7 +182,7 @@ def _rates(body: Mapping[str, Any]) -> Panel:
 def _wheels(column: str, symbol: str, unit: str, title: str) -> Panel:
     def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
         values = answer[column]
-        curve(axes, t, values, [f"wheel {i + 1}" for i in range(values.shape[1])])
+        curve(axes, t, values, [f"{i + 1}" for i in range(values.shape[1])])
         axes.set_ylabel(f"{symbol} [{unit}]")
         legend_row(axes)
         axes.set_title(title, loc="left", fontsize=10)
