@@ -13,7 +13,7 @@ namespace gyrostat::free {
 inline constexpr FormulaCost closed_form_cost{120e-6, 0.06e-6};
 /// Where the angles of wheels are asked: the neighbours' integrals, and a series at each time.
 inline constexpr FormulaCost rotor_angle_cost{500e-6, 0.5e-6};
-inline constexpr SeriesCost series_cost{4e-6, 1.5e-6, 0.3e-6, 0.5};
+inline constexpr SeriesCost series_cost{4e-6, 1.5e-6, 0.6e-6, 0.5};
 
 inline double cost_of_closed_form(const Scene& scene) noexcept {
   const std::size_t times = scene.question().times.size();

@@ -14,8 +14,8 @@ namespace gyrostat::spinning {
 
 inline constexpr FormulaCost linear_cost{2.5e-6, 0.5e-6};
 inline constexpr SeriesCost axial_cost{2e-6, 0.5e-6, 0.4e-6, 0.5};
-inline constexpr FormulaCost second_order_cost{20e-6, 2e-6};
-inline constexpr SeriesCost series_cost{4e-6, 2.2e-6, 0.7e-6, 0.5};
+inline constexpr FormulaCost second_order_cost{20e-6, 1.3e-6};
+inline constexpr SeriesCost series_cost{4e-6, 2.2e-6, 1.2e-6, 0.5};
 
 namespace detail {
 
