@@ -112,3 +112,15 @@ TEST_CASE("rung series-2 refuses what it has no formula for", "[heavy]") {
   CHECK(divisor.failure == Errc::not_applicable);
   CHECK(std::strstr(divisor.refusal, "divisor"));
 }
+
+TEST_CASE("rung series-2 has no answer where the rounding of a tensor turns its axes", "[heavy]") {
+  Body body;
+  body.problem = *Problem<double>::make({1, 1 + 4e-16, 1.5}, 1, {0, 0, 0}, 0, 0);
+  body.R_BP = to_matrix(normalised(Quat<double>{1, 0.3, 0.2, 0.1}));
+  Question question;
+  question.times = {1};
+  question.rung = rung::series_2;
+  const auto scene = Scene::make(body, Start{{{0.1, 0.2, 5}, Vec3<double>(0.6, 0, 0.8), {}}}, question);
+  REQUIRE(scene);
+  CHECK(series_2_track(*scene, nullptr).failure == Errc::not_applicable);
+}

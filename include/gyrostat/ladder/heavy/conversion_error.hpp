@@ -31,6 +31,16 @@ inline Problem<double> off_body(const Problem<double>& of, int which) noexcept {
   return made ? *made : of;
 }
 
+/// Two principal moments of a tensor agree so nearly that its rounding turns their axes by more than a millionth.
+inline bool axes_undecided(const Problem<double>& of) noexcept {
+  const Vec3<double>& I = of.inertia();
+  const double gap = std::min({std::abs(I[0] - I[1]), std::abs(I[1] - I[2]), std::abs(I[2] - I[0])});
+  return gap < 1e6 * conversion * I.maxCoeff();
+}
+inline constexpr const char* undecided_axes =
+    "two principal moments of the tensor agree but for rounding, which turns their axes: a series about one of them "
+    "means nothing";
+
 /// A start off by as much, all components of it; of a pendulum about the axis k (k >= 0) in its plane.
 inline State<double> off_start(const State<double>& of, int which, int k) noexcept {
   const Vec3<double> direction = which == 0 ? Vec3<double>(0.6, -0.64, 0.48) : Vec3<double>(-0.48, 0.6, 0.64);

@@ -39,6 +39,8 @@ inline MotionError<double> nutating_error(const Scene& scene, const Nutating<dou
 /// Rung `series-2`: the forced motion of a fast spin to second order (docs/heavy.md, section 3) where the scene asks for the periodic
 /// motion; from another start with the free nutation, to first order (section 5), or without it where that errs less.
 inline Track series_2_track(const Scene& scene, Monitor*) {
+  if (scene.converts_body() && !scene.periodic() && axes_undecided(scene.problem()))
+    return refused<Track>(Errc::not_applicable, undecided_axes);
   const auto [spin, cosine] = forced_start(scene);
   if (scene.periodic()) {
     const auto motion = Series2<double>::make(scene.problem(), spin, cosine);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "gyrostat/ladder/heavy/conversion_error.hpp"
 #include "gyrostat/ladder/heavy/forced_track.hpp"
 #include "gyrostat/models/heavy/series.hpp"
 
@@ -9,6 +10,8 @@ namespace gyrostat::heavy {
 /// Rung `series`: the forced motion of a fast spin by the series to the order that the tolerance needs (docs/heavy.md, section 3); of a
 /// start beside that of the periodic motion with what the departure adds to the error.
 inline Track series_track(const Scene& scene, Monitor*) {
+  if (scene.converts_body() && !scene.periodic() && axes_undecided(scene.problem()))
+    return refused<Track>(Errc::not_applicable, undecided_axes);
   if (!scene.periodic() && !detail::near_forced(scene))
     return refused<Track>(
         Errc::not_applicable,
