@@ -29,7 +29,7 @@ inline constexpr ColumnKind column_kinds[] = {
     {"attitude", 4, "1", Frame::body_to_inertial, Measure::angle, "attitude, body to inertial, [x, y, z, w]"},
     {"angular_momentum_inertial", 3, "N m s", Frame::inertial, Measure::relative,
      "angular momentum without the charge's, inertial axes",
-     "the momenta of body and rotor at t = 0, which may cancel"},
+     "a thousandth of the momenta of body and rotor at t = 0, which may cancel"},
     {"velocity", 3, "m/s", Frame::inertial, Measure::relative, "velocity of the mass centre, inertial axes",
      "the velocity at t = 0, and what the force adds while the body turns by a radian"},
     {"position", 3, "m", Frame::inertial, Measure::relative, "position of the mass centre, inertial axes",
@@ -94,8 +94,9 @@ ColumnErrors<Scalar> scales(const Problem<Scalar>& problem, Scalar span) noexcep
   const Scalar push = problem.force.norm() / problem.mass;
   ColumnErrors<Scalar> made;
   made[column::angular_velocity] = rate;
+  // parts that cancel are still measured by what is left of them
   made[column::angular_momentum_inertial] =
-      problem.inertia.cwiseProduct(problem.angular_velocity).norm() + std::abs(problem.rotor_momentum);
+      Scalar(1e-3L) * (problem.inertia.cwiseProduct(problem.angular_velocity).norm() + std::abs(problem.rotor_momentum));
   made[column::velocity] = problem.velocity.norm() + push * turning;
   made[column::position] = problem.position.norm() + problem.velocity.norm() * span + push * turning * turning;
   return made;
