@@ -113,7 +113,7 @@ def test_stability_of_the_bundled_scenes(name: str) -> None:
     assert plot_stability(load(name), report) is not None
 
 
-def test_chart(tmp_path: Path) -> None:
+def test_chart() -> None:
     chart = gyrostat.chart("tumbling-brick")
     labels = {point.group for point in chart.points}
     assert {"rung", "taylor"} <= labels

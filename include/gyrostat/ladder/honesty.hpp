@@ -34,7 +34,7 @@ inline constexpr double fading_angle = 128;
 /// Deceleration: errors sink with the motion, and a distance fades so many times as fast.
 inline constexpr double sinking = 8;
 
-/// First guess of the step tolerance over the tolerance asked for, before the turns count: the estimate is some hundred times the error.
+/// First guess of the step tolerance over the tolerance asked for, before the turns count: the estimate is some tens of times the error.
 inline constexpr double first_share = 1.0 / 64;
 /// With the turns it is first_share / (first_base + angle / first_angle), the angle turned through in rad.
 inline constexpr double first_base = 8, first_angle = 16;

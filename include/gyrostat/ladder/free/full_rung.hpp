@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "gyrostat/ladder/free/closed_form_rung.hpp"

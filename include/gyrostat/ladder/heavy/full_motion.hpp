@@ -37,11 +37,10 @@ using FullMotionAnswer = MotionOutcome<std::size(column_kinds), Scalar>;
 /// The full motion from `start` at t = 0 at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN; an
 /// attitude that is not asked for is the identity.
 ///
-/// The error is estimated by a second run of a neighbour: body and start differ by a few roundings, and the steps have a tolerance 64
-/// times looser (two neighbours where rounding contributes to the error). Its distance from the answer, watched in every step and
-/// kept for some twenty turns, is some ten to a hundred times the error of the answer, and shows what the motion makes of
-/// errors, chaos included. So the estimate is safe rather than sharp. A run that misses the tolerance is repeated with a tighter step
-/// tolerance, at most twice.
+/// The error is estimated by the runs of two neighbours: body and start differ by a few roundings, and the steps have a tolerance 8 times
+/// looser. Their distance from the answer, watched in every step and kept for some twenty turns, is some ten times the error of the
+/// answer, and shows what the motion makes of errors, chaos included.
+/// A run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
 ///
 /// Errors: not_increasing (times), not_finite (start, times or tolerance), zero_vector (down or attitude without length),
 /// out_of_domain (the spans differ in length; an attitude whose down is not start.down within 1e-8).

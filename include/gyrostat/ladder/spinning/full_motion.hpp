@@ -42,11 +42,10 @@ struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
 /// the quaternion; phi and theta by themselves are as good over cos(psi). Where the motion comes so near to cos(psi) = 0 that the error of
 /// the attitude does not decide on which side it passes, or phi so near to the end of its range, turns_known is false.
 ///
-/// The error is estimated by a second run of a neighbour: data and start differ by a few roundings, and the steps have a tolerance 64
-/// times looser (two neighbours where rounding is part of the error). Its distance from the answer, watched in every step and
-/// kept for some twenty turns, is some ten to a hundred times the error of the answer, and shows what the motion makes of
-/// errors: that phases drift, and that all differences grow where it leaves an unstable rotation. So the estimate is safe rather than
-/// sharp. A run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
+/// The error is estimated by the runs of two neighbours: data and start differ by a few roundings, and the steps have a tolerance 8 times
+/// looser. Their distance from the answer, watched in every step and kept for some twenty turns, is some ten times the error of the
+/// answer, and shows what the motion makes of errors: that phases drift, and that all differences grow where it leaves an unstable rotation.
+/// A run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
 ///
 /// Errors: not_increasing (times), not_finite (problem or times), not_positive (inertia, mass), out_of_domain (a span of the wrong
 /// length).
