@@ -82,6 +82,24 @@ TEST_CASE("the step has order 8 and the dense output order 7") {
   CHECK(slope(h, inside) == Approx(8).margin(0.15));
 }
 
+TEST_CASE("one component of the dense output and its derivative are those of the whole") {
+  const auto f = [](double t, const std::array<double, 2>& y, std::array<double, 2>& dy) noexcept {
+    dy = {y[1], -std::sin(y[0]) + 0.1 * t};
+  };
+  ode::RungeKutta solver(f, 0.0, std::array<double, 2>{1, 0.5}, ode::StepControl<double, 2>{});
+  CHECK(solver.component(1, 0.3)[0] == 0.5);
+  REQUIRE(solver.step(10) == ode::Status::reached);
+  const double h = solver.time();
+  for (const double x : {0.0, 0.2, 0.7, 1.0}) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto [value, slope] = solver.component(i, x * h);
+      CHECK(value == Approx(solver.at(x * h)[i]).epsilon(1e-15));
+      const double around = solver.at(x * h + 1e-6)[i] - solver.at(x * h - 1e-6)[i];
+      CHECK(slope == Approx(around / 2e-6).epsilon(1e-8).margin(1e-8));
+    }
+  }
+}
+
 TEST_CASE("the dense output meets the step at both ends") {
   RungeKutta solver(Chirp{}, 0.0, Vec2<double>{1, 0}, {.relative = 1e-8});
   for (int i = 0; i < 5; ++i) {

@@ -147,6 +147,21 @@ class RungeKutta {
     return y;
   }
 
+  /// Component i of at(t) and its derivative.
+  std::array<Scalar, 2> component(std::size_t i, Scalar t) noexcept {
+    if (h_ == 0) return {y_[i], f_[i]};
+    if (!dense_) make_dense();
+    const Scalar x = (t - t_old_) / h_, rest = 1 - x;
+    Scalar sum = x * dense_terms_[6][i], slope = dense_terms_[6][i];
+    for (std::size_t k = 6; k-- > 0;) {
+      sum += dense_terms_[k][i];
+      const bool outer = k % 2 == 0;  // times x, else times rest
+      slope = outer ? sum + x * slope : rest * slope - sum;
+      sum *= outer ? x : rest;
+    }
+    return {y_old_[i] + sum, slope / h_};
+  }
+
   Scalar time() const noexcept { return t_; }
   const State& state() const noexcept { return y_; }
   const State& derivative() const noexcept { return f_; }  ///< at time()

@@ -37,6 +37,7 @@ class AveragedMotion {
                  Scalar tolerance, Scalar phase_error) noexcept
       : problem_(problem),
         norm0_(norm),
+        log_rest_(std::log(std::max(tolerance, 64 * epsilon<Scalar>))),
         equations_(start, problem.control, problem.drag, norm),
         solver_(equations_, Scalar(0), equations_.state_of(start, norm, Scalar(0), phase),
                 control_of(tolerance * time_scale(start), tolerance, phase_error)) {}
@@ -99,8 +100,6 @@ class AveragedMotion {
  private:
   /// Where the clock of the mean equations ends: it tells e-folds of what the torque changes, or quarter periods of a free motion.
   static constexpr Scalar far_away = Scalar(1e9);
-  /// |M|/|M(0)| from which the mean torque is taken as constant.
-  static constexpr Scalar rest = std::numeric_limits<Scalar>::epsilon() * 64;
 
   static ode::StepControl<Scalar, 4> control_of(Scalar time_error, Scalar tolerance, Scalar phase_error) noexcept {
     ode::StepControl<Scalar, 4> control;
@@ -128,15 +127,23 @@ class AveragedMotion {
     if (!(solver_.time() < far_away)) return ode::Status::step_limit;
     if (const auto status = solver_.step(far_away); status != ode::Status::reached) return status;
     const State& y = solver_.state();
-    if (y[Equations::log_norm] < std::log(rest)) at_rest_ = true;
+    if (y[Equations::log_norm] < log_rest_) at_rest_ = true;
     if (y[Equations::spread] > Equations::crossing && !solver_.rhs().polhode(y).axes.axisymmetric()) cross();
     return ode::Status::reached;
   }
 
   /// Point of the last step where component i, monotone there, has the given value; the nearer end if it has not.
   Scalar locate(std::size_t i, Scalar value) noexcept {
-    const auto root = math::bracketed_root([&](Scalar sigma) { return solver_.at(sigma)[i] - value; },
-                                           solver_.previous_time(), solver_.time());
+    const Scalar low = solver_.previous_time(), high = solver_.time();
+    const Scalar first = solver_.previous_state()[i], rise = solver_.state()[i] - first;
+    Scalar sigma = low + (high - low) * (value - first) / rise;
+    for (int trip = 0; trip < 6 && sigma >= low && sigma <= high; ++trip) {
+      const auto [there, slope] = solver_.component(i, sigma);
+      const Scalar off = value - there;
+      if (std::abs(off) <= 4 * epsilon<Scalar> * (std::abs(value) + std::abs(rise))) return sigma;
+      sigma += off / slope;
+    }
+    const auto root = math::bracketed_root([&](Scalar s) { return solver_.component(i, s)[0] - value; }, low, high);
     if (root) return *root;
     const bool before = std::abs(solver_.previous_state()[i] - value) < std::abs(solver_.state()[i] - value);
     return before ? solver_.previous_time() : solver_.time();
@@ -164,6 +171,8 @@ class AveragedMotion {
 
   Problem<Scalar> problem_;
   Scalar norm0_;
+  Scalar
+      log_rest_;  ///< ln |M|/|M(0)| from which the mean torque is taken as constant: what is left of the time is below the tolerance
   Equations equations_;
   ode::RungeKutta<Scalar, 4, Equations> solver_;
   Scalar now_ = 0;

@@ -154,6 +154,7 @@ Track averaged_track(const Scene& scene) {
     error[column::modulus_squared] = least.k2;
     if (scene.goal().excess(error) > 1) return over_tolerance<Track>(error.greatest());
   }
+  track.states.reserve(scene.question().times.size());
   for (const double t : scene.question().times) {
     if (run.advance(t) != ode::Status::reached)
       return refused<Track>(Errc::no_convergence, "the mean equations could not be integrated");
@@ -177,9 +178,9 @@ Track averaged_track(const Scene& scene) {
   }
   if (const auto stop = run.motion().stop_time()) track.stop_time = *stop;
   if (late > 1) late = infinity<double>;  // not an estimate any more
-  track.stop_error = std::isfinite(track.stop_time) ? late + 1e3 * tolerance : 0;
+  track.stop_error = std::isfinite(track.stop_time) ? late + stop_gain * tolerance : 0;
 
-  const double local = 10 * tolerance, doubt = k2_of_data(problem, start, M0);
+  const double local = mean_gain * tolerance, doubt = k2_of_data(problem, start, M0);
   error.norm += local * norm0;
   error.energy += local * energy0 + problem.energy_error(M0);
   error.k2 += local + doubt;

@@ -17,8 +17,10 @@ inline double breakdown_momentum(const Problem<double>& problem, double greatest
 
 /// Local error of the mean equations: far below what is asked, no smaller than rounding allows.
 inline double mean_tolerance(const Scene& scene) noexcept {
-  return std::max(1e-13, std::min(1e-9, scene.goal().tightest * 1e-3));
+  return std::max(1e-13, std::min(1e-5, scene.goal().tightest * 1e-3));
 }
+/// Their global error over the local one: of the slow columns, and of the stop time, which all steps add to.
+inline constexpr double mean_gain = 10, stop_gain = 100;
 
 namespace detail {
 
@@ -79,6 +81,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
                          Monitor* monitor) {
   const auto& problem = scene.problem();
   const auto& times = scene.question().times;
+  track.states.reserve(times.size());
   if (!(times.front() > 0)) track.states.push_back(detail::state_on_orbit(problem, problem.momentum));
   while (track.states.size() < times.size()) {
     const auto halt = mean.advance(times[track.states.size()], floor);

@@ -12,7 +12,7 @@
 namespace gyrostat::deceleration {
 
 inline constexpr FormulaCost equal_torque_cost{2e-6, 0.15e-6};
-inline constexpr FormulaCost averaged_cost{40e-6, 0.3e-6}, averaged_orbit_cost{300e-6, 0.5e-6};
+inline constexpr FormulaCost averaged_cost{9e-6, 0.17e-6}, averaged_orbit_cost{280e-6, 1e-6};
 inline constexpr FormulaCost averaged_2_cost{300e-6, 0.5e-6}, averaged_2_orbit_cost{1.5e-3, 1e-6};
 inline constexpr SeriesCost series_cost{5e-6, 3e-6, 0.8e-6, 1};
 
@@ -33,7 +33,10 @@ inline double cost_of_full(const Scene& scene) noexcept {
   const double stop = !(b > 0) ? infinity<double> : drag > 0 ? std::log1p(drag * size / b) / drag : size / b;
   const double span = goes_to_stop(scene) && stop < infinity<double> ? stop : std::min(last, stop);
   const double mean = size / (1 + drag * span) * (stop <= span ? 0.5 : 1.0);
-  const double own = scene.question().wants_attitude ? problem.inverse_inertia[0] : f.quadratic.cwiseAbs().maxCoeff();
+  // the polhode is no faster than the body turns at the start
+  const double turning = size > 0 ? problem.angular_velocity(problem.momentum).norm() / size : 0;
+  const double own = scene.question().wants_attitude ? problem.inverse_inertia[0]
+                                                     : std::min(f.quadratic.cwiseAbs().maxCoeff(), turning);
   const double angle = span * (own * mean + f.linear.norm() + f.rate.norm() + problem.gyro_rate().norm());
   return series_cost(angle, 1e-9, scene.question().times.size()) + (stop <= span ? 100e-6 : 0);
 }

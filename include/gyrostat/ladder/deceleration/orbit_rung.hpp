@@ -261,7 +261,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   const double end = scene.question().times.back();
   const auto in_span = error.first_order();
   const bool known = error.known();
-  const double local = 10 * mean_tolerance(scene);
+  const double local = mean_gain * mean_tolerance(scene);
   // the energy is a difference of numbers of the size of what the rotors hold
   double energy = problem.rotor_energy_scale() / 2;
   for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
@@ -285,7 +285,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     // they say nothing about the stop.
     const bool slow = detail::symmetry_gap(problem) < detail::narrow_gap;
     const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
-    track.stop_error = doubt * (tail + late) / *stop + 1e3 * mean_tolerance(scene);
+    track.stop_error = doubt * (tail + late) / *stop + stop_gain * mean_tolerance(scene);
   } else if (const auto why = detail::impasse(problem, motion); why.code == Errc::undetermined) {
     track.warn(warning::capture_undetermined, why.chance);
   } else {
