@@ -17,6 +17,8 @@ struct Writer {
   void operator()(double x, double* row) const noexcept { *row = x; }
 };
 
+constexpr double margin = honesty::side_by_side.margin, of_rounding = honesty::side_by_side.margin_of_rounding;
+
 /// A course whose state is a function of time, in steps of one length.
 template <class F>
 struct Course {
@@ -46,8 +48,8 @@ struct Found {
 Found walked(Run course, Run companion, Run second, std::vector<double> times, double rate = 0,
              const MotionOptions<double>& options = {}) {
   std::vector<double> states(times.size());
-  auto walk =
-      walk_beside<Writer>(Writer{}, course, companion, second, course.at(0), rate, times, states, -1.0, options, 0, 1);
+  auto walk = walk_beside(Writer{}, Runs<Run>{course, companion, &second}, course.at(0), rate, times, states, -1.0,
+                          options, 0, 1, not_noted);
   return {walk, states};
 }
 
@@ -62,21 +64,34 @@ TEST_CASE("the answer's states are kept at the asked times, and the distance to 
   const auto found = walked({still, 0.4}, {off, 1.5}, {still, 1}, {0, 1, 2.5, 10});
   CHECK(found.states == std::vector<double>{1, 1, 1, 1});
   CHECK(found.walk.status == ode::Status::reached);
-  CHECK(found.walk.distance[0] == 0.25);
+  CHECK(found.walk.error[0] == (margin + of_rounding) * 0.25);
   CHECK(found.walk.asked.size()[0] == 1);
 }
 
 TEST_CASE("a distance between the asked times counts, and fades while the body turns", "[ladder]") {
   const auto kept = walked({still, 0.5}, {bump, 0.5}, {still, 1}, {10});
-  CHECK(kept.walk.distance[0] == 2);
+  CHECK(kept.walk.error[0] == (margin + of_rounding) * 2);
   const auto faded = walked({still, 0.5}, {bump, 0.5}, {still, 1}, {10}, 128);
-  CHECK(faded.walk.distance[0] < 0.02);
-  CHECK(faded.walk.distance[0] > 0);
+  CHECK(faded.walk.error[0] < 0.01 * kept.walk.error[0]);
+  CHECK(faded.walk.error[0] > 0);
 }
 
-TEST_CASE("either companion counts", "[ladder]") {
-  CHECK(walked({still, 1}, {still, 1}, {farther, 1}, {5}).walk.distance[0] == 0.5);
-  CHECK(walked({still, 1}, {farther, 1}, {still, 1}, {5}).walk.distance[0] == 0.5);
+TEST_CASE("either companion counts, and their own distance", "[ladder]") {
+  CHECK(walked({still, 1}, {still, 1}, {farther, 1}, {5}).walk.error[0] == (margin + of_rounding) * 0.5);
+  CHECK(walked({still, 1}, {farther, 1}, {still, 1}, {5}).walk.error[0] == (margin + of_rounding) * 0.5);
+  CHECK(walked({still, 1}, {farther, 1}, {farther, 1}, {5}).walk.error[0] == margin * 0.5);
+}
+
+TEST_CASE("one companion shows truncation alone", "[ladder]") {
+  Run course{still, 1}, companion{farther, 1};
+  const std::vector<double> times{0, 3, 5};
+  std::vector<double> states(3), noted;
+  const auto walk = walk_beside(Writer{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
+                                MotionOptions<double>{}, 0, 1,
+                                [&](std::size_t, const Errors<1>& error) { noted.push_back(error[0]); });
+  CHECK(walk.error[0] == margin * 0.5);
+  CHECK(states == std::vector<double>{1, 1, 1});
+  CHECK(noted == std::vector<double>{0, margin * 0.5, margin * 0.5});
 }
 
 TEST_CASE("the first steps of the runs end apart", "[ladder]") {
@@ -96,9 +111,9 @@ TEST_CASE("the first steps of the runs end apart", "[ladder]") {
   Stepped course, companion, second;
   const std::vector<double> times{1};
   std::vector<double> states(1);
-  const auto walk = walk_beside<Writer>(Writer{}, course, companion, second, 1.0, 0.0, times, states, -1.0,
-                                        MotionOptions<double>{}, 0, 1);
-  CHECK(walk.distance[0] == Approx(1).epsilon(1e-3));
+  const auto walk = walk_beside(Writer{}, Runs<Stepped>{course, companion, &second}, 1.0, 0.0, times, states, -1.0,
+                                MotionOptions<double>{}, 0, 1, not_noted);
+  CHECK(walk.error[0] == Approx(margin).epsilon(1e-2));
 }
 
 TEST_CASE("what lies behind a failure is nowhere, whichever run fails", "[ladder]") {
@@ -129,24 +144,22 @@ TEST_CASE("the stated error is the distance times its margin and what rounding a
   struct Answer : MotionOutcome<1, double> {};
   const std::vector<double> times{1, 5};
   std::vector<double> states(2);
-  const auto solved = [&](double step_tolerance, Function beside) {
+  const auto solved = [&](Function beside) {
     Answer answer;
-    answer.step_tolerance = step_tolerance;
     Run course{still, 1}, companion{beside, 1}, second{still, 1};
     MotionOptions<double> options;
     options.tolerance = 1e-3;
-    solve_beside(answer, Writer{}, course, companion, second, 1.0, 0.0, times, states, -1.0, options, 0, 1,
+    solve_beside(answer, Writer{}, Runs<Run>{course, companion, &second}, 1.0, 0.0, times, states, -1.0, options, 0, 1,
                  [](const Errors<1>& size, double steps) noexcept { return steps * size; });
     return answer;
   };
   const double rounding = 10 * epsilon<double>;  // of 100 steps, of a column of size 1
   const auto near = [](double t) { return t > 4 ? 1 + 0x1p-20 : 1; };
-  const double truncated = honesty::side_by_side.margin * 0x1p-20 + rounding;
-  const Answer loose = solved(1e-9, near);
+  const double truncated = (margin + of_rounding) * 0x1p-20 + rounding;
+  const Answer loose = solved(near);
   CHECK(loose.error[0] == Approx(truncated / (1 - truncated)).epsilon(1e-12));
   CHECK(loose.met);
   CHECK(loose.counts.steps == 300);
-  CHECK(solved(1e-16, near).error[0] > loose.error[0]);  // where rounding rules the margin is wider
-  CHECK(solved(1e-9, off).error[0] == infinity<double>);
-  CHECK_FALSE(solved(1e-9, off).met);
+  CHECK(solved(off).error[0] == infinity<double>);
+  CHECK_FALSE(solved(off).met);
 }

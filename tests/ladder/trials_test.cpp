@@ -67,8 +67,8 @@ TEST_CASE("a run is tried again as much tighter as its error asks, and twice at 
 
 TEST_CASE("the first guess of the step tolerance falls with the angle turned through, within its bounds") {
   CHECK(first_step_tolerance(1e-3, 0.0, 1e-8) == 1e-8);
-  CHECK(first_step_tolerance(1e-9, 0.0, 1e-8) == Approx(1e-9 / 64 / 8));
-  CHECK(first_step_tolerance(1e-9, 1600.0, 1e-8) == Approx(1e-9 / 64 / 108));
+  CHECK(first_step_tolerance(1e-9, 0.0, 1e-8) == Approx(1e-9 * honesty::first_share / 8));
+  CHECK(first_step_tolerance(1e-9, 1600.0, 1e-8) == Approx(1e-9 * honesty::first_share / 108));
   CHECK(first_step_tolerance(1e-30, 0.0, 1e-8) == finest_step_tolerance<double>);
 }
 
@@ -83,4 +83,12 @@ TEST_CASE("a run of so many steps that another would take seconds is not tried a
     return trial;
   });
   CHECK(runs == 1);
+}
+
+TEST_CASE("a companion takes tighter steps down to the finest, and rounding rules where steps are fine", "[ladder]") {
+  CHECK(companion_step(1e-9) == 1e-9 / honesty::side_by_side.tighter);
+  CHECK(companion_step(finest_step_tolerance<double>) == finest_step_tolerance<double>);
+  CHECK_FALSE(rounding_rules(1e-9));
+  CHECK(rounding_rules(epsilon<double>));
+  CHECK(rounding_rules(1e-9, 1e6));
 }

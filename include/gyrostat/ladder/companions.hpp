@@ -15,14 +15,31 @@
 /// The full equations and their error: the answer's run and the runs of neighbours side by side.
 namespace gyrostat {
 
-/// What the walk found: the greatest distance to the companions and the sizes of the columns, over the asked times.
+/// What the walk found, over the asked times: the error that the distances of the runs tell, in units of the columns, and the sizes of these.
 template <class Writer>
 struct Walk {
   using Scalar = typename Writer::Scalar;
   ode::Status status = ode::Status::reached;
   Comparison<Writer> asked;  ///< the answer alone
-  typename Comparison<Writer>::ColumnErrors distance;
+  typename Comparison<Writer>::ColumnErrors error;
 };
+
+/// The runs side by side: the answer's, its companion's, and where rounding rules a second companion's.
+template <class Course>
+struct Runs {
+  Course &answer, &companion;
+  Course* second;
+
+  ode::Counts counts() const noexcept {
+    ode::Counts all = answer.counts();
+    all += companion.counts();
+    if (second != nullptr) all += second->counts();
+    return all;
+  }
+};
+
+/// Hears what nobody wants to know.
+inline constexpr auto not_noted = [](std::size_t, const auto&) noexcept {};
 
 /// Steps a course until its last step holds t or ends at t_max.
 template <class Course, Real Scalar>
@@ -32,32 +49,37 @@ ode::Status reach(Course& course, Scalar t, Scalar t_max) noexcept {
   return status;
 }
 
-/// Steps `course`, and beside it its two companions, over the asked times, and keeps its states there. A course has step(t_max), time(), at(t)
-/// within the last step, and counts(). The first companion leads, and all are compared at the end of each of its steps and at the asked times.
-/// Their first steps end apart: from one start all would take the same polynomial, and err alike. A distance that was seen fades while the
-/// body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which all are near by chance does not hide it.
-/// States behind a failure are `nowhere`.
-template <class Writer, class Course>
-Walk<Writer> walk_beside(const Writer& writer, Course& course, Course& companion, Course& second,
-                         const typename Writer::State& start, typename Writer::Scalar rate,
-                         std::span<const typename Writer::Scalar> times, std::span<typename Writer::State> states,
-                         const typename Writer::State& nowhere, const MotionOptions<typename Writer::Scalar>& options,
-                         double progress_from, double progress_to) noexcept {
+/// Steps the answer, and beside it its companions, over the asked times, and keeps its states there. Companions take tighter steps: their
+/// distance to the answer is its truncation, and their own distance what rounding and the data's last digits do. A course has step(t_max),
+/// time(), at(t) within the last step, and counts(). The first companion leads, and all are compared at the end of each of its steps and at
+/// the asked times. Their first steps end apart: from one start all would take the same polynomial, and err alike. A distance that was seen
+/// fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which all are near by chance does
+/// not hide it. States behind a failure are `nowhere`. note(i, error) is called at each asked time.
+template <class Writer, class Course, class Note>
+Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const typename Writer::State& start,
+                         typename Writer::Scalar rate, std::span<const typename Writer::Scalar> times,
+                         std::span<typename Writer::State> states, const typename Writer::State& nowhere,
+                         const MotionOptions<typename Writer::Scalar>& options, double progress_from,
+                         double progress_to, const Note& note) noexcept {
   using Scalar = typename Writer::Scalar;
   using State = typename Writer::State;
   using ode::Status;
-  Walk<Writer> walk{Status::reached, Comparison<Writer>(writer), {}};
-  typename Comparison<Writer>::ColumnErrors kept;
+  using Rows = Comparison<Writer>;
+  Walk<Writer> walk{Status::reached, Rows(writer), {}};
+  typename Rows::ColumnErrors kept;
   const auto look = [&](const State& here, Scalar t) noexcept {
-    Comparison<Writer> now(writer);
-    now.add(here, companion.at(t));
-    now.add(here, second.at(t));
-    kept.raise(now.difference());
+    constexpr auto& how = honesty::side_by_side;
+    const auto answer = walk.asked.row(here), one = walk.asked.row(runs.companion.at(t));
+    auto away = Rows::apart(answer, one);
+    if (runs.second == nullptr) return kept.raise(Scalar(how.margin) * away);
+    const auto two = walk.asked.row(runs.second->at(t));
+    away.raise(Rows::apart(answer, two));
+    kept.raise(Scalar(how.margin) * away + Scalar(how.margin_of_rounding) * Rows::apart(one, two));
   };
   const Scalar last = times.back();
   const auto all_reach = [&](Scalar t) noexcept {
-    walk.status = reach(course, t, last);
-    if (walk.status == Status::reached) walk.status = reach(second, t, last);
+    walk.status = reach(runs.answer, t, last);
+    if (walk.status == Status::reached && runs.second != nullptr) walk.status = reach(*runs.second, t, last);
     return walk.status == Status::reached;
   };
 
@@ -65,25 +87,28 @@ Walk<Writer> walk_beside(const Writer& writer, Course& course, Course& companion
   for (; next < times.size() && !(times[next] > 0); ++next) {
     states[next] = start;
     walk.asked.add(start);
+    note(next, kept);
   }
-  if (next < times.size()) walk.status = course.step(last);
-  const Scalar first = course.time();
-  if (next < times.size() && walk.status == Status::reached) walk.status = second.step(first / 3);
+  if (next < times.size()) walk.status = runs.answer.step(last);
+  const Scalar first = runs.answer.time();
+  if (next < times.size() && walk.status == Status::reached && runs.second != nullptr)
+    walk.status = runs.second->step(first / 3);
   std::uint32_t trips = 0;
   while (next < times.size() && walk.status == Status::reached) {
-    const Scalar before = companion.time();
-    walk.status = companion.step(trips == 0 ? first / 2 : last);
+    const Scalar before = runs.companion.time();
+    walk.status = runs.companion.step(trips == 0 ? first / 2 : last);
     if (walk.status != Status::reached) break;
-    const Scalar now = companion.time();
+    const Scalar now = runs.companion.time();
     kept *= 1 / (1 + (now - before) * rate / Scalar(honesty::fading_angle));
     for (; next < times.size() && times[next] <= now && all_reach(times[next]); ++next) {
-      states[next] = course.at(times[next]);
+      states[next] = runs.answer.at(times[next]);
       walk.asked.add(states[next]);
       look(states[next], times[next]);
-      walk.distance.raise(kept);
+      walk.error.raise(kept);
+      note(next, kept);
     }
     if (next == times.size() || walk.status != Status::reached || !all_reach(now)) break;
-    look(course.at(now), now);
+    look(runs.answer.at(now), now);
     if ((trips++ & 255U) == 0) {
       options.report(progress_from + static_cast<double>(now / last) * (progress_to - progress_from));
       if (options.cancelled()) {
@@ -96,28 +121,27 @@ Walk<Writer> walk_beside(const Writer& writer, Course& course, Course& companion
   return walk;
 }
 
-/// The answer of a run beside its companions. answer.step_tolerance is set; `rounding(sizes, steps)` gives, in units of the columns, what
-/// the runs share and no distance shows: rounding of the columns, where `steps` roundings of the answer's steps have added up.
-template <class Answer, class Writer, class Course, class Rounding>
-void solve_beside(Answer& answer, const Writer& writer, Course& course, Course& companion, Course& second,
-                  const typename Writer::State& start, typename Writer::Scalar rate,
-                  std::span<const typename Writer::Scalar> times, std::span<typename Writer::State> states,
-                  const typename Writer::State& nowhere, const MotionOptions<typename Writer::Scalar>& options,
-                  double progress_from, double progress_to, const Rounding& rounding) noexcept {
+/// The answer of a run beside its companions. `rounding(sizes, steps)` gives, in units of the columns, what
+/// the runs share and no distance shows: rounding of the columns, where `steps` roundings of the answer's steps have added up. note(i, error)
+/// hears what the distances tell at each asked time.
+template <class Answer, class Writer, class Course, class Rounding, class Note = decltype(not_noted)>
+void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs, const typename Writer::State& start,
+                  typename Writer::Scalar rate, std::span<const typename Writer::Scalar> times,
+                  std::span<typename Writer::State> states, const typename Writer::State& nowhere,
+                  const MotionOptions<typename Writer::Scalar>& options, double progress_from, double progress_to,
+                  const Rounding& rounding, const Note& note = not_noted) noexcept {
   using Scalar = typename Writer::Scalar;
   constexpr Scalar eps = epsilon<Scalar>;
-  const auto walk = walk_beside(writer, course, companion, second, start, rate, times, states, nowhere, options,
-                                progress_from, progress_to);
+  const auto walk =
+      walk_beside(writer, runs, start, rate, times, states, nowhere, options, progress_from, progress_to, note);
   answer.status = walk.status;
-  answer.counts = course.counts();
-  const Scalar steps = eps * std::sqrt(static_cast<Scalar>(answer.counts.steps));
-  answer.counts += companion.counts();
-  answer.counts += second.counts();
+  answer.counts = runs.counts();
+  const Scalar steps = eps * std::sqrt(static_cast<Scalar>(runs.answer.counts().steps));
   if (answer.status != ode::Status::reached) {
     answer.error = decltype(answer.error)::all(nan<Scalar>);
     return;
   }
-  const auto error = honesty::margin(answer.step_tolerance) * walk.distance + rounding(walk.asked.size(), steps);
+  const auto error = walk.error + rounding(walk.asked.size(), steps);
   answer.error = relative_to_truth(walk.asked.relative(error), Writer::columns);
   answer.met = options.excess(answer.error) <= 1;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -17,7 +18,9 @@ namespace gyrostat {
 template <Real Scalar>
 Scalar angle_between(const Quat<Scalar>& p, const Quat<Scalar>& q) noexcept {
   const Quat<Scalar> d = conjugate(p) * q;
-  return 2 * std::atan2(std::hypot(d.x, d.y, d.z), std::abs(d.w));
+  const Scalar square = d.x * d.x + d.y * d.y + d.z * d.z, sine = std::sqrt(square);
+  if (square < Scalar(1e-6L)) return 2 * sine * (1 + square / 6);  // of the arc sine, to 1e-13 of it
+  return 2 * std::atan2(sine, std::abs(d.w));
 }
 
 /// The distance of two motions, gathered time by time: greatest difference of each column, and its greatest norm in the first
@@ -37,33 +40,37 @@ class Comparison {
     if constexpr (requires { writer.scale; }) scale_ = writer.scale;
   }
 
-  void add(const State& first, const State& second) noexcept {
-    Scalar a[row_width(Writer::columns)], b[row_width(Writer::columns)];
-    writer_(first, a);
-    writer_(second, b);
-    std::size_t at = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+  /// The row of a state.
+  using Row = std::array<Scalar, std::size_t(row_width(Writer::columns))>;
+  Row row(const State& state) const noexcept {
+    Row made;
+    writer_(state, made.data());
+    return made;
+  }
+  /// The difference of two rows, column by column, in units of the columns.
+  static ColumnErrors apart(const Row& first, const Row& second) noexcept {
+    ColumnErrors difference;
+    const Scalar *x = first.data(), *y = second.data();
+    for (std::size_t i = 0; i < count; x += Writer::columns[i].width, y += Writer::columns[i].width, ++i) {
       const ColumnKind& column = Writer::columns[i];
-      const Scalar *x = a + at, *y = b + at;
-      at += std::size_t(column.width);
       if (column.measure == Measure::angle) {
-        difference_[i] = greater(angle_between(attitude(x, column), attitude(y, column)), difference_[i]);
+        difference[i] = angle_between(attitude(x, column), attitude(y, column));
         continue;
       }
-      size_[i] = greater(norm(x, column), size_[i]);
-      Scalar apart[3];
-      for (int j = 0; j < column.width; ++j) apart[j] = x[j] - y[j];
-      difference_[i] = greater(norm(apart, column), difference_[i]);
+      Scalar between[3];
+      for (int j = 0; j < column.width; ++j) between[j] = x[j] - y[j];
+      difference[i] = norm(between, column);
     }
+    return difference;
+  }
+
+  void add(const State& first, const State& second) noexcept {
+    const Row a = row(first);
+    difference_.raise(apart(a, row(second)));
+    add(a);
   }
   /// One motion alone: its sizes.
-  void add(const State& state) noexcept {
-    Scalar row[row_width(Writer::columns)];
-    writer_(state, row);
-    const Scalar* x = row;
-    for (std::size_t i = 0; i < count; x += Writer::columns[i++].width)
-      if (Writer::columns[i].measure != Measure::angle) size_[i] = greater(norm(x, Writer::columns[i]), size_[i]);
-  }
+  void add(const State& state) noexcept { add(row(state)); }
 
   /// In units of the columns.
   const ColumnErrors& difference() const noexcept { return difference_; }
@@ -87,6 +94,11 @@ class Comparison {
   }
 
  private:
+  void add(const Row& row) noexcept {
+    const Scalar* x = row.data();
+    for (std::size_t i = 0; i < count; x += Writer::columns[i++].width)
+      if (Writer::columns[i].measure != Measure::angle) size_[i] = greater(norm(x, Writer::columns[i]), size_[i]);
+  }
   static Scalar norm(const Scalar* x, const ColumnKind& column) noexcept {
     return column.width == 3 ? Vec3<Scalar>(x[0], x[1], x[2]).norm() : std::abs(x[0]);
   }

@@ -4,29 +4,21 @@
 #include "gyrostat/core/real.hpp"
 
 /// The constants behind the error estimates of the full equations, in one place (docs/errors.md has what was measured with them). The
-/// answer is compared with companions: runs of a neighbour, whose data differ by a few roundings, in looser steps.
+/// answer is compared with companions: runs of neighbours, whose data differ by a few roundings, in tighter steps.
 namespace gyrostat::honesty {
 
-/// What the estimate of the full equations stands on, the same in every family. Lengths in units of the machine epsilon are numbers of roundings.
+/// What the estimate of the full equations stands on, the same in every family.
 struct Companions {
-  double looser;              ///< step tolerance of a companion over that of the answer
-  double least_loose;         ///< least step tolerance of a companion, roundings: below it two runs round alike
+  double tighter;             ///< step tolerance of the answer over that of a companion
   double data_change;         ///< by how much the data of a companion differ, roundings
-  double margin;              ///< stated error over the greatest distance to a companion, where truncation rules
-  double margin_of_rounding;  ///< the same where rounding rules: all runs err alike and may be near by chance
+  double margin;              ///< of the distance from the answer to its companions, which is its truncation
+  double margin_of_rounding;  ///< of the distance between the companions, which may be near by chance
 };
 
-/// All families, watched in every step, all components moved.
-inline constexpr Companions side_by_side{8, 8, 4, 6, 8};
-/// Step tolerance, roundings, below which rounding rules.
-inline constexpr double rounding_below = 512;
-
-/// The margin of an answer by steps of this tolerance.
-template <Real Scalar>
-constexpr Scalar margin(Scalar step_tolerance) noexcept {
-  const bool rounds = step_tolerance < Scalar(rounding_below) * epsilon<Scalar>;
-  return Scalar(rounds ? side_by_side.margin_of_rounding : side_by_side.margin);
-}
+/// All families, watched in every step, all components moved. Stated error: the two distances by their margins, added.
+inline constexpr Companions side_by_side{64, 4, 3, 3};
+/// Step tolerance, roundings times the condition of the tensor, below which rounding rules, and a second companion runs along.
+inline constexpr double rounding_below = 1 << 20;
 
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;
@@ -34,8 +26,8 @@ inline constexpr double fading_angle = 128;
 /// Deceleration: errors sink with the motion, and a distance fades so many times as fast.
 inline constexpr double sinking = 8;
 
-/// First guess of the step tolerance over the tolerance asked for, before the turns count: the estimate is some tens of times the error.
-inline constexpr double first_share = 1.0 / 64;
+/// First guess of the step tolerance over the tolerance asked for, before the turns count.
+inline constexpr double first_share = 1.0 / 8;
 /// With the turns it is first_share / (first_base + angle / first_angle), the angle turned through in rad.
 inline constexpr double first_base = 8, first_angle = 16;
 /// Deceleration, where the error of the phase grows with the square of the angle: first_share / (drifting_base +
@@ -50,9 +42,9 @@ inline constexpr double retry = 8;
 inline constexpr double retry_steps = 3e6;
 
 /// Deceleration: the margin of the stop time over that of the columns.
-inline constexpr double stop_margin = 3;
+inline constexpr double stop_margin = 2;
 /// Deceleration: to the error of the stop time so many step tolerances are added; it is one number, at which two runs may be near by chance.
-inline constexpr double stop_steps = 8;
+inline constexpr double stop_steps = 1;
 
 /// CVODE is compared with itself at a tolerance so many times looser.
 inline constexpr double cvode_looser = 10;

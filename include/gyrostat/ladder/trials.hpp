@@ -13,6 +13,19 @@ namespace gyrostat {
 template <Real Scalar>
 inline constexpr Scalar finest_step_tolerance = epsilon<Scalar> / 8;
 
+/// The step tolerance of a companion of an answer in steps of this tolerance.
+template <Real Scalar>
+constexpr Scalar companion_step(Scalar step_tolerance) noexcept {
+  return std::max(finest_step_tolerance<Scalar>, step_tolerance / Scalar(honesty::side_by_side.tighter));
+}
+
+/// Whether rounding rules in steps of this tolerance, so that one companion may be near by chance. condition: greatest moment over the least,
+/// where they come from a tensor and err as the greatest does.
+template <Real Scalar>
+constexpr bool rounding_rules(Scalar step_tolerance, Scalar condition = 1) noexcept {
+  return step_tolerance < Scalar(honesty::rounding_below) * epsilon<Scalar> * condition;
+}
+
 /// First guess of the step tolerance of a motion that turns through `phase` rad.
 template <Real Scalar>
 Scalar first_step_tolerance(Scalar tolerance, Scalar phase, Scalar loosest) noexcept {

@@ -248,7 +248,7 @@ TEST_CASE("scenes that lack terms") {
   SECTION("no torque: |M| and the energy stay") {
     problem.control.setZero();
     problem.drag = 0;
-    const auto solved = solve(problem, times, 1e-10);
+    const auto solved = solve(problem, times, 1e-11);
     CHECK(std::isinf(solved.answer.stop_time));
     CHECK(solved.momentum[3].norm() == Approx(problem.momentum.norm()).epsilon(1e-15));
     CHECK(problem.energy(solved.momentum[3]) == Approx(problem.energy(problem.momentum)).epsilon(1e-15));

@@ -91,12 +91,13 @@ TEST_CASE("heavy: the full motion of the reference cases", "[heavy]") {
       CAPTURE(tolerance);
       const auto solved = solve(head.problem(), start, times, tolerance);
       REQUIRE(solved.answer.status == Status::reached);
-      Comparison both(Row<double>{});
+      Comparison both(Row<double>{scales(head.problem(), start.angular_velocity.norm())});
       for (std::size_t i = 0; i < times.size(); ++i) both.add(right[i], solved.states[i]);
       const auto found = both.relative(both.difference());
       check_within(found, solved.answer.error);
       if (tolerance >= 1e-9) CHECK(solved.answer.met);
-      CHECK(found.greatest() < std::max(tolerance / 100, 2e-13));
+      // no better than it says, but for rounding
+      if (tolerance >= 1e-9) CHECK(solved.answer.error.greatest() < std::max(100 * found.greatest(), 2e-12));
     }
     first = next;
   }
@@ -224,9 +225,9 @@ void check_integrals(double revolutions, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("heavy: all integrals to rounding over a thousand revolutions", "[heavy]") { check_integrals(1e3, 1e-10); }
+TEST_CASE("heavy: all integrals to rounding over a thousand revolutions", "[heavy]") { check_integrals(1e3, 1e-11); }
 TEST_CASE("heavy: all integrals to rounding over ten thousand revolutions", "[heavy][.long]") {
-  check_integrals(1e4, 1e-8);
+  check_integrals(1e4, 1e-9);
 }
 
 TEST_CASE("heavy: the exact motion of a top and the full equations agree to 1e-13", "[heavy]") {

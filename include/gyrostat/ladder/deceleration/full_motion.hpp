@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "gyrostat/body/principal_axes.hpp"
@@ -30,6 +31,9 @@ namespace gyrostat::deceleration {
 template <Real Scalar>
 struct FullMotionOptions : MotionOptions<Scalar> {
   bool find_stop = true;  ///< go on behind the last time until the stop, if there is one
+  /// Takes the errors, in units of the columns, at every stride-th time from the first; empty: not wanted.
+  std::span<ColumnErrors<Scalar>> errors{};
+  std::size_t stride = 1;
 };
 
 /// `error`: modulus and regime are no part of it, and have 0.
@@ -85,7 +89,7 @@ struct Hold {
 /// torque, is below 1e-13 of the time. Behind it law total stays at M = 0, omega = -J^-1 l, and law carrier at M = l, omega = 0.
 /// Where the control cannot hold U = 0 against the drag of the other law there is no stop.
 ///
-/// The error is estimated by runs of neighbours in looser steps (companions.hpp), of the stop time by their stops. A run that misses the
+/// The error is estimated by runs of neighbours in tighter steps (companions.hpp), of the stop time by their stops. A run that misses the
 /// tolerance is repeated with a tighter step tolerance, at most twice.
 ///
 /// Errors: not_increasing (times), not_finite (problem or times), out_of_domain (the spans differ in length).
@@ -407,22 +411,20 @@ class FullMotion {
  public:
   FullMotion(const Problem<Scalar>& problem, std::span<const Scalar> times, std::span<State<Scalar>> states,
              const FullMotionOptions<Scalar>& options, const Quat<Scalar>& attitude) noexcept
-      : problem_(problem),
-        times_(times),
-        states_(states),
-        options_(options),
-        attitude_(attitude),
-        itself_(problem),
-        neighbours_{{problem, change, 0}, {problem, change, 1}} {}
+      : problem_(problem), times_(times), states_(states), options_(options), attitude_(attitude), itself_(problem) {}
 
   FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
     constexpr Scalar eps = epsilon<Scalar>;
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
-    const Scalar loose = std::max(Scalar(how.looser) * step_tolerance, Scalar(how.least_loose) * eps);
+    const Scalar tight = companion_step(step_tolerance);
+    const Scalar slim = problem_.exact_gaps ? Scalar(1) : problem_.inverse_inertia[2] / problem_.inverse_inertia[0];
     Run course(itself_, attitude_, step_tolerance, Scalar(0.3L), options_.step_cap);
-    Run companion(neighbours_[0], attitude_, loose, Scalar(0.33L), options_.step_cap);
-    Run second(neighbours_[1], attitude_, loose, Scalar(0.35L), options_.step_cap);
+    Run companion(Neighbour<Scalar>(problem_, change, 0), attitude_, tight, Scalar(0.33L), options_.step_cap);
+    std::optional<Run> second;
+    if (rounding_rules(step_tolerance, slim))
+      second.emplace(Neighbour<Scalar>(problem_, change, 1), attitude_, tight, Scalar(0.35L), options_.step_cap);
+    const Runs<Run> runs{course, companion, second ? &*second : nullptr};
     if (!times_.empty()) {
       const Row<Scalar> row(problem_);
       const Scalar last = times_.back();
@@ -430,17 +432,20 @@ class FullMotion {
         const Scalar rest = last > course.stop_time() ? last - course.stop_time() : Scalar(0);
         return rounding_of_columns(problem_, size, 4 * eps + steps, rest * problem_.gyro_rate().norm());
       };
+      const auto note = [&](std::size_t i, const ColumnErrors<Scalar>& error) noexcept {
+        if (i % options_.stride == 0 && i / options_.stride < options_.errors.size())
+          options_.errors[i / options_.stride] = error;
+      };
       const State<Scalar> start = state_of(problem_, problem_.momentum, attitude_);
       const State<Scalar> nowhere = state_of(problem_, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)),
                                              Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
-      solve_beside(answer, row, course, companion, second, start, Scalar(honesty::sinking) * turning_rate(problem_),
-                   times_, states_, nowhere, options_, progress_from, progress_to, rounding);
+      solve_beside(answer, row, runs, start, Scalar(honesty::sinking) * turning_rate(problem_), times_, states_,
+                   nowhere, options_, progress_from, progress_to, rounding, note);
+      if (answer.status == ode::Status::reached) add_rounding(row, rounding, answer.counts.steps);
       if (!with_attitude) answer.error[column::attitude] = 0;
     }
-    look_for_stop(answer, course, companion, second);
-    answer.counts = course.counts();
-    answer.counts += companion.counts();
-    answer.counts += second.counts();
+    look_for_stop(answer, runs);
+    answer.counts = runs.counts();
     answer.met = answer.status == ode::Status::reached && options_.excess(answer.error) <= 1;
     return answer;
   }
@@ -450,24 +455,34 @@ class FullMotion {
   static constexpr const auto& how = honesty::side_by_side;
   static constexpr Scalar change = Scalar(how.data_change) * epsilon<Scalar>;
 
-  void look_for_stop(FullMotionAnswer<Scalar>& answer, Run& course, Run& companion, Run& second) const noexcept {
+  /// To the errors at single times, what no distance shows.
+  template <class Rounding>
+  void add_rounding(const Row<Scalar>& row, const Rounding& rounding, std::uint64_t steps) const noexcept {
+    const Scalar relative = epsilon<Scalar> * std::sqrt(static_cast<Scalar>(steps));
+    for (std::size_t i = 0; i < options_.errors.size() && i * options_.stride < states_.size(); ++i) {
+      Comparison size(row);
+      size.add(states_[i * options_.stride]);
+      options_.errors[i] += rounding(size.size(), relative);
+    }
+  }
+
+  void look_for_stop(FullMotionAnswer<Scalar>& answer, const Runs<Run>& runs) const noexcept {
     const auto go = [&](Run& run, Scalar t_max) noexcept {
       if (answer.status == ode::Status::reached) answer.status = go_to_rest(run, t_max, options_);
     };
-    if (options_.find_stop && course.stops()) go(course, infinity<Scalar>);
+    if (options_.find_stop && runs.answer.stops()) go(runs.answer, infinity<Scalar>);
     if (answer.status != ode::Status::reached) return;
-    const Scalar stop = answer.stop_time = course.stop_time();
+    const Scalar stop = answer.stop_time = runs.answer.stop_time();
     if (!(stop > 0 && stop < infinity<Scalar>)) return;
-    Scalar apart = 0;
-    const auto look = [&](Run& run) noexcept {
+    const auto stop_of = [&](Run& run) noexcept {
       go(run, 2 * stop);
-      const Scalar there = run.stop_time();
-      apart = std::max(apart, there < 2 * stop ? std::abs(there - stop) : stop);
+      return std::min(run.stop_time(), 2 * stop);
     };
-    look(companion);
-    look(second);
-    const Scalar margin = Scalar(honesty::stop_margin) * honesty::margin(answer.step_tolerance);
-    answer.stop_error = margin * apart / stop + Scalar(honesty::stop_steps) * answer.step_tolerance +
+    const Scalar one = stop_of(runs.companion), two = runs.second != nullptr ? stop_of(*runs.second) : one;
+    const Scalar apart = Scalar(how.margin) * std::max(std::abs(one - stop), std::abs(two - stop)) +
+                         Scalar(how.margin_of_rounding) * std::abs(one - two);
+    answer.stop_error = Scalar(honesty::stop_margin) * apart / stop +
+                        Scalar(honesty::stop_steps) * answer.step_tolerance +
                         Scalar(2e-13L) * std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
   }
 
@@ -476,7 +491,7 @@ class FullMotion {
   std::span<State<Scalar>> states_;
   const FullMotionOptions<Scalar>& options_;
   Quat<Scalar> attitude_;
-  Neighbour<Scalar> itself_, neighbours_[2];
+  Neighbour<Scalar> itself_;
 };
 
 /// The error of |U| grows with the number of turns, that of the phase with its square.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,21 +26,27 @@ inline State<double> state_on_orbit(const Problem<double>& problem, const Vec3<d
   return state;
 }
 
-/// Error of the modulus where the track knows |M| and the energy to its errors. The modulus varies slowly: some of the points suffice.
-inline double k2_error(const Track& track, const Problem<double>& problem) noexcept {
-  double error = 0;
-  const std::size_t stride = 1 + track.states.size() / 64;
+/// The modulus varies slowly: its error is looked at in about so many of the points.
+inline constexpr std::size_t k2_looks = 64;
+constexpr std::size_t k2_stride(std::size_t points) noexcept { return 1 + points / k2_looks; }
+
+/// Error of the modulus, where |M| and the energy are known to the track's errors, or to these at every k2_stride-th point.
+inline double k2_error(const Track& track, const Problem<double>& problem,
+                       std::span<const ColumnErrors<double>> errors) noexcept {
+  double most = 0;
+  const std::size_t stride = k2_stride(track.states.size());
   for (std::size_t i = 0; i < track.states.size(); i += stride) {
     const State<double>& at = track.states[i];
-    error = std::max(error, k2_uncertainty(problem, at.momentum, {at.regime, at.k2},
-                                           track.error[column::angular_momentum_norm], track.error[column::energy]));
+    const ColumnErrors<double>& error = errors.empty() ? track.error : errors[i / stride];
+    most = std::max(most, k2_uncertainty(problem, at.momentum, {at.regime, at.k2}, error[column::angular_momentum_norm],
+                                         error[column::energy]));
   }
-  return error;
+  return most;
 }
 
-/// The track of the full equations from their states and errors, relative where the columns measure them so.
+/// The track of the full equations from their states and errors, relative where the columns measure them so. errors: as in k2_error.
 inline Track track_of(const Problem<double>& problem, std::vector<State<double>> states, bool knows_attitude,
-                      const ColumnErrors<double>& error) {
+                      const ColumnErrors<double>& error, std::span<const ColumnErrors<double>> errors = {}) {
   Track track;
   track.knows_momentum = true;
   track.knows_attitude = knows_attitude;
@@ -51,7 +59,7 @@ inline Track track_of(const Problem<double>& problem, std::vector<State<double>>
     sizes.add(state);
   }
   track.error = sizes.absolute(error);
-  track.error[column::modulus_squared] = k2_error(track, problem);
+  track.error[column::modulus_squared] = k2_error(track, problem, errors);
   return track;
 }
 
@@ -66,12 +74,15 @@ inline Track full_motion_track(const Problem<double>& problem, std::span<const d
   options.tolerance = tolerance;
   options.wanted = wanted;
   options.find_stop = find_stop;
+  std::array<ColumnErrors<double>, detail::k2_looks + 1> errors{};
+  options.errors = errors;
+  options.stride = detail::k2_stride(times.size());
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(problem, times, states, options, attitude);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
-  Track track = detail::track_of(problem, std::move(states), attitude != nullptr, answer->error);
+  Track track = detail::track_of(problem, std::move(states), attitude != nullptr, answer->error, errors);
   track.counts = answer->counts;
   track.stop_time = answer->stop_time;
   track.stop_error = answer->stop_error;

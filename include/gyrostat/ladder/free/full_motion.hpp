@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "gyrostat/core/real.hpp"
@@ -85,8 +86,8 @@ Scalar turning_rate(const Problem<Scalar>& problem) noexcept {
 
 /// The full motion at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN.
 ///
-/// The error is estimated by the runs of two neighbours: body and start differ by a few roundings, and the steps have a tolerance 8 times
-/// looser. Their distance from the answer, watched in every step and kept for some twenty turns, is some ten times the error of the answer,
+/// The error is estimated by runs of neighbours: body and start differ by a few roundings, and the steps have a tighter tolerance
+/// (companions.hpp). Their distance from the answer, watched in every step and kept for some twenty turns, is the error of the answer,
 /// and shows what the motion makes of errors: that phases drift, and that all differences grow where it leaves an unstable rotation. A run
 /// that misses the tolerance is repeated with a tighter step tolerance, at most twice.
 ///
@@ -132,6 +133,13 @@ class FullCourse {
   System system_;
   Solver solver_;
 };
+
+/// By how much the inverse of the tensor magnifies its rounding; 1 where it is diagonal.
+template <Real Scalar>
+Scalar condition_of(const Problem<Scalar>& of) noexcept {
+  if (of.inertia.isDiagonal(0)) return 1;
+  return of.inertia.cwiseAbs().maxCoeff() * Mat3<Scalar>(of.inertia.inverse()).cwiseAbs().maxCoeff();
+}
 
 /// Whether zeros of the data stay zero by a symmetry: rotation about one axis of a diagonal tensor, which the rotors turn about too.
 template <Real Scalar>
@@ -183,23 +191,19 @@ class FullMotion {
  public:
   FullMotion(const Problem<Scalar>& problem, std::span<const Scalar> times, std::span<FullState<Scalar>> states,
              const FullMotionOptions<Scalar>& options) noexcept
-      : problem_(problem),
-        times_(times),
-        states_(states),
-        options_(options),
-        neighbours_{beside(problem, change, 0), beside(problem, change, 1)},
-        turning_(turning_rate(problem)) {}
+      : problem_(problem), times_(times), states_(states), options_(options), turning_(turning_rate(problem)) {}
 
   /// The answer's run and its neighbours' side by side, and their distance.
   FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
     constexpr Scalar eps = epsilon<Scalar>;
-    constexpr auto& how = honesty::side_by_side;
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     FullCourse<Scalar> course(problem_, step_tolerance, options_.step_cap);
-    const Scalar loose = std::max(Scalar(how.looser) * step_tolerance, Scalar(how.least_loose) * eps);
-    FullCourse<Scalar> companion(neighbours_[0], loose, options_.step_cap);
-    FullCourse<Scalar> second(neighbours_[1], loose, options_.step_cap);
+    const Scalar tight = companion_step(step_tolerance);
+    FullCourse<Scalar> companion(beside(problem_, change, 0), tight, options_.step_cap);
+    std::optional<FullCourse<Scalar>> second;
+    if (rounding_rules(step_tolerance, condition_of(problem_)))
+      second.emplace(beside(problem_, change, 1), tight, options_.step_cap);
     const auto& system = course.system();
     const FullState<Scalar> start = system.state(0, system.start().data());
     // rounding at the asked times
@@ -215,8 +219,9 @@ class FullMotion {
       if (turning_ > 0) error[full_column::turned] += lost.angular_velocity / turning_;
       return error;
     };
-    solve_beside(answer, FullRow<Scalar>(problem_), course, companion, second, start, turning_, times_, states_,
-                 nowhere(), options_, progress_from, progress_to, rounding);
+    solve_beside(answer, FullRow<Scalar>(problem_),
+                 Runs<FullCourse<Scalar>>{course, companion, second ? &*second : nullptr}, start, turning_, times_,
+                 states_, nowhere(), options_, progress_from, progress_to, rounding);
     return answer;
   }
 
@@ -236,7 +241,6 @@ class FullMotion {
   std::span<const Scalar> times_;
   std::span<FullState<Scalar>> states_;
   const FullMotionOptions<Scalar>& options_;
-  std::array<Problem<Scalar>, 2> neighbours_;
   Scalar turning_;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "gyrostat/core/real.hpp"
@@ -37,9 +38,9 @@ using FullMotionAnswer = MotionOutcome<std::size(column_kinds), Scalar>;
 /// The full motion from `start` at t = 0 at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN; an
 /// attitude that is not asked for is the identity.
 ///
-/// The error is estimated by the runs of two neighbours: body and start differ by a few roundings, and the steps have a tolerance 8 times
-/// looser. Their distance from the answer, watched in every step and kept for some twenty turns, is some ten times the error of the
-/// answer, and shows what the motion makes of errors, chaos included.
+/// The error is estimated by runs of neighbours: body and start differ by a few roundings, and the steps have a tighter tolerance
+/// (companions.hpp). Their distance from the answer, watched in every step and kept for some twenty turns, is the error of the answer,
+/// and shows what the motion makes of errors, chaos included.
 /// A run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
 ///
 /// Errors: not_increasing (times), not_finite (start, times or tolerance), zero_vector (down or attitude without length),
@@ -141,28 +142,35 @@ class FullMotion {
         times_(times),
         states_(states),
         options_(options),
-        neighbours_{{{problem, start, amount, 0, options.converted}, {problem, start, amount, 1, options.converted}}},
         rate_(rate_size(problem, start)) {}
 
   /// The answer's run and its neighbours' side by side, and their distance.
   FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
     constexpr Scalar eps = epsilon<Scalar>;
-    constexpr auto& how = honesty::side_by_side;
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     Course course(problem_, start_, step_tolerance, options_.step_cap);
-    const auto beside = [&](const Neighbour<Scalar>& near) noexcept {
-      const Scalar loose = std::max(Scalar(how.looser) * step_tolerance, Scalar(how.least_loose) * eps);
-      return Course(near.problem, near.start, loose, options_.step_cap, near.turn);
+    const auto beside = [&](int which) noexcept {
+      const Neighbour<Scalar> near(problem_, start_, amount, which, options_.converted);
+      return Course(near.problem, near.start, companion_step(step_tolerance), options_.step_cap, near.turn);
     };
-    Course companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
+    Course companion = beside(0);
+    std::optional<Course> second;
+    if (rounding_rules(step_tolerance, condition())) second = beside(1);
     // rounding at the asked times
     const auto rounding = [&](const ColumnErrors<Scalar>&, Scalar steps) noexcept {
       return 4 * (4 * eps + steps) * ColumnErrors<Scalar>{rate_, 1, Scalar(turning ? 1 : 0)};
     };
-    solve_beside(answer, Row<Scalar>{scales(problem_, start_.angular_velocity.norm())}, course, companion, second,
-                 start_, rate_, times_, states_, nowhere(), options_, progress_from, progress_to, rounding);
+    solve_beside(answer, Row<Scalar>{scales(problem_, start_.angular_velocity.norm())},
+                 Runs<Course>{course, companion, second ? &*second : nullptr}, start_, rate_, times_, states_,
+                 nowhere(), options_, progress_from, progress_to, rounding);
     return answer;
+  }
+
+  /// By how much the inverse of the tensor magnifies its rounding.
+  Scalar condition() const noexcept {
+    const Vec3<Scalar>& I = problem_.inertia();
+    return options_.converted ? I.maxCoeff() / I.minCoeff() : Scalar(1);
   }
 
   /// The angle turned through up to the last time, to its order, rad.
@@ -222,7 +230,6 @@ class FullMotion {
   std::span<const Scalar> times_;
   std::span<State<Scalar>> states_;
   const FullMotionOptions<Scalar>& options_;
-  std::array<Neighbour<Scalar>, 2> neighbours_;
   Scalar rate_;
 };
 

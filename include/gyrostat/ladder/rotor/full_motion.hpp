@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "gyrostat/core/real.hpp"
@@ -55,8 +56,8 @@ bool is_stiff(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& state) noex
 
 /// The full motion from `start` at t = 0 at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN.
 ///
-/// The error is estimated by the runs of two neighbours: body and start differ by a few roundings, and the steps have a tolerance 8 times
-/// looser. Their distance from the answer, watched in every step and kept for some twenty turns, is some ten times the error of the answer,
+/// The error is estimated by runs of neighbours: body and start differ by a few roundings, and the steps have a tighter tolerance
+/// (companions.hpp). Their distance from the answer, watched in every step and kept for some twenty turns, is the error of the answer,
 /// and shows what the motion makes of errors: that phases drift, and that all differences grow where it leaves an unstable rotation. A run
 /// that misses the tolerance is repeated with a tighter step tolerance, at most twice.
 ///
@@ -225,7 +226,6 @@ class FullMotion {
         times_(times),
         states_(states),
         options_(options),
-        neighbours_{{{gyrostat, start, change, 0}, {gyrostat, start, change, 1}}},
         turning_(turning_rate(gyrostat, start)) {
     const bool stiff = is_stiff(gyrostat, start);
     const bool collocates = options.integrator == Integrator::radau || (options.integrator == Integrator::any && stiff);
@@ -237,25 +237,26 @@ class FullMotion {
   FullMotionAnswer<Scalar> run(Scalar step_tolerance, Scalar inside, double progress_from,
                                double progress_to) const noexcept {
     constexpr Scalar eps = epsilon<Scalar>;
-    constexpr auto& how = honesty::side_by_side;
-    constexpr Scalar looser = Scalar(how.looser), least = Scalar(how.least_loose) * eps;
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     answer.used = layer_ < times_.back() ? Integrator::radau : Integrator::taylor;
     Course<Scalar> course(gyrostat_, start_, layer_, step_tolerance, inside, options_.step_cap);
-    const auto beside = [&](const Neighbour<Scalar>& neighbour) noexcept {
-      return Course<Scalar>(neighbour.gyrostat, neighbour.start, layer_, std::max(looser * step_tolerance, least),
-                            std::max(looser * inside, least), options_.step_cap);
+    const auto beside = [&](int which) noexcept {
+      const Neighbour<Scalar> neighbour(gyrostat_, start_, change, which);
+      return Course<Scalar>(neighbour.gyrostat, neighbour.start, layer_, companion_step(step_tolerance),
+                            companion_step(inside), options_.step_cap);
     };
-    Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
+    Course<Scalar> companion = beside(0);
+    std::optional<Course<Scalar>> second;
+    if (rounding_rules(step_tolerance, gyrostat_.condition())) second = beside(1);
     // rounding at the asked times
     const Row<Scalar> row(gyrostat_, start_);
     const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
       const Scalar between = answer.used == Integrator::radau ? 2 * inside : 0;
       return rounding_of_columns(row, start_, size, 4 * eps + steps + between);
     };
-    solve_beside(answer, row, course, companion, second, start_, turning_, times_, states_, nowhere(), options_,
-                 progress_from, progress_to, rounding);
+    solve_beside(answer, row, Runs<Course<Scalar>>{course, companion, second ? &*second : nullptr}, start_, turning_,
+                 times_, states_, nowhere(), options_, progress_from, progress_to, rounding);
     return answer;
   }
 
@@ -275,7 +276,6 @@ class FullMotion {
   std::span<const Scalar> times_;
   std::span<State<Scalar>> states_;
   const FullMotionOptions<Scalar>& options_;
-  std::array<Neighbour<Scalar>, 2> neighbours_;
   Scalar turning_, layer_;
 };
 

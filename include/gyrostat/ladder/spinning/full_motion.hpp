@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "gyrostat/core/real.hpp"
@@ -42,9 +43,9 @@ struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
 /// the quaternion; phi and theta by themselves are as good over cos(psi). Where the motion comes so near to cos(psi) = 0 that the error of
 /// the attitude does not decide on which side it passes, or phi so near to the end of its range, turns_known is false.
 ///
-/// The error is estimated by the runs of two neighbours: data and start differ by a few roundings, and the steps have a tolerance 8 times
-/// looser. Their distance from the answer, watched in every step and kept for some twenty turns, is some ten times the error of the
-/// answer, and shows what the motion makes of errors: that phases drift, and that all differences grow where it leaves an unstable rotation.
+/// The error is estimated by runs of neighbours: data and start differ by a few roundings, and the steps have a tighter tolerance
+/// (companions.hpp). Their distance from the answer, watched in every step and kept for some twenty turns, is the error of the answer,
+/// and shows what the motion makes of errors: that phases drift, and that all differences grow where it leaves an unstable rotation.
 /// A run that misses the tolerance is repeated with a tighter step tolerance, at most twice.
 ///
 /// Errors: not_increasing (times), not_finite (problem or times), not_positive (inertia, mass), out_of_domain (a span of the wrong
@@ -175,28 +176,25 @@ class FullMotion {
     answer.step_tolerance = step_tolerance;
     const Scalar span = times_.back();
     Course<Scalar> course(problem_, span, step_tolerance, options_.step_cap, true);
-    const auto beside = [&](const Problem<Scalar>& near) noexcept {
-      const Scalar loose = std::max(Scalar(how.looser) * step_tolerance, Scalar(how.least_loose) * eps);
-      return Course<Scalar>(near, span, loose, options_.step_cap, false);
-    };
-    Course<Scalar> companion = beside(neighbours_[0]), second = beside(neighbours_[1]);
-    const auto walk = walk_beside(Row<Scalar>{scales(problem_, span)}, course, companion, second, start_state(problem_),
-                                  rate_, times_, states_, nowhere(), options_, progress_from, progress_to);
+    const Scalar tight = companion_step(step_tolerance);
+    Course<Scalar> companion(neighbours_[0], span, tight, options_.step_cap, false);
+    std::optional<Course<Scalar>> second;
+    if (rounding_rules(step_tolerance)) second.emplace(neighbours_[1], span, tight, options_.step_cap, false);
+    const Runs<Course<Scalar>> runs{course, companion, second ? &*second : nullptr};
+    const auto walk = walk_beside(Row<Scalar>{scales(problem_, span)}, runs, start_state(problem_), rate_, times_,
+                                  states_, nowhere(), options_, progress_from, progress_to, not_noted);
     answer.status = walk.status;
-    answer.counts = course.counts();
-    const std::uint64_t steps = answer.counts.steps;
-    answer.counts += companion.counts();
-    answer.counts += second.counts();
+    answer.counts = runs.counts();
+    const std::uint64_t steps = course.counts().steps;
     if (answer.status != ode::Status::reached) {
       answer.error = ColumnErrors<Scalar>::all(nan<Scalar>);
       return answer;
     }
 
     // What the runs share: rounding at the asked times.
-    const Scalar margin = honesty::margin(step_tolerance);
     const Scalar rounding_walk = eps * std::sqrt(static_cast<Scalar>(steps));
     const Scalar shared = 4 * (4 * eps + rounding_walk);
-    ColumnErrors<Scalar> error = margin * walk.distance + shared * rounded_in(walk.asked.size());
+    ColumnErrors<Scalar> error = walk.error + shared * rounded_in(walk.asked.size());
     error[column::euler_312] = angles_error<Scalar>(error[column::attitude], states_);
     answer.least_cosine = course.least_cosine();
     answer.turns_known =

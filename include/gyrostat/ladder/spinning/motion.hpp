@@ -96,7 +96,8 @@ ColumnErrors<Scalar> scales(const Problem<Scalar>& problem, Scalar span) noexcep
   made[column::angular_velocity] = rate;
   // parts that cancel are still measured by what is left of them
   made[column::angular_momentum_inertial] =
-      Scalar(1e-3L) * (problem.inertia.cwiseProduct(problem.angular_velocity).norm() + std::abs(problem.rotor_momentum));
+      Scalar(1e-3L) *
+      (problem.inertia.cwiseProduct(problem.angular_velocity).norm() + std::abs(problem.rotor_momentum));
   made[column::velocity] = problem.velocity.norm() + push * turning;
   made[column::position] = problem.position.norm() + problem.velocity.norm() * span + push * turning * turning;
   return made;
