@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <semaphore>
+#include <span>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/answer.hpp"
+#include "gyrostat/ladder/family.hpp"
+#include "gyrostat/ladder/monitor.hpp"
+#include "gyrostat/ladder/question.hpp"
+#include "gyrostat/ladder/rung.hpp"
+
+/// Many scenes that differ in a few numbers, a row each. What a row comes to depends on its own numbers alone: not on the threads, and not
+/// on the rows beside it.
+namespace gyrostat {
+
+/// One number of the scene that is another in every row.
+struct Varied {
+  std::size_t place;               ///< among the numbers of the scene
+  std::span<const double> values;  ///< one a row
+};
+
+/// Where the values of one column or scalar go, row after row: arrays of the caller. A row that has none gets NaN.
+struct SweepTarget {
+  std::size_t place;  ///< in its family's table of columns, or of scalars
+  bool scalar;
+  std::size_t width;         ///< numbers of one row; of a column at all times
+  std::span<double> values;  ///< width a row
+  std::span<double> errors;  ///< one a row, as the table measures it; NaN where there is none
+};
+
+/// What is known of a row beside its values.
+struct SweepRow {
+  const char* reason = nullptr;  ///< why there is no answer; nullptr: there is one
+  int rung = -1;  ///< that answered, or was the last to refuse: its place in the table; -1: there is no such scene
+  bool met = false;
+  double excess = nan<double>;  ///< greatest error over its tolerance
+  std::uint32_t warnings = 0;   ///< a bit for the place of each in the table; behind them that of no_value
+};
+
+inline constexpr const char* not_reached = "the sweep was stopped before this row";
+
+/// Does rows 0 to rows - 1 on `threads` threads, at least one. make_worker(monitor), called once on each thread, gives what a row is done
+/// with: worker(row); long work should look at the monitor, which is cancelled with that of the caller. After that rows are left out.
+/// Returns when all threads have ended.
+template <class MakeWorker>
+void for_rows(std::size_t rows, unsigned threads, Monitor* monitor, const MakeWorker& make_worker) {
+  constexpr std::size_t block = 8;
+  constexpr std::chrono::milliseconds pause{20};
+  const unsigned pool_size = unsigned(std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(rows / block, 1)));
+  std::atomic<std::size_t> next{0}, done{0};
+  std::vector<Monitor> monitors(pool_size);
+  std::counting_semaphore<> ended{0};
+  std::vector<std::jthread> pool;
+  pool.reserve(pool_size);
+  for (Monitor& own : monitors)
+    pool.emplace_back([&] {
+      auto worker = make_worker(own);
+      for (;;) {
+        const std::size_t begin = next.fetch_add(block), end = std::min(begin + block, rows);
+        for (std::size_t row = begin; row < end && !own.cancel.load(std::memory_order_relaxed); ++row) worker(row);
+        if (begin >= rows || own.cancel.load(std::memory_order_relaxed)) break;
+        done.fetch_add(end - begin, std::memory_order_relaxed);
+      }
+      ended.release();
+    });
+  for (unsigned running = pool_size; running > 0;) {
+    if (ended.try_acquire_for(pause)) --running;
+    if (!monitor) continue;
+    monitor->fraction.store(double(done.load()) / double(rows), std::memory_order_relaxed);
+    if (monitor->cancel.load(std::memory_order_relaxed))
+      for (Monitor& own : monitors) own.cancel.store(true);
+  }
+}
+
+namespace detail {
+
+inline void store(const SweepTarget& target, std::size_t row, const Answer& answer, const Family& family) noexcept {
+  double* const to = target.values.data() + row * target.width;
+  if (target.scalar) {
+    if (const Quantity* found = answer.quantity(family.scalars[target.place].name)) {
+      std::copy_n(found->values.data(), target.width, to);
+      target.errors[row] = std::isfinite(found->values[0]) ? found->error : nan<double>;
+    }
+  } else if (const Column* found = answer.find(family.columns[target.place].name)) {
+    std::copy_n(found->values.data(), std::min(target.width, found->values.size()), to);
+    target.errors[row] = found->error;
+  }
+}
+
+inline std::uint32_t warning_bits(const Answer& answer, const Family& family) noexcept {
+  std::uint32_t bits = 0;
+  for (const Warning& warning : answer.warnings) {
+    const int place = place_of(family.warnings, warning.code());
+    bits |= std::uint32_t{1} << (place < 0 ? family.warnings.size() : std::size_t(place));
+  }
+  return bits;
+}
+
+/// Solves the scene, if there is one, and puts its answer into the row.
+template <class Scene, class Solve>
+SweepRow swept(const Family& family, const Result<Scene>& scene, const Solve& solve,
+               std::span<const SweepTarget> targets, std::size_t row, Monitor* monitor) {
+  SweepRow said;
+  if (!scene) {
+    said.reason = message(scene.error());
+    return said;
+  }
+  Refusal refusal;
+  const Answer answer = solve(*scene, refusal, monitor);
+  if (refusal.code != Errc::ok) {
+    said.reason = refusal.why;
+    said.rung = place_of(family.rungs, refusal.model);
+    return said;
+  }
+  for (const SweepTarget& target : targets) store(target, row, answer, family);
+  said.rung = place_of(family.rungs, answer.model);
+  said.met = answer.met;
+  said.excess = answer.excess;
+  said.warnings = warning_bits(answer, family);
+  return said;
+}
+
+}  // namespace detail
+
+/// Answers a row for each element of `told`: the scene of `numbers` (inputs.hpp), with what is varied in place. scene_of(numbers) gives a
+/// Result<Scene>, solve(scene, refusal, monitor) its Answer; both are called on several threads. A row that is no scene, or has no
+/// answer, says why.
+template <class SceneOf, class Solve>
+void sweep(const Family& family, std::span<const double> numbers, std::span<const Varied> varied,
+           const SceneOf& scene_of, const Solve& solve, std::span<const SweepTarget> targets, std::span<SweepRow> told,
+           unsigned threads, Monitor* monitor = nullptr) {
+  for (const SweepTarget& target : targets) {
+    std::fill(target.values.begin(), target.values.end(), nan<double>);
+    std::fill(target.errors.begin(), target.errors.end(), nan<double>);
+  }
+  for (SweepRow& row : told) row = {.reason = not_reached};
+  for_rows(told.size(), threads, monitor, [&](Monitor& own) {
+    return [&, scene = std::vector<double>(numbers.begin(), numbers.end())](std::size_t row) mutable {
+      bool finite = true;
+      for (const Varied& each : varied) {
+        scene[each.place] = each.values[row];
+        finite = finite && std::isfinite(each.values[row]);
+      }
+      if (finite)
+        told[row] = detail::swept(family, scene_of(std::span<const double>(scene)), solve, targets, row, &own);
+      else told[row] = {.reason = message(Errc::not_finite)};
+    };
+  });
+}
+
+}  // namespace gyrostat
