@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Attitude motion of bodies that carry rotors, by the cheapest model that meets a tolerance.
 
-`load` reads a scene file, `solve` answers it, `chart` shows what accuracy costs; `gyrostat.deceleration`,
+`load` reads a scene file, `solve` answers it, `sweep` answers it with many numbers, `chart` shows what accuracy costs; `gyrostat.deceleration`,
 `gyrostat.rotor`, `gyrostat.spinning`, `gyrostat.heavy`, `gyrostat.free`, `gyrostat.elliptic` and `gyrostat.rotation` hold the functions behind them, over arrays.
 """
 
@@ -10,6 +10,7 @@ from gyrostat.answer import Answer
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError
 from gyrostat.ladder import chart, solve
 from gyrostat.scenes import Scene, load
+from gyrostat.sweeps import sweep
 
 __all__ = [
     "Answer",
@@ -24,4 +25,5 @@ __all__ = [
     "chart",
     "load",
     "solve",
+    "sweep",
 ]

@@ -20,6 +20,8 @@ class Quantity:
     frame: str = ""  # of a column
     measure: str = ""  # how its error is measured: relative, angle, absolute; empty: it has none
     scale: str = ""  # of a relative column: what its error is relative to where the column itself is smaller
+    kind: str = "number"  # number, flag (1 yes, 0 no), place (an index into a list), word (a place in `words`)
+    words: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +34,7 @@ class Facts:
     rungs: dict[str, str]  # name -> meaning, from the cheapest on
     integrators: tuple[str, ...]
     warnings: dict[str, str]  # code -> text
+    inputs: tuple[tuple[str, int, bool], ...]  # of a row of a sweep, in their order: key, how many numbers, whether any number of these
 
     @property
     def quantities(self) -> dict[str, Quantity]:
@@ -42,7 +45,7 @@ class Facts:
 def _facts(entry: dict[str, Any]) -> Facts:
     columns, scalars = ({each["name"]: Quantity(**each) for each in entry[what]} for what in ("columns", "scalars"))
     return Facts(entry["name"], columns, scalars, {rung["name"]: rung["meaning"] for rung in entry["rungs"]}, tuple(entry["integrators"]),
-                 {warning["code"]: warning["text"] for warning in entry["warnings"]})
+                 {warning["code"]: warning["text"] for warning in entry["warnings"]}, tuple(entry["inputs"]))
 
 
 FACTS: Final[dict[str, Facts]] = {entry["name"]: _facts(entry) for entry in _core.families()}

@@ -17,9 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.asking import AskError, asked, knows_attitude
-from gyrostat.errors import Mistake, SceneError
+from gyrostat.errors import DomainError, Mistake, SceneError
 from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, UNSET, Choices, Field, Table, Values, table_of
+from gyrostat.rows import plan_of
 
 __all__ = ["Scene", "bundled", "find", "load", "parse_override", "scene_from"]
 
@@ -47,6 +48,7 @@ class Scene:
     tables: Values
     path: Path | None = None
     top: Mapping[str, Any] = member(default_factory=dict)  # keys of the kind's own at the top, such as the wheels
+    vary: Mapping[str, Any] = member(default_factory=dict)  # the table [vary]: what varies in a sweep, by key, and n, seed, design, cases
 
     @property
     def times(self) -> NDArray[np.float64]:
@@ -79,6 +81,8 @@ class Scene:
         for table, values in self.tables.items():
             if given := {key: _plain(value) for key, value in values.items() if value is not UNSET}:
                 made[table] = given
+        if self.vary:
+            made["vary"] = _plain(self.vary)
         return made
 
     def replace(self, **overrides: Any) -> "Scene":
@@ -102,7 +106,7 @@ class Scene:
                 return None
         if any(family.mistakes(tables)):
             return None
-        made = Scene(self.name, self.kind, self.source, tables, self.path, self.top)
+        made = Scene(self.name, self.kind, self.source, tables, self.path, self.top, self.vary)
         if tables["solve"] is self.tables["solve"]:
             made.__dict__["_times"] = self._times
         return made
@@ -430,6 +434,7 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
 
     family = FAMILIES[kind]
     layout = family.keys
+    vary = tree.pop("vary", {})
     read: dict[str, dict[str, Any]] = {}
     unread: set[str] = set()
     for key in tree:
@@ -477,7 +482,21 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         raise SceneError(*mistakes)
     head = read.pop("")
     top = {key: value for key, value in head.items() if key not in ("name", "kind", "source")}
-    return Scene(head["name"], kind, head["source"], read, source.path, top)
+    made = Scene(head["name"], kind, head["source"], read, source.path, top, vary if isinstance(vary, dict) else {})
+    _check_varied(made, vary, source)
+    return made
+
+
+def _check_varied(scene: Scene, vary: Any, source: _Source) -> None:
+    """What the table [vary] says has a meaning; a table of cases is looked at when it is wanted."""
+    try:
+        if not isinstance(vary, dict):
+            raise DomainError(f"this is {_kind_of(vary)}, not a table; write [vary] on a line of its own, then its keys")
+        if vary:
+            plan_of(scene, cases={} if "cases" in vary else None)
+    except DomainError as error:
+        problem, _, remedy = str(error).partition("; ")
+        raise SceneError(Mistake(source.where("vary"), "vary", "", problem, remedy or "write what docs/sweeps.md says")) from None
 
 
 def _meaning(field: Field) -> str:

@@ -9,6 +9,7 @@ void bind_families(pybind11::module_& module);
 void bind_deceleration_published(pybind11::module_& module);
 void bind_rotation(pybind11::module_& module);
 void bind_text(pybind11::module_& module);
+void bind_sweep(pybind11::module_& module);
 void bind_deceleration(pybind11::module_& module);
 void bind_deceleration_integrators(pybind11::module_& module);
 void bind_rotor(pybind11::module_& module);

@@ -4,12 +4,17 @@
 
 #include "bind.hpp"
 #include "convert.hpp"
+#include "gyrostat/ladder/deceleration/inputs.hpp"
 #include "gyrostat/ladder/deceleration/motion.hpp"
 #include "gyrostat/ladder/family.hpp"
+#include "gyrostat/ladder/free/inputs.hpp"
 #include "gyrostat/ladder/free/motion.hpp"
+#include "gyrostat/ladder/heavy/inputs.hpp"
 #include "gyrostat/ladder/heavy/motion.hpp"
+#include "gyrostat/ladder/rotor/inputs.hpp"
 #include "gyrostat/ladder/rotor/motion.hpp"
 #include "gyrostat/ladder/rung.hpp"
+#include "gyrostat/ladder/spinning/inputs.hpp"
 #include "gyrostat/ladder/spinning/motion.hpp"
 
 namespace {
@@ -37,6 +42,16 @@ const char* word(Measure measure) {
   return "";
 }
 
+const char* word(Kind kind) {
+  switch (kind) {
+    case Kind::number: return "number";
+    case Kind::flag: return "flag";
+    case Kind::place: return "place";
+    case Kind::word: break;
+  }
+  return "word";
+}
+
 template <class Kinds>
 py::list values(const Kinds& kinds) {
   py::list made;
@@ -49,16 +64,26 @@ py::list values(const Kinds& kinds) {
     item["measure"] = word(kind.measure);
     item["meaning"] = kind.meaning;
     if constexpr (requires { kind.scale; }) item["scale"] = kind.scale;
+    item["kind"] = word(kind.kind);
+    py::list words;
+    for (const char* each : kind.words) words.append(each);
+    item["words"] = py::tuple(words);
     made.append(item);
   }
   return made;
 }
 
 py::list families() {
+  struct Entry {
+    const Family* family;
+    std::span<const InputKind> inputs;
+  };
   py::list made;
-  for (const Family* family : {&deceleration::tables, &rotor::tables, &spinning::tables, &heavy::tables,
-                                &free::tables}) {
-    py::list rungs, warnings, integrators;
+  for (const auto& [family, inputs] :
+       {Entry{&deceleration::tables, deceleration::input_kinds}, Entry{&rotor::tables, rotor::input_kinds},
+        Entry{&spinning::tables, spinning::input_kinds}, Entry{&heavy::tables, heavy::input_kinds},
+        Entry{&free::tables, free::input_kinds}}) {
+    py::list rungs, warnings, integrators, keys;
     for (const RungKind& rung : family->rungs) {
       py::dict item;
       item["name"] = rung.name;
@@ -81,6 +106,8 @@ py::list families() {
     item["rungs"] = rungs;
     item["integrators"] = integrators;
     item["warnings"] = warnings;
+    for (const InputKind& input : inputs) keys.append(py::make_tuple(input.key, input.width, input.listed));
+    item["inputs"] = keys;
     made.append(item);
   }
   return made;
@@ -90,5 +117,7 @@ py::list families() {
 
 void bind_families(py::module_& module) {
   module.def("families", &families,
-             "What each family gives: columns, scalars, rungs (cheapest first), integrators and warnings.");
+             "What each family gives: columns, scalars, rungs (cheapest first), integrators and warnings; and the "
+             "numbers of a "
+             "row of a sweep.");
 }

@@ -66,6 +66,7 @@ PYBIND11_MODULE(_core, module) {
   bind_rotation(module);
   bind_text(module);
   bind_families(module);
+  bind_sweep(module);
   bind_deceleration(module);
   bind_deceleration_integrators(module);
   bind_deceleration_published(module);

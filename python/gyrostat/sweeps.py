@@ -1,0 +1,399 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Many scenes at once: a scene some of whose numbers vary from row to row, and the answers to all rows as one xarray.Dataset."""
+
+import json
+import math
+import os
+import re
+import threading
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+import numpy as np
+
+from gyrostat import _core
+from gyrostat._core import Monitor
+from gyrostat.asking import asked, knows_attitude
+from gyrostat.errors import DomainError
+from gyrostat.facts import MEANINGS, Facts, Quantity
+from gyrostat.families import FAMILIES
+from gyrostat.ladder import SceneLike, scene_of
+from gyrostat.rows import Place, numbers_of, plan_of
+from gyrostat.scenes import Scene
+from gyrostat.vary import Plan
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Study", "merge", "open_results", "save", "sweep"]
+
+MOST_BYTES: Final = 2**33  # of one Dataset
+CHUNK_BYTES: Final = 2**27
+MOST_CHUNK: Final = 16384
+SPARE: Final = 64  # rows of the least chunk that is taken by itself
+
+Progress = Callable[[int, int], None]
+T = TypeVar("T")
+
+
+def _xarray() -> Any:
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError("xarray is not installed: pip install 'gyrostat[xarray]'") from error
+    return xarray
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """A scene, what varies in it, and the rows that this makes."""
+
+    scene: Scene
+    plan: Plan
+    places: Mapping[str, Place]
+
+    @classmethod
+    def of(cls, scene: Scene, vary: Mapping[str, Any] | None = None, *, n: int | None = None, cases: Any = None, seed: int | None = None,
+           design: str | None = None) -> "Study":
+        """The study of a scene, of what its own table [vary] says and of what is given here, which goes first. Raises DomainError."""
+        plan, places = plan_of(scene, vary, n=n, cases=cases, seed=seed, design=design)
+        if plan.n == 0:
+            raise DomainError("n: say how many rows there are to be")
+        return cls(scene, plan, places)
+
+    @cached_property
+    def told(self) -> str:
+        """The study as JSON, by which two parts of it know each other."""
+        scene = {key: value for key, value in self.scene.to_dict().items() if key != "vary"}
+        return json.dumps({"version": _core.__version__, "scene": scene, **self.plan.told()})
+
+    @cached_property
+    def _request(self) -> dict[str, Any]:
+        """What the compiled sweep takes, apart from the rows."""
+        solve = self.scene.tables["solve"]
+        return {"kind": self.scene.kind, "numbers": numbers_of(self.scene), "times": self.scene.times, "tolerance": solve["tolerance"],
+                "model": solve["model"], "integrator": solve["integrator"], "elliptic": solve.get("elliptic", "auto"),
+                "ask": asked(self.scene.kind, solve["ask"], knows_attitude(self.scene.tables)),
+                "places": [number for place in self.places.values() for number in place.numbers]}
+
+    @cached_property
+    def row_bytes(self) -> int:
+        """What the answer to a row takes."""
+        none = self._answered(range(0), 1, None)[1]
+        numbers = sum(math.prod(values.shape[1:]) for values in (*none["values"].values(), *none["errors"].values()))
+        return int(8 * (numbers + len(self.places) + 4))
+
+    def _answered(self, rows: range, threads: int, monitor: Monitor | None) -> tuple[dict[str, Any], dict[str, Any], np.ndarray[Any, Any]]:
+        """Parameters, answers, and for each row which of the parameters is not allowed (-1: none)."""
+        columns = self.plan.columns(rows)
+        outside = np.full(len(rows), -1)
+        for i, (key, values) in reversed(list(enumerate(columns.items()))):
+            outside[self.places[key].outside(values)] = i
+        # a row with a number that is not allowed is not asked
+        values = np.array([np.where(outside < 0, columns[key], np.nan) for key, place in self.places.items() for _ in place.numbers])
+        made = _core.sweep(**self._request, values=values.reshape(len(self._request["places"]), len(rows)), threads=threads, monitor=monitor)
+        return columns, made, outside
+
+    def rows(self, rows: range, threads: int, monitor: Monitor | None = None) -> "xarray.Dataset":
+        """The answers to some of the rows."""
+        columns, made, outside = self._answered(rows, threads, monitor)
+        facts = FAMILIES[self.scene.kind].facts
+        reasons = np.array([_reason(facts, why, rung) for why, rung in made["reasons"]], dtype=object)[made["reason"]]
+        for i, key in enumerate(columns):
+            reasons[outside == i] = self.places[key].remedy
+        variables: dict[str, Any] = {}
+        for key, values in columns.items():
+            variables[key] = ("row", values, {"units": self.places[key].field.unit, "long_name": self.places[key].field.meaning, "role": "parameter",
+                                              "varied": str(self.plan.vary.get(key, "case"))})
+        for name, values in made["values"].items():
+            variables |= _variables(facts.quantities[name], name in facts.columns, values, made["errors"][name])
+        rungs = np.array([*facts.rungs, ""], dtype=object)
+        variables["model"] = ("row", rungs[made["rung"]], {"long_name": "rung that answered"})
+        variables["met"] = ("row", made["met"], {"long_name": "the tolerance is met"})
+        variables["excess"] = ("row", made["excess"], {"units": "1", "long_name": "greatest error over its tolerance"})
+        codes = list(facts.warnings)
+        variables["warnings"] = ("row", made["warnings"].astype(np.int32), {
+            "long_name": "warnings", "flag_masks": np.array([1 << i for i in range(len(codes))], dtype=np.int32), "flag_meanings": " ".join(codes)})
+        variables["reason"] = ("row", reasons, {"long_name": "why there is no answer"})
+        told = {"title": self.scene.name, "source": self.scene.source, "kind": self.scene.kind, "study": self.told}
+        dataset: xarray.Dataset = _xarray().Dataset(variables, self._coordinates(rows, variables), told)
+        return dataset
+
+    def _coordinates(self, rows: range, variables: Mapping[str, Any]) -> dict[str, Any]:
+        used = {name for dims, *_ in variables.values() if isinstance(dims, tuple) for name in dims}
+        every = {"time": ("time", self.scene.times, {"units": "s", "long_name": MEANINGS["t"]}), "axis": list("xyz"), "component": list("xyzw")}
+        return {"row": np.arange(rows.start, rows.stop, dtype=np.int32), **{name: values for name, values in every.items() if name in used}}
+
+
+def _reason(facts: Facts, why: str, rung: int) -> str:
+    return f"{list(facts.rungs)[rung]}: {why}" if rung >= 0 else why
+
+
+def _variables(quantity: Quantity, column: bool, values: np.ndarray[Any, Any], errors: np.ndarray[Any, Any]) -> Iterator[tuple[str, Any]]:
+    """A column or scalar and its error."""
+    dims: tuple[str, ...] = ("row", "time") if column else ("row",)
+    if values.ndim > len(dims):
+        dims = (*dims, {0: "rotor", 3: "axis", 4: "component"}.get(quantity.width, "part"))
+    attributes: dict[str, Any] = {"units": quantity.unit, "long_name": quantity.meaning}
+    if quantity.kind == "word":
+        words = np.array([*quantity.words, ""], dtype=object)
+        values = words[np.where(np.isnan(values), -1, values).astype(int)]
+    yield quantity.name, (dims, values, attributes)
+    if quantity.measure:
+        unit = {"relative": "1", "angle": "rad"}.get(quantity.measure, quantity.unit)
+        yield f"{quantity.name}_error", ("row", errors, {"units": unit, "long_name": f"estimated error of {quantity.name}", "measure": quantity.measure})
+
+
+# ---- doing it ----
+
+
+def _watched(work: Callable[[Monitor], T], look: Callable[[float], None]) -> T:
+    """Runs `work` beside this thread, which looks at its progress and can be interrupted."""
+    monitor, ended = Monitor(), threading.Event()
+    result: list[T] = []
+    failure: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            result.append(work(monitor))
+        except BaseException as error:
+            failure.append(error)
+        finally:
+            ended.set()
+
+    threading.Thread(target=run, daemon=True).start()
+    try:
+        while not ended.wait(0.1):
+            look(monitor.progress)
+    except BaseException:
+        monitor.cancel()
+        ended.wait()
+        raise
+    if failure:
+        raise failure[0]
+    return result[0]
+
+
+def _shard(shard: tuple[int, int] | str | None, n: int) -> range:
+    """The rows of part i of m, counted from 1."""
+    if isinstance(shard, str):
+        found = re.fullmatch(r"\s*(\d+)\s*/\s*(\d+)\s*", shard)
+        shard = (int(found[1]), int(found[2])) if found else (0, 0)
+    i, m = shard or (1, 1)
+    if not 1 <= i <= m <= n:
+        raise DomainError(f"shard = {i}/{m}: give the number of a part and how many there are, such as 1/8; there are {n} rows")
+    return range((i - 1) * n // m, i * n // m)
+
+
+def _missing(rows: range, have: Iterable[range]) -> Iterator[range]:
+    """What is left of the rows."""
+    at = rows.start
+    for each in sorted(have, key=lambda part: part.start):
+        if each.start > at:
+            yield range(at, min(each.start, rows.stop))
+        at = max(at, each.stop)
+    if at < rows.stop:
+        yield range(at, rows.stop)
+
+
+def _part_file(folder: Path, rows: range) -> Path:
+    return folder / f"rows-{rows.start:010d}-{rows.stop:010d}.nc"
+
+
+def _kept(folder: Path, study: Study, rows: range) -> dict[range, Path]:
+    """The parts of a study that an earlier run left behind."""
+    found = {}
+    for file in sorted(folder.glob("rows-*-*.nc")):
+        if open_results(file).attrs.get("study") != study.told:
+            raise DomainError(f"{file}: this part belongs to another study: remove {folder}, or name another output")
+        start, stop = (int(number) for number in file.stem.split("-")[1:])
+        if rows.start <= start and stop <= rows.stop:
+            found[range(start, stop)] = file
+    return found
+
+
+def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | None = None, cases: Any = None, seed: int | None = None,
+          design: str | None = None, threads: int | None = None, chunk: int | None = None, shard: tuple[int, int] | str | None = None,
+          parts: str | os.PathLike[str] | None = None, progress: Progress | None = None, **overrides: Any) -> "xarray.Dataset":
+    """Answer a scene many times over, each row with other numbers.
+
+    scene : a `Scene`, a dict in the layout of a scene file, a file, or the name of a bundled scene; its own table [vary] is taken, too.
+    vary : key -> how the number varies: `normal`, `uniform`, `lognormal` and `choice` of gyrostat.vary, `linspace`, `logspace` or a list of values,
+        each an axis of a grid of which all combinations are taken; or the same in words: "normal(0.005, 5%)", "uniform(15, 17)",
+        "1e-5:1e-3:50log", "[1, 2, 5]". Keys are those of the scene file, with components counted from 0: "torque.control[0]",
+        "body.inertia[0,1]", "wheel[2].rate".
+    n : rows; a multiple of the combinations of the grid, which is taken as often. cases : a table, CSV or key -> values, all of one length: its
+        lines are taken together, as one more axis of the grid.
+    seed, design : of the random numbers: "random", "sobol" or "latin-hypercube".
+    threads : all of this machine where it is None. chunk : rows that are taken in one go. shard : (i, m) or "i/m": part i of m alone, from 1.
+    parts : folder in which each chunk is kept when it is done; those that are there already are not done again.
+    progress(done, rows) is called now and then. overrides : keys of the scene file to change, as in `gyrostat.solve`, among them `ask` and `times`.
+
+    What a row comes to is a function of the study, the seed and the number of the row, to the last bit: the same for any number of threads, any
+    chunks and any shards.
+
+    Returns an xarray.Dataset over `row` (and `time`, `axis`): the parameters; the columns and scalars that are asked for, each with its
+    estimated error NAME_error; `model`, the rung that answered; `met`; `excess`, greatest error over its tolerance; `warnings`, a bit each; and
+    `reason`, why a row has no answer, else empty. Raises SceneError and DomainError for a study that cannot be, ImportError without xarray and scipy.
+    """
+    _xarray()  # before the work
+    study = Study.of(scene_of(scene, overrides), vary, n=n, cases=cases, seed=seed, design=design)
+    rows = _shard(shard, study.plan.n)
+    if len(rows) * study.row_bytes > MOST_BYTES:
+        raise DomainError(f"{len(rows)} rows of {study.row_bytes} bytes: ask for less (ask = a few columns or scalars, times = a few), or take shards")
+    size = chunk or min(MOST_CHUNK, max(SPARE, CHUNK_BYTES // study.row_bytes))
+    if size < 1:
+        raise DomainError(f"chunk = {chunk}: give a number of rows")
+    pool = threads or len(os.sched_getaffinity(0))
+    folder = None if parts is None else Path(parts)
+    kept = {} if folder is None else _kept(folder, study, rows)
+    made = {part: open_results(file) for part, file in kept.items()}
+    done = sum(map(len, made))
+    for gap in list(_missing(rows, kept)):
+        for start in range(gap.start, gap.stop, size):
+            part = range(start, min(start + size, gap.stop))
+
+            def look(share: float, part: range = part) -> None:
+                if progress is not None:
+                    progress(done + int(share * len(part)), len(rows))
+
+            made[part] = _watched(lambda monitor, part=part: study.rows(part, pool, monitor), look)  # type: ignore[misc]
+            done += len(part)
+            look(0.0)
+            if folder is not None:
+                _keep(made[part], folder, part)
+    return _joined([made[part] for part in sorted(made, key=lambda part: part.start)])
+
+
+def _keep(dataset: "xarray.Dataset", folder: Path, rows: range) -> None:
+    """Writes a part such that there is never half of one."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file = _part_file(folder, rows)
+    beside = file.with_suffix(".tmp")
+    _to_netcdf(dataset, beside)
+    beside.replace(file)
+
+
+def _joined(parts: "list[xarray.Dataset]") -> "xarray.Dataset":
+    if len(parts) == 1:
+        return parts[0]
+    made: xarray.Dataset = _xarray().concat(parts, dim="row", data_vars="minimal", coords="minimal", compat="override", join="override",
+                                            combine_attrs="override")
+    return made
+
+
+def merge(files: "Iterable[str | os.PathLike[str] | xarray.Dataset]") -> "xarray.Dataset":
+    """The parts of one study, from files (.nc, .zarr) or as they are, put together. Raises DomainError where they are of several studies,
+    overlap or leave rows out."""
+    named = [(str(file), open_results(file)) if isinstance(file, str | os.PathLike) else ("a part", file) for file in files]
+    if not named:
+        raise DomainError("there is nothing to merge")
+    named.sort(key=lambda item: int(item[1]["row"][0]))
+    study = named[0][1].attrs["study"]
+    at = 0
+    for name, part in named:
+        if part.attrs.get("study") != study:
+            raise DomainError(f"{name}: this belongs to another study than {named[0][0]}")
+        first = int(part["row"][0])
+        if first != at:
+            raise DomainError(f"rows {at} to {first - 1} are missing" if first > at else f"{name}: row {first} is there twice")
+        at = int(part["row"][-1]) + 1
+    if at != json.loads(study)["n"]:
+        raise DomainError(f"rows {at} to {json.loads(study)['n'] - 1} are missing")
+    return _joined([part for _, part in named])
+
+
+# ---- files ----
+
+
+def _need(module: str, install: str) -> None:
+    from importlib.util import find_spec
+
+    if find_spec(module) is None:
+        raise ImportError(f"{module} is not installed: pip install {install}")
+
+
+def _to_netcdf(dataset: "xarray.Dataset", file: Path) -> None:
+    _need("scipy", "'gyrostat[xarray]'")
+    if large := next((str(name) for name, values in dataset.variables.items() if values.nbytes >= 2**31), None):
+        raise DomainError(f"{file}: {large} is over 2 GiB, more than a variable of this format holds: write .zarr, or take shards")
+    dataset.to_netcdf(file, engine="scipy", format="NETCDF3_64BIT")
+
+
+def _frame(dataset: "xarray.Dataset") -> Any:
+    """A pandas.DataFrame with a line a row; components as _x, _y, _z, times as [0], [1] and on."""
+    import pandas
+
+    flat: dict[str, Any] = {}
+    for name, variable in dataset.data_vars.items():
+        labels = [[f"[{i}]" if dim == "time" else f"_{label}" for i, label in enumerate(dataset[dim].values)] for dim in variable.dims[1:]]
+        # components before times
+        for place in np.ndindex(variable.shape[1:]):
+            ends = [labels[axis][i] for axis, i in enumerate(place)]
+            flat[str(name) + "".join(reversed(ends))] = variable.values[(slice(None), *place)]
+    frame = pandas.DataFrame(flat, index=pandas.Index(dataset["row"].values, name="row"))
+    frame.attrs.update({key: str(value) for key, value in dataset.attrs.items()})
+    return frame
+
+
+def _to_csv(dataset: "xarray.Dataset", file: Path) -> None:
+    _frame(dataset).to_csv(file)
+
+
+def _to_parquet(dataset: "xarray.Dataset", file: Path) -> None:
+    _need("pyarrow", "pyarrow")
+    _frame(dataset).to_parquet(file, engine="pyarrow")
+
+
+def _to_zarr(dataset: "xarray.Dataset", file: Path) -> None:
+    _need("zarr", "zarr")
+    dataset.to_zarr(file, mode="w", zarr_format=2)
+
+
+WRITERS: Final[dict[str, Callable[..., None]]] = {".nc": _to_netcdf, ".csv": _to_csv, ".parquet": _to_parquet, ".zarr": _to_zarr}
+
+
+def writer_of(file: Path) -> Callable[["xarray.Dataset", Path], None]:
+    """What writes in the form of the file's ending. Raises DomainError."""
+    if file.suffix.lower() not in WRITERS:
+        raise DomainError(f"{file}: unknown ending {file.suffix or '(none)'}; use one of {', '.join(WRITERS)}")
+    return WRITERS[file.suffix.lower()]
+
+
+def save(dataset: "xarray.Dataset", file: str | os.PathLike[str]) -> None:
+    """Write the results of a sweep: .nc (NetCDF 3), .csv, .parquet (needs pyarrow) or .zarr (needs zarr)."""
+    writer_of(Path(file))(dataset, Path(file))
+
+
+def open_results(file: str | os.PathLike[str]) -> "xarray.Dataset":
+    """Read the results of a sweep from .nc or .zarr. Raises DomainError for what holds none."""
+    reader = _xarray()
+    path = Path(file)
+    if not path.exists():
+        raise DomainError(f"{file}: there is no such file")
+    try:
+        if path.suffix == ".zarr":
+            found = reader.open_zarr(path).load()
+        elif path.suffix == ".nc":
+            found = reader.load_dataset(path, engine="scipy")
+        else:
+            raise DomainError(f"{file}: results are read from .nc and .zarr")
+    except (OSError, TypeError, ValueError, KeyError) as error:
+        if isinstance(error, DomainError):
+            raise
+        raise DomainError(f"{file}: this cannot be read ({str(error).splitlines()[0] if str(error) else type(error).__name__})") from None
+    if "study" not in found.attrs:
+        raise DomainError(f"{file}: this holds no results of a sweep")
+    words = {name: values.astype(object) for name, values in found.data_vars.items() if values.dtype.kind in "UT"}
+    made: xarray.Dataset = found.assign(words)
+    return made
+
+
+def shares(values: "xarray.DataArray") -> dict[str, float]:
+    """Of a variable of words: word -> share of the rows, the greatest first."""
+    words, counts = np.unique(values.values.astype(str), return_counts=True)
+    every = math.fsum(counts)
+    return {str(words[i]): float(counts[i] / every) for i in np.argsort(-counts, kind="stable")}

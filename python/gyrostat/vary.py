@@ -1,0 +1,369 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What varies from row to row of a study: random numbers, grids and tables of cases, and the values that a row gets.
+
+A value is a function of the seed, the number of its row and the name of its key alone, so that rows can be had in any order and in any parts.
+"""
+
+import csv
+import hashlib
+import math
+import os
+import re
+import warnings
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gyrostat.errors import DomainError
+from gyrostat.units import dimension_of, quantity
+
+__all__ = ["DESIGNS", "Axis", "Plan", "Spread", "Varied", "as_varied", "choice", "grid", "linspace", "logspace", "lognormal", "normal", "number_in",
+           "read_cases", "read_words", "uniform"]
+
+Floats = NDArray[np.float64]
+Number = float | str  # a text: with a unit, "3 deg/s", or a share, "5%"; where words are taken one of them
+# Takes a number as it was given to what the compiled core takes.
+Reader = Callable[[Number], float]
+
+DESIGNS: Final = ("random", "sobol", "latin-hypercube")
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """A random number."""
+
+    name: str
+    arguments: tuple[Number, ...]
+
+    def __str__(self) -> str:
+        return f"{self.name}({', '.join(map(_text, self.arguments))})"
+
+    def quantiles(self, read: Reader) -> Callable[[Floats], Floats]:
+        """What gives the values at shares of the probability, (n,) in (0, 1). Raises DomainError."""
+        made: Callable[[Floats], Floats] = _QUANTILES[self.name](self, read)
+        return made
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """Values that are taken one after the other, each with all of every other axis: an axis of a grid."""
+
+    name: str  # list, linear, log
+    arguments: tuple[Number, ...]  # the values; else the ends
+    count: int = 0
+
+    def __str__(self) -> str:
+        if self.name == "list":
+            return f"[{', '.join(map(_text, self.arguments))}]"
+        return f"{':'.join(map(_text, self.arguments))}:{self.count}{'log' if self.name == 'log' else ''}"
+
+    def values(self, read: Reader) -> Floats:
+        """All of them. Raises DomainError."""
+        numbers = [read(value) for value in self.arguments]
+        if self.name == "list":
+            return np.array(numbers)
+        if self.count < 2 or not numbers[0] < numbers[1] or (self.name == "log" and not numbers[0] > 0):
+            raise DomainError(f"{self}: give two ends, the smaller first{' and positive' if self.name == 'log' else ''}, and at least 2 values")
+        low, high = numbers
+        return np.geomspace(low, high, self.count) if self.name == "log" else np.linspace(low, high, self.count)
+
+
+Varied = Spread | Axis
+
+
+def _text(value: Number) -> str:
+    return value if isinstance(value, str) else repr(float(value))
+
+
+# ---- the words ----
+
+
+def normal(mean: Number, deviation: Number) -> Spread:
+    """Normal about `mean`; the standard deviation in the same unit, or as a share of the mean ("5%")."""
+    return Spread("normal", (mean, deviation))
+
+
+def uniform(low: Number, high: Number) -> Spread:
+    """Every value between `low` and `high` alike."""
+    return Spread("uniform", (low, high))
+
+
+def lognormal(median: Number, deviation: Number) -> Spread:
+    """A number whose natural logarithm is normal, with this standard deviation: 0.2 or "20%"."""
+    return Spread("lognormal", (median, deviation))
+
+
+def choice(*values: Number) -> Spread:
+    """One of the values, each as likely."""
+    return Spread("choice", values)
+
+
+def grid(values: Iterable[Number]) -> Axis:
+    """All of the values, each with all of every other grid."""
+    return Axis("list", tuple(value if isinstance(value, str) else float(value) for value in values))
+
+
+def linspace(low: Number, high: Number, count: int) -> Axis:
+    """A grid of `count` values from `low` to `high`, as far apart each."""
+    return Axis("linear", (low, high), count)
+
+
+def logspace(low: Number, high: Number, count: int) -> Axis:
+    """A grid of `count` values from `low` to `high`, each the same multiple of the one before."""
+    return Axis("log", (low, high), count)
+
+
+_WORDS: Final[dict[str, Callable[..., Varied]]] = {"normal": normal, "uniform": uniform, "lognormal": lognormal, "choice": choice}
+_FORMS: Final = "normal(0.005, 5%), uniform(15, 17), lognormal(1e-4, 20%), choice(1, 2, 5), [1, 2, 5], 0:10:11 or 1e-5:1e-3:50log"
+
+
+def _number(text: str) -> Number:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def read_words(text: str) -> Varied:
+    """What a text such as "normal(0.005, 5%)" stands for. Raises DomainError."""
+    text = text.strip()
+    if found := re.fullmatch(r"([a-z]+)\s*\((.*)\)", text):
+        word = _WORDS.get(found[1])
+        arguments = [_number(part.strip()) for part in found[2].split(",")]
+        if word is not None and all(argument != "" for argument in arguments) and (word is choice or len(arguments) == 2):
+            return word(*arguments)
+    elif found := re.fullmatch(r"\[(.*)\]", text, re.DOTALL):
+        values = [part.strip().strip("\"'") for part in found[1].split(",") if part.strip()]
+        if values:
+            return grid([_number(value) for value in values])
+    elif found := re.fullmatch(r"([^:]+):([^:]+):\s*(\d+)\s*(log)?", text):
+        return (logspace if found[4] else linspace)(_number(found[1].strip()), _number(found[2].strip()), int(found[3]))
+    raise DomainError(f'"{text}" says not how the number varies; write {_FORMS}')
+
+
+def as_varied(value: Any) -> Varied:
+    """A Spread, an Axis, words for one, or values for an axis. Raises DomainError."""
+    if isinstance(value, Spread | Axis):
+        return value
+    if isinstance(value, str):
+        return read_words(value)
+    try:
+        values = [item if isinstance(item, str) else float(item) for item in np.asarray(value).ravel().tolist()] if np.ndim(value) == 1 else []
+    except (TypeError, ValueError):
+        values = []
+    if not values:
+        raise DomainError(f"{str(value)[:60]} says not how the number varies; write {_FORMS}, or give a list of numbers")
+    return grid(values)
+
+
+def number_in(value: Number, unit: str) -> float:
+    """A number in SI units, from a number or a text with a unit of this dimension. Raises DomainError."""
+    if not isinstance(value, str):
+        return float(value)
+    try:
+        number, dimension = quantity(value)
+    except ValueError as error:
+        raise DomainError(f'"{value}": {error}') from None
+    if dimension is not None and dimension != dimension_of(unit):
+        raise DomainError(f'"{value}": its unit is {unit or "that of a number"}')
+    return number
+
+
+# ---- quantiles ----
+
+
+def _deviation(spread: Spread, read: Reader, of: float) -> float:
+    """The second argument, of which a share is one of `of`."""
+    value = spread.arguments[1]
+    made = number_in(value, "1") * abs(of) if isinstance(value, str) and value.strip().endswith("%") else read(value)
+    if not (made >= 0 and math.isfinite(made)):
+        raise DomainError(f"{spread}: give a standard deviation >= 0")
+    return made
+
+
+def _normal(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
+    mean = read(spread.arguments[0])
+    deviation = _deviation(spread, read, mean)
+    return lambda share: mean + deviation * _standard_normal(share)
+
+
+def _lognormal(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
+    median, deviation = read(spread.arguments[0]), _deviation(spread, lambda value: number_in(value, "1"), 1.0)
+    if not median > 0:
+        raise DomainError(f"{spread}: give a median > 0")
+    return lambda share: median * np.exp(deviation * _standard_normal(share))
+
+
+def _uniform(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
+    low, high = map(read, spread.arguments)
+    if not low < high:
+        raise DomainError(f"{spread}: give the smaller end first")
+    return lambda share: low + (high - low) * share
+
+
+def _choice(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
+    values = np.array([read(value) for value in spread.arguments])
+    return lambda share: values[(share * len(values)).astype(int)]
+
+
+_QUANTILES: Final = {"normal": _normal, "lognormal": _lognormal, "uniform": _uniform, "choice": _choice}
+
+
+def _standard_normal(share: Floats) -> Floats:
+    try:
+        from scipy.special import ndtri
+    except ImportError as error:
+        raise ImportError("scipy is not installed: pip install 'gyrostat[xarray]'") from error
+    made: Floats = ndtri(share)
+    return made
+
+
+def _draws(seed: int, name: str, rows: range) -> Floats:
+    """A random number in (0, 1) for each row: word row % 4 of block row // 4 of the generator Philox 4x64-10 whose key is seed and name."""
+    word = int.from_bytes(hashlib.blake2b(name.encode(), digest_size=8).digest(), "little")
+    first = rows.start // 4
+    # the generator counts on before it makes a block
+    counter = (first - 1) % 2**256
+    generator = np.random.Philox(key=np.array([seed, word], dtype=np.uint64),
+                                 counter=np.array([counter >> 64 * i & 2**64 - 1 for i in range(4)], dtype=np.uint64))
+    raw = generator.random_raw(4 * (-(-rows.stop // 4) - first))[rows.start - 4 * first:rows.stop - 4 * first]
+    made: Floats = ((raw >> np.uint64(12)).astype(np.float64) + 0.5) * 2.0**-52
+    return made
+
+
+# ---- the rows ----
+
+
+def read_cases(file: str | os.PathLike[str]) -> dict[str, tuple[Number, ...]]:
+    """A table of cases from CSV: keys in the first line, below it a line a case. Raises DomainError."""
+    try:
+        with Path(file).open(newline="", encoding="utf-8-sig") as stream:
+            lines = [line for line in csv.reader(stream, skipinitialspace=True) if any(part.strip() for part in line)]
+    except (OSError, UnicodeDecodeError) as error:
+        raise DomainError(f"{file}: the table of cases cannot be read ({getattr(error, 'strerror', None) or error})") from None
+    if len(lines) < 2:
+        raise DomainError(f"{file}: write the keys into the first line, and below it a line a case")
+    for number, line in enumerate(lines[1:], 2):
+        if len(line) != len(lines[0]):
+            raise DomainError(f"{file}: line {number} has {len(line)} values, the first line {len(lines[0])} keys")
+    return {key.strip(): tuple(_number(line[i].strip()) for line in lines[1:]) for i, key in enumerate(lines[0])}
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """How many rows there are and what each gets. The columns come by key; `readers` knows the numbers of each."""
+
+    vary: Mapping[str, Varied]
+    cases: Mapping[str, tuple[Number, ...]]
+    readers: Mapping[str, Reader]
+    n: int
+    seed: int
+    design: str
+
+    @classmethod
+    def of(cls, vary: Mapping[str, Varied], cases: Mapping[str, tuple[Number, ...]], readers: Mapping[str, Reader], n: int | None, seed: int,
+           design: str) -> "Plan":
+        """A plan of `n` rows, or of as many as the grid and the table of cases have; 0 where nothing says how many. Raises DomainError."""
+        if design not in DESIGNS:
+            raise DomainError(f'design = "{design}": use {", ".join(DESIGNS)}')
+        if not 0 <= seed < 2**64:
+            raise DomainError(f"seed = {seed}: give an integer from 0 to 2^64 - 1")
+        if not vary and not cases:
+            raise DomainError("nothing varies: say which keys do and how")
+        lengths = {len(values) for values in cases.values()}
+        if len(lengths) > 1 or 0 in lengths:
+            raise DomainError(f"cases: the columns have {', '.join(map(str, sorted(lengths)))} values; give as many of each")
+        if both := next((key for key in vary if key in cases), None):
+            raise DomainError(f"{both}: it stands in the table of cases, and is to vary beside it")
+        every = math.prod(cls(vary, cases, readers, 1, seed, design)._shape)
+        if n is None:
+            n = every if cases or any(isinstance(each, Axis) for each in vary.values()) else 0
+        made = cls(vary, cases, readers, n, seed, design)
+        if not 0 <= n < 2**31 or n % every:
+            raise DomainError(f"n = {n}: give a multiple of the {every} combinations of the grid, below 2^31" if every > 1 else
+                              f"n = {n}: give a number of rows from 1 to 2^31 - 1")
+        for key, each in vary.items():
+            if isinstance(each, Spread):
+                try:
+                    each.quantiles(readers[key])
+                except DomainError as error:
+                    raise DomainError(f"{key}: {error}") from None
+        return made
+
+    @cached_property
+    def _axes(self) -> dict[str, Floats]:
+        return {key: each.values(self.readers[key]) for key, each in self.vary.items() if isinstance(each, Axis)}
+
+    @cached_property
+    def _cases(self) -> dict[str, Floats]:
+        return {key: np.array([self.readers[key](value) for value in values]) for key, values in self.cases.items()}
+
+    @cached_property
+    def _quantiles(self) -> dict[str, Callable[[Floats], Floats]]:
+        return {key: each.quantiles(self.readers[key]) for key, each in self.vary.items() if isinstance(each, Spread)}
+
+    @property
+    def _shape(self) -> tuple[int, ...]:
+        """Lengths of the table of cases, where there is one, and of the axes of the grid; the last runs fastest."""
+        return (*{len(values) for values in self.cases.values()}, *(len(values) for values in self._axes.values()))
+
+    def columns(self, rows: range) -> dict[str, Floats]:
+        """The values of these rows, by key: (len(rows),) each."""
+        made: dict[str, Floats] = {}
+        shape = self._shape
+        if shape:
+            places = np.unravel_index(np.arange(rows.start, rows.stop) % math.prod(shape), shape)
+            made |= {key: values[places[0]] for key, values in self._cases.items()}
+            made |= {key: values[place] for (key, values), place in zip(self._axes.items(), places[len(places) - len(self._axes):], strict=True)}
+        shares = self._shares(rows)
+        made |= {key: np.ascontiguousarray(quantile(shares[key])) for key, quantile in self._quantiles.items()}
+        return {key: made[key] for key in (*self.cases, *self.vary)}
+
+    def _shares(self, rows: range) -> dict[str, Floats]:
+        """Shares of the probability, in (0, 1), of the random numbers in these rows."""
+        names = sorted(self._quantiles)  # of the columns of a design, whatever order they were named in
+        if self.design == "random" or not names:
+            return {name: _draws(self.seed, name, rows) for name in names}
+        every = math.prod(self._shape)
+        # each combination of the grid gets the same points of the design
+        first, last = rows.start // every, (rows.stop - 1) // every + 1
+        points = (self._sobol if self.design == "sobol" else self._latin)(len(names), first, last)
+        shown = np.ascontiguousarray(points[np.arange(rows.start, rows.stop) // every - first].T)
+        return dict(zip(names, shown, strict=True))
+
+    def _sobol(self, width: int, first: int, last: int) -> Floats:
+        engine = _qmc().Sobol(width, scramble=True, seed=np.random.default_rng(self.seed))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of numbers that are no powers of two
+            if first:
+                engine.fast_forward(first)
+            points: Floats = engine.random(last - first) + 2.0**-31  # of multiples of 2^-30 the middles
+        return points
+
+    @cached_property
+    def _hypercube(self) -> Floats:
+        count = self.n // math.prod(self._shape)
+        points: Floats = _qmc().LatinHypercube(len(self._quantiles), seed=np.random.default_rng(self.seed)).random(count)
+        return np.clip(points, 2.0**-54, 1 - 2.0**-53)
+
+    def _latin(self, _: int, first: int, last: int) -> Floats:
+        return self._hypercube[first:last]
+
+    def told(self) -> dict[str, Any]:
+        """The plan as plain data, by which two parts of one study know each other."""
+        digest = hashlib.sha256(b"".join(values.tobytes() for values in self._cases.values())).hexdigest()
+        return {"vary": {key: str(each) for key, each in self.vary.items()}, "cases": {"keys": list(self.cases), "digest": digest} if self.cases else {},
+                "n": self.n, "seed": self.seed, "design": self.design}
+
+
+def _qmc() -> Any:
+    try:
+        from scipy.stats import qmc
+    except ImportError as error:
+        raise ImportError("scipy is not installed: pip install 'gyrostat[xarray]'") from error
+    return qmc

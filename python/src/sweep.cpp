@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sweeps over rows of scenes, of every family; gyrostat/sweeps.py wraps them.
+#include "gyrostat/ladder/sweep.hpp"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bind.hpp"
+#include "convert.hpp"
+#include "elliptic_backend.hpp"
+#include "gyrostat/ladder/deceleration/inputs.hpp"
+#include "gyrostat/ladder/deceleration/solve.hpp"
+#include "gyrostat/ladder/free/inputs.hpp"
+#include "gyrostat/ladder/free/solve.hpp"
+#include "gyrostat/ladder/goal.hpp"
+#include "gyrostat/ladder/heavy/inputs.hpp"
+#include "gyrostat/ladder/heavy/solve.hpp"
+#include "gyrostat/ladder/rotor/inputs.hpp"
+#include "gyrostat/ladder/rotor/solve.hpp"
+#include "gyrostat/ladder/spinning/inputs.hpp"
+#include "gyrostat/ladder/spinning/solve.hpp"
+#include "question_arguments.hpp"
+#ifdef GYROSTAT_HAVE_CVODE
+#include "gyrostat/ladder/deceleration/cvode_motion.hpp"
+#include "gyrostat/ladder/heavy/cvode_motion.hpp"
+#include "gyrostat/ladder/rotor/cvode_motion.hpp"
+#include "gyrostat/ladder/spinning/cvode_motion.hpp"
+#endif
+
+namespace {
+
+using namespace gyrostat;
+using namespace gyrostat::python;
+
+/// What solves the full equations by CVODE; nullptr where the build has none.
+template <class Scene>
+constexpr decltype(Scene::full_equations) cvode_of = nullptr;
+#ifdef GYROSTAT_HAVE_CVODE
+template <>
+constexpr decltype(deceleration::Scene::full_equations) cvode_of<deceleration::Scene> = &deceleration::full_by_cvode;
+template <>
+constexpr decltype(rotor::Scene::full_equations) cvode_of<rotor::Scene> = &rotor::full_by_cvode;
+template <>
+constexpr decltype(spinning::Scene::full_equations) cvode_of<spinning::Scene> = &spinning::full_by_cvode;
+template <>
+constexpr decltype(heavy::Scene::full_equations) cvode_of<heavy::Scene> = &heavy::full_by_cvode;
+#endif
+
+/// The rows that are asked for, apart from the family.
+struct Rows {
+  const Array& numbers;
+  const std::vector<std::size_t>& places;
+  const Array& values;
+  std::size_t count;
+  unsigned threads;
+  Monitor* monitor;
+};
+
+/// Arrays for the columns and scalars that the question asks for, and where they are.
+class Tables {
+ public:
+  Tables(const Family& family, const Question& question, std::size_t rows, std::size_t rotors) {
+    const bool all = question.asked.empty() && question.rung != any_rung;
+    for (std::size_t place = 0; place < family.columns.size(); ++place) {
+      const ColumnKind& kind = family.columns[place];
+      const std::size_t width = kind.width == per_rotor ? rotors : std::size_t(kind.width);
+      if (width == 0 || !(all || aim_of(question, family, false, place))) continue;
+      std::vector<py::ssize_t> shape{py::ssize_t(rows), py::ssize_t(question.times.size())};
+      if (kind.width != 1) shape.push_back(py::ssize_t(width));
+      add(kind.name, place, false, width * question.times.size(), rows, std::move(shape));
+    }
+    for (std::size_t place = 0; place < family.scalars.size(); ++place) {
+      const ScalarKind& kind = family.scalars[place];
+      if (!question.asked.empty() && !aim_of(question, family, true, place)) continue;
+      std::vector<py::ssize_t> shape{py::ssize_t(rows)};
+      if (kind.width != 1) shape.push_back(kind.width);
+      add(kind.name, place, true, std::size_t(kind.width), rows, std::move(shape));
+    }
+  }
+
+  const std::vector<SweepTarget>& targets() const noexcept { return targets_; }
+  const Data& values() const noexcept { return values_; }
+  const Data& errors() const noexcept { return errors_; }
+
+ private:
+  void add(const char* name, std::size_t place, bool scalar, std::size_t width, std::size_t rows,
+           std::vector<py::ssize_t> shape) {
+    py::array_t<double> values(std::move(shape)), errors{py::ssize_t(rows)};
+    targets_.push_back(
+        {place, scalar, width, {values.mutable_data(), std::size_t(values.size())}, {errors.mutable_data(), rows}});
+    values_[name] = values;
+    errors_[name] = errors;
+  }
+
+  std::vector<SweepTarget> targets_;
+  Data values_, errors_;
+};
+
+/// What is known of the rows beside their values: rung (-1: no answer), met, excess, warnings, and the place of the reason in `reasons`,
+/// of which the first is empty.
+void tell(Data& made, const std::vector<SweepRow>& told) {
+  const auto n = py::ssize_t(told.size());
+  py::array_t<std::int8_t> rung(n);
+  py::array_t<bool> met(n);
+  py::array_t<double> excess(n);
+  py::array_t<std::uint32_t> warnings(n);
+  py::array_t<std::int16_t> reason(n);
+  std::vector<std::pair<const char*, int>> known{{nullptr, -1}};
+  for (py::ssize_t i = 0; i < n; ++i) {
+    const SweepRow& row = told[std::size_t(i)];
+    rung.mutable_at(i) = std::int8_t(row.reason ? -1 : row.rung);
+    met.mutable_at(i) = row.met;
+    excess.mutable_at(i) = row.excess;
+    warnings.mutable_at(i) = row.warnings;
+    const std::pair why{row.reason, row.reason ? row.rung : -1};
+    auto place = std::find(known.begin(), known.end(), why);
+    if (place == known.end()) place = known.insert(known.end(), why);
+    reason.mutable_at(i) = std::int16_t(place - known.begin());
+  }
+  made["rung"] = rung;
+  made["met"] = met;
+  made["excess"] = excess;
+  made["warnings"] = warnings;
+  made["reason"] = reason;
+  py::list reasons;
+  for (const auto& [why, refused_by] : known) reasons.append(py::make_tuple(why ? why : "", refused_by));
+  made["reasons"] = reasons;
+}
+
+template <class Scene, class Solve>
+Data rows_of(const Family& family, Result<Scene> (*scene_of)(std::span<const double>, const Question&),
+             const Solve& solve, const Question& question, bool cvode, const Rows& rows) {
+  const auto posed = [&](std::span<const double> numbers) {
+    auto scene = scene_of(numbers, question);
+    if constexpr (requires(Scene s) { s.full_equations; }) {
+      if (!cvode || !scene) return scene;
+      Scene made = std::move(scene).value();
+      made.full_equations = cvode_of<Scene>;
+      return Result<Scene>(std::move(made));
+    } else {
+      return scene;
+    }
+  };
+  const std::span numbers(rows.numbers.data(), std::size_t(rows.numbers.size()));
+  const auto first = posed(numbers);
+  const Scene& whole = checked(first);
+  std::size_t rotors = 0;
+  if constexpr (requires { whole.wheels(); }) rotors = whole.wheels();
+  const Tables tables(family, whole.question(), rows.count, rotors);
+  std::vector<Varied> varied;
+  for (std::size_t i = 0; i < rows.places.size(); ++i)
+    varied.push_back({rows.places[i], {rows.values.data() + i * rows.count, rows.count}});
+  std::vector<SweepRow> told(rows.count);
+  {
+    const py::gil_scoped_release free;
+    sweep(family, numbers, varied, posed, solve, tables.targets(), told, rows.threads, rows.monitor);
+  }
+  Data made;
+  made["values"] = tables.values();
+  made["errors"] = tables.errors();
+  tell(made, told);
+  return made;
+}
+
+Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector<std::size_t>& places,
+                const Array& values, const Array& at, double tolerance, const std::string& model,
+                const std::string& integrator, const std::string& elliptic, const Ask& ask, unsigned threads,
+                const std::optional<std::shared_ptr<Monitor>>& monitor) {
+  require_shape("numbers", numbers, {-1});
+  require_shape("values", values, {py::ssize_t(places.size()), -1});
+  for (const std::size_t place : places)
+    if (place >= std::size_t(numbers.size()))
+      raise("DomainError", "places: the scene has no number " + std::to_string(place));
+  const Rows rows{numbers, places, values, std::size_t(values.shape(1)), threads, monitor ? monitor->get() : nullptr};
+  const auto run = [&](const Family& family, auto scene_of, const auto& solve) {
+    Question question = question_of(family, at, tolerance, model, ask);
+    const bool cvode = takes_cvode(family, integrator, question);
+    return rows_of(family, scene_of, solve, question, cvode, rows);
+  };
+  if (kind == "deceleration")
+    return run(deceleration::tables, &deceleration::scene_of, elliptic_backend(elliptic).decelerate);
+  if (kind == "rotor") return run(rotor::tables, &rotor::scene_of, &rotor::solve);
+  if (kind == "spinning") return run(spinning::tables, &spinning::scene_of, &spinning::solve);
+  if (kind == "heavy") return run(heavy::tables, &heavy::scene_of, &heavy::solve);
+  if (kind == "free") return run(free::tables, &free::scene_of, &free::solve);
+  raise("DomainError", "kind = '" + kind + "': there is no such family");
+}
+
+}  // namespace
+
+void bind_sweep(py::module_& module) {
+  module.def("sweep", &sweep_rows, py::kw_only(), py::arg("kind"), py::arg("numbers"), py::arg("places"),
+             py::arg("values"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),
+             py::arg("elliptic"), py::arg("ask"), py::arg("threads"), py::arg("monitor"),
+             "Answers of the ladder to rows of scenes: `numbers` in the order of the family's inputs, those at "
+             "`places` from `values` (k, n).");
+}
