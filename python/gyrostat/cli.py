@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: gyrostat solve | chart | stability | design | reproduce | scenes | show | new | schema | info | selftest."""
+"""The command line: gyrostat solve | sweep | merge | report | chart | stability | design | reproduce | scenes | show | new | schema | info | selftest."""
 
 import argparse
 import dataclasses
@@ -19,6 +19,7 @@ from gyrostat.console import Progress, say, short, show_table, small
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, bundled, load, parse_override
+from gyrostat.sweep_commands import add_commands
 
 __all__ = ["main"]
 
@@ -90,6 +91,8 @@ def _arguments() -> argparse.ArgumentParser:
                        "attitude=0.1deg,stop_time; or all")
     solve.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of to the standard output, in the form of the ending")
     solve.add_argument("--plot", type=Path, metavar="FILE", help="write a figure (PNG, SVG or PDF by its ending)")
+
+    add_commands(command, takes_scene, _scene)
 
     chart = command("chart", _chart, "chart error against cost of every rung and integrator: PNG, SVG and CSV")
     takes_scene(chart)

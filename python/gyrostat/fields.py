@@ -8,7 +8,8 @@ from typing import Any, Final, Literal
 __all__ = ["Choice", "Choices", "Field", "Found", "LIMIT", "MOST_SAMPLES", "REQUIRED", "ROUNDING", "TIMES", "Table", "UNSET", "Values",
            "head_keys", "needed", "solve_keys", "table_of"]
 
-Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "moments", "times", "record", "records", "ask"]
+Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "moments", "times", "record", "records", "ask",
+               "vary"]
 
 REQUIRED: Final = "required"  # the key must be given
 UNSET: Final = None  # the key may be left out and then has no value
@@ -50,6 +51,8 @@ def head_keys(kind: str) -> Table:
         Field("name", "text", "name of the scene"),
         Field("kind", "choice", "family of the scene", choices=(kind,)),
         Field("source", "text", "where the numbers come from", default=""),
+        Field("vary", "vary", "what varies from row to row of a sweep, each key in full and in quotes, and how; beside them n, seed, design, cases",
+              default=UNSET),
     )
 
 

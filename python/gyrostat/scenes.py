@@ -48,7 +48,6 @@ class Scene:
     tables: Values
     path: Path | None = None
     top: Mapping[str, Any] = member(default_factory=dict)  # keys of the kind's own at the top, such as the wheels
-    vary: Mapping[str, Any] = member(default_factory=dict)  # the table [vary]: what varies in a sweep, by key, and n, seed, design, cases
 
     @property
     def times(self) -> NDArray[np.float64]:
@@ -68,6 +67,11 @@ class Scene:
         return float(self.tables["solve"]["tolerance"])
 
     @property
+    def vary(self) -> Mapping[str, Any]:
+        """The table [vary]: what varies from row to row of a sweep."""
+        return self.top.get("vary") or {}
+
+    @property
     def model(self) -> str:
         """Rung asked for, or "auto"."""
         return str(self.tables["solve"]["model"])
@@ -81,8 +85,6 @@ class Scene:
         for table, values in self.tables.items():
             if given := {key: _plain(value) for key, value in values.items() if value is not UNSET}:
                 made[table] = given
-        if self.vary:
-            made["vary"] = _plain(self.vary)
         return made
 
     def replace(self, **overrides: Any) -> "Scene":
@@ -106,7 +108,7 @@ class Scene:
                 return None
         if any(family.mistakes(tables)):
             return None
-        made = Scene(self.name, self.kind, self.source, tables, self.path, self.top, self.vary)
+        made = Scene(self.name, self.kind, self.source, tables, self.path, self.top)
         if tables["solve"] is self.tables["solve"]:
             made.__dict__["_times"] = self._times
         return made
@@ -403,9 +405,17 @@ def _ask(field: Field, value: Any) -> Any:
     return tuple(value)
 
 
+def _vary(field: Field, value: Any) -> dict[str, Any]:
+    """Its keys are looked at when the scene is known."""
+    if not isinstance(value, dict):
+        raise _Wrong(f"this is {_kind_of(value)}, not a table", "write [vary] on a line of its own, then its keys")
+    return value
+
+
 _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
     "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "direction": _direction,
     "quaternion": _quaternion, "inertia": _inertia, "moments": _moments, "times": _times, "record": _record, "records": _records, "ask": _ask,
+    "vary": _vary,
 }
 
 
@@ -434,7 +444,6 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
 
     family = FAMILIES[kind]
     layout = family.keys
-    vary = tree.pop("vary", {})
     read: dict[str, dict[str, Any]] = {}
     unread: set[str] = set()
     for key in tree:
@@ -482,18 +491,16 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         raise SceneError(*mistakes)
     head = read.pop("")
     top = {key: value for key, value in head.items() if key not in ("name", "kind", "source")}
-    made = Scene(head["name"], kind, head["source"], read, source.path, top, vary if isinstance(vary, dict) else {})
-    _check_varied(made, vary, source)
+    made = Scene(head["name"], kind, head["source"], read, source.path, top)
+    _check_varied(made, source)
     return made
 
 
-def _check_varied(scene: Scene, vary: Any, source: _Source) -> None:
+def _check_varied(scene: Scene, source: _Source) -> None:
     """What the table [vary] says has a meaning; a table of cases is looked at when it is wanted."""
     try:
-        if not isinstance(vary, dict):
-            raise DomainError(f"this is {_kind_of(vary)}, not a table; write [vary] on a line of its own, then its keys")
-        if vary:
-            plan_of(scene, cases={} if "cases" in vary else None)
+        if scene.vary:
+            plan_of(scene, cases={} if "cases" in scene.vary else None)
     except DomainError as error:
         problem, _, remedy = str(error).partition("; ")
         raise SceneError(Mistake(source.where("vary"), "vary", "", problem, remedy or "write what docs/sweeps.md says")) from None

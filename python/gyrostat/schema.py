@@ -8,6 +8,7 @@ from typing import Any
 from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import LIMIT, REQUIRED, UNSET, Choice, Choices, Field, table_of
 from gyrostat.toml_text import toml_value
+from gyrostat.vary import DESIGNS
 
 __all__ = ["interval", "key_tables", "schema", "ways"]
 
@@ -52,6 +53,12 @@ def _form(field: Field) -> dict[str, Any]:
                     "required": [part.name for part in field.parts if part.default is REQUIRED], "additionalProperties": False}
         case "records":
             return {"type": "array", "items": _form(replace(field, form="record"))}
+        case "vary":
+            how = [{"type": "string"}, {"type": "array", "items": {"oneOf": [{"type": "number"}, {"type": "string"}]}, "minItems": 1},
+                   {"type": "object"}]
+            settings = {"n": {"type": "integer", "minimum": 1}, "seed": {"type": "integer", "minimum": 0}, "design": {"enum": list(DESIGNS)},
+                        "cases": {"oneOf": [{"type": "string"}, {"type": "object"}]}}
+            return {"type": "object", "properties": settings, "additionalProperties": {"oneOf": how}}
 
 
 def _property(field: Field) -> dict[str, Any]:
@@ -143,6 +150,8 @@ def _form_text(field: Field) -> str:
             return "{ " + ", ".join(part.name for part in field.parts) + " }"
         case "records":
             return f"[[{field.name}]] each"
+        case "vary":
+            return "[vary]"
         case _:
             return field.form
 

@@ -66,7 +66,9 @@ class Family:
     @cached_property
     def example(self) -> dict[str, Any]:
         """A value of every key without default, by full key: a body to start from."""
-        return {"name": f"my-{self.name}", "kind": self.name, "solve.times": (0.0, 10.0, 25.0), "solve.ask": "all", **self._module("scene").EXAMPLE}
+        own: dict[str, Any] = self._module("scene").EXAMPLE
+        vary = {"n": 1000, "body.inertia[0]": f"normal({own['body.inertia'][0]}, 1%)"}
+        return {"name": f"my-{self.name}", "kind": self.name, "vary": vary, "solve.times": (0.0, 10.0, 25.0), "solve.ask": "all", **own}
 
     def needs(self, table: str) -> bool:
         """No scene can do without the table."""

@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the results of a sweep say: tables, and figures that need matplotlib."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gyrostat.console import short, small
+from gyrostat.drawing import COLOURS, Drawing, new_figure, note, save, time_unit
+from gyrostat.facts import FACTS
+from gyrostat.sweeps import shares
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["Response", "drawings", "rank_correlations", "responses", "save_figures", "tables"]
+
+PERCENTILES: Final = (1, 5, 25, 50, 75, 95, 99)
+MOST_DOTS: Final = 20000  # of a scatter plot
+MOST_PANELS: Final = 12
+
+Floats = NDArray[np.float64]
+Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """A number of every row; NaN where it has none."""
+
+    label: str
+    unit: str
+    values: Floats  # (n,)
+    error: Floats | None  # (n,), as its family measures it
+
+
+def _labels(dataset: "xarray.Dataset", name: str, dims: Sequence[str]) -> list[str]:
+    """Of the components of a variable."""
+    return [f"{name}_{label}" for label in dataset[dims[0]].values] if dims else [name]
+
+
+def _quantities(dataset: "xarray.Dataset", over_time: bool) -> Iterator[tuple[str, Any]]:
+    """The columns, or the scalars, that are numbers."""
+    known = FACTS[dataset.attrs["kind"]].quantities
+    for name, variable in dataset.data_vars.items():
+        if name in known and variable.dtype.kind == "f" and known[str(name)].kind == "number" and ("time" in variable.dims) == over_time:
+            yield str(name), variable
+
+
+def parameters(dataset: "xarray.Dataset") -> "dict[str, xarray.DataArray]":
+    """What varies, by key."""
+    return {str(name): values for name, values in dataset.data_vars.items() if values.attrs.get("role") == "parameter"}
+
+
+def responses(dataset: "xarray.Dataset") -> list[Response]:
+    """The scalars, component by component; where none was asked for the columns at the last time."""
+    found = []
+    for over_time in (False, True):
+        for name, variable in _quantities(dataset, over_time):
+            values = variable.isel(time=-1) if over_time else variable
+            error = dataset[f"{name}_error"].values if f"{name}_error" in dataset else None
+            parts = values.values.reshape(values.shape[0], -1).T
+            labels = _labels(dataset, name, [str(dim) for dim in values.dims[1:]])
+            found += [Response(label, values.attrs.get("units", ""), part, error) for label, part in zip(labels, parts, strict=True)]
+        if found:
+            break
+    return [each for each in found if np.isfinite(each.values).any()]
+
+
+def _ranks(values: Floats) -> Floats:
+    """Ranks from 0; of equal values the mean of theirs."""
+    _, inverse, counts = np.unique(values, return_inverse=True, return_counts=True)
+    first = np.cumsum(counts) - counts
+    made: Floats = (first + (counts - 1) / 2)[inverse]
+    return made
+
+
+def rank_correlations(dataset: "xarray.Dataset", response: Response) -> dict[str, float]:
+    """Spearman's rank correlation of the response with each parameter, over the rows that have both; NaN where one of them is constant."""
+    made = {}
+    for key, values in parameters(dataset).items():
+        known = np.isfinite(response.values) & np.isfinite(values.values)
+        x, y = _ranks(values.values[known]), _ranks(response.values[known])
+        x, y = x - np.mean(x) if len(x) else x, y - np.mean(y) if len(y) else y
+        size = math.sqrt(float(x @ x) * float(y @ y))
+        made[key] = float(x @ y) / size if size > 0 else math.nan
+    return made
+
+
+# ---- for reading ----
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.4g} %"
+
+
+def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
+    """Title, heads and rows of each table of the report."""
+    met = dataset["met"].values
+    rows = []
+    for name, share in shares(dataset["model"]).items():
+        of = dataset["model"].values.astype(str) == name
+        excess = dataset["excess"].values[of]
+        worst = small(float(np.nanmax(excess))) if np.isfinite(excess).any() else "-"
+        rows.append([name or "no answer", _percent(share), str(int(of.sum())), _percent(float(met[of].mean())), worst])
+    yield f"Rungs, {len(met)} rows, {_percent(float(met.mean()))} within the tolerance", [
+        "rung", "share", "rows", "within the tolerance", "greatest error over its tolerance"], rows
+    rows = []
+    for each in responses(dataset):
+        known = np.isfinite(each.values)
+        numbers = [short(float(value), 5) for value in np.percentile(each.values[known], PERCENTILES)]
+        worst = each.error is not None and np.isfinite(each.error).any()
+        rows.append([each.label, each.unit, _percent(float(known.mean())), *numbers, small(float(np.nanmax(each.error))) if worst else "-"])  # type: ignore[arg-type]
+    yield "Percentiles", ["", "unit", "finite", *(f"{p} %" for p in PERCENTILES), "greatest error"], rows
+    keys = list(parameters(dataset))
+    rows = [[each.label, *(f"{value:+.3f}" if math.isfinite(value) else "-" for value in rank_correlations(dataset, each).values())]
+            for each in responses(dataset)]
+    yield "Rank correlations", ["", *keys], rows
+    yield "No answer", ["reason", "share", "rows"], [
+        [reason, _percent(share), str(round(share * len(met)))] for reason, share in shares(dataset["reason"]).items() if reason]
+    bits, masks = dataset["warnings"].values, np.atleast_1d(dataset["warnings"].attrs["flag_masks"])
+    told = [(code, float(np.mean((bits & mask) != 0))) for code, mask in zip(dataset["warnings"].attrs["flag_meanings"].split(), masks, strict=True)]
+    yield "Warnings", ["code", "share"], [[code, _percent(share)] for code, share in told if share > 0]
+
+
+# ---- figures ----
+
+
+def _title(dataset: "xarray.Dataset") -> str:
+    return f"{dataset.attrs['title']}: {dataset.sizes['row']} rows, {_percent(float(dataset['met'].values.mean()))} within the tolerance"
+
+
+def _panels(count: int, width: float, height: float, columns: int) -> "tuple[Figure, list[Axes]]":
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    figure = new_figure(width if columns > 1 else 0.6 * width, 0.6 + height * rows)
+    axes = list(figure.subplots(rows, columns, squeeze=False).ravel())
+    for extra in axes[count:]:
+        extra.axis("off")
+    return figure, axes[:count]
+
+
+def _axis_text(label: str, unit: str) -> str:
+    return f"{label} [{unit}]" if unit not in ("", "1") else label
+
+
+def histograms(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
+    """How often each response takes which values."""
+    figure, axes = _panels(len(shown), 11, 2.9, 2)
+    for place, each in zip(axes, shown, strict=True):
+        values = each.values[np.isfinite(each.values)]
+        place.hist(values, bins=min(60, max(10, round(math.sqrt(len(values))))), color=COLOURS[0], alpha=0.75)
+        for share, dashes in ((5, ":"), (50, "-"), (95, ":")):
+            at = float(np.percentile(values, share))
+            place.axvline(at, color=COLOURS[1], linestyle=dashes, linewidth=1.2, label=f"{share} %: {short(at, 5)}")
+        place.legend(fontsize=8)
+        place.set_xlabel(_axis_text(each.label, each.unit))
+        place.set_ylabel("rows")
+        place.grid(alpha=0.3)
+        note(place, f"finite in {_percent(float(np.isfinite(each.values).mean()))}")
+    figure.suptitle(_title(dataset), fontsize=11)
+    return figure
+
+
+def bands(dataset: "xarray.Dataset", columns: Sequence[tuple[str, Any]]) -> "Figure":
+    """Percentiles of each column over time."""
+    times = dataset["time"].values
+    scale, unit = time_unit(float(times[-1]))
+    shown = []
+    for name, variable in columns:
+        parts = np.moveaxis(variable.values.reshape(*variable.shape[:2], -1), 2, 0)
+        labels = _labels(dataset, name, [str(dim) for dim in variable.dims[2:]])
+        shown += [(label, variable.attrs.get("units", ""), part) for label, part in zip(labels, parts, strict=True)]
+    shown = shown[:MOST_PANELS]
+    figure, axes = _panels(len(shown), 11, 2.6, 2)
+    for place, (label, its_unit, values) in zip(axes, shown, strict=True):
+        known = values[np.isfinite(values).all(axis=1)]
+        levels = np.percentile(known, (5, 25, 50, 75, 95), axis=0)
+        place.fill_between(times / scale, levels[0], levels[4], color=COLOURS[0], alpha=0.2, linewidth=0, label="5 to 95 %")
+        place.fill_between(times / scale, levels[1], levels[3], color=COLOURS[0], alpha=0.4, linewidth=0, label="25 to 75 %")
+        place.plot(times / scale, levels[2], color=COLOURS[0], linewidth=1.2, label="median")
+        place.set_ylabel(_axis_text(label, its_unit))
+        place.set_xlabel(f"time [{unit}]")
+        place.legend(fontsize=8)
+        place.grid(alpha=0.3)
+    figure.suptitle(_title(dataset), fontsize=11)
+    return figure
+
+
+def tornado(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
+    """Rank correlation of each response with each parameter, the strongest on top."""
+    keys = list(parameters(dataset))
+    figure, axes = _panels(len(shown), 11, 1.2 + 0.3 * len(keys), 2)
+    for place, each in zip(axes, shown, strict=True):
+        found = sorted(((value, key) for key, value in rank_correlations(dataset, each).items() if math.isfinite(value)), key=lambda pair: abs(pair[0]))
+        numbers, names = [value for value, _ in found], [key for _, key in found]
+        place.barh(names, numbers, color=[COLOURS[0] if value > 0 else COLOURS[1] for value in numbers])
+        place.set_xlim(-1, 1)
+        place.axvline(0, color="black", linewidth=0.8)
+        place.set_xlabel("rank correlation")
+        place.set_title(each.label, loc="left", fontsize=10)
+        place.grid(alpha=0.3, axis="x")
+    figure.suptitle(_title(dataset), fontsize=11)
+    return figure
+
+
+def scatter(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
+    """Each response over the parameter that it hangs on most, coloured by the rung that answered."""
+    rungs = list(FACTS[dataset.attrs["kind"]].rungs)
+    models = dataset["model"].values.astype(str)
+    figure, axes = _panels(len(shown), 11, 3.4, 2)
+    few = np.arange(0, len(models), -(-len(models) // MOST_DOTS))
+    for place, each in zip(axes, shown, strict=True):
+        found = {key: value for key, value in rank_correlations(dataset, each).items() if math.isfinite(value)}
+        key = max(found, key=lambda name: abs(found[name])) if found else next(iter(parameters(dataset)))
+        values = parameters(dataset)[key]
+        for i, rung in enumerate(rungs):
+            of = few[models[few] == rung]
+            if len(of):
+                place.plot(values.values[of], each.values[of], ".", markersize=3, alpha=0.6, color=COLOURS[i % len(COLOURS)], label=rung)
+        wide = values.values[values.values > 0]
+        if len(wide) == len(values) and np.ptp(np.log10(wide)) > 1.5:
+            place.set_xscale("log")
+        place.set_xlabel(_axis_text(key, values.attrs.get("units", "")))
+        place.set_ylabel(_axis_text(each.label, each.unit))
+        place.legend(fontsize=8, markerscale=3)
+        place.grid(alpha=0.3)
+    figure.suptitle(_title(dataset), fontsize=11)
+    return figure
+
+
+def drawings(dataset: "xarray.Dataset") -> Iterator[Drawing]:
+    """Name of the file and figure of what these results can show."""
+    shown = [each for each in responses(dataset) if np.ptp(each.values[np.isfinite(each.values)]) > 0][:MOST_PANELS]
+    columns = [(name, values) for name, values in _quantities(dataset, True) if len(dataset["time"]) > 1
+               and np.isfinite(values.values).reshape(len(values), -1).all(axis=1).any()]
+    made: list[tuple[str, bool, Callable[[], Figure]]] = [
+        ("histograms", bool(shown), lambda: histograms(dataset, shown)), ("bands", bool(columns), lambda: bands(dataset, columns)),
+        ("tornado", bool(shown), lambda: tornado(dataset, shown)), ("scatter", bool(shown), lambda: scatter(dataset, shown))]
+    yield from ((name, draw) for name, there, draw in made if there)
+
+
+def save_figures(dataset: "xarray.Dataset", folder: Path) -> Iterator[Path]:
+    """Writes the figures as PNG; yields their files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, draw in drawings(dataset):
+        save(draw(), folder / f"{name}.png")
+        yield folder / f"{name}.png"
