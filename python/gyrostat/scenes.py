@@ -20,7 +20,7 @@ from gyrostat.asking import AskError, asked, knows_attitude
 from gyrostat.errors import DomainError, Mistake, SceneError
 from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, UNSET, Choices, Field, Table, Values, table_of
-from gyrostat.rows import plan_of
+from gyrostat.rows import SETTINGS, plan_of
 
 __all__ = ["Scene", "bundled", "find", "load", "parse_override", "scene_from"]
 
@@ -499,7 +499,7 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
 def _check_varied(scene: Scene, source: _Source) -> None:
     """What the table [vary] says has a meaning; a table of cases is looked at when it is wanted."""
     try:
-        if scene.vary:
+        if not set(scene.vary) <= set(SETTINGS):
             plan_of(scene, cases={} if "cases" in scene.vary else None)
     except DomainError as error:
         problem, _, remedy = str(error).partition("; ")

@@ -1,0 +1,379 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sweeps: what is drawn, the same bits however a sweep is cut, rows without an answer, files, the commands."""
+
+import csv
+import itertools
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import gyrostat
+import numpy as np
+import pytest
+import xarray
+from gyrostat import DomainError, SceneError, sweep
+from gyrostat.cli import main
+from gyrostat.families import FAMILIES
+from gyrostat.rows import numbers_of, place_of, plan_of
+from gyrostat.scenes import bundled, load, scene_from
+from gyrostat.sweep_report import drawings, rank_correlations, responses, tables
+from gyrostat.sweeps import merge, open_results, save
+from gyrostat.toml_text import toml_text
+from gyrostat.vary import DESIGNS, Plan, Varied, choice, grid, linspace, lognormal, logspace, normal, number_in, read_words, uniform
+
+VARY: dict[str, Any] = {"torque.control[0]": normal(0.06, "5%"), "body.inertia[0]": uniform(16000, 17000), "torque.drag": lognormal(1.2e-6, "20%")}
+LIGHT: dict[str, Any] = {"tolerance": 1e-2, "times": [10000.0, 40000.0], "ask": ["stop_time", "angular_momentum_norm"]}
+
+
+def light(n: int = 60, **more: Any) -> xarray.Dataset:
+    """A sweep of despins that is done in a few milliseconds."""
+    return sweep("tiangong-1", VARY, **{"n": n, **LIGHT, **more})
+
+
+def same(one: xarray.Dataset, other: xarray.Dataset) -> bool:
+    """To the last bit."""
+    def bits(values: xarray.DataArray) -> Any:
+        return values.values.tobytes() if values.dtype.kind == "f" else values.values.tolist()
+
+    return (set(one.variables) == set(other.variables) and one.attrs == other.attrs
+            and all(bits(one[name]) == bits(other[name]) for name in one.variables))
+
+
+def plan(vary: Mapping[str, Varied], n: int | None = 1000, cases: Mapping[str, Any] | None = None, **more: Any) -> Plan:
+    """Of numbers without a unit."""
+    readers = {key: lambda value: number_in(value, "1") for key in (*vary, *(cases or {}))}
+    return Plan.of(vary, cases or {}, readers, n, more.get("seed", 1), more.get("design", "random"))
+
+
+# ---- what is drawn ----
+
+
+def test_the_draws_are_those_of_their_distributions() -> None:
+    drawn = plan({"a": normal(3, "10%"), "b": uniform(-1, 2), "c": lognormal(2, "20%"), "d": choice(1, 2, 4)}, 40000).columns(range(40000))
+    assert np.mean(drawn["a"]) == pytest.approx(3, abs=4 * 0.3 / 200)
+    assert np.std(drawn["a"]) == pytest.approx(0.3, rel=0.02)
+    assert (np.mean(drawn["b"]), np.min(drawn["b"]) >= -1, np.max(drawn["b"]) <= 2) == (pytest.approx(0.5, abs=0.02), True, True)
+    assert np.median(drawn["c"]) == pytest.approx(2, rel=0.01)
+    assert np.std(np.log(drawn["c"])) == pytest.approx(0.2, rel=0.02)
+    assert {float(value): pytest.approx(1 / 3, abs=0.015) for value in (1, 2, 4)} == {value: np.mean(drawn["d"] == value) for value in (1.0, 2.0, 4.0)}
+    assert abs(np.corrcoef(drawn["a"], drawn["b"])[0, 1]) < 0.02
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+def test_a_draw_is_a_function_of_seed_row_and_name(design: str) -> None:
+    given: dict[str, Varied] = {"a": normal(0, 1), "b": uniform(0, 1), "g": grid([1, 2, 3])}
+    whole = plan(given, 300, design=design).columns(range(300))
+    for cut in (1, 2, 3, 97, 298):
+        for rows in (range(cut), range(cut, 300)):
+            part = plan(given, 300, design=design).columns(rows)
+            assert all(part[key].tobytes() == whole[key][rows.start:rows.stop].tobytes() for key in given)
+    turned = plan(dict(reversed(given.items())), 300, design=design).columns(range(300))
+    assert all(turned[key].tobytes() == whole[key].tobytes() for key in given)
+    other = plan(given, 300, design=design, seed=2).columns(range(300))
+    assert not np.any(other["a"] == whole["a"])
+
+
+def test_a_number_more_changes_no_draw_of_the_others() -> None:
+    alone, beside = plan({"a": normal(0, 1)}).columns(range(50)), plan({"b": normal(0, 1), "a": normal(0, 1)}).columns(range(50))
+    assert alone["a"].tolist() == beside["a"].tolist()
+    assert beside["a"].tolist() != beside["b"].tolist()
+
+
+@pytest.mark.parametrize("design", ["sobol", "latin-hypercube"])
+def test_the_points_of_a_design_fill_every_stratum(design: str) -> None:
+    drawn = plan({"a": uniform(0, 1), "b": uniform(0, 1)}, 64, design=design).columns(range(64))
+    for values in drawn.values():
+        assert sorted((values * 64).astype(int)) == list(range(64))
+
+
+def test_each_combination_of_a_grid_gets_the_same_points_of_a_design() -> None:
+    drawn = plan({"a": uniform(0, 1), "g": grid([1, 2, 3])}, 48, design="sobol").columns(range(48))
+    assert np.max(np.ptp(drawn["a"].reshape(16, 3), axis=1)) == 0
+
+
+def test_grids_and_cases_are_combined_in_full() -> None:
+    made = plan({"g": linspace(0, 1, 3), "h": logspace(1, 100, 3)}, None, {"p": (1, 2), "q": (5, 6)})
+    drawn = made.columns(range(made.n))
+    found = list(zip(*(drawn[key].tolist() for key in ("p", "q", "g", "h")), strict=True))
+    expected = [(p, q, g, h) for (p, q), g, h in itertools.product([(1, 5), (2, 6)], [0, 0.5, 1], [1, 10, 100])]
+    assert found == [pytest.approx(each) for each in expected]
+    again = plan({"g": linspace(0, 1, 3)}, 6).columns(range(6))
+    assert again["g"].tolist() == [0, 0.5, 1, 0, 0.5, 1]
+
+
+@pytest.mark.parametrize(("text", "meant"), [
+    ("normal(0.005, 5%)", normal(0.005, "5%")), (" uniform( 15 , 17 )", uniform(15, 17)), ("lognormal(1e-4, 0.2)", lognormal(1e-4, 0.2)),
+    ("choice(total, carrier)", choice("total", "carrier")), ("[1, 2, 5 deg]", grid([1, 2, "5 deg"])), ("0:10:11", linspace(0, 10, 11)),
+    ("1e-5:1e-3:50log", logspace(1e-5, 1e-3, 50)), ("1 deg/s : 3 deg/s : 5", linspace("1 deg/s", "3 deg/s", 5))])
+def test_words_say_what_the_functions_say(text: str, meant: Varied) -> None:
+    assert read_words(text) == meant
+    assert read_words(str(meant)) == meant
+
+
+@pytest.mark.parametrize(("vary", "told"), [
+    ({"torque.control[0]": "norml(1, 2)"}, "norml"), ({"torque.control[0]": "normal(1)"}, "normal(0.005"), ({"torque.control[0]": 3.0}, "how"),
+    ({"torque.control": "normal(1, 2)"}, "torque.control[0]"), ({"torque.contrl[0]": "normal(1, 2)"}, "did you mean torque.control"),
+    ({"solve.tolerance": "normal(1, 2)"}, "can vary"), ({"torque.drag": "normal(1 kg, 2)"}, "1/s"), ({"torque.drag": "uniform(2, 1)"}, "smaller"),
+    ({"torque.drag": "normal(1, -2)"}, ">= 0"), ({"torque.drag": "lognormal(-1, 2)"}, "median"), ({"torque.drag": "2:1:5"}, "smaller first"),
+    ({"torque.law": "choice(total, all)"}, "carrier"), ({"initial.angular_momentum[0]": "normal(1, 2)"}, "no value"),
+    ({"torque.drag": "[1, 2, 3]"}, "multiple of the 3"), ({"drag": "uniform(0, 1)", "torque.drag": "uniform(0, 1)"}, "twice"), ({}, "nothing varies")])
+def test_a_study_that_cannot_be_says_why(vary: dict[str, Any], told: str) -> None:
+    with pytest.raises(DomainError, match=".*" + told.replace("(", r"\(").replace("[", r"\[")):
+        sweep("tiangong-1", vary, n=10)
+
+
+def test_other_settings_that_cannot_be_say_why() -> None:
+    for told, settings in {"how many rows": {}, "design": {"n": 5, "design": "halton"}, "seed": {"n": 5, "seed": -1}, "shard": {"n": 5, "shard": "3/2"},
+                           "columns have": {"cases": {"body.inertia[0]": [1.0], "body.inertia[1]": [1.0, 2.0]}}}.items():
+        with pytest.raises(DomainError, match=told):
+            sweep("tiangong-1", {"drag": "uniform(0, 1)"}, **settings)
+
+
+# ---- what comes back ----
+
+
+def test_the_dataset_has_parameters_answers_and_errors() -> None:
+    found = light()
+    assert dict(found.sizes) == {"row": 60, "time": 2}
+    assert found["time"].values.tolist() == [10000, 40000]
+    assert found["row"].values.tolist() == list(range(60))
+    assert found["angular_momentum_norm"].dims == ("row", "time")
+    assert found["stop_time"].attrs["units"] == "s"
+    assert np.all(found["stop_time_error"] > 0) and np.all(found["stop_time_error"] <= 1e-2)
+    assert found["torque.drag"].attrs["role"] == "parameter"
+    assert found["torque.drag"].attrs["varied"] == "lognormal(1.2e-06, 20%)"
+    assert set(found["model"].values) <= {"equal-torque", "averaged", "averaged-2", "full"}
+    assert np.all(found["met"]) and np.all(found["reason"] == "")
+    assert "near-separatrix" in found["warnings"].attrs["flag_meanings"].split()
+
+
+VARIED = {"tiangong-1": {"body.inertia[1]": [70000.0, 71000.0]}, "two-attractors": {"motor.slope": [0.04, 0.06]}, "flat-sail": {"body.mass": [9.0, 11.0]},
+          "lab-gyroscope": {"initial.angular_velocity[2]": [150.0, 160.0]}, "cubesat-pyramid": {"wheel[1].rate": [10.0, 20.0]}}
+
+
+@pytest.mark.parametrize("name", VARIED)
+def test_a_row_is_what_solve_answers_to_the_bit(name: str) -> None:
+    scene = load(name, times=[1.0, 5.0])
+    (key, values), = VARIED[name].items()
+    found = sweep(scene, {key: values})
+    numbers, place = numbers_of(scene), place_of(scene, key)
+    assert len(numbers) > max(place.numbers)
+    for row, value in enumerate(values):
+        table, _, rest = key.partition(".")
+        data = scene.to_dict()
+        if table.startswith("wheel"):
+            data["wheel"][1]["rate"] = value
+        else:
+            component = rest[rest.find("[") + 1:-1] if "[" in rest else ""
+            home = data[table]
+            home[rest.partition("[")[0]] = value if not component else [
+                value if i == int(component) else old for i, old in enumerate(home[rest.partition("[")[0]])]
+        answer = gyrostat.solve(data)
+        assert found["model"].values[row] == answer.model
+        for column, expected in answer.columns.items():
+            assert found[column].values[row].tolist() == expected.tolist()
+            if column in answer.error:
+                assert found[f"{column}_error"].values[row] == answer.error[column]
+        for scalar, number in answer.scalars.items():
+            got = found[scalar].values[row]
+            expected = np.full_like(got, math.nan) if number is None and got.dtype.kind == "f" else np.asarray(number)
+            assert np.array_equal(got, expected, equal_nan=got.dtype.kind == "f") if isinstance(got, np.generic | np.ndarray) else got == (number or "")
+
+
+@pytest.mark.parametrize("name", [name for name, _ in bundled()])
+def test_the_numbers_of_a_scene_are_as_many_as_the_core_takes(name: str) -> None:
+    scene = load(name)
+    wheels = len(scene.top.get("wheel") or ())
+    assert len(numbers_of(scene)) == sum(width * (wheels if listed else 1) for _, width, listed in FAMILIES[scene.kind].facts.inputs)
+
+
+def test_components_of_tensors_directions_and_choices_vary() -> None:
+    scene = load("tiangong-1")
+    assert place_of(scene, "body.inertia[0,1]").numbers == (1, 3)
+    assert place_of(scene, "inertia[2]").numbers == (8,)
+    found = sweep(scene, {"torque.law": "choice(total, carrier)", "body.inertia[0, 1]": [0.0, 100.0]}, n=4, **LIGHT)
+    assert np.all(found["met"])
+    tilted = sweep("rotor-paper-repaired", {"rotor.axis[0]": "normal(0.75, 0.01)"}, n=4, times=[1.0, 2.0])
+    assert np.all(tilted["reason"] == "")
+    with pytest.raises(DomainError, match=r"body.inertia\[0,1\]"):  # a tensor has two of them
+        place_of(load("two-attractors"), "body.inertia[2]")
+
+
+def test_a_row_without_an_answer_says_why_and_is_no_exception() -> None:
+    found = sweep("tiangong-1", cases={"body.inertia[2]": [76000.0, 1e6, math.nan, 76000.0, 76000.0], "torque.control[0]": [0.06, 0.06, 0.06, -1.0, math.inf]},
+                  **LIGHT)
+    assert found["reason"].values.tolist() == [
+        "", "a principal moment exceeds the sum of the two others", "body.inertia[2] is not >= 1e-40", "torque.control[0] is not >= 0",
+        "torque.control[0] is not >= 0"]
+    assert found["model"].values.tolist()[1:] == [""] * 4
+    assert np.isnan(found["stop_time"].values[1:]).all() and np.isnan(found["angular_momentum_norm"].values[1:]).all()
+    assert found["met"].values.tolist() == [True, False, False, False, False]
+    named = sweep("tiangong-1", VARY, n=3, model="equal-torque", **LIGHT)
+    assert set(named["reason"].values) == {"equal-torque: the control torques are not equal"}
+
+
+# ---- the same bits however it is cut ----
+
+
+@pytest.mark.parametrize("settings", [{"threads": 1}, {"threads": 5}, {"chunk": 7}, {"threads": 2, "chunk": 59}])
+def test_threads_and_chunks_change_no_bit(settings: dict[str, int]) -> None:
+    assert same(light(**settings), light())
+
+
+def test_shards_put_together_are_the_whole(tmp_path: Path) -> None:
+    whole, parts = light(), [light(shard=(i, 4)) for i in (3, 1, 4, 2)]
+    assert same(merge(parts), whole)
+    for i, part in enumerate(parts):
+        save(part, tmp_path / f"{i}.nc")
+    assert same(merge(tmp_path / f"{i}.nc" for i in range(4)), whole)
+    for told, wrong in {"rows 30 to 44 are missing": [parts[1], parts[2], parts[3]], "there twice": [parts[1], *parts], "another study":
+                        [parts[1], light(seed=3, shard=(2, 4))], "rows 45 to 59 are missing": [parts[1], parts[3], parts[0]]}.items():
+        with pytest.raises(DomainError, match=told):
+            merge(wrong)
+
+
+def test_a_sweep_that_is_interrupted_goes_on_where_it_was(tmp_path: Path) -> None:
+    class Stopped(Exception):
+        pass
+
+    def stop(done: int, rows: int) -> None:
+        if done >= 20:
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        light(chunk=10, parts=tmp_path, progress=stop)
+    left = sorted(tmp_path.glob("*.nc"))
+    assert 0 < len(left) < 6
+    asked: list[tuple[int, int]] = []
+    resumed = light(chunk=25, parts=tmp_path, progress=lambda done, rows: asked.append((done, rows)))
+    assert same(resumed, light())
+    assert asked[0][0] > 10 * len(left) and asked[-1] == (60, 60)
+    with pytest.raises(DomainError, match="another study"):
+        light(seed=9, parts=tmp_path)
+
+
+def test_long_rows_are_left_at_once_when_a_sweep_is_stopped() -> None:
+    def stop(done: int, rows: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep("envisat-eddy-decay", {"torque.drag": "normal(1e-6, 1%)"}, n=4, model="full", threads=1, progress=stop)
+
+
+# ---- files and commands ----
+
+
+def test_results_are_read_back_as_they_were(tmp_path: Path) -> None:
+    found = light()
+    save(found, tmp_path / "out.nc")
+    assert same(open_results(tmp_path / "out.nc"), found)
+    save(found, tmp_path / "out.csv")
+    with (tmp_path / "out.csv").open() as stream:
+        lines = list(csv.DictReader(stream))
+    assert [float(line["stop_time"]) for line in lines] == found["stop_time"].values.tolist()
+    assert [float(line["angular_momentum_norm[1]"]) for line in lines] == found["angular_momentum_norm"].values[:, 1].tolist()
+    for told, file in {"unknown ending": "out.xls", "no such file": "none.nc", "read from": "out.csv"}.items():
+        with pytest.raises(DomainError, match=told):
+            (save(found, tmp_path / file) if file == "out.xls" else open_results(tmp_path / file))
+
+
+@pytest.mark.parametrize("ending", ["parquet", "zarr"])
+def test_other_formats_where_their_library_is_there(tmp_path: Path, ending: str) -> None:
+    pytest.importorskip({"parquet": "pyarrow", "zarr": "zarr"}[ending])
+    found = light()
+    save(found, tmp_path / f"out.{ending}")
+    if ending == "zarr":
+        assert same(open_results(tmp_path / "out.zarr"), found)
+    else:
+        import pandas
+
+        assert pandas.read_parquet(tmp_path / "out.parquet")["stop_time"].tolist() == found["stop_time"].values.tolist()
+
+
+STUDY = """
+[vary]
+n = 40
+seed = 4
+design = "sobol"
+"body.inertia[0]" = "uniform(34, 36)"
+torque.drag = [1e-4, 2e-4]
+"""
+
+
+def test_a_study_is_one_file(good: str, tmp_path: Path) -> None:
+    file = tmp_path / "study.toml"
+    file.write_text(good + STUDY)
+    found = sweep(file, ask=["stop_time"])
+    told = json.loads(found.attrs["study"])
+    assert (told["n"], told["seed"], told["design"], told["vary"]) == (40, 4, "sobol", {"body.inertia[0]": "uniform(34.0, 36.0)", "torque.drag": "[0.0001, 0.0002]"})
+    other = sweep(file, {"drag": "[3e-4]"}, n=20, seed=5, ask=["stop_time"])
+    assert np.all(other["torque.drag"] == 3e-4) and other.sizes["row"] == 20
+    scene = load(file)
+    assert gyrostat.solve(scene).met
+    assert scene_from(gyrostat.scenes.tomllib.loads(toml_text(scene.to_dict()))).to_dict() == scene.to_dict()
+    for told_wrong, wrong in {"did you mean": STUDY.replace("torque.drag", "torque.darg"), "not how": STUDY.replace("uniform", "unform"),
+                              "integer": STUDY.replace("n = 40", 'n = "many"'), "multiple": STUDY.replace("n = 40", "n = 41")}.items():
+        file.write_text(good + wrong)
+        with pytest.raises(SceneError, match=told_wrong):
+            load(file)
+
+
+def test_cases_come_from_a_table(good: str, tmp_path: Path) -> None:
+    (tmp_path / "cases.csv").write_text("torque.drag, body.inertia[0]\n1e-4, 35\n2e-4, 34.5\n")
+    file = tmp_path / "study.toml"
+    file.write_text(good + '\n[vary]\ncases = "cases.csv"\n')
+    found = sweep(file, ask=["stop_time"])
+    assert found["torque.drag"].values.tolist() == [1e-4, 2e-4] and found["body.inertia[0]"].values.tolist() == [35, 34.5]
+    (tmp_path / "cases.csv").write_text("torque.drag\n")
+    with pytest.raises(DomainError, match="first line"):
+        sweep(file)
+
+
+def test_the_commands_sweep_merge_and_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    common = ["sweep", "tiangong-1", "--vary", "torque.control[0]=normal(0.06, 5%)", "--vary", "torque.drag=1e-7:1e-5:4log", "-n", "40", "--ask",
+              "stop_time,angular_momentum_norm", "--set", "tolerance=1e-2", "--set", "times=[10000,40000]"]
+    assert main([*common, "-o", str(tmp_path / "out.nc")]) == 0
+    assert "40 rows, 100 % within the tolerance" in capsys.readouterr().err
+    assert not (tmp_path / "out.nc.parts").exists()
+    for i in (1, 2):
+        assert main([*common, "--shard", f"{i}/2", "-o", str(tmp_path / f"{i}.nc")]) == 0
+    assert main(["merge", str(tmp_path / "2.nc"), str(tmp_path / "1.nc"), "-o", str(tmp_path / "both.nc")]) == 0
+    assert same(open_results(tmp_path / "both.nc"), open_results(tmp_path / "out.nc"))
+    capsys.readouterr()
+    assert main(["report", str(tmp_path / "out.nc"), "-o", str(tmp_path / "figures")]) == 0
+    told = capsys.readouterr().out
+    assert "Rank correlations" in told and "averaged" in told
+    assert {file.name for file in (tmp_path / "figures").iterdir()} == {"histograms.png", "bands.png", "tornado.png", "scatter.png"}
+    (tmp_path / "out.nc.parts").mkdir()
+    assert main([*common, "-o", str(tmp_path / "out.nc")]) == 2
+    assert "--resume" in capsys.readouterr().err
+    assert main([*common, "--resume", "-o", str(tmp_path / "out.nc")]) == 0
+    assert main(["sweep", "tiangong-1", "--vary", "torque.drag=[-1, 1e-6]", "--ask", "stop_time", "-o", str(tmp_path / "bad.csv")]) == 3
+    assert "torque.drag is not >= 0" in capsys.readouterr().err
+
+
+def test_a_report_ranks_what_matters() -> None:
+    found = light(400)
+    stop, = responses(found)
+    ranked = rank_correlations(found, stop)
+    assert ranked["torque.control[0]"] == pytest.approx(
+        float(np.corrcoef(*(np.argsort(np.argsort(found[key].values)) for key in ("torque.control[0]", "stop_time")))[0, 1]), abs=1e-12)
+    titles = {title.split(",")[0]: rows for title, _, rows in tables(found)}
+    assert float(titles["Percentiles"][0][6]) == pytest.approx(float(np.median(found["stop_time"])), rel=1e-4)
+    assert not titles["No answer"]
+    assert [name for name, _ in drawings(found)] == ["histograms", "bands", "tornado", "scatter"]
+
+
+def test_every_kind_has_a_report() -> None:
+    for name, vary in VARIED.items():
+        found = sweep(name, vary, times=[1.0, 2.0])
+        for _, draw in drawings(found):
+            draw()
+        assert all(len(row) == len(heads) for _, heads, rows in tables(found) for row in rows)
+
+
+def test_the_plan_of_a_scene_needs_no_optional_library() -> None:
+    made, places = plan_of(load("tiangong-1"), {"drag": "normal(1e-6, 5%)"}, n=3)
+    assert made.n == 3 and list(places) == ["torque.drag"]
