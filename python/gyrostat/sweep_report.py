@@ -220,16 +220,18 @@ def scatter(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
         found = {key: value for key, value in rank_correlations(dataset, each).items() if math.isfinite(value)}
         key = max(found, key=lambda name: abs(found[name])) if found else next(iter(parameters(dataset)))
         values = parameters(dataset)[key]
-        for i, rung in enumerate(rungs):
-            of = few[models[few] == rung]
-            if len(of):
-                place.plot(values.values[of], each.values[of], ".", markersize=3, alpha=0.6, color=COLOURS[i % len(COLOURS)], label=rung)
+        answered = few[models[few] != ""]
+        colours = [COLOURS[rungs.index(name) % len(COLOURS)] for name in models[answered]]
+        place.scatter(values.values[answered], each.values[answered], s=4, alpha=0.6, linewidths=0, c=colours)
+        for rung in sorted(set(models[answered]), key=rungs.index):
+            place.plot([], [], "o", markersize=5, color=COLOURS[rungs.index(rung) % len(COLOURS)], label=rung)
+        place.ticklabel_format(scilimits=(-3, 6))
         wide = values.values[values.values > 0]
         if len(wide) == len(values) and np.ptp(np.log10(wide)) > 1.5:
             place.set_xscale("log")
         place.set_xlabel(_axis_text(key, values.attrs.get("units", "")))
         place.set_ylabel(_axis_text(each.label, each.unit))
-        place.legend(fontsize=8, markerscale=3)
+        place.legend(fontsize=8)
         place.grid(alpha=0.3)
     figure.suptitle(_title(dataset), fontsize=11)
     return figure
