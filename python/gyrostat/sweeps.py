@@ -203,15 +203,17 @@ def _part_file(folder: Path, rows: range) -> Path:
     return folder / f"rows-{rows.start:010d}-{rows.stop:010d}.nc"
 
 
-def _kept(folder: Path, study: Study, rows: range) -> dict[range, Path]:
-    """The parts of a study that an earlier run left behind."""
-    found = {}
+def _kept(folder: Path, study: Study, rows: range) -> "dict[range, xarray.Dataset]":
+    """The parts of these rows that an earlier run left behind."""
+    found: dict[range, xarray.Dataset] = {}
+    at = rows.start
     for file in sorted(folder.glob("rows-*-*.nc")):
-        if open_results(file).attrs.get("study") != study.told:
-            raise DomainError(f"{file}: this part belongs to another study: remove {folder}, or name another output")
         start, stop = (int(number) for number in file.stem.split("-")[1:])
-        if rows.start <= start and stop <= rows.stop:
-            found[range(start, stop)] = file
+        part = open_results(file)
+        if part.attrs["study"] != study.told:
+            raise DomainError(f"{file}: this part belongs to another study: remove {folder}, or name another output")
+        if at <= start and stop <= rows.stop:
+            found[range(start, stop)], at = part, stop
     return found
 
 
@@ -249,10 +251,9 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
         raise DomainError(f"chunk = {chunk}: give a number of rows")
     pool = threads or len(os.sched_getaffinity(0))
     folder = None if parts is None else Path(parts)
-    kept = {} if folder is None else _kept(folder, study, rows)
-    made = {part: open_results(file) for part, file in kept.items()}
+    made = {} if folder is None else _kept(folder, study, rows)
     done = sum(map(len, made))
-    for gap in list(_missing(rows, kept)):
+    for gap in list(_missing(rows, made)):
         for start in range(gap.start, gap.stop, size):
             part = range(start, min(start + size, gap.stop))
 
