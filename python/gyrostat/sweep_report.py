@@ -115,8 +115,8 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
     for each in responses(dataset):
         known = np.isfinite(each.values)
         numbers = [short(float(value), 5) for value in np.percentile(each.values[known], PERCENTILES)]
-        worst = each.error is not None and np.isfinite(each.error).any()
-        rows.append([each.label, each.unit, _percent(float(known.mean())), *numbers, small(float(np.nanmax(each.error))) if worst else "-"])  # type: ignore[arg-type]
+        errors = np.empty(0) if each.error is None else each.error[np.isfinite(each.error)]
+        rows.append([each.label, each.unit, _percent(float(known.mean())), *numbers, small(float(np.max(errors))) if len(errors) else "-"])
     yield "Percentiles", ["", "unit", "finite", *(f"{p} %" for p in PERCENTILES), "greatest error"], rows
     keys = list(parameters(dataset))
     rows = [[each.label, *(f"{value:+.3f}" if math.isfinite(value) else "-" for value in rank_correlations(dataset, each).values())]
