@@ -6,6 +6,7 @@ import math
 import os
 import re
 import threading
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -33,7 +34,8 @@ __all__ = ["Study", "merge", "open_results", "save", "sweep"]
 MOST_BYTES: Final = 2**33  # of one Dataset
 CHUNK_BYTES: Final = 2**27
 MOST_CHUNK: Final = 16384
-SPARE: Final = 64  # rows of the least chunk that is taken by itself
+FIRST_CHUNK: Final = 128  # where chunks are kept; they grow as long as one takes less than
+CHUNK_SECONDS: Final = 5.0
 
 Progress = Callable[[int, int], None]
 T = TypeVar("T")
@@ -230,7 +232,7 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
     n : rows; a multiple of the combinations of the grid, which is taken as often. cases : a table, CSV or key -> values, all of one length: its
         lines are taken together, as one more axis of the grid.
     seed, design : of the random numbers: "random", "sobol" or "latin-hypercube".
-    threads : all of this machine where it is None. chunk : rows that are taken in one go. shard : (i, m) or "i/m": part i of m alone, from 1.
+    threads : all of this machine where it is None. chunk : rows that are taken in one go; where it is None as many as suit. shard : (i, m) or "i/m": part i of m alone, from 1.
     parts : folder in which each chunk is kept when it is done; those that are there already are not done again.
     progress(done, rows) is called now and then. overrides : keys of the scene file to change, as in `gyrostat.solve`, among them `ask` and `times`.
 
@@ -246,26 +248,30 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
     rows = _shard(shard, study.plan.n)
     if len(rows) * study.row_bytes > MOST_BYTES:
         raise DomainError(f"{len(rows)} rows of {study.row_bytes} bytes: ask for less (ask = a few columns or scalars, times = a few), or take shards")
-    size = chunk or min(MOST_CHUNK, max(SPARE, CHUNK_BYTES // study.row_bytes))
-    if size < 1:
+    if chunk is not None and chunk < 1:
         raise DomainError(f"chunk = {chunk}: give a number of rows")
     pool = threads or len(os.sched_getaffinity(0))
     folder = None if parts is None else Path(parts)
     made = {} if folder is None else _kept(folder, study, rows)
     done = sum(map(len, made))
+    most = min(MOST_CHUNK, max(1, CHUNK_BYTES // study.row_bytes))
+    size = chunk or (most if folder is None else min(FIRST_CHUNK, most))
     for gap in list(_missing(rows, made)):
-        for start in range(gap.start, gap.stop, size):
-            part = range(start, min(start + size, gap.stop))
+        at = gap.start
+        while at < gap.stop:
+            part, began = range(at, min(at + size, gap.stop)), time.monotonic()
 
             def look(share: float, part: range = part) -> None:
                 if progress is not None:
                     progress(done + int(share * len(part)), len(rows))
 
             made[part] = _watched(lambda monitor, part=part: study.rows(part, pool, monitor), look)  # type: ignore[misc]
-            done += len(part)
+            at, done = part.stop, done + len(part)
             look(0.0)
             if folder is not None:
                 _keep(made[part], folder, part)
+            if chunk is None and time.monotonic() - began < CHUNK_SECONDS:
+                size = min(2 * size, most)
     return _joined([made[part] for part in sorted(made, key=lambda part: part.start)])
 
 

@@ -56,9 +56,10 @@ inline constexpr const char* not_reached = "the sweep was stopped before this ro
 /// Returns when all threads have ended.
 template <class MakeWorker>
 void for_rows(std::size_t rows, unsigned threads, Monitor* monitor, const MakeWorker& make_worker) {
-  constexpr std::size_t block = 8;
   constexpr std::chrono::milliseconds pause{20};
-  const unsigned pool_size = unsigned(std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(rows / block, 1)));
+  const unsigned pool_size = unsigned(std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(rows, 1)));
+  // what is handed out in one go: few rows, so that no thread waits long for the last to end
+  const std::size_t block = std::clamp<std::size_t>(rows / (16 * std::size_t(pool_size)), 1, 8);
   std::atomic<std::size_t> next{0}, done{0};
   std::vector<Monitor> monitors(pool_size);
   std::counting_semaphore<> ended{0};
