@@ -232,7 +232,8 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
     n : rows; a multiple of the combinations of the grid, which is taken as often. cases : a table, CSV or key -> values, all of one length: its
         lines are taken together, as one more axis of the grid.
     seed, design : of the random numbers: "random", "sobol" or "latin-hypercube".
-    threads : all of this machine where it is None. chunk : rows that are taken in one go; where it is None as many as suit. shard : (i, m) or "i/m": part i of m alone, from 1.
+    threads : all of this machine where it is None. chunk : rows that are taken in one go; where it is None as many as suit.
+    shard : (i, m) or "i/m": part i of m alone, from 1.
     parts : folder in which each chunk is kept when it is done; those that are there already are not done again.
     progress(done, rows) is called now and then. overrides : keys of the scene file to change, as in `gyrostat.solve`, among them `ask` and `times`.
 
@@ -248,8 +249,9 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
     rows = _shard(shard, study.plan.n)
     if len(rows) * study.row_bytes > MOST_BYTES:
         raise DomainError(f"{len(rows)} rows of {study.row_bytes} bytes: ask for less (ask = a few columns or scalars, times = a few), or take shards")
-    if chunk is not None and chunk < 1:
-        raise DomainError(f"chunk = {chunk}: give a number of rows")
+    for name, value in (("chunk", chunk), ("threads", threads)):
+        if value is not None and value < 1:
+            raise DomainError(f"{name} = {value}: give a number > 0")
     pool = threads or len(os.sched_getaffinity(0))
     folder = None if parts is None else Path(parts)
     made = {} if folder is None else _kept(folder, study, rows)

@@ -2,6 +2,7 @@
 """Sweeps: what is drawn, the same bits however a sweep is cut, rows without an answer, files, the commands."""
 
 import csv
+import importlib.util
 import itertools
 import json
 import math
@@ -129,7 +130,7 @@ def test_a_study_that_cannot_be_says_why(vary: dict[str, Any], told: str) -> Non
 
 def test_other_settings_that_cannot_be_say_why() -> None:
     wrong: dict[str, dict[str, Any]] = {
-        "how many rows": {}, "design": {"n": 5, "design": "halton"}, "seed": {"n": 5, "seed": -1}, "shard": {"n": 5, "shard": "3/2"},
+        "how many rows": {}, "design": {"n": 5, "design": "halton"}, "seed": {"n": 5, "seed": -1}, "shard": {"n": 5, "shard": "3/2"}, "threads": {"n": 5, "threads": 0},
         "columns have": {"cases": {"body.inertia[0]": [1.0], "body.inertia[1]": [1.0, 2.0]}}}
     for told, settings in wrong.items():
         with pytest.raises(DomainError, match=told):
@@ -317,6 +318,14 @@ def test_other_formats_where_their_library_is_there(tmp_path: Path, ending: str)
         import pandas
 
         assert pandas.read_parquet(tmp_path / "out.parquet")["stop_time"].tolist() == found["stop_time"].values.tolist()
+
+
+@pytest.mark.parametrize(("ending", "library"), [("nc", "scipy"), ("parquet", "pyarrow"), ("zarr", "zarr")])
+def test_a_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str, library: str) -> None:
+    found = light(3)
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(ImportError, match=f"{library} is not installed: pip install"):
+        save(found, tmp_path / f"out.{ending}")
 
 
 STUDY = """
