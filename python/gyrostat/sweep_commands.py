@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Final
 from gyrostat.console import Progress, say, show_table
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene
-from gyrostat.sweeps import merge, open_results, save, shares, sweep, writer_of
+from gyrostat.sweep_files import open_results, save, writer_of
+from gyrostat.sweep_report import save_figures, shares, tables
+from gyrostat.sweeps import merge, sweep
 
 if TYPE_CHECKING:
     import xarray
@@ -42,7 +44,8 @@ Command = Callable[[str, Callable[[argparse.Namespace], int], str], argparse.Arg
 
 def add_commands(command: Command, takes_scene: Callable[[argparse.ArgumentParser], None], scene_of: Callable[[argparse.Namespace], Scene]) -> None:
     """The three commands and their arguments; `scene_of` reads the scene that they name."""
-    sweeping = command("sweep", lambda arguments: _sweep(arguments, scene_of(arguments)), "answer a scene many times over, with numbers that vary from row to row")
+    sweeping = command("sweep", lambda arguments: _sweep(arguments, scene_of(arguments)),
+                       "answer a scene many times over, with numbers that vary from row to row")
     takes_scene(sweeping)
     _add_arguments(sweeping)
     merging = command("merge", _merge, "put the shards of one sweep together")
@@ -122,8 +125,6 @@ def _merge(arguments: argparse.Namespace) -> int:
 
 
 def _report(arguments: argparse.Namespace) -> int:
-    from gyrostat.sweep_report import save_figures, tables
-
     dataset = open_results(arguments.file)
     say(f"{dataset.attrs['title']} ({dataset.attrs['kind']})", sys.stdout)
     for key, values in dataset.data_vars.items():

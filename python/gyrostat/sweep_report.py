@@ -13,14 +13,13 @@ from numpy.typing import NDArray
 from gyrostat.console import short, small
 from gyrostat.drawing import COLOURS, Drawing, new_figure, note, save, time_unit
 from gyrostat.facts import FACTS
-from gyrostat.sweeps import shares
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Response", "drawings", "rank_correlations", "responses", "save_figures", "tables"]
+__all__ = ["Response", "drawings", "rank_correlations", "responses", "save_figures", "shares", "tables"]
 
 PERCENTILES: Final = (1, 5, 25, 50, 75, 95, 99)
 MOST_DOTS: Final = 20000  # of a scatter plot
@@ -91,6 +90,13 @@ def rank_correlations(dataset: "xarray.Dataset", response: Response) -> dict[str
         size = math.sqrt(float(x @ x) * float(y @ y))
         made[key] = float(x @ y) / size if size > 0 else math.nan
     return made
+
+
+def shares(values: "xarray.DataArray") -> dict[str, float]:
+    """Of a variable of words: word -> share of the rows, the greatest first."""
+    words, counts = np.unique(values.values.astype(str), return_counts=True)
+    every = counts.sum()
+    return {str(words[i]): float(counts[i] / every) for i in np.argsort(-counts, kind="stable")}
 
 
 # ---- for reading ----

@@ -24,6 +24,7 @@ from gyrostat.families import FAMILIES
 from gyrostat.ladder import SceneLike, scene_of
 from gyrostat.rows import Place, numbers_of, plan_of
 from gyrostat.scenes import Scene
+from gyrostat.sweep_files import import_xarray, open_results, save, to_netcdf
 from gyrostat.vary import Plan
 
 if TYPE_CHECKING:
@@ -39,14 +40,6 @@ CHUNK_SECONDS: Final = 5.0
 
 Progress = Callable[[int, int], None]
 T = TypeVar("T")
-
-
-def _xarray() -> Any:
-    try:
-        import xarray
-    except ImportError as error:
-        raise ImportError("xarray is not installed: pip install 'gyrostat[xarray]'") from error
-    return xarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +114,7 @@ class Study:
             "long_name": "warnings", "flag_masks": np.array([1 << i for i in range(len(codes))], dtype=np.int32), "flag_meanings": " ".join(codes)})
         variables["reason"] = ("row", reasons, {"long_name": "why there is no answer"})
         told = {"title": self.scene.name, "source": self.scene.source, "kind": self.scene.kind, "study": self.told}
-        dataset: xarray.Dataset = _xarray().Dataset(variables, self._coordinates(rows, variables), told)
+        dataset: xarray.Dataset = import_xarray().Dataset(variables, self._coordinates(rows, variables), told)
         return dataset
 
     def _coordinates(self, rows: range, variables: Mapping[str, Any]) -> dict[str, Any]:
@@ -244,7 +237,7 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
     estimated error NAME_error; `model`, the rung that answered; `met`; `excess`, greatest error over its tolerance; `warnings`, a bit each; and
     `reason`, why a row has no answer, else empty. Raises SceneError and DomainError for a study that cannot be, ImportError without xarray and scipy.
     """
-    _xarray()  # before the work
+    import_xarray()  # before the work
     study = Study.of(scene_of(scene, overrides), vary, n=n, cases=cases, seed=seed, design=design)
     rows = _shard(shard, study.plan.n)
     if len(rows) * study.row_bytes > MOST_BYTES:
@@ -282,14 +275,14 @@ def _keep(dataset: "xarray.Dataset", folder: Path, rows: range) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     file = _part_file(folder, rows)
     beside = file.with_suffix(".tmp")
-    _to_netcdf(dataset, beside)
+    to_netcdf(dataset, beside)
     beside.replace(file)
 
 
 def _joined(parts: "list[xarray.Dataset]") -> "xarray.Dataset":
     if len(parts) == 1:
         return parts[0]
-    made: xarray.Dataset = _xarray().concat(parts, dim="row", data_vars="minimal", coords="minimal", compat="override", join="override",
+    made: xarray.Dataset = import_xarray().concat(parts, dim="row", data_vars="minimal", coords="minimal", compat="override", join="override",
                                             combine_attrs="override")
     return made
 
@@ -313,96 +306,3 @@ def merge(files: "Iterable[str | os.PathLike[str] | xarray.Dataset]") -> "xarray
     if at != json.loads(study)["n"]:
         raise DomainError(f"rows {at} to {json.loads(study)['n'] - 1} are missing")
     return _joined([part for _, part in named])
-
-
-# ---- files ----
-
-
-def _need(module: str, install: str) -> None:
-    from importlib.util import find_spec
-
-    if find_spec(module) is None:
-        raise ImportError(f"{module} is not installed: pip install {install}")
-
-
-def _to_netcdf(dataset: "xarray.Dataset", file: Path) -> None:
-    _need("scipy", "'gyrostat[xarray]'")
-    if large := next((str(name) for name, values in dataset.variables.items() if values.nbytes >= 2**31), None):
-        raise DomainError(f"{file}: {large} is over 2 GiB, more than a variable of this format holds: write .zarr, or take shards")
-    dataset.to_netcdf(file, engine="scipy", format="NETCDF3_64BIT")
-
-
-def _frame(dataset: "xarray.Dataset") -> Any:
-    """A pandas.DataFrame with a line a row; components as _x, _y, _z, times as [0], [1] and on."""
-    import pandas
-
-    flat: dict[str, Any] = {}
-    for name, variable in dataset.data_vars.items():
-        labels = [[f"[{i}]" if dim == "time" else f"_{label}" for i, label in enumerate(dataset[dim].values)] for dim in variable.dims[1:]]
-        # components before times
-        for place in np.ndindex(variable.shape[1:]):
-            ends = [labels[axis][i] for axis, i in enumerate(place)]
-            flat[str(name) + "".join(reversed(ends))] = variable.values[(slice(None), *place)]
-    frame = pandas.DataFrame(flat, index=pandas.Index(dataset["row"].values, name="row"))
-    frame.attrs.update({key: str(value) for key, value in dataset.attrs.items()})
-    return frame
-
-
-def _to_csv(dataset: "xarray.Dataset", file: Path) -> None:
-    _frame(dataset).to_csv(file)
-
-
-def _to_parquet(dataset: "xarray.Dataset", file: Path) -> None:
-    _need("pyarrow", "pyarrow")
-    _frame(dataset).to_parquet(file, engine="pyarrow")
-
-
-def _to_zarr(dataset: "xarray.Dataset", file: Path) -> None:
-    _need("zarr", "zarr")
-    dataset.to_zarr(file, mode="w", zarr_format=2)
-
-
-WRITERS: Final[dict[str, Callable[..., None]]] = {".nc": _to_netcdf, ".csv": _to_csv, ".parquet": _to_parquet, ".zarr": _to_zarr}
-
-
-def writer_of(file: Path) -> Callable[["xarray.Dataset", Path], None]:
-    """What writes in the form of the file's ending. Raises DomainError."""
-    if file.suffix.lower() not in WRITERS:
-        raise DomainError(f"{file}: unknown ending {file.suffix or '(none)'}; use one of {', '.join(WRITERS)}")
-    return WRITERS[file.suffix.lower()]
-
-
-def save(dataset: "xarray.Dataset", file: str | os.PathLike[str]) -> None:
-    """Write the results of a sweep: .nc (NetCDF 3), .csv, .parquet (needs pyarrow) or .zarr (needs zarr)."""
-    writer_of(Path(file))(dataset, Path(file))
-
-
-def open_results(file: str | os.PathLike[str]) -> "xarray.Dataset":
-    """Read the results of a sweep from .nc or .zarr. Raises DomainError for what holds none."""
-    reader = _xarray()
-    path = Path(file)
-    if not path.exists():
-        raise DomainError(f"{file}: there is no such file")
-    try:
-        if path.suffix == ".zarr":
-            found = reader.open_zarr(path).load()
-        elif path.suffix == ".nc":
-            found = reader.load_dataset(path, engine="scipy")
-        else:
-            raise DomainError(f"{file}: results are read from .nc and .zarr")
-    except (OSError, TypeError, ValueError, KeyError) as error:
-        if isinstance(error, DomainError):
-            raise
-        raise DomainError(f"{file}: this cannot be read ({str(error).splitlines()[0] if str(error) else type(error).__name__})") from None
-    if "study" not in found.attrs:
-        raise DomainError(f"{file}: this holds no results of a sweep")
-    words = {name: values.astype(object) for name, values in found.data_vars.items() if values.dtype.kind in "UT"}
-    made: xarray.Dataset = found.assign(words)
-    return made
-
-
-def shares(values: "xarray.DataArray") -> dict[str, float]:
-    """Of a variable of words: word -> share of the rows, the greatest first."""
-    words, counts = np.unique(values.values.astype(str), return_counts=True)
-    every = math.fsum(counts)
-    return {str(words[i]): float(counts[i] / every) for i in np.argsort(-counts, kind="stable")}

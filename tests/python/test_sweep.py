@@ -130,7 +130,8 @@ def test_a_study_that_cannot_be_says_why(vary: dict[str, Any], told: str) -> Non
 
 def test_other_settings_that_cannot_be_say_why() -> None:
     wrong: dict[str, dict[str, Any]] = {
-        "how many rows": {}, "design": {"n": 5, "design": "halton"}, "seed": {"n": 5, "seed": -1}, "shard": {"n": 5, "shard": "3/2"}, "threads": {"n": 5, "threads": 0},
+        "how many rows": {}, "design": {"n": 5, "design": "halton"}, "seed": {"n": 5, "seed": -1}, "shard": {"n": 5, "shard": "3/2"},
+        "threads": {"n": 5, "threads": 0},
         "columns have": {"cases": {"body.inertia[0]": [1.0], "body.inertia[1]": [1.0, 2.0]}}}
     for told, settings in wrong.items():
         with pytest.raises(DomainError, match=told):
@@ -343,7 +344,8 @@ def test_a_study_is_one_file(good: str, tmp_path: Path) -> None:
     file.write_text(good + STUDY)
     found = sweep(file, ask=["stop_time"])
     told = json.loads(found.attrs["study"])
-    assert (told["n"], told["seed"], told["design"], told["vary"]) == (40, 4, "sobol", {"body.inertia[0]": "uniform(34.0, 36.0)", "torque.drag": "[0.0001, 0.0002]"})
+    assert (told["n"], told["seed"], told["design"]) == (40, 4, "sobol")
+    assert told["vary"] == {"body.inertia[0]": "uniform(34.0, 36.0)", "torque.drag": "[0.0001, 0.0002]"}
     other = sweep(file, {"drag": "[3e-4]"}, n=20, seed=5, ask=["stop_time"])
     assert np.all(other["torque.drag"] == 3e-4) and other.sizes["row"] == 20
     scene = load(file)

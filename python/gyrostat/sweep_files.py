@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The files that hold the results of a sweep: NetCDF, CSV, parquet and zarr."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from gyrostat.errors import DomainError
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["import_xarray", "open_results", "save", "to_netcdf", "writer_of"]
+
+
+def import_xarray() -> Any:
+    """The module xarray. Raises ImportError, saying what to install."""
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError("xarray is not installed: pip install 'gyrostat[xarray]'") from error
+    return xarray
+
+
+def _need(module: str, install: str) -> None:
+    from importlib.util import find_spec
+
+    if find_spec(module) is None:
+        raise ImportError(f"{module} is not installed: pip install {install}")
+
+
+def to_netcdf(dataset: "xarray.Dataset", file: Path) -> None:
+    """Write NetCDF 3, whatever the ending."""
+    _need("scipy", "'gyrostat[xarray]'")
+    if large := next((str(name) for name, values in dataset.variables.items() if values.nbytes >= 2**31), None):
+        raise DomainError(f"{file}: {large} is over 2 GiB, more than a variable of this format holds: write .zarr, or take shards")
+    dataset.to_netcdf(file, engine="scipy", format="NETCDF3_64BIT")
+
+
+def _frame(dataset: "xarray.Dataset") -> Any:
+    """A pandas.DataFrame with a line a row; components as _x, _y, _z, times as [0], [1] and on."""
+    import pandas
+
+    flat: dict[str, Any] = {}
+    for name, variable in dataset.data_vars.items():
+        labels = [[f"[{i}]" if dim == "time" else f"_{label}" for i, label in enumerate(dataset[dim].values)] for dim in variable.dims[1:]]
+        # components before times
+        for place in np.ndindex(variable.shape[1:]):
+            ends = [labels[axis][i] for axis, i in enumerate(place)]
+            flat[str(name) + "".join(reversed(ends))] = variable.values[(slice(None), *place)]
+    frame = pandas.DataFrame(flat, index=pandas.Index(dataset["row"].values, name="row"))
+    frame.attrs.update({key: str(value) for key, value in dataset.attrs.items()})
+    return frame
+
+
+def _to_csv(dataset: "xarray.Dataset", file: Path) -> None:
+    _frame(dataset).to_csv(file)
+
+
+def _to_parquet(dataset: "xarray.Dataset", file: Path) -> None:
+    _need("pyarrow", "pyarrow")
+    _frame(dataset).to_parquet(file, engine="pyarrow")
+
+
+def _to_zarr(dataset: "xarray.Dataset", file: Path) -> None:
+    _need("zarr", "zarr")
+    dataset.to_zarr(file, mode="w", zarr_format=2)
+
+
+WRITERS: Final[dict[str, Callable[..., None]]] = {".nc": to_netcdf, ".csv": _to_csv, ".parquet": _to_parquet, ".zarr": _to_zarr}
+
+
+def writer_of(file: Path) -> Callable[["xarray.Dataset", Path], None]:
+    """What writes in the form of the file's ending. Raises DomainError."""
+    if file.suffix.lower() not in WRITERS:
+        raise DomainError(f"{file}: unknown ending {file.suffix or '(none)'}; use one of {', '.join(WRITERS)}")
+    return WRITERS[file.suffix.lower()]
+
+
+def save(dataset: "xarray.Dataset", file: str | os.PathLike[str]) -> None:
+    """Write the results of a sweep: .nc (NetCDF 3), .csv, .parquet (needs pyarrow) or .zarr (needs zarr)."""
+    writer_of(Path(file))(dataset, Path(file))
+
+
+def open_results(file: str | os.PathLike[str]) -> "xarray.Dataset":
+    """Read the results of a sweep from .nc or .zarr. Raises DomainError for what holds none."""
+    reader = import_xarray()
+    path = Path(file)
+    if not path.exists():
+        raise DomainError(f"{file}: there is no such file")
+    try:
+        if path.suffix == ".zarr":
+            found = reader.open_zarr(path).load()
+        elif path.suffix == ".nc":
+            found = reader.load_dataset(path, engine="scipy")
+        else:
+            raise DomainError(f"{file}: results are read from .nc and .zarr")
+    except (OSError, TypeError, ValueError, KeyError) as error:
+        if isinstance(error, DomainError):
+            raise
+        raise DomainError(f"{file}: this cannot be read ({str(error).splitlines()[0] if str(error) else type(error).__name__})") from None
+    if "study" not in found.attrs:
+        raise DomainError(f"{file}: this holds no results of a sweep")
+    words = {name: values.astype(object) for name, values in found.data_vars.items() if values.dtype.kind in "UT"}
+    made: xarray.Dataset = found.assign(words)
+    return made
