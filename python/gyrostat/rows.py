@@ -3,6 +3,7 @@
 
 import difflib
 import math
+import operator
 import os
 import re
 from collections.abc import Iterator, Mapping
@@ -182,8 +183,7 @@ def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any
         table = read_cases(beside / table)
     chosen = {name: own.get(name) if settings.get(name) is None else settings[name] for name in ("n", "seed", "design")}
     for name in ("n", "seed"):
-        if chosen[name] is not None and (isinstance(chosen[name], bool) or not isinstance(chosen[name], int)):
-            raise DomainError(f"{name} = {chosen[name]}: give an integer")
+        chosen[name] = None if chosen[name] is None else _integer(name, chosen[name])
     places: dict[str, Place] = {}
 
     def in_full(given: Mapping[str, T]) -> dict[str, T]:
@@ -198,8 +198,25 @@ def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any
     listed = {key: tuple(value if isinstance(value, str) else float(value) for value in values) for key, values in in_full(table or {}).items()}
     from_scene = {key: value for key, value in in_full({key: own[key] for key in own if key not in SETTINGS}).items() if key not in listed}
     varied = {key: _varied(key, value) for key, value in {**from_scene, **in_full(vary or {})}.items()}
+    _require_apart([places[key] for key in (*listed, *varied)])
     plan = Plan.of(varied, listed, {key: place.read for key, place in places.items()}, chosen["n"], chosen["seed"] or 0, chosen["design"] or "random")
     return plan, {key: places[key] for key in (*listed, *varied)}
+
+
+def _integer(name: str, value: Any) -> int:
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise DomainError(f"{name} = {value}: give an integer") from None
+
+
+def _require_apart(places: list[Place]) -> None:
+    """No two keys stand for the same number, as [0,1] and [1,0] of an inertia do. A key itself may be among the cases and vary (Plan.of)."""
+    keys: dict[int, str] = {}
+    for place in places:
+        for number in place.numbers:
+            if keys.setdefault(number, place.key) != place.key:
+                raise DomainError(f"{place.key}: this is the number that {keys[number]} stands for, too")
 
 
 def _varied(key: str, value: Any) -> Any:

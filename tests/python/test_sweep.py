@@ -122,7 +122,8 @@ def test_words_say_what_the_functions_say(text: str, meant: Varied) -> None:
     ({"solve.tolerance": "normal(1, 2)"}, "can vary"), ({"torque.drag": "normal(1 kg, 2)"}, "1/s"), ({"torque.drag": "uniform(2, 1)"}, "smaller"),
     ({"torque.drag": "normal(1, -2)"}, ">= 0"), ({"torque.drag": "lognormal(-1, 2)"}, "median"), ({"torque.drag": "2:1:5"}, "smaller first"),
     ({"torque.law": "choice(total, all)"}, "carrier"), ({"initial.angular_momentum[0]": "normal(1, 2)"}, "no value"),
-    ({"torque.drag": "[1, 2, 3]"}, "multiple of the 3"), ({"drag": "uniform(0, 1)", "torque.drag": "uniform(0, 1)"}, "twice"), ({}, "nothing varies")])
+    ({"torque.drag": "[1, 2, 3]"}, "multiple of the 3"), ({"drag": "uniform(0, 1)", "torque.drag": "uniform(0, 1)"}, "twice"),
+    ({"body.inertia[0,1]": "uniform(0, 1)", "body.inertia[1,0]": "uniform(0, 1)"}, "the number that"), ({}, "nothing varies")])
 def test_a_study_that_cannot_be_says_why(vary: dict[str, Any], told: str) -> None:
     with pytest.raises(DomainError, match=".*" + told.replace("(", r"\(").replace("[", r"\[")):
         sweep("tiangong-1", vary, n=10)
