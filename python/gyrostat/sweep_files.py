@@ -3,6 +3,7 @@
 
 import os
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -25,16 +26,8 @@ def import_xarray() -> Any:
     return xarray
 
 
-def _need(module: str, install: str) -> None:
-    from importlib.util import find_spec
-
-    if find_spec(module) is None:
-        raise ImportError(f"{module} is not installed: pip install {install}")
-
-
 def to_netcdf(dataset: "xarray.Dataset", file: Path) -> None:
     """Write NetCDF 3, whatever the ending."""
-    _need("scipy", "'gyrostat[xarray]'")
     if large := next((str(name) for name, values in dataset.variables.items() if values.nbytes >= 2**31), None):
         raise DomainError(f"{file}: {large} is over 2 GiB, more than a variable of this format holds: write .zarr, or take shards")
     dataset.to_netcdf(file, engine="scipy", format="NETCDF3_64BIT")
@@ -61,23 +54,27 @@ def _to_csv(dataset: "xarray.Dataset", file: Path) -> None:
 
 
 def _to_parquet(dataset: "xarray.Dataset", file: Path) -> None:
-    _need("pyarrow", "pyarrow")
     _frame(dataset).to_parquet(file, engine="pyarrow")
 
 
 def _to_zarr(dataset: "xarray.Dataset", file: Path) -> None:
-    _need("zarr", "zarr")
     dataset.to_zarr(file, mode="w", zarr_format=2)
 
 
-WRITERS: Final[dict[str, Callable[..., None]]] = {".nc": to_netcdf, ".csv": _to_csv, ".parquet": _to_parquet, ".zarr": _to_zarr}
+# By the ending: what writes, the library that it needs, and what installs that.
+WRITERS: Final[dict[str, tuple[Callable[["xarray.Dataset", Path], None], str, str]]] = {
+    ".nc": (to_netcdf, "scipy", "'gyrostat[xarray]'"), ".csv": (_to_csv, "pandas", "pandas"), ".parquet": (_to_parquet, "pyarrow", "pyarrow"),
+    ".zarr": (_to_zarr, "zarr", "zarr")}
 
 
 def writer_of(file: Path) -> Callable[["xarray.Dataset", Path], None]:
-    """What writes in the form of the file's ending. Raises DomainError."""
+    """What writes in the form of the file's ending. Raises DomainError for an unknown one, ImportError where its library is missing."""
     if file.suffix.lower() not in WRITERS:
         raise DomainError(f"{file}: unknown ending {file.suffix or '(none)'}; use one of {', '.join(WRITERS)}")
-    return WRITERS[file.suffix.lower()]
+    write, library, install = WRITERS[file.suffix.lower()]
+    if find_spec(library) is None:
+        raise ImportError(f"{library} is not installed: pip install {install}")
+    return write
 
 
 def save(dataset: "xarray.Dataset", file: str | os.PathLike[str]) -> None:

@@ -2,7 +2,6 @@
 """Sweeps: what is drawn, the same bits however a sweep is cut, rows without an answer, files, the commands."""
 
 import csv
-import importlib.util
 import itertools
 import json
 import math
@@ -16,7 +15,7 @@ import numpy as np
 import pytest
 import xarray
 from conftest import ASSEMBLED, GOOD, HEAVY, PERIODIC, ROTOR, SPINNING
-from gyrostat import DomainError, SceneError, sweep
+from gyrostat import DomainError, SceneError, sweep, sweep_files
 from gyrostat.cli import main
 from gyrostat.families import FAMILIES
 from gyrostat.rows import numbers_of, place_of, plan_of
@@ -325,7 +324,7 @@ def test_other_formats_where_their_library_is_there(tmp_path: Path, ending: str)
 @pytest.mark.parametrize(("ending", "library"), [("nc", "scipy"), ("parquet", "pyarrow"), ("zarr", "zarr")])
 def test_a_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str, library: str) -> None:
     found = light(3)
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(sweep_files, "find_spec", lambda name: None)
     with pytest.raises(ImportError, match=f"{library} is not installed: pip install"):
         save(found, tmp_path / f"out.{ending}")
 
