@@ -24,7 +24,7 @@ from gyrostat.families import FAMILIES
 from gyrostat.ladder import SceneLike, scene_of
 from gyrostat.rows import Place, numbers_of, plan_of
 from gyrostat.scenes import Scene
-from gyrostat.sweep_files import import_xarray, open_results, save, to_netcdf
+from gyrostat.sweep_files import import_xarray, open_results, save, to_netcdf, writer_of
 from gyrostat.vary import Plan
 
 if TYPE_CHECKING:
@@ -238,6 +238,8 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
     `reason`, why a row has no answer, else empty. Raises SceneError and DomainError for a study that cannot be, ImportError without xarray and scipy.
     """
     import_xarray()  # before the work
+    if parts is not None:
+        writer_of(Path("part.nc"))
     study = Study.of(scene_of(scene, overrides), vary, n=n, cases=cases, seed=seed, design=design)
     rows = _shard(shard, study.plan.n)
     if len(rows) * study.row_bytes > MOST_BYTES:
