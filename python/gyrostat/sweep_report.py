@@ -169,7 +169,9 @@ def histograms(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure"
         place.set_xlabel(_axis_text(each.label, each.unit))
         place.set_ylabel("rows")
         place.grid(alpha=0.3)
-        note(place, f"finite in {_percent(float(np.isfinite(each.values).mean()))}")
+        place.ticklabel_format(axis="x", scilimits=(-3, 6))
+        if len(values) < len(each.values):
+            note(place, f"finite in {_percent(len(values) / len(each.values))}")
     figure.suptitle(_title(dataset), fontsize=11)
     return figure
 
@@ -193,8 +195,9 @@ def bands(dataset: "xarray.Dataset", columns: Sequence[tuple[str, Any]]) -> "Fig
         place.plot(times / scale, levels[2], color=COLOURS[0], linewidth=1.2, label="median")
         place.set_ylabel(_axis_text(label, its_unit))
         place.set_xlabel(f"time [{unit}]")
-        place.legend(fontsize=8)
+        place.ticklabel_format(axis="y", scilimits=(-3, 6))
         place.grid(alpha=0.3)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8)
     figure.suptitle(_title(dataset), fontsize=11)
     return figure
 
@@ -208,6 +211,7 @@ def tornado(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
         numbers, names = [value for value, _ in found], [key for _, key in found]
         place.barh(names, numbers, color=[COLOURS[0] if value > 0 else COLOURS[1] for value in numbers])
         place.set_xlim(-1, 1)
+        place.set_xticks((-1, -0.5, 0, 0.5, 1))
         place.axvline(0, color="black", linewidth=0.8)
         place.set_xlabel("rank correlation")
         place.set_title(each.label, loc="left", fontsize=10)
