@@ -160,4 +160,45 @@ TEST_CASE("errors of special free motions are bounds too", "[free]") {
   }
 }
 
+TEST_CASE("a near horizon brings close bounds where the period is long", "[free]") {
+  Bodies bodies(35);
+  for (int i = 0; i < 40; ++i) {
+    // two moments equal but for roundings, M nearly across the axis of the third: the polhode takes ages, the body turns at once
+    const double e = bodies.scale(-15, -9);
+    const auto p = Problem<double>::from_moments({1.4, 1 + e, 1}, {0, 0, 0},
+                                                 {bodies.scale(-12, -7), bodies.uniform(1, 2), 1}, bodies.attitude());
+    const auto m = Motion<double>::make<Wide>(p.cast<Wide>());
+    const auto truth = Motion<Wide>::make<Wide>(bodies.jittered(p).cast<Wide>());
+    const Assembly<double> given{p, {}};
+    for (const double t : {0., .1, 3., 40.}) {
+      const auto near = MotionError<double>::of<Wide>(given, Data::rounded, t);
+      const auto far = MotionError<double>::of<Wide>(given);
+      REQUIRE((m && truth && near && far));
+      CAPTURE(e, t, m->period());
+      CHECK(near->at(t).attitude < 1e-13 * (1 + t));
+      CHECK(near->at(t).attitude <= far->at(t).attitude);
+      CHECK(off(m->at(t), truth->at(t)).attitude <= near->at(t).attitude);
+      CHECK(std::isinf(near->at(1.1 * t + 1e-9).attitude));
+    }
+  }
+}
+
+TEST_CASE("a steady rotation that is neither stable nor unstable leaves as slowly as its neighbours", "[free]") {
+  const auto steady = [](const Vec3<double>& J, const Vec3<double>& w) {
+    const auto p = Problem<double>::from_moments(J, {0, 0, 0}, w);
+    const auto m = Motion<double>::make<Wide>(p.cast<Wide>());
+    REQUIRE(m);
+    CHECK(m->kind() == Kind::steady);
+    CHECK(m->steady_square() == 0);
+    return MotionError<double>::of<Wide>(*m, Assembly<double>{p, {}});
+  };
+  const auto sphere = steady({1.2, 1.2, 1.2}, {1e-9, 1, -1e-9});
+  const auto across = steady({1.5, 1, 1}, {0, .6, .8});
+  for (const double t :
+       {1., 30., 1e3}) {  // rates drift apart in proportion to time, across an axis of symmetry to its square
+    CHECK(sphere.at(t).attitude < 1e-14 * (1 + t) * (1 + t));
+    CHECK(across.at(t).attitude < 1e-14 * (1 + t) * (1 + t) * (1 + t));
+  }
+}
+
 }  // namespace free_error_test

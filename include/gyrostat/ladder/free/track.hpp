@@ -23,7 +23,8 @@ struct ClosedForm {
 inline Result<ClosedForm> closed_form_of(const Scene& scene) noexcept {
   const auto motion = Motion<double>::make<DoubleDouble>(scene.precise().problem);
   if (!motion) return motion.error();
-  return ClosedForm{*motion, MotionError<double>::of<DoubleDouble>(*motion, scene.assembly())};
+  return ClosedForm{*motion, MotionError<double>::of<DoubleDouble>(*motion, scene.assembly(), Data::rounded,
+                                                                   scene.question().times.back())};
 }
 
 /// What a rung finds at the asked times.

@@ -184,6 +184,7 @@ class Motion {
 
   template <Real Setup>
   void set_steady(const PrincipalProblem<Setup>& p, const Setup& R) noexcept {
+    using std::abs;
     kind_ = Kind::steady;
     period_ = turn_ = nan<Scalar>;
     rate_ = half_turns<Setup>(p.R_BP * p.omega, axis_);
@@ -192,7 +193,10 @@ class Motion {
     const Vec3<Setup> n = p.M / R;
     const Setup sigma = p.omega.dot(n) / R;
     Vec3<Setup> d;
-    for (int i = 0; i < 3; ++i) d[i] = R * (p.inverse[i] - sigma);
+    for (int i = 0; i < 3; ++i) {
+      d[i] = R * (p.inverse[i] - sigma);
+      if (abs(d[i]) <= 8 * epsilon<Setup> * R * p.inverse[i]) d[i] = 0;
+    }
     steady_square_ =
         static_cast<Scalar>(d[1] * d[2] * n[0] * n[0] + d[0] * d[2] * n[1] * n[1] + d[0] * d[1] * n[2] * n[2]);
   }

@@ -55,8 +55,8 @@ Assembly<Scalar> neighbour(Assembly<Scalar> given, int k, Scalar by) noexcept {
   return given;
 }
 
-/// How wrong a motion may be, from four neighbours whose data are a rounding away, made by the same arithmetic: over the first period
-/// they are compared time by time, beyond it by their periods and turns.
+/// How wrong a motion may be, from four neighbours whose data are a rounding away, made by the same arithmetic: up to the horizon, or
+/// over the first period where that is shorter, they are compared time by time, beyond it by their periods and turns.
 template <Real Scalar>
 class MotionError {
  public:
@@ -68,20 +68,23 @@ class MotionError {
 
   MotionError() = default;
 
-  /// Of the motion that make<Setup> gives for the reduced assembly. Errors: those of Reduced::of and Motion::make.
+  /// Of the motion that make<Setup> gives for the reduced assembly, for times up to |horizon|: the nearer, the closer the bounds where a
+  /// period is long. Errors: those of Reduced::of and Motion::make.
   template <Real Setup = Scalar>
-  static Result<MotionError> of(const Assembly<Scalar>& assembly, Data data = Data::rounded) noexcept {
+  static Result<MotionError> of(const Assembly<Scalar>& assembly, Data data = Data::rounded,
+                                Scalar horizon = infinity<Scalar>) noexcept {
     if (const auto sound = Reduced<Scalar>::of(assembly); !sound) return sound.error();
     const auto motion = motion_of(assembly.template cast<Setup>());
     if (!motion) return motion.error();
-    return of<Setup>(*motion, assembly, data);
+    return of<Setup>(*motion, assembly, data, horizon);
   }
 
   /// The same where that motion is there already, of a sound assembly.
   template <Real Setup = Scalar>
-  static MotionError of(const Motion<Scalar>& motion, const Assembly<Scalar>& assembly,
-                        Data data = Data::rounded) noexcept {
+  static MotionError of(const Motion<Scalar>& motion, const Assembly<Scalar>& assembly, Data data = Data::rounded,
+                        Scalar horizon = infinity<Scalar>) noexcept {
     MotionError error;
+    error.horizon_ = std::abs(horizon);
     error.start(motion);
     const Setup by = data == Data::exact ? epsilon<Setup> : Setup(epsilon<Scalar>);
     constexpr bool wide = !std::is_same_v<Setup, Scalar>;
@@ -101,16 +104,15 @@ class MotionError {
     return error;
   }
 
-  /// Of every time up to |t|. Infinite where the data fix the phase to less than 0.05 rad only.
+  /// Of every time up to |t|. Infinite where the data fix the phase to less than 0.05 rad only, and beyond the horizon.
   Bound at(Scalar t) const noexcept {
-    using std::abs, std::exp;
+    using std::abs;
     Bound b = near(abs(t));
     const Scalar beyond = abs(t);
     const Scalar late = beyond * share_, turned = beyond * turn_rate_;
+    if (!(beyond <= horizon_)) b.attitude = infinity<Scalar>;
     if (kind_ == Kind::steady) {
-      const Scalar off = unstable_ > 0 ? offset_ * exp(unstable_ * beyond)
-                         : settled_    ? offset_
-                                       : offset_ * (1 + wandering_ * beyond);
+      const Scalar off = wander(beyond);
       b.angular_momentum += 4 * off;
       b.angular_velocity += 4 * off * gain_;
       b.attitude += 4 * (off * gain_ + 2 * epsilon<Scalar>)*speed_ * beyond;
@@ -136,7 +138,7 @@ class MotionError {
   Scalar modulus_squared() const noexcept { return 4 * modulus_ + 4 * epsilon<Scalar>; }  ///< absolute
   Scalar energy() const noexcept { return 4 * energy_ + 4 * epsilon<Scalar>; }            ///< relative
   Scalar angular_momentum_norm() const noexcept { return 4 * norm_ + 4 * epsilon<Scalar>; }
-  /// The greatest |omega| over a period, rad/s: what bounds of the rates are relative to.
+  /// The greatest |omega| over a period or up to the horizon, rad/s: what bounds of the rates are relative to.
   Scalar fastest() const noexcept { return fastest_; }
   /// The neighbours are motions of the same kind; else the data do not tell on which side of a separatrix the motion is.
   bool kinds_agree() const noexcept { return agree_; }
@@ -184,13 +186,13 @@ class MotionError {
   }
 
   void start(const Motion<Scalar>& motion) noexcept {
-    using std::isfinite, std::max;
+    using std::isfinite, std::max, std::min;
     kind_ = motion.kind();
     const State<Scalar> s = motion.at(0);
     speed_ = s.angular_velocity.norm();
     if (kind_ == Kind::steady) return start_steady(motion);
     period_ = motion.period();
-    span_ = isfinite(period_) ? period_ : 80 / motion.jacobi_rate();
+    span_ = min(horizon_, isfinite(period_) ? period_ : 80 / motion.jacobi_rate());
     const Scalar T = span_, turn = motion.turn_per_period() / T;
     const Mat3<Scalar> inverse =
         motion.R_BP() * motion.principal_moments().cwiseInverse().asDiagonal() * motion.R_BP().transpose();
@@ -219,12 +221,11 @@ class MotionError {
     using std::sqrt;
     const Scalar square = motion.steady_square(), R = motion.angular_momentum_norm();
     fastest_ = speed_;
-    offset_ = 4 * epsilon<Scalar>;
     unstable_ = square < 0 ? sqrt(-square) : Scalar(0);
     frequency_ = square > 0 ? sqrt(square) : Scalar(0);
-    wandering_ = R / motion.principal_moments()[2];
-    settled_ = frequency_ > 0;
-    gain_ = speed_ > 0 ? wandering_ / speed_ : Scalar(0);
+    const Vec3<Scalar>& J = motion.principal_moments();
+    shear_ = R * (J[0] - J[2]) / (J[0] * J[2]);
+    gain_ = speed_ > 0 ? R / J[2] / speed_ : Scalar(0);
     span_ = period_ = speed_ > 0 ? 2 * pi<Scalar> / speed_ : Scalar(1);
   }
 
@@ -271,19 +272,25 @@ class MotionError {
         max(turn_rate_, shrink_ * abs((turned - turn * (other.period() - period_) / period_) / other.period()));
   }
 
-  /// How far the momentum of a neighbour may wander from that of a steady rotation, over |M|.
   void see_steady(const Motion<Scalar>& other) noexcept {
     using std::max;
     const State<Scalar> s = other.at(0);
-    const Scalar residual = cross<Scalar>(s.angular_momentum, s.angular_velocity).norm();
-    if (!(residual > 0)) return;
-    const Scalar pace = frequency_ > 0 ? frequency_ : unstable_ > 0 ? unstable_ : Scalar(0);
-    const Scalar off = residual / other.angular_momentum_norm() / (pace > 0 ? pace : speed_);
-    // the path about the equilibrium is an ellipse
-    offset_ = max(offset_, off * (pace > 0 ? max(Scalar(1), wandering_ / pace) : Scalar(1)));
+    const Scalar flow = cross<Scalar>(s.angular_momentum, s.angular_velocity).norm();
+    if (flow > 0) drift_ = max(drift_, flow / other.angular_momentum_norm());
   }
 
-  /// Over the first period, at the node at or after t.
+  /// How far M may wander from that of a steady rotation, over |M|: the neighbours' drift carries it off, until it circles an equilibrium
+  /// beside this one or leaves for good, and it does so along an ellipse or hyperbola.
+  Scalar wander(Scalar t) const noexcept {
+    using std::expm1, std::max, std::min;
+    const Scalar pace = max(frequency_, unstable_), sheared = 1 + shear_ * t;
+    const Scalar stretch = pace > 0 ? min(sheared, max(Scalar(1), shear_ / pace)) : sheared;
+    const Scalar grown = expm1(unstable_ * t);
+    const Scalar carried = unstable_ > 0 ? grown / unstable_ : frequency_ > 0 ? min(t, 1 / frequency_) : t;
+    return stretch * (4 * epsilon<Scalar> * (1 + grown) + drift_ * carried);
+  }
+
+  /// Over the span, at the node at or after t.
   Bound near(Scalar t) const noexcept {
     if (kind_ == Kind::steady) return {};
     using std::ceil, std::min;
@@ -294,13 +301,14 @@ class MotionError {
   }
 
   Kind kind_ = Kind::steady;
-  bool agree_ = true, settled_ = false;
-  Scalar shrink_ = 1;  ///< a difference that is seen counts by so much
-  Scalar period_ = 1, span_ = 1, fastest_ = 0, speed_ = 0;
+  bool agree_ = true;
+  Scalar shrink_ = 1;                                          ///< a difference that is seen counts by so much
+  Scalar horizon_ = infinity<Scalar>, period_ = 1, span_ = 1;  ///< span: that the nodes divide
+  Scalar fastest_ = 0, speed_ = 0;
   Scalar rates_change_ = 0, momentum_change_ = 0, attitude_change_ = 0;  // by a phase late by a period
   Scalar share_ = 0, turn_rate_ = 0, turn_ = 0;  // periods late a second; rad/s about M; rad a period
   Scalar modulus_ = 0, energy_ = 0, norm_ = 0, cancellation_ = 1;
-  Scalar offset_ = 0, unstable_ = 0, frequency_ = 0, wandering_ = 0, gain_ = 0;  // of a steady rotation
+  Scalar drift_ = 0, unstable_ = 0, frequency_ = 0, shear_ = 0, gain_ = 0;  // of a steady rotation
   std::array<Bound, nodes + 1> first_{};
 };
 
