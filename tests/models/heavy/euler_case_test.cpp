@@ -55,6 +55,34 @@ TEST_CASE("euler case: angular velocity and attitude from any start, moments in 
   }
 }
 
+TEST_CASE("euler case: the bound is never too small, and some tens of times the error", "[heavy]") {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<double> ratio;
+  for (int n = 0; n < 60; ++n) {
+    const double e = n % 3 ? 1 : std::pow(10, -12 * unit(random));  // of a difference of two moments, and off an axis
+    const V I(1, 1 + 0.4 * e, 1.5 + 0.3 * unit(random));
+    const auto start = start_at({normal(random), normal(random), (n % 2 ? e : 1) * normal(random)},
+                                {normal(random), normal(random), normal(random), normal(random)});
+    const auto body = free_body(I * std::pow(10, 12 * unit(random) - 6));
+    const auto exact = euler(body, start);
+    const std::vector<double> times{0.3, 4, 30};
+    const auto truth = LongMotion::from(body, start, times);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      CAPTURE(n, times[i], exact.modulus().kp2);
+      const auto d = distance(exact.at(times[i]), truth[i]);
+      const auto bound = exact.error(times[i]);
+      CHECK(d.attitude <= bound.attitude);
+      CHECK(d.down <= bound.down);
+      CHECK(d.angular_velocity <= bound.angular_velocity);
+      if (d.attitude > 0) ratio.push_back(bound.attitude / d.attitude);
+    }
+  }
+  std::sort(ratio.begin(), ratio.end());
+  CHECK(ratio[ratio.size() / 2] < 100);
+}
+
 TEST_CASE("euler case: limits", "[heavy]") {
   const Quat<double> q = normalised(Quat<double>{0.4, -0.3, 0.7, 0.2});
   const double c = std::cos(0.4), s = std::sin(0.4);
