@@ -63,3 +63,22 @@ TEST_CASE("k2 of nearly equal moments, from their exact differences and with the
   CHECK(error() <= doubt());
   CHECK(doubt() < 1e-14);
 }
+
+TEST_CASE("k2 of a nearly symmetric body, where the moments are known", "[deceleration]") {
+  for (const double gap : {1e-6, 1e-9, 1e-12}) {
+    const auto inertia = Inertia<double>::from_moments(168 * (1 + gap), 168, 105).value();
+    Problem<double> p;
+    p.inverse_inertia = inertia.inverse_principal();
+    p.exact_gaps = inertia.inverse_gaps();
+    p.momentum = {1e-9, -2e-9, 3};
+    const Vec3<long double> moments = inertia.principal().cast<long double>(),
+                            m = p.momentum.cast<long double>().cwiseAbs2();
+    // k2 = mid_far tilt/(near_mid (1 - tilt)) about the axis of the smallest moment
+    const long double high = (moments[1] - moments[2]) / (moments[1] * moments[2]),
+                      low = (moments[0] - moments[1]) / (moments[0] * moments[1]);
+    const long double k2 = low * (high * m[1] + (high + low) * m[0]) / (high * ((high + low) * m[2] + low * m[1]));
+    CHECK(orbit_kind(p, p.momentum).k2 == Approx(double(k2)).epsilon(1e-14).margin(0));
+    p.exact_gaps.reset();  // what the inverse moments alone tell
+    CHECK(std::abs(orbit_kind(p, p.momentum).k2 / double(k2) - 1) < 4 * epsilon<double> / gap);
+  }
+}

@@ -91,7 +91,8 @@ inline std::string stated(const Answer& answer) {
   return text;
 }
 
-/// Greatest difference over the times, over the greatest norm in the reference or the scale (k2: absolute); NaN counts as infinite.
+/// Greatest difference over the times, over the greatest norm in the reference or the scale (k2: absolute; attitude: an angle); NaN counts
+/// as infinite.
 inline double distance(const Answer& answer, const Answer& reference, const char* name) {
   const Column *a = answer.find(name), *r = reference.find(name);
   REQUIRE(a);
@@ -101,15 +102,18 @@ inline double distance(const Answer& answer, const Answer& reference, const char
   const std::size_t width = std::size_t(a->kind->width);
   double worst = 0, size = r->scale;
   for (std::size_t i = 0; i < a->values.size(); i += width) {
-    double difference = 0, norm = 0;
+    double difference = 0, norm = 0, along = 0;
+    for (std::size_t j = i; j < i + width; ++j) along += a->values[j] * r->values[j];
+    const double sign = a->kind->measure == Measure::angle && along < 0 ? -1 : 1;
     for (std::size_t j = i; j < i + width; ++j) {
-      difference += (a->values[j] - r->values[j]) * (a->values[j] - r->values[j]);
+      difference += (sign * a->values[j] - r->values[j]) * (sign * a->values[j] - r->values[j]);
       norm += r->values[j] * r->values[j];
     }
     if (!(std::sqrt(difference) <= worst)) worst = std::sqrt(difference);
     size = std::max(size, std::sqrt(norm));
   }
   if (std::isnan(worst)) return infinity<double>;
+  if (a->kind->measure == Measure::angle) return 2 * worst;
   if (std::strcmp(name, "modulus_squared") == 0 || size == 0) return worst;
   return worst / size;
 }

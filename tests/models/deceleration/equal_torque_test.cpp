@@ -2,8 +2,9 @@
 #include "gyrostat/models/deceleration/equal_torque.hpp"
 
 #include "bodies.hpp"
-#include "gyrostat/body/inertia.hpp"
 #include "gyrostat/ode/runge_kutta.hpp"
+#include "gyrostat/rotation/exp_log.hpp"
+#include "gyrostat/rotation/kinematics.hpp"
 
 using namespace gyrostat;
 using namespace gyrostat::deceleration;
@@ -11,28 +12,46 @@ using V = Vec3<double>;
 
 namespace {
 
-Problem<double> equal(Problem<double> p, double b, double drag) {
-  p.control = b * Mat3<double>::Identity();
-  p.drag = drag;
-  return p;
-}
+/// The full equations, M and the attitude, by a Runge-Kutta method that shares nothing with the closed form.
+struct Braked {
+  free::Problem<double> body;
+  double b, drag;
 
-/// The full equations by a Runge-Kutta method that shares nothing with the closed form.
-V integrated(const Problem<double>& p, double t) {
-  const auto rhs = [&](double, const std::array<double, 3>& y, std::array<double, 3>& dy) noexcept {
-    const V M(y[0], y[1], y[2]);
-    const V d = cross<double>(M, p.angular_velocity(M)) - p.drag * M - p.control * M / M.norm();
-    dy = {d[0], d[1], d[2]};
-  };
-  ode::StepControl<double, 3> control;
-  control.relative = 1e-13;
-  control.absolute.fill(1e-14);
-  ode::RungeKutta solver(rhs, 0., std::array{p.momentum[0], p.momentum[1], p.momentum[2]}, control);
-  while (solver.time() < t && solver.step(t) == ode::Status::reached) {
+  Braked(const Problem<double>& p, double control, double lambda, const Quat<double>& q = {})
+      : b(control), drag(lambda) {
+    body.inertia = p.inverse_inertia.cwiseInverse().asDiagonal();
+    body.momentum_given = true;
+    body.angular_momentum = p.momentum;
+    body.attitude = q;
   }
-  REQUIRE(solver.time() == t);
-  return {solver.state()[0], solver.state()[1], solver.state()[2]};
-}
+  double norm() const { return body.angular_momentum.norm(); }
+
+  EqualTorqueMotion<double> motion() const {
+    const auto made = EqualTorqueMotion<double>::make(body, b, drag);
+    REQUIRE(made);
+    return *made;
+  }
+
+  std::pair<V, Quat<double>> integrated(double t) const {
+    const V J = body.inertia.diagonal(), M0 = body.angular_momentum;
+    const auto rhs = [&](double, const std::array<double, 7>& y, std::array<double, 7>& dy) noexcept {
+      const V M(y[0], y[1], y[2]), w = M.cwiseQuotient(J);
+      const V d = cross<double>(M, w) - drag * M - b * M / M.norm();
+      const Quat<double> dq = quaternion_rate<double>({y[3], y[4], y[5], y[6]}, w);
+      dy = {d[0], d[1], d[2], dq.w, dq.x, dq.y, dq.z};
+    };
+    ode::StepControl<double, 7> control;
+    control.relative = 1e-13;
+    control.absolute.fill(1e-14);
+    const Quat<double>& q = body.attitude;
+    ode::RungeKutta solver(rhs, 0., std::array{M0[0], M0[1], M0[2], q.w, q.x, q.y, q.z}, control);
+    while (solver.time() < t && solver.step(t) == ode::Status::reached) {
+    }
+    REQUIRE(solver.time() == t);
+    const auto& y = solver.state();
+    return {V(y[0], y[1], y[2]), normalised(Quat<double>{y[3], y[4], y[5], y[6]})};
+  }
+};
 
 }  // namespace
 
@@ -41,98 +60,118 @@ TEST_CASE("equal torques: the closed form is the full motion, at any strength", 
   for (const double b : {1e-3, .1, 3.})
     for (const double drag : {0., 1e-3, 1.})
       for (int trial = 0; trial < 5; ++trial) {
-        const auto p = equal(bodies.problem(1), b, drag);
-        const EqualTorqueMotion<double> motion(p);
-        const double end = std::min(.9 * motion.stop_time(), 20.);
-        CAPTURE(b, drag, p.momentum.transpose(), motion.modulus().kp2);
+        const V axis = bodies.vector();
+        const Braked braked(bodies.problem(1), b, drag, quaternion_from_vector<double>(axis));
+        const auto motion = braked.motion();
+        const double end = std::min(.9 * motion.law().stop_time(), 20.), kp2 = motion.unbraked().modulus().kp2;
+        CAPTURE(b, drag, braked.body.angular_momentum.transpose(), kp2);
         for (const double t : {.3 * end, end}) {
           const auto now = motion.at(t);
-          CHECK(now.momentum.norm() == Approx(now.norm).epsilon(1e-12));
-          CHECK((now.momentum - integrated(p, t)).norm() <
-                p.momentum.norm() * (motion.rounding(t) + 1e-9 / motion.modulus().kp2));
-          const auto q = polhode_through<double>(p.inverse_inertia, now.momentum);
-          CHECK(q.modulus.k2 == Approx(motion.modulus().k2).epsilon(1e-9));
-          CHECK(q.energy_ratio() == Approx(motion.energy_ratio()).epsilon(1e-12));
+          const auto [M, q] = braked.integrated(t);
+          CHECK(now.angular_momentum.norm() == Approx(now.norm).epsilon(1e-12));
+          CHECK((now.angular_momentum - M).norm() < braked.norm() * 1e-9 / kp2);
+          CHECK(vector_from_quaternion(conjugate(q) * now.unbraked.attitude).norm() < 1e-9 / kp2);
+          const V kept = rotate<double>(now.unbraked.attitude, now.angular_momentum) / now.norm;
+          CHECK((kept - rotate<double>(braked.body.attitude, braked.body.angular_momentum) / braked.norm()).norm() <
+                1e-13);
         }
       }
 }
 
-TEST_CASE("equal torques: the stop", "[deceleration]") {
+TEST_CASE("equal torques: the stop, and the attitude that it leaves", "[deceleration]") {
   Bodies bodies(14);
-  const auto p = equal(bodies.problem(1), .02, .3);
-  const EqualTorqueMotion<double> motion(p);
+  const auto p = bodies.problem(1);
+  const Braked braked(p, .02, .3);
+  const auto motion = braked.motion();
+  const auto& law = motion.law();
   const double T = std::log(1 + .3 * p.momentum.norm() / .02) / .3;
-  CHECK(motion.stop_time() == Approx(T).epsilon(1e-14));
-  CHECK(motion.at(T * (1 + 1e-15)).norm == 0);
-  CHECK(motion.at(1e300).momentum == V(0, 0, 0));
+  CHECK(law.stop_time() == Approx(T).epsilon(1e-14));
+  CHECK(law.norm(T * (1 + 1e-15)) == 0);
+  CHECK(motion.at(1e300).angular_momentum == V(0, 0, 0));
   CHECK(motion.at(T * (1 - 1e-9)).norm == Approx(.02 * T * 1e-9).epsilon(1e-5));
-  CHECK(EqualTorqueMotion<double>(equal(p, .02, 0)).stop_time() == p.momentum.norm() / .02);
-  CHECK(EqualTorqueMotion<double>(equal(p, .02, 1e-14)).stop_time() == Approx(p.momentum.norm() / .02).epsilon(1e-11));
-  CHECK(EqualTorqueMotion<double>(equal(p, 0, .3)).stop_time() == infinity<double>);
+  const Quat<double> rest = motion.at(law.stop_time()).unbraked.attitude;
+  CHECK(motion.at(1e300).unbraked.attitude.w == rest.w);
+  const auto [M, q] = braked.integrated(T * (1 - 1e-6));
+  CHECK(vector_from_quaternion(conjugate(q) * rest).norm() < 1e-8);
+  CHECK(law.clock(1e300) == law.clock(law.stop_time()));
+  CHECK(law.clock(T) < 1 / .3);
+  const EqualTorqueLaw<double> control(.02, 0, 3), weak(.02, 1e-14, 3), none(0, .3, 3);
+  CHECK(control.stop_time() == 3 / .02);
+  CHECK(control.clock(1e9) == Approx(control.stop_time() / 2).epsilon(1e-15));
+  CHECK(weak.stop_time() == Approx(3 / .02).epsilon(1e-11));
+  CHECK(none.stop_time() == infinity<double>);
+  CHECK(none.clock(1e9) == Approx(1 / .3).epsilon(1e-15));
 }
 
 TEST_CASE("equal torques: drag alone, and nothing at all", "[deceleration]") {
   Bodies bodies(15);
   for (int trial = 0; trial < 20; ++trial) {
     const auto p = bodies.problem(1);
-    const EqualTorqueMotion<double> drag(equal(p, 0, .3)), free(equal(p, 0, 0));
+    const auto drag = Braked(p, 0, .3).motion(), left_alone = Braked(p, 0, 0).motion();
     const double R = p.momentum.norm();
     for (const double t : {.1, 1., 7.}) {
       CHECK(drag.at(t).norm == Approx(R * std::exp(-.3 * t)).epsilon(1e-14));
-      CHECK(free.at(t).norm == R);
-      // under drag alone M runs along the free motion in the clock (1 - e^-drag t)/drag
-      const double clock = (1 - std::exp(-.3 * t)) / .3;
-      CHECK((drag.at(t).momentum * std::exp(.3 * t) - free.at(clock).momentum).norm() < R * 1e-11 / free.modulus().kp2);
+      CHECK(left_alone.at(t).norm == Approx(R).epsilon(1e-15));
+      CHECK(left_alone.at(t).tau == t);
+      CHECK(left_alone.law().clock_error(t) == 0);
+      // under drag alone the clock of the free motion is (1 - e^-drag t)/drag
+      const auto now = drag.at(t), other = left_alone.at((1 - std::exp(-.3 * t)) / .3);
+      const double kp2 = drag.unbraked().modulus().kp2;
+      CHECK((now.angular_momentum * std::exp(.3 * t) - other.angular_momentum).norm() < R * 1e-11 / kp2);
+      CHECK(vector_from_quaternion(conjugate(now.unbraked.attitude) * other.unbraked.attitude).norm() < 1e-11 / kp2);
     }
   }
 }
 
-TEST_CASE("equal torques: sphere and symmetry axes", "[deceleration]") {
-  Problem<double> p = equal({}, .01, .1);
+TEST_CASE("equal torques: the clock is as good as it says", "[deceleration]") {
+  Bodies bodies(17);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const auto some = [&] { return std::pow(10, bodies.uniform(-12, 3)); };
+    const double b = trial % 5 ? some() : 0, drag = trial % 7 ? some() : 0, norm = some();
+    const EqualTorqueLaw<double> law(b, drag, norm);
+    const EqualTorqueLaw<long double> truth(b, drag, norm);
+    const double t = std::min(law.stop_time(), some()) * bodies.uniform(0, 1.1), tau = law.clock(t);
+    CAPTURE(b, drag, norm, t);
+    CHECK(std::abs(static_cast<double>(tau - truth.clock(t))) <= law.clock_error(tau));
+    CHECK(std::abs(static_cast<double>(law.norm(t) - truth.norm(t))) <= 8 * epsilon<double> * norm);
+  }
+}
+
+TEST_CASE("equal torques: sphere, symmetry axes and the separatrix", "[deceleration]") {
+  Problem<double> p;
+  const auto turned = [](const Braked& braked, double t) {
+    return (braked.motion().at(t).angular_momentum.normalized() - braked.body.angular_momentum.normalized()).norm();
+  };
   p.momentum = V(.3, .4, 1.2);
-  const EqualTorqueMotion<double> sphere(p);
-  CHECK(sphere.regime() == Regime::point);
-  CHECK((sphere.at(2.).momentum.normalized() - p.momentum.normalized()).norm() < 1e-15);
+  CHECK(turned(Braked(p, .01, .1), 2) < 1e-15);
   p.inverse_inertia = V(1, 1, 2);
   p.momentum = V(.3, .4, 0);  // across the axis
-  const EqualTorqueMotion<double> across(p);
-  CHECK(across.regime() == Regime::point);
-  CHECK((across.at(2.).momentum.normalized() - p.momentum.normalized()).norm() < 1e-15);
+  CHECK(turned(Braked(p, .01, .1), 2) < 1e-15);
   p.momentum = V(.3, .4, .5);
-  CHECK((EqualTorqueMotion<double>(p).at(3.).momentum - integrated(p, 3)).norm() < 1e-12);
+  const Braked symmetric(p, .01, .1);
+  CHECK((symmetric.motion().at(3).angular_momentum - symmetric.integrated(3).first).norm() < 1e-12);
+  p.inverse_inertia = V(3, 2, 1.5).cwiseInverse();  // exactly: the differences of 1/J are 1/6 and 1/6
+  p.momentum = V(.5, .3, .5);
+  const Braked saddle(p, .01, .1);
+  const auto made = EqualTorqueMotion<double>::make<DoubleDouble>(saddle.body.cast<DoubleDouble>(), .01, .1);
+  REQUIRE(made);
+  CHECK(made->unbraked().modulus().kp2 < 1e-30);
+  for (const double t : {1., 5., 20.}) {
+    const auto [M, q] = saddle.integrated(t);
+    CHECK((made->at(t).angular_momentum - M).norm() < 1e-11);
+    CHECK(vector_from_quaternion(conjugate(q) * made->at(t).unbraked.attitude).norm() < 1e-11);
+  }
 }
 
 TEST_CASE("equal torques in other arithmetic", "[deceleration]") {
   Bodies bodies(16);
   for (int trial = 0; trial < 20; ++trial) {
-    const auto p = equal(bodies.problem(1), .05, .2);
-    Problem<long double> q;
-    q.inverse_inertia = p.inverse_inertia.cast<long double>();
-    q.control = p.control.cast<long double>();
-    q.drag = p.drag;
-    q.momentum = p.momentum.cast<long double>();
-    const EqualTorqueMotion<double> a(p);
-    const EqualTorqueMotion<long double> b(q);
-    const double t = .7 * a.stop_time();
-    CHECK((a.at(t).momentum - b.at(t).momentum.cast<double>()).norm() < a.rounding(t) * p.momentum.norm());
-  }
-}
-
-TEST_CASE("equal torques: the modulus of a nearly symmetric body, where the moments are known", "[deceleration]") {
-  for (const double gap : {1e-6, 1e-9, 1e-12}) {
-    const auto inertia = Inertia<double>::from_moments(168 * (1 + gap), 168, 105).value();
-    Problem<double> p;
-    p.inverse_inertia = inertia.inverse_principal();
-    p.exact_gaps = inertia.inverse_gaps();
-    p.momentum = {1e-9, -2e-9, 3};
-    const Vec3<long double> moments = inertia.principal().cast<long double>(),
-                            m = p.momentum.cast<long double>().cwiseAbs2();
-    // k2 = mid_far tilt/(near_mid (1 - tilt)) about the axis of the smallest moment
-    const long double high = (moments[1] - moments[2]) / (moments[1] * moments[2]),
-                      low = (moments[0] - moments[1]) / (moments[0] * moments[1]);
-    const long double k2 = low * (high * m[1] + (high + low) * m[0]) / (high * ((high + low) * m[2] + low * m[1]));
-    CHECK(EqualTorqueMotion<double>(p).modulus().k2 == Approx(double(k2)).epsilon(1e-14).margin(0));
-    p.exact_gaps.reset();  // what the inverse moments alone tell
-    CHECK(std::abs(EqualTorqueMotion<double>(p).modulus().k2 / double(k2) - 1) < 4 * epsilon<double> / gap);
+    const Braked braked(bodies.problem(1), .05, .2);
+    const auto a = braked.motion();
+    const auto b = EqualTorqueMotion<long double>::make(braked.body.cast<long double>(), .05L, .2L);
+    REQUIRE(b);
+    const double t = .7 * a.law().stop_time();
+    CHECK((a.at(t).angular_momentum - b->at(t).angular_momentum.cast<double>()).norm() <
+          1e-13 * braked.norm() / a.unbraked().modulus().kp2);
   }
 }

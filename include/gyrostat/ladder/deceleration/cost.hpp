@@ -5,19 +5,22 @@
 #include <cmath>
 
 #include "gyrostat/ladder/cost.hpp"
+#include "gyrostat/ladder/deceleration/equal_torque_rung.hpp"
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 #include "gyrostat/ladder/deceleration/scene.hpp"
 
 /// What the rungs of the family `deceleration` cost, s.
 namespace gyrostat::deceleration {
 
-inline constexpr FormulaCost equal_torque_cost{2e-6, 0.15e-6};
+/// By what of the free motion is needed (Unbraked).
+inline constexpr FormulaCost equal_torque_cost[] = {{1e-6, 0.05e-6}, {4e-6, 0.2e-6}, {180e-6, 0.2e-6}};
 inline constexpr FormulaCost averaged_cost{9e-6, 0.17e-6}, averaged_orbit_cost{280e-6, 1e-6};
 inline constexpr FormulaCost averaged_2_cost{300e-6, 0.5e-6}, averaged_2_orbit_cost{1.5e-3, 1e-6};
 inline constexpr SeriesCost series_cost{5e-6, 3e-6, 0.8e-6, 1};
 
 inline double cost_of_equal_torque(const Scene& scene) noexcept {
-  return equal_torque_cost(scene.question().times.size());
+  if (!scene.equal_control() || scene.has_rotor()) return equal_torque_cost[0](0);  // refused at once
+  return equal_torque_cost[int(unbraked_motion(scene))](scene.question().times.size());
 }
 inline double cost_of_averaged(const Scene& scene) noexcept {
   return (needs_orbit(scene) ? averaged_orbit_cost : averaged_cost)(scene.question().times.size());

@@ -109,8 +109,7 @@ enum : int { equal_torque, averaged, averaged_2, full };
 }
 
 inline constexpr RungKind rung_kinds[] = {
-    {"equal-torque", "one control torque for all axes and no rotor momentum: exact, in elliptic functions",
-     column_set(column::attitude)},
+    {"equal-torque", "one control torque for all axes and no rotor momentum: exact, the free motion in a slower clock"},
     {"averaged", "the torques averaged over the free motion, first order: slow columns only, not the phase",
      fast_columns},
     {"averaged-2", "averaged to second order, and so with the phase; the full equations take over near the stop",

@@ -48,6 +48,7 @@ class Scene {
 
     Scene scene;
     scene.setup_ = setup;
+    scene.inertia_ = body.tensor();
     scene.ask(question);
     scene.R_BP_ = body.R_BP();
     const Mat3<double> R_PB = scene.R_BP_.transpose();
@@ -83,7 +84,8 @@ class Scene {
   bool needs_stop() const noexcept {
     return asks_for_stop() && aim_of(question_, tables, true, scalar::stop_time)->needed;
   }
-  const Mat3<double>& R_BP() const noexcept { return R_BP_; }  ///< principal axes to body axes
+  const Mat3<double>& inertia() const noexcept { return inertia_; }  ///< J, body axes, kg m^2
+  const Mat3<double>& R_BP() const noexcept { return R_BP_; }        ///< principal axes to body axes
 
   /// Principal axes to inertial at t = 0.
   Quat<double> attitude() const noexcept { return setup_.attitude * from_matrix(R_BP_); }
@@ -115,7 +117,7 @@ class Scene {
   Problem<double> problem_;
   Setup setup_;
   Question question_;
-  Mat3<double> R_BP_ = Mat3<double>::Identity();
+  Mat3<double> inertia_ = Mat3<double>::Identity(), R_BP_ = Mat3<double>::Identity();
 
  public:
   /// Solves the full equations in place of the library's Taylor series (cvode_motion.hpp); nullptr: Taylor.

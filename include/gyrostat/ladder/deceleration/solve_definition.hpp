@@ -24,10 +24,6 @@ Track averaged_2(const Scene& scene, Monitor* monitor) {
   return needs_orbit(scene) ? orbit_averaged_2_track<Elliptic>(scene, monitor)
                             : averaged_2_track<Elliptic>(scene, monitor);
 }
-template <class Elliptic>
-Track equal_torque(const Scene& scene, Monitor*) {
-  return equal_torque_track<Elliptic>(scene);
-}
 
 /// Distance of the start's energy from the next separatrix at its |M|, over the range of energies there; NaN where there
 /// is none (a sphere, M = 0, a rotor that leaves one component only).
@@ -63,7 +59,7 @@ inline void describe(Answer& answer, const Scene& scene, const Track&) {
 
 template <class Elliptic>
 Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
-  static constexpr Rung<Scene, Track> models[] = {{&detail::equal_torque<Elliptic>, &cost_of_equal_torque},
+  static constexpr Rung<Scene, Track> models[] = {{&equal_torque_track, &cost_of_equal_torque},
                                                   {&detail::averaged<Elliptic>, &cost_of_averaged},
                                                   {&detail::averaged_2<Elliptic>, &cost_of_averaged_2},
                                                   {&full_track, &cost_of_full}};
