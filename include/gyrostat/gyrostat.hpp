@@ -2,7 +2,6 @@
 // Everything but the headers of the optional targets gyrostat::gsl and gyrostat::cvode.
 #pragma once
 
-#include "gyrostat/body/free_motion.hpp"
 #include "gyrostat/body/inertia.hpp"
 #include "gyrostat/body/principal_axes.hpp"
 #include "gyrostat/body/realisability.hpp"

@@ -151,3 +151,47 @@ TEST_CASE("moving along the family keeps the polhode's law", "[deceleration]") {
     CHECK(back.modulus.kp2 == Approx(kp2).epsilon(1e-10));
   }
 }
+
+TEST_CASE("each number of a polhode has its own relative accuracy, by every component of M", "[deceleration]") {
+  Bodies bodies(8);
+  for (int trial = 0; trial < 500; ++trial) {
+    const V a = bodies.inverse_inertia(), part = bodies.vector(), small = bodies.vector();
+    const Vec3<float> gaps(float(a[1] - a[0]), float(a[2] - a[1]), float(a[2] - a[0]));
+    Vec3<float> M;
+    for (int i = 0; i < 3; ++i) M[i] = float(part[i] * std::pow(10, -3 * std::abs(small[i])));
+    const auto rounded = polhode_through<float>(a.cast<float>(), gaps, M);
+    const auto truth = polhode_through<double>(a, gaps.cast<double>(), M.cast<double>());
+    if (rounded.regime != truth.regime) continue;  // on the separatrix, to rounding
+    const auto off = [](float x, double y) { return std::abs(double(x) / y - 1); };
+    CHECK(off(rounded.tilt, truth.tilt) < 8 * epsilon<float>);
+    CHECK(off(rounded.along, truth.along) < 8 * epsilon<float>);
+    CHECK(off(rounded.modulus.k2, truth.modulus.k2) < 8 * epsilon<float>);
+    const auto& x = truth.axes;
+    const V m = M.cast<double>().cwiseAbs2();
+    const double inside = x.near_mid * m[x.near], outside = x.mid_far * m[x.far];
+    CHECK(off(rounded.modulus.kp2, truth.modulus.kp2) < 8 * epsilon<float> * (inside + outside) / (inside - outside));
+  }
+}
+
+TEST_CASE("rounding does not put the modulus of a polhode out of [0, 1]", "[deceleration]") {
+  Bodies bodies(9);
+  int over = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const V a = bodies.inverse_inertia();
+    for (const int near : {0, 2}) {
+      const double M = bodies.uniform(.3, 3);
+      const auto on_axis = polhode_through<double>(a, V(M * V::Unit(near)));
+      const auto& x = on_axis.axes;
+      over += x.near_far * (x.near_mid * (M * M)) / (x.near_mid * (x.near_far * (M * M))) > 1;
+      CHECK(on_axis.modulus.k2 == 0);
+      CHECK(on_axis.modulus.kp2 <= 1);
+      CHECK(on_axis.modulus.kp2 == Approx(1).epsilon(1e-15));
+      CHECK(on_axis.along == 1);
+      V edge(0, 0, 0);  // on the separatrix, to rounding
+      edge[near] = M * std::sqrt(x.mid_far);
+      edge[2 - near] = M * std::sqrt(x.near_mid);
+      CHECK(polhode_through<double>(a, edge).modulus.k2 <= 1);
+    }
+  }
+  CHECK(over > 100);
+}
