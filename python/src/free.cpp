@@ -42,17 +42,29 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Wheels
   return to_python(answer, scene.question(), free::tables, seconds);
 }
 
+/// Body and wheels as one gyrostat: inertia (3, 3) less that of the wheels that turn freely, the momentum (3,) that the others keep, and M.
+Data reduced(const Array& inertia, const Array& rotor_momentum, const Wheels& wheels,
+             const std::optional<Array>& angular_velocity, const std::optional<Array>& angular_momentum,
+             const Array& attitude) {
+  const auto assembly = assembly_of(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude);
+  free::Refusal<double> refusal;
+  const auto p = sound(free::Reduced<double>::of(assembly, &refusal), assembly, refusal).problem;
+  const Vec3<double> M = p.momentum();
+  Data made;
+  made["inertia"] = array(std::vector<double>(p.inertia.data(), p.inertia.data() + 9), {3, 3});  // symmetric
+  made["rotor_momentum"] = array(std::vector<double>(p.rotor_momentum.data(), p.rotor_momentum.data() + 3), {3});
+  made["angular_momentum"] = array(std::vector<double>(M.data(), M.data() + 3), {3});
+  return made;
+}
+
 /// The permanent rotations at the scene's |M|: angular velocity (n, 3), energy, square of the frequency about each.
 Data permanent(const Array& inertia, const Array& rotor_momentum, const Wheels& wheels,
                const std::optional<Array>& angular_velocity, const std::optional<Array>& angular_momentum,
                const Array& attitude) {
   const auto assembly = assembly_of(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude);
   free::Refusal<double> refusal;
-  const auto reduced = sound(free::Reduced<double>::of(assembly, &refusal), assembly, refusal);
-  const auto& p = reduced.problem;
-  const Vec3<double> M =
-      p.momentum_given ? p.angular_momentum : Vec3<double>(p.inertia * p.angular_velocity + p.rotor_momentum);
-  const auto found = checked(free::permanent_rotations(p, M.norm()));
+  const auto p = sound(free::Reduced<double>::of(assembly, &refusal), assembly, refusal).problem;
+  const auto found = checked(free::permanent_rotations(p, p.momentum().norm()));
   std::vector<double> rates, momenta, squares, energies;
   for (int i = 0; i < found.count; ++i) {
     const auto& one = found.rotation[i];
@@ -91,6 +103,9 @@ void bind_free(py::module_& module) {
              py::arg("wheels"), py::arg("angular_velocity"), py::arg("angular_momentum"), py::arg("attitude"),
              py::arg("view"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),
              py::arg("monitor"), py::arg("ask") = py::none(), "Answer of the ladder as plain data.");
+  module.def("free_reduced", &reduced, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"), py::arg("wheels"),
+             py::arg("angular_velocity"), py::arg("angular_momentum"), py::arg("attitude"),
+             "Body and wheels as one gyrostat: inertia, rotor momentum and angular momentum at the start.");
   module.def("free_permanent", &permanent, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"),
              py::arg("wheels"), py::arg("angular_velocity"), py::arg("angular_momentum"), py::arg("attitude"),
              "Permanent rotations with the start's momentum, as columns.");

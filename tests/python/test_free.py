@@ -10,6 +10,7 @@ import gyrostat
 import numpy as np
 import pytest
 from gyrostat import DomainError, SceneError, free
+from gyrostat.families.free.functions import reduced
 from gyrostat.scenes import load, scene_from
 from gyrostat.stability import plot_stability, stability_report
 from gyrostat.toml_text import toml_text
@@ -87,6 +88,23 @@ def test_mistakes_are_named(changes: dict[str, Any], text: str) -> None:
 def test_a_wheel_that_the_body_cannot_hold() -> None:
     with pytest.raises(DomainError, match="wheel 1: axial_inertia = 2.4: the body of this inertia holds less than"):
         gyrostat.solve(scene_from(scene(wheel=[{**WHEEL, "axial_inertia": 2.4, "type": "free"}])))
+
+
+def test_body_and_wheels_come_to_one_gyrostat() -> None:
+    u, omega, l = np.array(WHEEL["axis"]), np.array([0.3, -0.5, 0.8]), np.array([0.1, 0.2, -0.3])
+    given = {"inertia": [3.0, 2.5, 2.0], "rotor_momentum": l, "angular_velocity": omega, "angular_momentum": None}
+    held, turning = (reduced({**given, "wheels": [{**WHEEL, "type": kind}]}) for kind in ("held", "free"))
+    J, M = np.diag([3.0, 2.5, 2.0]), np.array([3.0, 2.5, 2.0]) * omega + l + 0.2 * 5.0 * u
+    np.testing.assert_allclose(held[0], J, rtol=1e-15)
+    np.testing.assert_allclose(held[1], l + 0.2 * 5.0 * u, rtol=1e-15)
+    np.testing.assert_allclose(turning[0], J - 0.2 * np.outer(u, u), rtol=1e-15)
+    for inertia, kept, momentum in (held, turning):
+        np.testing.assert_allclose(momentum, M, rtol=1e-14)
+        np.testing.assert_allclose(inertia @ omega + kept, M, rtol=1e-14)
+        again = reduced({**given, "angular_velocity": None, "angular_momentum": M, "wheels": [{**WHEEL, "type": "free"}]})
+        np.testing.assert_allclose(again[1], turning[1], rtol=1e-14)
+    with pytest.raises(DomainError, match="wheel 1"):
+        reduced({**given, "wheels": [{**WHEEL, "axial_inertia": 9.0, "type": "free"}]})
 
 
 def test_permanent_rotations_of_a_rigid_body_and_with_much_rotor_momentum() -> None:

@@ -62,10 +62,7 @@ class Scene {
     return p.momentum_given ? Vec3<double>(p.inertia.inverse() * (p.angular_momentum - p.rotor_momentum))
                             : p.angular_velocity;
   }
-  Vec3<double> angular_momentum() const noexcept {
-    const auto& p = gyrostat_.problem;
-    return p.momentum_given ? p.angular_momentum : Vec3<double>(p.inertia * p.angular_velocity + p.rotor_momentum);
-  }
+  Vec3<double> angular_momentum() const noexcept { return gyrostat_.problem.momentum(); }
 
   /// The scales of the columns, in their units.
   ColumnErrors<double> scales() const noexcept {

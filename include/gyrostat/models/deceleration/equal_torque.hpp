@@ -8,7 +8,7 @@
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/models/free/motion.hpp"
 
-/// Equal control torques without rotor momentum (docs/deceleration.md, section 2): the torque is parallel to M, so the body goes through
+/// Equal control torques without rotor momentum (docs/deceleration.md, section 2.3): the torque is parallel to M, so the body goes through
 /// its free motion, only ever more slowly. Exact for any torque and drag.
 namespace gyrostat::deceleration {
 

@@ -46,6 +46,11 @@ struct Problem {
     return Inertia<Tolerance>::from_tensor(matrix_cast<Tolerance>(inertia)).error();
   }
 
+  /// M at t = 0, body axes, N m s.
+  Vec3<Scalar> momentum() const noexcept {
+    return momentum_given ? angular_momentum : Vec3<Scalar>(inertia * angular_velocity + rotor_momentum);
+  }
+
   template <Real To>
   Problem<To> cast() const noexcept {
     const auto& q = attitude;

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, first_turns, greatest, reference, relative
-from gyrostat.families.free.functions import integrate, solve
-from gyrostat.families.free.reduction import reduced
+from gyrostat.families.free.functions import integrate, reduced, solve
 from gyrostat.families.free.scene import arguments
 from gyrostat.rotation import angle_between
 

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from gyrostat.drawing import COLOURS, Panel, components, curve, error_text, laid_out, legend_row, note, vector
 from gyrostat.errors import DomainError
-from gyrostat.families.free.functions import flips, permanent_rotations
-from gyrostat.families.free.reduction import reduced
+from gyrostat.families.free.functions import flips, permanent_rotations, reduced
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

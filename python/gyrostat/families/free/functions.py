@@ -100,6 +100,17 @@ def integrate(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLi
     return made
 
 
+def reduced(given: Mapping[str, Any]) -> tuple[Floats, Floats, Floats]:
+    """Inertia (3, 3) less that of the wheels that turn freely, the momentum (3,) of the wheels that the motion keeps, and M (3,) at the start.
+
+    given : inertia, rotor_momentum, wheels, and angular_velocity or angular_momentum, as `solve` takes them.
+    """
+    body = _body(*(given[name] for name in ("inertia", "rotor_momentum", "wheels", "angular_velocity", "angular_momentum")),
+                 attitude=(0.0, 0.0, 0.0, 1.0))
+    made = _core.free_reduced(**body)
+    return made["inertia"], made["rotor_momentum"], made["angular_momentum"]
+
+
 def permanent_rotations(*, inertia: ArrayLike, angular_velocity: ArrayLike | None = None, angular_momentum: ArrayLike | None = None,
                         rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), wheels: Sequence[Wheel] = ()) -> PermanentRotations:
     """The rotations with constant angular velocity that have the angular momentum of the start: two, four or six (Volterra 1899).
