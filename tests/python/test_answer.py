@@ -18,6 +18,7 @@ from gyrostat.answer import Answer
 from gyrostat.deceleration import Monitor
 from gyrostat.facts import UNITS
 from gyrostat.families import FAMILIES
+from gyrostat.rotation import angle_between
 from gyrostat.scenes import bundled
 
 BRAKE = {
@@ -124,6 +125,23 @@ def test_the_cheapest_rung_that_is_good_enough_answers() -> None:
     assert gyrostat.solve(BRAKE, control=[1e-3] * 3).model == "equal-torque"
     assert np.max(np.abs(coarse["angular_momentum_norm"] - fine["angular_momentum_norm"])) / fine["angular_momentum_norm"][0] \
         <= coarse.error["angular_momentum_norm"]
+
+
+def test_equal_torques_leave_the_attitude_in_closed_form() -> None:
+    given = {"control": [1e-3] * 3, "attitude": [0.1, -0.7, 0.1, 0.7], "duration": 60000.0, "samples": 7}
+    q = gyrostat.solve(BRAKE, **given, ask={"attitude": "0.001 deg"})
+    assert q.model == "equal-torque" and q.met and list(q) == ["attitude"]
+    assert np.array_equal(q["attitude"][-1], q["attitude"][-2])  # it rests after some 33000 s
+    named, full = (gyrostat.solve(BRAKE, **{**given, "duration": 2000.0}, model=model, tolerance=1e-9) for model in ("equal-torque", "full"))
+    assert named.met
+    for name in ("attitude", "angular_momentum", "angular_velocity"):
+        size = 1 if name == "attitude" else np.max(np.linalg.norm(full[name], axis=1))
+        sign = np.sign(np.sum(named[name] * full[name], axis=1))[:, None] if name == "attitude" else 1
+        assert np.max(np.linalg.norm(sign * named[name] - full[name], axis=1)) <= (named.error[name] + full.error[name]) * size
+    angles = angle_between(named["attitude"], full["attitude"])
+    assert np.max(angles) <= named.error["attitude"] + full.error["attitude"]
+    momentum = gyrostat.solve(BRAKE, control=[1e-3] * 3, ask=["angular_momentum"])
+    assert momentum.model == "equal-torque" and "attitude" not in momentum.columns
 
 
 @pytest.mark.parametrize("law", ["total", "carrier"])
