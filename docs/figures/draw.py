@@ -548,7 +548,95 @@ def heavy():
     return figure
 
 
-FIGURES = (deceleration, rotor, spinning, heavy)
+# ---- free ----
+
+def free():
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(13.2, 4.7), layout="constrained", width_ratios=[1.0, 1.05, 1.15])
+    a, l = 1 / np.array([1.4, 1.0, 0.7]), np.array([0.05, 0.10, 0.09])  # of a gyrostat, |M| = 1
+
+    # permanent rotations omega = sigma M: n = a l/(a - sigma) of unit length
+    sigma = np.linspace(a[0] - 0.6, a[2] + 0.6, 400001)
+    excess = ((a * l / (a - sigma[:, None])) ** 2).sum(axis=1) - 1
+    found = []
+    for i in np.flatnonzero((excess[:-1] < 0) != (excess[1:] < 0)):
+        n = a * l / (a - sigma[i])
+        d = a - sigma[i]
+        found.append((n / np.linalg.norm(n), d[1] * d[2] * n[0] ** 2 + d[0] * d[2] * n[1] ** 2 + d[0] * d[1] * n[2] ** 2 > 0))
+
+    view = View(left, 62, 24)
+    sphere(view, left)
+    x, y = np.meshgrid(np.linspace(-1, 1, 801), np.linspace(-1, 1, 801))
+    near = x ** 2 + y ** 2 < 1
+    n = x[..., None] * view.right + y[..., None] * view.up + np.sqrt(np.where(near, 1 - x ** 2 - y ** 2, 0))[..., None] * view.eye
+    energy = np.where(near, ((n - l) ** 2 * a).sum(axis=-1) / 2, np.nan)
+    saddles = sorted(((m - l) ** 2 * a).sum() / 2 for m, stable in found if not stable)
+    low, high = np.nanmin(energy), np.nanmax(energy)
+    for first, last, colour in ((low, saddles[0], SKY), (saddles[0], saddles[-1], GREEN), (saddles[-1], high, AMBER)):
+        left.contour(x, y, energy, levels=first + (last - first) * np.array([0.15, 0.4, 0.7]), colors=colour, linewidths=1.2)
+    left.contour(x, y, energy, levels=saddles, colors=RED, linewidths=1.8)
+    for m, stable in found:
+        if m @ view.eye > 0:
+            left.plot(*view.flat(m), "o" if stable else "X", color="black" if stable else RED, markersize=6, zorder=6)
+    for k, shift in ((0, (0.0, -0.1)), (1, (0.1, -0.02)), (2, (0.0, 0.1))):
+        view.arrow(np.eye(3)[k], 1.3 * np.eye(3)[k], str(k + 1), shift=shift, color="#444444", width=1.0)
+    view.text(np.zeros(3), "about-smallest", shift=(-0.86, 1.08), color="#A86F00", size=9.5)
+    view.text(np.zeros(3), "about-largest", shift=(-1.02, -1.0), color=BLUE, size=9.5)
+    view.text(np.zeros(3), "one component\nbetween the separatrices", shift=(0.95, -1.08), color=GREEN, size=9.5)
+    left.set_xlim(-1.5, 1.5)
+    left.set_ylim(-1.3, 1.4)
+    left.set_title("Paths of $M$ in a body with wheels")
+
+    # the rigid body in the plane of complex u
+    tilt = 0.72 * (a[1] - a[0]) + a[0]  # 2 h/M^2
+    k2 = (a[2] - a[1]) * (tilt - a[0]) / ((a[1] - a[0]) * (a[2] - tilt))
+
+    def quarter(m2):
+        x, y = 1.0, np.sqrt(1 - m2)
+        for _ in range(40):
+            x, y = (x + y) / 2, np.sqrt(x * y)
+        return np.pi / (2 * x)
+
+    K, Kp = quarter(k2), quarter(1 - k2)
+    q, m = np.exp(-np.pi * Kp / K), np.arange(-12, 13)
+
+    def dn(u):
+        z = np.pi * u[..., None] / (2 * K)
+        return (1 - k2) ** 0.25 * (q ** (m ** 2) * np.exp(2j * m * z)).sum(axis=-1) / ((-1.0) ** m * q ** (m ** 2) * np.exp(2j * m * z)).sum(axis=-1)
+
+    angle = np.linspace(0, np.arcsin(np.sqrt((a[1] - a[0]) / (a[2] - a[0]))), 20001)
+    integrand = 1 / np.sqrt(1 - (1 - k2) * np.sin(angle) ** 2)
+    eta = ((integrand[1:] + integrand[:-1]) / 2).sum() * (angle[1] - angle[0])  # sn(eta, k')^2 = (a2 - a1)/(a3 - a1)
+    re, im = np.meshgrid(np.linspace(-2 * K, 2 * K, 401), np.linspace(-2 * Kp, 2 * Kp, 401))
+    size = np.log10(np.abs(dn(re + 1j * im)))
+    middle.pcolormesh(re / K, im / Kp, np.clip(size, -1, 1.2), cmap="Blues", shading="auto", rasterized=True)
+    grid = np.array([-1, 1])
+    for x in (-2, 0, 2):
+        middle.plot([x, x], grid, "x", color="black", markersize=9, markeredgewidth=2, zorder=4, label="poles of $n$" if x == 0 else None)
+        theta4, theta1 = -2 + eta / Kp, eta / Kp  # delta = -1 about the axis of the largest moment
+        middle.plot(x, theta4, "o", color=RED, markersize=8, zorder=4, label=r"zeros of $\zeta_1$" if x == 0 else None)
+        middle.plot(x, theta1, "o", color=AMBER, markersize=8, zorder=4, label=r"zeros of $\zeta_2$" if x == 0 else None)
+    middle.axhline(0, color=GREEN, linewidth=2.0, zorder=3, label="the motion")
+    middle.set_xlim(-2.1, 2.1)
+    middle.set_ylim(-2.1, 2.1)
+    middle.set_xlabel("Re $u/K$")
+    middle.set_ylabel("Im $u/K'$")
+    middle.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=4, fontsize=9, frameon=False, handletextpad=0.4, columnspacing=1.0)
+    middle.set_title(r"Complex time: $\log_{10}|n_1|$ over a cell of periods")
+
+    t = np.linspace(0, 150, 15001)
+    for off, colour in ((1e-2, GREEN), (1e-5, BLUE), (1e-8, PINK)):
+        path = integrated(lambda _, n: np.cross(n, a * n), np.array([off, np.sqrt(1 - 2 * off ** 2), off]), t)
+        right.plot(t, path[:, 1], color=colour, linewidth=1.4, label=f"$10^{{{round(np.log10(off))}}}$ off the axis")
+    right.set_xlim(0, 150)
+    right.set_xlabel("$t$ [s]")
+    right.set_ylabel("$n_2$ [1]")
+    right.grid(linewidth=0.4, color="#DDDDDD")
+    right.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3, fontsize=9, frameon=False)
+    right.set_title("Spun about the middle axis: flips")
+    return figure
+
+
+FIGURES = (deceleration, rotor, spinning, heavy, free)
 
 
 def main():

@@ -105,9 +105,8 @@ def reduced(given: Mapping[str, Any]) -> tuple[Floats, Floats, Floats]:
 
     given : inertia, rotor_momentum, wheels, and angular_velocity or angular_momentum, as `solve` takes them.
     """
-    body = _body(*(given[name] for name in ("inertia", "rotor_momentum", "wheels", "angular_velocity", "angular_momentum")),
-                 attitude=(0.0, 0.0, 0.0, 1.0))
-    made = _core.free_reduced(**body)
+    made = _core.free_reduced(**_body(given["inertia"], given["rotor_momentum"], given["wheels"], given["angular_velocity"],
+                                      given["angular_momentum"], (0.0, 0.0, 0.0, 1.0)))
     return made["inertia"], made["rotor_momentum"], made["angular_momentum"]
 
 
