@@ -2,7 +2,8 @@
 // Free motions in closed form. Time: one evaluation (rates and attitude) beside libm's sine and cosine and beside the elliptic functions
 // and the integral of the third kind of GSL that the classical formulas need; a point of an even grid; the set-up in double and in
 // double-double. Accuracy: median and greatest error over random bodies of every regime, 1.05 to 1.5 periods on, against Taylor series in
-// double-double, with the set-up in two words and in one, and the greatest effect of a rounding of every datum.
+// double-double, with the set-up in two words and in one, and the greatest effect of a rounding of every datum; and after many passages
+// of an unstable rotation.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -136,6 +137,35 @@ void accuracy(benchmark::State& state, Regime regime) {
   }
 }
 
+/// Past the unstable rotation of a rigid body, args: decades that the start is off the middle axis, passages. Attitude, rad: the error, the
+/// median effect of a rounding of every datum, what is stated.
+void passages(benchmark::State& state) {
+  const double off_axis = std::pow(10, -double(state.range(0)));
+  double error = 0, stated = 0, kp2 = 0;
+  std::vector<double> data;
+  for (auto _ : state) {
+    Bodies bodies(8);
+    const auto p = Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {off_axis, 1, .3 * off_axis});
+    const auto wide = p.cast<DoubleDouble>();
+    const auto fine = Motion<double>::make<DoubleDouble>(wide);
+    const auto truth = Motion<DoubleDouble>::make<DoubleDouble>(wide);
+    const double t = fine->period() / 2 * double(state.range(1));
+    const gyrostat::free::Assembly<double> given{p, {}};
+    stated = gyrostat::free::MotionError<double>::of<DoubleDouble>(*fine, given).at(t).attitude;
+    error = off(fine->at(t), truth->at(t)).attitude;
+    kp2 = fine->modulus().kp2;
+    for (int k = 0; k < 40; ++k)
+      data.push_back(
+          off(Motion<double>::make<DoubleDouble>(bodies.jittered(p).cast<DoubleDouble>())->at(t), truth->at(t))
+              .attitude);
+  }
+  std::sort(data.begin(), data.end());
+  state.counters["kp2"] = kp2;
+  state.counters["error"] = error;
+  state.counters["data"] = data[data.size() / 2];
+  state.counters["stated"] = stated;
+}
+
 BENCHMARK(sine_and_cosine);
 #define EVERY_SCENE(function)                                             \
   BENCHMARK_CAPTURE(function, rigid, Scene::rigid);                       \
@@ -149,6 +179,7 @@ EVERY_SCENE(set_up_double);
 EVERY_SCENE(set_up_double_double);
 BENCHMARK(stated_error<double>);
 BENCHMARK(stated_error<DoubleDouble>);
+BENCHMARK(passages)->ArgsProduct({{1, 3, 5, 7}, {1, 10, 1000}})->Iterations(1);
 BENCHMARK_CAPTURE(accuracy, generic, Regime::generic)->Iterations(1);
 BENCHMARK_CAPTURE(accuracy, middle_axis, Regime::middle_axis)->Iterations(1);
 BENCHMARK_CAPTURE(accuracy, outer_axis, Regime::outer_axis)->Iterations(1);
