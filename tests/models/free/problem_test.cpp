@@ -49,7 +49,9 @@ TEST_CASE("principal axes of a free problem give the tensor and the momentum bac
   CHECK(d.R_BP.determinant() == Approx(1));
   auto given = p;
   given.angular_momentum = p.inertia * p.angular_velocity + p.rotor_momentum;
+  CHECK(p.momentum() == given.angular_momentum);
   given.momentum_given = true;
+  CHECK(given.momentum() == given.angular_momentum);
   CHECK((d.R_BP * PrincipalProblem<double>::of(given).omega - p.angular_velocity).norm() < 1e-14);
   const auto wide = PrincipalProblem<DoubleDouble>::of(p.cast<DoubleDouble>());
   CHECK((vector_cast<double>(wide.moments) - d.moments).norm() < 1e-14);
