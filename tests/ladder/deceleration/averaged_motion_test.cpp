@@ -168,6 +168,24 @@ TEST_CASE("averaged motion: kp2 down to 1e-300, k2 down to 0, revolution", "[dec
   REQUIRE(revolution.stop_time());
 }
 
+TEST_CASE("averaged motion: what nothing drives stays on the separatrix and is braked", "[deceleration]") {
+  for (const V& b : {V(0, 0, 0), V(1, 1, 1)}) {
+    Problem<double> p = standard(1e-3, b);
+    p.drag = 1e-3;
+    for (const double kp2 : {1e-20, 1e-16, 1e-15, 1e-6}) {
+      const auto family = polhode_through<double>(p.inverse_inertia, V(1, .1, .1));
+      Motion motion(p, at_modulus(family, {1 - kp2, kp2}), 1., 0, 1e-10, infinity<double>);
+      for (const double t : {1., 100., 500.}) {
+        REQUIRE(motion.advance(t, 0, nobody) == ode::Status::reached);
+        const double D = b[0] * 1e-3, right = (1 + D / p.drag) * std::exp(-p.drag * t) - D / p.drag;
+        CAPTURE(b[0], kp2, t);
+        CHECK(motion.state().norm == Approx(right).epsilon(1e-8));
+        CHECK(motion.state().polhode.modulus.kp2 == Approx(kp2).epsilon(1e-3).margin(2e-16));
+      }
+    }
+  }
+}
+
 TEST_CASE("averaged motion: no heap", "[deceleration]") {
   const auto p = standard(1e-4);
   const std::size_t before = allocations();

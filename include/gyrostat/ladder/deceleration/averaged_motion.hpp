@@ -132,7 +132,7 @@ class AveragedMotion {
     return ode::Status::reached;
   }
 
-  /// Point of the last step where component i, monotone there, has the given value; the nearer end if it has not.
+  /// Point of the last step where component i, monotone there, has the given value; the nearer end if it has not, the first where it stays.
   Scalar locate(std::size_t i, Scalar value) noexcept {
     const Scalar low = solver_.previous_time(), high = solver_.time();
     const Scalar first = solver_.previous_state()[i], rise = solver_.state()[i] - first;
@@ -145,7 +145,7 @@ class AveragedMotion {
     }
     const auto root = math::bracketed_root([&](Scalar s) { return solver_.component(i, s)[0] - value; }, low, high);
     if (root) return *root;
-    const bool before = std::abs(solver_.previous_state()[i] - value) < std::abs(solver_.state()[i] - value);
+    const bool before = std::abs(solver_.previous_state()[i] - value) <= std::abs(solver_.state()[i] - value);
     return before ? solver_.previous_time() : solver_.time();
   }
 
