@@ -7,7 +7,8 @@
 
 A table stands between <!-- KIND:FAMILY --> (or <!-- KIND -->) and <!-- end -->. Columns, scalars, rungs and warnings come from the compiled families,
 keys of scene files from the table behind the validator, constants from include/gyrostat/ladder/honesty.hpp. What to do about a warning is
-written by hand in the last cell of its row, must not be empty, and is kept. Needs the package gyrostat.
+written by hand in the last cell of its row, what a scene is behind its command; neither may be empty, and both are kept. The rung of a scene is the
+one that answers it. Needs the package gyrostat.
 """
 import argparse
 import pathlib
@@ -15,8 +16,10 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
 
+import gyrostat
 from gyrostat import _core
 from gyrostat.families import FAMILIES
+from gyrostat.scenes import bundled
 from gyrostat.schema import key_tables, ways
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -76,6 +79,13 @@ def keys(kind: str, _: str) -> str:
     return "".join(parts())
 
 
+def gallery(kind: str, was: str) -> str:
+    told = {name: text for name, text in re.findall(r"\| `gyrostat solve ([\w-]+)`<br>(.*?) \|", was)}
+    rows = [[f"![{name}](gallery/{name}.png)", f"`gyrostat solve {name}`<br>{told.get(name, '')}", f"`{gyrostat.solve(scene).model}`"]
+            for name, scene in ((name, gyrostat.load(name)) for name, _ in bundled()) if scene.kind == kind]
+    return table(["motion", "scene", "rung"], rows)
+
+
 def sentence(comment: str) -> str:
     """Comment lines as running text."""
     return re.sub(r"\s*///<?\s*", " ", comment).strip().rstrip(":;,.")
@@ -99,7 +109,7 @@ def constants(_: str, __: str) -> str:
 
 
 TABLES: dict[str, Callable[[str, str], str]] = {"columns": columns, "scalars": scalars, "rungs": rungs, "warnings": warnings, "keys": keys,
-                                                "constants": constants}
+                                                "gallery": gallery, "constants": constants}
 
 
 def pages() -> Iterator[tuple[pathlib.Path, str, str]]:
@@ -126,6 +136,8 @@ def breaches() -> Iterator[str]:
         for block in BLOCK.finditer(right):
             if block.group(1) == "warnings":
                 yield from (f"docs/{path.name}: what is one to do about {row[0]}?" for row in map(cells, block.group(3).splitlines()[2:]) if not row[2])
+            if block.group(1) == "gallery":
+                yield from (f"docs/{path.name}: what is this scene? {row[1]}" for row in map(cells, block.group(3).splitlines()[2:]) if row[1].endswith("<br>"))
     for what in set(TABLES) - {"constants"}:
         yield from (f"docs/: no table <!-- {what}:{kind} -->" for kind in FAMILIES if (what, kind) not in listed)
 
