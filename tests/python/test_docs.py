@@ -1,10 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What docs/ repeats of the code is what the code says (tests/docs_tables.py), and every link inside docs/ leads somewhere."""
+"""What docs/ repeats of the code is what the code says (tests/docs_tables.py), every link inside docs/ leads somewhere, and what the pages for
+readers show runs and prints what they say."""
 
+import contextlib
+import io
+import math
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
+from gyrostat.cli import main
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -12,6 +20,10 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_tables_are_those_of_the_code() -> None:
     ran = subprocess.run([sys.executable, ROOT / "tests" / "docs_tables.py"], capture_output=True, text=True)
     assert ran.returncode == 0, ran.stdout + ran.stderr
+
+
+def pages() -> list[Path]:
+    return [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")]
 
 
 def anchors(page: Path) -> set[str]:
@@ -22,7 +34,7 @@ def anchors(page: Path) -> set[str]:
 
 
 def test_links_lead_somewhere() -> None:
-    for page in (*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")):
+    for page in pages():
         text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
         for target in re.findall(r"\]\(([^)\s]+)\)", text):
             if "://" in target:
@@ -33,6 +45,64 @@ def test_links_lead_somewhere() -> None:
             assert not anchor or anchor in anchors(there), f"{page.name}: {target}"
 
 
-def test_the_example_of_the_readme_is_compiled() -> None:
-    example = (ROOT / "tests" / "packaging" / "readme.cpp").read_text(encoding="utf-8").partition("\n")[2]
-    assert f"```cpp\n{example}```" in (ROOT / "README.md").read_text(encoding="utf-8")
+@pytest.mark.parametrize(("page", "program"), [("README.md", "readme.cpp"), ("docs/tour.md", "tour.cpp")])
+def test_the_programs_of_the_pages_are_those_compiled(page: str, program: str) -> None:
+    example = (ROOT / "tests" / "packaging" / program).read_text(encoding="utf-8").partition("\n")[2]
+    assert f"```cpp\n{example}```" in (ROOT / page).read_text(encoding="utf-8")
+
+
+def test_the_landing_page_shows_parts_of_the_tour() -> None:
+    shown = re.findall(r"^```cpp\n(.*?)^```", (ROOT / "docs" / "site" / "index.md").read_text(encoding="utf-8"), re.M | re.S)
+    whole = [line.strip() for line in (ROOT / "tests" / "packaging" / "tour.cpp").read_text(encoding="utf-8").splitlines()]
+    assert shown and all(line.strip() in whole for line in "".join(shown).splitlines())
+
+
+def blocks(page: Path) -> list[tuple[str, str]]:
+    """Language and text of every fenced block of a page, in order."""
+    return re.findall(r"^```(\w*)\n(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
+
+
+def alike(printed: str, shown: str) -> bool:
+    """The same words, and the same numbers to two per cent or one in their last place."""
+    number = re.compile(r"-?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
+
+    def near(a: str, b: str) -> bool:
+        mantissa, _, exponent = b.lower().partition("e")
+        last = 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+        return math.isclose(float(a), float(b), rel_tol=0.02, abs_tol=1.01 * last)
+
+    pairs = zip(number.findall(printed), number.findall(shown), strict=False)
+    return number.sub("#", " ".join(printed.split())) == number.sub("#", " ".join(shown.split())) and all(near(a, b) for a, b in pairs)
+
+
+@pytest.mark.parametrize("page", ["docs/tour.md", "docs/how-to.md", "docs/site/index.md"])
+def test_what_the_pages_show_runs(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    printed = None
+    for language, text in blocks(ROOT / page):
+        if language == "python":
+            with contextlib.redirect_stdout(io.StringIO()) as out:
+                exec(compile(text, page, "exec"), names)
+            printed = out.getvalue()
+        elif language == "text" and printed is not None:
+            assert alike(printed, text), f"{page} shows\n{text}\nand what ran printed\n{printed}"
+            printed = None
+        elif language == "":
+            for command in re.findall(r"^gyrostat .*", text, re.M):
+                assert main(shlex.split(command)[1:]) == 0, command
+        else:
+            printed = None
+
+
+def test_the_counts_of_the_headers_are_theirs() -> None:
+    for row in re.findall(r"^\| `[\w/]+\.hpp`.*$", (ROOT / "docs" / "headers.md").read_text(encoding="utf-8"), re.M):
+        headers = [(ROOT / "include" / "gyrostat" / path).read_text(encoding="utf-8") for path in re.findall(r"`([\w/]+\.hpp)`", row)]
+        for count in re.findall(r"`(\w+ = [^`]+)`", row):
+            assert re.search(rf"\b{re.escape(count)}\b", "".join(headers).replace("'", "")), f"docs/headers.md: not in the header: {count}"
+
+
+def test_every_page_is_on_the_site() -> None:
+    index = (ROOT / "docs" / "site" / "index.md").read_text(encoding="utf-8")
+    listed = {line for block in re.findall(r"^```\{toctree\}\n(.*?)^```", index, re.M | re.S) for line in block.splitlines()}
+    assert {page.relative_to(ROOT).with_suffix("").as_posix() for page in pages()} <= listed
