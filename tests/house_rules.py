@@ -241,7 +241,7 @@ def comments(path):
 def check_citations(root):
     files = {"/" + path.relative_to(root).as_posix() for path in our_files(root)}
     sections = {path.name: set(re.findall(r"^#+ (\d+(?:\.\d+)*)", path.read_text(encoding="utf-8"), re.M))
-                for path in root.glob("docs/*.md")}
+                for path in root.glob("docs/**/*.md")}
     for path in sources(root, {"include", "src", "python", "bench", "tests", "tools"}, {".hpp", ".cpp", ".py"}):
         if path.name == pathlib.Path(__file__).name:
             continue  # breaks the rules in its own test

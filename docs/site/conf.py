@@ -5,6 +5,9 @@ import re
 from typing import Any
 
 import gyrostat
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from sphinx.util.typing import stringify_annotation
 
 project = "gyrostat"
 author = "The gyrostat authors"
@@ -28,6 +31,9 @@ html_css_files = ["site.css"]
 html_copy_source = html_show_sourcelink = html_show_copyright = False
 
 ANCHOR = re.compile(r'^<a id="([^"]+)"></a>', re.M)
+NUMPY = {stringify_annotation(ArrayLike, "smart"): "ArrayLike",
+         **{stringify_annotation(NDArray[each], "smart"): f"NDArray[{name}]" for name, each in
+            (("float64", np.float64), ("int64", np.int64), ("complex128", np.complex128), ("bool", np.bool_), ("str", np.str_), ("Any", Any))}}
 ITEM = re.compile(r"([\w*][\w*, ]*?) : (.*)")
 
 
@@ -45,14 +51,14 @@ def escaped(line: str) -> str:
 
 
 def docstring(_app: Any, _what: str, _name: str, _object: Any, _options: Any, lines: list[str]) -> None:
-    """Plain paragraphs, in which `name : meaning` at the head of a line is an argument, and goes on where a line is indented."""
+    """Plain paragraphs, in which `name : meaning` at the head of a line is an argument, and goes on until a new sentence begins a line."""
     made: list[str] = []
     within = False  # an argument
     for line in lines:
         item = ITEM.fullmatch(line)
         if item:
             made += ["", f"* ``{item[1]}``: {escaped(item[2])}"]
-        elif within and line.startswith(" "):
+        elif within and re.match(r" |[^A-Z`]", line):
             made.append("  " + escaped(line.strip()))
             continue
         else:
@@ -61,6 +67,14 @@ def docstring(_app: Any, _what: str, _name: str, _object: Any, _options: Any, li
     lines[:] = made + [""]
 
 
+def signature(_app: Any, _what: str, _name: str, _object: Any, _options: Any, given: str | None, returned: str | None) -> tuple[str | None, str | None]:
+    """The types of numpy by their short names."""
+    for long, short in NUMPY.items():
+        given, returned = given and given.replace(long, short), returned and returned.replace(long, short)
+    return given, returned
+
+
 def setup(app: Any) -> None:
     app.connect("source-read", anchors)
+    app.connect("autodoc-process-signature", signature)
     app.connect("autodoc-process-docstring", docstring)
