@@ -16,7 +16,7 @@ struct Companions {
 };
 
 /// All families, watched in every step, all components moved. Stated error: the two distances by their margins, added.
-inline constexpr Companions side_by_side{64, 4, 3, 3};
+inline constexpr Companions side_by_side{64, 4, 5, 3};
 /// Step tolerance, roundings times the condition of the tensor, below which rounding rules, and a second companion runs along.
 inline constexpr double rounding_below = 1 << 20;
 

@@ -440,7 +440,9 @@ ClosedFormError<Scalar> ClosedForm<Scalar>::error(Scalar t) const noexcept {
        (norm_ + p + gyrostat_.momentum_blur(gyrostat_.angular_velocity(start_.momentum, start_.axial_momentum))) /
            gyrostat_.free_principal()[0]);
   const Scalar angle = rate * (decay_ * t > 1 ? 1 / decay_ : t);
-  const Scalar phase = ulps * (1 + (std::abs(turn_) + std::abs(steady_turn_) + std::abs(rotor_turn_) * omega) * t) +
+  // the turn that a turn of the rotor makes comes from the inverse of the tensor
+  const Scalar by_rotor = std::max(Scalar(1), gyrostat_.condition() / 4) * std::abs(rotor_turn_) * omega;
+  const Scalar phase = ulps * (1 + (std::abs(turn_) + std::abs(steady_turn_) + by_rotor) * t) +
                        std::abs(rotor_turn_) * angle;
   return {twice(error.attitude) + phase, twice(error.momentum) + norm_ * phase, twice(error.rotor_rate) + rate,
           twice(error.rotor_angle) + ulps * (omega * t + std::abs(start_.rotor_angle)) + angle};
