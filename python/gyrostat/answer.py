@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from gyrostat.view import View
+
 __all__ = ["Answer", "Attempt", "Warning_"]
 
 
@@ -206,3 +208,15 @@ class Answer:
         if file is not None:
             save(figure, Path(file))
         return figure
+
+    def view(self, begin: float | None = None, end: float | None = None) -> "View":
+        """The motion as one HTML page that needs nothing else: `.save("view.html")`, or as it stands in a notebook.
+
+        begin, end : the window [s]; by default from 0 for some tens of turns. The scene is solved anew, for attitude, angular velocity and
+        momentum at times that make a smooth picture; what was chosen for it stands in `notes` and on the page. Raises DomainError where
+        nothing turns and where the window has too many turns.
+        """
+        from gyrostat.scenes import scene_from
+        from gyrostat.view import view
+
+        return view(scene_from(self.scene), begin, end)

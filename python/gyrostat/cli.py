@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: gyrostat solve | sweep | merge | report | chart | stability | design | reproduce | scenes | show | new | schema | info | selftest."""
+"""The command line: gyrostat solve | view | sweep | merge | report | chart | stability | design | reproduce | scenes | show | new | schema | info | selftest."""
 
 import argparse
 import dataclasses
@@ -19,7 +19,8 @@ from gyrostat.console import Progress, say, short, show_table, small
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, bundled, load, parse_override
-from gyrostat.sweep_commands import add_commands
+from gyrostat.sweep_commands import Command, add_commands
+from gyrostat.units import dimension_of, quantity
 
 __all__ = ["main"]
 
@@ -61,6 +62,25 @@ def _ladder() -> str:
     return LADDER + text.getvalue()
 
 
+def _seconds(text: str) -> float:
+    """A time [s], with a unit or without."""
+    try:
+        time, dimension = quantity(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text}: {error}") from None
+    if dimension not in (None, dimension_of("s")):
+        raise argparse.ArgumentTypeError(f"{text}: this is no time; write seconds, or a unit such as min or h")
+    return time
+
+
+def _add_view(command: Command, takes_scene: Callable[[argparse.ArgumentParser], None]) -> None:
+    viewing = command("view", _view, "write the motion as one HTML page to look at in a browser")
+    takes_scene(viewing)
+    viewing.add_argument("--from", dest="begin", type=_seconds, metavar="TIME", help="begin of the window, such as 20 or 5min (default: 0)")
+    viewing.add_argument("--to", dest="end", type=_seconds, metavar="TIME", help="its end (default: after some tens of turns)")
+    viewing.add_argument("-o", "--output", type=Path, default=Path("view.html"), metavar="FILE", help="the page (default: view.html)")
+
+
 def _arguments() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="gyrostat", description="Attitude motion of bodies that carry rotors, by the cheapest model that meets a tolerance.",
@@ -92,6 +112,7 @@ def _arguments() -> argparse.ArgumentParser:
     solve.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of to the standard output, in the form of the ending")
     solve.add_argument("--plot", type=Path, metavar="FILE", help="write a figure (PNG, SVG or PDF by its ending)")
 
+    _add_view(command, takes_scene)
     add_commands(command, takes_scene, _scene)
 
     chart = command("chart", _chart, "chart error against cost of every rung and integrator: PNG, SVG and CSV")
@@ -249,6 +270,19 @@ def _solve(arguments: argparse.Namespace) -> int:
         answer.plot(arguments.plot)
         say(f"wrote {arguments.plot}", sys.stderr)
     return MET if answer.met else NOT_MET
+
+
+def _view(arguments: argparse.Namespace) -> int:
+    from gyrostat.report import summary
+    from gyrostat.view import view
+
+    scene = _scene(arguments)
+    made = _in_thread(lambda monitor: view(scene, arguments.begin, arguments.end, monitor), scene.name)
+    made.save(arguments.output)
+    say(f"wrote {arguments.output}: {summary(made.answer)}", sys.stderr)
+    for note in made.notes:
+        say(note, sys.stderr)
+    return MET if made.answer.met else NOT_MET
 
 
 def _write(text: str, file: Path | None) -> None:

@@ -19,7 +19,7 @@ from gyrostat.sweeps import merge, sweep
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["add_commands"]
+__all__ = ["Command", "add_commands"]
 
 MET: Final = 0
 NOT_MET: Final = 3
