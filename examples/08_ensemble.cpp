@@ -15,10 +15,16 @@ using namespace gyrostat::deceleration;
 
 int main() {
   constexpr double none = gyrostat::nan<double>;
-  // The scene as a row of numbers, in the order of deceleration::input_kinds: inertia, rotor momentum, control, drag, two laws, attitude,
-  // angular velocity, angular momentum. NaN: not given.
-  const std::vector<double> numbers{35,    0,    0, 0, 22,   0,    0,    0,    16,   0,    0,    0,  0.008, 0.008,
-                                    0.008, 2e-4, 0, 0, none, none, none, none, none, none, none, 40, 25,    16.5};
+  // The scene as a row of numbers, in the order of deceleration::input_kinds; NaN: not given.
+  const std::vector<double> numbers{
+      35,    0,     0,     0,    22, 0, 0, 0, 16,  // inertia, kg m^2
+      0,     0,     0,                             // momentum of rotors, N m s
+      0.008, 0.008, 0.008, 2e-4,                   // control, N m; drag, 1/s
+      0,     0,                                    // what these oppose: the total momentum
+      none,  none,  none,  none,                   // attitude
+      none,  none,  none,                          // angular velocity
+      40,    25,    16.5,                          // angular momentum, N m s
+  };
   constexpr std::size_t rows = 1001, drag_place = 15;
   std::vector<double> drag(rows);
   for (std::size_t i = 0; i < rows; ++i)
