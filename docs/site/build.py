@@ -18,7 +18,8 @@ ROOT = HERE.parents[1]
 FILES = ["README.md", "NOTATION.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "CITATION.cff"]
 MODULES = ["gyrostat", "gyrostat.answer", "gyrostat.scenes", "gyrostat.errors", "gyrostat.deceleration", "gyrostat.rotor", "gyrostat.spinning",
            "gyrostat.heavy", "gyrostat.free", "gyrostat.elliptic", "gyrostat.rotation", "gyrostat.sweeps", "gyrostat.vary", "gyrostat.sweep_report",
-           "gyrostat.design", "gyrostat.stability", "gyrostat.export", "gyrostat.plots", "gyrostat.gallery", "gyrostat.facts", "gyrostat.units"]
+           "gyrostat.design", "gyrostat.stability", "gyrostat.export", "gyrostat.plots", "gyrostat.view", "gyrostat.gallery",
+           "gyrostat.facts", "gyrostat.units"]
 
 
 def module_page(name: str) -> str:
@@ -32,6 +33,7 @@ def stage(folder: pathlib.Path) -> None:
     """Put together what the site is made from; the folder is made anew."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(ROOT / "docs", folder / "docs", ignore=shutil.ignore_patterns("site", "*.py"))
+    shutil.copytree(ROOT / "examples", folder / "examples")
     shutil.copytree(HERE / "static", folder / "static")
     shutil.copy(HERE / "index.md", folder)
     for name in FILES:
