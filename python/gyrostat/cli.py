@@ -2,16 +2,17 @@
 """The command line: gyrostat solve | view | sweep | merge | report | chart | stability | design | reproduce | scenes | show | new | schema | info | selftest."""
 
 import argparse
+import contextlib
 import dataclasses
 import difflib
 import io
 import json
 import os
 import sys
-import threading
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, Final, TypeVar
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import gyrostat
 from gyrostat.asking import parse_ask
@@ -21,6 +22,10 @@ from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, bundled, load, parse_override
 from gyrostat.sweep_commands import Command, add_commands
 from gyrostat.units import dimension_of, quantity
+from gyrostat.watching import watched
+
+if TYPE_CHECKING:
+    from gyrostat._core import Monitor
 
 __all__ = ["main"]
 
@@ -200,36 +205,19 @@ def _scene(arguments: argparse.Namespace) -> Scene:
     return load(arguments.scene, **overrides)
 
 
-def _in_thread(work: Callable[[Any], T], title: str) -> T:
-    """Run `work(monitor)` beside a progress bar, so that Ctrl-C reaches us and cancels it."""
-    from gyrostat._core import Monitor
+def _in_thread(work: "Callable[[Monitor], T]", title: str) -> T:
+    """Run `work(monitor)`, beside a progress bar where it takes long, so that Ctrl-C reaches us and cancels it."""
+    begun = time.monotonic()
+    with contextlib.ExitStack() as stack:
+        bars: list[Progress] = []
 
-    monitor = Monitor()
-    done = threading.Event()  # Thread.join, once interrupted, takes a running thread for a finished one
-    result: list[T] = []
-    failure: list[BaseException] = []
+        def look(progress: float) -> None:
+            if not bars and time.monotonic() - begun > 0.4:
+                bars.append(stack.enter_context(Progress(title)))
+            for bar in bars:
+                bar.update(progress)
 
-    def run() -> None:
-        try:
-            result.append(work(monitor))
-        except BaseException as error:
-            failure.append(error)
-        finally:
-            done.set()
-
-    threading.Thread(target=run, daemon=True).start()
-    try:
-        if not done.wait(0.4):
-            with Progress(title) as progress:
-                while not done.wait(0.1):
-                    progress.update(monitor.progress)
-    except KeyboardInterrupt:
-        monitor.cancel()
-        done.wait(10)
-        raise
-    if failure:
-        raise failure[0]
-    return result[0]
+        return watched(work, look)
 
 
 def _form(arguments: argparse.Namespace) -> str:

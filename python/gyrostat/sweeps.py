@@ -5,13 +5,12 @@ import json
 import math
 import os
 import re
-import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, TypeVar
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -26,6 +25,7 @@ from gyrostat.rows import Place, numbers_of, plan_of
 from gyrostat.scenes import Scene
 from gyrostat.sweep_files import import_xarray, open_results, save, to_netcdf, writer_of
 from gyrostat.vary import Plan
+from gyrostat.watching import watched
 
 if TYPE_CHECKING:
     import xarray
@@ -39,7 +39,6 @@ FIRST_CHUNK: Final = 128  # where chunks are kept; they grow as long as one take
 CHUNK_SECONDS: Final = 5.0
 
 Progress = Callable[[int, int], None]
-T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,33 +144,6 @@ def _variables(quantity: Quantity, column: bool, values: np.ndarray[Any, Any], e
 # ---- doing it ----
 
 
-def _watched(work: Callable[[Monitor], T], look: Callable[[float], None]) -> T:
-    """Runs `work` beside this thread, which looks at its progress and can be interrupted."""
-    monitor, ended = Monitor(), threading.Event()
-    result: list[T] = []
-    failure: list[BaseException] = []
-
-    def run() -> None:
-        try:
-            result.append(work(monitor))
-        except BaseException as error:
-            failure.append(error)
-        finally:
-            ended.set()
-
-    threading.Thread(target=run, daemon=True).start()
-    try:
-        while not ended.wait(0.1):
-            look(monitor.progress)
-    except BaseException:
-        monitor.cancel()
-        ended.wait()
-        raise
-    if failure:
-        raise failure[0]
-    return result[0]
-
-
 def _shard(shard: tuple[int, int] | str | None, n: int) -> range:
     """The rows of part i of m, counted from 1."""
     if isinstance(shard, str):
@@ -262,7 +234,7 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
                 if progress is not None:
                     progress(done + int(share * len(part)), len(rows))
 
-            made[part] = _watched(lambda monitor, part=part: study.rows(part, pool, monitor), look)  # type: ignore[misc]
+            made[part] = watched(lambda monitor, part=part: study.rows(part, pool, monitor), look)  # type: ignore[misc]
             at, done = part.stop, done + len(part)
             look(0.0)
             if folder is not None:

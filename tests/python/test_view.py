@@ -152,9 +152,12 @@ def test_a_browser_plays_it(name: str, tmp_path: Path) -> None:
     file.write_text(made.html.replace("<style>", READER + "<style>", 1))
     command = [CHROMIUM or "", "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", f"--user-data-dir={tmp_path / 'profile'}",
                "--virtual-time-budget=20000", "--dump-dom", file.as_uri()]
-    ran = subprocess.run(command, capture_output=True, text=True, timeout=120)
-    assert "CONSOLE" not in ran.stderr, ran.stderr
-    found = re.search(r"SEEN(\{.*\})</pre>", ran.stdout)
+    for _ in range(4):  # the browser's virtual clock may run out before its first picture, on a busy machine: then it has seen nothing
+        ran = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        assert "CONSOLE" not in ran.stderr, ran.stderr
+        found = re.search(r"SEEN(\{.*\})</pre>", ran.stdout)
+        if found:
+            break
     assert found, ran.stdout[-2000:] + ran.stderr
     seen = json.loads(found[1])
     assert seen["failures"] == [] and seen["played"] > 0 and (seen["button"], seen["paused"]) == ("Pause", "Play")
