@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from gyrostat.errors import DomainError
+from gyrostat.errors import Refused
 from gyrostat.facts import FACTS, Facts, Quantity
-from gyrostat.units import dimension_of, quantity
+from gyrostat.units import split, to_si
 
 __all__ = ["Ask", "AskError", "Asked", "asked", "knows_attitude", "parse_ask"]
 
@@ -19,15 +19,11 @@ Ask = str | Iterable[str] | Mapping[str, float | str]
 Asked = tuple[str, float, bool, bool]
 
 
-class AskError(DomainError):
+class AskError(Refused):
     """What is wrong with it, and what would be right."""
 
-    def __init__(self, problem: str, remedy: str) -> None:
-        super().__init__(problem, remedy)
-        self.problem, self.remedy = problem, remedy
-
     def __str__(self) -> str:
-        return f"ask: {self.problem}; {self.remedy}"
+        return f"ask: {super().__str__()}"
 
 
 def _known(facts: Facts, name: Any) -> Quantity:
@@ -48,15 +44,13 @@ def _tolerance(of: Quantity, value: Any) -> tuple[float, bool]:
         raise AskError(f"{of.name} has no error", "name it without a tolerance")
     number: float
     if isinstance(value, str):
-        try:
-            number, dimension = quantity(value)
-        except ValueError as error:
-            raise AskError(f'{of.name} = "{value}": {error}', example) from None
         unit = "rad" if of.measure == "angle" else of.unit
-        share = dimension == dimension_of("1") and ("%" in value or "ppm" in value)
-        absolute = dimension is not None and not (share and of.measure == "relative")
-        if absolute and dimension != dimension_of(unit):
-            raise AskError(f'{of.name} = "{value}": its unit is {unit}', example)
+        try:
+            count, given = split(value)
+            absolute = given != "" and not (given in ("%", "ppm") and of.measure == "relative")
+            number = to_si(count, given, unit if absolute else "")
+        except Refused as error:
+            raise AskError(f'{of.name} = "{value}": {error.problem}', f"{error.remedy}; {example}") from None
     elif isinstance(value, int | float) and not isinstance(value, bool):
         number, absolute = float(value), False
     else:

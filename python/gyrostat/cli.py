@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 import gyrostat
 from gyrostat.asking import parse_ask
 from gyrostat.console import Progress, say, short, show_table, small
-from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError
+from gyrostat.errors import Cancelled, ConvergenceError, DomainError, Refused, SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, bundled, load, parse_override
 from gyrostat.sweep_commands import Command, add_commands
-from gyrostat.units import dimension_of, quantity
+from gyrostat.units import quantity
 from gyrostat.watching import watched
 
 if TYPE_CHECKING:
@@ -70,12 +70,9 @@ def _ladder() -> str:
 def _seconds(text: str) -> float:
     """A time [s], with a unit or without."""
     try:
-        time, dimension = quantity(text)
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text}: {error}") from None
-    if dimension not in (None, dimension_of("s")):
-        raise argparse.ArgumentTypeError(f"{text}: this is no time; write seconds, or a unit such as min or h")
-    return time
+        return quantity(text, "s")
+    except Refused as error:
+        raise argparse.ArgumentTypeError(f"{text}: this is no time: {error}") from None
 
 
 def _add_view(command: Command, takes_scene: Callable[[argparse.ArgumentParser], None]) -> None:

@@ -3,11 +3,22 @@
 
 from dataclasses import dataclass
 
-__all__ = ["Cancelled", "ConvergenceError", "DomainError", "Mistake", "SceneError"]
+__all__ = ["Cancelled", "ConvergenceError", "DomainError", "Mistake", "Refused", "SceneError"]
 
 
 class DomainError(ValueError):
     """An argument is outside the domain of what was asked; the message names the argument and its value."""
+
+
+class Refused(DomainError):
+    """What is wrong with a value, and what would be right."""
+
+    def __init__(self, problem: str, remedy: str) -> None:
+        super().__init__(problem, remedy)
+        self.problem, self.remedy = problem, remedy
+
+    def __str__(self) -> str:
+        return f"{self.problem}; {self.remedy}"
 
 
 class ConvergenceError(RuntimeError):

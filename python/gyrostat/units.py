@@ -1,68 +1,182 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers with units, such as "0.1 deg", "60 s" or "35 kg cm^2", in SI units and radians."""
+"""Numbers with units, such as "0.1 deg", "90 min" or "35 kg cm^2", in SI units and radians.
 
+A unit is a product of names, each with an integer power (m^2, m2, m²), joined by blanks, *, . or ·; all that stands behind its one / is divided.
+Numbers are taken as the decimals that they are written as: what comes back is the double next to the exact value.
+"""
+
+import difflib
 import math
 import re
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import lru_cache
 from typing import Final
 
-__all__ = ["UNITS_KNOWN", "Dimension", "dimension_of", "quantity"]
+from gyrostat.errors import Refused
 
-# Powers of metre, kilogram, second and ampere; angles are numbers.
-Dimension = tuple[int, int, int, int]
+__all__ = ["PATTERN", "QUANTITIES", "UNIT_PATTERN", "UNITS", "quantity", "split", "to_si"]
 
-_NUMBER: Final[Dimension] = (0, 0, 0, 0)
-_LENGTH: Final[Dimension] = (1, 0, 0, 0)
-_MASS: Final[Dimension] = (0, 1, 0, 0)
-_TIME: Final[Dimension] = (0, 0, 1, 0)
-_FORCE: Final[Dimension] = (1, 1, -2, 0)
-_ENERGY: Final[Dimension] = (2, 1, -2, 0)
+# Powers of metre, kilogram, second, ampere and radian.
+Dimension = tuple[int, int, int, int, int]
 
-UNITS_KNOWN: Final[dict[str, tuple[float, Dimension]]] = {
-    "1": (1.0, _NUMBER), "%": (0.01, _NUMBER), "ppm": (1e-6, _NUMBER),
-    "rad": (1.0, _NUMBER), "mrad": (1e-3, _NUMBER), "deg": (math.pi / 180, _NUMBER), "°": (math.pi / 180, _NUMBER),
-    "arcmin": (math.pi / 10800, _NUMBER), "arcsec": (math.pi / 648000, _NUMBER), "rev": (2 * math.pi, _NUMBER),
-    "rpm": (math.pi / 30, (0, 0, -1, 0)), "Hz": (2 * math.pi, (0, 0, -1, 0)),
-    "m": (1.0, _LENGTH), "mm": (1e-3, _LENGTH), "cm": (1e-2, _LENGTH), "km": (1e3, _LENGTH), "in": (0.0254, _LENGTH), "ft": (0.3048, _LENGTH),
-    "kg": (1.0, _MASS), "g": (1e-3, _MASS), "t": (1e3, _MASS), "lb": (0.45359237, _MASS),
-    "s": (1.0, _TIME), "ms": (1e-3, _TIME), "us": (1e-6, _TIME), "min": (60.0, _TIME), "h": (3600.0, _TIME), "d": (86400.0, _TIME),
-    "N": (1.0, _FORCE), "mN": (1e-3, _FORCE), "uN": (1e-6, _FORCE), "kN": (1e3, _FORCE),
-    "J": (1.0, _ENERGY), "mJ": (1e-3, _ENERGY), "kJ": (1e3, _ENERGY),
-    "A": (1.0, (0, 0, 0, 1)), "T": (1.0, (0, 1, -2, -1)), "mT": (1e-3, (0, 1, -2, -1)), "uT": (1e-6, (0, 1, -2, -1)),
-    "nT": (1e-9, (0, 1, -2, -1)),
+_PI: Final = Fraction("3.14159265358979323846264338327950288419716939937510582")
+_POUND: Final = Fraction("0.45359237")
+_GRAVITY: Final = Fraction("9.80665")
+
+# By what they measure: the dimension, and the size of each unit in SI units.
+QUANTITIES: Final[dict[str, tuple[Dimension, dict[str, Fraction]]]] = {
+    quantity: (dimension, {name: Fraction(size) for name, size in sizes.items()}) for quantity, dimension, sizes in (
+        ("length", (1, 0, 0, 0, 0), {"m": 1, "km": 1000, "cm": "0.01", "mm": "0.001", "um": "1e-6", "in": "0.0254", "ft": "0.3048",
+                                     "mi": "1609.344", "nmi": 1852, "au": 149597870700}),
+        ("mass", (0, 1, 0, 0, 0), {"kg": 1, "g": "0.001", "t": 1000, "mg": "1e-6", "lb": _POUND, "oz": _POUND / 16,
+                                   "slug": _POUND * _GRAVITY / Fraction("0.3048")}),
+        ("time", (0, 0, 1, 0, 0), {"s": 1, "ms": "0.001", "us": "1e-6", "min": 60, "h": 3600, "d": 86400, "yr": 31557600}),
+        ("angle", (0, 0, 0, 0, 1), {"rad": 1, "mrad": "0.001", "urad": "1e-6", "deg": _PI / 180, "°": _PI / 180, "arcmin": _PI / 10800,
+                                    "arcsec": _PI / 648000, "rev": 2 * _PI}),
+        ("rate of turn", (0, 0, -1, 0, 1), {"rpm": _PI / 30}),
+        ("force", (1, 1, -2, 0, 0), {"N": 1, "mN": "0.001", "uN": "1e-6", "kN": 1000, "lbf": _POUND * _GRAVITY, "ozf": _POUND * _GRAVITY / 16,
+                                     "kgf": _GRAVITY}),
+        ("energy", (2, 1, -2, 0, 0), {"J": 1, "mJ": "0.001", "kJ": 1000}),
+        ("power", (2, 1, -3, 0, 0), {"W": 1}),
+        ("magnetic flux density", (0, 1, -2, -1, 0), {"T": 1, "mT": "0.001", "uT": "1e-6", "nT": "1e-9", "G": "1e-4"}),
+        ("current", (0, 0, 0, 1, 0), {"A": 1, "mA": "0.001"}),
+        ("charge", (0, 0, 1, 1, 0), {"C": 1}),
+        ("voltage", (2, 1, -3, -1, 0), {"V": 1}),
+        ("conductance", (-2, -1, 3, 2, 0), {"S": 1}),
+    )
 }
-# Sign before it, name, power.
-_FACTOR: Final = re.compile(r"\s*([*/]?)\s*([A-Za-z%°]+|1(?![\d.]))(?:\^?(-?\d+))?")
+UNITS: Final[dict[str, tuple[Fraction, Dimension]]] = {
+    name: (size, dimension) for dimension, sizes in QUANTITIES.values() for name, size in sizes.items()}
+# They stand alone.
+_SHARES: Final = {"%": Fraction(1, 100), "ppm": Fraction(1, 1_000_000)}
+# What is weighed and what pulls, by the same name but for an f.
+_FORCES: Final = {"lb": "lbf", "oz": "ozf", "kg": "kgf"}
+
+# A number, a unit and both as regular expressions, which JavaScript reads, too.
+_NUMBER: Final = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?"
+_POWER: Final = r"(?:\^?[-+]?[1-9]|⁻?[¹²³⁴⁵⁶⁷⁸⁹])"
+_FACTOR: Final = rf"(?:{'|'.join(sorted(UNITS, key=len, reverse=True))}){_POWER}?"
+_JOIN: Final = r"(?: *[*.·] *| +)"
+_PRODUCT: Final = rf"{_FACTOR}(?:{_JOIN}{_FACTOR})*"
+_UNIT: Final = rf" *(?:{_PRODUCT}(?: */ *{_PRODUCT})?|1? */ *{_PRODUCT}) *"
+UNIT_PATTERN: Final = f"^{_UNIT}$"
+PATTERN: Final = f"^ *{_NUMBER}{_UNIT}$"
+
+_SUPERSCRIPTS: Final = str.maketrans("⁻¹²³⁴⁵⁶⁷⁸⁹", "-123456789")
+_LONGEST: Final = 200  # letters of a quantity
 
 
-def _unit(text: str) -> tuple[float, Dimension]:
-    """Factor to SI and dimension of a unit, such as "N m s" or "deg/s^2". Raises ValueError, saying what is not known."""
-    factor, powers, below = 1.0, [0, 0, 0, 0], False
-    for sign, name, power in _FACTOR.findall(text):
-        if name not in UNITS_KNOWN:
-            raise ValueError(f"there is no unit {name}")
-        below = below or sign == "/"
-        exponent = int(power or 1) * (-1 if below and sign != "*" else 1)
-        below = below and sign != "*"
-        size, dimension = UNITS_KNOWN[name]
-        factor *= size**exponent
-        powers = [have + exponent * each for have, each in zip(powers, dimension, strict=True)]
-    if _FACTOR.sub("", text).strip():
-        raise ValueError(f'"{text.strip()}" is no unit')
-    return factor, (powers[0], powers[1], powers[2], powers[3])
-
-
-def dimension_of(unit: str) -> Dimension:
-    """Dimension of a unit; of an empty one that of a number."""
-    return _unit(unit)[1]
-
-
-def quantity(text: str) -> tuple[float, Dimension | None]:
-    """Value in SI units and dimension of a number with a unit; the dimension is None where there is no unit. Raises ValueError."""
-    found = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", text)
+def split(text: str) -> tuple[Fraction, str]:
+    """The number and the unit of a text; the unit is empty where there is none. Raises Refused."""
+    found = re.fullmatch(rf" *({_NUMBER})(.*)", text) if len(text) <= _LONGEST else None
     if not found:
-        raise ValueError("this does not begin with a number")
-    number, unit = float(found[1]), found[2]
-    if not unit:
-        return number, None
-    factor, dimension = _unit(unit)
-    return number * factor, dimension
+        raise Refused("this does not begin with a number", 'write a number and its unit, such as "12.5 mm"')
+    number, unit = found[1], found[2].strip(" ")
+    if re.match(r"[,_'][0-9]", unit):
+        raise Refused("the number is written with commas or the like", "write its digits alone, with a point before decimals: 3000 or 0.5")
+    return Fraction(number), "" if unit == "1" else unit
+
+
+def _factors(product: str, unit: str) -> Iterator[tuple[str, int]]:
+    """Names and powers of a product that is a part of the unit."""
+    for token in re.split(_JOIN, product.strip(" ")):
+        found = re.fullmatch(rf"([A-Za-z°]+)({_POWER})?", token)
+        if found and found[1] in UNITS:
+            yield found[1], int((found[2] or "1").lstrip("^").translate(_SUPERSCRIPTS))
+        elif not token:
+            raise Refused(f"a factor is missing in the unit {unit}", "write names of units with one *, . or · or blanks between two of them")
+        elif "^" in token:
+            raise Refused(f"{token} is no power", "write an integer from 1 to 9 behind ^, with - or without, such as m^2 or s^-1")
+        else:
+            name = found[1] if found else token
+            raise Refused(f"there is no unit {name}", _meant(name))
+
+
+def _apart(word: str) -> str:
+    """A word as names of units run together; empty where it is none."""
+    if not word or word in UNITS:
+        return word
+    return next((f"{word[:i]} {rest}" for i in range(len(word) - 1, 0, -1) if word[:i] in UNITS and (rest := _apart(word[i:]))), "")
+
+
+def _meant(word: str) -> str:
+    """What to do about a name that is none."""
+    if word.lower().endswith("hz"):
+        return "it may mean turns or radians: write rev/s or rad/s, for rates without an angle 1/s"
+    if word.endswith("s") and word[:-1] in UNITS:
+        return f"write {word[:-1]}"
+    if len(word) <= 12 and (names := _apart(word)):
+        return f"write {names.replace('N ms', 'N m s')}, with blanks between"
+    lower = {name.lower(): name for name in UNITS}
+    if near := lower.get(re.sub("[µμ]", "u", word).lower()) or next(iter(difflib.get_close_matches(word, UNITS, 1, 0.6)), None):
+        return f"did you mean {near}?"
+    return f"the units are {', '.join(UNITS)}"
+
+
+@lru_cache(maxsize=256)
+def _unit(text: str) -> tuple[Fraction, Dimension]:
+    """Size in SI units and dimension of a unit; of an empty one those of a number. Raises Refused."""
+    if text in _SHARES:
+        return _SHARES[text], (0, 0, 0, 0, 0)
+    above, slash, below = text.partition("/")
+    if "**" in text:
+        raise Refused(f"** stands in the unit {text}", "write powers with ^, such as m^2")
+    if re.search("[()]", text):
+        raise Refused(f"brackets stand in the unit {text}", "leave them out: all that stands behind the one / is divided, as in N m s/rad")
+    if "/" in below:
+        raise Refused(f"a second / stands in the unit {text}", "write one: all that stands behind it is divided, as in N m s/rad")
+    size, powers = Fraction(1), [0] * 5
+    for sign, product in ((1, "" if above.strip(" ") == "1" else above), (-1, below)):
+        if product.strip(" ") or (slash and sign < 0):
+            for name, power in _factors(product, text):
+                each, dimension = UNITS[name]
+                size *= each ** (sign * power)
+                powers = [have + sign * power * more for have, more in zip(powers, dimension, strict=True)]
+    return size, (powers[0], powers[1], powers[2], powers[3], powers[4])
+
+
+def _fits(found: Dimension, wanted: Dimension) -> bool:
+    """The dimensions are the same, but for an angle that is left out."""
+    return found[:4] == wanted[:4] and found[4] in (0, wanted[4])
+
+
+def _swapped(unit: str, want: str) -> tuple[str, str, str] | None:
+    """A name of a mass that stands for a force, or the other way round: the name, what it is, and the unit as it was meant."""
+    for mass, force in _FORCES.items():
+        for name, what, other in ((mass, "mass", force), (force, "force", mass)):
+            meant = re.sub(rf"(?<![A-Za-z]){name}(?![A-Za-z])", other, unit)
+            if meant != unit and _fits(_unit(meant)[1], _unit(want)[1]):
+                return name, what, meant
+    return None
+
+
+def to_si(number: Fraction, unit: str, want: str) -> float:
+    """So many of a unit as the double next to it in SI units, where one of the dimension of `want` is wanted. An angle may be left out where
+    one is wanted, but stands nowhere else. Raises Refused."""
+    size, found = _unit(unit)
+    wanted = _unit(want)[1]
+    if not _fits(found, wanted):
+        if swapped := _swapped(unit, want):
+            remedy = f"{swapped[0]} is a {swapped[1]}: write {swapped[2]}"
+        elif found[:4] == wanted[:4]:
+            remedy = f"no such angle belongs here: write it in {want or 'a bare number'}"
+        else:
+            remedy = f"write it in {want}, or in another unit of what that measures" if want else "write the bare number"
+        raise Refused(f"its unit is {want or 'that of a number'}, not {unit}", remedy)
+    if wanted[4] == 1 and found[4] == 0 and size != 1:
+        raise Refused(f"{unit} does not say which angle", f"write rad or rev in it, as in {want}" + (" or rpm" if found == (0, 0, -1, 0, 0) else ""))
+    return _double(number * size)
+
+
+def _double(number: Fraction) -> float:
+    try:
+        return float(number)
+    except OverflowError:
+        return math.inf if number > 0 else -math.inf
+
+
+def quantity(text: str, want: str) -> float:
+    """A number with a unit in SI units, one of the dimension of `want`; without a unit as it stands. Raises Refused."""
+    number, unit = split(text)
+    return to_si(number, unit, want) if unit else _double(number)

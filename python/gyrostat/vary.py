@@ -19,8 +19,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.errors import DomainError
-from gyrostat.units import dimension_of, quantity
+from gyrostat.errors import DomainError, Refused
+from gyrostat.units import quantity
 
 __all__ = ["DESIGNS", "Axis", "Plan", "Spread", "Varied", "as_varied", "choice", "grid", "linspace", "logspace", "lognormal", "normal", "number_in",
            "read_cases", "read_words", "uniform"]
@@ -166,12 +166,9 @@ def number_in(value: Number, unit: str) -> float:
     if not isinstance(value, str):
         return float(value)
     try:
-        number, dimension = quantity(value)
-    except ValueError as error:
+        return quantity(value, unit)
+    except Refused as error:
         raise DomainError(f'"{value}": {error}') from None
-    if dimension is not None and dimension != dimension_of(unit):
-        raise DomainError(f'"{value}": its unit is {unit or "that of a number"}')
-    return number
 
 
 # ---- quantiles ----
