@@ -5,11 +5,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
-__all__ = ["Choice", "Choices", "Field", "Found", "LIMIT", "MOST_SAMPLES", "REQUIRED", "ROUNDING", "TIMES", "Table", "UNSET", "Values",
-           "head_keys", "needed", "solve_keys", "table_of"]
+__all__ = ["ARRAYS", "Choice", "Choices", "Field", "Found", "LIMIT", "MOST_SAMPLES", "REQUIRED", "ROUNDING", "TIMES", "Table", "UNSET", "Values",
+           "head_keys", "inertia_parts", "needed", "solve_keys", "table_of"]
 
-Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "inertia", "moments", "times", "record", "records", "ask",
-               "vary"]
+Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "rotation", "sequence", "inertia", "moments", "times",
+               "record", "records", "ask", "vary"]
+# Of several numbers, which may stand in { value = [...], unit = "..." }.
+ARRAYS: Final = ("vector", "inertia", "moments", "times")
 
 REQUIRED: Final = "required"  # the key must be given
 UNSET: Final = None  # the key may be left out and then has no value
@@ -39,6 +41,17 @@ class Field:
 
 
 Table = tuple[Field, ...]
+
+
+def inertia_parts(field: Field) -> Table:
+    """The keys of an inertia that is given by moments and products."""
+    return (
+        Field("moments", "vector", "diagonal of the tensor", field.unit, low=field.low),
+        Field("products", "vector", "products of inertia xy, xz, yz", field.unit),
+        Field("sign", "choice", 'sign of the products: with "tensor" they are elements of the tensor, -integral of xy dm; with "integral" they are +integral of '
+              "xy dm, and the tensor has the negatives", choices=("tensor", "integral")),
+    )
+
 
 # What the checked tables of a scene hold, and what is wrong with them beyond any single key: full key, value, problem and remedy.
 Values = Mapping[str, Mapping[str, Any]]

@@ -52,7 +52,7 @@ def scene_html(scene: "Scene") -> str:
         text = toml_value(value)
         return text if len(text) <= LONGEST else text[:LONGEST - 3] + "..."
 
-    rows = [[key, shown(value), fields[key].unit, fields[key].meaning]
+    rows = [[key, shown(value), "" if key in scene.written else fields[key].unit, fields[key].meaning]
             for table, values in scene.to_dict().items() if isinstance(values, dict)
             for key, value in ((f"{table}.{name}", value) for name, value in values.items())]
     return _title(f"{scene.name} ({scene.kind})") + _paragraphs([scene.source]) + _table("", ["key", "value", "unit", "meaning"], rows)

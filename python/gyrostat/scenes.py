@@ -17,10 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.asking import AskError, asked, knows_attitude
-from gyrostat.errors import DomainError, Mistake, SceneError
+from gyrostat.errors import DomainError, Mistake, Refused, SceneError
 from gyrostat.families import FAMILIES, Family
-from gyrostat.fields import LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, UNSET, Choices, Field, Table, Values, table_of
+from gyrostat.fields import ARRAYS, LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, UNSET, Choices, Field, Table, Values, inertia_parts, table_of
+from gyrostat.orientation import axes_of, form_of, require_rotation, settle
 from gyrostat.rows import SETTINGS, plan_of
+from gyrostat.units import PATTERN, split, to_si
 
 __all__ = ["Scene", "bundled", "find", "load", "parse_override", "scene_from"]
 
@@ -37,9 +39,10 @@ MOMENTS_TOLERANCE: Final = 1e-15
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A checked scene: what `tables` holds is complete (defaults filled in), finite and physical.
+    """A checked scene: what `tables` holds is complete (defaults filled in), finite and physical, in SI units; the attitude at the start, in
+    whatever form it was given, is the quaternion `attitude`, too.
 
-    `path` is the file it came from, or None. Change a value with `replace`, which checks again.
+    `written` holds by full key what was given with units. `path` is the file it came from, or None. Change a value with `replace`, which checks again.
     """
 
     name: str
@@ -48,6 +51,7 @@ class Scene:
     tables: Values
     path: Path | None = None
     top: Mapping[str, Any] = member(default_factory=dict)  # keys of the kind's own at the top, such as the wheels
+    written: Mapping[str, Any] = member(default_factory=dict)
 
     @property
     def times(self) -> NDArray[np.float64]:
@@ -77,13 +81,15 @@ class Scene:
         return str(self.tables["solve"]["model"])
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data in the layout of a scene file; keys without a value are left out."""
+        """Plain data in the layout of a scene file, with units where they were given; keys without a value are left out."""
         made: dict[str, Any] = {"name": self.name, "kind": self.kind}
         if self.source:
             made["source"] = self.source
-        made |= {key: _plain(value) for key, value in self.top.items() if value}
+        made |= {key: self.written.get(key, _plain(value)) for key, value in self.top.items() if value}
         for table, values in self.tables.items():
-            if given := {key: _plain(value) for key, value in values.items() if value is not UNSET}:
+            instead = table == "initial" and form_of(values)  # of the attitude
+            if given := {key: self.written.get(f"{table}.{key}", _plain(value)) for key, value in values.items()
+                         if value is not UNSET and not (instead and key == "attitude")}:
                 made[table] = given
         return made
 
@@ -96,19 +102,23 @@ class Scene:
     def _changed(self, overrides: Mapping[str, Any]) -> "Scene | None":
         """The scene with keys changed that stand alone, where all is well; None: the whole is to be checked."""
         family = FAMILIES[self.kind]
-        tables = dict(self.tables)
+        tables, written = dict(self.tables), dict(self.written)
         for key, value in overrides.items():
             found = family.single_keys.get(key)
             if found is None:
                 return None
             table, field = found
             try:
-                tables[table] = {**tables[table], field.name: _READERS[field.form](field, _plain(value))}
-            except _Wrong:
+                read = _read(field, value := _plain(value))
+            except Refused:
                 return None
+            tables[table] = {**tables[table], field.name: read}
+            written.pop(f"{table}.{field.name}", None)
+            if _worded(field, value):
+                written[f"{table}.{field.name}"] = _told(field, value, read)
         if any(family.mistakes(tables)):
             return None
-        made = Scene(self.name, self.kind, self.source, tables, self.path, self.top)
+        made = Scene(self.name, self.kind, self.source, tables, self.path, self.top, written)
         if tables["solve"] is self.tables["solve"]:
             made.__dict__["_times"] = self._times
         return made
@@ -148,10 +158,6 @@ class _Source:
             elif (found := re.match(r"\s*([\w-]+)\s*=", line)) and found[1] == name and inside == table:
                 return number
         return 0
-
-
-class _Wrong(Exception):
-    """A value that does not fit its key: problem and remedy."""
 
 
 def _plain(value: Any) -> Any:
@@ -199,16 +205,16 @@ def _near(word: str, words: Iterable[str]) -> str:
     return found[0] if found else ""
 
 
-# ---- one reader a form; each returns the value to keep or raises _Wrong(problem, remedy) ----
+# ---- one reader a form; each returns the value to keep or raises Refused(problem, remedy) ----
 
 
 def _text(field: Field, value: Any) -> str:
     if not isinstance(value, str):
-        raise _Wrong(f"this is {_kind_of(value)}, not text", f'write {field.name} = "..." in quotes')
+        raise Refused(f"this is {_kind_of(value)}, not text", f'write {field.name} = "..." in quotes')
     if any("\ud800" <= c <= "\udfff" for c in value):
-        raise _Wrong("the text holds half a character", "write valid Unicode text")
+        raise Refused("the text holds half a character", "write valid Unicode text")
     if field.default is REQUIRED and not value.strip():
-        raise _Wrong("the text is empty", f"write the {field.meaning}")
+        raise Refused("the text is empty", f"write the {field.meaning}")
     return value
 
 
@@ -217,26 +223,44 @@ def _choice(field: Field, value: Any) -> str:
         return value
     allowed = f"use one of {', '.join(field.choices)}"
     if not isinstance(value, str):
-        raise _Wrong(f"this is {_kind_of(value)}, not text", allowed)
+        raise Refused(f"this is {_kind_of(value)}, not text", allowed)
     if field.name == "integrator" and any(value in family.facts.integrators for family in FAMILIES.values()):
-        raise _Wrong("this kind of scene has no such integrator", allowed)
+        raise Refused("this kind of scene has no such integrator", allowed)
     near = _near(value, field.choices)
-    raise _Wrong(f"unknown {field.name}", f'did you mean "{near}"? {allowed}' if near else allowed)
+    raise Refused(f"unknown {field.name}", f'did you mean "{near}"? {allowed}' if near else allowed)
+
+
+def _with_unit(field: Field, text: str, element: str) -> float:
+    """The number of a text, in SI units."""
+    what = f"{element} = {_show(text)}: " if element else ""
+    try:
+        number, unit = split(text)
+        if field.unit and unit:
+            return to_si(number, unit, field.unit)
+    except Refused as error:
+        raise Refused(what + error.problem, error.remedy) from None
+    if field.unit:
+        raise Refused(f"{what}this is a text without a unit", f'give a number ({field.unit}) without quotes, or a text with its unit: '
+                      f'"{text.strip()} {field.unit}"')
+    raise Refused(f"{what}this is text, and what is wanted has no unit", "give the bare number without quotes")
 
 
 def _number(field: Field, value: Any, element: str = "") -> float:
     unit = f" ({field.unit})" if field.unit else ""
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise _Wrong(f"{element or 'this'} is {_kind_of(value)}, not a number", f"give a number{unit} without quotes")
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
+        if not isinstance(value, str):
+            raise Refused(f"{element or 'this'} is {_kind_of(value)}, not a number", f"give a number{unit} without quotes")
+        number = _with_unit(field, value, element)
+    else:
+        try:
+            number = float(value)
+        except OverflowError:
+            number = math.inf
     what = f"{element} = {_show(value)}" if element else "this"
     if not math.isfinite(number):
-        raise _Wrong(f"{what} is not finite", f"give a finite number{unit}")
+        raise Refused(f"{what} is not finite", f"give a finite number{unit}")
     if not field.low <= number <= field.high or (field.open_low and number == field.low) or (field.open_high and number == field.high):
-        raise _Wrong(f"{what} is out of range", f"give a number {_interval(field)}{unit}")
+        raise Refused(f"{what} is out of range", f"give a number {_interval(field)}{unit}")
     return number
 
 
@@ -249,17 +273,17 @@ def _interval(field: Field) -> str:
 
 def _count(field: Field, value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, int):
-        raise _Wrong(f"this is {_kind_of(value)}, not an integer", f"write an integer, such as {field.name} = 401")
+        raise Refused(f"this is {_kind_of(value)}, not an integer", f"write an integer, such as {field.name} = 401")
     if not field.low <= value <= field.high:
-        raise _Wrong("this is out of range", f"give an integer from {field.low:.0f} to {field.high:.0f}")
+        raise Refused("this is out of range", f"give an integer from {field.low:.0f} to {field.high:.0f}")
     return value
 
 
 def _list(field: Field, value: Any, length: int, example: str) -> list[Any]:
     if not isinstance(value, list):
-        raise _Wrong(f"this is {_kind_of(value)}, not an array", f"write {length} numbers, such as {example}")
+        raise Refused(f"this is {_kind_of(value)}, not an array", f"write {length} numbers, such as {example}")
     if len(value) != length:
-        raise _Wrong(f"the array has {len(value)} elements", f"write {length} numbers, such as {example}")
+        raise Refused(f"the array has {len(value)} elements", f"write {length} numbers, such as {example}")
     return value
 
 
@@ -272,62 +296,88 @@ def _unit(numbers: tuple[float, ...], tolerance: float, what: str) -> tuple[floa
     norm = math.hypot(*numbers)
     if abs(norm - 1) > tolerance:
         unit = ", ".join(f"{x / norm:.15g}" for x in numbers)
-        raise _Wrong(f"the norm is {norm:.9g}, not 1", f"write the unit {what} [{unit}]")
+        raise Refused(f"the norm is {norm:.9g}, not 1", f"write the unit {what} [{unit}]")
     return numbers if abs(norm - 1) <= ROUNDING else tuple(x / norm for x in numbers)
 
 
 def _quaternion(field: Field, value: Any) -> tuple[float, ...]:
-    items = _list(field, value, 4, "[0.0, 0.0, 0.0, 1.0] (x, y, z, w)")
+    order, identity = ("w, x, y, z", "[1.0, 0.0, 0.0, 0.0]") if field.name == "quaternion_scalar_first" else ("x, y, z, w", "[0.0, 0.0, 0.0, 1.0]")
+    items = _list(field, value, 4, f"{identity} ({order})")
     q = tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
     if not any(q):
-        raise _Wrong("a zero quaternion is no rotation", "write a unit quaternion [x, y, z, w], such as [0.0, 0.0, 0.0, 1.0]")
+        raise Refused("a zero quaternion is no rotation", f"write a unit quaternion [{order}], such as {identity}")
     return _unit(q, UNIT_TOLERANCE, "quaternion")
 
 
 def _direction(field: Field, value: Any) -> tuple[float, ...]:
     axis = _vector(field, value)
     if not any(axis):
-        raise _Wrong("a zero vector has no direction", "write a unit vector, such as [0.0, 0.0, 1.0]")
+        raise Refused("a zero vector has no direction", "write a unit vector, such as [0.0, 0.0, 1.0]")
     return _unit(axis, AXIS_TOLERANCE, "vector")
+
+
+def _rows(field: Field, items: list[Any], what: str) -> list[list[float]]:
+    """Three rows of three numbers."""
+    rows = []
+    for i, row in enumerate(items, 1):
+        if not isinstance(row, list) or len(row) != 3:
+            raise Refused(f"row {i} is not an array of three numbers", f"write {what} as three rows of three numbers")
+        rows.append([_number(field, item, f"element ({i}, {j})") for j, item in enumerate(row, 1)])
+    return rows
+
+
+def _rotation(field: Field, value: Any) -> tuple[tuple[float, ...], ...]:
+    items = _list(field, value, 3, "[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]")
+    made = tuple(map(tuple, _rows(field, items, "direction cosines")))
+    require_rotation(made)
+    return made
+
+
+def _sequence(field: Field, value: Any) -> str:
+    axes_of(text := _text(field, value))
+    return text
 
 
 def _times(field: Field, value: Any) -> tuple[float, ...]:
     if not isinstance(value, list):
-        raise _Wrong(f"this is {_kind_of(value)}, not an array", "write times in seconds, such as [0.0, 10.0, 250.0]")
+        raise Refused(f"this is {_kind_of(value)}, not an array", "write times in seconds, such as [0.0, 10.0, 250.0]")
     if not value:
-        raise _Wrong("there are no times", "write at least one time, or duration and samples instead")
+        raise Refused("there are no times", "write at least one time, or duration and samples instead")
     if len(value) > MOST_SAMPLES:
-        raise _Wrong(f"there are {len(value)} times", f"give at most {MOST_SAMPLES}")
+        raise Refused(f"there are {len(value)} times", f"give at most {MOST_SAMPLES}")
     times = tuple(_number(field, item, f"element {i}") for i, item in enumerate(value, 1))
     for i, (before, after) in enumerate(zip(times, times[1:], strict=False), 2):
         if not after > before:
-            raise _Wrong(f"element {i} = {after!r} does not come after {before!r}", "put the times in increasing order, each once")
+            raise Refused(f"element {i} = {after!r} does not come after {before!r}", "put the times in increasing order, each once")
     return times
+
+
+def _tensor(field: Field, value: Mapping[str, Any]) -> list[Any]:
+    """The rows of an inertia given by moments and products."""
+    given = _parts(Field(field.name, "record", field.meaning, parts=inertia_parts(field)), value, "",
+                   f'{field.name} = {{ moments = [...], products = [...], sign = "tensor" }}, or three moments, or a tensor')
+    (x, y, z), (xy, xz, yz) = given["moments"], (product if given["sign"] == "tensor" else -product for product in given["products"])
+    return [[x, xy, xz], [xy, y, yz], [xz, yz, z]]
 
 
 def _inertia(field: Field, value: Any) -> tuple[Any, ...]:
     example = "[35.0, 22.0, 16.0]"
-    items = _list(field, value, 3, f"{example}, or three rows of three")
+    items = _tensor(field, value) if isinstance(value, dict) else _list(field, value, 3, f"{example}, or three rows of three")
     if not any(isinstance(item, list) for item in items):
         moments = tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
         _triangle(moments)
         return moments
-    free = Field(field.name, "number", field.meaning, field.unit)
-    rows = []
-    for i, row in enumerate(items, 1):
-        if not isinstance(row, list) or len(row) != 3:
-            raise _Wrong(f"row {i} is not an array of three numbers", "write a symmetric tensor as three rows of three numbers")
-        rows.append([_number(free, item, f"element ({i}, {j})") for j, item in enumerate(row, 1)])
+    rows = _rows(Field(field.name, "number", field.meaning, field.unit), items, "a symmetric tensor")
     tensor = np.array(rows)
     size = float(np.max(np.abs(tensor)))
     for i, j in ((0, 1), (0, 2), (1, 2)):
         if abs(tensor[i, j] - tensor[j, i]) > TENSOR_TOLERANCE * size:
-            raise _Wrong(f"the tensor is not symmetric: element ({i + 1}, {j + 1}) = {rows[i][j]!r} but "
+            raise Refused(f"the tensor is not symmetric: element ({i + 1}, {j + 1}) = {rows[i][j]!r} but "
                          f"({j + 1}, {i + 1}) = {rows[j][i]!r}", "make the two equal")
     tensor = (tensor + tensor.T) / 2
     moments = tuple(float(x) for x in np.linalg.eigvalsh(tensor))
     if moments[0] < max(field.low, 1e-12 * size):
-        raise _Wrong(f"the principal moments are {_listed(moments)}", "a body has three positive principal moments")
+        raise Refused(f"the principal moments are {_listed(moments)}", "a body has three positive principal moments")
     _triangle(moments)
     return tuple(tuple(float(x) for x in row) for row in tensor)
 
@@ -337,7 +387,7 @@ def _moments(field: Field, value: Any) -> tuple[float, ...]:
     if isinstance(read[0], tuple):
         for i, j in ((0, 1), (0, 2), (1, 2)):
             if read[i][j]:
-                raise _Wrong(f"the products of inertia are not zero: element ({i + 1}, {j + 1}) = {read[i][j]!r}",
+                raise Refused(f"the products of inertia are not zero: element ({i + 1}, {j + 1}) = {read[i][j]!r}",
                              "give the three principal moments, and all vectors along the principal axes, axis 3 the spin axis")
         read = tuple(read[i][i] for i in range(3))
     _triangle(read, MOMENTS_TOLERANCE)
@@ -351,26 +401,26 @@ def _listed(numbers: Iterable[float]) -> str:
 def _triangle(moments: Iterable[float], tolerance: float = TENSOR_TOLERANCE) -> None:
     a, b, c = sorted(moments)
     if a < c * 1e-12:
-        raise _Wrong(f"the smallest moment {a:.9g} is below 1e-12 of the largest {c:.9g}", "check the unit (kg m^2) of each moment")
+        raise Refused(f"the smallest moment {a:.9g} is below 1e-12 of the largest {c:.9g}", "check the unit (kg m^2) of each moment")
     if a + b < c * (1 - tolerance):
-        raise _Wrong(f"the principal moment {c:.9g} exceeds the sum of the two others, {a:.9g} + {b:.9g}",
+        raise Refused(f"the principal moment {c:.9g} exceeds the sum of the two others, {a:.9g} + {b:.9g}",
                      "no rigid body has these moments (triangle inequality): check the numbers, or the signs of the products of inertia")
 
 
 def _record(field: Field, value: Any) -> dict[str, Any]:
     example = "{ " + ", ".join(f"{part.name} = ..." for part in field.parts) + " }"
     if not isinstance(value, dict):
-        raise _Wrong(f"this is {_kind_of(value)}, not a table", f"write {field.name} = {example}")
+        raise Refused(f"this is {_kind_of(value)}, not a table", f"write {field.name} = {example}")
     return _parts(field, value, "", f"{field.name} = {example}")
 
 
 def _records(field: Field, value: Any) -> tuple[dict[str, Any], ...]:
     if not isinstance(value, list):
-        raise _Wrong(f"this is {_kind_of(value)}, not an array of tables", f"write [[{field.name}]] above the keys of each")
+        raise Refused(f"this is {_kind_of(value)}, not an array of tables", f"write [[{field.name}]] above the keys of each")
     made = []
     for i, item in enumerate(value, 1):
         if not isinstance(item, dict):
-            raise _Wrong(f"element {i} is {_kind_of(item)}, not a table", f"write [[{field.name}]] above the keys of each")
+            raise Refused(f"element {i} is {_kind_of(item)}, not a table", f"write [[{field.name}]] above the keys of each")
         made.append(_parts(field, item, f"{field.name} {i}: ", f"[[{field.name}]] with {', '.join(part.name for part in field.parts)}"))
     return tuple(made)
 
@@ -381,18 +431,18 @@ def _parts(field: Field, value: Mapping[str, Any], where: str, example: str) -> 
     for key in value:
         if key not in names:
             near = _near(str(key), names)
-            raise _Wrong(f"{where}unknown key {_show(str(key))}", f"did you mean {near}?" if near else f"the keys here are {', '.join(names)}")
+            raise Refused(f"{where}unknown key {_show(str(key))}", f"did you mean {near}?" if near else f"the keys here are {', '.join(names)}")
     made: dict[str, Any] = {}
     for part in field.parts:
         if part.name not in value and part.default is REQUIRED:
-            raise _Wrong(f"{where}the key {part.name} is missing", f"give the {_meaning(part)}: {example}")
+            raise Refused(f"{where}the key {part.name} is missing", f"give the {_meaning(part)}: {example}")
         try:
             given = value.get(part.name, part.default)
-            made[part.name] = _number(part, given, part.name) if part.form == "number" else _READERS[part.form](part, given)
-        except _Wrong as error:
+            made[part.name] = _number(part, given, part.name) if part.form == "number" else _read(part, given)
+        except Refused as error:
             problem, remedy = error.args
             named = problem if part.form == "number" else f"{part.name} = {_show(value[part.name])}: {problem}"
-            raise _Wrong(where + named, remedy) from None
+            raise Refused(where + named, remedy) from None
     return made
 
 
@@ -401,22 +451,74 @@ def _ask(field: Field, value: Any) -> Any:
     if value in ("all", "default") or isinstance(value, dict):
         return value
     if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
-        raise _Wrong(f"this is {_kind_of(value)}, not an array of names", 'write "all", names such as ["attitude"], or { attitude = "0.1 deg" }')
+        raise Refused(f"this is {_kind_of(value)}, not an array of names", 'write "all", names such as ["attitude"], or { attitude = "0.1 deg" }')
     return tuple(value)
 
 
 def _vary(field: Field, value: Any) -> dict[str, Any]:
     """Its keys are looked at when the scene is known."""
     if not isinstance(value, dict):
-        raise _Wrong(f"this is {_kind_of(value)}, not a table", "write [vary] on a line of its own, then its keys")
+        raise Refused(f"this is {_kind_of(value)}, not a table", "write [vary] on a line of its own, then its keys")
     return value
 
 
 _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
     "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "direction": _direction,
-    "quaternion": _quaternion, "inertia": _inertia, "moments": _moments, "times": _times, "record": _record, "records": _records, "ask": _ask,
+    "quaternion": _quaternion, "rotation": _rotation, "sequence": _sequence, "inertia": _inertia, "moments": _moments, "times": _times, "record": _record, "records": _records, "ask": _ask,
     "vary": _vary,
 }
+
+
+def _spread(field: Field, value: Mapping[str, Any]) -> Any:
+    """{ value = [...], unit = "..." } as an array of numbers with units."""
+    form = f'{field.name} = {{ value = [...], unit = "{field.unit or "..."}" }}'
+    if set(value) != {"value", "unit"}:
+        raise Refused(f"a table here has the keys value and unit, not {', '.join(map(str, value)) or 'none'}", f"write {form}, or an array")
+    if not isinstance(value["value"], list):
+        raise Refused(f"value is {_kind_of(value['value'])}, not an array", f"write {form}")
+    if not isinstance(value["unit"], str) or not value["unit"].strip():
+        raise Refused(f"unit is {_show(value['unit'])}", f"write {form}")
+
+    def spread(item: Any) -> Any:
+        if isinstance(item, list):
+            return [spread(each) for each in item]
+        if isinstance(item, str):
+            raise Refused(f"value holds the text {_show(item)}", "write numbers alone beside a unit")
+        return item if isinstance(item, bool) or not isinstance(item, int | float) else f"{item!r} {value['unit']}"
+
+    return spread(value["value"])
+
+
+def _read(field: Field, value: Any) -> Any:
+    """The value of a key as it is kept. Raises Refused."""
+    if isinstance(value, dict) and field.form in ARRAYS and not (field.form in ("inertia", "moments") and {"moments", "products", "sign"} & set(value)):
+        value = _spread(field, value)
+    return _READERS[field.form](field, value)
+
+
+def _worded(field: Field, value: Any) -> bool:
+    """Numbers of the value have units, or stand otherwise than they are kept."""
+    match field.form:
+        case "record":
+            return any(_worded(part, value[part.name]) for part in field.parts if part.name in value)
+        case "records":
+            return any(_worded(part, item[part.name]) for item in value for part in field.parts if part.name in item)
+        case "number":
+            return isinstance(value, str)
+        case "vector" | "inertia" | "moments" | "times":
+            kinds = set(map(type, value))
+            return isinstance(value, dict) or str in kinds or (list in kinds and any(str in map(type, row) for row in value))
+        case _:
+            return False
+
+
+def _told(field: Field, value: Any, read: Any) -> Any:
+    """A value as it was given; of records the keys that were left out, too."""
+    if field.form == "records":
+        return [_told(Field(field.name, "record", "", parts=field.parts), *each) for each in zip(value, read, strict=True)]
+    if field.form == "record":
+        return {part.name: _told(part, value[part.name], read[part.name]) if part.name in value else _plain(read[part.name]) for part in field.parts}
+    return value if _worded(field, value) else _plain(read)
 
 
 # ---- the whole scene ----
@@ -445,6 +547,7 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
     family = FAMILIES[kind]
     layout = family.keys
     read: dict[str, dict[str, Any]] = {}
+    written: dict[str, Any] = {}
     unread: set[str] = set()
     for key in tree:
         if key not in layout and all(field.name != key for field in layout[""]):
@@ -473,14 +576,17 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
                     wrong(prefix + field.name, "", "the key is missing", f"give the {_meaning(field)}", False)
                 continue
             try:
-                values[field.name] = _READERS[field.form](field, given[field.name])
-            except _Wrong as error:
+                values[field.name] = _read(field, value := given[field.name])
+                if _worded(field, value):
+                    written[prefix + field.name] = _told(field, value, values[field.name])
+            except Refused as error:
                 wrong(prefix + field.name, given[field.name], *error.args)
         read[table] = values
     for choices in family.alternatives:
         if not any(table_of(key) in unread for choice in choices for key in choice):
             _one_of(choices, tree, wrong)
     if not mistakes:
+        settle(read["initial"])
         try:
             asked(kind, read["solve"]["ask"], knows_attitude(read))
         except AskError as error:
@@ -491,7 +597,7 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         raise SceneError(*mistakes)
     head = read.pop("")
     top = {key: value for key, value in head.items() if key not in ("name", "kind", "source")}
-    made = Scene(head["name"], kind, head["source"], read, source.path, top)
+    made = Scene(head["name"], kind, head["source"], read, source.path, top, written)
     _check_varied(made, source)
     return made
 
@@ -617,7 +723,7 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
 
 
 def parse_override(text: str) -> tuple[str, Any]:
-    """`key=value` of the command line: a dotted key, or the bare name of one, and a TOML value (or a bare word)."""
+    """`key=value` of the command line: a dotted key, or the bare name of one, and a TOML value, a bare word or a number with a unit."""
 
     def fail(key: str, value: str, problem: str, remedy: str) -> SceneError:
         return SceneError(Mistake("--set", _show(key)[1:-1], value, problem, remedy))
@@ -633,7 +739,7 @@ def parse_override(text: str) -> tuple[str, Any]:
         if set(read) == {"value"}:
             return key, read["value"]
     except (tomllib.TOMLDecodeError, ValueError, RecursionError):
-        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", value):
+        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", value) or re.fullmatch(PATTERN, value):
             return key, value
     raise fail(key, _show(value), "this is no TOML value", 'write a number, an array such as [1.0, 2.0, 3.0], or text in quotes')
 

@@ -3,24 +3,52 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, Final
 
 from gyrostat.families import FAMILIES, Family
-from gyrostat.fields import LIMIT, REQUIRED, UNSET, Choice, Choices, Field, table_of
+from gyrostat.fields import LIMIT, REQUIRED, UNSET, Choice, Choices, Field, inertia_parts, table_of
+from gyrostat.orientation import SEQUENCES
 from gyrostat.toml_text import toml_value
+from gyrostat.units import PATTERN, UNIT_PATTERN
 from gyrostat.vary import DESIGNS
 
 __all__ = ["interval", "key_tables", "schema", "ways"]
 
+# Numbers with units, and units.
+DEFINITIONS: Final = {"quantity": {"type": "string", "pattern": PATTERN}, "unit": {"type": "string", "pattern": UNIT_PATTERN}}
+
 
 def _number(field: Field) -> dict[str, Any]:
-    return {"type": "number", ("exclusiveMinimum" if field.open_low else "minimum"): field.low,
-            ("exclusiveMaximum" if field.open_high else "maximum"): field.high}
+    """A number; of a key with a unit, one with a unit, too."""
+    number = {"type": "number", ("exclusiveMinimum" if field.open_low else "minimum"): field.low,
+              ("exclusiveMaximum" if field.open_high else "maximum"): field.high}
+    return {"oneOf": [number, {"$ref": "#/$defs/quantity"}]} if field.unit else number
 
 
 def _array(items: dict[str, Any], length: int | None = None) -> dict[str, Any]:
     size = {"minItems": 1} if length is None else {"minItems": length, "maxItems": length}
     return {"type": "array", "items": items, **size}
+
+
+def _arrays(field: Field) -> list[dict[str, Any]]:
+    """The shapes that an array of numbers may have."""
+    if field.form in ("inertia", "moments"):
+        tensor = replace(field, low=-field.high)
+        return [_array(_number(field), 3), _array(_array(_number(tensor), 3), 3)]
+    return [_array(_number(field), 3 if field.form == "vector" else None)]
+
+
+def _numbers(field: Field) -> dict[str, Any]:
+    """Several numbers: an array, { value = [...], unit = "..." }, and of an inertia moments and products."""
+    ways = _arrays(field)
+    if field.unit:
+        free = _arrays(replace(field, unit="", low=-LIMIT, high=LIMIT, open_low=False, open_high=False))
+        value = {"oneOf": free} if len(free) > 1 else free[0]
+        ways.append({"type": "object", "properties": {"value": value, "unit": {"$ref": "#/$defs/unit"}}, "required": ["value", "unit"],
+                     "additionalProperties": False})
+    if field.form in ("inertia", "moments"):
+        ways.append(_form(Field(field.name, "record", field.meaning, parts=inertia_parts(field))))
+    return {"oneOf": ways} if len(ways) > 1 else ways[0]
 
 
 def _form(field: Field) -> dict[str, Any]:
@@ -33,17 +61,16 @@ def _form(field: Field) -> dict[str, Any]:
             return _number(field)
         case "count":
             return {"type": "integer", "minimum": int(field.low), "maximum": int(field.high)}
-        case "vector":
-            return _array(_number(field), 3)
+        case "vector" | "inertia" | "moments" | "times":
+            return _numbers(field)
         case "direction":
             return _array({"type": "number", "minimum": -1.00000001, "maximum": 1.00000001}, 3)
         case "quaternion":
             return _array({"type": "number", "minimum": -1.000001, "maximum": 1.000001}, 4)
-        case "times":
-            return _array(_number(field))
-        case "inertia" | "moments":
-            tensor = _array(_array({"type": "number", "minimum": -field.high, "maximum": field.high}, 3), 3)
-            return {"oneOf": [_array(_number(field), 3), tensor]}
+        case "rotation":
+            return _array(_array(_number(field), 3), 3)
+        case "sequence":
+            return {"enum": list(SEQUENCES)}
         case "ask":
             tolerance = {"oneOf": [{"type": "number", "exclusiveMinimum": 0}, {"type": "string"}]}
             return {"oneOf": [{"enum": ["all", "default"]}, {"type": "array", "items": {"type": "string"}, "minItems": 1},
@@ -76,10 +103,12 @@ def _given(keys: Choice) -> dict[str, Any]:
 
 def _one_of(choices: Choices) -> dict[str, Any]:
     """One way is taken whole, and nothing of another."""
-    return {"oneOf": [
-        {**_given(chosen), "not": {"anyOf": [_given((key,)) for other in choices if other is not chosen for key in other]}}
-        for chosen in choices
-    ]}
+    def way(chosen: Choice) -> dict[str, Any]:
+        # of two ways of one key each, both given, both hold: then oneOf does not
+        beside = [_given((key,)) for other in choices if other is not chosen and not len(other) == len(chosen) == 1 for key in other]
+        return {**_given(chosen), **({"not": {"anyOf": beside}} if beside else {})}
+
+    return {"oneOf": [way(chosen) for chosen in choices]}
 
 
 def _kind(family: Family) -> dict[str, Any]:
@@ -106,11 +135,12 @@ def _kind(family: Family) -> dict[str, Any]:
 def schema(kind: str | None = None) -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of a scene file, of one kind or of any, parsed from TOML.
 
-    What a schema cannot say is checked when a scene is loaded: finite numbers, the triangle inequality, a symmetric
-    or diagonal tensor, increasing times, a unit quaternion or axis, a rotor that the body can hold, a mass centre that a body with this
-    inertia can have.
+    What a schema cannot say is checked when a scene is loaded: finite numbers, what a unit measures and the interval of a number that has one, the
+    triangle inequality, a symmetric or diagonal tensor, increasing times, a unit quaternion or axis, direction cosines of a rotation, a rotor that
+    the body can hold, a mass centre that a body with this inertia can have.
     """
-    head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "gyrostat scene", "description": "SI units, radians, seconds"}
+    head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "gyrostat scene",
+            "description": "Numbers are in SI units, radians and seconds; those with another unit are text, such as \"3000 rpm\"", "$defs": DEFINITIONS}
     if kind is not None:
         return {**head, **_kind(FAMILIES[kind])}
     return {**head, "oneOf": [_kind(family) for family in FAMILIES.values()]}
@@ -142,6 +172,10 @@ def _form_text(field: Field) -> str:
             return "4 numbers"
         case "inertia" | "moments":
             return "3 or 3x3 numbers"
+        case "rotation":
+            return "3x3 numbers"
+        case "sequence":
+            return "3-2-1 or ZYX and so on"
         case "times":
             return "numbers"
         case "ask":

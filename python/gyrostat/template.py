@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import REQUIRED, UNSET, Choice, Field, table_of
+from gyrostat.orientation import FORMS
 from gyrostat.schema import interval
 from gyrostat.toml_text import toml_value
 
@@ -29,12 +30,13 @@ def _wanted(family: Family) -> set[str]:
 
 
 def _remarks(family: Family, key: str) -> Iterator[str]:
-    """With and instead of what a key that the template leaves out is given."""
+    """With and instead of what a key that the template leaves out is given; the forms of an attitude stand for themselves."""
     table = table_of(key)
+    forms = {(f"initial.{field.name}",) for field in FORMS}
     for choices in family.alternatives:
         for choice in choices:
             if key in choice:
-                others = [other for other in choices if other and other != choice]
+                others = [other for other in choices if other and other != choice and other not in forms]
                 together = tuple(other for other in choice if other != key)
                 if together:
                     yield f"with {_listed(together, table)}"
@@ -52,7 +54,7 @@ def template(kind: str) -> str:
     """A commented scene file of the kind that can be solved as it stands."""
     family = FAMILIES[kind]
     wanted = _wanted(family)
-    lines = [f"# A scene of the kind {kind}: SI units, radians, seconds. The numbers are those of an example.",
+    lines = [f"# A scene of the kind {kind}: SI units, radians, seconds; other units as \"90 min\". The numbers are an example's.",
              "# Optional keys and alternatives stand behind a #: take it away to use them. An optional key shows its default."]
     for table, fields in family.keys.items():
         used = any(_full(table, field) in wanted for field in fields)

@@ -24,28 +24,27 @@ _PI: Final = Fraction("3.14159265358979323846264338327950288419716939937510582")
 _POUND: Final = Fraction("0.45359237")
 _GRAVITY: Final = Fraction("9.80665")
 
+_SIZES: Final[tuple[tuple[str, Dimension, dict[str, int | str | Fraction]], ...]] = (
+    ("length", (1, 0, 0, 0, 0), {"m": 1, "km": 1000, "cm": "0.01", "mm": "0.001", "um": "1e-6", "in": "0.0254", "ft": "0.3048",
+                                 "mi": "1609.344", "nmi": 1852, "au": 149597870700}),
+    ("mass", (0, 1, 0, 0, 0), {"kg": 1, "g": "0.001", "t": 1000, "mg": "1e-6", "lb": _POUND, "oz": _POUND / 16,
+                               "slug": _POUND * _GRAVITY / Fraction("0.3048")}),
+    ("time", (0, 0, 1, 0, 0), {"s": 1, "ms": "0.001", "us": "1e-6", "min": 60, "h": 3600, "d": 86400, "yr": 31557600}),
+    ("angle", (0, 0, 0, 0, 1), {"rad": 1, "mrad": "0.001", "urad": "1e-6", "deg": _PI / 180, "°": _PI / 180, "arcmin": _PI / 10800,
+                                "arcsec": _PI / 648000, "rev": 2 * _PI}),
+    ("rate of turn", (0, 0, -1, 0, 1), {"rpm": _PI / 30}),
+    ("force", (1, 1, -2, 0, 0), {"N": 1, "mN": "0.001", "uN": "1e-6", "kN": 1000, "lbf": _POUND * _GRAVITY, "ozf": _POUND * _GRAVITY / 16,
+                                 "kgf": _GRAVITY}),
+    ("energy", (2, 1, -2, 0, 0), {"J": 1, "mJ": "0.001", "kJ": 1000}),
+    ("power", (2, 1, -3, 0, 0), {"W": 1}),
+    ("magnetic flux density", (0, 1, -2, -1, 0), {"T": 1, "mT": "0.001", "uT": "1e-6", "nT": "1e-9", "G": "1e-4"}),
+    ("current", (0, 0, 0, 1, 0), {"A": 1, "mA": "0.001"}),
+    ("charge", (0, 0, 1, 1, 0), {"C": 1}),
+    ("voltage", (2, 1, -3, -1, 0), {"V": 1}),
+    ("conductance", (-2, -1, 3, 2, 0), {"S": 1}),
+)
 # By what they measure: the dimension, and the size of each unit in SI units.
-QUANTITIES: Final[dict[str, tuple[Dimension, dict[str, Fraction]]]] = {
-    quantity: (dimension, {name: Fraction(size) for name, size in sizes.items()}) for quantity, dimension, sizes in (
-        ("length", (1, 0, 0, 0, 0), {"m": 1, "km": 1000, "cm": "0.01", "mm": "0.001", "um": "1e-6", "in": "0.0254", "ft": "0.3048",
-                                     "mi": "1609.344", "nmi": 1852, "au": 149597870700}),
-        ("mass", (0, 1, 0, 0, 0), {"kg": 1, "g": "0.001", "t": 1000, "mg": "1e-6", "lb": _POUND, "oz": _POUND / 16,
-                                   "slug": _POUND * _GRAVITY / Fraction("0.3048")}),
-        ("time", (0, 0, 1, 0, 0), {"s": 1, "ms": "0.001", "us": "1e-6", "min": 60, "h": 3600, "d": 86400, "yr": 31557600}),
-        ("angle", (0, 0, 0, 0, 1), {"rad": 1, "mrad": "0.001", "urad": "1e-6", "deg": _PI / 180, "°": _PI / 180, "arcmin": _PI / 10800,
-                                    "arcsec": _PI / 648000, "rev": 2 * _PI}),
-        ("rate of turn", (0, 0, -1, 0, 1), {"rpm": _PI / 30}),
-        ("force", (1, 1, -2, 0, 0), {"N": 1, "mN": "0.001", "uN": "1e-6", "kN": 1000, "lbf": _POUND * _GRAVITY, "ozf": _POUND * _GRAVITY / 16,
-                                     "kgf": _GRAVITY}),
-        ("energy", (2, 1, -2, 0, 0), {"J": 1, "mJ": "0.001", "kJ": 1000}),
-        ("power", (2, 1, -3, 0, 0), {"W": 1}),
-        ("magnetic flux density", (0, 1, -2, -1, 0), {"T": 1, "mT": "0.001", "uT": "1e-6", "nT": "1e-9", "G": "1e-4"}),
-        ("current", (0, 0, 0, 1, 0), {"A": 1, "mA": "0.001"}),
-        ("charge", (0, 0, 1, 1, 0), {"C": 1}),
-        ("voltage", (2, 1, -3, -1, 0), {"V": 1}),
-        ("conductance", (-2, -1, 3, 2, 0), {"S": 1}),
-    )
-}
+QUANTITIES: Final = {what: (dimension, {name: Fraction(str(size)) for name, size in sizes.items()}) for what, dimension, sizes in _SIZES}
 UNITS: Final[dict[str, tuple[Fraction, Dimension]]] = {
     name: (size, dimension) for dimension, sizes in QUANTITIES.values() for name, size in sizes.items()}
 # They stand alone.

@@ -21,6 +21,8 @@ from gyrostat.template import template
 
 def accepts(rule: dict[str, Any], value: Any) -> bool:
     """The part of JSON Schema that ours uses."""
+    if "$ref" in rule:
+        return accepts(schema()["$defs"][rule["$ref"].removeprefix("#/$defs/")], value)
     types = {"object": dict, "array": list, "string": str, "number": (int, float), "integer": int}
     if "type" in rule and (not isinstance(value, types[rule["type"]]) or isinstance(value, bool)):
         return False
@@ -43,7 +45,7 @@ def accepts(rule: dict[str, Any], value: Any) -> bool:
         return (rule.get("minItems", 0) <= len(value) <= rule.get("maxItems", len(value))
                 and all(accepts(rule.get("items", {}), item) for item in value))
     if isinstance(value, str):
-        return len(value) >= rule.get("minLength", 0)
+        return len(value) >= rule.get("minLength", 0) and re.search(rule.get("pattern", ""), value) is not None
     return (rule.get("minimum", value) <= value <= rule.get("maximum", value)
             and value > rule.get("exclusiveMinimum", value - 1) and value < rule.get("exclusiveMaximum", value + 1))
 

@@ -4,7 +4,7 @@
 families/KIND/
     functions.py   the functions over arrays, public as gyrostat.KIND
     scene.py       KEYS and ALTERNATIVES of the scene file, an EXAMPLE of every key without default, `arguments` of `solve` from a checked
-                   scene; for checks that take more than one key `mistakes`, and where an argument has not the name of its key ARGUMENTS
+                   scene (the forms of an attitude come by themselves: orientation.py); for checks that take more than one key `mistakes`, and where an argument has not the name of its key ARGUMENTS
     chart.py       `problem` of a scene: what is charted, for charts/
     figures.py     `figure` of an answer
     gallery.py     `figures` of the paper and their `drawings`
@@ -24,6 +24,7 @@ import numpy as np
 from gyrostat.answer import Answer
 from gyrostat.facts import FACTS, Facts
 from gyrostat.fields import TIMES, Choices, Field, Found, Table, Values, head_keys, needed, solve_keys
+from gyrostat.orientation import EXAMPLE, with_alternatives, with_forms
 
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
@@ -54,21 +55,21 @@ class Family:
     @cached_property
     def keys(self) -> dict[str, Table]:
         """The keys of the scene file by table; "" is the top."""
-        own: dict[str, Table] = dict(self._module("scene").KEYS)
+        own: dict[str, Table] = {table: with_forms(fields) for table, fields in self._module("scene").KEYS.items()}
         solve = (*solve_keys(self.facts.rungs, self.facts.integrators), *own.pop("solve", ()))
         return {"": (*head_keys(self.name), *own.pop("", ())), "solve": solve, **own}
 
     @cached_property
     def alternatives(self) -> tuple[Choices, ...]:
         """What can be given in one of several ways."""
-        return (TIMES, *self._module("scene").ALTERNATIVES)
+        return (TIMES, *with_alternatives(self._module("scene").ALTERNATIVES))
 
     @cached_property
     def example(self) -> dict[str, Any]:
         """A value of every key without default, by full key: a body to start from."""
         own: dict[str, Any] = self._module("scene").EXAMPLE
         vary = {"n": 1000, "body.inertia[0]": f"normal({own['body.inertia'][0]}, 1%)"}
-        return {"name": f"my-{self.name}", "kind": self.name, "vary": vary, "solve.times": (0.0, 10.0, 25.0), "solve.ask": "all", **own}
+        return {"name": f"my-{self.name}", "kind": self.name, "vary": vary, "solve.times": (0.0, 10.0, 25.0), "solve.ask": "all", **EXAMPLE, **own}
 
     def needs(self, table: str) -> bool:
         """No scene can do without the table."""
