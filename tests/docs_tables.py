@@ -6,7 +6,7 @@
     docs_tables.py --write      write them anew
 
 A table stands between <!-- KIND:FAMILY --> (or <!-- KIND -->) and <!-- end -->. Columns, scalars, rungs and warnings come from the compiled families,
-keys of scene files from the table behind the validator, constants from include/gyrostat/ladder/honesty.hpp. What to do about a warning is
+keys of scene files and units from the tables behind the validator, constants from include/gyrostat/ladder/honesty.hpp. What to do about a warning is
 written by hand in the last cell of its row, what a scene is behind its command; neither may be empty, and both are kept. The rung of a scene is the
 one that answers it. Needs the package gyrostat.
 """
@@ -19,8 +19,10 @@ from collections.abc import Callable, Iterable, Iterator
 import gyrostat
 from gyrostat import _core
 from gyrostat.families import FAMILIES
+from gyrostat.orientation import FORMS
 from gyrostat.scenes import bundled
 from gyrostat.schema import key_tables, ways
+from gyrostat.units import QUANTITIES
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 HONESTY = ROOT / "include" / "gyrostat" / "ladder" / "honesty.hpp"
@@ -69,12 +71,16 @@ def warnings(kind: str, was: str) -> str:
 
 
 def keys(kind: str, _: str) -> str:
+    """Of the forms of an attitude, which all kinds have alike, the first alone."""
+    forms = {each.name for field in FORMS for each in (field, *field.parts)}
+
     def parts() -> Iterator[str]:
         for title, heads, rows in key_tables(kind):
             yield f"`{title}`\n\n" if title.startswith("[") else f"{title[0].upper()}{title[1:]}\n\n"
-            yield table(heads, [[f"`{row[0].strip()}`", *row[1:]] for row in rows]) + "\n"
+            yield table(heads, [[f"`{row[0].strip()}`", *row[1:]] for row in rows if title != "[initial]" or row[0].strip() not in forms]) + "\n"
         for choices in FAMILIES[kind].alternatives:
-            yield f"* {ways(choices)}\n"
+            listed = tuple(choice for choice in choices if not {key.removeprefix("initial.") for key in choice} & forms)
+            yield f"* {ways(listed)}\n".replace("initial.attitude", "initial.attitude in one of its [forms](#attitudes)")
 
     return "".join(parts())
 
@@ -108,8 +114,12 @@ def constants(_: str, __: str) -> str:
     return made + table(["constant", "value", "meaning"], single)
 
 
+def units(_: str, __: str) -> str:
+    return table(["measures", "units"], [[what, ", ".join(f"`{name}`" for name in sizes)] for what, (_, sizes) in QUANTITIES.items()])
+
+
 TABLES: dict[str, Callable[[str, str], str]] = {"columns": columns, "scalars": scalars, "rungs": rungs, "warnings": warnings, "keys": keys,
-                                                "gallery": gallery, "constants": constants}
+                                                "gallery": gallery, "constants": constants, "units": units}
 
 
 def pages() -> Iterator[tuple[pathlib.Path, str, str]]:
@@ -138,7 +148,7 @@ def breaches() -> Iterator[str]:
                 yield from (f"docs/{path.name}: what is one to do about {row[0]}?" for row in map(cells, block.group(3).splitlines()[2:]) if not row[2])
             if block.group(1) == "gallery":
                 yield from (f"docs/{path.name}: what is this scene? {row[1]}" for row in map(cells, block.group(3).splitlines()[2:]) if row[1].endswith("<br>"))
-    for what in set(TABLES) - {"constants"}:
+    for what in set(TABLES) - {"constants", "units"}:
         yield from (f"docs/: no table <!-- {what}:{kind} -->" for kind in FAMILIES if (what, kind) not in listed)
 
 

@@ -3,8 +3,10 @@
 
 import json
 import math
+import re
 import tomllib
 from functools import reduce
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -222,3 +224,19 @@ def test_without_an_attitude_all_is_as_it_was() -> None:
     assert scene_from(tomllib.loads(HEAVY)).tables["initial"]["attitude"] is None
     top = gyrostat.solve(tomllib.loads(HEAVY), rotation_vector=["170 deg", 0, 0], ask=["attitude", "down"])
     assert np.linalg.norm(top["down"][0] - [0, -math.sin(math.radians(170)), -math.cos(math.radians(170))]) < 1e-14
+
+
+def test_the_table_of_the_page_shows_one_turn() -> None:
+    page = (Path(__file__).resolve().parents[2] / "docs" / "scenes.md").read_text()
+    shown = {key: tomllib.loads(f"value = {value}")["value"] for key, value in re.findall(r"^\| `(\w+)` \| [^|]+ \| `([\[{][^`]+)` \|$", page, re.M)}
+    assert shown.keys() == SAME.keys()
+    for form, value in shown.items():
+        assert angle_between(attitude(form, value), [0, 0, math.sqrt(0.5), math.sqrt(0.5)]) < 1e-15, form
+
+
+def test_the_quaternion_of_any_form_varies() -> None:
+    pytest.importorskip("scipy")
+    rows = gyrostat.sweep(BASE, {"initial.attitude[0]": [0.0, 0.1]}, rotation_vector=["20 deg", 0, 0], times=[0.0], ask=["attitude"])
+    for x, row in zip([0.0, 0.1], rows["attitude"].values, strict=True):
+        q = np.array([x, 0, 0, math.cos(math.pi / 18)])
+        assert angle_between(row[0], q / np.linalg.norm(q)) < ROUNDING
