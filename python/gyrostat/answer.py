@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.facts import FACTS
+from gyrostat.orientation import form_of
 
 if TYPE_CHECKING:
     import pandas
@@ -146,7 +147,8 @@ class Answer:
             text += f'; {column} is a scalar: answer.scalars["{column}"]'
         elif facts and column in facts.columns:
             text += f"; {column} belongs to scenes of this kind"
-            if column == "attitude" and "attitude" not in self.scene.get("initial", {}):
+            start = self.scene.get("initial", {})
+            if column == "attitude" and "attitude" not in start and not form_of(start):
                 text += ", where initial.attitude is given"
             elif self.model != "full":
                 text += ': a higher rung gives it, as model = "full" does'

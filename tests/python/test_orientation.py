@@ -240,3 +240,9 @@ def test_the_quaternion_of_any_form_varies() -> None:
     for x, row in zip([0.0, 0.1], rows["attitude"].values, strict=True):
         q = np.array([x, 0, 0, math.cos(math.pi / 18)])
         assert angle_between(row[0], q / np.linalg.norm(q)) < ROUNDING
+
+
+def test_a_missing_attitude_is_not_blamed_on_the_start() -> None:
+    averaged = gyrostat.solve(tomllib.loads(GOOD), mrp=[0, 0, 0.1], model="averaged")
+    with pytest.raises(KeyError, match='belongs to scenes of this kind: a higher rung gives it'):
+        averaged["attitude"]

@@ -23,8 +23,8 @@ __all__ = ["figure", "remarks"]
 def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
     """Panels over time; of a body at rest the attitude in place of the momentum."""
     turning = bool(np.all(np.linalg.norm(answer["angular_momentum"], axis=1) > 0))
-    about: list[Panel] = [_direction, _cone] if turning else [vector("attitude", "q", "", "Attitude, body to inertial")]
-    return stacked(answer, [_rotor_rate, vector("angular_velocity", "Ω", "rad/s", "Angular velocity of the carrier, body axes"), *about,
+    about: list[Panel] = [_direction, _cone(given)] if turning else [vector("attitude", "q", "", "Attitude, body to inertial")]
+    return stacked(answer, [_rotor_rate(given), vector("angular_velocity", "Ω", "rad/s", "Angular velocity of the carrier, body axes"), *about,
                             _lyapunov(given)])
 
 
@@ -36,14 +36,17 @@ def remarks(answer: "Answer") -> list[str]:
     return [f"tends to steady rotation {attractor}" + (f", in the end as exp(-t / {span_text(1 / rate)})" if rate > 0 else "")]
 
 
-def _rotor_rate(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
-    target = float(answer.scene["motor"]["no_load_rate"])
-    curve(axes, t, answer["rotor_rate"], ["ω of the rotor"])
-    axes.axhline(target, color=COLOURS[1], linestyle="--", linewidth=1, label=f"no-load rate {target:.6g} rad/s")
-    axes.set_ylabel("ω [rad/s]")
-    legend_row(axes)
-    axes.set_title("Rate of the rotor, relative to the carrier", loc="left", fontsize=10)
-    note(axes, error_text(answer, "rotor_rate"))
+def _rotor_rate(given: Mapping[str, Any]) -> Panel:
+    def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
+        target = given["no_load_rate"]
+        curve(axes, t, answer["rotor_rate"], ["ω of the rotor"])
+        axes.axhline(target, color=COLOURS[1], linestyle="--", linewidth=1, label=f"no-load rate {target:.6g} rad/s")
+        axes.set_ylabel("ω [rad/s]")
+        legend_row(axes)
+        axes.set_title("Rate of the rotor, relative to the carrier", loc="left", fontsize=10)
+        note(axes, error_text(answer, "rotor_rate"))
+
+    return draw
 
 
 def _direction(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
@@ -54,13 +57,16 @@ def _direction(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
     note(axes, error_text(answer, "angular_momentum"))
 
 
-def _cone(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
-    H, e = answer["angular_momentum"], np.asarray(answer.scene["rotor"]["axis"])
-    angle = np.degrees(np.arctan2(np.linalg.norm(np.cross(e, H), axis=1), H @ e))
-    curve(axes, t, angle, ["_angle"])
-    axes.set_ylim(0, max(1.1 * float(np.max(angle)), 1.0))
-    axes.set_ylabel("angle [deg]")
-    axes.set_title("Angle between the rotor's axis and the angular momentum", loc="left", fontsize=10)
+def _cone(given: Mapping[str, Any]) -> Panel:
+    def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
+        H, e = answer["angular_momentum"], given["axis"]
+        angle = np.degrees(np.arctan2(np.linalg.norm(np.cross(e, H), axis=1), H @ e))
+        curve(axes, t, angle, ["_angle"])
+        axes.set_ylim(0, max(1.1 * float(np.max(angle)), 1.0))
+        axes.set_ylabel("angle [deg]")
+        axes.set_title("Angle between the rotor's axis and the angular momentum", loc="left", fontsize=10)
+
+    return draw
 
 
 def _lyapunov(given: Mapping[str, Any]) -> Panel:
