@@ -484,7 +484,8 @@ def _spread(field: Field, value: Mapping[str, Any]) -> Any:
             return [spread(each) for each in item]
         if isinstance(item, str):
             raise Refused(f"value holds the text {_show(item)}", "write numbers alone beside a unit")
-        return item if isinstance(item, bool) or not isinstance(item, int | float) else f"{item!r} {value['unit']}"
+        number = isinstance(item, int | float) and not isinstance(item, bool) and abs(item) <= LIMIT
+        return f"{item!r} {value['unit']}" if number else item
 
     return spread(value["value"])
 

@@ -458,7 +458,7 @@ def survives(text: str | bytes, folder: Path) -> None:
 def test_mutated_texts(good: str, tmp_path: Path) -> None:
     draw = random.Random(20260101)
     pieces = [*string.printable, "[[", "]]", "= nan", "= -inf", "1e999", "true", '"""', "{}", "[]", "\\u0000", "é", "9" * 30,
-              "[solve]", "[body]", "kind", "0x", "1979-05-27", "\0"]
+              "[solve]", "[body]", "kind", "0x", "1979-05-27", "\0", '"1 kg m^2"', '"2 deg/s"', '{ value = [1, 2, 3], unit = "s" }', " rpm"]
     lines = good.splitlines(keepends=True)
     for _ in range(1000):
         text = "".join(lines)
@@ -489,7 +489,9 @@ def test_random_bytes(tmp_path: Path) -> None:
 values = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8) | st.binary(max_size=3)
     | st.sampled_from(["auto", "full", "total", "carrier", "taylor", "deceleration", 10**400, -0.0, 1e-300, 5e-324, [1e60] * 3,
-                       [1e-40] * 3, [0.6, 0.0, 0.8], 1e60, 1e-40]),
+                       [1e-40] * 3, [0.6, 0.0, 0.8], 1e60, 1e-40, "3 rpm", "1e300 kg m^2", ["1 N m", 0, "2 lb ft"], {"value": [1, 2, 3], "unit": "N m"},
+                       {"value": [10**400, math.nan, [True]], "unit": "s"}, {"moments": [3, 3, 3], "products": ["1 kg m^2", 0, 0], "sign": "integral"},
+                       {"sequence": "3-2-1", "angles": ["1 deg", 0, 0]}, [[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[1e60] * 3] * 3]),
     lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=5), inner, max_size=3), max_leaves=12)
 keys = st.sampled_from(sorted({field.name for family in FAMILIES.values() for fields in family.keys.values() for field in fields}))
 tables = st.dictionaries(keys | st.text(max_size=6), values, max_size=6)
