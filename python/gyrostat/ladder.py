@@ -33,7 +33,7 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, **overrides: Any)
     scene : a `Scene`, a dict in the layout of a scene file, a file, or the name of a bundled scene.
     monitor : reports the progress of long work and can cancel it from another thread.
     overrides : keys of the scene file to change, such as tolerance=1e-9, model="full", or ask=["stop_time"], ask={"attitude": "0.1 deg"}:
-        the columns and scalars that are wanted (docs/scenes.md, "What is asked").
+        the columns and scalars that are wanted (docs/scenes.md, "What is asked"). Numbers may be text with a unit: no_load_rate="3000 rpm".
 
     Raises SceneError for a scene that cannot be used, DomainError where the rung asked for by name cannot compute it,
     ConvergenceError where a computation hits its cap. Over the tolerance it still answers, with `met` False.

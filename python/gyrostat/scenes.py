@@ -464,8 +464,8 @@ def _vary(field: Field, value: Any) -> dict[str, Any]:
 
 _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
     "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "direction": _direction,
-    "quaternion": _quaternion, "rotation": _rotation, "sequence": _sequence, "inertia": _inertia, "moments": _moments, "times": _times, "record": _record, "records": _records, "ask": _ask,
-    "vary": _vary,
+    "quaternion": _quaternion, "rotation": _rotation, "sequence": _sequence, "inertia": _inertia, "moments": _moments, "times": _times,
+    "record": _record, "records": _records, "ask": _ask, "vary": _vary,
 }
 
 
