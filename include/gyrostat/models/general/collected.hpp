@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/models/general/problem.hpp"
+#include "gyrostat/models/general/table.hpp"
+#include "gyrostat/models/general/wheels.hpp"
+#include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// All torques of a problem summed, so that neither stepping nor recognition sees how many there are (docs/general.md, section 1.2).
+namespace gyrostat::general {
+
+/// The coefficients of a sum of torques, body axes:
+///     tau = body - by_rate w - by_momentum M - (brake_total_j U_j/|U| e_j, U = M) - (brake_carrier_j U_j/|U| e_j, U = J w)
+///         + sum_j (inertial[j] e_j + orbital[j] o_j) + gradient d x J d + orbit_gradient N rh x J rh + dipole x B + (eddy (w_rel x B)) x B,
+/// e_j being the inertial axes and o_j radial, along track and normal of the orbit as the body sees them, d down, N = 3 mu/r^3 and B the
+/// magnetic field. A uniform field is constant in inertial axes, so its torque on a dipole stands in `inertial`.
+template <Real Scalar>
+struct Terms {
+  Vec3<Scalar> body{0, 0, 0};                       ///< N m
+  Mat3<Scalar> by_rate = Mat3<Scalar>::Zero();      ///< N m s/rad; charge is its skew part, and by_carrier J is in it
+  Mat3<Scalar> by_carrier = Mat3<Scalar>::Zero();   ///< what opposes J w, apart, 1/s
+  Mat3<Scalar> by_momentum = Mat3<Scalar>::Zero();  ///< 1/s
+  Vec3<Scalar> brake_total{0, 0, 0}, brake_carrier{0, 0, 0};          ///< N m
+  std::array<Mat3<Scalar>, 3> inertial = zeros(), orbital = zeros();  ///< N m
+  Scalar gradient = 0;                                                ///< 1/s^2, of the field that stands still
+  Scalar orbit_gradient = 0;                                          ///< how often the gradient of the orbit counts
+  Vec3<Scalar> dipole{0, 0, 0};                                       ///< in a field that moves, A m^2
+  Mat3<Scalar> eddy = Mat3<Scalar>::Zero();                           ///< S m^4
+  Vec3<Scalar> force_body{0, 0, 0}, force_inertial{0, 0, 0};          ///< that moves the mass centre of a free body, N
+
+  /// action(mine, its) for each coefficient of this and another sum.
+  template <class Action>
+  void beside(const Terms& other, const Action& action) noexcept {
+    action(body, other.body), action(by_rate, other.by_rate), action(by_carrier, other.by_carrier);
+    action(by_momentum, other.by_momentum);
+    action(brake_total, other.brake_total), action(brake_carrier, other.brake_carrier);
+    for (std::size_t j = 0; j < 3; ++j) action(inertial[j], other.inertial[j]), action(orbital[j], other.orbital[j]);
+    action(gradient, other.gradient), action(orbit_gradient, other.orbit_gradient);
+    action(dipole, other.dipole), action(eddy, other.eddy);
+    action(force_body, other.force_body), action(force_inertial, other.force_inertial);
+  }
+  /// Adds a multiple of another sum.
+  void add(Scalar times, const Terms& other) noexcept {
+    beside(other, [times](auto& mine, const auto& its) noexcept { mine += times * its; });
+  }
+  /// Adds a multiple of the magnitudes of another sum.
+  void add_sizes(Scalar times, const Terms& other) noexcept {
+    using std::abs;
+    beside(other, [size = abs(times)](auto& mine, const auto& its) noexcept {
+      using std::abs;
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(mine)>, Scalar>) mine += size * abs(its);
+      else mine += size * its.cwiseAbs();
+    });
+  }
+  /// Whether a torque or force is left.
+  bool any() const noexcept {
+    bool found = false;
+    Terms(*this).beside(*this, [&](auto& mine, const auto&) noexcept {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(mine)>, Scalar>) found = found || mine != 0;
+      else found = found || !mine.isZero(0);
+    });
+    return found;
+  }
+  /// Whether a torque is left.
+  bool any_torque() const noexcept {
+    Terms torque = *this;
+    torque.force_body.setZero(), torque.force_inertial.setZero();
+    return torque.any();
+  }
+
+ private:
+  static std::array<Mat3<Scalar>, 3> zeros() noexcept {
+    return {Mat3<Scalar>::Zero(), Mat3<Scalar>::Zero(), Mat3<Scalar>::Zero()};
+  }
+};
+
+/// Torques with the same factor over time, summed.
+template <Real Scalar>
+struct Record {
+  Factor<Scalar> factor;  ///< by default 1
+  Terms<Scalar> sum;
+  Terms<Scalar> size;  ///< the magnitudes of what went in, summed: what the rounding of `sum` is relative to
+};
+
+/// The value of m, where it is a multiple of the unit matrix: to 8 roundings of `size`, the magnitudes that were summed.
+template <Real Scalar>
+std::optional<Scalar> as_scalar(const Mat3<Scalar>& m, const Mat3<Scalar>& size) noexcept {
+  using std::abs;
+  const Scalar mean = m.trace() / 3, slack = 8 * epsilon<Scalar> * size.maxCoeff();
+  const Mat3<Scalar> rest = m - mean * Mat3<Scalar>::Identity();
+  if (!(rest.cwiseAbs().maxCoeff() <= slack)) return std::nullopt;
+  return mean;
+}
+
+/// All torques of a problem.
+template <Real Scalar>
+struct Collected {
+  /// One record for each factor; that of what always acts, unchanged over the span, is the first, whether it holds anything or not.
+  std::vector<Record<Scalar>> records;
+
+  /// The torques of a problem that check_torques() finds right, over the times from 0 to `span`.
+  static Collected of(const Problem<Scalar>& problem, Scalar span) noexcept;
+
+  const Record<Scalar>& steady() const noexcept { return records.front(); }
+  /// Whether nothing depends on time by itself (orbit and field aside).
+  bool is_steady() const noexcept { return records.size() == 1; }
+};
+
+/// The times in (0, span) at which a torque or a wheel of a problem changes its law, increasing.
+template <Real Scalar>
+std::vector<Scalar> breakpoints(const Problem<Scalar>& problem, Scalar span) noexcept {
+  std::vector<Scalar> found;
+  const auto take = [&](Scalar t) noexcept {
+    if (t > 0 && t < span) found.push_back(t);
+  };
+  for (const auto& torque : problem.torques) {
+    for (const auto& [from, to] : torque.factor.on)
+      if (from < to) take(from), take(to);
+    for (const Scalar t : torque.factor.table.times) take(t);
+    for (const Scalar t : torque.table.times) take(t);
+  }
+  for (const auto& wheel : problem.wheels)
+    for (const Scalar t : wheel.table.times) take(t);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+namespace detail {
+
+template <Real Scalar>
+bool same_table(const Table<Scalar>& a, const Table<Scalar>& b) noexcept {
+  return a.times == b.times && a.values == b.values && a.between == b.between && a.holds == b.holds;
+}
+
+template <Real Scalar>
+bool same_factor(const Factor<Scalar>& a, const Factor<Scalar>& b) noexcept {
+  return a.on == b.on && same_table(a.table, b.table) && a.mean == b.mean && a.amplitude == b.amplitude &&
+         a.rate == b.rate && a.phase == b.phase;
+}
+
+/// Takes what is constant from 0 to `span` out of a factor, and returns it.
+template <Real Scalar>
+Scalar take_constant(Factor<Scalar>& factor, Scalar span) noexcept {
+  using std::sin;
+  Scalar taken = 1;
+  std::erase_if(factor.on, [](const auto& on) noexcept { return !(on[0] < on[1]); });
+  for (const auto& [from, to] : factor.on)
+    if (from <= 0 && to >= span) {
+      factor.on.clear();
+      break;
+    }
+  if (!factor.table.times.empty() && is_constant(factor.table, span)) {
+    taken *= factor.table.values[0];
+    factor.table = {};
+  }
+  if (factor.amplitude == 0 || factor.rate == 0) {
+    taken *= factor.amplitude == 0 ? factor.mean : factor.mean + factor.amplitude * sin(factor.phase);
+    factor.mean = 1, factor.amplitude = 0, factor.rate = 0, factor.phase = 0;
+  }
+  return taken;
+}
+
+/// A torque as coefficients, without its factor; of a table the unit torque along axis `column`.
+template <Real Scalar>
+Terms<Scalar> terms_of(const Problem<Scalar>& problem, const Torque<Scalar>& torque, int column) noexcept {
+  Terms<Scalar> made;
+  const Mat3<Scalar> unit = Mat3<Scalar>::Identity();
+  const auto inertially = [&](const Mat3<Scalar>& by, const Vec3<Scalar>& v_I) noexcept {
+    for (std::size_t j = 0; j < 3; ++j) made.inertial[j] += v_I[int(j)] * by;
+  };
+  const auto& field = problem.field;
+  switch (torque.type) {
+    case TorqueType::constant:
+    case TorqueType::table: {
+      const Vec3<Scalar> c = torque.type == TorqueType::constant ? torque.vector : Vec3<Scalar>(unit.col(column));
+      if (torque.axes == Axes::body) made.body = c;
+      else if (torque.axes == Axes::inertial) inertially(unit, c);
+      else
+        for (std::size_t j = 0; j < 3; ++j) made.orbital[j] = c[int(j)] * unit;
+      break;
+    }
+    case TorqueType::damping:
+      if (torque.opposed == Opposed::angular_velocity) made.by_rate = torque.matrix;
+      else if (torque.opposed == Opposed::momentum) made.by_momentum = torque.matrix;
+      else made.by_carrier = torque.matrix, made.by_rate = torque.matrix * problem.inertia;
+      break;
+    case TorqueType::brake:
+      (torque.opposed == Opposed::momentum ? made.brake_total : made.brake_carrier) = torque.vector;
+      break;
+    case TorqueType::weight:
+      inertially(cross_matrix<Scalar>(problem.mass * field.gravity * problem.centre_of_mass), field.down);
+      break;
+    case TorqueType::gravity_gradient:
+      if (torque.gradient) made.gradient = *torque.gradient;
+      else made.orbit_gradient = 1;
+      break;
+    case TorqueType::magnetic:
+      if (field.magnetic == MagneticField::uniform) inertially(cross_matrix<Scalar>(torque.vector), field.flux_density);
+      else made.dipole = torque.vector;
+      break;
+    case TorqueType::eddy_current: made.eddy = torque.matrix; break;
+    case TorqueType::thrust: {
+      const Vec3<Scalar> arm = problem.fixed ? torque.point : Vec3<Scalar>(torque.point - problem.centre_of_mass);
+      if (torque.axes == Axes::body) made.body = cross<Scalar>(arm, torque.vector);
+      else inertially(cross_matrix<Scalar>(arm), torque.vector);
+      if (!problem.fixed) (torque.axes == Axes::body ? made.force_body : made.force_inertial) = torque.vector;
+      break;
+    }
+    case TorqueType::charge: made.by_rate = cross_matrix<Scalar>(torque.vector); break;
+  }
+  return made;
+}
+
+/// What of a factor, or a table of torques, must hold.
+template <Real Scalar>
+Fault check_factor(const Factor<Scalar>& factor, int place) noexcept {
+  using std::abs;
+  for (const Scalar x : {factor.mean, factor.amplitude, factor.rate, factor.phase})
+    if (!(abs(x) < infinity<Scalar>)) return {Errc::not_finite, place, "its factor must be finite"};
+  for (const auto& [from, to] : factor.on)
+    if (!(from <= to)) return {Errc::not_increasing, place, "what it is on for must end behind its begin"};
+  for (std::size_t i = 1; i < factor.on.size(); ++i)
+    if (!(factor.on[i - 1][1] <= factor.on[i][0]))
+      return {Errc::not_increasing, place, "what it is on for must come one behind the other"};
+  if (const Errc wrong = check(factor.table, 1); wrong != Errc::ok)
+    return {wrong, place, "the table of its factor must have one finite value for each time, and times that increase"};
+  return {};
+}
+
+/// What a torque needs of the problem.
+template <Real Scalar>
+Fault check_needs(const Problem<Scalar>& problem, const Torque<Scalar>& torque, int place) noexcept {
+  const bool inertial = torque.axes != Axes::body, orbital = torque.axes == Axes::orbit;
+  const auto field = problem.field.magnetic;
+  switch (torque.type) {
+    case TorqueType::constant: break;
+    case TorqueType::table:
+      if (const Errc wrong = check(torque.table, 3); wrong != Errc::ok)
+        return {wrong, place, "its table must have three finite values for each time, and times that increase"};
+      if (!torque.factor.table.times.empty())
+        return {Errc::not_applicable, place, "a table of torques has no table as its factor"};
+      break;
+    case TorqueType::brake:
+      if (torque.opposed == Opposed::angular_velocity)
+        return {Errc::not_applicable, place, "a brake opposes the momentum of the whole or of the carrier"};
+      if (torque.vector.minCoeff() < 0) return {Errc::negative, place, "the limits of a brake must not be negative"};
+      break;
+    case TorqueType::weight:
+      if (!problem.fixed) return {Errc::not_applicable, place, "the weight of a free body has no moment"};
+      break;
+    case TorqueType::gravity_gradient:
+      if (!torque.gradient && !problem.orbit)
+        return {Errc::not_applicable, place, "a gravity gradient needs an orbit, or its size"};
+      if (torque.gradient && !std::isfinite(static_cast<double>(*torque.gradient)))
+        return {Errc::not_finite, place, "its gradient must be finite"};
+      break;
+    case TorqueType::magnetic:
+    case TorqueType::eddy_current:
+      if (field == MagneticField::none) return {Errc::not_applicable, place, "it needs a magnetic field"};
+      break;
+    case TorqueType::thrust:
+      if (orbital) return {Errc::not_applicable, place, "a thrust is given in body or inertial axes"};
+      if (!torque.point.allFinite()) return {Errc::not_finite, place, "its point must be finite"};
+      break;
+    case TorqueType::damping:
+    case TorqueType::charge: break;
+  }
+  const bool turned =
+      torque.type == TorqueType::constant || torque.type == TorqueType::table || torque.type == TorqueType::thrust;
+  if (inertial && !turned) return {Errc::not_applicable, place, "it is given in body axes"};
+  if (orbital && !problem.orbit) return {Errc::not_applicable, place, "axes of an orbit need an orbit"};
+  return {};
+}
+
+/// Fields and orbit.
+template <Real Scalar>
+Fault check_surroundings(const Problem<Scalar>& problem) noexcept {
+  using std::abs;
+  const auto is_unit = [](const Vec3<Scalar>& v) noexcept {
+    using std::abs;
+    return abs(v.norm() - 1) <= 8 * epsilon<Scalar>;
+  };
+  const auto& field = problem.field;
+  for (const Scalar x : {field.gravity, field.rate, field.strength, field.radius, field.flux_density[0],
+                         field.flux_density[1], field.flux_density[2]})
+    if (!(abs(x) < infinity<Scalar>)) return {Errc::not_finite, -1, "the field must be finite"};
+  if (!is_unit(field.down)) return {Errc::out_of_domain, -1, "down must have unit length"};
+  if (field.magnetic != MagneticField::none && !is_unit(field.axis))
+    return {Errc::out_of_domain, -1, "the axis of the field must have unit length"};
+  if (field.magnetic == MagneticField::dipole && !problem.orbit)
+    return {Errc::not_applicable, -1, "the field of a dipole needs an orbit"};
+  if (!problem.orbit) return {};
+  const auto& orbit = *problem.orbit;
+  if (!(orbit.radius > 0 && orbit.radius < infinity<Scalar>) || !(orbit.mu > 0 && orbit.mu < infinity<Scalar>))
+    return {Errc::not_positive, -1, "radius and mu of the orbit must be positive"};
+  if (!(orbit.eccentricity >= 0 && orbit.eccentricity < 1))
+    return {Errc::out_of_domain, -1, "the eccentricity of the orbit must be in [0, 1)"};
+  if (!(abs(orbit.true_anomaly) < infinity<Scalar>)) return {Errc::not_finite, -1, "the anomaly must be finite"};
+  if (!is_unit(orbit.radial) || !is_unit(orbit.along) || !(abs(orbit.radial.dot(orbit.along)) <= 8 * epsilon<Scalar>))
+    return {Errc::out_of_domain, -1, "radial and along must be orthonormal"};
+  return {};
+}
+
+}  // namespace detail
+
+/// Whether the torques, fields and the orbit of a problem are what the equations can take: finite; what each torque needs is there.
+template <Real Scalar>
+Fault check_torques(const Problem<Scalar>& problem) noexcept {
+  if (const Fault wrong = detail::check_surroundings(problem)) return wrong;
+  if (!(problem.mass > 0 && problem.mass < infinity<Scalar>))
+    return {Errc::not_positive, -1, "the mass must be positive"};
+  if (!problem.centre_of_mass.allFinite()) return {Errc::not_finite, -1, "the centre of mass must be finite"};
+  int place = 0;
+  for (const auto& torque : problem.torques) {
+    if (!torque.vector.allFinite() || !torque.matrix.allFinite())
+      return {Errc::not_finite, place, "its numbers must be finite"};
+    if (const Fault wrong = detail::check_factor(torque.factor, place)) return wrong;
+    if (const Fault wrong = detail::check_needs(problem, torque, place)) return wrong;
+    ++place;
+  }
+  return {};
+}
+
+/// Whether the start is one: finite, with an attitude of unit length.
+template <Real Scalar>
+Fault check_start(const Problem<Scalar>& problem) noexcept {
+  using std::abs;
+  if (!problem.angular_velocity.allFinite()) return {Errc::not_finite, -1, "the angular velocity must be finite"};
+  if (!problem.velocity.allFinite() || !problem.position.allFinite())
+    return {Errc::not_finite, -1, "velocity and position must be finite"};
+  if (!(abs(norm(problem.attitude) - 1) <= 8 * epsilon<Scalar>))
+    return {Errc::out_of_domain, -1, "the attitude must have unit length"};
+  return {};
+}
+
+/// All that a problem must be.
+template <Real Scalar>
+Fault check(const Problem<Scalar>& problem) noexcept {
+  if (const Fault wrong = check_wheels(problem)) return wrong;
+  if (const Fault wrong = check_torques(problem)) return wrong;
+  return check_start(problem);
+}
+
+template <Real Scalar>
+Collected<Scalar> Collected<Scalar>::of(const Problem<Scalar>& problem, Scalar span) noexcept {
+  Collected made;
+  made.records.emplace_back();
+  const auto put = [&](Factor<Scalar> factor, const Terms<Scalar>& terms) noexcept {
+    const Scalar times = detail::take_constant(factor, span);
+    if (times == 0) return;
+    auto place = std::find_if(made.records.begin(), made.records.end(),
+                              [&](const auto& record) noexcept { return detail::same_factor(record.factor, factor); });
+    if (place == made.records.end()) {
+      made.records.push_back({std::move(factor), {}, {}});
+      place = made.records.end() - 1;
+    }
+    place->sum.add(times, terms);
+    place->size.add_sizes(times, terms);
+  };
+  for (const Torque<Scalar>& torque : problem.torques) {
+    if (torque.type != TorqueType::table) {
+      put(torque.factor, detail::terms_of(problem, torque, 0));
+      continue;
+    }
+    for (int column = 0; column < 3; ++column) {
+      Factor<Scalar> factor = torque.factor;
+      factor.table = torque.table;
+      factor.table.values.clear();
+      for (std::size_t i = 0; i < torque.table.times.size(); ++i)
+        factor.table.values.push_back(torque.table.values[3 * i + std::size_t(column)]);
+      put(std::move(factor), detail::terms_of(problem, torque, column));
+    }
+  }
+  return made;
+}
+
+}  // namespace gyrostat::general
