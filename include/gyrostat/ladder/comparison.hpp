@@ -32,6 +32,7 @@ class Comparison {
   using Scalar = typename Writer::Scalar;
   using State = typename Writer::State;
   static constexpr std::size_t count = std::size(Writer::columns);
+  static constexpr int widest = 8;  ///< a column that is no attitude
   using ColumnErrors = Errors<count, Scalar>;
 
   explicit Comparison(const Writer& writer) noexcept : writer_(writer) {
@@ -57,7 +58,7 @@ class Comparison {
         difference[i] = angle_between(attitude(x, column), attitude(y, column));
         continue;
       }
-      Scalar between[3];
+      Scalar between[widest];
       for (int j = 0; j < column.width; ++j) between[j] = x[j] - y[j];
       difference[i] = norm(between, column);
     }
@@ -100,7 +101,11 @@ class Comparison {
       if (Writer::columns[i].measure != Measure::angle) size_[i] = greater(norm(x, Writer::columns[i]), size_[i]);
   }
   static Scalar norm(const Scalar* x, const ColumnKind& column) noexcept {
-    return column.width == 3 ? Vec3<Scalar>(x[0], x[1], x[2]).norm() : std::abs(x[0]);
+    if (column.width == 3) return Vec3<Scalar>(x[0], x[1], x[2]).norm();
+    if (column.width == 1) return std::abs(x[0]);
+    Scalar square = 0;
+    for (int j = 0; j < column.width; ++j) square += x[j] * x[j];
+    return std::sqrt(square);
   }
   /// From [x, y, z, w], as a row holds a quaternion, or from 3-1-2 angles.
   static Quat<Scalar> attitude(const Scalar* x, const ColumnKind& column) noexcept {

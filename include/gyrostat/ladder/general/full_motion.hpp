@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/companions.hpp"
+#include "gyrostat/ladder/errors.hpp"
+#include "gyrostat/ladder/family.hpp"
+#include "gyrostat/ladder/full_motion.hpp"
+#include "gyrostat/ladder/honesty.hpp"
+#include "gyrostat/ladder/trials.hpp"
+#include "gyrostat/models/general/collected.hpp"
+#include "gyrostat/models/general/full.hpp"
+#include "gyrostat/models/general/piece.hpp"
+#include "gyrostat/models/general/problem.hpp"
+#include "gyrostat/models/general/right_side.hpp"
+#include "gyrostat/models/general/sizes.hpp"
+#include "gyrostat/models/general/wheels.hpp"
+#include "gyrostat/ode/status.hpp"
+#include "gyrostat/ode/taylor.hpp"
+#include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// The full motion of a body with any wheels under any torques by Taylor series, piece by piece between breakpoints.
+namespace gyrostat::general {
+
+/// Places in full_columns.
+namespace full_column {
+enum : std::size_t {
+  attitude,
+  angular_velocity,
+  angular_momentum,
+  rotor_rate,
+  rotor_angle,
+  velocity,
+  position,
+  work,
+  impulse
+};
+}
+
+/// What the full equations are compared by.
+inline constexpr ColumnKind full_columns[] = {
+    {"attitude", 4, "1", Frame::body_to_inertial, Measure::angle, "attitude, body to inertial, [x, y, z, w]"},
+    {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity, body axes",
+     "what the momenta of body and wheels at t = 0, or else what the torques build up, would turn the whole with"},
+    {"angular_momentum", 3, "N m s", Frame::body, Measure::relative, "total angular momentum, body axes",
+     "the momenta of body and wheels at t = 0, which may cancel, or else what the torques build up"},
+    {"rotor_rate", int(most_wheels), "rad/s", Frame::none, Measure::relative, "rates of the wheels in the body",
+     "a thousandth of the greatest rate of body and wheels at t = 0"},
+    {"rotor_angle", int(most_wheels), "rad", Frame::none, Measure::relative, "angles of the wheels in the body",
+     "0.001 rad"},
+    {"velocity", 3, "m/s", Frame::inertial, Measure::relative, "velocity of the mass centre, inertial axes",
+     "the velocity at t = 0, and what the force adds while the body turns by a radian"},
+    {"position", 3, "m", Frame::inertial, Measure::relative, "position of the mass centre, inertial axes",
+     "the position at t = 0, the way at the velocity of t = 0, and what the force adds while the body turns by a "
+     "radian"},
+    {"work", 1, "J", Frame::none, Measure::relative, "of all torques since t = 0",
+     "the energy of body and driven wheels at t = 0, or else what the torques build up"},
+    {"impulse", 3, "N m s", Frame::inertial, Measure::relative, "of the external torques since t = 0, inertial axes",
+     "that of angular_momentum"},
+};
+
+template <Real Scalar>
+using FullErrors = Errors<std::size(full_columns), Scalar>;
+
+/// Writes full_columns of a state, one behind the other.
+template <Real S>
+struct FullRow {
+  using Scalar = S;
+  using State = general::State<S>;
+  static constexpr const auto& columns = full_columns;
+
+  FullErrors<S> scale{};
+
+  /// The scales that a problem sets for the times up to its span.
+  explicit FullRow(const Prepared<S>& of) noexcept {
+    using std::abs;
+    const auto& sizes = of.sizes;
+    const auto& w = of.problem.angular_velocity;
+    S rate = w.norm(), energy = abs(w.dot(of.wheels.reduced * w)) / 2;
+    for (std::size_t i = 0; i < of.wheels.count; ++i) {
+      const auto& law = of.wheels.laws[i];
+      rate = std::max(rate, abs(law.rate));
+      if (law.follows >= Follows::integral) energy += law.momentum * law.momentum / (2 * law.axial_inertia);
+    }
+    const S M = sizes.momentum();
+    scale[full_column::angular_velocity] = M / sizes.greatest;
+    scale[full_column::angular_momentum] = scale[full_column::impulse] = M;
+    scale[full_column::rotor_rate] = share * rate;
+    scale[full_column::rotor_angle] = share;
+    scale[full_column::work] = energy > 0 ? energy : M * M / (2 * sizes.greatest);
+    const S time = sizes.turning > 0 ? std::min(of.span, 1 / sizes.turning) : of.span;
+    const S gain = (sizes.force / of.problem.mass + abs(of.problem.field.gravity)) * time,
+            v = of.problem.velocity.norm();
+    scale[full_column::velocity] = v + gain;
+    scale[full_column::position] = of.problem.position.norm() + (v + gain) * time;
+  }
+
+  void operator()(const State& state, S* row) const noexcept {
+    const auto& q = state.attitude;
+    for (const S value : {q.x, q.y, q.z, q.w}) *row++ = value;
+    const auto put = [&](const auto& values) noexcept {
+      for (const S value : values) *row++ = value;
+    };
+    put(state.angular_velocity), put(state.angular_momentum);
+    put(state.rotor_rate), put(state.rotor_angle);
+    put(state.velocity), put(state.position);
+    *row++ = state.work;
+    put(state.impulse);
+  }
+
+ private:
+  static constexpr S share = S(1e-3L);
+};
+
+template <Real Scalar>
+using FullMotionOptions = MotionOptions<Scalar>;
+
+template <Real Scalar>
+struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
+  /// Status::event: when a brake has brought what it opposes to a stop, or all but, s. The equations do not go through it.
+  Scalar stop = nan<Scalar>;
+};
+
+inline constexpr const char* why_stopped_by_brake =
+    "a brake brings the momentum that it opposes to zero, and the full equations do not go through a stop";
+
+/// The full motion at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN. At a breakpoint, where a law of
+/// torques or wheels changes, the state is that by the law that holds from there on.
+///
+/// The error is estimated by runs of neighbours: body, wheels, torques and start differ by a few roundings, and the steps have a tighter
+/// tolerance (companions.hpp). Their distance from the answer, watched in every step and kept for some twenty turns, is the error of the
+/// answer, and shows what the motion makes of errors: that phases drift, and that all differences grow where it is chaotic. A run that
+/// misses the tolerance is repeated with a tighter step tolerance, at most twice.
+///
+/// Errors: out_of_domain (the spans differ in length), not_increasing (times), not_finite (times or tolerance), and those of check().
+template <Real Scalar>
+Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
+                                             std::span<State<Scalar>> states,
+                                             const FullMotionOptions<Scalar>& options = {}) noexcept;
+
+namespace detail {
+
+/// One run of the equations over all pieces. cuts: the breakpoints.
+template <Real Scalar, bool large>
+class FullCourse {
+  using System = FullSystem<Scalar, large>;
+  using Solver = ode::Taylor<System>;
+
+ public:
+  FullCourse(const Problem<Scalar>& problem, Scalar span, std::span<const Scalar> cuts, Scalar tolerance,
+             std::uint64_t step_cap) noexcept
+      : of_(problem, span), cuts_(cuts), last_(span) {
+    options_.tolerance = tolerance;
+    options_.step_cap = step_cap;
+    piece_ = Piece<Scalar>::first(problem, of_.wheels, of_.torques, cuts.empty() ? span : cuts.front());
+    enter(0, first_numbers<Scalar, large>(of_));
+  }
+  FullCourse(const FullCourse&) = delete;
+  FullCourse& operator=(const FullCourse&) = delete;
+
+  /// One step, at most up to t_max, and to the end of the piece.
+  ode::Status step(Scalar t_max) noexcept {
+    if (next_) pass();
+    Scalar until = std::min(t_max, piece_.to);
+    const Scalar before = system_->has_brake() ? system_->braked(time(), solver_->state()) : infinity<Scalar>;
+    // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
+    if (before < infinity<Scalar>) until = std::min(until, time() + before / (2 * of_.sizes.torque));
+    if (has_stopped(before, infinity<Scalar>)) return ode::Status::event;
+    const ode::Status status = solver_->step(until);
+    if (status != ode::Status::reached) return status;
+    if (before < infinity<Scalar> && has_stopped(system_->braked(time(), solver_->state()), before))
+      return ode::Status::event;
+    if (time() >= piece_.to && cut_ < cuts_.size()) {
+      const Scalar to = ++cut_ < cuts_.size() ? cuts_[cut_] : last_;
+      next_ = Piece<Scalar>::behind(piece_, of_.problem, of_.wheels, of_.torques, to);
+    }
+    return status;
+  }
+
+  Scalar time() const noexcept { return solver_->time(); }
+
+  /// The state at t in the last step; where the piece ends with it, by the laws of the next.
+  State<Scalar> at(Scalar t) const noexcept {
+    alignas(32) Scalar x[System::width];
+    solver_->at(t, x);
+    return next_ && t >= piece_.to ? state_of<Scalar, large>(of_, *next_, t, x) : system_->state(t, x);
+  }
+
+  ode::Counts counts() const noexcept {
+    ode::Counts all = counts_;
+    all += solver_->counts();
+    return all;
+  }
+  const Prepared<Scalar>& prepared() const noexcept { return of_; }
+  std::size_t pieces() const noexcept { return cut_ + (next_ ? 0U : 1U); }
+
+ private:
+  /// Begins piece_ at t.
+  void enter(Scalar t, const typename System::Numbers& numbers) noexcept {
+    system_.emplace(of_, piece_, numbers);
+    options_.scale = system_->scale();
+    solver_.emplace(*system_, t, numbers, options_);
+  }
+  /// Goes on to the next piece.
+  void pass() noexcept {
+    typename System::Numbers numbers;
+    std::copy_n(solver_->state(), System::width, numbers.begin());
+    const Scalar t = time();
+    counts_ += solver_->counts();
+    options_.step_cap -= std::min(options_.step_cap, solver_->counts().steps);
+    piece_ = std::move(*next_);
+    next_.reset();
+    enter(t, numbers);
+  }
+  /// Whether what a brake opposes, which was `before`, is as good as gone.
+  bool has_stopped(Scalar now, Scalar before) noexcept {
+    if (now == infinity<Scalar>) return false;
+    greatest_ = std::max(greatest_, now);
+    return !(now > 0) || (now < before && now < nearly_ * greatest_);
+  }
+
+  static constexpr Scalar nearly_ = Scalar(1e-6L);
+  Prepared<Scalar> of_;
+  std::span<const Scalar> cuts_;
+  Scalar last_;
+  std::size_t cut_ = 0;
+  Piece<Scalar> piece_;
+  std::optional<Piece<Scalar>> next_;
+  typename Solver::Options options_;
+  std::optional<System> system_;
+  std::optional<Solver> solver_;
+  ode::Counts counts_;
+  Scalar greatest_ = 0;
+};
+
+/// By how much the inverse of the tensor without its wheels magnifies its rounding; 1 where it is diagonal.
+template <Real Scalar>
+Scalar condition_of(const Wheels<Scalar>& wheels) noexcept {
+  return wheels.whole.cwiseAbs().maxCoeff() * wheels.inverse.cwiseAbs().maxCoeff();
+}
+
+/// Arbitrary numbers of about 1, the same at each call in turn.
+template <Real Scalar>
+class Shifts {
+ public:
+  explicit Shifts(int which) noexcept : turn_(which) {}
+  Scalar operator()() noexcept {
+    constexpr long double of[] = {0.9L, -0.6L, 0.7L, -0.8L, 0.5L, -0.7L, 0.8L, -0.9L, 0.6L, -0.5L, 1.0L};
+    turn_ = (turn_ + 1) % 11;
+    return static_cast<Scalar>(of[turn_]);
+  }
+  Vec3<Scalar> vector() noexcept { return {(*this)(), (*this)(), (*this)()}; }
+
+ private:
+  int turn_;
+};
+
+/// Whether zeros of the data stay zero by a symmetry: rotation about one axis of a diagonal tensor, along which all wheels and torques
+/// are.
+template <Real Scalar>
+bool keeps_axis(const Problem<Scalar>& of) noexcept {
+  if (!of.inertia.isDiagonal(0)) return false;
+  const auto along = [](const Vec3<Scalar>& v, int k) noexcept { return v[(k + 1) % 3] == 0 && v[(k + 2) % 3] == 0; };
+  for (int k = 0; k < 3; ++k) {
+    bool kept = along(of.angular_velocity, k) && along(of.rotor_momentum, k);
+    for (const auto& wheel : of.wheels) kept = kept && along(wheel.axis, k);
+    for (const auto& torque : of.torques) {
+      const bool fixed = torque.type == TorqueType::constant || torque.type == TorqueType::charge;
+      const bool diagonal = torque.type == TorqueType::damping || torque.type == TorqueType::brake;
+      kept = kept && ((fixed && torque.axes == Axes::body && along(torque.vector, k)) ||
+                      (diagonal && torque.matrix.isDiagonal(0)));
+    }
+    if (kept) return true;
+  }
+  return false;
+}
+
+/// A problem that differs from the given one by about `amount`: by what rounding makes of data and arithmetic. What is exactly zero of a
+/// wheel or torque stays so, and so do a body at rest and zeros that a symmetry keeps. which: 0 or 1, in another direction.
+template <Real Scalar>
+Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noexcept {
+  Shifts<Scalar> shift(5 * which);
+  Problem<Scalar> near = of;
+  const bool kept = keeps_axis(of);
+  const auto scale = [&](Scalar& x) noexcept { x *= 1 + amount * shift(); };
+  const auto scale_vector = [&](Vec3<Scalar>& v) noexcept {
+    for (int i = 0; i < 3; ++i) scale(v[i]);
+  };
+  const auto move = [&](Vec3<Scalar>& v) noexcept {
+    const Scalar by = amount * v.cwiseAbs().maxCoeff();
+    for (int i = 0; i < 3; ++i)
+      if (const Scalar s = shift(); v[i] != 0 || !kept) v[i] += by * s;
+  };
+  Mat3<Scalar> change = Vec3<Scalar>(shift.vector()).asDiagonal();
+  if (of.inertia.isDiagonal(0)) {
+    near.inertia += amount * of.inertia * change;
+  } else {
+    for (int i = 0; i < 3; ++i) change(i, (i + 1) % 3) = change((i + 1) % 3, i) = shift();
+    near.inertia += amount * of.inertia.cwiseAbs().maxCoeff() * change;
+  }
+  move(near.rotor_momentum), move(near.angular_velocity);
+  for (auto& wheel : near.wheels) {
+    if (!kept) {
+      Vec3<Scalar> axis = wheel.axis + amount * cross<Scalar>(shift.vector(), wheel.axis);
+      wheel.axis = axis.normalized();
+    }
+    scale(wheel.axial_inertia), scale(wheel.rate), scale(wheel.torque), scale(wheel.friction);
+    scale(wheel.slope), scale(wheel.no_load_rate);
+    for (Scalar& v : wheel.table.values) scale(v);
+  }
+  for (auto& torque : near.torques) {
+    scale_vector(torque.vector), scale_vector(torque.point);
+    for (int i = 0; i < 9; ++i) scale(torque.matrix(i));
+    if (torque.gradient) scale(*torque.gradient);
+    for (Scalar& v : torque.table.values) scale(v);
+    for (Scalar& v : torque.factor.table.values) scale(v);
+    scale(torque.factor.mean), scale(torque.factor.amplitude), scale(torque.factor.rate), scale(torque.factor.phase);
+  }
+  scale_vector(near.centre_of_mass), scale_vector(near.field.flux_density);
+  scale(near.field.gravity), scale(near.field.rate), scale(near.field.strength), scale(near.mass);
+  scale_vector(near.velocity), scale_vector(near.position);
+  if (near.orbit) scale(near.orbit->radius), scale(near.orbit->mu);
+  return near;
+}
+
+/// What an evaluation of the columns loses, in their units, where the state is known to `relative`.
+template <Real Scalar>
+FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow<Scalar>& row,
+                                       const FullErrors<Scalar>& size, Scalar relative) noexcept {
+  const auto& wheels = of.wheels;
+  Scalar carried = 0, lightest = infinity<Scalar>;  // what wheels hold, at most, and the least of them that have a p
+  for (std::size_t i = 0; i < wheels.count; ++i) {
+    const auto& law = wheels.laws[i];
+    if (law.follows != Follows::body) carried += law.axial_inertia * size[full_column::rotor_rate];
+    if (law.turns_by_itself()) lightest = std::min(lightest, law.axial_inertia);
+  }
+  const Scalar momenta =
+      size[full_column::angular_momentum] + std::max(row.scale[full_column::angular_momentum], carried);
+  const Scalar fastest = momenta / of.sizes.least;
+  FullErrors<Scalar> error;
+  error[full_column::attitude] = 4 * relative;
+  error[full_column::angular_momentum] = 4 * relative * momenta;
+  error[full_column::angular_velocity] =
+      2 * relative * fastest + 4 * epsilon<Scalar> * condition_of(wheels) * size[full_column::angular_velocity];
+  if (wheels.count > 0) {
+    error[full_column::rotor_rate] = 4 * relative * size[full_column::rotor_rate];
+    if (lightest < infinity<Scalar>) error[full_column::rotor_rate] += error[full_column::angular_velocity];
+    error[full_column::rotor_angle] = 4 * relative * size[full_column::rotor_angle];
+    // of the polynomial of one step, too
+    if (of.sizes.turning > 0) error[full_column::rotor_angle] += error[full_column::rotor_rate] / of.sizes.turning;
+  }
+  for (const auto column : {full_column::velocity, full_column::position})
+    error[column] = 4 * relative * (size[column] + row.scale[column]);
+  error[full_column::work] = error[full_column::angular_velocity] * size[full_column::angular_momentum] +
+                             4 * relative * (size[full_column::work] + row.scale[full_column::work]);
+  error[full_column::impulse] =
+      2 * error[full_column::angular_momentum] + error[full_column::attitude] * size[full_column::angular_momentum];
+  return error;
+}
+
+template <Real Scalar, bool large>
+class FullMotion {
+ public:
+  FullMotion(const Problem<Scalar>& problem, std::span<const Scalar> times, std::span<State<Scalar>> states,
+             const FullMotionOptions<Scalar>& options) noexcept
+      : problem_(problem),
+        times_(times),
+        states_(states),
+        options_(options),
+        cuts_(breakpoints(problem, times.back())) {}
+
+  /// The answer's run and its neighbours' side by side, and their distance.
+  FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
+    constexpr Scalar eps = epsilon<Scalar>;
+    FullMotionAnswer<Scalar> answer;
+    answer.step_tolerance = step_tolerance;
+    const Scalar tight = companion_step(step_tolerance), span = times_.back();
+    const auto one = beside(problem_, change, 0), two = beside(problem_, change, 1);
+    // a course is large
+    const auto course = std::make_unique<Course>(problem_, span, cuts_, step_tolerance, options_.step_cap);
+    const auto companion = std::make_unique<Course>(one, span, cuts_, tight, options_.step_cap);
+    const auto& of = course->prepared();
+    std::unique_ptr<Course> second;
+    if (rounding_rules(step_tolerance, condition_of(of.wheels)))
+      second = std::make_unique<Course>(two, span, cuts_, tight, options_.step_cap);
+    const FullRow<Scalar> row(of);
+    // rounding at the asked times
+    const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
+      return rounding_of_columns(of, row, size, 4 * eps + steps);
+    };
+    solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of.sizes.turning, times_,
+                 states_, nowhere(), options_, progress_from, progress_to, rounding);
+    if (answer.status == ode::Status::event) answer.stop = course->time();
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      State<Scalar>& state = states_[i];
+      const Pose<Scalar> pose{state.attitude, state.angular_velocity, state.angular_momentum};
+      state.torque = load_at(problem_, pose, times_[i], times_[i]).torque;
+    }
+    return answer;
+  }
+
+ private:
+  using Course = FullCourse<Scalar, large>;
+  static constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
+
+  static State<Scalar> nowhere() noexcept {
+    constexpr Scalar no = nan<Scalar>;
+    const Vec3<Scalar> nothing(no, no, no);
+    State<Scalar> made{{no, no, no, no}, nothing, nothing, {}, {}, nothing, nothing, nothing, no, nothing};
+    made.rotor_rate.fill(no), made.rotor_angle.fill(no);
+    return made;
+  }
+
+  const Problem<Scalar>& problem_;
+  std::span<const Scalar> times_;
+  std::span<State<Scalar>> states_;
+  const FullMotionOptions<Scalar>& options_;
+  std::vector<Scalar> cuts_;
+};
+
+template <Real Scalar, bool large>
+FullMotionAnswer<Scalar> full_motion_of(const Prepared<Scalar>& of, std::span<const Scalar> times,
+                                        std::span<State<Scalar>> states,
+                                        const FullMotionOptions<Scalar>& options) noexcept {
+  const FullMotion<Scalar, large> motion(of.problem, times, states, options);
+  const Scalar phase = of.sizes.turning * times.back();
+  const Scalar first = first_step_tolerance<Scalar>(options.tolerance, phase, Scalar(honesty::loosest_step));
+  return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar, double begin, double end) noexcept {
+    return motion.run(step_tolerance, begin, end);
+  });
+}
+
+}  // namespace detail
+
+template <Real Scalar>
+Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
+                                             std::span<State<Scalar>> states,
+                                             const FullMotionOptions<Scalar>& options) noexcept {
+  if (states.size() != times.size()) return Errc::out_of_domain;
+  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
+  if (!(options.tolerance == options.tolerance)) return Errc::not_finite;
+  if (const Fault wrong = check(problem)) return wrong.code;
+  FullMotionAnswer<Scalar> answer;
+  answer.met = true;
+  if (times.empty()) return answer;
+
+  Problem<Scalar> from = problem;
+  from.attitude = as_unit(problem.attitude);
+  const Prepared<Scalar> of(from, times.back());
+  if (!(of.sizes.turning < infinity<Scalar>)) return Errc::not_finite;
+  return of.is_large() ? detail::full_motion_of<Scalar, true>(of, times, states, options)
+                       : detail::full_motion_of<Scalar, false>(of, times, states, options);
+}
+
+#if defined(GYROSTAT_COMPILED)
+extern template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
+                                                                     std::span<State<double>>,
+                                                                     const FullMotionOptions<double>&) noexcept;
+#endif
+
+}  // namespace gyrostat::general

@@ -1,0 +1,790 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "gyrostat/core/compensated.hpp"
+#include "gyrostat/core/lanes.hpp"
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/models/general/collected.hpp"
+#include "gyrostat/models/general/parts.hpp"
+#include "gyrostat/models/general/piece.hpp"
+#include "gyrostat/models/general/problem.hpp"
+#include "gyrostat/models/general/series.hpp"
+#include "gyrostat/models/general/sizes.hpp"
+#include "gyrostat/models/general/surroundings.hpp"
+#include "gyrostat/models/general/wheels.hpp"
+#include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/quaternion_lanes.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// The full equations of a body with any wheels under any torques as Taylor recurrences, from one breakpoint to the next.
+namespace gyrostat::general {
+
+/// Body, wheels and torques, prepared once for all pieces.
+template <Real Scalar>
+struct Prepared {
+  const Problem<Scalar>& problem;
+  Wheels<Scalar> wheels;
+  Collected<Scalar> torques;
+  Vec3<Scalar> momentum{0, 0, 0};  ///< M at t = 0
+  Scalar span = 0;                 ///< s
+  Sizes<Scalar> sizes;
+
+  /// A problem that check() finds right, for the times from 0 to `span`.
+  Prepared(const Problem<Scalar>& of, Scalar span_) noexcept
+      : problem(of), wheels(Wheels<Scalar>::of(of)), torques(Collected<Scalar>::of(of, span_)), span(span_) {
+    momentum = wheels.reduced * of.angular_velocity + wheels.momentum_of_wheels();
+    sizes = sizes_of(of, wheels, torques, span);
+  }
+  /// Whether the full equations need the state with wheels and path.
+  bool is_large() const noexcept {
+    for (const auto& law : wheels.laws)
+      if (law.follows == Follows::state) return true;
+    return std::any_of(torques.records.begin(), torques.records.end(), [](const auto& record) noexcept {
+      return !record.sum.force_body.isZero(0) || !record.sum.force_inertial.isZero(0);
+    });
+  }
+};
+
+/// The numbers of a state: (w, x, y, z | M1, M2, M3, - | W1, W2, W3, -), W the integral of the angular velocity, and in the large one the
+/// momenta and angles of wheels whose p is a state and what forces have given to velocity and position:
+/// (p ... | angles ... | v1, v2, v3, - | x1, x2, x3, -).
+template <bool large>
+struct Places {
+  static constexpr int attitude = 0, momentum = 4, turned = 8, wheel = 12, angle = 20, velocity = 28, position = 32;
+  static constexpr int width = large ? 36 : 12;
+};
+
+template <Real Scalar, bool large>
+std::array<Scalar, Places<large>::width> first_numbers(const Prepared<Scalar>& from) noexcept {
+  using At = Places<large>;
+  std::array<Scalar, At::width> x{};
+  const auto& q = from.problem.attitude;
+  x[0] = q.w, x[1] = q.x, x[2] = q.y, x[3] = q.z;
+  for (std::size_t i = 0; i < 3; ++i) x[At::momentum + i] = from.momentum[int(i)];
+  if constexpr (large)
+    for (std::size_t i = 0; i < from.wheels.count; ++i) {
+      const auto& law = from.wheels.laws[i];
+      if (law.follows != Follows::state) continue;
+      x[At::wheel + i] = law.momentum;
+      x[At::angle + i] = law.angle;
+    }
+  return x;
+}
+
+/// The state that numbers at t mean by the laws of a piece, without the torque.
+template <Real Scalar, bool large>
+State<Scalar> state_of(const Prepared<Scalar>& of, const Piece<Scalar>& piece, Scalar t, const Scalar* x) noexcept {
+  using At = Places<large>;
+  const auto& wheels = of.wheels;
+  const Scalar s = t - piece.from;
+  State<Scalar> made;
+  made.attitude = normalised(Quat<Scalar>{x[0], x[1], x[2], x[3]});
+  const Vec3<Scalar> M(x[4], x[5], x[6]), turned(x[8], x[9], x[10]);
+  made.angular_momentum = M;
+  Vec3<Scalar> G = M - piece.momentum_at(t);
+  if constexpr (large)
+    for (std::size_t i = 0; i < wheels.count; ++i)
+      if (wheels.laws[i].follows == Follows::state) G -= x[At::wheel + int(i)] * wheels.laws[i].axis;
+  const Vec3<Scalar> w = wheels.inverse * G, w0 = of.problem.angular_velocity;
+  made.angular_velocity = w;
+  made.work = Vec3<Scalar>(w - w0).dot(wheels.reduced * Vec3<Scalar>(w + w0)) / 2;
+  for (std::size_t i = 0; i < wheels.count; ++i) {
+    const auto& law = wheels.laws[i];
+    if (law.follows == Follows::body) {
+      made.rotor_angle[i] = law.angle;
+      continue;
+    }
+    const Scalar I = law.axial_inertia, own = piece.wheels[i].at(s);
+    if (law.follows == Follows::state) {
+      made.rotor_rate[i] = x[At::wheel + int(i)] / I - law.axis.dot(w);
+      made.rotor_angle[i] = x[At::angle + int(i)];
+      made.work += (x[At::wheel + int(i)] - law.momentum) * (x[At::wheel + int(i)] + law.momentum) / (2 * I);
+      continue;
+    }
+    const Scalar integral = piece.wheels[i].integral + piece.wheels[i].gained(s) / I;
+    const bool held = law.follows == Follows::rate;
+    made.rotor_rate[i] = own / I - (held ? Scalar(0) : law.axis.dot(w));
+    made.rotor_angle[i] = law.angle + (integral - (held ? Scalar(0) : law.axis.dot(turned)));
+    if (law.follows == Follows::integral) made.work += (own - law.momentum) * (own + law.momentum) / (2 * I);
+  }
+  made.impulse = rotate<Scalar>(made.attitude, M) - rotate<Scalar>(of.problem.attitude, of.momentum);
+  if (of.problem.fixed) return made;
+  const Vec3<Scalar> gravity = of.problem.field.gravity * of.problem.field.down;
+  made.velocity = of.problem.velocity + t * gravity;
+  made.position = of.problem.position + t * (of.problem.velocity + t / 2 * gravity);
+  if constexpr (large) {
+    made.velocity += Vec3<Scalar>(x[28], x[29], x[30]);
+    made.position += Vec3<Scalar>(x[32], x[33], x[34]);
+  }
+  return made;
+}
+
+/// Taylor recurrences over one piece, with M x w as the state M in the user's axes.
+///
+/// One order costs two convolutions of M x w and three of the quaternion, two for each inertial direction that the torques see. The terms
+/// with the newest order of M are split off as one matrix, the Jacobian at the start of the step, so that an order waits for the last only
+/// through one matrix-vector product. All else (rest) is looked at only where there is something of it, and then order by order. Vectors
+/// that are seen from the body are formed from the quaternion at the start of every step, and expanded beside: they cannot drift.
+template <Real Real_, bool large>
+class FullSystem {
+ public:
+  using Scalar = Real_;
+  using At = Places<large>;
+  static constexpr int width = At::width;
+  using Numbers = std::array<Scalar, width>;
+
+  /// By-products of an expansion, in units of the step's unit of time.
+  template <int Order>
+  struct Work {
+    using Vectors = VectorSeries<Scalar, Order>;
+    using Series = NumberSeries<Scalar, Order>;
+    using Rows = Lanes<Scalar>[Order + 1];
+    Vectors rate;          ///< w unit
+    Rows momentum_turned;  ///< (M2, M3, M1)
+    Vectors seen[7];       ///< directions; radial, along; the part of a rotating field across its axis, and ahead of it
+    Rows wheels;           ///< w unit, less that of M
+    Vectors field, down, down_J, radial_J;
+    Rows induced;  ///< w_rel x B unit
+    Rows gradient, orbit_shape, orbit_gradient;
+    Rows drive, force_body, force_inertial;
+    Vectors current[most_factors + 1];  ///< K (w_rel x B) unit of each part
+    Rows torque[most_factors];          ///< of each part without its factor, times unit
+    Series factor[most_factors];
+    OrbitSeries<Scalar, Order> orbit;
+    Series strength, strength_out;  ///< of a dipole: b and -3 b cosine
+    Rows opposed[2], opposed_unit[2];
+    Scalar opposed_size[2][Order + 1];
+    Rows push[2];  ///< of wheels whose p is a state: T unit
+  };
+
+  /// The equations over a piece that begins with these numbers.
+  FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start) noexcept;
+
+  template <int Order>
+  void expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept;
+
+  /// Moves a state onto the laws it obeys exactly: |q| = 1; R M = L, constant without a torque (then the body is turned), or with a known
+  /// integral where all torque is inertial (then M gives way).
+  void project(Scalar t, Scalar* x, Scalar* low) const noexcept;
+
+  State<Scalar> state(Scalar t, const Scalar* x) const noexcept { return state_of<Scalar, large>(of_, piece_, t, x); }
+
+  /// What a brake opposes, N m s, by the numbers at t: the lesser of the two, if both laws are there; infinite without a brake.
+  Scalar braked(Scalar t, const Scalar* x) const noexcept;
+  bool has_brake() const noexcept { return sees_.total_brake || sees_.carrier_brake; }
+
+  /// What the steps measure errors against: 1 for the quaternion and W (rad), the momenta for M, that of its own for p, what forces do
+  /// in a radian's time for v.
+  Numbers scale() const noexcept;
+
+ private:
+  using Row = Lanes<Scalar>;
+  enum : int { radial = 3, along = 4, across = 5, ahead = 6 };
+
+  /// The constants of an expansion.
+  struct Constants {
+    Columns<Scalar> jacobian;  ///< of dM/dt by M
+    Columns<Scalar> rate;      ///< of w by M
+    Columns<Scalar> damping, direction[3];
+    Row first_momentum;
+    Scalar unit;
+  };
+
+  /// Order k + 1 from the orders up to k. Index: an integral constant, so that everything unrolls, or an int.
+  template <class Index, int Order>
+  GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
+                              const Constants& c) const noexcept;
+  template <class Index, int Order>
+  GYROSTAT_INLINE void turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, const Row& rate,
+                            const Row& share) const noexcept;
+  /// w unit of order k that does not come from M of that order.
+  template <int Order>
+  Row rate_of_wheels(int k, const Scalar (&x)[Order + 1][width], const Work<Order>& work,
+                     const Constants& c) const noexcept;
+  /// All torque of order k, times unit, but what is linear and has no factor; and order k + 1 of all vectors and numbers that are not in the
+  /// core.
+  template <int Order>
+  GYROSTAT_NOINLINE Row rest(int k, Scalar (&x)[Order + 1][width], Work<Order>& work,
+                             const Constants& c) const noexcept;
+  template <int Order>
+  Row bending(const Part<Scalar>& part, int k, typename Work<Order>::Vectors& current, Work<Order>& work,
+              Scalar unit) const noexcept;
+  template <int Order>
+  Row linear(const Part<Scalar>& part, int k, const Scalar (&x)[Order + 1][width], const Work<Order>& work,
+             Scalar unit) const noexcept;
+
+  template <int Order>
+  GYROSTAT_NOINLINE void begin(Scalar t, Scalar (&x)[Order + 1][width], Work<Order>& work,
+                               const Constants& c) const noexcept;
+  template <int Order>
+  void begin_field(Scalar t, const OrbitPoint<Scalar>& at, Work<Order>& work, Scalar unit) const noexcept;
+  template <int Order>
+  void begin_factors(Scalar t, Work<Order>& work, Scalar unit) const noexcept;
+  template <int Order>
+  void see(int k, Work<Order>& work, Scalar unit) const noexcept;
+  template <int Order>
+  void see_field(int k, Work<Order>& work) const noexcept;
+  template <int Order>
+  void oppose(int which, int k, const Row& opposed, Work<Order>& work) const noexcept;
+  template <int Order>
+  void turn_wheels(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work, Scalar unit) const noexcept;
+  template <int Order>
+  void move_centre(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work, Scalar unit) const noexcept;
+
+  void take_wheels() noexcept;
+  void take_parts() noexcept;
+
+  /// R M at t, where all torque of the piece is inertial.
+  Vec3<Scalar> known_momentum(Scalar t) const noexcept {
+    const Scalar s = t - piece_.from;
+    return inertial_[0] + s * (inertial_[1] + s * (inertial_[2] + s * (inertial_[3] + s * inertial_[4])));
+  }
+
+  const Prepared<Scalar>& of_;
+  const Piece<Scalar>& piece_;
+  Columns<Scalar> whole_;  ///< J
+  Directions<Scalar> directions_;
+  Sees sees_;
+  Vec3<Scalar> normal_{0, 0, 1};
+  Part<Scalar> steady_;
+  int factors_ = 0;
+  std::array<Part<Scalar>, most_factors> parts_;
+  std::array<int, most_factors> source_{};  ///< of each part: its power of time, or 4 + the place of its wave
+  bool has_rest_ = false, wheels_move_ = false, polynomial_ = false, keeps_momentum_ = false, free_ = false;
+  int wheel_count_ = 0;
+  std::array<int, most_wheels> wheel_{};  ///< those whose p is a state
+  Row axes_[2][3], inverse_[2], friction_[2];
+  std::array<Vec3<Scalar>, 5> inertial_;  ///< of known_momentum
+};
+
+template <Real Real_, bool large>
+FullSystem<Real_, large>::FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece,
+                                     const Numbers& start) noexcept
+    : of_(of), piece_(piece), whole_(of.wheels.whole) {
+  if (of.problem.orbit) normal_ = cross<Scalar>(of.problem.orbit->radial, of.problem.orbit->along);
+  take_parts();
+  take_wheels();
+  // R M at the begin of the piece, and what inertial torque adds to it
+  inertial_.fill({0, 0, 0});
+  inertial_[0] = rotate<Scalar>(normalised(Quat<Scalar>{start[0], start[1], start[2], start[3]}),
+                                Vec3<Scalar>(start[4], start[5], start[6]));
+  keeps_momentum_ = piece.waves.empty();
+  free_ = keeps_momentum_;
+  for (std::size_t i = 0; i < 4; ++i) {
+    Terms<Scalar> left = piece.power[i];
+    free_ = free_ && !left.any_torque();
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Scalar c = left.inertial[j](0, 0);
+      if (left.inertial[j] == c * Mat3<Scalar>::Identity()) left.inertial[j].setZero();
+      inertial_[i + 1][int(j)] = c / Scalar(int(i) + 1);
+    }
+    keeps_momentum_ = keeps_momentum_ && !left.any_torque();
+  }
+}
+
+template <Real Real_, bool large>
+auto FullSystem<Real_, large>::scale() const noexcept -> Numbers {
+  const Sizes<Scalar>& sizes = of_.sizes;
+  // where nothing moves any scale will do, but zero would leave the component out
+  const auto positive = [](Scalar size) noexcept { return size > 0 ? size : Scalar(1); };
+  const Scalar M = positive(std::max(sizes.momenta, sizes.built / 64));
+  Numbers made{1, 1, 1, 1, M, M, M, 0, 1, 1, 1, 0};
+  if constexpr (large) {
+    for (int i = 0; i < wheel_count_; ++i) {
+      const auto wheel = std::size_t(wheel_[std::size_t(i)]);
+      const auto& law = of_.wheels.laws[wheel];
+      using std::abs;
+      const Scalar push = abs(law.torque), driven = std::min(law.axial_inertia * push / law.friction, push * of_.span);
+      made[std::size_t(At::wheel) + wheel] =
+          positive(abs(law.momentum) + driven + std::min(M, law.axial_inertia * M / sizes.least));
+    }
+    const Scalar time = sizes.turning > 0 ? std::min(of_.span, 1 / sizes.turning) : of_.span;
+    for (std::size_t i = 0; i < 3; ++i) made[At::velocity + i] = sizes.force / of_.problem.mass * time;
+  }
+  return made;
+}
+
+template <Real Real_, bool large>
+void FullSystem<Real_, large>::take_parts() noexcept {
+  const auto& field = of_.problem.field;
+  const auto look = [&](const Terms<Scalar>& terms) noexcept {
+    add_directions(directions_, terms, normal_);
+    sees_.add(terms);
+  };
+  for (const auto& terms : piece_.power) look(terms);
+  for (const auto& wave : piece_.waves) look(wave.terms);
+  if (sees_.down) directions_.need(field.down);
+  if (sees_.field && field.magnetic == MagneticField::uniform) directions_.need(field.flux_density);
+  if (sees_.field && field.magnetic != MagneticField::uniform) directions_.need(field.axis);
+  if (sees_.body_force) directions_.need_all();
+  sees_.orbit = sees_.orbit || (sees_.field && field.magnetic == MagneticField::dipole);
+
+  steady_ = Part<Scalar>(piece_.power[0], directions_, normal_);
+  bool drives = false;
+  const auto take = [&](const Terms<Scalar>& terms, int source) noexcept {
+    const Part<Scalar> part(terms, directions_, normal_);
+    drives = drives || terms.any();
+    if (!part.moves() || factors_ == most_factors) return;
+    parts_[std::size_t(factors_)] = part;
+    source_[std::size_t(factors_++)] = source;
+  };
+  for (int i = 1; i < 4; ++i) take(piece_.power[std::size_t(i)], i);
+  for (std::size_t i = 0; i < piece_.waves.size(); ++i) take(piece_.waves[i].terms, 4 + int(i));
+  has_rest_ = steady_.bends() || drives || sees_.force;
+}
+
+template <Real Real_, bool large>
+void FullSystem<Real_, large>::take_wheels() noexcept {
+  const Row zero = lanes(Scalar(0));
+  for (int half = 0; half < 2; ++half) {
+    for (Row& axis : axes_[half]) axis = zero;
+    inverse_[half] = friction_[half] = zero;
+  }
+  for (std::size_t k = 1; k < 5; ++k) polynomial_ = polynomial_ || !piece_.momentum[k].isZero(0);
+  if constexpr (large) {
+    Scalar axes[3][8] = {}, inverse[8] = {}, friction[8] = {};
+    for (std::size_t i = 0; i < of_.wheels.count; ++i) {
+      const auto& law = of_.wheels.laws[i];
+      if (law.follows != Follows::state) continue;
+      wheel_[std::size_t(wheel_count_++)] = int(i);
+      for (int j = 0; j < 3; ++j) axes[j][i] = law.axis[j];
+      inverse[i] = 1 / law.axial_inertia, friction[i] = law.friction;
+    }
+    for (int half = 0; half < 2; ++half) {
+      for (int j = 0; j < 3; ++j) axes_[half][j] = load(&axes[j][4 * half]);
+      inverse_[half] = load(&inverse[4 * half]), friction_[half] = load(&friction[4 * half]);
+    }
+  }
+  wheels_move_ = polynomial_ || wheel_count_ > 0;
+}
+
+template <Real Real_, bool large>
+template <int Order>
+auto FullSystem<Real_, large>::rate_of_wheels(int k, const Scalar (&x)[Order + 1][width], const Work<Order>& work,
+                                              const Constants& c) const noexcept -> Row {
+  Row momentum = work.wheels[k];
+  if constexpr (large)
+    for (int i = 0; i < wheel_count_; ++i) {
+      const int wheel = wheel_[std::size_t(i)];
+      momentum = multiply_add(lanes(-x[k][At::wheel + wheel]), row(of_.wheels.laws[std::size_t(wheel)].axis), momentum);
+    }
+  return c.rate * momentum;
+}
+
+template <Real Real_, bool large>
+template <class Index, int Order>
+GYROSTAT_INLINE void FullSystem<Real_, large>::turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
+                                                    const Row& rate, const Row& share) const noexcept {
+  const auto& o = work.rate.v;
+  Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
+  count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
+    const Row q = load(&x[k - j][0]);
+    s0 = multiply_add(shuffle<0, 0, 0, 0>(o[j]), q, s0);
+    s1 = multiply_add(shuffle<1, 1, 1, 1>(o[j]), q, s1);
+    s2 = multiply_add(shuffle<2, 2, 2, 2>(o[j]), q, s2);
+  });
+  const Row first = load(&x[0][0]), last = load(&x[k][0]);
+  s0 = multiply_add(shuffle<0, 0, 0, 0>(o[0]), last, multiply_add(shuffle<0, 0, 0, 0>(rate), first, s0));
+  s1 = multiply_add(shuffle<1, 1, 1, 1>(o[0]), last, multiply_add(shuffle<1, 1, 1, 1>(rate), first, s1));
+  s2 = multiply_add(shuffle<2, 2, 2, 2>(o[0]), last, multiply_add(shuffle<2, 2, 2, 2>(rate), first, s2));
+  store(&x[k + 1][0], share * lanes(Scalar(0.5L)) * times_units(s0, s1, s2));
+  store(&x[k + 1][At::turned], share * rate);
+}
+
+template <Real Real_, bool large>
+template <class Index, int Order>
+GYROSTAT_INLINE void FullSystem<Real_, large>::extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
+                                                      Row& newest, const Constants& c) const noexcept {
+  const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
+  const auto &o = work.rate.v, &o_turned = work.rate.turned;
+  // M_j x w_(k-j) but for j = 0 and k
+  Row known = lanes(Scalar(0)), known_2 = known;
+  count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
+    known = multiply_add(load(&x[j][At::momentum]), o_turned[k - j], known);
+    known_2 = multiply_add(work.momentum_turned[j], o[k - j], known_2);
+  });
+  known = shuffle<1, 2, 0, 3>(known - known_2);
+
+  Row rate = c.rate * newest;
+  if (wheels_move_) {
+    const Row of_wheels = rate_of_wheels(k, x, work, c);
+    rate = rate + of_wheels;
+    known = known + cross_rows(c.first_momentum, of_wheels) - c.damping * of_wheels;
+  }
+  work.rate.set(k, rate);
+  work.momentum_turned[k] = shuffle<1, 2, 0, 3>(newest);
+  for (int i = 0; i < directions_.count; ++i) {
+    auto& seen = work.seen[i];
+    known = c.direction[i].times(seen.v[k], known);
+    Row first = lanes(Scalar(0)), second = first;
+    count_down<Scalar>(k, [&](int j) GYROSTAT_INLINE_LAMBDA {
+      first = multiply_add(seen.v[j], o_turned[k - j], first);
+      second = multiply_add(seen.turned[j], o[k - j], second);
+    });
+    first = multiply_add(seen.v[0], o_turned[k], first), second = multiply_add(seen.turned[0], o[k], second);
+    seen.set(k + 1, share * shuffle<1, 2, 0, 3>(first - second));
+  }
+  turn(k, x, work, rate, share);
+  if (has_rest_) known = known + rest(k, x, work, c);
+  if (large && wheel_count_ > 0) turn_wheels(k, x, work, c.unit);
+  newest = share * c.jacobian.times(newest, known);
+  store(&x[k + 1][At::momentum], newest);
+}
+
+template <Real Real_, bool large>
+template <int Order>
+void FullSystem<Real_, large>::expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width],
+                                      Work<Order>& work) const noexcept {
+  const Vec3<Scalar> M(x[0][4], x[0][5], x[0][6]);
+  Vec3<Scalar> G = M - piece_.momentum_at(t);
+  if constexpr (large)
+    for (int i = 0; i < wheel_count_; ++i) {
+      const int wheel = wheel_[std::size_t(i)];
+      G -= x[0][At::wheel + wheel] * of_.wheels.laws[std::size_t(wheel)].axis;
+    }
+  const Mat3<Scalar> inverse = unit * of_.wheels.inverse;
+  const Vec3<Scalar> w = inverse * G;
+  const Terms<Scalar>& terms = piece_.power[0];
+  Constants c;
+  c.unit = unit;
+  c.rate = Columns<Scalar>(inverse);
+  c.first_momentum = row(M);
+  c.jacobian = Columns<Scalar>(cross_matrix<Scalar>(M) * inverse - cross_matrix<Scalar>(w) - terms.by_rate * inverse -
+                               unit * terms.by_momentum);
+  c.damping = steady_.by_rate;
+  for (int i = 0; i < directions_.count; ++i)
+    for (int j = 0; j < 3; ++j) c.direction[i].of[j] = lanes(unit) * steady_.direction[i].of[j];
+
+  const Row rate = row(w), half = lanes(Scalar(0.5L)) * rate, q = load(&x[0][0]);
+  work.rate.set(0, rate);
+  work.momentum_turned[0] = shuffle<1, 2, 0, 3>(c.first_momentum);
+  store(&x[1][0],
+        times_units(shuffle<0, 0, 0, 0>(half) * q, shuffle<1, 1, 1, 1>(half) * q, shuffle<2, 2, 2, 2>(half) * q));
+  store(&x[1][At::turned], rate);
+  begin(t, x, work, c);
+  Row newest = cross_rows(c.first_momentum, rate) - c.damping * rate +
+               lanes(unit) * (steady_.body - steady_.by_momentum * c.first_momentum);
+  for (int i = 0; i < directions_.count; ++i) {
+    auto& seen = work.seen[i];
+    newest = c.direction[i].times(seen.v[0], newest);
+    seen.set(1, cross_rows(seen.v[0], rate));
+  }
+  if (has_rest_) newest = newest + rest(0, x, work, c);
+  if (large && wheel_count_ > 0) turn_wheels(0, x, work, unit);
+  store(&x[1][At::momentum], newest);
+
+  const auto next = [&](auto k) GYROSTAT_INLINE_LAMBDA { extend(k, x, work, newest, c); };
+  count_up<Scalar, Order - 1>(next);
+}
+
+template <Real Real_, bool large>
+template <int Order>
+void FullSystem<Real_, large>::begin(Scalar t, Scalar (&x)[Order + 1][width], Work<Order>& work,
+                                     const Constants& c) const noexcept {
+  const Scalar unit = c.unit, s = t - piece_.from;
+  const auto to_body = [q = conjugate(normalised(Quat<Scalar>{x[0][0], x[0][1], x[0][2], x[0][3]}))](
+                           const Vec3<Scalar>& v_I) noexcept { return row<Scalar>(rotate<Scalar>(q, v_I)); };
+  for (int i = 0; i < directions_.count; ++i) work.seen[i].set(0, to_body(directions_.of[std::size_t(i)]));
+  if (wheels_move_) {
+    for (int k = 0; k <= Order; ++k) work.wheels[k] = lanes(Scalar(0));
+    // the coefficients about s, by Horner's scheme repeated
+    auto h = piece_.momentum;
+    Scalar scale = -1;
+    for (std::size_t k = 0; k < 5; ++k, scale *= unit) {
+      for (std::size_t j = 4; j > k; --j) h[j - 1] += s * h[j];
+      if (k > 0) work.wheels[k] = row<Scalar>(scale * h[k]);
+    }
+  }
+  if constexpr (large) {
+    Scalar push[4][8] = {};
+    for (int i = 0; i < wheel_count_; ++i) {
+      const auto wheel = std::size_t(wheel_[std::size_t(i)]);
+      const auto& T = piece_.wheels[wheel].c;
+      const Cubic<Scalar> about = Cubic<Scalar>{Scalar(0), {T[0], T[1], T[2], T[3]}}.about(s);
+      Scalar scale = unit;
+      for (std::size_t k = 0; k < 4; ++k, scale *= unit) push[k][wheel] = scale * about.c[k];
+    }
+    for (int half = 0; half < 2; ++half)
+      for (int k = 0; k <= Order; ++k) work.push[half][k] = k < 4 ? load(&push[k][4 * half]) : lanes(Scalar(0));
+    for (int k = 1; k <= Order; ++k)
+      for (int lane = At::wheel; lane < width; lane += 4) store(&x[k][lane], lanes(Scalar(0)));
+    // without a force the centre goes on as it does
+    store(&x[1][At::position], lanes(unit) * load(&x[0][At::velocity]));
+  }
+  if (!has_rest_) return;
+  OrbitPoint<Scalar> at;
+  if (sees_.orbit) {
+    at = orbit_at(*of_.problem.orbit, t);
+    work.orbit.set(*of_.problem.orbit, at, unit, of_.problem.field.axis);
+    work.seen[radial].set(0, to_body(at.radial));
+    work.seen[along].set(0, to_body(at.along));
+  }
+  if (sees_.field && of_.problem.field.magnetic == MagneticField::rotating) {
+    const Vec3<Scalar>& k = of_.problem.field.axis;
+    const Vec3<Scalar> B = field_at(of_.problem, t).flux_density, part = B - k * k.dot(B);
+    work.seen[across].set(0, to_body(part));
+    work.seen[ahead].set(0, to_body(cross<Scalar>(k, part)));
+  }
+  begin_field(t, at, work, unit);
+  begin_factors(t, work, unit);
+}
+
+template <Real Real_, bool large>
+template <int Order>
+void FullSystem<Real_, large>::begin_field(Scalar, const OrbitPoint<Scalar>& at, Work<Order>& work,
+                                           Scalar) const noexcept {
+  const auto& field = of_.problem.field;
+  if (!sees_.field) return;
+  if (field.magnetic == MagneticField::dipole) {
+    const Scalar ratio = field.radius / at.radius, b = field.strength * ratio * ratio * ratio;
+    const auto& gradient = work.orbit.gradient;
+    work.strength.last = gradient.last;
+    for (int k = 0; k <= gradient.last; ++k) work.strength.c[k] = b / at.gradient * gradient.c[k];
+    work.strength_out.last = Order;
+    for (int k = 0; k <= Order; ++k) work.strength_out.c[k] = -3 * work.strength.times(work.orbit.cosine.c, k);
+  }
+  see_field(0, work);
+}
+
+template <Real Real_, bool large>
+template <int Order>
+void FullSystem<Real_, large>::begin_factors(Scalar t, Work<Order>& work, Scalar unit) const noexcept {
+  const Row zero = lanes(Scalar(0));
+  for (int k = 0; k <= Order; ++k) work.drive[k] = work.force_body[k] = work.force_inertial[k] = zero;
+  work.force_body[0] = row(piece_.power[0].force_body);
+  work.force_inertial[0] = row(piece_.power[0].force_inertial);
+  int next = 0;
+  const auto take = [&](const Terms<Scalar>& terms, int source, const auto& factor) noexcept {
+    if (!terms.any()) return;
+    for (int k = 0; k <= factor.last; ++k) {
+      const Row by = lanes(factor.c[k]);
+      work.drive[k] = multiply_add(by, row(terms.body), work.drive[k]);
+      work.force_body[k] = multiply_add(by, row(terms.force_body), work.force_body[k]);
+      work.force_inertial[k] = multiply_add(by, row(terms.force_inertial), work.force_inertial[k]);
+    }
+    if (next < factors_ && source_[std::size_t(next)] == source) work.factor[next++] = factor;
+  };
+  NumberSeries<Scalar, Order> factor;
+  for (std::size_t i = 1; i < 4; ++i) {
+    Cubic<Scalar> power{piece_.from, {}};
+    power.c[i] = 1;
+    factor.set(power.about(t), unit);
+    take(piece_.power[i], int(i), factor);
+  }
+  for (std::size_t i = 0; i < piece_.waves.size(); ++i) {
+    const auto& wave = piece_.waves[i];
+    factor.set(wave.cubic.about(t), unit, wave.rate, wave.phase);
+    take(wave.terms, 4 + int(i), factor);
+  }
+}
+
+template <Real Real_, bool large>
+template <int Order>
+void FullSystem<Real_, large>::see_field(int k, Work<Order>& work) const noexcept {
+  const auto& field = of_.problem.field;
+  const auto by_directions = [&](const Vec3<Scalar>& v_I, int order) noexcept {
+    Row sum = lanes(Scalar(0));
+    for (int i = 0; i < directions_.count; ++i)
+      sum = multiply_add(lanes(directions_.share(i, v_I)), work.seen[i].v[order], sum);
+    return sum;
+  };
+  switch (field.magnetic) {
+    case MagneticField::none: break;
+    case MagneticField::uniform: work.field.set(k, by_directions(field.flux_density, k)); break;
+    case MagneticField::rotating:
+      work.field.set(k, work.seen[across].v[k] + by_directions(field.axis * field.axis.dot(field.flux_density), k));
+      break;
+    case MagneticField::dipole: {
+      Row sum = work.strength_out.times(work.seen[radial].v, k);
+      for (int j = std::min(work.strength.last, k); j >= 0; --j)
+        sum = multiply_add(lanes(work.strength.c[j]), by_directions(field.axis, k - j), sum);
+      work.field.set(k, sum);
+      break;
+    }
+  }
+}
+
+template <Real Real_, bool large>
+template <int Order>
+void FullSystem<Real_, large>::see(int k, Work<Order>& work, Scalar unit) const noexcept {
+  const Row share = lanes(Scalar(1) / Scalar(k + 1));
+  const auto pair = [&](int first, int second, const auto& turning) noexcept {
+    auto &a = work.seen[first], &b = work.seen[second];
+    const Row a_rate = cross_term(a, work.rate, k) + turning.times(b.v, k);
+    const Row b_rate = cross_term(b, work.rate, k) - turning.times(a.v, k);
+    a.set(k + 1, share * a_rate), b.set(k + 1, share * b_rate);
+  };
+  if (sees_.orbit) pair(radial, along, work.orbit.rate);
+  const auto& field = of_.problem.field;
+  if (sees_.field && field.magnetic == MagneticField::rotating) {
+    NumberSeries<Scalar, Order> turning;
+    turning.set_constant(unit * field.rate);
+    pair(across, ahead, turning);
+  }
+  if (sees_.field) {
+    see_field(k + 1, work);
+    work.induced[k] = lanes(-Scalar(k + 1)) * work.field.v[k + 1];
+  }
+}
+
+template <Real Real_, bool large>
+template <int Order>
+void FullSystem<Real_, large>::oppose(int which, int k, const Row& opposed, Work<Order>& work) const noexcept {
+  auto &U = work.opposed[which], &z = work.opposed_unit[which];
+  auto& size = work.opposed_size[which];
+  U[k] = opposed;
+  Row square = lanes(Scalar(0)), rest = opposed;
+  for (int j = 0; j <= k; ++j) square = multiply_add(U[j], U[k - j], square);
+  const Scalar total = sum(square)[0];
+  if (k == 0) {
+    using std::sqrt;
+    size[0] = sqrt(total);
+  } else {
+    size[k] = math::square_root(total, size, k, 1 / (2 * size[0]));
+  }
+  for (int j = 1; j <= k; ++j) rest = rest - lanes(size[j]) * z[k - j];
+  z[k] = lanes(1 / size[0]) * rest;
+}
+
+template <Real Real_, bool large>
+template <int Order>
+auto FullSystem<Real_, large>::bending(const Part<Scalar>& part, int k, typename Work<Order>::Vectors& current,
+                                       Work<Order>& work, Scalar unit) const noexcept -> Row {
+  Row sum = lanes(Scalar(0));
+  if (part.has_orbital) sum = part.radial.times(work.seen[radial].v[k], part.along.times(work.seen[along].v[k], sum));
+  if (part.gradient != 0) sum = multiply_add(lanes(part.gradient), work.gradient[k], sum);
+  if (part.orbit_gradient != 0) sum = multiply_add(lanes(part.orbit_gradient), work.orbit_gradient[k], sum);
+  if (part.has_dipole) sum = sum + cross_rows(part.dipole, work.field.v[k]);
+  if (part.has_total) sum = sum - part.brake_total * work.opposed_unit[0][k];
+  if (part.has_carrier) sum = sum - part.brake_carrier * work.opposed_unit[1][k];
+  sum = lanes(unit) * sum;
+  if (part.has_eddy) {
+    current.set(k, part.eddy * work.induced[k]);
+    sum = sum + cross_term(current, work.field, k);
+  }
+  return sum;
+}
+
+template <Real Real_, bool large>
+template <int Order>
+auto FullSystem<Real_, large>::linear(const Part<Scalar>& part, int k, const Scalar (&x)[Order + 1][width],
+                                      const Work<Order>& work, Scalar unit) const noexcept -> Row {
+  Row sum = lanes(Scalar(0));
+  if (part.has_momentum) sum = sum - part.by_momentum * load(&x[k][At::momentum]);
+  if (part.has_directions)
+    for (int i = 0; i < directions_.count; ++i) sum = part.direction[i].times(work.seen[i].v[k], sum);
+  sum = lanes(unit) * sum;
+  if (part.has_rate) sum = sum - part.by_rate * work.rate.v[k];
+  return sum;
+}
+
+template <Real Real_, bool large>
+template <int Order>
+auto FullSystem<Real_, large>::rest(int k, Scalar (&x)[Order + 1][width], Work<Order>& work,
+                                    const Constants& c) const noexcept -> Row {
+  const Scalar unit = c.unit;
+  see(k, work, unit);
+  if (sees_.total_brake) oppose(0, k, load(&x[k][At::momentum]), work);
+  if (sees_.carrier_brake) oppose(1, k, whole_ * work.rate.v[k], work);
+  if (sees_.down) {
+    Row down = lanes(Scalar(0));
+    for (int i = 0; i < directions_.count; ++i)
+      down = multiply_add(lanes(directions_.share(i, of_.problem.field.down)), work.seen[i].v[k], down);
+    work.down.set(k, down);
+    work.down_J.set(k, whole_ * down);
+    work.gradient[k] = cross_term(work.down, work.down_J, k);
+  }
+  if (sees_.orbit) {
+    work.radial_J.set(k, whole_ * work.seen[radial].v[k]);
+    work.orbit_shape[k] = cross_term(work.seen[radial], work.radial_J, k);
+    work.orbit_gradient[k] = work.orbit.gradient.times(work.orbit_shape, k);
+  }
+  Row sum = bending(steady_, k, work.current[0], work, unit) + lanes(unit) * work.drive[k];
+  for (int i = 0; i < factors_; ++i) {
+    const auto& part = parts_[std::size_t(i)];
+    work.torque[i][k] = bending(part, k, work.current[i + 1], work, unit) + linear(part, k, x, work, unit);
+    sum = sum + work.factor[i].times(work.torque[i], k);
+  }
+  if (large && sees_.force) move_centre(k, x, work, unit);
+  return sum;
+}
+
+template <Real Real_, bool large>
+template <int Order>
+void FullSystem<Real_, large>::turn_wheels(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work,
+                                           Scalar unit) const noexcept {
+  const Row share = lanes(Scalar(1) / Scalar(k + 1)), rate = work.rate.v[k];
+  for (int half = 0; half < 2; ++half) {
+    const int lane = 4 * half;
+    const auto& u = axes_[half];
+    const Row along_axes =
+        multiply_add(u[0], shuffle<0, 0, 0, 0>(rate),
+                     multiply_add(u[1], shuffle<1, 1, 1, 1>(rate), u[2] * shuffle<2, 2, 2, 2>(rate)));
+    const Row turning = lanes(unit) * inverse_[half] * load(&x[k][At::wheel + lane]) - along_axes;
+    store(&x[k + 1][At::wheel + lane], share * (work.push[half][k] - friction_[half] * turning));
+    store(&x[k + 1][At::angle + lane], share * turning);
+  }
+}
+
+template <Real Real_, bool large>
+template <int Order>
+void FullSystem<Real_, large>::move_centre(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work,
+                                           Scalar unit) const noexcept {
+  const Row share = lanes(unit / Scalar(k + 1));
+  Row force = work.force_inertial[k];
+  if (sees_.body_force) {
+    Scalar component[3];
+    for (int i = 0; i < 3; ++i) {
+      Row product = lanes(Scalar(0));
+      for (int j = 0; j <= k; ++j) product = multiply_add(work.seen[i].v[k - j], work.force_body[j], product);
+      component[i] = sum(product)[0];
+    }
+    force = force + lanes(component[0], component[1], component[2], Scalar(0));
+  }
+  store(&x[k + 1][At::velocity], share * lanes(1 / of_.problem.mass) * force);
+  store(&x[k + 1][At::position], share * load(&x[k][At::velocity]));
+}
+
+template <Real Real_, bool large>
+void FullSystem<Real_, large>::project(Scalar t, Scalar* x, Scalar* low) const noexcept {
+  Scalar excess = -1, stretched = 0;
+  for (int i = 0; i < 4; ++i) excess += x[i] * x[i];
+  for (int i = 0; i < 4; ++i) stretched += x[i] * low[i];
+  const Scalar stretch = -excess / 2 - stretched;
+  const Quat<Scalar> q{x[0], x[1], x[2], x[3]};
+  Quat<Scalar> more{stretch * q.w, stretch * q.x, stretch * q.y, stretch * q.z};
+  if (keeps_momentum_) {
+    const Vec3<Scalar> M(x[4], x[5], x[6]), wanted = rotate<Scalar>(conjugate(q), known_momentum(t));
+    if (const Scalar size = M.norm(); free_ && size > 0) {
+      // the turn d of the body with d x M = R^T L - M
+      const Vec3<Scalar> d = cross<Scalar>(M / size, Vec3<Scalar>(wanted - M) / size);
+      const Quat<Scalar> turned = q * Quat<Scalar>{0, d[0] / 2, d[1] / 2, d[2] / 2};
+      more = {more.w + turned.w, more.x + turned.x, more.y + turned.y, more.z + turned.z};
+    } else if (!free_) {
+      for (int i = 0; i < 3; ++i) {
+        x[4 + i] = wanted[i];
+        low[4 + i] = 0;
+      }
+    }
+  }
+  add_to(x[0], low[0], more.w);
+  add_to(x[1], low[1], more.x);
+  add_to(x[2], low[2], more.y);
+  add_to(x[3], low[3], more.z);
+}
+
+template <Real Real_, bool large>
+auto FullSystem<Real_, large>::braked(Scalar t, const Scalar* x) const noexcept -> Scalar {
+  Scalar least = infinity<Scalar>;
+  if (sees_.total_brake) least = Vec3<Scalar>(x[4], x[5], x[6]).norm();
+  if (sees_.carrier_brake) least = std::min(least, (of_.wheels.whole * state(t, x).angular_velocity).norm());
+  return least;
+}
+
+}  // namespace gyrostat::general

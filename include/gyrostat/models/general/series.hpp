@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/core/lanes.hpp"
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/math/series.hpp"
+#include "gyrostat/models/general/problem.hpp"
+#include "gyrostat/models/general/surroundings.hpp"
+#include "gyrostat/models/general/table.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// Power series of vectors and of what is known over time, for the steps of the full equations: coefficients of (s/unit)^k.
+namespace gyrostat::general {
+
+/// A row of three numbers and a zero.
+template <Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> row(const Vec3<Scalar>& v) noexcept {
+  return lanes(v[0], v[1], v[2], Scalar(0));
+}
+
+/// A matrix by its columns.
+template <Real Scalar>
+struct Columns {
+  Lanes<Scalar> of[3] = {lanes(Scalar(0)), lanes(Scalar(0)), lanes(Scalar(0))};
+
+  Columns() = default;
+  explicit Columns(const Mat3<Scalar>& m) noexcept {
+    for (int j = 0; j < 3; ++j) of[j] = row<Scalar>(m.col(j));
+  }
+  /// m v + rest
+  GYROSTAT_INLINE Lanes<Scalar> times(const Lanes<Scalar>& v, const Lanes<Scalar>& rest) const noexcept {
+    return multiply_add(of[0], shuffle<0, 0, 0, 0>(v),
+                        multiply_add(of[1], shuffle<1, 1, 1, 1>(v), multiply_add(of[2], shuffle<2, 2, 2, 2>(v), rest)));
+  }
+  GYROSTAT_INLINE Lanes<Scalar> operator*(const Lanes<Scalar>& v) const noexcept { return times(v, lanes(Scalar(0))); }
+};
+
+/// The coefficients of a vector, and beside each (v2, v3, v1), with which products are made.
+template <Real Scalar, int Order>
+struct VectorSeries {
+  Lanes<Scalar> v[Order + 1];
+  Lanes<Scalar> turned[Order + 1];
+
+  GYROSTAT_INLINE void set(int k, const Lanes<Scalar>& value) noexcept {
+    v[k] = value;
+    turned[k] = shuffle<1, 2, 0, 3>(value);
+  }
+};
+
+/// a x b of two vectors with their (v2, v3, v1), still to be turned itself: shuffle<1, 2, 0, 3> of sums of these are sums of products.
+template <Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> half_cross(const Lanes<Scalar>& a, const Lanes<Scalar>& a_turned, const Lanes<Scalar>& b,
+                                         const Lanes<Scalar>& b_turned, const Lanes<Scalar>& rest) noexcept {
+  return multiply_add(a, b_turned, rest - a_turned * b);
+}
+
+template <Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> cross_rows(const Lanes<Scalar>& a, const Lanes<Scalar>& b) noexcept {
+  return shuffle<1, 2, 0, 3>(half_cross(a, shuffle<1, 2, 0, 3>(a), b, shuffle<1, 2, 0, 3>(b), lanes(Scalar(0))));
+}
+
+/// Coefficient k of a x b.
+template <Real Scalar, int Order>
+Lanes<Scalar> cross_term(const VectorSeries<Scalar, Order>& a, const VectorSeries<Scalar, Order>& b, int k) noexcept {
+  Lanes<Scalar> first = lanes(Scalar(0)), second = first;
+  for (int j = 0; j <= k; ++j) {
+    first = multiply_add(a.v[j], b.turned[k - j], first);
+    second = multiply_add(a.turned[j], b.v[k - j], second);
+  }
+  return shuffle<1, 2, 0, 3>(first - second);
+}
+
+/// A number over time, with coefficients up to `last`.
+template <Real Scalar, int Order>
+struct NumberSeries {
+  Scalar c[Order + 1];
+  int last = 0;
+
+  void set_constant(Scalar value) noexcept { c[0] = value, last = 0; }
+  /// A cubic about the begin of the step.
+  void set(const Cubic<Scalar>& cubic, Scalar unit) noexcept {
+    Scalar scale = 1;
+    for (int i = 0; i < 4; ++i, scale *= unit) c[i] = cubic.c[static_cast<std::size_t>(i)] * scale;
+    for (last = 3; last > 0 && c[last] == 0;) --last;
+  }
+  /// The same times sin(rate t + phase).
+  void set(const Cubic<Scalar>& cubic, Scalar unit, Scalar rate, Scalar phase) noexcept {
+    using std::cos, std::sin;
+    const Scalar angle = rate * cubic.origin + phase, turn = rate * unit;
+    Scalar s[Order + 1];
+    s[0] = sin(angle), s[1] = turn * cos(angle);
+    for (int k = 2; k <= Order; ++k) s[k] = -turn * turn * s[k - 2] / Scalar(k * (k - 1));
+    NumberSeries factor;
+    factor.set(cubic, unit);
+    for (int k = 0; k <= Order; ++k) c[k] = factor.times(s, k);
+    last = Order;
+  }
+  /// Coefficient k of this times the series a of numbers or rows.
+  Scalar times(const Scalar* a, int k) const noexcept {
+    Scalar sum = 0;
+    for (int j = std::min(last, k); j >= 0; --j) sum += c[j] * a[k - j];
+    return sum;
+  }
+  Lanes<Scalar> times(const Lanes<Scalar>* a, int k) const noexcept {
+    Lanes<Scalar> sum = lanes(Scalar(0));
+    for (int j = std::min(last, k); j >= 0; --j) sum = multiply_add(lanes(c[j]), a[k - j], sum);
+    return sum;
+  }
+};
+
+/// The orbit from t on: rate of turning times unit, gradient N, and the cosine of the angle between radius and a direction m, its two
+/// parts given at t.
+template <Real Scalar, int Order>
+struct OrbitSeries {
+  NumberSeries<Scalar, Order> rate, gradient, cosine;
+
+  void set(const Orbit<Scalar>& orbit, const OrbitPoint<Scalar>& at, Scalar unit, const Vec3<Scalar>& m) noexcept {
+    if (orbit.eccentricity == 0) {
+      rate.set_constant(unit * at.rate);
+      gradient.set_constant(at.gradient);
+    } else {
+      set_eccentric(at, unit);
+    }
+    Scalar out[Order + 1], on[Order + 1];  // m.radial, m.along
+    out[0] = m.dot(at.radial), on[0] = m.dot(at.along);
+    for (int k = 0; k < Order; ++k) {
+      out[k + 1] = rate.times(on, k) / Scalar(k + 1);
+      on[k + 1] = -rate.times(out, k) / Scalar(k + 1);
+    }
+    std::copy(out, out + Order + 1, cosine.c);
+    cosine.last = Order;
+  }
+
+ private:
+  /// By y = r/r(t): y'' = n^2 (z^3 - z^2 mu/(r^3 n^2)) with z = 1/y, n and r those at t; rate n z^2, gradient N z^3.
+  void set_eccentric(const OrbitPoint<Scalar>& at, Scalar unit) noexcept {
+    const Scalar turn = unit * at.rate, centrifugal = turn * turn, pull = unit * unit * at.gradient / 3;
+    Scalar y[Order + 2], z[Order + 1], square[Order + 1], cube[Order + 1];
+    y[0] = 1, y[1] = unit * at.climb / at.radius;
+    for (int k = 0; k <= Order; ++k) {
+      z[k] = math::quotient(Scalar(k == 0 ? 1 : 0), y, z, k, Scalar(1));
+      square[k] = math::square(z, k);
+      cube[k] = math::product(z, square, k);
+      rate.c[k] = turn * square[k];
+      gradient.c[k] = at.gradient * cube[k];
+      if (k + 2 <= Order) y[k + 2] = (centrifugal * cube[k] - pull * square[k]) / Scalar((k + 1) * (k + 2));
+    }
+    rate.last = gradient.last = Order;
+  }
+};
+
+}  // namespace gyrostat::general

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/models/general/collected.hpp"
+#include "gyrostat/models/general/problem.hpp"
+#include "gyrostat/models/general/surroundings.hpp"
+#include "gyrostat/models/general/wheels.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// How large the quantities of a motion are, or may become.
+namespace gyrostat::general {
+
+template <Real Scalar>
+struct Sizes {
+  Scalar momenta = 0;  ///< of body and wheels at t = 0, their magnitudes summed, N m s
+  Scalar torque = 0;   ///< a bound of all torques but those that vanish with the motion, and of the motors, N m
+  Scalar force = 0;    ///< of the forces that move the mass centre, N
+  Scalar built =
+      0;  ///< momentum that the torques build up over the span, or until the body has turned by about a radian, N m s
+  Scalar least = 1, greatest = 1;  ///< moments of J* and J, kg m^2
+  Scalar turning = 0;              ///< how fast the body turns or could soon turn, of the order of |w|, rad/s
+
+  /// The momenta, or what the torques build up where there are none.
+  Scalar momentum() const noexcept { return momenta > 0 ? momenta : built; }
+};
+
+namespace detail {
+
+/// The greatest magnitude of a factor.
+template <Real Scalar>
+Scalar greatest_factor(const Factor<Scalar>& factor) noexcept {
+  using std::abs;
+  Scalar table = factor.table.values.empty() ? Scalar(1) : Scalar(0);
+  for (const Scalar v : factor.table.values) table = std::max(table, abs(v));
+  return table * (abs(factor.mean) + abs(factor.amplitude));
+}
+
+/// A bound of the torques of a record without its factor, where the body stands still.
+template <Real Scalar>
+Scalar torque_size(const Problem<Scalar>& problem, const Terms<Scalar>& terms, Scalar greatest) noexcept {
+  using std::abs;
+  Scalar sum = terms.body.norm() + terms.brake_total.norm() + terms.brake_carrier.norm();
+  for (std::size_t j = 0; j < 3; ++j) sum += terms.inertial[j].norm() + terms.orbital[j].norm();
+  sum += abs(terms.gradient) * greatest;
+  if (terms.orbit_gradient != 0) {
+    const auto at = orbit_at(*problem.orbit, Scalar(0));
+    sum += abs(terms.orbit_gradient) * at.gradient * greatest;
+  }
+  if (terms.dipole.isZero(0) && terms.eddy.isZero(0)) return sum;
+  const auto field = field_at(problem, Scalar(0));
+  return sum + terms.dipole.norm() * field.flux_density.norm() +
+         terms.eddy.norm() * field.flux_density.norm() * field.rate.norm();
+}
+
+}  // namespace detail
+
+template <Real Scalar>
+Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& wheels, const Collected<Scalar>& torques,
+                       Scalar span) noexcept {
+  using std::abs, std::sqrt;
+  Sizes<Scalar> made;
+  made.least = symmetric_eigen<Scalar>(wheels.reduced).values[0];
+  made.greatest = symmetric_eigen<Scalar>(wheels.whole).values[2];
+  made.momenta = (wheels.reduced * problem.angular_velocity).norm() + wheels.rotor_momentum.norm();
+  for (std::size_t i = 0; i < wheels.count; ++i) {
+    const auto& law = wheels.laws[i];
+    made.momenta += abs(law.momentum);
+    if (law.follows == Follows::rate) {
+      Scalar rate = abs(law.rate);
+      for (const Scalar v : problem.wheels[i].table.values) rate = std::max(rate, abs(v));
+      made.momenta += law.tabled ? law.axial_inertia * rate : Scalar(0);
+      continue;
+    }
+    Scalar push = abs(law.torque);
+    for (const Scalar v : problem.wheels[i].table.values) push = std::max(push, abs(law.torque + v));
+    if (law.turns_by_itself()) made.torque += push + law.friction * abs(law.rate);
+  }
+  for (const auto& record : torques.records) {
+    const Scalar factor = detail::greatest_factor(record.factor);
+    made.torque += factor * detail::torque_size(problem, record.sum, made.greatest);
+    made.force += factor * (record.sum.force_body.norm() + record.sum.force_inertial.norm());
+  }
+  made.built = std::min(made.torque * span, sqrt(made.torque * made.greatest));
+  made.turning = made.momenta / made.least + std::min(made.torque * span / made.least, sqrt(made.torque / made.least));
+  return made;
+}
+
+}  // namespace gyrostat::general

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/general/full_motion.hpp"
+
+namespace gyrostat::general {
+
+template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
+                                                              std::span<State<double>>,
+                                                              const FullMotionOptions<double>&) noexcept;
+
+}  // namespace gyrostat::general
