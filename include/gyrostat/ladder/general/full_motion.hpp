@@ -153,16 +153,17 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
 
 namespace detail {
 
-/// One run of the equations over all pieces. cuts: the breakpoints.
+/// One run of the equations over all pieces. cuts: the breakpoints. share: the first step of each piece ends at this share of it at
+/// the latest, for two runs that took it in one step would take the same polynomial, and err alike.
 template <Real Scalar, bool large>
 class FullCourse {
   using System = FullSystem<Scalar, large>;
   using Solver = ode::Taylor<System>;
 
  public:
-  FullCourse(const Problem<Scalar>& problem, Scalar span, std::span<const Scalar> cuts, Scalar tolerance,
+  FullCourse(const Problem<Scalar>& problem, Scalar span, std::span<const Scalar> cuts, Scalar share, Scalar tolerance,
              std::uint64_t step_cap) noexcept
-      : of_(problem, span), cuts_(cuts), last_(span) {
+      : of_(problem, span), cuts_(cuts), last_(span), share_(share) {
     options_.tolerance = tolerance;
     options_.step_cap = step_cap;
     piece_ = Piece<Scalar>::first(problem, of_.wheels, of_.torques, cuts.empty() ? span : cuts.front());
@@ -175,9 +176,10 @@ class FullCourse {
   ode::Status step(Scalar t_max) noexcept {
     if (next_) pass();
     Scalar until = std::min(t_max, piece_.to);
+    if (!(time() > piece_.from)) until = std::min(until, piece_.from + share_ * (piece_.to - piece_.from));
     const Scalar before = system_->has_brake() ? system_->braked(time(), solver_->state()) : infinity<Scalar>;
     // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
-    if (before < infinity<Scalar>) until = std::min(until, time() + before / (2 * of_.sizes.torque));
+    if (before < infinity<Scalar>) until = std::min(until, time() + (1 + share_) * before / (4 * of_.sizes.torque));
     if (has_stopped(before, infinity<Scalar>)) return ode::Status::event;
     const ode::Status status = solver_->step(until);
     if (status != ode::Status::reached) return status;
@@ -235,7 +237,7 @@ class FullCourse {
   static constexpr Scalar nearly_ = Scalar(1e-6L);
   Prepared<Scalar> of_;
   std::span<const Scalar> cuts_;
-  Scalar last_;
+  Scalar last_, share_;
   std::size_t cut_ = 0;
   Piece<Scalar> piece_;
   std::optional<Piece<Scalar>> next_;
@@ -390,12 +392,12 @@ class FullMotion {
     const Scalar tight = companion_step(step_tolerance), span = times_.back();
     const auto one = beside(problem_, change, 0), two = beside(problem_, change, 1);
     // a course is large
-    const auto course = std::make_unique<Course>(problem_, span, cuts_, step_tolerance, options_.step_cap);
-    const auto companion = std::make_unique<Course>(one, span, cuts_, tight, options_.step_cap);
+    const auto course = std::make_unique<Course>(problem_, span, cuts_, Scalar(1), step_tolerance, options_.step_cap);
+    const auto companion = std::make_unique<Course>(one, span, cuts_, Scalar(1) / 2, tight, options_.step_cap);
     const auto& of = course->prepared();
     std::unique_ptr<Course> second;
     if (rounding_rules(step_tolerance, condition_of(of.wheels)))
-      second = std::make_unique<Course>(two, span, cuts_, tight, options_.step_cap);
+      second = std::make_unique<Course>(two, span, cuts_, Scalar(1) / 3, tight, options_.step_cap);
     const FullRow<Scalar> row(of);
     // rounding at the asked times
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {

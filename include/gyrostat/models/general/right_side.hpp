@@ -144,7 +144,8 @@ struct Flow {
     const auto& q = problem.attitude;
     y[0] = q.w, y[1] = q.x, y[2] = q.y, y[3] = q.z;
     Vec3<Scalar> M = wheels.reduced * problem.angular_velocity + wheels.momentum_of_wheels();
-    put(y, momentum, M), put(y, velocity, problem.velocity), put(y, position, problem.position);
+    put(y, momentum, M);
+    if (!problem.fixed) put(y, velocity, problem.velocity), put(y, position, problem.position);
     for (std::size_t i = 0; i < wheels.count; ++i) {
       y[wheel + i] = wheels.laws[i].momentum;
       y[angle + i] = wheels.laws[i].angle;
