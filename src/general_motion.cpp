@@ -6,5 +6,7 @@ namespace gyrostat::general {
 template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
                                                               std::span<State<double>>,
                                                               const FullMotionOptions<double>&) noexcept;
+template BalanceResiduals<double> balance_residuals<double>(const Problem<double>&, double, double,
+                                                            std::uint64_t) noexcept;
 
 }  // namespace gyrostat::general

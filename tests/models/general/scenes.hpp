@@ -38,7 +38,7 @@ class Scenes {
       surroundings(made.problem);
       span_ = 2 * pi<double> / rate_ * scale(0.1, turns);
       const int wheels = unit() < 0.4 ? 0 : 1 + int(8 * unit());
-      for (int i = 0; i < wheels; ++i) made.problem.wheels.push_back(wheel(made, wheels));
+      for (int i = 0; i < wheels; ++i) made.problem.wheels.push_back(wheel(wheels));
       for (int i = 0; i < torques; ++i) made.problem.torques.push_back(torque(made));
       if (check(made.problem)) continue;
       // no longer than what the torques make of it allows
@@ -117,7 +117,7 @@ class Scenes {
     return made;
   }
 
-  Wheel<double> wheel(const Made& made, int count) {
+  Wheel<double> wheel(int count) {
     Wheel<double> w;
     w.type = static_cast<WheelType>(int(6 * unit()));
     w.axis = unit() < 0.3 ? Vec3<double>(Vec3<double>::Unit(int(3 * unit()))) : direction();
@@ -133,7 +133,6 @@ class Scenes {
     if (w.type == WheelType::motor) w.slope = settling * scale(1e-4, 3), w.no_load_rate = fast * scale(1e-2, 2);
     if (w.type == WheelType::torque && unit() < 0.3) w.table = table(1, push() / count);
     if (w.type == WheelType::held && unit() < 0.4) w.table = table(1, fast * scale(1e-2, 1));
-    (void)made;
     return w;
   }
 

@@ -82,7 +82,7 @@ State<To> cast(const State<From>& s) {
 
 /// The kinetic energy of body and wheels that turn by themselves, less that of wheels whose p stays, J.
 template <Real S>
-S energy(const Wheels<S>& wheels, const State<S>& s) {
+S energy_that_changes(const Wheels<S>& wheels, const State<S>& s) {
   S sum = s.angular_velocity.dot(wheels.reduced * s.angular_velocity) / 2;
   for (std::size_t i = 0; i < wheels.count; ++i) {
     const auto& law = wheels.laws[i];
@@ -112,7 +112,7 @@ std::vector<State<S>> motion(const Problem<S>& problem, const std::vector<S>& ti
   const auto put = [&] {
     for (; next < times.size() && times[next] <= t; ++next) {
       auto& state = made.emplace_back(flow.state(t, y));
-      state.work = energy(wheels, state) - energy(wheels, start);
+      state.work = energy_that_changes(wheels, state) - energy_that_changes(wheels, start);
       state.impulse =
           rotate<S>(state.attitude, state.angular_momentum) - rotate<S>(start.attitude, start.angular_momentum);
     }

@@ -20,6 +20,7 @@
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/trials.hpp"
+#include "gyrostat/models/general/balances.hpp"
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/full.hpp"
 #include "gyrostat/models/general/piece.hpp"
@@ -201,13 +202,20 @@ class FullCourse {
     return next_ && t >= piece_.to ? state_of<Scalar, large>(of_, *next_, t, x) : system_->state(t, x);
   }
 
+  /// The same by the laws of the piece that the last step is in, to its end.
+  State<Scalar> inside(Scalar t) const noexcept {
+    alignas(32) Scalar x[System::width];
+    solver_->at(t, x);
+    return system_->state(t, x);
+  }
+  Scalar previous_time() const noexcept { return solver_->previous_time(); }
+
   ode::Counts counts() const noexcept {
     ode::Counts all = counts_;
     all += solver_->counts();
     return all;
   }
   const Prepared<Scalar>& prepared() const noexcept { return of_; }
-  std::size_t pieces() const noexcept { return cut_ + (next_ ? 0U : 1U); }
 
  private:
   /// Begins piece_ at t.
@@ -467,10 +475,41 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
                        : detail::full_motion_of<Scalar, false>(of, times, states, options);
 }
 
+/// How well energy and momentum of a motion up to `span` agree with what torques and motors have done.
+template <Real Scalar>
+struct BalanceResiduals {
+  Scalar energy = nan<Scalar>, momentum = nan<Scalar>;  ///< as of Balances; NaN where the motion cannot be followed
+};
+
+/// The balances of a motion in steps of a tolerance; of a problem that check() finds right.
+template <Real Scalar>
+BalanceResiduals<Scalar> balance_residuals(const Problem<Scalar>& problem, Scalar span, Scalar step_tolerance,
+                                           std::uint64_t step_cap = step_budget) noexcept {
+  const auto cuts = breakpoints(problem, span);
+  const auto walk = [&](auto& course) noexcept -> BalanceResiduals<Scalar> {
+    Balances<Scalar> balances(problem, course.prepared().wheels);
+    while (course.time() < span) {
+      if (course.step(span) != ode::Status::reached) return {};
+      balances.add(course.previous_time(), course.time(), [&](Scalar t) noexcept { return course.inside(t); });
+    }
+    return {balances.energy(), balances.momentum()};
+  };
+  if (Prepared<Scalar>(problem, span).is_large()) {
+    const auto course =
+        std::make_unique<detail::FullCourse<Scalar, true>>(problem, span, cuts, Scalar(1), step_tolerance, step_cap);
+    return walk(*course);
+  }
+  const auto course =
+      std::make_unique<detail::FullCourse<Scalar, false>>(problem, span, cuts, Scalar(1), step_tolerance, step_cap);
+  return walk(*course);
+}
+
 #if defined(GYROSTAT_COMPILED)
 extern template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
                                                                      std::span<State<double>>,
                                                                      const FullMotionOptions<double>&) noexcept;
+extern template BalanceResiduals<double> balance_residuals<double>(const Problem<double>&, double, double,
+                                                                   std::uint64_t) noexcept;
 #endif
 
 }  // namespace gyrostat::general

@@ -73,6 +73,12 @@ struct Terms {
     });
     return found;
   }
+  /// Whether a torque is left that depends on the motion.
+  bool any_moving() const noexcept {
+    Terms moving = *this;
+    moving.body.setZero();
+    return moving.any_torque();
+  }
   /// Whether a torque is left.
   bool any_torque() const noexcept {
     Terms torque = *this;
@@ -103,6 +109,9 @@ std::optional<Scalar> as_scalar(const Mat3<Scalar>& m, const Mat3<Scalar>& size)
   if (!(rest.cwiseAbs().maxCoeff() <= slack)) return std::nullopt;
   return mean;
 }
+
+/// So many factors with a wave may torques have that depend on the motion.
+inline constexpr std::ptrdiff_t most_waves = 8;
 
 /// All torques of a problem.
 template <Real Scalar>
@@ -316,44 +325,6 @@ Fault check_surroundings(const Problem<Scalar>& problem) noexcept {
 
 }  // namespace detail
 
-/// Whether the torques, fields and the orbit of a problem are what the equations can take: finite; what each torque needs is there.
-template <Real Scalar>
-Fault check_torques(const Problem<Scalar>& problem) noexcept {
-  if (const Fault wrong = detail::check_surroundings(problem)) return wrong;
-  if (!(problem.mass > 0 && problem.mass < infinity<Scalar>))
-    return {Errc::not_positive, -1, "the mass must be positive"};
-  if (!problem.centre_of_mass.allFinite()) return {Errc::not_finite, -1, "the centre of mass must be finite"};
-  int place = 0;
-  for (const auto& torque : problem.torques) {
-    if (!torque.vector.allFinite() || !torque.matrix.allFinite())
-      return {Errc::not_finite, place, "its numbers must be finite"};
-    if (const Fault wrong = detail::check_factor(torque.factor, place)) return wrong;
-    if (const Fault wrong = detail::check_needs(problem, torque, place)) return wrong;
-    ++place;
-  }
-  return {};
-}
-
-/// Whether the start is one: finite, with an attitude of unit length.
-template <Real Scalar>
-Fault check_start(const Problem<Scalar>& problem) noexcept {
-  using std::abs;
-  if (!problem.angular_velocity.allFinite()) return {Errc::not_finite, -1, "the angular velocity must be finite"};
-  if (!problem.velocity.allFinite() || !problem.position.allFinite())
-    return {Errc::not_finite, -1, "velocity and position must be finite"};
-  if (!(abs(norm(problem.attitude) - 1) <= 8 * epsilon<Scalar>))
-    return {Errc::out_of_domain, -1, "the attitude must have unit length"};
-  return {};
-}
-
-/// All that a problem must be.
-template <Real Scalar>
-Fault check(const Problem<Scalar>& problem) noexcept {
-  if (const Fault wrong = check_wheels(problem)) return wrong;
-  if (const Fault wrong = check_torques(problem)) return wrong;
-  return check_start(problem);
-}
-
 template <Real Scalar>
 Collected<Scalar> Collected<Scalar>::of(const Problem<Scalar>& problem, Scalar span) noexcept {
   Collected made;
@@ -385,6 +356,50 @@ Collected<Scalar> Collected<Scalar>::of(const Problem<Scalar>& problem, Scalar s
     }
   }
   return made;
+}
+
+/// Whether the torques, fields and the orbit of a problem are what the equations can take: finite; what each torque needs is there.
+template <Real Scalar>
+Fault check_torques(const Problem<Scalar>& problem) noexcept {
+  if (const Fault wrong = detail::check_surroundings(problem)) return wrong;
+  if (!(problem.mass > 0 && problem.mass < infinity<Scalar>))
+    return {Errc::not_positive, -1, "the mass must be positive"};
+  if (!problem.centre_of_mass.allFinite()) return {Errc::not_finite, -1, "the centre of mass must be finite"};
+  int place = 0;
+  for (const auto& torque : problem.torques) {
+    if (!torque.vector.allFinite() || !torque.matrix.allFinite())
+      return {Errc::not_finite, place, "its numbers must be finite"};
+    if (const Fault wrong = detail::check_factor(torque.factor, place)) return wrong;
+    if (const Fault wrong = detail::check_needs(problem, torque, place)) return wrong;
+    ++place;
+  }
+  const auto collected = Collected<Scalar>::of(problem, infinity<Scalar>);
+  const auto waves = std::count_if(collected.records.begin(), collected.records.end(), [](const auto& record) noexcept {
+    return record.factor.amplitude != 0 && record.sum.any_moving();
+  });
+  if (waves > most_waves)
+    return {Errc::out_of_domain, -1, "at most 8 different waves go with torques that depend on the motion"};
+  return {};
+}
+
+/// Whether the start is one: finite, with an attitude of unit length.
+template <Real Scalar>
+Fault check_start(const Problem<Scalar>& problem) noexcept {
+  using std::abs;
+  if (!problem.angular_velocity.allFinite()) return {Errc::not_finite, -1, "the angular velocity must be finite"};
+  if (!problem.velocity.allFinite() || !problem.position.allFinite())
+    return {Errc::not_finite, -1, "velocity and position must be finite"};
+  if (!(abs(norm(problem.attitude) - 1) <= 8 * epsilon<Scalar>))
+    return {Errc::out_of_domain, -1, "the attitude must have unit length"};
+  return {};
+}
+
+/// All that a problem must be.
+template <Real Scalar>
+Fault check(const Problem<Scalar>& problem) noexcept {
+  if (const Fault wrong = check_wheels(problem)) return wrong;
+  if (const Fault wrong = check_torques(problem)) return wrong;
+  return check_start(problem);
 }
 
 }  // namespace gyrostat::general

@@ -330,7 +330,7 @@ void FullSystem<Real_, large>::take_parts() noexcept {
   const auto take = [&](const Terms<Scalar>& terms, int source) noexcept {
     const Part<Scalar> part(terms, directions_, normal_);
     drives = drives || terms.any();
-    if (!part.moves() || factors_ == most_factors) return;
+    if (!part.moves()) return;
     parts_[std::size_t(factors_)] = part;
     source_[std::size_t(factors_++)] = source;
   };

@@ -113,6 +113,6 @@ struct Part {
 };
 
 /// The most factors at a time of torques that depend on the motion, powers of time and waves.
-inline constexpr int most_factors = 3 + 8;
+inline constexpr int most_factors = 3 + int(most_waves);
 
 }  // namespace gyrostat::general
