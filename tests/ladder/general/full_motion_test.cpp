@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/general/full_motion.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+#include "../../models/general/cases.hpp"
+#include "../../models/general/scenes.hpp"
+#include "../../models/general/truth.hpp"
+#include "catch.hpp"
+#include "gyrostat/ladder/comparison.hpp"
+
+namespace general_full_motion_test {
+
+using namespace gyrostat;
+using namespace gyrostat::general;
+using ode::Status;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool slow_build = true;
+#else
+constexpr bool slow_build = false;
+#endif
+
+struct Run {
+  FullMotionAnswer<double> answer;
+  std::vector<State<double>> states;
+};
+
+Run run(const Problem<double>& problem, const std::vector<double>& times, double tolerance) {
+  Run made;
+  made.states.resize(times.size());
+  FullMotionOptions<double> options;
+  options.tolerance = tolerance, options.step_cap = 1'000'000;
+  const auto answer = full_motion<double>(problem, times, made.states, options);
+  REQUIRE(answer);
+  made.answer = *answer;
+  return made;
+}
+
+FullErrors<double> apart(const Problem<double>& problem, const std::vector<double>& times,
+                         const std::vector<State<double>>& one, const std::vector<State<double>>& two) {
+  const Prepared<double> of(problem, times.back());
+  Comparison both{FullRow<double>(of)};
+  for (std::size_t i = 0; i < one.size(); ++i) both.add(one[i], two[i]);
+  return both.relative(both.difference());
+}
+
+std::vector<State<double>> truth(const Problem<double>& problem, const std::vector<double>& times) {
+  const std::vector<long double> wide(times.begin(), times.end());
+  std::vector<State<double>> made;
+  const auto of = general_truth::cast<long double>(problem);
+  for (const auto& state : general_truth::motion<long double>(of, wide, 1e-17L, 20'000))
+    made.push_back(general_truth::cast<double>(state));
+  return made;
+}
+
+TEST_CASE("the reference motions of general scenes", "[general]") {
+  for (const auto& one : general_cases::cases<double>()) {
+    const auto made = run(one.problem, one.times, 1e-11);
+    REQUIRE(made.answer.status == Status::reached);
+    CAPTURE(one.id);
+    CHECK(made.answer.met);
+    const auto error = apart(one.problem, one.times, one.truth, made.states);
+    for (std::size_t i = 0; i < (one.has_path ? 7U : 5U); ++i) {
+      CAPTURE(full_columns[i].name, error[i], made.answer.error[i]);
+      CHECK(error[i] <= std::max(1e-12, 64 * one.one_ulp[i]));
+      CHECK(error[i] <= made.answer.error[i]);
+    }
+    const auto balance = balance_residuals<double>(one.problem, one.times.back(), 1e-14);
+    CHECK(balance.energy < 1e-12);
+    CHECK(balance.momentum < 1e-13);
+  }
+}
+
+TEST_CASE("stated errors of the full general equations bound the true ones", "[general]") {
+  constexpr double tolerances[] = {1e-3, 1e-6, 1e-9, 1e-12};
+  general_scenes::Scenes source(81);
+  std::vector<double> ratios;
+  int met = 0, all = 0;
+  for (int i = 0; i < (slow_build ? 10 : 60); ++i) {
+    const auto made = source.next(3);
+    std::vector<double> times{0};
+    for (int k = 1; k < 8 && i % 3 != 0; ++k) times.push_back(made.span * k / 8);
+    times.push_back(made.span);
+    const auto right = truth(made.problem, times);
+    if (right.empty()) continue;
+    const auto of = run(made.problem, times, tolerances[i % 4]);
+    if (of.answer.status == Status::event) continue;
+    REQUIRE(of.answer.status == Status::reached);
+    const auto error = apart(made.problem, times, right, of.states);
+    ++all, met += of.answer.met;
+    double least = infinity<double>;
+    for (std::size_t k = 0; k < std::size(full_columns); ++k) {
+      CAPTURE(i, made.kind, full_columns[k].name, error[k], of.answer.error[k]);
+      CHECK(error[k] <= of.answer.error[k]);
+      if (error[k] > 0) least = std::min(least, of.answer.error[k] / error[k]);
+    }
+    if (i % 4 != 3) ratios.push_back(least);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  CHECK(ratios[ratios.size() / 2] < 20);
+  CHECK(met > all * 8 / 10);
+}
+
+TEST_CASE("the balances of energy and momentum hold over every kind of piece", "[general]") {
+  general_scenes::Scenes source(82);
+  for (int i = 0; i < (slow_build ? 10 : 60); ++i) {
+    const auto made = source.next(2);
+    const auto balance = balance_residuals<double>(made.problem, made.span, 1e-15);
+    CAPTURE(i, made.kind, balance.energy, balance.momentum);
+    if (std::isnan(balance.energy)) continue;  // a stop
+    CHECK(balance.energy < 1e-12);
+    CHECK(balance.momentum < 1e-13);
+  }
+}
+
+TEST_CASE("every breakpoint ends a step", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
+  p.angular_velocity = {0.1, 0.2, 0.3};
+  p.torques.resize(1);
+  p.torques[0].vector = {1, 0.5, -0.3};
+  p.torques[0].factor.on = {{0.7, 1.9}, {2.2, 3.1}};
+  const auto cuts = breakpoints(p, 4.);
+  REQUIRE(cuts.size() == 4);
+  general::detail::FullCourse<double, false> course(p, 4, cuts, 1, 1e-6, 1000);
+  std::vector<double> ends;
+  while (course.time() < 4) {
+    REQUIRE(course.step(4) == Status::reached);
+    ends.push_back(course.time());
+  }
+  for (const double cut : cuts) CHECK(std::count(ends.begin(), ends.end(), cut) == 1);
+}
+
+TEST_CASE("at a time where laws change the state is that by the new one", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
+  p.angular_velocity = {0.1, 0.2, 0.3};
+  p.wheels.resize(1);
+  p.wheels[0].axial_inertia = 0.1;
+  p.wheels[0].table = {{0, 1, 2}, {10, 20, 30}, Between::step, true};
+  p.torques.resize(1);
+  p.torques[0].vector = {0, 0, 1};
+  p.torques[0].factor.on = {{1, 2}};
+  const auto made = run(p, {0, 0.999999, 1, 1.5, 2, 3}, 1e-10);
+  CHECK(made.answer.met);
+  const double rates[] = {10, 10, 20, 20, 30, 30}, torques[] = {0, 0, 1, 1, 0, 0};
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK(made.states[i].rotor_rate[0] == Approx(rates[i]));
+    CHECK(made.states[i].torque[2] == torques[i]);
+  }
+  // the momentum does not jump where the rate does
+  CHECK((made.states[1].angular_momentum - made.states[2].angular_momentum).norm() < 1e-5);
+  CHECK(made.states[1].angular_velocity[2] - made.states[2].angular_velocity[2] == Approx(1 / 1.5).epsilon(1e-4));
+  CHECK(made.states[5].rotor_angle[0] == Approx(10 + 20 + 30));
+}
+
+TEST_CASE("a stop under a brake is not gone through", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
+  p.torques.resize(1);
+  p.torques[0].type = TorqueType::brake, p.torques[0].opposed = Opposed::momentum;
+  p.torques[0].vector = {0.1, 0.1, 0.1};
+  for (const bool about_an_axis : {true, false}) {
+    p.angular_velocity = about_an_axis ? Vec3<double>(0, 0, 0.4) : Vec3<double>(0.1, 0.2, 0.3);
+    const double stop = (p.inertia * p.angular_velocity).norm() / 0.1;
+    for (const double tolerance : {1e-4, 1e-11}) {
+      CAPTURE(about_an_axis, tolerance);
+      const auto past = run(p, {stop / 2, 2 * stop}, tolerance);
+      CHECK(past.answer.status == Status::event);
+      CHECK_FALSE(past.answer.met);
+      CHECK(past.answer.stop == Approx(stop).epsilon(2e-6));
+      CHECK(past.states[0].angular_momentum.norm() == Approx(0.05 * stop).epsilon(1e-3));
+      CHECK(std::isnan(past.states[1].angular_velocity[0]));
+      CHECK(run(p, {0.9 * stop}, tolerance).answer.met);
+    }
+  }
+  // a torque pushes it through zero, and a brake that finds it there is at its stop
+  p.angular_velocity = {0, 0, 0.4};
+  p.torques.resize(2);
+  p.torques[1].vector = {0, 0, -5};
+  CHECK(run(p, {10.}, 1e-6).answer.status == Status::event);
+  p.torques.pop_back();
+  p.angular_velocity.setZero();
+  CHECK(run(p, {10.}, 1e-6).answer.status == Status::event);
+}
+
+TEST_CASE("a scene that is chaotic says so", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(0.6, 0.5, 0.3).asDiagonal();
+  p.fixed = true, p.mass = 10, p.centre_of_mass = {0.1, 0.05, -0.2}, p.field.gravity = 9.8;
+  p.attitude = normalised(Quat<double>{1, 2, 0.3, 0});
+  p.angular_velocity = {2, 1, 3};
+  p.torques.resize(1);
+  p.torques[0].type = TorqueType::weight;
+  const auto brief = run(p, {1.}, 1e-10), late = run(p, {400.}, 1e-10);
+  CHECK(brief.answer.met);
+  CHECK(late.answer.status == Status::reached);
+  CHECK_FALSE(late.answer.met);
+  CHECK(late.answer.error[full_column::attitude] > 1e-6);
+}
+
+TEST_CASE("rest, and turning about an axis, stay in general scenes", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
+  const auto rest = run(p, {0, 10, 1000}, 1e-12);
+  CHECK(rest.answer.met);
+  CHECK(rest.states[2].angular_velocity.isZero(0));
+  CHECK(rest.states[2].attitude == Quat<double>{});
+  // about the middle axis, with a wheel and a torque along it
+  p.angular_velocity = {0, 2, 0};
+  p.wheels.resize(1);
+  p.wheels[0].type = WheelType::motor, p.wheels[0].axis = {0, 1, 0}, p.wheels[0].axial_inertia = 0.1;
+  p.wheels[0].slope = 0.01, p.wheels[0].no_load_rate = 5;
+  p.torques.resize(1);
+  p.torques[0].vector = {0, 0.01, 0};
+  const auto axis = run(p, {0, 100, 300}, 1e-10);
+  CHECK(axis.answer.met);
+  CHECK(axis.states[2].angular_velocity[0] == 0);
+  CHECK(axis.states[2].angular_momentum[1] == Approx(2 * 2 + 3));
+}
+
+TEST_CASE("what the full general equations cannot answer is refused", "[general]") {
+  Problem<double> good;
+  good.angular_velocity = {1, 2, 3};
+  std::vector<State<double>> states(2);
+  const auto error = [&](std::vector<double> times, const Problem<double>& problem, double tolerance = 1e-9) {
+    FullMotionOptions<double> options;
+    options.tolerance = tolerance;
+    return full_motion<double>(problem, times, states, options).error();
+  };
+  constexpr double no = gyrostat::nan<double>;
+  CHECK(error({1, 2}, good) == Errc::ok);
+  CHECK(error({1}, good) == Errc::out_of_domain);
+  CHECK(error({2, 1}, good) == Errc::not_increasing);
+  CHECK(error({1, infinity<double>}, good) == Errc::not_finite);
+  CHECK(error({1, 2}, good, no) == Errc::not_finite);
+  auto bad = good;
+  bad.inertia(2, 2) = 9;
+  CHECK(error({1, 2}, bad) == Errc::triangle_inequality);
+  bad = good;
+  bad.torques.resize(1);
+  bad.torques[0].type = TorqueType::weight;
+  CHECK(error({1, 2}, bad) == Errc::not_applicable);
+  bad = good;
+  bad.angular_velocity = {1e308, 1e308, 1e308};
+  CHECK(error({1, 2}, bad) == Errc::not_finite);
+  CHECK(full_motion<double>(good, {}, {})->met);
+
+  FullMotionOptions<double> options;
+  options.step_cap = 5;
+  const std::vector<double> times{0.01, 1e6};
+  const auto capped = full_motion<double>(good, times, states, options);
+  REQUIRE(capped);
+  CHECK(capped->status == Status::step_limit);
+  CHECK(std::isfinite(states[0].work));
+  CHECK(std::isnan(states[1].work));
+}
+
+TEST_CASE("the full general equations can be watched and stopped", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
+  p.angular_velocity = {1, 0.5, -0.7};
+  std::vector<State<double>> states(2);
+  std::atomic<double> progress{0};
+  std::atomic<bool> cancel{false};
+  FullMotionOptions<double> options;
+  options.progress = &progress, options.cancel = &cancel;
+  const std::vector<double> times{0, 400};
+  CHECK(full_motion<double>(p, times, states, options)->met);
+  CHECK(progress == 1);
+  cancel = true;
+  CHECK(full_motion<double>(p, times, states, options)->status == Status::cancelled);
+}
+
+TEST_CASE("the full general equations meet the tolerance of long double", "[general]") {
+  using S = long double;
+  Problem<S> p;
+  p.inertia = Vec3<S>(3, 2, 1.5L).asDiagonal();
+  p.angular_velocity = {1, 0.5L, -0.7L};
+  std::vector<State<S>> states(1);
+  FullMotionOptions<S> options;
+  options.tolerance = 4000 * epsilon<S>;
+  const std::vector<S> times{5};
+  CHECK(full_motion<S>(p, times, states, options)->met);
+}
+
+}  // namespace general_full_motion_test

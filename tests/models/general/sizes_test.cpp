@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/models/general/sizes.hpp"
+
+#include "catch.hpp"
+#include "gyrostat/models/general/right_side.hpp"
+#include "scenes.hpp"
+
+namespace general_sizes_test {
+
+using namespace gyrostat;
+using namespace gyrostat::general;
+
+Sizes<double> of(const Problem<double>& p, double span) {
+  return sizes_of(p, Wheels<double>::of(p), Collected<double>::of(p, span), span);
+}
+
+TEST_CASE("the momenta of body and wheels may cancel and are still a size", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(4, 3, 2).asDiagonal();
+  p.angular_velocity = {0.5, 1, 0.25};
+  p.rotor_momentum = {-2, -3, -0.5};
+  const auto sizes = of(p, 10);
+  CHECK(sizes.momenta == Approx(2 * Vec3<double>(2, 3, 0.5).norm()));
+  CHECK(sizes.momentum() == sizes.momenta);
+  CHECK(sizes.least == 2);
+  CHECK(sizes.greatest == 4);
+  CHECK(sizes.turning == Approx(sizes.momenta / 2));
+}
+
+TEST_CASE("a body at rest has the size of what torques build up", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(4, 3, 2).asDiagonal();
+  p.torques.resize(1);
+  p.torques[0].vector = {0, 0, 0.01};
+  CHECK(of(p, 10).momenta == 0);
+  CHECK(of(p, 10).momentum() == Approx(0.1));
+  CHECK(of(p, 1e6).momentum() == Approx(0.2));
+  p.torques.clear();
+  CHECK(of(p, 10).momentum() == 0);
+  CHECK(of(p, 10).turning == 0);
+}
+
+TEST_CASE("torques at rest are within their bound", "[general]") {
+  general_scenes::Scenes source(51);
+  for (int i = 0; i < 100; ++i) {
+    const auto made = source.next(1);
+    auto p = made.problem;
+    // a field and an orbit that come nearer are not in it
+    if (p.orbit) p.orbit->eccentricity = 0;
+    bool overshoots = false;  // a cubic table between its values
+    for (auto& torque : p.torques)
+      overshoots =
+          overshoots || torque.table.between == Between::cubic || torque.factor.table.between == Between::cubic;
+    if (overshoots) continue;
+    const auto sizes = of(p, made.span);
+    const Pose<double> pose{p.attitude, {0, 0, 0}, {1e-9, 0, 0}};
+    for (auto& torque : p.torques)
+      if (torque.type == TorqueType::brake || torque.type == TorqueType::damping)
+        torque.type = TorqueType::constant, torque.vector.setZero();
+    CAPTURE(i);
+    CHECK(load_at(p, pose, 0.3 * made.span, 0.3 * made.span).torque.norm() <= sizes.torque * (1 + 1e-12));
+  }
+}
+
+}  // namespace general_sizes_test
