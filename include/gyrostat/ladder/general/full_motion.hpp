@@ -374,8 +374,10 @@ FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow
   }
   for (const auto column : {full_column::velocity, full_column::position})
     error[column] = 4 * relative * (size[column] + row.scale[column]);
-  error[full_column::work] = error[full_column::angular_velocity] * size[full_column::angular_momentum] +
-                             4 * relative * (size[full_column::work] + row.scale[full_column::work]);
+  // |J w| by the energy
+  const Scalar energy = size[full_column::work] + row.scale[full_column::work];
+  error[full_column::work] =
+      error[full_column::angular_velocity] * std::sqrt(2 * of.sizes.greatest * energy) + 4 * relative * energy;
   error[full_column::impulse] =
       2 * error[full_column::angular_momentum] + error[full_column::attitude] * size[full_column::angular_momentum];
   return error;
