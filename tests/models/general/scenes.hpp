@@ -64,13 +64,15 @@ class Scenes {
     else if (which < 0.25) made.kind = "symmetric", second[1] = second[0], turn.setIdentity();
     else if (which < 0.3) made.kind = "sphere", second = second[0] * Vec3<double>::Ones(), turn.setIdentity();
     else if (which < 0.38) made.kind = "slim", second[int(3 * unit())] *= scale(10, 1e4);
+    // kilogrammes of a grain and of an asteroid, turns a year and a million a second
+    if (unit() < 0.15) second *= scale(1e-20, 1e20);
+    rate_ = unit() < 0.85 ? scale(1e-2, 1e2) : scale(1e-7, 1e7);
     const Mat3<double> E = Mat3<double>::Identity();
     p.inertia = turn * (second.sum() * E - Mat3<double>(second.asDiagonal())) * turn.transpose();
     p.inertia = ((p.inertia + p.inertia.transpose()) / 2).eval();
     room_ = second.minCoeff();
     p.mass = scale(1, 10), p.centre_of_mass = 0.1 * direction();
     p.fixed = unit() < 0.35;
-    rate_ = scale(1e-2, 1e2);
     p.attitude = unit() < 0.2 ? Quat<double>{} : attitude();
     p.angular_velocity = rate_ * direction();
     const double start = unit();
@@ -121,7 +123,8 @@ class Scenes {
     Wheel<double> w;
     w.type = static_cast<WheelType>(int(6 * unit()));
     w.axis = unit() < 0.3 ? Vec3<double>(Vec3<double>::Unit(int(3 * unit()))) : direction();
-    w.axial_inertia = room_ * scale(1e-3, 0.5) / count;
+    // now and then the body is little more than its wheels
+    w.axial_inertia = room_ * (unit() < 0.9 ? scale(1e-3, 0.5) / count : 1.9);
     if (w.type == WheelType::locked) return w;
     const double fast = momentum_ / w.axial_inertia / count;
     w.rate = fast * scale(1e-3, 3) * (unit() < 0.5 ? -1 : 1);
