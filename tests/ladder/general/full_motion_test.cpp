@@ -248,6 +248,11 @@ TEST_CASE("what the full general equations cannot answer is refused", "[general]
   bad = good;
   bad.angular_velocity = {1e308, 1e308, 1e308};
   CHECK(error({1, 2}, bad) == Errc::not_finite);
+  bad = good;
+  bad.torques.resize(1);
+  bad.torques[0].factor.amplitude = 1, bad.torques[0].factor.rate = 1e9;
+  CHECK(error({1e-8, 2e-8}, bad) == Errc::ok);
+  CHECK(error({0.01, 2}, bad) == Errc::out_of_domain);
   CHECK(full_motion<double>(good, {}, {})->met);
 
   FullMotionOptions<double> options;

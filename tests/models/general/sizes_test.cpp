@@ -40,6 +40,21 @@ TEST_CASE("a body at rest has the size of what torques build up", "[general]") {
   CHECK(of(p, 10).turning == 0);
 }
 
+TEST_CASE("what goes on by itself has a rate", "[general]") {
+  Problem<double> p;
+  CHECK(of(p, 1).forcing == 0);
+  p.torques.resize(1);
+  p.torques[0].factor.amplitude = 1, p.torques[0].factor.rate = -3;
+  CHECK(of(p, 1).forcing == 3);
+  p.field.magnetic = MagneticField::rotating, p.field.rate = 7;
+  CHECK(of(p, 1).forcing == 3);
+  p.torques[0].type = TorqueType::magnetic;
+  CHECK(of(p, 1).forcing == 7);
+  p.orbit.emplace();
+  p.orbit->mu = 100;
+  CHECK(of(p, 1).forcing == Approx(10));
+}
+
 TEST_CASE("torques at rest are within their bound", "[general]") {
   general_scenes::Scenes source(51);
   for (int i = 0; i < 100; ++i) {

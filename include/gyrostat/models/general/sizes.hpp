@@ -25,6 +25,8 @@ struct Sizes {
   Scalar least = 1, greatest = 1;  ///< moments of J* and J, kg m^2
   Scalar turning = 0;              ///< how fast the body turns or could soon turn, of the order of |w|, rad/s
 
+  Scalar forcing = 0;  ///< the greatest rate at which waves, fields and the orbit go on by themselves, rad/s
+
   /// The momenta, or what the torques build up where there are none.
   Scalar momentum() const noexcept { return momenta > 0 ? momenta : built; }
 };
@@ -57,6 +59,25 @@ Scalar torque_size(const Problem<Scalar>& problem, const Terms<Scalar>& terms, S
          terms.eddy.norm() * field.flux_density.norm() * field.rate.norm();
 }
 
+/// The greatest rate at which what acts goes on by itself, rad/s.
+template <Real Scalar>
+Scalar forcing_rate(const Problem<Scalar>& problem) noexcept {
+  using std::abs, std::sqrt;
+  Scalar rate = 0;
+  bool sees_field = false;
+  for (const auto& torque : problem.torques) {
+    if (torque.factor.amplitude != 0) rate = std::max(rate, abs(torque.factor.rate));
+    sees_field = sees_field || torque.type == TorqueType::magnetic || torque.type == TorqueType::eddy_current;
+  }
+  if (sees_field && problem.field.magnetic == MagneticField::rotating) rate = std::max(rate, abs(problem.field.rate));
+  if (!problem.orbit) return rate;
+  const auto& orbit = *problem.orbit;
+  using std::cos;
+  const Scalar axis = orbit.radius * (1 + orbit.eccentricity * cos(orbit.true_anomaly)) /
+                      ((1 - orbit.eccentricity) * (1 + orbit.eccentricity));
+  return std::max(rate, sqrt(orbit.mu / axis) / axis);
+}
+
 }  // namespace detail
 
 template <Real Scalar>
@@ -85,6 +106,7 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
     made.torque += factor * detail::torque_size(problem, record.sum, made.greatest);
     made.force += factor * (record.sum.force_body.norm() + record.sum.force_inertial.norm());
   }
+  made.forcing = detail::forcing_rate(problem);
   made.built = std::min(made.torque * span, sqrt(made.torque * made.greatest));
   made.turning = made.momenta / made.least + std::min(made.torque * span / made.least, sqrt(made.torque / made.least));
   return made;
