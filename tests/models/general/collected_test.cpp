@@ -45,7 +45,7 @@ TEST_CASE("what is collected is what the torques are one by one", "[general]") {
       Vec3<double> sum(0, 0, 0), force(0, 0, 0);
       double size = 0;
       for (const auto& record : collected.records) {
-        const double factor = detail::factor_at(record.factor, t, t);
+        const double factor = general::detail::factor_at(record.factor, t, t);
         const Vec3<double> one = torque_of(p, record.sum, pose, t);
         sum += factor * one, size += std::abs(factor) * one.norm();
         force += factor * (record.sum.force_body + rotate<double>(conjugate(p.attitude), record.sum.force_inertial));

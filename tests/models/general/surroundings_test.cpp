@@ -50,7 +50,7 @@ TEST_CASE("an orbit obeys the law of gravity", "[general]") {
 TEST_CASE("Kepler's equation is solved near a parabola too", "[general]") {
   for (const double e : {0.5, 0.99, 0.999999})
     for (const double M : {0., 1e-8, 0.1, 3., 3.2, 6.2, 100.}) {
-      const double E = detail::eccentric_anomaly(M, e);
+      const double E = general::detail::eccentric_anomaly(M, e);
       CHECK(std::abs(E - e * std::sin(E) - M) <= 1e-15 * (1 + 4 * M));
     }
 }
