@@ -106,7 +106,7 @@ struct FullRow {
     const S gain = (sizes.force / of.problem.mass + abs(of.problem.field.gravity)) * time,
             v = of.problem.velocity.norm();
     scale[full_column::velocity] = v + gain;
-    scale[full_column::position] = of.problem.position.norm() + (v + gain) * time;
+    scale[full_column::position] = of.problem.position.norm() + v * of.span + gain * time;
   }
 
   void operator()(const State& state, S* row) const noexcept {
@@ -262,6 +262,7 @@ class FullCourse {
 /// By how much the inverse of the tensor without its wheels magnifies its rounding; 1 where it is diagonal.
 template <Real Scalar>
 Scalar condition_of(const Wheels<Scalar>& wheels) noexcept {
+  if (wheels.reduced.isDiagonal(0)) return 1;
   return wheels.whole.cwiseAbs().maxCoeff() * wheels.inverse.cwiseAbs().maxCoeff();
 }
 
@@ -363,11 +364,12 @@ FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow
   const Scalar momenta =
       size[full_column::angular_momentum] + std::max(row.scale[full_column::angular_momentum], carried);
   const Scalar fastest = momenta / of.sizes.least;
+  // of w = J*^-1 (M - ...), from the start on
+  const Scalar blur = epsilon<Scalar> * condition_of(wheels) * size[full_column::angular_velocity];
   FullErrors<Scalar> error;
-  error[full_column::attitude] = 4 * relative;
+  error[full_column::attitude] = 4 * relative + blur * of.span;
   error[full_column::angular_momentum] = 4 * relative * momenta;
-  error[full_column::angular_velocity] =
-      2 * relative * fastest + 4 * epsilon<Scalar> * condition_of(wheels) * size[full_column::angular_velocity];
+  error[full_column::angular_velocity] = 2 * relative * fastest + 4 * blur;
   if (wheels.count > 0) {
     error[full_column::rotor_rate] = 4 * relative * size[full_column::rotor_rate];
     if (lightest < infinity<Scalar>) error[full_column::rotor_rate] += error[full_column::angular_velocity];

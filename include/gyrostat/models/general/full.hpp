@@ -119,8 +119,9 @@ State<Scalar> state_of(const Prepared<Scalar>& of, const Piece<Scalar>& piece, S
   made.velocity = of.problem.velocity + t * gravity;
   made.position = of.problem.position + t * (of.problem.velocity + t / 2 * gravity);
   if constexpr (large) {
-    made.velocity += Vec3<Scalar>(x[28], x[29], x[30]);
-    made.position += Vec3<Scalar>(x[32], x[33], x[34]);
+    const Scalar *v = x + At::velocity, *way = x + At::position;
+    made.velocity += Vec3<Scalar>(v[0], v[1], v[2]);
+    made.position += Vec3<Scalar>(way[0], way[1], way[2]);
   }
   return made;
 }
@@ -145,10 +146,11 @@ class FullSystem {
     using Vectors = VectorSeries<Scalar, Order>;
     using Series = NumberSeries<Scalar, Order>;
     using Rows = Lanes<Scalar>[Order + 1];
-    Vectors rate;          ///< w unit
-    Rows momentum_turned;  ///< (M2, M3, M1)
-    Vectors seen[7];       ///< directions; radial, along; the part of a rotating field across its axis, and ahead of it
-    Rows wheels;           ///< w unit, less that of M
+    Vectors rate;               ///< w unit
+    Scalar turn[Order + 1][4];  ///< the same number by number
+    Rows momentum_turned;       ///< (M2, M3, M1)
+    Vectors seen[7];  ///< directions; radial, along; the part of a rotating field across its axis, and ahead of it
+    Rows wheels;      ///< w unit, less that of M
     Vectors field, down, down_J, radial_J;
     Rows induced;  ///< w_rel x B unit
     Rows gradient, orbit_shape, orbit_gradient;
@@ -381,18 +383,18 @@ template <Real Real_, bool large>
 template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_, large>::turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
                                                     const Row& rate, const Row& share) const noexcept {
-  const auto& o = work.rate.v;
+  store(work.turn[k], rate);
   Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
   count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
     const Row q = load(&x[k - j][0]);
-    s0 = multiply_add(shuffle<0, 0, 0, 0>(o[j]), q, s0);
-    s1 = multiply_add(shuffle<1, 1, 1, 1>(o[j]), q, s1);
-    s2 = multiply_add(shuffle<2, 2, 2, 2>(o[j]), q, s2);
+    s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
+    s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
+    s2 = multiply_add(lanes(work.turn[j][2]), q, s2);
   });
   const Row first = load(&x[0][0]), last = load(&x[k][0]);
-  s0 = multiply_add(shuffle<0, 0, 0, 0>(o[0]), last, multiply_add(shuffle<0, 0, 0, 0>(rate), first, s0));
-  s1 = multiply_add(shuffle<1, 1, 1, 1>(o[0]), last, multiply_add(shuffle<1, 1, 1, 1>(rate), first, s1));
-  s2 = multiply_add(shuffle<2, 2, 2, 2>(o[0]), last, multiply_add(shuffle<2, 2, 2, 2>(rate), first, s2));
+  s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(rate), first, s0));
+  s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(rate), first, s1));
+  s2 = multiply_add(lanes(work.turn[0][2]), last, multiply_add(shuffle<2, 2, 2, 2>(rate), first, s2));
   store(&x[k + 1][0], share * lanes(Scalar(0.5L)) * times_units(s0, s1, s2));
   store(&x[k + 1][At::turned], share * rate);
 }
@@ -463,6 +465,7 @@ void FullSystem<Real_, large>::expand(Scalar t, Scalar unit, Scalar (&x)[Order +
 
   const Row rate = row(w), half = lanes(Scalar(0.5L)) * rate, q = load(&x[0][0]);
   work.rate.set(0, rate);
+  store(work.turn[0], rate);
   work.momentum_turned[0] = shuffle<1, 2, 0, 3>(c.first_momentum);
   store(&x[1][0],
         times_units(shuffle<0, 0, 0, 0>(half) * q, shuffle<1, 1, 1, 1>(half) * q, shuffle<2, 2, 2, 2>(half) * q));
