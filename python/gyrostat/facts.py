@@ -20,7 +20,7 @@ class Quantity:
     frame: str = ""  # of a column
     measure: str = ""  # how its error is measured: relative, angle, absolute; empty: it has none
     scale: str = ""  # of a relative column: what its error is relative to where the column itself is smaller
-    kind: str = "number"  # number, flag (1 yes, 0 no), place (an index into a list), word (a place in `words`)
+    kind: str = "number"  # number, flag (1 yes, 0 no), place (an index into a list), word (a place in `words`), words (some of them)
     words: tuple[str, ...] = ()
 
 

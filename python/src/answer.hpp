@@ -30,7 +30,7 @@ inline py::object values_of(Column& column) {
   return array(std::move(column.values), {n, width});
 }
 
-/// A number or a vector, a truth value, a place; None where a truth value or a place is not known.
+/// A number or a vector, a truth value, a place, a name or a list of names; None where a truth value, a place or a name is not known.
 inline py::object value_of(const Quantity& quantity) {
   const double first = quantity.values[0];
   switch (quantity.kind->kind) {
@@ -39,6 +39,12 @@ inline py::object value_of(const Quantity& quantity) {
     case Kind::word:
       return std::isnan(first) ? py::object(py::none())
                                : py::object(py::str(quantity.kind->words[std::size_t(first)]));
+    case Kind::words: {
+      py::list names;
+      for (std::size_t i = 0; i < quantity.kind->words.size(); ++i)
+        if (has(ColumnSet(first), i)) names.append(quantity.kind->words[i]);
+      return names;
+    }
     default: break;
   }
   if (quantity.kind->width == 1) return py::float_(first + 0.0);  // no -0

@@ -33,6 +33,7 @@ enum class Kind : std::uint8_t {
   flag,    ///< 1 yes, 0 no, NaN not known
   place,   ///< an index into a list, NaN none
   word,    ///< a place in a list of names
+  words,   ///< some of a list of names, a bit for the place of each
 };
 
 /// In place of a width: one number for each rotor of the scene.
@@ -49,7 +50,7 @@ struct ColumnKind {
   /// Measure::relative: what errors are relative to beside the greatest norm of the column, the greater of the two; the scene sets it.
   const char* scale = "";
   Kind kind = Kind::number;
-  std::span<const char* const> words{};  ///< of Kind::word
+  std::span<const char* const> words{};  ///< of Kind::word and Kind::words
 };
 
 /// One number, or one vector, about the whole motion.
@@ -61,7 +62,7 @@ struct ScalarKind {
   Measure measure;
   const char* meaning;
   Kind kind = Kind::number;
-  std::span<const char* const> words{};  ///< of Kind::word
+  std::span<const char* const> words{};  ///< of Kind::word and Kind::words
 };
 
 /// Something that the user should know: a code to test for and a sentence, to which the number that raised it is added.

@@ -34,7 +34,7 @@ concept RungResult = requires(const Track& track, const Scene& scene, Answer& an
 
 /// A model of a scene: says whether it applies, answers, estimates its own error and counts its work; and before that what an answer would
 /// cost where it applies, in seconds of one core of some 3 GHz, to within a factor of a few. Costs are there to be compared with each other; infinite: the rung is there
-/// to be named, and otherwise asked when all others failed.
+/// to be named, and otherwise asked when all others failed; NaN: it has no answer to this scene, and says why when it is named.
 template <class Scene, class Track>
 struct Rung {
   Track (*answer)(const Scene&, Monitor*);
@@ -145,7 +145,7 @@ Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, co
   const Question& question = scene.question();
   const auto& kinds = family.rungs;
   const bool describes_all = detail::asks_for_scalars(question);
-  const int only = question.rung;
+  const int only = question.rung, alone = only >= 0 ? only : question.alone;
   Answer best;
   Track best_track;
   std::vector<Attempt> tried;
@@ -186,10 +186,11 @@ Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, co
   std::vector<detail::Candidate> order;
   std::vector<std::size_t> lacking;
   for (std::size_t i = 0; i < rungs.size(); ++i) {
-    if (only >= 0 && i != std::size_t(only)) continue;
-    const bool lacks = only < 0 && detail::lacks_needed(kinds[i], question, family);
-    if (lacks) lacking.push_back(i);
-    else detail::enlist(order, {i, rungs[i].cost(scene)});
+    if (alone >= 0 && i != std::size_t(alone)) continue;
+    const double cost = rungs[i].cost(scene);
+    if (only < 0 && std::isnan(cost)) continue;
+    if (only < 0 && detail::lacks_needed(kinds[i], question, family)) lacking.push_back(i);
+    else detail::enlist(order, {i, cost});
   }
   std::size_t next = 0;
   bool goes_on = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/deceleration/scene.hpp"
 #include "gyrostat/ladder/rung.hpp"
 #include "gyrostat/math/elliptic.hpp"
@@ -12,6 +13,9 @@ namespace gyrostat::deceleration {
 /// math::Native; solve_definition.hpp makes it for other elliptic functions.
 template <class Elliptic = math::Native>
 Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr);
+
+/// What an answer by that rung would cost where it applies, by its place in the table, s.
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept;
 
 #ifdef GYROSTAT_COMPILED
 extern template Answer solve<math::Native>(const Scene&, Refusal&, Monitor*);

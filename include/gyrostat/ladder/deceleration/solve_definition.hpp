@@ -57,13 +57,23 @@ inline void describe(Answer& answer, const Scene& scene, const Track&) {
   else if (total && scene.has_rotor()) warn(warning::does_not_stop, problem.gyro_rate().norm());
 }
 
+namespace detail {
+
+template <class Elliptic>
+inline constexpr Rung<Scene, Track> models[] = {{&equal_torque_track, &cost_of_equal_torque},
+                                                {&averaged<Elliptic>, &cost_of_averaged},
+                                                {&averaged_2<Elliptic>, &cost_of_averaged_2},
+                                                {&full_track, &cost_of_full}};
+
+}  // namespace detail
+
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept {
+  return detail::models<math::Native>[rung].cost(scene);
+}
+
 template <class Elliptic>
 Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
-  static constexpr Rung<Scene, Track> models[] = {{&equal_torque_track, &cost_of_equal_torque},
-                                                  {&detail::averaged<Elliptic>, &cost_of_averaged},
-                                                  {&detail::averaged_2<Elliptic>, &cost_of_averaged_2},
-                                                  {&full_track, &cost_of_full}};
-  return climb<Scene, Track>(tables, models, scene, monitor, refusal);
+  return climb<Scene, Track>(tables, detail::models<Elliptic>, scene, monitor, refusal);
 }
 
 }  // namespace gyrostat::deceleration

@@ -13,6 +13,9 @@ namespace gyrostat::free {
 /// turn about the angular momentum in a period, and so on.
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor = nullptr);
 
+/// What an answer by that rung would cost where it applies, by its place in the table, s.
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept;
+
 }  // namespace gyrostat::free
 
 #ifndef GYROSTAT_COMPILED

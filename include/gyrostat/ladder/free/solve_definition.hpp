@@ -16,6 +16,8 @@ namespace gyrostat::free {
 
 /// What is known of the whole motion, whichever rung answers.
 inline void describe(Answer& answer, const Scene& scene, const Track& track) {
+  const Question& question = scene.question();
+  if (!question.asked.empty() && !gyrostat::detail::asks_for_scalars(question)) return;
   const auto made = track.form ? Result<ClosedForm>(*track.form) : closed_form_of(scene);
   if (!made) return;
   const auto& [motion, error] = *made;
@@ -49,9 +51,15 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   }
 }
 
+/// In the order of rung_kinds.
+inline constexpr Rung<Scene, Track> models[] = {{&closed_form_track, &cost_of_closed_form},
+                                                {&full_track, &cost_of_full}};
+
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept {
+  return models[rung].cost(scene);
+}
+
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor) {
-  static constexpr Rung<Scene, Track> models[] = {{&closed_form_track, &cost_of_closed_form},
-                                                  {&full_track, &cost_of_full}};
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 

@@ -18,6 +18,9 @@ namespace gyrostat::heavy {
 /// and of a start with an exact case (a pendulum, a symmetric top) what of these that case knows, whichever rung answers.
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr);
 
+/// What an answer by that rung would cost where it applies, by its place in the table, s.
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept;
+
 }  // namespace gyrostat::heavy
 
 #ifndef GYROSTAT_COMPILED

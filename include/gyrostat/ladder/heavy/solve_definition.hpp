@@ -64,11 +64,17 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   }
 }
 
+/// In the order of rung_kinds.
+inline constexpr Rung<Scene, Track> models[] = {{&exact_track, &cost_of_exact},
+                                                {&series_2_track, &cost_of_series_2},
+                                                {&series_track, &cost_of_series},
+                                                {&full_track, &cost_of_full}};
+
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept {
+  return models[rung].cost(scene);
+}
+
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
-  static constexpr Rung<Scene, Track> models[] = {{&exact_track, &cost_of_exact},
-                                                  {&series_2_track, &cost_of_series_2},
-                                                  {&series_track, &cost_of_series},
-                                                  {&full_track, &cost_of_full}};
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 

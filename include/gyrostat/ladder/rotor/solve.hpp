@@ -13,6 +13,9 @@ namespace gyrostat::rotor {
 /// is certain to tend to, as known at the last time, and its `decay_rate`, 1/s; NaN where it is not certified or there is none.
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr);
 
+/// What an answer by that rung would cost where it applies, by its place in the table, s.
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept;
+
 }  // namespace gyrostat::rotor
 
 #ifndef GYROSTAT_COMPILED

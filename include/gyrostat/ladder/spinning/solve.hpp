@@ -19,6 +19,9 @@ namespace gyrostat::spinning {
 /// second also without force.
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr);
 
+/// What an answer by that rung would cost where it applies, by its place in the table, s.
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept;
+
 }  // namespace gyrostat::spinning
 
 #ifndef GYROSTAT_COMPILED

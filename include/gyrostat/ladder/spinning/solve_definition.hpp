@@ -75,11 +75,17 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
     warn(warning::spin_reversal, stop);
 }
 
+/// In the order of rung_kinds.
+inline constexpr Rung<Scene, Track> models[] = {{&linear_track, &cost_of_linear},
+                                                {&second_order_track, &cost_of_second_order},
+                                                {&picard_track, &cost_of_picard},
+                                                {&full_track, &cost_of_full}};
+
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept {
+  return models[rung].cost(scene);
+}
+
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
-  static constexpr Rung<Scene, Track> models[] = {{&linear_track, &cost_of_linear},
-                                                  {&second_order_track, &cost_of_second_order},
-                                                  {&picard_track, &cost_of_picard},
-                                                  {&full_track, &cost_of_full}};
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 
