@@ -25,7 +25,7 @@ inline double turn_between(const double* a, const double* b, int width) {
 /// As the table of columns measures it: by the angle, rad; absolute; or relative to the greatest norm, or to the scale where that is greater.
 inline double column_error(const Column& column, const Column& truth) {
   double most = 0, size = column.scale;
-  const std::size_t w = std::size_t(column.kind->width);
+  const std::size_t w = std::size_t(column.row_width());
   const bool attitude = column.kind->measure == Measure::angle;
   for (std::size_t i = 0; i < column.values.size(); i += w) {
     double difference = 0, norm = 0;

@@ -160,12 +160,15 @@ bool same_factor(const Factor<Scalar>& a, const Factor<Scalar>& b) noexcept {
          a.rate == b.rate && a.phase == b.phase;
 }
 
-/// Takes what is constant from 0 to `span` out of a factor, and returns it.
+/// Takes what is constant from 0 to `span` out of a factor, and returns it: 0 of what is off all the time.
 template <Real Scalar>
 Scalar take_constant(Factor<Scalar>& factor, Scalar span) noexcept {
   using std::sin;
   Scalar taken = 1;
-  std::erase_if(factor.on, [](const auto& on) noexcept { return !(on[0] < on[1]); });
+  if (!factor.on.empty()) {
+    std::erase_if(factor.on, [&](const auto& on) noexcept { return !(on[0] < on[1] && on[1] > 0 && on[0] < span); });
+    if (factor.on.empty()) return 0;
+  }
   for (const auto& [from, to] : factor.on)
     if (from <= 0 && to >= span) {
       factor.on.clear();
@@ -331,7 +334,7 @@ Collected<Scalar> Collected<Scalar>::of(const Problem<Scalar>& problem, Scalar s
   made.records.emplace_back();
   const auto put = [&](Factor<Scalar> factor, const Terms<Scalar>& terms) noexcept {
     const Scalar times = detail::take_constant(factor, span);
-    if (times == 0) return;
+    if (times == 0 || !terms.any()) return;
     auto place = std::find_if(made.records.begin(), made.records.end(),
                               [&](const auto& record) noexcept { return detail::same_factor(record.factor, factor); });
     if (place == made.records.end()) {

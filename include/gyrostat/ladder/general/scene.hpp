@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/ladder/general/instances.hpp"
+#include "gyrostat/ladder/general/motion.hpp"
+#include "gyrostat/ladder/general/recognise.hpp"
+#include "gyrostat/ladder/goal.hpp"
+#include "gyrostat/ladder/question.hpp"
+#include "gyrostat/models/general/collected.hpp"
+#include "gyrostat/models/general/problem.hpp"
+#include "gyrostat/models/general/right_side.hpp"
+#include "gyrostat/models/general/sizes.hpp"
+#include "gyrostat/models/general/wheels.hpp"
+
+namespace gyrostat::general {
+
+namespace detail {
+
+/// The sizes of all torques at t, summed: what the rounding of their sum is relative to, N m.
+inline double sum_of_torques(const Problem<double>& problem, const Pose<double>& pose, double t) noexcept {
+  double sum = 0;
+  for (const auto& torque : problem.torques)
+    sum += std::abs(factor_at(torque.factor, t, t)) * load_of(problem, torque, pose, t, t).torque.norm();
+  return sum;
+}
+
+}  // namespace detail
+
+/// A valid scene: what is given, body and wheels reduced, the torques summed, and the families that it is an instance of.
+class Scene {
+ public:
+  Scene() = default;
+
+  /// What check_times() and check() find. recognised: look for families.
+  static Result<Scene> make(const Problem<double>& problem, const Question& question, bool recognised = true) {
+    if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
+    if (const Fault wrong = check(problem)) return wrong.code;
+    Scene scene;
+    scene.problem_ = problem;
+    scene.wheels_ = Wheels<double>::of(problem);
+    scene.question_ = question;
+    const Collected<double> torques = Collected<double>::of(problem, question.times.back());
+    scene.sizes_ = sizes_of<double>(problem, scene.wheels_, torques, question.times.back());
+    if (recognised) scene.instances_ = recognise(problem, scene.wheels_, torques, question);
+    return scene;
+  }
+
+  /// The same motion, asked otherwise; `question` must be one that make would take, with the same last time.
+  Scene asked(const Question& question) const {
+    Scene other = *this;
+    other.question_ = question;
+    return other;
+  }
+
+  const Problem<double>& problem() const noexcept { return problem_; }
+  const Wheels<double>& wheels() const noexcept { return wheels_; }
+  const Sizes<double>& sizes() const noexcept { return sizes_; }
+  /// What is asked of the columns.
+  Goal<std::size(column_kinds)> goal() const noexcept {
+    return Goal<std::size(column_kinds)>::of(question_, tables, scales());
+  }
+  const Instances& instances() const noexcept { return instances_; }
+  const Question& question() const noexcept { return question_; }
+
+  /// The scales of the columns, in their units.
+  ColumnErrors scales() const noexcept;
+
+  /// Whether the scene has the column at all.
+  bool has_column(std::size_t column) const noexcept {
+    switch (column) {
+      case column::rotor_rate:
+      case column::rotor_angle: return wheels_.count > 0;
+      case column::velocity:
+      case column::position: return !problem_.fixed;
+      case column::attitude_orbit: return problem_.orbit.has_value();
+      case column::down: return has_vertical();
+      default: return true;
+    }
+  }
+  /// Whether a column is asked for, and the scene has it.
+  bool gives(std::size_t column) const noexcept {
+    const bool all = question_.asked.empty() && question_.rung != any_rung;
+    return (all || aim_of(question_, tables, false, column)) && has_column(column);
+  }
+  /// A torque or a force knows what is down.
+  bool has_vertical() const noexcept {
+    return std::any_of(problem_.torques.begin(), problem_.torques.end(), [](const Torque<double>& torque) {
+      return torque.type == TorqueType::weight || (torque.type == TorqueType::gravity_gradient && torque.gradient);
+    });
+  }
+
+ private:
+  Problem<double> problem_;
+  Wheels<double> wheels_;
+  Sizes<double> sizes_;
+  Instances instances_;
+  Question question_;
+};
+
+inline ColumnErrors Scene::scales() const noexcept {
+  constexpr double share = 1e-3;
+  const auto& p = problem_;
+  const double omega = p.angular_velocity.norm(), most = symmetric_eigen<double>(wheels_.whole).values[2];
+  double momenta = (wheels_.whole * p.angular_velocity).norm() + p.rotor_momentum.norm(), fastest = omega;
+  for (std::size_t i = 0; i < wheels_.count; ++i) {
+    const auto& law = wheels_.laws[i];
+    momenta += law.axial_inertia * std::abs(law.rate);
+    fastest = std::max(fastest, std::abs(law.rate));
+  }
+  const Vec3<double> M = wheels_.reduced * p.angular_velocity + wheels_.momentum_of_wheels();
+  const double torques = detail::sum_of_torques(p, {p.attitude, p.angular_velocity, M}, 0);
+  const double T = question_.times.back();
+  const Vec3<double> g = p.fixed ? Vec3<double>(0, 0, 0) : Vec3<double>(p.field.gravity * p.field.down);
+  ColumnErrors scale;
+  scale[column::angular_velocity] = omega > 0 ? omega : share * momenta / most;
+  scale[column::angular_momentum] = scale[column::angular_momentum_inertial] = scale[column::angular_momentum_norm] =
+      share * momenta;
+  scale[column::energy] = share * momenta / most * momenta / 2;
+  scale[column::rotor_rate] = share * fastest;
+  scale[column::rotor_angle] = share;
+  scale[column::velocity] = p.velocity.norm() + g.norm() * T;
+  scale[column::position] = p.position.norm() + (p.velocity.norm() + g.norm() * T) * T;
+  scale[column::down] = 1;
+  scale[column::torque] = share * torques;
+  return scale;
+}
+
+}  // namespace gyrostat::general

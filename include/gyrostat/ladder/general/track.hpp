@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "gyrostat/ladder/errors.hpp"
+#include "gyrostat/ladder/fill.hpp"
+#include "gyrostat/ladder/general/scene.hpp"
+#include "gyrostat/ladder/outcome.hpp"
+#include "gyrostat/models/general/balances.hpp"
+#include "gyrostat/models/general/problem.hpp"
+#include "gyrostat/models/general/right_side.hpp"
+#include "gyrostat/models/general/surroundings.hpp"
+#include "gyrostat/rotation/quaternion.hpp"
+
+namespace gyrostat::general {
+
+/// What a rung finds at the asked times, and by how much it may be off: absolute, in the unit of each primitive. NaN: not known.
+struct Track : Outcome {
+  std::vector<State<double>> states;
+  std::array<double, primitive::count> off;
+  /// Of a rung that knows norm and energy better than states tell: the column and its absolute error.
+  struct Slow {
+    std::vector<double> values;
+    double off = nan<double>;
+  };
+  Slow norm, energy;
+  double stop_time = nan<double>, stop_error = nan<double>;
+  double energy_balance = nan<double>, momentum_balance = nan<double>;
+
+  Track() { off.fill(nan<double>); }
+};
+
+namespace detail {
+
+/// The axes of the orbit, x along it, y against its normal, z to the centre, to inertial ones.
+inline Quat<double> orbit_axes(const OrbitPoint<double>& at) noexcept {
+  const Vec3<double> normal = cross<double>(at.radial, at.along);
+  Mat3<double> R;
+  R.col(0) = at.along;
+  R.col(1) = -normal;
+  R.col(2) = -at.radial;
+  return from_matrix<double>(R);
+}
+
+/// Writes the columns of a scene's states: the one place that knows what they are made of.
+class Writer {
+ public:
+  Writer(const Scene& scene, const Track& track) noexcept : scene_(scene), track_(track) {}
+
+  /// Numbers of column `place` at time i.
+  void operator()(std::size_t place, std::size_t i, double t, double* to) const noexcept {
+    const State<double>& s = track_.states[i];
+    const auto put = [&](const Vec3<double>& v) { std::copy_n(v.data(), 3, to); };
+    const auto turn = [&](const Quat<double>& q) { to[0] = q.x, to[1] = q.y, to[2] = q.z, to[3] = q.w; };
+    switch (place) {
+      case column::attitude: return turn(s.attitude);
+      case column::angular_velocity: return put(s.angular_velocity);
+      case column::angular_momentum: return put(s.angular_momentum);
+      case column::angular_momentum_inertial: return put(rotate<double>(s.attitude, s.angular_momentum));
+      case column::angular_momentum_norm:
+        *to = track_.norm.values.empty() ? s.angular_momentum.norm() : track_.norm.values[i];
+        return;
+      case column::energy:
+        *to = track_.energy.values.empty() ? energy(scene_.wheels(), s) : track_.energy.values[i];
+        return;
+      case column::rotor_rate: std::copy_n(s.rotor_rate.data(), scene_.wheels().count, to); return;
+      case column::rotor_angle: std::copy_n(s.rotor_angle.data(), scene_.wheels().count, to); return;
+      case column::velocity: return put(s.velocity);
+      case column::position: return put(s.position);
+      case column::down: return put(rotate<double>(conjugate(s.attitude), scene_.problem().field.down));
+      case column::attitude_orbit:
+        return turn(conjugate(orbit_axes(orbit_at(*scene_.problem().orbit, t))) * s.attitude);
+      default: put(load_at(scene_.problem(), pose(s), t, t).torque);
+    }
+  }
+
+  /// The absolute error of column `place`.
+  double off(std::size_t place) const noexcept {
+    const auto& off = track_.off;
+    const double turning = off[primitive::attitude], rate = off[primitive::angular_velocity];
+    const double momentum = off[primitive::angular_momentum];
+    const double M = greatest([](const State<double>& s) { return s.angular_momentum.norm(); });
+    switch (place) {
+      case column::attitude: return turning;
+      case column::angular_velocity: return rate;
+      case column::angular_momentum: return momentum;
+      case column::angular_momentum_inertial: return momentum + M * (turning + 4 * epsilon<double>);
+      case column::angular_momentum_norm: return track_.norm.values.empty() ? momentum : track_.norm.off;
+      case column::energy: return track_.energy.values.empty() ? energy_off(rate) : track_.energy.off;
+      case column::rotor_rate: return off[primitive::rotor_rate];
+      case column::rotor_angle: return off[primitive::rotor_angle];
+      case column::velocity: return off[primitive::velocity];
+      case column::position: return off[primitive::position];
+      case column::down: return turning + 4 * epsilon<double>;
+      case column::attitude_orbit: return turning + 8 * epsilon<double> * (1 + orbit_phase());
+      default: return torque_off();
+    }
+  }
+
+ private:
+  template <class Size>
+  double greatest(const Size& size) const noexcept {
+    double most = 0;
+    for (const auto& s : track_.states) most = greater(size(s), most);
+    return most;
+  }
+  double absolute_rate(const State<double>& s, std::size_t i) const noexcept {
+    return s.rotor_rate[i] + scene_.wheels().laws[i].axis.dot(s.angular_velocity);
+  }
+  double energy_off(double rate) const noexcept {
+    const auto& wheels = scene_.wheels();
+    const double J = wheels.reduced.norm();
+    double sum = (greatest([&](const State<double>& s) { return (wheels.reduced * s.angular_velocity).norm(); }) +
+                  J * rate / 2) *
+                 rate;
+    for (std::size_t i = 0; i < wheels.count; ++i) {
+      const auto& law = wheels.laws[i];
+      if (law.follows != Follows::integral && law.follows != Follows::state) continue;  // else p stays
+      const double its = track_.off[primitive::rotor_rate] + rate;
+      sum += law.axial_inertia * its *
+             (greatest([&](const State<double>& s) { return std::abs(absolute_rate(s, i)); }) + its / 2);
+    }
+    return sum + 8 * epsilon<double> * greatest([&](const State<double>& s) { return energy(wheels, s); });
+  }
+  static Pose<double> pose(const State<double>& s) noexcept {
+    return {s.attitude, s.angular_velocity, s.angular_momentum};
+  }
+  /// By how much the torques change where attitude, rates and momentum change by their errors, by differences at some of the times.
+  double torque_off() const noexcept {
+    for (const std::size_t p : {primitive::attitude, primitive::angular_velocity, primitive::angular_momentum})
+      if (!(track_.off[p] < infinity<double>)) return infinity<double>;
+    const auto& times = scene_.question().times;
+    const std::size_t n = track_.states.size(), stride = 1 + n / 16;
+    double most = 0;
+    for (std::size_t back = 0; back < n; back += stride) {
+      const std::size_t i = n - 1 - back;
+      const Pose<double> here = pose(track_.states[i]);
+      const auto torque = [&](const Pose<double>& at) {
+        return load_at(scene_.problem(), at, times[i], times[i]).torque;
+      };
+      const Vec3<double> now = torque(here);
+      double sum = 8 * epsilon<double> * sum_of_torques(scene_.problem(), here, times[i]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vec3<double> e = Vec3<double>::Unit(axis);
+        // by at least the root of a rounding, so that the difference means something
+        const auto moved = [&](std::size_t p, double size, auto&& move) {
+          const double off = track_.off[p], by = std::max(off, 1e-8 * size);
+          if (by > 0) sum += (torque(move(by)) - now).norm() * (off / by);
+        };
+        moved(primitive::attitude, 1, [&](double by) {
+          Pose<double> at = here;
+          at.attitude = normalised(at.attitude * Quat<double>{1, by / 2 * e[0], by / 2 * e[1], by / 2 * e[2]});
+          return at;
+        });
+        moved(primitive::angular_velocity, here.angular_velocity.norm(), [&](double by) {
+          Pose<double> at = here;
+          at.angular_velocity += by * e;
+          return at;
+        });
+        moved(primitive::angular_momentum, here.angular_momentum.norm(), [&](double by) {
+          Pose<double> at = here;
+          at.angular_momentum += by * e;
+          return at;
+        });
+      }
+      most = greater(sum, most);
+    }
+    return most;
+  }
+  /// The angle that the orbit turns through, to its order, rad.
+  double orbit_phase() const noexcept {
+    return orbit_at(*scene_.problem().orbit, 0.0).rate * scene_.question().times.back();
+  }
+
+  const Scene& scene_;
+  const Track& track_;
+};
+
+/// Whether a rung that gives these primitives, norm and energy apart, gives the column.
+inline bool known(const Track& track, std::size_t place) noexcept {
+  if (place == column::angular_momentum_norm && !track.norm.values.empty()) return true;
+  if (place == column::energy && !track.energy.values.empty()) return true;
+  for (std::size_t p = 0; p < primitive::count; ++p)
+    if (has(made_of[place], p) && p != primitive::rotor_rate && std::isnan(track.off[p])) return false;
+  return place != column::rotor_rate || !std::isnan(track.off[primitive::rotor_rate]);
+}
+
+}  // namespace detail
+
+/// Rates and angles of the wheels at t = 0 as they were given.
+inline void put_wheels(Answer& answer, const Wheels<double>& wheels) {
+  if (answer.times.front() != 0) return;
+  for (Column& column : answer.columns) {
+    const bool rate = column.kind == &column_kinds[column::rotor_rate];
+    if ((!rate && column.kind != &column_kinds[column::rotor_angle]) || column.error == infinity<double>) continue;
+    for (std::size_t i = 0; i < wheels.count; ++i) column.values[i] = rate ? wheels.laws[i].rate : wheels.laws[i].angle;
+  }
+}
+
+inline void fill(Answer& answer, const Scene& scene, const Track& track) {
+  fill_head(answer, scene.question(), track);
+  const auto scale = scene.scales();
+  const detail::Writer write(scene, track);
+  const std::size_t n = answer.times.size();
+  for (std::size_t place = 0; place < std::size(column_kinds); ++place) {
+    if (!scene.gives(place)) continue;
+    const ColumnKind& kind = column_kinds[place];
+    const std::size_t width = kind.width == per_rotor ? scene.wheels().count : std::size_t(kind.width);
+    if (!detail::known(track, place)) {
+      answer.columns.push_back({&kind, std::vector<double>(n * width, nan<double>), infinity<double>, scale[place]});
+      answer.columns.back().width = int(width);
+      continue;
+    }
+    answer.columns.push_back({&kind, std::vector<double>(n * width), 0, scale[place]});
+    Column& column = answer.columns.back();
+    column.width = int(width);
+    for (std::size_t i = 0; i < n; ++i) write(place, i, answer.times[i], column.values.data() + i * width);
+    const double off = write.off(place);
+    column.error = kind.measure == Measure::relative ? relative_to_truth(over(off, size_of(column))) : off;
+  }
+  const auto& q = scene.problem().attitude;
+  const auto& w = scene.problem().angular_velocity;
+  put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
+  put_start(answer, column_kinds[column::angular_velocity], {w[0], w[1], w[2]});
+  put_wheels(answer, scene.wheels());
+}
+
+}  // namespace gyrostat::general

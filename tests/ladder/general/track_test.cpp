@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/general/track.hpp"
+
+#include "answered.hpp"
+
+using namespace general_scenes;
+
+namespace {
+
+/// A state that moves, and a scene with an orbit, a vertical and a wheel.
+Problem<double> everything() {
+  Problem<double> p = brick();
+  p.wheels = {wheel(WheelType::motor, {0, 0.6, 0.8})};
+  p.wheels[0].slope = 1e-3;
+  p.orbit.emplace();
+  p.field.down = {0.6, 0, -0.8};
+  p.torques = {torque(TorqueType::gravity_gradient, {0, 0, 0}), torque(TorqueType::constant, {0.1, 0, 0})};
+  p.torques[0].gradient = 0.01;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("columns that are made of others are what they say", "[general]") {
+  Question question = question_at({0, 0.7, 3});
+  question.asked = all_columns();
+  const Scene scene = posed(everything(), question);
+  const Answer answer = true_answer(scene);
+  const auto at = [&](const char* name, std::size_t i) {
+    return &answer.find(name)->values[i * std::size_t(answer.find(name)->row_width())];
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double* x = at("attitude", i);
+    const Quat<double> q{x[3], x[0], x[1], x[2]};
+    const Eigen::Map<const Vec3<double>> M(at("angular_momentum", i)), M_I(at("angular_momentum_inertial", i)),
+        down(at("down", i)), w(at("angular_velocity", i)), tau(at("torque", i));
+    CHECK((rotate<double>(q, M) - M_I).norm() < 1e-14);
+    CHECK(*at("angular_momentum_norm", i) == Approx(M.norm()));
+    CHECK((rotate<double>(conjugate(q), Vec3<double>(0.6, 0, -0.8)) - down).norm() < 1e-15);
+    const auto& wheels = scene.wheels();
+    const double p = 0.05 * (*at("rotor_rate", i) + Vec3<double>(0, 0.6, 0.8).dot(w));
+    CHECK(*at("energy", i) == Approx(w.dot(wheels.reduced * w) / 2 + p * p / 0.1));
+    const Vec3<double> pull = 0.01 * Vec3<double>(down).cross(wheels.whole * down) + Vec3<double>(0.1, 0, 0);
+    CHECK((tau - pull).norm() < 1e-15);
+    // the body seen from the axes of the orbit: x along it, y against its normal, z to the centre
+    const double* y = at("attitude_orbit", i);
+    const double t = question.times[i];
+    const Vec3<double> outward(std::cos(t), std::sin(t), 0);
+    const Vec3<double> centre_B = rotate<double>(conjugate(q), Vec3<double>(-outward));
+    CHECK((rotate<double>(Quat<double>{y[3], y[0], y[1], y[2]}, centre_B) - Vec3<double>(0, 0, 1)).norm() < 1e-14);
+  }
+  CHECK(answer.find("attitude")->values[3] == everything().attitude.w);
+}
+
+TEST_CASE("what a rung does not know has no value and an infinite error", "[general]") {
+  Question question = question_at({1});
+  question.asked = all_columns();
+  const Scene scene = posed(everything(), question);
+  Track track;
+  track.states.resize(1);
+  track.off[primitive::attitude] = 1e-9;
+  Answer answer;
+  fill(answer, scene, track);
+  CHECK(answer.find("attitude")->error == 1e-9);
+  CHECK(answer.find("down")->error >= 1e-9);
+  for (const char* name : {"angular_velocity", "angular_momentum_inertial", "rotor_rate", "torque", "energy"}) {
+    CHECK(answer.find(name)->error == infinity<double>);
+    CHECK(std::isnan(answer.find(name)->values[0]));
+  }
+}
+
+TEST_CASE("the error of a torque is what the errors of the motion make of it", "[general]") {
+  Question question = question_at({1});
+  question.asked = {{column::torque}};
+  const Scene scene = posed(everything(), question);
+  Answer exact, off;
+  Track track;
+  const std::vector<long double> wide{1};
+  track.states.push_back(general_truth::cast<double>(
+      general_truth::motion<long double>(general_truth::cast<long double>(scene.problem()), wide, 1e-16L)[0]));
+  track.off.fill(1e-3);
+  fill(exact, scene, track);
+  track.states[0].attitude = normalised(track.states[0].attitude * Quat<double>{1, 4e-4, 2e-4, 0});
+  fill(off, scene, track);
+  const double apart = column_error(off.columns[0], exact.columns[0]);
+  CHECK(apart > 0);
+  CHECK(apart < exact.columns[0].error);
+  CHECK(exact.columns[0].error < 30 * apart);
+}
