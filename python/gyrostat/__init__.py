@@ -2,7 +2,8 @@
 """Attitude motion of bodies that carry rotors, by the cheapest model that meets a tolerance.
 
 `load` reads a scene file, `solve` answers it, `sweep` answers it with many numbers, `chart` shows what accuracy costs; `gyrostat.deceleration`,
-`gyrostat.rotor`, `gyrostat.spinning`, `gyrostat.heavy`, `gyrostat.free`, `gyrostat.elliptic` and `gyrostat.rotation` hold the functions behind them, over arrays.
+`gyrostat.rotor`, `gyrostat.spinning`, `gyrostat.heavy`, `gyrostat.free`, `gyrostat.general`, `gyrostat.elliptic` and `gyrostat.rotation` hold the
+functions behind them, over arrays.
 """
 
 from gyrostat._core import Monitor, __version__, build_info

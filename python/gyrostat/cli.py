@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: gyrostat solve | view | sweep | merge | report | chart | stability | design | reproduce | scenes | show | new | schema | info | selftest."""
+"""The command line: gyrostat solve | recognise | view | sweep | merge | report | chart | stability | design | reproduce | scenes | show | new | schema | info | selftest."""
 
 import argparse
 import contextlib
@@ -75,6 +75,13 @@ def _seconds(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text}: this is no time: {error}") from None
 
 
+def _add_recognise(command: Command, takes_scene: Callable[[argparse.ArgumentParser], None]) -> None:
+    recognise = command("recognise", _recognise, "say of which families a scene is exactly an instance, and why it is none of the others")
+    takes_scene(recognise)
+    recognise.add_argument("--json", action="store_const", const="json", dest="form",
+                           help="print one JSON object: family and reason, null where it is one")
+
+
 def _add_view(command: Command, takes_scene: Callable[[argparse.ArgumentParser], None]) -> None:
     viewing = command("view", _view, "write the motion as one HTML page to look at in a browser")
     takes_scene(viewing)
@@ -114,6 +121,7 @@ def _arguments() -> argparse.ArgumentParser:
     solve.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of to the standard output, in the form of the ending")
     solve.add_argument("--plot", type=Path, metavar="FILE", help="write a figure (PNG, SVG or PDF by its ending)")
 
+    _add_recognise(command, takes_scene)
     _add_view(command, takes_scene)
     add_commands(command, takes_scene, _scene)
 
@@ -275,6 +283,20 @@ def _write(text: str, file: Path | None) -> None:
         sys.stdout.write(text)
     else:
         file.write_text(text)
+
+
+def _recognise(arguments: argparse.Namespace) -> int:
+    from gyrostat.families.general.rewrite import recognised
+
+    found = recognised(_scene(arguments))
+    if arguments.form == "json":
+        say(json.dumps({family: why or None for family, why in found.items()}), sys.stdout)
+        return MET
+    rows = [[family, "-" if why else "yes", why] for family, why in found.items()]
+    show_table("Families", ["family", "an instance", "why not"], rows, sys.stdout)
+    names = [family for family, why in found.items() if not why]
+    say(f"The rungs of {' and '.join(names)} are asked before the full equations." if names else "The full equations answer.", sys.stdout)
+    return MET
 
 
 def _chart(arguments: argparse.Namespace) -> int:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gyrostat._core import csv_rows, json_numbers
 from gyrostat.answer import Answer
-from gyrostat.facts import MEANINGS, UNITS
+from gyrostat.facts import FACTS, MEANINGS, UNITS
 
 if TYPE_CHECKING:
     import pandas
@@ -86,7 +86,8 @@ def _flat(answer: Answer) -> Iterator[tuple[str, NDArray[Any]]]:
         if values.ndim == 1:
             yield name, values
         else:
-            for axis, part in zip(_AXES, values.T, strict=False):
+            axes = _AXES if values.shape[1] <= len(_AXES) else tuple(str(i) for i in range(1, values.shape[1] + 1))
+            for axis, part in zip(axes, values.T, strict=False):
                 yield f"{name}_{axis}", part
 
 
@@ -114,6 +115,9 @@ def _scalar_attributes(answer: Answer) -> Iterator[tuple[str, Any]]:
     for name, value in answer.scalars.items():
         if value is None:
             continue
+        if isinstance(value, str | list):  # words
+            yield name, value if isinstance(value, str) else ", ".join(value)
+            continue
         yield name, np.asarray(value, dtype=float)
         if unit := UNITS.get(name):
             yield f"{name}_units", unit
@@ -128,8 +132,10 @@ def to_xarray(answer: Answer) -> "xarray.Dataset":
     except ImportError as error:
         raise ImportError("xarray is not installed: pip install 'gyrostat[xarray]'") from error
     variables: dict[str, Any] = {}
+    facts = FACTS.get(answer.scene.get("kind", ""))
+    per_wheel = {column.name for column in facts.columns.values() if column.width == 0} if facts else set()
     for name, values in answer.columns.items():
-        axis = {1: (), 2: ("axis" if values.shape[-1] == 3 else "component",)}[values.ndim]
+        axis = {1: (), 2: ("wheel" if name in per_wheel else "axis" if values.shape[-1] == 3 else "component",)}[values.ndim]
         attributes: dict[str, Any] = {"units": UNITS.get(name, ""), "long_name": MEANINGS.get(name, name)}
         if name in answer.error and math.isfinite(answer.error[name]):
             attributes["estimated_error"] = answer.error[name]

@@ -5,14 +5,16 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
-__all__ = ["ARRAYS", "Choice", "Choices", "Field", "Found", "LIMIT", "MOST_SAMPLES", "REQUIRED", "ROUNDING", "TIMES", "Table", "UNSET", "Values",
-           "head_keys", "inertia_parts", "needed", "solve_keys", "table_of"]
+__all__ = ["ARRAYS", "Choice", "Choices", "Field", "Found", "GENERAL", "LIMIT", "MOST_SAMPLES", "REQUIRED", "ROUNDING", "TIMES", "Table", "UNSET", "Values",
+           "head_keys", "inertia_parts", "needed", "parts_of", "solve_keys", "table_of"]
 
-Form = Literal["text", "choice", "number", "count", "vector", "direction", "quaternion", "rotation", "sequence", "inertia", "moments", "times",
-               "record", "records", "ask", "vary"]
+# An axis is a vector of any length but 0, a turn such a quaternion; a matrix is one number, three along the diagonal, or nine; rows are threes, intervals pairs of numbers.
+Form = Literal["text", "choice", "flag", "number", "count", "vector", "axis", "direction", "quaternion", "turn", "rotation", "sequence", "inertia", "moments",
+               "matrix", "numbers", "rows", "intervals", "times", "record", "records", "number or record", "vector or record", "ask", "vary"]
 # Of several numbers, which may stand in { value = [...], unit = "..." }.
-ARRAYS: Final = ("vector", "inertia", "moments", "times")
+ARRAYS: Final = ("vector", "inertia", "moments", "matrix", "numbers", "rows", "intervals", "times")
 
+GENERAL: Final = "general"  # the kind of a scene that names none
 REQUIRED: Final = "required"  # the key must be given
 UNSET: Final = None  # the key may be left out and then has no value
 
@@ -38,9 +40,29 @@ class Field:
     open_low: bool = False  # the lower bound itself is not allowed
     open_high: bool = False
     parts: tuple["Field", ...] = ()  # of a record, or of each of several: its keys
+    # Of records of several sorts: the keys of each sort. A record is of the first sort whose choices it takes in the keys `by`.
+    sorts: tuple[tuple["Field", ...], ...] = ()
+    by: tuple[str, ...] = ()
+
+    @property
+    def all_parts(self) -> tuple["Field", ...]:
+        """The keys of a record of any sort, by name."""
+        return self.parts or tuple({part.name: part for sort in reversed(self.sorts) for part in sort}.values())
 
 
 Table = tuple[Field, ...]
+
+
+def parts_of(field: Field, value: Mapping[str, Any]) -> Table | None:
+    """The keys of one record; None where it is of no sort."""
+    if not field.sorts:
+        return field.parts
+    for sort in field.sorts:
+        tied = [part for part in sort if part.name in field.by]
+        if all(value.get(part.name, part.default) in part.choices for part in tied) and not any(
+                name in value and all(part.name != name for part in tied) for name in field.by):
+            return sort
+    return None
 
 
 def inertia_parts(field: Field) -> Table:
@@ -62,7 +84,7 @@ def head_keys(kind: str) -> Table:
     """The keys at the top of a scene file."""
     return (
         Field("name", "text", "name of the scene"),
-        Field("kind", "choice", "family of the scene", choices=(kind,)),
+        Field("kind", "choice", "family of the scene", default=GENERAL if kind == GENERAL else REQUIRED, choices=(kind,)),
         Field("source", "text", "where the numbers come from", default=""),
         Field("vary", "vary", "what varies from row to row of a sweep, each key in full and in quotes, and how; beside them n, seed, design, cases",
               default=UNSET),

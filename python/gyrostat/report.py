@@ -38,6 +38,8 @@ def tail(answer: Answer) -> str:
 def _scalar(name: str, value: Any) -> str:
     if isinstance(value, str):
         return value
+    if isinstance(value, list):  # of names
+        return ", ".join(value) or "none"
     if name == "stop_time" and value == math.inf:
         return "never"
     if name == "stable" and value is not None:

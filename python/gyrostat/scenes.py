@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from gyrostat.asking import AskError, asked, knows_attitude
 from gyrostat.errors import DomainError, Mistake, Refused, SceneError
 from gyrostat.families import FAMILIES, Family
-from gyrostat.fields import ARRAYS, LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, UNSET, Choices, Field, Table, Values, inertia_parts, table_of
+from gyrostat.fields import ARRAYS, GENERAL, LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, UNSET, Choices, Field, Table, Values, inertia_parts, parts_of, table_of
 from gyrostat.orientation import axes_of, form_of, require_rotation, settle
 from gyrostat.rows import SETTINGS, plan_of
 from gyrostat.units import PATTERN, split, to_si
@@ -116,7 +116,7 @@ class Scene:
             written.pop(f"{table}.{field.name}", None)
             if _worded(field, value):
                 written[f"{table}.{field.name}"] = _told(field, value, read)
-        if any(family.mistakes(tables)):
+        if any(family.mistakes({"": self.top, **tables})):
             return None
         made = Scene(self.name, self.kind, self.source, tables, self.path, self.top, written)
         if tables["solve"] is self.tables["solve"]:
@@ -161,11 +161,11 @@ class _Source:
 
 
 def _plain(value: Any) -> Any:
-    """Numpy arrays, tuples and mappings as lists and dicts; other things as they are."""
+    """Numpy arrays, tuples and mappings as lists and dicts, keys without a value left out; other things as they are."""
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
     if isinstance(value, Mapping):
-        return {key: _plain(item) for key, item in value.items()}
+        return {key: _plain(item) for key, item in value.items() if item is not UNSET}
     if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
     return value
@@ -271,6 +271,12 @@ def _interval(field: Field) -> str:
     return low if field.low > -LIMIT else f"of size at most {LIMIT:g}"
 
 
+def _flag(field: Field, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise Refused(f"this is {_kind_of(value)}, not a truth value", f"write {field.name} = true or {field.name} = false")
+    return value
+
+
 def _count(field: Field, value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, int):
         raise Refused(f"this is {_kind_of(value)}, not an integer", f"write an integer, such as {field.name} = 401")
@@ -292,6 +298,55 @@ def _vector(field: Field, value: Any) -> tuple[float, ...]:
     return tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
 
 
+def _axis(field: Field, value: Any) -> tuple[float, ...]:
+    axis = _vector(field, value)
+    if not any(axis):
+        raise Refused("a zero vector has no direction", "write a vector along the axis, such as [0.0, 0.0, 1.0]")
+    return axis
+
+
+def _numbers(field: Field, value: Any) -> tuple[float, ...]:
+    if not isinstance(value, list) or not value:
+        raise Refused(f"this is {'an empty array' if value == [] else _kind_of(value)}, not an array of numbers", f"write {field.name} = [0.0, 1.0, 2.5]")
+    if len(value) > MOST_SAMPLES:
+        raise Refused(f"there are {len(value)} numbers", f"give at most {MOST_SAMPLES}")
+    return tuple(_number(field, item, f"element {i}") for i, item in enumerate(value, 1))
+
+
+def _table_rows(field: Field, value: Any, width: int, example: str) -> tuple[tuple[float, ...], ...]:
+    if not isinstance(value, list) or not value:
+        raise Refused(f"this is {'an empty array' if value == [] else _kind_of(value)}, not an array of arrays", f"write {field.name} = [{example}, ...]")
+    made = []
+    for i, row in enumerate(value, 1):
+        if not isinstance(row, list) or len(row) != width:
+            raise Refused(f"element {i} is not an array of {width} numbers", f"write {field.name} = [{example}, ...]")
+        made.append(tuple(_number(field, item, f"element ({i}, {j})") for j, item in enumerate(row, 1)))
+    return tuple(made)
+
+
+def _matrix(field: Field, value: Any) -> tuple[tuple[float, ...], ...]:
+    """One number, three along the diagonal, or three rows of three."""
+    if not isinstance(value, list):
+        diagonal: tuple[float, ...] = (_number(field, value),) * 3
+    elif any(isinstance(item, list) for item in value):
+        return tuple(map(tuple, _rows(field, _list(field, value, 3, "three rows of three"), "a matrix")))
+    else:
+        diagonal = _vector(field, value)
+    return tuple(tuple(diagonal[i] if i == j else 0.0 for j in range(3)) for i in range(3))
+
+
+def _intervals(field: Field, value: Any) -> tuple[tuple[float, ...], ...]:
+    made = _table_rows(field, value, 2, "[0.0, 10.0]")
+    last = -math.inf
+    for i, (begin, end) in enumerate(made, 1):
+        if not begin < end:
+            raise Refused(f"interval {i} ends at {end!r}, not after its begin {begin!r}", "write begin and end of each, as [[0.0, 10.0]]")
+        if begin < last:
+            raise Refused(f"interval {i} begins at {begin!r}, before the end of the one ahead, {last!r}", "put the intervals in order, none in another")
+        last = end
+    return made
+
+
 def _unit(numbers: tuple[float, ...], tolerance: float, what: str) -> tuple[float, ...]:
     norm = math.hypot(*numbers)
     if abs(norm - 1) > tolerance:
@@ -307,6 +362,15 @@ def _quaternion(field: Field, value: Any) -> tuple[float, ...]:
     if not any(q):
         raise Refused("a zero quaternion is no rotation", f"write a unit quaternion [{order}], such as {identity}")
     return _unit(q, UNIT_TOLERANCE, "quaternion")
+
+
+def _turn(field: Field, value: Any) -> tuple[float, ...]:
+    """A quaternion of any length but 0."""
+    items = _list(field, value, 4, "[0.0, 0.0, 0.0, 1.0] (x, y, z, w)")
+    q = tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
+    if not any(q):
+        raise Refused("a zero quaternion is no rotation", "write a quaternion [x, y, z, w], such as [0.0, 0.0, 0.0, 1.0]")
+    return _unit(q, math.inf, "quaternion")
 
 
 def _direction(field: Field, value: Any) -> tuple[float, ...]:
@@ -414,6 +478,23 @@ def _record(field: Field, value: Any) -> dict[str, Any]:
     return _parts(field, value, "", f"{field.name} = {example}")
 
 
+def _number_or_record(field: Field, value: Any) -> Any:
+    return _record(field, value) if isinstance(value, dict) else _number(field, value)
+
+
+def _vector_or_record(field: Field, value: Any) -> Any:
+    """Three numbers, or a record with one of its keys."""
+    if not isinstance(value, dict):
+        return _vector(field, value)
+    if "value" in value:
+        return _vector(field, _spread(field, value))
+    made = _record(field, value)
+    if sum(each is not UNSET for each in made.values()) != 1:
+        ways = " or ".join(f"{{ {part.name} = [...] }}" for part in field.parts)
+        raise Refused(f"the table has {len(value)} keys", f"write three numbers, or {ways}")
+    return made
+
+
 def _records(field: Field, value: Any) -> tuple[dict[str, Any], ...]:
     if not isinstance(value, list):
         raise Refused(f"this is {_kind_of(value)}, not an array of tables", f"write [[{field.name}]] above the keys of each")
@@ -427,23 +508,43 @@ def _records(field: Field, value: Any) -> tuple[dict[str, Any], ...]:
 
 def _parts(field: Field, value: Mapping[str, Any], where: str, example: str) -> dict[str, Any]:
     """The keys of one record; `where` says which of several."""
-    names = [part.name for part in field.parts]
+    parts = parts_of(field, value)
+    if parts is None:
+        raise Refused(*_no_sort(field, value, where))
+    names = [part.name for part in parts]
     for key in value:
         if key not in names:
             near = _near(str(key), names)
             raise Refused(f"{where}unknown key {_show(str(key))}", f"did you mean {near}?" if near else f"the keys here are {', '.join(names)}")
     made: dict[str, Any] = {}
-    for part in field.parts:
+    for part in parts:
         if part.name not in value and part.default is REQUIRED:
             raise Refused(f"{where}the key {part.name} is missing", f"give the {_meaning(part)}: {example}")
+        if part.name not in value:
+            made[part.name] = part.default
+            continue
         try:
-            given = value.get(part.name, part.default)
+            given = value[part.name]
             made[part.name] = _number(part, given, part.name) if part.form == "number" else _read(part, given)
         except Refused as error:
             problem, remedy = error.args
             named = problem if part.form == "number" else f"{part.name} = {_show(value[part.name])}: {problem}"
             raise Refused(where + named, remedy) from None
     return made
+
+
+def _no_sort(field: Field, value: Mapping[str, Any], where: str) -> tuple[str, str]:
+    """Why a record is of no sort, and what would be right."""
+    for name in field.by:
+        known = list(dict.fromkeys(choice for sort in field.sorts for part in sort if part.name == name for choice in part.choices))
+        if name not in value and name == field.by[0]:
+            return f"{where}the key {name} is missing", f"write {name} = one of {', '.join(known)}"
+        if name in value and value[name] not in known:
+            near = _near(str(value[name]), known)
+            return f"{where}{name} = {_show(value[name])} is unknown", (f'did you mean "{near}"? ' if near else "") + f"use one of {', '.join(known)}"
+    first = field.by[0]
+    extra = next(name for name in field.by[1:] if name in value)
+    return f'{where}{first} = {_show(value[first])} has no key {extra}', f"leave out {extra}"
 
 
 def _ask(field: Field, value: Any) -> Any:
@@ -463,9 +564,10 @@ def _vary(field: Field, value: Any) -> dict[str, Any]:
 
 
 _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
-    "text": _text, "choice": _choice, "number": _number, "count": _count, "vector": _vector, "direction": _direction,
-    "quaternion": _quaternion, "rotation": _rotation, "sequence": _sequence, "inertia": _inertia, "moments": _moments, "times": _times,
-    "record": _record, "records": _records, "ask": _ask, "vary": _vary,
+    "text": _text, "choice": _choice, "flag": _flag, "number": _number, "count": _count, "vector": _vector, "axis": _axis, "direction": _direction,
+    "quaternion": _quaternion, "turn": _turn, "rotation": _rotation, "sequence": _sequence, "inertia": _inertia, "moments": _moments, "matrix": _matrix,
+    "numbers": _numbers, "rows": lambda field, value: _table_rows(field, value, 3, "[0.0, 0.1, 0.0]"), "intervals": _intervals, "times": _times,
+    "record": _record, "records": _records, "number or record": _number_or_record, "vector or record": _vector_or_record, "ask": _ask, "vary": _vary,
 }
 
 
@@ -500,13 +602,15 @@ def _read(field: Field, value: Any) -> Any:
 def _worded(field: Field, value: Any) -> bool:
     """Numbers of the value have units, or stand otherwise than they are kept."""
     match field.form:
-        case "record":
-            return any(_worded(part, value[part.name]) for part in field.parts if part.name in value)
         case "records":
-            return any(_worded(part, item[part.name]) for item in value for part in field.parts if part.name in item)
-        case "number":
+            return any(_worded(part, item[part.name]) for item in value for part in parts_of(field, item) or () if part.name in item)
+        case "record" | "number or record" | "vector or record" if isinstance(value, dict) and "value" not in value:
+            return any(_worded(part, value[part.name]) for part in field.parts if part.name in value)
+        case "number" | "number or record":
             return isinstance(value, str)
-        case "vector" | "inertia" | "moments" | "times":
+        case "matrix" if not isinstance(value, list | dict):
+            return isinstance(value, str)
+        case "vector" | "axis" | "inertia" | "moments" | "matrix" | "numbers" | "rows" | "intervals" | "times" | "vector or record":
             kinds = set(map(type, value))
             return isinstance(value, dict) or str in kinds or (list in kinds and any(str in map(type, row) for row in value))
         case _:
@@ -516,9 +620,10 @@ def _worded(field: Field, value: Any) -> bool:
 def _told(field: Field, value: Any, read: Any) -> Any:
     """A value as it was given; of records the keys that were left out, too."""
     if field.form == "records":
-        return [_told(Field(field.name, "record", "", parts=field.parts), *each) for each in zip(value, read, strict=True)]
-    if field.form == "record":
-        return {part.name: _told(part, value[part.name], read[part.name]) if part.name in value else _plain(read[part.name]) for part in field.parts}
+        return [_told(Field(field.name, "record", "", parts=parts_of(field, item) or ()), item, each) for item, each in zip(value, read, strict=True)]
+    if field.form == "record" or (field.form.endswith("or record") and isinstance(value, dict) and "value" not in value):
+        return {part.name: _told(part, value[part.name], read[part.name]) if part.name in value else _plain(read[part.name]) for part in field.parts
+                if part.name in value or read[part.name] is not UNSET}
     return value if _worded(field, value) else _plain(read)
 
 
@@ -535,14 +640,10 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
     def wrong(key: str, value: Any, problem: str, remedy: str, shown: bool = True) -> None:
         mistakes.append(Mistake(source.where(key), key, _show(value) if shown else "", problem, remedy))
 
-    kind = tree.get("kind")
+    kind = tree.get("kind", GENERAL)
     if not isinstance(kind, str) or kind not in FAMILIES:
-        known = ", ".join(FAMILIES)
-        if "kind" not in tree:
-            wrong("kind", "", "the key is missing", f'write kind = "{next(iter(FAMILIES))}" (this version answers: {known})', False)
-        else:
-            near = _near(kind, FAMILIES) if isinstance(kind, str) else ""
-            wrong("kind", kind, "unknown kind", (f'did you mean "{near}"? ' if near else "") + f"this version answers: {known}")
+        near = _near(kind, FAMILIES) if isinstance(kind, str) else ""
+        wrong("kind", kind, "unknown kind", (f'did you mean "{near}"? ' if near else "") + f"this version answers: {', '.join(FAMILIES)}")
         raise SceneError(*mistakes)
 
     family = FAMILIES[kind]
@@ -595,6 +696,9 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         for key, value, problem, remedy in family.mistakes(read):
             wrong(key, _plain(value), problem, remedy)
     if mistakes:
+        if "kind" not in tree and any(mistake.problem.startswith(("unknown", "the table")) for mistake in mistakes):
+            mistakes.insert(0, Mistake(source.label, "kind", "", f"the key is missing, and what is there is no scene of the kind {GENERAL}",
+                                       "write " + " or ".join(f'kind = "{name}"' for name in FAMILIES if name != GENERAL) + " where it is one of these"))
         raise SceneError(*mistakes)
     head = read.pop("")
     top = {key: value for key, value in head.items() if key not in ("name", "kind", "source")}
@@ -687,7 +791,7 @@ def _advice_anywhere(key: str, layout: Mapping[str, Table]) -> str:
 
 def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any]) -> Iterator[str]:
     """Put each override into the tree (taking out what it is an alternative to); yields the full keys."""
-    kind = overrides.get("kind", tree.get("kind"))
+    kind = overrides.get("kind", tree.get("kind", GENERAL))
     family = FAMILIES.get(kind) if isinstance(kind, str) else None
     layout: Mapping[str, Table] = family.keys if family else {}
     full: dict[str, Any] = {}

@@ -35,12 +35,21 @@ def _arrays(field: Field) -> list[dict[str, Any]]:
     if field.form in ("inertia", "moments"):
         tensor = replace(field, low=-field.high)
         return [_array(_number(field), 3), _array(_array(_number(tensor), 3), 3)]
-    return [_array(_number(field), 3 if field.form == "vector" else None)]
+    one = _number(field)
+    match field.form:
+        case "matrix":
+            return [_array(one, 3), _array(_array(one, 3), 3)]
+        case "rows" | "intervals":
+            return [_array(_array(one, 3 if field.form == "rows" else 2))]
+        case _:
+            return [_array(one, 3 if field.form in ("vector", "axis", "vector or record") else None)]
 
 
 def _numbers(field: Field) -> dict[str, Any]:
     """Several numbers: an array, { value = [...], unit = "..." }, and of an inertia moments and products."""
     ways = _arrays(field)
+    if field.form == "matrix":
+        ways.append(_number(field))
     if field.unit:
         free = _arrays(replace(field, unit="", low=-LIMIT, high=LIMIT, open_low=False, open_high=False))
         value = {"oneOf": free} if len(free) > 1 else free[0]
@@ -61,12 +70,20 @@ def _form(field: Field) -> dict[str, Any]:
             return _number(field)
         case "count":
             return {"type": "integer", "minimum": int(field.low), "maximum": int(field.high)}
-        case "vector" | "inertia" | "moments" | "times":
+        case "flag":
+            return {"type": "boolean"}
+        case "vector" | "axis" | "inertia" | "moments" | "matrix" | "numbers" | "rows" | "intervals" | "times":
             return _numbers(field)
+        case "number or record":
+            return {"oneOf": [_number(field), _form(replace(field, form="record"))]}
+        case "vector or record":
+            return {"oneOf": [_numbers(field), {**_form(replace(field, form="record")), "minProperties": 1, "maxProperties": 1}]}
         case "direction":
             return _array({"type": "number", "minimum": -1.00000001, "maximum": 1.00000001}, 3)
         case "quaternion":
             return _array({"type": "number", "minimum": -1.000001, "maximum": 1.000001}, 4)
+        case "turn":
+            return _array(_number(field), 4)
         case "rotation":
             return _array(_array(_number(field), 3), 3)
         case "sequence":
@@ -79,7 +96,8 @@ def _form(field: Field) -> dict[str, Any]:
             return {"type": "object", "properties": {part.name: _property(part) for part in field.parts},
                     "required": [part.name for part in field.parts if part.default is REQUIRED], "additionalProperties": False}
         case "records":
-            return {"type": "array", "items": _form(replace(field, form="record"))}
+            sorts = [_form(replace(field, form="record", parts=parts)) for parts in field.sorts or (field.parts,)]
+            return {"type": "array", "items": {"oneOf": sorts} if len(sorts) > 1 else sorts[0]}
         case "vary":
             how = [{"type": "string"}, {"type": "array", "items": {"oneOf": [{"type": "number"}, {"type": "string"}]}, "minItems": 1},
                    {"type": "object"}]
@@ -166,9 +184,21 @@ def _form_text(field: Field) -> str:
             return "integer"
         case "vector":
             return "3 numbers"
+        case "axis":
+            return "vector"
+        case "flag":
+            return "true or false"
+        case "matrix":
+            return "1, 3 or 3x3 numbers"
+        case "rows":
+            return "threes of numbers"
+        case "intervals":
+            return "pairs of numbers"
+        case "number or record" | "vector or record":
+            return f"{'number' if field.form.startswith('number') else '3 numbers'} or {{ {', '.join(part.name for part in field.parts)} }}"
         case "direction":
             return "unit vector"
-        case "quaternion":
+        case "quaternion" | "turn":
             return "4 numbers"
         case "inertia" | "moments":
             return "3 or 3x3 numbers"
@@ -198,6 +228,24 @@ def _default_text(field: Field, alternatives: set[str], key: str) -> str:
     return "-" if field.default is UNSET else toml_value(field.default)
 
 
+def _part_default(part: Field) -> str:
+    return "" if part.default is REQUIRED else "-" if part.default is UNSET else toml_value(part.default)
+
+
+def _part_rows(field: Field) -> Iterator[list[str]]:
+    """A row of each key of records; of several sorts first what each is and which keys it has, then each key that differs in them."""
+    said: list[Field] = []
+    for sort in field.sorts:
+        first = next(part for part in sort if part.name == field.by[0])
+        keys = ", ".join(part.name for part in sort if part is not first)
+        yield [f"  {first.name}", first.choices[0], "", _part_default(first), "", f"{first.meaning}; with {keys}"]
+    for part in (part for sort in field.sorts or (field.parts,) for part in sort):
+        if (field.sorts and part.name == field.by[0]) or part in said:
+            continue
+        said.append(part)
+        yield [f"  {part.name}", _form_text(part), part.unit, _part_default(part), interval(part), part.meaning]
+
+
 def key_tables(kind: str) -> Iterator[tuple[str, list[str], list[list[str]]]]:
     """Title, heads and rows of each table of a scene file of the kind."""
     family = FAMILIES[kind]
@@ -207,7 +255,8 @@ def key_tables(kind: str) -> Iterator[tuple[str, list[str], list[list[str]]]]:
         for field in fields:
             default = _default_text(field, alternatives, f"{table}.{field.name}")
             rows.append([field.name, _form_text(field), field.unit, default, interval(field), field.meaning])
-            rows += [[f"  {part.name}", _form_text(part), part.unit, "" if part.default is REQUIRED else toml_value(part.default), interval(part), part.meaning] for part in field.parts]
+            if field.form in ("record", "records"):
+                rows += _part_rows(field)
         title = f"[{table}]" if table else "at the top"
         yield title, ["key", "form", "unit", "default", "interval", "meaning"], rows
 

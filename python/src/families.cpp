@@ -9,6 +9,7 @@
 #include "gyrostat/ladder/family.hpp"
 #include "gyrostat/ladder/free/inputs.hpp"
 #include "gyrostat/ladder/free/motion.hpp"
+#include "gyrostat/ladder/general/motion.hpp"
 #include "gyrostat/ladder/heavy/inputs.hpp"
 #include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/rotor/inputs.hpp"
@@ -47,6 +48,7 @@ const char* word(Kind kind) {
     case Kind::number: return "number";
     case Kind::flag: return "flag";
     case Kind::place: return "place";
+    case Kind::words: return "words";
     case Kind::word: break;
   }
   return "word";
@@ -82,7 +84,7 @@ py::list families() {
   for (const auto& [family, inputs] :
        {Entry{&deceleration::tables, deceleration::input_kinds}, Entry{&rotor::tables, rotor::input_kinds},
         Entry{&spinning::tables, spinning::input_kinds}, Entry{&heavy::tables, heavy::input_kinds},
-        Entry{&free::tables, free::input_kinds}}) {
+        Entry{&free::tables, free::input_kinds}, Entry{&general::tables, {}}}) {
     py::list rungs, warnings, integrators, keys;
     for (const RungKind& rung : family->rungs) {
       py::dict item;

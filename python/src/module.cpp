@@ -84,4 +84,5 @@ PYBIND11_MODULE(_core, module) {
   bind_heavy_integrators(module);
   bind_heavy_motions(module);
   bind_heavy_published(module);
+  bind_general(module);
 }

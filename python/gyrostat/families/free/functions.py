@@ -77,7 +77,7 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike |
     motion; ConvergenceError where a computation hits its cap; Cancelled where the monitor stopped it.
     """
     given = _body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude)
-    asking = {"times": np.asarray(times, dtype=float), "tolerance": float(tolerance), "model": model, "integrator": integrator}
+    asking: dict[str, Any] = {"times": np.asarray(times, dtype=float), "tolerance": float(tolerance), "model": model, "integrator": integrator}
     seen = None if view is None else (np.asarray(view["axis"], dtype=float), np.asarray(view["direction"], dtype=float), float(view["half_angle"]))
     made = _core.free_solve(**given, **asking, view=seen, monitor=monitor, ask=asked("free", ask))
     return answer_of("free", made, {**given, **asking, "wheels": [dict(wheel) for wheel in wheels] or None, "view": view, "ask": ask})

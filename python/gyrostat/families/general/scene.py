@@ -1,0 +1,299 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scene file of one body with any wheels and any torques: its keys, the checks that take more than one key, and what they come to."""
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from gyrostat.broadcast import Floats
+from gyrostat.families.general.functions import PLANETS, orbit_start
+from gyrostat.fields import REQUIRED, UNSET, Choices, Field, Found, Table, Values
+from gyrostat.rotation import matrix_from_quaternion, quaternion_from_matrix
+
+if TYPE_CHECKING:
+    from gyrostat.scenes import Scene
+
+__all__ = ["ALTERNATIVES", "ARGUMENTS", "EXAMPLE", "KEYS", "arguments", "mistakes"]
+
+BETWEEN: Final = ("step", "linear", "cubic")
+EXTEND: Final = ("zero", "hold")
+
+
+def _law(meaning: str, unit: str) -> Table:
+    """The keys of a table over time."""
+    return (Field("times", "times", "times of the table", "s", low=-1e60), Field("values", "numbers", meaning, unit),
+            Field("interpolation", "choice", "between the times", default="linear", choices=BETWEEN),
+            Field("extend", "choice", "outside of the times", default="zero", choices=EXTEND))
+
+
+def _wheel(kind: str, *own: Field, meaning: str, default: Any = REQUIRED) -> Table:
+    locked = kind == "locked"
+    return (
+        Field("type", "choice", meaning, default=default, choices=(kind,)),
+        Field("name", "text", "name of the wheel", default=""),
+        Field("axis", "axis", "axis of the wheel, body axes, of any length"),
+        Field("axial_inertia", "number", "inertia of the wheel about its axis; it is part of body.inertia", "kg m^2", 0.0 if locked else REQUIRED,
+              low=0 if locked else 1e-40),
+        *own,
+        *(() if locked else (Field("angle", "number", "angle of the wheel at t = 0", "rad", 0.0),)),
+    )
+
+
+_RATE: Final = (Field("rate", "number", "rate of the wheel at t = 0, relative to the body", "rad/s", UNSET),
+                Field("momentum", "number", "axial inertia times that rate, instead of it", "N m s", UNSET))
+_FRICTION: Final = Field("friction", "number", "viscous friction of the bearing", "N m s/rad", 0.0, low=0)
+WHEELS: Final[tuple[Table, ...]] = (
+    _wheel("held", Field("rate", "number or record", "rate relative to the body, which a motor keeps, or a table of it over time", "rad/s", UNSET,
+                         parts=_law("rates", "rad/s")),
+           _RATE[1], meaning="a motor keeps the rate", default="held"),
+    _wheel("free", *_RATE, meaning="the wheel turns without friction"),
+    _wheel("torque", *_RATE, Field("torque", "number or record", "torque on the wheel about its axis, or a table of it over time; the body feels the "
+                                   "opposite", "N m", parts=_law("torques", "N m")), _FRICTION, meaning="a given torque drives the wheel"),
+    _wheel("motor", *_RATE, Field("slope", "number", "fall of the motor's torque with its rate", "N m s/rad", UNSET, low=0),
+           Field("stall_torque", "number", "torque of the motor at rest, instead of the slope", "N m", UNSET),
+           Field("no_load_rate", "number", "rate at which the motor gives no torque", "rad/s"), _FRICTION,
+           meaning="a motor of limited power drives the wheel: torque = slope (no_load_rate - rate)"),
+    _wheel("friction", *_RATE, Field("friction", "number", "viscous friction of the bearing", "N m s/rad", low=0),
+           meaning="its bearing slows the wheel"),
+    _wheel("locked", meaning="the wheel is part of the body"),
+)
+
+_FACTOR: Final = Field(
+    "factor", "record", "the torque is multiplied with mean + amplitude sin(rate t + phase), or with a table", "", UNSET, parts=(
+        Field("mean", "number", "mean of a wave", "", UNSET), Field("amplitude", "number", "amplitude of a wave", "", UNSET),
+        Field("rate", "number", "rate of a wave", "rad/s", UNSET), Field("phase", "number", "phase of a wave at t = 0", "rad", UNSET),
+        Field("times", "times", "times of a table", "s", UNSET, low=-1e60), Field("values", "numbers", "values of a table", "", UNSET),
+        Field("interpolation", "choice", "between the times", default=UNSET, choices=BETWEEN),
+        Field("extend", "choice", "outside of the times", default=UNSET, choices=EXTEND)))
+
+
+def _torque(kind: str, *own: Field, meaning: str, factor: bool = True) -> Table:
+    return (
+        Field("type", "choice", meaning, choices=(kind,)), Field("name", "text", "name of the torque", default=""), *own,
+        Field("on", "intervals", "when the torque acts, from and to; it acts always where this is left out", "s", UNSET),
+        *((_FACTOR,) if factor else ()))
+
+
+def _frame(*frames: str) -> Field:
+    return Field("frame", "choice", "axes in which it is given", default=frames[0], choices=frames)
+
+
+def _damping(*against: str, unit: str, default: Any) -> Table:
+    meaning = "-matrix U, U the angular velocity, the total angular momentum, or that of the body with its wheels locked"
+    return _torque(
+        "damping", Field("against", "choice", "what it opposes", default=default, choices=against),
+        Field("matrix", "matrix", "matrix of the damping", unit, UNSET), Field("coefficient", "matrix", "one number for all axes, or three, instead of "
+                                                                               "the matrix", unit, UNSET), meaning=meaning)
+
+
+TORQUES: Final[tuple[Table, ...]] = (
+    _torque("constant", Field("torque", "vector", "torque", "N m"), _frame("body", "inertial", "orbit"), meaning="a torque constant in its axes"),
+    _torque("table", _frame("body", "inertial", "orbit"), Field("times", "times", "times of the table", "s", low=-1e60),
+            Field("values", "rows", "torques at these times", "N m"), Field("interpolation", "choice", "between the times", default="linear", choices=BETWEEN),
+            Field("extend", "choice", "outside of the times", default="zero", choices=EXTEND), meaning="a torque over time", factor=False),
+    _damping("angular-velocity", unit="N m s/rad", default="angular-velocity"),
+    _damping("momentum", "carrier-momentum", unit="1/s", default=REQUIRED),
+    _torque("brake", Field("limit", "vector", "greatest torques about the body axes", "N m", low=0),
+            Field("law", "choice", "whether they oppose the total momentum, or that of the body alone, its wheels locked", default="total",
+                  choices=("total", "carrier")), meaning="-limit U/|U| along each body axis"),
+    _torque("weight", meaning="of the mass centre about the fixed point, by field.gravity along field.down"),
+    _torque("gravity-gradient", Field("gradient", "number", "N = 3 g/R of a centre far along field.down, instead of the orbit's", "1/s^2", UNSET),
+            meaning="N d x J d, to the centre of the orbit or along field.down"),
+    _torque("magnetic", Field("dipole", "vector", "magnetic moment of the body", "A m^2"), meaning="of a dipole in the magnetic field"),
+    _torque("eddy-current", Field("matrix", "matrix", "matrix K of (K (w x B)) x B, w relative to the field", "S m^4", UNSET),
+            Field("coefficient", "matrix", "one number for all axes, or three, instead of the matrix", "S m^4", UNSET),
+            meaning="currents that turning in the magnetic field induces"),
+    _torque("thrust", Field("force", "vector", "force", "N"), Field("point", "vector", "where it acts, from the body's origin", "m", (0.0, 0.0, 0.0)),
+            _frame("body", "inertial"), meaning="a force at a point of the body"),
+    _torque("charge", Field("momentum", "vector", "e_H n of the torque w x e_H n", "N m s"), meaning="of a charged body in a magnetic field"),
+)
+
+_DIRECTION: Final = "of any length"
+KEYS: Final[dict[str, Table]] = {
+    "": (Field("wheel", "records", "wheels on the body, a table [[wheel]] each", default=(), sorts=WHEELS, by=("type",)),
+         Field("torque", "records", "what acts on the body, a table [[torque]] each", default=(), sorts=TORQUES, by=("type", "against"))),
+    "solve": (Field("recognise", "flag", "whether the families are asked of which the scene is exactly an instance", default=True),),
+    "body": (
+        Field("inertia", "inertia", "inertia of the whole, wheels locked: three principal moments along the body axes, or a symmetric 3x3 tensor",
+              "kg m^2", low=1e-40),
+        Field("inertia_about", "choice", "the point that the inertia is about: where the body is held or else its mass centre, its mass centre, "
+              "or the origin of its axes", default="reference", choices=("reference", "mass-centre", "origin")),
+        Field("mass", "number", "mass", "kg", 1.0, low=0, open_low=True),
+        Field("centre_of_mass", "vector", "mass centre from the body's origin, body axes", "m", (0.0, 0.0, 0.0)),
+        Field("fixed", "flag", "the body's origin is held in space", default=False),
+        Field("rotor_momentum", "vector", "angular momentum, relative to the body and constant, of wheels that are not listed", "N m s",
+              (0.0, 0.0, 0.0)),
+    ),
+    "orbit": (
+        Field("radius", "number", "distance of the mass centre from the centre of attraction at t = 0", "m", UNSET, low=0, open_low=True),
+        Field("altitude", "number", "height above the equatorial radius of the planet at t = 0", "m", UNSET),
+        Field("rate", "number", "angular rate at t = 0", "rad/s", UNSET, low=0, open_low=True),
+        Field("period", "number", "period of a circular orbit", "s", UNSET, low=0, open_low=True),
+        Field("mu", "number", "gravitational parameter; by default that of the planet", "m^3/s^2", UNSET, low=0, open_low=True),
+        Field("planet", "choice", "central body", default="earth", choices=tuple(PLANETS)),
+        Field("eccentricity", "number", "eccentricity", "", 0.0, low=0, high=1, open_high=True),
+        Field("true_anomaly", "number", "true anomaly at t = 0", "rad", 0.0),
+        Field("radial", "axis", f"direction outward at t = 0, inertial axes, {_DIRECTION}", "", (1.0, 0.0, 0.0)),
+        Field("along", "axis", f"direction of motion at t = 0, inertial axes, {_DIRECTION}; what of it is radial is dropped", "", (0.0, 1.0, 0.0)),
+    ),
+    "field": (
+        Field("gravity", "number", "gravity", "m/s^2", 0.0, low=0),
+        Field("down", "axis", f"direction of gravity, inertial axes, {_DIRECTION}", "", (0.0, 0.0, -1.0)),
+        Field("uniform", "vector", "magnetic flux density, constant, inertial axes", "T", UNSET),
+        Field("rotating", "record", "magnetic flux density that turns", "", UNSET, parts=(
+            Field("axis", "axis", f"axis of the turn, inertial axes, {_DIRECTION}"), Field("rate", "number", "rate of the turn", "rad/s"),
+            Field("vector", "vector", "flux density at t = 0, inertial axes", "T"))),
+        Field("dipole", "record", "magnetic field of the central body of the orbit", "", UNSET, parts=(
+            Field("axis", "axis", f"axis of the dipole, inertial axes, {_DIRECTION}"), Field("strength", "number", "flux density on its equator", "T"),
+            Field("radius", "number", "distance at which it has that strength", "m", low=0, open_low=True))),
+    ),
+    "initial": (
+        Field("attitude", "turn", "attitude at t = 0, body to inertial, [x, y, z, w], of any length", "", (0.0, 0.0, 0.0, 1.0)),
+        Field("relative_to", "choice", "what the attitude takes the body axes to: inertial axes, or those of the orbit (x along it, y against its "
+              "normal, z to the centre)", default="inertial", choices=("inertial", "orbit")),
+        Field("angular_velocity", "vector or record", "angular velocity at t = 0, body axes; or its components along inertial axes, or that relative to "
+              "the axes of the orbit, body axes", "rad/s", UNSET,
+              parts=(Field("inertial", "vector", "inertial axes", "rad/s", UNSET),
+                     Field("relative_to_orbit", "vector", "relative to the axes of the orbit, body axes", "rad/s", UNSET))),
+        Field("angular_momentum", "vector", "total angular momentum at t = 0, body axes", "N m s", UNSET),
+        Field("velocity", "vector", "velocity of the mass centre of a free body at t = 0, inertial axes", "m/s", (0.0, 0.0, 0.0)),
+        Field("position", "vector", "position of the mass centre of a free body at t = 0, inertial axes", "m", (0.0, 0.0, 0.0)),
+    ),
+}
+ALTERNATIVES: Final[tuple[Choices, ...]] = (
+    (("initial.angular_velocity",), ("initial.angular_momentum",)),
+    (("orbit.radius",), ("orbit.altitude",), ("orbit.rate",), ("orbit.period",), ()),
+    (("field.uniform",), ("field.rotating",), ("field.dipole",), ()),
+)
+# The argument of `solve` that a table is.
+ARGUMENTS: Final = {"wheels": ("", "wheel"), "torques": ("", "torque"), "orbit": ("", "orbit"), "field": ("", "field")}
+EXAMPLE: Final[dict[str, Any]] = {
+    "solve.duration": "90 min", "solve.samples": 541, "body.inertia": (90.0, 120.0, 60.0), "initial.angular_velocity": (0.0, -0.00113, 0.0002),
+    "initial.angular_momentum": (0.0, -0.135, 0.012), "orbit.radius": 6778137.0, "orbit.altitude": "400 km", "orbit.rate": 0.00113,
+    "orbit.period": "92 min", "orbit.mu": 3.986004415e14, "field.uniform": (2e-5, 0.0, -3e-5),
+    "field.rotating": {"axis": (0.0, 0.0, 1.0), "rate": 0.0023, "vector": (2e-5, 0.0, 1e-5)},
+    "field.dipole": {"axis": (0.17, 0.1, 0.98), "strength": 3.1e-5, "radius": 6371200.0},
+    "wheel": ({"type": "held", "axis": (0.0, 1.0, 0.0), "axial_inertia": 0.02, "rate": "-1400 rpm"},),
+    "torque": ({"type": "constant", "torque": (0.001, 0.0, 0.0), "on": ((0.0, 600.0),)},),
+}
+
+
+def mistakes(tables: Values) -> Found:
+    """What [orbit], [field], wheels and torques need of each other."""
+    body, start, orbit, field = (tables[name] for name in ("body", "initial", "orbit", "field"))
+    orbiting = any(orbit[name] is not UNSET for name in ("radius", "altitude", "rate", "period"))
+    remedy = "add [orbit] with altitude, radius, rate or period"
+    if not orbiting and start["relative_to"] == "orbit":
+        yield "initial.relative_to", "orbit", "there is no orbit", remedy
+    if not orbiting and isinstance(start["angular_velocity"], Mapping) and start["angular_velocity"]["relative_to_orbit"] is not UNSET:
+        yield "initial.angular_velocity", start["angular_velocity"], "there is no orbit", remedy
+    if field["dipole"] is not UNSET and not orbiting and any(torque["type"] in ("magnetic", "eddy-current") for torque in tables[""]["torque"]):
+        yield "field.dipole", field["dipole"], "the field of a dipole is that along an orbit", remedy
+    if body["fixed"] and any(start["velocity"]) or body["fixed"] and any(start["position"]):
+        key = "velocity" if any(start["velocity"]) else "position"
+        yield f"initial.{key}", start[key], "the body is held at its origin", f"leave out {key}, or body.fixed"
+    for place, wheel in enumerate(tables[""]["wheel"], 1):
+        yield from _wheel_mistakes(place, wheel)
+    for place, torque in enumerate(tables[""]["torque"], 1):
+        yield from _torque_mistakes(place, torque, orbiting, body["fixed"], any(field[name] is not UNSET for name in ("uniform", "rotating", "dipole")))
+
+
+def _wheel_mistakes(place: int, wheel: Mapping[str, Any]) -> Found:
+    kind = wheel["type"]
+    if wheel.get("rate") is not UNSET and wheel.get("momentum") is not UNSET:
+        yield "wheel", "", f"wheel {place}: rate and momentum are both given", "give one of them"
+    if kind == "motor" and (wheel["slope"] is UNSET) == (wheel["stall_torque"] is UNSET):
+        yield "wheel", "", f"wheel {place}: of slope and stall_torque one is wanted", "give the one you know"
+    if kind == "motor" and wheel["stall_torque"] is not UNSET and wheel["stall_torque"] * wheel["no_load_rate"] <= 0:
+        yield "wheel", "", f"wheel {place}: stall_torque and no_load_rate differ in sign", "both point the way in which the motor drives"
+    for name in ("rate", "torque"):
+        if isinstance(wheel.get(name), Mapping):
+            yield from _lengths(f"wheel {place}: {name}", "wheel", wheel[name])
+
+
+def _lengths(what: str, key: str, table: Mapping[str, Any]) -> Found:
+    if len(table["times"]) != len(table["values"]):
+        yield key, "", f"{what} has {len(table['times'])} times and {len(table['values'])} values", "give one value for each time"
+
+
+def _torque_mistakes(place: int, torque: Mapping[str, Any], orbiting: bool, fixed: bool, magnetic: bool) -> Found:
+    kind, what = torque["type"], f"torque {place} ({torque['type']})"
+    if kind in ("damping", "eddy-current") and (torque["matrix"] is UNSET) == (torque["coefficient"] is UNSET):
+        yield "torque", "", f"{what}: of matrix and coefficient one is wanted", "give one number as coefficient, or nine as matrix"
+    if kind == "table":
+        yield from _lengths(what, "torque", torque)
+    if kind == "weight" and not fixed:
+        yield "torque", "", f"{what}: the weight of a free body has no moment about its mass centre", "leave it out, or set body.fixed = true"
+    if (kind == "gravity-gradient" and torque["gradient"] is UNSET or torque.get("frame") == "orbit") and not orbiting:
+        yield "torque", "", f"{what}: there is no orbit", "add [orbit] with altitude, radius, rate or period"
+    if kind in ("magnetic", "eddy-current") and not magnetic:
+        yield "torque", "", f"{what}: there is no magnetic field", "add [field] with uniform, rotating or dipole"
+    factor = torque.get("factor")
+    if isinstance(factor, Mapping):
+        wave, table = factor["rate"] is not UNSET, factor["times"] is not UNSET
+        if wave == table or (wave and factor["amplitude"] is UNSET):
+            yield "torque", "", f"{what}: factor is neither a wave nor a table", "write { mean = 1.0, amplitude = 0.5, rate = 2.0 } or { times = [...], values = [...] }"
+        elif table and factor["values"] is UNSET:
+            yield "torque", "", f"{what}: factor has times and no values", "give one value for each time"
+        elif table:
+            yield from _lengths(f"{what}: factor", "torque", factor)
+
+
+def _about_reference(body: Mapping[str, Any]) -> Floats:
+    """The inertia about the fixed point, or the mass centre of a free body."""
+    inertia = np.array(body["inertia"], dtype=float)
+    inertia = np.diag(inertia) if inertia.ndim == 1 else inertia
+    r = np.array(body["centre_of_mass"], dtype=float)
+    steiner: Floats = body["mass"] * (float(r @ r) * np.eye(3) - np.outer(r, r))
+    if body["inertia_about"] == "mass-centre" and body["fixed"]:
+        inertia = inertia + steiner
+    if body["inertia_about"] == "origin" and not body["fixed"]:
+        inertia = inertia - steiner
+    made: Floats = inertia
+    return made
+
+
+def _start(scene: "Scene", inertia: Floats, orbit: Mapping[str, Any] | None) -> tuple[Floats, Floats]:
+    """Attitude and angular velocity at t = 0."""
+    start = scene.tables["initial"]
+    attitude: Floats = np.array(start["attitude"], dtype=float)
+    axes, normal_rate = (np.eye(3), np.zeros(3)) if orbit is None else orbit_start(orbit)
+    if start["relative_to"] == "orbit":
+        attitude = quaternion_from_matrix(axes @ matrix_from_quaternion(attitude))
+    R: Floats = matrix_from_quaternion(attitude)
+    given = start["angular_velocity"]
+    if start["angular_momentum"] is not UNSET:
+        # rates of wheels are relative to the body: with them J is that of the whole
+        held = np.array(scene.tables["body"]["rotor_momentum"], dtype=float)
+        for wheel in scene.top["wheel"]:
+            axis = np.array(wheel["axis"], dtype=float) / math.hypot(*wheel["axis"])
+            rate = wheel.get("rate") or 0.0
+            first = rate["values"][0] if isinstance(rate, Mapping) else rate
+            held = held + axis * (wheel["momentum"] if wheel.get("momentum") is not UNSET else wheel["axial_inertia"] * first)
+        return attitude, np.linalg.solve(inertia, np.array(start["angular_momentum"], dtype=float) - held)
+    if not isinstance(given, Mapping):
+        return attitude, np.array(given, dtype=float)
+    if given["inertial"] is not UNSET:
+        return attitude, R.T @ np.array(given["inertial"], dtype=float)
+    return attitude, np.array(given["relative_to_orbit"], dtype=float) + R.T @ normal_rate
+
+
+def arguments(scene: "Scene") -> dict[str, Any]:
+    """What `solve` takes, from a checked scene."""
+    solving, body, start = (scene.tables[name] for name in ("solve", "body", "initial"))
+    orbit: Mapping[str, Any] | None = scene.tables["orbit"]
+    field = dict(scene.tables["field"])
+    if all(scene.tables["orbit"][name] is UNSET for name in ("radius", "altitude", "rate", "period")):
+        orbit, field["dipole"] = None, UNSET  # which nothing feels
+    inertia = _about_reference(body)
+    attitude, angular_velocity = _start(scene, inertia, orbit)
+    return {
+        "inertia": inertia, "mass": body["mass"], "centre_of_mass": np.array(body["centre_of_mass"], dtype=float), "fixed": body["fixed"],
+        "rotor_momentum": np.array(body["rotor_momentum"], dtype=float), "wheels": [dict(each) for each in scene.top["wheel"]],
+        "torques": [dict(each) for each in scene.top["torque"]], "orbit": None if orbit is None else dict(orbit), "field": field, "attitude": attitude,
+        "angular_velocity": angular_velocity, "velocity": np.array(start["velocity"], dtype=float),
+        "position": np.array(start["position"], dtype=float), "times": scene.times, "tolerance": solving["tolerance"], "model": solving["model"],
+        "integrator": solving["integrator"], "recognise": solving["recognise"],
+    }

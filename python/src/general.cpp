@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ladder of the general family and its recognition; families/general/functions.py wraps them.
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "answer.hpp"
+#include "bind.hpp"
+#include "general_arguments.hpp"
+#include "gyrostat/ladder/general/solve.hpp"
+#include "question_arguments.hpp"
+
+namespace {
+
+using namespace gyrostat;
+using namespace gyrostat::python;
+
+general::Scene scene_of(const Data& given, const Question& question, bool recognise) {
+  const auto problem = general_problem(given);
+  const auto made = general::Scene::make(problem, question, recognise);
+  if (!made) raise_fault(problem, made.error());
+  return *made;
+}
+
+Data solve_scene(const Data& given, const Array& at, double tolerance, const std::string& model,
+                 const std::string& integrator, bool recognise, const std::optional<std::shared_ptr<Monitor>>& monitor,
+                 const Ask& ask) {
+  Question question = question_of(general::tables, at, tolerance, model, ask);
+  (void)takes_cvode(general::tables, integrator, question);
+  const general::Scene scene = scene_of(given, question, recognise);
+  gyrostat::Refusal why;
+  auto [answer, seconds] = timed([&] { return general::solve(scene, why, monitor ? monitor->get() : nullptr); });
+  require_answer(why);
+  return to_python(answer, scene.question(), general::tables, seconds);
+}
+
+/// Name of each family, and why the scene is no instance of it; None where it is one.
+py::typing::List<py::typing::Tuple<py::str, py::typing::Optional<py::str>>> recognise_scene(const Data& given,
+                                                                                            const Array& at) {
+  const general::Scene scene = scene_of(given, question_of(general::tables, at, 1e-6, "auto", std::nullopt), true);
+  py::typing::List<py::typing::Tuple<py::str, py::typing::Optional<py::str>>> made;
+  for (std::size_t i = 0; i < general::specials; ++i) {
+    const char* why = scene.instances().why[i];
+    made.append(py::make_tuple(general::special_words[i], why ? py::object(py::str(why)) : py::object(py::none())));
+  }
+  return made;
+}
+
+}  // namespace
+
+void bind_general(py::module_& module) {
+  module.def("general_solve", &solve_scene, py::kw_only(), py::arg("scene"), py::arg("times"), py::arg("tolerance"),
+             py::arg("model"), py::arg("integrator"), py::arg("recognise"), py::arg("monitor"),
+             py::arg("ask") = py::none(), "Answer of the ladder as plain data.");
+  module.def("general_recognise", &recognise_scene, py::kw_only(), py::arg("scene"), py::arg("times"),
+             "Each family, and why the scene is no instance of it; None where it is one.");
+}
