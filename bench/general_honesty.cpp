@@ -82,8 +82,14 @@ bool true_motion(const Scenes::Made& made, const Scene& scene, Answer& right) {
   one.off.fill(0), two.off.fill(0);
   Answer rough;
   fill(right, scene, one), fill(rough, scene, two);
-  for (std::size_t i = 0; i < right.columns.size(); ++i)
+  // where wheels hold much, the rates are a difference of momenta in long double, too
+  double M = 0;
+  for (const auto& s : one.states) M = std::max(M, s.angular_momentum.norm());
+  const double lost = 16 * double(epsilon<long double>) * M / scene.sizes().least;
+  for (std::size_t i = 0; i < right.columns.size(); ++i) {
     right.columns[i].error = 4 * column_error(rough.columns[i], right.columns[i]);
+    if (right.columns[i].name() == "angular_velocity") right.columns[i].error += lost / size_of(right.columns[i]);
+  }
   return true;
 }
 

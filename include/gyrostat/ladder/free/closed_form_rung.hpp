@@ -12,16 +12,22 @@
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/models/free/averages.hpp"
 #include "gyrostat/models/free/motion.hpp"
+#include "gyrostat/rotation/symmetric.hpp"
 
 namespace gyrostat::free {
 
 namespace detail {
 
+/// Whether the recurrence of an even grid is worth its while; below so many times at() costs less.
+inline bool takes_grid(std::span<const double> times) noexcept { return times.size() >= 64 && even(times); }
+
+/// What the recurrence loses of attitude and momentum. Over 20 000 random bodies of moments far apart it was 60 roundings at most.
+inline constexpr double grid_rounding = 64 * epsilon<double>;
+
 /// The motion at the times; on an even grid by its recurrence.
 inline std::vector<State<double>> states_of(const Motion<double>& motion, std::span<const double> times) {
   std::vector<State<double>> states(times.size());
-  constexpr std::size_t worth = 64;  // below, at() costs less
-  if (times.size() < worth || !even(times)) {
+  if (!takes_grid(times)) {
     for (std::size_t i = 0; i < times.size(); ++i) states[i] = motion.at(times[i]);
     return states;
   }
@@ -127,10 +133,13 @@ inline Track closed_form_track(const Scene& scene, Monitor*) {
   double fastest = 0;
   for (const auto& s : track.states) fastest = std::max(fastest, s.angular_velocity.norm());
   // over the greatest rate of the asked times, which may all lie where the body turns slowly
-  const double velocity = bound.angular_velocity * over(form->error.fastest(), fastest);
-  track.error[column::attitude] = bound.attitude;
+  const double rounding = detail::takes_grid(times) ? detail::grid_rounding : 0;
+  const double slightest = symmetric_eigen<double>(scene.gyrostat().problem.inertia).values[0];
+  const double velocity = bound.angular_velocity * over(form->error.fastest(), fastest) +
+                          over(rounding * form->motion.angular_momentum_norm() / slightest, fastest);
+  track.error[column::attitude] = bound.attitude + rounding;
   track.error[column::angular_velocity] = relative_to_truth(velocity);
-  track.error[column::angular_momentum] = relative_to_truth(bound.angular_momentum);
+  track.error[column::angular_momentum] = relative_to_truth(bound.angular_momentum + rounding);
   if (scene.wheels() > 0) {
     track.error[column::rotor_rate] = detail::rate_error(scene, track.states, velocity);
     if (scene.gives(column::rotor_angle)) detail::turn_wheels(track, scene, form->motion);

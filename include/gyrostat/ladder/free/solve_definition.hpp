@@ -55,9 +55,7 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
 inline constexpr Rung<Scene, Track> models[] = {{&closed_form_track, &cost_of_closed_form},
                                                 {&full_track, &cost_of_full}};
 
-GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept {
-  return models[rung].cost(scene);
-}
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept { return models[rung].cost(scene); }
 
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor) {
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);

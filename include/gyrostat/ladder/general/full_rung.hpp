@@ -94,13 +94,15 @@ inline double settling_steps(const Scene& scene) noexcept {
 
 }  // namespace detail
 
-inline constexpr SeriesCost series_cost{8e-6, 6e-6, 1e-6, 0.6};
+/// Of wheels and torques that need no states of their own; and of the others, and of a path that forces bend.
+inline constexpr SeriesCost small_series_cost{15e-6, 12e-6, 1e-6, 0.7}, large_series_cost{40e-6, 40e-6, 2e-6, 0.7};
 
 inline double cost_of_full(const Scene& scene) noexcept {
   const auto& times = scene.question().times;
   const double phase = (scene.sizes().turning + scene.sizes().forcing) * times.back();
   const double tolerance = first_step_tolerance(scene.goal().tightest, phase, honesty::loosest_step);
-  return series_cost(phase + detail::settling_steps(scene), tolerance, times.size());
+  const auto& cost = scene.is_large() ? large_series_cost : small_series_cost;
+  return cost(phase + detail::settling_steps(scene), tolerance, times.size()) + double(scene.breaks()) * 2 * cost.step;
 }
 
 /// Rung `full`: the full equations by Taylor series.

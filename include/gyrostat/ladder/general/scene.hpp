@@ -13,20 +13,37 @@
 #include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/general/collected.hpp"
+#include "gyrostat/models/general/full.hpp"
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/right_side.hpp"
 #include "gyrostat/models/general/sizes.hpp"
+#include "gyrostat/models/general/surroundings.hpp"
 #include "gyrostat/models/general/wheels.hpp"
 
 namespace gyrostat::general {
 
 namespace detail {
 
-/// The sizes of all torques at t, summed: what the rounding of their sum is relative to, N m.
+/// The size that the parts of a torque have before they cancel, N m.
+inline double size_of_torque(const Problem<double>& problem, const Torque<double>& torque, const Pose<double>& pose,
+                             double t) noexcept {
+  const auto& field = problem.field;
+  switch (torque.type) {
+    case TorqueType::weight: return problem.mass * field.gravity * problem.centre_of_mass.norm();
+    case TorqueType::gravity_gradient:
+      return std::abs(torque.gradient ? *torque.gradient : orbit_at(*problem.orbit, t).gradient) *
+             problem.inertia.norm();
+    case TorqueType::magnetic: return torque.vector.norm() * field_at(problem, t).flux_density.norm();
+    case TorqueType::charge: return torque.vector.norm() * pose.angular_velocity.norm();
+    default: return load_of(problem, torque, pose, t, t).torque.norm();
+  }
+}
+
+/// Of all torques at t: what the rounding of their sum is relative to, N m.
 inline double sum_of_torques(const Problem<double>& problem, const Pose<double>& pose, double t) noexcept {
   double sum = 0;
   for (const auto& torque : problem.torques)
-    sum += std::abs(factor_at(torque.factor, t, t)) * load_of(problem, torque, pose, t, t).torque.norm();
+    sum += std::abs(factor_at(torque.factor, t, t)) * size_of_torque(problem, torque, pose, t);
   return sum;
 }
 
@@ -43,11 +60,13 @@ class Scene {
     if (const Fault wrong = check(problem)) return wrong.code;
     Scene scene;
     scene.problem_ = problem;
-    scene.wheels_ = Wheels<double>::of(problem);
     scene.question_ = question;
-    const Collected<double> torques = Collected<double>::of(problem, question.times.back());
-    scene.sizes_ = sizes_of<double>(problem, scene.wheels_, torques, question.times.back());
-    if (recognised) scene.instances_ = recognise(problem, scene.wheels_, torques, question);
+    const Prepared<double> prepared(problem, question.times.back());
+    scene.wheels_ = prepared.wheels;
+    scene.sizes_ = prepared.sizes;
+    scene.large_ = prepared.is_large();
+    scene.breaks_ = breakpoints(problem, question.times.back()).size();
+    if (recognised) scene.instances_ = recognise(problem, prepared.wheels, prepared.torques, question);
     return scene;
   }
 
@@ -61,6 +80,10 @@ class Scene {
   const Problem<double>& problem() const noexcept { return problem_; }
   const Wheels<double>& wheels() const noexcept { return wheels_; }
   const Sizes<double>& sizes() const noexcept { return sizes_; }
+  /// The full equations have states beside attitude, momentum and the turn of the body.
+  bool is_large() const noexcept { return large_; }
+  /// Times at which a law changes.
+  std::size_t breaks() const noexcept { return breaks_; }
   /// What is asked of the columns.
   Goal<std::size(column_kinds)> goal() const noexcept {
     return Goal<std::size(column_kinds)>::of(question_, tables, scales());
@@ -99,6 +122,8 @@ class Scene {
   Problem<double> problem_;
   Wheels<double> wheels_;
   Sizes<double> sizes_;
+  bool large_ = false;
+  std::size_t breaks_ = 0;
   Instances instances_;
   Question question_;
 };

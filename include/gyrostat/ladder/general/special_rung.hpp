@@ -110,7 +110,7 @@ class Reader {
     if (!column) return;
     to.values = column->values;
     for (double& value : to.values) value += more;
-    to.off = off(*column);
+    to.off = off(*column) + 4 * epsilon<double> * std::abs(more);
   }
   static Vec3<double> vector(const double* row) noexcept { return {row[0], row[1], row[2]}; }
   static Quat<double> quaternion(const double* row) noexcept { return {row[3], row[0], row[1], row[2]}; }
@@ -280,11 +280,14 @@ inline void map_back(const Scene& scene, const RotorInstance& rotor, const Reade
   track.off[primitive::rotor_angle] += shifted * times.back();
 }
 
-inline void map_back(const Scene&, const SpinningInstance& spinning, const Reader& from, Track& track) {
+inline void map_back(const Scene& scene, const SpinningInstance& spinning, const Reader& from, Track& track) {
   const Quat<double> q_SB = from_matrix<double>(spinning.R_SB);
   const Mat3<double> R_BS = spinning.R_SB.transpose();
   const bool turned = !(q_SB == Quat<double>{}), oriented = !(spinning.q_IS == Quat<double>{});
-  const double rounding = 8 * epsilon<double>;
+  // moments that a tensor gives are rounded, and so is all that turns by them
+  const bool exact = scene.wheels().reduced.isDiagonal(0);
+  const double phase = exact ? 0 : spinning.scene.problem().phase(scene.question().times.back());
+  const double rounding = 8 * epsilon<double> * (1 + phase);
   const auto in_space = [&](const Vec3<double>& v) { return oriented ? rotate<double>(spinning.q_IS, v) : v; };
   double most[3] = {};
   from.read(primitive::attitude, [&](State<double>& s, const double* row) {

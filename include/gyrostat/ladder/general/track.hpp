@@ -131,12 +131,17 @@ class Writer {
   static Pose<double> pose(const State<double>& s) noexcept {
     return {s.attitude, s.angular_velocity, s.angular_momentum};
   }
-  /// By how much the torques change where attitude, rates and momentum change by their errors, by differences at some of the times.
+  /// By how much the torques change where attitude, rates and momentum change by their errors, by differences at some of the times, or where
+  /// there is a brake at all.
   double torque_off() const noexcept {
     for (const std::size_t p : {primitive::attitude, primitive::angular_velocity, primitive::angular_momentum})
       if (!(track_.off[p] < infinity<double>)) return infinity<double>;
     const auto& times = scene_.question().times;
-    const std::size_t n = track_.states.size(), stride = 1 + n / 16;
+    // a brake turns over where what it opposes nearly vanishes, which some of the times would not show
+    const auto& torques = scene_.problem().torques;
+    const bool turns_over = std::any_of(torques.begin(), torques.end(),
+                                        [](const Torque<double>& torque) { return torque.type == TorqueType::brake; });
+    const std::size_t n = track_.states.size(), stride = turns_over ? 1 : 1 + n / 16;
     double most = 0;
     for (std::size_t back = 0; back < n; back += stride) {
       const std::size_t i = n - 1 - back;
