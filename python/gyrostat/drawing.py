@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gyrostat.errors import DomainError
 
@@ -18,8 +18,9 @@ if TYPE_CHECKING:
 
     from gyrostat.answer import Answer
 
-__all__ = ["COLOURS", "Drawing", "Panel", "changes", "components", "curve", "error_text", "finish", "is_coarse", "laid_out", "legend_beside", "legend_row", "new_figure", "note",
-           "save", "span_text", "split", "stacked", "time_unit", "vector"]
+__all__ = ["COLOURS", "MOMENT_NAMES", "Drawing", "Panel", "changes", "components", "curve", "error_text", "finish", "is_coarse", "laid_out",
+           "legend_beside", "legend_row", "map_frame", "map_legend", "new_figure", "note", "on_map", "principal_axes", "save", "span_text", "split",
+           "stacked", "time_unit", "vector", "wheels_panel"]
 
 COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31")
 # Units of time [s], and the span from which on each is used [s].
@@ -29,6 +30,7 @@ TIME_UNITS: Final = ((1e-6, "µs", 0.0), (1e-3, "ms", 1e-3), (1.0, "s", 1.0), (6
 DENSITY = 150
 # What varies by less than this share of its size is constant but for rounding.
 CONSTANT: Final = 1e-10
+MOMENT_NAMES: Final = ("least", "middle", "greatest")
 
 # Name of a file without its ending, and what draws it.
 Drawing = tuple[str, "Callable[[], Figure]"]
@@ -144,10 +146,10 @@ def legend_beside(axes: "Axes") -> None:
         line.set_linewidth(max(1.2, line.get_linewidth()))
 
 
-def components(axes: "Axes", t: NDArray[Any], values: NDArray[Any], symbol: str, unit: str, title: str) -> None:
+def components(axes: "Axes", t: NDArray[Any], values: NDArray[Any], symbol: str, unit: str, title: str, *, coarse: bool | None = None) -> None:
     """A vector as its components 1, 2, 3; a quaternion as x, y, z, w."""
     names = "123" if values.shape[1] == 3 else "xyzw"
-    curve(axes, t, values, [f"{symbol}{name}" for name in names])
+    curve(axes, t, values, [f"{symbol}{name}" for name in names], coarse=coarse)
     axes.set_ylabel(f"{symbol} [{unit}]" if unit else symbol)
     legend_row(axes)
     axes.set_title(title, loc="left", fontsize=10)
@@ -157,6 +159,19 @@ def vector(column: str, symbol: str, unit: str, title: str) -> Panel:
     """The panel of a column of vectors or quaternions, with its error."""
     def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
         components(axes, t, answer[column], symbol, unit, title)
+        note(axes, error_text(answer, column))
+
+    return draw
+
+
+def wheels_panel(column: str, symbol: str, unit: str, title: str, names: Sequence[str] = ()) -> Panel:
+    """The panel of a column of wheels, in their order or by their names."""
+    def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
+        values = answer[column]
+        curve(axes, t, values, names or [f"{i + 1}" for i in range(values.shape[1])])
+        axes.set_ylabel(f"{symbol} [{unit}]")
+        legend_row(axes)
+        axes.set_title(title, loc="left", fontsize=10)
         note(axes, error_text(answer, column))
 
     return draw
@@ -177,6 +192,49 @@ def split(column: str, symbol: str, unit: str, title: str) -> Panel:
         note(axes, error_text(answer, column))
 
     return draw
+
+
+# ---- maps of directions ----
+
+
+def principal_axes(inertia: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Principal moments, ascending, and axes (columns, right-handed) of three moments or a tensor."""
+    given = np.asarray(inertia, dtype=float)
+    moments, axes = np.linalg.eigh(np.diag(given) if given.ndim == 1 else given)
+    return moments, -axes if np.linalg.det(axes) < 0 else axes
+
+
+def on_map(values: NDArray[Any], centre: NDArray[Any]) -> NDArray[Any]:
+    """Directions (n, 3) in the equal-area map around a unit vector: (n, 2), the opposite point at distance 2."""
+    up = np.eye(3)[int(np.argmin(np.abs(centre)))]
+    right = np.cross(up, centre)
+    right /= np.linalg.norm(right)
+    along = np.clip(values @ centre, -1.0, 1.0)
+    across = np.stack([values @ right, values @ np.cross(centre, right)], -1)
+    stretch = np.sqrt(2 / np.maximum(1 + along, 1e-12))
+    made: NDArray[Any] = across * stretch[:, None]
+    return made
+
+
+def map_frame(axes: "Axes", title: str, reach: float = 180.0) -> None:
+    """The circles of a map that shows directions as far as `reach` [deg] from its centre: of the whole sphere the rim and the equator."""
+    step = next((step for step in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0) if reach <= 4 * step), 0.0)
+    angles = [step * (i + 1) for i in range(max(1, math.ceil(reach / step - 1e-9)))] if step else [90.0, 180.0]
+    turn = np.linspace(0, 2 * math.pi, 361)
+    for angle in angles:
+        radius = 2 * math.sin(math.radians(angle) / 2)
+        axes.plot(radius * np.cos(turn), radius * np.sin(turn), color="#999999", linewidth=0.8, linestyle="-" if angle == 180 else ":", label="_")
+        if step:
+            axes.annotate(f"{angle:.3g}°", (0, radius), ha="center", va="center", fontsize=7, color="#555555", zorder=1,
+                          bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    axes.set_title(title, fontsize=10)
+
+
+def map_legend(axes: "Axes") -> None:
+    """Names below the map."""
+    axes.legend(loc="upper center", fontsize=8, bbox_to_anchor=(0.5, 0.0), borderaxespad=0, ncols=3, markerscale=1.0)
 
 
 # ---- layout ----

@@ -27,7 +27,7 @@ def plot_answer(answer: "Answer") -> "Figure":
     scene = scene_from(answer.scene)
     family = FAMILIES[scene.kind]
     figures = family.part("figures")
-    whole = scene.tables["solve"]["ask"] in (None, "default", "all")
+    whole = getattr(figures, "OF_ANY_COLUMNS", False) or scene.tables["solve"]["ask"] in (None, "default", "all")
     made: Figure = figures.figure(answer, family.arguments(scene)) if whole else _asked(answer)
     verdict = "met" if answer.met else "NOT met"
     title = f"{scene.name}: rung {answer.model}, estimated error {answer.greatest_error:.1e} (tolerance {answer.tolerance:g} {verdict})"

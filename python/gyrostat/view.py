@@ -17,7 +17,7 @@ from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask
 from gyrostat.broadcast import Floats
-from gyrostat.drawing import time_unit
+from gyrostat.drawing import MOMENT_NAMES, time_unit
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
 from gyrostat.ladder import solve
@@ -36,7 +36,6 @@ PROBES: Final = 257  # times at which the speed is looked at before
 STILL: Final = 1e-6  # turning by less [rad] is none
 DOWN: Final = np.array([0.0, 0.0, -1.0])  # inertial axes of a heavy body
 PLACE: Final = "{}  /* the motion */"  # in the page
-MOMENT_NAMES: Final = ("least", "middle", "greatest")
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,7 +169,7 @@ def _data(scene: Scene, answer: Answer) -> dict[str, Any]:
         "begin": float(answer.t[0]), "end": float(answer.t[-1]), "turns": float(np.mean(np.linalg.norm(omega, axis=1)) * np.ptp(answer.t) / (2 * math.pi)),
         "attitude": _rounded(attitude), "angular_velocity": _rounded(omega), "angular_momentum": _rounded(momentum),
         "axis": _rounded(axis), "axis_name": f"axis of the {MOMENT_NAMES[which]} moment", "moments": _rounded(moments), "principal": _rounded(axes.T),
-        "box": _box(scene, inertia), "wheels": _wheels(scene), "up": scene.kind == "heavy",
+        "box": _box(scene, inertia), "wheels": _wheels(scene), "up": _up(scene),
     }
 
 
@@ -178,7 +177,7 @@ def _box(scene: Scene, inertia: Floats) -> dict[str, Any]:
     """The even box with these moments about its centre: half its edges, their directions and the centre, in body axes; its farthest corner
     is one from the origin."""
     centre, mass = np.zeros(3), 1.0
-    if scene.kind == "heavy":  # about the fixed point, which is the origin
+    if scene.kind == "heavy" or scene.kind == "general" and scene.tables["body"]["fixed"]:  # about the fixed point, which is the origin
         centre, mass = np.asarray(scene.tables["body"]["centre_of_mass"], dtype=float), float(scene.tables["body"]["mass"])
         inertia = inertia - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
     moments, axes = np.linalg.eigh(inertia)
@@ -187,6 +186,16 @@ def _box(scene: Scene, inertia: Floats) -> dict[str, Any]:
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * half @ axes.T + centre
     size = float(np.max(np.linalg.norm(corners, axis=1)))
     return {"half": _rounded(half / size), "axes": _rounded(axes.T), "centre": _rounded(centre / size)}
+
+
+def _up(scene: Scene) -> list[Any] | None:
+    """The direction up in space of a body that is held at a point."""
+    if scene.kind == "heavy":
+        return _rounded(-DOWN)
+    if scene.kind != "general" or not scene.tables["body"]["fixed"] or not scene.tables["field"]["gravity"]:
+        return None
+    down = np.asarray(scene.tables["field"]["down"], dtype=float)
+    return _rounded(-down / np.linalg.norm(down))
 
 
 def _wheels(scene: Scene) -> list[Any]:
@@ -199,4 +208,5 @@ def _wheels(scene: Scene) -> list[Any]:
     inside = inside * np.array([0.0, 0.0, 1.0]) if inside.ndim == 0 else inside
     if np.any(inside):
         found.append(inside / np.linalg.norm(inside))
-    return _rounded(np.array(found, dtype=float).reshape(-1, 3))
+    axes = np.array(found, dtype=float).reshape(-1, 3)
+    return _rounded(axes / np.linalg.norm(axes, axis=1)[:, None])

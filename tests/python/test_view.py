@@ -18,7 +18,7 @@ from gyrostat.rotation import matrix_from_quaternion
 from gyrostat.view import TURNS, View, view
 
 # One of each family; the tops with and without an attitude.
-SCENES = ("tiangong-1", "intelsat-v-flat-spin", "gyrostat-kick", "toy-top", "half-rate-tongue", "cubesat-pyramid")
+SCENES = ("tiangong-1", "intelsat-v-flat-spin", "gyrostat-kick", "toy-top", "half-rate-tongue", "cubesat-pyramid", "rolling-gyroscope", "gravity-gradient-boom")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 

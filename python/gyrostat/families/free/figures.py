@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.drawing import COLOURS, Panel, components, curve, error_text, laid_out, legend_row, note, vector
+from gyrostat.drawing import (
+    COLOURS, MOMENT_NAMES, Panel, components, error_text, laid_out, map_frame, map_legend, note, on_map, principal_axes, vector, wheels_panel)
 from gyrostat.errors import DomainError
 from gyrostat.families.free.functions import flips, permanent_rotations, reduced
+from gyrostat.rotation import matrix_from_quaternion
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,8 +33,8 @@ def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
     maps = [sphere(body), _space(body)] if turning else []
     panels: list[Panel] = [_rates(body), vector("attitude", "q", "", "Attitude, body to inertial")]
     if "rotor_rate" in answer.columns:
-        panels += [_wheels("rotor_rate", "rate", "rad/s", "Rates of the wheels"),
-                   _wheels("rotor_angle", "angle", "rad", "Angles of the wheels")]
+        panels += [wheels_panel("rotor_rate", "rate", "rad/s", "Rates of the wheels"),
+                   wheels_panel("rotor_angle", "angle", "rad", "Angles of the wheels")]
     return laid_out(answer, maps, panels)
 
 
@@ -44,41 +46,6 @@ def remarks(answer: "Answer") -> list[str]:
     return [str(kind)] + ([f"period {period:.4g} s"] if period is not None and math.isfinite(period) else [])
 
 
-def _axes_of(body: Mapping[str, Any]) -> tuple[Vectors, Vectors]:
-    """Principal moments, ascending, and axes (columns) of the whole, wheels locked."""
-    inertia = np.asarray(body["inertia"], dtype=float)
-    moments, axes = np.linalg.eigh(np.diag(inertia) if inertia.ndim == 1 else inertia)
-    if np.linalg.det(axes) < 0:
-        axes = -axes
-    return moments, axes
-
-
-def _shown(values: Vectors, centre: Vectors) -> Vectors:
-    """Directions (n, 3) in the equal-area map around a unit vector: (n, 2), the opposite point at distance 2."""
-    up = np.eye(3)[int(np.argmin(np.abs(centre)))]
-    right = np.cross(up, centre)
-    right /= np.linalg.norm(right)
-    along = np.clip(values @ centre, -1.0, 1.0)
-    across = np.stack([values @ right, values @ np.cross(centre, right)], -1)
-    stretch = np.sqrt(2 / np.maximum(1 + along, 1e-12))
-    made: Vectors = across * stretch[:, None]
-    return made
-
-
-def _frame(axes: "Axes", title: str) -> None:
-    for radius, style in ((2.0, "-"), (math.sqrt(2), ":")):
-        turn = np.linspace(0, 2 * math.pi, 361)
-        axes.plot(radius * np.cos(turn), radius * np.sin(turn), color="#999999", linewidth=0.8, linestyle=style, label="_")
-    axes.set_aspect("equal")
-    axes.set_axis_off()
-    axes.set_title(title, fontsize=10)
-
-
-def _legend(axes: "Axes") -> None:
-    """Names below the map."""
-    axes.legend(loc="upper center", fontsize=8, bbox_to_anchor=(0.5, 0.0), borderaxespad=0, ncols=3, markerscale=1.0)
-
-
 def sphere(body: Mapping[str, Any]) -> Any:
     """The map of M in the body, with the permanent rotations and the separatrix, of a `body` as `solve` takes it."""
 
@@ -86,10 +53,10 @@ def sphere(body: Mapping[str, Any]) -> Any:
         M = answer["angular_momentum"]
         R = float(np.linalg.norm(M[0]))
         n = M / R
-        _, principal = _axes_of(body)
+        _, principal = principal_axes(body["inertia"])
         centre = principal[:, int(np.argmax(np.abs(principal.T @ n.mean(0))))]
         centre = centre * (1 if centre @ n.mean(0) >= 0 else -1)
-        _frame(axes, "Momentum sphere in the body, equal area")
+        map_frame(axes, "Momentum sphere in the body, equal area")
         try:
             found = permanent_rotations(**body)
         except DomainError:
@@ -99,12 +66,12 @@ def sphere(body: Mapping[str, Any]) -> Any:
             for stable, marker, colour, name in ((True, "o", COLOURS[2], "stable rotation"), (False, "X", COLOURS[4], "unstable")):
                 at = found.angular_momentum[found.stable == stable] / R
                 if len(at):
-                    points = _shown(at, centre)
+                    points = on_map(at, centre)
                     axes.plot(points[:, 0], points[:, 1], marker, color=colour, markersize=6, label=name, linestyle="none")
-        points = _shown(n, centre)
+        points = on_map(n, centre)
         axes.plot(points[:, 0], points[:, 1], ".", color=COLOURS[0], markersize=2, label="M")
         axes.plot(*points[0], "o", color=COLOURS[0], markersize=5, label="start")
-        _legend(axes)
+        map_legend(axes)
 
     return draw
 
@@ -132,36 +99,24 @@ def _separatrix(axes: "Axes", body: Mapping[str, Any], found: Any, R: float, cen
 
 def _space(body: Mapping[str, Any]) -> Any:
     def draw(axes: "Axes", answer: "Answer") -> None:
-        x, y, z, w = answer["attitude"].T
-        moments, principal = _axes_of(body)
+        _, principal = principal_axes(body["inertia"])
         n = (answer["angular_momentum"] @ principal) / np.linalg.norm(answer["angular_momentum"][0])
         which = int(np.argmax(np.abs(n).min(0)))
-        b = principal[:, which]
-        # q b q^-1
-        rotated = np.stack([
-            (1 - 2 * (y * y + z * z)) * b[0] + 2 * (x * y - w * z) * b[1] + 2 * (x * z + w * y) * b[2],
-            2 * (x * y + w * z) * b[0] + (1 - 2 * (x * x + z * z)) * b[1] + 2 * (y * z - w * x) * b[2],
-            2 * (x * z - w * y) * b[0] + 2 * (y * z + w * x) * b[1] + (1 - 2 * (x * x + y * y)) * b[2]], -1)
-        pole = np.asarray(_inertial(answer["attitude"][0], answer["angular_momentum"][0]))
+        R = matrix_from_quaternion(answer["attitude"])
+        rotated = R @ principal[:, which]
+        pole = R[0] @ answer["angular_momentum"][0]
         pole = pole / np.linalg.norm(pole)
         if np.mean(rotated @ pole) < 0:
             rotated = -rotated
-        _frame(axes, "Path of a body axis in space, the momentum in the middle")
-        points = _shown(rotated, pole)
+        map_frame(axes, "Path of a body axis in space, the momentum in the middle")
+        points = on_map(rotated, pole)
         axes.plot(points[:, 0], points[:, 1], ".", color=COLOURS[3], markersize=2,
-                  label=f"axis of the {('least', 'middle', 'greatest')[which]} moment")
+                  label=f"axis of the {MOMENT_NAMES[which]} moment")
         axes.plot(*points[0], "o", color=COLOURS[3], markersize=5, label="start")
         axes.plot(0, 0, "+", color="#000000", markersize=8, label="angular momentum")
-        _legend(axes)
+        map_legend(axes)
 
     return draw
-
-
-def _inertial(q: Vectors, v: Vectors) -> Vectors:
-    u, w = q[:3], q[3]
-    t = 2 * np.cross(u, v)
-    made: Vectors = v + w * t + np.cross(u, t)
-    return made
 
 
 def _rates(body: Mapping[str, Any]) -> Panel:
@@ -170,7 +125,7 @@ def _rates(body: Mapping[str, Any]) -> Panel:
         note(axes, error_text(answer, "angular_velocity"))
         interval = answer.scalars.get("flip_interval")
         if interval and 1 <= float(answer.t[-1]) / interval <= 60:
-            middle = _axes_of(body)[1][:, 1]
+            middle = principal_axes(body["inertia"])[1][:, 1]
             scale = float(answer.t[-1]) / t[-1] if t[-1] else 1.0
             for time in flips(**body, axis=middle, begin=float(answer.t[0]), end=float(answer.t[-1])):
                 axes.axvline(time / scale, color="#999999", linewidth=0.8, linestyle=":", label="_flip")
@@ -178,13 +133,3 @@ def _rates(body: Mapping[str, Any]) -> Panel:
     return draw
 
 
-def _wheels(column: str, symbol: str, unit: str, title: str) -> Panel:
-    def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
-        values = answer[column]
-        curve(axes, t, values, [f"{i + 1}" for i in range(values.shape[1])])
-        axes.set_ylabel(f"{symbol} [{unit}]")
-        legend_row(axes)
-        axes.set_title(title, loc="left", fontsize=10)
-        note(axes, error_text(answer, column))
-
-    return draw
