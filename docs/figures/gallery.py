@@ -81,6 +81,16 @@ def direction(axes, vectors, caption):
         on_sphere(axes, points, caption)
 
 
+def wheels(axes, answer):
+    """The rates of the wheels over time."""
+    unit, name = time_unit(answer.t[-1])
+    axes.axhline(0, color=GREY, linewidth=0.5)
+    for rates, colour in zip(answer["rotor_rate"].T, (BLUE, GREEN, RED, "black"), strict=False):
+        axes.plot(answer.t / unit, rates * 60 / (2 * np.pi), color=colour, linewidth=1.2)
+    axes.set_xlim(left=0)
+    axes.set_title(f"wheels [rpm] over {name}")
+
+
 def falling(axes, answer):
     """The momentum over time."""
     unit, name = time_unit(answer.t[-1])
@@ -103,6 +113,16 @@ def save(figure, file):
     few.save(file, optimize=True)
 
 
+def general(axes, scene, answer):
+    """Wheels where motors or bearings change their rates, else the path of an axis: in the axes of the orbit that which points down."""
+    if any(wheel["type"] in ("torque", "motor", "friction") for wheel in scene.top["wheel"]):
+        wheels(axes, answer)
+    elif "attitude_orbit" in answer.columns:
+        direction(axes, matrix_from_quaternion(answer["attitude_orbit"])[:, :, 0], "axis 1, seen from the orbit")
+    else:
+        direction(axes, axis_3(answer), "axis 3 in space")
+
+
 def picture(name, file):
     scene = gyrostat.load(name)
     if scene.kind != "deceleration":
@@ -116,6 +136,8 @@ def picture(name, file):
         direction(axes, axis_3(answer), "axis 3 in space")
     elif scene.kind == "heavy":
         direction(axes, answer["down"], "down, seen from the body")
+    elif scene.kind == "general":
+        general(axes, scene, answer)
     else:
         direction(axes, answer["angular_momentum"], "momentum, seen from the body")
     save(figure, file)
