@@ -176,6 +176,9 @@ def _flat(table: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any
 def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any = None, **settings: Any) -> tuple[Plan, dict[str, Place]]:
     """Which rows a study has, and where its numbers are, by full key: of what the table [vary] of the scene says and of what is given here, which
     goes first. settings: n, seed, design. Raises DomainError."""
+    if not FAMILIES[scene.kind].facts.inputs:
+        raise DomainError(f"no number of a scene of the kind {scene.kind} can vary; write it as one of a kind of which it is an instance, "
+                          "if gyrostat recognise finds one")
     own = dict(_flat(scene.vary))
     beside = scene.path.parent if scene.path is not None and cases is None else Path()
     table = own.get("cases") if cases is None else cases
