@@ -17,7 +17,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 FILES = ["README.md", "NOTATION.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "CITATION.cff"]
 MODULES = ["gyrostat", "gyrostat.answer", "gyrostat.scenes", "gyrostat.errors", "gyrostat.deceleration", "gyrostat.rotor", "gyrostat.spinning",
-           "gyrostat.heavy", "gyrostat.free", "gyrostat.elliptic", "gyrostat.rotation", "gyrostat.sweeps", "gyrostat.vary", "gyrostat.sweep_report",
+           "gyrostat.heavy", "gyrostat.free", "gyrostat.general", "gyrostat.elliptic", "gyrostat.rotation", "gyrostat.sweeps", "gyrostat.vary", "gyrostat.sweep_report",
            "gyrostat.design", "gyrostat.stability", "gyrostat.export", "gyrostat.plots", "gyrostat.view", "gyrostat.gallery",
            "gyrostat.facts", "gyrostat.units"]
 

@@ -509,3 +509,20 @@ def test_the_functions_take_arrays() -> None:
     np.testing.assert_allclose(axes, [[0, 0, -1], [1, 0, 0], [0, -1, 0]], atol=1e-15)
     np.testing.assert_allclose(rate, [0, 0, 1e-3], rtol=1e-12)
     assert _core.families()
+
+
+@pytest.mark.parametrize(("changes", "velocity"), [
+    ({"torque": [{"type": "thrust", "force": [0, 0, 1.0], "frame": "inertial"}]}, [0, 0, 2]),
+    ({"torque": [CONSTANT], "field": {"gravity": 1.0}}, [0, 0, -2]),
+    ({"torque": [BRAKE], "field": {"gravity": 1.0}}, [0, 0, -2]),
+    ({"field": {"gravity": 1.0, "uniform": [0, 0, 1e-3]}, "torque": [{"type": "magnetic", "dipole": [1, 0, 2]}]}, [0, 0, -2]),
+    ({"wheel": [wheel("motor")], "torque": [{"type": "thrust", "force": [0, 0, 1.0], "frame": "inertial"}]}, [0, 0, 2]),
+    ({"field": {"uniform": [0, 0, 1e-3]}, "torque": [{"type": "magnetic", "dipole": [1, 0, 2]}, {"type": "thrust", "force": [0, 0, 1.0], "frame": "inertial"}]},
+     [0, 0, 2]),
+])
+@pytest.mark.parametrize("model", ["auto", "full"])
+def test_a_force_and_gravity_move_the_mass_centre_whichever_rung_answers(changes: dict[str, Any], velocity: list[float], model: str) -> None:
+    start = {**START, "velocity": [1.0, 0.0, 0.0], "position": [0.0, 3.0, 0.0]}
+    answer = gyrostat.solve(scene_from(scene(**changes, initial=start, solve={"times": [0.0, 2.0], "ask": "all", "model": model})))
+    np.testing.assert_allclose(answer["velocity"][-1], np.array(velocity) + [1, 0, 0], atol=1e-9)
+    np.testing.assert_allclose(answer["position"][-1], np.array(velocity) + [2, 3, 0], atol=1e-9)
