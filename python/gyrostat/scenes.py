@@ -696,7 +696,7 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         for key, value, problem, remedy in family.mistakes(read):
             wrong(key, _plain(value), problem, remedy)
     if mistakes:
-        if "kind" not in tree and any(mistake.problem.startswith(("unknown", "the table")) for mistake in mistakes):
+        if "kind" not in tree and any(mistake.problem.startswith(("unknown", "the table", "this is a table, not")) for mistake in mistakes):
             mistakes.insert(0, Mistake(source.label, "kind", "", f"the key is missing, and what is there is no scene of the kind {GENERAL}",
                                        "write " + " or ".join(f'kind = "{name}"' for name in FAMILIES if name != GENERAL) + " where it is one of these"))
         raise SceneError(*mistakes)

@@ -329,6 +329,13 @@ def test_momentum_and_energy_follow_from_torques_and_motors() -> None:
     assert E[-1] - E[0] == pytest.approx(integral(power), abs=1e-9)
 
 
+@pytest.mark.parametrize("name", ["iss-torque-pulse", "gravity-gradient-boom", "rolling-gyroscope", "momentum-dump", "wheels-run-down", "tumbling-brick-in-air"])
+def test_balances_close_where_they_are_asked_for(name: str) -> None:
+    answer = gyrostat.solve(name, ask=["attitude", "energy_balance", "momentum_balance"])
+    assert answer.model == "full" and answer.met
+    assert abs(answer.scalars["energy_balance"]) < 1e-8 and abs(answer.scalars["momentum_balance"]) < 1e-8
+
+
 # ---- mistakes ----
 
 ORBIT = {"altitude": "400 km"}
@@ -351,6 +358,7 @@ MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"wheel": [wheel("free", rate={"times": [0, 1], "values": [1, 2]})]}, "not a number"),
     ({"wheel": [wheel("held")] * 9}, "at most 8 wheels"),
     ({"wheel": wheel("held")}, "not an array of tables"),
+    ({"wheel": [wheel("held", rates=1.0)]}, "did you mean rate?"),
     ({"torque": [{"torque": [1, 0, 0]}]}, "the key type is missing"),
     ({"torque": [{"type": "push"}]}, 'type = "push" is unknown'),
     ({"torque": [{"type": "constant"}]}, "the key torque is missing"),
