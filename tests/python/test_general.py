@@ -488,6 +488,12 @@ def test_there_are_no_sweeps_of_general_scenes(capsys: pytest.CaptureFixture[str
     assert "no number of a scene of the kind general can vary" in " ".join(capsys.readouterr().err.split())
 
 
+def test_what_is_not_there_for_general_scenes_says_so(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    for command in (["chart", "iss-drift", "-o", str(tmp_path)], ["stability", "iss-drift"], ["design", "iss-drift", "--spin-for-pointing", "0.01"]):
+        assert main(command) == 2
+        assert "known for the kind" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("name", [name for name, _ in bundled() if load(name).kind == "general"])
 def test_bundled_scenes_are_met_and_drawn(name: str, tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")

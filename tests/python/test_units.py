@@ -196,10 +196,14 @@ def in_other_units(name: str, as_table: bool) -> dict[str, Any]:
 @pytest.mark.parametrize("as_table", [False, True])
 def test_every_bundled_scene_is_the_same_in_other_units_to_the_bit(as_table: bool) -> None:
     for name, _ in bundled():
-        told, scene = in_other_units(name, as_table), load(name)
+        scene = load(name)
+        assert bool(scene.written) == (scene.kind == "general")
+        if scene.written:
+            continue  # it has its units already
+        told = in_other_units(name, as_table)
         other = scene_from(told)
         assert other.tables == scene.tables and other.top == scene.top and np.array_equal(other.times, scene.times), name
-        assert accepts(schema(), told) and other.written and not scene.written
+        assert accepts(schema(), told) and other.written
         again = scene_from(other.to_dict())
         assert again.to_dict() == other.to_dict() and again.tables == scene.tables
         assert all(other.to_dict()["body"][key] == value for key, value in told.get("body", {}).items())

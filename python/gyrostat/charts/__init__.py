@@ -12,6 +12,7 @@ from typing import Any, Final
 from gyrostat.charts import methods
 from gyrostat.charts.methods import TooLong
 from gyrostat.charts.problem import Errors, Line, Measure, Problem, Run, Unanswered
+from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene
 
@@ -142,6 +143,9 @@ def make_chart(scene: Scene, *, repeats: int = REPEATS, progress: Callable[[int,
     """Measure every method on the scene. progress(done, all, what) is called before each. No solution may take longer than methods.LONGEST:
     what does, or would at a tighter setting, is left out. Raises DomainError where there is no motion to chart."""
     family = FAMILIES[scene.kind]
+    if family.part("chart") is None:
+        known = ", ".join(name for name, each in FAMILIES.items() if each.part("chart"))
+        raise DomainError(f"kind = {scene.kind!r}: charts are known for the kinds {known}")
     problem: Problem = family.part("chart").problem(scene)
     every = methods.lines(problem, tuple(family.facts.rungs))
     points: list[ChartPoint] = []
