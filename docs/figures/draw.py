@@ -636,7 +636,82 @@ def free():
     return figure
 
 
-FIGURES = (deceleration, rotor, spinning, heavy, free)
+def boom(eccentricity, t):
+    """The swing in the plane of the orbit of a long cylinder, degrees: that of the scene gravity-gradient-boom, started in the plane."""
+    mu, radius, anomaly, ratio = 3.986004415e14, 6800774.658762454, np.radians(-142.73870880091428), 11750 / 12250
+    p = radius * (1 + eccentricity * np.cos(anomaly))
+    h = np.sqrt(mu * p)
+
+    def rate(_, state):
+        angle, speed, nu = state
+        r = p / (1 + eccentricity * np.cos(nu))
+        return np.array([speed, -1.5 * mu / r ** 3 * ratio * np.sin(2 * (angle - nu)), h / r ** 2])
+
+    path = integrated(rate, np.array([anomaly + np.radians(5.0), h / radius ** 2, anomaly]), t)
+    return np.degrees(path[:, 0] - path[:, 2])
+
+
+def top(spin, wheel, t):
+    """The path of the axis of a symmetric top in space that carries the momentum `wheel` along it: horizontal components of axis 3."""
+    J, arm = np.array([0.02, 0.02, 0.012]), np.array([0.0, 0.0, 2.0 * 9.80665 * 0.05])
+    l = np.array([0.0, 0.0, wheel])
+    tilt = np.array([[1, 0, 0], [0, np.cos(0.5), -np.sin(0.5)], [0, np.sin(0.5), np.cos(0.5)]])
+
+    def rate(_, state):
+        R, M = state[:9].reshape(3, 3), state[9:]
+        w = (M - l) / J
+        cross = np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+        return np.concatenate([(R @ cross).ravel(), np.cross(M, w) + np.cross(arm, R.T @ [0, 0, -1.0])])
+
+    path = integrated(rate, np.concatenate([tilt.ravel(), J * np.array([0.1, 0.2, spin]) + l]), t)
+    return path[:, [2, 5]]
+
+
+def general():
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(13.2, 4.3), layout="constrained", width_ratios=[1.1, 0.9, 1.1])
+    t = np.linspace(0, 8 * 3600, 14401)
+    for eccentricity, colour, name in ((0.007783884106636759, BLUE, "its orbit, $e$ = 0.0078"), (0.0, RED, "a circle")):
+        left.plot(t / 3600, boom(eccentricity, t), color=colour, linewidth=1.4, label=name)
+    left.set_xlabel("$t$ [h]")
+    left.set_ylabel("from the vertical [deg]")
+    left.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, fontsize=9, frameon=False)
+    left.set_title("The swing of a boom in the plane of its orbit")
+
+    t = np.linspace(0, 1.5, 15001)
+    for spin, wheel, look, name in ((3.0, 0.36, {"color": AMBER, "linewidth": 5.0}, "with a wheel, spin $r$"),
+                                    (3.0 + 0.36 / 0.012, 0.0, {"color": BLUE, "linewidth": 1.4}, "without, spin $r + l/C$")):
+        middle.plot(*top(spin, wheel, t).T, label=name, **look)
+    middle.set_aspect("equal")
+    middle.set_xlabel("axis 3 of the top, along 1")
+    middle.set_ylabel("along 2")
+    middle.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, fontsize=9, frameon=False)
+    middle.set_title("A symmetric gyrostat is a top")
+
+    t, J = np.linspace(0, 12, 12001), np.array([3.0, 2.5, 2.0])
+
+    def wheel(s):
+        """Momentum along axis 3 of a wheel that is driven from 6 s to 9 s."""
+        return np.array([0.0, 0.0, 0.1 * min(max(s - 6.0, 0.0), 3.0)])
+
+    def rate(s, M):
+        push = np.array([0.4, 0.0, 0.0]) if 2.0 <= s < 4.0 else np.zeros(3)
+        return np.cross(M, (M - wheel(s)) / J) + push
+
+    omega = (integrated(rate, J * np.array([0.02, 0.3, 0.05]), t) - np.array([wheel(s) for s in t])) / J
+    for i, colour in enumerate((BLUE, RED, GREEN)):
+        right.plot(t, omega[:, i], color=colour, linewidth=1.4, label=rf"$\omega_{i + 1}$")
+    right.axvspan(2, 4, color=AMBER, alpha=0.25, linewidth=0)
+    for at in (6, 9):
+        right.axvline(at, color=GREY, linestyle=":", linewidth=1.2)
+    right.set_xlim(0, 12)
+    right.set_xlabel("$t$ [s]")
+    right.set_ylabel(r"$\omega$ [rad/s]")
+    right.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3, fontsize=9, frameon=False)
+    right.set_title("A torque on and off, then a wheel that is driven")
+    return figure
+
+
+FIGURES = (deceleration, rotor, spinning, heavy, free, general)
 
 
 def main():
