@@ -402,6 +402,7 @@ MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"initial": {**START, "velocity": [1, 0, 0]}, "body": {**BODY, "fixed": True}}, "held at its origin"),
     ({"body": {**BODY, "fixed": "yes"}}, "not a truth value"),
     ({"body": {"inertia": [1.0, 1.0, 3.0]}}, "triangle"),
+    ({"body": {**BODY, "mass": 50.0, "centre_of_mass": [0.5, 0.2, 0.0], "inertia_about": "origin"}}, "moved from the origin to the mass centre"),
     ({"solve": {"times": [1.0], "recognise": 1}}, "not a truth value"),
     ({"solve": {"times": [1.0], "model": "closed-form"}}, "free:closed-form"),
 ]
@@ -412,6 +413,21 @@ def test_mistakes_are_named(changes: dict[str, Any], text: str) -> None:
     with pytest.raises((SceneError, DomainError)) as found:
         gyrostat.solve(scene_from(scene(**changes)))
     assert text in str(found.value)
+
+
+def test_the_inertia_may_be_about_another_point_and_the_start_may_be_told_otherwise() -> None:
+    def momentum(**changes: Any) -> Any:
+        return gyrostat.solve(scene_from(scene(**changes, solve={"times": [0.0], "ask": "all"})))["angular_momentum"][0]
+
+    body = {**BODY, "mass": 2.0, "centre_of_mass": [0.1, 0.2, 0.0]}
+    J, w, r = np.diag(BODY["inertia"]), np.array(START["angular_velocity"]), np.array(body["centre_of_mass"])
+    steiner = 2.0 * (r @ r * np.eye(3) - np.outer(r, r))
+    for about, fixed, want in (("mass-centre", True, J + steiner), ("mass-centre", False, J), ("origin", False, J - steiner), ("origin", True, J)):
+        np.testing.assert_allclose(momentum(body={**body, "fixed": fixed, "inertia_about": about}), want @ w, rtol=1e-14)
+    wheels = [wheel("free"), wheel("held", (1, 0, 0)), wheel("friction", (0, 1, 0)), wheel("locked")]
+    np.testing.assert_allclose(momentum(wheel=wheels, initial={"angular_momentum": [1.0, 2.0, 3.0]}), [1.0, 2.0, 3.0], rtol=1e-14)
+    inertial = gyrostat.solve(scene_from(scene(initial={"angular_velocity": {"inertial": [0, 0, 1.0]}, "rotation_vector": ["90 deg", 0, 0]})))
+    np.testing.assert_allclose(inertial["angular_velocity"][0], [0.0, 1.0, 0.0], atol=1e-15)
 
 
 def test_warnings_name_what_is_odd() -> None:

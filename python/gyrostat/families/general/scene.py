@@ -194,6 +194,10 @@ def mistakes(tables: Values) -> Found:
     if body["fixed"] and any(start["velocity"]) or body["fixed"] and any(start["position"]):
         key = "velocity" if any(start["velocity"]) else "position"
         yield f"initial.{key}", start[key], "the body is held at its origin", f"leave out {key}, or body.fixed"
+    moments = np.linalg.eigvalsh(_about_reference(body))
+    if body["inertia_about"] == "origin" and not body["fixed"] and (moments[0] <= 0 or moments[0] + moments[1] < moments[2] * (1 - 1e-9)):
+        yield ("body.inertia", body["inertia"], f"moved from the origin to the mass centre it has the moments {', '.join(f'{m:.6g}' for m in moments)}, which "
+               "no body has", "check mass and centre_of_mass, or say what point the inertia is about by inertia_about")
     for place, wheel in enumerate(tables[""]["wheel"], 1):
         yield from _wheel_mistakes(place, wheel)
     for place, torque in enumerate(tables[""]["torque"], 1):
