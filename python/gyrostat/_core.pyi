@@ -190,11 +190,11 @@ def free_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float6
     """
     Answer of the ladder as plain data.
     """
-def general_recognise(*, scene: dict, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> list[tuple[str, str | None]]:
+def general_recognise(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> list[tuple[str, str | None]]:
     """
     Each family, and why the scene is no instance of it; None where it is one.
     """
-def general_solve(*, scene: dict, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, recognise: bool, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None) -> dict[str, typing.Any]:
+def general_solve(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, recognise: bool, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None) -> dict[str, typing.Any]:
     """
     Answer of the ladder as plain data.
     """

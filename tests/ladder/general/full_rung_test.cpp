@@ -58,4 +58,9 @@ TEST_CASE("the full general equations refuse a stop, and wheels that settle too 
   for (auto& each : stiff.wheels) each.slope = 1e6, each.no_load_rate = 10;
   general::solve(posed(stiff, question_at({1000})), refusal);
   CHECK(std::string_view(refusal.why) == too_stiff);
+  Problem<double> humming = brick();
+  humming.torques = {torque(TorqueType::constant, {0.1, 0, 0})};
+  humming.torques[0].factor.amplitude = 1, humming.torques[0].factor.rate = 1e10;
+  general::solve(posed(humming, question_at({1})), refusal);
+  CHECK(std::string_view(refusal.why) == forcing_lost);
 }

@@ -11,7 +11,7 @@ using namespace general_scenes;
 TEST_CASE("rungs of the families answer their instances honestly, and say what they lack", "[general]") {
   SpecialScenes scenes(17);
   int by_family[specials] = {};
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 80; ++i) {
     const auto family = Special(i % int(specials));
     const auto made = scenes.of(family, 3);
     for (const double tolerance : {1e-3, 1e-8}) {

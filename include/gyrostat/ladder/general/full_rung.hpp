@@ -23,6 +23,11 @@ inline constexpr const char* too_stiff =
     "hardly "
     "matters, or ask for a shorter span";
 
+inline constexpr const char* forcing_lost =
+    "a wave, the magnetic field or the orbit goes through more than 1e8 rad up to the last time, and its phase is "
+    "lost: "
+    "ask for a shorter span or take it out";
+
 namespace detail {
 
 /// Primitives stand first in full_columns, in the same order.
@@ -112,6 +117,7 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   const auto goal = scene.goal();
   if (phase_too_long(scene.sizes().turning * times.back(), goal.tightest))
     return refused<Track>(Errc::step_limit, phase_lost);
+  if (!(scene.sizes().forcing * times.back() <= most_forcing)) return refused<Track>(Errc::out_of_domain, forcing_lost);
   if (detail::settling_steps(scene) > double(step_budget)) return refused<Track>(Errc::step_limit, too_stiff);
   const FullRow<double> row(Prepared<double>(scene.problem(), times.back()));
   const auto wanted = detail::wanted_of(scene, goal, row);

@@ -206,8 +206,10 @@ inline constexpr ColumnSet unasked_columns = column_set(
     column::angular_momentum, column::angular_momentum_inertial, column::angular_momentum_norm, column::energy,
     column::velocity, column::position, column::down, column::attitude_orbit, column::torque);
 
-inline constexpr Family tables{"general",  column_kinds,     scalar_kinds,   warning_kinds,
-                               rung_kinds, integrator_names, unasked_columns};
+inline constexpr std::size_t asked_scalars[] = {scalar::stop_time};
+
+inline constexpr Family tables{"general",  column_kinds,     scalar_kinds,    warning_kinds,
+                               rung_kinds, integrator_names, unasked_columns, asked_scalars};
 
 using ColumnErrors = Errors<std::size(column_kinds)>;
 
