@@ -83,12 +83,17 @@ bool true_motion(const Scenes::Made& made, const Scene& scene, Answer& right) {
   Answer rough;
   fill(right, scene, one), fill(rough, scene, two);
   // where wheels hold much, the rates are a difference of momenta in long double, too
-  double M = 0;
-  for (const auto& s : one.states) M = std::max(M, s.angular_momentum.norm());
+  double M = 0, w = 0;
+  for (const auto& s : one.states) {
+    M = std::max(M, s.angular_momentum.norm());
+    w = std::max(w, s.angular_velocity.norm());
+  }
   const double lost = 16 * double(epsilon<long double>) * M / scene.sizes().least;
   for (std::size_t i = 0; i < right.columns.size(); ++i) {
-    right.columns[i].error = 4 * column_error(rough.columns[i], right.columns[i]);
-    if (right.columns[i].name() == "angular_velocity") right.columns[i].error += lost / size_of(right.columns[i]);
+    Column& column = right.columns[i];
+    column.error = 4 * column_error(rough.columns[i], column);
+    if (column.name() == "angular_velocity") column.error += over(lost, size_of(column));
+    if (column.name() == "energy") column.error += over(2 * scene.sizes().greatest * w * lost, size_of(column));
   }
   return true;
 }

@@ -293,4 +293,23 @@ TEST_CASE("the full general equations meet the tolerance of long double", "[gene
   CHECK(full_motion<S>(p, times, states, options)->met);
 }
 
+TEST_CASE("a brake that stops the body within a rounding of the time ends the motion", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2.4, 2).asDiagonal();
+  p.angular_velocity = {-2.8e-5, 2.4e-5, -1e-6};
+  auto& brake = p.torques.emplace_back();
+  brake.type = TorqueType::brake;
+  brake.opposed = Opposed::momentum;
+  brake.vector = {1.6e12, 5.4e11, 3.5e11};
+  brake.factor.on = {{2e-7, 4e-7}};
+  const std::vector<double> times{1e-7, 5e-7};
+  std::vector<State<double>> states(2);
+  MotionOptions<double> options;
+  options.step_cap = 10'000;
+  const auto answer = full_motion<double>(p, times, states, options);
+  REQUIRE(answer);
+  CHECK(answer->status == ode::Status::event);
+  CHECK(answer->stop == Approx(2e-7));
+}
+
 }  // namespace general_full_motion_test

@@ -184,7 +184,9 @@ class FullCourse {
     const Scalar before = system_->has_brake() ? system_->braked(time(), solver_->state()) : infinity<Scalar>;
     // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
     if (before < infinity<Scalar>) until = std::min(until, time() + (1 + share_) * before / (4 * of_.sizes.torque));
-    if (has_stopped(before, infinity<Scalar>)) return ode::Status::event;
+    // and where the time cannot tell the rest of it
+    const bool lost = before < infinity<Scalar> && !(until > time()) && t_max > time();
+    if (lost || has_stopped(before, infinity<Scalar>)) return ode::Status::event;
     const ode::Status status = solver_->step(until);
     if (status != ode::Status::reached) return status;
     if (before < infinity<Scalar> && has_stopped(system_->braked(time(), solver_->state()), before))

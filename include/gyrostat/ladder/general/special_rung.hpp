@@ -284,9 +284,10 @@ inline void map_back(const Scene& scene, const SpinningInstance& spinning, const
   const Quat<double> q_SB = from_matrix<double>(spinning.R_SB);
   const Mat3<double> R_BS = spinning.R_SB.transpose();
   const bool turned = !(q_SB == Quat<double>{}), oriented = !(spinning.q_IS == Quat<double>{});
-  // moments that a tensor gives are rounded, and so is all that turns by them
-  const bool exact = scene.wheels().reduced.isDiagonal(0);
-  const double phase = exact ? 0 : spinning.scene.problem().phase(scene.question().times.back());
+  // moments that a tensor gives are rounded by its greatest element, and so is all that turns by them
+  const auto& wheels = scene.wheels();
+  const double condition = wheels.reduced.isDiagonal(0) ? 0 : wheels.reduced.norm() * wheels.inverse.norm();
+  const double phase = condition * spinning.scene.problem().phase(scene.question().times.back());
   const double rounding = 8 * epsilon<double> * (1 + phase);
   const auto in_space = [&](const Vec3<double>& v) { return oriented ? rotate<double>(spinning.q_IS, v) : v; };
   double most[3] = {};

@@ -131,17 +131,17 @@ class Writer {
   static Pose<double> pose(const State<double>& s) noexcept {
     return {s.attitude, s.angular_velocity, s.angular_momentum};
   }
-  /// By how much the torques change where attitude, rates and momentum change by their errors, by differences at some of the times, or where
-  /// there is a brake at all.
+  /// By how much the torques change where attitude, rates and momentum change by their errors, by differences at some of the times, or at all.
   double torque_off() const noexcept {
     for (const std::size_t p : {primitive::attitude, primitive::angular_velocity, primitive::angular_momentum})
       if (!(track_.off[p] < infinity<double>)) return infinity<double>;
     const auto& times = scene_.question().times;
-    // a brake turns over where what it opposes nearly vanishes, which some of the times would not show
+    // what turns over, as a brake where what it opposes nearly vanishes, or acts for a while would not show at some of the times
     const auto& torques = scene_.problem().torques;
-    const bool turns_over = std::any_of(torques.begin(), torques.end(),
-                                        [](const Torque<double>& torque) { return torque.type == TorqueType::brake; });
-    const std::size_t n = track_.states.size(), stride = turns_over ? 1 : 1 + n / 16;
+    const bool changes = scene_.breaks() > 0 || std::any_of(torques.begin(), torques.end(), [](const auto& torque) {
+                           return torque.type == TorqueType::brake || torque.factor.amplitude != 0;
+                         });
+    const std::size_t n = track_.states.size(), stride = changes ? 1 : 1 + n / 16;
     double most = 0;
     for (std::size_t back = 0; back < n; back += stride) {
       const std::size_t i = n - 1 - back;
