@@ -693,7 +693,7 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
             asked(kind, read["solve"]["ask"], knows_attitude(read))
         except AskError as error:
             wrong("solve.ask", read["solve"]["ask"], error.problem, error.remedy)
-        for key, value, problem, remedy in family.mistakes(read):
+        for key, value, problem, remedy in (*family.mistakes(read), *(() if "kind" in tree else family.doubts(read))):
             wrong(key, _plain(value), problem, remedy)
     if mistakes:
         if "kind" not in tree and any(mistake.problem.startswith(("unknown", "the table", "this is a table, not")) for mistake in mistakes):

@@ -556,3 +556,11 @@ def test_a_force_and_gravity_move_the_mass_centre_whichever_rung_answers(changes
     answer = gyrostat.solve(scene_from(scene(**changes, initial=start, solve={"times": [0.0, 2.0], "ask": "all", "model": model})))
     np.testing.assert_allclose(answer["velocity"][-1], np.array(velocity) + [1, 0, 0], atol=1e-9)
     np.testing.assert_allclose(answer["position"][-1], np.array(velocity) + [2, 3, 0], atol=1e-9)
+
+
+def test_a_heavy_scene_that_names_no_kind_does_not_fall_silently() -> None:
+    data = load("toy-top").to_dict()
+    with pytest.raises(SceneError, match=r'no kind is named, and nothing here has weight; write kind = "heavy"'):
+        scene_from({key: value for key, value in data.items() if key != "kind"})
+    falling = scene_from({**data, "kind": "general"})
+    assert "free" in [family for family, why in recognised(falling).items() if not why]

@@ -93,6 +93,12 @@ class Family:
         return found
 
     @cached_property
+    def doubts(self) -> Callable[[Values], Found]:
+        """What says that a scene which names no kind was meant to be of another."""
+        found: Callable[[Values], Found] = getattr(self._module("scene"), "doubts", _nothing)
+        return found
+
+    @cached_property
     def places(self) -> dict[str, tuple[str, str]]:
         """Table and key of each argument of `solve`."""
         found = {field.name: (table, field.name) for table, fields in reversed(self.keys.items()) if table for field in fields}

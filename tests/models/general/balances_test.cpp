@@ -31,7 +31,8 @@ TEST_CASE("the power is the derivative of the energy", "[general]") {
       return energy(wheels, flow.state(s, there));
     };
     const auto here = flow.state(0, y);
-    const double gain = power(p, wheels, here, here.torque, 0., 0.), E = beside(0);
+    const Pose<double> pose{here.attitude, here.angular_velocity, here.angular_momentum};
+    const double gain = power(p, wheels, here, load_at(p, pose, 0., 0.).torque, 0., 0.), E = beside(0);
     // what a central difference loses
     const double slope = (beside(h) - beside(-h)) / (2 * h);
     CAPTURE(i, made.kind);

@@ -75,7 +75,7 @@ State<To> cast(const State<From>& s) {
     made.rotor_rate[i] = To(s.rotor_rate[i]);
     made.rotor_angle[i] = To(s.rotor_angle[i]);
   }
-  made.velocity = cast<To>(s.velocity), made.position = cast<To>(s.position), made.torque = cast<To>(s.torque);
+  made.velocity = cast<To>(s.velocity), made.position = cast<To>(s.position);
   made.work = To(s.work), made.impulse = cast<To>(s.impulse);
   return made;
 }

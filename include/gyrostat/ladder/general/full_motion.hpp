@@ -423,11 +423,6 @@ class FullMotion {
     solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of.sizes.turning, times_,
                  states_, nowhere(), options_, progress_from, progress_to, rounding);
     if (answer.status == ode::Status::event) answer.stop = course->time();
-    for (std::size_t i = 0; i < times_.size(); ++i) {
-      State<Scalar>& state = states_[i];
-      const Pose<Scalar> pose{state.attitude, state.angular_velocity, state.angular_momentum};
-      state.torque = load_at(problem_, pose, times_[i], times_[i]).torque;
-    }
     return answer;
   }
 
@@ -438,7 +433,7 @@ class FullMotion {
   static State<Scalar> nowhere() noexcept {
     constexpr Scalar no = nan<Scalar>;
     const Vec3<Scalar> nothing(no, no, no);
-    State<Scalar> made{{no, no, no, no}, nothing, nothing, {}, {}, nothing, nothing, nothing, no, nothing};
+    State<Scalar> made{{no, no, no, no}, nothing, nothing, {}, {}, nothing, nothing, no, nothing};
     made.rotor_rate.fill(no), made.rotor_angle.fill(no);
     return made;
   }

@@ -162,7 +162,6 @@ struct State {
   std::array<Scalar, most_wheels> rotor_rate{};       ///< relative to the body, rad/s
   std::array<Scalar, most_wheels> rotor_angle{};      ///< relative to the body, rad
   Vec3<Scalar> velocity{0, 0, 0}, position{0, 0, 0};  ///< of a free body's mass centre, inertial axes
-  Vec3<Scalar> torque{0, 0, 0};                       ///< tau, external, body axes, N m
   Scalar work = 0;                ///< of all torques, those of the motors and of bearings among them, since t = 0, J
   Vec3<Scalar> impulse{0, 0, 0};  ///< of the external torques since t = 0, inertial axes, N m s
 };

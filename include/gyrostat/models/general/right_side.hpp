@@ -201,8 +201,6 @@ struct Flow {
       made.rotor_angle[i] = y[angle + i];
     }
     made.velocity = get(y, velocity), made.position = get(y, position);
-    const Pose<Scalar> pose{made.attitude, made.angular_velocity, made.angular_momentum};
-    made.torque = load_at(problem, pose, t, inside).torque;
     return made;
   }
 

@@ -15,7 +15,7 @@ from gyrostat.rotation import matrix_from_quaternion, quaternion_from_matrix
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["ALTERNATIVES", "ARGUMENTS", "EXAMPLE", "KEYS", "arguments", "mistakes"]
+__all__ = ["ALTERNATIVES", "ARGUMENTS", "EXAMPLE", "KEYS", "arguments", "doubts", "mistakes"]
 
 BETWEEN: Final = ("step", "linear", "cubic")
 EXTEND: Final = ("zero", "hold")
@@ -202,6 +202,14 @@ def mistakes(tables: Values) -> Found:
         yield from _wheel_mistakes(place, wheel)
     for place, torque in enumerate(tables[""]["torque"], 1):
         yield from _torque_mistakes(place, torque, orbiting, body["fixed"], any(field[name] is not UNSET for name in ("uniform", "rotating", "dipole")))
+
+
+def doubts(tables: Values) -> Found:
+    """Gravity in which nothing weighs: the scene of a heavy body has the same keys."""
+    gravity = tables["field"]["gravity"]
+    if gravity and all(torque["type"] != "weight" for torque in tables[""]["torque"]):
+        yield ("field.gravity", gravity, "no kind is named, and nothing here has weight",
+               'write kind = "heavy" for a body that is held at a point, or kind = "general" for one that falls freely')
 
 
 def _wheel_mistakes(place: int, wheel: Mapping[str, Any]) -> Found:
