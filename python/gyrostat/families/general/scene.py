@@ -205,9 +205,9 @@ def mistakes(tables: Values) -> Found:
 
 
 def doubts(tables: Values) -> Found:
-    """Gravity in which nothing weighs: the scene of a heavy body has the same keys."""
+    """Gravity and a mass centre that nothing feels: the scene of a heavy body has just these keys."""
     gravity = tables["field"]["gravity"]
-    if gravity and all(torque["type"] != "weight" for torque in tables[""]["torque"]):
+    if gravity and any(tables["body"]["centre_of_mass"]) and not tables[""]["torque"]:
         yield ("field.gravity", gravity, "no kind is named, and nothing here has weight",
                'write kind = "heavy" for a body that is held at a point, or kind = "general" for one that falls freely')
 
