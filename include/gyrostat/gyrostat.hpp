@@ -57,6 +57,7 @@
 #include "gyrostat/ladder/general/scene.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/ladder/general/special_rung.hpp"
+#include "gyrostat/ladder/general/start_error.hpp"
 #include "gyrostat/ladder/general/track.hpp"
 #include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/heavy/conversion_error.hpp"

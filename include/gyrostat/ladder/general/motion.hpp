@@ -126,7 +126,7 @@ inline constexpr ScalarKind scalar_kinds[] = {
 
 /// Places in warning_kinds.
 namespace warning {
-enum : std::size_t { not_realisable, driven_damping, eddy_not_positive, beyond_no_load };
+enum : std::size_t { not_realisable, driven_damping, eddy_not_positive, beyond_no_load, start_uncertain };
 }
 
 inline constexpr WarningKind warning_kinds[] = {
@@ -136,6 +136,9 @@ inline constexpr WarningKind warning_kinds[] = {
     {"eddy-not-positive",
      "the matrix of the eddy currents has a negative symmetric part: they drive the body; its least eigenvalue is"},
     {"wheel-beyond-no-load", "a wheel starts faster than its motor turns it without load: the motor brakes it; rad/s"},
+    {"start-uncertain",
+     "what the error of the start makes of the answer is over the tolerance: ask for the scene that it comes from more "
+     "precisely; times the tolerance"},
 };
 
 /// A rung of the ladder is one of a family, or the full equations of the family `general`.

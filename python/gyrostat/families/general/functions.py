@@ -20,6 +20,7 @@ from gyrostat.asking import Ask, asked
 from gyrostat.broadcast import Floats
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
+from gyrostat.families.general.clock import orbit_since, since
 
 __all__ = ["PLANETS", "Monitor", "orbit_start", "recognise", "solve"]
 
@@ -119,14 +120,15 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
             "true_anomaly": given.get("true_anomaly") or 0.0, "radial": radial, "along": _unit(along - radial * float(radial @ along), "orbit.along")}
 
 
-def orbit_start(orbit: Record) -> tuple[Floats, Floats]:
-    """The axes of an orbit at t = 0 as columns (3, 3), x along it, y against its normal, z to the centre, and their rate of turn (3,) [rad/s], inertial
-    axes.
+def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
+    """The axes of an orbit at a time [s] as columns (3, 3), x along it, y against its normal, z to the centre, and their rate of turn (3,) [rad/s],
+    inertial axes.
 
     orbit : the keys of the table [orbit] of a scene file, in SI units.
     """
-    made = _orbit(orbit)
-    assert made is not None
+    at_zero = _orbit(orbit)
+    assert at_zero is not None
+    made = orbit_since(time, at_zero)
     radial, along, radius = made["radial"], made["along"], made["radius"]
     normal = np.cross(radial, along)
     speed = math.sqrt(made["mu"] / radius * (1 + made["eccentricity"] * math.cos(made["true_anomaly"])))
@@ -162,7 +164,7 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
           wheels: Sequence[Record] = (), torques: Sequence[Record] = (), mass: float = 1.0, centre_of_mass: ArrayLike = _ZERO, fixed: bool = False,
           rotor_momentum: ArrayLike = _ZERO, orbit: Record | None = None, field: Record | None = None, velocity: ArrayLike = _ZERO,
           position: ArrayLike = _ZERO, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto", recognise: bool = True,
-          monitor: Monitor | None = None, ask: Ask | None = None) -> Answer:
+          monitor: Monitor | None = None, ask: Ask | None = None, start_time: float = 0.0, start_error: Mapping[str, float] | None = None) -> Answer:
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor of the whole, wheels locked, about the mass centre, or where the body is fixed about its origin
@@ -174,12 +176,18 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     exactly an instance.
     ask : columns and scalars wanted: names, "all", or name -> tolerance, relative or with a unit ("0.1 deg"); None: attitude, angular
     velocity, and rates and angles of the wheels.
+    start_time : where the clock of times, tables, waves and orbit stands at the start [s]: attitude, rates and path are given there, and the first
+    of the times may not be before it.
+    start_error : by how much the start may be off, absolute: attitude [rad], angular_velocity, rotor_rate [rad/s], rotor_angle [rad], velocity,
+    position; what comes of it is part of the errors of the answer.
     Raises DomainError for an argument outside its domain, for a wheel that the body cannot hold, and for a rung that cannot compute the
     motion; ConvergenceError where a computation hits its cap; Cancelled where the monitor stopped it.
     """
     scene = _scene(inertia, mass, centre_of_mass, fixed, rotor_momentum, wheels, torques, orbit, field, attitude, angular_velocity, velocity, position)
-    asking: dict[str, Any] = {"times": np.asarray(times, dtype=float), "tolerance": float(tolerance), "model": model, "integrator": integrator}
-    made = _core.general_solve(scene=scene, **asking, recognise=recognise, monitor=monitor, ask=asked("general", ask))
+    at = np.asarray(times, dtype=float)
+    asking: dict[str, Any] = {"times": at, "tolerance": float(tolerance), "model": model, "integrator": integrator}
+    made = _core.general_solve(scene=since(start_time, scene), **{**asking, "times": at - start_time}, recognise=recognise, monitor=monitor,
+                               ask=asked("general", ask), start_error=dict(start_error or {}))
     body = {**scene["body"], **scene["initial"]}
     records = {"wheels": [dict(each) for each in wheels] or None, "torques": [dict(each) for each in torques] or None,
                "orbit": None if orbit is None else dict(orbit), "field": None if field is None else dict(field)}
@@ -189,11 +197,11 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
 def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
               wheels: Sequence[Record] = (), torques: Sequence[Record] = (), mass: float = 1.0, centre_of_mass: ArrayLike = _ZERO,
               fixed: bool = False, rotor_momentum: ArrayLike = _ZERO, orbit: Record | None = None, field: Record | None = None,
-              velocity: ArrayLike = _ZERO, position: ArrayLike = _ZERO) -> dict[str, str]:
+              velocity: ArrayLike = _ZERO, position: ArrayLike = _ZERO, start_time: float = 0.0) -> dict[str, str]:
     """Name of each family, and why the scene is not exactly an instance of it; empty where it is.
 
     Arguments as of `solve`.
     """
     scene = _scene(inertia, mass, centre_of_mass, fixed, rotor_momentum, wheels, torques, orbit, field, attitude, angular_velocity, velocity, position)
-    found = _core.general_recognise(scene=scene, times=np.asarray(times, dtype=float))
+    found = _core.general_recognise(scene=since(start_time, scene), times=np.asarray(times, dtype=float) - start_time)
     return {name: why or "" for name, why in found}
