@@ -243,6 +243,7 @@
 #include "gyrostat/ode/status.hpp"
 #include "gyrostat/ode/taylor.hpp"
 #include "gyrostat/ode/taylor_batch.hpp"
+#include "gyrostat/rotation/euler.hpp"
 #include "gyrostat/rotation/euler_312.hpp"
 #include "gyrostat/rotation/exp_log.hpp"
 #include "gyrostat/rotation/kinematics.hpp"

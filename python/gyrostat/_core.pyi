@@ -194,7 +194,7 @@ def general_recognise(*, scene: dict[str, typing.Any], times: typing.Annotated[n
     """
     Each family, and why the scene is no instance of it; None where it is one.
     """
-def general_solve(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, recognise: bool, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None, start_error: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}) -> dict[str, typing.Any]:
+def general_solve(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, recognise: bool, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None, start_error: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, euler: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] | None = None) -> dict[str, typing.Any]:
     """
     Answer of the ladder as plain data.
     """

@@ -885,7 +885,7 @@ def parse_override(text: str) -> tuple[str, Any]:
         if set(read) == {"value"}:
             return key, read["value"]
     except (tomllib.TOMLDecodeError, ValueError, RecursionError):
-        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", value) or re.fullmatch(PATTERN, value):
+        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*|[1-3]-[1-3]-[1-3]", value) or re.fullmatch(PATTERN, value):
             return key, value
     raise fail(key, _show(value), "this is no TOML value", 'write a number, an array such as [1.0, 2.0, 3.0], or text in quotes')
 

@@ -39,10 +39,12 @@ general::StartError start_error_of(const std::map<std::string, double>& given) {
 
 Data solve_scene(const Data& given, const Array& at, double tolerance, const std::string& model,
                  const std::string& integrator, bool recognise, const std::optional<std::shared_ptr<Monitor>>& monitor,
-                 const Ask& ask, const std::map<std::string, double>& start_error) {
+                 const Ask& ask, const std::map<std::string, double>& start_error,
+                 const std::optional<EulerAxes>& euler) {
   Question question = question_of(general::tables, at, tolerance, model, ask);
   (void)takes_cvode(general::tables, integrator, question);
-  const general::Scene scene = scene_of(given, question, recognise).known_within(start_error_of(start_error));
+  general::Scene scene = scene_of(given, question, recognise).known_within(start_error_of(start_error));
+  if (euler) scene = scene.told_by(*euler);
   gyrostat::Refusal why;
   auto [answer, seconds] = timed([&] { return general::solve(scene, why, monitor ? monitor->get() : nullptr); });
   require_answer(why);
@@ -67,7 +69,7 @@ void bind_general(py::module_& module) {
   module.def("general_solve", &solve_scene, py::kw_only(), py::arg("scene"), py::arg("times"), py::arg("tolerance"),
              py::arg("model"), py::arg("integrator"), py::arg("recognise"), py::arg("monitor"),
              py::arg("ask") = py::none(), py::arg("start_error") = std::map<std::string, double>{},
-             "Answer of the ladder as plain data.");
+             py::arg("euler") = py::none(), "Answer of the ladder as plain data.");
   module.def("general_recognise", &recognise_scene, py::kw_only(), py::arg("scene"), py::arg("times"),
              "Each family, and why the scene is no instance of it; None where it is one.");
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""General scenes that begin where another ends, and bodies that are told without their wheels."""
+"""General scenes that begin where another ends, bodies that are told without their wheels, and attitudes told by angles."""
 
 import copy
 from pathlib import Path
@@ -238,3 +238,31 @@ def test_wheels_are_in_the_inertia_or_not(within: bool, keys: dict[str, Any], me
     with pytest.raises(SceneError, match=message):
         scene_from({"name": "x", "kind": "general", "solve": {"times": [1.0]}, "wheel": [wheel], "initial": {"angular_velocity": [0.1, 0.2, 0.3]},
                     "body": {"inertia": [3.0, 2.5, 2.0], "wheels_in_inertia": within}})
+
+
+# ---- angles of the attitude ----
+
+
+@pytest.mark.parametrize("sequence", ["3-2-1", "ZXZ", "1-2-3"])
+def test_angles_are_those_that_a_start_takes(sequence: str) -> None:
+    answer = gyrostat.solve("gravity-gradient-boom", **{"solve.euler": sequence, "solve.ask": ["attitude", "euler"]})
+    for row in (1, 100, 480):
+        start = {"angular_velocity": [0.0, 0.0, 0.0], "euler": {"sequence": sequence, "angles": answer["euler"][row].tolist()}}
+        told = scene_from({"name": "x", "solve": {"times": [0.0]}, "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": start})
+        assert angle_between(np.array(told.tables["initial"]["attitude"]), answer["attitude"][row]) < 1e-14
+    steps = np.abs(np.diff(answer["euler"], axis=0))
+    assert np.max(steps) < np.pi
+    assert answer.error["euler"] >= answer.error["attitude"]
+
+
+def test_a_sequence_asks_for_the_angles() -> None:
+    for ask in (None, ["attitude"], {"attitude": "0.1 deg"}, "all", ["euler"]):
+        changes = {} if ask is None else {"solve.ask": ask}
+        assert "euler" in gyrostat.solve(WHOLE, **changes, **{"solve.euler": "ZYX"})
+    assert "euler" not in gyrostat.solve(WHOLE)
+    met = gyrostat.solve(WHOLE, **{"solve.euler": "ZYX", "solve.ask": {"euler": "1 deg"}})
+    assert met.met and list(met) == ["euler"] and met.tolerances["euler"] == pytest.approx(np.pi / 180)
+    with pytest.raises(SceneError, match="the sequence of the angles is not said"):
+        gyrostat.solve(WHOLE, ask=["euler"])
+    with pytest.raises(SceneError, match="neighbours different"):
+        gyrostat.solve(WHOLE, **{"solve.euler": "3-3-1"})

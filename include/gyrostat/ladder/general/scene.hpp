@@ -19,6 +19,7 @@
 #include "gyrostat/models/general/sizes.hpp"
 #include "gyrostat/models/general/surroundings.hpp"
 #include "gyrostat/models/general/wheels.hpp"
+#include "gyrostat/rotation/euler.hpp"
 
 namespace gyrostat::general {
 
@@ -93,7 +94,11 @@ class Scene {
   }
 
   /// What is asked, of the same body from another start, or under other torques.
-  Result<Scene> with(const Problem<double>& problem) const { return make(problem, question_, recognised_); }
+  Result<Scene> with(const Problem<double>& problem) const {
+    auto made = make(problem, question_, recognised_);
+    if (!made || !euler_) return made;
+    return made->told_by(*euler_);
+  }
 
   /// The same scene, its start known to within an error.
   Scene known_within(const StartError& error) const {
@@ -102,7 +107,16 @@ class Scene {
     return other;
   }
 
+  /// The same scene, with a column of angles in this sequence.
+  Scene told_by(const EulerAxes& euler) const {
+    Scene other = *this;
+    other.euler_ = euler;
+    return other;
+  }
+
   const Problem<double>& problem() const noexcept { return problem_; }
+  /// The sequence of the column `euler`, where there is one.
+  const std::optional<EulerAxes>& euler() const noexcept { return euler_; }
   const StartError& start_error() const noexcept { return start_error_; }
   const Wheels<double>& wheels() const noexcept { return wheels_; }
   const Sizes<double>& sizes() const noexcept { return sizes_; }
@@ -129,6 +143,7 @@ class Scene {
       case column::position: return !problem_.fixed;
       case column::attitude_orbit: return problem_.orbit.has_value();
       case column::down: return has_vertical();
+      case column::euler: return euler_.has_value();
       default: return true;
     }
   }
@@ -147,6 +162,7 @@ class Scene {
  private:
   Problem<double> problem_;
   StartError start_error_;
+  std::optional<EulerAxes> euler_;
   Wheels<double> wheels_;
   Sizes<double> sizes_;
   bool large_ = false, recognised_ = false;
@@ -180,6 +196,7 @@ inline ColumnErrors Scene::scales() const noexcept {
   scale[column::position] = p.position.norm() + (p.velocity.norm() + g.norm() * T) * T;
   scale[column::down] = 1;
   scale[column::torque] = share * torques;
+  scale[column::euler] = 1;
   return scale;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -39,6 +40,12 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
       warn(warning::driven_damping, drives(torque.matrix));
     if (torque.type == TorqueType::eddy_current && drives(torque.matrix) < 0)
       warn(warning::eddy_not_positive, drives(torque.matrix));
+  }
+  if (scene.gives(column::euler) && track.off[primitive::attitude] < infinity<double>) {
+    double nearest = infinity<double>;
+    for (const auto& state : track.states)
+      nearest = std::min(nearest, euler_angles(*scene.euler(), state.attitude).from_lock);
+    if (!(nearest - track.off[primitive::attitude] > 1e-8)) warn(warning::gimbal_lock, nearest);
   }
   for (const auto& wheel : problem.wheels)
     if (wheel.type == WheelType::motor && std::abs(wheel.rate) > std::abs(wheel.no_load_rate) && wheel.slope > 0)

@@ -21,6 +21,7 @@ from gyrostat.broadcast import Floats
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 from gyrostat.families.general.clock import orbit_since, since
+from gyrostat.orientation import axes_of
 
 __all__ = ["PLANETS", "Monitor", "orbit_start", "recognise", "solve"]
 
@@ -160,11 +161,19 @@ def _scene(inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, fixed: bo
     }
 
 
+def _with_angles(ask: Ask | None, euler: str | None) -> Ask | None:
+    """A sequence of angles asks for them."""
+    if euler is None or ask is None or isinstance(ask, str) or "euler" in ask:
+        return ask
+    return {**ask, "euler": "default"} if isinstance(ask, Mapping) else (*ask, "euler")
+
+
 def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
           wheels: Sequence[Record] = (), torques: Sequence[Record] = (), mass: float = 1.0, centre_of_mass: ArrayLike = _ZERO, fixed: bool = False,
           rotor_momentum: ArrayLike = _ZERO, orbit: Record | None = None, field: Record | None = None, velocity: ArrayLike = _ZERO,
           position: ArrayLike = _ZERO, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto", recognise: bool = True,
-          monitor: Monitor | None = None, ask: Ask | None = None, start_time: float = 0.0, start_error: Mapping[str, float] | None = None) -> Answer:
+          monitor: Monitor | None = None, ask: Ask | None = None, start_time: float = 0.0, start_error: Mapping[str, float] | None = None,
+          euler: str | None = None) -> Answer:
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor of the whole, wheels locked, about the mass centre, or where the body is fixed about its origin
@@ -180,6 +189,7 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     of the times may not be before it.
     start_error : by how much the start may be off, absolute: attitude [rad], angular_velocity, rotor_rate [rad/s], rotor_angle [rad], velocity,
     position; what comes of it is part of the errors of the answer.
+    euler : sequence of the column `euler`, which is asked for with it, as "3-2-1" or "ZYX": R = R3(a1) R2(a2) R1(a3), body to inertial; None: there is no such column.
     Raises DomainError for an argument outside its domain, for a wheel that the body cannot hold, and for a rung that cannot compute the
     motion; ConvergenceError where a computation hits its cap; Cancelled where the monitor stopped it.
     """
@@ -187,11 +197,12 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     at = np.asarray(times, dtype=float)
     asking: dict[str, Any] = {"times": at, "tolerance": float(tolerance), "model": model, "integrator": integrator}
     made = _core.general_solve(scene=since(start_time, scene), **{**asking, "times": at - start_time}, recognise=recognise, monitor=monitor,
-                               ask=asked("general", ask), start_error=dict(start_error or {}))
+                               ask=asked("general", _with_angles(ask, euler)), start_error=dict(start_error or {}),
+                               euler=None if euler is None else axes_of(euler))
     body = {**scene["body"], **scene["initial"]}
     records = {"wheels": [dict(each) for each in wheels] or None, "torques": [dict(each) for each in torques] or None,
                "orbit": None if orbit is None else dict(orbit), "field": None if field is None else dict(field)}
-    return answer_of("general", made, {**body, **asking, **records, "recognise": None if recognise else False, "ask": ask})
+    return answer_of("general", made, {**body, **asking, **records, "recognise": None if recognise else False, "ask": ask, "euler": euler})
 
 
 def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),

@@ -128,7 +128,9 @@ KEYS: Final[dict[str, Table]] = {
                          choices=("rates", "momentum")))),
          Field("wheel", "records", "wheels on the body, a table [[wheel]] each", default=(), sorts=WHEELS, by=("type",)),
          Field("torque", "records", "what acts on the body, a table [[torque]] each", default=(), sorts=TORQUES, by=("type", "against"))),
-    "solve": (Field("recognise", "flag", "whether the families are asked of which the scene is exactly an instance", default=True),),
+    "solve": (Field("euler", "sequence", "sequence of the angles in the column `euler`, as 3-2-1 or ZYX: with it body to inertial is R3(a1) R2(a2) R1(a3)",
+                    "", UNSET),
+              Field("recognise", "flag", "whether the families are asked of which the scene is exactly an instance", default=True),),
     "body": (
         Field("inertia", "inertia", "inertia of the whole, wheels locked: three principal moments along the body axes, or a symmetric 3x3 tensor",
               "kg m^2", low=1e-40),
@@ -187,7 +189,7 @@ ALTERNATIVES: Final[tuple[Choices, ...]] = (
 # The argument of `solve` that a table is.
 ARGUMENTS: Final = {"wheels": ("", "wheel"), "torques": ("", "torque"), "orbit": ("", "orbit"), "field": ("", "field")}
 EXAMPLE: Final[dict[str, Any]] = {
-    "solve.duration": "90 min", "solve.samples": 541, "body.inertia": (90.0, 120.0, 60.0), "initial.angular_velocity": (0.0, -0.00113, 0.0002),
+    "solve.duration": "90 min", "solve.euler": "3-2-1", "solve.samples": 541, "body.inertia": (90.0, 120.0, 60.0), "initial.angular_velocity": (0.0, -0.00113, 0.0002),
     "initial.angular_momentum": (0.0, -0.135, 0.012), "initial.attitude": (0.0, 0.0, 0.0, 1.0), "initial.velocity": (0.0, 0.0, 0.0),
     "initial.position": (0.0, 0.0, 0.0), "from": "iss-drift", "orbit.radius": 6778137.0, "orbit.altitude": "400 km", "orbit.rate": 0.00113,
     "orbit.period": "92 min", "orbit.mu": 3.986004415e14, "field.uniform": (2e-5, 0.0, -3e-5),
@@ -209,6 +211,9 @@ def mistakes(tables: Values) -> Found:
         yield "initial.angular_velocity", start["angular_velocity"], "there is no orbit", remedy
     if field["dipole"] is not UNSET and not orbiting and any(torque["type"] in ("magnetic", "eddy-current") for torque in tables[""]["torque"]):
         yield "field.dipole", field["dipole"], "the field of a dipole is that along an orbit", remedy
+    asked = tables["solve"]["ask"]
+    if tables["solve"]["euler"] is UNSET and isinstance(asked, tuple | Mapping) and "euler" in asked:
+        yield "solve.ask", "euler", "the sequence of the angles is not said", 'add solve.euler, such as "3-2-1" for yaw, pitch and roll'
     for key in ("velocity", "position"):
         if not body["fixed"] or not any(start[key] or ()):
             continue
@@ -455,5 +460,5 @@ def arguments(scene: "Scene") -> dict[str, Any]:
         "torques": [dict(each) for each in scene.top["torque"]], "orbit": None if orbit is None else dict(orbit), "field": field,
         "attitude": start.attitude, "angular_velocity": start.angular_velocity, "velocity": start.velocity, "position": start.position,
         "times": scene.times, "tolerance": solving["tolerance"], "model": solving["model"],
-        "integrator": solving["integrator"], "recognise": solving["recognise"], **going_on,
+        "integrator": solving["integrator"], "recognise": solving["recognise"], "euler": solving["euler"], **going_on,
     }
