@@ -146,9 +146,8 @@ inline constexpr WarningKind warning_kinds[] = {
      "what the error of the start makes of the answer is over the tolerance: ask for the scene that it comes from more "
      "precisely; times the tolerance"},
     {"gimbal-lock",
-     "the second of the angles comes so near to where the first and the last turn are about one axis that these two "
-     "have "
-     "no error; distance, rad"},
+     "the second of the angles comes so near to where the first and the last turn are about one axis that they "
+     "cannot be told apart; distance, rad"},
 };
 
 /// A rung of the ladder is one of a family, or the full equations of the family `general`.
