@@ -55,6 +55,7 @@
 #include "gyrostat/ladder/general/motion.hpp"
 #include "gyrostat/ladder/general/recognise.hpp"
 #include "gyrostat/ladder/general/scene.hpp"
+#include "gyrostat/ladder/general/segments_rung.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/ladder/general/special_rung.hpp"
 #include "gyrostat/ladder/general/start_error.hpp"

@@ -156,9 +156,9 @@ struct SpecialRung {
   int rung;  ///< its place in the table of that family
 };
 
-/// Places in rung_kinds of the rungs that are of no family.
+/// Places in rung_kinds: of the first full equations of a family, and of the rungs that are of no family.
 namespace rung {
-enum : int { full = 16 };
+enum : int { family_full = 11, segments = 16, full = 17 };
 }
 
 inline constexpr SpecialRung special_rungs[] = {
@@ -178,6 +178,7 @@ inline constexpr SpecialRung special_rungs[] = {
     {Special::heavy, heavy::rung::full},
     {Special::rotor, rotor::rung::full},
     {Special::spinning, spinning::rung::full},
+    {Special::none, rung::segments},
     {Special::none, rung::full},
 };
 
@@ -207,9 +208,11 @@ inline constexpr RungKind rung_kinds[] = {
     {"heavy:full", "the full equations of that family"},
     {"rotor:full", "the full equations of that family"},
     {"spinning:full", "the full equations of that family"},
+    {"segments", "between times at which torques or wheels change, each by the rungs of a family"},
     {"full", "the full equations of body, wheels and all torques"},
 };
 static_assert(std::size(special_rungs) == std::size(rung_kinds) && special_rungs[rung::full].special == Special::none);
+static_assert(special_rungs[rung::family_full].rung == free::rung::full);
 
 inline constexpr const char* integrator_names[] = {"taylor"};
 

@@ -129,6 +129,8 @@ class Scene {
     return Goal<std::size(column_kinds)>::of(question_, tables, scales());
   }
   const Instances& instances() const noexcept { return instances_; }
+  /// Whether families are looked for.
+  bool is_recognised() const noexcept { return recognised_; }
   const Question& question() const noexcept { return question_; }
 
   /// The scales of the columns, in their units.

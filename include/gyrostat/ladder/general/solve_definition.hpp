@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gyrostat/ladder/general/full_rung.hpp"
+#include "gyrostat/ladder/general/segments_rung.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/ladder/general/special_rung.hpp"
 #include "gyrostat/ladder/general/start_error.hpp"
@@ -54,12 +55,19 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
 
 namespace detail {
 
+inline Track in_segments(const Scene& scene, Monitor* monitor) {
+  return segments_track(scene, monitor, [](const Scene& one, gyrostat::Refusal& refusal, Monitor* its) {
+    return solve(one, refusal, its);
+  });
+}
+
 template <std::size_t... Place>
 constexpr auto models_of(std::index_sequence<Place...>) noexcept {
-  return std::array<Rung<Scene, Track>, sizeof...(Place) + 1>{
-      {{&special_track<Place>, &cost_of_special<Place>}..., {&full_track, &cost_of_full}}};
+  return std::array<Rung<Scene, Track>, std::size(rung_kinds)>{{{&special_track<Place>, &cost_of_special<Place>}...,
+                                                                {&in_segments, &cost_of_segments},
+                                                                {&full_track, &cost_of_full}}};
 }
-inline constexpr auto models = models_of(std::make_index_sequence<std::size_t(rung::full)>{});
+inline constexpr auto models = models_of(std::make_index_sequence<std::size_t(rung::segments)>{});
 
 }  // namespace detail
 

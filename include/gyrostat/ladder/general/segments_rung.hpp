@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "gyrostat/ladder/general/special_rung.hpp"
+#include "gyrostat/ladder/general/start_error.hpp"
+#include "gyrostat/ladder/goal.hpp"
+#include "gyrostat/ladder/monitor.hpp"
+#include "gyrostat/ladder/rung.hpp"
+#include "gyrostat/models/general/collected.hpp"
+#include "gyrostat/models/general/right_side.hpp"
+#include "gyrostat/models/general/table.hpp"
+
+/// A motion in segments between the times at which torques or wheels change, where each of them is an instance of a family: each begins at the end
+/// of the one before, and carries its error on.
+namespace gyrostat::general {
+
+inline constexpr std::size_t most_segments = 64;
+
+inline constexpr const char* not_in_segments =
+    "not steady between the times at which something changes, or no instance of a family there";
+
+/// What holds between two breakpoints, by a clock that begins with it. The start is that of the whole.
+struct Segment {
+  double from, to;  ///< s
+  Problem<double> problem;
+};
+
+namespace detail {
+
+using gyrostat::detail::Candidate;
+using gyrostat::detail::enlist;
+
+/// What a table says from a time to its next one; nothing where it changes.
+inline std::optional<double> steady_value(const Table<double>& table, std::size_t width, std::size_t column,
+                                          double from) noexcept {
+  const auto law = piece(table, width, column, from);
+  return law.is_constant() ? std::optional(law.c[0]) : std::nullopt;
+}
+
+/// A torque on a segment that holds `inside`; one without type and size where it does not act, nothing where it is not steady there.
+inline std::optional<std::optional<Torque<double>>> steady_torque(const Problem<double>& of,
+                                                                  const Torque<double>& torque, double inside) {
+  Factor<double> gate;
+  gate.on = torque.factor.on;
+  if (factor_at(gate, inside, inside) == 0) return std::optional<Torque<double>>{};
+  double factor = torque.factor.mean;
+  if (torque.factor.amplitude != 0) return std::nullopt;
+  if (!torque.factor.table.times.empty()) {
+    const auto value = steady_value(torque.factor.table, 1, 0, inside);
+    if (!value) return std::nullopt;
+    factor *= *value;
+  }
+  const bool orbits = torque.axes == Axes::orbit || (torque.type == TorqueType::gravity_gradient && !torque.gradient);
+  const bool moves = (torque.type == TorqueType::magnetic || torque.type == TorqueType::eddy_current) &&
+                     of.field.magnetic != MagneticField::uniform;
+  if (orbits || moves || torque.type == TorqueType::brake) return std::nullopt;
+  Torque<double> made = torque;
+  made.factor = {};
+  made.factor.mean = factor;
+  if (torque.type == TorqueType::table) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto value = steady_value(torque.table, 3, i, inside);
+      if (!value) return std::nullopt;
+      made.vector[int(i)] = *value;
+    }
+    made.type = TorqueType::constant;
+    made.table = {};
+  }
+  if (factor == 0 || (made.type == TorqueType::constant && made.vector.isZero(0)))
+    return std::optional<Torque<double>>{};
+  return std::optional(made);
+}
+
+/// Nothing where a law is not steady from `from` to `to`.
+inline std::optional<Problem<double>> steady_problem(const Problem<double>& of, double from, double to) {
+  const double inside = from + (to - from) / 2;
+  Problem<double> made = of;
+  made.torques.clear();
+  for (const auto& torque : of.torques) {
+    auto steady = steady_torque(of, torque, inside);
+    if (!steady) return std::nullopt;
+    if (*steady) made.torques.push_back(std::move(**steady));
+  }
+  for (auto& wheel : made.wheels) {
+    if (wheel.table.times.empty()) continue;
+    const auto value = steady_value(wheel.table, 1, 0, inside);
+    if (!value) return std::nullopt;
+    if (wheel.type == WheelType::held) wheel.rate = *value;
+    else wheel.torque += *value;
+    wheel.table = {};
+  }
+  return made;
+}
+
+/// The segments of a motion up to `span`; none where a law is not steady within one, or nothing changes, or too often.
+inline std::vector<Segment> segments_of(const Problem<double>& problem, double span) {
+  auto edges = breakpoints(problem, span);
+  if (edges.empty() || edges.size() >= most_segments) return {};
+  edges.insert(edges.begin(), 0.0);
+  edges.push_back(span);
+  std::vector<Segment> made;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    auto steady = steady_problem(problem, edges[i], edges[i + 1]);
+    if (!steady) return {};
+    made.push_back({edges[i], edges[i + 1], std::move(*steady)});
+  }
+  return made;
+}
+
+/// Sets the start of a segment to the end of the one before: the momentum stays, also where the rate at which a wheel is held has stepped.
+inline void begin_at(const State<double>& end, const Segment& before, Segment& next) noexcept {
+  auto& problem = next.problem;
+  problem.attitude = end.attitude;
+  problem.angular_velocity = end.angular_velocity;
+  if (!problem.fixed) problem.velocity = end.velocity, problem.position = end.position;
+  bool stepped = false;
+  for (std::size_t i = 0; i < problem.wheels.size(); ++i) {
+    auto& wheel = problem.wheels[i];
+    wheel.angle = end.rotor_angle[i];
+    if (turns_by_itself(wheel)) wheel.rate = end.rotor_rate[i];
+    else stepped = stepped || wheel.rate != before.problem.wheels[i].rate;
+  }
+  if (!stepped) return;
+  const auto wheels = Wheels<double>::of(problem);
+  problem.angular_velocity = wheels.inverse * (end.angular_momentum - wheels.momentum_of_wheels());
+  for (std::size_t i = 0; i < problem.wheels.size(); ++i)
+    if (auto& wheel = problem.wheels[i]; turns_by_itself(wheel))
+      wheel.rate = wheels.laws[i].momentum / wheel.axial_inertia - wheel.axis.dot(problem.angular_velocity);
+}
+
+/// What is asked of a segment: all that the next one begins with, so well that what is left of it grows to a share of the tolerance: with the angle
+/// that the body turns through from there on.
+inline Question question_of(const Scene& scene, std::vector<double> times, double from, std::size_t segments) {
+  Question made;
+  made.times = std::move(times);
+  const double ahead = scene.sizes().turning * (scene.question().times.back() - from);
+  made.tolerance = std::clamp(scene.goal().tightest / double(2 * segments) / (1 + ahead), 1e-14, 0.5);
+  for (const std::size_t place :
+       {column::attitude, column::angular_velocity, column::angular_momentum, column::rotor_rate, column::rotor_angle})
+    if (scene.has_column(place)) made.asked.push_back({place});
+  if (scene.gives(column::velocity) || scene.gives(column::position))
+    made.asked.push_back({column::velocity}), made.asked.push_back({column::position});
+  return made;
+}
+
+/// The rungs of families that may answer a segment, in the order of their costs.
+template <std::size_t... Place>
+std::vector<Candidate> candidates_of(const Scene& scene, std::index_sequence<Place...>) {
+  std::vector<Candidate> order;
+  const auto look = [&](std::size_t place, double cost) {
+    if (!has(rung_kinds[place].lacks, column::attitude) && cost < infinity<double>) enlist(order, {place, cost});
+  };
+  (look(Place, cost_of_special<Place>(scene)), ...);
+  return order;
+}
+inline std::vector<Candidate> candidates_of(const Scene& scene) {
+  return candidates_of(scene, std::make_index_sequence<std::size_t(rung::segments)>{});
+}
+
+/// The ladder, which answers a segment.
+using Solve = Answer (*)(const Scene&, gyrostat::Refusal&, Monitor*);
+
+/// One motion in segments, as it grows.
+class SegmentedMotion {
+ public:
+  SegmentedMotion(const Scene& scene, std::vector<Segment> segments, Solve solve)
+      : scene_(scene), segments_(std::move(segments)), solve_(solve) {
+    track_.states.resize(scene.question().times.size());
+    track_.off.fill(nan<double>);
+  }
+
+  /// Errc::ok, or why there is no motion.
+  Errc run(Monitor* monitor, const char*& why) {
+    for (std::size_t k = 0; k < segments_.size(); ++k) {
+      if (k > 0) begin_at(end_, segments_[k - 1], segments_[k]);
+      if (const Errc wrong = solve_one(k, monitor, why); wrong != Errc::ok) return wrong;
+    }
+    return Errc::ok;
+  }
+  Track take() noexcept { return std::move(track_); }
+
+ private:
+  Errc solve_one(std::size_t k, Monitor* monitor, const char*& why) {
+    const Segment& segment = segments_[k];
+    const bool last = k + 1 == segments_.size();
+    const double length = segment.to - segment.from;
+    const auto& asked = scene_.question().times;
+    std::vector<double> times;
+    const std::size_t first = next_;
+    for (; next_ < asked.size() && (last || asked[next_] < segment.to); ++next_)
+      if (const double t = asked[next_] - segment.from; times.empty() || t > times.back()) times.push_back(t);
+    if (times.empty() || times.back() < length) times.push_back(length);
+    const auto made = Scene::make(segment.problem, question_of(scene_, times, segment.from, segments_.size()));
+    if (!made) return made.error();
+    const Answer answer = best_of(made->known_within(error_), monitor, why);
+    if (answer.columns.empty()) return why == nullptr ? Errc::cancelled : Errc::not_applicable;
+    track_.counts += answer.counts;
+    for (const Warning& warning : answer.warnings)
+      if (warning.kind != &no_value && warning.kind != &warning_kinds[warning::start_uncertain])
+        track_.warn(*warning.kind, warning.value, warning.text);
+    for (std::size_t i = first, row = 0; i < next_; ++i) {
+      while (times[row] < asked[i] - segment.from) ++row;
+      track_.states[i] = state_of(answer, row);
+    }
+    end_ = state_of(answer, times.size() - 1);
+    hand_on(answer, segment.to);
+    return Errc::ok;
+  }
+
+  /// The first answer of a rung of a family that meets what is asked of the segment, or else comes nearest to it: what counts is the whole. The full
+  /// equations of a family are asked where nothing else is of use.
+  Answer best_of(const Scene& segment, Monitor* monitor, const char*& why) const {
+    Answer best;
+    why = not_in_segments;
+    for (const Candidate& candidate : candidates_of(segment)) {
+      if (candidate.rung >= std::size_t(rung::family_full) && !best.columns.empty() && useful(best)) continue;
+      Question question = segment.question();
+      question.rung = int(candidate.rung);
+      gyrostat::Refusal refusal;
+      Answer answer = solve_(segment.asked(question), refusal, monitor);
+      if (refusal.code == Errc::cancelled) {
+        why = nullptr;
+        return {};
+      }
+      if (refusal.code != Errc::ok) {
+        if (best.columns.empty()) why = refusal.why;
+        continue;
+      }
+      if (best.columns.empty() || answer.excess < best.excess) best = std::move(answer);
+      if (best.met) break;
+    }
+    return best;
+  }
+
+  /// Whether an answer may be good enough for the whole, whatever is asked of the segment.
+  bool useful(const Answer& answer) const noexcept { return answer.error < scene_.goal().tightest; }
+
+  static State<double> state_of(const Answer& answer, std::size_t row) noexcept {
+    State<double> made;
+    for (const Column& column : answer.columns) {
+      const double* x = column.values.data() + row * std::size_t(column.row_width());
+      const auto vector = [x]() noexcept { return Vec3<double>(x[0], x[1], x[2]); };
+      switch (std::size_t(column.kind - column_kinds)) {
+        case column::attitude: made.attitude = {x[3], x[0], x[1], x[2]}; break;
+        case column::angular_velocity: made.angular_velocity = vector(); break;
+        case column::angular_momentum: made.angular_momentum = vector(); break;
+        case column::rotor_rate: std::copy_n(x, column.row_width(), made.rotor_rate.begin()); break;
+        case column::rotor_angle: std::copy_n(x, column.row_width(), made.rotor_angle.begin()); break;
+        case column::velocity: made.velocity = vector(); break;
+        default: made.position = vector(); break;
+      }
+    }
+    return made;
+  }
+
+  /// The errors of an answer, which hold for all its times, as those of the start of the next segment.
+  void hand_on(const Answer& answer, double at) noexcept {
+    constexpr std::size_t primitive_of[] = {primitive::attitude, primitive::angular_velocity,
+                                            primitive::angular_momentum};
+    // a clock that begins anew tells times to a rounding of the old one
+    const double clock = epsilon<double> * at, omega = end_.angular_velocity.norm();
+    for (const Column& column : answer.columns) {
+      const bool relative = column.kind->measure == Measure::relative;
+      const double off = relative ? column.error * size_of(column) : column.error;
+      const auto place = std::size_t(column.kind - column_kinds);
+      const auto take = [&](std::size_t p, double* start, double rounding) noexcept {
+        track_.off[p] = std::isnan(track_.off[p]) ? off : greater(off, track_.off[p]);
+        if (start) *start = off + rounding;
+      };
+      switch (place) {
+        case column::attitude: take(primitive_of[place], &error_.attitude, clock * omega); break;
+        case column::angular_velocity:
+          take(primitive_of[place], &error_.angular_velocity, clock * omega * omega);
+          break;
+        case column::angular_momentum: take(primitive_of[place], nullptr, 0); break;
+        case column::rotor_rate: take(primitive::rotor_rate, &error_.rotor_rate, clock * omega * omega); break;
+        case column::rotor_angle: take(primitive::rotor_angle, &error_.rotor_angle, clock * size_of(column)); break;
+        case column::velocity: take(primitive::velocity, &error_.velocity, 0); break;
+        default: take(primitive::position, &error_.position, clock * end_.velocity.norm()); break;
+      }
+    }
+  }
+
+  const Scene& scene_;
+  std::vector<Segment> segments_;
+  Solve solve_;
+  StartError error_;
+  State<double> end_;
+  std::size_t next_ = 0;  ///< of the asked times
+  Track track_;
+};
+
+}  // namespace detail
+
+/// What the rung `segments` costs, s: every segment by its cheapest rung, with those that carry errors on; NaN: one of them is no instance of a
+/// family.
+inline double cost_of_segments(const Scene& scene) noexcept {
+  if (!scene.is_recognised() || scene.breaks() == 0 || scene.breaks() >= most_segments) return nan<double>;
+  const auto segments = detail::segments_of(scene.problem(), scene.question().times.back());
+  double sum = segments.empty() ? nan<double> : 0, displaced = 0;
+  for (const Segment& segment : segments) {
+    const auto made = Scene::make(
+        segment.problem, detail::question_of(scene, {segment.to - segment.from}, segment.from, segments.size()));
+    const auto candidates = made ? detail::candidates_of(*made) : std::vector<detail::Candidate>{};
+    if (candidates.empty()) return nan<double>;
+    const double cost = candidates.front().cost;
+    const double ways = 3 + (detail::turns_along(segment.problem) ? 0 : 3) + double(scene.wheels().count);
+    sum += cost * (1 + displaced * ways);
+    displaced = 1;
+  }
+  return sum;
+}
+
+/// Rung `segments`; solve: the ladder, which answers each.
+inline Track segments_track(const Scene& scene, Monitor* monitor, detail::Solve solve) {
+  if (std::isnan(cost_of_segments(scene))) return refused<Track>(Errc::not_applicable, not_in_segments);
+  detail::SegmentedMotion motion(scene, detail::segments_of(scene.problem(), scene.question().times.back()), solve);
+  const char* why = nullptr;
+  if (const Errc wrong = motion.run(monitor, why); wrong != Errc::ok)
+    return refused<Track>(wrong, why ? why : message(wrong));
+  return motion.take();
+}
+
+}  // namespace gyrostat::general
