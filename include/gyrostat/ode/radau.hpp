@@ -49,6 +49,7 @@ struct RadauTable {
   Scalar legendre[8][8];        ///< [k][j]: (2k+1) b_j P_k(2c_j - 1): values at the nodes to Legendre coefficients
   Scalar tail[8][4];            ///< [j][k]: the last four of these, k = 4 ... 7
   Scalar tail_of_values[8][4];  ///< the same of the derivative, from values less the one at the start
+  Scalar tail_size[4];          ///< the magnitudes of these, summed over j
 };
 
 /// P_0 ... P_8 at x = 2c - 1.
@@ -118,6 +119,7 @@ constexpr RadauTable<Scalar> radau_table() noexcept {
       for (int i = 0; i < 8; ++i) sum += legendre[4 + k][i] * inverse[i][j];
       table.tail[j][k] = static_cast<Scalar>(legendre[4 + k][j]);
       table.tail_of_values[j][k] = static_cast<Scalar>(sum);
+      table.tail_size[k] += static_cast<Scalar>(sum < 0 ? -sum : sum);
     }
   }
   return table;
@@ -138,6 +140,8 @@ struct RadauOptions {
   Scalar inside = 0;
   /// The size against which the error of each component is measured; 0 leaves a component out.
   std::array<Scalar, Width> scale{};
+  /// Roundings of p in the values at the stages, which its coefficients show and no shorter step would lessen: so much of them is left out.
+  Scalar blur = 0;
   Scalar first_step = 0;  ///< 0: chosen from the rates at the start
   std::uint64_t step_cap = 100'000'000;
   bool projected = true;  ///< project after every step, where the system can
@@ -424,8 +428,10 @@ auto Radau<System>::solve(Scalar h, Scalar rounding) noexcept -> Sweeps {
     const Scalar ratio = change / before;
     // what the next sweep would change; below some roundings it changes nothing any more
     if (change * std::min(ratio, Scalar(1)) <= goal_ || (change < 256 * rounding && ratio > Scalar(0.3L))) {
-      contraction_ = static_cast<Scalar>(
-          std::pow(static_cast<float>(std::max(change, rounding / 4) / first), 1 / static_cast<float>(k - 1)));
+      // a change that is rounding tells no pace
+      if (const Scalar least = rounding / 4; first > least)
+        contraction_ = static_cast<Scalar>(
+            std::pow(static_cast<float>(std::max(change, least) / first), 1 / static_cast<float>(k - 1)));
       return Sweeps::converged;
     }
     if (k > 3 && (ratio > Scalar(0.7L))) return Sweeps::slow;
@@ -454,7 +460,10 @@ GYROSTAT_INLINE auto Radau<System>::judge(Scalar h, Scalar tolerance, Scalar mos
   }
   for (int i = 0; i < relaxing; ++i) {
     const Row a = last_coefficients(table.tail_of_values, p_[i]) * lanes(weight_[width + i]);
-    squares = multiply_add(a, a, squares);
+    const Scalar blur = options_.blur * epsilon<Scalar> * std::abs(state_[width + i]) * weight_[width + i];
+    const auto clear = [&](int k) noexcept { return std::max(std::abs(a[k]) - blur * table.tail_size[k], Scalar(0)); };
+    const Row left = lanes(clear(0), clear(1), clear(2), clear(3));
+    squares = multiply_add(left, left, squares);
   }
   const Scalar a4 = squares[0], a5 = squares[1], a6 = squares[2], a7 = squares[3];
   if (!(a4 + a5 + a6 + a7 < infinity<Scalar>)) return {nan<Scalar>, false};

@@ -94,7 +94,7 @@ inline void balance(Track& track, const Scene& scene, double step_tolerance) noe
 
 /// Steps that a run takes at least so that wheels settle as they should.
 inline double settling_steps(const Scene& scene) noexcept {
-  return scene.wheels().settling_rate() * scene.question().times.back() / 8;
+  return scene.is_stiff() ? 0 : scene.settling_rate() * scene.question().times.back() / 8;
 }
 
 }  // namespace detail
@@ -123,7 +123,8 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   const auto wanted = detail::wanted_of(scene, goal, row);
   Track track;
   track.states.resize(times.size());
-  MotionOptions<double> options;
+  FullMotionOptions<double> options;
+  options.integrator = question.integrator;
   options.tolerance = goal.tightest;
   options.wanted = wanted.of;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
