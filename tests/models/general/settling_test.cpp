@@ -77,7 +77,8 @@ TEST_CASE("in its axes each unknown settles by itself, however different the whe
               1e-13 * (law.friction * (std::abs(z[k]) / law.axial_inertia + settling.axis[mode].norm())));
         axis += z[k] * law.axis;
         double unit = 0;
-        for (std::size_t j = 0; j < settling.count; ++j) unit += settling.to_mode[mode][j] * settling.to_wheel[j][std::size_t(k)];
+        for (std::size_t j = 0; j < settling.count; ++j)
+          unit += settling.to_mode[mode][j] * settling.to_wheel[j][std::size_t(k)];
         CHECK(unit == Approx(k == m ? 1 : 0).margin(1e-13));
       }
       CHECK((axis - settling.axis[mode]).norm() <= 1e-14 * z.norm());

@@ -42,15 +42,7 @@ namespace gyrostat::general {
 
 /// Places in full_columns.
 namespace full_column {
-enum : std::size_t {
-  attitude,
-  angular_velocity,
-  angular_momentum,
-  rotor_rate,
-  rotor_angle,
-  velocity,
-  position
-};
+enum : std::size_t { attitude, angular_velocity, angular_momentum, rotor_rate, rotor_angle, velocity, position };
 }
 
 /// What the full equations are compared by.
@@ -126,10 +118,19 @@ struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
   Integrator used = Integrator::taylor;
   /// Status::event: when a brake has brought what it opposes to a stop, or all but, s. The equations do not go through it.
   Scalar stop = nan<Scalar>;
+  /// Status::step_limit: the body turns far faster than foreseen, and would go on through an angle that no run reaches.
+  bool outgrown = false;
 };
 
 inline constexpr const char* why_stopped_by_brake =
     "a brake brings the momentum that it opposes to zero, and the full equations do not go through a stop";
+
+/// A motion is given up where the body turns so many times faster than its momentum and the torques let foresee, and would turn through
+/// this angle, rad, at the rate it has come to: no budget of steps reaches so far.
+inline constexpr double outgrown_rate = 1e3, outgrown_angle = 50 * unreachable_angle;
+inline constexpr const char* why_outgrown =
+    "the body turns ever faster, a thousand times faster than its momentum and the torques at the start let foresee: "
+    "something drives it, such as damping with a negative sign; ask for a shorter span";
 
 /// Angle, rad, that waves, fields and the orbit may go through: their phases are not known behind it.
 inline constexpr double most_forcing = 1e8;
@@ -224,8 +225,13 @@ class FullCourse {
     // and where the time cannot tell the rest of it
     const bool lost = before < infinity<Scalar> && !(until > time()) && t_max > time();
     if (lost || has_stopped(before, infinity<Scalar>)) return ode::Status::event;
+    const Scalar begin = time();
+    const Vec3<Scalar> heading = System::turned(solver_->state());
     const ode::Status status = solver_->step(until);
     if (status != ode::Status::reached) return status;
+    const Scalar rate = (System::turned(solver_->state()) - heading).norm() / (time() - begin);
+    outgrown_ = rate > Scalar(outgrown_rate) * of_.sizes.turning && rate * (last_ - begin) > Scalar(outgrown_angle);
+    if (outgrown_) return ode::Status::step_limit;
     if (before < infinity<Scalar> && has_stopped(system_->braked(time(), solver_->state()), before))
       return ode::Status::event;
     if (time() >= piece_.to && cut_ < cuts_.size()) {
@@ -258,6 +264,8 @@ class FullCourse {
     return all;
   }
   const Prepared<Scalar>& prepared() const noexcept { return of_; }
+  /// Whether the motion has been given up because it grows without end.
+  bool outgrown() const noexcept { return outgrown_; }
 
  private:
   /// Begins piece_ at t.
@@ -290,6 +298,7 @@ class FullCourse {
   Prepared<Scalar> of_;
   std::span<const Scalar> cuts_;
   Scalar last_, share_;
+  bool outgrown_ = false;
   std::size_t cut_ = 0;
   Piece<Scalar> piece_;
   std::optional<Piece<Scalar>> next_;
@@ -447,12 +456,13 @@ class FullMotion {
     const Scalar span = times_.back();
     const auto one = beside(problem_, change, 0), two = beside(problem_, change, 1);
     // a course is large
-    const auto course = std::make_unique<Course>(problem_, span, cuts_, Scalar(1), tolerance, options_.step_cap);
-    const auto companion = std::make_unique<Course>(one, span, cuts_, Scalar(1) / 2, tight, options_.step_cap);
+    const auto begin = [&](const Problem<Scalar>& problem, int share, const StepTolerance<Scalar>& its) noexcept {
+      return std::make_unique<Course>(problem, span, cuts_, 1 / Scalar(share), its, options_.step_cap);
+    };
+    const auto course = begin(problem_, 1, tolerance), companion = begin(one, 2, tight);
     const auto& of = course->prepared();
     std::unique_ptr<Course> second;
-    if (rounding_rules(tolerance.end, condition_of(of.wheels)))
-      second = std::make_unique<Course>(two, span, cuts_, Scalar(1) / 3, tight, options_.step_cap);
+    if (rounding_rules(tolerance.end, condition_of(of.wheels))) second = begin(two, 3, tight);
     const FullRow<Scalar> row(of);
     // rounding at the asked times
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
@@ -462,6 +472,7 @@ class FullMotion {
     solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of.sizes.turning, times_,
                  states_, nowhere(), options_, progress_from, progress_to, rounding);
     if (answer.status == ode::Status::event) answer.stop = course->time();
+    answer.outgrown = course->outgrown() || companion->outgrown() || (second && second->outgrown());
     return answer;
   }
 
@@ -546,8 +557,8 @@ BalanceResiduals<Scalar> balance_residuals(const Problem<Scalar>& problem, Scala
   const Prepared<Scalar> of(problem, span);
   return detail::by_method(of, Integrator::any, [&](auto method) noexcept -> BalanceResiduals<Scalar> {
     const detail::StepTolerance<Scalar> tolerance{step_tolerance, step_tolerance};
-    const auto course = std::make_unique<detail::FullCourse<decltype(method)>>(problem, span, cuts, Scalar(1),
-                                                                               tolerance, step_cap);
+    const auto course =
+        std::make_unique<detail::FullCourse<decltype(method)>>(problem, span, cuts, Scalar(1), tolerance, step_cap);
     Balances<Scalar> balances(problem, course->prepared().wheels);
     while (course->time() < span) {
       if (course->step(span) != ode::Status::reached) return {};

@@ -19,9 +19,9 @@
 namespace gyrostat::general {
 
 inline constexpr const char* too_stiff =
-    "the wheels settle so fast that the full equations would take too many steps: leave out friction or slope that "
-    "hardly "
-    "matters, or ask for a shorter span";
+    "the wheels settle so fast that the full equations would take too many steps, and Radau does not go with a brake "
+    "on the carrier, or with all else that is nearly as fast: leave out friction or slope that hardly matters, or ask "
+    "for a shorter span";
 
 inline constexpr const char* forcing_lost =
     "a wave, the magnetic field or the orbit goes through more than 1e8 rad up to the last time, and its phase is "
@@ -131,6 +131,7 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   const auto answer = full_motion<double>(scene.problem(), times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status == ode::Status::event) return refused<Track>(Errc::not_applicable, why_stopped_by_brake);
+  if (answer->outgrown) return refused<Track>(Errc::step_limit, why_outgrown);
   if (answer->status != ode::Status::reached)
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   track.counts = answer->counts;

@@ -40,7 +40,11 @@ struct Prepared {
 
   /// A problem that check() finds right, for the times from 0 to `span`.
   Prepared(const Problem<Scalar>& of, Scalar span_) noexcept
-      : problem(of), wheels(Wheels<Scalar>::of(of)), torques(Collected<Scalar>::of(of, span_)), settling(wheels), span(span_) {
+      : problem(of),
+        wheels(Wheels<Scalar>::of(of)),
+        torques(Collected<Scalar>::of(of, span_)),
+        settling(wheels),
+        span(span_) {
     momentum = wheels.reduced * of.angular_velocity + wheels.momentum_of_wheels();
     sizes = sizes_of(of, wheels, torques, span);
   }
@@ -54,9 +58,10 @@ struct Prepared {
   }
   /// Whether the full equations need the state with wheels and path.
   bool is_large() const noexcept {
-    return settling.count > 0 || std::any_of(torques.records.begin(), torques.records.end(), [](const auto& record) noexcept {
-      return !record.sum.force_body.isZero(0) || !record.sum.force_inertial.isZero(0);
-    });
+    return settling.count > 0 ||
+           std::any_of(torques.records.begin(), torques.records.end(), [](const auto& record) noexcept {
+             return !record.sum.force_body.isZero(0) || !record.sum.force_inertial.isZero(0);
+           });
   }
 };
 
@@ -209,6 +214,8 @@ class FullSystem {
   /// integral where all torque is inertial (then M gives way).
   void project(Scalar t, Scalar* x, Scalar* low) const noexcept;
 
+  /// W, the integral of the angular velocity, rad.
+  static Vec3<Scalar> turned(const Scalar* x) noexcept { return {x[At::turned], x[At::turned + 1], x[At::turned + 2]}; }
   static Numbers first_numbers(const Prepared<Scalar>& of) noexcept {
     return general::first_numbers<Scalar, large>(of);
   }
@@ -763,8 +770,8 @@ void FullSystem<Real_, large>::project(Scalar t, Scalar* x, Scalar* low) const n
     if (const Scalar size = M.norm(); known_.is_free() && size > 0) {
       // the turn d of the body with d x M = R^T L - M
       const Vec3<Scalar> d = cross<Scalar>(M / size, Vec3<Scalar>(wanted - M) / size);
-      const Quat<Scalar> turned = q * Quat<Scalar>{0, d[0] / 2, d[1] / 2, d[2] / 2};
-      more = {more.w + turned.w, more.x + turned.x, more.y + turned.y, more.z + turned.z};
+      const Quat<Scalar> tilt = q * Quat<Scalar>{0, d[0] / 2, d[1] / 2, d[2] / 2};
+      more = {more.w + tilt.w, more.x + tilt.x, more.y + tilt.y, more.z + tilt.z};
     } else if (!known_.is_free()) {
       for (int i = 0; i < 3; ++i) {
         x[4 + i] = wanted[i];

@@ -17,10 +17,10 @@ namespace gyrostat::general {
 
 template <Real Scalar>
 struct Sizes {
-  Scalar momenta = 0;  ///< of body and wheels at t = 0, their magnitudes summed, N m s
-  Scalar torque = 0;   ///< a bound of all torques but those that vanish with the motion, and of the motors, N m
+  Scalar momenta = 0;   ///< of body and wheels at t = 0, their magnitudes summed, N m s
+  Scalar torque = 0;    ///< a bound of all torques but those that vanish with the motion, and of the motors, N m
   Scalar external = 0;  ///< the same without the motors
-  Scalar force = 0;    ///< of the forces that move the mass centre, N
+  Scalar force = 0;     ///< of the forces that move the mass centre, N
   Scalar built =
       0;  ///< momentum that the torques build up over the span, or until the body has turned by about a radian, N m s
   Scalar least = 1, greatest = 1;  ///< moments of J* and J, kg m^2

@@ -84,6 +84,8 @@ class StiffSystem {
   StiffSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start) noexcept;
 
   static Numbers first_numbers(const Prepared<Scalar>& of) noexcept;
+  /// W.
+  static Vec3<Scalar> turned(const Scalar* x) noexcept { return {x[turn], x[turn + 1], x[turn + 2]}; }
 
   Scalar rate(int i) const noexcept { return of_->settling.rate[std::size_t(i)]; }
   Scalar forcing() const noexcept { return of_->sizes.forcing; }
@@ -112,7 +114,7 @@ class StiffSystem {
   using Vector = typename Moment::Vector;
   using Matrix = typename Moment::Matrix;
   using At = Places<true>;
-  enum : int { momentum = 4, turned = 7, velocity = 10, position = 13, passed = 16, mode = width };
+  enum : int { momentum = 4, turn = 7, velocity = 10, position = 13, passed = 16, mode = width };
 
   /// All that acts at one time, and where the field and the orbit are.
   struct Instant {
@@ -326,7 +328,7 @@ GYROSTAT_INLINE void StiffSystem<Real_, most>::rates(const Moment& now, const Ro
   for (int i = 0; i < 3; ++i) {
     const auto j = std::size_t(i);
     rate[momentum + i] = spin[j] + acting.torque[j];
-    rate[turned + i] = w[j];
+    rate[turn + i] = w[j];
     rate[velocity + i] = per_mass * acting.force[j];
     rate[position + i] = y[velocity + i];
   }
@@ -414,7 +416,7 @@ auto StiffSystem<Real_, most>::state(const Piece<Scalar>& piece, Scalar t, const
     const Vec3<Scalar> M = rotate<Scalar>(conjugate(q), known_.at(t));
     for (int i = 0; i < 3; ++i) full[std::size_t(At::momentum + i)] = M[i];
   }
-  std::copy_n(x + turned, 3, full.begin() + At::turned);
+  std::copy_n(x + turn, 3, full.begin() + At::turned);
   std::copy_n(x + velocity, 3, full.begin() + At::velocity);
   std::copy_n(x + position, 3, full.begin() + At::position);
   const auto& settling = of_->settling;
@@ -427,8 +429,7 @@ auto StiffSystem<Real_, most>::state(const Piece<Scalar>& piece, Scalar t, const
       integral += settling.to_wheel[k][i] * x[passed + int(i)];
     }
     full[std::size_t(At::wheel) + wheel] = p;
-    full[std::size_t(At::angle) + wheel] =
-        law.angle + (integral / law.axial_inertia - law.axis.dot(Vec3<Scalar>(x[turned], x[turned + 1], x[turned + 2])));
+    full[std::size_t(At::angle) + wheel] = law.angle + (integral / law.axial_inertia - law.axis.dot(turned(x)));
   }
   return state_of<Scalar, true>(*of_, piece, t, full.data());
 }
