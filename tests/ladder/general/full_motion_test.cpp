@@ -494,6 +494,20 @@ TEST_CASE("breakpoints, balances and stops of scenes with stiff wheels", "[gener
   CHECK(stopped.answer.status == Status::event);
   CHECK(stopped.answer.stop == Approx(M).epsilon(2e-6));
   CHECK(stopped.states[0].angular_momentum.norm() == Approx(M / 2));
+  // of the carrier alone: the wheel keeps its share, and brings it back through the motor
+  braked.torques[0].opposed = Opposed::carrier_momentum;
+  const auto carrier = run(braked, {0.5, 1}, 1e-8);
+  CHECK(carrier.answer.used == Integrator::radau);
+  CHECK(carrier.answer.status == Status::reached);
+  auto soft = braked;
+  soft.wheels[0].slope = 100;
+  std::vector<State<double>> states(2);
+  FullMotionOptions<double> options;
+  options.tolerance = 1e-9, options.integrator = Integrator::radau;
+  const std::vector<double> times{0.5, 1};
+  const auto answer = full_motion<double>(soft, times, states, options);
+  REQUIRE(answer);
+  check_within(apart(soft, times, truth(soft, times), states), answer->error);
 }
 
 TEST_CASE("a brake that stops the body within a rounding of the time ends the motion", "[general]") {

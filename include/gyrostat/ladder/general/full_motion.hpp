@@ -221,7 +221,7 @@ class FullCourse {
     if (!(time() > piece_.from)) until = std::min(until, piece_.from + share_ * (piece_.to - piece_.from));
     const Scalar before = system_->has_brake() ? system_->braked(time(), solver_->state()) : infinity<Scalar>;
     // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
-    if (before < infinity<Scalar>) until = std::min(until, time() + (1 + share_) * before / (4 * torque()));
+    if (before < infinity<Scalar>) until = std::min(until, time() + (1 + share_) * before / (4 * system_->torque()));
     // and where the time cannot tell the rest of it
     const bool lost = before < infinity<Scalar> && !(until > time()) && t_max > time();
     if (lost || has_stopped(before, infinity<Scalar>)) return ode::Status::event;
@@ -285,8 +285,6 @@ class FullCourse {
     next_.reset();
     enter(t, numbers);
   }
-  /// A bound of the torques that act on what a brake opposes: on M no motor does.
-  Scalar torque() const noexcept { return system_->brakes_carrier() ? of_.sizes.torque : of_.sizes.external; }
   /// Whether what a brake opposes, which was `before`, is as good as gone.
   bool has_stopped(Scalar now, Scalar before) noexcept {
     if (now == infinity<Scalar>) return false;

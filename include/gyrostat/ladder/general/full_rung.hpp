@@ -19,9 +19,8 @@
 namespace gyrostat::general {
 
 inline constexpr const char* too_stiff =
-    "the wheels settle so fast that the full equations would take too many steps, and Radau does not go with a brake "
-    "on the carrier, or with all else that is nearly as fast: leave out friction or slope that hardly matters, or ask "
-    "for a shorter span";
+    "wheels and damping both settle so fast that the full equations would take too many steps: leave out what hardly "
+    "matters, or ask for a shorter span";
 
 inline constexpr const char* forcing_lost =
     "a wave, the magnetic field or the orbit goes through more than 1e8 rad up to the last time, and its phase is "

@@ -49,12 +49,10 @@ struct Prepared {
     sizes = sizes_of(of, wheels, torques, span);
   }
   /// Whether wheels settle so much faster than all else goes on, and so often, that Taylor steps, which cannot be longer than about 8 over
-  /// their rate, cost more than collocation. Not where a brake opposes J w, which the wheels drive.
+  /// their rate, cost more than collocation.
   bool is_stiff() const noexcept {
     const Scalar fastest = settling.fastest(), pace = sizes.turning + sizes.forcing + sizes.damping;
-    const bool braked = std::any_of(torques.records.begin(), torques.records.end(),
-                                    [](const auto& record) noexcept { return !record.sum.brake_carrier.isZero(0); });
-    return fastest > 30 * pace && fastest * span > 1000 && !braked;
+    return fastest > 30 * pace && fastest * span > 1000;
   }
   /// Whether the full equations need the state with wheels and path.
   bool is_large() const noexcept {
@@ -228,7 +226,8 @@ class FullSystem {
   /// What a brake opposes, N m s, by the numbers at t: the lesser of the two, if both laws are there; infinite without a brake.
   Scalar braked(Scalar t, const Scalar* x) const noexcept;
   bool has_brake() const noexcept { return sees_.total_brake || sees_.carrier_brake; }
-  bool brakes_carrier() const noexcept { return sees_.carrier_brake; }
+  /// A bound of the torques that take away what a brake opposes, N m: no motor does from M.
+  Scalar torque() const noexcept { return sees_.carrier_brake ? of_.sizes.torque : of_.sizes.external; }
 
   Numbers scale() const noexcept { return scale_of<Scalar, large>(of_); }
 

@@ -102,11 +102,14 @@ class StiffSystem {
   State<Scalar> state(const Piece<Scalar>& piece, Scalar t, const Scalar* x) const noexcept;
 
   /// As in FullSystem.
-  Scalar braked(Scalar, const Scalar* x) const noexcept {
-    return has_.total_brake ? Vec3<Scalar>(x[4], x[5], x[6]).norm() : infinity<Scalar>;
+  Scalar braked(Scalar t, const Scalar* x) const noexcept {
+    const Scalar total = has_.total_brake ? Vec3<Scalar>(x[4], x[5], x[6]).norm() : infinity<Scalar>;
+    if (!has_.carrier_brake) return total;
+    return std::min(total, (of_->wheels.whole * state(t, x).angular_velocity).norm());
   }
-  bool has_brake() const noexcept { return has_.total_brake; }
-  static bool brakes_carrier() noexcept { return false; }
+  bool has_brake() const noexcept { return has_.total_brake || has_.carrier_brake; }
+  /// A bound of the torques that take away what a brake opposes, N m; wheels that have settled hold their rates.
+  Scalar torque() const noexcept { return of_->sizes.external; }
   Numbers scale() const noexcept;
 
  private:
@@ -134,7 +137,8 @@ class StiffSystem {
   /// Which terms the piece has.
   struct Has {
     bool moving = false, inertial = false, rate = false, momentum = false, gradient = false, orbit_gradient = false,
-         eddy = false, total_brake = false, force_body = false, force_inertial = false, orbit = false, field = false;
+         eddy = false, total_brake = false, carrier_brake = false, force_body = false, force_inertial = false,
+         orbit = false, field = false;
   };
 
   // pointers, that it can be copied
@@ -151,7 +155,7 @@ StiffSystem<Real_, most>::StiffSystem(const Prepared<Scalar>& of, const Piece<Sc
                                       const Numbers& start) noexcept
     : of_(&of), piece_(&piece), known_(piece, start.data()), count_(int(of.settling.count)) {
   const auto look = [&](const Terms<Scalar>& terms) noexcept {
-    has_.moving = has_.moving || terms.any_moving() || terms.any() != terms.any_torque();
+    has_.moving = has_.moving || terms.any_moving() || !terms.force_body.isZero(0) || !terms.force_inertial.isZero(0);
     for (std::size_t j = 0; j < 3; ++j) {
       has_.inertial = has_.inertial || !terms.inertial[j].isZero(0) || !terms.orbital[j].isZero(0);
       has_.orbit = has_.orbit || !terms.orbital[j].isZero(0);
@@ -164,6 +168,7 @@ StiffSystem<Real_, most>::StiffSystem(const Prepared<Scalar>& of, const Piece<Sc
     has_.eddy = has_.eddy || !terms.eddy.isZero(0);
     has_.field = has_.field || has_.eddy || !terms.dipole.isZero(0);
     has_.total_brake = has_.total_brake || !terms.brake_total.isZero(0);
+    has_.carrier_brake = has_.carrier_brake || !terms.brake_carrier.isZero(0);
     has_.force_body = has_.force_body || !terms.force_body.isZero(0);
     has_.force_inertial = has_.force_inertial || !terms.force_inertial.isZero(0);
   };
@@ -286,6 +291,8 @@ auto StiffSystem<Real_, most>::moment(const Row& t) const noexcept -> Moment {
   }
   if (has_.total_brake)
     now.brake_total = vector([](const Instant& one) noexcept -> const auto& { return one.terms.brake_total; });
+  if (has_.carrier_brake)
+    now.brake_carrier = vector([](const Instant& one) noexcept -> const auto& { return one.terms.brake_carrier; });
   if (has_.force_body)
     now.force_body = vector([](const Instant& one) noexcept -> const auto& { return one.terms.force_body; });
   if (has_.force_inertial)
@@ -342,12 +349,22 @@ void StiffSystem<Real_, most>::act(const Moment& now, const Row* y, const Vector
   const Vector M{y[momentum], y[momentum + 1], y[momentum + 2]};
   if (has_.rate) take_rows<Scalar>(torque, times<Scalar>(now.by_rate, w));
   if (has_.momentum) take_rows<Scalar>(torque, times<Scalar>(now.by_momentum, M));
-  if (has_.total_brake) {
-    const Row square = dot_rows<Scalar>(M, M);
+  const auto times_J = [&](const Vector& v) noexcept {
+    Vector made;
+    const auto& J = of_->wheels.whole;
+    for (int i = 0; i < 3; ++i)
+      made[std::size_t(i)] =
+          multiply_add(lanes(J(i, 0)), v[0], multiply_add(lanes(J(i, 1)), v[1], lanes(J(i, 2)) * v[2]));
+    return made;
+  };
+  const auto brake = [&](const Vector& size, const Vector& U) noexcept {
+    const Row square = dot_rows<Scalar>(U, U);
     const auto one_over = [&](int lane) noexcept { return 1 / std::sqrt(square[lane]); };
     const Row inverse = lanes(one_over(0), one_over(1), one_over(2), one_over(3));
-    for (std::size_t i = 0; i < 3; ++i) torque[i] = torque[i] - now.brake_total[i] * M[i] * inverse;
-  }
+    for (std::size_t i = 0; i < 3; ++i) torque[i] = torque[i] - size[i] * U[i] * inverse;
+  };
+  if (has_.total_brake) brake(now.brake_total, M);
+  if (has_.carrier_brake) brake(now.brake_carrier, times_J(w));
   // row k of R: inertial axis k as the body sees it
   const Row one = lanes(Scalar(1)), two = lanes(Scalar(2));
   const auto product = [&](int i, int j) noexcept { return two * y[i] * y[j]; };
@@ -358,14 +375,6 @@ void StiffSystem<Real_, most>::act(const Moment& now, const Row* y, const Vector
     Vector made;
     for (std::size_t j = 0; j < 3; ++j)
       made[j] = multiply_add(R[0][j], v_I[0], multiply_add(R[1][j], v_I[1], R[2][j] * v_I[2]));
-    return made;
-  };
-  const auto times_J = [&](const Vector& v) noexcept {
-    Vector made;
-    const auto& J = of_->wheels.whole;
-    for (int i = 0; i < 3; ++i)
-      made[std::size_t(i)] =
-          multiply_add(lanes(J(i, 0)), v[0], multiply_add(lanes(J(i, 1)), v[1], lanes(J(i, 2)) * v[2]));
     return made;
   };
   const auto add_gradient = [&](const Row& size, const Vector& d) noexcept {
