@@ -100,16 +100,20 @@ inline double settling_steps(const Scene& scene) noexcept {
 
 /// Of wheels and torques that need no states of their own; and of the others, and of a path that forces bend.
 inline constexpr SeriesCost small_series_cost{15e-6, 12e-6, 1e-6, 0.7}, large_series_cost{40e-6, 40e-6, 2e-6, 0.7};
+/// Of wheels that settle fast, by Radau: some forty short steps until they follow, then those that the body asks for.
+inline constexpr SeriesCost stiff_cost{800e-6, 20e-6, 3e-6, 1};
 
 inline double cost_of_full(const Scene& scene) noexcept {
   const auto& times = scene.question().times;
   const double phase = (scene.sizes().turning + scene.sizes().forcing) * times.back();
   const double tolerance = first_step_tolerance(scene.goal().tightest, phase, honesty::loosest_step);
-  const auto& cost = scene.is_large() ? large_series_cost : small_series_cost;
-  return cost(phase + detail::settling_steps(scene), tolerance, times.size()) + double(scene.breaks()) * 2 * cost.step;
+  const auto& cost = scene.is_stiff() ? stiff_cost : scene.is_large() ? large_series_cost : small_series_cost;
+  const double again = scene.is_stiff() ? 10 : 2;  // steps that a breakpoint costs
+  return cost(phase + detail::settling_steps(scene), tolerance, times.size()) +
+         double(scene.breaks()) * again * cost.step;
 }
 
-/// Rung `full`: the full equations by Taylor series.
+/// Rung `full`: the full equations by Taylor series, or by Radau where wheels settle fast.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
   const auto& times = question.times;
