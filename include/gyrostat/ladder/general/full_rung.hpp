@@ -91,9 +91,10 @@ inline void balance(Track& track, const Scene& scene, double step_tolerance) noe
   track.momentum_balance = residuals.momentum;
 }
 
-/// Steps that a run takes at least so that wheels settle as they should.
+/// Steps that a run takes so that wheels settle as they should, or by Radau, which need not follow them, what damping there is.
 inline double settling_steps(const Scene& scene) noexcept {
-  return scene.is_stiff() ? 0 : scene.settling_rate() * scene.question().times.back() / 8;
+  const double rate = scene.is_stiff() ? scene.sizes().damping : scene.settling_rate();
+  return rate * scene.question().times.back() / 8;
 }
 
 }  // namespace detail
