@@ -4,6 +4,8 @@
 #include "allocations.hpp"
 #include "catch.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,20 +16,29 @@ using ode::Status;
 
 namespace {
 
+/// What stands in the equations of all systems here that have one relaxing unknown and know no time.
+template <class S>
+struct Timeless {
+  using Scalar = S;
+  static constexpr int relaxing = 1;
+  struct Moment {};
+  static Moment moment(const Lanes<S>&) noexcept { return {}; }
+};
+
 /// y = (cos t, sin t) and p = phi = 0.3 y0 whatever the rate (Prothero and Robinson 1974); off phi, p comes back as
 /// phi + (p0 - phi0) exp(-rate t) if the coupling is 0.
 template <Real S>
-struct Follower {
-  using Scalar = S;
+struct Follower : Timeless<S> {
+  Follower(S its_rate = 1, S its_coupling = 0) noexcept : speed(its_rate), coupling(its_coupling) {}
+  using Moment = typename Timeless<S>::Moment;
   static constexpr int width = 2;
-  S speed = 1;
-  S coupling = 0;
-  S rate() const noexcept { return speed; }
-  GYROSTAT_INLINE Lanes<S> source(const Lanes<S>* y) const noexcept {
-    return lanes(S(0.3L)) * (lanes(speed) * y[0] - y[1]);
+  S speed, coupling;
+  S rate(int) const noexcept { return speed; }
+  GYROSTAT_INLINE void sources(const Moment&, const Lanes<S>* y, Lanes<S>* source) const noexcept {
+    *source = lanes(S(0.3L)) * (lanes(speed) * y[0] - y[1]);
   }
-  GYROSTAT_INLINE void rates(const Lanes<S>* y, const Lanes<S>& p, Lanes<S>* rate) const noexcept {
-    const Lanes<S> off = lanes(coupling) * (p - lanes(S(0.3L)) * y[0]);
+  GYROSTAT_INLINE void rates(const Moment&, const Lanes<S>* y, const Lanes<S>* p, Lanes<S>* rate) const noexcept {
+    const Lanes<S> off = lanes(coupling) * (*p - lanes(S(0.3L)) * y[0]);
     rate[0] = off - y[1];
     rate[1] = y[0] + off;
   }
@@ -35,6 +46,7 @@ struct Follower {
 
 /// The same, put back onto the unit circle.
 struct Circle : Follower<double> {
+  using Follower<double>::Follower;
   void project(double, double* x, double* low) const noexcept {
     const double stretch = (1 - x[0] * x[0] - x[1] * x[1]) / 2 - x[0] * low[0] - x[1] * low[1];
     x[0] += stretch * x[0];
@@ -44,34 +56,74 @@ struct Circle : Follower<double> {
 };
 
 /// y' = y^2, infinite at t = 1 from y = 1.
-struct Explosion {
-  using Scalar = double;
+struct Explosion : Timeless<double> {
   static constexpr int width = 1;
-  double rate() const noexcept { return 1; }
-  Lanes<double> source(const Lanes<double>*) const noexcept { return lanes(0.0); }
-  void rates(const Lanes<double>* y, const Lanes<double>&, Lanes<double>* rate) const noexcept {
+  static double rate(int) noexcept { return 1; }
+  static void sources(const Moment&, const Lanes<double>*, Lanes<double>* source) noexcept { *source = lanes(0.0); }
+  static void rates(const Moment&, const Lanes<double>* y, const Lanes<double>*, Lanes<double>* rate) noexcept {
     rate[0] = y[0] * y[0];
   }
 };
 
 /// A free rigid body, y' = a (y2 y3, y3 y1, y1 y2), driven by p: no exact solution.
 template <Real S>
-struct Body {
-  using Scalar = S;
+struct Body : Timeless<S> {
+  Body(S its_rate) noexcept : speed(its_rate) {}
+  using Moment = typename Timeless<S>::Moment;
   static constexpr int width = 3;
-  S speed = 1;
-  S rate() const noexcept { return speed; }
-  GYROSTAT_INLINE Lanes<S> source(const Lanes<S>* y) const noexcept {
-    return lanes(speed) * (lanes(S(0.5L)) * y[1] + lanes(S(0.2L)));
+  S speed;
+  S rate(int) const noexcept { return speed; }
+  GYROSTAT_INLINE void sources(const Moment&, const Lanes<S>* y, Lanes<S>* source) const noexcept {
+    *source = lanes(speed) * (lanes(S(0.5L)) * y[1] + lanes(S(0.2L)));
   }
-  GYROSTAT_INLINE void rates(const Lanes<S>* y, const Lanes<S>& p, Lanes<S>* rate) const noexcept {
-    rate[0] = lanes(S(0.8L)) * y[1] * y[2] + p * y[1];
-    rate[1] = lanes(S(-1.1L)) * y[2] * y[0] - p * y[0];
+  GYROSTAT_INLINE void rates(const Moment&, const Lanes<S>* y, const Lanes<S>* p, Lanes<S>* rate) const noexcept {
+    rate[0] = lanes(S(0.8L)) * y[1] * y[2] + *p * y[1];
+    rate[1] = lanes(S(-1.1L)) * y[2] * y[0] - *p * y[0];
     rate[2] = lanes(S(0.3L)) * y[0] * y[1];
   }
 };
 
-static_assert(ode::RelaxingSystem<Follower<float>> && ode::RelaxingSystem<Explosion> && ode::Projects<Circle>);
+/// y = sin(swing t)/swing and p_i = cos(t + i) whatever their rates: unknowns of very different rates under what swings by itself.
+struct Driven {
+  using Scalar = double;
+  static constexpr int width = 1, relaxing = 3;
+  struct Moment {
+    Lanes<double> push, follow[3], ahead[3];
+  };
+  double swing = 1;
+  std::array<double, 3> speeds{1, 1e3, 1e9};
+  double rate(int i) const noexcept { return speeds[static_cast<std::size_t>(i)]; }
+  double forcing() const noexcept { return std::max(swing, 1.0); }
+  Moment moment(const Lanes<double>& t) const noexcept {
+    const auto of = [&](auto f) { return lanes(f(t[0]), f(t[1]), f(t[2]), f(t[3])); };
+    Moment made{of([&](double x) { return std::cos(swing * x); }), {}, {}};
+    for (int i = 0; i < 3; ++i) {
+      made.follow[i] = of([&](double x) { return std::cos(x + i); });
+      made.ahead[i] = of([&](double x) { return -std::sin(x + i); });
+    }
+    return made;
+  }
+  void sources(const Moment& now, const Lanes<double>*, Lanes<double>* source) const noexcept {
+    for (int i = 0; i < 3; ++i) source[i] = lanes(rate(i)) * now.follow[i] + now.ahead[i];
+  }
+  static void rates(const Moment& now, const Lanes<double>*, const Lanes<double>* p, Lanes<double>* rate) noexcept {
+    // the unknowns are felt, though they cancel
+    Lanes<double> sum = now.push;
+    for (int i = 0; i < 3; ++i) sum = sum + (p[i] - now.follow[i]);
+    rate[0] = sum;
+  }
+};
+
+/// The same with y = weak_push sin(swing t)/swing.
+constexpr double weak_push = 1e-5;
+struct Weak : Driven {
+  static void rates(const Moment& now, const Lanes<double>*, const Lanes<double>*, Lanes<double>* rate) noexcept {
+    rate[0] = lanes(weak_push) * now.push;
+  }
+};
+
+static_assert(ode::RelaxingSystem<Follower<float>> && ode::RelaxingSystem<Driven> && ode::RelaxingSystem<Explosion> &&
+              ode::Projects<Circle>);
 
 template <class System>
 typename ode::Radau<System>::Options watching(typename System::Scalar tolerance, typename System::Scalar inside = 0) {
@@ -193,6 +245,31 @@ TEST_CASE("neither steps nor errors depend on the rate once p follows its source
     most = std::max(most, solver.counts().rhs);
   }
   CHECK(2 * most < 3 * fewest);
+}
+
+TEST_CASE("several unknowns follow what swings by itself, each at its own rate") {
+  for (const double swing : {0.1, 1.0, 40.0}) {
+    for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
+      ode::Radau<Driven> solver({swing}, 0, {0, 1, std::cos(1.0), std::cos(2.0)}, watching<Driven>(tolerance));
+      double between = 0, state[4];
+      while (solver.time() < 10) {
+        REQUIRE(solver.step(10) == Status::reached);
+        const double t = (solver.previous_time() + solver.time()) / 2;
+        solver.at(t, state);
+        for (int i = 0; i < 3; ++i) between = std::max(between, std::abs(state[1 + i] - std::cos(t + i)));
+      }
+      CAPTURE(swing, tolerance, between, solver.counts().steps);
+      CHECK(std::abs(solver.state()[0] - std::sin(10 * swing) / swing) < 100 * tolerance);
+      CHECK(between < 1000 * tolerance);
+      CHECK(double(solver.counts().steps) < 40 + 20 * swing);
+    }
+  }
+  // a push too small for the inside of a step to see it is followed by its rate
+  Weak weak;
+  weak.swing = 1000;
+  ode::Radau<Weak> solver(weak, 0, {0, 1, std::cos(1.0), std::cos(2.0)}, watching<Weak>(1e-9, 1e-5));
+  REQUIRE(solver.advance(10) == Status::reached);
+  CHECK(std::abs(solver.state()[0] - weak_push * std::sin(1e4) / 1000) < 1e-9);
 }
 
 TEST_CASE("a start off the source is resolved, and the step grows again") {
@@ -325,7 +402,7 @@ TEST_CASE("Radau: a projection keeps the state on its law") {
   const auto error = [](bool projected) {
     auto options = watching<Circle>(1e-9);
     options.projected = projected;
-    ode::Radau<Circle> solver(Circle{{50}}, 0, {1, 0, 0.3}, options);
+    ode::Radau<Circle> solver(Circle(50), 0, {1, 0, 0.3}, options);
     double worst = 0;
     while (solver.time() < 1000) {
       REQUIRE(solver.step(1000) == Status::reached);
@@ -398,13 +475,15 @@ TEST_CASE("nothing is allocated on the way") {
 namespace {
 
 /// y' = 0, p' = -rate p.
-struct Still {
-  using Scalar = double;
+struct Still : Timeless<double> {
+  Still(double its_rate) noexcept : speed(its_rate) {}
   static constexpr int width = 1;
-  double speed = 0;
-  double rate() const noexcept { return speed; }
-  Lanes<double> source(const Lanes<double>*) const noexcept { return lanes(0.0); }
-  void rates(const Lanes<double>*, const Lanes<double>&, Lanes<double>* rate) const noexcept { rate[0] = lanes(0.0); }
+  double speed;
+  double rate(int) const noexcept { return speed; }
+  static void sources(const Moment&, const Lanes<double>*, Lanes<double>* source) noexcept { *source = lanes(0.0); }
+  static void rates(const Moment&, const Lanes<double>*, const Lanes<double>*, Lanes<double>* rate) noexcept {
+    rate[0] = lanes(0.0);
+  }
 };
 
 }  // namespace

@@ -15,19 +15,23 @@
 
 namespace gyrostat::ode {
 
-/// A system y' = f(y, p) with one more unknown that relaxes linearly and may do so at any speed: p' = -rate p + source(y), with a
-/// constant rate >= 0.
-/// * `Scalar`, and `width`: the number of components of y. A state is y and, behind it, p.
-/// * `rate()`, 1/s.
-/// * `source(y)` and `rates(y, p, rate)`: of four states side by side, y[c] holding component c of each.
+/// A system y' = f(t, y, p) with more unknowns p that relax linearly and may do so at any speed: p_i' = -rate_i p_i + source_i(t, y), with
+/// constant rates >= 0.
+/// * `Scalar`; `width` and `relaxing`: the numbers of components of y and p. A state is y and, behind it, p.
+/// * `rate(i)`, 1/s.
+/// * `Moment` and `moment(t)`: what depends on the time alone, of four times side by side.
+/// * `sources(moment, y, source)` and `rates(moment, y, p, rate)`: of four states side by side, y[c] holding component c of each.
+/// * `forcing()`, where something depends on the time: the greatest rate at which it swings, rad/s.
 template <class System>
-concept RelaxingSystem = Real<typename System::Scalar> && (System::width > 0) &&
-                         requires(const System& system, const Lanes<typename System::Scalar>* y,
-                                  const Lanes<typename System::Scalar>& p, Lanes<typename System::Scalar>* rate) {
-                           { system.rate() } noexcept -> std::convertible_to<typename System::Scalar>;
-                           { system.source(y) } noexcept -> std::same_as<Lanes<typename System::Scalar>>;
-                           { system.rates(y, p, rate) } noexcept;
-                         };
+concept RelaxingSystem =
+    Real<typename System::Scalar> && (System::width > 0) && (System::relaxing > 0) &&
+    requires(const System& system, const typename System::Moment& moment, const Lanes<typename System::Scalar>& t,
+             const Lanes<typename System::Scalar>* y, Lanes<typename System::Scalar>* rate) {
+      { system.rate(0) } noexcept -> std::convertible_to<typename System::Scalar>;
+      { system.moment(t) } noexcept -> std::same_as<typename System::Moment>;
+      { system.sources(moment, y, rate) } noexcept;
+      { system.rates(moment, y, y, rate) } noexcept;
+    };
 
 namespace detail {
 
@@ -45,6 +49,7 @@ struct RadauTable {
   Scalar legendre[8][8];        ///< [k][j]: (2k+1) b_j P_k(2c_j - 1): values at the nodes to Legendre coefficients
   Scalar tail[8][4];            ///< [j][k]: the last four of these, k = 4 ... 7
   Scalar tail_of_values[8][4];  ///< the same of the derivative, from values less the one at the start
+  Scalar tail_size[4];          ///< the magnitudes of these, summed over j
 };
 
 /// P_0 ... P_8 at x = 2c - 1.
@@ -114,6 +119,7 @@ constexpr RadauTable<Scalar> radau_table() noexcept {
       for (int i = 0; i < 8; ++i) sum += legendre[4 + k][i] * inverse[i][j];
       table.tail[j][k] = static_cast<Scalar>(legendre[4 + k][j]);
       table.tail_of_values[j][k] = static_cast<Scalar>(sum);
+      table.tail_size[k] += static_cast<Scalar>(sum < 0 ? -sum : sum);
     }
   }
   return table;
@@ -124,7 +130,7 @@ inline constexpr RadauTable<Scalar> radau = radau_table<Scalar>();
 
 }  // namespace detail
 
-/// Width: of y; the scale of p stands behind those of y.
+/// Width: of y and p; the scales of p stand behind those of y.
 template <Real Scalar, int Width>
 struct RadauOptions {
   /// Error that one step may leave in its end, relative to scale. These errors add up.
@@ -133,15 +139,17 @@ struct RadauOptions {
   /// tolerance is cut down to that: errors of p beyond it would be felt at the ends.
   Scalar inside = 0;
   /// The size against which the error of each component is measured; 0 leaves a component out.
-  std::array<Scalar, Width + 1> scale{};
+  std::array<Scalar, Width> scale{};
+  /// Roundings of p in the values at the stages, which its coefficients show and no shorter step would lessen: so much of them is left out.
+  Scalar blur = 0;
   Scalar first_step = 0;  ///< 0: chosen from the rates at the start
   std::uint64_t step_cap = 100'000'000;
   bool projected = true;  ///< project after every step, where the system can
 };
 
 /// Integrates a relaxing system by Radau IIA collocation of order 15 with p eliminated exactly: its stage values are
-/// p = p0 + (I + h rate A)^-1 h A (source(y) - rate p0), so that the sweeps y = y0 + h A f(y, p) converge at a pace set by h |df/dy|
-/// alone, and neither they nor the step depend on the rate once p follows its source. L-stable: a p0 off its source dies out in one
+/// p_i = p_i0 + (I + h rate_i A)^-1 h A (source_i(y) - rate_i p_i0), so that the sweeps y = y0 + h A f(y, p) converge at a pace set by h |df/dy|
+/// alone, and neither they nor the step depend on the rates once p follows its sources. L-stable: a p0 off its source dies out in one
 /// long step, at the accuracy that the tolerance asks for in several short ones.
 ///
 /// The step is chosen from the Legendre coefficients a_4 ... a_7 of h y' over the step. Inside the step the error is the first
@@ -153,13 +161,16 @@ class Radau {
  public:
   using Scalar = typename System::Scalar;
   static constexpr int width = System::width;
+  static constexpr int relaxing = System::relaxing;
+  static constexpr int all = width + relaxing;
   static constexpr int order = 15;
-  using State = std::array<Scalar, width + 1>;
-  using Options = RadauOptions<Scalar, width>;
+  using State = std::array<Scalar, all>;
+  using Options = RadauOptions<Scalar, all>;
 
   Radau(const System& system, Scalar t, const State& state, const Options& options) noexcept
-      : system_(system), options_(options), rate_(system.rate()), time_{t, 0}, start_time_{t, 0} {
-    for (int i = 0; i <= width; ++i) {
+      : system_(system), options_(options), time_{t, 0}, start_time_{t, 0} {
+    for (int i = 0; i < relaxing; ++i) rate_[i] = system.rate(i);
+    for (int i = 0; i < all; ++i) {
       state_[i] = start_[i] = state[static_cast<std::size_t>(i)];
       low_[i] = start_low_[i] = 0;
       const Scalar scale = options.scale[static_cast<std::size_t>(i)];
@@ -185,14 +196,14 @@ class Radau {
   }
 
   Scalar time() const noexcept { return time_.high; }
-  /// y and p, width + 1 numbers.
+  /// y and p.
   const Scalar* state() const noexcept { return state_; }
   const Counts& counts() const noexcept { return counts_; }
 
   /// Begin of the last step; the polynomial holds from here to time().
   Scalar previous_time() const noexcept { return start_time_.high; }
 
-  /// The state at t inside the last step, width + 1 numbers, within Options::inside. Outside it the polynomial is extrapolated.
+  /// The state at t inside the last step, within Options::inside. Outside it the polynomial is extrapolated.
   void at(Scalar t, Scalar* state) const noexcept;
 
  private:
@@ -214,11 +225,16 @@ class Radau {
     return a;
   }
 
-  /// The matrix (I + z A)^-1 h A of a step, z = h rate, by Gauss and Jordan's elimination. Needs no pivots: for any z >= 0 the error is
+  /// The matrices (I + z A)^-1 h A of a step, z = h rate_i, by Gauss and Jordan's elimination. Needs no pivots: for any z >= 0 the error is
   /// of the order of rounding (condition of A: 47).
   void eliminate(Scalar h) noexcept;
+  void eliminate(Scalar h, Scalar rate, Scalar (&relax)[8][8]) const noexcept;
+  /// What depends on the time alone at the stages of a step.
+  void look(Scalar h) noexcept;
   /// Lagrange's polynomials of the last step at the nodes of one `ratio` times as long.
   void extrapolate(Scalar ratio) noexcept;
+  /// The rates at the begin of the step, in all lanes.
+  void rates_here(Row (&rate)[width]) noexcept;
   /// Fills stage_ with the first guess of h y'. False if the rates at the start of the step are not finite.
   bool predict(Scalar h) noexcept;
   /// One sweep: stage_ and p_ anew; returns the size of the change of stage_.
@@ -232,7 +248,7 @@ class Radau {
     Scalar factor;  ///< by which to change its length; NaN if a coefficient is not finite
     bool accurate;  ///< good enough to be accepted
   };
-  GYROSTAT_INLINE Verdict judge(Scalar tolerance, Scalar most_inside) const noexcept;
+  GYROSTAT_INLINE Verdict judge(Scalar h, Scalar tolerance, Scalar most_inside) const noexcept;
   /// The length to begin with; NaN if the rates are not finite.
   Scalar first_step() noexcept;
   /// Moves the state to the end of a step and keeps its polynomial.
@@ -240,7 +256,8 @@ class Radau {
 
   System system_;
   Options options_;
-  Scalar rate_, tolerance_, inside_, goal_;
+  Scalar rate_[relaxing];
+  Scalar tolerance_, inside_, goal_;
   Sum time_, start_time_;
   Scalar wish_ = 0;         ///< the next step
   Scalar last_step_ = 0;    ///< of the polynomial in last_
@@ -249,23 +266,29 @@ class Radau {
   Scalar made_for_ = 0;     ///< the step of the matrix in relax_
   Scalar contraction_ = 0;  ///< of the sweeps of this step, their mean
   Counts counts_;
-  alignas(32) Scalar state_[width + 1];
-  alignas(32) Scalar low_[width + 1];
-  alignas(32) Scalar start_[width + 1];
-  alignas(32) Scalar start_low_[width + 1];
-  alignas(32) Scalar weight_[width + 1];
-  alignas(32) Scalar relax_[8][8];         ///< [j][i]
-  alignas(32) Scalar forward_[8][8];       ///< [j][i]
-  alignas(32) Scalar stage_[width][8];     ///< h y' at the stages of this step
-  alignas(32) Scalar p_[8];                ///< p - p0 at the stages of this step
-  alignas(32) Scalar last_[width + 1][8];  ///< h y' and h p' of the last accepted step
+  alignas(32) Scalar state_[all];
+  alignas(32) Scalar low_[all];
+  alignas(32) Scalar start_[all];
+  alignas(32) Scalar start_low_[all];
+  alignas(32) Scalar weight_[all];
+  alignas(32) Scalar relax_[relaxing][8][8];  ///< [j][i]
+  alignas(32) Scalar forward_[8][8];          ///< [j][i]
+  alignas(32) Scalar stage_[width][8];        ///< h y' at the stages of this step
+  alignas(32) Scalar p_[relaxing][8];         ///< p - p0 at the stages of this step
+  typename System::Moment moment_[2];         ///< at the stages of this step
+  alignas(32) Scalar last_[all][8];           ///< h y' and h p' of the last accepted step
 };
 
 template <RelaxingSystem System>
 void Radau<System>::eliminate(Scalar h) noexcept {
   if (h == made_for_) return;
   made_for_ = h;
-  const Scalar z = h * rate_;
+  for (int i = 0; i < relaxing; ++i) eliminate(h, rate_[i], relax_[i]);
+}
+
+template <RelaxingSystem System>
+void Radau<System>::eliminate(Scalar h, Scalar rate, Scalar (&relax)[8][8]) const noexcept {
+  const Scalar z = h * rate;
   alignas(32) Scalar rows[8][16];
   for (int i = 0; i < 8; ++i) {
     for (int j = 0; j < 8; ++j) {
@@ -284,7 +307,24 @@ void Radau<System>::eliminate(Scalar h) noexcept {
     }
   }
   for (int i = 0; i < 8; ++i)
-    for (int j = 0; j < 8; ++j) relax_[j][i] = rows[i][8 + j];
+    for (int j = 0; j < 8; ++j) relax[j][i] = rows[i][8 + j];
+}
+
+template <RelaxingSystem System>
+void Radau<System>::look(Scalar h) noexcept {
+  for (int half = 0; half < 2; ++half) {
+    const Row ahead = multiply_add(lanes(h), load(&table.node[4 * half]), lanes(time_.low));
+    moment_[half] = system_.moment(lanes(time_.high) + ahead);
+  }
+}
+
+template <RelaxingSystem System>
+void Radau<System>::rates_here(Row (&rate)[width]) noexcept {
+  Row y[width], p[relaxing];
+  for (int c = 0; c < width; ++c) y[c] = lanes(state_[c]);
+  for (int i = 0; i < relaxing; ++i) p[i] = lanes(state_[width + i]);
+  system_.rates(system_.moment(lanes(time_.high)), y, p, rate);
+  ++counts_.rhs;
 }
 
 template <RelaxingSystem System>
@@ -315,10 +355,8 @@ bool Radau<System>::predict(Scalar h) noexcept {
     }
     return true;
   }
-  Row y[width], rate[width];
-  for (int c = 0; c < width; ++c) y[c] = lanes(state_[c]);
-  system_.rates(y, lanes(state_[width]), rate);
-  ++counts_.rhs;
+  Row rate[width];
+  rates_here(rate);
   Scalar finite = 0;
   for (int c = 0; c < width; ++c) {
     finite += 0 * rate[c][0];
@@ -341,21 +379,28 @@ GYROSTAT_INLINE auto Radau<System>::sweep(Scalar h) noexcept -> Scalar {
     y[0][c] = lanes(state_[c]) + low;
     y[1][c] = lanes(state_[c]) + high;
   }
-  const Row p0 = lanes(state_[width]);
-  const Row pull = lanes(rate_) * p0;
-  alignas(32) Scalar drive[8];
-  store(&drive[0], system_.source(y[0]) - pull);
-  store(&drive[4], system_.source(y[1]) - pull);
-  Row p[2] = {lanes(Scalar(0)), lanes(Scalar(0))};
-  for (int j = 0; j < 8; ++j) {
-    p[0] = multiply_add(load(&relax_[j][0]), lanes(drive[j]), p[0]);
-    p[1] = multiply_add(load(&relax_[j][4]), lanes(drive[j]), p[1]);
+  Row source[2][relaxing], p[2][relaxing];
+  for (int half = 0; half < 2; ++half) system_.sources(moment_[half], y[half], source[half]);
+#pragma GCC unroll 8
+  for (int i = 0; i < relaxing; ++i) {
+    const Row p0 = lanes(state_[width + i]), pull = lanes(rate_[i]) * p0;
+    alignas(32) Scalar drive[8];
+    store(&drive[0], source[0][i] - pull);
+    store(&drive[4], source[1][i] - pull);
+    Row low = lanes(Scalar(0)), high = low;
+    for (int j = 0; j < 8; ++j) {
+      low = multiply_add(load(&relax_[i][j][0]), lanes(drive[j]), low);
+      high = multiply_add(load(&relax_[i][j][4]), lanes(drive[j]), high);
+    }
+    store(&p_[i][0], low);
+    store(&p_[i][4], high);
+    p[0][i] = p0 + low;
+    p[1][i] = p0 + high;
   }
   Row square = lanes(Scalar(0));
   for (int half = 0; half < 2; ++half) {
-    store(&p_[4 * half], p[half]);
     Row rate[width];
-    system_.rates(y[half], p0 + p[half], rate);
+    system_.rates(moment_[half], y[half], p[half], rate);
 #pragma GCC unroll 16
     for (int c = 0; c < width; ++c) {
       const Row next = lanes(h) * rate[c];
@@ -383,8 +428,10 @@ auto Radau<System>::solve(Scalar h, Scalar rounding) noexcept -> Sweeps {
     const Scalar ratio = change / before;
     // what the next sweep would change; below some roundings it changes nothing any more
     if (change * std::min(ratio, Scalar(1)) <= goal_ || (change < 256 * rounding && ratio > Scalar(0.3L))) {
-      contraction_ = static_cast<Scalar>(
-          std::pow(static_cast<float>(std::max(change, rounding / 4) / first), 1 / static_cast<float>(k - 1)));
+      // a change that is rounding tells no pace
+      if (const Scalar least = rounding / 4; first > least)
+        contraction_ = static_cast<Scalar>(
+            std::pow(static_cast<float>(std::max(change, least) / first), 1 / static_cast<float>(k - 1)));
       return Sweeps::converged;
     }
     if (k > 3 && (ratio > Scalar(0.7L))) return Sweeps::slow;
@@ -396,10 +443,8 @@ auto Radau<System>::solve(Scalar h, Scalar rounding) noexcept -> Sweeps {
 template <RelaxingSystem System>
 auto Radau<System>::first_step() noexcept -> Scalar {
   if (options_.first_step > 0) return options_.first_step;
-  Row y[width], rate[width];
-  for (int c = 0; c < width; ++c) y[c] = lanes(state_[c]);
-  system_.rates(y, lanes(state_[width]), rate);
-  ++counts_.rhs;
+  Row rate[width];
+  rates_here(rate);
   Scalar greatest = 0;
   for (int c = 0; c < width; ++c) greatest += std::abs(rate[c][0]) * weight_[c];
   if (!(greatest < infinity<Scalar>)) return nan<Scalar>;
@@ -407,14 +452,19 @@ auto Radau<System>::first_step() noexcept -> Scalar {
 }
 
 template <RelaxingSystem System>
-GYROSTAT_INLINE auto Radau<System>::judge(Scalar tolerance, Scalar most_inside) const noexcept -> Verdict {
+GYROSTAT_INLINE auto Radau<System>::judge(Scalar h, Scalar tolerance, Scalar most_inside) const noexcept -> Verdict {
   Row squares = lanes(Scalar(0));
   for (int c = 0; c < width; ++c) {
     const Row a = last_coefficients(table.tail, stage_[c]) * lanes(weight_[c]);
     squares = multiply_add(a, a, squares);
   }
-  const Row a = last_coefficients(table.tail_of_values, p_) * lanes(weight_[width]);
-  squares = multiply_add(a, a, squares);
+  for (int i = 0; i < relaxing; ++i) {
+    const Row a = last_coefficients(table.tail_of_values, p_[i]) * lanes(weight_[width + i]);
+    const Scalar blur = options_.blur * epsilon<Scalar> * std::abs(state_[width + i]) * weight_[width + i];
+    const auto clear = [&](int k) noexcept { return std::max(std::abs(a[k]) - blur * table.tail_size[k], Scalar(0)); };
+    const Row left = lanes(clear(0), clear(1), clear(2), clear(3));
+    squares = multiply_add(left, left, squares);
+  }
   const Scalar a4 = squares[0], a5 = squares[1], a6 = squares[2], a7 = squares[3];
   if (!(a4 + a5 + a6 + a7 < infinity<Scalar>)) return {nan<Scalar>, false};
   // how the coefficients fall, by pairs since even and odd ones may vanish in turn
@@ -423,7 +473,9 @@ GYROSTAT_INLINE auto Radau<System>::judge(Scalar tolerance, Scalar most_inside) 
   const Scalar tail = std::max(std::sqrt(a7), fall * std::sqrt(a6));
   const Scalar inside = fall * tail / 30;
   // the same coefficient of the sensitivity, 15 j_7(z/2), with z = h |df/dy| from the pace of the sweeps: A contracts tenfold
-  const Scalar z = 10 * contraction_;
+  Scalar z = 10 * contraction_;
+  // what swings by itself is integrated as if the sensitivity did
+  if constexpr (requires { system_.forcing(); }) z = std::max(z, h * system_.forcing());
   const Scalar sensitivity = Scalar(5.8e-8L) * z * z * z * z * z * z * z;
   const Scalar end = tail * std::max(tail, sensitivity) / 20;
 
@@ -436,14 +488,14 @@ GYROSTAT_INLINE auto Radau<System>::judge(Scalar tolerance, Scalar most_inside) 
 
 template <RelaxingSystem System>
 GYROSTAT_INLINE void Radau<System>::accept(Scalar h) noexcept {
-  for (int c = 0; c <= width; ++c) {
+  for (int c = 0; c < all; ++c) {
     start_[c] = state_[c];
     start_low_[c] = low_[c];
     Sum sum{state_[c], low_[c]};
     if (c < width) {
       sum = add(add(sum, dot(table.weight, stage_[c])), dot(table.weight_low, stage_[c]));
     } else {
-      sum = add(sum, p_[7]);
+      sum = add(sum, p_[c - width][7]);
     }
     state_[c] = sum.high;
     low_[c] = sum.low;
@@ -451,10 +503,12 @@ GYROSTAT_INLINE void Radau<System>::accept(Scalar h) noexcept {
   for (int c = 0; c < width; ++c) {
     for (int i = 0; i < 8; i += 4) store(&last_[c][i], load(&stage_[c][i]));
   }
-  for (int i = 0; i < 8; i += 4) {
-    Row rate = lanes(Scalar(0));
-    for (int j = 0; j < 8; ++j) rate = multiply_add(load(&table.inverse[j][i]), lanes(p_[j]), rate);
-    store(&last_[width][i], rate);
+  for (int k = 0; k < relaxing; ++k) {
+    for (int i = 0; i < 8; i += 4) {
+      Row rate = lanes(Scalar(0));
+      for (int j = 0; j < 8; ++j) rate = multiply_add(load(&table.inverse[j][i]), lanes(p_[k][j]), rate);
+      store(&last_[width + k][i], rate);
+    }
   }
   last_step_ = h;
   follow_ = true;
@@ -472,7 +526,7 @@ Status Radau<System>::step(Scalar t_max) noexcept {
 
   // rounding of a state that has outgrown its scale
   Scalar size = 1;
-  for (int i = 0; i <= width; ++i) size = std::max(size, std::abs(state_[i]) * weight_[i]);
+  for (int i = 0; i < all; ++i) size = std::max(size, std::abs(state_[i]) * weight_[i]);
   const Scalar rounding = epsilon<Scalar> * size;
   const Scalar tolerance = std::max(tolerance_, rounding / 64), most_inside = std::max(inside_, 8 * rounding);
   goal_ = std::max(tolerance_ / 4, rounding / 8);
@@ -485,6 +539,7 @@ Status Radau<System>::step(Scalar t_max) noexcept {
     if (!(h < infinity<Scalar>)) return Status::not_finite;
     if (!lands && !(h > std::abs(time_.high) * (epsilon<Scalar> / 1024))) return Status::step_underflow;
     eliminate(h);
+    look(h);
     if (!predict(h)) return Status::not_finite;
     const Sweeps sweeps = solve(h, rounding);
     finite = sweeps != Sweeps::not_finite;
@@ -496,7 +551,7 @@ Status Radau<System>::step(Scalar t_max) noexcept {
       ++counts_.rejected;
       continue;
     }
-    const Verdict verdict = judge(tolerance, most_inside);
+    const Verdict verdict = judge(h, tolerance, most_inside);
     if (!(verdict.factor == verdict.factor)) return Status::not_finite;
     if (!verdict.accurate) {
       wish_ = h * std::min(verdict.factor, Scalar(0.9L));
@@ -523,7 +578,7 @@ Status Radau<System>::step(Scalar t_max) noexcept {
 template <RelaxingSystem System>
 void Radau<System>::at(Scalar t, Scalar* state) const noexcept {
   if (!(last_step_ > 0)) {
-    for (int i = 0; i <= width; ++i) state[i] = state_[i];
+    for (int i = 0; i < all; ++i) state[i] = state_[i];
     return;
   }
   // integrals of the Legendre polynomials from 0, (P_{k+1} - P_{k-1})/(2 (2k + 1))
@@ -543,7 +598,7 @@ void Radau<System>::at(Scalar t, Scalar* state) const noexcept {
   }
   store(&weight[0], low);
   store(&weight[4], high);
-  for (int i = 0; i <= width; ++i) state[i] = start_[i] + (start_low_[i] + dot(weight, last_[i]));
+  for (int i = 0; i < all; ++i) state[i] = start_[i] + (start_low_[i] + dot(weight, last_[i]));
 }
 
 }  // namespace gyrostat::ode

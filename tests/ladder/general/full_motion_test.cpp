@@ -11,6 +11,7 @@
 #include "../../models/general/truth.hpp"
 #include "catch.hpp"
 #include "gyrostat/ladder/comparison.hpp"
+#include "gyrostat/ladder/rotor/full_motion.hpp"
 
 namespace general_full_motion_test {
 
@@ -126,7 +127,7 @@ TEST_CASE("every breakpoint ends a step", "[general]") {
   p.torques[0].factor.on = {{0.7, 1.9}, {2.2, 3.1}};
   const auto cuts = breakpoints(p, 4.);
   REQUIRE(cuts.size() == 4);
-  general::detail::FullCourse<double, false> course(p, 4, cuts, 1, 1e-6, 1000);
+  general::detail::FullCourse<general::detail::Series<double, false>> course(p, 4, cuts, 1, {1e-6, 1e-6}, 1000);
   std::vector<double> ends;
   while (course.time() < 4) {
     REQUIRE(course.step(4) == Status::reached);
@@ -268,6 +269,29 @@ TEST_CASE("what the full general equations cannot answer is refused", "[general]
   CHECK(std::isnan(states[1].work));
 }
 
+TEST_CASE("a motion that grows without end is given up before the budget of steps", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
+  p.angular_velocity = {0.1, 0.2, 0.3};
+  auto& drive = p.torques.emplace_back();
+  drive.type = TorqueType::damping, drive.matrix = -0.1 * Mat3<double>::Identity();
+  std::vector<State<double>> states(2);
+  FullMotionOptions<double> options;
+  options.tolerance = 1e-10;
+  const std::vector<double> times{50, 1e6};
+  const auto answer = full_motion<double>(p, times, states, options);
+  REQUIRE(answer);
+  CHECK(answer->status == Status::step_limit);
+  CHECK(answer->outgrown);
+  CHECK(answer->counts.steps < step_budget / 10);
+  CHECK(states[0].angular_velocity.norm() > 1);
+  CHECK(std::isnan(states[1].angular_velocity[0]));
+  // what is foreseen is followed, though it grows
+  const std::vector<double> brief{50, 150};
+  const auto early = full_motion<double>(p, brief, states, options);
+  CHECK((early->status == Status::reached && !early->outgrown));
+}
+
 TEST_CASE("the full general equations can be watched and stopped", "[general]") {
   Problem<double> p;
   p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
@@ -296,6 +320,196 @@ TEST_CASE("the full general equations meet the tolerance of long double", "[gene
   CHECK(full_motion<S>(p, times, states, options)->met);
 }
 
+/// The scene `stiff-wheel`, with a motor of any slope.
+Problem<double> wheel_on_a_carrier(double slope) {
+  Problem<double> p;
+  p.inertia << 3.2, 0.1, -0.15, 0.1, 4.1, 0.2, -0.15, 0.2, 5;
+  p.angular_velocity = {0.5, 1.1, -0.8};
+  auto& wheel = p.wheels.emplace_back();
+  wheel.type = WheelType::motor;
+  wheel.axis = Vec3<double>(0.750525551894, 0.350245257551, 0.560392412081).normalized();
+  wheel.axial_inertia = 0.35, wheel.rate = 24, wheel.slope = slope, wheel.no_load_rate = 25;
+  return p;
+}
+
+/// Three oblique wheels of very different slopes, with waves, a gradient of an eccentric orbit, tables, intervals, a force.
+Problem<double> three_wheels(double slope) {
+  auto p = wheel_on_a_carrier(0.5);
+  for (int k = 0; k < 2; ++k) p.wheels.push_back(p.wheels[0]);
+  p.wheels[1].axis = Vec3<double>(-0.3, 1, 0.4).normalized(), p.wheels[2].axis = Vec3<double>(0.1, 0.5, 1).normalized();
+  p.wheels[1].slope = slope, p.wheels[1].axial_inertia = 0.1, p.wheels[2].axial_inertia = 0.2;
+  auto& driven = p.wheels[2];
+  driven.type = WheelType::torque, driven.friction = slope / 30, driven.torque = 12 * driven.friction;
+  driven.table = {{1, 2, 3.5}, {0, driven.torque, -driven.torque}, Between::linear, true};
+  auto& orbit = p.orbit.emplace();
+  orbit.radius = 7e6, orbit.mu = 0.01 * 7e6 * 7e6 * 7e6, orbit.eccentricity = 0.2;
+  p.torques.resize(4);
+  p.torques[0].vector = {0.3, -0.2, 0.1}, p.torques[0].axes = Axes::inertial;
+  p.torques[0].factor.amplitude = 0.5, p.torques[0].factor.rate = 3;
+  p.torques[1].type = TorqueType::gravity_gradient;
+  p.torques[2].type = TorqueType::table;
+  p.torques[2].table = {{0.5, 1.5, 3}, {0.1, 0, 0, 0, 0.5, 0, 0.2, 0.2, 0.2}, Between::cubic, false};
+  p.torques[3].type = TorqueType::thrust, p.torques[3].vector = {0.1, 0.2, -0.1}, p.torques[3].point = {0.5, 0, 1};
+  p.torques[3].factor.on = {{0.7, 2.2}};
+  return p;
+}
+
+void check_within(const FullErrors<double>& error, const FullErrors<double>& stated) {
+  for (std::size_t k = 0; k < std::size(full_columns); ++k) {
+    CAPTURE(full_columns[k].name, error[k], stated[k]);
+    CHECK(error[k] <= stated[k]);
+  }
+}
+
+TEST_CASE("a stiff wheel moves as the family rotor says, however stiff", "[general]") {
+  std::vector<double> times;
+  for (int i = 0; i <= 12; ++i) times.push_back(i * 0.5);
+  std::uint64_t fewest = 100'000'000, most = 0;
+  for (const double slope : {350., 3500., 1e5, 1e8}) {
+    const auto p = wheel_on_a_carrier(slope);
+    const auto& wheel = p.wheels[0];
+    const auto body =
+        rotor::Gyrostat<double>::make(p.inertia, wheel.axis, wheel.axial_inertia, slope, wheel.no_load_rate);
+    REQUIRE(body);
+    rotor::State<double> start;
+    start.momentum = p.inertia * p.angular_velocity + wheel.axial_inertia * wheel.rate * wheel.axis;
+    start.axial_momentum = wheel.axial_inertia * (wheel.rate + wheel.axis.dot(p.angular_velocity));
+    std::vector<rotor::State<double>> right(times.size());
+    rotor::FullMotionOptions<double> tight;
+    tight.tolerance = 1e-13;
+    REQUIRE(rotor::full_motion<double>(*body, start, times, right, tight));
+    for (const double tolerance : {1e-4, 1e-8, 1e-11}) {
+      const auto made = run(p, times, tolerance);
+      CAPTURE(slope, tolerance);
+      REQUIRE(made.answer.status == Status::reached);
+      CHECK(made.answer.used == Integrator::radau);
+      CHECK(made.answer.met);
+      auto states = made.states;
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        const auto w = body->angular_velocity(right[i].momentum, right[i].axial_momentum);
+        states[i].attitude = right[i].attitude, states[i].angular_momentum = right[i].momentum;
+        states[i].angular_velocity = w;
+        states[i].rotor_rate[0] = body->rotor_rate(right[i].axial_momentum, w);
+        states[i].rotor_angle[0] = right[i].rotor_angle;
+      }
+      auto stated = made.answer.error;
+      for (std::size_t k = 0; k < 5; ++k) stated[k] += 1e-12;  // the other's own error
+      check_within(apart(p, times, states, made.states), stated);
+      if (tolerance == 1e-8)
+        fewest = std::min(fewest, made.answer.counts.rhs), most = std::max(most, made.answer.counts.rhs);
+    }
+  }
+  CHECK(most < 2 * fewest);
+}
+
+TEST_CASE("wheels of every speed under waves, orbits, tables and breakpoints: stated errors bound the true ones",
+          "[general]") {
+  const std::vector<double> times{0, 0.3, 0.7, 1, 1.5, 2, 3.2, 4};
+  for (const double slope : {0.1, 5., 500.}) {
+    const auto p = three_wheels(slope);
+    const auto right = truth(p, times);
+    REQUIRE(right.size() == times.size());
+    for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
+      std::vector<State<double>> states(times.size());
+      FullMotionOptions<double> options;
+      options.tolerance = tolerance, options.integrator = Integrator::radau;
+      const auto answer = full_motion<double>(p, times, states, options);
+      REQUIRE(answer);
+      REQUIRE(answer->status == Status::reached);
+      CAPTURE(slope, tolerance);
+      CHECK((answer->met || tolerance < 1e-11));
+      check_within(apart(p, times, right, states), answer->error);
+    }
+  }
+  // too fast for any explicit method: by the limit, in which wheels hold the rates that their motors bring them to
+  for (const double slope : {1e6, 1e8}) {
+    auto p = three_wheels(slope);
+    p.wheels[0].slope = 10 * slope;
+    p.wheels[2].table = {};
+    auto held = p;
+    for (auto& wheel : held.wheels) {
+      wheel.rate = wheel.type == WheelType::motor ? wheel.no_load_rate : wheel.torque / wheel.friction;
+      wheel.type = WheelType::held, wheel.torque = wheel.friction = wheel.slope = 0;
+    }
+    // the same momentum, which the wheels shared out at once
+    const auto wheels = Wheels<double>::of(p);
+    const Vec3<double> M = wheels.reduced * p.angular_velocity + wheels.momentum_of_wheels();
+    held.angular_velocity = held.inertia.inverse() * (M - Wheels<double>::of(held).momentum_of_wheels());
+    const std::vector<double> later{0.3, 1, 2, 4};
+    const auto made = run(p, later, 1e-10), limit = run(held, later, 1e-12);
+    REQUIRE(made.answer.status == Status::reached);
+    CHECK(made.answer.met);
+    for (std::size_t i = 0; i < later.size(); ++i) {
+      CAPTURE(slope, later[i]);
+      CHECK((made.states[i].angular_velocity - limit.states[i].angular_velocity).norm() < 300 / slope);
+      for (std::size_t k = 0; k < 3; ++k)
+        CHECK(std::abs(made.states[i].rotor_rate[k] - held.wheels[k].rate) < 300 / slope);
+    }
+  }
+}
+
+TEST_CASE("stated errors bound the true ones where wheels settle thousands of times", "[general]") {
+  constexpr double tolerances[] = {1e-3, 1e-6, 1e-9, 1e-12};
+  general_scenes::Scenes source(83);
+  int collocated = 0, met = 0, all = 0;
+  for (int i = 0; i < (slow_build ? 4 : 24); ++i) {
+    const auto made = source.stiff(2, source.scale(2e3, 2e4));
+    const std::vector<double> times{0, 0.3 * made.span, made.span};
+    const auto right = truth(made.problem, times);
+    if (right.empty()) continue;
+    const auto of = run(made.problem, times, tolerances[i % 4]);
+    if (of.answer.status == Status::event) continue;
+    REQUIRE(of.answer.status == Status::reached);
+    CAPTURE(i, made.kind, tolerances[i % 4]);
+    ++all, met += of.answer.met, collocated += of.answer.used == Integrator::radau;
+    check_within(apart(made.problem, times, right, of.states), of.answer.error);
+  }
+  CAPTURE(all, met, collocated);
+  CHECK(collocated > all / 2);
+  CHECK(met > all * 7 / 10);
+}
+
+TEST_CASE("breakpoints, balances and stops of scenes with stiff wheels", "[general]") {
+  const auto p = three_wheels(1e5);
+  const auto cuts = breakpoints(p, 4.);
+  general::detail::FullCourse<general::detail::Collocation<double, 4>> course(p, 4, cuts, 1, {1e-9, 1e-8}, 10'000);
+  std::vector<double> ends;
+  while (course.time() < 4) {
+    REQUIRE(course.step(4) == Status::reached);
+    ends.push_back(course.time());
+  }
+  for (const double cut : cuts) CHECK(std::count(ends.begin(), ends.end(), cut) == 1);
+  const auto balance = balance_residuals<double>(p, 4, 1e-13);
+  // the power of a stiff motor is its slope times a small difference
+  CHECK(balance.energy < 1e-8);
+  CHECK(balance.momentum < 1e-11);
+  // what a brake opposes is the whole momentum, wheels or not
+  auto braked = wheel_on_a_carrier(1e6);
+  auto& brake = braked.torques.emplace_back();
+  brake.type = TorqueType::brake, brake.opposed = Opposed::momentum, brake.vector = {1, 1, 1};
+  const auto& wheel = braked.wheels[0];
+  const double M = (braked.inertia * braked.angular_velocity + wheel.axial_inertia * wheel.rate * wheel.axis).norm();
+  const auto stopped = run(braked, {M / 2, 2 * M}, 1e-8);
+  CHECK(stopped.answer.used == Integrator::radau);
+  CHECK(stopped.answer.status == Status::event);
+  CHECK(stopped.answer.stop == Approx(M).epsilon(2e-6));
+  CHECK(stopped.states[0].angular_momentum.norm() == Approx(M / 2));
+  // of the carrier alone: the wheel keeps its share, and brings it back through the motor
+  braked.torques[0].opposed = Opposed::carrier_momentum;
+  const auto carrier = run(braked, {0.5, 1}, 1e-8);
+  CHECK(carrier.answer.used == Integrator::radau);
+  CHECK(carrier.answer.status == Status::reached);
+  auto soft = braked;
+  soft.wheels[0].slope = 100;
+  std::vector<State<double>> states(2);
+  FullMotionOptions<double> options;
+  options.tolerance = 1e-9, options.integrator = Integrator::radau;
+  const std::vector<double> times{0.5, 1};
+  const auto answer = full_motion<double>(soft, times, states, options);
+  REQUIRE(answer);
+  check_within(apart(soft, times, truth(soft, times), states), answer->error);
+}
+
 TEST_CASE("a brake that stops the body within a rounding of the time ends the motion", "[general]") {
   Problem<double> p;
   p.inertia = Vec3<double>(3, 2.4, 2).asDiagonal();
@@ -307,7 +521,7 @@ TEST_CASE("a brake that stops the body within a rounding of the time ends the mo
   brake.factor.on = {{2e-7, 4e-7}};
   const std::vector<double> times{1e-7, 5e-7};
   std::vector<State<double>> states(2);
-  MotionOptions<double> options;
+  FullMotionOptions<double> options;
   options.step_cap = 10'000;
   const auto answer = full_motion<double>(p, times, states, options);
   REQUIRE(answer);

@@ -45,7 +45,9 @@ TEST_CASE("energy and momentum balance with work and impulse", "[general]") {
   CHECK(answer.quantity("recognised")->values[0] == 0);
 }
 
-TEST_CASE("the full general equations refuse a stop, and wheels that settle too fast", "[general]") {
+TEST_CASE(
+    "the full general equations refuse a stop, wheels that settle too fast beside one, and what grows without end",
+    "[general]") {
   using namespace general_scenes;
   Problem<double> p = brick();
   p.torques = {torque(TorqueType::brake, {1, 1, 2}), torque(TorqueType::constant, {1e-3, 0, 0})};
@@ -56,8 +58,17 @@ TEST_CASE("the full general equations refuse a stop, and wheels that settle too 
   Problem<double> stiff = brick();
   stiff.wheels = {wheel(WheelType::motor, {1, 0, 0}), wheel(WheelType::motor, {0, 1, 0})};
   for (auto& each : stiff.wheels) each.slope = 1e6, each.no_load_rate = 10;
+  const Answer answered = solved(posed(stiff, question_at({1000})));
+  CHECK(answered.columns[0].error < 1e-6);
+  // damping as fast as the wheels is stiff in another way
+  stiff.torques = {damping(1e6 * Mat3<double>::Identity(), Opposed::angular_velocity)};
   general::solve(posed(stiff, question_at({1000})), refusal);
   CHECK(std::string_view(refusal.why) == too_stiff);
+  // a motion that grows without end
+  Problem<double> driven = brick();
+  driven.torques = {damping(-0.1 * Mat3<double>::Identity(), Opposed::angular_velocity)};
+  general::solve(posed(driven, question_at({1e5})), refusal);
+  CHECK(std::string_view(refusal.why) == why_outgrown);
   Problem<double> humming = brick();
   humming.torques = {torque(TorqueType::constant, {0.1, 0, 0})};
   humming.torques[0].factor.amplitude = 1, humming.torques[0].factor.rate = 1e10;

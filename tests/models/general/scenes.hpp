@@ -49,6 +49,31 @@ class Scenes {
     }
   }
 
+  /// A scene in which wheels settle `times` times over the span, or some of them more slowly.
+  Made stiff(double turns, double times) {
+    for (;;) {
+      Made made = next(turns);
+      auto& p = made.problem;
+      int fast = 0;
+      for (auto& wheel : p.wheels) {
+        if (wheel.type == WheelType::locked || wheel.type == WheelType::held) continue;
+        const double friction = wheel.axial_inertia / made.span * times * (fast++ > 0 ? scale(1e-5, 1) : 1);
+        // a wheel keeps the rate that its motor would bring it to
+        if (wheel.type == WheelType::torque || wheel.type == WheelType::free) wheel.type = WheelType::friction;
+        if (wheel.type == WheelType::motor) wheel.slope = friction, wheel.friction *= 1e-2;
+        else wheel.friction = friction, wheel.torque = 0, wheel.table = {};
+        if (wheel.type == WheelType::friction && unit() < 0.5) {
+          wheel.type = WheelType::torque;
+          wheel.torque = friction * wheel.rate * scale(0.1, 2);
+          if (unit() < 0.5) wheel.table = table(1, wheel.torque);
+        }
+      }
+      if (fast == 0 || check(p)) continue;
+      made.kind += " stiff";
+      return made;
+    }
+  }
+
   double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   double scale(double low, double high) { return std::exp(std::log(low) + unit() * std::log(high / low)); }
   std::mt19937_64& random() { return random_; }

@@ -71,20 +71,6 @@ TEST_CASE("zeros of a diagonal tensor stay", "[general]") {
   CHECK(Wheels<double>::of(p).inverse.isDiagonal(0));
 }
 
-TEST_CASE("one motor settles as the family rotor says", "[general]") {
-  auto p = body();
-  p.wheels.push_back(wheel(WheelType::motor));
-  p.wheels[0].slope = 0.3;
-  const auto rotor = rotor::Gyrostat<double>::make(p.inertia, p.wheels[0].axis, 0.2, 0.3, 1.);
-  REQUIRE(rotor);
-  CHECK(Wheels<double>::of(p).settling_rate() == Approx(rotor->relaxation_rate()));
-  p.wheels.push_back(wheel(WheelType::friction, {1, 0, 0}));
-  p.wheels[1].friction = 0.5;
-  const auto two = Wheels<double>::of(p);
-  CHECK(two.settling_rate() > 0.5 / 0.2);
-  CHECK(Wheels<double>::of(body()).settling_rate() == 0);
-}
-
 TEST_CASE("bodies and wheels that are none are refused by name", "[general]") {
   const auto fault = [](auto&& change) {
     auto p = body();

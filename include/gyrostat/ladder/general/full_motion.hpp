@@ -19,6 +19,7 @@
 #include "gyrostat/ladder/family.hpp"
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/honesty.hpp"
+#include "gyrostat/ladder/question.hpp"
 #include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/general/balances.hpp"
 #include "gyrostat/models/general/collected.hpp"
@@ -27,28 +28,21 @@
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/right_side.hpp"
 #include "gyrostat/models/general/sizes.hpp"
+#include "gyrostat/models/general/stiff.hpp"
 #include "gyrostat/models/general/wheels.hpp"
+#include "gyrostat/ode/radau.hpp"
 #include "gyrostat/ode/status.hpp"
 #include "gyrostat/ode/taylor.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-/// The full motion of a body with any wheels under any torques by Taylor series, piece by piece between breakpoints.
+/// The full motion of a body with any wheels under any torques, piece by piece between breakpoints: by Taylor series, or by collocation where
+/// wheels settle fast.
 namespace gyrostat::general {
 
 /// Places in full_columns.
 namespace full_column {
-enum : std::size_t {
-  attitude,
-  angular_velocity,
-  angular_momentum,
-  rotor_rate,
-  rotor_angle,
-  velocity,
-  position,
-  work,
-  impulse
-};
+enum : std::size_t { attitude, angular_velocity, angular_momentum, rotor_rate, rotor_angle, velocity, position };
 }
 
 /// What the full equations are compared by.
@@ -67,10 +61,6 @@ inline constexpr ColumnKind full_columns[] = {
     {"position", 3, "m", Frame::inertial, Measure::relative, "position of the mass centre, inertial axes",
      "the position at t = 0, the way at the velocity of t = 0, and what the force adds while the body turns by a "
      "radian"},
-    {"work", 1, "J", Frame::none, Measure::relative, "of all torques since t = 0",
-     "the energy of body and driven wheels at t = 0, or else what the torques build up"},
-    {"impulse", 3, "N m s", Frame::inertial, Measure::relative, "of the external torques since t = 0, inertial axes",
-     "that of angular_momentum"},
 };
 
 template <Real Scalar>
@@ -89,19 +79,13 @@ struct FullRow {
   explicit FullRow(const Prepared<S>& of) noexcept {
     using std::abs;
     const auto& sizes = of.sizes;
-    const auto& w = of.problem.angular_velocity;
-    S rate = w.norm(), energy = abs(w.dot(of.wheels.reduced * w)) / 2;
-    for (std::size_t i = 0; i < of.wheels.count; ++i) {
-      const auto& law = of.wheels.laws[i];
-      rate = std::max(rate, abs(law.rate));
-      if (law.follows >= Follows::integral) energy += law.momentum * law.momentum / (2 * law.axial_inertia);
-    }
+    S rate = of.problem.angular_velocity.norm();
+    for (std::size_t i = 0; i < of.wheels.count; ++i) rate = std::max(rate, abs(of.wheels.laws[i].rate));
     const S M = sizes.momentum();
     scale[full_column::angular_velocity] = M / sizes.greatest;
-    scale[full_column::angular_momentum] = scale[full_column::impulse] = M;
+    scale[full_column::angular_momentum] = M;
     scale[full_column::rotor_rate] = share * rate;
     scale[full_column::rotor_angle] = share;
-    scale[full_column::work] = energy > 0 ? energy : M * M / (2 * sizes.greatest);
     const S time = sizes.turning > 0 ? std::min(of.span, 1 / sizes.turning) : of.span;
     const S gain = (sizes.force / of.problem.mass + abs(of.problem.field.gravity)) * time,
             v = of.problem.velocity.norm();
@@ -118,8 +102,6 @@ struct FullRow {
     put(state.angular_velocity), put(state.angular_momentum);
     put(state.rotor_rate), put(state.rotor_angle);
     put(state.velocity), put(state.position);
-    *row++ = state.work;
-    put(state.impulse);
   }
 
  private:
@@ -127,16 +109,28 @@ struct FullRow {
 };
 
 template <Real Scalar>
-using FullMotionOptions = MotionOptions<Scalar>;
+struct FullMotionOptions : MotionOptions<Scalar> {
+  Integrator integrator = Integrator::any;
+};
 
 template <Real Scalar>
 struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
+  Integrator used = Integrator::taylor;
   /// Status::event: when a brake has brought what it opposes to a stop, or all but, s. The equations do not go through it.
   Scalar stop = nan<Scalar>;
+  /// Status::step_limit: the body turns far faster than foreseen, and would go on through an angle that no run reaches.
+  bool outgrown = false;
 };
 
 inline constexpr const char* why_stopped_by_brake =
     "a brake brings the momentum that it opposes to zero, and the full equations do not go through a stop";
+
+/// A motion is given up where the body turns so many times faster than its momentum and the torques let foresee, and would turn through
+/// this angle, rad, at the rate it has come to: no budget of steps reaches so far.
+inline constexpr double outgrown_rate = 1e3, outgrown_angle = 50 * unreachable_angle;
+inline constexpr const char* why_outgrown =
+    "the body turns ever faster, a thousand times faster than its momentum and the torques at the start let foresee: "
+    "something drives it, such as damping with a negative sign; ask for a shorter span";
 
 /// Angle, rad, that waves, fields and the orbit may go through: their phases are not known behind it.
 inline constexpr double most_forcing = 1e8;
@@ -157,21 +151,65 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
 
 namespace detail {
 
-/// One run of the equations over all pieces. cuts: the breakpoints. share: the first step of each piece ends at this share of it at
-/// the latest, for two runs that took it in one step would take the same polynomial, and err alike.
+/// So many wheels that settle fast have equations of their own size; most scenes have no more.
+inline constexpr int few_wheels = 4;
+
+/// The equations by Taylor series.
 template <Real Scalar, bool large>
-class FullCourse {
+struct Series {
+  static constexpr Integrator integrator = Integrator::taylor;
   using System = FullSystem<Scalar, large>;
   using Solver = ode::Taylor<System>;
+  using Numbers = typename System::Numbers;
+  static typename Solver::Options options(Scalar tolerance, Scalar, std::uint64_t step_cap) noexcept {
+    typename Solver::Options made;
+    made.tolerance = tolerance, made.step_cap = step_cap;
+    return made;
+  }
+};
+
+/// The same by collocation, with up to `most` wheels that settle.
+template <Real Scalar, int most>
+struct Collocation {
+  static constexpr Integrator integrator = Integrator::radau;
+  using System = StiffSystem<Scalar, most>;
+  using Solver = ode::Radau<System>;
+  using Numbers = typename System::Numbers;
+  static typename Solver::Options options(Scalar tolerance, Scalar inside, std::uint64_t step_cap) noexcept {
+    typename Solver::Options made;
+    made.tolerance = tolerance, made.inside = inside, made.step_cap = step_cap;
+    made.blur = 4;
+    return made;
+  }
+};
+
+/// What the steps of a run may err.
+template <Real Scalar>
+struct StepTolerance {
+  Scalar end;     ///< at their ends: these errors add up
+  Scalar inside;  ///< between them; of collocation alone
+};
+
+/// One run of the equations over all pieces. cuts: the breakpoints. share: the first step of each piece ends at this share of it at
+/// the latest, for two runs that took it in one step would take the same polynomial, and err alike.
+template <class Method>
+class FullCourse {
+  using System = typename Method::System;
+  using Solver = typename Method::Solver;
+  using Numbers = typename Method::Numbers;
 
  public:
-  FullCourse(const Problem<Scalar>& problem, Scalar span, std::span<const Scalar> cuts, Scalar share, Scalar tolerance,
-             std::uint64_t step_cap) noexcept
-      : of_(problem, span), cuts_(cuts), last_(span), share_(share) {
-    options_.tolerance = tolerance;
-    options_.step_cap = step_cap;
+  using Scalar = typename System::Scalar;
+
+  FullCourse(const Problem<Scalar>& problem, Scalar span, std::span<const Scalar> cuts, Scalar share,
+             const StepTolerance<Scalar>& tolerance, std::uint64_t step_cap) noexcept
+      : of_(problem, span),
+        cuts_(cuts),
+        last_(span),
+        share_(share),
+        options_(Method::options(tolerance.end, tolerance.inside, step_cap)) {
     piece_ = Piece<Scalar>::first(problem, of_.wheels, of_.torques, cuts.empty() ? span : cuts.front());
-    enter(0, first_numbers<Scalar, large>(of_));
+    enter(0, System::first_numbers(of_));
   }
   FullCourse(const FullCourse&) = delete;
   FullCourse& operator=(const FullCourse&) = delete;
@@ -183,12 +221,17 @@ class FullCourse {
     if (!(time() > piece_.from)) until = std::min(until, piece_.from + share_ * (piece_.to - piece_.from));
     const Scalar before = system_->has_brake() ? system_->braked(time(), solver_->state()) : infinity<Scalar>;
     // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
-    if (before < infinity<Scalar>) until = std::min(until, time() + (1 + share_) * before / (4 * of_.sizes.torque));
+    if (before < infinity<Scalar>) until = std::min(until, time() + (1 + share_) * before / (4 * system_->torque()));
     // and where the time cannot tell the rest of it
     const bool lost = before < infinity<Scalar> && !(until > time()) && t_max > time();
     if (lost || has_stopped(before, infinity<Scalar>)) return ode::Status::event;
+    const Scalar begin = time();
+    const Vec3<Scalar> heading = System::turned(solver_->state());
     const ode::Status status = solver_->step(until);
     if (status != ode::Status::reached) return status;
+    const Scalar rate = (System::turned(solver_->state()) - heading).norm() / (time() - begin);
+    outgrown_ = rate > Scalar(outgrown_rate) * of_.sizes.turning && rate * (last_ - begin) > Scalar(outgrown_angle);
+    if (outgrown_) return ode::Status::step_limit;
     if (before < infinity<Scalar> && has_stopped(system_->braked(time(), solver_->state()), before))
       return ode::Status::event;
     if (time() >= piece_.to && cut_ < cuts_.size()) {
@@ -202,16 +245,16 @@ class FullCourse {
 
   /// The state at t in the last step; where the piece ends with it, by the laws of the next.
   State<Scalar> at(Scalar t) const noexcept {
-    alignas(32) Scalar x[System::width];
-    solver_->at(t, x);
-    return next_ && t >= piece_.to ? state_of<Scalar, large>(of_, *next_, t, x) : system_->state(t, x);
+    alignas(32) Numbers x;
+    solver_->at(t, x.data());
+    return system_->state(next_ && t >= piece_.to ? *next_ : piece_, t, x.data());
   }
 
   /// The same by the laws of the piece that the last step is in, to its end.
   State<Scalar> inside(Scalar t) const noexcept {
-    alignas(32) Scalar x[System::width];
-    solver_->at(t, x);
-    return system_->state(t, x);
+    alignas(32) Numbers x;
+    solver_->at(t, x.data());
+    return system_->state(piece_, t, x.data());
   }
   Scalar previous_time() const noexcept { return solver_->previous_time(); }
 
@@ -221,18 +264,20 @@ class FullCourse {
     return all;
   }
   const Prepared<Scalar>& prepared() const noexcept { return of_; }
+  /// Whether the motion has been given up because it grows without end.
+  bool outgrown() const noexcept { return outgrown_; }
 
  private:
   /// Begins piece_ at t.
-  void enter(Scalar t, const typename System::Numbers& numbers) noexcept {
+  void enter(Scalar t, const Numbers& numbers) noexcept {
     system_.emplace(of_, piece_, numbers);
     options_.scale = system_->scale();
     solver_.emplace(*system_, t, numbers, options_);
   }
   /// Goes on to the next piece.
   void pass() noexcept {
-    typename System::Numbers numbers;
-    std::copy_n(solver_->state(), System::width, numbers.begin());
+    Numbers numbers;
+    std::copy_n(solver_->state(), numbers.size(), numbers.begin());
     const Scalar t = time();
     counts_ += solver_->counts();
     options_.step_cap -= std::min(options_.step_cap, solver_->counts().steps);
@@ -251,6 +296,7 @@ class FullCourse {
   Prepared<Scalar> of_;
   std::span<const Scalar> cuts_;
   Scalar last_, share_;
+  bool outgrown_ = false;
   std::size_t cut_ = 0;
   Piece<Scalar> piece_;
   std::optional<Piece<Scalar>> next_;
@@ -381,18 +427,14 @@ FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow
   }
   for (const auto column : {full_column::velocity, full_column::position})
     error[column] = 4 * relative * (size[column] + row.scale[column]);
-  // |J w| by the energy
-  const Scalar energy = size[full_column::work] + row.scale[full_column::work];
-  error[full_column::work] =
-      error[full_column::angular_velocity] * std::sqrt(2 * of.sizes.greatest * energy) + 4 * relative * energy;
-  error[full_column::impulse] =
-      2 * error[full_column::angular_momentum] + error[full_column::attitude] * size[full_column::angular_momentum];
   return error;
 }
 
-template <Real Scalar, bool large>
+template <class Method>
 class FullMotion {
  public:
+  using Scalar = typename Method::System::Scalar;
+
   FullMotion(const Problem<Scalar>& problem, std::span<const Scalar> times, std::span<State<Scalar>> states,
              const FullMotionOptions<Scalar>& options) noexcept
       : problem_(problem),
@@ -402,32 +444,38 @@ class FullMotion {
         cuts_(breakpoints(problem, times.back())) {}
 
   /// The answer's run and its neighbours' side by side, and their distance.
-  FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
+  FullMotionAnswer<Scalar> run(const StepTolerance<Scalar>& tolerance, double progress_from,
+                               double progress_to) const noexcept {
     constexpr Scalar eps = epsilon<Scalar>;
     FullMotionAnswer<Scalar> answer;
-    answer.step_tolerance = step_tolerance;
-    const Scalar tight = companion_step(step_tolerance), span = times_.back();
+    answer.used = Method::integrator;
+    answer.step_tolerance = tolerance.end;
+    const StepTolerance<Scalar> tight{companion_step(tolerance.end), companion_step(tolerance.inside)};
+    const Scalar span = times_.back();
     const auto one = beside(problem_, change, 0), two = beside(problem_, change, 1);
     // a course is large
-    const auto course = std::make_unique<Course>(problem_, span, cuts_, Scalar(1), step_tolerance, options_.step_cap);
-    const auto companion = std::make_unique<Course>(one, span, cuts_, Scalar(1) / 2, tight, options_.step_cap);
+    const auto begin = [&](const Problem<Scalar>& problem, int share, const StepTolerance<Scalar>& its) noexcept {
+      return std::make_unique<Course>(problem, span, cuts_, 1 / Scalar(share), its, options_.step_cap);
+    };
+    const auto course = begin(problem_, 1, tolerance), companion = begin(one, 2, tight);
     const auto& of = course->prepared();
     std::unique_ptr<Course> second;
-    if (rounding_rules(step_tolerance, condition_of(of.wheels)))
-      second = std::make_unique<Course>(two, span, cuts_, Scalar(1) / 3, tight, options_.step_cap);
+    if (rounding_rules(tolerance.end, condition_of(of.wheels))) second = begin(two, 3, tight);
     const FullRow<Scalar> row(of);
     // rounding at the asked times
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
-      return rounding_of_columns(of, row, size, 4 * eps + steps);
+      const Scalar between = Method::integrator == Integrator::radau ? 2 * tolerance.inside : 0;
+      return rounding_of_columns(of, row, size, 4 * eps + steps + between);
     };
     solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of.sizes.turning, times_,
                  states_, nowhere(), options_, progress_from, progress_to, rounding);
     if (answer.status == ode::Status::event) answer.stop = course->time();
+    answer.outgrown = course->outgrown() || companion->outgrown() || (second && second->outgrown());
     return answer;
   }
 
  private:
-  using Course = FullCourse<Scalar, large>;
+  using Course = FullCourse<Method>;
   static constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
 
   static State<Scalar> nowhere() noexcept {
@@ -445,16 +493,28 @@ class FullMotion {
   std::vector<Scalar> cuts_;
 };
 
-template <Real Scalar, bool large>
+template <class Method, Real Scalar>
 FullMotionAnswer<Scalar> full_motion_of(const Prepared<Scalar>& of, std::span<const Scalar> times,
                                         std::span<State<Scalar>> states,
                                         const FullMotionOptions<Scalar>& options) noexcept {
-  const FullMotion<Scalar, large> motion(of.problem, times, states, options);
+  const FullMotion<Method> motion(of.problem, times, states, options);
   const Scalar phase = of.sizes.turning * times.back();
   const Scalar first = first_step_tolerance<Scalar>(options.tolerance, phase, Scalar(honesty::loosest_step));
-  return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar, double begin, double end) noexcept {
-    return motion.run(step_tolerance, begin, end);
+  Scalar inside = options.tolerance / 512;
+  return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar by, double begin, double end) noexcept {
+    inside = std::max(step_tolerance, inside / by);
+    return motion.run({step_tolerance, inside}, begin, end);
   });
+}
+
+/// Calls with the method that suits a problem.
+template <Real Scalar, class Call>
+auto by_method(const Prepared<Scalar>& of, Integrator integrator, const Call& call) noexcept {
+  const bool collocates = integrator == Integrator::any ? of.is_stiff() : integrator == Integrator::radau;
+  if (collocates && of.settling.count <= few_wheels) return call(Collocation<Scalar, few_wheels>{});
+  if (collocates) return call(Collocation<Scalar, int(most_wheels)>{});
+  if (of.is_large()) return call(Series<Scalar, true>{});
+  return call(Series<Scalar, false>{});
 }
 
 }  // namespace detail
@@ -476,8 +536,9 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   const Prepared<Scalar> of(from, times.back());
   if (!(of.sizes.turning < infinity<Scalar>)) return Errc::not_finite;
   if (!(of.sizes.forcing * times.back() <= Scalar(most_forcing))) return Errc::out_of_domain;
-  return of.is_large() ? detail::full_motion_of<Scalar, true>(of, times, states, options)
-                       : detail::full_motion_of<Scalar, false>(of, times, states, options);
+  return detail::by_method(of, options.integrator, [&](auto method) noexcept {
+    return detail::full_motion_of<decltype(method)>(of, times, states, options);
+  });
 }
 
 /// How well energy and momentum of a motion up to `span` agree with what torques and motors have done.
@@ -491,22 +552,18 @@ template <Real Scalar>
 BalanceResiduals<Scalar> balance_residuals(const Problem<Scalar>& problem, Scalar span, Scalar step_tolerance,
                                            std::uint64_t step_cap = step_budget) noexcept {
   const auto cuts = breakpoints(problem, span);
-  const auto walk = [&](auto& course) noexcept -> BalanceResiduals<Scalar> {
-    Balances<Scalar> balances(problem, course.prepared().wheels);
-    while (course.time() < span) {
-      if (course.step(span) != ode::Status::reached) return {};
-      balances.add(course.previous_time(), course.time(), [&](Scalar t) noexcept { return course.inside(t); });
+  const Prepared<Scalar> of(problem, span);
+  return detail::by_method(of, Integrator::any, [&](auto method) noexcept -> BalanceResiduals<Scalar> {
+    const detail::StepTolerance<Scalar> tolerance{step_tolerance, step_tolerance};
+    const auto course =
+        std::make_unique<detail::FullCourse<decltype(method)>>(problem, span, cuts, Scalar(1), tolerance, step_cap);
+    Balances<Scalar> balances(problem, course->prepared().wheels);
+    while (course->time() < span) {
+      if (course->step(span) != ode::Status::reached) return {};
+      balances.add(course->previous_time(), course->time(), [&](Scalar t) noexcept { return course->inside(t); });
     }
     return {balances.energy(), balances.momentum()};
-  };
-  if (Prepared<Scalar>(problem, span).is_large()) {
-    const auto course =
-        std::make_unique<detail::FullCourse<Scalar, true>>(problem, span, cuts, Scalar(1), step_tolerance, step_cap);
-    return walk(*course);
-  }
-  const auto course =
-      std::make_unique<detail::FullCourse<Scalar, false>>(problem, span, cuts, Scalar(1), step_tolerance, step_cap);
-  return walk(*course);
+  });
 }
 
 #if defined(GYROSTAT_COMPILED)

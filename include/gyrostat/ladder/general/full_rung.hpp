@@ -19,8 +19,7 @@
 namespace gyrostat::general {
 
 inline constexpr const char* too_stiff =
-    "the wheels settle so fast that the full equations would take too many steps: leave out friction or slope that "
-    "hardly "
+    "wheels and damping both settle so fast that the full equations would take too many steps: leave out what hardly "
     "matters, or ask for a shorter span";
 
 inline constexpr const char* forcing_lost =
@@ -92,25 +91,30 @@ inline void balance(Track& track, const Scene& scene, double step_tolerance) noe
   track.momentum_balance = residuals.momentum;
 }
 
-/// Steps that a run takes at least so that wheels settle as they should.
+/// Steps that a run takes so that wheels settle as they should, or by Radau, which need not follow them, what damping there is.
 inline double settling_steps(const Scene& scene) noexcept {
-  return scene.wheels().settling_rate() * scene.question().times.back() / 8;
+  const double rate = scene.is_stiff() ? scene.sizes().damping : scene.settling_rate();
+  return rate * scene.question().times.back() / 8;
 }
 
 }  // namespace detail
 
 /// Of wheels and torques that need no states of their own; and of the others, and of a path that forces bend.
 inline constexpr SeriesCost small_series_cost{15e-6, 12e-6, 1e-6, 0.7}, large_series_cost{40e-6, 40e-6, 2e-6, 0.7};
+/// Of wheels that settle fast, by Radau: some forty short steps until they follow, then those that the body asks for.
+inline constexpr SeriesCost stiff_cost{800e-6, 20e-6, 3e-6, 1};
 
 inline double cost_of_full(const Scene& scene) noexcept {
   const auto& times = scene.question().times;
   const double phase = (scene.sizes().turning + scene.sizes().forcing) * times.back();
   const double tolerance = first_step_tolerance(scene.goal().tightest, phase, honesty::loosest_step);
-  const auto& cost = scene.is_large() ? large_series_cost : small_series_cost;
-  return cost(phase + detail::settling_steps(scene), tolerance, times.size()) + double(scene.breaks()) * 2 * cost.step;
+  const auto& cost = scene.is_stiff() ? stiff_cost : scene.is_large() ? large_series_cost : small_series_cost;
+  const double again = scene.is_stiff() ? 10 : 2;  // steps that a breakpoint costs
+  return cost(phase + detail::settling_steps(scene), tolerance, times.size()) +
+         double(scene.breaks()) * again * cost.step;
 }
 
-/// Rung `full`: the full equations by Taylor series.
+/// Rung `full`: the full equations by Taylor series, or by Radau where wheels settle fast.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
   const auto& times = question.times;
@@ -123,13 +127,15 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   const auto wanted = detail::wanted_of(scene, goal, row);
   Track track;
   track.states.resize(times.size());
-  MotionOptions<double> options;
+  FullMotionOptions<double> options;
+  options.integrator = question.integrator;
   options.tolerance = goal.tightest;
   options.wanted = wanted.of;
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(scene.problem(), times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status == ode::Status::event) return refused<Track>(Errc::not_applicable, why_stopped_by_brake);
+  if (answer->outgrown) return refused<Track>(Errc::step_limit, why_outgrown);
   if (answer->status != ode::Status::reached)
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   track.counts = answer->counts;

@@ -80,6 +80,8 @@ class Scene {
     scene.wheels_ = prepared.wheels;
     scene.sizes_ = prepared.sizes;
     scene.large_ = prepared.is_large();
+    scene.stiff_ = prepared.is_stiff();
+    scene.settling_rate_ = prepared.settling.fastest();
     scene.breaks_ = breakpoints(problem, question.times.back()).size();
     scene.recognised_ = recognised;
     if (recognised) scene.instances_ = recognise(problem, prepared.wheels, prepared.torques, question);
@@ -122,6 +124,10 @@ class Scene {
   const Sizes<double>& sizes() const noexcept { return sizes_; }
   /// The full equations have states beside attitude, momentum and the turn of the body.
   bool is_large() const noexcept { return large_; }
+  /// Wheels settle so fast that the full equations are solved by collocation.
+  bool is_stiff() const noexcept { return stiff_; }
+  /// The greatest rate at which wheels settle, 1/s.
+  double settling_rate() const noexcept { return settling_rate_; }
   /// Times at which a law changes.
   std::size_t breaks() const noexcept { return breaks_; }
   /// What is asked of the columns.
@@ -167,7 +173,8 @@ class Scene {
   std::optional<EulerAxes> euler_;
   Wheels<double> wheels_;
   Sizes<double> sizes_;
-  bool large_ = false, recognised_ = false;
+  bool large_ = false, stiff_ = false, recognised_ = false;
+  double settling_rate_ = 0;
   std::size_t breaks_ = 0;
   Instances instances_;
   Question question_;

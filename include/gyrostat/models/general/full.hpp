@@ -11,10 +11,12 @@
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/general/collected.hpp"
+#include "gyrostat/models/general/known_momentum.hpp"
 #include "gyrostat/models/general/parts.hpp"
 #include "gyrostat/models/general/piece.hpp"
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/series.hpp"
+#include "gyrostat/models/general/settling.hpp"
 #include "gyrostat/models/general/sizes.hpp"
 #include "gyrostat/models/general/surroundings.hpp"
 #include "gyrostat/models/general/wheels.hpp"
@@ -31,23 +33,33 @@ struct Prepared {
   const Problem<Scalar>& problem;
   Wheels<Scalar> wheels;
   Collected<Scalar> torques;
+  Settling<Scalar> settling;
   Vec3<Scalar> momentum{0, 0, 0};  ///< M at t = 0
   Scalar span = 0;                 ///< s
   Sizes<Scalar> sizes;
 
   /// A problem that check() finds right, for the times from 0 to `span`.
   Prepared(const Problem<Scalar>& of, Scalar span_) noexcept
-      : problem(of), wheels(Wheels<Scalar>::of(of)), torques(Collected<Scalar>::of(of, span_)), span(span_) {
+      : problem(of),
+        wheels(Wheels<Scalar>::of(of)),
+        torques(Collected<Scalar>::of(of, span_)),
+        settling(wheels),
+        span(span_) {
     momentum = wheels.reduced * of.angular_velocity + wheels.momentum_of_wheels();
     sizes = sizes_of(of, wheels, torques, span);
   }
+  /// Whether wheels settle so much faster than all else goes on, and so often, that Taylor steps, which cannot be longer than about 8 over
+  /// their rate, cost more than collocation.
+  bool is_stiff() const noexcept {
+    const Scalar fastest = settling.fastest(), pace = sizes.turning + sizes.forcing + sizes.damping;
+    return fastest > 30 * pace && fastest * span > 1000;
+  }
   /// Whether the full equations need the state with wheels and path.
   bool is_large() const noexcept {
-    for (const auto& law : wheels.laws)
-      if (law.follows == Follows::state) return true;
-    return std::any_of(torques.records.begin(), torques.records.end(), [](const auto& record) noexcept {
-      return !record.sum.force_body.isZero(0) || !record.sum.force_inertial.isZero(0);
-    });
+    return settling.count > 0 ||
+           std::any_of(torques.records.begin(), torques.records.end(), [](const auto& record) noexcept {
+             return !record.sum.force_body.isZero(0) || !record.sum.force_inertial.isZero(0);
+           });
   }
 };
 
@@ -75,6 +87,31 @@ std::array<Scalar, Places<large>::width> first_numbers(const Prepared<Scalar>& f
       x[At::angle + i] = law.angle;
     }
   return x;
+}
+
+/// What steps measure errors against: 1 for the quaternion and W (rad), the momenta for M, that of its own for p, what forces do in a
+/// radian's time for v.
+template <Real Scalar, bool large>
+std::array<Scalar, Places<large>::width> scale_of(const Prepared<Scalar>& of) noexcept {
+  using std::abs;
+  using At = Places<large>;
+  const Sizes<Scalar>& sizes = of.sizes;
+  // where nothing moves any scale will do, but zero would leave the component out
+  const auto positive = [](Scalar size) noexcept { return size > 0 ? size : Scalar(1); };
+  const Scalar M = positive(std::max(sizes.momenta, sizes.built / 64));
+  std::array<Scalar, At::width> made{1, 1, 1, 1, M, M, M, 0, 1, 1, 1, 0};
+  if constexpr (large) {
+    for (std::size_t i = 0; i < of.wheels.count; ++i) {
+      const auto& law = of.wheels.laws[i];
+      if (law.follows != Follows::state) continue;
+      const Scalar push = abs(law.torque), driven = std::min(law.axial_inertia * push / law.friction, push * of.span);
+      made[std::size_t(At::wheel) + i] =
+          positive(abs(law.momentum) + driven + std::min(M, law.axial_inertia * M / sizes.least));
+    }
+    const Scalar time = sizes.turning > 0 ? std::min(of.span, 1 / sizes.turning) : of.span;
+    for (std::size_t i = 0; i < 3; ++i) made[At::velocity + i] = sizes.force / of.problem.mass * time;
+  }
+  return made;
 }
 
 /// The state that numbers at t mean by the laws of a piece, without the torque.
@@ -175,15 +212,24 @@ class FullSystem {
   /// integral where all torque is inertial (then M gives way).
   void project(Scalar t, Scalar* x, Scalar* low) const noexcept;
 
-  State<Scalar> state(Scalar t, const Scalar* x) const noexcept { return state_of<Scalar, large>(of_, piece_, t, x); }
+  /// W, the integral of the angular velocity, rad.
+  static Vec3<Scalar> turned(const Scalar* x) noexcept { return {x[At::turned], x[At::turned + 1], x[At::turned + 2]}; }
+  static Numbers first_numbers(const Prepared<Scalar>& of) noexcept {
+    return general::first_numbers<Scalar, large>(of);
+  }
+  State<Scalar> state(Scalar t, const Scalar* x) const noexcept { return state(piece_, t, x); }
+  /// The same by the laws of another piece.
+  State<Scalar> state(const Piece<Scalar>& piece, Scalar t, const Scalar* x) const noexcept {
+    return state_of<Scalar, large>(of_, piece, t, x);
+  }
 
   /// What a brake opposes, N m s, by the numbers at t: the lesser of the two, if both laws are there; infinite without a brake.
   Scalar braked(Scalar t, const Scalar* x) const noexcept;
   bool has_brake() const noexcept { return sees_.total_brake || sees_.carrier_brake; }
+  /// A bound of the torques that take away what a brake opposes, N m: no motor does from M.
+  Scalar torque() const noexcept { return sees_.carrier_brake ? of_.sizes.torque : of_.sizes.external; }
 
-  /// What the steps measure errors against: 1 for the quaternion and W (rad), the momenta for M, that of its own for p, what forces do
-  /// in a radian's time for v.
-  Numbers scale() const noexcept;
+  Numbers scale() const noexcept { return scale_of<Scalar, large>(of_); }
 
  private:
   using Row = Lanes<Scalar>;
@@ -242,12 +288,6 @@ class FullSystem {
   void take_wheels() noexcept;
   void take_parts() noexcept;
 
-  /// R M at t, where all torque of the piece is inertial.
-  Vec3<Scalar> known_momentum(Scalar t) const noexcept {
-    const Scalar s = t - piece_.from;
-    return inertial_[0] + s * (inertial_[1] + s * (inertial_[2] + s * (inertial_[3] + s * inertial_[4])));
-  }
-
   const Prepared<Scalar>& of_;
   const Piece<Scalar>& piece_;
   Columns<Scalar> whole_;  ///< J
@@ -258,58 +298,20 @@ class FullSystem {
   int factors_ = 0;
   std::array<Part<Scalar>, most_factors> parts_;
   std::array<int, most_factors> source_{};  ///< of each part: its power of time, or 4 + the place of its wave
-  bool has_rest_ = false, wheels_move_ = false, polynomial_ = false, keeps_momentum_ = false, free_ = false;
+  bool has_rest_ = false, wheels_move_ = false, polynomial_ = false;
   int wheel_count_ = 0;
   std::array<int, most_wheels> wheel_{};  ///< those whose p is a state
   Row axes_[2][3], inverse_[2], friction_[2];
-  std::array<Vec3<Scalar>, 5> inertial_;  ///< of known_momentum
+  KnownMomentum<Scalar> known_;
 };
 
 template <Real Real_, bool large>
 FullSystem<Real_, large>::FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece,
                                      const Numbers& start) noexcept
-    : of_(of), piece_(piece), whole_(of.wheels.whole) {
+    : of_(of), piece_(piece), whole_(of.wheels.whole), known_(piece, start.data()) {
   if (of.problem.orbit) normal_ = cross<Scalar>(of.problem.orbit->radial, of.problem.orbit->along);
   take_parts();
   take_wheels();
-  // R M at the begin of the piece, and what inertial torque adds to it
-  inertial_.fill({0, 0, 0});
-  inertial_[0] = rotate<Scalar>(normalised(Quat<Scalar>{start[0], start[1], start[2], start[3]}),
-                                Vec3<Scalar>(start[4], start[5], start[6]));
-  keeps_momentum_ = piece.waves.empty();
-  free_ = keeps_momentum_;
-  for (std::size_t i = 0; i < 4; ++i) {
-    Terms<Scalar> left = piece.power[i];
-    free_ = free_ && !left.any_torque();
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Scalar c = left.inertial[j](0, 0);
-      if (left.inertial[j] == c * Mat3<Scalar>::Identity()) left.inertial[j].setZero();
-      inertial_[i + 1][int(j)] = c / Scalar(int(i) + 1);
-    }
-    keeps_momentum_ = keeps_momentum_ && !left.any_torque();
-  }
-}
-
-template <Real Real_, bool large>
-auto FullSystem<Real_, large>::scale() const noexcept -> Numbers {
-  const Sizes<Scalar>& sizes = of_.sizes;
-  // where nothing moves any scale will do, but zero would leave the component out
-  const auto positive = [](Scalar size) noexcept { return size > 0 ? size : Scalar(1); };
-  const Scalar M = positive(std::max(sizes.momenta, sizes.built / 64));
-  Numbers made{1, 1, 1, 1, M, M, M, 0, 1, 1, 1, 0};
-  if constexpr (large) {
-    for (int i = 0; i < wheel_count_; ++i) {
-      const auto wheel = std::size_t(wheel_[std::size_t(i)]);
-      const auto& law = of_.wheels.laws[wheel];
-      using std::abs;
-      const Scalar push = abs(law.torque), driven = std::min(law.axial_inertia * push / law.friction, push * of_.span);
-      made[std::size_t(At::wheel) + wheel] =
-          positive(abs(law.momentum) + driven + std::min(M, law.axial_inertia * M / sizes.least));
-    }
-    const Scalar time = sizes.turning > 0 ? std::min(of_.span, 1 / sizes.turning) : of_.span;
-    for (std::size_t i = 0; i < 3; ++i) made[At::velocity + i] = sizes.force / of_.problem.mass * time;
-  }
-  return made;
 }
 
 template <Real Real_, bool large>
@@ -762,14 +764,14 @@ void FullSystem<Real_, large>::project(Scalar t, Scalar* x, Scalar* low) const n
   const Scalar stretch = -excess / 2 - stretched;
   const Quat<Scalar> q{x[0], x[1], x[2], x[3]};
   Quat<Scalar> more{stretch * q.w, stretch * q.x, stretch * q.y, stretch * q.z};
-  if (keeps_momentum_) {
-    const Vec3<Scalar> M(x[4], x[5], x[6]), wanted = rotate<Scalar>(conjugate(q), known_momentum(t));
-    if (const Scalar size = M.norm(); free_ && size > 0) {
+  if (known_) {
+    const Vec3<Scalar> M(x[4], x[5], x[6]), wanted = rotate<Scalar>(conjugate(q), known_.at(t));
+    if (const Scalar size = M.norm(); known_.is_free() && size > 0) {
       // the turn d of the body with d x M = R^T L - M
       const Vec3<Scalar> d = cross<Scalar>(M / size, Vec3<Scalar>(wanted - M) / size);
-      const Quat<Scalar> turned = q * Quat<Scalar>{0, d[0] / 2, d[1] / 2, d[2] / 2};
-      more = {more.w + turned.w, more.x + turned.x, more.y + turned.y, more.z + turned.z};
-    } else if (!free_) {
+      const Quat<Scalar> tilt = q * Quat<Scalar>{0, d[0] / 2, d[1] / 2, d[2] / 2};
+      more = {more.w + tilt.w, more.x + tilt.x, more.y + tilt.y, more.z + tilt.z};
+    } else if (!known_.is_free()) {
       for (int i = 0; i < 3; ++i) {
         x[4 + i] = wanted[i];
         low[4 + i] = 0;

@@ -17,14 +17,16 @@ namespace gyrostat::general {
 
 template <Real Scalar>
 struct Sizes {
-  Scalar momenta = 0;  ///< of body and wheels at t = 0, their magnitudes summed, N m s
-  Scalar torque = 0;   ///< a bound of all torques but those that vanish with the motion, and of the motors, N m
-  Scalar force = 0;    ///< of the forces that move the mass centre, N
+  Scalar momenta = 0;   ///< of body and wheels at t = 0, their magnitudes summed, N m s
+  Scalar torque = 0;    ///< a bound of all torques but those that vanish with the motion, and of the motors, N m
+  Scalar external = 0;  ///< the same without the motors
+  Scalar force = 0;     ///< of the forces that move the mass centre, N
   Scalar built =
       0;  ///< momentum that the torques build up over the span, or until the body has turned by about a radian, N m s
   Scalar least = 1, greatest = 1;  ///< moments of J* and J, kg m^2
   Scalar turning = 0;              ///< how fast the body turns or could soon turn, of the order of |w|, rad/s
 
+  Scalar damping = 0;  ///< how fast torques that are linear in the motion change it, 1/s
   Scalar forcing = 0;  ///< the greatest rate at which waves, fields and the orbit go on by themselves, rad/s
 
   /// The momenta, or what the torques build up where there are none.
@@ -59,6 +61,14 @@ Scalar torque_size(const Problem<Scalar>& problem, const Terms<Scalar>& terms, S
          terms.eddy.norm() * field.flux_density.norm() * field.rate.norm();
 }
 
+/// How fast the torques of a record without its factor that are linear in the motion change it, 1/s.
+template <Real Scalar>
+Scalar damping_rate(const Problem<Scalar>& problem, const Terms<Scalar>& terms, Scalar least) noexcept {
+  Scalar sum = terms.by_rate.norm() / least + terms.by_momentum.norm();
+  if (!terms.eddy.isZero(0)) sum += terms.eddy.norm() * field_at(problem, Scalar(0)).flux_density.squaredNorm() / least;
+  return sum;
+}
+
 /// The greatest rate at which what acts goes on by itself, rad/s.
 template <Real Scalar>
 Scalar forcing_rate(const Problem<Scalar>& problem) noexcept {
@@ -88,6 +98,7 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
   made.least = symmetric_eigen<Scalar>(wheels.reduced).values[0];
   made.greatest = symmetric_eigen<Scalar>(wheels.whole).values[2];
   made.momenta = (wheels.reduced * problem.angular_velocity).norm() + wheels.rotor_momentum.norm();
+  Scalar motors = 0, given = 0;  // their torques, and the momentum that these give
   for (std::size_t i = 0; i < wheels.count; ++i) {
     const auto& law = wheels.laws[i];
     made.momenta += abs(law.momentum);
@@ -99,16 +110,23 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
     }
     Scalar push = abs(law.torque);
     for (const Scalar v : problem.wheels[i].table.values) push = std::max(push, abs(law.torque + v));
-    if (law.turns_by_itself()) made.torque += push + law.friction * abs(law.rate);
+    if (!law.turns_by_itself()) continue;
+    const Scalar torque = push + law.friction * abs(law.rate), settled = law.axial_inertia * torque;
+    motors += torque;
+    // a wheel that settles gives no more than what it comes to hold
+    given += law.friction * span > law.axial_inertia ? settled / law.friction : torque * span;
   }
   for (const auto& record : torques.records) {
     const Scalar factor = detail::greatest_factor(record.factor);
-    made.torque += factor * detail::torque_size(problem, record.sum, made.greatest);
+    made.external += factor * detail::torque_size(problem, record.sum, made.greatest);
+    made.damping += factor * detail::damping_rate(problem, record.sum, made.least);
     made.force += factor * (record.sum.force_body.norm() + record.sum.force_inertial.norm());
   }
   made.forcing = detail::forcing_rate(problem);
-  made.built = std::min(made.torque * span, sqrt(made.torque * made.greatest));
-  made.turning = made.momenta / made.least + std::min(made.torque * span / made.least, sqrt(made.torque / made.least));
+  made.torque = made.external + motors;
+  given += made.external * span;
+  made.built = std::min(given, sqrt(made.torque * made.greatest));
+  made.turning = made.momenta / made.least + std::min(given / made.least, sqrt(made.torque / made.least));
   return made;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
@@ -76,8 +75,6 @@ struct Wheels {
     }
     return sum;
   }
-  /// The greatest rate at which wheels with friction settle, 1/s: eigenvalue of diag(c) (diag(1/I) + U^T J*^-1 U). 0 without such.
-  Scalar settling_rate() const noexcept;
 };
 
 namespace detail {
@@ -214,21 +211,6 @@ Wheels<Scalar> Wheels<Scalar>::of(const Problem<Scalar>& problem) noexcept {
                                             : Mat3<Scalar>(made.reduced.inverse());
   made.inverse = ((made.inverse + made.inverse.transpose()) / 2).eval();
   return made;
-}
-
-template <Real Scalar>
-Scalar Wheels<Scalar>::settling_rate() const noexcept {
-  using std::sqrt;
-  // similar to the symmetric matrix C^1/2 (1/I + U^T J*^-1 U) C^1/2
-  constexpr int most = int(most_wheels);
-  Eigen::Matrix<Scalar, most, most> settling = Eigen::Matrix<Scalar, most, most>::Zero();
-  for (int i = 0; i < int(count); ++i)
-    for (int j = 0; j < int(count); ++j) {
-      const auto &a = laws[std::size_t(i)], &b = laws[std::size_t(j)];
-      const Scalar both = sqrt(a.friction) * sqrt(b.friction);
-      settling(i, j) = both * (a.axis.dot(inverse * b.axis) + (i == j && both > 0 ? 1 / a.axial_inertia : Scalar(0)));
-    }
-  return Eigen::SelfAdjointEigenSolver<decltype(settling)>(settling, Eigen::EigenvaluesOnly).eigenvalues()[most - 1];
 }
 
 }  // namespace gyrostat::general

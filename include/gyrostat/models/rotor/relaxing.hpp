@@ -19,7 +19,8 @@ template <Real Real_>
 class RelaxingRotor {
  public:
   using Scalar = Real_;
-  static constexpr int width = 8;
+  static constexpr int width = 8, relaxing = 1;
+  struct Moment {};  ///< nothing depends on the time
   using Components = std::array<Scalar, width + 1>;
 
   /// start: gives the angular momentum in inertial axes, which stays.
@@ -56,16 +57,18 @@ class RelaxingRotor {
     return {1, 1, 1, 1, momentum, momentum, momentum, 0, momentum};
   }
 
-  Scalar rate() const noexcept { return rate_; }
+  Scalar rate(int) const noexcept { return rate_; }
+  static Moment moment(const Lanes<Scalar>&) noexcept { return {}; }
 
-  GYROSTAT_INLINE Lanes<Scalar> source(const Lanes<Scalar>* y) const noexcept {
-    return multiply_add(lanes(source_[0]), y[4],
-                        multiply_add(lanes(source_[1]), y[5], multiply_add(lanes(source_[2]), y[6], lanes(drive_))));
+  GYROSTAT_INLINE void sources(const Moment&, const Lanes<Scalar>* y, Lanes<Scalar>* source) const noexcept {
+    *source = multiply_add(lanes(source_[0]), y[4],
+                           multiply_add(lanes(source_[1]), y[5], multiply_add(lanes(source_[2]), y[6], lanes(drive_))));
   }
 
-  GYROSTAT_INLINE void rates(const Lanes<Scalar>* y, const Lanes<Scalar>& p, Lanes<Scalar>* rate) const noexcept {
+  GYROSTAT_INLINE void rates(const Moment&, const Lanes<Scalar>* y, const Lanes<Scalar>* p,
+                             Lanes<Scalar>* rate) const noexcept {
     using Row = Lanes<Scalar>;
-    const Row minus_p = lanes(Scalar(0)) - p;
+    const Row minus_p = lanes(Scalar(0)) - *p;
     Row Omega[3], half[3];
     for (int i = 0; i < 3; ++i) {
       Omega[i] = lanes(inverse_[i]) * multiply_add(minus_p, lanes(axis_[i]), y[4 + i]);
@@ -81,7 +84,7 @@ class RelaxingRotor {
     rate[6] = y[4] * Omega[1] - y[5] * Omega[0];
     const Row along =
         multiply_add(lanes(axis_[0]), Omega[0], multiply_add(lanes(axis_[1]), Omega[1], lanes(axis_[2]) * Omega[2]));
-    rate[7] = lanes(per_axial_inertia_) * p - along;
+    rate[7] = lanes(per_axial_inertia_) * *p - along;
   }
 
   /// |q| = 1, and H = P^T L with the L of the start. Both to rounding of x + low.

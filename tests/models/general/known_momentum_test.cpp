@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/models/general/known_momentum.hpp"
+
+#include "catch.hpp"
+#include "gyrostat/models/general/full.hpp"
+
+namespace general_known_momentum_test {
+
+using namespace gyrostat;
+using namespace gyrostat::general;
+
+KnownMomentum<double> known(const Problem<double>& p, double span) {
+  const Prepared<double> of(p, span);
+  const auto piece = Piece<double>::first(p, of.wheels, of.torques, span);
+  return {piece, first_numbers<double, false>(of).data()};
+}
+
+TEST_CASE("the momentum is known where all torque is inertial", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
+  p.angular_velocity = {0.1, 0.2, 0.3};
+  p.attitude = normalised(Quat<double>{1, 0.3, -0.2, 0.5});
+  const Vec3<double> start = rotate<double>(p.attitude, Vec3<double>(p.inertia * p.angular_velocity));
+  CHECK(known(p, 3).is_free());
+  CHECK((known(p, 3).at(2) - start).norm() < 1e-15);
+  auto& torque = p.torques.emplace_back();
+  torque.type = TorqueType::table, torque.axes = Axes::inertial;
+  torque.table = {{0, 4}, {1, 0, 2, 5, 4, 2}, Between::linear, true};
+  const auto driven = known(p, 3);
+  CHECK((driven && !driven.is_free()));
+  CHECK((driven.at(2) - start - Vec3<double>(4, 2, 4)).norm() < 1e-14);
+  torque.axes = Axes::body;
+  CHECK_FALSE(known(p, 3));
+  torque.axes = Axes::inertial, torque.type = TorqueType::constant, torque.vector = {1, 0, 0};
+  torque.factor.amplitude = 1, torque.factor.rate = 2;
+  CHECK_FALSE(known(p, 3));
+}
+
+}  // namespace general_known_momentum_test
