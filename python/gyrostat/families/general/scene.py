@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from gyrostat.broadcast import Floats
-from gyrostat.families.general.functions import PLANETS, orbit_start
+from gyrostat.families.general.functions import PLANETS, diagonal, dot, orbit_start, posed, stacked, turned
 from gyrostat.fields import REQUIRED, UNSET, Choices, Field, Found, Table, Values
 from gyrostat.rotation import matrix_from_quaternion, quaternion_from_matrix
 
@@ -255,10 +255,10 @@ def _torque_mistakes(place: int, torque: Mapping[str, Any], orbiting: bool, fixe
 
 def _about_reference(body: Mapping[str, Any]) -> Floats:
     """The inertia about the fixed point, or the mass centre of a free body."""
-    inertia = np.array(body["inertia"], dtype=float)
-    inertia = np.diag(inertia) if inertia.ndim == 1 else inertia
-    r = np.array(body["centre_of_mass"], dtype=float)
-    steiner: Floats = body["mass"] * (float(r @ r) * np.eye(3) - np.outer(r, r))
+    inertia = stacked(body["inertia"])
+    inertia = inertia if isinstance(body["inertia"][0], tuple) else diagonal(inertia)
+    r, mass = stacked(body["centre_of_mass"]), np.asarray(body["mass"], dtype=float)[..., None, None]
+    steiner: Floats = mass * (dot(r, r)[..., None, None] * np.eye(3) - r[..., :, None] * r[..., None, :])
     if body["inertia_about"] == "mass-centre" and body["fixed"]:
         inertia = inertia + steiner
     if body["inertia_about"] == "origin" and not body["fixed"]:
@@ -267,29 +267,33 @@ def _about_reference(body: Mapping[str, Any]) -> Floats:
     return made
 
 
+def _rotation(attitude: Floats) -> Floats:
+    """That of an attitude; none where it is not known."""
+    return matrix_from_quaternion(np.where(np.isfinite(attitude), attitude, (0.0, 0.0, 0.0, 1.0)))
+
+
 def _start(scene: "Scene", inertia: Floats, orbit: Mapping[str, Any] | None) -> tuple[Floats, Floats]:
     """Attitude and angular velocity at t = 0."""
     start = scene.tables["initial"]
-    attitude: Floats = np.array(start["attitude"], dtype=float)
+    attitude = stacked(start["attitude"])
     axes, normal_rate = (np.eye(3), np.zeros(3)) if orbit is None else orbit_start(orbit)
     if start["relative_to"] == "orbit":
-        attitude = quaternion_from_matrix(axes @ matrix_from_quaternion(attitude))
-    R: Floats = matrix_from_quaternion(attitude)
+        R = _rotation(attitude)
+        attitude = quaternion_from_matrix(np.stack([turned(axes, R[..., :, i]) for i in range(3)], -1))
+    back = np.swapaxes(_rotation(attitude), -1, -2)
     given = start["angular_velocity"]
     if start["angular_momentum"] is not UNSET:
         # rates of wheels are relative to the body: with them J is that of the whole
-        held = np.array(scene.tables["body"]["rotor_momentum"], dtype=float)
-        for wheel in scene.top["wheel"]:
-            axis = np.array(wheel["axis"], dtype=float) / math.hypot(*wheel["axis"])
-            rate = wheel.get("rate") or 0.0
-            first = rate["values"][0] if isinstance(rate, Mapping) else rate
-            held = held + axis * (wheel["momentum"] if wheel.get("momentum") is not UNSET else wheel["axial_inertia"] * first)
-        return attitude, np.linalg.solve(inertia, np.array(start["angular_momentum"], dtype=float) - held)
+        held = stacked(scene.tables["body"]["rotor_momentum"])
+        for wheel in posed(inertia=inertia, wheels=scene.top["wheel"])["wheels"]:
+            first = wheel["rate"] if wheel["table"] is None or wheel["type"] != "held" else wheel["table"]["values"][..., 0, 0]
+            held = held + wheel["axis"] * np.asarray(wheel["axial_inertia"] * first)[..., None]
+        return attitude, np.linalg.solve(inertia, (stacked(start["angular_momentum"]) - held)[..., None])[..., 0]
     if not isinstance(given, Mapping):
-        return attitude, np.array(given, dtype=float)
+        return attitude, stacked(given)
     if given["inertial"] is not UNSET:
-        return attitude, R.T @ np.array(given["inertial"], dtype=float)
-    return attitude, np.array(given["relative_to_orbit"], dtype=float) + R.T @ normal_rate
+        return attitude, turned(back, stacked(given["inertial"]))
+    return attitude, stacked(given["relative_to_orbit"]) + turned(back, normal_rate)
 
 
 def arguments(scene: "Scene") -> dict[str, Any]:
@@ -302,10 +306,10 @@ def arguments(scene: "Scene") -> dict[str, Any]:
     inertia = _about_reference(body)
     attitude, angular_velocity = _start(scene, inertia, orbit)
     return {
-        "inertia": inertia, "mass": body["mass"], "centre_of_mass": np.array(body["centre_of_mass"], dtype=float), "fixed": body["fixed"],
-        "rotor_momentum": np.array(body["rotor_momentum"], dtype=float), "wheels": [dict(each) for each in scene.top["wheel"]],
+        "inertia": inertia, "mass": body["mass"], "centre_of_mass": stacked(body["centre_of_mass"]), "fixed": body["fixed"],
+        "rotor_momentum": stacked(body["rotor_momentum"]), "wheels": [dict(each) for each in scene.top["wheel"]],
         "torques": [dict(each) for each in scene.top["torque"]], "orbit": None if orbit is None else dict(orbit), "field": field, "attitude": attitude,
-        "angular_velocity": angular_velocity, "velocity": np.array(start["velocity"], dtype=float),
-        "position": np.array(start["position"], dtype=float), "times": scene.times, "tolerance": solving["tolerance"], "model": solving["model"],
+        "angular_velocity": angular_velocity, "velocity": stacked(start["velocity"]),
+        "position": stacked(start["position"]), "times": scene.times, "tolerance": solving["tolerance"], "model": solving["model"],
         "integrator": solving["integrator"], "recognise": solving["recognise"],
     }
