@@ -21,7 +21,7 @@ from gyrostat.broadcast import Floats
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 
-__all__ = ["PLANETS", "Monitor", "orbit_start", "recognise", "solve"]
+__all__ = ["PLANETS", "Monitor", "integrate", "orbit_start", "recognise", "solve"]
 
 # The keys of a table [[wheel]], [[torque]], [orbit] or [field] of a scene file, in SI units.
 Record = Mapping[str, Any]
@@ -257,3 +257,16 @@ def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLi
                   centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
     found = _core.general_recognise(scene=scene, times=np.asarray(times, dtype=float))
     return {name: why or "" for name, why in found}
+
+
+def integrate(*, times: ArrayLike, method: str, tolerance: float, order: int = 20, precision: str = "double", patience: float = math.inf,
+              **physics: Any) -> dict[str, Any]:
+    """The full equations under one integrator, timed, anew from each time at which a torque or a wheel changes its law.
+
+    physics : arguments of `solve` that are no question; times as there; method : taylor (of order 8, 12 or 20; in long double 30), dop853, and where
+    the build has them cvode-adams and cvode-bdf; patience : CPU time after which it gives up [s].
+    Returns columns attitude and angular_velocity, seconds, rhs, steps and status. Raises DomainError.
+    """
+    made: dict[str, Any] = _core.general_integrate(scene=posed(**physics), times=np.asarray(times, dtype=float), method=method, order=order,
+                                                   tolerance=tolerance, precision=precision, patience=patience)
+    return made

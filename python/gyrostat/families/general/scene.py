@@ -269,7 +269,8 @@ def _about_reference(body: Mapping[str, Any]) -> Floats:
 
 def _rotation(attitude: Floats) -> Floats:
     """That of an attitude; none where it is not known."""
-    return matrix_from_quaternion(np.where(np.isfinite(attitude), attitude, (0.0, 0.0, 0.0, 1.0)))
+    known = np.all(np.isfinite(attitude), -1, keepdims=True)
+    return matrix_from_quaternion(np.where(known, attitude, (0.0, 0.0, 0.0, 1.0)))
 
 
 def _start(scene: "Scene", inertia: Floats, orbit: Mapping[str, Any] | None) -> tuple[Floats, Floats]:
@@ -278,8 +279,9 @@ def _start(scene: "Scene", inertia: Floats, orbit: Mapping[str, Any] | None) -> 
     attitude = stacked(start["attitude"])
     axes, normal_rate = (np.eye(3), np.zeros(3)) if orbit is None else orbit_start(orbit)
     if start["relative_to"] == "orbit":
-        R = _rotation(attitude)
-        attitude = quaternion_from_matrix(np.stack([turned(axes, R[..., :, i]) for i in range(3)], -1))
+        R, known = _rotation(attitude), np.all(np.isfinite(attitude), -1, keepdims=True)
+        sound = np.where(np.all(np.isfinite(axes), (-2, -1), keepdims=True), axes, np.eye(3))
+        attitude = np.where(known, quaternion_from_matrix(np.stack([turned(sound, R[..., :, i]) for i in range(3)], -1)), np.nan)
     back = np.swapaxes(_rotation(attitude), -1, -2)
     given = start["angular_velocity"]
     if start["angular_momentum"] is not UNSET:
