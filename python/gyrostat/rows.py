@@ -181,7 +181,7 @@ def _unknown(family: Family, key: str) -> DomainError:
 
 def place_of(scene: "Scene", key: str) -> Place:
     """Where a number is: "torque.drag", "torque.control[0]" (counted from 0), "body.inertia[0,1]", "wheel[1].rate", "wheel[0].axis[2]",
-    "torque[0].factor.mean"; the table may be left out where one only has the key. Raises DomainError."""
+    "torque[0].factor.mean", "wheel.pitch.rate" of the one named pitch; the table may be left out where one only has the key. Raises DomainError."""
     place = _located(scene, key)
     if place.field.form == "choice" and not FAMILIES[scene.kind].facts.inputs:
         raise DomainError(f"{key}: this is a word; in scenes of the kind {scene.kind} numbers alone vary")
@@ -190,6 +190,7 @@ def place_of(scene: "Scene", key: str) -> Place:
 
 def _located(scene: "Scene", key: str) -> Place:
     bare = key.replace(" ", "").replace("][", ",")
+    named = re.fullmatch(r"([\w-]+)\.([\w-]+)\.(.+)", bare)
     element = re.fullmatch(r"([\w-]+)\[(\d+)\]\.([\w.-]+)(?:\[(\d+(?:,\d+)?)\])?", bare)
     single = re.fullmatch(r"([\w.-]+)(?:\[(\d+(?:,\d+)?)\])?", bare)
     family = FAMILIES[scene.kind]
@@ -197,6 +198,9 @@ def _located(scene: "Scene", key: str) -> Place:
     for full, table, field in inputs_of(family):
         value = _value(scene, table, field)
         if field.form == "records":
+            names = [str(item.get("name") or "").replace(" ", "") for item in value]
+            if named and named[1] == full and names.count(named[2]) == 1:
+                return _located(scene, f"{full}[{names.index(named[2])}].{named[3]}")
             if element and element[1] == full:
                 place = int(element[2])
                 if place >= len(value):

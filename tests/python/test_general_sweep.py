@@ -180,6 +180,16 @@ def test_a_brake_that_stops_the_body_is_a_reason_or_a_stop_time() -> None:
     assert rows["reason"].values[1] == "" or "brake" in rows["reason"].values[1]
 
 
+def test_wheels_and_torques_go_by_their_names_too() -> None:
+    scene = SCENES["cubesat-three-wheels"]
+    assert place_of(scene, "wheel.y.torque.values[0]") == place_of(scene, "wheel[1].torque.values[0]")
+    assert place_of(scene, "wheel.z.axis[2]").key == "wheel[2].axis[2]"
+    with pytest.raises(DomainError, match="can vary"):
+        place_of(scene, "wheel.pitch.rate")
+    with pytest.raises(DomainError, match="twice"):
+        sweep(scene, {"wheel.z.rate": [1.0, 2.0], "wheel[2].rate": [1.0, 2.0]})
+
+
 @pytest.mark.parametrize(("key", "told"), [
     ("wheel[7].rate", "the scene has 3 of wheel"), ("wheel[0].typ", "it has type, axis, axial_inertia"), ("wheel[0].type", "numbers alone"),
     ("body.fixed", "can vary"), ("wheel[0].rate", "no value"), ("wheel[0].axis", r"wheel\[0\].axis\[0\]"), ("body.mass[1]", "one number"),

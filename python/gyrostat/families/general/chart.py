@@ -87,9 +87,11 @@ def _table(table: Mapping[str, Any]) -> Law:
         h = times[i + 1] - times[i]
         s = (t - times[i]) / h
         if kind == "linear":
-            return values[i] + s * (values[i + 1] - values[i])
-        return ((1 + 2 * s) * (1 - s) ** 2 * values[i] + s * s * (3 - 2 * s) * values[i + 1]
+            made = values[i] + s * (values[i + 1] - values[i])
+            return made
+        made = ((1 + 2 * s) * (1 - s) ** 2 * values[i] + s * s * (3 - 2 * s) * values[i + 1]
                 + h * s * (1 - s) * ((1 - s) * slopes[i] - s * slopes[i + 1]))
+        return made
 
     return law
 

@@ -32,9 +32,9 @@ def request(scene: "Scene", places: Iterable[Place], columns: Iterable[Floats], 
             numbers[number] = np.where(sound, column, numbers[number]).view(OverRows)
     alone, varied = _posed(scene), _posed(_with_numbers(scene, iter(numbers)))
     given, names = _core.general_numbers(alone)
-    at, values = [], []
-    leaves, first = dict(_leaves(varied)), 0
-    single = dict(_leaves(alone))
+    at: list[int] = []
+    values: list[Floats] = []
+    leaves, single, first = dict(_leaves(varied)), dict(_leaves(alone)), 0
     for name, width in names:
         if width and np.ndim(leaves[name]) > np.ndim(single[name]):
             at += range(first, first + width)
