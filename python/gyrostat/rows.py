@@ -119,7 +119,7 @@ class Place:
     """Where the number of a key is in the row, and what it may be."""
 
     key: str  # in full, such as "torque.control[0]"
-    numbers: tuple[int, ...]  # two of a product of inertia
+    numbers: tuple[int, ...]  # two of a product of inertia, three of a coefficient that stands for a matrix
     field: Field
     product: bool = False  # a product of inertia, which the bounds of the field do not hold for
 
@@ -164,6 +164,12 @@ def _indices(key: str, text: str | None, field: Field, value: Any) -> tuple[int,
         return tuple({3 * i + j, 3 * j + i})
     if field.form == "inertia" and len(found) == 1 and not tensor and found[0] < 3:
         return (4 * found[0],)
+    if field.form == "matrix" and len(found) < 2:
+        moments, off = np.diag(value), np.array(value) - np.diag(np.diag(value))
+        if not found and not np.any(off) and np.all(moments == moments[0]):
+            return (0, 4, 8)  # one number for all axes
+        if found and found[0] < 3 and not np.any(off):
+            return (4 * found[0],)
     if width and len(found) == 2 and found[1] < width and width * found[0] < components:
         return (width * found[0] + found[1],)
     if field.form == "inertia" or width or len(found) != 1 or found[0] >= components:

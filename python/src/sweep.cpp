@@ -196,7 +196,7 @@ py::typing::Tuple<py::array_t<double>, py::typing::List<py::typing::Tuple<py::st
 Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector<std::size_t>& places,
                 const Array& values, const Array& at, double tolerance, const std::string& model,
                 const std::string& integrator, const std::string& elliptic, const Ask& ask, unsigned threads,
-                const std::optional<std::shared_ptr<Monitor>>& monitor, const std::optional<py::dict>& scene,
+                const std::optional<std::shared_ptr<Monitor>>& monitor, const std::optional<Data>& scene,
                 bool recognise) {
   require_shape("numbers", numbers, {-1});
   require_shape("values", values, {py::ssize_t(places.size()), -1});

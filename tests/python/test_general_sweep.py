@@ -130,7 +130,8 @@ def test_a_row_of_any_number_is_what_the_scene_with_that_number_comes_to(name: s
 
 def test_numbers_that_vary_together_are_converted_together() -> None:
     scene = SCENES["altitude"]
-    varied = {"orbit.altitude": "normal(400 km, 5 km)", "orbit.radial[1]": "uniform(-0.3, 0.3)", "initial.angular_velocity.relative_to_orbit[1]": "normal(0, 0.1 deg/s)",
+    varied = {"orbit.altitude": "normal(400 km, 5 km)", "orbit.radial[1]": "uniform(-0.3, 0.3)",
+              "initial.angular_velocity.relative_to_orbit[1]": "normal(0, 0.1 deg/s)",
               "body.inertia[0][1]": "normal(0.1, 5%)", "initial.attitude[3]": "uniform(0.5, 1.5)"}
     rows = sweep(scene, varied, n=40, seed=3)
     for row in (0, 17, 39):
@@ -141,6 +142,18 @@ def test_numbers_that_vary_together_are_converted_together() -> None:
         data["initial"]["attitude"] = [0.0, 0.0, 0.0, float(rows["initial.attitude[3]"].values[row])]
         answer = gyrostat.solve(data)
         assert all(rows[column].values[row].tobytes() == answer[column].tobytes() for column in answer.error)
+
+
+def test_a_coefficient_that_stands_for_a_matrix_is_one_number_or_three() -> None:
+    scene = SCENES["about-origin"]
+    whole, part = sweep(scene, {"torque[2].coefficient": [0.01, 0.03]}), sweep(scene, {"torque[2].coefficient[1]": [0.01, 0.03]})
+    data = written(scene)
+    for rows, value in ((whole, 0.03), (part, [0.01, 0.03, 0.01])):
+        data["torque"][2]["coefficient"] = value
+        answer = gyrostat.solve(data)
+        assert all(rows[column].values[1].tobytes() == answer[column].tobytes() for column in answer.error)
+    with pytest.raises(DomainError, match="one component varies"):
+        place_of(SCENES["fixed"], "torque[1].matrix")
 
 
 @pytest.mark.parametrize("settings", [{"threads": 1}, {"threads": 5}, {"chunk": 7}])
@@ -157,8 +170,8 @@ def test_threads_chunks_and_shards_change_no_bit(settings: dict[str, int]) -> No
 
 def test_rows_without_an_answer_say_why() -> None:
     scene = SCENES["about-origin"]
-    rows = sweep(scene, cases={"wheel[0].axis[0]": [1.0, 0.0, 1.0, 1.0, 1.0], "body.mass": [2.0, 2.0, -1.0, 60.0, 2.0], "wheel[2].friction": [0.0, 1e-3, 0, 0, -1.0],
-                               "torque[1].times[1]": [1.0, 1.0, 1.0, 1.0, 1.0]})
+    rows = sweep(scene, cases={"wheel[0].axis[0]": [1.0, 0.0, 1.0, 1.0, 1.0], "body.mass": [2.0, 2.0, -1.0, 60.0, 2.0],
+                               "wheel[2].friction": [0.0, 1e-3, 0, 0, -1.0], "torque[1].times[1]": [1.0, 1.0, 1.0, 1.0, 1.0]})
     assert rows["reason"].values.tolist()[:3] == ["", "", "body.mass is not > 0"]
     assert rows["reason"].values[3] == "a number that must be positive is not" and rows["reason"].values[4] == "wheel[2].friction is not >= 0"
     assert np.isnan(rows["angular_velocity"].values[2:]).all()

@@ -219,7 +219,8 @@ class Rival:
             return v if torque["axes"] == "body" else R.T @ v
 
         def opposed(w: Floats, M: Floats) -> Floats:
-            return {"angular-velocity": w, "momentum": M, "carrier-momentum": J @ w}[torque["opposed"]]
+            known: dict[str, Floats] = {"angular-velocity": w, "momentum": M, "carrier-momentum": J @ w}
+            return known[torque["opposed"]]
 
         def gradient(t: float, R: Floats, w: Floats, M: Floats) -> Floats:
             if torque["gradient"] is not None:
@@ -233,7 +234,8 @@ class Rival:
         def eddy(t: float, R: Floats, w: Floats, M: Floats) -> Floats:
             flux, rate = around.flux(t)
             B = R.T @ flux
-            return np.cross(matrix @ (np.cross(w, B) - R.T @ rate), B)
+            made: Floats = np.cross(matrix @ (np.cross(w, B) - R.T @ rate), B)
+            return made
 
         def brake(t: float, R: Floats, w: Floats, M: Floats) -> Floats:
             U = opposed(w, M)
@@ -241,13 +243,13 @@ class Rival:
             return made
 
         arm = torque["point"] - (0.0 if body["fixed"] else body["centre_of_mass"])
-        known: dict[str, Callable[[float, Floats, Floats, Floats], Any]] = {
+        laws: dict[str, Callable[[float, Floats, Floats, Floats], Any]] = {
             "constant": lambda t, R, w, M: in_body(t, R, vector), "table": lambda t, R, w, M: in_body(t, R, table(t)) if table else None,
             "damping": lambda t, R, w, M: -matrix @ opposed(w, M), "brake": brake, "gravity-gradient": gradient, "eddy-current": eddy,
             "weight": lambda t, R, w, M: body["mass"] * field["gravity"] * np.cross(body["centre_of_mass"], R.T @ field["down"]),
             "magnetic": lambda t, R, w, M: np.cross(vector, R.T @ around.flux(t)[0]),
             "thrust": lambda t, R, w, M: np.cross(arm, in_body(t, R, vector)), "charge": lambda t, R, w, M: np.cross(w, vector)}
-        return known[kind]
+        return laws[kind]
 
     def columns(self, states: Floats) -> dict[str, Any]:
         """(n, numbers), at the times that are charted, -> columns."""

@@ -290,8 +290,7 @@ def _start(scene: "Scene", inertia: Floats, orbit: Mapping[str, Any] | None) -> 
         for wheel in posed(inertia=inertia, wheels=scene.top["wheel"])["wheels"]:
             first = wheel["rate"] if wheel["table"] is None or wheel["type"] != "held" else wheel["table"]["values"][..., 0, 0]
             held = held + wheel["axis"] * np.asarray(wheel["axial_inertia"] * first)[..., None]
-        rates: Floats = np.linalg.solve(inertia, (stacked(start["angular_momentum"]) - held)[..., None])[..., 0]
-        return attitude, rates
+        return attitude, np.linalg.solve(inertia, (stacked(start["angular_momentum"]) - held)[..., None])[..., 0].astype(np.float64)
     if not isinstance(given, Mapping):
         return attitude, stacked(given)
     if given["inertial"] is not UNSET:
