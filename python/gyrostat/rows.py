@@ -217,6 +217,9 @@ def _located(scene: "Scene", key: str) -> Place:
             if value is None:
                 raise _not_given(full)
             return _part(key, (full, full), parts, value, first, (single[1].removeprefix(f"{full}."), single[2]))
+        elif parts and single and single[1] == full:
+            given = [part.name for part in parts if value is not None and value[part.name] is not None]
+            raise DomainError(f"{key}: {full} is given by keys of its own; name one of them, such as {full}.{given[0]}" if given else str(_not_given(full)))
         elif not parts and single and (single[1] == full or (single[1] == field.name and _alone(family, field.name))):
             return _place(full, field, value, first, single[2])
         first += sum(1 for _ in _numbers(field, value))

@@ -154,6 +154,8 @@ def test_a_coefficient_that_stands_for_a_matrix_is_one_number_or_three() -> None
         assert all(rows[column].values[1].tobytes() == answer[column].tobytes() for column in answer.error)
     with pytest.raises(DomainError, match="one component varies"):
         place_of(SCENES["fixed"], "torque[1].matrix")
+    with pytest.raises(DomainError, match="such as initial.angular_velocity.inertial"):
+        place_of(SCENES["period"], "initial.angular_velocity[0]")
 
 
 @pytest.mark.parametrize("settings", [{"threads": 1}, {"threads": 5}, {"chunk": 7}])
