@@ -143,10 +143,14 @@ std::size_t rotors_of(const Scene& scene) {
   else return 0;
 }
 
-template <class SceneOf, class Solve>
-Data rows_of(const Family& family, const SceneOf& scene_of, const Solve& solve, const Question& question, bool cvode,
-             const Rows& rows) {
-  const auto posed = [&](std::span<const double> numbers) {
+/// The scene of a row, asked what the question asks.
+template <class SceneOf>
+struct Posed {
+  const SceneOf& scene_of;
+  const Question& question;
+  bool cvode;
+
+  auto operator()(std::span<const double> numbers) const {
     auto scene = scene_of(numbers, question);
     using Scene = std::remove_cvref_t<decltype(*scene)>;
     if constexpr (requires(Scene s) { s.full_equations; }) {
@@ -157,7 +161,33 @@ Data rows_of(const Family& family, const SceneOf& scene_of, const Solve& solve, 
     } else {
       return scene;
     }
-  };
+  }
+  const char* why(std::span<const double> numbers) const
+    requires requires { scene_of.why(numbers); }
+  {
+    return scene_of.why(numbers);
+  }
+};
+
+/// The general scene of a row, a problem with other numbers.
+struct GeneralOf {
+  const general::Problem<double>& problem;
+  bool recognise;
+
+  Result<general::Scene> operator()(std::span<const double> numbers, const Question& question) const {
+    return general::Scene::make(general::with_numbers(problem, numbers), question, recognise);
+  }
+  /// What must hold of the body; of a wheel or torque the words do not say which it is.
+  const char* why(std::span<const double> numbers) const {
+    const general::Fault fault = general::check(general::with_numbers(problem, numbers));
+    return fault && fault.place < 0 ? fault.why : nullptr;
+  }
+};
+
+template <class SceneOf, class Solve>
+Data rows_of(const Family& family, const SceneOf& scene_of, const Solve& solve, const Question& question, bool cvode,
+             const Rows& rows) {
+  const Posed<SceneOf> posed{scene_of, question, cvode};
   const std::span numbers(rows.numbers.data(), std::size_t(rows.numbers.size()));
   const auto first = posed(numbers);
   const auto& whole = checked(first);
@@ -218,10 +248,7 @@ Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector
   if (kind == "general" && scene) {
     const auto problem = general_problem(*scene);
     require_shape("numbers", numbers, {general_numbers(*scene)[0].cast<Array>().size()});
-    const auto scene_of = [&](std::span<const double> row, const Question& question) {
-      return general::Scene::make(general::with_numbers(problem, row), question, recognise);
-    };
-    return run(general::tables, scene_of, &general::solve);
+    return run(general::tables, GeneralOf{problem, recognise}, &general::solve);
   }
   raise("DomainError", "kind = '" + kind + "': there is no such family");
 }

@@ -175,7 +175,7 @@ def test_rows_without_an_answer_say_why() -> None:
     rows = sweep(scene, cases={"wheel[0].axis[0]": [1.0, 0.0, 1.0, 1.0, 1.0], "body.mass": [2.0, 2.0, -1.0, 60.0, 2.0],
                                "wheel[2].friction": [0.0, 1e-3, 0, 0, -1.0], "torque[1].times[1]": [1.0, 1.0, 1.0, 1.0, 1.0]})
     assert rows["reason"].values.tolist()[:3] == ["", "", "body.mass is not > 0"]
-    assert rows["reason"].values[3] == "a number that must be positive is not" and rows["reason"].values[4] == "wheel[2].friction is not >= 0"
+    assert rows["reason"].values[3] == "the moments of inertia must be positive" and rows["reason"].values[4] == "wheel[2].friction is not >= 0"
     assert np.isnan(rows["angular_velocity"].values[2:]).all()
     none = sweep(scene, cases={f"wheel[0].axis[{i}]": [0.0, 1.0] for i in range(3)})
     assert none["reason"].values.tolist() == ["a number is NaN or infinite", ""]
