@@ -202,7 +202,7 @@ def general_recognise(*, scene: dict[str, typing.Any], times: typing.Annotated[n
     """
     Each family, and why the scene is no instance of it; None where it is one.
     """
-def general_solve(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, recognise: bool, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None) -> dict[str, typing.Any]:
+def general_solve(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, recognise: bool, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None, start_error: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, euler: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] | None = None) -> dict[str, typing.Any]:
     """
     Answer of the ladder as plain data.
     """
@@ -348,7 +348,7 @@ def spinning_solve(problem: SpinningProblems, *, times: typing.Annotated[numpy.t
     """
     Answer of the ladder as plain data.
     """
-def sweep(*, kind: str, numbers: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], places: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, elliptic: str, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None, threads: typing.SupportsInt | typing.SupportsIndex, monitor: Monitor | None, scene: dict[str, typing.Any] | None = None, recognise: bool = True) -> dict[str, typing.Any]:
+def sweep(*, kind: str, numbers: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], places: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, elliptic: str, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None, threads: typing.SupportsInt | typing.SupportsIndex, monitor: Monitor | None, scene: dict[str, typing.Any] | None = None, recognise: bool = True, euler: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] | None = None) -> dict[str, typing.Any]:
     """
     Answers of the ladder to rows of scenes: `numbers` in the order of the family's inputs, those at `places` from `values` (k, n); of a general `scene` in that of general_numbers.
     """

@@ -8,6 +8,7 @@ from typing import Any
 
 from gyrostat.errors import Refused
 from gyrostat.facts import FACTS, Facts, Quantity
+from gyrostat.fields import GENERAL
 from gyrostat.units import split, to_si
 
 __all__ = ["Ask", "AskError", "Asked", "asked", "knows_attitude", "parse_ask"]
@@ -84,10 +85,10 @@ def asked(kind: str, ask: Ask | None, knows_attitude: bool = True) -> list[Asked
     return [(name, *_tolerance(facts.quantities[name], value), True) for name, value in ask.items()]
 
 
-def knows_attitude(tables: Mapping[str, Mapping[str, Any]]) -> bool:
+def knows_attitude(kind: str, tables: Mapping[str, Mapping[str, Any]]) -> bool:
     """The start of a checked scene has an attitude."""
     start = tables.get("initial", {})
-    return "attitude" not in start or start["attitude"] is not None
+    return kind == GENERAL or "attitude" not in start or start["attitude"] is not None
 
 
 def parse_ask(text: str) -> Ask:

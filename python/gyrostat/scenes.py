@@ -27,6 +27,8 @@ from gyrostat.units import PATTERN, split, to_si
 __all__ = ["Scene", "bundled", "find", "load", "parse_override", "scene_from"]
 
 MOST_BYTES: Final = 64 * 2**20
+# Scenes that go on from each other.
+MOST_BEFORE: Final = 16
 # An attitude is taken as a unit quaternion when its norm is 1 within this.
 UNIT_TOLERANCE: Final = 1e-6
 # An axis is taken as a unit vector when its length is 1 within this.
@@ -52,6 +54,7 @@ class Scene:
     path: Path | None = None
     top: Mapping[str, Any] = member(default_factory=dict)  # keys of the kind's own at the top, such as the wheels
     written: Mapping[str, Any] = member(default_factory=dict)
+    before: "Scene | None" = member(default=None, repr=False)  # the scene at whose end this one begins
 
     @property
     def times(self) -> NDArray[np.float64]:
@@ -63,7 +66,13 @@ class Scene:
         solve = self.tables["solve"]
         if solve["times"] is not UNSET:
             return np.array(solve["times"], dtype=np.float64)
-        return np.linspace(0.0, solve["duration"], solve["samples"])
+        begin = self.start_time
+        return np.linspace(begin, begin + solve["duration"], solve["samples"])
+
+    @property
+    def start_time(self) -> float:
+        """Where the clock of this scene begins [s]: 0, or at the last time of the scene before it."""
+        return 0.0 if self.before is None else float(self.before.times[-1])
 
     @property
     def tolerance(self) -> float:
@@ -118,7 +127,7 @@ class Scene:
                 written[f"{table}.{field.name}"] = _told(field, value, read)
         if any(family.mistakes({"": self.top, **tables})):
             return None
-        made = Scene(self.name, self.kind, self.source, tables, self.path, self.top, written)
+        made = Scene(self.name, self.kind, self.source, tables, self.path, self.top, written, self.before)
         if tables["solve"] is self.tables["solve"]:
             made.__dict__["_times"] = self._times
         return made
@@ -139,6 +148,7 @@ class _Source:
     label: str
     text: str = ""
     path: Path | None = None
+    after: tuple[Path, ...] = ()  # the files of scenes that go on from this one
     overridden: frozenset[str] = frozenset()
 
     def where(self, key: str) -> str:
@@ -478,6 +488,12 @@ def _record(field: Field, value: Any) -> dict[str, Any]:
     return _parts(field, value, "", f"{field.name} = {example}")
 
 
+def _text_or_record(field: Field, value: Any) -> Any:
+    if value == "":
+        raise Refused("the text is empty", "name a scene file, or a bundled scene (gyrostat scenes lists them)")
+    return _record(field, value) if isinstance(value, dict) else _text(field, value)
+
+
 def _number_or_record(field: Field, value: Any) -> Any:
     return _record(field, value) if isinstance(value, dict) else _number(field, value)
 
@@ -567,7 +583,7 @@ _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
     "text": _text, "choice": _choice, "flag": _flag, "number": _number, "count": _count, "vector": _vector, "axis": _axis, "direction": _direction,
     "quaternion": _quaternion, "turn": _turn, "rotation": _rotation, "sequence": _sequence, "inertia": _inertia, "moments": _moments, "matrix": _matrix,
     "numbers": _numbers, "rows": lambda field, value: _table_rows(field, value, 3, "[0.0, 0.1, 0.0]"), "intervals": _intervals, "times": _times,
-    "record": _record, "records": _records, "number or record": _number_or_record, "vector or record": _vector_or_record, "ask": _ask, "vary": _vary,
+    "record": _record, "records": _records, "text or record": _text_or_record, "number or record": _number_or_record, "vector or record": _vector_or_record, "ask": _ask, "vary": _vary,
 }
 
 
@@ -604,7 +620,7 @@ def _worded(field: Field, value: Any) -> bool:
     match field.form:
         case "records":
             return any(_worded(part, item[part.name]) for item in value for part in parts_of(field, item) or () if part.name in item)
-        case "record" | "number or record" | "vector or record" if isinstance(value, dict) and "value" not in value:
+        case "record" | "text or record" | "number or record" | "vector or record" if isinstance(value, dict) and "value" not in value:
             return any(_worded(part, value[part.name]) for part in field.parts if part.name in value)
         case "number" | "number or record":
             return isinstance(value, str)
@@ -657,7 +673,7 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
                   _advice(key, "", family), not isinstance(tree[key], dict))
     for table, fields in layout.items():
         given: Any = tree.get(table, {}) if table else tree
-        if table and table not in tree and family.needs(table):
+        if table and table not in tree and family.needs(table) and not _goes_on(table, tree):
             wrong(table, "", f"the table [{table}] is missing", f"add [{table}] with {_wanted(family, table)}", False)
             unread.add(table)
             continue
@@ -690,7 +706,7 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
     if not mistakes:
         settle(read["initial"])
         try:
-            asked(kind, read["solve"]["ask"], knows_attitude(read))
+            asked(kind, read["solve"]["ask"], knows_attitude(kind, read))
         except AskError as error:
             wrong("solve.ask", read["solve"]["ask"], error.problem, error.remedy)
         for key, value, problem, remedy in (*family.mistakes(read), *(() if "kind" in tree else family.doubts(read))):
@@ -702,9 +718,29 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         raise SceneError(*mistakes)
     head = read.pop("")
     top = {key: value for key, value in head.items() if key not in ("name", "kind", "source")}
-    made = Scene(head["name"], kind, head["source"], read, source.path, top, written)
+    made = Scene(head["name"], kind, head["source"], read, source.path, top, written, _before(top["from"], source) if top.get("from") else None)
+    if (times := read["solve"]["times"]) is not UNSET and times[0] < made.start_time:
+        raise SceneError(Mistake(source.where("solve.times"), "solve.times", _show(list(times)), f"the scene before this one ends at {made.start_time!r} s",
+                                 "the clock goes on: give times from there, or duration and samples, which count from there"))
     _check_varied(made, source)
     return made
+
+
+def _before(given: Any, source: _Source) -> Scene:
+    """The scene at whose end another begins, by its key `from`; `source` is that of the other."""
+
+    def fail(problem: str, remedy: str) -> SceneError:
+        return SceneError(Mistake(source.where("from"), "from", "", problem, remedy))
+
+    name = Path(given if isinstance(given, str) else given["file"])
+    here = source.path.parent / name if source.path else name
+    file = find(here if here.exists() else name)
+    known = [each.resolve() for each in (*source.after, source.path) if each]
+    if file.resolve() in known:
+        raise fail(f"{name} goes on from this scene in turn", "begin one of the two with [initial]")
+    if len(known) >= MOST_BEFORE:
+        raise fail(f"over {MOST_BEFORE} scenes go on from each other", "begin one of them with [initial]")
+    return _load(file, {}, tuple(known))
 
 
 def _check_varied(scene: Scene, source: _Source) -> None:
@@ -739,11 +775,16 @@ def _wanted(family: Family, table: str) -> str:
     return ", ".join(names)
 
 
+def _goes_on(table: str, tree: Mapping[str, Any]) -> bool:
+    """The table may be left out, for the scene begins where another ends."""
+    return table == "initial" and "from" in tree
+
+
 def _one_of(choices: Choices, tree: Mapping[str, Any], wrong: Callable[..., None]) -> None:
     given = {f"{table}.{name}": value for table, values in tree.items() if isinstance(values, dict) for name, value in values.items()}
     started = [choice for choice in choices if any(key in given for key in choice)]
     if not started:
-        if () not in choices:
+        if () not in choices and not _goes_on(table_of(choices[0][0]), tree):
             wrong(choices[0][0], "", "the key is missing", _ways(choices), False)
     elif len(started) > 1:
         first, extra = (next(key for key in choice if key in given) for choice in started[:2])
@@ -844,7 +885,7 @@ def parse_override(text: str) -> tuple[str, Any]:
         if set(read) == {"value"}:
             return key, read["value"]
     except (tomllib.TOMLDecodeError, ValueError, RecursionError):
-        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", value) or re.fullmatch(PATTERN, value):
+        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*|[1-3]-[1-3]-[1-3]", value) or re.fullmatch(PATTERN, value):
             return key, value
     raise fail(key, _show(value), "this is no TOML value", 'write a number, an array such as [1.0, 2.0, 3.0], or text in quotes')
 
@@ -856,6 +897,10 @@ def scene_from(data: Mapping[str, Any], label: str = "scene", **overrides: Any) 
 
 def load(path: str | os.PathLike[str], **overrides: Any) -> Scene:
     """Read a scene file (TOML), or a bundled scene by name; overrides as in `Scene.replace`. Raises SceneError."""
+    return _load(path, overrides)
+
+
+def _load(path: str | os.PathLike[str], overrides: Mapping[str, Any], after: tuple[Path, ...] = ()) -> Scene:
     file = find(path)
     label = _printable(str(path))
 
@@ -897,7 +942,7 @@ def load(path: str | os.PathLike[str], **overrides: Any) -> Scene:
         raise fail("arrays or tables are nested too deep", "a scene file is a few lines of TOML") from None
     except ValueError as error:
         raise fail(f"a value cannot be read ({_printable(str(error))[:80]})", "write ordinary numbers") from None
-    return _check(data, _Source(label, text, file), overrides)
+    return _check(data, _Source(label, text, file, after), overrides)
 
 
 def _printable(text: str) -> str:

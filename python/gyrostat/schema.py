@@ -74,6 +74,8 @@ def _form(field: Field) -> dict[str, Any]:
             return {"type": "boolean"}
         case "vector" | "axis" | "inertia" | "moments" | "matrix" | "numbers" | "rows" | "intervals" | "times":
             return _numbers(field)
+        case "text or record":
+            return {"oneOf": [_form(replace(field, form="text")), _form(replace(field, form="record"))]}
         case "number or record":
             return {"oneOf": [_number(field), _form(replace(field, form="record"))]}
         case "vector or record":
@@ -129,8 +131,16 @@ def _one_of(choices: Choices) -> dict[str, Any]:
     return {"oneOf": [way(chosen) for chosen in choices]}
 
 
+def _or_goes_on(choices: Choices) -> dict[str, Any]:
+    """One way is taken; none need be where the scene begins at the end of another."""
+    if () in choices:
+        return _one_of(choices)
+    return {"anyOf": [_one_of(choices), {"required": ["from"], **_one_of((*choices, ()))}]}
+
+
 def _kind(family: Family) -> dict[str, Any]:
     tables = family.keys
+    follows = any(field.name == "from" for field in tables[""])
     properties: dict[str, Any] = {field.name: _property(field) for field in tables[""]}
     for table, fields in tables.items():
         if table:
@@ -144,9 +154,9 @@ def _kind(family: Family) -> dict[str, Any]:
         "type": "object",
         "properties": properties,
         "required": [field.name for field in tables[""] if field.default is REQUIRED]
-                    + [table for table in tables if table and family.needs(table)],
+                    + [table for table in tables if table and family.needs(table) and not (follows and table == "initial")],
         "additionalProperties": False,
-        "allOf": [_one_of(choices) for choices in family.alternatives],
+        "allOf": [_or_goes_on(choices) if follows and table_of((*choices[0], "")[0]) == "initial" else _one_of(choices) for choices in family.alternatives],
     }
 
 
@@ -194,8 +204,9 @@ def _form_text(field: Field) -> str:
             return "threes of numbers"
         case "intervals":
             return "pairs of numbers"
-        case "number or record" | "vector or record":
-            return f"{'number' if field.form.startswith('number') else '3 numbers'} or {{ {', '.join(part.name for part in field.parts)} }}"
+        case "text or record" | "number or record" | "vector or record":
+            one = field.form.removesuffix(" or record")
+            return f"{'3 numbers' if one == 'vector' else one} or {{ {', '.join(part.name for part in field.parts)} }}"
         case "direction":
             return "unit vector"
         case "quaternion" | "turn":

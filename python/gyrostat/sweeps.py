@@ -70,7 +70,7 @@ class Study:
         solve = self.scene.tables["solve"]
         return {"kind": self.scene.kind, "times": self.scene.times, "tolerance": solve["tolerance"], "model": solve["model"],
                 "integrator": solve["integrator"], "elliptic": solve.get("elliptic", "auto"),
-                "ask": asked(self.scene.kind, solve["ask"], knows_attitude(self.scene.tables))}
+                "ask": asked(self.scene.kind, solve["ask"], knows_attitude(self.scene.kind, self.scene.tables))}
 
     @cached_property
     def row_bytes(self) -> int:

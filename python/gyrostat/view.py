@@ -58,14 +58,14 @@ class View:
 
 
 def view(scene: Scene, begin: float | None = None, end: float | None = None, monitor: Monitor | None = None) -> View:
-    """The motion of a scene from `begin` to `end` [s]; by default from 0 for some tens of turns, at most to the last time of the scene.
+    """The motion of a scene from `begin` to `end` [s]; by default from the start for some tens of turns, at most to the last time of the scene.
 
     It is solved anew, for attitude, angular velocity and momentum at times that make a smooth picture. Raises DomainError where nothing turns,
     where the rung that the scene names gives no attitude, and where the window has more turns than can be shown.
     """
     notes: list[str] = []
     posed = _with_attitude(scene, notes)
-    times = _times(posed, 0.0 if begin is None else begin, end, notes, monitor)
+    times = _times(posed, scene.start_time if begin is None else begin, end, notes, monitor)
     columns: list[str] = [name for name in ("attitude", "angular_velocity", "angular_momentum", "angular_momentum_inertial") if name in FAMILIES[scene.kind].facts.columns]
     answer = _ask(posed, times, columns, monitor)
     notes.insert(0, f"Solved for this view: {', '.join(columns)} at {len(times)} times.")
@@ -107,8 +107,9 @@ def _with_attitude(scene: Scene, notes: list[str]) -> Scene:
 def _times(scene: Scene, begin: float, end: float | None, notes: list[str], monitor: Monitor | None) -> Floats:
     """Even times of the pictures: TURNS turns from `begin` where no end is named."""
     last = float(scene.times[-1]) if end is None else end
-    if not 0 <= begin < last < math.inf:
-        raise DomainError(f"{scene.name}: there is nothing to see from {begin:g} s to {last:g} s: the end comes after the begin, which is at least 0")
+    if not scene.start_time <= begin < last < math.inf:
+        raise DomainError(f"{scene.name}: there is nothing to see from {begin:g} s to {last:g} s: the end comes after the begin, which is at least "
+                          f"{scene.start_time:g}")
 
     def turned(until: float) -> tuple[Floats, Floats, Floats]:
         """Times, speeds and the angle turned since `begin`."""

@@ -2,6 +2,8 @@
 // The ladder of the general family and its recognition; families/general/functions.py wraps them.
 #include <pybind11/stl.h>
 
+#include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,12 +26,25 @@ general::Scene scene_of(const Data& given, const Question& question, bool recogn
   return *made;
 }
 
+general::StartError start_error_of(const std::map<std::string, double>& given) {
+  const auto of = [&](const char* name) {
+    const auto found = given.find(name);
+    const double error = found == given.end() ? 0.0 : found->second;
+    if (!(error >= 0) || !std::isfinite(error))
+      raise("DomainError", std::string("start_error.") + name + ": give a finite number >= 0");
+    return error;
+  };
+  return {of("attitude"), of("angular_velocity"), of("rotor_rate"), of("rotor_angle"), of("velocity"), of("position")};
+}
+
 Data solve_scene(const Data& given, const Array& at, double tolerance, const std::string& model,
                  const std::string& integrator, bool recognise, const std::optional<std::shared_ptr<Monitor>>& monitor,
-                 const Ask& ask) {
+                 const Ask& ask, const std::map<std::string, double>& start_error,
+                 const std::optional<EulerAxes>& euler) {
   Question question = question_of(general::tables, at, tolerance, model, ask);
   (void)takes_cvode(general::tables, integrator, question);
-  const general::Scene scene = scene_of(given, question, recognise);
+  general::Scene scene = scene_of(given, question, recognise).known_within(start_error_of(start_error));
+  if (euler) scene = scene.told_by(*euler);
   gyrostat::Refusal why;
   auto [answer, seconds] = timed([&] { return general::solve(scene, why, monitor ? monitor->get() : nullptr); });
   require_answer(why);
@@ -53,7 +68,8 @@ py::typing::List<py::typing::Tuple<py::str, py::typing::Optional<py::str>>> reco
 void bind_general(py::module_& module) {
   module.def("general_solve", &solve_scene, py::kw_only(), py::arg("scene"), py::arg("times"), py::arg("tolerance"),
              py::arg("model"), py::arg("integrator"), py::arg("recognise"), py::arg("monitor"),
-             py::arg("ask") = py::none(), "Answer of the ladder as plain data.");
+             py::arg("ask") = py::none(), py::arg("start_error") = std::map<std::string, double>{},
+             py::arg("euler") = py::none(), "Answer of the ladder as plain data.");
   module.def("general_recognise", &recognise_scene, py::kw_only(), py::arg("scene"), py::arg("times"),
              "Each family, and why the scene is no instance of it; None where it is one.");
 }

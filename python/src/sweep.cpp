@@ -173,9 +173,11 @@ struct Posed {
 struct GeneralOf {
   const general::Problem<double>& problem;
   bool recognise;
+  const std::optional<EulerAxes>& euler;
 
   Result<general::Scene> operator()(std::span<const double> numbers, const Question& question) const {
-    return general::Scene::make(general::with_numbers(problem, numbers), question, recognise);
+    const auto made = general::Scene::make(general::with_numbers(problem, numbers), question, recognise);
+    return made && euler ? Result<general::Scene>(made->told_by(*euler)) : made;
   }
   /// What must hold of the body; of a wheel or torque the words do not say which it is.
   const char* why(std::span<const double> numbers) const {
@@ -227,7 +229,7 @@ Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector
                 const Array& values, const Array& at, double tolerance, const std::string& model,
                 const std::string& integrator, const std::string& elliptic, const Ask& ask, unsigned threads,
                 const std::optional<std::shared_ptr<Monitor>>& monitor, const std::optional<Data>& scene,
-                bool recognise) {
+                bool recognise, const std::optional<EulerAxes>& euler) {
   require_shape("numbers", numbers, {-1});
   require_shape("values", values, {py::ssize_t(places.size()), -1});
   for (const std::size_t place : places)
@@ -248,7 +250,7 @@ Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector
   if (kind == "general" && scene) {
     const auto problem = general_problem(*scene);
     require_shape("numbers", numbers, {general_numbers(*scene)[0].cast<Array>().size()});
-    return run(general::tables, GeneralOf{problem, recognise}, &general::solve);
+    return run(general::tables, GeneralOf{problem, recognise, euler}, &general::solve);
   }
   raise("DomainError", "kind = '" + kind + "': there is no such family");
 }
@@ -259,7 +261,7 @@ void bind_sweep(py::module_& module) {
   module.def("sweep", &sweep_rows, py::kw_only(), py::arg("kind"), py::arg("numbers"), py::arg("places"),
              py::arg("values"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),
              py::arg("elliptic"), py::arg("ask"), py::arg("threads"), py::arg("monitor"), py::arg("scene") = py::none(),
-             py::arg("recognise") = true,
+             py::arg("recognise") = true, py::arg("euler") = py::none(),
              "Answers of the ladder to rows of scenes: `numbers` in the order of the family's inputs, those at "
              "`places` from `values` (k, n); of a general `scene` in that of general_numbers.");
   module.def("general_numbers", &general_numbers, py::arg("scene"),

@@ -87,3 +87,45 @@ TEST_CASE("the error of a torque is what the errors of the motion make of it", "
   CHECK(apart < exact.columns[0].error);
   CHECK(exact.columns[0].error < 30 * apart);
 }
+
+TEST_CASE("angles of the attitude count turns, and state an error that holds for each of them") {
+  Problem<double> problem = brick();
+  problem.angular_velocity = {0.1, 0.2, 1.4};
+  std::vector<double> times;
+  for (int i = 0; i <= 200; ++i) times.push_back(0.25 * i);
+  for (const EulerAxes& axes : {EulerAxes{2, 1, 0}, EulerAxes{2, 0, 2}, EulerAxes{0, 1, 2}}) {
+    const Scene scene = posed(problem, question_at(times, 1e-7)).told_by(axes);
+    const Answer answer = solved(scene);
+    const Column& euler = *answer.find("euler");
+    const Column& attitude = *answer.find("attitude");
+    double turned = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double* a = &euler.values[3 * i];
+      const double* q = &attitude.values[4 * i];
+      const auto told = quaternion_from_euler<double>(axes, {a[0], a[1], a[2]});
+      CHECK(angle_between<double>(told, {q[3], q[0], q[1], q[2]}) < 2e-15 + 4e-16 * (std::abs(a[0]) + std::abs(a[2])));
+      if (i > 0) CHECK(std::abs(a[0] - a[-3]) < 3.1416);
+      turned = std::max({turned, std::abs(a[0]), std::abs(a[2])});
+    }
+    CHECK(turned > 20);
+    CHECK(euler.error >= attitude.error);
+    CHECK(euler.error < 100 * attitude.error);
+    const Answer truth = true_answer(scene);
+    CHECK(column_error(euler, *truth.find("euler")) <= euler.error);
+  }
+}
+
+TEST_CASE("angles at their lock have no error, and one that may be a turn off has none either") {
+  Problem<double> problem = brick();
+  problem.angular_velocity = {0, 0, 1};
+  problem.attitude = {1, 0, 0, 0};
+  const Answer locked = solved(posed(problem, question_at({0, 1}, 1e-7)).told_by({2, 0, 2}));
+  CHECK(locked.find("euler")->error == infinity<double>);
+  CHECK(locked.warns("gimbal-lock"));
+  CHECK(!locked.met);
+  CHECK(solved(posed(problem, question_at({0, 1}, 1e-7)).told_by({2, 1, 0})).met);
+  // half a turn from one time to the next
+  const Answer half = solved(posed(problem, question_at({0, pi<double>}, 1e-7)).told_by({2, 1, 0}));
+  CHECK(half.find("euler")->error == infinity<double>);
+  CHECK(!half.warns("gimbal-lock"));
+}

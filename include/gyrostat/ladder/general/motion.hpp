@@ -32,6 +32,7 @@ enum : std::size_t {
   down,
   attitude_orbit,
   torque,
+  euler,
 };
 }
 
@@ -67,6 +68,10 @@ inline constexpr ColumnKind column_kinds[] = {
      "orbit"},
     {"torque", 3, "N m", Frame::body, Measure::relative, "external torque, body axes",
      "a thousandth of the sizes of all torques at t = 0"},
+    {"euler", 3, "rad", Frame::body_to_inertial, Measure::absolute,
+     "angles of the attitude in the sequence solve.euler, in its order; first and last count turns; of scenes with "
+     "that "
+     "key"},
 };
 
 /// What columns are made of.
@@ -98,6 +103,7 @@ inline constexpr ColumnSet made_of[] = {
     column_set(primitive::attitude),
     column_set(primitive::attitude),
     column_set(primitive::attitude, primitive::angular_velocity, primitive::angular_momentum),
+    column_set(primitive::attitude),
 };
 static_assert(std::size(made_of) == std::size(column_kinds));
 
@@ -126,7 +132,7 @@ inline constexpr ScalarKind scalar_kinds[] = {
 
 /// Places in warning_kinds.
 namespace warning {
-enum : std::size_t { not_realisable, driven_damping, eddy_not_positive, beyond_no_load };
+enum : std::size_t { not_realisable, driven_damping, eddy_not_positive, beyond_no_load, start_uncertain, gimbal_lock };
 }
 
 inline constexpr WarningKind warning_kinds[] = {
@@ -136,6 +142,12 @@ inline constexpr WarningKind warning_kinds[] = {
     {"eddy-not-positive",
      "the matrix of the eddy currents has a negative symmetric part: they drive the body; its least eigenvalue is"},
     {"wheel-beyond-no-load", "a wheel starts faster than its motor turns it without load: the motor brakes it; rad/s"},
+    {"start-uncertain",
+     "what the error of the start makes of the answer is over the tolerance: ask for the scene that it comes from more "
+     "precisely; times the tolerance"},
+    {"gimbal-lock",
+     "the second of the angles comes so near to where the first and the last turn are about one axis that they "
+     "cannot be told apart; distance, rad"},
 };
 
 /// A rung of the ladder is one of a family, or the full equations of the family `general`.
@@ -170,12 +182,12 @@ inline constexpr SpecialRung special_rungs[] = {
 };
 
 /// Columns that turn with the body.
-inline constexpr ColumnSet phase_columns =
-    column_set(column::attitude, column::angular_velocity, column::angular_momentum, column::angular_momentum_inertial,
-               column::rotor_rate, column::rotor_angle, column::down, column::attitude_orbit, column::torque);
+inline constexpr ColumnSet phase_columns = column_set(
+    column::attitude, column::angular_velocity, column::angular_momentum, column::angular_momentum_inertial,
+    column::rotor_rate, column::rotor_angle, column::down, column::attitude_orbit, column::torque, column::euler);
 /// Columns that need the attitude.
-inline constexpr ColumnSet oriented_columns =
-    column_set(column::attitude, column::angular_momentum_inertial, column::down, column::attitude_orbit);
+inline constexpr ColumnSet oriented_columns = column_set(column::attitude, column::angular_momentum_inertial,
+                                                         column::down, column::attitude_orbit, column::euler);
 
 inline constexpr RungKind rung_kinds[] = {
     {"free:closed-form", "no torque: a pair of theta functions"},

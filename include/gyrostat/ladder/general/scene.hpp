@@ -19,6 +19,7 @@
 #include "gyrostat/models/general/sizes.hpp"
 #include "gyrostat/models/general/surroundings.hpp"
 #include "gyrostat/models/general/wheels.hpp"
+#include "gyrostat/rotation/euler.hpp"
 
 namespace gyrostat::general {
 
@@ -49,6 +50,20 @@ inline double sum_of_torques(const Problem<double>& problem, const Pose<double>&
 
 }  // namespace detail
 
+/// By how much the start may be off where it was not given but computed: absolute, each of any direction.
+struct StartError {
+  double attitude = 0;          ///< rad
+  double angular_velocity = 0;  ///< rad/s
+  double rotor_rate = 0;        ///< of each wheel, rad/s
+  double rotor_angle = 0;       ///< of each wheel, rad
+  double velocity = 0;          ///< m/s
+  double position = 0;          ///< m
+
+  bool any() const noexcept {
+    return attitude > 0 || angular_velocity > 0 || rotor_rate > 0 || rotor_angle > 0 || velocity > 0 || position > 0;
+  }
+};
+
 /// A valid scene: what is given, body and wheels reduced, the torques summed, and the families that it is an instance of.
 class Scene {
  public:
@@ -66,6 +81,7 @@ class Scene {
     scene.sizes_ = prepared.sizes;
     scene.large_ = prepared.is_large();
     scene.breaks_ = breakpoints(problem, question.times.back()).size();
+    scene.recognised_ = recognised;
     if (recognised) scene.instances_ = recognise(problem, prepared.wheels, prepared.torques, question);
     return scene;
   }
@@ -77,7 +93,31 @@ class Scene {
     return other;
   }
 
+  /// What is asked, of the same body from another start, or under other torques.
+  Result<Scene> with(const Problem<double>& problem) const {
+    auto made = make(problem, question_, recognised_);
+    if (!made || !euler_) return made;
+    return made->told_by(*euler_);
+  }
+
+  /// The same scene, its start known to within an error.
+  Scene known_within(const StartError& error) const {
+    Scene other = *this;
+    other.start_error_ = error;
+    return other;
+  }
+
+  /// The same scene, with a column of angles in this sequence.
+  Scene told_by(const EulerAxes& euler) const {
+    Scene other = *this;
+    other.euler_ = euler;
+    return other;
+  }
+
   const Problem<double>& problem() const noexcept { return problem_; }
+  /// The sequence of the column `euler`, where there is one.
+  const std::optional<EulerAxes>& euler() const noexcept { return euler_; }
+  const StartError& start_error() const noexcept { return start_error_; }
   const Wheels<double>& wheels() const noexcept { return wheels_; }
   const Sizes<double>& sizes() const noexcept { return sizes_; }
   /// The full equations have states beside attitude, momentum and the turn of the body.
@@ -103,6 +143,7 @@ class Scene {
       case column::position: return !problem_.fixed;
       case column::attitude_orbit: return problem_.orbit.has_value();
       case column::down: return has_vertical();
+      case column::euler: return euler_.has_value();
       default: return true;
     }
   }
@@ -120,9 +161,11 @@ class Scene {
 
  private:
   Problem<double> problem_;
+  StartError start_error_;
+  std::optional<EulerAxes> euler_;
   Wheels<double> wheels_;
   Sizes<double> sizes_;
-  bool large_ = false;
+  bool large_ = false, recognised_ = false;
   std::size_t breaks_ = 0;
   Instances instances_;
   Question question_;
@@ -153,6 +196,7 @@ inline ColumnErrors Scene::scales() const noexcept {
   scale[column::position] = p.position.norm() + (p.velocity.norm() + g.norm() * T) * T;
   scale[column::down] = 1;
   scale[column::torque] = share * torques;
+  scale[column::euler] = 1;
   return scale;
 }
 

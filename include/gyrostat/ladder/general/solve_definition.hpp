@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "gyrostat/ladder/general/full_rung.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/ladder/general/special_rung.hpp"
+#include "gyrostat/ladder/general/start_error.hpp"
+#include "gyrostat/ladder/goal.hpp"
 
 namespace gyrostat::general {
 
@@ -37,6 +41,12 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
     if (torque.type == TorqueType::eddy_current && drives(torque.matrix) < 0)
       warn(warning::eddy_not_positive, drives(torque.matrix));
   }
+  if (scene.gives(column::euler) && track.off[primitive::attitude] < infinity<double>) {
+    double nearest = infinity<double>;
+    for (const auto& state : track.states)
+      nearest = std::min(nearest, euler_angles(*scene.euler(), state.attitude).from_lock);
+    if (!(nearest - track.off[primitive::attitude] > 1e-8)) warn(warning::gimbal_lock, nearest);
+  }
   for (const auto& wheel : problem.wheels)
     if (wheel.type == WheelType::motor && std::abs(wheel.rate) > std::abs(wheel.no_load_rate) && wheel.slope > 0)
       warn(warning::beyond_no_load, wheel.rate);
@@ -53,8 +63,67 @@ inline constexpr auto models = models_of(std::make_index_sequence<std::size_t(ru
 
 }  // namespace detail
 
+namespace detail {
+
+/// The rung that the question names alone, or the ladder.
+inline Answer climbed(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor) {
+  return climb<Scene, Track>(tables, models, scene, monitor, refusal);
+}
+
+/// The answer from another start, if possible by the same rung, so that what it leaves out cancels.
+inline std::optional<Answer> answer_beside(const Scene& scene, const Problem<double>& start, int rung,
+                                           Monitor* monitor) {
+  const auto beside = scene.with(start);
+  if (!beside) return std::nullopt;
+  gyrostat::Refusal refusal;
+  Question question = scene.question();
+  if (question.rung == any_rung) question.alone = rung;
+  Answer made = climbed(beside->asked(question), refusal, monitor);
+  if (refusal.code != Errc::ok) refusal = {}, made = climbed(*beside, refusal, monitor);
+  return refusal.code == Errc::ok ? std::optional(std::move(made)) : std::nullopt;
+}
+
+/// A question with a share of its tolerances.
+inline Question shared(Question question, double share) {
+  question.tolerance *= share;
+  for (AskedQuantity& each : question.asked) each.tolerance *= share;
+  return question;
+}
+
+/// The answer to a scene whose start is off, and what comes of that: the tolerances hold for both together.
+inline Answer solve_uncertain(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor) {
+  Answer answer = climbed(scene, refusal, monitor);
+  if (refusal.code != Errc::ok) return answer;
+  const Carried carried = carried_error(scene, answer, [&](const Problem<double>& start) {
+    return answer_beside(scene, start, place_of(tables.rungs, answer.model), monitor);
+  });
+  Answer exact = answer;
+  for (Column& column : exact.columns) column.error = 0;
+  for (Quantity& quantity : exact.quantities)
+    if (!std::isnan(quantity.error)) quantity.error = 0;
+  add_carried(exact, carried);
+  judge(exact, scene.question(), tables);
+  const double taken = exact.excess;
+  if (scene.question().rung == any_rung && answer.met && answer.excess > 1 - taken && taken < 1) {
+    answer = climbed(scene.asked(shared(scene.question(), 1 - taken)), refusal, monitor);
+    if (refusal.code != Errc::ok) return answer;
+  }
+  add_carried(answer, carried);
+  judge(answer, scene.question(), tables);
+  answer.met = answer.met && answer.excess <= 1;
+  answer.tolerance = scene.question().tolerance;
+  if (constexpr const auto& kind = warning_kinds[warning::start_uncertain]; !(taken <= 1))
+    answer.warnings.push_back({&kind, kind.text, taken});
+  for (Attempt& attempt : answer.tried)
+    if (attempt.accepted) attempt.error = answer.error, attempt.excess = answer.excess;
+  return answer;
+}
+
+}  // namespace detail
+
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor) {
-  return climb<Scene, Track>(tables, detail::models, scene, monitor, refusal);
+  return scene.start_error().any() ? detail::solve_uncertain(scene, refusal, monitor)
+                                   : detail::climbed(scene, refusal, monitor);
 }
 
 }  // namespace gyrostat::general

@@ -16,6 +16,7 @@
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/right_side.hpp"
 #include "gyrostat/models/general/surroundings.hpp"
+#include "gyrostat/rotation/euler.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 
 namespace gyrostat::general {
@@ -76,6 +77,7 @@ class Writer {
       case column::down: return put(rotate<double>(conjugate(s.attitude), scene_.problem().field.down));
       case column::attitude_orbit:
         return turn(conjugate(orbit_axes(orbit_at(*scene_.problem().orbit, t))) * s.attitude);
+      case column::euler: return put(euler_angles(*scene_.euler(), s.attitude).angles);
       default: put(load_at(scene_.problem(), pose(s), t, t).torque);
     }
   }
@@ -99,6 +101,7 @@ class Writer {
       case column::position: return off[primitive::position];
       case column::down: return turning + 4 * epsilon<double>;
       case column::attitude_orbit: return turning + 8 * epsilon<double> * (1 + orbit_phase());
+      case column::euler: return euler_off(turning + 4 * epsilon<double>);
       default: return torque_off();
     }
   }
@@ -127,6 +130,26 @@ class Writer {
              (greatest([&](const State<double>& s) { return std::abs(absolute_rate(s, i)); }) + its / 2);
     }
     return sum + 8 * epsilon<double> * greatest([&](const State<double>& s) { return energy(wheels, s); });
+  }
+  /// Of the angles, those of first and last turn counted on from time to time: not known where one of them may be a turn off.
+  double euler_off(double turning) const noexcept {
+    double most = 0, counted[2] = {0, 0}, back[2] = {0, 0};
+    bool begun = false;
+    for (std::size_t i = 0; i < track_.states.size(); ++i) {
+      const auto at = euler_angles(*scene_.euler(), track_.states[i].attitude);
+      const bool given = scene_.question().times[i] == 0;
+      const double off = at.error(given ? 4 * epsilon<double> : turning);
+      for (int end = 0; end < 2; ++end) {
+        const double angle = at.angles[2 * end], step = std::remainder(angle - back[end], 2 * pi<double>);
+        // of one that is told alone, it is where the count begins
+        if (!given && pi<double> - std::abs(step) <= (begun ? 2 : 1) * off) return infinity<double>;
+        back[end] = angle;
+        counted[end] += step;
+      }
+      begun = true;
+      most = greater(off + 2 * epsilon<double> * (std::abs(counted[0]) + std::abs(counted[1])), most);
+    }
+    return most;
   }
   static Pose<double> pose(const State<double>& s) noexcept {
     return {s.attitude, s.angular_velocity, s.angular_momentum};
@@ -198,6 +221,13 @@ inline bool known(const Track& track, std::size_t place) noexcept {
 
 }  // namespace detail
 
+/// First and last angle of each row counted on from the row before.
+inline void count_turns(Column& euler) noexcept {
+  auto& values = euler.values;
+  for (std::size_t i = 3; i < values.size(); ++i)
+    if (i % 3 != 1) values[i] = values[i - 3] + std::remainder(values[i] - values[i - 3], 2 * pi<double>);
+}
+
 /// Rates and angles of the wheels at t = 0 as they were given.
 inline void put_wheels(Answer& answer, const Wheels<double>& wheels) {
   if (answer.times.front() != 0) return;
@@ -226,6 +256,7 @@ inline void fill(Answer& answer, const Scene& scene, const Track& track) {
     Column& column = answer.columns.back();
     column.width = int(width);
     for (std::size_t i = 0; i < n; ++i) write(place, i, answer.times[i], column.values.data() + i * width);
+    if (place == column::euler) count_turns(column);
     const double off = write.off(place);
     column.error = kind.measure == Measure::relative ? relative_to_truth(over(off, size_of(column))) : off;
   }

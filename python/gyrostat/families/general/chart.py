@@ -38,7 +38,9 @@ def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, f
 
 def problem(scene: "Scene") -> Problem:
     """The scene, or its first part where the whole is too long. Raises DomainError for a motion that a brake stops."""
-    given = {**arguments(scene), "ask": ("attitude", "angular_velocity")}
+    if scene.before is not None:
+        raise DomainError("from: a scene that begins where another ends is not charted; give it a start of its own in [initial]")
+    given = {**arguments(scene), "ask": ("attitude", "angular_velocity"), "euler": None}
     physics = {name: value for name, value in given.items() if name not in QUESTION}
     found = {family for family, why in recognise(**physics, times=given["times"]).items() if not why}
     rival = Rival(physics)

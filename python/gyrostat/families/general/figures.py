@@ -222,13 +222,15 @@ def _panels(answer: "Answer", given: Mapping[str, Any]) -> list[Panel]:
     names = [str(wheel.get("name") or place) for place, wheel in enumerate(given["wheels"], 1)]
     made: list[Panel] = [vector(*_VECTORS[0])] if "angular_velocity" in answer.columns else []
     made += [_attitude(column, title) for column, title in _ATTITUDES if column in answer.columns][:1]
+    made += [vector("euler", "a", "rad", f"Angles of the attitude, {given['euler']}")] if "euler" in answer.columns else []
     made += [wheels_panel(*kind, names) for kind in _WHEELS if kind[0] in answer.columns]
     made += [vector(*kind) for kind in _VECTORS[1:] if kind[0] in answer.columns]
     return made + [_single(*kind) for kind in _SINGLES if kind[0] in answer.columns]
 
 
 def _marks(given: Mapping[str, Any], end: float) -> tuple[list[float], list[tuple[float, float]]]:
-    """Times of tables, and intervals in which a torque is on, in (0, end) [s]."""
+    """Times of tables, and intervals in which a torque is on, from the start to the end [s]."""
+    begin = given.get("start_time", 0.0)
     times: set[float] = set()
     spans: set[tuple[float, float]] = set()
     for each in (*given["wheels"], *given["torques"]):
@@ -237,7 +239,7 @@ def _marks(given: Mapping[str, Any], end: float) -> tuple[list[float], list[tupl
                 times |= {float(t) for t in table["times"]}
         on = each.get("on")
         spans |= {(float(a), float(b)) for a, b in (() if on in (None, UNSET) else on)}
-    return sorted(t for t in times if 0 < t < end), sorted((max(a, 0.0), min(b, end)) for a, b in spans if a < end and b > 0 and a < b)
+    return sorted(t for t in times if begin < t < end), sorted((max(a, begin), min(b, end)) for a, b in spans if a < end and b > begin and a < b)
 
 
 def _marked(panel: Panel, marks: tuple[list[float], list[tuple[float, float]]]) -> Panel:

@@ -20,6 +20,8 @@ from gyrostat.asking import Ask, asked
 from gyrostat.broadcast import Floats
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
+from gyrostat.families.general.clock import orbit_since, since
+from gyrostat.orientation import axes_of
 
 __all__ = ["PLANETS", "Monitor", "integrate", "orbit_start", "recognise", "solve"]
 
@@ -35,7 +37,7 @@ PLANETS: Final[dict[str, tuple[float, float]]] = {
 
 _ZERO: Final = (0.0, 0.0, 0.0)
 # Arguments of `solve` that say what is asked, and not of which motion.
-QUESTION: Final = ("times", "tolerance", "model", "integrator", "recognise", "monitor", "ask")
+QUESTION: Final = ("times", "tolerance", "model", "integrator", "recognise", "monitor", "ask", "euler")
 
 
 # What is made of a scene with numbers that vary over rows has the rows in front. Each row comes out as it would alone, to the last bit: nothing here
@@ -99,7 +101,8 @@ def _unit(axis: Any, what: str) -> Floats:
 def _matrix(value: Any) -> Floats:
     """A number, three of them along the diagonal, or all nine."""
     given = stacked(value)
-    if given.ndim >= 2 and not (varies(value) and not isinstance(value[0], tuple)):
+    of_moments = isinstance(value, tuple) and not isinstance(value[0], tuple)
+    if given.ndim >= 2 and not of_moments:
         return given
     return diagonal(given) if given.ndim else float(given) * np.eye(3)
 
@@ -178,14 +181,15 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
             "along": _unit(along - radial * dot(radial, along)[..., None], "orbit.along")}
 
 
-def orbit_start(orbit: Record) -> tuple[Floats, Floats]:
-    """The axes of an orbit at t = 0 as columns (3, 3), x along it, y against its normal, z to the centre, and their rate of turn (3,) [rad/s], inertial
-    axes.
+def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
+    """The axes of an orbit at a time [s] as columns (3, 3), x along it, y against its normal, z to the centre, and their rate of turn (3,) [rad/s],
+    inertial axes.
 
     orbit : the keys of the table [orbit] of a scene file, in SI units.
     """
-    made = _orbit(orbit)
-    assert made is not None
+    at_zero = _orbit(orbit)
+    assert at_zero is not None
+    made = orbit_since(time, at_zero)
     radial, along = np.broadcast_arrays(made["radial"], made["along"])
     radius, normal = np.asarray(made["radius"]), np.cross(radial, along)
     cosine = np.reshape([math.cos(each) for each in np.ravel(made["true_anomaly"]).tolist()], np.shape(made["true_anomaly"]))
@@ -216,11 +220,19 @@ def posed(*, inertia: Any, angular_velocity: Any = _ZERO, attitude: Any = (0.0, 
     }
 
 
+def _with_angles(ask: Ask | None, euler: str | None) -> Ask | None:
+    """A sequence of angles asks for them."""
+    if euler is None or ask is None or isinstance(ask, str) or "euler" in ask:
+        return ask
+    return {**ask, "euler": "default"} if isinstance(ask, Mapping) else (*ask, "euler")
+
+
 def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
           wheels: Sequence[Record] = (), torques: Sequence[Record] = (), mass: float = 1.0, centre_of_mass: ArrayLike = _ZERO, fixed: bool = False,
           rotor_momentum: ArrayLike = _ZERO, orbit: Record | None = None, field: Record | None = None, velocity: ArrayLike = _ZERO,
           position: ArrayLike = _ZERO, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto", recognise: bool = True,
-          monitor: Monitor | None = None, ask: Ask | None = None) -> Answer:
+          monitor: Monitor | None = None, ask: Ask | None = None, start_time: float = 0.0, start_error: Mapping[str, float] | None = None,
+          euler: str | None = None) -> Answer:
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor of the whole, wheels locked, about the mass centre, or where the body is fixed about its origin
@@ -232,30 +244,38 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     exactly an instance.
     ask : columns and scalars wanted: names, "all", or name -> tolerance, relative or with a unit ("0.1 deg"); None: attitude, angular
     velocity, and rates and angles of the wheels.
+    start_time : where the clock of times, tables, waves and orbit stands at the start [s]: attitude, rates and path are given there, and the first
+    of the times may not be before it.
+    start_error : by how much the start may be off, absolute: attitude [rad], angular_velocity, rotor_rate [rad/s], rotor_angle [rad], velocity,
+    position; what comes of it is part of the errors of the answer.
+    euler : sequence of the column `euler`, which is asked for with it, as "3-2-1" or "ZYX": R = R3(a1) R2(a2) R1(a3), body to inertial; None: there is no such column.
     Raises DomainError for an argument outside its domain, for a wheel that the body cannot hold, and for a rung that cannot compute the
     motion; ConvergenceError where a computation hits its cap; Cancelled where the monitor stopped it.
     """
     scene = posed(inertia=inertia, angular_velocity=angular_velocity, attitude=attitude, wheels=wheels, torques=torques, mass=mass,
                   centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
-    asking: dict[str, Any] = {"times": np.asarray(times, dtype=float), "tolerance": float(tolerance), "model": model, "integrator": integrator}
-    made = _core.general_solve(scene=scene, **asking, recognise=recognise, monitor=monitor, ask=asked("general", ask))
+    at = np.asarray(times, dtype=float)
+    asking: dict[str, Any] = {"times": at, "tolerance": float(tolerance), "model": model, "integrator": integrator}
+    made = _core.general_solve(scene=since(start_time, scene), **{**asking, "times": at - start_time}, recognise=recognise, monitor=monitor,
+                               ask=asked("general", _with_angles(ask, euler)), start_error=dict(start_error or {}),
+                               euler=None if euler is None else axes_of(euler))
     body = {**scene["body"], **scene["initial"]}
     records = {"wheels": [dict(each) for each in wheels] or None, "torques": [dict(each) for each in torques] or None,
                "orbit": None if orbit is None else dict(orbit), "field": None if field is None else dict(field)}
-    return answer_of("general", made, {**body, **asking, **records, "recognise": None if recognise else False, "ask": ask})
+    return answer_of("general", made, {**body, **asking, **records, "recognise": None if recognise else False, "ask": ask, "euler": euler})
 
 
 def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
               wheels: Sequence[Record] = (), torques: Sequence[Record] = (), mass: float = 1.0, centre_of_mass: ArrayLike = _ZERO,
               fixed: bool = False, rotor_momentum: ArrayLike = _ZERO, orbit: Record | None = None, field: Record | None = None,
-              velocity: ArrayLike = _ZERO, position: ArrayLike = _ZERO) -> dict[str, str]:
+              velocity: ArrayLike = _ZERO, position: ArrayLike = _ZERO, start_time: float = 0.0) -> dict[str, str]:
     """Name of each family, and why the scene is not exactly an instance of it; empty where it is.
 
     Arguments as of `solve`.
     """
     scene = posed(inertia=inertia, angular_velocity=angular_velocity, attitude=attitude, wheels=wheels, torques=torques, mass=mass,
                   centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
-    found = _core.general_recognise(scene=scene, times=np.asarray(times, dtype=float))
+    found = _core.general_recognise(scene=since(start_time, scene), times=np.asarray(times, dtype=float) - start_time)
     return {name: why or "" for name, why in found}
 
 

@@ -108,4 +108,4 @@ def recognised(scene: "Scene") -> dict[str, str]:
     from gyrostat.families.general.scene import arguments
 
     given = arguments(as_general(scene))
-    return recognise(**{name: value for name, value in given.items() if name not in ("tolerance", "model", "integrator", "recognise")})
+    return recognise(**{name: value for name, value in given.items() if name not in ("tolerance", "model", "integrator", "recognise", "start_error", "euler")})

@@ -15,6 +15,7 @@ from gyrostat.families import FAMILIES
 from gyrostat.families.general.functions import QUESTION, OverRows, posed
 from gyrostat.families.general.scene import arguments
 from gyrostat.fields import ROUNDING
+from gyrostat.orientation import axes_of
 from gyrostat.rows import Place, inputs_of, numbers_of, refilled
 
 if TYPE_CHECKING:
@@ -41,7 +42,9 @@ def request(scene: "Scene", places: Iterable[Place], columns: Iterable[Floats], 
             values.append(np.reshape(leaves[name], (len(sound), width)).T)
         first += width
     every = np.concatenate(values) if values else np.empty((0, len(sound)))
-    return {"scene": alone, "recognise": scene.tables["solve"]["recognise"], "numbers": given, "places": at, "values": np.where(sound, every, np.nan)}
+    solve = scene.tables["solve"]
+    sequence = axes_of(solve["euler"]) if solve["euler"] else None
+    return {"scene": alone, "recognise": solve["recognise"], "euler": sequence, "numbers": given, "places": at, "values": np.where(sound, every, np.nan)}
 
 
 def _posed(scene: "Scene") -> dict[str, Any]:
@@ -54,7 +57,7 @@ def _with_numbers(scene: "Scene", numbers: Iterator[Any]) -> "Scene":
     for _, table, field in inputs_of(FAMILIES[scene.kind]):
         home = tables[table] if table else top
         made = refilled(field, home[field.name], numbers)
-        home[field.name] = _unit_turn(made) if field.form == "turn" else made
+        home[field.name] = _unit_turn(made) if field.form == "turn" and made is not None else made
     return replace(scene, tables=tables, top=top)
 
 

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The scene file of one body with any wheels and any torques: its keys, the checks that take more than one key, and what they come to."""
 
+import bisect
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from gyrostat.broadcast import Floats
-from gyrostat.families.general.functions import PLANETS, diagonal, dot, orbit_start, posed, stacked, turned
-from gyrostat.fields import REQUIRED, UNSET, Choices, Field, Found, Table, Values
+from gyrostat.errors import DomainError
+from gyrostat.families.general.before import EPS, End, end_of
+from gyrostat.families.general.functions import PLANETS, diagonal, dot, orbit_start, stacked, turned, unit, varies
+from gyrostat.fields import REQUIRED, ROUNDING, UNSET, Choices, Field, Found, Table, Values
 from gyrostat.rotation import matrix_from_quaternion, quaternion_from_matrix
 
 if TYPE_CHECKING:
@@ -34,10 +38,13 @@ def _wheel(kind: str, *own: Field, meaning: str, default: Any = REQUIRED) -> Tab
         Field("type", "choice", meaning, default=default, choices=(kind,)),
         Field("name", "text", "name of the wheel", default=""),
         Field("axis", "axis", "axis of the wheel, body axes, of any length"),
-        Field("axial_inertia", "number", "inertia of the wheel about its axis; it is part of body.inertia", "kg m^2", 0.0 if locked else REQUIRED,
+        Field("axial_inertia", "number", "inertia of the wheel about its axis; it is part of body.inertia unless body.wheels_in_inertia is false", "kg m^2", 0.0 if locked else REQUIRED,
               low=0 if locked else 1e-40),
         *own,
-        *(() if locked else (Field("angle", "number", "angle of the wheel at t = 0", "rad", 0.0),)),
+        Field("mass", "number", "mass of the wheel, where body.wheels_in_inertia is false", "kg", UNSET, low=0, open_low=True),
+        Field("position", "vector", "its mass centre from the body's origin, there", "m", UNSET),
+        Field("equatorial_inertia", "number", "its inertia about an axis across its own, there; at least half of axial_inertia", "kg m^2", UNSET, low=0),
+        *(() if locked else (Field("angle", "number", "angle of the wheel at t = 0, 0 by default", "rad", UNSET),)),
     )
 
 
@@ -111,15 +118,26 @@ TORQUES: Final[tuple[Table, ...]] = (
 )
 
 _DIRECTION: Final = "of any length"
+# What a wheel has that is not part of body.inertia.
+APART: Final = ("mass", "position", "equatorial_inertia")
 KEYS: Final[dict[str, Table]] = {
-    "": (Field("wheel", "records", "wheels on the body, a table [[wheel]] each", default=(), sorts=WHEELS, by=("type",)),
+    "": (Field("from", "text or record", "the scene, a file or the name of a bundled one, at whose end this one begins: [initial] holds what is otherwise "
+               "then, and the clock goes on", "", UNSET, parts=(
+                   Field("file", "text", "file or name of the scene"),
+                   Field("keep", "choice", "what a body that has changed keeps: its angular velocity, or its angular momentum", default="rates",
+                         choices=("rates", "momentum")))),
+         Field("wheel", "records", "wheels on the body, a table [[wheel]] each", default=(), sorts=WHEELS, by=("type",)),
          Field("torque", "records", "what acts on the body, a table [[torque]] each", default=(), sorts=TORQUES, by=("type", "against"))),
-    "solve": (Field("recognise", "flag", "whether the families are asked of which the scene is exactly an instance", default=True),),
+    "solve": (Field("euler", "sequence", "sequence of the angles in the column `euler`, as 3-2-1 or ZYX: with it body to inertial is R3(a1) R2(a2) R1(a3)",
+                    "", UNSET),
+              Field("recognise", "flag", "whether the families are asked of which the scene is exactly an instance", default=True),),
     "body": (
         Field("inertia", "inertia", "inertia of the whole, wheels locked: three principal moments along the body axes, or a symmetric 3x3 tensor",
               "kg m^2", low=1e-40),
         Field("inertia_about", "choice", "the point that the inertia is about: where the body is held or else its mass centre, its mass centre, "
               "or the origin of its axes", default="reference", choices=("reference", "mass-centre", "origin")),
+        Field("wheels_in_inertia", "flag", "the wheels are part of inertia, mass and centre_of_mass; false: these are of the body without them, and each "
+              "wheel has mass, position and equatorial_inertia", default=True),
         Field("mass", "number", "mass", "kg", 1.0, low=0, open_low=True),
         Field("centre_of_mass", "vector", "mass centre from the body's origin, body axes", "m", (0.0, 0.0, 0.0)),
         Field("fixed", "flag", "the body's origin is held in space", default=False),
@@ -150,7 +168,8 @@ KEYS: Final[dict[str, Table]] = {
             Field("radius", "number", "distance at which it has that strength", "m", low=0, open_low=True))),
     ),
     "initial": (
-        Field("attitude", "turn", "attitude at t = 0, body to inertial, [x, y, z, w], of any length", "", (0.0, 0.0, 0.0, 1.0)),
+        Field("attitude", "turn", "attitude at the start, body to inertial, [x, y, z, w], of any length; by default the body axes are along the "
+              "inertial ones", "", UNSET),
         Field("relative_to", "choice", "what the attitude takes the body axes to: inertial axes, or those of the orbit (x along it, y against its "
               "normal, z to the centre)", default="inertial", choices=("inertial", "orbit")),
         Field("angular_velocity", "vector or record", "angular velocity at t = 0, body axes; or its components along inertial axes, or that relative to "
@@ -158,8 +177,8 @@ KEYS: Final[dict[str, Table]] = {
               parts=(Field("inertial", "vector", "inertial axes", "rad/s", UNSET),
                      Field("relative_to_orbit", "vector", "relative to the axes of the orbit, body axes", "rad/s", UNSET))),
         Field("angular_momentum", "vector", "total angular momentum at t = 0, body axes", "N m s", UNSET),
-        Field("velocity", "vector", "velocity of the mass centre of a free body at t = 0, inertial axes", "m/s", (0.0, 0.0, 0.0)),
-        Field("position", "vector", "position of the mass centre of a free body at t = 0, inertial axes", "m", (0.0, 0.0, 0.0)),
+        Field("velocity", "vector", "velocity of the mass centre of a free body at the start, inertial axes; by default it is at rest", "m/s", UNSET),
+        Field("position", "vector", "position of the mass centre of a free body at the start, inertial axes; by default the origin", "m", UNSET),
     ),
 }
 ALTERNATIVES: Final[tuple[Choices, ...]] = (
@@ -170,8 +189,9 @@ ALTERNATIVES: Final[tuple[Choices, ...]] = (
 # The argument of `solve` that a table is.
 ARGUMENTS: Final = {"wheels": ("", "wheel"), "torques": ("", "torque"), "orbit": ("", "orbit"), "field": ("", "field")}
 EXAMPLE: Final[dict[str, Any]] = {
-    "solve.duration": "90 min", "solve.samples": 541, "body.inertia": (90.0, 120.0, 60.0), "initial.angular_velocity": (0.0, -0.00113, 0.0002),
-    "initial.angular_momentum": (0.0, -0.135, 0.012), "orbit.radius": 6778137.0, "orbit.altitude": "400 km", "orbit.rate": 0.00113,
+    "solve.duration": "90 min", "solve.euler": "3-2-1", "solve.samples": 541, "body.inertia": (90.0, 120.0, 60.0), "initial.angular_velocity": (0.0, -0.00113, 0.0002),
+    "initial.angular_momentum": (0.0, -0.135, 0.012), "initial.attitude": (0.0, 0.0, 0.0, 1.0), "initial.velocity": (0.0, 0.0, 0.0),
+    "initial.position": (0.0, 0.0, 0.0), "from": "iss-drift", "orbit.radius": 6778137.0, "orbit.altitude": "400 km", "orbit.rate": 0.00113,
     "orbit.period": "92 min", "orbit.mu": 3.986004415e14, "field.uniform": (2e-5, 0.0, -3e-5),
     "field.rotating": {"axis": (0.0, 0.0, 1.0), "rate": 0.0023, "vector": (2e-5, 0.0, 1e-5)},
     "field.dipole": {"axis": (0.17, 0.1, 0.98), "strength": 3.1e-5, "radius": 6371200.0},
@@ -191,15 +211,21 @@ def mistakes(tables: Values) -> Found:
         yield "initial.angular_velocity", start["angular_velocity"], "there is no orbit", remedy
     if field["dipole"] is not UNSET and not orbiting and any(torque["type"] in ("magnetic", "eddy-current") for torque in tables[""]["torque"]):
         yield "field.dipole", field["dipole"], "the field of a dipole is that along an orbit", remedy
-    if body["fixed"] and any(start["velocity"]) or body["fixed"] and any(start["position"]):
-        key = "velocity" if any(start["velocity"]) else "position"
+    asked = tables["solve"]["ask"]
+    if tables["solve"]["euler"] is UNSET and isinstance(asked, tuple | Mapping) and "euler" in asked:
+        yield "solve.ask", "euler", "the sequence of the angles is not said", 'add solve.euler, such as "3-2-1" for yaw, pitch and roll'
+    for key in ("velocity", "position"):
+        if not body["fixed"] or not any(start[key] or ()):
+            continue
         yield f"initial.{key}", start[key], "the body is held at its origin", f"leave out {key}, or body.fixed"
-    moments = np.linalg.eigvalsh(_about_reference(body))
+    for place, wheel in enumerate(tables[""]["wheel"], 1):
+        yield from _wheel_mistakes(place, wheel, body["wheels_in_inertia"])
+    if not body["wheels_in_inertia"] and any(wheel[name] is UNSET for wheel in tables[""]["wheel"] for name in APART):
+        return
+    moments = np.linalg.eigvalsh(_whole(body, tables[""]["wheel"]).inertia)
     if body["inertia_about"] == "origin" and not body["fixed"] and (moments[0] <= 0 or moments[0] + moments[1] < moments[2] * (1 - 1e-9)):
         yield ("body.inertia", body["inertia"], f"moved from the origin to the mass centre it has the moments {', '.join(f'{m:.6g}' for m in moments)}, which "
                "no body has", "check mass and centre_of_mass, or say what point the inertia is about by inertia_about")
-    for place, wheel in enumerate(tables[""]["wheel"], 1):
-        yield from _wheel_mistakes(place, wheel)
     for place, torque in enumerate(tables[""]["torque"], 1):
         yield from _torque_mistakes(place, torque, orbiting, body["fixed"], any(field[name] is not UNSET for name in ("uniform", "rotating", "dipole")))
 
@@ -212,8 +238,16 @@ def doubts(tables: Values) -> Found:
                'write kind = "heavy" for a body that is held at a point, or kind = "general" for one that falls freely')
 
 
-def _wheel_mistakes(place: int, wheel: Mapping[str, Any]) -> Found:
+def _wheel_mistakes(place: int, wheel: Mapping[str, Any], in_inertia: bool) -> Found:
     kind = wheel["type"]
+    for name in APART:
+        if in_inertia and wheel[name] is not UNSET:
+            yield "wheel", "", f"wheel {place}: {name} is given, but its inertia is part of body.inertia", "leave it out, or set body.wheels_in_inertia = false"
+        if not in_inertia and wheel[name] is UNSET:
+            yield "wheel", "", f"wheel {place}: the key {name} is missing, and the body is without its wheels", "give it, or set body.wheels_in_inertia = true"
+    if not in_inertia and wheel["equatorial_inertia"] is not UNSET and 2 * wheel["equatorial_inertia"] < wheel["axial_inertia"] * (1 - ROUNDING):
+        yield ("wheel", "", f"wheel {place}: equatorial_inertia {wheel['equatorial_inertia']!r} is below half of axial_inertia {wheel['axial_inertia']!r}, which "
+               "no body has", "a thin disc has half of it, a ring too")
     if wheel.get("rate") is not UNSET and wheel.get("momentum") is not UNSET:
         yield "wheel", "", f"wheel {place}: rate and momentum are both given", "give one of them"
     if kind == "motor" and (wheel["slope"] is UNSET) == (wheel["stall_torque"] is UNSET):
@@ -253,18 +287,88 @@ def _torque_mistakes(place: int, torque: Mapping[str, Any], orbiting: bool, fixe
             yield from _lengths(f"{what}: factor", "torque", factor)
 
 
-def _about_reference(body: Mapping[str, Any]) -> Floats:
-    """The inertia about the fixed point, or the mass centre of a free body."""
-    inertia = stacked(body["inertia"])
-    inertia = inertia if isinstance(body["inertia"][0], tuple) else diagonal(inertia)
-    r, mass = stacked(body["centre_of_mass"]), np.asarray(body["mass"], dtype=float)[..., None, None]
-    steiner: Floats = mass * (dot(r, r)[..., None, None] * np.eye(3) - r[..., :, None] * r[..., None, :])
-    if body["inertia_about"] == "mass-centre" and body["fixed"]:
-        inertia = inertia + steiner
-    if body["inertia_about"] == "origin" and not body["fixed"]:
-        inertia = inertia - steiner
-    made: Floats = inertia
+def _times(factor: Any, of: Floats) -> Floats:
+    """A number times a vector or a tensor."""
+    made: Floats = np.reshape(np.asarray(factor, dtype=float), (*np.shape(factor), *[1] * (2 if of.shape[-2:] == (3, 3) else 1))) * of
     return made
+
+
+def _square(v: Floats) -> Floats:
+    """v v^T"""
+    made: Floats = v[..., :, None] * v[..., None, :]
+    return made
+
+
+def _moved(mass: Any, arm: Floats) -> Floats:
+    """What an inertia about the mass centre gains at a point that far from it."""
+    return _times(mass, dot(arm, arm)[..., None, None] * np.eye(3) - _square(arm))
+
+
+@dataclass(frozen=True, slots=True)
+class _Whole:
+    """The body and its wheels as one."""
+
+    inertia: Floats  # about the fixed point, or the mass centre of a free body
+    mass: Any
+    centre_of_mass: Floats
+
+
+def _whole(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]]) -> _Whole:
+    mass, centre, inertia = body["mass"], stacked(body["centre_of_mass"]), stacked(body["inertia"])
+    inertia = inertia if isinstance(body["inertia"][0], tuple) else diagonal(inertia)
+    about = body["inertia_about"] if body["inertia_about"] != "reference" else "origin" if body["fixed"] else "mass-centre"
+    apart = [] if body["wheels_in_inertia"] else [(each["mass"], stacked(each["position"])) for each in wheels]
+    all_mass = mass + sum(m for m, _ in apart)
+    all_centre = (_times(mass, centre) + sum(_times(m, r) for m, r in apart)) / np.asarray(all_mass)[..., None] if apart else centre
+    reference = np.zeros(3) if body["fixed"] else all_centre
+    given = np.zeros(3) if about == "origin" else centre
+    differs = np.any(given != reference, -1)[..., None, None]
+    inertia = np.where(differs, inertia - _moved(mass, centre - given) + _moved(mass, centre - reference), inertia)
+    for wheel, (m, r) in zip(wheels, apart, strict=False):
+        across = wheel["equatorial_inertia"]
+        inertia = inertia + _times(across, np.eye(3)) + _times(wheel["axial_inertia"] - across, _square(unit(stacked(wheel["axis"])))) + _moved(m, r - reference)
+    return _Whole(inertia, all_mass, all_centre)
+
+
+@dataclass(frozen=True, slots=True)
+class _Start:
+    """A start as `solve` takes it."""
+
+    attitude: Floats
+    angular_velocity: Floats
+    velocity: Floats
+    position: Floats
+    wheels: list[dict[str, Any]]
+    error: dict[str, float]
+
+
+def _rate_at(wheel: Mapping[str, Any], time: float) -> Any:
+    """The rate that a wheel is given at the start."""
+    rate = wheel.get("rate")
+    if wheel.get("momentum") is not UNSET:
+        return wheel["momentum"] / wheel["axial_inertia"]
+    if not isinstance(rate, Mapping):
+        return 0.0 if rate is UNSET else rate
+    times, values = rate["times"], rate["values"]
+    if varies(times) or varies(values):
+        rows = [each.tolist() for each in np.broadcast_arrays(*(np.atleast_2d(stacked(each)) for each in (times, values)))]
+        return np.array([_rate_at({**wheel, "rate": {**rate, "times": tuple(t), "values": tuple(v)}}, time) for t, v in zip(*rows, strict=True)])
+    if time < times[0] or time > times[-1]:
+        return float((values[0] if time < times[0] else values[-1]) if rate["extend"] == "hold" else 0.0)
+    place = bisect.bisect_right(times, time) - 1
+    if times[place] == time or rate["interpolation"] == "step":
+        return float(values[place])
+    if rate["interpolation"] == "cubic":
+        raise DomainError(f"initial.angular_momentum: a wheel's table has no value at t = {time:g} s, where the motion begins: add one, or give angular_velocity")
+    return float(np.interp(time, times, values))
+
+
+def _rates_of(momentum: Floats, inertia: Floats, body: Mapping[str, Any], wheels: list[dict[str, Any]], time: float) -> Floats:
+    """The angular velocity with which body and wheels have a momentum; rates of wheels are relative to the body, so with them J is that of the whole."""
+    held = stacked(body["rotor_momentum"])
+    for wheel in wheels:
+        held = held + _times(wheel["axial_inertia"] * _rate_at(wheel, time), unit(stacked(wheel["axis"])))
+    return np.linalg.solve(inertia, (momentum - held)[..., None])[..., 0].astype(np.float64)
 
 
 def _rotation(attitude: Floats) -> Floats:
@@ -273,45 +377,113 @@ def _rotation(attitude: Floats) -> Floats:
     return matrix_from_quaternion(np.where(known, attitude, (0.0, 0.0, 0.0, 1.0)))
 
 
-def _start(scene: "Scene", inertia: Floats, orbit: Mapping[str, Any] | None) -> tuple[Floats, Floats]:
-    """Attitude and angular velocity at t = 0."""
-    start = scene.tables["initial"]
-    attitude = stacked(start["attitude"])
-    axes, normal_rate = (np.eye(3), np.zeros(3)) if orbit is None else orbit_start(orbit)
+def _from_orbit(axes: Floats, attitude: Floats) -> Floats:
+    """The attitude of a body whose attitude in the axes of the orbit is given; NaN where it is not known."""
+    R, known = _rotation(attitude), np.all(np.isfinite(attitude), -1, keepdims=True)
+    sound = np.where(np.all(np.isfinite(axes), (-2, -1), keepdims=True), axes, np.eye(3))
+    made: Floats = np.where(known, quaternion_from_matrix(np.stack([turned(sound, R[..., :, i]) for i in range(3)], -1)), np.nan)
+    return made
+
+
+def _handed_on(wheels: list[dict[str, Any]], end: End) -> tuple[list[dict[str, Any]], list[int]]:
+    """The wheels, with rates and angles of those of the same name in the scene before, or of the same place where they have no name, unless they
+    have their own; and the places of those whose rate is handed on."""
+    made, taken = [], []
+    for place, wheel in enumerate(wheels):
+        found = end.wheels.get(wheel["name"] or str(place + 1)) if wheel["type"] != "locked" else None
+        if found and wheel["angle"] is UNSET:
+            wheel = {**wheel, "angle": found[1]}
+        if found and wheel["rate"] is UNSET and wheel["momentum"] is UNSET:
+            wheel = {**wheel, "rate": found[0]}
+            taken.append(place)
+        made.append(wheel)
+    return made, taken
+
+
+def _caught(end: End, whole: _Whole, body: Mapping[str, Any], wheels: list[dict[str, Any]], taken: list[int]) -> tuple[Floats, float]:
+    """Angular velocity of a body that keeps its angular momentum while it changes, and by how much it may be off. No bearing gives a wheel that turns by
+    itself a torque about its axis, so it keeps its absolute rate: its relative one is set anew."""
+    inertia, rest = whole.inertia, end.angular_momentum - np.array(body["rotor_momentum"], dtype=float)
+    stored, turning = 0.0, []
+    for place, wheel in enumerate(wheels):
+        if wheel["type"] == "locked":
+            continue
+        axis, axial = np.array(wheel["axis"], dtype=float) / math.hypot(*wheel["axis"]), wheel["axial_inertia"]
+        rate = _rate_at(wheel, 0.0)
+        if place in taken and wheel["type"] != "held":
+            rate += float(axis @ end.angular_velocity)
+            inertia = inertia - axial * np.outer(axis, axis)
+            turning.append((wheel, axis, rate))
+        rest = rest - axial * rate * axis
+        stored += axial
+    made: Floats = np.linalg.solve(inertia, rest)
+    for wheel, axis, rate in turning:
+        wheel["rate"] = rate - float(axis @ made)
+    off = end.error["angular_momentum"] + stored * (end.error.get("rotor_rate", 0.0) + end.error["angular_velocity"])
+    return made, off / float(np.linalg.eigvalsh(inertia)[0])
+
+
+def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _Start:
+    """The start that a scene gives, or finds at the end of the one before."""
+    body, start, time = scene.tables["body"], scene.tables["initial"], scene.start_time
+    end = None if scene.before is None else end_of(scene.before)
+    wheels, taken = [dict(each) for each in scene.top["wheel"]], list[int]()
+    if end:
+        wheels, taken = _handed_on(wheels, end)
+    error = dict.fromkeys(("attitude", "angular_velocity", "rotor_rate", "rotor_angle", "velocity", "position"), 0.0)
+    attitude = stacked(start["attitude"] if start["attitude"] is not UNSET else (0.0, 0.0, 0.0, 1.0) if end is None else end.attitude)
+    axes, normal_rate = (np.eye(3), np.zeros(3)) if orbit is None else orbit_start(orbit, time)
     if start["relative_to"] == "orbit":
-        R, known = _rotation(attitude), np.all(np.isfinite(attitude), -1, keepdims=True)
-        sound = np.where(np.all(np.isfinite(axes), (-2, -1), keepdims=True), axes, np.eye(3))
-        attitude = np.where(known, quaternion_from_matrix(np.stack([turned(sound, R[..., :, i]) for i in range(3)], -1)), np.nan)
+        attitude = _from_orbit(axes, attitude)
     back = np.swapaxes(_rotation(attitude), -1, -2)
-    given = start["angular_velocity"]
-    if start["angular_momentum"] is not UNSET:
-        # rates of wheels are relative to the body: with them J is that of the whole
-        held = stacked(scene.tables["body"]["rotor_momentum"])
-        for wheel in posed(inertia=inertia, wheels=scene.top["wheel"])["wheels"]:
-            first = wheel["rate"] if wheel["table"] is None or wheel["type"] != "held" else wheel["table"]["values"][..., 0, 0]
-            held = held + wheel["axis"] * np.asarray(wheel["axial_inertia"] * first)[..., None]
-        return attitude, np.linalg.solve(inertia, (stacked(start["angular_momentum"]) - held)[..., None])[..., 0].astype(np.float64)
-    if not isinstance(given, Mapping):
-        return attitude, stacked(given)
-    if given["inertial"] is not UNSET:
-        return attitude, turned(back, stacked(given["inertial"]))
-    return attitude, stacked(given["relative_to_orbit"]) + turned(back, normal_rate)
+    given, momentum = start["angular_velocity"], start["angular_momentum"]
+    kept = scene.top["from"]["keep"] if isinstance(scene.top["from"], Mapping) else "rates"
+    if end and body["fixed"] and not end.fixed and given is UNSET and momentum is UNSET:
+        raise DomainError("from: a body that was free is held at a point from now on, and what it turns with after such a blow is not in the scene before: "
+                          "give initial.angular_velocity")
+    if momentum is not UNSET:
+        rates = _rates_of(stacked(momentum), whole.inertia, body, wheels, time)
+    elif end and given is UNSET and kept == "momentum":
+        rates, error["angular_velocity"] = _caught(end, whole, body, wheels, taken)
+    elif end and given is UNSET:
+        rates, error["angular_velocity"] = end.angular_velocity, end.error["angular_velocity"]
+    elif not isinstance(given, Mapping):
+        rates = stacked(given)
+    elif given["inertial"] is not UNSET:
+        rates = turned(back, stacked(given["inertial"]))
+    else:
+        rates = stacked(given["relative_to_orbit"]) + turned(back, normal_rate)
+    velocity, position = np.zeros(3), np.zeros(3)
+    if end:
+        error |= {name: end.error.get(name, 0.0) for name in ("rotor_rate", "rotor_angle") if wheels}
+        # the clock is told to a rounding
+        clock = EPS * time * float(np.linalg.norm(rates))
+        error["attitude"] = (end.error["attitude"] if start["attitude"] is UNSET else 0.0) + clock
+        if not body["fixed"]:
+            velocity, position = end.moved(whole.centre_of_mass)
+            error |= end.off_path(whole.centre_of_mass)
+    for name, value in (("velocity", start["velocity"]), ("position", start["position"])):
+        if value is not UNSET:
+            error[name] = 0.0
+    return _Start(attitude, rates, velocity if start["velocity"] is UNSET else stacked(start["velocity"]),
+                  position if start["position"] is UNSET else stacked(start["position"]), wheels, error)
 
 
 def arguments(scene: "Scene") -> dict[str, Any]:
     """What `solve` takes, from a checked scene."""
-    solving, body, start = (scene.tables[name] for name in ("solve", "body", "initial"))
+    solving, body = scene.tables["solve"], scene.tables["body"]
     orbit: Mapping[str, Any] | None = scene.tables["orbit"]
     field = dict(scene.tables["field"])
     if all(scene.tables["orbit"][name] is UNSET for name in ("radius", "altitude", "rate", "period")):
         orbit, field["dipole"] = None, UNSET  # which nothing feels
-    inertia = _about_reference(body)
-    attitude, angular_velocity = _start(scene, inertia, orbit)
+    whole = _whole(body, scene.top["wheel"])
+    start = _start(scene, whole, orbit)
+    going_on = {} if scene.before is None else {"start_time": scene.start_time, "start_error": start.error}
     return {
-        "inertia": inertia, "mass": body["mass"], "centre_of_mass": stacked(body["centre_of_mass"]), "fixed": body["fixed"],
-        "rotor_momentum": stacked(body["rotor_momentum"]), "wheels": [dict(each) for each in scene.top["wheel"]],
-        "torques": [dict(each) for each in scene.top["torque"]], "orbit": None if orbit is None else dict(orbit), "field": field, "attitude": attitude,
-        "angular_velocity": angular_velocity, "velocity": stacked(start["velocity"]),
-        "position": stacked(start["position"]), "times": scene.times, "tolerance": solving["tolerance"], "model": solving["model"],
-        "integrator": solving["integrator"], "recognise": solving["recognise"],
+        "inertia": whole.inertia, "mass": whole.mass, "centre_of_mass": whole.centre_of_mass, "fixed": body["fixed"],
+        "rotor_momentum": stacked(body["rotor_momentum"]), "wheels": start.wheels,
+        "torques": [dict(each) for each in scene.top["torque"]], "orbit": None if orbit is None else dict(orbit), "field": field,
+        "attitude": start.attitude, "angular_velocity": start.angular_velocity, "velocity": start.velocity, "position": start.position,
+        "times": scene.times, "tolerance": solving["tolerance"], "model": solving["model"],
+        "integrator": solving["integrator"], "recognise": solving["recognise"], "euler": solving["euler"], **going_on,
     }

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The end of a scene as the start of another: state, what is left of it where the body has changed, and by how much it may be off."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from gyrostat.broadcast import Floats
+from gyrostat.errors import DomainError
+from gyrostat.rotation import matrix_from_quaternion
+
+if TYPE_CHECKING:
+    from gyrostat.scenes import Scene
+
+__all__ = ["End", "end_of"]
+
+EPS: Final = 2.0**-52
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """A motion at its last time; the errors are absolute."""
+
+    attitude: Floats  # (4,)
+    angular_velocity: Floats  # (3,), body axes [rad/s]
+    angular_momentum: Floats  # (3,), body axes [N m s]
+    wheels: Mapping[str, tuple[float, float]]  # name -> rate [rad/s] and angle [rad] relative to the body; those without a name by their place, "1", "2" ...
+    fixed: bool
+    centre_of_mass: Floats  # (3,) from the body's origin, body axes [m]
+    velocity: Floats  # (3,) of the mass centre, or of the origin of a fixed body, inertial axes [m/s]
+    position: Floats  # (3,) [m]
+    error: Mapping[str, float]
+
+    def moved(self, centre_of_mass: Floats) -> tuple[Floats, Floats]:
+        """Velocity and position of the mass centre of a body that is free from now on."""
+        R = matrix_from_quaternion(self.attitude)
+        arm = centre_of_mass - (np.zeros(3) if self.fixed else self.centre_of_mass)
+        return self.velocity + R @ np.cross(self.angular_velocity, arm), self.position + R @ arm
+
+    def off_path(self, centre_of_mass: Floats) -> dict[str, float]:
+        """By how much these two may be off."""
+        arm = float(np.linalg.norm(centre_of_mass - (np.zeros(3) if self.fixed else self.centre_of_mass)))
+        turn, rate, omega = self.error["attitude"], self.error["angular_velocity"], float(np.linalg.norm(self.angular_velocity))
+        return {"velocity": self.error.get("velocity", 0.0) + arm * (rate + omega * turn), "position": self.error.get("position", 0.0) + arm * turn}
+
+
+@lru_cache(maxsize=16)
+def end_of(scene: "Scene") -> End:
+    """The end of a scene of any kind, by the cheapest rung that meets its own tolerance, or comes nearest to it. Raises DomainError where it is not known."""
+    from gyrostat.families import FAMILIES
+    from gyrostat.families.general.rewrite import as_general
+
+    told = as_general(scene)
+    names = [wheel["name"] or str(place) for place, wheel in enumerate(told.top["wheel"], 1)]
+    fixed = bool(told.tables["body"]["fixed"])
+    ask = ["attitude", "angular_velocity", "angular_momentum", *(("rotor_rate", "rotor_angle") if names else ()), *(() if fixed else ("velocity", "position"))]
+    last = float(scene.times[-1])
+    general = FAMILIES["general"]
+    given = general.arguments(told.replace(**{"solve.times": [last], "solve.ask": ask}))
+    answer = general.solve(**given)
+    error = {name: answer.error[name] * (1.0 if name == "attitude" else max(answer.scale[name], float(np.linalg.norm(answer[name])))) for name in ask}
+    for name in ask:
+        if not math.isfinite(error[name]) or not np.all(np.isfinite(answer[name])):
+            raise DomainError(f"from: the end of {scene.name} is not known: rung {answer.model} states no error of {name} there; ask for a shorter span of it, or "
+                              "give [initial]")
+    row = {name: answer[name][-1] for name in ask}
+    still = np.zeros(3)
+    turning = zip(row["rotor_rate"].tolist(), row["rotor_angle"].tolist(), strict=True) if names else ()
+    return End(row["attitude"], row["angular_velocity"], row["angular_momentum"], dict(zip(names, turning, strict=True)), fixed,
+               given["centre_of_mass"], row.get("velocity", still), row.get("position", still), error)

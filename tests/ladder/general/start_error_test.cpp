@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/general/start_error.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "answered.hpp"
+#include "catch.hpp"
+
+using namespace gyrostat;
+using namespace gyrostat::general;
+using namespace general_scenes;
+
+namespace {
+
+Question all_at(std::vector<double> times, double tolerance) {
+  Question question = question_at(std::move(times), tolerance);
+  question.asked = all_columns();
+  for (auto& each : question.asked) each.needed = false;
+  return question;
+}
+
+Problem<double> driven() {
+  Problem<double> made = brick();
+  Torque<double> push;
+  push.vector = {0.02, -0.01, 0.03};
+  push.factor.on = {{1, 4}};
+  made.torques.push_back(push);
+  made.wheels.push_back({WheelType::friction, Vec3<double>(0.6, 0, 0.8), 0.2, 12, 0, 0, 0.05, 0, 0, {}});
+  return made;
+}
+
+/// Another start within the error.
+Problem<double> within(const Problem<double>& of, const StartError& error, int which) {
+  const double angle = 0.7 * which;
+  const Vec3<double> u(std::cos(angle), std::sin(angle) * std::cos(3 * angle), std::sin(angle) * std::sin(3 * angle));
+  Problem<double> made = of;
+  made.angular_velocity += error.angular_velocity * Vec3<double>(u[2], u[0], u[1]);
+  const Vec3<double> half = error.attitude / 2 * u;
+  made.attitude = normalised(of.attitude * Quat<double>{1, half[0], half[1], half[2]});
+  for (auto& wheel : made.wheels) wheel.rate += (which % 2 ? 1 : -1) * error.rotor_rate;
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("what an error of the start makes of an answer is stated, and not far too large") {
+  for (const double size : {1e-3, 1e-6, 1e-10})
+    for (const auto& problem : {brick(), driven()}) {
+      StartError error;
+      error.attitude = size, error.angular_velocity = size / 5, error.rotor_rate = 3 * size;
+      const Question question = all_at({0, 3, 11, 40}, 0.1 * size > 1e-11 ? 0.1 * size : 1e-11);
+      const Answer answer = solved(posed(problem, question).known_within(error));
+      const Answer alone = solved(posed(problem, question));
+      std::vector<double> most(answer.columns.size());
+      for (int which = 0; which < 12; ++which) {
+        const Answer truth = true_answer(posed(within(problem, error, which), question));
+        for (std::size_t i = 0; i < most.size(); ++i)
+          most[i] = std::max(most[i], column_error(answer.columns[i], *truth.find(answer.columns[i].name())));
+      }
+      for (std::size_t i = 0; i < most.size(); ++i) {
+        CAPTURE(size, answer.columns[i].name(), most[i], answer.columns[i].error, alone.columns[i].error);
+        CHECK(most[i] <= answer.columns[i].error * (1 + 1e-9));
+        CHECK(answer.columns[i].error <= 8 * most[i] + 2 * alone.columns[i].error);
+      }
+    }
+}
+
+TEST_CASE("the tolerance holds for the start's error and the answer's own together") {
+  const Question question = question_at({0, 20}, 1e-4);
+  StartError error;
+  error.attitude = 8e-5;
+  const Answer near = solved(posed(driven(), question).known_within(error));
+  CHECK(near.met);
+  CHECK(near.find("attitude")->error >= 8e-5);
+  CHECK(near.find("attitude")->error <= 1e-4);
+  CHECK(!near.warns("start-uncertain"));
+  error.attitude = 2e-4;
+  const Answer far = solved(posed(driven(), question).known_within(error));
+  CHECK(!far.met);
+  CHECK(far.warns("start-uncertain"));
+  CHECK(far.tolerance == 1e-4);
+}
+
+TEST_CASE("a start beside an unstable rotation states an error that has grown") {
+  Problem<double> problem = brick();
+  problem.angular_velocity = {0, 1, 0};
+  StartError error;
+  error.angular_velocity = 1e-9;
+  // the rate of growth is sqrt((5 - 4)(4 - 3)/(3 5)), so that 1e-9 becomes some 1e-3 in 54 s
+  const Answer answer = solved(posed(problem, question_at({0, 54}, 1e-8)).known_within(error));
+  CHECK(answer.find("angular_velocity")->error > 3e-4);
+  CHECK(answer.find("angular_velocity")->error < 1e-1);
+}
+
+TEST_CASE("errors of path and wheel angles go along") {
+  StartError error;
+  error.position = 2, error.velocity = 0.5, error.rotor_angle = 0.125;
+  Problem<double> problem = driven();
+  problem.velocity = {1, 0, 0};
+  const Scene scene = posed(problem, all_at({0, 10}, 1e-6)).known_within(error);
+  const Answer answer = solved(scene);
+  const auto absolute = [&](const char* name) { return answer.find(name)->error * size_of(*answer.find(name)); };
+  CHECK(std::abs(absolute("position") - 7) < 1e-3);
+  CHECK(std::abs(absolute("velocity") - 0.5) < 1e-3);
+  CHECK(std::abs(absolute("rotor_angle") - 0.125) < 1e-3);
+}

@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""General scenes that begin where another ends, bodies that are told without their wheels, and attitudes told by angles."""
+
+import copy
+from pathlib import Path
+from typing import Any
+
+import gyrostat
+import numpy as np
+import pytest
+from gyrostat import DomainError, SceneError
+from gyrostat.families.general.before import end_of
+from gyrostat.families.general.scene import arguments
+from gyrostat.rotation import angle_between, matrix_from_quaternion
+from gyrostat.scenes import load, scene_from
+from gyrostat.toml_text import toml_value
+
+WAVE = {"mean": 1.0, "amplitude": 0.3, "rate": 0.4, "phase": 0.2}
+# Everything that knows the time.
+WHOLE: dict[str, Any] = {
+    "name": "whole", "solve": {"duration": 40.0, "samples": 5, "tolerance": 1e-9},
+    "body": {"inertia": [3.0, 2.5, 2.0], "mass": 4.0, "centre_of_mass": [0.1, 0.0, 0.05]},
+    "wheel": [{"name": "a", "type": "friction", "axis": [0.6, 0, 0.8], "axial_inertia": 0.02, "rate": 300.0, "friction": 1e-3},
+              {"name": "b", "type": "torque", "axis": [0, 1, 0], "axial_inertia": 0.01, "rate": 5.0,
+               "torque": {"times": [0.0, 30.0, 60.0, 80.0], "values": [0.01, 0.03, -0.02, 0.0], "interpolation": "cubic", "extend": "hold"}}],
+    "torque": [{"type": "constant", "torque": [0.01, 0.0, 0.002], "on": [[10.0, 70.0]], "factor": WAVE},
+               {"type": "magnetic", "dipole": [1.0, 2.0, 0.5]}, {"type": "gravity-gradient"},
+               {"type": "table", "frame": "orbit", "times": [20.0, 50.0, 60.0], "values": [[0.01, 0, 0], [0, 0.02, 0], [0, 0, 0.01]]}],
+    "orbit": {"altitude": "400 km", "eccentricity": 0.1, "true_anomaly": 0.4},
+    "field": {"rotating": {"axis": [0.0, 0.3, 1.0], "rate": 0.03, "vector": [1e-4, 0.0, 2e-4]}},
+    "initial": {"angular_velocity": [0.3, -0.5, 0.8], "velocity": [1.0, 0.0, 0.0]},
+}
+LATER = [40.0, 55.0, 90.0]
+
+
+def write(folder: Path, name: str, scene: dict[str, Any]) -> Path:
+    text = "".join(f"{key} = {toml_value(value)}\n" for key, value in scene.items() if not isinstance(value, dict) and key not in ("wheel", "torque"))
+    for key in ("wheel", "torque"):
+        text += "".join(f"[[{key}]]\n" + "".join(f"{k} = {toml_value(v)}\n" for k, v in each.items()) for each in scene.get(key, ()))
+    text += "".join(f"[{key}]\n" + "".join(f"{k} = {toml_value(v)}\n" for k, v in value.items()) for key, value in scene.items()
+                    if isinstance(value, dict) and key not in ("from",))
+    file = folder / f"{name}.toml"
+    file.write_text(text)
+    return file
+
+
+def going_on(scene: dict[str, Any], before: Any, **changes: Any) -> dict[str, Any]:
+    """The scene without a start of its own."""
+    made = copy.deepcopy({key: value for key, value in scene.items() if key != "initial"})
+    for wheel in made.get("wheel", ()):
+        wheel.pop("rate", None)
+    return {"name": "later", "from": before, **{k: v for k, v in made.items() if k != "name"}, "solve": {"times": LATER, "tolerance": 1e-8}, **changes}
+
+
+def off(got: gyrostat.Answer, want: gyrostat.Answer, name: str) -> float:
+    if name.startswith("attitude"):
+        return float(np.max(angle_between(got[name], want[name])))
+    rows = [answer[name].reshape(len(answer.t), -1) for answer in (got, want)]
+    return float(np.max(np.linalg.norm(rows[0] - rows[1], axis=1)) / max(got.scale[name], np.max(np.linalg.norm(rows[1], axis=1))))
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
+def test_a_motion_in_two_scenes_is_the_motion_within_what_is_stated(tmp_path: Path, tolerance: float) -> None:
+    write(tmp_path, "first", WHOLE | {"solve": {"duration": 40.0, "samples": 5, "tolerance": tolerance}})
+    whole = gyrostat.solve(WHOLE, times=LATER, tolerance=1e-12, ask="all")
+    later = gyrostat.solve(write(tmp_path, "second", going_on(WHOLE, "first.toml")), ask="all")
+    assert later.t.tolist() == LATER
+    for name in later:
+        assert off(later, whole, name) <= later.error[name] + whole.error[name], name
+    # the start's error is not only carried, it is carried sharply
+    assert later.error["attitude"] < 1e3 * tolerance + 1e-9
+    assert later.met == (later.error["attitude"] <= 1e-8)
+    assert any(warning.code == "start-uncertain" for warning in later.warnings) == (not later.met)
+
+
+def test_three_scenes_in_a_row(tmp_path: Path) -> None:
+    write(tmp_path, "first", WHOLE | {"solve": {"times": [20.0], "tolerance": 1e-11}})
+    write(tmp_path, "second", going_on(WHOLE, "first.toml", solve={"duration": 20.0, "samples": 2, "tolerance": 1e-11}))
+    third = load(write(tmp_path, "third", going_on(WHOLE, "second.toml", solve={"duration": 10.0, "samples": 3})))
+    assert third.start_time == 40.0
+    assert third.times.tolist() == [40.0, 45.0, 50.0]
+    got, want = gyrostat.solve(third), gyrostat.solve(WHOLE, times=third.times.tolist(), tolerance=1e-12)
+    for name in got:
+        assert off(got, want, name) <= got.error[name] + want.error[name], name
+
+
+def test_the_first_row_is_the_end(tmp_path: Path) -> None:
+    first = load(write(tmp_path, "first", WHOLE))
+    end = end_of(first)
+    row = gyrostat.solve(write(tmp_path, "second", going_on(WHOLE, "first.toml")), times=[40.0, 41.0])
+    assert row["angular_velocity"][0].tolist() == end.angular_velocity.tolist()
+    assert row["rotor_rate"][0].tolist() == [rate for rate, _ in end.wheels.values()]
+
+
+def test_keys_of_the_start_override(tmp_path: Path) -> None:
+    write(tmp_path, "first", WHOLE)
+    own = going_on(WHOLE, "first.toml", initial={"angular_velocity": [0.1, 0.0, 0.0], "position": [1.0, 2.0, 3.0]})
+    own["wheel"][0]["rate"] = 7.0
+    row = gyrostat.solve(write(tmp_path, "second", own), times=[40.0, 41.0], ask="all")
+    assert row["angular_velocity"][0].tolist() == [0.1, 0.0, 0.0]
+    assert row["position"][0].tolist() == [1.0, 2.0, 3.0]
+    assert row["rotor_rate"][0, 0] == 7.0
+    assert row["rotor_rate"][0, 1] != 5.0
+    assert angle_between(row["attitude"][0], end_of(load(tmp_path / "first.toml")).attitude) < 1e-15
+
+
+def test_a_wheel_that_is_caught_is_one_of_very_strong_friction(tmp_path: Path) -> None:
+    wheels = [{"name": "a", "type": "free", "axis": [0.6, 0.0, 0.8], "axial_inertia": 0.05, "rate": 40.0},
+              {"name": "b", "type": "free", "axis": [0.0, 1.0, 1.0], "axial_inertia": 0.3, "rate": -3.0}]
+    first = {"name": "first", "solve": {"times": [3.0], "tolerance": 1e-12}, "body": {"inertia": [3.0, 2.5, 2.0]}, "wheel": wheels,
+             "initial": {"angular_velocity": [0.3, -0.5, 0.8]}}
+    write(tmp_path, "first", first)
+    caught = [{**wheels[0], "type": "locked"}, {**wheels[1]}]
+    caught[0].pop("rate")
+    later = going_on(first, {"file": "first.toml", "keep": "momentum"}, wheel=caught)
+    later["wheel"][1].pop("rate")
+    got = arguments(scene_from(later | {"from": {"file": str(tmp_path / "first.toml"), "keep": "momentum"}, "solve": {"times": [3.0, 4.0]}}))
+    # half a millisecond is 250 times what the friction needs; meanwhile the body turns by that time
+    braked = [{**wheels[0], "type": "friction", "friction": 2.5e4}, wheels[1]]
+    end = end_of(load(tmp_path / "first.toml"))
+    for wheel, (rate, _) in zip(braked, end.wheels.values(), strict=True):
+        wheel["rate"] = rate
+    limit = gyrostat.solve(first | {"wheel": braked, "initial": {"angular_velocity": end.angular_velocity.tolist()}}, times=[0.0, 5e-5], ask="all", tolerance=1e-9)
+    assert np.allclose(limit["angular_velocity"][-1], got["angular_velocity"], atol=3e-4)
+    assert abs(limit["rotor_rate"][-1, 1] - got["wheels"][1]["rate"]) < 3e-4
+    assert np.linalg.norm(end.angular_velocity - got["angular_velocity"]) > 0.3
+
+
+def test_rates_are_kept_by_default(tmp_path: Path) -> None:
+    write(tmp_path, "first", WHOLE)
+    lighter = going_on(WHOLE, str(tmp_path / "first.toml"), body={"inertia": [2.0, 1.9, 1.0], "mass": 2.0, "centre_of_mass": [0.0, 0.2, 0.0]})
+    got, end = arguments(scene_from(lighter)), end_of(load(tmp_path / "first.toml"))
+    assert got["angular_velocity"].tolist() == end.angular_velocity.tolist()
+    R, arm = matrix_from_quaternion(end.attitude), np.array([-0.1, 0.2, -0.05])
+    assert np.allclose(got["position"], end.position + R @ arm, rtol=1e-15)
+    assert np.allclose(got["velocity"], end.velocity + R @ np.cross(end.angular_velocity, arm), rtol=1e-15)
+
+
+def test_a_top_that_leaves_its_pivot_flies(tmp_path: Path) -> None:
+    top = load("toy-top").replace(times=[0.5])
+    flying: dict[str, Any] = {"name": "flying", "kind": "general", "from": "toy-top", "solve": {"duration": 0.2, "samples": 3}, "field": {"gravity": 9.80665},
+              "body": {"inertia": [1e-4, 1e-4, 5e-5], "mass": 0.1, "centre_of_mass": [0.0, 0.0, 0.04]}}
+    got = arguments(scene_from(flying))
+    end = end_of(load("toy-top"))
+    assert end.fixed and top.kind == "heavy"
+    R, arm = matrix_from_quaternion(end.attitude), np.array([0.0, 0.0, 0.04])
+    assert np.allclose(got["position"], R @ arm) and np.allclose(got["velocity"], R @ np.cross(end.angular_velocity, arm))
+    with pytest.raises(DomainError, match="held at a point from now on"):
+        arguments(scene_from(flying | {"from": "iss-drift", "body": {**flying["body"], "fixed": True}}))
+
+
+def test_the_scene_before_may_be_of_any_kind() -> None:
+    for name in ("toutatis", "cubesat-wheel-spin-up", "pam-d-burn", "envisat-detumble"):
+        scene = load(name)
+        wheels = [{"type": "free", "axis": scene.tables["rotor"]["axis"], "axial_inertia": 1e-4}] if scene.kind == "rotor" else []
+        later = scene_from({"name": "later", "from": name, "solve": {"duration": 10.0, "samples": 2}, "body": {"inertia": [3.0, 2.5, 2.0]}, "wheel": wheels})
+        assert later.start_time == scene.times[-1]
+        answer = gyrostat.solve(later)
+        assert answer.t[0] == scene.times[-1]
+        if scene.kind == "rotor":
+            assert answer["rotor_rate"][0, 0] == end_of(later.before).wheels["1"][0]  # type: ignore[arg-type]
+
+
+BAD = [
+    ({"from": "nowhere"}, "nowhere: there is no such file"),
+    ({"from": ""}, "the text is empty"),
+    ({"from": 3}, "not text"),
+    ({"from": {"file": "toutatis", "keep": "energy"}}, "use one of rates, momentum"),
+    ({"from": {"keep": "rates"}}, "the key file is missing"),
+    ({"solve": {"times": [1.0, 2.0]}}, "the scene before this one ends at"),
+]
+
+
+@pytest.mark.parametrize(("changes", "message"), BAD)
+def test_mistakes(changes: dict[str, Any], message: str) -> None:
+    scene: dict[str, Any] = {"name": "x", "kind": "general", "from": "iss-drift", "solve": {"duration": 1.0, "samples": 2}, "body": {"inertia": [3.0, 2.5, 2.0]}}
+    with pytest.raises(SceneError, match=message):
+        scene_from(scene | changes)
+
+
+def test_a_scene_without_start_and_without_from_is_told_so() -> None:
+    with pytest.raises(SceneError, match="initial: the table .initial. is missing"):
+        scene_from({"name": "x", "kind": "general", "solve": {"duration": 1.0, "samples": 2}, "body": {"inertia": [3.0, 2.5, 2.0]}})
+    with pytest.raises(SceneError, match="angular_velocity or angular_momentum"):
+        scene_from({"name": "x", "kind": "general", "solve": {"duration": 1.0, "samples": 2}, "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": {}})
+
+
+def test_circles_and_long_chains_are_refused(tmp_path: Path) -> None:
+    one = {"name": "one", "from": "two.toml", "solve": {"duration": 1.0, "samples": 2}, "body": {"inertia": [3.0, 2.5, 2.0]}}
+    write(tmp_path, "one", one)
+    file = write(tmp_path, "two", {**one, "from": "one.toml"})
+    with pytest.raises(SceneError, match="goes on from this scene in turn"):
+        load(file)
+    write(tmp_path, "scene0", WHOLE)
+    for i in range(1, 18):
+        write(tmp_path, f"scene{i}", {**one, "from": f"scene{i - 1}.toml"})
+    assert load(tmp_path / "scene15.toml").start_time == 54.0
+    with pytest.raises(SceneError, match="over 16 scenes go on from each other"):
+        load(tmp_path / "scene17.toml")
+
+
+# ---- bodies without their wheels ----
+
+
+def steiner(mass: float, arm: Any) -> Any:
+    arm = np.asarray(arm)
+    return mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+
+
+@pytest.mark.parametrize("fixed", [False, True])
+@pytest.mark.parametrize("about", ["reference", "mass-centre", "origin"])
+def test_wheels_beside_the_inertia_are_added(fixed: bool, about: str) -> None:
+    centre, place, u = np.array([0.1, 0.0, 0.05]), np.array([0.2, -0.1, 0.3]), np.array([0.6, 0.0, 0.8])
+    wheel = {"type": "free", "axis": [3, 0, 4], "axial_inertia": 0.02, "mass": 0.5, "position": place.tolist(), "equatorial_inertia": 0.015}
+    scene = scene_from({"name": "x", "kind": "general", "solve": {"times": [1.0]}, "wheel": [wheel], "initial": {"angular_velocity": [0.1, 0.2, 0.3]},
+                        "body": {"inertia": [3.0, 2.5, 2.0], "mass": 4.0, "centre_of_mass": centre.tolist(), "fixed": fixed, "inertia_about": about,
+                                 "wheels_in_inertia": False}})
+    own = np.diag([3.0, 2.5, 2.0]) - (steiner(4.0, centre) if about == "origin" or (about == "reference" and fixed) else 0.0)
+    all_centre = (4 * centre + 0.5 * place) / 4.5
+    point = np.zeros(3) if fixed else all_centre
+    want = own + steiner(4.0, centre - point) + 0.015 * np.eye(3) + 0.005 * np.outer(u, u) + steiner(0.5, place - point)
+    got = arguments(scene)
+    assert np.allclose(got["inertia"], want, rtol=1e-15, atol=1e-15)
+    assert got["mass"] == 4.5
+    assert np.allclose(got["centre_of_mass"], all_centre, rtol=1e-15)
+
+
+APART = {"mass": 0.5, "position": [0, 0, 0.1], "equatorial_inertia": 0.015}
+
+
+@pytest.mark.parametrize(("within", "keys", "message"), [
+    (True, {"mass": 0.5}, "mass is given, but its inertia is part of body.inertia"),
+    (False, {}, "the key mass is missing, and the body is without its wheels"),
+    (False, {**APART, "equatorial_inertia": 0.005}, "below half of axial_inertia"),
+])
+def test_wheels_are_in_the_inertia_or_not(within: bool, keys: dict[str, Any], message: str) -> None:
+    wheel = {"type": "free", "axis": [0, 0, 1], "axial_inertia": 0.02, **keys}
+    with pytest.raises(SceneError, match=message):
+        scene_from({"name": "x", "kind": "general", "solve": {"times": [1.0]}, "wheel": [wheel], "initial": {"angular_velocity": [0.1, 0.2, 0.3]},
+                    "body": {"inertia": [3.0, 2.5, 2.0], "wheels_in_inertia": within}})
+
+
+# ---- angles of the attitude ----
+
+
+@pytest.mark.parametrize("sequence", ["3-2-1", "ZXZ", "1-2-3"])
+def test_angles_are_those_that_a_start_takes(sequence: str) -> None:
+    answer = gyrostat.solve("gravity-gradient-boom", **{"solve.euler": sequence, "solve.ask": ["attitude", "euler"]})
+    for row in (1, 100, 480):
+        start = {"angular_velocity": [0.0, 0.0, 0.0], "euler": {"sequence": sequence, "angles": answer["euler"][row].tolist()}}
+        told = scene_from({"name": "x", "solve": {"times": [0.0]}, "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": start})
+        assert angle_between(np.array(told.tables["initial"]["attitude"]), answer["attitude"][row]) < 1e-14
+    steps = np.abs(np.diff(answer["euler"], axis=0))
+    assert np.max(steps) < np.pi
+    assert answer.error["euler"] >= answer.error["attitude"]
+
+
+def test_a_sequence_asks_for_the_angles() -> None:
+    for ask in (None, ["attitude"], {"attitude": "0.1 deg"}, "all", ["euler"]):
+        changes = {} if ask is None else {"solve.ask": ask}
+        assert "euler" in gyrostat.solve(WHOLE, **changes, **{"solve.euler": "ZYX"})
+    assert "euler" not in gyrostat.solve(WHOLE)
+    met = gyrostat.solve(WHOLE, **{"solve.euler": "ZYX", "solve.ask": {"euler": "1 deg"}})
+    assert met.met and list(met) == ["euler"] and met.tolerances["euler"] == pytest.approx(np.pi / 180)
+    with pytest.raises(SceneError, match="the sequence of the angles is not said"):
+        gyrostat.solve(WHOLE, ask=["euler"])
+    with pytest.raises(SceneError, match="neighbours different"):
+        gyrostat.solve(WHOLE, **{"solve.euler": "3-3-1"})
