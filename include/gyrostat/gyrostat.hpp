@@ -51,6 +51,7 @@
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/general/full_motion.hpp"
 #include "gyrostat/ladder/general/full_rung.hpp"
+#include "gyrostat/ladder/general/inputs.hpp"
 #include "gyrostat/ladder/general/instances.hpp"
 #include "gyrostat/ladder/general/motion.hpp"
 #include "gyrostat/ladder/general/recognise.hpp"

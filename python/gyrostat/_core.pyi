@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['HeavyBodies', 'Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'SpinningProblems', 'build_info', 'csv_rows', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'euler_312_from_quaternion', 'families', 'free_flips', 'free_integrate', 'free_permanent', 'free_reduced', 'free_solve', 'general_recognise', 'general_solve', 'heavy_exact', 'heavy_fast_stability', 'heavy_hanging', 'heavy_integrate', 'heavy_periodic_family', 'heavy_periodic_orbits', 'heavy_published_run', 'heavy_published_table', 'heavy_regular_precession', 'heavy_series', 'heavy_sleeping', 'heavy_solve', 'json_numbers', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_euler_312', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'spinning_design', 'spinning_integrate', 'spinning_linear', 'spinning_linear_grid', 'spinning_pointing', 'spinning_published', 'spinning_solve', 'sweep', 'vector_from_matrix', 'vector_from_quaternion']
+__all__: list[str] = ['HeavyBodies', 'Monitor', 'PolhodeStart', 'PublishedData', 'PublishedRun', 'SpinningProblems', 'build_info', 'csv_rows', 'deceleration_averaged', 'deceleration_integrate', 'deceleration_polhode_start', 'deceleration_regimes', 'deceleration_solve', 'deceleration_stability', 'deceleration_torque_balance', 'elliptic_complete', 'elliptic_incomplete', 'elliptic_jacobi', 'elliptic_zeta', 'euler_312_from_quaternion', 'families', 'free_flips', 'free_integrate', 'free_permanent', 'free_reduced', 'free_solve', 'general_integrate', 'general_numbers', 'general_recognise', 'general_solve', 'heavy_exact', 'heavy_fast_stability', 'heavy_hanging', 'heavy_integrate', 'heavy_periodic_family', 'heavy_periodic_orbits', 'heavy_published_run', 'heavy_published_table', 'heavy_regular_precession', 'heavy_series', 'heavy_sleeping', 'heavy_solve', 'json_numbers', 'matrix_from_quaternion', 'matrix_from_vector', 'published_run', 'published_stationary_ratio', 'quaternion_from_euler_312', 'quaternion_from_matrix', 'quaternion_from_vector', 'rotor_assembly', 'rotor_capture', 'rotor_certify', 'rotor_circular_section', 'rotor_fall_time', 'rotor_integrate', 'rotor_published_data', 'rotor_published_matrix', 'rotor_published_run', 'rotor_solve', 'rotor_steady', 'spinning_design', 'spinning_integrate', 'spinning_linear', 'spinning_linear_grid', 'spinning_pointing', 'spinning_published', 'spinning_solve', 'sweep', 'vector_from_matrix', 'vector_from_quaternion']
 class Monitor:
     """
     Watches and stops long work from another thread.
@@ -190,6 +190,14 @@ def free_solve(*, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float6
     """
     Answer of the ladder as plain data.
     """
+def general_integrate(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], method: str, order: typing.SupportsInt | typing.SupportsIndex = 20, tolerance: typing.SupportsFloat | typing.SupportsIndex, precision: str = 'double', patience: typing.SupportsFloat | typing.SupportsIndex = ...) -> dict[str, typing.Any]:
+    """
+    The full equations under one integrator, timed.
+    """
+def general_numbers(scene: dict[str, typing.Any]) -> tuple[numpy.typing.NDArray[numpy.float64], list[tuple[str, int]]]:
+    """
+    The numbers of a general scene (n,), and name and width of what they are, in their order.
+    """
 def general_recognise(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> list[tuple[str, str | None]]:
     """
     Each family, and why the scene is no instance of it; None where it is one.
@@ -340,9 +348,9 @@ def spinning_solve(problem: SpinningProblems, *, times: typing.Annotated[numpy.t
     """
     Answer of the ladder as plain data.
     """
-def sweep(*, kind: str, numbers: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], places: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, elliptic: str, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None, threads: typing.SupportsInt | typing.SupportsIndex, monitor: Monitor | None) -> dict[str, typing.Any]:
+def sweep(*, kind: str, numbers: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], places: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, elliptic: str, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None, threads: typing.SupportsInt | typing.SupportsIndex, monitor: Monitor | None, scene: dict[str, typing.Any] | None = None, recognise: bool = True, euler: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] | None = None) -> dict[str, typing.Any]:
     """
-    Answers of the ladder to rows of scenes: `numbers` in the order of the family's inputs, those at `places` from `values` (k, n).
+    Answers of the ladder to rows of scenes: `numbers` in the order of the family's inputs, those at `places` from `values` (k, n); of a general `scene` in that of general_numbers.
     """
 def vector_from_matrix(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     ...

@@ -6,7 +6,7 @@ import math
 import operator
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar
@@ -16,40 +16,84 @@ from numpy.typing import NDArray
 
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES, Family
-from gyrostat.fields import Field
+from gyrostat.fields import Field, parts_of
+from gyrostat.orientation import FORMS
 from gyrostat.schema import interval
 from gyrostat.vary import Floats, Number, Plan, as_varied, number_in, read_cases
 
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["SETTINGS", "Place", "numbers_of", "place_of", "plan_of"]
+__all__ = ["SETTINGS", "Place", "inputs_of", "numbers_of", "place_of", "plan_of", "refilled", "request"]
 
 # Words of a table [vary] beside its keys.
 SETTINGS: Final = ("n", "seed", "design", "cases")
 T = TypeVar("T")
 
-WIDTHS: Final = {"number": 1, "choice": 1, "vector": 3, "direction": 3, "moments": 3, "quaternion": 4, "inertia": 9}
+WIDTHS: Final = {"number": 1, "choice": 1, "vector": 3, "axis": 3, "direction": 3, "moments": 3, "quaternion": 4, "turn": 4, "inertia": 9, "matrix": 9,
+                 "number or record": 1, "vector or record": 3}
+# Numbers of a row of a table.
+_ROWS: Final = {"rows": 3, "intervals": 2, "matrix": 3}
+# As many numbers as are given.
+_LISTS: Final = ("numbers", "times", "rows", "intervals")
+
+
+def _parts(field: Field, value: Any) -> tuple[Field, ...]:
+    """The keys of a record; none of what is given as a number or a vector, and may be one."""
+    if field.form == "records":
+        return parts_of(field, value) or ()
+    return field.parts if field.form == "record" or isinstance(value, Mapping) else ()
 
 
 def _numbers(field: Field, value: Any) -> Iterator[float]:
     """The numbers of a key; NaN where it has no value."""
-    if field.form == "record":
-        for part in field.parts:
-            yield from _numbers(part, None if value is None else value[part.name])
-    elif field.form == "records":
+    if field.form == "records":
         for item in value:
-            for part in field.parts:
+            for part in _parts(field, item):
                 yield from _numbers(part, item[part.name])
+    elif parts := _parts(field, value):
+        for part in parts:
+            yield from _numbers(part, None if value is None else value[part.name])
+    elif field.form not in WIDTHS and field.form not in _LISTS:
+        return
     elif value is None:
-        yield from [math.nan] * WIDTHS[field.form]
+        yield from [math.nan] * WIDTHS.get(field.form, 0)
     elif field.form == "choice":
         yield float(field.choices.index(value))
     elif field.form == "inertia":
         given = np.array(value, dtype=float)
         yield from (np.diag(given) if given.ndim == 1 else given).ravel().tolist()
     else:
-        yield from (value if isinstance(value, tuple) else (value,))
+        yield from np.ravel(value).tolist()
+
+
+def refilled(field: Field, value: Any, numbers: Iterator[Any]) -> Any:
+    """The value of a key with other numbers in it, as many as _numbers tells, which may be anything; words stay as they are."""
+    if field.form == "records":
+        return tuple({**item, **{part.name: refilled(part, item[part.name], numbers) for part in _parts(field, item)}} for item in value)
+    if parts := _parts(field, value):
+        made = {part.name: refilled(part, None if value is None else value[part.name], numbers) for part in parts}
+        return value if value is None else {**value, **made}
+    taken = [next(numbers) for _ in _numbers(field, value)]
+    if value is None or not taken or field.form == "choice":
+        return value
+    if field.form == "inertia":
+        return tuple(tuple(taken[i:i + 3]) for i in (0, 3, 6))
+    if isinstance(value, tuple):
+        width = len(taken) // len(value)
+        return tuple(tuple(taken[i:i + width]) for i in range(0, len(taken), width)) if isinstance(value[0], tuple) else tuple(taken)
+    return taken[0]
+
+
+def inputs_of(family: Family) -> tuple[tuple[str, str, Field], ...]:
+    """The keys that can vary, in their order: full name, table and field. A family of which the compiled core lists none takes all that
+    have numbers, but the question and the forms of an attitude, which the quaternion stands for."""
+    if names := [name for name, _, _ in family.facts.inputs]:
+        return tuple((name, *_field(family, name)) for name in names)
+    left_out = {field.name for field in FORMS}
+    numeric = {*WIDTHS, *_LISTS, "record", "records"} - {"choice"}
+    return tuple((f"{table}.{field.name}" if table else field.name, table, field) for table, fields in family.keys.items() if table != "solve"
+                 for field in fields if field.form in numeric and field.name not in left_out)
 
 
 def _field(family: Family, key: str) -> tuple[str, Field]:
@@ -63,11 +107,9 @@ def _value(scene: "Scene", table: str, field: Field) -> Any:
 
 
 def numbers_of(scene: "Scene") -> Floats:
-    """The numbers of a scene in the order of its family's inputs; NaN is what it leaves out."""
-    family = FAMILIES[scene.kind]
+    """The numbers of a scene in the order of inputs_of; NaN is what it leaves out."""
     made: list[float] = []
-    for key, _, _ in family.facts.inputs:
-        table, field = _field(family, key)
+    for _, table, field in inputs_of(FAMILIES[scene.kind]):
         made += _numbers(field, _value(scene, table, field))
     return np.array(made)
 
@@ -77,7 +119,7 @@ class Place:
     """Where the number of a key is in the row, and what it may be."""
 
     key: str  # in full, such as "torque.control[0]"
-    numbers: tuple[int, ...]  # two of a product of inertia
+    numbers: tuple[int, ...]  # two of a product of inertia, three of a coefficient that stands for a matrix
     field: Field
     product: bool = False  # a product of inertia, which the bounds of the field do not hold for
 
@@ -107,12 +149,13 @@ class Place:
         return f"{self.key} is not {'finite' if self.product else interval(self.field) or 'finite'}"
 
 
-def _indices(key: str, text: str | None, field: Field, tensor: bool) -> tuple[int, ...]:
+def _indices(key: str, text: str | None, field: Field, value: Any) -> tuple[int, ...]:
     """Places of a component among the numbers of a key."""
     found = [int(part) for part in text.split(",")] if text else []
-    components = WIDTHS[field.form]
-    example = f"{key}[0,1]" if tensor else f"{key}[0]"
-    if components == 1:
+    components = sum(1 for _ in _numbers(field, value))
+    tensor = field.form == "inertia" and isinstance(value[0], tuple)
+    width = _ROWS.get(field.form)
+    if WIDTHS.get(field.form) == 1:
         if found:
             raise DomainError(f"{key}[{text}]: {key} is one number; leave out [{text}]")
         return (0,)
@@ -121,47 +164,73 @@ def _indices(key: str, text: str | None, field: Field, tensor: bool) -> tuple[in
         return tuple({3 * i + j, 3 * j + i})
     if field.form == "inertia" and len(found) == 1 and not tensor and found[0] < 3:
         return (4 * found[0],)
-    if field.form == "inertia" or len(found) != 1 or found[0] >= components:
+    if field.form == "matrix" and len(found) < 2:
+        moments, off = np.diag(value), np.array(value) - np.diag(np.diag(value))
+        if not found and not np.any(off) and np.all(moments == moments[0]):
+            return (0, 4, 8)  # one number for all axes
+        if found and found[0] < 3 and not np.any(off):
+            return (4 * found[0],)
+    if width and len(found) == 2 and found[1] < width and width * found[0] < components:
+        return (width * found[0] + found[1],)
+    if field.form == "inertia" or width or len(found) != 1 or found[0] >= components:
+        example = f"{key}[0,1]" if tensor or width else f"{key}[0]"
         raise DomainError(f"{key}{f'[{text}]' if text else ''}: one component varies at a time; name it, such as {example}, counting from 0")
     return (found[0],)
 
 
 def _unknown(family: Family, key: str) -> DomainError:
-    known = [name for name, _, _ in family.facts.inputs]
+    known = [name for name, _, _ in inputs_of(family)]
     near = difflib.get_close_matches(key, known, 1, 0.5)
     return DomainError(f"{key}: no key of this name can vary; " + (f"did you mean {near[0]}? " if near else "")
                        + f"in scenes of the kind {family.name} these can: {', '.join(known)}")
 
 
 def place_of(scene: "Scene", key: str) -> Place:
-    """Where a number is: "torque.drag", "torque.control[0]" (counted from 0), "body.inertia[0,1]", "wheel[1].rate", "wheel[0].axis[2]"; the
-    table may be left out where one only has the key. Raises DomainError."""
-    bare = key.replace(" ", "")
-    element = re.fullmatch(r"([\w-]+)\[(\d+)\]\.([\w-]+)(?:\[(\d+)\])?", bare)
+    """Where a number is: "torque.drag", "torque.control[0]" (counted from 0), "body.inertia[0,1]", "wheel[1].rate", "wheel[0].axis[2]",
+    "torque[0].factor.mean", "wheel.pitch.rate" of the one named pitch; the table may be left out where one only has the key. Raises DomainError."""
+    place = _located(scene, key)
+    if place.field.form == "choice" and not FAMILIES[scene.kind].facts.inputs:
+        raise DomainError(f"{key}: this is a word; in scenes of the kind {scene.kind} numbers alone vary")
+    return place
+
+
+def _located(scene: "Scene", key: str) -> Place:
+    bare = key.replace(" ", "").replace("][", ",")
+    named = re.fullmatch(r"([\w-]+)\.([\w-]+)\.(.+)", bare)
+    element = re.fullmatch(r"([\w-]+)\[(\d+)\]\.([\w.-]+)(?:\[(\d+(?:,\d+)?)\])?", bare)
     single = re.fullmatch(r"([\w.-]+)(?:\[(\d+(?:,\d+)?)\])?", bare)
     family = FAMILIES[scene.kind]
     first = 0
-    for full, width, listed in family.facts.inputs:
-        table, field = _field(family, full)
+    for full, table, field in inputs_of(family):
         value = _value(scene, table, field)
-        if listed:
+        if field.form == "records":
+            names = [str(item.get("name") or "").replace(" ", "") for item in value]
+            if named and named[1] == full and names.count(named[2]) == 1:
+                return _located(scene, f"{full}[{names.index(named[2])}].{named[3]}")
             if element and element[1] == full:
-                if int(element[2]) >= len(value):
+                place = int(element[2])
+                if place >= len(value):
                     raise DomainError(f"{key}: the scene has {len(value)} of {full}, counted from 0")
-                return _part(key, full, field, first + width * int(element[2]), element[3], element[4], f"{full}[{element[2]}]")
-            continue
-        if single and field.form == "record" and single[1].startswith(f"{full}."):
+                first += sum(1 for _ in _numbers(field, value[:place]))
+                return _part(key, (full, f"{full}[{place}]"), _parts(field, value[place]), value[place], first, (element[3], element[4]))
+        elif (parts := _parts(field, value)) and single and single[1].startswith(f"{full}."):
             if value is None:
                 raise _not_given(full)
-            return _part(key, full, field, first, single[1].removeprefix(f"{full}."), single[2], full)
-        if single and field.form != "record" and (single[1] == full or (single[1] == field.name and _alone(family, field.name))):
-            if value is None:
-                raise _not_given(full)
-            indices = _indices(full, single[2], field, field.form == "inertia" and isinstance(value[0], tuple))
-            product = field.form == "inertia" and indices[0] % 4 != 0
-            return Place(full + (f"[{single[2]}]" if single[2] else ""), tuple(first + i for i in indices), field, product)
-        first += width
+            return _part(key, (full, full), parts, value, first, (single[1].removeprefix(f"{full}."), single[2]))
+        elif parts and single and single[1] == full:
+            given = [part.name for part in parts if value is not None and value[part.name] is not None]
+            raise DomainError(f"{key}: {full} is given by keys of its own; name one of them, such as {full}.{given[0]}" if given else str(_not_given(full)))
+        elif not parts and single and (single[1] == full or (single[1] == field.name and _alone(family, field.name))):
+            return _place(full, field, value, first, single[2])
+        first += sum(1 for _ in _numbers(field, value))
     raise _unknown(family, key)
+
+
+def _place(full: str, field: Field, value: Any, first: int, index: str | None) -> Place:
+    if value is None:
+        raise _not_given(full)
+    indices = _indices(full, index, field, value)
+    return Place(full + (f"[{index}]" if index else ""), tuple(first + i for i in indices), field, field.form == "inertia" and indices[0] % 4 != 0)
 
 
 def _flat(table: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
@@ -176,9 +245,8 @@ def _flat(table: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any
 def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any = None, **settings: Any) -> tuple[Plan, dict[str, Place]]:
     """Which rows a study has, and where its numbers are, by full key: of what the table [vary] of the scene says and of what is given here, which
     goes first. settings: n, seed, design. Raises DomainError."""
-    if not FAMILIES[scene.kind].facts.inputs:
-        raise DomainError(f"no number of a scene of the kind {scene.kind} can vary; write it as one of a kind of which it is an instance, "
-                          "if gyrostat recognise finds one")
+    if scene.before is not None:
+        raise DomainError("from: a scene that begins where another ends cannot vary; give it a start of its own in [initial]")
     own = dict(_flat(scene.vary))
     beside = scene.path.parent if scene.path is not None and cases is None else Path()
     table = own.get("cases") if cases is None else cases
@@ -229,19 +297,34 @@ def _varied(key: str, value: Any) -> Any:
         raise DomainError(f"{key}: {error}") from None
 
 
+def request(scene: "Scene", places: Iterable[Place], columns: Iterable[Floats], sound: NDArray[np.bool_]) -> dict[str, Any]:
+    """What the compiled sweep takes of a scene and its rows: its numbers, the places of those that vary, and what they are in each row (k, n): NaN
+    in a row that is not sound, which is not asked."""
+    if own := FAMILIES[scene.kind].part("rows"):
+        made: dict[str, Any] = own.request(scene, places, columns, sound)
+        return made
+    held = [(number, np.where(sound, column, np.nan)) for place, column in zip(places, columns, strict=True) for number in place.numbers]
+    return {"numbers": numbers_of(scene), "places": [number for number, _ in held], "values": np.array([column for _, column in held])}
+
+
 def _alone(family: Family, name: str) -> bool:
-    return sum(key.rpartition(".")[2] == name for key, _, _ in family.facts.inputs) == 1
+    return sum(key.rpartition(".")[2] == name for key, _, _ in inputs_of(family)) == 1
 
 
 def _not_given(key: str) -> DomainError:
     return DomainError(f"{key}: the scene has no value of it: give it one, from which the rows depart")
 
 
-def _part(key: str, full: str, field: Field, first: int, name: str, index: str | None, shown: str) -> Place:
-    """The number of a key in a record."""
-    for part in field.parts:
-        if part.name == name:
-            at = _indices(f"{shown}.{name}", index, part, False)[0]
-            return Place(f"{shown}.{name}{f'[{index}]' if index else ''}", (first + at,), part)
-        first += WIDTHS[part.form]
-    raise DomainError(f"{key}: {full} has no key {name}; it has {', '.join(part.name for part in field.parts)}")
+def _part(key: str, shown: tuple[str, str], parts: tuple[Field, ...], value: Mapping[str, Any], first: int, asked: tuple[str, str | None]) -> Place:
+    """The number of a key in a record, or in a record in it. shown: name of the record for a message, and as it begins the full key."""
+    name, _, deeper = asked[0].partition(".")
+    numeric = [part for part in parts if any(True for _ in _numbers(part, value[part.name])) or value[part.name] is None and part.form != "text"]
+    for part in parts:
+        if part.name == name and part in numeric:
+            full, given = f"{shown[1]}.{name}", value[name]
+            if not deeper and not _parts(part, given):
+                return _place(full, part, given, first, asked[1])
+            if deeper and given is not None and (inner := _parts(part, given)):
+                return _part(key, (full, full), inner, given, first, (deeper, asked[1]))
+        first += sum(1 for _ in _numbers(part, value[part.name]))
+    raise DomainError(f"{key}: {shown[0]} has no key {name}; it has {', '.join(part.name for part in numeric)}")

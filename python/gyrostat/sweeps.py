@@ -21,7 +21,7 @@ from gyrostat.errors import DomainError
 from gyrostat.facts import MEANINGS, Facts, Quantity
 from gyrostat.families import FAMILIES
 from gyrostat.ladder import SceneLike, scene_of
-from gyrostat.rows import Place, numbers_of, plan_of
+from gyrostat.rows import Place, plan_of, request
 from gyrostat.scenes import Scene
 from gyrostat.sweep_files import import_xarray, open_results, save, to_netcdf, writer_of
 from gyrostat.vary import Plan
@@ -68,10 +68,9 @@ class Study:
     def _request(self) -> dict[str, Any]:
         """What the compiled sweep takes, apart from the rows."""
         solve = self.scene.tables["solve"]
-        return {"kind": self.scene.kind, "numbers": numbers_of(self.scene), "times": self.scene.times, "tolerance": solve["tolerance"],
-                "model": solve["model"], "integrator": solve["integrator"], "elliptic": solve.get("elliptic", "auto"),
-                "ask": asked(self.scene.kind, solve["ask"], knows_attitude(self.scene.kind, self.scene.tables)),
-                "places": [number for place in self.places.values() for number in place.numbers]}
+        return {"kind": self.scene.kind, "times": self.scene.times, "tolerance": solve["tolerance"], "model": solve["model"],
+                "integrator": solve["integrator"], "elliptic": solve.get("elliptic", "auto"),
+                "ask": asked(self.scene.kind, solve["ask"], knows_attitude(self.scene.kind, self.scene.tables))}
 
     @cached_property
     def row_bytes(self) -> int:
@@ -86,9 +85,7 @@ class Study:
         outside = np.full(len(rows), -1)
         for i, (key, values) in reversed(list(enumerate(columns.items()))):
             outside[self.places[key].outside(values)] = i
-        # a row with a number that is not allowed is not asked
-        values = np.array([np.where(outside < 0, columns[key], np.nan) for key, place in self.places.items() for _ in place.numbers])
-        made = _core.sweep(**self._request, values=values.reshape(len(self._request["places"]), len(rows)), threads=threads, monitor=monitor)
+        made = _core.sweep(**self._request, **request(self.scene, self.places.values(), columns.values(), outside < 0), threads=threads, monitor=monitor)
         return columns, made, outside
 
     def rows(self, rows: range, threads: int, monitor: Monitor | None = None) -> "xarray.Dataset":

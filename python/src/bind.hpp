@@ -27,3 +27,4 @@ void bind_heavy_published(pybind11::module_& module);
 void bind_free(pybind11::module_& module);
 void bind_free_integrators(pybind11::module_& module);
 void bind_general(pybind11::module_& module);
+void bind_general_integrators(pybind11::module_& module);

@@ -38,7 +38,8 @@ struct Task {
   int order;
   double tolerance;
   bool long_double;
-  double patience;  ///< CPU seconds after which it gives up, with the status cancelled
+  double patience;   ///< CPU seconds after which it gives up, with the status cancelled
+  double begin = 0;  ///< s, of the start
 };
 
 inline constexpr std::array taylor_orders{8, 12, 20};
@@ -64,7 +65,7 @@ inline Task task_of(std::vector<double> times, const std::string& method, int or
   known = known || method == "cvode-adams" || method == "cvode-bdf";
 #endif
   if (!known) raise("DomainError", "method = '" + method + "': unknown, or not in this build");
-  return {std::move(times), method, order, tolerance, longer, patience};
+  return {std::move(times), method, order, tolerance, longer, patience, 0};
 }
 
 /// Columns that are filled row by row; what no row reached stays NaN.
@@ -112,7 +113,7 @@ std::array<Scalar, 4> xyzw(const Quat<Scalar>& q) {
   return {q.x, q.y, q.z, q.w};
 }
 
-/// Steps through the times: put(i, state), where the time is 0 of the start, else of state_at(t), which is inside the last step.
+/// Steps through the times: put(i, state), where the time is that of the start, else of state_at(t), which is inside the last step.
 template <Real Scalar, class Solver, class State, class StateAt, class Put>
 Course along(Solver& solver, const Task& task, const State& start, StateAt&& state_at, Put&& put) {
   Course course;
@@ -124,7 +125,7 @@ Course along(Solver& solver, const Task& task, const State& start, StateAt&& sta
       if (++steps % 64 == 0 && thread_seconds() > end) course.status = ode::Status::cancelled;
     }
     if (course.status != ode::Status::reached) break;
-    put(i, t > 0 ? state_at(t) : start);
+    put(i, t > Scalar(task.begin) ? state_at(t) : start);
   }
   course.counts = solver.counts();
   return course;
@@ -137,7 +138,7 @@ Course by_taylor(const Motion& motion, const Task& task, Put&& put) {
   typename Solver::Options options;
   options.tolerance = Scalar(task.tolerance);
   options.scale = motion.scale(Scalar(task.times.back()));
-  Solver solver(motion.system(), 0, motion.numbers(), options);
+  Solver solver(motion.system(), Scalar(task.begin), motion.numbers(), options);
   const auto state_at = [&](Scalar t) {
     alignas(32) Scalar x[Solver::width];
     solver.at(t, x);
@@ -152,7 +153,7 @@ Course by_dop853(const Plain& plain, const Task& task, Put&& put) {
   control.relative = task.tolerance;
   control.absolute = plain.absolute(task.tolerance);
   control.step_cap = 100'000'000;
-  ode::RungeKutta<double, Plain::width, Plain> solver(plain, 0, plain.numbers(), control);
+  ode::RungeKutta<double, Plain::width, Plain> solver(plain, task.begin, plain.numbers(), control);
   return along<double>(solver, task, plain.start(), [&](double t) { return plain.state(t, solver.at(t).data()); }, put);
 }
 
@@ -175,7 +176,7 @@ Course by_cvode(Plain plain, const Task& task, ode::CvodeMethod method, Put&& pu
       static_cast<const Plain*>(user)->jacobian(y, columns);
       return std::all_of(columns, columns + Plain::width * Plain::width, [](double x) { return std::isfinite(x); });
     };
-  auto made = ode::Cvode::create(system, 0, plain.numbers(), {method, task.tolerance, task.tolerance});
+  auto made = ode::Cvode::create(system, task.begin, plain.numbers(), {method, task.tolerance, task.tolerance});
   if (!made) return {{}, ode::Status::not_finite};
   ode::Cvode solver = std::move(made).value();
   const auto state_at = [&](double t) {

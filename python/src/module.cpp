@@ -85,4 +85,5 @@ PYBIND11_MODULE(_core, module) {
   bind_heavy_motions(module);
   bind_heavy_published(module);
   bind_general(module);
+  bind_general_integrators(module);
 }

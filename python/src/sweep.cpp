@@ -7,16 +7,20 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "bind.hpp"
 #include "convert.hpp"
 #include "elliptic_backend.hpp"
+#include "general_arguments.hpp"
 #include "gyrostat/ladder/deceleration/inputs.hpp"
 #include "gyrostat/ladder/deceleration/solve.hpp"
 #include "gyrostat/ladder/free/inputs.hpp"
 #include "gyrostat/ladder/free/solve.hpp"
+#include "gyrostat/ladder/general/inputs.hpp"
+#include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/heavy/inputs.hpp"
 #include "gyrostat/ladder/heavy/solve.hpp"
@@ -132,11 +136,23 @@ void tell(Data& made, const std::vector<SweepRow>& told) {
   made["reasons"] = reasons;
 }
 
-template <class Scene, class Solve>
-Data rows_of(const Family& family, Result<Scene> (*scene_of)(std::span<const double>, const Question&),
-             const Solve& solve, const Question& question, bool cvode, const Rows& rows) {
-  const auto posed = [&](std::span<const double> numbers) {
+std::size_t rotors_of(const general::Scene& scene) { return scene.wheels().count; }
+template <class Scene>
+std::size_t rotors_of(const Scene& scene) {
+  if constexpr (requires { scene.wheels(); }) return scene.wheels();
+  else return 0;
+}
+
+/// The scene of a row, asked what the question asks.
+template <class SceneOf>
+struct Posed {
+  const SceneOf& scene_of;
+  const Question& question;
+  bool cvode;
+
+  auto operator()(std::span<const double> numbers) const {
     auto scene = scene_of(numbers, question);
+    using Scene = std::remove_cvref_t<decltype(*scene)>;
     if constexpr (requires(Scene s) { s.full_equations; }) {
       if (!cvode || !scene) return scene;
       Scene made = std::move(scene).value();
@@ -145,13 +161,39 @@ Data rows_of(const Family& family, Result<Scene> (*scene_of)(std::span<const dou
     } else {
       return scene;
     }
-  };
+  }
+  const char* why(std::span<const double> numbers) const
+    requires requires { scene_of.why(numbers); }
+  {
+    return scene_of.why(numbers);
+  }
+};
+
+/// The general scene of a row, a problem with other numbers.
+struct GeneralOf {
+  const general::Problem<double>& problem;
+  bool recognise;
+  const std::optional<EulerAxes>& euler;
+
+  Result<general::Scene> operator()(std::span<const double> numbers, const Question& question) const {
+    const auto made = general::Scene::make(general::with_numbers(problem, numbers), question, recognise);
+    return made && euler ? Result<general::Scene>(made->told_by(*euler)) : made;
+  }
+  /// What must hold of the body; of a wheel or torque the words do not say which it is.
+  const char* why(std::span<const double> numbers) const {
+    const general::Fault fault = general::check(general::with_numbers(problem, numbers));
+    return fault && fault.place < 0 ? fault.why : nullptr;
+  }
+};
+
+template <class SceneOf, class Solve>
+Data rows_of(const Family& family, const SceneOf& scene_of, const Solve& solve, const Question& question, bool cvode,
+             const Rows& rows) {
+  const Posed<SceneOf> posed{scene_of, question, cvode};
   const std::span numbers(rows.numbers.data(), std::size_t(rows.numbers.size()));
   const auto first = posed(numbers);
-  const Scene& whole = checked(first);
-  std::size_t rotors = 0;
-  if constexpr (requires { whole.wheels(); }) rotors = whole.wheels();
-  const Tables tables(family, whole.question(), rows.count, rotors);
+  const auto& whole = checked(first);
+  const Tables tables(family, whole.question(), rows.count, rotors_of(whole));
   std::vector<Varied> varied;
   for (std::size_t i = 0; i < rows.places.size(); ++i)
     varied.push_back({rows.places[i], {rows.values.data() + i * rows.count, rows.count}});
@@ -167,10 +209,27 @@ Data rows_of(const Family& family, Result<Scene> (*scene_of)(std::span<const dou
   return made;
 }
 
+/// The numbers of a general scene, and of what they are, one behind the other: name, how many.
+py::typing::Tuple<py::array_t<double>, py::typing::List<py::typing::Tuple<py::str, py::int_>>> general_numbers(
+    const Data& scene) {
+  auto problem = general_problem(scene);
+  std::vector<double> numbers;
+  py::typing::List<py::typing::Tuple<py::str, py::int_>> names;
+  general::visit_numbers(problem, [&](const general::InputName& name, const auto& value) {
+    const std::size_t before = numbers.size();
+    general::give(value, numbers);
+    const std::string place = name.place < 0 ? "" : "[" + std::to_string(name.place) + "]";
+    names.append(py::make_tuple(name.table + place + "." + name.key, numbers.size() - before));
+  });
+  const auto n = py::ssize_t(numbers.size());
+  return py::make_tuple(array(std::move(numbers), {n}), names);
+}
+
 Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector<std::size_t>& places,
                 const Array& values, const Array& at, double tolerance, const std::string& model,
                 const std::string& integrator, const std::string& elliptic, const Ask& ask, unsigned threads,
-                const std::optional<std::shared_ptr<Monitor>>& monitor) {
+                const std::optional<std::shared_ptr<Monitor>>& monitor, const std::optional<Data>& scene,
+                bool recognise, const std::optional<EulerAxes>& euler) {
   require_shape("numbers", numbers, {-1});
   require_shape("values", values, {py::ssize_t(places.size()), -1});
   for (const std::size_t place : places)
@@ -188,6 +247,11 @@ Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector
   if (kind == "spinning") return run(spinning::tables, &spinning::scene_of, &spinning::solve);
   if (kind == "heavy") return run(heavy::tables, &heavy::scene_of, &heavy::solve);
   if (kind == "free") return run(free::tables, &free::scene_of, &free::solve);
+  if (kind == "general" && scene) {
+    const auto problem = general_problem(*scene);
+    require_shape("numbers", numbers, {general_numbers(*scene)[0].cast<Array>().size()});
+    return run(general::tables, GeneralOf{problem, recognise, euler}, &general::solve);
+  }
   raise("DomainError", "kind = '" + kind + "': there is no such family");
 }
 
@@ -196,7 +260,10 @@ Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector
 void bind_sweep(py::module_& module) {
   module.def("sweep", &sweep_rows, py::kw_only(), py::arg("kind"), py::arg("numbers"), py::arg("places"),
              py::arg("values"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),
-             py::arg("elliptic"), py::arg("ask"), py::arg("threads"), py::arg("monitor"),
+             py::arg("elliptic"), py::arg("ask"), py::arg("threads"), py::arg("monitor"), py::arg("scene") = py::none(),
+             py::arg("recognise") = true, py::arg("euler") = py::none(),
              "Answers of the ladder to rows of scenes: `numbers` in the order of the family's inputs, those at "
-             "`places` from `values` (k, n).");
+             "`places` from `values` (k, n); of a general `scene` in that of general_numbers.");
+  module.def("general_numbers", &general_numbers, py::arg("scene"),
+             "The numbers of a general scene (n,), and name and width of what they are, in their order.");
 }

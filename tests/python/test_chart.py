@@ -19,6 +19,7 @@ from gyrostat.charts import Chart, LeftOut, measured, methods
 from gyrostat.charts.problem import Line, Run
 from gyrostat.cli import main
 from gyrostat.families.deceleration.chart import true_errors
+from gyrostat.families.general import chart as general_charts
 from gyrostat.families.heavy import chart as heavy_charts
 from gyrostat.families.rotor import chart as rotor_charts
 from gyrostat.families.spinning import chart as spinning_charts
@@ -111,7 +112,7 @@ def test_a_tighter_setting_that_would_take_too_long_is_not_tried() -> None:
     assert runs == 1 and [point.setting for point in points] == ["loose"] and [each.settings for each in left_out] == [("tight",)]
 
 
-KINDS = ("tiangong-1", "two-attractors", "spinning-paper", "toy-top")
+KINDS = ("tiangong-1", "two-attractors", "spinning-paper", "toy-top", "iss-drift", "rolling-gyroscope")
 
 
 @pytest.mark.parametrize("scene", KINDS)
@@ -125,7 +126,8 @@ def test_a_single_time_is_charted_and_time_zero_refused(scene: str) -> None:
 @pytest.mark.parametrize(("scene", "still"), [
     ("two-attractors", {"initial.angular_velocity": [0.0, 0.0, 0.0], "rotor_rate": 0.0, "no_load_rate": 0.0}),
     ("spinning-paper", {"initial.angular_velocity": [0.0, 0.0, 0.0], "torque.body": [0.0, 0.0, 0.0], "force": [0.0, 0.0, 0.0]}),
-    ("toy-top", {"initial.angular_velocity": [0.0, 0.0, 0.0], "gravity": 0.0})])
+    ("toy-top", {"initial.angular_velocity": [0.0, 0.0, 0.0], "gravity": 0.0}),
+    ("rolling-gyroscope", {"gravity": "0 m/s^2", "wheel": []})])
 def test_a_body_that_stays_at_rest_is_charted(scene: str, still: dict[str, Any]) -> None:
     made = gyrostat.chart(scene, duration=2.0, samples=3, **still)
     assert all(error < 1e-12 for point in made.points for error in point.error.values())
@@ -309,3 +311,67 @@ def test_rivals_know_the_same_heavy_body(start: dict[str, Any], monkeypatch: pyt
     assert "rung series" not in labels and labels["rung full"][-1].error["down"] < 1e-10
     for rival in ("SciPy DOP853 (Python right-hand side)", "heyoka (compile time left out)"):
         assert rival not in labels or labels[rival][-1].error["down"] < 1e-8
+
+
+GENERAL: dict[str, Any] = {
+    # every torque and wheel that the rival has, without what the bundled scenes have
+    "laws": {
+        "body": {"inertia": [3.0, 2.5, 2.0], "mass": 2.0, "centre_of_mass": [0.1, 0.05, -0.2], "rotor_momentum": [0.1, 0.0, 0.2]},
+        "wheel": [{"type": "motor", "axis": [1.0, 2.0, 2.0], "axial_inertia": 0.1, "rate": 3.0, "slope": 0.02, "no_load_rate": 5.0, "friction": 0.01},
+                  {"type": "held", "axis": [0.0, 3.0, 0.0], "axial_inertia": 0.05,
+                   "rate": {"times": [0.0, 1.0, 2.5, 4.0], "values": [0.0, 3.0, -2.0, 1.0], "interpolation": "cubic", "extend": "hold"}},
+                  {"type": "torque", "axis": [0.0, 0.0, 1.0], "axial_inertia": 0.02, "rate": 3.0, "friction": 0.001,
+                   "torque": {"times": [0.5, 2.0], "values": [0.01, 0.02], "interpolation": "step"}}],
+        "torque": [{"type": "constant", "torque": [0.1, 0.0, 0.02], "frame": "inertial",
+                    "factor": {"mean": 1.0, "amplitude": 0.5, "rate": 0.7, "phase": 0.2}},
+                   {"type": "table", "times": [0.0, 1.0, 3.0], "values": [[0.0, 0.1, 0.0], [0.1, 0.0, 0.0], [0.0, 0.0, 0.1]]},
+                   {"type": "damping", "coefficient": 0.01, "against": "carrier-momentum", "on": [[0.5, 2.0]]},
+                   {"type": "thrust", "force": [0.0, 0.3, 0.1], "point": [0.2, 0.0, 0.1]}, {"type": "charge", "momentum": [0.1, 0.0, 0.3]},
+                   {"type": "brake", "limit": [0.01, 0.02, 0.01]}],
+        "initial": {"angular_velocity": [0.5, -0.2, 0.9]}},
+    "orbit": {
+        "body": {"inertia": [[3.0, 0.1, 0.0], [0.1, 2.5, 0.2], [0.0, 0.2, 2.0]]}, "orbit": {"altitude": 4e5, "eccentricity": 0.01, "true_anomaly": 0.3},
+        "field": {"dipole": {"axis": [0.1, 0.0, 2.0], "strength": 3.1e-5, "radius": 6371200.0}},
+        "torque": [{"type": "gravity-gradient"}, {"type": "magnetic", "dipole": [5.0, 1.0, 0.0]}, {"type": "eddy-current", "coefficient": 1e4},
+                   {"type": "constant", "torque": [1e-5, 0.0, 1e-5], "frame": "orbit"}],
+        "initial": {"angular_velocity": [0.01, 0.0, 0.02]}},
+    "fixed": {
+        "body": {"inertia": [3.0, 2.5, 2.0], "fixed": True, "mass": 2.0, "centre_of_mass": [0.1, 0.05, -0.2]},
+        "field": {"gravity": 9.81, "down": [0.0, 0.1, -2.0], "rotating": {"axis": [0.0, 0.0, 2.0], "rate": 0.3, "vector": [1e-4, 0.0, 1e-5]}},
+        "torque": [{"type": "weight"}, {"type": "eddy-current", "coefficient": 1e7}, {"type": "gravity-gradient", "gradient": 0.2},
+                   {"type": "damping", "coefficient": 0.02, "against": "momentum"}],
+        "initial": {"angular_velocity": [0.3, -0.5, 0.8]}}}
+
+
+@pytest.mark.parametrize("name", GENERAL)
+def test_every_method_of_a_general_scene_stands_on_the_chart(name: str) -> None:
+    end = 600.0 if name == "orbit" else 4.0
+    made = gyrostat.chart({"name": name, "kind": "general", "solve": {"duration": end, "samples": 17}, **GENERAL[name]})
+    labels = made.by_label()
+    assert {"rung full", "Taylor, order 8", "Taylor, order 12", "Taylor, order 20", "Runge-Kutta DOP853", "SciPy DOP853 (Python right-hand side)"} <= set(labels)
+    if gyrostat.build_info()["cvode"]:
+        assert {"CVODE Adams", "CVODE BDF"} <= set(labels)
+    for label, points in labels.items():
+        for key in ("attitude", "angular_velocity"):
+            if points[0].group == "rung":
+                assert all(point.error[key] <= float(point.note.removeprefix("stated error ")) for point in points), label
+            else:
+                assert points[-1].error[key] < min(1e-3 * points[0].error[key], 1e-7), (label, key)
+    assert {each.label for each in made.left_out} <= {"heyoka (compile time left out)"}
+
+
+def test_the_rungs_on_the_chart_of_a_general_scene_are_those_of_its_families() -> None:
+    pytest.importorskip("matplotlib")
+    made = gyrostat.chart("iss-drift", duration=4000.0, samples=11)
+    rungs = {label for label in made.by_label() if label.startswith("rung")}
+    assert rungs == {"rung free:closed-form", "rung free:full", "rung full"} and len(made.by_label()["rung free:full"]) == 5
+    lines = made.plot().axes[0].lines
+    assert len({(line.get_color(), line.get_marker(), line.get_markersize()) for line in lines}) == len(lines)
+
+
+def test_a_general_scene_that_a_brake_stops_is_not_charted_beyond(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = {"name": "braked", "kind": "general", "solve": {"times": [1.0, 60.0]}, **GENERAL["laws"], "torque": [{"type": "brake", "limit": [0.1, 0.2, 0.1]}]}
+    with pytest.raises(DomainError, match="choose a shorter time: .*brake"):
+        gyrostat.chart({**scene, "wheel": GENERAL["laws"]["wheel"][2:], "body": {"inertia": [3.0, 2.5, 2.0]}})
+    monkeypatch.setattr(general_charts, "MOST_TURNS", 2.0)
+    assert "of the scene's 180 s" in gyrostat.chart("spinner-pulsed-thrust").title

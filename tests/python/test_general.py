@@ -494,18 +494,8 @@ def test_many_wheels_in_every_file(tmp_path: Path) -> None:
         assert data["rotor_rate"].shape == (3, 6)
 
 
-def test_there_are_no_sweeps_of_general_scenes(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    assert not FAMILIES["general"].facts.inputs
-    with pytest.raises(DomainError, match="no number of a scene of the kind general can vary"):
-        gyrostat.sweep("iss-drift", {"body.mass": [1.0, 2.0]})
-    with pytest.raises(SceneError, match="no number of a scene of the kind general can vary"):
-        scene_from(scene(vary={"n": 3, "body.mass": "normal(1, 1%)"}))
-    assert main(["sweep", "iss-drift", "--vary", "body.mass=normal(1, 1%)", "-n", "3", "-o", str(tmp_path / "rows.nc")]) == 2
-    assert "no number of a scene of the kind general can vary" in " ".join(capsys.readouterr().err.split())
-
-
-def test_what_is_not_there_for_general_scenes_says_so(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    for command in (["chart", "iss-drift", "-o", str(tmp_path)], ["stability", "iss-drift"], ["design", "iss-drift", "--spin-for-pointing", "0.01"]):
+def test_what_is_not_there_for_general_scenes_says_so(capsys: pytest.CaptureFixture[str]) -> None:
+    for command in (["stability", "iss-drift"], ["design", "iss-drift", "--spin-for-pointing", "0.01"]):
         assert main(command) == 2
         assert "known for the kind" in capsys.readouterr().err
 

@@ -109,17 +109,21 @@ inline std::uint32_t warning_bits(const Answer& answer, const Family& family) no
   return bits;
 }
 
-/// Solves the scene, if there is one, and puts its answer into the row.
+/// Why numbers make no scene: what scene_of.why(numbers) says, where it has words of its own, else what the error means.
+template <class SceneOf>
+const char* why_none(const SceneOf& scene_of, std::span<const double> numbers, Errc error) {
+  if constexpr (requires { scene_of.why(numbers); })
+    if (const char* why = scene_of.why(numbers)) return why;
+  return message(error);
+}
+
+/// Solves the scene and puts its answer into the row.
 template <class Scene, class Solve>
-SweepRow swept(const Family& family, const Result<Scene>& scene, const Solve& solve,
-               std::span<const SweepTarget> targets, std::size_t row, Monitor* monitor) {
+SweepRow swept(const Family& family, const Scene& scene, const Solve& solve, std::span<const SweepTarget> targets,
+               std::size_t row, Monitor* monitor) {
   SweepRow said;
-  if (!scene) {
-    said.reason = message(scene.error());
-    return said;
-  }
   Refusal refusal;
-  const Answer answer = solve(*scene, refusal, monitor);
+  const Answer answer = solve(scene, refusal, monitor);
   if (refusal.code != Errc::ok) {
     said.reason = refusal.why;
     said.rung = place_of(family.rungs, refusal.model);
@@ -136,8 +140,8 @@ SweepRow swept(const Family& family, const Result<Scene>& scene, const Solve& so
 }  // namespace detail
 
 /// Answers a row for each element of `told`: the scene of `numbers` (inputs.hpp), with what is varied in place. scene_of(numbers) gives a
-/// Result<Scene>, solve(scene, refusal, monitor) its Answer; both are called on several threads. A row that is no scene, or has no
-/// answer, says why.
+/// Result<Scene>, and where it has a member why(numbers) words for why there is none, or nullptr; solve(scene, refusal, monitor) gives the
+/// Answer. All are called on several threads. A row that is no scene, or has no answer, says why.
 template <class SceneOf, class Solve>
 void sweep(const Family& family, std::span<const double> numbers, std::span<const Varied> varied,
            const SceneOf& scene_of, const Solve& solve, std::span<const SweepTarget> targets, std::span<SweepRow> told,
@@ -154,9 +158,13 @@ void sweep(const Family& family, std::span<const double> numbers, std::span<cons
         scene[each.place] = each.values[row];
         finite = finite && std::isfinite(each.values[row]);
       }
-      if (finite)
-        told[row] = detail::swept(family, scene_of(std::span<const double>(scene)), solve, targets, row, &own);
-      else told[row] = {.reason = message(Errc::not_finite)};
+      if (!finite) {
+        told[row] = {.reason = message(Errc::not_finite)};
+        return;
+      }
+      const std::span<const double> all(scene);
+      if (const auto made = scene_of(all)) told[row] = detail::swept(family, *made, solve, targets, row, &own);
+      else told[row] = {.reason = detail::why_none(scene_of, all, made.error())};
     };
   });
 }

@@ -147,7 +147,7 @@ def make_chart(scene: Scene, *, repeats: int = REPEATS, progress: Callable[[int,
         known = ", ".join(name for name, each in FAMILIES.items() if each.part("chart"))
         raise DomainError(f"kind = {scene.kind!r}: charts are known for the kinds {known}")
     problem: Problem = family.part("chart").problem(scene)
-    every = methods.lines(problem, tuple(family.facts.rungs))
+    every = methods.lines(problem, problem.rungs or tuple(family.facts.rungs))
     points: list[ChartPoint] = []
     left_out: list[LeftOut] = []
     for done, line in enumerate(every):

@@ -87,6 +87,8 @@ class Problem:
     steps: float  # of a rival, roughly: some ten a turn, or what its stability allows
     methods: tuple[tuple[str, str, str], ...] = ()  # (group, label, method) of `integrate` besides those that all families have
     lines: Callable[[], Iterable[Line]] = field(default=tuple)  # besides rungs, integrators and rivals
+    rungs: tuple[str, ...] = ()  # none: all that the family has
+    cuts: tuple[float, ...] = ()  # times at which the equations change, where a rival begins anew [s]
 
 
 def first_turns(times: Vectors, turns: Callable[[float], float], most: float) -> tuple[Vectors, str]:

@@ -6,6 +6,7 @@ families/KIND/
     scene.py       KEYS and ALTERNATIVES of the scene file, an EXAMPLE of every key without default, `arguments` of `solve` from a checked
                    scene (the forms of an attitude come by themselves: orientation.py); for checks that take more than one key `mistakes`, and where an argument has not the name of its key ARGUMENTS
     chart.py       `problem` of a scene: what is charted, for charts/
+    rows.py        `request` of the rows of a sweep; where scenes of the kind do not all have the same numbers
     figures.py     `figure` of an answer
     gallery.py     `figures` of the paper and their `drawings`
     stability.py   `report` of a scene, its `tables`, `sentence` and `plot`; where the question has a meaning
@@ -114,7 +115,7 @@ class Family:
         return answer
 
     def part(self, name: str) -> Any:
-        """The module chart, figures, gallery or stability, which is imported when it is first wanted; None where there is none."""
+        """The module chart, rows, figures, gallery or stability, which is imported when it is first wanted; None where there is none."""
         return self._module(name) if find_spec(f"{__name__}.{self.name}.{name}") else None
 
     def _module(self, name: str) -> Any:

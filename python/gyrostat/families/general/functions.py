@@ -23,7 +23,7 @@ from gyrostat.families import answer_of
 from gyrostat.families.general.clock import orbit_since, since
 from gyrostat.orientation import axes_of
 
-__all__ = ["PLANETS", "Monitor", "orbit_start", "recognise", "solve"]
+__all__ = ["PLANETS", "Monitor", "integrate", "orbit_start", "recognise", "solve"]
 
 # The keys of a table [[wheel]], [[torque]], [orbit] or [field] of a scene file, in SI units.
 Record = Mapping[str, Any]
@@ -36,49 +36,108 @@ PLANETS: Final[dict[str, tuple[float, float]]] = {
 }
 
 _ZERO: Final = (0.0, 0.0, 0.0)
+# Arguments of `solve` that say what is asked, and not of which motion.
+QUESTION: Final = ("times", "tolerance", "model", "integrator", "recognise", "monitor", "ask", "euler")
 
 
-def _unit(axis: ArrayLike, what: str) -> Floats:
-    made: Floats = np.asarray(axis, dtype=float)
-    length = math.hypot(*made.tolist())
-    if not (0 < length < math.inf):
-        raise DomainError(f"{what} = {made.tolist()}: give a vector of finite length that is not 0")
-    # two divisions take a unit vector to itself
-    made = made / length if length != 1 else made
-    again = math.hypot(*made.tolist())
-    return made if again == 1 else made / again
+# What is made of a scene with numbers that vary over rows has the rows in front. Each row comes out as it would alone, to the last bit: nothing here
+# is left to a library whose order of operations could hang on how many rows there are.
+
+
+class OverRows(np.ndarray[Any, np.dtype[np.float64]]):
+    """A number of a scene that varies: (n,)."""
+
+
+def varies(value: Any) -> bool:
+    """It, or a number in it, is OverRows."""
+    return isinstance(value, OverRows) or (isinstance(value, tuple) and any(map(varies, value)))
+
+
+def stacked(value: Any) -> Floats:
+    """A number, or nested sequences of numbers, as one array (..., shape)."""
+    if isinstance(value, OverRows) or not varies(value):
+        made: Floats = np.asarray(value, dtype=float)
+        return made
+    depth, inner = 1, value[0]
+    while isinstance(inner, tuple):
+        depth, inner = depth + 1, inner[0]
+    return np.stack(np.broadcast_arrays(*map(stacked, value)), -depth)
+
+
+def dot(a: Floats, b: Floats) -> Floats:
+    """(..., 3), (..., 3) -> (...)."""
+    made: Floats = a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
+    return made
+
+
+def turned(matrix: Floats, vector: Floats) -> Floats:
+    """(..., 3, 3), (..., 3) -> (..., 3)."""
+    return np.stack([dot(matrix[..., i, :], vector) for i in range(3)], -1)
+
+
+def diagonal(moments: Floats) -> Floats:
+    """(..., 3) -> (..., 3, 3)."""
+    made: Floats = np.where(np.eye(3) > 0, moments[..., None], 0.0)
+    return made
+
+
+def unit(vector: Floats) -> Floats:
+    """A vector brought to unit length; NaN where it has none. Two divisions take a unit vector to itself."""
+    for _ in range(2):
+        lengths = [math.hypot(*each) for each in vector.reshape(-1, 3).tolist()]
+        with np.errstate(invalid="ignore"):
+            vector = vector / np.reshape(lengths, (*vector.shape[:-1], 1))
+    return vector
+
+
+def _unit(axis: Any, what: str) -> Floats:
+    given = stacked(axis)
+    made = unit(given)
+    if made.ndim == 1 and not np.all(np.isfinite(made)):
+        raise DomainError(f"{what} = {given.tolist()}: give a vector of finite length that is not 0")
+    return made
 
 
 def _matrix(value: Any) -> Floats:
     """A number, three of them along the diagonal, or all nine."""
-    given = np.asarray(value, dtype=float)
-    if given.ndim == 2:
+    given = stacked(value)
+    of_moments = isinstance(value, tuple) and not isinstance(value[0], tuple)
+    if given.ndim >= 2 and not of_moments:
         return given
-    made: Floats = np.diag(given) if given.ndim == 1 else float(given) * np.eye(3)
-    return made
+    return diagonal(given) if given.ndim else float(given) * np.eye(3)
+
+
+def _or(value: Any, default: Any) -> Any:
+    return default if value is None else value
+
+
+def _ratio(above: Any, below: Any) -> Any:
+    """Not finite where there is nothing below."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.divide(above, below)
 
 
 def _table(given: Record | None, width: int) -> dict[str, Any] | None:
     if given is None:
         return None
-    values = np.asarray(given["values"], dtype=float).reshape(-1, width)
-    return {"times": np.asarray(given["times"], dtype=float), "values": values, "interpolation": given.get("interpolation") or "linear",
-            "extend": given.get("extend") or "zero"}
+    values = stacked(given["values"])
+    return {"times": stacked(given["times"]), "values": values if width > 1 else values[..., None],
+            "interpolation": given.get("interpolation") or "linear", "extend": given.get("extend") or "zero"}
 
 
 def _wheel(given: Record) -> dict[str, Any]:
-    kind, inertia = given.get("type") or "held", given.get("axial_inertia") or 0.0
-    rate, torque, no_load = given.get("rate"), given.get("torque"), given.get("no_load_rate") or 0.0
+    kind, inertia = given.get("type") or "held", _or(given.get("axial_inertia"), 0.0)
+    rate, torque, no_load = given.get("rate"), given.get("torque"), _or(given.get("no_load_rate"), 0.0)
     driven = torque if isinstance(torque, Mapping) else None
-    turned = rate if isinstance(rate, Mapping) else None
+    tabled = rate if isinstance(rate, Mapping) else None
     if given.get("momentum") is not None:
-        rate = given["momentum"] / inertia if inertia else math.inf
+        rate = _ratio(given["momentum"], inertia)
     slope = given.get("slope")
     if given.get("stall_torque") is not None:
-        slope = given["stall_torque"] / no_load if no_load else math.inf
-    return {"type": kind, "axis": _unit(given["axis"], "wheel.axis"), "axial_inertia": inertia, "rate": 0.0 if turned or rate is None else rate,
-            "angle": given.get("angle") or 0.0, "torque": 0.0 if driven or torque is None else torque, "friction": given.get("friction") or 0.0,
-            "slope": slope or 0.0, "no_load_rate": no_load, "table": _table(turned or driven, 1)}
+        slope = _ratio(given["stall_torque"], no_load)
+    return {"type": kind, "axis": _unit(given["axis"], "wheel.axis"), "axial_inertia": inertia, "rate": 0.0 if tabled or rate is None else rate,
+            "angle": _or(given.get("angle"), 0.0), "torque": 0.0 if driven or torque is None else torque, "friction": _or(given.get("friction"), 0.0),
+            "slope": _or(slope, 0.0), "no_load_rate": no_load, "table": _table(tabled or driven, 1)}
 
 
 # The key that holds the vector of a torque.
@@ -91,14 +150,14 @@ def _torque(given: Record) -> dict[str, Any]:
     opposed = _LAWS[given.get("law") or "total"] if kind == "brake" else given.get("against") or "angular-velocity"
     matrix = given.get("matrix") if given.get("matrix") is not None else given.get("coefficient")
     vector = given[_VECTOR[kind]] if kind in _VECTOR else _ZERO
-    on = np.asarray(() if given.get("on") is None else given["on"], dtype=float).reshape(-1, 2)
+    on = np.empty((0, 2)) if given.get("on") is None else stacked(given["on"])
     wave = factor if "rate" in factor and factor["rate"] is not None else {}
     return {"type": kind, "axes": given.get("frame") or "body", "opposed": opposed,
-            "vector": np.asarray([vector] * 3 if np.ndim(vector) == 0 else vector, dtype=float),
-            "point": np.asarray(given.get("point") or _ZERO, dtype=float), "matrix": _matrix(0.0 if matrix is None else matrix),
+            "vector": stacked(vector if isinstance(vector, Sequence | np.ndarray) else [vector] * 3),
+            "point": stacked(_or(given.get("point"), _ZERO)), "matrix": _matrix(0.0 if matrix is None else matrix),
             "gradient": given.get("gradient"), "table": _table(given, 3) if kind == "table" else None,
-            "factor_table": _table(factor, 1) if factor.get("times") is not None else None, "mean": wave.get("mean") or 0.0 if wave else 1.0,
-            "amplitude": wave.get("amplitude") or 0.0, "rate": wave.get("rate") or 0.0, "phase": wave.get("phase") or 0.0, "on": on}
+            "factor_table": _table(factor, 1) if factor.get("times") is not None else None, "mean": _or(wave.get("mean"), 0.0) if wave else 1.0,
+            "amplitude": _or(wave.get("amplitude"), 0.0), "rate": _or(wave.get("rate"), 0.0), "phase": _or(wave.get("phase"), 0.0), "on": on}
 
 
 def _orbit(given: Record | None) -> dict[str, Any] | None:
@@ -113,12 +172,13 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
     if rate is not None:
         # the size of an orbit of given rate matters to the field of a dipole alone
         mu = planet[0] if mu is None and radius is None else mu
-        radius = (mu / rate**2) ** (1 / 3) if radius is None else radius
-        mu = rate**2 * radius**3
-    radial = _unit(given.get("radial") or (1.0, 0.0, 0.0), "orbit.radial")
-    along = np.asarray(given.get("along") or (0.0, 1.0, 0.0), dtype=float)
-    return {"radius": radius, "mu": planet[0] if mu is None else mu, "eccentricity": given.get("eccentricity") or 0.0,
-            "true_anomaly": given.get("true_anomaly") or 0.0, "radial": radial, "along": _unit(along - radial * float(radial @ along), "orbit.along")}
+        radius = np.cbrt(mu / (rate * rate)) if radius is None else radius
+        mu = rate * rate * (radius * radius * radius)
+    radial = _unit(_or(given.get("radial"), (1.0, 0.0, 0.0)), "orbit.radial")
+    along = stacked(_or(given.get("along"), (0.0, 1.0, 0.0)))
+    return {"radius": radius, "mu": planet[0] if mu is None else mu, "eccentricity": _or(given.get("eccentricity"), 0.0),
+            "true_anomaly": _or(given.get("true_anomaly"), 0.0), "radial": radial,
+            "along": _unit(along - radial * dot(radial, along)[..., None], "orbit.along")}
 
 
 def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
@@ -130,10 +190,11 @@ def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
     at_zero = _orbit(orbit)
     assert at_zero is not None
     made = orbit_since(time, at_zero)
-    radial, along, radius = made["radial"], made["along"], made["radius"]
-    normal = np.cross(radial, along)
-    speed = math.sqrt(made["mu"] / radius * (1 + made["eccentricity"] * math.cos(made["true_anomaly"])))
-    return np.stack([along, -normal, -radial], 1), speed / radius * normal
+    radial, along = np.broadcast_arrays(made["radial"], made["along"])
+    radius, normal = np.asarray(made["radius"]), np.cross(radial, along)
+    cosine = np.reshape([math.cos(each) for each in np.ravel(made["true_anomaly"]).tolist()], np.shape(made["true_anomaly"]))
+    speed = np.sqrt(made["mu"] / radius * (1 + made["eccentricity"] * cosine))
+    return np.stack([along, -normal, -radial], -1), (speed / radius)[..., None] * normal
 
 
 def _field(given: Record | None) -> dict[str, Any]:
@@ -141,23 +202,21 @@ def _field(given: Record | None) -> dict[str, Any]:
     kind = next((name for name in ("uniform", "rotating", "dipole") if given.get(name) is not None), "none")
     part: Record = given[kind] if kind in ("rotating", "dipole") else {}
     flux = given["uniform"] if kind == "uniform" else part.get("vector", _ZERO)
-    return {"gravity": given.get("gravity") or 0.0, "down": _unit(given.get("down") or (0.0, 0.0, -1.0), "field.down"), "magnetic": kind,
-            "flux_density": np.asarray(flux, dtype=float), "axis": _unit(part.get("axis", (0.0, 0.0, 1.0)), "field.axis"),
+    return {"gravity": _or(given.get("gravity"), 0.0), "down": _unit(_or(given.get("down"), (0.0, 0.0, -1.0)), "field.down"), "magnetic": kind,
+            "flux_density": stacked(flux), "axis": _unit(part.get("axis", (0.0, 0.0, 1.0)), "field.axis"),
             "rate": part.get("rate", 0.0), "strength": part.get("strength", 0.0), "radius": part.get("radius", 1.0)}
 
 
-def _scene(inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, fixed: bool, rotor_momentum: ArrayLike, wheels: Sequence[Record],
-           torques: Sequence[Record], orbit: Record | None, field: Record | None, attitude: ArrayLike, angular_velocity: ArrayLike,
-           velocity: ArrayLike, position: ArrayLike) -> dict[str, Any]:
-    def vector(value: ArrayLike) -> NDArray[np.float64]:
-        return np.asarray(value, dtype=float)
-
+def posed(*, inertia: Any, angular_velocity: Any = _ZERO, attitude: Any = (0.0, 0.0, 0.0, 1.0), wheels: Sequence[Record] = (),
+          torques: Sequence[Record] = (), mass: Any = 1.0, centre_of_mass: Any = _ZERO, fixed: bool = False, rotor_momentum: Any = _ZERO,
+          orbit: Record | None = None, field: Record | None = None, velocity: Any = _ZERO, position: Any = _ZERO) -> dict[str, Any]:
+    """The physics of `solve` as the compiled ladder takes it."""
     return {
-        "body": {"inertia": _matrix(inertia), "mass": float(mass), "centre_of_mass": vector(centre_of_mass), "fixed": bool(fixed),
-                 "rotor_momentum": vector(rotor_momentum)},
+        "body": {"inertia": _matrix(inertia), "mass": stacked(mass)[()], "centre_of_mass": stacked(centre_of_mass), "fixed": bool(fixed),
+                 "rotor_momentum": stacked(rotor_momentum)},
         "wheels": [_wheel(each) for each in wheels], "torques": [_torque(each) for each in torques], "orbit": _orbit(orbit), "field": _field(field),
-        "initial": {"attitude": vector(attitude), "angular_velocity": vector(angular_velocity), "velocity": vector(velocity),
-                    "position": vector(position)},
+        "initial": {"attitude": stacked(attitude), "angular_velocity": stacked(angular_velocity), "velocity": stacked(velocity),
+                    "position": stacked(position)},
     }
 
 
@@ -193,7 +252,8 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     Raises DomainError for an argument outside its domain, for a wheel that the body cannot hold, and for a rung that cannot compute the
     motion; ConvergenceError where a computation hits its cap; Cancelled where the monitor stopped it.
     """
-    scene = _scene(inertia, mass, centre_of_mass, fixed, rotor_momentum, wheels, torques, orbit, field, attitude, angular_velocity, velocity, position)
+    scene = posed(inertia=inertia, angular_velocity=angular_velocity, attitude=attitude, wheels=wheels, torques=torques, mass=mass,
+                  centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
     at = np.asarray(times, dtype=float)
     asking: dict[str, Any] = {"times": at, "tolerance": float(tolerance), "model": model, "integrator": integrator}
     made = _core.general_solve(scene=since(start_time, scene), **{**asking, "times": at - start_time}, recognise=recognise, monitor=monitor,
@@ -213,6 +273,20 @@ def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLi
 
     Arguments as of `solve`.
     """
-    scene = _scene(inertia, mass, centre_of_mass, fixed, rotor_momentum, wheels, torques, orbit, field, attitude, angular_velocity, velocity, position)
+    scene = posed(inertia=inertia, angular_velocity=angular_velocity, attitude=attitude, wheels=wheels, torques=torques, mass=mass,
+                  centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
     found = _core.general_recognise(scene=since(start_time, scene), times=np.asarray(times, dtype=float) - start_time)
     return {name: why or "" for name, why in found}
+
+
+def integrate(*, times: ArrayLike, method: str, tolerance: float, order: int = 20, precision: str = "double", patience: float = math.inf,
+              **physics: Any) -> dict[str, Any]:
+    """The full equations under one integrator, timed, anew from each time at which a torque or a wheel changes its law.
+
+    physics : arguments of `solve` that are no question; times as there; method : taylor (of order 8, 12 or 20; in long double 30), dop853, and where
+    the build has them cvode-adams and cvode-bdf; patience : CPU time after which it gives up [s].
+    Returns columns attitude and angular_velocity, seconds, rhs, steps and status. Raises DomainError.
+    """
+    made: dict[str, Any] = _core.general_integrate(scene=posed(**physics), times=np.asarray(times, dtype=float), method=method, order=order,
+                                                   tolerance=tolerance, precision=precision, patience=patience)
+    return made

@@ -12,7 +12,7 @@ import numpy as np
 from gyrostat.broadcast import Floats
 from gyrostat.errors import DomainError
 from gyrostat.families.general.before import EPS, End, end_of
-from gyrostat.families.general.functions import PLANETS, orbit_start
+from gyrostat.families.general.functions import PLANETS, diagonal, dot, orbit_start, stacked, turned, unit, varies
 from gyrostat.fields import REQUIRED, ROUNDING, UNSET, Choices, Field, Found, Table, Values
 from gyrostat.rotation import matrix_from_quaternion, quaternion_from_matrix
 
@@ -287,10 +287,21 @@ def _torque_mistakes(place: int, torque: Mapping[str, Any], orbiting: bool, fixe
             yield from _lengths(f"{what}: factor", "torque", factor)
 
 
-def _moved(mass: float, arm: Floats) -> Floats:
-    """What an inertia about the mass centre gains at a point that far from it."""
-    made: Floats = mass * (float(arm @ arm) * np.eye(3) - np.outer(arm, arm))
+def _times(factor: Any, of: Floats) -> Floats:
+    """A number times a vector or a tensor."""
+    made: Floats = np.reshape(np.asarray(factor, dtype=float), (*np.shape(factor), *[1] * (2 if of.shape[-2:] == (3, 3) else 1))) * of
     return made
+
+
+def _square(v: Floats) -> Floats:
+    """v v^T"""
+    made: Floats = v[..., :, None] * v[..., None, :]
+    return made
+
+
+def _moved(mass: Any, arm: Floats) -> Floats:
+    """What an inertia about the mass centre gains at a point that far from it."""
+    return _times(mass, dot(arm, arm)[..., None, None] * np.eye(3) - _square(arm))
 
 
 @dataclass(frozen=True, slots=True)
@@ -298,25 +309,24 @@ class _Whole:
     """The body and its wheels as one."""
 
     inertia: Floats  # about the fixed point, or the mass centre of a free body
-    mass: float
+    mass: Any
     centre_of_mass: Floats
 
 
 def _whole(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]]) -> _Whole:
-    mass, centre, inertia = body["mass"], np.array(body["centre_of_mass"], dtype=float), np.array(body["inertia"], dtype=float)
-    inertia = np.diag(inertia) if inertia.ndim == 1 else inertia
+    mass, centre, inertia = body["mass"], stacked(body["centre_of_mass"]), stacked(body["inertia"])
+    inertia = inertia if isinstance(body["inertia"][0], tuple) else diagonal(inertia)
     about = body["inertia_about"] if body["inertia_about"] != "reference" else "origin" if body["fixed"] else "mass-centre"
-    apart = [] if body["wheels_in_inertia"] else [(each["mass"], np.array(each["position"], dtype=float)) for each in wheels]
+    apart = [] if body["wheels_in_inertia"] else [(each["mass"], stacked(each["position"])) for each in wheels]
     all_mass = mass + sum(m for m, _ in apart)
-    all_centre = (mass * centre + sum(m * r for m, r in apart)) / all_mass if apart else centre
+    all_centre = (_times(mass, centre) + sum(_times(m, r) for m, r in apart)) / np.asarray(all_mass)[..., None] if apart else centre
     reference = np.zeros(3) if body["fixed"] else all_centre
     given = np.zeros(3) if about == "origin" else centre
-    if np.any(given != reference):
-        inertia = inertia - _moved(mass, centre - given) + _moved(mass, centre - reference)
+    differs = np.any(given != reference, -1)[..., None, None]
+    inertia = np.where(differs, inertia - _moved(mass, centre - given) + _moved(mass, centre - reference), inertia)
     for wheel, (m, r) in zip(wheels, apart, strict=False):
-        axis = np.array(wheel["axis"], dtype=float) / math.hypot(*wheel["axis"])
         across = wheel["equatorial_inertia"]
-        inertia = inertia + across * np.eye(3) + (wheel["axial_inertia"] - across) * np.outer(axis, axis) + _moved(m, r - reference)
+        inertia = inertia + _times(across, np.eye(3)) + _times(wheel["axial_inertia"] - across, _square(unit(stacked(wheel["axis"])))) + _moved(m, r - reference)
     return _Whole(inertia, all_mass, all_centre)
 
 
@@ -332,14 +342,17 @@ class _Start:
     error: dict[str, float]
 
 
-def _rate_at(wheel: Mapping[str, Any], time: float) -> float:
+def _rate_at(wheel: Mapping[str, Any], time: float) -> Any:
     """The rate that a wheel is given at the start."""
-    rate = wheel.get("rate") or 0.0
+    rate = wheel.get("rate")
     if wheel.get("momentum") is not UNSET:
-        return float(wheel["momentum"] / wheel["axial_inertia"])
+        return wheel["momentum"] / wheel["axial_inertia"]
     if not isinstance(rate, Mapping):
-        return float(rate)
+        return 0.0 if rate is UNSET else rate
     times, values = rate["times"], rate["values"]
+    if varies(times) or varies(values):
+        rows = [each.tolist() for each in np.broadcast_arrays(*(np.atleast_2d(stacked(each)) for each in (times, values)))]
+        return np.array([_rate_at({**wheel, "rate": {**rate, "times": tuple(t), "values": tuple(v)}}, time) for t, v in zip(*rows, strict=True)])
     if time < times[0] or time > times[-1]:
         return float((values[0] if time < times[0] else values[-1]) if rate["extend"] == "hold" else 0.0)
     place = bisect.bisect_right(times, time) - 1
@@ -352,11 +365,23 @@ def _rate_at(wheel: Mapping[str, Any], time: float) -> float:
 
 def _rates_of(momentum: Floats, inertia: Floats, body: Mapping[str, Any], wheels: list[dict[str, Any]], time: float) -> Floats:
     """The angular velocity with which body and wheels have a momentum; rates of wheels are relative to the body, so with them J is that of the whole."""
-    held = np.array(body["rotor_momentum"], dtype=float)
+    held = stacked(body["rotor_momentum"])
     for wheel in wheels:
-        axis = np.array(wheel["axis"], dtype=float) / math.hypot(*wheel["axis"])
-        held = held + axis * wheel["axial_inertia"] * _rate_at(wheel, time)
-    made: Floats = np.linalg.solve(inertia, momentum - held)
+        held = held + _times(wheel["axial_inertia"] * _rate_at(wheel, time), unit(stacked(wheel["axis"])))
+    return np.linalg.solve(inertia, (momentum - held)[..., None])[..., 0].astype(np.float64)
+
+
+def _rotation(attitude: Floats) -> Floats:
+    """That of an attitude; none where it is not known."""
+    known = np.all(np.isfinite(attitude), -1, keepdims=True)
+    return matrix_from_quaternion(np.where(known, attitude, (0.0, 0.0, 0.0, 1.0)))
+
+
+def _from_orbit(axes: Floats, attitude: Floats) -> Floats:
+    """The attitude of a body whose attitude in the axes of the orbit is given; NaN where it is not known."""
+    R, known = _rotation(attitude), np.all(np.isfinite(attitude), -1, keepdims=True)
+    sound = np.where(np.all(np.isfinite(axes), (-2, -1), keepdims=True), axes, np.eye(3))
+    made: Floats = np.where(known, quaternion_from_matrix(np.stack([turned(sound, R[..., :, i]) for i in range(3)], -1)), np.nan)
     return made
 
 
@@ -406,42 +431,42 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     if end:
         wheels, taken = _handed_on(wheels, end)
     error = dict.fromkeys(("attitude", "angular_velocity", "rotor_rate", "rotor_angle", "velocity", "position"), 0.0)
-    attitude = np.array(start["attitude"] if start["attitude"] is not UNSET else (0.0, 0.0, 0.0, 1.0) if end is None else end.attitude, dtype=float)
+    attitude = stacked(start["attitude"] if start["attitude"] is not UNSET else (0.0, 0.0, 0.0, 1.0) if end is None else end.attitude)
     axes, normal_rate = (np.eye(3), np.zeros(3)) if orbit is None else orbit_start(orbit, time)
     if start["relative_to"] == "orbit":
-        attitude = quaternion_from_matrix(axes @ matrix_from_quaternion(attitude))
-    R: Floats = matrix_from_quaternion(attitude)
+        attitude = _from_orbit(axes, attitude)
+    back = np.swapaxes(_rotation(attitude), -1, -2)
     given, momentum = start["angular_velocity"], start["angular_momentum"]
     kept = scene.top["from"]["keep"] if isinstance(scene.top["from"], Mapping) else "rates"
     if end and body["fixed"] and not end.fixed and given is UNSET and momentum is UNSET:
         raise DomainError("from: a body that was free is held at a point from now on, and what it turns with after such a blow is not in the scene before: "
                           "give initial.angular_velocity")
     if momentum is not UNSET:
-        rates = _rates_of(np.array(momentum, dtype=float), whole.inertia, body, wheels, time)
+        rates = _rates_of(stacked(momentum), whole.inertia, body, wheels, time)
     elif end and given is UNSET and kept == "momentum":
         rates, error["angular_velocity"] = _caught(end, whole, body, wheels, taken)
     elif end and given is UNSET:
         rates, error["angular_velocity"] = end.angular_velocity, end.error["angular_velocity"]
     elif not isinstance(given, Mapping):
-        rates = np.array(given, dtype=float)
+        rates = stacked(given)
     elif given["inertial"] is not UNSET:
-        rates = R.T @ np.array(given["inertial"], dtype=float)
+        rates = turned(back, stacked(given["inertial"]))
     else:
-        rates = np.array(given["relative_to_orbit"], dtype=float) + R.T @ normal_rate
+        rates = stacked(given["relative_to_orbit"]) + turned(back, normal_rate)
     velocity, position = np.zeros(3), np.zeros(3)
     if end:
         error |= {name: end.error.get(name, 0.0) for name in ("rotor_rate", "rotor_angle") if wheels}
         # the clock is told to a rounding
-        turned = EPS * time * float(np.linalg.norm(rates))
-        error["attitude"] = (end.error["attitude"] if start["attitude"] is UNSET else 0.0) + turned
+        clock = EPS * time * float(np.linalg.norm(rates))
+        error["attitude"] = (end.error["attitude"] if start["attitude"] is UNSET else 0.0) + clock
         if not body["fixed"]:
             velocity, position = end.moved(whole.centre_of_mass)
             error |= end.off_path(whole.centre_of_mass)
     for name, value in (("velocity", start["velocity"]), ("position", start["position"])):
         if value is not UNSET:
             error[name] = 0.0
-    return _Start(attitude, rates, velocity if start["velocity"] is UNSET else np.array(start["velocity"], dtype=float),
-                  position if start["position"] is UNSET else np.array(start["position"], dtype=float), wheels, error)
+    return _Start(attitude, rates, velocity if start["velocity"] is UNSET else stacked(start["velocity"]),
+                  position if start["position"] is UNSET else stacked(start["position"]), wheels, error)
 
 
 def arguments(scene: "Scene") -> dict[str, Any]:
@@ -456,7 +481,7 @@ def arguments(scene: "Scene") -> dict[str, Any]:
     going_on = {} if scene.before is None else {"start_time": scene.start_time, "start_error": start.error}
     return {
         "inertia": whole.inertia, "mass": whole.mass, "centre_of_mass": whole.centre_of_mass, "fixed": body["fixed"],
-        "rotor_momentum": np.array(body["rotor_momentum"], dtype=float), "wheels": start.wheels,
+        "rotor_momentum": stacked(body["rotor_momentum"]), "wheels": start.wheels,
         "torques": [dict(each) for each in scene.top["torque"]], "orbit": None if orbit is None else dict(orbit), "field": field,
         "attitude": start.attitude, "angular_velocity": start.angular_velocity, "velocity": start.velocity, "position": start.position,
         "times": scene.times, "tolerance": solving["tolerance"], "model": solving["model"],
