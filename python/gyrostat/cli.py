@@ -286,16 +286,21 @@ def _write(text: str, file: Path | None) -> None:
 
 
 def _recognise(arguments: argparse.Namespace) -> int:
-    from gyrostat.families.general.rewrite import recognised
+    from gyrostat.families.general.rewrite import recognised, segments_of
 
-    found = recognised(_scene(arguments))
+    scene = _scene(arguments)
+    found, segments = recognised(scene), segments_of(scene)
     if arguments.form == "json":
         say(json.dumps({family: why or None for family, why in found.items()}), sys.stdout)
         return MET
     rows = [[family, "-" if why else "yes", why] for family, why in found.items()]
     show_table("Families", ["family", "an instance", "why not"], rows, sys.stdout)
     names = [family for family, why in found.items() if not why]
-    say(f"The rungs of {' and '.join(names)} are asked before the full equations." if names else "The full equations answer.", sys.stdout)
+    if segments:
+        rows = [[f"{begin:g}", f"{end:g}", ", ".join(families)] for begin, end, families in segments]
+        show_table("Segments between changes", ["from [s]", "to [s]", "an instance of"], rows, sys.stdout)
+    first = [*([f"rungs of {' and '.join(names)}"] if names else []), *(["rung segments"] if segments else [])]
+    say(f"The {' and the '.join(first)} may answer before the full equations." if first else "The full equations answer.", sys.stdout)
     return MET
 
 

@@ -3,9 +3,9 @@
 
 from gyrostat.families.general import functions
 from gyrostat.families.general.functions import *  # noqa: F403
-from gyrostat.families.general.rewrite import as_general, recognised
+from gyrostat.families.general.rewrite import as_general, recognised, segments_of
 from gyrostat.families.general.scene import arguments
 
 __doc__ = functions.__doc__
-__all__ = ["arguments", "as_general", "recognised"]
+__all__ = ["arguments", "as_general", "recognised", "segments_of"]
 __all__ += functions.__all__

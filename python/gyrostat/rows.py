@@ -245,8 +245,9 @@ def _flat(table: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any
 def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any = None, **settings: Any) -> tuple[Plan, dict[str, Place]]:
     """Which rows a study has, and where its numbers are, by full key: of what the table [vary] of the scene says and of what is given here, which
     goes first. settings: n, seed, design. Raises DomainError."""
-    if scene.before is not None:
-        raise DomainError("from: a scene that begins where another ends cannot vary; give it a start of its own in [initial]")
+    if not scene.starts_plainly:
+        raise DomainError("a scene that begins where another ends, at another time than 0 or with initial.error cannot vary; give it a start of its own in "
+                          "[initial]")
     own = dict(_flat(scene.vary))
     beside = scene.path.parent if scene.path is not None and cases is None else Path()
     table = own.get("cases") if cases is None else cases

@@ -71,8 +71,16 @@ class Scene:
 
     @property
     def start_time(self) -> float:
-        """Where the clock of this scene begins [s]: 0, or at the last time of the scene before it."""
-        return 0.0 if self.before is None else float(self.before.times[-1])
+        """Where the clock of this scene begins [s]: by default 0, or at the last time of the scene before it."""
+        if self.before is not None:
+            return float(self.before.times[-1])
+        return float(self.tables.get("initial", {}).get("time") or 0.0)
+
+    @property
+    def starts_plainly(self) -> bool:
+        """The start is told by the scene itself, without error, at t = 0."""
+        start = self.tables.get("initial", {})
+        return self.before is None and not start.get("time") and start.get("error") is UNSET
 
     @property
     def tolerance(self) -> float:
@@ -720,8 +728,8 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
     top = {key: value for key, value in head.items() if key not in ("name", "kind", "source")}
     made = Scene(head["name"], kind, head["source"], read, source.path, top, written, _before(top["from"], source) if top.get("from") else None)
     if (times := read["solve"]["times"]) is not UNSET and times[0] < made.start_time:
-        raise SceneError(Mistake(source.where("solve.times"), "solve.times", _show(list(times)), f"the scene before this one ends at {made.start_time!r} s",
-                                 "the clock goes on: give times from there, or duration and samples, which count from there"))
+        raise SceneError(Mistake(source.where("solve.times"), "solve.times", _show(list(times)), f"the motion begins at {made.start_time!r} s",
+                                 "give times from there, or duration and samples, which count from there"))
     _check_varied(made, source)
     return made
 

@@ -11,6 +11,7 @@
 #include "answer.hpp"
 #include "bind.hpp"
 #include "general_arguments.hpp"
+#include "gyrostat/ladder/general/segments_rung.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "question_arguments.hpp"
 
@@ -63,6 +64,23 @@ py::typing::List<py::typing::Tuple<py::str, py::typing::Optional<py::str>>> reco
   return made;
 }
 
+/// Begin, end and families of each segment that a motion can be answered in, by the scene's own start; none where it cannot.
+py::typing::List<py::typing::Tuple<double, double, py::typing::List<py::str>>> segments_of_scene(const Data& given,
+                                                                                                 const Array& at) {
+  const general::Scene scene = scene_of(given, question_of(general::tables, at, 1e-6, "auto", std::nullopt), true);
+  py::typing::List<py::typing::Tuple<double, double, py::typing::List<py::str>>> made;
+  if (std::isnan(general::cost_of_segments(scene))) return made;
+  const double span = scene.question().times.back();
+  for (const auto& segment : general::detail::segments_of(scene.problem(), span)) {
+    const auto one = scene.with(segment.problem);
+    py::list families;
+    for (std::size_t i = 0; one && i < general::specials; ++i)
+      if (one->instances().has(general::Special(i))) families.append(general::special_words[i]);
+    made.append(py::make_tuple(segment.from, segment.to, families));
+  }
+  return made;
+}
+
 }  // namespace
 
 void bind_general(py::module_& module) {
@@ -70,6 +88,8 @@ void bind_general(py::module_& module) {
              py::arg("model"), py::arg("integrator"), py::arg("recognise"), py::arg("monitor"),
              py::arg("ask") = py::none(), py::arg("start_error") = std::map<std::string, double>{},
              py::arg("euler") = py::none(), "Answer of the ladder as plain data.");
+  module.def("general_segments", &segments_of_scene, py::kw_only(), py::arg("scene"), py::arg("times"),
+             "Begin, end and families of each segment that the motion can be answered in.");
   module.def("general_recognise", &recognise_scene, py::kw_only(), py::arg("scene"), py::arg("times"),
              "Each family, and why the scene is no instance of it; None where it is one.");
 }

@@ -9,6 +9,7 @@ import gyrostat
 import numpy as np
 import pytest
 from gyrostat import DomainError, SceneError
+from gyrostat.families import FAMILIES
 from gyrostat.families.general.before import end_of
 from gyrostat.families.general.scene import arguments
 from gyrostat.rotation import angle_between, matrix_from_quaternion
@@ -167,7 +168,7 @@ BAD = [
     ({"from": 3}, "not text"),
     ({"from": {"file": "toutatis", "keep": "energy"}}, "use one of rates, momentum"),
     ({"from": {"keep": "rates"}}, "the key file is missing"),
-    ({"solve": {"times": [1.0, 2.0]}}, "the scene before this one ends at"),
+    ({"solve": {"times": [1.0, 2.0]}}, "the motion begins at"),
 ]
 
 
@@ -266,3 +267,51 @@ def test_a_sequence_asks_for_the_angles() -> None:
         gyrostat.solve(WHOLE, ask=["euler"])
     with pytest.raises(SceneError, match="neighbours different"):
         gyrostat.solve(WHOLE, **{"solve.euler": "3-3-1"})
+
+
+# ---- a start at another time, or known to within an error ----
+
+
+def test_a_start_may_be_given_at_any_time() -> None:
+    end = gyrostat.solve(WHOLE, times=[40.0], tolerance=1e-13, ask="all")
+    start = {"time": 40.0, "attitude": end["attitude"][0].tolist(), "angular_velocity": end["angular_velocity"][0].tolist()}
+    later = copy.deepcopy(WHOLE) | {"solve": {"times": LATER, "tolerance": 1e-9}, "initial": start}
+    for wheel, rate, angle in zip(later["wheel"], end["rotor_rate"][0], end["rotor_angle"][0], strict=True):
+        wheel |= {"rate": float(rate), "angle": float(angle)}
+    got, want = gyrostat.solve(later), gyrostat.solve(WHOLE, times=LATER, tolerance=1e-12)
+    for name in got:
+        assert off(got, want, name) <= got.error[name] + want.error[name] + 20 * end.error["attitude"], name
+    with pytest.raises(SceneError, match="the motion begins at 40.0 s"):
+        scene_from(later, times=[39.0, 50.0])
+    with pytest.raises(SceneError, match="the clock goes on from the scene before"):
+        scene_from(later | {"from": "iss-drift"})
+
+
+def test_an_error_of_the_start_is_part_of_the_answer() -> None:
+    exact = gyrostat.solve(WHOLE, tolerance=1e-2)
+    for size in (1e-7, 1e-4):
+        known = {**WHOLE["initial"], "error": {"angular_velocity": size}}
+        answer = gyrostat.solve(WHOLE | {"initial": known}, tolerance=1e-2)
+        worst = 0.0
+        for axis in range(3):
+            moved = np.array(WHOLE["initial"]["angular_velocity"]) + size * np.eye(3)[axis]
+            other = gyrostat.solve(WHOLE | {"initial": {**WHOLE["initial"], "angular_velocity": moved.tolist()}}, tolerance=1e-2)
+            worst = max(worst, off(other, exact, "attitude"))
+        assert worst - exact.error["attitude"] <= answer.error["attitude"] <= 3 * worst + 2 * exact.error["attitude"]
+    told = gyrostat.solve(WHOLE | {"initial": {**WHOLE["initial"], "error": {"attitude": "0.1 deg", "position": "3 m"}}}, ask="all", tolerance=1e-2)
+    assert told.error["attitude"] > 1.7e-3
+    for scene in (WHOLE | {"initial": known}, WHOLE | {"from": "iss-drift", "solve": {"duration": 3.0, "samples": 2}}):
+        with pytest.raises(DomainError, match="cannot vary"):
+            gyrostat.sweep(scene_from(scene), {"body.mass": [1.0, 2.0]})
+        with pytest.raises(DomainError, match="is not charted"):
+            gyrostat.chart(scene_from(scene))
+
+
+def test_the_function_tells_its_scene_with_clock_and_error() -> None:
+    answer = gyrostat.solve("wheel-seized")
+    given = FAMILIES["general"].arguments(load("wheel-seized"))
+    direct = FAMILIES["general"].solve(**given)
+    assert direct.scene["initial"]["time"] == 90.0
+    again = gyrostat.solve(direct.scene)
+    for name in answer:
+        assert np.array_equal(again[name], answer[name]) and again.error[name] == answer.error[name]

@@ -136,6 +136,16 @@ inline void begin_at(const State<double>& end, const Segment& before, Segment& n
       wheel.rate = wheels.laws[i].momentum / wheel.axial_inertia - wheel.axis.dot(problem.angular_velocity);
 }
 
+/// The asked times in a segment, from `next` on, and its end, by its clock; the last of the whole is in the last one.
+inline std::vector<double> times_in(const Segment& segment, const std::vector<double>& asked, std::size_t& next) {
+  const double length = segment.to - segment.from;
+  std::vector<double> made;
+  for (; next < asked.size() && (asked[next] < segment.to || asked.back() == segment.to); ++next)
+    if (const double t = asked[next] - segment.from; made.empty() || t > made.back()) made.push_back(t);
+  if (made.empty() || made.back() < length) made.push_back(length);
+  return made;
+}
+
 /// What is asked of a segment: all that the next one begins with, so well that what is left of it grows to a share of the tolerance: with the angle
 /// that the body turns through from there on.
 inline Question question_of(const Scene& scene, std::vector<double> times, double from, std::size_t segments) {
@@ -190,22 +200,14 @@ class SegmentedMotion {
  private:
   Errc solve_one(std::size_t k, Monitor* monitor, const char*& why) {
     const Segment& segment = segments_[k];
-    const bool last = k + 1 == segments_.size();
-    const double length = segment.to - segment.from;
     const auto& asked = scene_.question().times;
-    std::vector<double> times;
     const std::size_t first = next_;
-    for (; next_ < asked.size() && (last || asked[next_] < segment.to); ++next_)
-      if (const double t = asked[next_] - segment.from; times.empty() || t > times.back()) times.push_back(t);
-    if (times.empty() || times.back() < length) times.push_back(length);
+    const auto times = times_in(segment, asked, next_);
     const auto made = Scene::make(segment.problem, question_of(scene_, times, segment.from, segments_.size()));
     if (!made) return made.error();
     const Answer answer = best_of(made->known_within(error_), monitor, why);
     if (answer.columns.empty()) return why == nullptr ? Errc::cancelled : Errc::not_applicable;
     track_.counts += answer.counts;
-    for (const Warning& warning : answer.warnings)
-      if (warning.kind != &no_value && warning.kind != &warning_kinds[warning::start_uncertain])
-        track_.warn(*warning.kind, warning.value, warning.text);
     for (std::size_t i = first, row = 0; i < next_; ++i) {
       while (times[row] < asked[i] - segment.from) ++row;
       track_.states[i] = state_of(answer, row);
@@ -306,9 +308,11 @@ inline double cost_of_segments(const Scene& scene) noexcept {
   if (!scene.is_recognised() || scene.breaks() == 0 || scene.breaks() >= most_segments) return nan<double>;
   const auto segments = detail::segments_of(scene.problem(), scene.question().times.back());
   double sum = segments.empty() ? nan<double> : 0, displaced = 0;
+  std::size_t next = 0;
   for (const Segment& segment : segments) {
-    const auto made = Scene::make(
-        segment.problem, detail::question_of(scene, {segment.to - segment.from}, segment.from, segments.size()));
+    auto times = detail::times_in(segment, scene.question().times, next);
+    const auto made =
+        Scene::make(segment.problem, detail::question_of(scene, std::move(times), segment.from, segments.size()));
     const auto candidates = made ? detail::candidates_of(*made) : std::vector<detail::Candidate>{};
     if (candidates.empty()) return nan<double>;
     const double cost = candidates.front().cost;

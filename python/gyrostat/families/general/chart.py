@@ -11,7 +11,7 @@ from gyrostat.broadcast import Floats
 from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, Unanswered, first_turns, greatest, reference, relative
 from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS
-from gyrostat.families.general.functions import QUESTION, integrate, posed, recognise, solve
+from gyrostat.families.general.functions import QUESTION, integrate, posed, recognise, segments, solve
 from gyrostat.families.general.scene import arguments
 from gyrostat.rotation import angle_between
 
@@ -38,8 +38,9 @@ def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, f
 
 def problem(scene: "Scene") -> Problem:
     """The scene, or its first part where the whole is too long. Raises DomainError for a motion that a brake stops."""
-    if scene.before is not None:
-        raise DomainError("from: a scene that begins where another ends is not charted; give it a start of its own in [initial]")
+    if not scene.starts_plainly:
+        raise DomainError("a scene that begins where another ends, at another time than 0 or with initial.error is not charted; give it a start of its own in "
+                          "[initial]")
     given = {**arguments(scene), "ask": ("attitude", "angular_velocity"), "euler": None}
     physics = {name: value for name, value in given.items() if name not in QUESTION}
     found = {family for family, why in recognise(**physics, times=given["times"]).items() if not why}
@@ -50,7 +51,8 @@ def problem(scene: "Scene") -> Problem:
     want, source = reference(integrate, physics, "taylor")
     end = float(given["times"][-1])
     title = f"{len(given['times'])} times to {end:.6g} s{cut}\n{rate * end:.3g} turns at most; {source}"
-    rungs = tuple(name for name in FACTS["general"].rungs if name.rpartition(":")[0] in {"", *found})
+    lacks = set() if segments(**physics) else {"segments"}
+    rungs = tuple(name for name in FACTS["general"].rungs if name.rpartition(":")[0] in {"", *found} and name not in lacks)
     return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), rival, end * 10 * rate, rungs=rungs,
                    cuts=rival.cuts)
 

@@ -23,7 +23,7 @@ from gyrostat.families import answer_of
 from gyrostat.families.general.clock import orbit_since, since
 from gyrostat.orientation import axes_of
 
-__all__ = ["PLANETS", "Monitor", "integrate", "orbit_start", "recognise", "solve"]
+__all__ = ["PLANETS", "Monitor", "integrate", "orbit_start", "recognise", "segments", "solve"]
 
 # The keys of a table [[wheel]], [[torque]], [orbit] or [field] of a scene file, in SI units.
 Record = Mapping[str, Any]
@@ -260,9 +260,10 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
                                ask=asked("general", _with_angles(ask, euler)), start_error=dict(start_error or {}),
                                euler=None if euler is None else axes_of(euler))
     body = {**scene["body"], **scene["initial"]}
+    going_on = {"start_time": start_time or None, "start_error": dict(start_error) if start_error else None}
     records = {"wheels": [dict(each) for each in wheels] or None, "torques": [dict(each) for each in torques] or None,
                "orbit": None if orbit is None else dict(orbit), "field": None if field is None else dict(field)}
-    return answer_of("general", made, {**body, **asking, **records, "recognise": None if recognise else False, "ask": ask, "euler": euler})
+    return answer_of("general", made, {**body, **asking, **records, "recognise": None if recognise else False, "ask": ask, "euler": euler, **going_on})
 
 
 def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
@@ -277,6 +278,17 @@ def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLi
                   centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
     found = _core.general_recognise(scene=since(start_time, scene), times=np.asarray(times, dtype=float) - start_time)
     return {name: why or "" for name, why in found}
+
+
+def segments(*, times: ArrayLike, start_time: float = 0.0, **physics: Any) -> list[tuple[float, float, tuple[str, ...]]]:
+    """Begin, end [s] and families of each segment between times at which torques or wheels change, where each is an instance of a family; empty where
+    the motion cannot be answered so.
+
+    physics : arguments of `solve` that are no question.
+    """
+    scene = since(start_time, posed(**physics))
+    found = _core.general_segments(scene=scene, times=np.asarray(times, dtype=float) - start_time)
+    return [(begin + start_time, end + start_time, tuple(families)) for begin, end, families in found]
 
 
 def integrate(*, times: ArrayLike, method: str, tolerance: float, order: int = 20, precision: str = "double", patience: float = math.inf,

@@ -12,7 +12,7 @@ from gyrostat.rotation import quaternion_from_vector
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["as_general", "recognised"]
+__all__ = ["as_general", "recognised", "segments_of"]
 
 Tables = dict[str, Any]
 
@@ -102,10 +102,24 @@ def as_general(scene: "Scene") -> "Scene":
     return scene_from({"name": scene.name, "kind": "general", "source": scene.source, "solve": solving, "body": body, **made})
 
 
-def recognised(scene: "Scene") -> dict[str, str]:
-    """Name of each family, and why the scene is not exactly an instance of it; empty where it is."""
-    from gyrostat.families.general.functions import recognise
+def _physics(scene: "Scene") -> dict[str, Any]:
+    """The arguments of `recognise` and `segments`."""
+    from gyrostat.families.general.functions import QUESTION
     from gyrostat.families.general.scene import arguments
 
     given = arguments(as_general(scene))
-    return recognise(**{name: value for name, value in given.items() if name not in ("tolerance", "model", "integrator", "recognise", "start_error", "euler")})
+    return {name: value for name, value in given.items() if name == "times" or name not in (*QUESTION, "start_error")}
+
+
+def recognised(scene: "Scene") -> dict[str, str]:
+    """Name of each family, and why the scene is not exactly an instance of it; empty where it is."""
+    from gyrostat.families.general.functions import recognise
+
+    return recognise(**_physics(scene))
+
+
+def segments_of(scene: "Scene") -> list[tuple[float, float, tuple[str, ...]]]:
+    """Begin, end [s] and families of each segment that the scene can be answered in; none where it cannot."""
+    from gyrostat.families.general.functions import segments
+
+    return segments(**_physics(scene))

@@ -177,6 +177,12 @@ KEYS: Final[dict[str, Table]] = {
               parts=(Field("inertial", "vector", "inertial axes", "rad/s", UNSET),
                      Field("relative_to_orbit", "vector", "relative to the axes of the orbit, body axes", "rad/s", UNSET))),
         Field("angular_momentum", "vector", "total angular momentum at t = 0, body axes", "N m s", UNSET),
+        Field("time", "number", "where the clock of times, tables, waves and the orbit stands at the start; by default 0, or the end of the scene that this one "
+              "begins from", "s", UNSET),
+        Field("error", "record", "by how much the start may be off, in any direction: what comes of it is part of the errors of the answer", "", UNSET, parts=(
+            Field("attitude", "number", "angle", "rad", 0.0, low=0), Field("angular_velocity", "number", "length of its error", "rad/s", 0.0, low=0),
+            Field("rotor_rate", "number", "of each wheel", "rad/s", 0.0, low=0), Field("rotor_angle", "number", "of each wheel", "rad", 0.0, low=0),
+            Field("velocity", "number", "length of its error", "m/s", 0.0, low=0), Field("position", "number", "length of its error", "m", 0.0, low=0))),
         Field("velocity", "vector", "velocity of the mass centre of a free body at the start, inertial axes; by default it is at rest", "m/s", UNSET),
         Field("position", "vector", "position of the mass centre of a free body at the start, inertial axes; by default the origin", "m", UNSET),
     ),
@@ -187,11 +193,12 @@ ALTERNATIVES: Final[tuple[Choices, ...]] = (
     (("field.uniform",), ("field.rotating",), ("field.dipole",), ()),
 )
 # The argument of `solve` that a table is.
-ARGUMENTS: Final = {"wheels": ("", "wheel"), "torques": ("", "torque"), "orbit": ("", "orbit"), "field": ("", "field")}
+ARGUMENTS: Final = {"start_time": ("initial", "time"), "start_error": ("initial", "error"), "wheels": ("", "wheel"), "torques": ("", "torque"), "orbit": ("", "orbit"), "field": ("", "field")}
 EXAMPLE: Final[dict[str, Any]] = {
     "solve.duration": "90 min", "solve.euler": "3-2-1", "solve.samples": 541, "body.inertia": (90.0, 120.0, 60.0), "initial.angular_velocity": (0.0, -0.00113, 0.0002),
     "initial.angular_momentum": (0.0, -0.135, 0.012), "initial.attitude": (0.0, 0.0, 0.0, 1.0), "initial.velocity": (0.0, 0.0, 0.0),
-    "initial.position": (0.0, 0.0, 0.0), "from": "iss-drift", "orbit.radius": 6778137.0, "orbit.altitude": "400 km", "orbit.rate": 0.00113,
+    "initial.position": (0.0, 0.0, 0.0), "initial.time": 0.0,
+    "initial.error": {"attitude": "0.1 deg", "angular_velocity": "0.01 deg/s"}, "from": "iss-drift", "orbit.radius": 6778137.0, "orbit.altitude": "400 km", "orbit.rate": 0.00113,
     "orbit.period": "92 min", "orbit.mu": 3.986004415e14, "field.uniform": (2e-5, 0.0, -3e-5),
     "field.rotating": {"axis": (0.0, 0.0, 1.0), "rate": 0.0023, "vector": (2e-5, 0.0, 1e-5)},
     "field.dipole": {"axis": (0.17, 0.1, 0.98), "strength": 3.1e-5, "radius": 6371200.0},
@@ -211,6 +218,8 @@ def mistakes(tables: Values) -> Found:
         yield "initial.angular_velocity", start["angular_velocity"], "there is no orbit", remedy
     if field["dipole"] is not UNSET and not orbiting and any(torque["type"] in ("magnetic", "eddy-current") for torque in tables[""]["torque"]):
         yield "field.dipole", field["dipole"], "the field of a dipole is that along an orbit", remedy
+    if start["time"] is not UNSET and tables[""]["from"] is not UNSET:
+        yield "initial.time", start["time"], "the clock goes on from the scene before", "leave it out"
     asked = tables["solve"]["ask"]
     if tables["solve"]["euler"] is UNSET and isinstance(asked, tuple | Mapping) and "euler" in asked:
         yield "solve.ask", "euler", "the sequence of the angles is not said", 'add solve.euler, such as "3-2-1" for yaw, pitch and roll'
@@ -465,6 +474,8 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     for name, value in (("velocity", start["velocity"]), ("position", start["position"])):
         if value is not UNSET:
             error[name] = 0.0
+    if start["error"] is not UNSET:
+        error = {name: error[name] + more for name, more in start["error"].items()}
     return _Start(attitude, rates, velocity if start["velocity"] is UNSET else stacked(start["velocity"]),
                   position if start["position"] is UNSET else stacked(start["position"]), wheels, error)
 
@@ -478,7 +489,7 @@ def arguments(scene: "Scene") -> dict[str, Any]:
         orbit, field["dipole"] = None, UNSET  # which nothing feels
     whole = _whole(body, scene.top["wheel"])
     start = _start(scene, whole, orbit)
-    going_on = {} if scene.before is None else {"start_time": scene.start_time, "start_error": start.error}
+    going_on = {**({"start_time": scene.start_time} if scene.start_time else {}), **({"start_error": start.error} if any(start.error.values()) else {})}
     return {
         "inertia": whole.inertia, "mass": whole.mass, "centre_of_mass": whole.centre_of_mass, "fixed": body["fixed"],
         "rotor_momentum": stacked(body["rotor_momentum"]), "wheels": start.wheels,
