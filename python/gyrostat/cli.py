@@ -300,7 +300,7 @@ def _recognise(arguments: argparse.Namespace) -> int:
         rows = [[f"{begin:g}", f"{end:g}", ", ".join(families)] for begin, end, families in segments]
         show_table("Segments between changes", ["from [s]", "to [s]", "an instance of"], rows, sys.stdout)
     first = [*([f"rungs of {' and '.join(names)}"] if names else []), *(["rung segments"] if segments else [])]
-    say(f"The {' and the '.join(first)} may answer before the full equations." if first else "The full equations answer.", sys.stdout)
+    say(f"The {' and the '.join(first)} {'are' if names else 'is'} asked before the full equations." if first else "The full equations answer.", sys.stdout)
     return MET
 
 

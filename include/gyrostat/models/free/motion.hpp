@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -113,13 +114,27 @@ class Motion {
     using std::abs;
     if (kind_ == Kind::steady || kind_ == Kind::spherical) return 1;
     const Place place = place_at(t);
-    const Value zeta = pair_.at(place.exponent, place.rest);
-    const Scalar a = zeta.one.re * zeta.one.re + zeta.one.im * zeta.one.im,
-                 b = zeta.two.re * zeta.two.re + zeta.two.im * zeta.two.im;
-    const Scalar re = zeta.one.re * zeta.two.re + zeta.one.im * zeta.two.im;
-    const Scalar im = zeta.one.re * zeta.two.im - zeta.one.im * zeta.two.re;
-    const Scalar parts = abs(size_[0] * a) + abs(size_[1] * b) + abs(size_[2] * re) + abs(size_[3] * im);
-    return parts / abs(size_[0] * a + size_[1] * b + size_[2] * re + size_[3] * im);
+    const auto f = products(pair_.at(place.exponent, place.rest));
+    Scalar parts = 0, sum = 0;
+    for (int j = 0; j < 4; ++j) parts += abs(size_[j] * f[std::size_t(j)]), sum += size_[j] * f[std::size_t(j)];
+    return parts / abs(sum);
+  }
+
+  /// What omega is summed of in at(t), all terms by their sizes, rad/s: more than |omega| where the body is slim, whose slight moment turns a small
+  /// part of M into much of omega.
+  Scalar rate_terms(Scalar t) const noexcept {
+    using std::abs, std::sqrt;
+    if (kind_ == Kind::steady || kind_ == Kind::spherical) return at(t).angular_velocity.norm();
+    const Place place = place_at(t);
+    const auto f = products(pair_.at(place.exponent, place.rest));
+    Scalar square = 0, size = 0;
+    for (int j = 0; j < 4; ++j) size += size_[j] * f[std::size_t(j)];
+    for (int i = 0; i < 3; ++i) {
+      Scalar sum = 0;
+      for (int j = 0; j < 4; ++j) sum += abs(W_(i, j) * f[std::size_t(j)]);
+      square += sum * sum;
+    }
+    return sqrt(square) / abs(size);
   }
 
   Kind kind() const noexcept { return kind_; }
@@ -329,12 +344,17 @@ class Motion {
     return pair_.single ? Value{-zeta.one, zeta.two} : Value{-zeta.two, -zeta.one};
   }
 
+  /// What omega, M and their common size are sums of.
+  static std::array<Scalar, 4> products(const Value& zeta) noexcept {
+    const C &a = zeta.one, &b = zeta.two;
+    return {a.re * a.re + a.im * a.im, b.re * b.re + b.im * b.im, a.re * b.re + a.im * b.im, a.re * b.im - a.im * b.re};
+  }
+
   /// The state whose spinor is zeta times a phase.
   State<Scalar> assemble(const Value& zeta, const C& phase) const noexcept {
     using std::sqrt;
     const C &a = zeta.one, &b = zeta.two;
-    const Scalar f[4] = {a.re * a.re + a.im * a.im, b.re * b.re + b.im * b.im, a.re * b.re + a.im * b.im,
-                         a.re * b.im - a.im * b.re};
+    const auto f = products(zeta);
     const Scalar inverse = 1 / (size_[0] * f[0] + size_[1] * f[1] + size_[2] * f[2] + size_[3] * f[3]);
     State<Scalar> s;
     for (int i = 0; i < 3; ++i) {

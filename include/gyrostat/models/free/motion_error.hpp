@@ -128,7 +128,8 @@ class MotionError {
       return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
     // M may be all rounding and the body's motion not
     if (!(b.angular_momentum <= most)) b.angular_momentum = infinity<Scalar>;
-    return {b.angular_velocity + rounding, b.angular_momentum + rounding, b.attitude + rounding};
+    const Scalar of_rates = fastest_ > 0 ? std::max(rounding, 4 * epsilon<Scalar> * rate_terms_ / fastest_) : rounding;
+    return {b.angular_velocity + of_rates, b.angular_momentum + rounding, b.attitude + rounding};
   }
 
   Scalar period() const noexcept { return 4 * share_ * period_ + 4 * epsilon<Scalar>; }  ///< relative
@@ -201,6 +202,7 @@ class MotionError {
       const State<Scalar> at = motion.at(T * Scalar(i) / nodes);
       const Vec3<Scalar> flow = cross<Scalar>(at.angular_momentum, at.angular_velocity);
       cancellation_ = max(cancellation_, motion.cancellation(T * Scalar(i) / nodes));
+      rate_terms_ = max(rate_terms_, motion.rate_terms(T * Scalar(i) / nodes));
       fastest_ = max(fastest_, at.angular_velocity.norm());
       momentum_change_ = max(momentum_change_, flow.norm());
       rates_change_ = max(rates_change_, Vec3<Scalar>(inverse * flow).norm());
@@ -307,7 +309,7 @@ class MotionError {
   Scalar fastest_ = 0, speed_ = 0;
   Scalar rates_change_ = 0, momentum_change_ = 0, attitude_change_ = 0;  // by a phase late by a period
   Scalar share_ = 0, turn_rate_ = 0, turn_ = 0;  // periods late a second; rad/s about M; rad a period
-  Scalar modulus_ = 0, energy_ = 0, norm_ = 0, cancellation_ = 1;
+  Scalar modulus_ = 0, energy_ = 0, norm_ = 0, cancellation_ = 1, rate_terms_ = 0;
   Scalar drift_ = 0, unstable_ = 0, frequency_ = 0, shear_ = 0, gain_ = 0;  // of a steady rotation
   std::array<Bound, nodes + 1> first_{};
 };
