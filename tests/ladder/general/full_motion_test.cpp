@@ -510,6 +510,27 @@ TEST_CASE("breakpoints, balances and stops of scenes with stiff wheels", "[gener
   check_within(apart(soft, times, truth(soft, times), states), answer->error);
 }
 
+TEST_CASE("a brake on a body that wheels push off from rest keeps up with its turn", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(1.44, 2.93, 2.02).asDiagonal();
+  p.angular_velocity = {1.3e-10, 4.3e-11, 5.5e-11};
+  // a motor reverses what is left of the turn within 1e-10 s
+  p.wheels.push_back({WheelType::motor, Vec3<double>(0, -0.6, 0.8), 9e-4, -38, 0, 0, 0, 0.04, 15, {}});
+  p.wheels.push_back({WheelType::friction, Vec3<double>(0.6, 0.64, 0.48), 0.5, 0, 0, 0, 320, 0, 0, {}});
+  auto& brake = p.torques.emplace_back();
+  brake.type = TorqueType::brake, brake.opposed = Opposed::carrier_momentum, brake.vector = {7e-6, 2.5e-5, 1.4e-5};
+  std::vector<State<double>> states(2);
+  FullMotionOptions<double> options;
+  options.tolerance = 1e-8, options.integrator = Integrator::radau;
+  const std::vector<double> times{3, 8};
+  const auto answer = full_motion<double>(p, times, states, options);
+  REQUIRE(answer);
+  REQUIRE(answer->status == Status::reached);
+  const auto off = apart(p, times, truth(p, times), states);
+  check_within(off, answer->error);
+  CHECK(off[full_column::attitude] < 1e-14);
+}
+
 TEST_CASE("a brake that stops the body within a rounding of the time ends the motion", "[general]") {
   Problem<double> p;
   p.inertia = Vec3<double>(3, 2.4, 2).asDiagonal();

@@ -221,7 +221,8 @@ class FullCourse {
     if (!(time() > piece_.from)) until = std::min(until, piece_.from + share_ * (piece_.to - piece_.from));
     const Scalar before = system_->has_brake() ? system_->braked(time(), solver_->state()) : infinity<Scalar>;
     // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
-    if (before < infinity<Scalar>) until = std::min(until, time() + (1 + share_) * before / (4 * system_->torque()));
+    if (before < infinity<Scalar>)
+      until = std::min(until, time() + (1 + share_) * before / (4 * system_->torque(time(), solver_->state())));
     // and where the time cannot tell the rest of it
     const bool lost = before < infinity<Scalar> && !(until > time()) && t_max > time();
     if (lost || has_stopped(before, infinity<Scalar>)) return ode::Status::event;

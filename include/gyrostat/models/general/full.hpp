@@ -227,7 +227,9 @@ class FullSystem {
   Scalar braked(Scalar t, const Scalar* x) const noexcept;
   bool has_brake() const noexcept { return sees_.total_brake || sees_.carrier_brake; }
   /// A bound of the torques that take away what a brake opposes, N m: no motor does from M.
-  Scalar torque() const noexcept { return sees_.carrier_brake ? of_.sizes.torque : of_.sizes.external; }
+  Scalar torque(Scalar, const Scalar*) const noexcept {
+    return sees_.carrier_brake ? of_.sizes.torque : of_.sizes.external;
+  }
 
   Numbers scale() const noexcept { return scale_of<Scalar, large>(of_); }
 

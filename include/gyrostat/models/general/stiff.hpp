@@ -15,6 +15,7 @@
 #include "gyrostat/models/general/piece.hpp"
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/surroundings.hpp"
+#include "gyrostat/models/general/wheels.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
@@ -108,8 +109,16 @@ class StiffSystem {
     return std::min(total, (of_->wheels.whole * state(t, x).angular_velocity).norm());
   }
   bool has_brake() const noexcept { return has_.total_brake || has_.carrier_brake; }
-  /// A bound of the torques that take away what a brake opposes, N m; wheels that have settled hold their rates.
-  Scalar torque() const noexcept { return of_->sizes.external; }
+  /// A bound of the torques that take away what a brake opposes, N m: on the carrier those of the wheels, too, until they have settled.
+  Scalar torque(Scalar t, const Scalar* x) const noexcept {
+    Scalar sum = 0;
+    if (!has_.carrier_brake) return of_->sizes.external;
+    const auto at = state(t, x);
+    for (std::size_t i = 0; i < of_->wheels.count; ++i)
+      if (const auto& law = of_->wheels.laws[i]; law.follows == Follows::state)
+        sum += std::abs(law.torque - law.friction * at.rotor_rate[i]);
+    return of_->sizes.external + Mat3<Scalar>(of_->wheels.whole * of_->wheels.inverse).norm() * sum;
+  }
   Numbers scale() const noexcept;
 
  private:
