@@ -121,9 +121,7 @@ class CustomCourse {
   /// One step, at most up to t_max, and to the end of the piece.
   ode::Status step(Scalar t_max) noexcept {
     if (passes_) pass();
-    Scalar until = std::min(t_max, to_);
-    if (!(time() > from_)) until = std::min(until, from_ + share_ * (to_ - from_));
-    const ode::Status status = solver_.step(until);
+    const ode::Status status = solver_.step(std::min(t_max, limit()));
     if (status != ode::Status::reached) return status;
     const Scalar now = braked(problem_, solver_.rhs().state(time(), solver_.state()), from_ + (to_ - from_) / 2);
     if (now < infinity<Scalar>) {
@@ -148,6 +146,19 @@ class CustomCourse {
   }
 
  private:
+  /// How far the next step may go. A companion must not go in the steps of the answer, for then it would err alike: where not the tolerance
+  /// but the end of the piece, or the growth from step to step, limits a step, its own is shorter.
+  Scalar limit() noexcept {
+    const Scalar t = time(), left = to_ - t, next = solver_.next_step();
+    if (share_ == 1) return to_;
+    if (!(t > from_)) return from_ + share_ * left;
+    if (t + next >= to_ && !parted_) {
+      parted_ = true;
+      return t + share_ * left;
+    }
+    const bool grows = next > grown_ * (t - solver_.previous_time());
+    return grows ? std::min(to_, t + share_ * next) : to_;
+  }
   Scalar end_of(std::size_t cut) const noexcept { return cut < cuts_.size() ? cuts_[cut] : last_; }
   static Equations entered(Equations equations, Scalar from, Scalar to) noexcept {
     equations.enter(from, to);
@@ -164,10 +175,10 @@ class CustomCourse {
     from_ = to_, to_ = end_of(++cut_);
     solver_.rhs().enter(from_, to_);
     solver_.restart(time(), typename Equations::Numbers(solver_.state()));
-    passes_ = false;
+    passes_ = parted_ = false;
   }
 
-  static constexpr Scalar nearly_ = Scalar(1e-6L);
+  static constexpr Scalar nearly_ = Scalar(1e-6L), grown_ = 5;
   Problem<Scalar> problem_;
   Wheels<Scalar> wheels_;
   std::span<const Scalar> cuts_;
@@ -175,14 +186,15 @@ class CustomCourse {
   std::size_t cut_ = 0;
   Scalar from_ = 0, to_;
   bool passes_ = false;
-  Equations next_;  ///< of the next piece, where the last step ends this one
+  bool parted_ = false;  ///< the way to the end of the piece
+  Equations next_;       ///< of the next piece, where the last step ends this one
   Solver solver_;
   Scalar greatest_ = 0;
 };
 
-/// The tightest step tolerance that DOP853 is asked for.
+/// The tightest step tolerance of an answer by DOP853: what its companions take is 64 times as tight, and no step can be held to less.
 template <Real Scalar>
-inline constexpr Scalar finest_dop853 = 4 * epsilon<Scalar>;
+inline constexpr Scalar finest_dop853 = 8 * epsilon<Scalar>;
 
 template <Real Scalar, TorqueLaw<Scalar> Law>
 class CustomMotion {
@@ -201,8 +213,9 @@ class CustomMotion {
         sizes_(number_sizes(of)) {}
 
   /// The answer's run and its neighbours' side by side, and their distance.
-  CustomMotionAnswer<Scalar> run(Scalar tolerance, double progress_from, double progress_to) const noexcept {
+  CustomMotionAnswer<Scalar> run(Scalar wanted, double progress_from, double progress_to) const noexcept {
     constexpr Scalar eps = epsilon<Scalar>;
+    const Scalar tolerance = std::max(wanted, finest_dop853<Scalar>);
     CustomMotionAnswer<Scalar> answer;
     answer.step_tolerance = tolerance;
     const Scalar tight = companion_step(tolerance);
@@ -228,7 +241,7 @@ class CustomMotion {
   std::unique_ptr<Course> begin(const Problem<Scalar>& problem, const Vec3<Scalar>& law_share, int share,
                                 Scalar tolerance) const noexcept {
     return std::make_unique<Course>(problem, law_, law_share, sizes_, times_.back(), cuts_, 1 / Scalar(share),
-                                    std::max(tolerance, finest_dop853<Scalar>), options_.step_cap);
+                                    tolerance, options_.step_cap);
   }
   std::unique_ptr<Course> neighbour(int which, int share, Scalar tolerance) const noexcept {
     constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
