@@ -121,7 +121,8 @@ class CustomCourse {
   /// One step, at most up to t_max, and to the end of the piece.
   ode::Status step(Scalar t_max) noexcept {
     if (passes_) pass();
-    const ode::Status status = solver_.step(std::min(t_max, limit()));
+    ode::Status status = solver_.step(std::min(t_max, limit()));
+    if (status == ode::Status::step_underflow && hops_ < most_hops_) status = hop(t_max);
     if (status != ode::Status::reached) return status;
     const Scalar now = braked(problem_, solver_.rhs().state(time(), solver_.state()), from_ + (to_ - from_) / 2);
     if (now < infinity<Scalar>) {
@@ -159,6 +160,15 @@ class CustomCourse {
     const bool grows = next > grown_ * (t - solver_.previous_time());
     return grows ? std::min(to_, t + share_ * next) : to_;
   }
+  /// Over a jump of the law that nobody has named, where no step is short enough for the tolerance: some roundings of the time.
+  ode::Status hop(Scalar t_max) noexcept {
+    ++hops_;
+    const Scalar t = time(), to = std::min({t_max, to_, t + 32 * epsilon<Scalar> * t});
+    auto y = solver_.state();
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += (to - t) * solver_.derivative()[i];
+    solver_.restart(to, y);
+    return solver_.status();
+  }
   Scalar end_of(std::size_t cut) const noexcept { return cut < cuts_.size() ? cuts_[cut] : last_; }
   static Equations entered(Equations equations, Scalar from, Scalar to) noexcept {
     equations.enter(from, to);
@@ -179,11 +189,13 @@ class CustomCourse {
   }
 
   static constexpr Scalar nearly_ = Scalar(1e-6L), grown_ = 5;
+  static constexpr int most_hops_ = 1000;
   Problem<Scalar> problem_;
   Wheels<Scalar> wheels_;
   std::span<const Scalar> cuts_;
   Scalar last_, share_;
   std::size_t cut_ = 0;
+  int hops_ = 0;
   Scalar from_ = 0, to_;
   bool passes_ = false;
   bool parted_ = false;  ///< the way to the end of the piece

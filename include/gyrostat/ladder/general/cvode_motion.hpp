@@ -88,7 +88,11 @@ inline CvodeRun<State<double>> run_pieces(const Scene& scene, CvodeEquations equ
     auto cvode = std::move(made).value();
     ode::Status status = ode::Status::reached;
     while (cvode.time() < to && status == ode::Status::reached) {
+      const double before = cvode.time();
       status = cvode.step(to);
+      // CVODE goes up to where the law has no value in ever shorter steps
+      const bool stuck = equations.lost_at() >= cvode.time() && !(cvode.time() - before > 1e-10 * cvode.time());
+      if (status == ode::Status::reached && stuck) status = ode::Status::not_finite;
       for (std::size_t i; status == ode::Status::reached && (i = run.states.size()) < times.size() &&
                           (times[i] < to || last) && times[i] <= cvode.time();) {
         if (!cvode.at(times[i], y)) return run.failure = Errc::no_convergence, run;

@@ -16,7 +16,7 @@
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-/// A torque of the caller's own, added to those of a problem (docs/general.md, section 6).
+/// A torque of the caller's own, added to those of a problem (docs/general.md, section 7).
 namespace gyrostat::general {
 
 /// The motion as a torque sees it.

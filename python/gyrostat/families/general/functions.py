@@ -279,7 +279,7 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     start_error : by how much the start may be off, absolute: attitude [rad], angular_velocity, rotor_rate [rad/s], rotor_angle [rad], velocity,
     position; what comes of it is part of the errors of the answer.
     euler : sequence of the column `euler`, which is asked for with it, as "3-2-1" or "ZYX": R = R3(a1) R2(a2) R1(a3), body to inertial; None: there is no such column.
-    torque : of your own, beside `torques` (docs/general.md, section 6): f(t, attitude (4,), angular_velocity (3,), angular_momentum (3,), rotor_rate (n,))
+    torque : of your own, beside `torques` (docs/general.md, section 7): f(t, attitude (4,), angular_velocity (3,), angular_momentum (3,), rotor_rate (n,))
     -> (3,) about the reference point, body axes [N m], with t on the clock of times; or a compiled void(double t, const double *state, double *torque),
     as a function of ctypes, a cfunc of numba or its address, the state being these arrays one behind the other. No family is looked for.
     breakpoints : (n,) times at which that torque jumps or has kinks [s].
