@@ -15,7 +15,7 @@ int main() {
     return -4e-3 * (seen.angular_velocity / 0.01).array().tanh().matrix();
   };
   Question question;
-  question.times = {30, 60, 120};  // s
+  question.times = {30, 60, 82};  // s
   const auto scene = general::Scene::make(body, question);
   if (!scene) return std::puts(message(scene.error())), 1;
 
@@ -24,6 +24,6 @@ int main() {
   if (refusal.code != Errc::ok) return std::puts(refusal.why), 1;
   const Column& rate = *answer.find("angular_velocity");
   for (std::size_t i = 0; i < answer.times.size(); ++i)
-    std::printf("t = %3.0f s: %.6f rad/s about axis 2\n", answer.times[i], rate.values[3 * i + 1]);
+    std::printf("t = %2.0f s: %.6f rad/s about axis 2\n", answer.times[i], rate.values[3 * i + 1]);
   std::printf("stated error %.0e\n", rate.error);
 }

@@ -57,6 +57,15 @@ def test_dop853_of_scenes_with_no_torque_of_ones_own() -> None:
     assert answer.met and not answer.warnings and apart(answer, right) <= answer.error["angular_velocity"] + right.error["angular_velocity"]
 
 
+@pytest.mark.parametrize("integrator", ["dop853", *(["cvode"] if gyrostat.build_info()["cvode"] else [])])
+def test_the_rows_of_a_sweep_go_by_the_same_integrators(integrator: str) -> None:
+    scene = gyrostat.scenes.scene_from({**SCENE, "torque": [{"type": "damping", "coefficient": 0.1}]}, model="full", integrator=integrator)
+    rows = gyrostat.sweep(scene, {"torque[0].coefficient": [0.1, 0.2]})
+    answer = gyrostat.solve(scene)
+    assert rows["attitude"].values[0].tobytes() == answer["attitude"].tobytes() and rows["attitude_error"].values[0] == answer.error["attitude"]
+    assert answer.error["attitude"] != gyrostat.solve(scene, integrator="taylor").error["attitude"]
+
+
 def test_what_a_callable_is_given() -> None:
     seen: list[Any] = []
 

@@ -283,7 +283,7 @@ int dishonest(unsigned seed, int scenes) {
     const auto right = truth(made.problem, at, made.law, made.named);
     if (right.size() != at.size()) continue;
     for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
-      const auto of = run(made.problem, made.law, i % 4 == 3 ? std::vector<double>{} : made.named, at, tolerance);
+      const auto of = run(made.problem, made.law, i % 2 == 1 ? std::vector<double>{} : made.named, at, tolerance);
       if (of.answer.status == Status::event) {
         ++stopped;
         continue;
