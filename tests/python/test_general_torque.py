@@ -2,6 +2,7 @@
 """A torque of one's own in general scenes: Python callables, compiled functions, and what goes wrong with them."""
 
 import ctypes
+import importlib
 import importlib.util
 import math
 import shutil
@@ -132,15 +133,14 @@ def test_a_compiled_function_is_answered_to_the_last_bit_as_the_callable(tmp_pat
 
 @pytest.mark.skipif(importlib.util.find_spec("numba") is None, reason="numba is not installed")
 def test_a_function_of_numba() -> None:
-    import numba
-
+    numba: Any = importlib.import_module("numba")
     pointer = numba.types.CPointer(numba.types.float64)
 
-    @numba.cfunc(numba.types.void(numba.types.float64, pointer, pointer))  # type: ignore[untyped-decorator]
-    def own(t: float, state: Any, torque: Any) -> None:
+    def damped(t: float, state: Any, torque: Any) -> None:
         for i in range(3):
             torque[i] = -0.1 * state[4 + i]
 
+    own = numba.cfunc(numba.types.void(numba.types.float64, pointer, pointer))(damped)
     right = general.solve(**BODY, torque=damping)
     for torque in (own, own.address):
         assert np.array_equal(general.solve(**BODY, torque=torque)["angular_velocity"], right["angular_velocity"])

@@ -233,7 +233,8 @@ def _with_angles(ask: Ask | None, euler: str | None) -> Ask | None:
 
 def law_of(torque: Any) -> Any:
     """A torque of the caller's own as the compiled ladder takes it: a callable, or an address."""
-    if isinstance(torque, ctypes.CFUNCTYPE(None).__mro__[1]):
+    compiled: type[Any] = ctypes.CFUNCTYPE(None).__mro__[1]
+    if isinstance(torque, compiled):
         torque = ctypes.cast(torque, ctypes.c_void_p).value or 0
     address = getattr(torque, "address", torque)
     if isinstance(address, int) and not isinstance(address, bool):
