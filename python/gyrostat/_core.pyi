@@ -206,9 +206,9 @@ def general_segments(*, scene: dict[str, typing.Any], times: typing.Annotated[nu
     """
     Begin, end and families of each segment that the motion can be answered in.
     """
-def general_solve(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, recognise: bool, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None, start_error: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, euler: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] | None = None) -> dict[str, typing.Any]:
+def general_solve(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, recognise: bool, monitor: Monitor | None, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None = None, start_error: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, euler: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] | None = None, torque: typing.Any = None, breakpoints: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], clock: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> dict[str, typing.Any]:
     """
-    Answer of the ladder as plain data.
+    Answer of the ladder as plain data. torque: a callable, or the address of a compiled function.
     """
 def heavy_exact(bodies: HeavyBodies, *, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
     """

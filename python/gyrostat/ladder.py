@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
+from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, load, scene_from
 
@@ -27,20 +28,27 @@ def scene_of(scene: SceneLike, overrides: Mapping[str, Any]) -> Scene:
     return load(scene, **overrides)
 
 
-def solve(scene: SceneLike, *, monitor: Monitor | None = None, **overrides: Any) -> Answer:
+def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = None, breakpoints: Any = (), **overrides: Any) -> Answer:
     """Answer a scene by the cheapest rung whose error estimate meets the tolerance.
 
     scene : a `Scene`, a dict in the layout of a scene file, a file, or the name of a bundled scene.
     monitor : reports the progress of long work and can cancel it from another thread.
+    torque : a torque of your own on a scene of the kind general, and breakpoints : the times at which it jumps or has kinks [s], as `gyrostat.general.solve`
+        takes them; the answer's `scene` does not hold them. Of other kinds, and where it is data, the key of that name in the scene file.
     overrides : keys of the scene file to change, such as tolerance=1e-9, model="full", or ask=["stop_time"], ask={"attitude": "0.1 deg"}:
         the columns and scalars that are wanted (docs/scenes.md, "What is asked"). Numbers may be text with a unit: no_load_rate="3000 rpm".
 
     Raises SceneError for a scene that cannot be used, DomainError where the rung asked for by name cannot compute it,
     ConvergenceError where a computation hits its cap. Over the tolerance it still answers, with `met` False.
     """
+    if isinstance(torque, Mapping | list | tuple):
+        overrides, torque = {**overrides, "torque": torque}, None
     checked = scene_of(scene, overrides)
     family = FAMILIES[checked.kind]
-    return family.solve(**family.arguments(checked), monitor=monitor).of_scene(checked.to_dict)
+    own = {} if torque is None and len(breakpoints) == 0 else {"torque": torque, "breakpoints": breakpoints}
+    if own and family.name != "general":
+        raise DomainError(f"torque: a torque of your own is for scenes of the kind general, and this one is of the kind {family.name}")
+    return family.solve(**family.arguments(checked), **own, monitor=monitor).of_scene(checked.to_dict)
 
 
 def chart(scene: SceneLike, **overrides: Any) -> "Chart":

@@ -7,13 +7,19 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "answer.hpp"
 #include "bind.hpp"
+#include "caller_torque.hpp"
 #include "general_arguments.hpp"
+#include "gyrostat/ladder/general/custom_rung.hpp"
 #include "gyrostat/ladder/general/segments_rung.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "question_arguments.hpp"
+#ifdef GYROSTAT_HAVE_CVODE
+#include "gyrostat/ladder/general/cvode_motion.hpp"
+#endif
 
 namespace {
 
@@ -41,13 +47,23 @@ general::StartError start_error_of(const std::map<std::string, double>& given) {
 Data solve_scene(const Data& given, const Array& at, double tolerance, const std::string& model,
                  const std::string& integrator, bool recognise, const std::optional<std::shared_ptr<Monitor>>& monitor,
                  const Ask& ask, const std::map<std::string, double>& start_error,
-                 const std::optional<EulerAxes>& euler) {
+                 const std::optional<EulerAxes>& euler, const py::object& torque,
+                 const std::vector<double>& breakpoints, double clock) {
   Question question = question_of(general::tables, at, tolerance, model, ask);
-  (void)takes_cvode(general::tables, integrator, question);
+  const bool cvode = takes_cvode(general::tables, integrator, question);
   general::Scene scene = scene_of(given, question, recognise).known_within(start_error_of(start_error));
   if (euler) scene = scene.told_by(*euler);
+  CallerTorque own(torque, scene.wheels().count, clock);
+  scene = scene.driven_by(own.law(breakpoints));
+  if (integrator == "dop853") scene.full_equations = &general::full_by_dop853;
+#ifdef GYROSTAT_HAVE_CVODE
+  if (cvode) scene.full_equations = &general::full_by_cvode;
+#else
+  (void)cvode;
+#endif
   gyrostat::Refusal why;
   auto [answer, seconds] = timed([&] { return general::solve(scene, why, monitor ? monitor->get() : nullptr); });
+  own.raise_what_ended_it();
   require_answer(why);
   return to_python(answer, scene.question(), general::tables, seconds);
 }
@@ -87,7 +103,9 @@ void bind_general(py::module_& module) {
   module.def("general_solve", &solve_scene, py::kw_only(), py::arg("scene"), py::arg("times"), py::arg("tolerance"),
              py::arg("model"), py::arg("integrator"), py::arg("recognise"), py::arg("monitor"),
              py::arg("ask") = py::none(), py::arg("start_error") = std::map<std::string, double>{},
-             py::arg("euler") = py::none(), "Answer of the ladder as plain data.");
+             py::arg("euler") = py::none(), py::arg("torque") = py::none(),
+             py::arg("breakpoints") = std::vector<double>{}, py::arg("clock") = 0.0,
+             "Answer of the ladder as plain data. torque: a callable, or the address of a compiled function.");
   module.def("general_segments", &segments_of_scene, py::kw_only(), py::arg("scene"), py::arg("times"),
              "Begin, end and families of each segment that the motion can be answered in.");
   module.def("general_recognise", &recognise_scene, py::kw_only(), py::arg("scene"), py::arg("times"),

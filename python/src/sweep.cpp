@@ -19,6 +19,7 @@
 #include "gyrostat/ladder/deceleration/solve.hpp"
 #include "gyrostat/ladder/free/inputs.hpp"
 #include "gyrostat/ladder/free/solve.hpp"
+#include "gyrostat/ladder/general/custom_rung.hpp"
 #include "gyrostat/ladder/general/inputs.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/ladder/goal.hpp"
@@ -31,6 +32,7 @@
 #include "question_arguments.hpp"
 #ifdef GYROSTAT_HAVE_CVODE
 #include "gyrostat/ladder/deceleration/cvode_motion.hpp"
+#include "gyrostat/ladder/general/cvode_motion.hpp"
 #include "gyrostat/ladder/heavy/cvode_motion.hpp"
 #include "gyrostat/ladder/rotor/cvode_motion.hpp"
 #include "gyrostat/ladder/spinning/cvode_motion.hpp"
@@ -53,6 +55,8 @@ template <>
 constexpr decltype(spinning::Scene::full_equations) cvode_of<spinning::Scene> = &spinning::full_by_cvode;
 template <>
 constexpr decltype(heavy::Scene::full_equations) cvode_of<heavy::Scene> = &heavy::full_by_cvode;
+template <>
+constexpr decltype(general::Scene::full_equations) cvode_of<general::Scene> = &general::full_by_cvode;
 #endif
 
 /// The rows that are asked for, apart from the family.
@@ -172,12 +176,15 @@ struct Posed {
 /// The general scene of a row, a problem with other numbers.
 struct GeneralOf {
   const general::Problem<double>& problem;
-  bool recognise;
+  bool recognise, dop853;
   const std::optional<EulerAxes>& euler;
 
   Result<general::Scene> operator()(std::span<const double> numbers, const Question& question) const {
     const auto made = general::Scene::make(general::with_numbers(problem, numbers), question, recognise);
-    return made && euler ? Result<general::Scene>(made->told_by(*euler)) : made;
+    if (!made) return made;
+    general::Scene scene = euler ? made->told_by(*euler) : *made;
+    if (dop853) scene.full_equations = &general::full_by_dop853;
+    return scene;
   }
   /// What must hold of the body; of a wheel or torque the words do not say which it is.
   const char* why(std::span<const double> numbers) const {
@@ -250,7 +257,7 @@ Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector
   if (kind == "general" && scene) {
     const auto problem = general_problem(*scene);
     require_shape("numbers", numbers, {general_numbers(*scene)[0].cast<Array>().size()});
-    return run(general::tables, GeneralOf{problem, recognise, euler}, &general::solve);
+    return run(general::tables, GeneralOf{problem, recognise, integrator == "dop853", euler}, &general::solve);
   }
   raise("DomainError", "kind = '" + kind + "': there is no such family");
 }

@@ -45,7 +45,7 @@ def test_links_lead_somewhere() -> None:
             assert not anchor or anchor in anchors(there), f"{page.name}: {target}"
 
 
-@pytest.mark.parametrize(("page", "program"), [("README.md", "readme.cpp"), ("docs/tour.md", "tour.cpp")])
+@pytest.mark.parametrize(("page", "program"), [("README.md", "readme.cpp"), ("docs/tour.md", "tour.cpp"), ("docs/general.md", "own_torque.cpp")])
 def test_the_programs_of_the_pages_are_those_compiled(page: str, program: str) -> None:
     example = (ROOT / "tests" / "packaging" / program).read_text(encoding="utf-8").partition("\n")[2]
     assert f"```cpp\n{example}```" in (ROOT / page).read_text(encoding="utf-8")
@@ -75,7 +75,7 @@ def alike(printed: str, shown: str) -> bool:
     return number.sub("#", " ".join(printed.split())) == number.sub("#", " ".join(shown.split())) and all(near(a, b) for a, b in pairs)
 
 
-@pytest.mark.parametrize("page", ["docs/tour.md", "docs/how-to.md", "docs/site/index.md"])
+@pytest.mark.parametrize("page", ["docs/tour.md", "docs/how-to.md", "docs/general.md", "docs/site/index.md"])
 def test_what_the_pages_show_runs(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {}

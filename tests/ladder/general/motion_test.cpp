@@ -10,7 +10,7 @@ using namespace gyrostat;
 using namespace gyrostat::general;
 
 TEST_CASE("rungs of the families bear their names, and the full equations come last", "[general]") {
-  for (std::size_t i = 0; i + 1 < std::size(rung_kinds); ++i) {
+  for (std::size_t i = 0; i < std::size_t(rung::segments); ++i) {
     const auto [family, rung] = special_rungs[i];
     const Family& tables = *special_tables[std::size_t(family)];
     CHECK(std::string(rung_kinds[i].name) ==
@@ -18,7 +18,9 @@ TEST_CASE("rungs of the families bear their names, and the full equations come l
     CHECK(std::string_view(tables.name) == special_words[std::size_t(family)]);
   }
   CHECK(std::size(rung_kinds) == std::size_t(rung::full) + 1);
-  CHECK(special_rungs[rung::full].special == Special::none);
+  for (const int own : {rung::segments, rung::full}) CHECK(special_rungs[own].special == Special::none);
+  for (std::size_t i = rung::family_full; i < std::size_t(rung::segments); ++i)
+    CHECK(std::string_view(rung_kinds[i].name).ends_with(":full"));
 }
 
 TEST_CASE("rungs that know no phase lack what turns with the body", "[general]") {

@@ -3,11 +3,15 @@
 // another form of the equations, another precision.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/right_side.hpp"
+#include "gyrostat/models/general/torque_law.hpp"
 #include "gyrostat/models/general/wheels.hpp"
 #include "gyrostat/ode/runge_kutta.hpp"
 
@@ -92,12 +96,34 @@ S energy_that_changes(const Wheels<S>& wheels, const State<S>& s) {
   return sum;
 }
 
-/// The motion at the times (increasing, from 0); empty where it cannot be followed.
-template <Real S>
+/// The equations as they are written, and a torque beside those of the problem; of the times from `from` up to, but not at, `to`.
+template <Real S, class Law>
+struct Driven {
+  Flow<S> flow;
+  const Law& law;
+  S from = 0, to = 0;
+
+  void operator()(S t, const typename Flow<S>::Numbers& y, typename Flow<S>::Numbers& rate) const noexcept {
+    flow(t, y, rate);
+    if constexpr (!std::is_same_v<Law, NoTorque>) {
+      const State<S> s = flow.state(t, y);
+      const Vec3<S> torque = law(std::clamp(t, from, std::nextafter(to, from)),
+                                 Seen<S>{{s.attitude, s.angular_velocity, s.angular_momentum}, s.rotor_rate});
+      for (std::size_t i = 0; i < 3; ++i) rate[Flow<S>::momentum + i] += torque[int(i)];
+    }
+  }
+};
+
+/// The motion at the times (increasing, from 0) under the torques of a problem and a law that changes at `named`; empty where it cannot be
+/// followed.
+template <Real S, class Law = NoTorque>
 std::vector<State<S>> motion(const Problem<S>& problem, const std::vector<S>& times, S tolerance,
-                             std::uint64_t step_cap = 1'000'000) {
+                             std::uint64_t step_cap = 1'000'000, const Law& law = {},
+                             const std::vector<double>& named = {}) {
   const auto wheels = Wheels<S>::of(problem);
   auto cuts = breakpoints(problem, times.back());
+  for (const double cut : named)
+    if (cut > 0 && S(cut) < times.back()) cuts.push_back(S(cut));
   std::vector<S> stops(times);
   stops.insert(stops.end(), cuts.begin(), cuts.end());
   std::sort(stops.begin(), stops.end());
@@ -124,7 +150,7 @@ std::vector<State<S>> motion(const Problem<S>& problem, const std::vector<S>& ti
     control.relative = tolerance, control.step_cap = step_cap;
     for (std::size_t i = 0; i < Flow<S>::width; ++i)
       control.absolute[i] = tolerance * (i < 4 ? S(1) : M0 * S(1e-2L) + S(1e-30L));
-    ode::RungeKutta<S, Flow<S>::width, Flow<S>> solver(flow, t, y, control);
+    ode::RungeKutta<S, Flow<S>::width, Driven<S, Law>> solver({flow, law, t, stop}, t, y, control);
     if (solver.advance(stop) != ode::Status::reached) return {};
     y = solver.state(), t = stop;
     flow.inside = t;

@@ -431,6 +431,16 @@ FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow
   return error;
 }
 
+/// The state behind a failure.
+template <Real Scalar>
+State<Scalar> nowhere() noexcept {
+  constexpr Scalar no = nan<Scalar>;
+  const Vec3<Scalar> nothing(no, no, no);
+  State<Scalar> made{{no, no, no, no}, nothing, nothing, {}, {}, nothing, nothing, no, nothing};
+  made.rotor_rate.fill(no), made.rotor_angle.fill(no);
+  return made;
+}
+
 template <class Method>
 class FullMotion {
  public:
@@ -469,7 +479,7 @@ class FullMotion {
       return rounding_of_columns(of, row, size, 4 * eps + steps + between);
     };
     solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of.sizes.turning, times_,
-                 states_, nowhere(), options_, progress_from, progress_to, rounding);
+                 states_, nowhere<Scalar>(), options_, progress_from, progress_to, rounding);
     if (answer.status == ode::Status::event) answer.stop = course->time();
     answer.outgrown = course->outgrown() || companion->outgrown() || (second && second->outgrown());
     return answer;
@@ -478,14 +488,6 @@ class FullMotion {
  private:
   using Course = FullCourse<Method>;
   static constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
-
-  static State<Scalar> nowhere() noexcept {
-    constexpr Scalar no = nan<Scalar>;
-    const Vec3<Scalar> nothing(no, no, no);
-    State<Scalar> made{{no, no, no, no}, nothing, nothing, {}, {}, nothing, nothing, no, nothing};
-    made.rotor_rate.fill(no), made.rotor_angle.fill(no);
-    return made;
-  }
 
   const Problem<Scalar>& problem_;
   std::span<const Scalar> times_;

@@ -114,18 +114,29 @@ inline double cost_of_full(const Scene& scene) noexcept {
          double(scene.breaks()) * again * cost.step;
 }
 
+namespace detail {
+
+/// The refusal of a scene whose phases no integrator keeps; of others no failure.
+inline Track unless_lost(const Scene& scene) {
+  const double span = scene.question().times.back();
+  if (phase_too_long(scene.sizes().turning * span, scene.goal().tightest))
+    return refused<Track>(Errc::step_limit, phase_lost);
+  if (!(scene.sizes().forcing * span <= most_forcing)) return refused<Track>(Errc::out_of_domain, forcing_lost);
+  return {};
+}
+
+}  // namespace detail
+
 /// Rung `full`: the full equations by Taylor series, or by Radau where wheels settle fast.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
   const auto& times = question.times;
   const auto goal = scene.goal();
-  if (phase_too_long(scene.sizes().turning * times.back(), goal.tightest))
-    return refused<Track>(Errc::step_limit, phase_lost);
-  if (!(scene.sizes().forcing * times.back() <= most_forcing)) return refused<Track>(Errc::out_of_domain, forcing_lost);
+  Track track = detail::unless_lost(scene);
+  if (track.failure != Errc::ok) return track;
   if (detail::settling_steps(scene) > double(step_budget)) return refused<Track>(Errc::step_limit, too_stiff);
   const FullRow<double> row(Prepared<double>(scene.problem(), times.back()));
   const auto wanted = detail::wanted_of(scene, goal, row);
-  Track track;
   track.states.resize(times.size());
   FullMotionOptions<double> options;
   options.integrator = question.integrator;

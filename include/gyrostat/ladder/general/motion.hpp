@@ -132,7 +132,15 @@ inline constexpr ScalarKind scalar_kinds[] = {
 
 /// Places in warning_kinds.
 namespace warning {
-enum : std::size_t { not_realisable, driven_damping, eddy_not_positive, beyond_no_load, start_uncertain, gimbal_lock };
+enum : std::size_t {
+  not_realisable,
+  driven_damping,
+  eddy_not_positive,
+  beyond_no_load,
+  start_uncertain,
+  gimbal_lock,
+  custom_smooth
+};
 }
 
 inline constexpr WarningKind warning_kinds[] = {
@@ -148,6 +156,8 @@ inline constexpr WarningKind warning_kinds[] = {
     {"gimbal-lock",
      "the second of the angles comes so near to where the first and the last turn are about one axis that they "
      "cannot be told apart; distance, rad"},
+    {"custom-smooth",
+     "no times are named at which the torque of your own jumps or has kinks: it is taken to be smooth"},
 };
 
 /// A rung of the ladder is one of a family, or the full equations of the family `general`.
@@ -214,7 +224,7 @@ inline constexpr RungKind rung_kinds[] = {
 static_assert(std::size(special_rungs) == std::size(rung_kinds) && special_rungs[rung::full].special == Special::none);
 static_assert(special_rungs[rung::family_full].rung == free::rung::full);
 
-inline constexpr const char* integrator_names[] = {"taylor"};
+inline constexpr const char* integrator_names[] = {"taylor", "dop853", "cvode"};
 
 /// Columns that an answer lacks where nobody asks for them.
 inline constexpr ColumnSet unasked_columns = column_set(

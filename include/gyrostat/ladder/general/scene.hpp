@@ -11,6 +11,7 @@
 #include "gyrostat/ladder/general/motion.hpp"
 #include "gyrostat/ladder/general/recognise.hpp"
 #include "gyrostat/ladder/goal.hpp"
+#include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/full.hpp"
@@ -18,6 +19,7 @@
 #include "gyrostat/models/general/right_side.hpp"
 #include "gyrostat/models/general/sizes.hpp"
 #include "gyrostat/models/general/surroundings.hpp"
+#include "gyrostat/models/general/torque_law.hpp"
 #include "gyrostat/models/general/wheels.hpp"
 #include "gyrostat/rotation/euler.hpp"
 
@@ -64,6 +66,8 @@ struct StartError {
   }
 };
 
+struct Track;
+
 /// A valid scene: what is given, body and wheels reduced, the torques summed, and the families that it is an instance of.
 class Scene {
  public:
@@ -98,8 +102,10 @@ class Scene {
   /// What is asked, of the same body from another start, or under other torques.
   Result<Scene> with(const Problem<double>& problem) const {
     auto made = make(problem, question_, recognised_);
-    if (!made || !euler_) return made;
-    return made->told_by(*euler_);
+    if (!made) return made;
+    Scene other = made->driven_by(own_torque_);
+    other.euler_ = euler_, other.full_equations = full_equations;
+    return other;
   }
 
   /// The same scene, its start known to within an error.
@@ -116,7 +122,24 @@ class Scene {
     return other;
   }
 
+  /// The same scene under a torque of the caller's own, too: no family knows it, and none is looked for.
+  Scene driven_by(const OwnTorque& torque) const {
+    Scene other = *this;
+    other.own_torque_ = torque;
+    if (torque.any()) other.recognised_ = false, other.instances_ = {};
+    return other;
+  }
+
+  /// Solves the full equations instead of Taylor series and Radau.
+  Track (*full_equations)(const Scene&, Monitor*) = nullptr;
+
   const Problem<double>& problem() const noexcept { return problem_; }
+  /// What acts beside the torques of the problem; none by default.
+  const OwnTorque& own_torque() const noexcept { return own_torque_; }
+  /// All external torque on the body, N m.
+  Vec3<double> torque(double t, const Seen<double>& seen) const noexcept {
+    return load_at(problem_, seen, t, t).torque + own_torque_(t, seen);
+  }
   /// The sequence of the column `euler`, where there is one.
   const std::optional<EulerAxes>& euler() const noexcept { return euler_; }
   const StartError& start_error() const noexcept { return start_error_; }
@@ -169,6 +192,7 @@ class Scene {
 
  private:
   Problem<double> problem_;
+  OwnTorque own_torque_;
   StartError start_error_;
   std::optional<EulerAxes> euler_;
   Wheels<double> wheels_;
@@ -191,7 +215,9 @@ inline ColumnErrors Scene::scales() const noexcept {
     fastest = std::max(fastest, std::abs(law.rate));
   }
   const Vec3<double> M = wheels_.reduced * p.angular_velocity + wheels_.momentum_of_wheels();
-  const double torques = detail::sum_of_torques(p, {p.attitude, p.angular_velocity, M}, 0);
+  const Flow<double> flow(p, wheels_);
+  const double torques = detail::sum_of_torques(p, {p.attitude, p.angular_velocity, M}, 0) +
+                         own_torque_(0, seen_of(flow.state(0, flow.start()))).norm();
   const double T = question_.times.back();
   const Vec3<double> g = p.fixed ? Vec3<double>(0, 0, 0) : Vec3<double>(p.field.gravity * p.field.down);
   ColumnErrors scale;

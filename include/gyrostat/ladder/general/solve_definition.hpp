@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "gyrostat/ladder/general/full_rung.hpp"
+#include "gyrostat/ladder/general/custom_rung.hpp"
 #include "gyrostat/ladder/general/segments_rung.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/ladder/general/special_rung.hpp"
@@ -65,7 +65,7 @@ template <std::size_t... Place>
 constexpr auto models_of(std::index_sequence<Place...>) noexcept {
   return std::array<Rung<Scene, Track>, std::size(rung_kinds)>{{{&special_track<Place>, &cost_of_special<Place>}...,
                                                                 {&in_segments, &cost_of_segments},
-                                                                {&full_track, &cost_of_full}}};
+                                                                {&full_by_any, &cost_of_full}}};
 }
 inline constexpr auto models = models_of(std::make_index_sequence<std::size_t(rung::segments)>{});
 

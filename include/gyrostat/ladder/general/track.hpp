@@ -16,6 +16,7 @@
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/right_side.hpp"
 #include "gyrostat/models/general/surroundings.hpp"
+#include "gyrostat/models/general/torque_law.hpp"
 #include "gyrostat/rotation/euler.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 
@@ -78,7 +79,7 @@ class Writer {
       case column::attitude_orbit:
         return turn(conjugate(orbit_axes(orbit_at(*scene_.problem().orbit, t))) * s.attitude);
       case column::euler: return put(euler_angles(*scene_.euler(), s.attitude).angles);
-      default: put(load_at(scene_.problem(), pose(s), t, t).torque);
+      default: put(scene_.torque(t, seen_of(s)));
     }
   }
 
@@ -151,9 +152,6 @@ class Writer {
     }
     return most;
   }
-  static Pose<double> pose(const State<double>& s) noexcept {
-    return {s.attitude, s.angular_velocity, s.angular_momentum};
-  }
   /// By how much the torques change where attitude, rates and momentum change by their errors, by differences at some of the times, or at all.
   double torque_off() const noexcept {
     for (const std::size_t p : {primitive::attitude, primitive::angular_velocity, primitive::angular_momentum})
@@ -161,19 +159,20 @@ class Writer {
     const auto& times = scene_.question().times;
     // what turns over, as a brake where what it opposes nearly vanishes, or acts for a while would not show at some of the times
     const auto& torques = scene_.problem().torques;
-    const bool changes = scene_.breaks() > 0 || std::any_of(torques.begin(), torques.end(), [](const auto& torque) {
+    const bool changes = scene_.breaks() > 0 || scene_.own_torque().any() ||
+                         std::any_of(torques.begin(), torques.end(), [](const auto& torque) {
                            return torque.type == TorqueType::brake || torque.factor.amplitude != 0;
                          });
     const std::size_t n = track_.states.size(), stride = changes ? 1 : 1 + n / 16;
     double most = 0;
     for (std::size_t back = 0; back < n; back += stride) {
       const std::size_t i = n - 1 - back;
-      const Pose<double> here = pose(track_.states[i]);
-      const auto torque = [&](const Pose<double>& at) {
-        return load_at(scene_.problem(), at, times[i], times[i]).torque;
-      };
+      const Seen<double> here = seen_of(track_.states[i]);
+      const auto torque = [&](const Seen<double>& at) { return scene_.torque(times[i], at); };
       const Vec3<double> now = torque(here);
-      double sum = 8 * epsilon<double> * sum_of_torques(scene_.problem(), here, times[i]);
+      const double sizes =
+          sum_of_torques(scene_.problem(), here, times[i]) + scene_.own_torque()(times[i], here).norm();
+      double sum = 8 * epsilon<double> * sizes;
       for (int axis = 0; axis < 3; ++axis) {
         const Vec3<double> e = Vec3<double>::Unit(axis);
         // by at least the root of a rounding, so that the difference means something
@@ -182,24 +181,37 @@ class Writer {
           if (by > 0) sum += (torque(move(by)) - now).norm() * (off / by);
         };
         moved(primitive::attitude, 1, [&](double by) {
-          Pose<double> at = here;
+          Seen<double> at = here;
           at.attitude = normalised(at.attitude * Quat<double>{1, by / 2 * e[0], by / 2 * e[1], by / 2 * e[2]});
           return at;
         });
         moved(primitive::angular_velocity, here.angular_velocity.norm(), [&](double by) {
-          Pose<double> at = here;
+          Seen<double> at = here;
           at.angular_velocity += by * e;
           return at;
         });
         moved(primitive::angular_momentum, here.angular_momentum.norm(), [&](double by) {
-          Pose<double> at = here;
+          Seen<double> at = here;
           at.angular_momentum += by * e;
           return at;
         });
       }
+      if (scene_.own_torque().any()) sum += off_by_wheels(here, now, times[i]);
       most = greater(sum, most);
     }
     return most;
+  }
+  /// By how much a torque of the caller's own changes where the rates of the wheels change by their error.
+  double off_by_wheels(const Seen<double>& here, const Vec3<double>& now, double t) const noexcept {
+    double sum = 0;
+    for (std::size_t i = 0; i < scene_.wheels().count; ++i) {
+      const double off = track_.off[primitive::rotor_rate], by = std::max(off, 1e-8 * std::abs(here.rotor_rate[i]));
+      if (!(by > 0)) continue;
+      Seen<double> at = here;
+      at.rotor_rate[i] += by;
+      sum += (scene_.torque(t, at) - now).norm() * (off / by);
+    }
+    return sum;
   }
   /// The angle that the orbit turns through, to its order, rad.
   double orbit_phase() const noexcept {

@@ -6,8 +6,9 @@ J the inertia of the whole, wheels locked, about the fixed point or the mass cen
 units where nothing else is said. Equations, torques and the families that are found in a scene: docs/general.md.
 """
 
+import ctypes
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -34,6 +35,9 @@ PLANETS: Final[dict[str, tuple[float, float]]] = {
     "venus": (3.24858592e14, 6051800.0), "mercury": (2.2031868551e13, 2440530.0), "jupiter": (1.26712764100000e17, 71492000.0),
     "saturn": (3.7940584841800e16, 60268000.0), "sun": (1.32712440041279419e20, 695700000.0),
 }
+
+# f(t, attitude, angular_velocity, angular_momentum, rotor_rate) -> three numbers; a function of ctypes or numba; or the address of a compiled one.
+Law = Callable[..., Any] | int
 
 _ZERO: Final = (0.0, 0.0, 0.0)
 # Arguments of `solve` that say what is asked, and not of which motion.
@@ -227,12 +231,39 @@ def _with_angles(ask: Ask | None, euler: str | None) -> Ask | None:
     return {**ask, "euler": "default"} if isinstance(ask, Mapping) else (*ask, "euler")
 
 
+def law_of(torque: Any) -> Any:
+    """A torque of the caller's own as the compiled ladder takes it: a callable, or an address."""
+    compiled: type[Any] = ctypes.CFUNCTYPE(None).__mro__[1]
+    if isinstance(torque, compiled):
+        torque = ctypes.cast(torque, ctypes.c_void_p).value or 0
+    address = getattr(torque, "address", torque)
+    if isinstance(address, int) and not isinstance(address, bool):
+        if address <= 0:
+            raise DomainError("torque: there is no function at this address")
+        return address
+    if not callable(torque):
+        raise DomainError(f"torque = {torque!r}: give a function of t, attitude, angular_velocity, angular_momentum and rotor_rate, or a compiled one")
+    return torque
+
+
+def _own(torque: Law | None, breakpoints: ArrayLike, start_time: float) -> dict[str, Any]:
+    """The arguments of the compiled ladder that are of a torque of the caller's own."""
+    times = np.atleast_1d(np.asarray(breakpoints, dtype=float))
+    if times.ndim != 1 or not np.all(np.isfinite(times)):
+        raise DomainError("breakpoints: give finite times [s]")
+    if torque is None:
+        if times.size:
+            raise DomainError("breakpoints: they are of a torque of your own, and there is none")
+        return {}
+    return {"torque": law_of(torque), "breakpoints": (times - start_time).tolist(), "clock": start_time}
+
+
 def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
           wheels: Sequence[Record] = (), torques: Sequence[Record] = (), mass: float = 1.0, centre_of_mass: ArrayLike = _ZERO, fixed: bool = False,
           rotor_momentum: ArrayLike = _ZERO, orbit: Record | None = None, field: Record | None = None, velocity: ArrayLike = _ZERO,
           position: ArrayLike = _ZERO, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto", recognise: bool = True,
           monitor: Monitor | None = None, ask: Ask | None = None, start_time: float = 0.0, start_error: Mapping[str, float] | None = None,
-          euler: str | None = None) -> Answer:
+          euler: str | None = None, torque: Law | None = None, breakpoints: ArrayLike = ()) -> Answer:
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor of the whole, wheels locked, about the mass centre, or where the body is fixed about its origin
@@ -249,8 +280,12 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     start_error : by how much the start may be off, absolute: attitude [rad], angular_velocity, rotor_rate [rad/s], rotor_angle [rad], velocity,
     position; what comes of it is part of the errors of the answer.
     euler : sequence of the column `euler`, which is asked for with it, as "3-2-1" or "ZYX": R = R3(a1) R2(a2) R1(a3), body to inertial; None: there is no such column.
-    Raises DomainError for an argument outside its domain, for a wheel that the body cannot hold, and for a rung that cannot compute the
-    motion; ConvergenceError where a computation hits its cap; Cancelled where the monitor stopped it.
+    torque : of your own, beside `torques` (docs/general.md, section 7): f(t, attitude (4,), angular_velocity (3,), angular_momentum (3,), rotor_rate (n,))
+    -> (3,) about the reference point, body axes [N m], with t on the clock of times; or a compiled void(double t, const double *state, double *torque),
+    as a function of ctypes, a cfunc of numba or its address, the state being these arrays one behind the other. No family is looked for.
+    breakpoints : (n,) times at which that torque jumps or has kinks [s].
+    Raises DomainError for an argument outside its domain, for a wheel that the body cannot hold, for a rung that cannot compute the
+    motion, and for a torque without a finite value; what `torque` raises; ConvergenceError where a computation hits its cap; Cancelled where the monitor stopped it.
     """
     scene = posed(inertia=inertia, angular_velocity=angular_velocity, attitude=attitude, wheels=wheels, torques=torques, mass=mass,
                   centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
@@ -258,7 +293,7 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     asking: dict[str, Any] = {"times": at, "tolerance": float(tolerance), "model": model, "integrator": integrator}
     made = _core.general_solve(scene=since(start_time, scene), **{**asking, "times": at - start_time}, recognise=recognise, monitor=monitor,
                                ask=asked("general", _with_angles(ask, euler)), start_error=dict(start_error or {}),
-                               euler=None if euler is None else axes_of(euler))
+                               euler=None if euler is None else axes_of(euler), **_own(torque, breakpoints, start_time))
     body = {**scene["body"], **scene["initial"]}
     going_on = {"start_time": start_time or None, "start_error": dict(start_error) if start_error else None}
     records = {"wheels": [dict(each) for each in wheels] or None, "torques": [dict(each) for each in torques] or None,

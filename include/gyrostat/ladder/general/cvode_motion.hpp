@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gyrostat/ladder/cvode_pair.hpp"
+#include "gyrostat/ladder/general/custom_rung.hpp"
+#include "gyrostat/models/general/torque_law.hpp"
+#include "gyrostat/ode/cvode.hpp"
+
+/// The full equations of a general scene by CVODE, the trusted outsider, anew from each breakpoint on. Needs the library gyrostat::cvode.
+namespace gyrostat::general {
+
+/// The equations as numbers of order one: those of Flow over their sizes.
+class CvodeEquations {
+ public:
+  using Equations = DrivenFlow<double, OwnTorque>;
+  static constexpr std::size_t width = Equations::width;
+  using Numbers = Equations::Numbers;
+
+  CvodeEquations(const Scene& scene, const Numbers& sizes) noexcept
+      : equations_(scene.problem(), scene.wheels(), scene.own_torque()), sizes_(sizes) {}
+
+  Numbers start() const noexcept {
+    Numbers y = equations_.start();
+    for (std::size_t i = 0; i < width; ++i) y[i] /= sizes_[i];
+    return y;
+  }
+  /// The piece that is integrated.
+  void enter(double from, double to) noexcept { equations_.enter(from, to); }
+  State<double> state(double t, const Numbers& y) const noexcept { return equations_.state(t, raw(y.data())); }
+  double lost_at() const noexcept { return equations_.lost_at(); }
+
+  /// For ode::Cvode, with a pointer to this for `user`. It must stay where it is while the integrator lives.
+  ode::CvodeSystem system() noexcept {
+    ode::CvodeSystem made;
+    made.dimension = int(width);
+    made.rhs = &rate;
+    made.user = this;
+    return made;
+  }
+
+ private:
+  Numbers raw(const double* y) const noexcept {
+    Numbers made;
+    for (std::size_t i = 0; i < width; ++i) made[i] = y[i] * sizes_[i];
+    return made;
+  }
+  static bool rate(double t, const double* y, double* out, void* user) {
+    auto& self = *static_cast<CvodeEquations*>(user);
+    Numbers made{};
+    self.equations_(t, self.raw(y), made);
+    for (std::size_t i = 0; i < width; ++i) out[i] = made[i] / self.sizes_[i];
+    return std::all_of(out, out + width, [](double x) { return std::isfinite(x); });
+  }
+
+  Equations equations_;
+  Numbers sizes_;
+};
+
+namespace detail {
+
+/// One run over all pieces; lost: when the law had no value.
+inline CvodeRun<State<double>> run_pieces(const Scene& scene, CvodeEquations equations,
+                                          const ode::CvodeOptions& options, Monitor* monitor, double& lost) {
+  const auto& times = scene.question().times;
+  const double span = times.back();
+  auto cuts = breakpoints_with<double>(scene.problem(), scene.own_torque().breakpoints, span);
+  cuts.push_back(span);
+  CvodeRun<State<double>> run;
+  auto y = equations.start();
+  double from = 0;
+  for (const double to : cuts) {
+    equations.enter(from, to);
+    // a time at a breakpoint belongs to the piece behind it
+    const bool last = to == span;
+    if (run.states.size() < times.size() && times[run.states.size()] == from)
+      run.states.push_back(equations.state(from, y));
+    if (!(to > from)) break;
+    auto made = ode::Cvode::create(equations.system(), from, y, options);
+    if (!made) return run.failure = made.error(), run;
+    auto cvode = std::move(made).value();
+    ode::Status status = ode::Status::reached;
+    while (cvode.time() < to && status == ode::Status::reached) {
+      const double before = cvode.time();
+      status = cvode.step(to);
+      // CVODE goes up to where the law has no value in ever shorter steps
+      const bool stuck = equations.lost_at() >= cvode.time() && !(cvode.time() - before > 1e-10 * cvode.time());
+      if (status == ode::Status::reached && stuck) status = ode::Status::not_finite;
+      for (std::size_t i; status == ode::Status::reached && (i = run.states.size()) < times.size() &&
+                          (times[i] < to || last) && times[i] <= cvode.time();) {
+        if (!cvode.at(times[i], y)) return run.failure = Errc::no_convergence, run;
+        run.states.push_back(equations.state(times[i], y));
+      }
+      if (monitor == nullptr) continue;
+      if (monitor->cancel.load(std::memory_order_relaxed)) status = ode::Status::cancelled;
+      monitor->fraction.store(cvode.time() / span, std::memory_order_relaxed);
+    }
+    run.counts += cvode.counts();
+    if (status != ode::Status::reached) {
+      if (status != ode::Status::cancelled && equations.lost_at() >= cvode.time()) lost = equations.lost_at();
+      return run.failure = failure_of(status), run;
+    }
+    std::copy_n(cvode.state().begin(), y.size(), y.begin());
+    from = to;
+  }
+  return run;
+}
+
+}  // namespace detail
+
+/// Rung `full` by CVODE: Adams, or BDF where wheels settle fast. The error is four times the distance to a second run at a tolerance ten
+/// times looser, ten times where the tighter one is the tightest that CVODE is asked for.
+inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
+  const double span = scene.question().times.back();
+  Track track = detail::unless_lost(scene);
+  if (track.failure != Errc::ok) return track;
+  const auto& law = scene.own_torque();
+  Vec3<double> at_start;
+  const LawFault fault = detail::ask_at_start(scene.problem(), law, at_start);
+  if (fault == LawFault::no_value && law.lost_at != nullptr) *law.lost_at = 0;
+  if (fault != LawFault::none) return refused<Track>(Errc::not_applicable, detail::why_law_failed(fault));
+  const auto sized = detail::pushed_by(scene.problem(), at_start);
+  const Prepared<double> of(sized, span);
+  const FullRow<double> row(of);
+  const auto sizes = detail::number_sizes(of);
+  const auto method = of.is_stiff() ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams;
+  double lost = nan<double>;
+  auto pair = cvode_pair(row, scene.goal().tightest, 1e-5, [&](double tolerance) {
+    return detail::run_pieces(scene, CvodeEquations(scene, sizes), {method, tolerance, tolerance}, monitor, lost);
+  });
+  if (lost == lost) {
+    if (law.lost_at != nullptr) *law.lost_at = lost;
+    return refused<Track>(Errc::not_applicable, no_value_of_law);
+  }
+  if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
+  track.states = std::move(pair.states);
+  track.counts = pair.counts;
+  // of what columns are made of, some of which may cancel
+  const auto rounding = detail::rounding_of_columns(of, row, pair.both.size(), honesty::cvode_looser * pair.tolerance);
+  const auto error = pair.both.relative(pair.margin * pair.both.difference() + rounding);
+  track.off = detail::off_of(track, relative_to_truth(error, full_columns), row, scene);
+  detail::warn_of_law(track, scene);
+  return track;
+}
+
+}  // namespace gyrostat::general

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A torque of the caller's own, from Python: a callable, or the address of a compiled function.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "convert.hpp"
+#include "gyrostat/models/general/torque_law.hpp"
+
+namespace gyrostat::python {
+
+/// What a compiled torque is: state holds attitude [x, y, z, w], angular velocity (3), angular momentum (3) and the rates of the wheels, one
+/// behind the other; torque (3) is written.
+using CompiledTorque = void (*)(double t, const double* state, double* torque);
+
+/// Stays where it is while a scene has its law. What a callable raises is kept, and it is not asked any more.
+class CallerTorque {
+ public:
+  /// given: None, a callable, or an address. clock: what is added to the time of the motion for it, s.
+  CallerTorque(const py::object& given, std::size_t wheels, double clock) : wheels_(wheels), clock_(clock) {
+    if (given.is_none()) return;
+    if (py::isinstance<py::int_>(given)) compiled_ = reinterpret_cast<CompiledTorque>(given.cast<std::uintptr_t>());
+    else callable_ = given;
+  }
+  CallerTorque(const CallerTorque&) = delete;
+  CallerTorque& operator=(const CallerTorque&) = delete;
+
+  /// None where nothing is given.
+  general::OwnTorque law(std::vector<double> breakpoints) {
+    if (compiled_ != nullptr) return {&by_address, this, std::move(breakpoints), &lost_at_};
+    if (callable_) return {&by_call, this, std::move(breakpoints), &lost_at_};
+    return {};
+  }
+
+  /// Raises what the callable has raised, or where it has no value.
+  void raise_what_ended_it() const {
+    if (raised_) std::rethrow_exception(raised_);
+    if (lost_at_ == lost_at_)
+      raise("DomainError",
+            "torque: it has no finite value at t = " + text(lost_at_ + clock_) + " s, and the motion ends there");
+  }
+
+ private:
+  static constexpr std::size_t most = 10 + general::most_wheels;
+
+  /// The state, one behind the other.
+  static std::array<double, most> row(const general::Seen<double>& seen) noexcept {
+    std::array<double, most> made{seen.attitude.x, seen.attitude.y, seen.attitude.z, seen.attitude.w};
+    std::copy_n(seen.angular_velocity.data(), 3, made.begin() + 4);
+    std::copy_n(seen.angular_momentum.data(), 3, made.begin() + 7);
+    std::copy_n(seen.rotor_rate.begin(), general::most_wheels, made.begin() + 10);
+    return made;
+  }
+  static Vec3<double> by_address(const void* its, double t, const general::Seen<double>& seen) noexcept {
+    const auto& self = *static_cast<const CallerTorque*>(its);
+    const auto state = row(seen);
+    double torque[3] = {nan<double>, nan<double>, nan<double>};
+    self.compiled_(t + self.clock_, state.data(), torque);
+    return {torque[0], torque[1], torque[2]};
+  }
+  static Vec3<double> by_call(const void* its, double t, const general::Seen<double>& seen) noexcept {
+    const auto& self = *static_cast<const CallerTorque*>(its);
+    constexpr double no = nan<double>;
+    if (self.raised_) return {no, no, no};
+    const py::gil_scoped_acquire hold;
+    try {
+      return self.called(t + self.clock_, row(seen));
+    } catch (...) {
+      self.raised_ = std::current_exception();
+      return {no, no, no};
+    }
+  }
+  Vec3<double> called(double t, const std::array<double, most>& state) const {
+    const auto part = [&](std::size_t from, std::size_t size) {
+      return py::array_t<double>(py::ssize_t(size), state.data() + from);
+    };
+    const py::object made = callable_(t, part(0, 4), part(4, 3), part(7, 3), part(10, wheels_));
+    const auto torque = Array::ensure(made);
+    if (!torque || torque.ndim() != 1 || torque.size() != 3) {
+      PyErr_Clear();
+      raise("DomainError",
+            "torque: it gave " + py::repr(made).cast<std::string>() + "; give three numbers, N m along the body axes");
+    }
+    return {torque.data()[0], torque.data()[1], torque.data()[2]};
+  }
+
+  std::size_t wheels_;
+  double clock_, lost_at_ = nan<double>;
+  CompiledTorque compiled_ = nullptr;
+  py::object callable_;
+  mutable std::exception_ptr raised_;
+};
+
+}  // namespace gyrostat::python

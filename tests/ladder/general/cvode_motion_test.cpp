@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/general/cvode_motion.hpp"
+
+#include <cmath>
+#include <string_view>
+
+#include "../../models/general/scenes.hpp"
+#include "answered.hpp"
+#include "catch.hpp"
+
+using namespace general_scenes;
+
+namespace {
+
+constexpr auto cvode_kick = [](double t, const Seen<double>& seen) noexcept -> Vec3<double> {
+  return Vec3<double>(t < 5 ? 0.1 : -0.2, 0, 0) - 0.1 * seen.angular_velocity;
+};
+
+}  // namespace
+
+TEST_CASE("the full equations of general scenes by CVODE", "[general]") {
+  general_scenes::Scenes source(97);
+  int answered = 0;
+  for (int i = 0; i < 12; ++i) {
+    const auto made = source.next(2);
+    Question question = question_at({0, made.span / 3, made.span}, i % 2 ? 1e-5 : 1e-8, rung::full);
+    Scene scene = posed(made.problem, question);
+    scene.full_equations = &full_by_cvode;
+    gyrostat::Refusal refusal;
+    const Answer answer = solve(scene, refusal);
+    if (refusal.code != Errc::ok) continue;
+    CAPTURE(i, made.kind);
+    check_honest(scene, answer);
+    ++answered;
+  }
+  CHECK(answered >= 10);
+}
+
+TEST_CASE("CVODE and DOP853 agree about a torque that steps", "[general]") {
+  const Scene scene = posed(brick(), question_at({0, 4, 5, 20}, 1e-8)).driven_by(OwnTorque::of(cvode_kick, {5}));
+  Scene other = scene;
+  other.full_equations = &full_by_cvode;
+  const Answer one = solved(scene), two = solved(other);
+  CHECK(one.met);
+  CHECK(two.met);
+  for (const Column& column : one.columns) {
+    const Column& its = *two.find(column.name());
+    CHECK(column_error(column, its) <= column.error + its.error);
+  }
+}
+
+TEST_CASE("a law without a value ends a run of CVODE, too", "[general]") {
+  double lost = gyrostat::nan<double>;
+  const auto ends = [](double t, const Seen<double>&) noexcept {
+    return Vec3<double>(t > 4 ? gyrostat::nan<double> : 0.1, 0, 0);
+  };
+  auto own = OwnTorque::of(ends);
+  own.lost_at = &lost;
+  Scene scene = posed(brick(), question_at({1, 9})).driven_by(own);
+  scene.full_equations = &full_by_cvode;
+  gyrostat::Refusal refusal;
+  (void)solve(scene, refusal);
+  CHECK(std::string_view(refusal.why) == no_value_of_law);
+  CHECK(lost >= 4);
+  CHECK(lost < 4.1);
+}
