@@ -105,3 +105,16 @@ TEST_CASE("errors of path and wheel angles go along") {
   CHECK(std::abs(absolute("velocity") - 0.5) < 1e-3);
   CHECK(std::abs(absolute("rotor_angle") - 0.125) < 1e-3);
 }
+
+TEST_CASE("a torque of the caller's own may see how the body is turned") {
+  const auto pull = [](double, const Seen<double>& seen) noexcept -> Vec3<double> {
+    return rotate<double>(conjugate(seen.attitude), Vec3<double>(0, 0, 0.2));
+  };
+  StartError error;
+  error.attitude = 1e-3;
+  Question question = question_at({0, 10}, 1e-6);
+  const Scene scene = posed(brick(), question).driven_by(OwnTorque::of(pull, {20}));
+  const Answer answer = solved(scene.known_within(error)), alone = solved(scene);
+  CHECK(alone.find("angular_velocity")->error < 1e-6);
+  CHECK(answer.find("angular_velocity")->error > 1e-4);
+}

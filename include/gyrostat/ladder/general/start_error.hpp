@@ -75,10 +75,14 @@ inline bool turns_along(const Problem<double>& problem) noexcept {
   });
 }
 
+inline bool turns_along(const Scene& scene) noexcept {
+  return !scene.own_torque().any() && turns_along(scene.problem());
+}
+
 inline std::vector<Displacement> displacements(const Scene& scene) {
   std::vector<Displacement> made;
   const auto& error = scene.start_error();
-  const bool turns = error.attitude > 0 && !turns_along(scene.problem());
+  const bool turns = error.attitude > 0 && !turns_along(scene);
   for (int i = 0; i < 3; ++i) {
     if (turns) made.push_back({Displacement::turn, i});
     if (error.angular_velocity > 0) made.push_back({Displacement::rate, i});
@@ -144,7 +148,7 @@ Carried carried_error(const Scene& scene, const Answer& answer, const Solve& sol
     for (std::size_t i = 0; i < sum.columns.size(); ++i) made.columns[i] += std::sqrt(sum.columns[i]);
     made.stop_time += std::sqrt(sum.stop_time);
   }
-  const bool turned = detail::turns_along(scene.problem());
+  const bool turned = detail::turns_along(scene);
   for (std::size_t i = 0; i < answer.columns.size(); ++i) {
     const auto place = std::size_t(answer.columns[i].kind - column_kinds);
     if (turned && answer.columns[i].kind->measure == Measure::angle) made.columns[i] += start.attitude;
