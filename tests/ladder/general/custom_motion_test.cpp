@@ -154,7 +154,7 @@ TEST_CASE("a law beside wheels of every kind", "[general]") {
 TEST_CASE("the error of a custom motion falls as its steps are tightened", "[general]") {
   const auto law = [](auto t, const auto& s) noexcept {
     using S = std::remove_cvref_t<decltype(t)>;
-    return Vec3<S>(S(0.3) * sin(2 * t), s.attitude.x * s.angular_velocity[1], -S(0.1) * s.angular_velocity.norm());
+    return Vec3<S>(S(0.3) * std::sin(2 * t), s.attitude.x * s.angular_velocity[1], -S(0.1) * s.angular_velocity.norm());
   };
   const auto problem = brick();
   const auto right = truth(problem, times, law);
