@@ -30,4 +30,12 @@ install(
     cmake/FindCVODE.cmake
   DESTINATION "${package_dir}"
 )
+
+file(RELATIVE_PATH pc_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+set(pc_includedir "${CMAKE_INSTALL_INCLUDEDIR}")
+set(pc_libdir "libdir=\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+set(pc_definitions " -DGYROSTAT_COMPILED=1")
+set(pc_libraries " -L\${libdir} -lgyrostat")
+configure_file(cmake/gyrostat.pc.in "${PROJECT_BINARY_DIR}/gyrostat.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/gyrostat.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/licenses/gyrostat")

@@ -11,6 +11,7 @@
 #include "gyrostat/core/double_double.hpp"
 #include "gyrostat/core/lane_pair.hpp"
 #include "gyrostat/core/lanes.hpp"
+#include "gyrostat/core/level.hpp"
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"

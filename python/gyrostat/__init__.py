@@ -6,6 +6,11 @@
 functions behind them, over arrays.
 """
 
+from gyrostat import cpu
+
+if (_level := cpu.level()) is not None:  # gyrostat._core is found in the folder of the level
+    __path__.append(str(cpu.HERE / _level))
+
 from gyrostat._core import Monitor, __version__, build_info
 from gyrostat.answer import Answer
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, SceneError

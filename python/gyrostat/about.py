@@ -5,6 +5,7 @@ import platform
 from collections.abc import Iterator
 from importlib import metadata
 
+from gyrostat import cpu
 from gyrostat._core import build_info
 from gyrostat.facts import FACTS
 
@@ -13,12 +14,20 @@ __all__ = ["build_table", "family_tables"]
 OPTIONAL = ("numpy", "rich", "matplotlib", "pandas", "xarray", "scipy", "heyoka")
 
 
+def _instructions() -> str:
+    """The instruction level of the core that is loaded, and those that this installation holds."""
+    loaded = str(build_info()["level"] or platform.machine())
+    held = cpu.held()
+    return f"{loaded}, of {', '.join(held)} in this installation; this processor runs v{cpu.highest()}; GYROSTAT_CPU chooses" if held else loaded
+
+
 def build_table() -> list[list[str]]:
     """Rows of name and value: versions, what is built in, and the licences."""
     info = build_info()
+    cvode = f"{info['cvode']}, of SUNDIALS, which is under BSD-3-Clause" if info["cvode"] else "not built in"
     gsl = f"{info['gsl']}, in the extension gyrostat._gsl, which is under GPL-3.0-or-later" if info["gsl"] else "not installed (extension gyrostat._gsl)"
-    rows = [["gyrostat", str(info["version"])], ["licence", "BSD-3-Clause"], ["compiler", str(info["compiler"])],
-            ["Eigen", str(info["eigen"])], ["CVODE", str(info["cvode"] or "not built in")], ["GSL", gsl], ["Python", platform.python_version()]]
+    rows = [["gyrostat", str(info["version"])], ["licence", "BSD-3-Clause"], ["compiler", str(info["compiler"])], ["instructions", _instructions()],
+            ["Eigen", f"{info['eigen']}, which is under MPL-2.0"], ["CVODE", cvode], ["GSL", gsl], ["Python", platform.python_version()]]
     for name in OPTIONAL:
         try:
             rows.append([name, metadata.version(name)])

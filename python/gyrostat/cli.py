@@ -75,6 +75,14 @@ def _seconds(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text}: this is no time: {error}") from None
 
 
+class _CMakeFolder(argparse.Action):
+    """Prints the folder that holds gyrostat-config.cmake."""
+
+    def __call__(self, *_: Any) -> None:
+        say(str(Path(gyrostat.__file__).parent / "share" / "cmake" / "gyrostat"), sys.stdout)
+        sys.exit(MET)
+
+
 def _add_recognise(command: Command, takes_scene: Callable[[argparse.ArgumentParser], None]) -> None:
     recognise = command("recognise", _recognise, "say of which families a scene is exactly an instance, and why it is none of the others")
     takes_scene(recognise)
@@ -93,9 +101,9 @@ def _add_view(command: Command, takes_scene: Callable[[argparse.ArgumentParser],
 def _arguments() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="gyrostat", description="Attitude motion of bodies that carry rotors, by the cheapest model that meets a tolerance.",
-        epilog="Exit status: 0 answered within the tolerance, 3 answered but over it, 2 bad input or refused, "
-               "1 internal failure, 130 interrupted.")
+        epilog="Exit status: 0 answered within the tolerance, 3 answered but over it, 2 bad input or refused, 1 internal failure, 130 interrupted.")
     parser.add_argument("--version", action="version", version=f"gyrostat {gyrostat.__version__}")
+    parser.add_argument("--cmake-dir", action=_CMakeFolder, nargs=0, help="print the folder in which CMake finds the C++ library (gyrostat_DIR), and exit")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     def command(name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:

@@ -33,10 +33,27 @@ py::object gsl_version() {
   }
 }
 
+/// The level of x86-64 instructions that this module was compiled for; null on other processors.
+constexpr const char* instruction_level() noexcept {
+#if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512CD__) && defined(__AVX512DQ__) && \
+    defined(__AVX512VL__)
+  return "x86-64-v4";
+#elif defined(__AVX2__) && defined(__FMA__) && defined(__BMI2__) && defined(__F16C__) && defined(__LZCNT__)
+  return "x86-64-v3";
+#elif defined(__SSE4_2__) && defined(__POPCNT__)
+  return "x86-64-v2";
+#elif defined(__x86_64__)
+  return "x86-64-v1";
+#else
+  return nullptr;
+#endif
+}
+
 BuildInfo build_info() {
   BuildInfo info;
   info["version"] = gyrostat::library_version();
   info["compiler"] = __VERSION__;
+  info["level"] = text_or_none(instruction_level());
   info["eigen"] = py::str("{}.{}.{}").format(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
   info["gsl"] = gsl_version();
   info["cvode"] = text_or_none(GYROSTAT_CVODE_VERSION);

@@ -4,13 +4,14 @@
 import importlib.metadata
 import importlib.resources
 import pathlib
+import shutil
 import subprocess
 import sys
 
 import pytest
 
 import gyrostat
-from gyrostat import elliptic
+from gyrostat import _core, elliptic
 
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -21,7 +22,7 @@ def test_versions_agree() -> None:
 
 def test_build_information_names_every_library() -> None:
     info = gyrostat.build_info()
-    assert set(info) == {"version", "compiler", "eigen", "gsl", "cvode"}
+    assert set(info) == {"version", "compiler", "level", "eigen", "gsl", "cvode"}
     assert info["eigen"] is not None and info["eigen"].startswith("3.4")
 
 
@@ -30,7 +31,7 @@ def test_gsl_is_a_part_of_its_own() -> None:
     """The core is BSD: GSL, which is GPL, comes into the process when it is asked for, not before."""
     program = """
 import gyrostat
-from gyrostat import elliptic
+from gyrostat import _core, elliptic
 holds_gsl = lambda: "libgsl" in open("/proc/self/maps").read()
 elliptic.complete(0.5)
 assert not holds_gsl()
@@ -46,6 +47,13 @@ def test_without_gsl_the_error_says_what_to_do(monkeypatch: pytest.MonkeyPatch) 
     assert gyrostat.build_info()["gsl"] is None
     with pytest.raises(gyrostat.DomainError, match="no GSL.*libgsl-dev"):
         elliptic.complete(0.5, elliptic="gsl")
+
+
+@pytest.mark.skipif(shutil.which("nm") is None, reason="no nm")
+def test_the_module_shows_its_entry_alone() -> None:
+    """What else it showed could be taken for another module's, or another's for its own."""
+    listed = subprocess.run(["nm", "-D", "--defined-only", str(_core.__file__)], capture_output=True, text=True, check=True).stdout
+    assert [line.split()[-1] for line in listed.splitlines()] == ["PyInit__core"]
 
 
 def test_stub_is_that_of_the_module() -> None:

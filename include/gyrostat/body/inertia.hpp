@@ -6,7 +6,7 @@
 #include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The inertia of a rigid body about a point of it, kg m^2: what exists is physical. Principal moments A >= B >= C > 0
 /// with A <= B + C, and the rotation that takes principal components to those in the caller's body axes.
@@ -67,4 +67,4 @@ class Inertia {
   Mat3<Scalar> tensor_ = Mat3<Scalar>::Identity();
 };
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

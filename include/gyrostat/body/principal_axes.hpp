@@ -8,7 +8,7 @@
 #include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The symmetric part of a tensor that is symmetric within 8 eps of its largest entry. Errc::not_finite, not_symmetric.
 template <Real Scalar>
@@ -50,4 +50,4 @@ struct PrincipalAxes {
   }
 };
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

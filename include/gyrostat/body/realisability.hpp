@@ -4,7 +4,7 @@
 #include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// Least eigenvalue of the second moments of mass, tr(J)/2 E - J - known, kg m^2: negative where no mass distribution has the inertia J
 /// and, as a part of its second moments, `known` (those of a rotor, or of the whole mass in its centre). Stronger than the triangle
@@ -15,4 +15,4 @@ Scalar realisability(const Mat3<Scalar>& J, const Mat3<Scalar>& known) noexcept 
   return symmetric_eigen<Scalar>(second_moments).values[0];
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -6,7 +6,7 @@
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// A rotor, symmetric about an axis fixed in the carrier. Its spin enters the momentum of the gyrostat in two ways,
 ///     M = J omega + l              l relative to the carrier, J of the whole with the rotor locked
@@ -62,4 +62,4 @@ class Rotor {
   Scalar axial_inertia_ = 1;
 };
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

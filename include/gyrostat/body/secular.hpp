@@ -14,7 +14,7 @@
 ///     c(sigma) = R^2 sigma - 2 R eta - sum g_i^2/(a_i - sigma) = 0,   a ascending,
 /// has the eigenvector (g_i/(a_i - sigma), R), spacelike where c' < 0 and timelike where c' > 0. A zero of c' is a
 /// relative equilibrium: omega = sigma M, M = g/(a - sigma).
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// A place sigma = a[origin] + offset. The distance to the nearest pole is what the eigenvector needs to full relative
 /// accuracy, so it is never formed as a difference.
@@ -271,4 +271,4 @@ class Secular {
   Scalar cos_ = 1, sin_ = 0;
 };
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

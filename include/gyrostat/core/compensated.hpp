@@ -4,7 +4,7 @@
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// A number and what rounding left over of it: high + low, low far below high.
 template <Real Scalar>
@@ -29,4 +29,4 @@ GYROSTAT_INLINE void add_to(Scalar& x, Scalar& low, Scalar term) noexcept {
   low = sum.low;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -7,7 +7,7 @@
 
 #include "gyrostat/core/real.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// A number of about 106 bits as the unevaluated sum of two doubles, |low| no more than half a unit in the last place of high (Dekker
 /// 1971). With the exponents of double. Sums, products, quotients and roots have a relative error of a few epsilon = 2^-104, the
@@ -241,7 +241,7 @@ inline DoubleDouble atan2(const DoubleDouble& y, const DoubleDouble& x) noexcept
 }
 inline DoubleDouble asin(const DoubleDouble& x) noexcept { return atan2(x, sqrt((1 - x) * (1 + x))); }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL
 
 template <>
 struct std::numeric_limits<gyrostat::DoubleDouble> : std::numeric_limits<double> {

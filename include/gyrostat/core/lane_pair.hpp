@@ -8,7 +8,7 @@
 #include "gyrostat/core/wide.hpp"
 
 /// Two Lanes side by side, worked on at once: one register where the machine has eight doubles in one, else two.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 namespace detail {
 
@@ -111,4 +111,4 @@ GYROSTAT_INLINE LanePair<Scalar> halves(const LanePair<Scalar>& a, const LanePai
   }
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -23,7 +23,7 @@
 #define GYROSTAT_NOINLINE
 #endif
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 namespace detail {
 
@@ -202,4 +202,4 @@ GYROSTAT_INLINE void count_up(const Term& term) noexcept {
   }
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -4,7 +4,9 @@
 #include <concepts>
 #include <limits>
 
-namespace gyrostat {
+#include "gyrostat/core/level.hpp"
+
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// True of a class of numbers that stands for a floating-point type (core/double_double.hpp): with the operators, the limits of
 /// std::numeric_limits, and the functions of <cmath> found by the type of their argument.
@@ -29,4 +31,4 @@ inline constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
 template <Real Scalar>
 inline constexpr Scalar pi = Scalar(3.141592653589793238462643383279502884L);
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

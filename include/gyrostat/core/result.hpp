@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <utility>
 
-namespace gyrostat {
+#include "gyrostat/core/level.hpp"
+
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// Every way in which a construction or an iteration can fail.
 enum class Errc : std::uint8_t {
@@ -75,4 +77,4 @@ class [[nodiscard]] Result {
   Errc error_ = Errc::ok;
 };
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

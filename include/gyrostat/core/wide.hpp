@@ -7,7 +7,7 @@
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 #if defined(__GNUC__) && defined(__AVX512F__)
 /// Eight doubles in one register of a machine that has such: 64-byte vectors cost dearly where the compiler must split them.
@@ -84,4 +84,4 @@ GYROSTAT_INLINE Wide<Scalar> greater_of(const Wide<Scalar>& a, const Wide<Scalar
   }
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -10,7 +10,7 @@
 #include "gyrostat/ode/status.hpp"
 
 /// What the ladder says of a scene. Names and texts are string literals; numbers are formatted at the edge.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// One output column: n rows of row_width() numbers, row after row.
 struct Column {
@@ -86,4 +86,4 @@ struct Answer {
   }
 };
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

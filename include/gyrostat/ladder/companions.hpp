@@ -13,7 +13,7 @@
 #include "gyrostat/ode/status.hpp"
 
 /// The full equations and their error: the answer's run and the runs of neighbours side by side.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// What the walk found, over the asked times: the error that the distances of the runs tell, in units of the columns, and the sizes of these.
 template <class Writer>
@@ -146,4 +146,4 @@ void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs
   answer.met = options.excess(answer.error) <= 1;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -12,7 +12,7 @@
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The angle of the rotation between two attitudes, rad; the signs of the quaternions do not matter.
 template <Real Scalar>
@@ -116,4 +116,4 @@ class Comparison {
   ColumnErrors difference_{}, size_{}, scale_{};
 };
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

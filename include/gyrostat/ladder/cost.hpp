@@ -8,7 +8,7 @@
 
 /// What an answer will cost, foreseen from a scene: shapes of the formulas; each family has its numbers (ladder/*/cost.hpp), fitted to
 /// what its rungs took on one core of some 3 GHz (the honesty benches print spent over predicted).
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// A rung that evaluates formulas: once for the scene, and at each time.
 struct FormulaCost {
@@ -32,4 +32,4 @@ struct SeriesCost {
   }
 };
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -11,7 +11,7 @@
 #include "gyrostat/ladder/honesty.hpp"
 
 /// The full equations by CVODE, the trusted outsider, twice: at a tolerance, and looser for the error. Needs the library gyrostat::cvode.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The states of one run at the asked times.
 template <class State>
@@ -75,4 +75,4 @@ CvodePair<Writer> cvode_pair(const Writer& writer, double tolerance, double shar
   return pair;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -10,7 +10,7 @@
 #include "gyrostat/ladder/outcome.hpp"
 #include "gyrostat/ode/cvode.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// Steps CVODE from its time over times[next] and all behind it. keep(t) takes the state at an asked time inside the last step and says
 /// whether CVODE gave it; moved() looks at the end of each step and says whether to go on. Returns why it failed, or ok; next is
@@ -33,4 +33,4 @@ Errc walk(ode::Cvode& cvode, std::span<const double> times, std::size_t& next, o
   return Errc::ok;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -8,7 +8,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/ladder/family.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The greater of two numbers, NaN if either is.
 template <Real Scalar>
@@ -76,4 +76,4 @@ constexpr Errors<N, Scalar> relative_to_truth(Errors<N, Scalar> errors, const Co
   return errors;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -7,7 +7,7 @@
 
 #include "gyrostat/core/real.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// Whether two times or more lie on an even grid, to rounding.
 inline bool even(std::span<const double> times) noexcept {
@@ -18,4 +18,4 @@ inline bool even(std::span<const double> times) noexcept {
   return true;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -7,9 +7,11 @@
 #include <span>
 #include <string_view>
 
+#include "gyrostat/core/level.hpp"
+
 /// What a family of scenes gives, as constant tables: its columns, scalars, warnings, rungs and integrators. Bindings, plots and
 /// documentation read names, units and meanings from here.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The axes that a column or scalar refers to.
 enum class Frame : std::uint8_t {
@@ -120,4 +122,4 @@ constexpr std::size_t row_width(const ColumnKind (&columns)[N]) noexcept {
   return sum;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

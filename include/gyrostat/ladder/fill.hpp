@@ -14,7 +14,7 @@
 #include "gyrostat/ladder/outcome.hpp"
 #include "gyrostat/ladder/question.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// Times, warnings and counts, the same of every family.
 inline void fill_head(Answer& answer, const Question& question, const Outcome& outcome) {
@@ -63,4 +63,4 @@ inline void put_start(Answer& answer, const ColumnKind& kind, std::initializer_l
       std::copy(given.begin(), given.end(), column.values.begin());
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -14,7 +14,7 @@
 #include "gyrostat/ode/status.hpp"
 
 /// What the full equations of every family take and give.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// Steps that one run of the full equations may take: some ten seconds.
 inline constexpr std::uint64_t step_budget = 10'000'000;
@@ -91,4 +91,4 @@ Errc check_span(std::span<const Scalar> times) noexcept {
   return Errc::ok;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -13,7 +13,7 @@
 #include "gyrostat/ladder/question.hpp"
 
 /// What a question asks of each column and scalar, and how far an answer is from it.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// What is asked of one column or scalar.
 struct Aim {
@@ -120,4 +120,4 @@ inline void judge(Answer& answer, const Question& question, const Family& family
   }
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -12,7 +12,7 @@
 /// A scene as a row of numbers, for callers that have scenes in tables: the inputs.hpp of each family lists the keys of its scene file
 /// (`input_kinds`), and makes a scene of their numbers, one behind the other in the order of the list (`scene_of`). What a scene leaves
 /// out is NaN.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// A key of the scene files and how many numbers it has.
 struct InputKind {
@@ -77,4 +77,4 @@ class InputReader {
   std::size_t left_;
 };
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -3,7 +3,9 @@
 
 #include <atomic>
 
-namespace gyrostat {
+#include "gyrostat/core/level.hpp"
+
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// Lets a caller watch and stop long work from another thread.
 struct Monitor {
@@ -11,4 +13,4 @@ struct Monitor {
   std::atomic<bool> cancel{false};
 };
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

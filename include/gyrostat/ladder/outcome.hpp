@@ -6,7 +6,7 @@
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/answer.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// What every rung says in addition to the motion itself.
 struct Outcome {
@@ -52,4 +52,4 @@ Track over_tolerance(double error) {
   return track;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -10,7 +10,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// What advances the full equations, of the library's own; `any` leaves it to the family: Taylor series, or Radau where the motion is
 /// stiff. A scene may bring another (full_equations).
@@ -55,4 +55,4 @@ inline Errc check_times(std::span<const double> times, double tolerance) noexcep
   return Errc::ok;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -17,7 +17,7 @@
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/question.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// What a rung hands back: the answer in its own terms, or why it has none. `fill(answer, scene, track)` turns it into
 /// columns; `describe(answer, scene, track)` adds to the answer what belongs to the scene, whichever rung answers.
@@ -219,4 +219,4 @@ Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, co
   return best;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -23,7 +23,7 @@
 
 /// Many scenes that differ in a few numbers, a row each. What a row comes to depends on its own numbers alone: not on the threads, and not
 /// on the rows beside it.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// One number of the scene that is another in every row.
 struct Varied {
@@ -169,4 +169,4 @@ void sweep(const Family& family, std::span<const double> numbers, std::span<cons
   });
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -7,7 +7,7 @@
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ode/status.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The tightest step tolerance that a Taylor integrator is asked for.
 template <Real Scalar>
@@ -59,4 +59,4 @@ auto tightened(const Options& options, Scalar step_tolerance, const Run& run) no
   }
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -2,6 +2,8 @@
 // Written by tools/elliptic_coefficients.py 10 17; what the numbers are is said there.
 #pragma once
 
+#include "gyrostat/core/level.hpp"
+
 namespace gyrostat::math::detail {
 
 inline constexpr double B_regular[] = {1.0,

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "gyrostat/core/level.hpp"
+
 /// Coefficients of the explicit Runge-Kutta method DOP853 of Dormand and Prince: order 8, error estimators of order 5
 /// and 3, dense output of order 7 (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993,
 /// section II.10 and the code dop853.f). Only the entries that do not vanish are kept.

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "gyrostat/core/level.hpp"
+
 namespace gyrostat::ode {
 
 /// How an integration ended.

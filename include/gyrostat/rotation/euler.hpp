@@ -10,7 +10,7 @@
 #include "gyrostat/rotation/vector.hpp"
 
 /// Angles of three turns, each about an axis of the body as the turn before left it: R_IB = R_i(a1) R_j(a2) R_k(a3).
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The axes i, j, k of the turns, counted from 0; neighbours differ.
 using EulerAxes = std::array<int, 3>;
@@ -69,4 +69,4 @@ EulerAngles<Scalar> euler_angles(const EulerAxes& axes, const Quat<Scalar>& q) n
   return made;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -7,7 +7,7 @@
 #include "gyrostat/rotation/vector.hpp"
 
 /// The 3-1-2 angles (psi, phi, theta), rad: R_IB = Rz(theta) Rx(psi) Ry(phi).
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The unit quaternion of the angles.
 template <Real Scalar>
@@ -32,4 +32,4 @@ Vec3<Scalar> angles_312(const Quat<Scalar>& q) noexcept {
   return {std::atan2(a, std::hypot(b, c)), phi, std::remainder(theta, 2 * pi<Scalar>)};
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

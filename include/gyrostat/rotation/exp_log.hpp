@@ -7,7 +7,7 @@
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The unit quaternion of a rotation vector v (axis times angle, rad), any length below 1e154.
 template <Real Scalar>
@@ -42,4 +42,4 @@ Vec3<Scalar> vector_from_matrix(const Mat3<Scalar>& R) noexcept {
   return vector_from_quaternion(from_matrix(R));
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -9,7 +9,7 @@
 
 /// How an attitude moves with the angular velocity omega_B in body axes, rad/s. The attitude takes body components to
 /// inertial ones, v_I = R_IB v_B = q v_B q*.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// dq/dt = q (0, omega_B) / 2.
 template <Real Scalar>
@@ -59,4 +59,4 @@ Mat3<Scalar> left_tangent_inverse(const Vec3<Scalar>& v) noexcept {
   return right_tangent_inverse<Scalar>(-v);
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

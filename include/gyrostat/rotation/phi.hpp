@@ -7,7 +7,7 @@
 
 /// The trigonometric quotients of the rotation group, each without a switch at small arguments: half-angle recursions
 /// of a fixed number of trips whose terms have one sign. NaN in, NaN out.
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// sin x / x.
 template <Real Scalar>
@@ -61,4 +61,4 @@ Scalar cotangent_defect_ratio(Scalar x) noexcept {
   return (sum + weight * series) / 4;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

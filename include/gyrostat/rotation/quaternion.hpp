@@ -5,7 +5,7 @@
 
 #include "gyrostat/rotation/vector.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// Hamilton's product: rotate(p * q, v) = rotate(p, rotate(q, v)).
 template <Real Scalar>
@@ -82,4 +82,4 @@ Quat<Scalar> from_matrix(const Mat3<Scalar>& R) noexcept {
   return {q.w / n, q.x / n, q.y / n, q.z / n};
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -3,7 +3,7 @@
 
 #include "gyrostat/core/lanes.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// a i + b j + c k, the sum of three quaternions (w, x, y, z) each multiplied from the right by a unit of the algebra: with
 /// a = q o1, b = q o2, c = q o3 it is q (0, o).
@@ -16,4 +16,4 @@ GYROSTAT_INLINE Lanes<Scalar> times_units(const Lanes<Scalar>& a, const Lanes<Sc
                                    shuffle<3, 2, 1, 0>(c) * lanes(-one, one, -one, one)));
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

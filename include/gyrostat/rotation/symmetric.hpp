@@ -6,7 +6,7 @@
 
 #include "gyrostat/rotation/vector.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// S = axes diag(values) axes^T.
 template <Real Scalar>
@@ -55,4 +55,4 @@ SymmetricEigen<Scalar> symmetric_eigen(const Mat3<Scalar>& S) noexcept {
   return result;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

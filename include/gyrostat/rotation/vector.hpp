@@ -5,7 +5,7 @@
 
 #include "gyrostat/core/real.hpp"
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 template <Real Scalar>
 using Vec3 = Eigen::Matrix<Scalar, 3, 1>;
@@ -41,4 +41,4 @@ Mat3<Scalar> cross_matrix(const Vec3<Scalar>& v) noexcept {
   return m;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -29,7 +29,7 @@ struct Eigen::NumTraits<gyrostat::DoubleDouble> : Eigen::GenericNumTraits<gyrost
   static int digits10() { return std::numeric_limits<Real>::digits10; }
 };
 
-namespace gyrostat {
+namespace gyrostat::inline GYROSTAT_LEVEL {
 
 template <Real To, Real From>
 Vec3<To> vector_cast(const Vec3<From>& v) noexcept {
@@ -44,4 +44,4 @@ Mat3<To> matrix_cast(const Mat3<From>& m) noexcept {
   return cast;
 }
 
-}  // namespace gyrostat
+}  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "gyrostat/core/level.hpp"
+
 namespace gyrostat::deceleration {
 
 /// The kind of free orbit on which a state lies: a constant of the undisturbed motion.

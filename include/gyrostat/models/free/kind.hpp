@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "gyrostat/core/level.hpp"
+
 namespace gyrostat::free {
 
 /// What a free motion is; a constant of the motion, named at construction.
