@@ -32,7 +32,7 @@ struct Spin {
   void warn(Track& track) const { track.warn(warning::sticks_to_separatrix); }
 };
 
-Scene spinning(const std::vector<double>& times, int rung = any_rung) {
+Scene spun(const std::vector<double>& times, int rung = any_rung) {
   Case c(1e-3, 1);
   c.data.drag = 0;
   c.data.momentum = V(.6, 0, 0);
@@ -45,7 +45,7 @@ Scene spinning(const std::vector<double>& times, int rung = any_rung) {
 }  // namespace
 
 TEST_CASE("second order: the mean motion, the full equations behind it, and the stop", "[deceleration]") {
-  const Scene scene = spinning({0, 300, 900, 2000});
+  const Scene scene = spun({0, 300, 900, 2000});
   Spin mean{scene};
   Track begun;
   begun.warn(warning::near_symmetric, 1e-4);
@@ -66,7 +66,7 @@ TEST_CASE("second order: the mean motion, the full equations behind it, and the 
 
 TEST_CASE("second order: a mean motion that halts within the times is refused, behind them it has no stop",
           "[deceleration]") {
-  const Scene within = spinning({100, 400}), before = spinning({100, 300});
+  const Scene within = spun({100, 400}), before = spun({100, 300});
   Spin mean{within, 350};
   const Track refusal = second_order_track(Track(), within, mean, .1, 1e-9, nullptr);
   CHECK(refusal.failure == Errc::separatrix);
