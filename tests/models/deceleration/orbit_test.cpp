@@ -2,6 +2,7 @@
 #include "gyrostat/models/deceleration/orbit.hpp"
 
 #include <cmath>
+#include <new>
 #include <random>
 
 #include "catch.hpp"
@@ -410,4 +411,22 @@ TEST_CASE("alignment moves the origin of phase by quarters", "[deceleration]") {
   }
   INFO("least k2 " << low);
   CHECK(previous.period() > 0);
+}
+
+TEST_CASE("an orbit does not hang on where its momentum lies in memory", "[deceleration]") {
+  const auto p = body({10, 8, 5}, {40, 30, 20});
+  alignas(64) double buffer[24];
+  for (int i = 0; i < 50; ++i) {
+    const V M(30 + 0.1 * i, 25 - 0.07 * i, 18 + 0.03 * i);
+    const auto first = Orbit<double>::through(p, M);
+    REQUIRE(first);
+    for (int place = 0; place < 16; ++place) {
+      const V& there = *new (buffer + place) V(M);
+      const auto again = Orbit<double>::through(p, there);
+      REQUIRE(again);
+      CHECK(again->modulus().k2 == first->modulus().k2);
+      CHECK(again->level().eta == first->level().eta);
+      CHECK(again->phase_of(there) == first->phase_of(M));
+    }
+  }
 }

@@ -28,9 +28,11 @@ struct Level {
 /// Level of the momentum M; R = 0 gives eta = 0.
 template <Real Scalar>
 Level<Scalar> level_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M) noexcept {
-  const Scalar R = M.stableNorm();
+  // Eigen adds up in an order that hangs on where a vector lies: here always at the same kind of place
+  alignas(64) const Vec3<Scalar> here = M;
+  const Scalar R = here.stableNorm();
   if (R == 0) return {};
-  const Vec3<Scalar> n = M / R;
+  const Vec3<Scalar> n = here / R;
   return {R, R / 2 * n.dot(problem.inverse_inertia.cwiseProduct(n)) - problem.gyro_rate().dot(n)};
 }
 
@@ -92,7 +94,8 @@ class Orbit {
 
   /// Phase of a momentum on (or near) the orbit, in [0, 1).
   Scalar phase_of(const Vec3<Scalar>& M) const noexcept {
-    const Vec3<Scalar> n = M / M.stableNorm();
+    alignas(64) const Vec3<Scalar> here = M;
+    const Vec3<Scalar> n = here / here.stableNorm();
     const auto product = [&](const Vec4& v) { return v.template head<3>().dot(n) - v[3]; };
     Scalar sn, cn;
     if (regime_ == Regime::point) return 0;
@@ -237,7 +240,8 @@ class Orbit {
 
   static Vec4 with_unit(const Vec3<Scalar>& M) noexcept {
     Vec4 x;
-    x << M / M.stableNorm(), Scalar(1);
+    alignas(64) const Vec3<Scalar> here = M;
+    x << here / here.stableNorm(), Scalar(1);
     return x;
   }
 
