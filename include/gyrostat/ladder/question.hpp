@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,17 @@ struct Question {
   bool wants_attitude = false;         ///< of families that can leave it out
   std::vector<AskedQuantity> asked{};  ///< empty: what the family gives by default; of a rung that is named, all it has
 };
+
+/// Whether scalars are asked for by name.
+inline bool asks_for_scalars(const Question& question) noexcept {
+  return std::any_of(question.asked.begin(), question.asked.end(),
+                     [](const AskedQuantity& each) { return each.scalar; });
+}
+
+/// Whether an answer tells scalars: where nothing is asked by name it tells what it can.
+inline bool tells_scalars(const Question& question) noexcept {
+  return question.asked.empty() || asks_for_scalars(question);
+}
 
 /// Whether an answer can be asked for at these times, s, to this tolerance. Errc::not_finite; out_of_domain: no times, or a
 /// tolerance outside (0, 1); negative: a time before the start; not_increasing.

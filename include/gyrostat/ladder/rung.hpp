@@ -88,11 +88,6 @@ inline bool lacks_needed(const RungKind& kind, const Question& question, const F
   return false;
 }
 
-inline bool asks_for_scalars(const Question& question) noexcept {
-  return std::any_of(question.asked.begin(), question.asked.end(),
-                     [](const AskedQuantity& each) { return each.scalar; });
-}
-
 /// The question with its tolerances in units as relative ones, by the sizes that an answer found; nothing where none of them is in a unit.
 inline std::optional<Question> in_relative_terms(const Question& question, const Answer& answer, const Family& family) {
   Question made = question;
@@ -144,7 +139,7 @@ Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, co
              Refusal& refusal) {
   const Question& question = scene.question();
   const auto& kinds = family.rungs;
-  const bool describes_all = detail::asks_for_scalars(question);
+  const bool describes_all = asks_for_scalars(question);
   const int only = question.rung, alone = only >= 0 ? only : question.alone;
   Answer best;
   Track best_track;

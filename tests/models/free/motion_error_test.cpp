@@ -244,4 +244,62 @@ TEST_CASE("rates of slim bodies err by what their slight moment makes of a round
   CHECK(ratio[ratio.size() / 2] < 30);
 }
 
+/// The same body in axes of the data that are not its principal ones.
+Problem<double> turned(Bodies& bodies, Problem<double> p) {
+  const Quat<double> turn = bodies.attitude();
+  Mat3<double> R;
+  for (int i = 0; i < 3; ++i) R.col(i) = rotate<double>(turn, Vec3<double>(Vec3<double>::Unit(i)));
+  const Mat3<double> J = R * p.inertia * R.transpose();
+  p.inertia = (J + J.transpose()) / 2;
+  p.rotor_momentum = R * p.rotor_momentum;
+  p.angular_velocity = R * p.angular_velocity;
+  return p;
+}
+
+TEST_CASE("the quick error of a free motion bounds a set-up in double, or is not there", "[free]") {
+  Bodies bodies(36);
+  int asked = 0, taken = 0, generic = 0, understated = 0, of_scalars = 0;
+  for (const Regime regime : regimes)
+    for (int i = 0; i < 120; ++i) {
+      auto p = bodies.of(regime, i);
+      if (i % 3) p = turned(bodies, p);
+      const auto m = Motion<double>::make(p);
+      const auto truth = Motion<Wide>::make<Wide>(p.cast<Wide>());
+      if (!m || !truth) continue;
+      const double t = bodies.scale(-2, 4) * (std::isfinite(m->period()) ? m->period() : 10);
+      const auto error = MotionError<double>::quick(*m, Assembly<double>{p, {}}, t);
+      ++asked;
+      if (!error) continue;
+      ++taken;
+      generic += regime == Regime::generic;
+      const auto bound = error->at(t);
+      for (const double part : {.31, .77, 1.}) {
+        const auto s = m->at(part * t);
+        const Off o = off(s, truth->at(part * t));
+        const double rates = o.rates * s.angular_velocity.norm() / error->fastest();
+        if (o.attitude > bound.attitude || rates > bound.angular_velocity || o.momentum > bound.angular_momentum)
+          ++understated;
+      }
+      of_scalars += std::abs(m->period() / double(truth->period()) - 1) > error->period();
+      of_scalars += std::abs(m->energy() / double(truth->energy()) - 1) > error->energy();
+    }
+  CAPTURE(asked, taken, generic, understated, of_scalars);
+  CHECK(understated == 0);
+  CHECK(of_scalars == 0);
+  CHECK(generic > 90);
+  CHECK(taken > asked / 3);
+}
+
+TEST_CASE("no quick error where the set-up in double may be wrong", "[free]") {
+  const auto quick = [](const Problem<double>& p) {
+    return MotionError<double>::quick(*Motion<double>::make(p), Assembly<double>{p, {}}, 100).has_value();
+  };
+  CHECK(quick(Problem<double>::from_moments({3, 2, 1}, {0, 0, 0}, {1, .1, .1})));
+  CHECK_FALSE(quick(Problem<double>::from_moments({3, 2, 1}, {0, 0, 0}, {1e-4, 1, 1e-4})));  // beside the separatrix
+  CHECK_FALSE(quick(Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {1, 1, 2})));        // on it
+  CHECK_FALSE(quick(Problem<double>::from_moments({3, 2, 1}, {0, 0, 0}, {1, 0, 0})));        // steady
+  // the slightest moment takes what rounding leaves of M for a rate
+  CHECK_FALSE(quick(Problem<double>::from_moments({1, .9999999, 1e-6}, {0, 0, 0}, {.4, .3, .2})));
+}
+
 }  // namespace free_error_test

@@ -77,6 +77,24 @@ TEST_CASE("both forms of the theta pair are theta functions", "[free]") {
     for (const int count : row) CHECK(count > 3);
 }
 
+TEST_CASE("the slope of a theta pair is that of its values", "[free]") {
+  const auto d = PrincipalProblem<double>::of(Problem<double>::from_moments({3, 2, 1}, {.2, -.1, .3}, {1, .3, .4}));
+  const Pencil<double> pencil(d.inverse, d.gaps, d.G, d.l, d.M, d.M.norm());
+  const auto frame = SpinorFrame<double>::of(pencil);
+  REQUIRE(frame);
+  const ThetaPair<double> pair(*frame);
+  REQUIRE_FALSE(pair.hyperbolic);
+  const double step = 1e-4;
+  for (const double z : {0., .7, 2., 5.}) {
+    const auto at = [&](double x) { return pair.trigonometric(std::cos(x), std::sin(x)); };
+    const auto slope = pair.slope(std::cos(z), std::sin(z)), up = at(z + step), down = at(z - step);
+    CHECK(std::abs(slope.one.re - pair.h * (up.one.re - down.one.re) / (2 * step)) < 1e-7);
+    CHECK(std::abs(slope.one.im - pair.h * (up.one.im - down.one.im) / (2 * step)) < 1e-7);
+    CHECK(std::abs(slope.two.re - pair.h * (up.two.re - down.two.re) / (2 * step)) < 1e-7);
+    CHECK(std::abs(slope.two.im - pair.h * (up.two.im - down.two.im) / (2 * step)) < 1e-7);
+  }
+}
+
 TEST_CASE("the sums of a theta pair are short", "[free]") {
   Bodies bodies(4);
   for (const Regime regime : regimes)

@@ -48,22 +48,18 @@ inline std::vector<State<double>> states_of(const Motion<double>& motion, std::s
   return states;
 }
 
-/// What the asked wheels turned through, and how far that may be off, rad: the greatest difference to neighbours whose data are a rounding away.
-inline void turn_wheels(Track& track, const Scene& scene, const Motion<double>& motion) {
+/// The greatest distance of the angles that the wheels turn through, rad, to those of neighbours whose data are `by` away, set up in Setup.
+template <Real Setup>
+double angles_apart(const Track& track, const Scene& scene, Setup by) {
   const auto& times = scene.question().times;
-  const RateIntegral<double> integral(motion);
-  for (const double t : times) track.turned.push_back(integral.at(t));
   const auto& wheels = scene.gyrostat().wheels;
-  double off = 0, size = 1e-3, fastest = 0;
+  const auto given = scene.assembly().cast<Setup>();
   const std::size_t stride = 1 + times.size() / 64;
+  double off = 0;
   for (int k = 0; k < neighbours; ++k) {
-    const auto near = Reduced<DoubleDouble>::taken(
-        neighbour<DoubleDouble>(scene.assembly().cast<DoubleDouble>(), k, DoubleDouble(epsilon<double>)));
-    const auto moved = Motion<double>::make<DoubleDouble>(near.problem);
-    if (!moved) {
-      off = infinity<double>;
-      break;
-    }
+    const auto near = Reduced<Setup>::taken(neighbour<Setup>(given, k, by));
+    const auto moved = Motion<double>::make<Setup>(near.problem);
+    if (!moved) return infinity<double>;
     const RateIntegral<double> other(*moved);
     for (std::size_t i = times.size(); i-- > 0;) {
       if (i % stride != 0 && i + 1 != times.size()) continue;
@@ -78,6 +74,18 @@ inline void turn_wheels(Track& track, const Scene& scene, const Motion<double>& 
       off = std::max(off, std::sqrt(square));
     }
   }
+  return off;
+}
+
+/// What the asked wheels turned through, and how far that may be off, rad.
+inline void turn_wheels(Track& track, const Scene& scene, const ClosedForm& form) {
+  const auto& times = scene.question().times;
+  const RateIntegral<double> integral(form.motion);
+  for (const double t : times) track.turned.push_back(integral.at(t));
+  const double off = form.precise ? angles_apart<DoubleDouble>(track, scene, DoubleDouble(epsilon<double>))
+                                  : 2 * angles_apart<double>(track, scene, 2 * epsilon<double>);
+  const auto& wheels = scene.gyrostat().wheels;
+  double size = 1e-3, fastest = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     double square = 0;
     for (const auto& wheel : wheels) {
@@ -119,34 +127,43 @@ inline void warn_of_form(Track& track, const ClosedForm& form, double last, bool
   if (!known) track.warn(warning_kinds[warning::phase_unknown], last);
 }
 
-}  // namespace detail
-
-/// Rung `closed-form`: the motion as a pair of theta functions (docs/free.md), set up to twice the digits of a double, so that the data
-/// are what limits it.
-inline Track closed_form_track(const Scene& scene, Monitor*) {
-  const auto form = closed_form_of(scene);
-  if (!form) return refused<Track>(form.error(), "rounding hides on which side of a separatrix the motion runs");
+/// What the rung answers by a form.
+inline Track track_of(const Scene& scene, const ClosedForm& form) {
   const auto& times = scene.question().times;
   Track track;
-  track.states = detail::states_of(form->motion, times);
-  const auto bound = form->error.at(times.back());
+  track.states = states_of(form.motion, times);
+  const auto bound = form.error.at(times.back());
   double fastest = 0;
   for (const auto& s : track.states) fastest = std::max(fastest, s.angular_velocity.norm());
   // over the greatest rate of the asked times, which may all lie where the body turns slowly
-  const double rounding = detail::takes_grid(times) ? detail::grid_rounding : 0;
-  const double slightest = symmetric_eigen<double>(scene.gyrostat().problem.inertia).values[0];
-  const double velocity = bound.angular_velocity * over(form->error.fastest(), fastest) +
-                          over(rounding * form->motion.angular_momentum_norm() / slightest, fastest);
+  const double rounding = takes_grid(times) ? grid_rounding : 0;
+  const double slightest = form.motion.principal_moments()[2];
+  const double velocity = bound.angular_velocity * over(form.error.fastest(), fastest) +
+                          over(rounding * form.motion.angular_momentum_norm() / slightest, fastest);
   track.error[column::attitude] = bound.attitude + rounding;
   track.error[column::angular_velocity] = relative_to_truth(velocity);
   track.error[column::angular_momentum] = relative_to_truth(bound.angular_momentum + rounding);
   if (scene.wheels() > 0) {
-    track.error[column::rotor_rate] = detail::rate_error(scene, track.states, velocity);
-    if (scene.gives(column::rotor_angle)) detail::turn_wheels(track, scene, form->motion);
+    track.error[column::rotor_rate] = rate_error(scene, track.states, velocity);
+    if (scene.gives(column::rotor_angle)) turn_wheels(track, scene, form);
   }
-  detail::warn_of_form(track, *form, times.back(), bound.attitude < infinity<double>);
-  track.form = *form;
+  warn_of_form(track, form, times.back(), bound.attitude < infinity<double>);
+  track.form = form;
   return track;
+}
+
+}  // namespace detail
+
+/// Rung `closed-form`: the motion as a pair of theta functions (docs/free.md), set up in double where that is known to do for what is asked, else to
+/// twice the digits of a double, so that the data are what limits it.
+inline Track closed_form_track(const Scene& scene, Monitor*) {
+  if (const auto form = quick_form_of(scene)) {
+    Track track = detail::track_of(scene, *form);
+    if (scene.goal().excess(track.error) <= 1) return track;
+  }
+  const auto form = closed_form_of(scene);
+  if (!form) return refused<Track>(form.error(), "rounding hides on which side of a separatrix the motion runs");
+  return detail::track_of(scene, *form);
 }
 
 }  // namespace gyrostat::free

@@ -16,11 +16,14 @@ namespace gyrostat::free {
 
 /// What is known of the whole motion, whichever rung answers.
 inline void describe(Answer& answer, const Scene& scene, const Track& track) {
-  const Question& question = scene.question();
-  if (!question.asked.empty() && !gyrostat::detail::asks_for_scalars(question)) return;
-  const auto made = track.form ? Result<ClosedForm>(*track.form) : closed_form_of(scene);
-  if (!made) return;
-  const auto& [motion, error] = *made;
+  if (!tells_scalars(scene.question())) return;
+  auto form = track.form ? track.form : quick_form_of(scene);
+  if (!form) {
+    const auto made = closed_form_of(scene);
+    if (!made) return;
+    form = *made;
+  }
+  const auto& [motion, error, precise] = *form;
   const auto tell = [&](std::size_t which, std::array<double, 3> values, double its_error = nan<double>) {
     answer.quantities.push_back({&scalar_kinds[which], values, its_error});
   };

@@ -17,14 +17,27 @@ namespace gyrostat::free {
 struct ClosedForm {
   Motion<double> motion;
   MotionError<double> error;
+  bool precise;  ///< set up to twice the digits
 };
 
 /// Of the scene's data to twice the digits; an error where the data fit no motion (Motion::make).
 inline Result<ClosedForm> closed_form_of(const Scene& scene) noexcept {
   const auto motion = Motion<double>::make<DoubleDouble>(scene.precise().problem);
   if (!motion) return motion.error();
-  return ClosedForm{*motion, MotionError<double>::of<DoubleDouble>(*motion, scene.assembly(), Data::rounded,
-                                                                   scene.question().times.back())};
+  return ClosedForm{
+      *motion,
+      MotionError<double>::of<DoubleDouble>(*motion, scene.assembly(), Data::rounded, scene.question().times.back()),
+      true};
+}
+
+/// The same in double for a tenth of the cost; nothing where its rounding may weigh (MotionError::quick), or the scalars need not be as well known as
+/// is asked.
+inline std::optional<ClosedForm> quick_form_of(const Scene& scene) noexcept {
+  const auto motion = Motion<double>::make(scene.gyrostat().problem);
+  if (!motion) return std::nullopt;
+  const auto error = MotionError<double>::quick(*motion, scene.assembly(), scene.question().times.back());
+  if (!error || !(error->of_scalars() <= scene.goal().tightest)) return std::nullopt;
+  return ClosedForm{*motion, *error, false};
 }
 
 /// What a rung finds at the asked times.

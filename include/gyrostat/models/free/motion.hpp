@@ -137,6 +137,10 @@ class Motion {
     return sqrt(square) / abs(size);
   }
 
+  /// By how much at(t) fails the equations dM/dt = M x omega, over |M| `fastest`, and dq/dt = q (0, omega)/2, over `fastest` [rad/s], and at(0) the
+  /// start: some roundings where the set-up is sound. In trigonometric form, else infinite.
+  Scalar defect(Scalar t, Scalar fastest) const noexcept;
+
   Kind kind() const noexcept { return kind_; }
   /// Of omega in the body, s; infinite on a separatrix, NaN in a permanent rotation.
   Scalar period() const noexcept { return period_; }
@@ -407,6 +411,38 @@ class Motion {
   Quat<Scalar> lay_{};  // inertial axes from those with M along 3
   Scalar kappa_[2] = {0, 0}, u_rate_ = 0, u_start_ = 0;
 };
+
+template <Real Scalar>
+Scalar Motion<Scalar>::defect(Scalar t, Scalar fastest) const noexcept {
+  using std::max;
+  if (pair_.hyperbolic || kind_ == Kind::steady || kind_ == Kind::spherical) return infinity<Scalar>;
+  const Place place = place_at(t);
+  const C E = math::unit(place.exponent);
+  const Value zeta = pair_.trigonometric(E.re, E.im), slope = pair_.slope(E.re, E.im);
+  const C &a = zeta.one, &b = zeta.two, &da = slope.one, &db = slope.two;
+  const auto dot = [](const C& x, const C& y) { return x.re * y.re + x.im * y.im; };
+  const Vec4<Scalar> f{dot(a, a), dot(b, b), dot(a, b), a.re * b.im - a.im * b.re};
+  const Vec4<Scalar> df{2 * dot(a, da), 2 * dot(b, db), dot(da, b) + dot(a, db),
+                        da.re * b.im - da.im * b.re + a.re * db.im - a.im * db.re};
+  const Vec4<Scalar> size{size_[0], size_[1], size_[2], size_[3]};
+  const Scalar s = size.dot(f);
+  const Vec3<Scalar> M = M_ * f / s, omega = W_ * f / s;
+  const Vec3<Scalar> change = u_rate_ * (M_ * df - M * size.dot(df)) / s;
+  const Scalar of_momentum = (change - cross<Scalar>(M, omega)).norm() / R_;
+
+  const C kappa{0, 2 * pi<Scalar> * phase_rate_.high / u_rate_};
+  const C up = spinor_[0][0] * a + spinor_[0][1] * b, down = spinor_[1][0] * a + spinor_[1][1] * b;
+  const C dup = spinor_[0][0] * da + spinor_[0][1] * db + kappa * up,
+          ddown = spinor_[1][0] * da + spinor_[1][1] * db + kappa * down;
+  const Vec3<Scalar> v(down.im, -down.re, up.im), dv(ddown.im, -ddown.re, dup.im);
+  const Scalar square = up.re * up.re + v.squaredNorm();
+  const Vec3<Scalar> turning = 2 * u_rate_ / square * (up.re * dv - dup.re * v - cross<Scalar>(v, dv));
+  const Scalar of_attitude = (turning - omega).norm();
+  const Scalar found = max(of_momentum, of_attitude) / fastest;
+  if (t != 0) return found;
+  return max(found,
+             max((M - initial_.angular_momentum).norm() / R_, (omega - initial_.angular_velocity).norm() / fastest));
+}
 
 /// What a block of a grid works on, array by array so that compilers make vector instructions of the loops.
 template <Real Scalar>

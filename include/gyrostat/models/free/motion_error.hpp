@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <type_traits>
 
 #include "gyrostat/core/double_double.hpp"
@@ -90,17 +93,42 @@ class MotionError {
     constexpr bool wide = !std::is_same_v<Setup, Scalar>;
     if (!(wide && data == Data::rounded && error.see_from_afar(assembly))) {
       const Assembly<Setup> given = assembly.template cast<Setup>();
-      const Centre centre(motion, error.span_);
+      const Centre<both_ways> centre(motion, error.span_);
       for (int k = 0; k < detail::neighbours; ++k) error.see(centre, motion_of(neighbour<Setup>(given, k, by)));
     }
     // what rounding did to this very set-up
     if constexpr (std::is_same_v<Setup, double>)
-      error.see(Centre(motion, error.span_), motion_of(assembly.template cast<DoubleDouble>()));
-    if (error.kind_ != Kind::steady) {  // and what the rounding of the period and the turn hides
-      const Scalar hidden = static_cast<Scalar>(by);
-      error.share_ += hidden / error.period_;
-      error.turn_rate_ += 2 * pi<Scalar> * hidden / error.period_;
+      error.see(Centre<both_ways>(motion, error.span_), motion_of(assembly.template cast<DoubleDouble>()));
+    error.add_hidden(static_cast<Scalar>(by));
+    return error;
+  }
+
+  /// The same for a tenth of the cost, for times from 0 up to the horizon, of a motion of a sound assembly that was set up in Scalar like its
+  /// neighbours, so that their distances show the rounding of the set-up too; nothing beside a separatrix and in other places where rounding grows, and
+  /// where the motion fails its own equations by more than some roundings.
+  static std::optional<MotionError> quick(const Motion<Scalar>& motion, const Assembly<Scalar>& assembly,
+                                          Scalar horizon) noexcept {
+    if (!is_tame(motion, assembly.body.inertia.isDiagonal(0))) return std::nullopt;
+    MotionError error;
+    error.horizon_ = std::abs(horizon);
+    error.nodes_ = few_nodes;
+    error.start(motion);
+    if (!(error.cancellation_ < quick_cancellation)) return std::nullopt;
+    for (int i = 0; i < few_nodes; i += 2) {
+      const Scalar found = motion.defect(motion.period() * Scalar(i) / few_nodes, error.fastest_);
+      if (!(found < quick_defect)) return std::nullopt;
+      error.defect_ = std::max(error.defect_, found);
     }
+    const Centre<forward> centre(motion, error.span_);
+    error.weight_ = quick_margin / 4;
+    error.scalar_margin_ = 4 * quick_margin;
+    // principal axes found in Scalar are off by more than a rounding
+    const Scalar by = (assembly.body.inertia.isDiagonal(0) ? 1 : 2) * epsilon<Scalar>;
+    for (int k = 0; k < detail::neighbours; ++k) error.see(centre, motion_of(neighbour<Scalar>(assembly, k, by)));
+    if (!error.agree_) return std::nullopt;
+    error.modulus_ = std::max(error.modulus_, error.defect_);
+    error.turn_ = std::max(error.turn_, error.defect_);
+    error.add_hidden(std::max(epsilon<Scalar>, error.defect_ / 4));
     return error;
   }
 
@@ -122,6 +150,11 @@ class MotionError {
       b.attitude += 4 * (turned + late * attitude_change_);
       if (!agree_) b.attitude = infinity<Scalar>;
     }
+    // a defect that were always on the same side
+    const Scalar off_course = defect_ * fastest_ * beyond;
+    b.angular_velocity += off_course;
+    b.angular_momentum += off_course;
+    b.attitude += off_course;
     const Scalar rounding = 10 * cancellation_ * epsilon<Scalar>;
     const Scalar most = Scalar(0.2);  // four times 0.05
     if (!(b.attitude <= most && b.angular_velocity <= most))
@@ -132,38 +165,69 @@ class MotionError {
     return {b.angular_velocity + of_rates, b.angular_momentum + rounding, b.attitude + rounding};
   }
 
-  Scalar period() const noexcept { return 4 * share_ * period_ + 4 * epsilon<Scalar>; }  ///< relative
-  Scalar turn_per_period() const noexcept {                                              ///< rad
-    return 4 * turn_ + 16 * epsilon<Scalar>;
+  Scalar period() const noexcept { return scalar_margin_ * share_ * period_ + 4 * epsilon<Scalar>; }  ///< relative
+  Scalar turn_per_period() const noexcept {                                                           ///< rad
+    return scalar_margin_ * turn_ + 16 * epsilon<Scalar>;
   }
-  Scalar modulus_squared() const noexcept { return 4 * modulus_ + 4 * epsilon<Scalar>; }  ///< absolute
-  Scalar energy() const noexcept { return 4 * energy_ + 4 * epsilon<Scalar>; }            ///< relative
-  Scalar angular_momentum_norm() const noexcept { return 4 * norm_ + 4 * epsilon<Scalar>; }
+  Scalar modulus_squared() const noexcept { return scalar_margin_ * modulus_ + 4 * epsilon<Scalar>; }  ///< absolute
+  Scalar energy() const noexcept { return scalar_margin_ * energy_ + 4 * epsilon<Scalar>; }            ///< relative
+  Scalar angular_momentum_norm() const noexcept { return scalar_margin_ * norm_ + 4 * epsilon<Scalar>; }
+  /// The greatest of these.
+  Scalar of_scalars() const noexcept {
+    return std::max({period(), turn_per_period(), modulus_squared(), energy(), angular_momentum_norm()});
+  }
   /// The greatest |omega| over a period or up to the horizon, rad/s: what bounds of the rates are relative to.
   Scalar fastest() const noexcept { return fastest_; }
   /// The neighbours are motions of the same kind; else the data do not tell on which side of a separatrix the motion is.
   bool kinds_agree() const noexcept { return agree_; }
 
  private:
-  static constexpr int nodes = 128;
+  static constexpr int most_nodes = 128, few_nodes = 8;
+  static constexpr Scalar quick_modulus = Scalar(0.01), quick_cancellation = 4, quick_defect = 16 * epsilon<Scalar>,
+                          quick_margin = 6, quick_gap = Scalar(1e-3), quick_least = Scalar(1e-8);
 
   template <Real Setup>
   static Result<Motion<Scalar>> motion_of(const Assembly<Setup>& given) noexcept {
     return Motion<Scalar>::template make<Setup>(Reduced<Setup>::taken(given).problem);
   }
 
-  /// A motion and its states at the nodes, from a period before the start to one behind it.
+  /// Nodes from the first to the last, 0 being the start.
+  struct Nodes {
+    int first, last;
+  };
+  static constexpr Nodes both_ways{-most_nodes, most_nodes}, forward{0, few_nodes};
+
+  /// A motion and its states at the nodes; the last is the end of the span.
+  template <const Nodes& nodes>
   class Centre {
    public:
     Centre(const Motion<Scalar>& of, const Scalar& span) noexcept : motion(of) {
-      for (int i = -nodes; i <= nodes; ++i) states_[std::size_t(i + nodes)] = of.at(Scalar(i) * span / nodes);
+      for (int i = nodes.first; i <= nodes.last; ++i)
+        states_[std::size_t(i - nodes.first)] = of.at(Scalar(i) * span / nodes.last);
     }
-    const State<Scalar>& at(int node) const noexcept { return states_[std::size_t(node + nodes)]; }
+    const State<Scalar>& at(int node) const noexcept { return states_[std::size_t(node - nodes.first)]; }
     const Motion<Scalar>& motion;
 
    private:
-    std::array<State<Scalar>, 2 * nodes + 1> states_;
+    std::array<State<Scalar>, std::size_t(nodes.last - nodes.first + 1)> states_;
   };
+
+  /// Whether nothing that the set-up subtracts cancels as a matter of course: no separatrix is near, and no principal axes found in Scalar belong to
+  /// moments that are nearly equal.
+  static bool is_tame(const Motion<Scalar>& motion, bool axes_given) noexcept {
+    if (motion.kind() == Kind::steady || motion.kind() == Kind::separatrix || motion.hyperbolic()) return false;
+    const auto& modulus = motion.modulus();
+    const Vec3<Scalar>& J = motion.principal_moments();
+    return modulus.kp2 > quick_modulus && !(motion.kind() == Kind::one_component && modulus.k2 < quick_least) &&
+           (axes_given || std::min(J[0] - J[1], J[1] - J[2]) > quick_gap * J[0]);
+  }
+
+  /// What the rounding of the period and the turn hides.
+  void add_hidden(Scalar by) noexcept {
+    if (kind_ == Kind::steady) return;
+    share_ += by / period_;
+    turn_rate_ += 2 * pi<Scalar> * by / period_;
+  }
 
   /// Looks at neighbours a thousand roundings away, which the arithmetic of Scalar tells apart well, and takes a thousandth of what it sees;
   /// false, and nothing seen, where the motion is not smooth enough in its data for that.
@@ -172,13 +236,13 @@ class MotionError {
     if (kind_ == Kind::steady || kind_ == Kind::separatrix) return false;
     const auto made = motion_of(assembly);
     if (!made || made->kind() != kind_ || !(made->modulus().kp2 > Scalar(1e-4))) return false;
-    const Centre centre(*made, span_);
+    const Centre<both_ways> centre(*made, span_);
     const MotionError unseen = *this;
-    shrink_ = 1 / far;
+    weight_ = 1 / far;
     for (int k = 0; k < detail::neighbours; ++k)
       see(centre, motion_of(neighbour<Scalar>(assembly, k, far * epsilon<Scalar>)));
-    shrink_ = 1;
-    const Bound& period = first_[nodes];
+    weight_ = 1;
+    const Bound& period = first_[most_nodes];
     if (agree_ && far * modulus_ < straight * made->modulus().kp2 && far * share_ * span_ < straight &&
         far * period.attitude < straight && far * period.angular_velocity < straight)
       return true;
@@ -198,11 +262,12 @@ class MotionError {
     const Mat3<Scalar> inverse =
         motion.R_BP() * motion.principal_moments().cwiseInverse().asDiagonal() * motion.R_BP().transpose();
     const Scalar R = motion.angular_momentum_norm();
-    for (int i = 0; i < nodes; ++i) {
-      const State<Scalar> at = motion.at(T * Scalar(i) / nodes);
+    for (int i = 0; i < nodes_; ++i) {
+      const Scalar t = T * Scalar(i) / Scalar(nodes_);
+      const State<Scalar> at = motion.at(t);
       const Vec3<Scalar> flow = cross<Scalar>(at.angular_momentum, at.angular_velocity);
-      cancellation_ = max(cancellation_, motion.cancellation(T * Scalar(i) / nodes));
-      rate_terms_ = max(rate_terms_, motion.rate_terms(T * Scalar(i) / nodes));
+      cancellation_ = max(cancellation_, motion.cancellation(t));
+      rate_terms_ = max(rate_terms_, motion.rate_terms(t));
       fastest_ = max(fastest_, at.angular_velocity.norm());
       momentum_change_ = max(momentum_change_, flow.norm());
       rates_change_ = max(rates_change_, Vec3<Scalar>(inverse * flow).norm());
@@ -231,7 +296,8 @@ class MotionError {
     span_ = period_ = speed_ > 0 ? 2 * pi<Scalar> / speed_ : Scalar(1);
   }
 
-  void see(const Centre& centre, const Result<Motion<Scalar>>& made) noexcept {
+  template <const Nodes& nodes>
+  void see(const Centre<nodes>& centre, const Result<Motion<Scalar>>& made) noexcept {
     const Motion<Scalar>& motion = centre.motion;
     using std::abs, std::max;
     if (!made) {
@@ -241,16 +307,16 @@ class MotionError {
     }
     const Motion<Scalar>& other = *made;
     const auto relative = [](Scalar a, Scalar b) { return a == b ? Scalar(0) : abs(a - b) / abs(a); };
-    energy_ = max(energy_, shrink_ * relative(motion.energy(), other.energy()));
-    norm_ = max(norm_, shrink_ * relative(motion.angular_momentum_norm(), other.angular_momentum_norm()));
+    energy_ = max(energy_, weight_ * relative(motion.energy(), other.energy()));
+    norm_ = max(norm_, weight_ * relative(motion.angular_momentum_norm(), other.angular_momentum_norm()));
     if (kind_ == Kind::steady) return see_steady(other);
-    modulus_ = max(modulus_, shrink_ * abs(motion.modulus_squared() - other.modulus_squared()));
+    modulus_ = max(modulus_, weight_ * abs(motion.modulus_squared() - other.modulus_squared()));
     if (kind_ != Kind::spherical && other.kind() != kind_) agree_ = false;
     Bound worst;
-    for (int i = 0; i <= nodes; ++i) {
+    for (int i = 0; i <= nodes.last; ++i) {
       // running greatest differences, with time forward and back
-      for (const int side : {1, -1}) {
-        const Scalar t = Scalar(side * i) * span_ / nodes;
+      for (int side = 1; side * i >= nodes.first && side >= -1; side -= 2) {
+        const Scalar t = Scalar(side * i) * span_ / nodes.last;
         const State<Scalar>&a = centre.at(side * i), b = other.at(t);
         const Quat<Scalar> q = conjugate(a.attitude) * b.attitude;
         worst.angular_velocity =
@@ -261,17 +327,17 @@ class MotionError {
         worst.attitude = max(worst.attitude, Vec3<Scalar>(2 * q.x, 2 * q.y, 2 * q.z).norm());
       }
       Bound& to = first_[std::size_t(i)];
-      const Scalar margin = 4 * shrink_;
+      const Scalar margin = 4 * weight_;
       to.angular_velocity = max(to.angular_velocity, margin * worst.angular_velocity);
       to.angular_momentum = max(to.angular_momentum, margin * worst.angular_momentum);
       to.attitude = max(to.attitude, margin * worst.attitude);
     }
-    share_ = max(share_, shrink_ * relative(motion.period(), other.period()) / period_);
+    share_ = max(share_, weight_ * relative(motion.period(), other.period()) / period_);
     const Scalar turn = motion.turn_per_period(), raw = other.turn_per_period() - turn;
     const Scalar turned = raw - 2 * pi<Scalar> * std::nearbyint(raw / (2 * pi<Scalar>));
-    turn_ = max(turn_, shrink_ * abs(turned));
+    turn_ = max(turn_, weight_ * abs(turned));
     turn_rate_ =
-        max(turn_rate_, shrink_ * abs((turned - turn * (other.period() - period_) / period_) / other.period()));
+        max(turn_rate_, weight_ * abs((turned - turn * (other.period() - period_) / period_) / other.period()));
   }
 
   void see_steady(const Motion<Scalar>& other) noexcept {
@@ -296,22 +362,24 @@ class MotionError {
   Bound near(Scalar t) const noexcept {
     if (kind_ == Kind::steady) return {};
     using std::ceil, std::min;
-    const Scalar place = ceil(t / span_ * nodes);
-    if (!(place < nodes))
-      return t - t == 0 ? first_[nodes] : Bound{infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
+    const Scalar place = ceil(t / span_ * Scalar(nodes_));
+    if (!(place < Scalar(nodes_)))
+      return t - t == 0 ? first_[std::size_t(nodes_)] : Bound{infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
     return first_[std::size_t(place)];
   }
 
   Kind kind_ = Kind::steady;
   bool agree_ = true;
-  Scalar shrink_ = 1;                                          ///< a difference that is seen counts by so much
-  Scalar horizon_ = infinity<Scalar>, period_ = 1, span_ = 1;  ///< span: that the nodes divide
-  Scalar fastest_ = 0, speed_ = 0;
+  int nodes_ = most_nodes;  ///< that divide the span
+  Scalar weight_ = 1;       ///< by which a difference that is seen counts
+  Scalar scalar_margin_ = 4;
+  Scalar horizon_ = infinity<Scalar>, period_ = 1, span_ = 1;
+  Scalar fastest_ = 0, speed_ = 0, defect_ = 0;
   Scalar rates_change_ = 0, momentum_change_ = 0, attitude_change_ = 0;  // by a phase late by a period
   Scalar share_ = 0, turn_rate_ = 0, turn_ = 0;  // periods late a second; rad/s about M; rad a period
   Scalar modulus_ = 0, energy_ = 0, norm_ = 0, cancellation_ = 1, rate_terms_ = 0;
   Scalar drift_ = 0, unstable_ = 0, frequency_ = 0, shear_ = 0, gain_ = 0;  // of a steady rotation
-  std::array<Bound, nodes + 1> first_{};
+  std::array<Bound, most_nodes + 1> first_{};
 };
 
 }  // namespace gyrostat::free

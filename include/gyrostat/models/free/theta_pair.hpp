@@ -91,6 +91,21 @@ struct ThetaPair {
     return {odd, even};
   }
 
+  /// d zeta/du in trigonometric form, of z by its cosine and sine.
+  Value slope(Scalar c, Scalar s) const noexcept {
+    C power{1, 0}, sum[2] = {{0, 0}, {0, 0}};
+    const C E{c, s};
+    for (int m = 1; m <= powers; ++m) {
+      power = power * E;
+      C& to = sum[m & 1];
+      const Scalar n = h * Scalar(m);
+      to.re -= n * x[m] * power.im;
+      to.im += n * y[m] * power.re;
+    }
+    const C odd{sum[1].im, -sum[1].re};
+    return single ? Value{odd, sum[0]} : Value{sum[0], odd};
+  }
+
   /// The same in other numbers, with the terms that these can show.
   template <Real To>
   ThetaPair<To> cast() const noexcept {
