@@ -32,8 +32,8 @@ constexpr int neighbour_sign(int k, int n) noexcept {
 }  // namespace detail
 
 /// The k-th neighbour of an assembly: every datum times 1 +- by; zeros stay.
-template <Real Scalar>
-Assembly<Scalar> neighbour(Assembly<Scalar> given, int k, Scalar by) noexcept {
+template <Real Scalar, class Room>
+Assembly<Scalar, Room> neighbour(Assembly<Scalar, Room> given, int k, Scalar by) noexcept {
   int n = 0;
   const auto move = [&](Scalar& x) { x *= 1 + Scalar(detail::neighbour_sign(k, n++)) * by; };
   auto& body = given.body;
@@ -70,18 +70,18 @@ class MotionError {
 
   /// Of the motion that make<Setup> gives for the reduced assembly, for times up to |horizon|: the nearer, the closer the bounds where a
   /// period is long. Errors: those of Reduced::of and Motion::make.
-  template <Real Setup = Scalar>
-  static Result<MotionError> of(const Assembly<Scalar>& assembly, Data data = Data::rounded,
+  template <Real Setup = Scalar, class Room>
+  static Result<MotionError> of(const Assembly<Scalar, Room>& assembly, Data data = Data::rounded,
                                 Scalar horizon = infinity<Scalar>) noexcept {
-    if (const auto sound = Reduced<Scalar>::of(assembly); !sound) return sound.error();
+    if (const auto sound = Reduced<Scalar, Room>::of(assembly); !sound) return sound.error();
     const auto motion = motion_of(assembly.template cast<Setup>());
     if (!motion) return motion.error();
     return of<Setup>(*motion, assembly, data, horizon);
   }
 
   /// The same where that motion is there already, of a sound assembly.
-  template <Real Setup = Scalar>
-  static MotionError of(const Motion<Scalar>& motion, const Assembly<Scalar>& assembly, Data data = Data::rounded,
+  template <Real Setup = Scalar, class Room>
+  static MotionError of(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly, Data data = Data::rounded,
                         Scalar horizon = infinity<Scalar>) noexcept {
     MotionError error;
     error.horizon_ = std::abs(horizon);
@@ -89,7 +89,7 @@ class MotionError {
     const Setup by = data == Data::exact ? epsilon<Setup> : Setup(epsilon<Scalar>);
     constexpr bool wide = !std::is_same_v<Setup, Scalar>;
     if (!(wide && data == Data::rounded && error.see_from_afar(assembly))) {
-      const Assembly<Setup> given = assembly.template cast<Setup>();
+      const auto given = assembly.template cast<Setup>();
       const Centre centre(motion, error.span_);
       for (int k = 0; k < detail::neighbours; ++k) error.see(centre, motion_of(neighbour<Setup>(given, k, by)));
     }
@@ -147,9 +147,9 @@ class MotionError {
  private:
   static constexpr int nodes = 128;
 
-  template <Real Setup>
-  static Result<Motion<Scalar>> motion_of(const Assembly<Setup>& given) noexcept {
-    return Motion<Scalar>::template make<Setup>(Reduced<Setup>::taken(given).problem);
+  template <Real Setup, class Room>
+  static Result<Motion<Scalar>> motion_of(const Assembly<Setup, Room>& given) noexcept {
+    return Motion<Scalar>::template make<Setup>(Reduced<Setup, Room>::taken(given).problem);
   }
 
   /// A motion and its states at the nodes, from a period before the start to one behind it.
@@ -167,7 +167,8 @@ class MotionError {
 
   /// Looks at neighbours a thousand roundings away, which the arithmetic of Scalar tells apart well, and takes a thousandth of what it sees;
   /// false, and nothing seen, where the motion is not smooth enough in its data for that.
-  bool see_from_afar(const Assembly<Scalar>& assembly) noexcept {
+  template <class Room>
+  bool see_from_afar(const Assembly<Scalar, Room>& assembly) noexcept {
     constexpr Scalar far = 1024, straight = Scalar(1e-3);
     if (kind_ == Kind::steady || kind_ == Kind::separatrix) return false;
     const auto made = motion_of(assembly);
