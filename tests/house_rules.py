@@ -41,7 +41,7 @@ COMMON = "free"  # the family of models that the others stand on: their motion w
 DEFINITION = "_definition.hpp"  # what x_definition.hpp defines x.hpp declares, and includes unless the library is compiled
 
 SPDX = "SPDX-License-Identifier: BSD-3-Clause"
-SPDX_KINDS = {".hpp", ".cpp", ".py", ".cmake", ".toml", ".in"}
+SPDX_KINDS = {".hpp", ".cpp", ".h", ".c", ".rs", ".py", ".cmake", ".toml", ".in"}
 SPDX_NAMES = {"CMakeLists.txt", "dev", "run", ".clang-format", ".clang-tidy", ".editorconfig", ".gitignore"}
 NOT_OURS = {"build", "demo", "dist", "__pycache__"}  # and every hidden folder but .ci
 
@@ -141,7 +141,7 @@ def check_spdx(root):
         if path.suffix in SPDX_KINDS or path.name in SPDX_NAMES:
             lines = path.read_text(encoding="utf-8").split("\n")
             first = lines[1] if lines[0].startswith("#!") and len(lines) > 1 else lines[0]
-            if not first.endswith(SPDX):
+            if not first.removesuffix(" */").endswith(SPDX):
                 yield f"{path.relative_to(root).as_posix()}: the first line is not the licence line ({SPDX})"
 
 

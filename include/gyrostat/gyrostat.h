@@ -13,8 +13,8 @@
  * array, one behind the other; nothing keeps a pointer to an array of the caller.
  *
  * Errors: a function that can fail returns GYROSTAT_OK or why not; gyrostat_message() then says it in words, with what to do.
- * A refused call changes nothing. No exception crosses this border, nothing aborts, and NULL where an object or array is
- * wanted is refused like any other argument.
+ * A refused call changes nothing. No exception crosses this border, and NULL where an object or array is wanted is refused like
+ * any other argument. A program ends only where memory runs out in the midst of a computation.
  *
  * Threads: no function waits for another. Different objects may be used from different threads at once, and so may one
  * object by functions that take it as const. What changes an object must have it alone.
@@ -193,7 +193,7 @@ int gyrostat_propagator_is_closed_form(const gyrostat_propagator* propagator);
  *
  * error[3]: how far the new state may be from that to which the given one moves, the given one taken to be right to a rounding:
  * attitude, rad; angular velocity, rad/s, and rates of the wheels, rad/s, as lengths. NULL: not asked for, and a closed
- * form then takes some microseconds in place of some hundred. Errors of steps that follow each other add up, and grow with the
+ * form then takes a quarter of the time, some 50 microseconds. Errors of steps that follow each other add up, and grow with the
  * motion. */
 int gyrostat_propagate(const gyrostat_propagator* propagator, double dt, double* attitude, double* angular_velocity,
                        double* rotor_rate, double* error);
