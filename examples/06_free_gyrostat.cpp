@@ -15,7 +15,7 @@ int main() {
   Question question;
   question.times = {1, year};
   question.asked = {{free::column::attitude}, {free::column::angular_momentum}};
-  const auto scene = free::Scene::make(satellite, {}, question);
+  const auto scene = free::Scene::make(satellite, question);
   if (!scene) return std::puts(message(scene.error())), 1;
 
   Refusal refusal;

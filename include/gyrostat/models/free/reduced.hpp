@@ -55,7 +55,7 @@ struct Assembly {
 
 /// Why an assembly was refused: which wheel (-1: the body), and the axial inertia that it would have to stay below, kg m^2.
 template <Real Scalar>
-struct Refusal {
+struct UnsoundWheel {
   int wheel = -1;
   Scalar limit = infinity<Scalar>;
 };
@@ -76,11 +76,11 @@ struct Reduced {
   }
 
   /// Errors: those of Problem::check(); of a wheel those of Rotor::from_axis; triangle_inequality where a free wheel leaves an inertia
-  /// that is not positive or that no mass distribution has. `refusal` tells which wheel.
+  /// that is not positive or that no mass distribution has. `unsound` tells which wheel.
   template <Real Given>
-  static Result<Reduced> of(const Assembly<Given, Room>& assembly, Refusal<Given>* refusal = nullptr) noexcept {
+  static Result<Reduced> of(const Assembly<Given, Room>& assembly, UnsoundWheel<Given>* unsound = nullptr) noexcept {
     if (const Errc wrong = assembly.body.check(); wrong != Errc::ok) return wrong;
-    if (const Errc wrong = check_wheels(assembly, refusal); wrong != Errc::ok) return wrong;
+    if (const Errc wrong = check_wheels(assembly, unsound); wrong != Errc::ok) return wrong;
     return taken(assembly);
   }
 
@@ -114,11 +114,11 @@ struct Reduced {
 
  private:
   template <Real Given>
-  static Errc check_wheels(const Assembly<Given, Room>& assembly, Refusal<Given>* refusal) noexcept {
+  static Errc check_wheels(const Assembly<Given, Room>& assembly, UnsoundWheel<Given>* unsound) noexcept {
     Mat3<Given> J = assembly.body.inertia, known = Mat3<Given>::Zero();
     for (std::size_t i = 0; i < assembly.wheels.size(); ++i) {
       const auto& wheel = assembly.wheels[i];
-      if (refusal) refusal->wheel = static_cast<int>(i);
+      if (unsound) unsound->wheel = static_cast<int>(i);
       const auto rotor = Rotor<Given>::from_axis(wheel.axis, wheel.axial_inertia);
       if (!rotor) return rotor.error();
       if (!std::isfinite(wheel.rate)) return Errc::not_finite;
@@ -130,8 +130,8 @@ struct Reduced {
                realisability<Given>(assembly.body.inertia, parts) >= -64 * epsilon<Given> * J.trace();
       };
       if (!allowed(wheel.axial_inertia)) {
-        if (refusal)
-          refusal->limit = math::Bracket<Given>{0, wheel.axial_inertia}
+        if (unsound)
+          unsound->limit = math::Bracket<Given>{0, wheel.axial_inertia}
                                .halved(200, [&](Given I) { return I > 0 && allowed(I); })
                                .yes;
         return Errc::triangle_inequality;
@@ -139,7 +139,7 @@ struct Reduced {
       J = rotor->inertia_without(J);
       known += rotor->least_second_moments();
     }
-    if (refusal) *refusal = {};
+    if (unsound) *unsound = {};
     return Errc::ok;
   }
 };
