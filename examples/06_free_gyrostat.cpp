@@ -2,7 +2,7 @@
 // A satellite drifts with its wheel running and nothing acting on it. Which way does it face in a year, and how sure is that?
 #include <cstdio>
 
-#include "gyrostat/ladder/free/solve.hpp"
+#include "gyrostat/free.hpp"
 
 using namespace gyrostat;
 

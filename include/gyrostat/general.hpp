@@ -5,6 +5,7 @@
 
 #include "gyrostat/ladder/general/custom_motion.hpp"
 #include "gyrostat/ladder/general/inputs.hpp"
+#include "gyrostat/ladder/general/propagator.hpp"
 #include "gyrostat/ladder/general/recognise.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/models/general/collected.hpp"

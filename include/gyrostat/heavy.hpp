@@ -4,6 +4,7 @@
 #pragma once
 
 #include "gyrostat/ladder/heavy/inputs.hpp"
+#include "gyrostat/ladder/heavy/periodic_orbit.hpp"
 #include "gyrostat/ladder/heavy/solve.hpp"
 #include "gyrostat/models/heavy/collocation.hpp"
 #include "gyrostat/models/heavy/euler_case.hpp"
