@@ -39,8 +39,9 @@ extern "C" {
 enum {
   GYROSTAT_OK = 0,
   GYROSTAT_BAD_ARGUMENT = 1, /* NULL, not finite, outside its interval, an unknown name, a wrong number of numbers */
-  GYROSTAT_BAD_SCENE = 2,    /* each part is possible and the whole is not: something is missing, or no body is like that */
-  GYROSTAT_NO_ANSWER = 3,    /* no model could answer: too long, too stiff, a brake that stops the body, lost digits */
+  GYROSTAT_BAD_SCENE =
+      2, /* each part is possible and the whole is not: something is missing, or no body is like that */
+  GYROSTAT_NO_ANSWER = 3, /* no model could answer: too long, too stiff, a brake that stops the body, lost digits */
   GYROSTAT_NO_MEMORY = 4
 };
 
@@ -188,7 +189,7 @@ size_t gyrostat_propagator_wheels(const gyrostat_propagator* propagator);
  * the heap; 0: it integrates the full equations, and does. */
 int gyrostat_propagator_is_closed_form(const gyrostat_propagator* propagator);
 
-/* Moves a state on by dt >= 0, s. Read and written: attitude[4], unit to 1e-6 and made so; angular_velocity[3], rad/s;
+/* Moves a state on by dt >= 0, s; GYROSTAT_NO_ANSWER where the full equations would need more than 100000 steps for it. Read and written: attitude[4], unit to 1e-6 and made so; angular_velocity[3], rad/s;
  * rotor_rate[], rad/s relative to the body, one for each wheel, NULL where there are none. A refused call leaves them as they are.
  *
  * error[3]: how far the new state may be from that to which the given one moves, the given one taken to be right to a rounding:

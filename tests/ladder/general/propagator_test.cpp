@@ -242,6 +242,25 @@ TEST_CASE("what cannot be moved on is refused, and the state stays", "[general]"
   CHECK(state.angular_velocity == fine.angular_velocity);
 }
 
+TEST_CASE("errors are numbers where nothing is known, and a step that is too long ends", "[general]") {
+  Random random(9);
+  auto problem = body(random);
+  add_wheel(problem, random, WheelType::held, 0.1);
+  auto made = Propagator::make(problem, 1e-9);
+  Moving state = start(random, 1);
+  MovedError error;
+  REQUIRE(made->advance(1e18, state, &error) == Errc::ok);
+  CHECK(error.attitude == infinity<double>);
+  CHECK(error.angular_velocity == infinity<double>);
+  CHECK(error.rotor_rate == 0);
+  Torque<double> push;
+  push.vector = {1e-6, 0, 0};
+  problem.torques = {push};
+  made = Propagator::make(problem, 1e-9);
+  state = start(random, 1);
+  CHECK(made->advance(1e7, state, &error) == Errc::step_limit);
+}
+
 TEST_CASE("a problem that knows the time is refused, with the reason", "[general]") {
   Random random(8);
   const auto plain = body(random);

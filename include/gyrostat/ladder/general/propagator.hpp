@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -45,6 +46,9 @@ struct MovedError {
 /// takes no memory from the heap; else, and where rounding hides on which side of a separatrix the motion runs, it is the full equations.
 class Propagator {
  public:
+  /// Steps that one run of the full equations may take: a second or two in all, where none of the runs does with fewer.
+  static constexpr std::uint64_t step_cap = 100'000;
+
   Propagator() = default;
 
   /// Why states alone do not tell how the body moves on; nullptr: they do. Of a problem that check() finds right.
@@ -156,7 +160,8 @@ class Propagator {
     const auto bound = known.at(dt);
     error->attitude = bound.attitude;
     error->angular_velocity = bound.angular_velocity * known.fastest();
-    error->rotor_rate = std::sqrt(freely) * (error->angular_velocity + 8 * epsilon<double> * fastest);
+    const double off = error->angular_velocity + 8 * epsilon<double> * fastest;
+    error->rotor_rate = freely > 0 ? std::sqrt(freely) * off : 0.0;
     return true;
   }
 
@@ -171,6 +176,7 @@ class Propagator {
     FullMotionOptions<double> options;
     options.tolerance = tolerance_;
     options.wanted = wanted.of;
+    options.step_cap = step_cap;
     State<double> there;
     const std::array<double, 1> times{dt};
     const auto made = full_motion<double>(problem, times, std::span<State<double>>(&there, 1), options);
