@@ -59,6 +59,11 @@ struct Key {
 };
 
 Vec3<double> vector(Numbers v) { return {v[0], v[1], v[2]}; }
+/// Of unit length, whatever the size of the numbers.
+Vec3<double> direction(Numbers v) {
+  const Vec3<double> d = vector(v);
+  return (d / d.cwiseAbs().maxCoeff()).normalized();
+}
 Mat3<double> matrix(Numbers v) {
   Mat3<double> made = Mat3<double>::Zero();
   for (int i = 0; i < 9; ++i) {
@@ -110,8 +115,7 @@ constexpr Key keys[] = {
     {"initial.error.velocity", Shape::one, Need::no, [](Scene& s, Numbers v) { s.start_error.velocity = v[0]; }},
     {"initial.error.position", Shape::one, Need::no, [](Scene& s, Numbers v) { s.start_error.position = v[0]; }},
 
-    {"wheel.axis", Shape::direction, Need::yes,
-     [](Scene& s, Numbers v) { wheel(s).axis = vector(v).stableNormalized(); }},
+    {"wheel.axis", Shape::direction, Need::yes, [](Scene& s, Numbers v) { wheel(s).axis = direction(v); }},
     {"wheel.axial_inertia", Shape::one, Need::yes, [](Scene& s, Numbers v) { wheel(s).axial_inertia = v[0]; }},
     {"wheel.rate", Shape::one, Need::no, [](Scene& s, Numbers v) { wheel(s).rate = v[0]; }, moving},
     {"wheel.angle", Shape::one, Need::no, [](Scene& s, Numbers v) { wheel(s).angle = v[0]; }, moving},
@@ -159,24 +163,21 @@ constexpr Key keys[] = {
     {"orbit.mu", Shape::one, Need::with_group, [](Scene& s, Numbers v) { orbit(s).mu = v[0]; }},
     {"orbit.eccentricity", Shape::one, Need::no, [](Scene& s, Numbers v) { orbit(s).eccentricity = v[0]; }},
     {"orbit.true_anomaly", Shape::one, Need::no, [](Scene& s, Numbers v) { orbit(s).true_anomaly = v[0]; }},
-    {"orbit.radial", Shape::direction, Need::no,
-     [](Scene& s, Numbers v) { orbit(s).radial = vector(v).stableNormalized(); }},
-    {"orbit.along", Shape::direction, Need::no,
-     [](Scene& s, Numbers v) { orbit(s).along = vector(v).stableNormalized(); }},
+    {"orbit.radial", Shape::direction, Need::no, [](Scene& s, Numbers v) { orbit(s).radial = direction(v); }},
+    {"orbit.along", Shape::direction, Need::no, [](Scene& s, Numbers v) { orbit(s).along = direction(v); }},
 
     {"field.gravity", Shape::one, Need::no, [](Scene& s, Numbers v) { s.problem.field.gravity = v[0]; }},
-    {"field.down", Shape::direction, Need::no,
-     [](Scene& s, Numbers v) { s.problem.field.down = vector(v).stableNormalized(); }},
+    {"field.down", Shape::direction, Need::no, [](Scene& s, Numbers v) { s.problem.field.down = direction(v); }},
     {"field.uniform", Shape::three, Need::no,
      [](Scene& s, Numbers v) { field(s, F::uniform).flux_density = vector(v); }},
     {"field.rotating.axis", Shape::direction, Need::with_group,
-     [](Scene& s, Numbers v) { field(s, F::rotating).axis = vector(v).stableNormalized(); }},
+     [](Scene& s, Numbers v) { field(s, F::rotating).axis = direction(v); }},
     {"field.rotating.rate", Shape::one, Need::with_group,
      [](Scene& s, Numbers v) { field(s, F::rotating).rate = v[0]; }},
     {"field.rotating.vector", Shape::three, Need::with_group,
      [](Scene& s, Numbers v) { field(s, F::rotating).flux_density = vector(v); }},
     {"field.dipole.axis", Shape::direction, Need::with_group,
-     [](Scene& s, Numbers v) { field(s, F::dipole).axis = vector(v).stableNormalized(); }},
+     [](Scene& s, Numbers v) { field(s, F::dipole).axis = direction(v); }},
     {"field.dipole.strength", Shape::one, Need::with_group,
      [](Scene& s, Numbers v) { field(s, F::dipole).strength = v[0]; }},
     {"field.dipole.radius", Shape::one, Need::with_group,

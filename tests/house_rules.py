@@ -305,7 +305,32 @@ def check_citations(root):
                     yield f"{where} cites {name}, which is not there"
 
 
-CHECKS = [check_layers, check_sundials, check_umbrellas, check_page_of_headers, check_headers, check_spdx, check_version, check_functions, check_citations]
+C_HEADER, C_KEYS = "include/gyrostat/gyrostat.h", "src/c_scene.cpp"
+PART = r"(?:body|initial|wheel|torque|orbit|field|solve)\."
+
+
+def keys_told(text):
+    """The keys in the table of the C header, `.rate` behind torque.factor.mean being torque.factor.rate."""
+    table = re.search(r"---- A scene ----(.*?)\*/", text, re.S)
+    for line in table[1].splitlines() if table else ():
+        last = ""
+        for name in re.findall(rf"(?<![\w.]){PART}[a-z_.]*[a-z_]|(?<![\w.])\.[a-z_]+", line):
+            last = last.rpartition(".")[0] + name if name.startswith(".") else name
+            yield last
+
+
+def check_c_keys(root):
+    header, source = root / C_HEADER, root / C_KEYS
+    if not header.is_file() or not source.is_file():
+        return
+    told = set(keys_told(header.read_text(encoding="utf-8")))
+    named = set(re.findall(rf'"({PART}[a-z_.]*[a-z_])"', source.read_text(encoding="utf-8")))
+    known = {name for name in named if not any(other.startswith(name + ".") for other in named)}  # without names of groups
+    for name in sorted(told ^ known):
+        yield f"{C_HEADER} lists {name}, which {C_KEYS} does not know" if name in told else f"{C_HEADER} does not list the key {name} of {C_KEYS}"
+
+
+CHECKS = [check_layers, check_sundials, check_umbrellas, check_page_of_headers, check_headers, check_c_keys, check_spdx, check_version, check_functions, check_citations]
 
 
 def breaches(root):
@@ -335,6 +360,8 @@ def sound_tree(root):
         if short not in UNTESTED:
             write[f"tests/{short[:-4]}_test.cpp"] = f'// {SPDX}\n#include "gyrostat/{short}"\n'
     write["src/cvode.cpp"] = f"// {SPDX}\n#include <cvode/cvode.h>\n"
+    write[C_HEADER] = f"/* {SPDX} */\n/* ---- A scene ----\n * wheel.rate, .angle 1\n */\n"
+    write[C_KEYS] = f'// {SPDX}\nKey keys[] = {{{{"wheel.rate"}}, {{"wheel.angle"}}}};\n'
     write["dev"] = f"#!/usr/bin/env bash\n# {SPDX}\n"
     write["CMakeLists.txt"] = f"# {SPDX}\nproject(gyrostat VERSION 1.2.3)\n"
     write["pyproject.toml"] = f'# {SPDX}\nversion = "1.2.3"\n'
@@ -395,6 +422,8 @@ BREACHES = [
     ("umbrella of a family stale", append("docs/headers.md", "| `math/root.hpp` | roots |\n"), "include/gyrostat/heavy.hpp does not list"),
     ("a public header that is not there", append("docs/headers.md", "\n## Mathematics\n\n| `math/lost.hpp` | lost |\n"), "lists math/lost.hpp"),
     ("a family without a section", replace("docs/headers.md", "## heavy", "## light"), "no section of the family heavy"),
+    ("a key that the C header does not list", append("src/c_scene.cpp", 'Key more = {"wheel.colour"};\n'), "does not list the key wheel.colour"),
+    ("a key that is not there", replace("include/gyrostat/gyrostat.h", ".angle", ".angle, .weight"), "lists wheel.weight"),
     ("no licence line in C", append("tests/c/x.c", "int x;\n"), "tests/c/x.c: the first line is not the licence line"),
     ("stray layer", append("include/gyrostat/extras/x.hpp", f"// {SPDX}\n#pragma once\n"), "no layer is called extras"),
     ("umbrella stale", append("include/gyrostat/gyrostat.hpp", "// more\n"), "does not list"),
