@@ -61,8 +61,9 @@ Outcome no_pointer(const char* what) { return {GYROSTAT_BAD_ARGUMENT, std::strin
 Outcome answered(const gyrostat_scene& given, std::unique_ptr<gyrostat_answer>& made) {
   using namespace gyrostat;
   if (auto wrong = c::complete(given, true); wrong.code != GYROSTAT_OK) return wrong;
-  const auto scene = general::Scene::make(given.problem, given.question, given.recognise);
-  if (!scene) return {GYROSTAT_BAD_SCENE, c::fault_of(given.problem, scene.error())};
+  const auto problem = c::problem_of(given);
+  const auto scene = general::Scene::make(problem, given.question, given.recognise);
+  if (!scene) return {GYROSTAT_BAD_SCENE, c::fault_of(problem, scene.error())};
   for (const AskedQuantity& each : given.question.asked)
     if (!each.scalar && !scene->has_column(each.place))
       return {GYROSTAT_BAD_SCENE, std::string("this scene has no column ") + general::column_kinds[each.place].name +
@@ -77,14 +78,15 @@ Outcome answered(const gyrostat_scene& given, std::unique_ptr<gyrostat_answer>& 
 Outcome prepared(const gyrostat_scene& given, std::unique_ptr<gyrostat_propagator>& made) {
   using namespace gyrostat;
   if (auto wrong = c::complete(given, false); wrong.code != GYROSTAT_OK) return wrong;
-  const auto propagator = general::Propagator::make(given.problem, given.question.tolerance);
+  const auto problem = c::problem_of(given);
+  const auto propagator = general::Propagator::make(problem, given.question.tolerance);
   if (propagator) {
     made = std::make_unique<gyrostat_propagator>(gyrostat_propagator{*propagator});
     return {};
   }
-  if (propagator.error() != Errc::not_applicable || general::check(given.problem))
-    return {GYROSTAT_BAD_SCENE, c::fault_of(given.problem, propagator.error())};
-  return {GYROSTAT_BAD_SCENE, std::string(general::Propagator::clock_needed(given.problem)) +
+  if (propagator.error() != Errc::not_applicable || general::check(problem))
+    return {GYROSTAT_BAD_SCENE, c::fault_of(problem, propagator.error())};
+  return {GYROSTAT_BAD_SCENE, std::string(general::Propagator::clock_needed(problem)) +
                                   ", and a state does not tell the time: ask gyrostat_solve for the span"};
 }
 

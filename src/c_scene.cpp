@@ -429,6 +429,18 @@ Outcome complete(const gyrostat_scene& scene, bool with_question) {
   return {};
 }
 
+general::Problem<double> problem_of(const gyrostat_scene& scene) {
+  general::Problem<double> made = scene.problem;
+  if (!made.orbit) return made;
+  const Vec3<double>& radial = made.orbit->radial;
+  Vec3<double>& along = made.orbit->along;
+  for (int trip = 0; trip < 2; ++trip) {  // the second drops what the first left of a direction that is nearly radial
+    along -= along.dot(radial) * radial;
+    if (!along.isZero(0)) along.normalize();
+  }
+  return made;
+}
+
 std::string fault_of(const general::Problem<double>& problem, Errc code) {
   const general::Fault of_wheel = general::check_wheels(problem), fault = general::check(problem);
   if (!fault) return message(code);

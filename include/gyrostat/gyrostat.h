@@ -94,15 +94,16 @@ const char* gyrostat_message(void);
  *   torque.dipole*          3     A m^2    magnetic
  *   torque.force*, torque.point  3  N, m   thrust; point from the body's origin, 0
  *   torque.momentum*        3     N m s    charge
- *   torque.frame                           word: body (default), inertial; orbit but of a thrust: constant, table, thrust
+ *   torque.frame                           word: body (default), inertial, orbit; constant, table; a thrust: not orbit
  *   torque.on               2n    s        it acts from each begin to each end; always where this is not said
  *   torque.factor.mean, .amplitude, .rate, .phase  1  -, -, rad/s, rad  times mean + amplitude sin(rate t + phase)
  *   torque.factor.times, .values  n  s, -  or times a table; torque.factor.interpolation, .extend: words
- *     (no type but table has none of these factors; `weight` has no key of its own)
+ *     (each type but table takes a factor; `weight` has no key of its own)
  *
  *   orbit.radius*, orbit.mu*  1   m, m^3/s^2  of the mass centre, as soon as a key of the orbit is set
  *   orbit.eccentricity, orbit.true_anomaly  1  -, rad; 0
- *   orbit.radial, orbit.along  3           inertial axes at t = 0, of any length; [1, 0, 0], [0, 1, 0]
+ *   orbit.radial, orbit.along  3           outward and ahead at t = 0, inertial axes, of any length; what of the second is radial
+ *                                          is dropped; [1, 0, 0], [0, 1, 0]
  *
  *   field.gravity           1     m/s^2    0
  *   field.down              3              inertial axes, of any length but zero; [0, 0, -1]
@@ -186,11 +187,12 @@ void gyrostat_propagator_free(gyrostat_propagator* propagator);
 size_t gyrostat_propagator_wheels(const gyrostat_propagator* propagator);
 
 /* 1: nothing acts on the body and no wheel is driven or slowed, so that gyrostat_propagate is a closed form that takes no memory from
- * the heap; 0: it integrates the full equations, and does. */
+ * the heap, but where rounding hides on which side of a separatrix the motion runs; 0: it integrates the full equations, and takes some. */
 int gyrostat_propagator_is_closed_form(const gyrostat_propagator* propagator);
 
-/* Moves a state on by dt >= 0, s; GYROSTAT_NO_ANSWER where the full equations would need more than 100000 steps for it. Read and written: attitude[4], unit to 1e-6 and made so; angular_velocity[3], rad/s;
- * rotor_rate[], rad/s relative to the body, one for each wheel, NULL where there are none. A refused call leaves them as they are.
+/* Moves a state on by dt >= 0, s; GYROSTAT_NO_ANSWER where the full equations would need more than 100000 steps for it. Read and
+ * written: attitude[4], unit to 1e-6 and made so; angular_velocity[3], rad/s; rotor_rate[], rad/s relative to the body, one for
+ * each wheel, NULL where there are none. A refused call leaves them as they are.
  *
  * error[3]: how far the new state may be from that to which the given one moves, the given one taken to be right to a rounding:
  * attitude, rad; angular velocity, rad/s, and rates of the wheels, rad/s, as lengths. NULL: not asked for, and a closed

@@ -207,6 +207,7 @@ static void damped_and_pushed(void) {
 
 /* A symmetric top that turns about the vertical keeps its rates; a body that lies right in a circular orbit keeps turning with it. */
 static void surroundings(void) {
+  const double outward[] = {2, 0, 0}, ahead[] = {-1, 3, 0};
   const double high[] = {0, 0, 0.1}, radius = 7e6, mu = 3.986e14, n = sqrt(mu / radius) / radius;
   gyrostat_scene* scene = body(0.02, 0.02, 0.015, 0, 0, 60);
   gyrostat_answer* answer;
@@ -228,6 +229,8 @@ static void surroundings(void) {
   scene = body(10, 30, 35, 0, 0, n);
   OK(gyrostat_set_number(scene, "orbit.radius", radius));
   OK(gyrostat_set_number(scene, "orbit.mu", mu));
+  OK(gyrostat_set(scene, "orbit.radial", outward, 3));
+  OK(gyrostat_set(scene, "orbit.along", ahead, 3));
   OK(gyrostat_add(scene, "torque", "gravity-gradient"));
   answer = solved(scene, "full");
   if (answer == NULL) return;
