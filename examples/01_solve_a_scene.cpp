@@ -2,7 +2,7 @@
 // A satellite spins up its wheel: where is the wheel after a minute, ten minutes, an hour?
 #include <cstdio>
 
-#include "gyrostat/ladder/rotor/solve.hpp"
+#include "gyrostat/rotor.hpp"
 
 using namespace gyrostat;
 

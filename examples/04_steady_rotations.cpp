@@ -4,8 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "gyrostat/models/rotor/attractor.hpp"
-#include "gyrostat/models/rotor/steady_stability.hpp"
+#include "gyrostat/rotor.hpp"
 
 using namespace gyrostat;
 

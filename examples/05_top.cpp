@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "gyrostat/ladder/heavy/periodic_orbit.hpp"
+#include "gyrostat/heavy.hpp"
 
 using namespace gyrostat;
 

@@ -2,7 +2,7 @@
 // A satellite drifts with its wheel running and nothing acting on it. Which way does it face in a year, and how sure is that?
 #include <cstdio>
 
-#include "gyrostat/ladder/free/solve.hpp"
+#include "gyrostat/free.hpp"
 
 using namespace gyrostat;
 
@@ -15,7 +15,7 @@ int main() {
   Question question;
   question.times = {1, year};
   question.asked = {{free::column::attitude}, {free::column::angular_momentum}};
-  const auto scene = free::Scene::make(satellite, {}, question);
+  const auto scene = free::Scene::make(satellite, question);
   if (!scene) return std::puts(message(scene.error())), 1;
 
   Refusal refusal;

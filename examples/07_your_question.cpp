@@ -3,7 +3,7 @@
 // asked for costs nothing.
 #include <cstdio>
 
-#include "gyrostat/ladder/rotor/solve.hpp"
+#include "gyrostat/rotor.hpp"
 
 using namespace gyrostat;
 

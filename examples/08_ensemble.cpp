@@ -6,8 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "gyrostat/ladder/deceleration/inputs.hpp"
-#include "gyrostat/ladder/deceleration/solve.hpp"
+#include "gyrostat/deceleration.hpp"
 #include "gyrostat/ladder/sweep.hpp"
 
 using namespace gyrostat;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "gyrostat/ladder/heavy/solve.hpp"
+#include "gyrostat/heavy.hpp"
 
 using namespace gyrostat;
 

@@ -3,6 +3,7 @@
 """Runs an example and holds one number that it prints against what is known of it from elsewhere.
 
     examples.py NAME COMMAND...     exit status 1, and what was printed, where the example fails or prints another number
+    examples.py --same A B          exit status 1 where the programs A and B do not print the same
 
 The examples of one name in C++ and in Python print the same number. Needs Python 3.9 and nothing else.
 """
@@ -27,9 +28,20 @@ EXPECTED = {
 }
 
 
+def run(command):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=60)
+
+
+def differ(programs):
+    """What the programs print, where it differs or one fails; None: they print the same."""
+    ran = [run([program]) for program in programs]
+    same = all(each.returncode == 0 and each.stdout == ran[0].stdout for each in ran)
+    return None if same else "\n".join(f"{program}: exit status {each.returncode}\n{each.stdout}" for program, each in zip(programs, ran))
+
+
 def wrong(name, command):
     """What is wrong with the example; None: nothing."""
-    ran = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=60)
+    ran = run(command)
     words, value, tolerance = EXPECTED[name]
     found = re.search(re.escape(words) + r"\s+([-+]?[\d.]+(?:e[-+]?\d+)?)", ran.stdout)
     if ran.returncode != 0:
@@ -43,7 +55,7 @@ def wrong(name, command):
 
 def main():
     name, *command = sys.argv[1:]
-    problem = wrong(name, command)
+    problem = differ(command) if name == "--same" else wrong(name, command)
     print(f"{name}: {problem or 'as expected'}")
     return 1 if problem else 0
 

@@ -3,7 +3,8 @@
 """The rules of the source tree that no compiler checks.
 
     house_rules.py [--root DIR]     check the tree; one line a breach; exit status 1 if there is any
-    house_rules.py --write          write include/gyrostat/gyrostat.hpp anew from the headers that are there
+    house_rules.py --write          write include/gyrostat/gyrostat.hpp anew from the headers that are there, and the umbrella of each
+                                    family (gyrostat/rotor.hpp) from the page docs/headers.md, which lists what is public
     house_rules.py --self-test      break each rule in a scratch tree and see that it is noticed
 
 Layers: core <- math <- rotation <- body <- models <- ladder; ode sees core and math only. core, math and ode know no Eigen;
@@ -37,11 +38,14 @@ TABLES = {  # tables and the like: tested where they are used
     "ode/dop853.hpp": "ode/runge_kutta_test.cpp",
 }
 UMBRELLA = "gyrostat.hpp"
+PAGE_OF_HEADERS = "docs/headers.md"  # what it names is public, and so is what the umbrella of a family includes; all else is a detail
+OF_EVERY_FAMILY = ["ladder/{}/inputs.hpp", "ladder/{}/solve.hpp"]
+UMBRELLAS_TEST = "ladder/one_form_test.cpp"
 COMMON = "free"  # the family of models that the others stand on: their motion where nothing acts
 DEFINITION = "_definition.hpp"  # what x_definition.hpp defines x.hpp declares, and includes unless the library is compiled
 
 SPDX = "SPDX-License-Identifier: BSD-3-Clause"
-SPDX_KINDS = {".hpp", ".cpp", ".py", ".cmake", ".toml", ".in"}
+SPDX_KINDS = {".hpp", ".cpp", ".h", ".c", ".rs", ".py", ".cmake", ".toml", ".in"}
 SPDX_NAMES = {"CMakeLists.txt", "dev", "run", ".clang-format", ".clang-tidy", ".editorconfig", ".gitignore"}
 NOT_OURS = {"build", "demo", "dist", "__pycache__"}  # and every hidden folder but .ci
 
@@ -63,9 +67,18 @@ def family(relative):
     return parts[1] if parts[0] == "models" and len(parts) > 2 else None
 
 
+def families(root):
+    """The families, by the folders of their ladders."""
+    return sorted(path.parent.name for path in (root / "include" / "gyrostat" / "ladder").glob("*/solve.hpp"))
+
+
+def umbrellas(root):
+    return {UMBRELLA, *(f"{name}.hpp" for name in families(root))}
+
+
 def check_layers(root):
     known = set(headers(root))
-    for header in sorted(known - {UMBRELLA}):
+    for header in sorted(known - umbrellas(root)):
         path = root / "include" / "gyrostat" / header
         layer = header.split("/")[0] if "/" in header else None
         if layer is not None and layer not in LAYERS:
@@ -79,7 +92,7 @@ def check_layers(root):
                     yield f'{where}: write "gyrostat/..." in full'
                 elif target not in known:
                     yield f"{where}: there is no such header"
-                elif target == UMBRELLA:
+                elif target in umbrellas(root):
                     yield f"{where}: include what is used, not everything"
                 elif OPTIONAL.search(target) and not OPTIONAL.search(header):
                     yield f"{where}: a header that every build has cannot need an optional library"
@@ -105,17 +118,49 @@ def check_sundials(root):
                         yield f"{relative} includes {name}: only src/cvode.cpp includes SUNDIALS"
 
 
-def umbrella_text(root):
-    lines = [f'#include "gyrostat/{h}"' for h in headers(root) if h != UMBRELLA and not OPTIONAL.search(h) and not h.endswith(DEFINITION)]
-    return (f"// {SPDX}\n"
-            "// Everything but the headers of the optional targets gyrostat::gsl and gyrostat::cvode.\n"
-            "#pragma once\n\n" + "\n".join(lines) + "\n")
+def including(comment, names):
+    return f"// {SPDX}\n{comment}\n#pragma once\n\n" + "\n".join(f'#include "gyrostat/{name}"' for name in names) + "\n"
 
 
-def check_umbrella(root):
-    path = root / "include" / "gyrostat" / UMBRELLA
-    if not path.is_file() or path.read_text(encoding="utf-8") != umbrella_text(root):
-        yield f"include/gyrostat/{UMBRELLA} does not list the headers that are there: run tests/house_rules.py --write"
+def listed(root):
+    """Section -> the headers that the page of headers names there, first column of its tables."""
+    page = root / PAGE_OF_HEADERS
+    found = {}
+    for section in re.split(r"^## ", page.read_text(encoding="utf-8") if page.is_file() else "", flags=re.M)[1:]:
+        cells = re.findall(r"^\|([^|]*)\|", section, re.M)
+        found[re.match(r"[^:\n]*", section)[0]] = [name for cell in cells for name in re.findall(r"`([\w/]+\.hpp)`", cell)]
+    return found
+
+
+def umbrella_texts(root):
+    """The text of each umbrella."""
+    ours = umbrellas(root)
+    every = [h for h in headers(root) if h not in ours and not OPTIONAL.search(h) and not h.endswith(DEFINITION)]
+    texts = {UMBRELLA: including("// Everything but the headers of the optional targets gyrostat::gsl and gyrostat::cvode.", every)}
+    for name in families(root):
+        public = {each.format(name) for each in OF_EVERY_FAMILY} | set(listed(root).get(name, ()))
+        texts[f"{name}.hpp"] = including(
+            f"// What is public of the family `{name}`: its ladder, and the models that {PAGE_OF_HEADERS} lists. What else its folders hold are\n"
+            "// details: free to read, and to change from one version to the next.", sorted(public))
+    return texts
+
+
+def check_umbrellas(root):
+    for name, text in umbrella_texts(root).items():
+        path = root / "include" / "gyrostat" / name
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            yield f"include/gyrostat/{name} does not list the headers that it should: run tests/house_rules.py --write"
+
+
+def check_page_of_headers(root):
+    known, sections = set(headers(root)), listed(root)
+    for section, names in sections.items():
+        for name in names:
+            if name not in known:
+                yield f"{PAGE_OF_HEADERS} lists {name}, which is not there"
+    for name in families(root):
+        if name not in sections:
+            yield f"{PAGE_OF_HEADERS} has no section of the family {name}"
 
 
 def check_headers(root):
@@ -123,7 +168,8 @@ def check_headers(root):
         text = (root / "include" / "gyrostat" / header).read_text(encoding="utf-8")
         if "#pragma once" not in text:
             yield f"include/gyrostat/{header}: no #pragma once"
-        test = "tests/" + TABLES.get(header, header.replace(DEFINITION, ".hpp")[:-len(".hpp")] + "_test.cpp")
+        own = header.replace(DEFINITION, ".hpp")[:-len(".hpp")] + "_test.cpp"
+        test = "tests/" + (UMBRELLAS_TEST if header in umbrellas(root) else TABLES.get(header, own))
         if header not in UNTESTED and not (root / test).is_file():
             yield f"include/gyrostat/{header}: its test {test} is missing"
 
@@ -141,7 +187,7 @@ def check_spdx(root):
         if path.suffix in SPDX_KINDS or path.name in SPDX_NAMES:
             lines = path.read_text(encoding="utf-8").split("\n")
             first = lines[1] if lines[0].startswith("#!") and len(lines) > 1 else lines[0]
-            if not first.endswith(SPDX):
+            if not first.removesuffix(" */").endswith(SPDX):
                 yield f"{path.relative_to(root).as_posix()}: the first line is not the licence line ({SPDX})"
 
 
@@ -259,7 +305,32 @@ def check_citations(root):
                     yield f"{where} cites {name}, which is not there"
 
 
-CHECKS = [check_layers, check_sundials, check_umbrella, check_headers, check_spdx, check_version, check_functions, check_citations]
+C_HEADER, C_KEYS = "include/gyrostat/gyrostat.h", "src/c_scene.cpp"
+PART = r"(?:body|initial|wheel|torque|orbit|field|solve)\."
+
+
+def keys_told(text):
+    """The keys in the table of the C header, `.rate` behind torque.factor.mean being torque.factor.rate."""
+    table = re.search(r"---- A scene ----(.*?)\*/", text, re.S)
+    for line in table[1].splitlines() if table else ():
+        last = ""
+        for name in re.findall(rf"(?<![\w.]){PART}[a-z_.]*[a-z_]|(?<![\w.])\.[a-z_]+", line):
+            last = last.rpartition(".")[0] + name if name.startswith(".") else name
+            yield last
+
+
+def check_c_keys(root):
+    header, source = root / C_HEADER, root / C_KEYS
+    if not header.is_file() or not source.is_file():
+        return
+    told = set(keys_told(header.read_text(encoding="utf-8")))
+    named = set(re.findall(rf'"({PART}[a-z_.]*[a-z_])"', source.read_text(encoding="utf-8")))
+    known = {name for name in named if not any(other.startswith(name + ".") for other in named)}  # without names of groups
+    for name in sorted(told ^ known):
+        yield f"{C_HEADER} lists {name}, which {C_KEYS} does not know" if name in told else f"{C_HEADER} does not list the key {name} of {C_KEYS}"
+
+
+CHECKS = [check_layers, check_sundials, check_umbrellas, check_page_of_headers, check_headers, check_c_keys, check_spdx, check_version, check_functions, check_citations]
 
 
 def breaches(root):
@@ -280,6 +351,8 @@ def sound_tree(root):
         "include/gyrostat/models/rotor/full.hpp": '#include "gyrostat/models/free/full.hpp"\n#include "gyrostat/version.hpp"',
         "include/gyrostat/ode/taylor.hpp": '#include "gyrostat/math/root.hpp"',
         "include/gyrostat/ladder/solve.hpp": '#include "gyrostat/ode/taylor.hpp"\n#include "gyrostat/models/heavy/full.hpp"',
+        "include/gyrostat/ladder/heavy/solve.hpp": '#include "gyrostat/models/heavy/full.hpp"',
+        "include/gyrostat/ladder/heavy/inputs.hpp": '#include "gyrostat/models/heavy/full.hpp"',
     }
     write = {name: f"// {SPDX}\n#pragma once\n{text}\n" for name, text in files.items()}
     for name in files:
@@ -287,17 +360,26 @@ def sound_tree(root):
         if short not in UNTESTED:
             write[f"tests/{short[:-4]}_test.cpp"] = f'// {SPDX}\n#include "gyrostat/{short}"\n'
     write["src/cvode.cpp"] = f"// {SPDX}\n#include <cvode/cvode.h>\n"
+    write[C_HEADER] = f"/* {SPDX} */\n/* ---- A scene ----\n * wheel.rate, .angle 1\n */\n"
+    write[C_KEYS] = f'// {SPDX}\nKey keys[] = {{{{"wheel.rate"}}, {{"wheel.angle"}}}};\n'
     write["dev"] = f"#!/usr/bin/env bash\n# {SPDX}\n"
     write["CMakeLists.txt"] = f"# {SPDX}\nproject(gyrostat VERSION 1.2.3)\n"
     write["pyproject.toml"] = f'# {SPDX}\nversion = "1.2.3"\n'
     write["CITATION.cff"] = "version: 1.2.3\n"
     write["CHANGELOG.md"] = "## 1.2.3\n"
+    write[f"tests/{UMBRELLAS_TEST}"] = f'// {SPDX}\n#include "gyrostat/heavy.hpp"\n'
+    write[PAGE_OF_HEADERS] = "# Headers\n\n## heavy: tops\n\n| header | question |\n|---|---|\n| `models/heavy/full.hpp` | all |\n"
     write["docs/heavy.md"] = "# Heavy\n\n## 2. Equations\n\n### 2.1 Numerics\n"
     write["python/gyrostat/tool.py"] = f"# {SPDX}\ndef short():\n    return 1\n"
     for name, text in write.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(text, encoding="utf-8")
-    (root / "include/gyrostat" / UMBRELLA).write_text(umbrella_text(root), encoding="utf-8")
+    write_umbrellas(root)
+
+
+def write_umbrellas(root):
+    for name, text in umbrella_texts(root).items():
+        (root / "include" / "gyrostat" / name).write_text(text, encoding="utf-8")
 
 
 def append(name, text):
@@ -336,6 +418,13 @@ BREACHES = [
     ("short include", append("include/gyrostat/ladder/solve.hpp", '#include "answer.hpp"\n'), "in full"),
     ("lost include", append("include/gyrostat/ladder/solve.hpp", '#include "gyrostat/core/lost.hpp"\n'), "no such header"),
     ("umbrella inside", append("include/gyrostat/ladder/solve.hpp", '#include "gyrostat/gyrostat.hpp"\n'), "not everything"),
+    ("umbrella of a family inside", append("include/gyrostat/ladder/solve.hpp", '#include "gyrostat/heavy.hpp"\n'), "not everything"),
+    ("umbrella of a family stale", append("docs/headers.md", "| `math/root.hpp` | roots |\n"), "include/gyrostat/heavy.hpp does not list"),
+    ("a public header that is not there", append("docs/headers.md", "\n## Mathematics\n\n| `math/lost.hpp` | lost |\n"), "lists math/lost.hpp"),
+    ("a family without a section", replace("docs/headers.md", "## heavy", "## light"), "no section of the family heavy"),
+    ("a key that the C header does not list", append("src/c_scene.cpp", 'Key more = {"wheel.colour"};\n'), "does not list the key wheel.colour"),
+    ("a key that is not there", replace("include/gyrostat/gyrostat.h", ".angle", ".angle, .weight"), "lists wheel.weight"),
+    ("no licence line in C", append("tests/c/x.c", "int x;\n"), "tests/c/x.c: the first line is not the licence line"),
     ("stray layer", append("include/gyrostat/extras/x.hpp", f"// {SPDX}\n#pragma once\n"), "no layer is called extras"),
     ("umbrella stale", append("include/gyrostat/gyrostat.hpp", "// more\n"), "does not list"),
     ("no pragma once", replace("include/gyrostat/core/real.hpp", "#pragma once", ""), "no #pragma once"),
@@ -379,7 +468,7 @@ def main():
     if args.self_test:
         return self_test()
     if args.write:
-        (args.root / "include" / "gyrostat" / UMBRELLA).write_text(umbrella_text(args.root), encoding="utf-8")
+        write_umbrellas(args.root)
     found = breaches(args.root)
     print("\n".join(found) if found else f"the rules hold in {len(headers(args.root))} headers")
     return 1 if found else 0

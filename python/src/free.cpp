@@ -34,9 +34,9 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Wheels
     const auto& [axis, direction, half_angle] = *view;
     seen = {vector("view.axis", axis), vector("view.direction", direction), half_angle};
   }
-  free::Refusal<double> refusal;
-  const auto scene = sound(free::Scene::make(assembly, seen, question, &refusal), assembly, refusal);
-  gyrostat::Refusal why;
+  free::UnsoundWheel<double> unsound;
+  const auto scene = sound(free::Scene::make(assembly, question, &unsound), assembly, unsound).viewed(seen);
+  Refusal why;
   auto [answer, seconds] = timed([&] { return free::solve(scene, why, monitor ? monitor->get() : nullptr); });
   require_answer(why);
   return to_python(answer, scene.question(), free::tables, seconds);
@@ -47,8 +47,8 @@ Data reduced(const Array& inertia, const Array& rotor_momentum, const Wheels& wh
              const std::optional<Array>& angular_velocity, const std::optional<Array>& angular_momentum,
              const Array& attitude) {
   const auto assembly = assembly_of(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude);
-  free::Refusal<double> refusal;
-  const auto p = sound(free::Reduced<double>::of(assembly, &refusal), assembly, refusal).problem;
+  free::UnsoundWheel<double> unsound;
+  const auto p = sound(free::Reduced<double>::of(assembly, &unsound), assembly, unsound).problem;
   const Vec3<double> M = p.momentum();
   Data made;
   made["inertia"] = array(std::vector<double>(p.inertia.data(), p.inertia.data() + 9), {3, 3});  // symmetric
@@ -62,8 +62,8 @@ Data permanent(const Array& inertia, const Array& rotor_momentum, const Wheels& 
                const std::optional<Array>& angular_velocity, const std::optional<Array>& angular_momentum,
                const Array& attitude) {
   const auto assembly = assembly_of(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude);
-  free::Refusal<double> refusal;
-  const auto p = sound(free::Reduced<double>::of(assembly, &refusal), assembly, refusal).problem;
+  free::UnsoundWheel<double> unsound;
+  const auto p = sound(free::Reduced<double>::of(assembly, &unsound), assembly, unsound).problem;
   const auto found = checked(free::permanent_rotations(p, p.momentum().norm()));
   std::vector<double> rates, momenta, squares, energies;
   for (int i = 0; i < found.count; ++i) {
@@ -86,9 +86,9 @@ py::array_t<double> flips(const Array& inertia, const Array& rotor_momentum, con
                           const std::optional<Array>& angular_velocity, const std::optional<Array>& angular_momentum,
                           const Array& attitude, const Array& axis, double begin, double end) {
   const auto assembly = assembly_of(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude);
-  free::Refusal<double> refusal;
-  const auto sound_one = free::Reduced<double>::of(assembly, &refusal);
-  sound(sound_one, assembly, refusal);
+  free::UnsoundWheel<double> unsound;
+  const auto sound_one = free::Reduced<double>::of(assembly, &unsound);
+  sound(sound_one, assembly, unsound);
   const auto motion =
       checked(free::Motion<double>::make<DoubleDouble>(free::Reduced<DoubleDouble>::taken(assembly).problem));
   auto times = free::flips(motion, vector("axis", axis), begin, end);

@@ -39,14 +39,14 @@ inline free::Assembly<double> assembly_of(const Array& inertia, const Array& rot
 
 /// The scene's parts are sound, or DomainError says which is not.
 template <class T>
-T sound(const Result<T>& made, const free::Assembly<double>& assembly, const free::Refusal<double>& refusal) {
+T sound(const Result<T>& made, const free::Assembly<double>& assembly, const free::UnsoundWheel<double>& unsound) {
   if (made) return *made;
-  if (refusal.wheel < 0) raise("DomainError", message(made.error()));
-  const auto& wheel = assembly.wheels[std::size_t(refusal.wheel)];
-  const std::string which = "wheel " + std::to_string(refusal.wheel + 1) + ": ";
+  if (unsound.wheel < 0) raise("DomainError", message(made.error()));
+  const auto& wheel = assembly.wheels[std::size_t(unsound.wheel)];
+  const std::string which = "wheel " + std::to_string(unsound.wheel + 1) + ": ";
   if (made.error() == Errc::triangle_inequality)
     raise("DomainError", which + "axial_inertia = " + text(wheel.axial_inertia) +
-                             ": the body of this inertia holds less than " + text(refusal.limit) +
+                             ": the body of this inertia holds less than " + text(unsound.limit) +
                              " of a wheel about this axis beside the wheels before it");
   raise("DomainError", which + message(made.error()));
 }

@@ -69,8 +69,8 @@ Data integrate(const Array& inertia, const Array& rotor_momentum, const Wheels& 
                const Array& attitude, const Array& at, const std::string& method, int order, double tolerance,
                const std::string& precision, double patience) {
   const auto assembly = assembly_of(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude);
-  free::Refusal<double> refusal;
-  (void)sound(free::Reduced<double>::of(assembly, &refusal), assembly, refusal);
+  free::UnsoundWheel<double> unsound;
+  (void)sound(free::Reduced<double>::of(assembly, &unsound), assembly, unsound);
   const Task task = task_of(times(at), method, order, tolerance, precision, patience);
   Table table(task.times.size(), {{"attitude", 4}, {"angular_velocity", 3}, {"angular_momentum", 3}});
   const auto run = [&]<Real Scalar>(Scalar) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 
-#include "gyrostat/ladder/general/solve.hpp"
+#include "gyrostat/general.hpp"
 
 int main() {
   using namespace gyrostat;

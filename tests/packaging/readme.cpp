@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 
-#include "gyrostat/ladder/rotor/solve.hpp"
+#include "gyrostat/rotor.hpp"
 
 int main() {
   using namespace gyrostat;

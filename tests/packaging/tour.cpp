@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 
-#include "gyrostat/ladder/deceleration/solve.hpp"
+#include "gyrostat/deceleration.hpp"
 
 int main() {
   using namespace gyrostat;

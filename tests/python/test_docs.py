@@ -45,10 +45,12 @@ def test_links_lead_somewhere() -> None:
             assert not anchor or anchor in anchors(there), f"{page.name}: {target}"
 
 
-@pytest.mark.parametrize(("page", "program"), [("README.md", "readme.cpp"), ("docs/tour.md", "tour.cpp"), ("docs/general.md", "own_torque.cpp")])
+@pytest.mark.parametrize(("page", "program"), [
+    ("README.md", "tests/packaging/readme.cpp"), ("docs/tour.md", "tests/packaging/tour.cpp"), ("docs/general.md", "tests/packaging/own_torque.cpp"),
+    ("docs/c.md", "examples/c/solve_a_scene.c")])
 def test_the_programs_of_the_pages_are_those_compiled(page: str, program: str) -> None:
-    example = (ROOT / "tests" / "packaging" / program).read_text(encoding="utf-8").partition("\n")[2]
-    assert f"```cpp\n{example}```" in (ROOT / page).read_text(encoding="utf-8")
+    example = (ROOT / program).read_text(encoding="utf-8").partition("\n")[2]
+    assert f"```{program.rpartition('.')[2]}\n{example}```" in (ROOT / page).read_text(encoding="utf-8")
 
 
 def test_the_landing_page_shows_parts_of_the_tour() -> None:

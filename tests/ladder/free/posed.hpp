@@ -25,7 +25,7 @@ inline Scene posed(const Assembly<double>& assembly, std::vector<double> times, 
   question.times = std::move(times);
   question.tolerance = tolerance;
   question.rung = rung;
-  const auto scene = Scene::make(assembly, std::nullopt, question);
+  const auto scene = Scene::make(assembly, question);
   REQUIRE(scene);
   return *scene;
 }

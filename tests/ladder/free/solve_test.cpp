@@ -31,8 +31,8 @@ TEST_CASE("the scalars of a free motion: Toutatis as Hudson and Ostro (1995) saw
   Question question;
   question.times = {30 * day};
   question.rung = free::rung::closed_form;
-  const auto scene = Scene::make(assembly, free::ViewRequest{{0, 0, 1}, {1, 0, 0}, pi<double> / 6}, question);
-  const Answer answer = solved(*scene);
+  const auto scene = Scene::make(assembly, question);
+  const Answer answer = solved(scene->viewed(free::ViewRequest{{0, 0, 1}, {1, 0, 0}, pi<double> / 6}));
   const auto value = [&](const char* name) { return answer.quantity(name)->values[0]; };
   CHECK(free::kind_words[std::size_t(value("kind"))] == std::string_view("about-smallest"));
   CHECK(2 * pi<double> / value("spin_rate") / day == Approx(5.367).epsilon(1e-3));

@@ -44,8 +44,8 @@ TEST_CASE("where the map is the identity the answer of the family is the answer,
   assembly.body.inertia = p.inertia, assembly.body.angular_velocity = p.angular_velocity;
   assembly.body.attitude = p.attitude;
   gyrostat::Refusal refusal;
-  const Answer own = free::solve(
-      *free::Scene::make(assembly, std::nullopt, question_at(times, 1e-9, free::rung::closed_form)), refusal);
+  const Answer own =
+      free::solve(*free::Scene::make(assembly, question_at(times, 1e-9, free::rung::closed_form)), refusal);
   for (const char* name : {"attitude", "angular_velocity", "angular_momentum"})
     CHECK(answer.find(name)->values == own.find(name)->values);
 }

@@ -15,7 +15,7 @@ using namespace free_bodies;
 using gyrostat::free::Assembly;
 using gyrostat::free::Motion;
 using gyrostat::free::Reduced;
-using gyrostat::free::Refusal;
+using gyrostat::free::UnsoundWheel;
 using Wide = DoubleDouble;
 using V = Vec3<double>;
 
@@ -116,17 +116,17 @@ TEST_CASE("a rotor that the body cannot hold is refused by name and limit", "[fr
   Assembly<double> a;
   a.body = Problem<double>::from_moments({5, 4, 3}, {0, 0, 0}, {.3, -.5, .8});
   a.wheels = {{V(0, 0, 1), .2, 1, false}, {V(0, 0, 1), 3.5, 1, true}};
-  Refusal<double> refusal;
-  CHECK(Reduced<double>::of(a, &refusal).error() == Errc::triangle_inequality);
-  CHECK(refusal.wheel == 1);
+  UnsoundWheel<double> unsound;
+  CHECK(Reduced<double>::of(a, &unsound).error() == Errc::triangle_inequality);
+  CHECK(unsound.wheel == 1);
   // second moments of mass (1, 2, 3): a thin disc across axis 3 has I/2 in the first two
-  CHECK(refusal.limit == Approx(2).epsilon(1e-6));
-  a.wheels[1].axial_inertia = .99 * refusal.limit;
-  CHECK(Reduced<double>::of(a, &refusal));
-  CHECK(refusal.wheel == -1);
+  CHECK(unsound.limit == Approx(2).epsilon(1e-6));
+  a.wheels[1].axial_inertia = .99 * unsound.limit;
+  CHECK(Reduced<double>::of(a, &unsound));
+  CHECK(unsound.wheel == -1);
   a.wheels[0].axis = {0, 0, 1.1};
-  CHECK(Reduced<double>::of(a, &refusal).error() == Errc::out_of_domain);
-  CHECK(refusal.wheel == 0);
+  CHECK(Reduced<double>::of(a, &unsound).error() == Errc::out_of_domain);
+  CHECK(unsound.wheel == 0);
   a.wheels[0] = {V(0, 0, 1), -1, 1, false};
   CHECK(Reduced<double>::of(a).error() == Errc::not_positive);
   a.wheels[0] = {V(0, 0, 1), 1, gyrostat::nan<double>, false};

@@ -48,7 +48,8 @@ inline Result<Scene> scene_of(std::span<const double> numbers, const Question& q
     wheel.turns_freely = next.number() != 0;
     assembly.wheels.push_back(wheel);
   }
-  return Scene::make(assembly, is_given(view.axis) ? std::optional(view) : std::nullopt, question);
+  const auto made = Scene::make(assembly, question);
+  return made && is_given(view.axis) ? Result<Scene>(made->viewed(view)) : made;
 }
 
 }  // namespace gyrostat::free

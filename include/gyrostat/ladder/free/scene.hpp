@@ -26,17 +26,16 @@ class Scene {
  public:
   Scene() = default;
 
-  /// What Reduced::of and check_times find; of an unsound wheel `refusal` tells which.
-  static Result<Scene> make(const Assembly<double>& assembly, const std::optional<ViewRequest>& view,
-                            const Question& question, Refusal<double>* refusal = nullptr) {
+  /// What Reduced::of and check_times find; `unsound` tells which wheel is.
+  static Result<Scene> make(const Assembly<double>& assembly, const Question& question,
+                            UnsoundWheel<double>* unsound = nullptr) {
     if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
-    const auto sound = Reduced<double>::of(assembly, refusal);
+    const auto sound = Reduced<double>::of(assembly, unsound);
     if (!sound) return sound.error();
     Scene scene;
     scene.assembly_ = assembly;
     scene.reduced_ = Reduced<DoubleDouble>::taken(assembly);
     scene.gyrostat_ = *sound;
-    scene.view_ = view;
     scene.question_ = question;
     return scene;
   }
@@ -45,6 +44,13 @@ class Scene {
   Scene asked(const Question& question) const {
     Scene other = *this;
     other.question_ = question;
+    return other;
+  }
+
+  /// The same scene, with what a view asks for; nothing: without.
+  Scene viewed(const std::optional<ViewRequest>& view) const {
+    Scene other = *this;
+    other.view_ = view;
     return other;
   }
 

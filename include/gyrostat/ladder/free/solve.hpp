@@ -11,7 +11,7 @@ namespace gyrostat::free {
 /// Answers a scene with the cheapest rung whose own error estimate meets the tolerance: closed-form, full. Where no rung answers, the
 /// refusal says why and the answer holds only what was tried. Beside the columns the answer has the scalars of the table: kind, period,
 /// turn about the angular momentum in a period, and so on.
-GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor = nullptr);
+GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor = nullptr);
 
 /// What an answer by that rung would cost where it applies, by its place in the table, s.
 GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept;

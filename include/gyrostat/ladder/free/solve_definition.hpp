@@ -60,7 +60,7 @@ inline constexpr Rung<Scene, Track> models[] = {{&closed_form_track, &cost_of_cl
 
 GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept { return models[rung].cost(scene); }
 
-GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor) {
+GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 

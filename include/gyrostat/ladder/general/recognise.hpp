@@ -37,7 +37,7 @@ inline const char* as_free(const Given& given, std::optional<free::Scene>& scene
     if (law.follows != Follows::body)
       assembly.wheels.push_back({law.axis, law.axial_inertia, law.rate, law.follows == Follows::constant});
   }
-  const auto made = free::Scene::make(assembly, std::nullopt, question);
+  const auto made = free::Scene::make(assembly, question);
   if (!made) return "no body of this inertia holds its wheels";
   scene = *made;
   return nullptr;

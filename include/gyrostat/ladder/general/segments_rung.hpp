@@ -176,7 +176,7 @@ inline std::vector<Candidate> candidates_of(const Scene& scene) {
 }
 
 /// The ladder, which answers a segment.
-using Solve = Answer (*)(const Scene&, gyrostat::Refusal&, Monitor*);
+using Solve = Answer (*)(const Scene&, Refusal&, Monitor*);
 
 /// One motion in segments, as it grows.
 class SegmentedMotion {
@@ -226,7 +226,7 @@ class SegmentedMotion {
       if (candidate.rung >= std::size_t(rung::family_full) && !best.columns.empty() && useful(best)) continue;
       Question question = segment.question();
       question.rung = int(candidate.rung);
-      gyrostat::Refusal refusal;
+      Refusal refusal;
       Answer answer = solve_(segment.asked(question), refusal, monitor);
       if (refusal.code == Errc::cancelled) {
         why = nullptr;

@@ -56,9 +56,8 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
 namespace detail {
 
 inline Track in_segments(const Scene& scene, Monitor* monitor) {
-  return segments_track(scene, monitor, [](const Scene& one, gyrostat::Refusal& refusal, Monitor* its) {
-    return solve(one, refusal, its);
-  });
+  return segments_track(scene, monitor,
+                        [](const Scene& one, Refusal& refusal, Monitor* its) { return solve(one, refusal, its); });
 }
 
 template <std::size_t... Place>
@@ -74,7 +73,7 @@ inline constexpr auto models = models_of(std::make_index_sequence<std::size_t(ru
 namespace detail {
 
 /// The rung that the question names alone, or the ladder.
-inline Answer climbed(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor) {
+inline Answer climbed(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 
@@ -83,7 +82,7 @@ inline std::optional<Answer> answer_beside(const Scene& scene, const Problem<dou
                                            Monitor* monitor) {
   const auto beside = scene.with(start);
   if (!beside) return std::nullopt;
-  gyrostat::Refusal refusal;
+  Refusal refusal;
   Question question = scene.question();
   if (question.rung == any_rung) question.alone = rung;
   Answer made = climbed(beside->asked(question), refusal, monitor);
@@ -99,7 +98,7 @@ inline Question shared(Question question, double share) {
 }
 
 /// The answer to a scene whose start is off, and what comes of that: the tolerances hold for both together.
-inline Answer solve_uncertain(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor) {
+inline Answer solve_uncertain(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   Answer answer = climbed(scene, refusal, monitor);
   if (refusal.code != Errc::ok) return answer;
   const Carried carried = carried_error(scene, answer, [&](const Problem<double>& start) {
@@ -129,7 +128,7 @@ inline Answer solve_uncertain(const Scene& scene, gyrostat::Refusal& refusal, Mo
 
 }  // namespace detail
 
-GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, gyrostat::Refusal& refusal, Monitor* monitor) {
+GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   return scene.start_error().any() ? detail::solve_uncertain(scene, refusal, monitor)
                                    : detail::climbed(scene, refusal, monitor);
 }

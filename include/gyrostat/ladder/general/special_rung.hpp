@@ -327,7 +327,7 @@ Track track_of(const Scene& scene, Special special, int rung, const std::optiona
                Monitor* monitor) {
   const Family& family = *special_tables[std::size_t(special)];
   if (!instance) return refused<Track>(Errc::not_applicable, scene.instances().why[std::size_t(special)]);
-  gyrostat::Refusal refusal;
+  Refusal refusal;
   const Answer answer =
       solve(scene_of(*instance).asked(question_for(scene, special, rung)), refusal, monitor);  // of its namespace
   Track track;

@@ -35,8 +35,8 @@ constexpr int neighbour_sign(int k, int n) noexcept {
 }  // namespace detail
 
 /// The k-th neighbour of an assembly: every datum times 1 +- by; zeros stay.
-template <Real Scalar>
-Assembly<Scalar> neighbour(Assembly<Scalar> given, int k, Scalar by) noexcept {
+template <Real Scalar, class Room>
+Assembly<Scalar, Room> neighbour(Assembly<Scalar, Room> given, int k, Scalar by) noexcept {
   int n = 0;
   const auto move = [&](Scalar& x) { x *= 1 + Scalar(detail::neighbour_sign(k, n++)) * by; };
   auto& body = given.body;
@@ -73,18 +73,18 @@ class MotionError {
 
   /// Of the motion that make<Setup> gives for the reduced assembly, for times up to |horizon|: the nearer, the closer the bounds where a
   /// period is long. Errors: those of Reduced::of and Motion::make.
-  template <Real Setup = Scalar>
-  static Result<MotionError> of(const Assembly<Scalar>& assembly, Data data = Data::rounded,
+  template <Real Setup = Scalar, class Room>
+  static Result<MotionError> of(const Assembly<Scalar, Room>& assembly, Data data = Data::rounded,
                                 Scalar horizon = infinity<Scalar>) noexcept {
-    if (const auto sound = Reduced<Scalar>::of(assembly); !sound) return sound.error();
+    if (const auto sound = Reduced<Scalar, Room>::of(assembly); !sound) return sound.error();
     const auto motion = motion_of(assembly.template cast<Setup>());
     if (!motion) return motion.error();
     return of<Setup>(*motion, assembly, data, horizon);
   }
 
   /// The same where that motion is there already, of a sound assembly.
-  template <Real Setup = Scalar>
-  static MotionError of(const Motion<Scalar>& motion, const Assembly<Scalar>& assembly, Data data = Data::rounded,
+  template <Real Setup = Scalar, class Room>
+  static MotionError of(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly, Data data = Data::rounded,
                         Scalar horizon = infinity<Scalar>) noexcept {
     MotionError error;
     error.horizon_ = std::abs(horizon);
@@ -92,7 +92,7 @@ class MotionError {
     const Setup by = data == Data::exact ? epsilon<Setup> : Setup(epsilon<Scalar>);
     constexpr bool wide = !std::is_same_v<Setup, Scalar>;
     if (!(wide && data == Data::rounded && error.see_from_afar(assembly))) {
-      const Assembly<Setup> given = assembly.template cast<Setup>();
+      const auto given = assembly.template cast<Setup>();
       const Centre<both_ways> centre(motion, error.span_);
       for (int k = 0; k < detail::neighbours; ++k) error.see(centre, motion_of(neighbour<Setup>(given, k, by)));
     }
@@ -106,7 +106,8 @@ class MotionError {
   /// The same for a tenth of the cost, for times from 0 up to the horizon, of a motion of a sound assembly that was set up in Scalar like its
   /// neighbours, so that their distances show the rounding of the set-up too; nothing beside a separatrix and in other places where rounding grows, and
   /// where the motion fails its own equations by more than some roundings.
-  static std::optional<MotionError> quick(const Motion<Scalar>& motion, const Assembly<Scalar>& assembly,
+  template <class Room>
+  static std::optional<MotionError> quick(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
                                           Scalar horizon) noexcept {
     if (!is_tame(motion, assembly.body.inertia.isDiagonal(0))) return std::nullopt;
     MotionError error;
@@ -186,9 +187,9 @@ class MotionError {
   static constexpr Scalar quick_modulus = Scalar(0.01), quick_cancellation = 4, quick_defect = 16 * epsilon<Scalar>,
                           quick_margin = 6, quick_gap = Scalar(1e-3), quick_least = Scalar(1e-8);
 
-  template <Real Setup>
-  static Result<Motion<Scalar>> motion_of(const Assembly<Setup>& given) noexcept {
-    return Motion<Scalar>::template make<Setup>(Reduced<Setup>::taken(given).problem);
+  template <Real Setup, class Room>
+  static Result<Motion<Scalar>> motion_of(const Assembly<Setup, Room>& given) noexcept {
+    return Motion<Scalar>::template make<Setup>(Reduced<Setup, Room>::taken(given).problem);
   }
 
   /// Nodes from the first to the last, 0 being the start.
@@ -231,7 +232,8 @@ class MotionError {
 
   /// Looks at neighbours a thousand roundings away, which the arithmetic of Scalar tells apart well, and takes a thousandth of what it sees;
   /// false, and nothing seen, where the motion is not smooth enough in its data for that.
-  bool see_from_afar(const Assembly<Scalar>& assembly) noexcept {
+  template <class Room>
+  bool see_from_afar(const Assembly<Scalar, Room>& assembly) noexcept {
     constexpr Scalar far = 1024, straight = Scalar(1e-3);
     if (kind_ == Kind::steady || kind_ == Kind::separatrix) return false;
     const auto made = motion_of(assembly);

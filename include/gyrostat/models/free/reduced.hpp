@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "gyrostat/body/realisability.hpp"
 #include "gyrostat/body/rotor.hpp"
+#include "gyrostat/core/bounded_list.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/math/bracket.hpp"
 #include "gyrostat/models/free/problem.hpp"
@@ -24,15 +26,27 @@ struct Wheel {
   bool turns_freely = false;   ///< else a motor holds the rate
 };
 
+/// Room for any number of wheels, on the heap.
+struct Unbounded {
+  template <class T>
+  using List = std::vector<T>;
+};
+/// Room for some wheels, without the heap.
+template <std::size_t most>
+struct AtMost {
+  template <class T>
+  using List = BoundedList<T, most>;
+};
+
 /// A body with rotors: `body.inertia` is that with every rotor locked, `body.rotor_momentum` that of rotors that are not listed, held.
-template <Real Scalar>
+template <Real Scalar, class Room = Unbounded>
 struct Assembly {
   Problem<Scalar> body;
-  std::vector<Wheel<Scalar>> wheels;
+  typename Room::template List<Wheel<Scalar>> wheels;
 
   template <Real To>
-  Assembly<To> cast() const {
-    Assembly<To> made{body.template cast<To>(), {}};
+  Assembly<To, Room> cast() const {
+    Assembly<To, Room> made{body.template cast<To>(), {}};
     for (const auto& w : wheels)
       made.wheels.push_back({vector_cast<To>(w.axis), To(w.axial_inertia), To(w.rate), w.turns_freely});
     return made;
@@ -41,12 +55,12 @@ struct Assembly {
 
 /// Why an assembly was refused: which wheel (-1: the body), and the axial inertia that it would have to stay below, kg m^2.
 template <Real Scalar>
-struct Refusal {
+struct UnsoundWheel {
   int wheel = -1;
   Scalar limit = infinity<Scalar>;
 };
 
-template <Real Scalar>
+template <Real Scalar, class Room = Unbounded>
 struct Reduced {
   struct Turning {
     Vec3<Scalar> axis{0, 0, 1};
@@ -54,7 +68,7 @@ struct Reduced {
     bool turns_freely = false;
   };
   Problem<Scalar> problem;
-  std::vector<Turning> wheels;
+  typename Room::template List<Turning> wheels;
 
   /// Relative to the body, rad/s, where the body turns at omega.
   Scalar wheel_rate(std::size_t i, const Vec3<Scalar>& omega) const noexcept {
@@ -62,21 +76,21 @@ struct Reduced {
   }
 
   /// Errors: those of Problem::check(); of a wheel those of Rotor::from_axis; triangle_inequality where a free wheel leaves an inertia
-  /// that is not positive or that no mass distribution has. `refusal` tells which wheel.
+  /// that is not positive or that no mass distribution has. `unsound` tells which wheel.
   template <Real Given>
-  static Result<Reduced> of(const Assembly<Given>& assembly, Refusal<Given>* refusal = nullptr) noexcept {
+  static Result<Reduced> of(const Assembly<Given, Room>& assembly, UnsoundWheel<Given>* unsound = nullptr) noexcept {
     if (const Errc wrong = assembly.body.check(); wrong != Errc::ok) return wrong;
-    if (const Errc wrong = check_wheels(assembly, refusal); wrong != Errc::ok) return wrong;
+    if (const Errc wrong = check_wheels(assembly, unsound); wrong != Errc::ok) return wrong;
     return taken(assembly);
   }
 
   /// The same of an assembly that is known to be sound.
   template <Real Given>
-  static Reduced taken(const Assembly<Given>& assembly) noexcept {
+  static Reduced taken(const Assembly<Given, Room>& assembly) noexcept {
     Reduced reduced;
     reduced.problem = assembly.body.template cast<Scalar>();
     Problem<Scalar>& body = reduced.problem;
-    std::vector<Scalar> inertia;
+    typename Room::template List<Scalar> inertia;
     Vec3<Scalar> relative = body.rotor_momentum;  // of all rotors
     for (const auto& wheel : assembly.wheels) {
       const Vec3<Scalar> axis = vector_cast<Scalar>(wheel.axis);
@@ -100,11 +114,11 @@ struct Reduced {
 
  private:
   template <Real Given>
-  static Errc check_wheels(const Assembly<Given>& assembly, Refusal<Given>* refusal) noexcept {
+  static Errc check_wheels(const Assembly<Given, Room>& assembly, UnsoundWheel<Given>* unsound) noexcept {
     Mat3<Given> J = assembly.body.inertia, known = Mat3<Given>::Zero();
     for (std::size_t i = 0; i < assembly.wheels.size(); ++i) {
       const auto& wheel = assembly.wheels[i];
-      if (refusal) refusal->wheel = static_cast<int>(i);
+      if (unsound) unsound->wheel = static_cast<int>(i);
       const auto rotor = Rotor<Given>::from_axis(wheel.axis, wheel.axial_inertia);
       if (!rotor) return rotor.error();
       if (!std::isfinite(wheel.rate)) return Errc::not_finite;
@@ -116,8 +130,8 @@ struct Reduced {
                realisability<Given>(assembly.body.inertia, parts) >= -64 * epsilon<Given> * J.trace();
       };
       if (!allowed(wheel.axial_inertia)) {
-        if (refusal)
-          refusal->limit = math::Bracket<Given>{0, wheel.axial_inertia}
+        if (unsound)
+          unsound->limit = math::Bracket<Given>{0, wheel.axial_inertia}
                                .halved(200, [&](Given I) { return I > 0 && allowed(I); })
                                .yes;
         return Errc::triangle_inequality;
@@ -125,7 +139,7 @@ struct Reduced {
       J = rotor->inertia_without(J);
       known += rotor->least_second_moments();
     }
-    if (refusal) *refusal = {};
+    if (unsound) *unsound = {};
     return Errc::ok;
   }
 };

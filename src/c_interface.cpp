@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The functions of gyrostat.h.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <new>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "c_scene.hpp"
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/gyrostat.h"
+#include "gyrostat/ladder/answer.hpp"
+#include "gyrostat/ladder/general/propagator.hpp"
+#include "gyrostat/ladder/general/solve.hpp"
+#include "gyrostat/ladder/goal.hpp"
+#include "gyrostat/version.hpp"
+
+using gyrostat::c::Outcome;
+
+struct gyrostat_answer {
+  gyrostat::Answer answer;
+};
+
+struct gyrostat_propagator {
+  gyrostat::general::Propagator propagator;
+};
+
+namespace {
+
+thread_local char last_message[1024] = "";
+
+int refuse(int code, const char* why) noexcept {
+  std::snprintf(last_message, sizeof last_message, "%s", why);
+  return code;
+}
+
+/// What work() came to, as a code, with its message kept; what it throws included.
+template <class Work>
+int told(const Work& work) noexcept {
+#if defined(__cpp_exceptions)
+  try {
+#endif
+    const Outcome outcome = work();
+    return outcome.code == GYROSTAT_OK ? GYROSTAT_OK : refuse(outcome.code, outcome.why.c_str());
+#if defined(__cpp_exceptions)
+  } catch (const std::bad_alloc&) {
+    return refuse(GYROSTAT_NO_MEMORY, "there is no memory for it");
+  } catch (const std::length_error&) {
+    return refuse(GYROSTAT_BAD_ARGUMENT, "an array is longer than memory can be");
+  }
+#endif
+}
+
+Outcome no_pointer(const char* what) { return {GYROSTAT_BAD_ARGUMENT, std::string(what) + " is NULL"}; }
+
+Outcome answered(const gyrostat_scene& given, std::unique_ptr<gyrostat_answer>& made) {
+  using namespace gyrostat;
+  if (auto wrong = c::complete(given, true); wrong.code != GYROSTAT_OK) return wrong;
+  const auto problem = c::problem_of(given);
+  const auto scene = general::Scene::make(problem, given.question, given.recognise);
+  if (!scene) return {GYROSTAT_BAD_SCENE, c::fault_of(problem, scene.error())};
+  for (const AskedQuantity& each : given.question.asked)
+    if (!each.scalar && !scene->has_column(each.place))
+      return {GYROSTAT_BAD_SCENE, std::string("this scene has no column ") + general::column_kinds[each.place].name +
+                                      ": do not ask for it, or add what it is of (docs/columns.md)"};
+  Refusal refusal;
+  made = std::make_unique<gyrostat_answer>();
+  made->answer = general::solve(scene->known_within(given.start_error), refusal);
+  if (refusal.code != Errc::ok) return {GYROSTAT_NO_ANSWER, std::string("model ") + refusal.model + ": " + refusal.why};
+  return {};
+}
+
+Outcome prepared(const gyrostat_scene& given, std::unique_ptr<gyrostat_propagator>& made) {
+  using namespace gyrostat;
+  if (auto wrong = c::complete(given, false); wrong.code != GYROSTAT_OK) return wrong;
+  const auto problem = c::problem_of(given);
+  const auto propagator = general::Propagator::make(problem, given.question.tolerance);
+  if (propagator) {
+    made = std::make_unique<gyrostat_propagator>(gyrostat_propagator{*propagator});
+    return {};
+  }
+  if (propagator.error() != Errc::not_applicable || general::check(problem))
+    return {GYROSTAT_BAD_SCENE, c::fault_of(problem, propagator.error())};
+  return {GYROSTAT_BAD_SCENE, std::string(general::Propagator::clock_needed(problem)) +
+                                  ", and a state does not tell the time: ask gyrostat_solve for the span"};
+}
+
+/// The outcome of a step that a propagator refused.
+Outcome not_moved(gyrostat::Errc wrong) {
+  using gyrostat::Errc;
+  switch (wrong) {
+    case Errc::not_finite: return {GYROSTAT_BAD_ARGUMENT, "dt or a number of the state is NaN or infinite"};
+    case Errc::negative: return {GYROSTAT_BAD_ARGUMENT, "dt is negative: give a number >= 0"};
+    case Errc::out_of_domain:
+      return {GYROSTAT_BAD_ARGUMENT,
+              "attitude is not a unit quaternion to 1e-6, a locked wheel has a rate, or dt holds more turns of a field "
+              "than a double counts"};
+    case Errc::not_applicable: return {GYROSTAT_NO_ANSWER, gyrostat::general::why_stopped_by_brake};
+    default: return {GYROSTAT_NO_ANSWER, std::string(message(wrong)) + ": give a shorter dt"};
+  }
+}
+
+Outcome moved(const gyrostat_propagator& given, double dt, double* attitude, double* angular_velocity,
+              double* rotor_rate, double* error) {
+  const std::size_t wheels = given.propagator.wheels();
+  gyrostat::general::Moving state;
+  state.attitude = {attitude[3], attitude[0], attitude[1], attitude[2]};
+  state.angular_velocity = {angular_velocity[0], angular_velocity[1], angular_velocity[2]};
+  std::copy_n(rotor_rate, wheels, state.rotor_rate.begin());
+  gyrostat::general::MovedError off;
+  const auto wrong = given.propagator.advance(dt, state, error != nullptr ? &off : nullptr);
+  if (wrong != gyrostat::Errc::ok) return not_moved(wrong);
+  const auto& q = state.attitude;
+  const double turned[] = {q.x, q.y, q.z, q.w};
+  std::copy_n(turned, 4, attitude);
+  std::copy_n(state.angular_velocity.data(), 3, angular_velocity);
+  std::copy_n(state.rotor_rate.begin(), wheels, rotor_rate);
+  if (error == nullptr) return {};
+  const double errors[] = {off.attitude, off.angular_velocity, off.rotor_rate};
+  std::copy_n(errors, 3, error);
+  return {};
+}
+
+Outcome nothing_called(const gyrostat::Answer& answer, const char* name) {
+  std::vector<std::string> names;
+  for (const auto& column : answer.columns) names.emplace_back(column.name());
+  for (const auto& quantity : answer.quantities) names.emplace_back(quantity.name());
+  return {GYROSTAT_BAD_ARGUMENT, std::string("the answer has no ") + name + ": ask for it by gyrostat_ask; it has " +
+                                     gyrostat::c::one_of(names)};
+}
+
+const gyrostat::Warning* warning_at(const gyrostat_answer* answer, size_t place) noexcept {
+  return answer != nullptr && place < answer->answer.warnings.size() ? &answer->answer.warnings[place] : nullptr;
+}
+
+}  // namespace
+
+extern "C" {
+
+const char* gyrostat_version(void) { return gyrostat::library_version(); }
+const char* gyrostat_message(void) { return last_message; }
+
+gyrostat_scene* gyrostat_scene_new(void) { return new (std::nothrow) gyrostat_scene; }
+void gyrostat_scene_free(gyrostat_scene* scene) { delete scene; }
+
+int gyrostat_add(gyrostat_scene* scene, const char* what, const char* type) {
+  return told([&] {
+    if (scene == nullptr) return no_pointer("scene");
+    if (what == nullptr || type == nullptr) return no_pointer(what == nullptr ? "what" : "type");
+    return gyrostat::c::add(*scene, what, type);
+  });
+}
+
+int gyrostat_set(gyrostat_scene* scene, const char* key, const double* values, size_t count) {
+  return told([&] {
+    if (scene == nullptr) return no_pointer("scene");
+    if (key == nullptr || values == nullptr) return no_pointer(key == nullptr ? "key" : "values");
+    return gyrostat::c::set(*scene, key, {values, count});
+  });
+}
+
+int gyrostat_set_number(gyrostat_scene* scene, const char* key, double value) {
+  return gyrostat_set(scene, key, &value, 1);
+}
+
+int gyrostat_set_word(gyrostat_scene* scene, const char* key, const char* word) {
+  return told([&] {
+    if (scene == nullptr) return no_pointer("scene");
+    if (key == nullptr || word == nullptr) return no_pointer(key == nullptr ? "key" : "word");
+    return gyrostat::c::set_word(*scene, key, word);
+  });
+}
+
+int gyrostat_ask(gyrostat_scene* scene, const char* name, double tolerance) {
+  return told([&] {
+    if (scene == nullptr || name == nullptr) return no_pointer(scene == nullptr ? "scene" : "name");
+    return gyrostat::c::ask(*scene, name, tolerance);
+  });
+}
+
+int gyrostat_solve(const gyrostat_scene* scene, gyrostat_answer** answer) {
+  if (answer != nullptr) *answer = nullptr;
+  return told([&] {
+    if (scene == nullptr || answer == nullptr) return no_pointer(scene == nullptr ? "scene" : "answer");
+    std::unique_ptr<gyrostat_answer> made;
+    auto outcome = answered(*scene, made);
+    if (outcome.code == GYROSTAT_OK) *answer = made.release();
+    return outcome;
+  });
+}
+void gyrostat_answer_free(gyrostat_answer* answer) { delete answer; }
+
+const char* gyrostat_answer_model(const gyrostat_answer* answer) {
+  return answer != nullptr ? answer->answer.model : nullptr;
+}
+int gyrostat_answer_met(const gyrostat_answer* answer) { return answer != nullptr && answer->answer.met ? 1 : 0; }
+size_t gyrostat_answer_columns(const gyrostat_answer* answer) {
+  return answer != nullptr ? answer->answer.columns.size() : 0;
+}
+const char* gyrostat_answer_column_name(const gyrostat_answer* answer, size_t place) {
+  return place < gyrostat_answer_columns(answer) ? answer->answer.columns[place].kind->name : nullptr;
+}
+
+int gyrostat_answer_column(const gyrostat_answer* answer, const char* name, const double** values, size_t* rows,
+                           size_t* width) {
+  return told([&]() -> Outcome {
+    if (answer == nullptr || name == nullptr) return no_pointer(answer == nullptr ? "answer" : "name");
+    const gyrostat::Column* column = answer->answer.find(name);
+    if (column == nullptr) return nothing_called(answer->answer, name);
+    if (values != nullptr) *values = column->values.data();
+    if (rows != nullptr) *rows = answer->answer.times.size();
+    if (width != nullptr) *width = size_t(column->row_width());
+    return {};
+  });
+}
+
+int gyrostat_answer_error(const gyrostat_answer* answer, const char* name, double* error, double* size) {
+  return told([&]() -> Outcome {
+    using gyrostat::Measure;
+    if (answer == nullptr || name == nullptr) return no_pointer(answer == nullptr ? "answer" : "name");
+    const gyrostat::Column* column = answer->answer.find(name);
+    const gyrostat::Quantity* quantity = answer->answer.quantity(name);
+    if (column == nullptr && quantity == nullptr) return nothing_called(answer->answer, name);
+    const Measure measure = column != nullptr ? column->kind->measure : quantity->kind->measure;
+    const double stated = column != nullptr ? column->error : quantity->error;
+    double relative_to = 1;
+    if (measure == Measure::relative)
+      relative_to = column != nullptr ? gyrostat::size_of(*column) : std::abs(quantity->values[0]);
+    if (error != nullptr) *error = measure == Measure::none ? gyrostat::nan<double> : stated;
+    if (size != nullptr) *size = relative_to;
+    return {};
+  });
+}
+
+int gyrostat_answer_scalar(const gyrostat_answer* answer, const char* name, double* value) {
+  return told([&]() -> Outcome {
+    if (answer == nullptr || name == nullptr) return no_pointer(answer == nullptr ? "answer" : "name");
+    if (value == nullptr) return no_pointer("value");
+    const gyrostat::Quantity* quantity = answer->answer.quantity(name);
+    if (quantity == nullptr && gyrostat::place_of(gyrostat::general::tables.scalars, name) < 0)
+      return nothing_called(answer->answer, name);
+    *value = quantity != nullptr ? quantity->values[0] : gyrostat::nan<double>;
+    return {};
+  });
+}
+
+size_t gyrostat_answer_warnings(const gyrostat_answer* answer) {
+  return answer != nullptr ? answer->answer.warnings.size() : 0;
+}
+const char* gyrostat_answer_warning_code(const gyrostat_answer* answer, size_t place) {
+  const auto* warning = warning_at(answer, place);
+  return warning != nullptr ? warning->kind->code : nullptr;
+}
+const char* gyrostat_answer_warning_text(const gyrostat_answer* answer, size_t place) {
+  const auto* warning = warning_at(answer, place);
+  return warning != nullptr ? warning->text : nullptr;
+}
+double gyrostat_answer_warning_value(const gyrostat_answer* answer, size_t place) {
+  const auto* warning = warning_at(answer, place);
+  return warning != nullptr ? warning->value : gyrostat::nan<double>;
+}
+
+int gyrostat_propagator_new(const gyrostat_scene* scene, gyrostat_propagator** propagator) {
+  if (propagator != nullptr) *propagator = nullptr;
+  return told([&] {
+    if (scene == nullptr || propagator == nullptr) return no_pointer(scene == nullptr ? "scene" : "propagator");
+    std::unique_ptr<gyrostat_propagator> made;
+    auto outcome = prepared(*scene, made);
+    if (outcome.code == GYROSTAT_OK) *propagator = made.release();
+    return outcome;
+  });
+}
+void gyrostat_propagator_free(gyrostat_propagator* propagator) { delete propagator; }
+size_t gyrostat_propagator_wheels(const gyrostat_propagator* propagator) {
+  return propagator != nullptr ? propagator->propagator.wheels() : 0;
+}
+int gyrostat_propagator_is_closed_form(const gyrostat_propagator* propagator) {
+  return propagator != nullptr && propagator->propagator.is_closed_form() ? 1 : 0;
+}
+
+int gyrostat_propagate(const gyrostat_propagator* propagator, double dt, double* attitude, double* angular_velocity,
+                       double* rotor_rate, double* error) {
+  return told([&] {
+    if (propagator == nullptr) return no_pointer("propagator");
+    if (attitude == nullptr || angular_velocity == nullptr)
+      return no_pointer(attitude == nullptr ? "attitude" : "angular_velocity");
+    if (rotor_rate == nullptr && propagator->propagator.wheels() > 0) return no_pointer("rotor_rate");
+    return moved(*propagator, dt, attitude, angular_velocity, rotor_rate, error);
+  });
+}
+
+}  // extern "C"
