@@ -39,7 +39,7 @@ def solved(name: str) -> Made:
 def swept(name: str) -> Made:
     _, key, low, high = SCENES[name]
     rows = gyrostat.sweep(name, {key: np.linspace(low, high, 16)}, tolerance=1e-2, threads=4)
-    return [rows[each].to_numpy().tobytes() for each in sorted(rows.data_vars) if rows[each].dtype.kind == "f"]
+    return [rows[each].to_numpy().tobytes() for each in sorted(map(str, rows.data_vars)) if rows[each].dtype.kind == "f"]
 
 
 def charted(name: str) -> Made:
@@ -51,14 +51,16 @@ def by_callable(_: str) -> Made:
     return numbers(gyrostat.solve(TUMBLING, torque=lambda t, q, omega, H, rates: -0.1 * omega, tolerance=1e-6))
 
 
-@ctypes.CFUNCTYPE(None, ctypes.c_double, ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_double))
 def damping(t: float, state: Any, torque: Any) -> None:
     for i in range(3):
         torque[i] = -0.1 * state[4 + i]
 
 
+COMPILED = ctypes.CFUNCTYPE(None, ctypes.c_double, ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_double))(damping)
+
+
 def by_address(_: str) -> Made:
-    return numbers(gyrostat.solve(TUMBLING, torque=ctypes.cast(damping, ctypes.c_void_p).value, tolerance=1e-6))
+    return numbers(gyrostat.solve(TUMBLING, torque=ctypes.cast(COMPILED, ctypes.c_void_p).value, tolerance=1e-6))
 
 
 def cancelled(_: str) -> Made:
