@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The documentation as a site: `build.py FOLDER` writes it there.
 
-The Markdown pages of the tree, index.md of this folder before them, and a page for each module of the Python package. Every warning is an
+The Markdown pages of the tree, index.md of this folder before them, a page for each module of the Python package, and one for each folder of C++
+headers that docs/headers.md names. Every warning is an
 error. Needs the package gyrostat and its extra `docs`.
 """
 import importlib
 import pathlib
+import re
 import shutil
 import sys
 
+import cpp
 import gyrostat
 from sphinx.cmd.build import main as sphinx
 
@@ -29,6 +32,29 @@ def module_page(name: str) -> str:
     return f"{name}\n{'=' * len(name)}\n\n.. automodule:: {name}\n   :members:\n   :exclude-members: {', '.join(shown)}\n"
 
 
+def listed_headers(text: str) -> list[str]:
+    """The headers in the tables of docs/headers.md; FAMILY stands for each of the families."""
+    include = ROOT / "include" / "gyrostat"
+    patterns = [name for row in re.findall(r"^\| (`.*?) \|", text, re.M) for name in re.findall(r"`([\w/]+\.hpp)`", row)]
+    return [found.relative_to(include).as_posix() for name in patterns for found in sorted(include.glob(name.replace("FAMILY", "*")))]
+
+
+def stage_headers(folder: pathlib.Path) -> None:
+    """A page for each folder with such headers, and links to them."""
+    guide = folder / "docs" / "headers.md"
+    text = guide.read_text(encoding="utf-8")
+    pages: dict[str, dict[str, str]] = {}
+    for name in sorted(set(listed_headers(text))):
+        pages.setdefault(name.rpartition("/")[0], {})[name] = (ROOT / "include" / "gyrostat" / name).read_text(encoding="utf-8")
+    (folder / "cpp").mkdir()
+    for place, headers in pages.items():
+        (folder / "cpp" / f"{place.replace('/', '-')}.md").write_text(cpp.page(place, headers), encoding="utf-8")
+    for place, headers in pages.items():
+        for name in headers:
+            text = text.replace(f"`{name}`", f"[`{name}`](../cpp/{place.replace('/', '-')}.md#{re.sub('[/.]', '', name)})")
+    guide.write_text(text, encoding="utf-8")
+
+
 def stage(folder: pathlib.Path) -> None:
     """Put together what the site is made from; the folder is made anew."""
     shutil.rmtree(folder, ignore_errors=True)
@@ -38,6 +64,7 @@ def stage(folder: pathlib.Path) -> None:
     shutil.copy(HERE / "index.md", folder)
     for name in FILES:
         shutil.copy(ROOT / name, folder)
+    stage_headers(folder)
     (folder / "python").mkdir()
     for name in MODULES:
         (folder / "python" / f"{name}.rst").write_text(module_page(name), encoding="utf-8")

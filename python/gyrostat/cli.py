@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import gyrostat
 from gyrostat.asking import parse_ask
+from gyrostat.completion import SHELLS, PrintCompletion
 from gyrostat.console import Progress, say, short, show_table, small
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, Refused, SceneError
 from gyrostat.families import FAMILIES
@@ -83,6 +84,14 @@ class _CMakeFolder(argparse.Action):
         sys.exit(MET)
 
 
+def _add_printed(parser: argparse.ArgumentParser) -> None:
+    """What is printed without a command."""
+    parser.add_argument("--version", action="version", version=f"gyrostat {gyrostat.__version__}")
+    parser.add_argument("--cmake-dir", action=_CMakeFolder, nargs=0, help="print the folder in which CMake finds the C++ library (gyrostat_DIR), and exit")
+    parser.add_argument("--print-completion", action=PrintCompletion, choices=SHELLS, metavar="SHELL",
+                        help=f"print what completes commands, options and scenes in a shell ({', '.join(SHELLS)}), and exit")
+
+
 def _add_recognise(command: Command, takes_scene: Callable[[argparse.ArgumentParser], None]) -> None:
     recognise = command("recognise", _recognise, "say of which families a scene is exactly an instance, and why it is none of the others")
     takes_scene(recognise)
@@ -102,8 +111,7 @@ def _arguments() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="gyrostat", description="Attitude motion of bodies that carry rotors, by the cheapest model that meets a tolerance.",
         epilog="Exit status: 0 answered within the tolerance, 3 answered but over it, 2 bad input or refused, 1 internal failure, 130 interrupted.")
-    parser.add_argument("--version", action="version", version=f"gyrostat {gyrostat.__version__}")
-    parser.add_argument("--cmake-dir", action=_CMakeFolder, nargs=0, help="print the folder in which CMake finds the C++ library (gyrostat_DIR), and exit")
+    _add_printed(parser)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     def command(name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:

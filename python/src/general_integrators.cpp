@@ -55,8 +55,8 @@ struct Plain {
     equations.inside = begin + (end - begin) / 2;
     const double most = std::max(of.sizes.momenta, of.sizes.built);
     for (std::size_t i = Equations::momentum; i < width && most > 0; ++i) size[i] = most;
-    if (numbers.empty()) from = scaled(equations.start());
-    else std::copy_n(numbers.begin(), width, from.begin());
+    if (numbers.size() == width) std::copy_n(numbers.begin(), width, from.begin());
+    else from = scaled(equations.start());  // at the start, or those of a method that has no use for this
   }
   Numbers scaled(const Equations::Numbers& y) const noexcept {
     Numbers made;

@@ -62,7 +62,8 @@ BuildInfo build_info() {
 
 }  // namespace
 
-PYBIND11_MODULE(_core, module) {
+// Nothing here is shared between threads but what the caller shares; tests/python/test_threads.py runs all of it at once.
+PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
   module.doc() = "Compiled core of gyrostat.";
   module.attr("__version__") = gyrostat::library_version();
   module.def(

@@ -2,6 +2,7 @@
 #include "gyrostat/core/real.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "catch.hpp"
 
@@ -14,7 +15,7 @@ static_assert(!Real<int> && !Real<double&> && !Real<const char*>);
 TEMPLATE_TEST_CASE("the constants belong to their scalar", "", float, double, long double) {
   const TestType one(1);
   CHECK(one + epsilon<TestType> > one);
-  CHECK(one + epsilon<TestType> / 2 == one);
+  CHECK((one + epsilon<TestType> / 2 == one) == (std::numeric_limits<TestType>::digits <= 64));
   CHECK(std::isnan(gyrostat::nan<TestType>));
   CHECK(std::isinf(gyrostat::infinity<TestType>));
   CHECK(gyrostat::infinity<TestType> > 0);

@@ -59,12 +59,14 @@ inline std::vector<Row> read(const std::string& name) {
   return rows;
 }
 
-/// Units in the last place of `truth` by which `got` is wrong; `slack` is an error of the same kind that is forgiven.
+/// Units in the last place of `truth` by which `got` is wrong, the last place as epsilon has it; `slack` is an error of the same kind that is
+/// forgiven.
 template <class Scalar>
 double ulps(Scalar got, long double truth, long double slack = 0) {
   if (static_cast<long double>(got) == truth) return 0;
   const Scalar size = std::abs(static_cast<Scalar>(truth));
-  const Scalar ulp = std::nextafter(size, std::numeric_limits<Scalar>::infinity()) - size;
+  const Scalar spacing = std::nextafter(size, std::numeric_limits<Scalar>::infinity()) - size;
+  const Scalar ulp = spacing * (gyrostat::epsilon<Scalar> / std::numeric_limits<Scalar>::epsilon());
   const long double wrong = std::abs(static_cast<long double>(got) - truth);
   const double error = static_cast<double>(wrong / (static_cast<long double>(ulp) + slack));
   return std::isnan(error) ? 1e300 : error;

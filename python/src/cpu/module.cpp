@@ -17,5 +17,8 @@ PyMODINIT_FUNC PyInit__cpu() {
     Py_DECREF(module);
     return nullptr;
   }
+#ifdef Py_GIL_DISABLED
+  PyUnstable_Module_SetGIL(module, Py_MOD_GIL_NOT_USED);
+#endif
   return module;
 }

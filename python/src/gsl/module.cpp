@@ -9,7 +9,7 @@
 #include "../elliptic_backend.hpp"
 #include "gyrostat/ladder/deceleration/solve_definition.hpp"
 
-PYBIND11_MODULE(_gsl, module) {
+PYBIND11_MODULE(_gsl, module, pybind11::mod_gil_not_used()) {
   using gyrostat::python::EllipticBackend;
   static constexpr EllipticBackend backend = gyrostat::python::elliptic_functions<gyrostat::math::Gsl>();
   module.doc() = "Elliptic functions of the GNU Scientific Library. This extension is under the GPL.";

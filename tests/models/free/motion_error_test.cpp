@@ -176,7 +176,7 @@ TEST_CASE("a near horizon brings close bounds where the period is long", "[free]
       REQUIRE((m && truth && near && far));
       CAPTURE(e, t, m->period());
       CHECK(near->at(t).attitude < 1e-13 * (1 + t));
-      CHECK(near->at(t).attitude <= far->at(t).attitude);
+      if (t > 0) CHECK(near->at(t).attitude < far->at(t).attitude);  // at the start both are the roundings
       CHECK(off(m->at(t), truth->at(t)).attitude <= near->at(t).attitude);
       CHECK(std::isinf(near->at(1.1 * t + 1e-9).attitude));
     }
