@@ -88,17 +88,18 @@ class MotionError {
                         Scalar horizon = infinity<Scalar>) noexcept {
     MotionError error;
     error.horizon_ = std::abs(horizon);
+    error.nodes_ = motion.hyperbolic() ? many : some;
     error.start(motion);
     const Setup by = data == Data::exact ? epsilon<Setup> : Setup(epsilon<Scalar>);
     constexpr bool wide = !std::is_same_v<Setup, Scalar>;
     if (!(wide && data == Data::rounded && error.see_from_afar(assembly))) {
       const auto given = assembly.template cast<Setup>();
-      const Centre<both_ways> centre(motion, error.span_);
+      const Centre centre(motion, error.span_, error.nodes_);
       for (int k = 0; k < detail::neighbours; ++k) error.see(centre, motion_of(neighbour<Setup>(given, k, by)));
     }
     // what rounding did to this very set-up
     if constexpr (std::is_same_v<Setup, double>)
-      error.see(Centre<both_ways>(motion, error.span_), motion_of(assembly.template cast<DoubleDouble>()));
+      error.see(Centre(motion, error.span_, error.nodes_), motion_of(assembly.template cast<DoubleDouble>()));
     error.add_hidden(static_cast<Scalar>(by));
     return error;
   }
@@ -112,15 +113,15 @@ class MotionError {
     if (!is_tame(motion, assembly.body.inertia.isDiagonal(0))) return std::nullopt;
     MotionError error;
     error.horizon_ = std::abs(horizon);
-    error.nodes_ = few_nodes;
+    error.nodes_ = few;
     error.start(motion);
     if (!(error.cancellation_ < quick_cancellation)) return std::nullopt;
-    for (int i = 0; i < few_nodes; i += 2) {
-      const Scalar found = motion.defect(motion.period() * Scalar(i) / few_nodes, error.fastest_);
+    for (int i = 0; i < few.last; i += 2) {
+      const Scalar found = motion.defect(motion.period() * Scalar(i) / few.last, error.fastest_);
       if (!(found < quick_defect)) return std::nullopt;
       error.defect_ = std::max(error.defect_, found);
     }
-    const Centre<forward> centre(motion, error.span_);
+    const Centre centre(motion, error.span_, error.nodes_);
     error.weight_ = quick_margin / 4;
     error.scalar_margin_ = 4 * quick_margin;
     // principal axes found in Scalar are off by more than a rounding
@@ -183,7 +184,6 @@ class MotionError {
   bool kinds_agree() const noexcept { return agree_; }
 
  private:
-  static constexpr int most_nodes = 128, few_nodes = 8;
   static constexpr Scalar quick_modulus = Scalar(0.01), quick_cancellation = 4, quick_defect = 16 * epsilon<Scalar>,
                           quick_margin = 6, quick_gap = Scalar(1e-3), quick_least = Scalar(1e-8);
 
@@ -192,25 +192,25 @@ class MotionError {
     return Motion<Scalar>::template make<Setup>(Reduced<Setup, Room>::taken(given).problem);
   }
 
-  /// Nodes from the first to the last, 0 being the start.
+  /// Nodes from the first to the last, 0 being the start and the last the end of the span.
   struct Nodes {
     int first, last;
   };
-  static constexpr Nodes both_ways{-most_nodes, most_nodes}, forward{0, few_nodes};
+  static constexpr Nodes many{-128, 128}, some{-16, 16}, few{0, 8};  ///< beside a separatrix; elsewhere; the quick ones
 
-  /// A motion and its states at the nodes; the last is the end of the span.
-  template <const Nodes& nodes>
+  /// A motion and its states at the nodes.
   class Centre {
    public:
-    Centre(const Motion<Scalar>& of, const Scalar& span) noexcept : motion(of) {
+    Centre(const Motion<Scalar>& of, Scalar span, Nodes nodes) noexcept : motion(of), first_(nodes.first) {
       for (int i = nodes.first; i <= nodes.last; ++i)
-        states_[std::size_t(i - nodes.first)] = of.at(Scalar(i) * span / nodes.last);
+        states_[std::size_t(i - nodes.first)] = of.at(Scalar(i) * span / Scalar(nodes.last));
     }
-    const State<Scalar>& at(int node) const noexcept { return states_[std::size_t(node - nodes.first)]; }
+    const State<Scalar>& at(int node) const noexcept { return states_[std::size_t(node - first_)]; }
     const Motion<Scalar>& motion;
 
    private:
-    std::array<State<Scalar>, std::size_t(nodes.last - nodes.first + 1)> states_;
+    int first_;
+    std::array<State<Scalar>, std::size_t(many.last - many.first + 1)> states_;
   };
 
   /// Whether nothing that the set-up subtracts cancels as a matter of course: no separatrix is near, and no principal axes found in Scalar belong to
@@ -238,13 +238,13 @@ class MotionError {
     if (kind_ == Kind::steady || kind_ == Kind::separatrix) return false;
     const auto made = motion_of(assembly);
     if (!made || made->kind() != kind_ || !(made->modulus().kp2 > Scalar(1e-4))) return false;
-    const Centre<both_ways> centre(*made, span_);
+    const Centre centre(*made, span_, nodes_);
     const MotionError unseen = *this;
     weight_ = 1 / far;
     for (int k = 0; k < detail::neighbours; ++k)
       see(centre, motion_of(neighbour<Scalar>(assembly, k, far * epsilon<Scalar>)));
     weight_ = 1;
-    const Bound& period = first_[most_nodes];
+    const Bound& period = first_[std::size_t(nodes_.last)];
     if (agree_ && far * modulus_ < straight * made->modulus().kp2 && far * share_ * span_ < straight &&
         far * period.attitude < straight && far * period.angular_velocity < straight)
       return true;
@@ -264,8 +264,8 @@ class MotionError {
     const Mat3<Scalar> inverse =
         motion.R_BP() * motion.principal_moments().cwiseInverse().asDiagonal() * motion.R_BP().transpose();
     const Scalar R = motion.angular_momentum_norm();
-    for (int i = 0; i < nodes_; ++i) {
-      const Scalar t = T * Scalar(i) / Scalar(nodes_);
+    for (int i = 0; i < nodes_.last; ++i) {
+      const Scalar t = T * Scalar(i) / Scalar(nodes_.last);
       const State<Scalar> at = motion.at(t);
       const Vec3<Scalar> flow = cross<Scalar>(at.angular_momentum, at.angular_velocity);
       cancellation_ = max(cancellation_, motion.cancellation(t));
@@ -298,8 +298,7 @@ class MotionError {
     span_ = period_ = speed_ > 0 ? 2 * pi<Scalar> / speed_ : Scalar(1);
   }
 
-  template <const Nodes& nodes>
-  void see(const Centre<nodes>& centre, const Result<Motion<Scalar>>& made) noexcept {
+  void see(const Centre& centre, const Result<Motion<Scalar>>& made) noexcept {
     const Motion<Scalar>& motion = centre.motion;
     using std::abs, std::max;
     if (!made) {
@@ -315,10 +314,10 @@ class MotionError {
     modulus_ = max(modulus_, weight_ * abs(motion.modulus_squared() - other.modulus_squared()));
     if (kind_ != Kind::spherical && other.kind() != kind_) agree_ = false;
     Bound worst;
-    for (int i = 0; i <= nodes.last; ++i) {
+    for (int i = 0; i <= nodes_.last; ++i) {
       // running greatest differences, with time forward and back
-      for (int side = 1; side * i >= nodes.first && side >= -1; side -= 2) {
-        const Scalar t = Scalar(side * i) * span_ / nodes.last;
+      for (int side = 1; side * i >= nodes_.first && side >= -1; side -= 2) {
+        const Scalar t = Scalar(side * i) * span_ / Scalar(nodes_.last);
         const State<Scalar>&a = centre.at(side * i), b = other.at(t);
         const Quat<Scalar> q = conjugate(a.attitude) * b.attitude;
         worst.angular_velocity =
@@ -364,16 +363,17 @@ class MotionError {
   Bound near(Scalar t) const noexcept {
     if (kind_ == Kind::steady) return {};
     using std::ceil, std::min;
-    const Scalar place = ceil(t / span_ * Scalar(nodes_));
-    if (!(place < Scalar(nodes_)))
-      return t - t == 0 ? first_[std::size_t(nodes_)] : Bound{infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
+    const Scalar place = ceil(t / span_ * Scalar(nodes_.last));
+    if (!(place < Scalar(nodes_.last)))
+      return t - t == 0 ? first_[std::size_t(nodes_.last)]
+                        : Bound{infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
     return first_[std::size_t(place)];
   }
 
   Kind kind_ = Kind::steady;
   bool agree_ = true;
-  int nodes_ = most_nodes;  ///< that divide the span
-  Scalar weight_ = 1;       ///< by which a difference that is seen counts
+  Nodes nodes_ = many;
+  Scalar weight_ = 1;  ///< by which a difference that is seen counts
   Scalar scalar_margin_ = 4;
   Scalar horizon_ = infinity<Scalar>, period_ = 1, span_ = 1;
   Scalar fastest_ = 0, speed_ = 0, defect_ = 0;
@@ -381,7 +381,7 @@ class MotionError {
   Scalar share_ = 0, turn_rate_ = 0, turn_ = 0;  // periods late a second; rad/s about M; rad a period
   Scalar modulus_ = 0, energy_ = 0, norm_ = 0, cancellation_ = 1, rate_terms_ = 0;
   Scalar drift_ = 0, unstable_ = 0, frequency_ = 0, shear_ = 0, gain_ = 0;  // of a steady rotation
-  std::array<Bound, most_nodes + 1> first_{};
+  std::array<Bound, std::size_t(many.last + 1)> first_{};
 };
 
 }  // namespace gyrostat::free
