@@ -199,6 +199,9 @@ class Radau {
   /// y and p.
   const Scalar* state() const noexcept { return state_; }
   const Counts& counts() const noexcept { return counts_; }
+  /// What y and p inside the steps so far were off by at most, relative to scale, as far as their last coefficients tell: within Options::inside, and
+  /// far below it where the ends of steps or their sweeps limit these.
+  Scalar inside_error() const noexcept { return most_inside_; }
 
   /// Begin of the last step; the polynomial holds from here to time().
   Scalar previous_time() const noexcept { return start_time_.high; }
@@ -247,6 +250,7 @@ class Radau {
   struct Verdict {
     Scalar factor;  ///< by which to change its length; NaN if a coefficient is not finite
     bool accurate;  ///< good enough to be accepted
+    Scalar inside;  ///< error inside it, relative to scale
   };
   GYROSTAT_INLINE Verdict judge(Scalar h, Scalar tolerance, Scalar most_inside) const noexcept;
   /// The length to begin with; NaN if the rates are not finite.
@@ -258,6 +262,7 @@ class Radau {
   Options options_;
   Scalar rate_[relaxing];
   Scalar tolerance_, inside_, goal_;
+  Scalar most_inside_ = 0;  ///< seen
   Sum time_, start_time_;
   Scalar wish_ = 0;         ///< the next step
   Scalar last_step_ = 0;    ///< of the polynomial in last_
@@ -466,7 +471,7 @@ GYROSTAT_INLINE auto Radau<System>::judge(Scalar h, Scalar tolerance, Scalar mos
     squares = multiply_add(left, left, squares);
   }
   const Scalar a4 = squares[0], a5 = squares[1], a6 = squares[2], a7 = squares[3];
-  if (!(a4 + a5 + a6 + a7 < infinity<Scalar>)) return {nan<Scalar>, false};
+  if (!(a4 + a5 + a6 + a7 < infinity<Scalar>)) return {nan<Scalar>, false, nan<Scalar>};
   // how the coefficients fall, by pairs since even and odd ones may vanish in turn
   const Scalar early = std::max(a4, a5), late = std::max(a6, a7);
   const Scalar fall = early > 0 ? std::min(std::sqrt(std::sqrt(late / early)), Scalar(1)) : Scalar(0);
@@ -483,7 +488,7 @@ GYROSTAT_INLINE auto Radau<System>::judge(Scalar h, Scalar tolerance, Scalar mos
   const float by_inside = inside > 0 ? std::log2(static_cast<float>(most_inside / inside)) / 9 : 3.0F;
   const float by_sweeps = contraction_ > 0 ? std::log2(static_cast<float>(Scalar(0.25L) / contraction_)) : 3.0F;
   const float by = std::min({by_end - 0.2F, by_inside - 0.25F, by_sweeps, 2.0F});
-  return {static_cast<Scalar>(std::exp2(std::max(by, -4.0F))), !(end > tolerance || inside > most_inside)};
+  return {static_cast<Scalar>(std::exp2(std::max(by, -4.0F))), !(end > tolerance || inside > most_inside), inside};
 }
 
 template <RelaxingSystem System>
@@ -561,6 +566,7 @@ Status Radau<System>::step(Scalar t_max) noexcept {
     }
 
     accept(h);
+    most_inside_ = std::max(most_inside_, verdict.inside);
     start_time_ = time_;
     time_ = lands ? Sum{t_max, 0} : add(time_, h);
     ++counts_.steps;

@@ -259,6 +259,12 @@ class FullCourse {
   }
   Scalar previous_time() const noexcept { return solver_->previous_time(); }
 
+  /// What the states inside steps are off by beyond what adds up, relative to their scales; of collocation alone.
+  Scalar inside_error() const noexcept {
+    if constexpr (Method::integrator == Integrator::radau) return std::max(inside_error_, solver_->inside_error());
+    else return 0;
+  }
+
   ode::Counts counts() const noexcept {
     ode::Counts all = counts_;
     all += solver_->counts();
@@ -280,6 +286,7 @@ class FullCourse {
     Numbers numbers;
     std::copy_n(solver_->state(), numbers.size(), numbers.begin());
     const Scalar t = time();
+    inside_error_ = inside_error();
     counts_ += solver_->counts();
     options_.step_cap -= std::min(options_.step_cap, solver_->counts().steps);
     piece_ = std::move(*next_);
@@ -296,7 +303,7 @@ class FullCourse {
   static constexpr Scalar nearly_ = Scalar(1e-6L);
   Prepared<Scalar> of_;
   std::span<const Scalar> cuts_;
-  Scalar last_, share_;
+  Scalar last_, share_, inside_error_ = 0;
   bool outgrown_ = false;
   std::size_t cut_ = 0;
   Piece<Scalar> piece_;
@@ -475,7 +482,7 @@ class FullMotion {
     const FullRow<Scalar> row(of);
     // rounding at the asked times
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
-      const Scalar between = Method::integrator == Integrator::radau ? 2 * tolerance.inside : 0;
+      const Scalar between = Scalar(honesty::margin_between) * companion->inside_error();
       return rounding_of_columns(of, row, size, 4 * eps + steps + between);
     };
     solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of.sizes.turning, times_,

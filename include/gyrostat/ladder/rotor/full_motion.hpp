@@ -116,6 +116,8 @@ class Course {
     both += collocation_.counts();
     return both;
   }
+  /// What the states inside steps of collocation are off by, relative to their scales.
+  Scalar inside_error() const noexcept { return collocation_.inside_error(); }
 
  private:
   static auto series_options(const FullSystem<Scalar>& system, Scalar tolerance, std::uint64_t step_cap) noexcept {
@@ -252,7 +254,7 @@ class FullMotion {
     // rounding at the asked times
     const Row<Scalar> row(gyrostat_, start_);
     const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
-      const Scalar between = answer.used == Integrator::radau ? 2 * inside : 0;
+      const Scalar between = Scalar(honesty::margin_between) * companion.inside_error();
       return rounding_of_columns(row, start_, size, 4 * eps + steps + between);
     };
     solve_beside(answer, row, Runs<Course<Scalar>>{course, companion, second ? &*second : nullptr}, start_, turning_,
