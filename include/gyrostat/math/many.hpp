@@ -45,6 +45,8 @@ struct Many {
   GYROSTAT_INLINE friend Choice operator>(const Many& a, const Many& b) noexcept { return b < a; }
 };
 
+inline constexpr unsigned all = (1u << Many::size) - 1;  ///< bits of a Choice that says yes to every number
+
 GYROSTAT_INLINE Many choose(const Choice& c, const Many& a, const Many& b) noexcept {
   return gyrostat::choose<double>(c.yes, a.x, b.x);
 }
@@ -124,21 +126,34 @@ GYROSTAT_INLINE Many quarter_period(const Many& kp2) noexcept {
   return pi<double> / (a + b);
 }
 
-/// Carlson's R_F(x, y, 1), x and y from 1e-6 to 1e6.
-GYROSTAT_INLINE Many carlson_RF(Many x, Many y) noexcept {
-  Many z = 1;
-  for (int trip = 0; trip < 7; ++trip) {
-    const Many rx = sqrt(x), ry = sqrt(y), rz = sqrt(z), lambda = fused(rx, ry + rz, ry * rz);
-    x = 0.25 * (x + lambda);
-    y = 0.25 * (y + lambda);
-    z = 0.25 * (z + lambda);
+/// Carlson's R_F(x, y, 1) of N pairs at once, x and y from 1e-18 to 1e6: by duplication until all numbers are within reach of the series.
+template <int N>
+GYROSTAT_INLINE void carlson_RF(Many (&x)[N], Many (&y)[N], Many (&result)[N]) noexcept {
+  constexpr double reach = 0.009;  // (eps/4)^(1/8)
+  Many z[N], mean[N], a[N], b[N];
+  for (int n = 0; n < N; ++n) z[n] = 1;
+  for (int trip = 0; trip < 14; ++trip) {
+    Many far = 0;
+    for (int n = 0; n < N; ++n) {
+      mean[n] = (x[n] + y[n] + z[n]) * (1. / 3);
+      a[n] = mean[n] - x[n], b[n] = mean[n] - y[n];
+      far = max(far, max(max(abs(a[n]), abs(b[n])), abs(a[n] + b[n])) - reach * mean[n]);
+    }
+    if ((far > 0.).bits() == 0) break;
+    for (int n = 0; n < N; ++n) {
+      const Many rx = sqrt(x[n]), ry = sqrt(y[n]), rz = sqrt(z[n]), lambda = fused(rx, ry + rz, ry * rz);
+      x[n] = 0.25 * (x[n] + lambda);
+      y[n] = 0.25 * (y[n] + lambda);
+      z[n] = 0.25 * (z[n] + lambda);
+    }
   }
-  const Many mean = (x + y + z) * (1. / 3), inverse = 1 / mean;
-  const Many X = (mean - x) * inverse, Y = (mean - y) * inverse, Z = -(X + Y);
-  const Many e2 = X * Y - Z * Z, e3 = X * Y * Z;
-  const Many series = 1 + (e2 * (-0.1 + e2 * (1. / 24 - e2 * (5. / 208) - e3 * (1. / 16))) +
-                           e3 * (1. / 14 - e2 * (3. / 44) + e3 * (3. / 104)));
-  return series / sqrt(mean);
+  for (int n = 0; n < N; ++n) {
+    const Many inverse = 1 / mean[n], X = a[n] * inverse, Y = b[n] * inverse, Z = -(X + Y);
+    const Many e2 = X * Y - Z * Z, e3 = X * Y * Z;
+    const Many series = 1 + (e2 * (-0.1 + e2 * (1. / 24 - e2 * (5. / 208) - e3 * (1. / 16))) +
+                             e3 * (1. / 14 - e2 * (3. / 44) + e3 * (3. / 104)));
+    result[n] = series / sqrt(mean[n]);
+  }
 }
 
 }  // namespace gyrostat::math

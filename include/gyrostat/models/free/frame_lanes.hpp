@@ -107,84 +107,93 @@ class PencilLanes {
     if (axis >= 0) x.x[axis] += step;
     return x;
   }
-
-  /// The root between a[low] and a[low + 1] that is the nearest to a[1], where the secular equation falls.
-  GYROSTAT_INLINE AxisLanes axis(int low) const noexcept;
-
- private:
-  /// Numbers between which the equation falls from + to -, as parts of the gap.
-  GYROSTAT_INLINE void bracket(int low, const Many (&g2)[3], const Many& width, const Many& third, Many& from,
-                               Many& to) const noexcept {
-    constexpr int count = 16;
-    constexpr double parts[count + 2] = {0,   1e-6, 1e-3, .02, .06, .13, .22, .33,       .44,
-                                         .56, .67,  .78,  .87, .94, .98, .999, .999999, 1};
-    const int other = low == 0 ? 2 : 0;
-    const Many constant = a[low] + plain;
-    from = low == 0 ? parts[0] : parts[count];
-    to = low == 0 ? parts[1] : parts[count + 1];
-    for (int k = 0; k < count; ++k) {
-      const int j = low == 0 ? k + 1 : count - k;
-      const Many s = parts[j] * width, right = (1 - parts[j]) * width, far = third - s;
-      // the equation times the distances; the third of them has the sign of third
-      const Many value = far * ((constant + s) * s * right + g2[low] * right - g2[low + 1] * s) - g2[other] * s * right;
-      if (low == 0) {
-        const Choice more = value > 0.;
-        from = math::choose(more, parts[j], from), to = math::choose(more, parts[j + 1], to);
-      } else {  // far is negative
-        const Choice more = value > 0.;
-        from = math::choose(more, parts[j - 1], from), to = math::choose(more, parts[j], to);
-      }
-    }
-  }
 };
 
-GYROSTAT_INLINE AxisLanes PencilLanes::axis(int low) const noexcept {
-  const int other = low == 0 ? 2 : 0;
-  const Many width = low == 0 ? gap01 : gap12, third = low == 0 ? gap02 : -gap01;
-  Many g2[3];
-  for (int i = 0; i < 3; ++i) g2[i] = a[i] * lambda[i] * (a[i] * lambda[i]);
-  Many from, to;
-  bracket(low, g2, width, third, from, to);
-  AxisLanes u;
-  u.upper = from + to > 1.;
-  // from the nearer pole, whose term is kept while the rest is made linear
-  const Many shift = math::choose(u.upper, width, 0.);
-  const Many next = math::choose(u.upper, -width, width), far = third - shift;
-  const Many weight = math::choose(u.upper, g2[low + 1], g2[low]), beside = math::choose(u.upper, g2[low], g2[low + 1]);
-  const Many constant = math::choose(u.upper, a[low + 1], a[low]) + plain;
-  Many lo = math::choose(u.upper, (from - 1) * width, from * width),
-       hi = math::choose(u.upper, (to - 1) * width, to * width);
-  Many x = 0.5 * (lo + hi), step = x;
-  for (int trip = 0; trip < 7; ++trip) {
-    const Many p = 1 / ((next - x) * (far - x)), of_next = (far - x) * p, of_far = (next - x) * p;
-    const Many first = beside * of_next, second = g2[other] * of_far;
-    const Many rest = constant + x - first - second, steep = 1 - first * of_next - second * of_far;
-    const Choice rises = rest * x * x + weight * x > 0.;  // the sign of rest + weight/x
-    lo = math::choose(rises, x, lo);
-    hi = math::choose(rises, hi, x);
-    const Many beta = rest - steep * x, root = math::sqrt(math::max(beta * beta - 4 * steep * weight, 0.));
+/// The root between a[low] and a[low + 1] that is the nearest to a[1], where the secular equation falls.
+class RootLanes {
+ public:
+  GYROSTAT_INLINE RootLanes(const PencilLanes& pencil, int low) noexcept : low_(low) {
+    const Many width = low == 0 ? pencil.gap01 : pencil.gap12, third = low == 0 ? pencil.gap02 : -pencil.gap01;
+    Many g2[3];
+    for (int i = 0; i < 3; ++i) g2[i] = pencil.a[i] * pencil.lambda[i] * (pencil.a[i] * pencil.lambda[i]);
+    Many from, to;
+    bracket(pencil, g2, width, third, from, to);
+    // from the nearer pole, whose term is kept while the rest is made linear
+    upper_ = from + to > 1.;
+    shift_ = math::choose(upper_, width, 0.);
+    next_ = math::choose(upper_, -width, width);
+    far_ = third - shift_;
+    weight_ = math::choose(upper_, g2[low + 1], g2[low]);
+    beside_ = math::choose(upper_, g2[low], g2[low + 1]);
+    other_ = g2[low == 0 ? 2 : 0];
+    origin_ = math::choose(upper_, pencil.a[low + 1], pencil.a[low]);
+    constant_ = origin_ + pencil.plain;
+    lo_ = from * width - shift_;
+    hi_ = to * width - shift_;
+    x_ = 0.5 * (lo_ + hi_);
+  }
+
+  /// A step towards the root; where all are there, what it leaves is of the order of its square.
+  GYROSTAT_INLINE void step() noexcept {
+    const Many p = 1 / ((next_ - x_) * (far_ - x_)), of_next = (far_ - x_) * p, of_far = (next_ - x_) * p;
+    const Many first = beside_ * of_next, second = other_ * of_far;
+    const Many rest = constant_ + x_ - first - second, steep = 1 - first * of_next - second * of_far;
+    const Choice rises = (rest * x_ + weight_) * x_ > 0.;  // the sign of rest + weight/x
+    lo_ = math::choose(rises, x_, lo_);
+    hi_ = math::choose(rises, hi_, x_);
+    const Many beta = rest - steep * x_, root = math::sqrt(math::max(beta * beta - 4 * steep * weight_, 0.));
     const Many q = -0.5 * (beta + math::choose(beta < 0., -root, root));
-    const Many one = weight / q, two = q / steep;
+    const Many one = weight_ / q, two = q / steep;
     // a step out of the bracket becomes a bisection, unless by rounding only
-    const Many little = 1e-9 * math::abs(x), least = lo - little, most = hi + little;
-    Many y = 0.5 * (lo + hi);
+    const Many little = 1e-9 * math::abs(x_), least = lo_ - little, most = hi_ + little;
+    Many y = 0.5 * (lo_ + hi_);
     y = math::choose((least < two) & (two < most), two, y);
     y = math::choose((least < one) & (one < most), one, y);
-    step = y - x;
-    x = y;
+    found_ = math::abs(y - x_) < 1e-8 * math::abs(x_);
+    x_ = y;
   }
-  u.offset = x;
-  u.found = math::abs(step) < 1e-7 * math::abs(x);
-  u.sigma = math::choose(u.upper, a[low + 1], a[low]) + x;
-  u.distance[low] = -shift - x;
-  u.distance[low + 1] = math::choose(u.upper, 0., width) - x;
-  u.distance[other] = far - x;
-  for (int i = 0; i < 3; ++i)
-    u.x.x[i] = math::choose(shifted, u.sigma, a[i]) * lambda[i] / u.distance[i];
-  u.x.x[3] = 1;
-  u.x = (1 / math::sqrt(math::abs(S(u.x, u.x)))) * u.x;
-  return u;
-}
+  Choice found() const noexcept { return found_; }
+
+  GYROSTAT_INLINE AxisLanes axis(const PencilLanes& pencil) const noexcept {
+    AxisLanes u;
+    u.upper = upper_;
+    u.offset = x_;
+    u.found = found_;
+    u.sigma = origin_ + x_;
+    u.distance[low_] = -shift_ - x_;
+    u.distance[low_ + 1] = math::choose(upper_, 0., next_) - x_;
+    u.distance[low_ == 0 ? 2 : 0] = far_ - x_;
+    for (int i = 0; i < 3; ++i)
+      u.x.x[i] = math::choose(pencil.shifted, u.sigma, pencil.a[i]) * pencil.lambda[i] / u.distance[i];
+    u.x.x[3] = 1;
+    u.x = (1 / math::sqrt(math::abs(pencil.S(u.x, u.x)))) * u.x;
+    return u;
+  }
+
+ private:
+  /// Where the equation falls from + to -, as parts of the gap.
+  GYROSTAT_INLINE void bracket(const PencilLanes& pencil, const Many (&g2)[3], const Many& width, const Many& third,
+                               Many& from, Many& to) const noexcept {
+    constexpr int count = 12;
+    constexpr double parts[count + 2] = {0, 1e-5, .01, .05, .13, .25, .4, .6, .75, .87, .95, .99, .99999, 1};
+    const Many constant = pencil.a[low_] + pencil.plain, other = g2[low_ == 0 ? 2 : 0];
+    from = low_ == 0 ? parts[0] : parts[count];
+    to = low_ == 0 ? parts[1] : parts[count + 1];
+    for (int k = 0; k < count; ++k) {
+      const int j = low_ == 0 ? k + 1 : count - k, next = low_ == 0 ? j : j - 1;
+      const Many s = parts[j] * width, right = (1 - parts[j]) * width, far = third - s;
+      // the equation times the distances, of which only that to the third can be negative
+      const Many value =
+          far * ((constant + s) * s * right + g2[low_] * right - g2[low_ + 1] * s) - other * s * right;
+      const Choice more = value > 0.;
+      from = math::choose(more, parts[next], from), to = math::choose(more, parts[next + 1], to);
+    }
+  }
+
+  int low_;
+  Choice upper_, found_;
+  Many shift_, next_, far_, weight_, beside_, other_, origin_, constant_, lo_, hi_, x_;
+};
 
 /// The plane that two spacelike eigenvectors leave, by its null directions (NullPlane).
 struct PlaneLanes {
@@ -193,7 +202,15 @@ struct PlaneLanes {
   Many4 plus, minus;
   Many E_plus, E_minus, al, be, Yu, Yv, from_u, from_v;
 
-  GYROSTAT_INLINE explicit PlaneLanes(const PencilLanes& pencil) noexcept : u(pencil.axis(0)), v(pencil.axis(1)) {
+  GYROSTAT_INLINE explicit PlaneLanes(const PencilLanes& pencil) noexcept {
+    RootLanes first(pencil, 0), second(pencil, 1);
+    for (int trip = 0; trip < 12; ++trip) {
+      first.step();
+      second.step();
+      if ((first.found() & second.found()).bits() == math::all) break;
+    }
+    u = first.axis(pencil);
+    v = second.axis(pencil);
     split = math::choose(u.upper, 0., pencil.gap01) + math::choose(v.upper, pencil.gap12, 0.) + (v.offset - u.offset);
     v.x = v.x - pencil.S(v.x, u.x) * u.x;
     v.x = (1 / math::sqrt(pencil.S(v.x, v.x))) * v.x;
@@ -208,7 +225,7 @@ struct PlaneLanes {
     const Many square = pencil.S(e, e);
     const Choice near = 4 * square > s * s;
     e = (1 / math::sqrt(square)) * e;
-    if (near.bits() != (1u << Many::size) - 1) e = choose(near, e, spacelike(pencil, V));
+    if (near.bits() != math::all) e = choose(near, e, spacelike(pencil, V));
     Many D = pencil.S(W, e);
     const Choice back = D < 0.;
     D = math::abs(D);
@@ -250,7 +267,7 @@ struct FrameLanes {
   Choice single, sound;  ///< sound: of trigonometric form, and nothing went wrong
   Many side, delta;      ///< side: of two components, 1 about the axis of the largest moment, else -1
   Many4 plus, minus, xa, xb;
-  Many k2, kp2, rate, sn, cn, dn;
+  Many k2, kp2, rate, u_start;  ///< u_start: the argument of the start
   Many eta, eta_rest, size[2], psi[2];
 
   GYROSTAT_INLINE explicit FrameLanes(const PencilLanes& pencil) noexcept;
@@ -273,7 +290,7 @@ struct FrameLanes {
            minor(a, b, 0, 3) * minor(c, d, 1, 2) + minor(a, b, 1, 2) * minor(c, d, 0, 3) -
            minor(a, b, 1, 3) * minor(c, d, 0, 2) + minor(a, b, 2, 3) * minor(c, d, 0, 1);
   }
-  static constexpr double least_k2 = 1e-7;
+  static constexpr double least_k2 = 1e-16;
 };
 
 GYROSTAT_INLINE FrameLanes::Form FrameLanes::lobe(const PencilLanes&, const PlaneLanes& p) noexcept {
@@ -390,9 +407,12 @@ GYROSTAT_INLINE FrameLanes::FrameLanes(const PencilLanes& pencil) noexcept {
   f.x1 = choose(turn, -1. * f.x1, f.x1);
   plus = f.plus, minus = f.minus, xa = f.x1;
   xb = math::choose(single, 1., delta) * f.x2;
-  k2 = f.k2, kp2 = f.kp2, rate = f.rate, sn = f.sn, cn = f.cn, dn = f.dn;
-  eta = f.factor * math::carlson_RF(f.x, f.y);
-  eta_rest = f.rest_factor * math::carlson_RF(f.rest_x, f.rest_y);
+  k2 = f.k2, kp2 = f.kp2, rate = f.rate;
+  Many x[3] = {f.x, f.rest_x, f.cn * f.cn}, y[3] = {f.y, f.rest_y, f.dn * f.dn}, F[3];
+  math::carlson_RF(x, y, F);
+  eta = f.factor * F[0];
+  eta_rest = f.rest_factor * F[1];
+  u_start = f.sn * F[2];
   for (int i = 0; i < 2; ++i) psi[i] = f.psi[i], size[i] = f.size[i];
 }
 

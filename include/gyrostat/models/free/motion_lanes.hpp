@@ -126,7 +126,6 @@ inline unsigned MotionLanes::make(int first) noexcept {
 
   // Motion::set_regular
   const Many u_rate = frame.rate * R, window = 4 * K;
-  const Many u_start = frame.sn * math::carlson_RF(frame.cn * frame.cn, frame.dn * frame.dn);
   const Many rate = u_rate / window, h = 0.5 * pi<double> / K;
   const Many even_psi = math::choose(frame.single, frame.psi[1], frame.psi[0]),
              odd_psi = math::choose(frame.single, frame.psi[0], frame.psi[1]);
@@ -136,7 +135,7 @@ inline unsigned MotionLanes::make(int first) noexcept {
   const Many phase_rate = R * (psi - frame.rate * turning) * (0.5 / pi<double>);
   const Many period = window / u_rate, turns = 2 * (phase_rate * period);
   rate.to(rate_ + first);
-  (u_start / window).to(start_ + first);
+  (frame.u_start / window).to(start_ + first);
   phase_rate.to(phase_rate_ + first);
   period.to(period_ + first);
   (2 * pi<double> * (turns - math::nearest(turns))).to(turn_ + first);
@@ -158,7 +157,7 @@ inline unsigned MotionLanes::make(int first) noexcept {
   (q[1] * p[0] - q[0] * p[1] - q[2] * p[3] + q[3] * p[2]).to(lay_[1] + first);
   (q[2] * p[0] - q[0] * p[2] - q[3] * p[1] + q[1] * p[3]).to(lay_[2] + first);
   (q[3] * p[0] - q[0] * p[3] - q[1] * p[2] + q[2] * p[1]).to(lay_[3] + first);
-  const Many sum = rate + phase_rate + row(lay_[0]) + row(lay_[1]) + row(lay_[2]) + row(lay_[3]) + u_start;
+  const Many sum = rate + phase_rate + row(lay_[0]) + row(lay_[1]) + row(lay_[2]) + row(lay_[3]) + frame.u_start;
   return (frame.sound & (math::abs(sum) < 1e200) & (R > 1e-100) & (R < 1e100)).bits();
 }
 
