@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
+#include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/math/many.hpp"
@@ -20,6 +20,8 @@ class MotionLanes {
  public:
   static constexpr int size = 8;
   using Row = double[size];
+  using Many = math::Many;
+  using Choice = math::Choice;
 
   /// States of the eight bodies, each at a time of its own; body axes, inertial axes as in Motion::at.
   struct States {
@@ -34,25 +36,28 @@ class MotionLanes {
       s.attitude = {attitude[0][b], attitude[1][b], attitude[2][b], attitude[3][b]};
       return s;
     }
+
+    /// How far the farthest of the lanes is from a state: rad/s, N m s, rad.
+    struct Apart {
+      double angular_velocity, angular_momentum, attitude;
+    };
+    Apart apart(const State<double>& from) const noexcept;
   };
 
-  /// Eight bodies of which none has a motion that is told.
-  MotionLanes() noexcept {
-    PrincipalProblem<double> p;
-    p.M[0] = p.G[0] = 1;
-    for (int b = 0; b < size; ++b) set(b, p, {});
-  }
+  /// Nothing is known of any lane until set.
+  MotionLanes() = default;
 
-  /// The body of lane b; attitude: of the body axes, unit.
-  void set(int b, const PrincipalProblem<double>& body, const Quat<double>& attitude) noexcept {
+  /// The body of the lanes first to last - 1; attitude: of the body axes, unit.
+  void set(int first, int last, const PrincipalProblem<double>& body, const Quat<double>& attitude) noexcept {
+    const auto put = [first, last](Row& row, double value) { std::fill(row + first, row + last, value); };
     for (int i = 0; i < 3; ++i) {
-      moments_[i][b] = body.moments[i];
-      l_[i][b] = body.l[i], G_[i][b] = body.G[i], M_[i][b] = body.M[i];
-      for (int j = 0; j < 3; ++j) R_BP_[i][j][b] = body.R_BP(i, j);
+      put(moments_[i], body.moments[i]);
+      put(l_[i], body.l[i]), put(G_[i], body.G[i]), put(M_[i], body.M[i]);
+      for (int j = 0; j < 3; ++j) put(R_BP_[i][j], body.R_BP(i, j));
     }
     const Quat<double> c = conjugate(from_matrix(body.R_BP));
     const double from_body[4] = {c.w, c.x, c.y, c.z}, start[4] = {attitude.w, attitude.x, attitude.y, attitude.z};
-    for (int i = 0; i < 4; ++i) c_[i][b] = from_body[i], start_attitude_[i][b] = start[i];
+    for (int i = 0; i < 4; ++i) put(c_[i], from_body[i]), put(start_attitude_[i], start[i]);
   }
 
   /// Sets all up. A bit, 2^b, for each lane whose motion is tame; what is told of the others means nothing.
@@ -70,6 +75,20 @@ class MotionLanes {
     return s;
   }
 
+  /// The same motion in all lanes; nothing where it is not tame.
+  static std::optional<MotionLanes> of(const Motion<double>& motion) noexcept;
+
+  /// States, and what Motion tells of them: cancellation, rate_terms, and what defect is without the start, not over `fastest`.
+  struct Looks {
+    States states;
+    alignas(64) Row cancellation, rate_terms, defect;
+  };
+  Looks look(const Row& t) const noexcept {
+    Looks seen;
+    for (int first = 0; first < size; first += Many::size) look(first, Many::from(t + first), seen);
+    return seen;
+  }
+
   /// As those of Motion.
   Kind kind(int b) const noexcept {
     return side_[b] == 0 ? Kind::one_component : side_[b] > 0 ? Kind::about_largest : Kind::about_smallest;
@@ -81,12 +100,27 @@ class MotionLanes {
   const Row& angular_momentum_norm() const noexcept { return norm_; }
 
  private:
-  using Many = math::Many;
-  using Choice = math::Choice;
   static constexpr int powers = 8;  ///< of E, enough for every nome below exp(-pi)
 
   unsigned make(int first) noexcept;
   void at(int first, const Many& t, States& to) const noexcept;
+  void look(int first, const Many& t, Looks& to) const noexcept;
+
+  struct C {
+    Many re, im;
+    GYROSTAT_INLINE friend C operator+(const C& a, const C& b) noexcept { return {a.re + b.re, a.im + b.im}; }
+    GYROSTAT_INLINE friend C operator*(const C& a, const C& b) noexcept {
+      return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+    }
+  };
+  /// The sums of even and of odd powers of E, the latter times -i, and their slopes by the angle of E.
+  struct Sums {
+    C even, odd, even_slope, odd_slope;
+  };
+  template <bool slopes>
+  Sums sums(int first, const math::ManyCircle& E) const noexcept;
+  /// omega, M and attitude of sums and the phase of the spinor.
+  void assemble(int first, const C& a, const C& b, const C& phase, States& to) const noexcept;
 
   /// The sums of even and of odd powers at E = 1, and their slopes.
   struct AtOne {
@@ -231,11 +265,6 @@ inline void MotionLanes::set_forms(int first, const detail::PencilLanes& pencil,
     form[2][n].to(forms_[2][n] + first);
     math::choose(f.single, -form[3][n], form[3][n]).to(forms_[3][n] + first);
   }
-  struct C {
-    Many re, im;
-  };
-  const auto times = [](const C& a, const C& b) { return C{a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}; };
-  const auto plus = [](const C& a, const C& b) { return C{a.re + b.re, a.im + b.im}; };
   const auto conj = [](const C& a) { return C{a.re, -a.im}; };
   const Many *N = momentum[0], *a = momentum[2], *b = momentum[3];
   const Many root = math::sqrt(0.5 * (N[3] + math::abs(N[2]))), across = 0.5 / root;
@@ -247,14 +276,14 @@ inline void MotionLanes::set_forms(int first, const detail::PencilLanes& pencil,
   const Many inverse = 1 / (o[0].re * o[0].re + o[0].im * o[0].im + o[1].re * o[1].re + o[1].im * o[1].im);
   C iota[2];
   for (int j = 0; j < 2; ++j) {
-    const C sum = plus(times(conj(o[0]), H[0][j]), times(conj(o[1]), H[1][j]));
+    const C sum = conj(o[0]) * H[0][j] + conj(o[1]) * H[1][j];
     iota[j] = {inverse * sum.re, -inverse * sum.im};
   }
   const Many cw = row(c_[0]), cx = row(c_[1]), cy = row(c_[2]), cz = row(c_[3]);
   const C U[2][2] = {{{cw, cz}, {cy, cx}}, {{-cy, cx}, {cw, -cz}}};
   for (int i = 0; i < 2; ++i) {
-    const C one = plus(times(U[i][0], o[0]), times(U[i][1], o[1])),
-            two = plus(times(U[i][0], iota[0]), times(U[i][1], iota[1]));
+    const C one = U[i][0] * o[0] + U[i][1] * o[1],
+            two = U[i][0] * iota[0] + U[i][1] * iota[1];
     math::choose(f.single, two.re, one.re).to(spinor_[i][0][0] + first);
     math::choose(f.single, two.im, one.im).to(spinor_[i][0][1] + first);
     math::choose(f.single, one.re, two.re).to(spinor_[i][1][0] + first);
@@ -262,20 +291,26 @@ inline void MotionLanes::set_forms(int first, const detail::PencilLanes& pencil,
   }
 }
 
-inline void MotionLanes::at(int first, const Many& t, States& to) const noexcept {
+template <bool slopes>
+GYROSTAT_INLINE MotionLanes::Sums MotionLanes::sums(int first, const math::ManyCircle& E) const noexcept {
   const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
-  const auto E = math::circle(fraction(row(rate_), t, row(start_)));
-  const auto phase = math::circle(fraction(row(phase_rate_), t, 0.));
-  Many re = 1, im = 0, even_re = row(x_[0]), even_im = 0, odd_re = 0, odd_im = 0;
+  Many re = 1, im = 0;
+  C sum[2] = {{row(x_[0]), 0.}, {0., 0.}}, slope[2] = {{0., 0.}, {0., 0.}};  // of even and of odd powers
   for (int m = 1; m <= powers; ++m) {
-    const Many r = re * E.c - im * E.s;
+    const Many r = re * E.c - im * E.s, x = row(x_[m]), y = row(y_[m]), n = double(m);
     im = re * E.s + im * E.c;
     re = r;
-    if (m % 2) odd_re += row(x_[m]) * re, odd_im += row(y_[m]) * im;
-    else even_re += row(x_[m]) * re, even_im += row(y_[m]) * im;
+    sum[m % 2] = sum[m % 2] + C{x * re, y * im};
+    if constexpr (slopes) slope[m % 2] = slope[m % 2] + C{-n * x * im, n * y * re};
   }
-  const Many ar = even_re, ai = even_im, br = odd_im, bi = -odd_re;
-  const Many f[4] = {ar * ar + ai * ai, br * br + bi * bi, ar * br + ai * bi, ar * bi - ai * br};
+  return {sum[0], {sum[1].im, -sum[1].re}, slope[0], {slope[1].im, -slope[1].re}};
+}
+
+GYROSTAT_INLINE void MotionLanes::assemble(int first, const C& a, const C& b, const C& phase,
+                                           States& to) const noexcept {
+  const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+  const Many f[4] = {a.re * a.re + a.im * a.im, b.re * b.re + b.im * b.im, a.re * b.re + a.im * b.im,
+                     a.re * b.im - a.im * b.re};
   const auto form = [&](int n) GYROSTAT_INLINE_LAMBDA {
     return row(forms_[0][n]) * f[0] + row(forms_[1][n]) * f[1] + row(forms_[2][n]) * f[2] + row(forms_[3][n]) * f[3];
   };
@@ -284,21 +319,122 @@ inline void MotionLanes::at(int first, const Many& t, States& to) const noexcept
     (form(1 + i) * inverse).to(to.angular_velocity[i] + first);
     (form(4 + i) * inverse).to(to.angular_momentum[i] + first);
   }
-  Many s[2][2];  // up and down
-  for (int i = 0; i < 2; ++i) {
-    const Many cr = row(spinor_[i][0][0]), ci = row(spinor_[i][0][1]), dr = row(spinor_[i][1][0]),
-               di = row(spinor_[i][1][1]);
-    const Many sr = cr * ar - ci * ai + dr * br - di * bi, si = cr * ai + ci * ar + dr * bi + di * br;
-    s[i][0] = sr * phase.c - si * phase.s;
-    s[i][1] = sr * phase.s + si * phase.c;
-  }
-  const Many w = s[0][0], x = s[1][1], y = -s[1][0], z = s[0][1];
+  const auto spinor = [&](int i, int j) GYROSTAT_INLINE_LAMBDA { return C{row(spinor_[i][j][0]), row(spinor_[i][j][1])}; };
+  const C up = (spinor(0, 0) * a + spinor(0, 1) * b) * phase, down = (spinor(1, 0) * a + spinor(1, 1) * b) * phase;
+  const Many w = up.re, x = down.im, y = -down.re, z = up.im;
   const Many length = 1 / math::sqrt(w * w + x * x + y * y + z * z);
   const Many lw = row(lay_[0]), lx = row(lay_[1]), ly = row(lay_[2]), lz = row(lay_[3]);
   (length * (lw * w - lx * x - ly * y - lz * z)).to(to.attitude[0] + first);
   (length * (lw * x + lx * w + ly * z - lz * y)).to(to.attitude[1] + first);
   (length * (lw * y - lx * z + ly * w + lz * x)).to(to.attitude[2] + first);
   (length * (lw * z + lx * y - ly * x + lz * w)).to(to.attitude[3] + first);
+}
+
+inline MotionLanes::States::Apart MotionLanes::States::apart(const State<double>& from) const noexcept {
+  Many far[3] = {0., 0., 0.};
+  for (int first = 0; first < size; first += Many::size) {
+    const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+    Many velocity = 0, momentum = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Many v = row(angular_velocity[i]) - from.angular_velocity[i],
+                 m = row(angular_momentum[i]) - from.angular_momentum[i];
+      velocity += v * v, momentum += m * m;
+    }
+    const Quat<double>& a = from.attitude;  // twice the vector part of a^-1 b
+    const Many w = row(attitude[0]), x = row(attitude[1]), y = row(attitude[2]), z = row(attitude[3]);
+    const Many p = a.w * x - a.x * w - a.y * z + a.z * y, q = a.w * y + a.x * z - a.y * w - a.z * x,
+               r = a.w * z - a.x * y + a.y * x - a.z * w;
+    far[0] = math::max(velocity, far[0]);
+    far[1] = math::max(momentum, far[1]);
+    far[2] = math::max(4 * (p * p + q * q + r * r), far[2]);
+  }
+  double most[3] = {0, 0, 0};
+  for (int n = 0; n < 3; ++n)
+    for (int i = 0; i < Many::size; ++i) most[n] = std::max(most[n], far[n][i]);
+  return {std::sqrt(most[0]), std::sqrt(most[1]), std::sqrt(most[2])};
+}
+
+inline void MotionLanes::at(int first, const Many& t, States& to) const noexcept {
+  const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+  const auto phase = math::circle(fraction(row(phase_rate_), t, 0.));
+  const Sums s = sums<false>(first, math::circle(fraction(row(rate_), t, row(start_))));
+  assemble(first, s.even, s.odd, {phase.c, phase.s}, to);
+}
+
+inline void MotionLanes::look(int first, const Many& t, Looks& to) const noexcept {
+  const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+  const auto phase = math::circle(fraction(row(phase_rate_), t, 0.));
+  const Sums s = sums<true>(first, math::circle(fraction(row(rate_), t, row(start_))));
+  const C &a = s.even, &b = s.odd, &da = s.even_slope, &db = s.odd_slope;
+  assemble(first, a, b, {phase.c, phase.s}, to.states);
+
+  const auto dot = [](const C& x, const C& y) GYROSTAT_INLINE_LAMBDA { return x.re * y.re + x.im * y.im; };
+  const auto area = [](const C& x, const C& y) GYROSTAT_INLINE_LAMBDA { return x.re * y.im - x.im * y.re; };
+  const Many f[4] = {dot(a, a), dot(b, b), dot(a, b), area(a, b)};
+  const Many df[4] = {2 * dot(a, da), 2 * dot(b, db), dot(da, b) + dot(a, db), area(da, b) + area(a, db)};
+  Many size = 0, parts = 0, growth = 0;
+  for (int j = 0; j < 4; ++j) {
+    const Many factor = row(forms_[j][0]);
+    size += factor * f[j], parts += math::abs(factor * f[j]), growth += factor * df[j];
+  }
+  const Many inverse = 1 / size, pace = 2 * pi<double> * row(rate_);
+  (parts * math::abs(inverse)).to(to.cancellation + first);
+  Many omega[3], M[3], change[3], terms = 0;
+  for (int i = 0; i < 3; ++i) {
+    omega[i] = row(to.states.angular_velocity[i]), M[i] = row(to.states.angular_momentum[i]);
+    Many sum = 0, slope = 0;
+    for (int j = 0; j < 4; ++j) sum += math::abs(row(forms_[j][1 + i]) * f[j]), slope += row(forms_[j][4 + i]) * df[j];
+    terms += sum * sum;
+    change[i] = pace * (slope - M[i] * growth) * inverse;
+  }
+  (math::sqrt(terms) * math::abs(inverse)).to(to.rate_terms + first);
+
+  const auto spinor = [&](int i, int j) GYROSTAT_INLINE_LAMBDA { return C{row(spinor_[i][j][0]), row(spinor_[i][j][1])}; };
+  const C kappa{0., row(phase_rate_) / row(rate_)};
+  const C up = spinor(0, 0) * a + spinor(0, 1) * b, down = spinor(1, 0) * a + spinor(1, 1) * b;
+  const C dup = spinor(0, 0) * da + spinor(0, 1) * db + kappa * up,
+          ddown = spinor(1, 0) * da + spinor(1, 1) * db + kappa * down;
+  const Many v[3] = {down.im, -down.re, up.im}, dv[3] = {ddown.im, -ddown.re, dup.im};
+  const Many turn = 2 * pace / (up.re * up.re + v[0] * v[0] + v[1] * v[1] + v[2] * v[2]), per_R = 1 / row(norm_);
+  Many of_momentum = 0, of_attitude = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Many flow = (change[i] - (M[j] * omega[k] - M[k] * omega[j])) * per_R;
+    const Many turning = turn * (up.re * dv[i] - dup.re * v[i] - (v[j] * dv[k] - v[k] * dv[j])) - omega[i];
+    of_momentum += flow * flow, of_attitude += turning * turning;
+  }
+  math::sqrt(math::max(of_momentum, of_attitude)).to(to.defect + first);
+}
+
+inline std::optional<MotionLanes> MotionLanes::of(const Motion<double>& motion) noexcept {
+  const auto& pair = motion.pair_;
+  if (pair.hyperbolic || pair.powers > powers || motion.kind_ == Kind::steady || motion.kind_ == Kind::spherical)
+    return std::nullopt;
+  MotionLanes lanes;
+  const auto put = [](Row& row, double value) { std::fill_n(row, size, value); };
+  put(lanes.rate_, motion.rate_.high);
+  put(lanes.start_, motion.start_.high);
+  put(lanes.phase_rate_, motion.phase_rate_.high);
+  put(lanes.norm_, motion.R_);
+  for (int m = 0; m <= powers; ++m) put(lanes.x_[m], pair.x[m]), put(lanes.y_[m], pair.y[m]);
+  for (int k = 0; k < 4; ++k) {
+    const int from = pair.single && k < 2 ? 1 - k : k;
+    const double sign = pair.single && k == 3 ? -1 : 1;
+    put(lanes.forms_[k][0], sign * motion.size_[from]);
+    for (int i = 0; i < 3; ++i) {
+      put(lanes.forms_[k][1 + i], sign * motion.W_(i, from));
+      put(lanes.forms_[k][4 + i], sign * motion.M_(i, from));
+    }
+  }
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const auto& c = motion.spinor_[i][pair.single ? 1 - j : j];
+      put(lanes.spinor_[i][j][0], c.re), put(lanes.spinor_[i][j][1], c.im);
+    }
+  const double lay[4] = {motion.lay_.w, motion.lay_.x, motion.lay_.y, motion.lay_.z};
+  for (int i = 0; i < 4; ++i) put(lanes.lay_[i], lay[i]);
+  lanes.tame_ = (1u << size) - 1;
+  return lanes;
 }
 
 }  // namespace gyrostat::free
