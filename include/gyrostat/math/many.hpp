@@ -51,9 +51,7 @@ GYROSTAT_INLINE Many choose(const Choice& c, const Many& a, const Many& b) noexc
   return gyrostat::choose<double>(c.yes, a.x, b.x);
 }
 /// a b + c, rounded once where the machine has the instruction.
-GYROSTAT_INLINE Many fused(const Many& a, const Many& b, const Many& c) noexcept {
-  return multiply_add(a.x, b.x, c.x);
-}
+GYROSTAT_INLINE Many fused(const Many& a, const Many& b, const Many& c) noexcept { return multiply_add(a.x, b.x, c.x); }
 /// a b - product, exact where the product is that of a and b rounded.
 GYROSTAT_INLINE Many rounding_of(const Many& product, const Many& a, const Many& b) noexcept {
 #if defined(__FMA__)
@@ -100,8 +98,9 @@ GYROSTAT_INLINE ManyCircle circle(const Many& x) noexcept {
 
 /// exp x, -700 < x < 700; relative error 2 eps.
 GYROSTAT_INLINE Many exp(const Many& x) noexcept {
-  constexpr double rest[] = {0.5,         1. / 6,        1. / 24,        1. / 120,        1. / 720,        1. / 5040,
-                             1. / 40320,  1. / 362880.,  1. / 3628800.,  1. / 39916800.,  1. / 479001600., 1. / 6227020800.};
+  constexpr double rest[] = {0.5,           1. / 6,         1. / 24,         1. / 120,
+                             1. / 720,      1. / 5040,      1. / 40320,      1. / 362880.,
+                             1. / 3628800., 1. / 39916800., 1. / 479001600., 1. / 6227020800.};
   const Many k = nearest(x * 0x1.71547652b82fep0);
   const Many r = fused(k, -0x1.a39ef35793c76p-33, fused(k, -0x1.62e42feep-1, x));
   const Many part = 1 + (r + r * r * polynomial(rest, r));

@@ -183,8 +183,7 @@ class RootLanes {
       const int j = low_ == 0 ? k + 1 : count - k, next = low_ == 0 ? j : j - 1;
       const Many s = parts[j] * width, right = (1 - parts[j]) * width, far = third - s;
       // the equation times the distances, of which only that to the third can be negative
-      const Many value =
-          far * ((constant + s) * s * right + g2[low_] * right - g2[low_ + 1] * s) - other * s * right;
+      const Many value = far * ((constant + s) * s * right + g2[low_] * right - g2[low_ + 1] * s) - other * s * right;
       const Choice more = value > 0.;
       from = math::choose(more, parts[next], from), to = math::choose(more, parts[next + 1], to);
     }
@@ -236,8 +235,8 @@ struct PlaneLanes {
     be = (Yu * Yu + Yv * Yv) / (4 * al);
     E_minus = 0.5 * pencil.form(u, minus, minus);
     const Many tau = -2 * be;
-    const Many from_start = (-split * Yv * Yv + 2 * tau * pencil.form(u, W, V) + tau * tau * pencil.form(u, V, V)) /
-                            (2 * D * D);
+    const Many from_start =
+        (-split * Yv * Yv + 2 * tau * pencil.form(u, W, V) + tau * tau * pencil.form(u, V, V)) / (2 * D * D);
     E_plus = math::choose(near, from_start, 0.5 * pencil.form(u, plus, plus));
     from_u = -0.5 * pencil.form(u, plus, minus);
     from_v = -0.5 * pencil.form(v, plus, minus);
@@ -283,9 +282,8 @@ struct FrameLanes {
   GYROSTAT_INLINE Form lobe(const PencilLanes& pencil, const PlaneLanes& p) noexcept;
   GYROSTAT_INLINE static Form alone(const PencilLanes& pencil, const PlaneLanes& p) noexcept;
   GYROSTAT_INLINE static Many determinant(const Many4& a, const Many4& b, const Many4& c, const Many4& d) noexcept {
-    const auto minor = [](const Many4& x, const Many4& y, int i, int j) GYROSTAT_INLINE_LAMBDA {
-      return x.x[i] * y.x[j] - x.x[j] * y.x[i];
-    };
+    const auto minor = [](const Many4& x, const Many4& y, int i, int j)
+                           GYROSTAT_INLINE_LAMBDA { return x.x[i] * y.x[j] - x.x[j] * y.x[i]; };
     return minor(a, b, 0, 1) * minor(c, d, 2, 3) - minor(a, b, 0, 2) * minor(c, d, 1, 3) +
            minor(a, b, 0, 3) * minor(c, d, 1, 2) + minor(a, b, 1, 2) * minor(c, d, 0, 3) -
            minor(a, b, 1, 3) * minor(c, d, 0, 2) + minor(a, b, 2, 3) * minor(c, d, 0, 1);

@@ -341,8 +341,7 @@ class MotionError {
     fastest_ = max(fastest_, at.angular_velocity.norm());
     momentum_change_ = max(momentum_change_, flow.norm() / R);
     rates_change_ = max(rates_change_, Vec3<Scalar>(inverse * flow).norm());
-    attitude_change_ =
-        max(attitude_change_, Vec3<Scalar>(at.angular_velocity - turn / R * at.angular_momentum).norm());
+    attitude_change_ = max(attitude_change_, Vec3<Scalar>(at.angular_velocity - turn / R * at.angular_momentum).norm());
   }
 
   /// Per period that the phase is late, with a margin for what lies between the nodes.

@@ -140,9 +140,9 @@ class MotionLanes {
   unsigned tame_ = 0;
   alignas(64) Row moments_[3], l_[3], G_[3], M_[3], R_BP_[3][3], c_[4], start_attitude_[4];
   alignas(64) Row side_, period_, turn_, k2_, energy_, norm_;
-  alignas(64) Row rate_, start_, phase_rate_;       // turns of the argument a second, at time 0; of the spinor's phase
-  alignas(64) Row x_[powers + 1], y_[powers + 1];   // of even powers (x + i y), of odd ones times -i
-  alignas(64) Row forms_[4][7];                     // size, omega, M by the products of the two sums
+  alignas(64) Row rate_, start_, phase_rate_;      // turns of the argument a second, at time 0; of the spinor's phase
+  alignas(64) Row x_[powers + 1], y_[powers + 1];  // of even powers (x + i y), of odd ones times -i
+  alignas(64) Row forms_[4][7];                    // size, omega, M by the products of the two sums
   alignas(64) Row spinor_[2][2][2];
   alignas(64) Row lay_[4];
 };
@@ -204,8 +204,8 @@ inline MotionLanes::AtOne MotionLanes::set_sums(int first, const detail::FrameLa
   Many x[powers + 1], y[powers + 1];
   x[0] = 1, y[0] = 0;
   // two components: A^(2 m^2) B^(2 (m^2 +- m)); one: A^(m^2) B^(m^2 +- 2 m), over A and times B where m is odd
-  Many rest = 1, rest_step = math::choose(f.single, A, A2);           // A^.. m^2, and its step
-  Many more = 1, less = 1;                                            // B^..
+  Many rest = 1, rest_step = math::choose(f.single, A, A2);  // A^.. m^2, and its step
+  Many more = 1, less = 1;                                   // B^..
   const Many A_twice = rest_step * rest_step, B_unit = math::choose(f.single, B, B2);
   Many up_step = math::choose(f.single, B * B2, B2 * B2), down_step = math::choose(f.single, 1 / B, one);
   const Many B_twice = B_unit * B_unit, odd_factor = math::choose(f.single, B / A, one);
@@ -235,8 +235,7 @@ inline MotionLanes::AtOne MotionLanes::set_sums(int first, const detail::FrameLa
   return {sum.even * even, sum.odd * odd, sum.even_slope * even, sum.odd_slope * odd};
 }
 
-inline void MotionLanes::set_forms(int first, const detail::PencilLanes& pencil,
-                                   const detail::FrameLanes& f) noexcept {
+inline void MotionLanes::set_forms(int first, const detail::PencilLanes& pencil, const detail::FrameLanes& f) noexcept {
   using detail::Many4;
   const auto row = [first](const Row& r) { return Many::from(r + first); };
   const Many R = pencil.R;
@@ -282,8 +281,7 @@ inline void MotionLanes::set_forms(int first, const detail::PencilLanes& pencil,
   const Many cw = row(c_[0]), cx = row(c_[1]), cy = row(c_[2]), cz = row(c_[3]);
   const C U[2][2] = {{{cw, cz}, {cy, cx}}, {{-cy, cx}, {cw, -cz}}};
   for (int i = 0; i < 2; ++i) {
-    const C one = U[i][0] * o[0] + U[i][1] * o[1],
-            two = U[i][0] * iota[0] + U[i][1] * iota[1];
+    const C one = U[i][0] * o[0] + U[i][1] * o[1], two = U[i][0] * iota[0] + U[i][1] * iota[1];
     math::choose(f.single, two.re, one.re).to(spinor_[i][0][0] + first);
     math::choose(f.single, two.im, one.im).to(spinor_[i][0][1] + first);
     math::choose(f.single, one.re, two.re).to(spinor_[i][1][0] + first);
@@ -319,7 +317,8 @@ GYROSTAT_INLINE void MotionLanes::assemble(int first, const C& a, const C& b, co
     (form(1 + i) * inverse).to(to.angular_velocity[i] + first);
     (form(4 + i) * inverse).to(to.angular_momentum[i] + first);
   }
-  const auto spinor = [&](int i, int j) GYROSTAT_INLINE_LAMBDA { return C{row(spinor_[i][j][0]), row(spinor_[i][j][1])}; };
+  const auto spinor = [&](int i, int j)
+                          GYROSTAT_INLINE_LAMBDA { return C{row(spinor_[i][j][0]), row(spinor_[i][j][1])}; };
   const C up = (spinor(0, 0) * a + spinor(0, 1) * b) * phase, down = (spinor(1, 0) * a + spinor(1, 1) * b) * phase;
   const Many w = up.re, x = down.im, y = -down.re, z = up.im;
   const Many length = 1 / math::sqrt(w * w + x * x + y * y + z * z);
@@ -389,7 +388,8 @@ inline void MotionLanes::look(int first, const Many& t, Looks& to) const noexcep
   }
   (math::sqrt(terms) * math::abs(inverse)).to(to.rate_terms + first);
 
-  const auto spinor = [&](int i, int j) GYROSTAT_INLINE_LAMBDA { return C{row(spinor_[i][j][0]), row(spinor_[i][j][1])}; };
+  const auto spinor = [&](int i, int j)
+                          GYROSTAT_INLINE_LAMBDA { return C{row(spinor_[i][j][0]), row(spinor_[i][j][1])}; };
   const C kappa{0., row(phase_rate_) / row(rate_)};
   const C up = spinor(0, 0) * a + spinor(0, 1) * b, down = spinor(1, 0) * a + spinor(1, 1) * b;
   const C dup = spinor(0, 0) * da + spinor(0, 1) * db + kappa * up,
