@@ -227,12 +227,14 @@ class MotionError {
       const auto centre = MotionLanes::of(motion);
       if (!centre) return false;
       MotionLanes others;
+      const bool axes_given = assembly.body.inertia.isDiagonal(0);
       for (int k = 0; k <= detail::neighbours; ++k) {
         const bool is_given = k == detail::neighbours;
         const auto problem =
             Reduced<Scalar, Room>::taken(is_given ? assembly : neighbour<Scalar>(assembly, k, by)).problem;
-        others.set(k, is_given ? MotionLanes::size : k + 1, PrincipalProblem<Scalar>::of(problem),
-                   as_unit(problem.attitude));
+        const auto principal = axes_given ? PrincipalProblem<Scalar>::of(problem)
+                                          : PrincipalProblem<Scalar>::beside(problem, motion.R_BP());
+        others.set(k, is_given ? MotionLanes::size : k + 1, principal, as_unit(problem.attitude));
       }
       if (others.make() != (1u << MotionLanes::size) - 1) return false;
       begin(motion, motion.at(0));
