@@ -13,6 +13,13 @@
 /// is chosen number by number.
 namespace gyrostat::math {
 
+/// Whether the processor that is compiled for has registers and a fused product for Many: else the same takes longer than one by one.
+#if defined(__GNUC__) && defined(__AVX2__) && defined(__FMA__)
+inline constexpr bool many_pays = true;
+#else
+inline constexpr bool many_pays = false;
+#endif
+
 /// A yes or no for each of the numbers.
 struct Choice {
   WideChoices<double> yes;

@@ -12,6 +12,7 @@
 #include "gyrostat/core/double_double.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/math/many.hpp"
 #include "gyrostat/models/free/motion.hpp"
 #include "gyrostat/models/free/motion_lanes.hpp"
 #include "gyrostat/models/free/reduced.hpp"
@@ -107,7 +108,8 @@ class MotionError {
   /// The same for a tenth of the cost, for times from 0 up to the horizon, of a motion of a sound assembly that was set up in Scalar like its
   /// neighbours, so that their distances show the rounding of the set-up too; nothing beside a separatrix and in other places where rounding grows, and
   /// where the motion fails its own equations by more than some roundings.
-  template <class Room>
+  /// `in_lanes`: with the neighbours side by side where that can be.
+  template <bool in_lanes = math::many_pays, class Room>
   static std::optional<MotionError> quick(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
                                           Scalar horizon) noexcept {
     if (!is_tame(motion, assembly.body.inertia.isDiagonal(0))) return std::nullopt;
@@ -118,7 +120,7 @@ class MotionError {
     error.scalar_margin_ = 4 * quick_margin;
     // principal axes found in Scalar are off by more than a rounding
     const Scalar by = (assembly.body.inertia.isDiagonal(0) ? 1 : 2) * epsilon<Scalar>;
-    if (!error.see_side_by_side(motion, assembly, by)) error.see_one_by_one(motion, assembly, by);
+    if (!in_lanes || !error.see_side_by_side(motion, assembly, by)) error.see_one_by_one(motion, assembly, by);
     if (!error.agree_ || !(error.cancellation_ < quick_cancellation) || !(error.defect_ < quick_defect))
       return std::nullopt;
     error.modulus_ = std::max(error.modulus_, error.defect_);
