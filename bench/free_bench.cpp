@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Free motions in closed form. Time: one evaluation (rates and attitude) beside libm's sine and cosine and beside the elliptic functions
 // and the integral of the third kind of GSL that the classical formulas need; a point of an even grid; the set-up in double and in
-// double-double. Accuracy: median and greatest error over random bodies of every regime, 1.05 to 1.5 periods on, against Taylor series in
+// double-double; eight bodies side by side, set up and at one time; the estimate of the error, and its quick form. Accuracy: median and greatest error over random bodies of every regime, 1.05 to 1.5 periods on, against Taylor series in
 // double-double, with the set-up in two words and in one, and the greatest effect of a rounding of every datum; and after many passages
 // of an unstable rotation.
 #include <benchmark/benchmark.h>
@@ -14,6 +14,7 @@
 #include "../tests/models/free/gyrostats.hpp"
 #include "gyrostat/models/free/motion.hpp"
 #include "gyrostat/models/free/motion_error.hpp"
+#include "gyrostat/models/free/motion_lanes.hpp"
 #ifdef GYROSTAT_HAVE_GSL
 #include "gyrostat/math/gsl.hpp"
 #endif
@@ -103,6 +104,38 @@ void stated_error(benchmark::State& state) {
   }
 }
 
+/// Eight bodies side by side, the given one and others near it; an item is a body, set up and at one time.
+void side_by_side(benchmark::State& state, Scene scene) {
+  using gyrostat::free::MotionLanes;
+  Bodies bodies(9);
+  const auto p = problem(scene);
+  MotionLanes lanes;
+  for (int b = 0; b < MotionLanes::size; ++b) {
+    auto near = p;
+    near.angular_velocity *= bodies.uniform(.9, 1.1);
+    lanes.set(b, b + 1, gyrostat::free::PrincipalProblem<double>::of(near), near.attitude);
+  }
+  MotionLanes::Row t = {1, 2, 3, 4, 5, 6, 7, 8};
+  if (lanes.make() != (1u << MotionLanes::size) - 1) state.SkipWithError("not all are tame");
+  for (auto _ : state) {
+    lanes.make();
+    auto s = lanes.at(t);
+    benchmark::DoNotOptimize(s);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * MotionLanes::size);
+}
+
+/// Of a motion that is there.
+void quick_error(benchmark::State& state, Scene scene) {
+  const gyrostat::free::Assembly<double> given{problem(scene), {}};
+  const auto motion = *Motion<double>::make(given.body);
+  for (auto _ : state) {
+    auto error = gyrostat::free::MotionError<double>::quick(motion, given, 100);
+    benchmark::DoNotOptimize(error);
+  }
+}
+
 void accuracy(benchmark::State& state, Regime regime) {
   std::vector<double> rates[3], attitude[3];  // set-up in two words, in one; data
   for (auto _ : state) {
@@ -177,6 +210,12 @@ EVERY_SCENE(evaluation);
 EVERY_SCENE(grid_point);
 EVERY_SCENE(set_up_double);
 EVERY_SCENE(set_up_double_double);
+#define EVERY_TAME_SCENE(function)                                  \
+  BENCHMARK_CAPTURE(function, rigid, Scene::rigid);                 \
+  BENCHMARK_CAPTURE(function, one_component, Scene::one_component); \
+  BENCHMARK_CAPTURE(function, lobe, Scene::lobe)
+EVERY_TAME_SCENE(side_by_side);
+EVERY_TAME_SCENE(quick_error);
 BENCHMARK(stated_error<double>);
 BENCHMARK(stated_error<DoubleDouble>);
 BENCHMARK(passages)->ArgsProduct({{1, 3, 5, 7}, {1, 10, 1000}})->Iterations(1);

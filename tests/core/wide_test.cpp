@@ -26,3 +26,24 @@ TEMPLATE_TEST_CASE("as many numbers side by side as a register holds", "", float
   CHECK(greater_of<S>(nothing, a)[1] == a[1]);
   CHECK(!(greater_of<S>(a, nothing)[1] == a[1]));
 }
+
+TEMPLATE_TEST_CASE("numbers side by side are compared and chosen one by one", "", float, double, long double) {
+  using S = TestType;
+  constexpr int n = wide_size<S>;
+  constexpr S bad = std::numeric_limits<S>::quiet_NaN();
+  S x[8] = {0, 1, 2, 3, 4, 5, 6, 7}, y[8] = {3, 1, bad, 0, 9, 5, bad, 1}, to[8];
+  const Wide<S> a = load_wide(x), b = load_wide(y);
+  const auto lower = less<S>(a, b), higher = less<S>(b, a);
+  for (int i = 0; i < n; ++i) {
+    CHECK((bits<S>(lower) >> i & 1) == (x[i] < y[i]));
+    CHECK((bits<S>(lower | higher) >> i & 1) == (x[i] < y[i] || y[i] < x[i]));
+    CHECK((bits<S>(lower & higher) >> i & 1) == 0);
+    CHECK((bits<S>(lower & lower) >> i & 1) == (x[i] < y[i]));
+  }
+  store(to, choose<S>(lower, a, wide(S(-1))));
+  for (int i = 0; i < n; ++i) CHECK(to[i] == (x[i] < y[i] ? x[i] : -1));
+  store(to, a / wide(S(4)));
+  for (int i = 0; i < n; ++i) CHECK(to[i] == x[i] / 4);
+  store(to, square_root<S>(a));
+  for (int i = 0; i < n; ++i) CHECK(to[i] * to[i] == Approx(x[i]));
+}

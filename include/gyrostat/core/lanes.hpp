@@ -88,6 +88,13 @@ struct Lanes {
       return {{{a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]}}};
     }
   }
+  GYROSTAT_INLINE friend Lanes operator/(const Lanes& a, const Lanes& b) noexcept {
+    if constexpr (vectorised) {
+      return {a.v / b.v};
+    } else {
+      return {{{a[0] / b[0], a[1] / b[1], a[2] / b[2], a[3] / b[3]}}};
+    }
+  }
 };
 
 template <Real Scalar>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstring>
 #include <type_traits>
 
@@ -25,6 +26,9 @@ struct EightDoubles {
   GYROSTAT_INLINE friend EightDoubles operator*(const EightDoubles& a, const EightDoubles& b) noexcept {
     return {a.v * b.v};
   }
+  GYROSTAT_INLINE friend EightDoubles operator/(const EightDoubles& a, const EightDoubles& b) noexcept {
+    return {a.v / b.v};
+  }
 };
 
 GYROSTAT_INLINE EightDoubles multiply_add(const EightDoubles& a, const EightDoubles& b,
@@ -46,7 +50,7 @@ using WideOf = Lanes<Scalar>;
 #endif
 
 /// As many numbers side by side as one register holds, for work on many independent problems: eight doubles with AVX-512, else four
-/// numbers. With +, -, *, multiply_add, store, and the functions below.
+/// numbers. With +, -, *, /, multiply_add, store, and the functions below.
 template <Real Scalar>
 using Wide = detail::WideOf<Scalar>;
 
@@ -80,6 +84,118 @@ GYROSTAT_INLINE Wide<Scalar> greater_of(const Wide<Scalar>& a, const Wide<Scalar
   } else {
     Wide<Scalar> result;
     for (int i = 0; i < 4; ++i) result.v[i] = a[i] > b[i] ? a[i] : b[i];
+    return result;
+  }
+}
+
+/// Of numbers that are not negative; to an eps. Zeros and what underflows in squares give zero.
+template <Real Scalar>
+GYROSTAT_INLINE Wide<Scalar> square_root(const Wide<Scalar>& a) noexcept {
+#if defined(__GNUC__) && defined(__AVX512F__)
+  if constexpr (wide_size<Scalar> == 8) {  // a quarter of the time of the processor's own root
+    const auto half = wide(0.5), least = wide(1e-300);
+    const Wide<Scalar> y = {_mm512_maskz_rsqrt14_pd(0xff, greater_of<Scalar>(a, least).v)};
+    const Wide<Scalar> s = a * y, e = multiply_add(wide(0.0) - s, half * y, half);
+    const Wide<Scalar> y1 = multiply_add(y, multiply_add(wide(1.5) * e, e, e), y), s1 = a * y1;
+    return multiply_add(multiply_add(wide(0.0) - s1, s1, a), half * y1, s1);
+  }
+#endif
+#if defined(__GNUC__) && defined(__AVX__)
+  if constexpr (wide_size<Scalar> == 4 && std::is_same_v<Scalar, double>) return {_mm256_sqrt_pd(a.v)};
+#endif
+  Wide<Scalar> result = a;
+  for (int i = 0; i < wide_size<Scalar>; ++i) result.v[i] = std::sqrt(a[i]);
+  return result;
+}
+
+namespace detail {
+#if defined(__GNUC__) && defined(__AVX512F__)
+struct EightChoices {
+  __mmask8 of;
+
+  GYROSTAT_INLINE friend EightChoices operator&(EightChoices a, EightChoices b) noexcept {
+    return {static_cast<__mmask8>(a.of & b.of)};
+  }
+  GYROSTAT_INLINE friend EightChoices operator|(EightChoices a, EightChoices b) noexcept {
+    return {static_cast<__mmask8>(a.of | b.of)};
+  }
+};
+#endif
+
+template <Real Scalar>
+struct FourChoices {
+  Lanes<Scalar> of;  ///< 1 or 0
+
+  GYROSTAT_INLINE friend FourChoices operator&(const FourChoices& a, const FourChoices& b) noexcept {
+    return {a.of * b.of};
+  }
+  GYROSTAT_INLINE friend FourChoices operator|(const FourChoices& a, const FourChoices& b) noexcept {
+    return {a.of + b.of - a.of * b.of};
+  }
+};
+template <Real Scalar>
+  requires has_register<Scalar>
+struct FourChoices<Scalar> {
+  decltype(Lanes<Scalar>::v < Lanes<Scalar>::v) of;
+
+  GYROSTAT_INLINE friend FourChoices operator&(const FourChoices& a, const FourChoices& b) noexcept {
+    return {a.of & b.of};
+  }
+  GYROSTAT_INLINE friend FourChoices operator|(const FourChoices& a, const FourChoices& b) noexcept {
+    return {a.of | b.of};
+  }
+};
+
+#if defined(__GNUC__) && defined(__AVX512F__)
+template <Real Scalar>
+using ChoicesOf = std::conditional_t<wide_size<Scalar> == 8, EightChoices, FourChoices<Scalar>>;
+#else
+template <Real Scalar>
+using ChoicesOf = FourChoices<Scalar>;
+#endif
+}  // namespace detail
+
+/// A yes or no for each number. With &, |, and the functions below.
+template <Real Scalar>
+using WideChoices = detail::ChoicesOf<Scalar>;
+
+/// Number by number, a < b; no where one of them is NaN.
+template <Real Scalar>
+GYROSTAT_INLINE WideChoices<Scalar> less(const Wide<Scalar>& a, const Wide<Scalar>& b) noexcept {
+#if defined(__GNUC__) && defined(__AVX512F__)
+  if constexpr (wide_size<Scalar> == 8) return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ)};
+#endif
+  if constexpr (wide_size<Scalar> == 4 && Lanes<Scalar>::vectorised) {
+    return {a.v < b.v};
+  } else if constexpr (wide_size<Scalar> == 4) {
+    return {lanes<Scalar>(a[0] < b[0], a[1] < b[1], a[2] < b[2], a[3] < b[3])};
+  }
+}
+
+template <Real Scalar>
+GYROSTAT_INLINE Wide<Scalar> choose(const WideChoices<Scalar>& yes, const Wide<Scalar>& a,
+                                    const Wide<Scalar>& b) noexcept {
+#if defined(__GNUC__) && defined(__AVX512F__)
+  if constexpr (wide_size<Scalar> == 8) return {_mm512_mask_blend_pd(yes.of, b.v, a.v)};
+#endif
+  if constexpr (wide_size<Scalar> == 4 && Lanes<Scalar>::vectorised) {
+    return {yes.of ? a.v : b.v};
+  } else if constexpr (wide_size<Scalar> == 4) {
+    Wide<Scalar> result = b;
+    for (int i = 0; i < 4; ++i) result.v[i] = yes.of[i] != 0 ? a[i] : b[i];
+    return result;
+  }
+}
+
+/// The choices as a number, 2^i for a yes of number i.
+template <Real Scalar>
+GYROSTAT_INLINE unsigned bits(const WideChoices<Scalar>& yes) noexcept {
+#if defined(__GNUC__) && defined(__AVX512F__)
+  if constexpr (wide_size<Scalar> == 8) return yes.of;
+#endif
+  if constexpr (wide_size<Scalar> == 4) {
+    unsigned result = 0;
+    for (int i = 0; i < 4; ++i) result |= yes.of[i] != 0 ? 1u << i : 0u;
     return result;
   }
 }

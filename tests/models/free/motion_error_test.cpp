@@ -256,7 +256,8 @@ Problem<double> turned(Bodies& bodies, Problem<double> p) {
   return p;
 }
 
-TEST_CASE("the quick error of a free motion bounds a set-up in double, or is not there", "[free]") {
+template <bool in_lanes>
+void quick_errors_bound() {
   Bodies bodies(36);
   int asked = 0, taken = 0, generic = 0, understated = 0, of_scalars = 0;
   for (const Regime regime : regimes)
@@ -267,7 +268,7 @@ TEST_CASE("the quick error of a free motion bounds a set-up in double, or is not
       const auto truth = Motion<Wide>::make<Wide>(p.cast<Wide>());
       if (!m || !truth) continue;
       const double t = bodies.scale(-2, 4) * (std::isfinite(m->period()) ? m->period() : 10);
-      const auto error = MotionError<double>::quick(*m, Assembly<double>{p, {}}, t);
+      const auto error = MotionError<double>::quick<in_lanes>(*m, Assembly<double>{p, {}}, t);
       ++asked;
       if (!error) continue;
       ++taken;
@@ -288,6 +289,32 @@ TEST_CASE("the quick error of a free motion bounds a set-up in double, or is not
   CHECK(of_scalars == 0);
   CHECK(generic > 90);
   CHECK(taken > asked / 3);
+}
+
+TEST_CASE("the quick error of a free motion bounds a set-up in double, or is not there", "[free]") {
+  SECTION("with the neighbours side by side") { quick_errors_bound<true>(); }
+  SECTION("one by one") { quick_errors_bound<false>(); }
+}
+
+TEST_CASE("neighbours side by side show what they show one by one", "[free]") {
+  Bodies bodies(37);
+  std::vector<double> ratio;
+  for (int i = 0; i < 300; ++i) {
+    auto p = bodies.of(Regime::generic, i);
+    if (i % 3) p = turned(bodies, p);
+    const auto m = Motion<double>::make(p);
+    REQUIRE(m);
+    const Assembly<double> given{p, {}};
+    const auto lanes = MotionError<double>::quick<true>(*m, given, 100),
+               alone = MotionError<double>::quick<false>(*m, given, 100);
+    if (!lanes || !alone) continue;
+    CHECK(lanes->fastest() == Approx(alone->fastest()));
+    ratio.push_back(lanes->at(100).attitude / alone->at(100).attitude);
+  }
+  std::sort(ratio.begin(), ratio.end());
+  REQUIRE(ratio.size() > 150);
+  CHECK(ratio[ratio.size() / 2] > .5);
+  CHECK(ratio[ratio.size() / 2] < 2);
 }
 
 TEST_CASE("no quick error where the set-up in double may be wrong", "[free]") {

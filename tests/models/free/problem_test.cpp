@@ -70,6 +70,28 @@ TEST_CASE("axes of equal moments are turned to the rotor momentum, and gaps keep
   CHECK(PrincipalProblem<double>::of(Problem<double>::from_moments({3, 3, 3}, {3, 4, 1}, {1, 2, 3})).spherical());
 }
 
+TEST_CASE("beside known principal axes those of a neighbour are found at once", "[free]") {
+  auto p = Problem<double>::from_moments({3, 2, 1.5}, {.1, .2, .3}, {1, 2, 3});
+  p.inertia(0, 1) = p.inertia(1, 0) = .2;
+  p.inertia(1, 2) = p.inertia(2, 1) = -.1;
+  const Mat3<double> axes = PrincipalProblem<double>::of(p).R_BP;
+  for (const double by : {0., 0x1p-50, 1e-9}) {
+    auto near = p;
+    near.inertia(0, 2) = near.inertia(2, 0) = by;
+    near.inertia(1, 1) *= 1 + by;
+    const auto d = PrincipalProblem<double>::beside(near, axes);
+    const auto truth = PrincipalProblem<DoubleDouble>::of(near.cast<DoubleDouble>());
+    const double most = 4e-15 + 100 * by * by;
+    CAPTURE(by);
+    CHECK((matrix_cast<double>(truth.R_BP) - d.R_BP).norm() < most);
+    CHECK((vector_cast<double>(truth.moments) - d.moments).norm() < most);
+    CHECK((vector_cast<double>(truth.M) - d.M).norm() < 8 * most);
+    CHECK((vector_cast<double>(truth.l) - d.l).norm() < most);
+    CHECK((vector_cast<double>(truth.omega) - d.omega).norm() < 8 * most);
+    CHECK(d.gaps(0, 1) == Approx(double(truth.gaps(0, 1))));
+  }
+}
+
 TEST_CASE("a start is steady only where every component of omega x M is rounding", "[free]") {
   const auto at = [](const V& l, const V& w) {
     const auto p = PrincipalProblem<double>::of(Problem<double>::from_moments({4, 3, 2}, l, w));

@@ -27,6 +27,8 @@ struct State {
   Quat<Scalar> attitude{};                 ///< body to inertial, unit
 };
 
+class MotionLanes;
+
 namespace detail {
 
 /// A number in two words, for turns counted over a long time.
@@ -168,6 +170,8 @@ class Motion {
   Scalar quarter_period_conjugate() const noexcept { return pair_.Kp; }  ///< K'
 
  private:
+  friend class MotionLanes;
+
   using C = math::Complex<Scalar>;
   template <class S>
   using Mat34 = Eigen::Matrix<S, 3, 4>;

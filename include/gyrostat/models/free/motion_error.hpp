@@ -12,7 +12,9 @@
 #include "gyrostat/core/double_double.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/math/many.hpp"
 #include "gyrostat/models/free/motion.hpp"
+#include "gyrostat/models/free/motion_lanes.hpp"
 #include "gyrostat/models/free/reduced.hpp"
 
 namespace gyrostat::free {
@@ -107,27 +109,21 @@ class MotionError {
   /// The same for a tenth of the cost, for times from 0 up to the horizon, of a motion of a sound assembly that was set up in Scalar like its
   /// neighbours, so that their distances show the rounding of the set-up too; nothing beside a separatrix and in other places where rounding grows, and
   /// where the motion fails its own equations by more than some roundings.
-  template <class Room>
+  /// `in_lanes`: with the neighbours side by side where that can be.
+  template <bool in_lanes = math::many_pays, class Room>
   static std::optional<MotionError> quick(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
                                           Scalar horizon) noexcept {
     if (!is_tame(motion, assembly.body.inertia.isDiagonal(0))) return std::nullopt;
     MotionError error;
     error.horizon_ = std::abs(horizon);
     error.nodes_ = few;
-    error.start(motion);
-    if (!(error.cancellation_ < quick_cancellation)) return std::nullopt;
-    for (int i = 0; i < few.last; i += 2) {
-      const Scalar found = motion.defect(motion.period() * Scalar(i) / few.last, error.fastest_);
-      if (!(found < quick_defect)) return std::nullopt;
-      error.defect_ = std::max(error.defect_, found);
-    }
-    const Centre centre(motion, error.span_, error.nodes_);
     error.weight_ = quick_margin / 4;
     error.scalar_margin_ = 4 * quick_margin;
     // principal axes found in Scalar are off by more than a rounding
     const Scalar by = (assembly.body.inertia.isDiagonal(0) ? 1 : 2) * epsilon<Scalar>;
-    for (int k = 0; k < detail::neighbours; ++k) error.see(centre, motion_of(neighbour<Scalar>(assembly, k, by)));
-    if (!error.agree_) return std::nullopt;
+    if (!in_lanes || !error.see_side_by_side(motion, assembly, by)) error.see_one_by_one(motion, assembly, by);
+    if (!error.agree_ || !(error.cancellation_ < quick_cancellation) || !(error.defect_ < quick_defect))
+      return std::nullopt;
     error.modulus_ = std::max(error.modulus_, error.defect_);
     error.turn_ = std::max(error.turn_, error.defect_);
     error.add_hidden(std::max(epsilon<Scalar>, error.defect_ / 4));
@@ -213,6 +209,64 @@ class MotionError {
     std::array<State<Scalar>, std::size_t(many.last - many.first + 1)> states_;
   };
 
+  /// The defect and the neighbours of quick().
+  template <class Room>
+  void see_one_by_one(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly, Scalar by) noexcept {
+    start(motion);
+    for (int i = 0; i < few.last; i += 2)
+      defect_ = std::max(defect_, motion.defect(motion.period() * Scalar(i) / few.last, fastest_));
+    const Centre centre(motion, span_, nodes_);
+    for (int k = 0; k < detail::neighbours; ++k) see(centre, motion_of(neighbour<Scalar>(assembly, k, by)));
+  }
+
+  /// The same, the neighbours in lanes, and the data themselves as one more, set up by the arithmetic of these. False, and nothing seen, where the
+  /// motions are none for lanes.
+  template <class Room>
+  bool see_side_by_side(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly, Scalar by) noexcept {
+    if constexpr (!std::is_same_v<Scalar, double>) {
+      return false;
+    } else {
+      const auto centre = MotionLanes::of(motion);
+      if (!centre) return false;
+      MotionLanes others;
+      const bool axes_given = assembly.body.inertia.isDiagonal(0);
+      for (int k = 0; k <= detail::neighbours; ++k) {
+        const bool is_given = k == detail::neighbours;
+        const auto problem =
+            Reduced<Scalar, Room>::taken(is_given ? assembly : neighbour<Scalar>(assembly, k, by)).problem;
+        const auto principal = axes_given ? PrincipalProblem<Scalar>::of(problem)
+                                          : PrincipalProblem<Scalar>::beside(problem, motion.R_BP());
+        others.set(k, is_given ? MotionLanes::size : k + 1, principal, as_unit(problem.attitude));
+      }
+      if (others.make() != (1u << MotionLanes::size) - 1) return false;
+      begin(motion, motion.at(0));
+      MotionLanes::Row times;
+      for (int i = 0; i < few.last; ++i) times[i] = span_ * i / few.last;
+      const auto seen = centre->look(times);
+      const Mat3<Scalar> inverse = inverse_inertia(motion);
+      for (int i = 0; i < few.last; ++i)
+        visit(motion, seen.states.lane(i), inverse, seen.cancellation[i], seen.rate_terms[i]);
+      margins();
+      for (int i = 0; i < few.last; ++i) defect_ = std::max(defect_, seen.defect[i] / fastest_);
+      for (int k = 0; k < MotionLanes::size; ++k)
+        see_figures(motion, {others.energy()[k], others.angular_momentum_norm()[k], others.modulus_squared()[k],
+                             others.period()[k], others.turn_per_period()[k], others.kind(k)});
+      Bound worst;
+      for (int i = 0; i <= few.last; ++i) {
+        const Scalar t = span_ * i / few.last;
+        const State<Scalar> at = i < few.last ? seen.states.lane(i) : motion.at(t);
+        std::fill_n(times, MotionLanes::size, t);
+        const auto apart = others.at(times).apart(at);
+        worst.angular_velocity = std::max(worst.angular_velocity, apart.angular_velocity / fastest_);
+        worst.angular_momentum =
+            std::max(worst.angular_momentum, apart.angular_momentum / motion.angular_momentum_norm());
+        worst.attitude = std::max(worst.attitude, apart.attitude);
+        widen(first_[std::size_t(i)], worst);
+      }
+      return true;
+    }
+  }
+
   /// Whether nothing that the set-up subtracts cancels as a matter of course: no separatrix is near, and no principal axes found in Scalar belong to
   /// moments that are nearly equal.
   static bool is_tame(const Motion<Scalar>& motion, bool axes_given) noexcept {
@@ -252,38 +306,54 @@ class MotionError {
     return false;
   }
 
+  /// What of the motion does not depend on its neighbours.
   void start(const Motion<Scalar>& motion) noexcept {
-    using std::isfinite, std::max, std::min;
-    kind_ = motion.kind();
-    const State<Scalar> s = motion.at(0);
-    speed_ = s.angular_velocity.norm();
+    const State<Scalar> first = motion.at(0);
+    begin(motion, first);
     if (kind_ == Kind::steady) return start_steady(motion);
-    period_ = motion.period();
-    span_ = min(horizon_, isfinite(period_) ? period_ : 80 / motion.jacobi_rate());
-    const Scalar T = span_, turn = motion.turn_per_period() / T;
-    const Mat3<Scalar> inverse =
-        motion.R_BP() * motion.principal_moments().cwiseInverse().asDiagonal() * motion.R_BP().transpose();
-    const Scalar R = motion.angular_momentum_norm();
+    const Mat3<Scalar> inverse = inverse_inertia(motion);
     for (int i = 0; i < nodes_.last; ++i) {
-      const Scalar t = T * Scalar(i) / Scalar(nodes_.last);
-      const State<Scalar> at = motion.at(t);
-      const Vec3<Scalar> flow = cross<Scalar>(at.angular_momentum, at.angular_velocity);
-      cancellation_ = max(cancellation_, motion.cancellation(t));
-      rate_terms_ = max(rate_terms_, motion.rate_terms(t));
-      fastest_ = max(fastest_, at.angular_velocity.norm());
-      momentum_change_ = max(momentum_change_, flow.norm());
-      rates_change_ = max(rates_change_, Vec3<Scalar>(inverse * flow).norm());
-      attitude_change_ =
-          max(attitude_change_, Vec3<Scalar>(at.angular_velocity - turn / R * at.angular_momentum).norm());
+      const Scalar t = span_ * Scalar(i) / Scalar(nodes_.last);
+      visit(motion, motion.at(t), inverse, motion.cancellation(t), motion.rate_terms(t));
     }
     // E = exp(h u) grows along a half period, and its rounding with it
-    if (motion.hyperbolic() && isfinite(motion.quarter_period()))
+    if (motion.hyperbolic() && std::isfinite(motion.quarter_period()))
       cancellation_ += motion.quarter_period() / motion.quarter_period_conjugate() / 8;
-    // per period that the phase is late, with a margin for what lies between the nodes
+    margins();
+  }
+
+  void begin(const Motion<Scalar>& motion, const State<Scalar>& first) noexcept {
+    kind_ = motion.kind();
+    speed_ = first.angular_velocity.norm();
+    if (kind_ == Kind::steady) return;
+    period_ = motion.period();
+    span_ = std::min(horizon_, std::isfinite(period_) ? period_ : 80 / motion.jacobi_rate());
+  }
+
+  static Mat3<Scalar> inverse_inertia(const Motion<Scalar>& motion) noexcept {
+    return motion.R_BP() * motion.principal_moments().cwiseInverse().asDiagonal() * motion.R_BP().transpose();
+  }
+
+  /// Takes a state of the motion into what is greatest.
+  void visit(const Motion<Scalar>& motion, const State<Scalar>& at, const Mat3<Scalar>& inverse, Scalar cancellation,
+             Scalar rate_terms) noexcept {
+    using std::max;
+    const Scalar turn = motion.turn_per_period() / span_, R = motion.angular_momentum_norm();
+    const Vec3<Scalar> flow = cross<Scalar>(at.angular_momentum, at.angular_velocity);
+    cancellation_ = max(cancellation_, cancellation);
+    rate_terms_ = max(rate_terms_, rate_terms);
+    fastest_ = max(fastest_, at.angular_velocity.norm());
+    momentum_change_ = max(momentum_change_, flow.norm() / R);
+    rates_change_ = max(rates_change_, Vec3<Scalar>(inverse * flow).norm());
+    attitude_change_ = max(attitude_change_, Vec3<Scalar>(at.angular_velocity - turn / R * at.angular_momentum).norm());
+  }
+
+  /// Per period that the phase is late, with a margin for what lies between the nodes.
+  void margins() noexcept {
     const Scalar margin = Scalar(1.25);
-    rates_change_ *= margin * T / fastest_;
-    momentum_change_ *= margin * T / R;
-    attitude_change_ *= margin * T;
+    rates_change_ *= margin * span_ / fastest_;
+    momentum_change_ *= margin * span_;
+    attitude_change_ *= margin * span_;
   }
 
   void start_steady(const Motion<Scalar>& motion) noexcept {
@@ -300,19 +370,16 @@ class MotionError {
 
   void see(const Centre& centre, const Result<Motion<Scalar>>& made) noexcept {
     const Motion<Scalar>& motion = centre.motion;
-    using std::abs, std::max;
+    using std::max;
     if (!made) {
       agree_ = false;
       first_.fill({infinity<Scalar>, infinity<Scalar>, infinity<Scalar>});
       return;
     }
     const Motion<Scalar>& other = *made;
-    const auto relative = [](Scalar a, Scalar b) { return a == b ? Scalar(0) : abs(a - b) / abs(a); };
-    energy_ = max(energy_, weight_ * relative(motion.energy(), other.energy()));
-    norm_ = max(norm_, weight_ * relative(motion.angular_momentum_norm(), other.angular_momentum_norm()));
+    see_figures(motion, {other.energy(), other.angular_momentum_norm(), other.modulus_squared(), other.period(),
+                         other.turn_per_period(), other.kind()});
     if (kind_ == Kind::steady) return see_steady(other);
-    modulus_ = max(modulus_, weight_ * abs(motion.modulus_squared() - other.modulus_squared()));
-    if (kind_ != Kind::spherical && other.kind() != kind_) agree_ = false;
     Bound worst;
     for (int i = 0; i <= nodes_.last; ++i) {
       // running greatest differences, with time forward and back
@@ -327,18 +394,36 @@ class MotionError {
                 Vec3<Scalar>(a.angular_momentum - b.angular_momentum).norm() / motion.angular_momentum_norm());
         worst.attitude = max(worst.attitude, Vec3<Scalar>(2 * q.x, 2 * q.y, 2 * q.z).norm());
       }
-      Bound& to = first_[std::size_t(i)];
-      const Scalar margin = 4 * weight_;
-      to.angular_velocity = max(to.angular_velocity, margin * worst.angular_velocity);
-      to.angular_momentum = max(to.angular_momentum, margin * worst.angular_momentum);
-      to.attitude = max(to.attitude, margin * worst.attitude);
+      widen(first_[std::size_t(i)], worst);
     }
-    share_ = max(share_, weight_ * relative(motion.period(), other.period()) / period_);
-    const Scalar turn = motion.turn_per_period(), raw = other.turn_per_period() - turn;
+  }
+
+  void widen(Bound& bound, const Bound& worst) const noexcept {
+    using std::max;
+    const Scalar margin = 4 * weight_;
+    bound.angular_velocity = max(bound.angular_velocity, margin * worst.angular_velocity);
+    bound.angular_momentum = max(bound.angular_momentum, margin * worst.angular_momentum);
+    bound.attitude = max(bound.attitude, margin * worst.attitude);
+  }
+
+  /// What is constant of a neighbour.
+  struct Figures {
+    Scalar energy, norm, modulus_squared, period, turn;
+    Kind kind;
+  };
+  void see_figures(const Motion<Scalar>& motion, const Figures& other) noexcept {
+    using std::abs, std::max;
+    const auto relative = [](Scalar a, Scalar b) { return a == b ? Scalar(0) : abs(a - b) / abs(a); };
+    energy_ = max(energy_, weight_ * relative(motion.energy(), other.energy));
+    norm_ = max(norm_, weight_ * relative(motion.angular_momentum_norm(), other.norm));
+    if (kind_ == Kind::steady) return;
+    modulus_ = max(modulus_, weight_ * abs(motion.modulus_squared() - other.modulus_squared));
+    if (kind_ != Kind::spherical && other.kind != kind_) agree_ = false;
+    share_ = max(share_, weight_ * relative(motion.period(), other.period) / period_);
+    const Scalar turn = motion.turn_per_period(), raw = other.turn - turn;
     const Scalar turned = raw - 2 * pi<Scalar> * std::nearbyint(raw / (2 * pi<Scalar>));
     turn_ = max(turn_, weight_ * abs(turned));
-    turn_rate_ =
-        max(turn_rate_, weight_ * abs((turned - turn * (other.period() - period_) / period_) / other.period()));
+    turn_rate_ = max(turn_rate_, weight_ * abs((turned - turn * (other.period - period_) / period_) / other.period));
   }
 
   void see_steady(const Motion<Scalar>& other) noexcept {

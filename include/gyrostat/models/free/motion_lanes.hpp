@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/math/many.hpp"
+#include "gyrostat/models/free/frame_lanes.hpp"
+#include "gyrostat/models/free/kind.hpp"
+#include "gyrostat/models/free/motion.hpp"
+#include "gyrostat/models/free/problem.hpp"
+
+namespace gyrostat::free {
+
+/// Motion<double>, set up in double, of eight bodies side by side. Only where the motion is tame: two components or one, the sums of its
+/// theta functions in trigonometric form, kp2 not small and k2 not tiny, moments apart. What is not is left out, for Motion<double> to do.
+class MotionLanes {
+ public:
+  static constexpr int size = 8;
+  using Row = double[size];
+  using Many = math::Many;
+  using Choice = math::Choice;
+
+  /// States of the eight bodies, each at a time of its own; body axes, inertial axes as in Motion::at.
+  struct States {
+    alignas(64) Row angular_velocity[3];
+    alignas(64) Row angular_momentum[3];
+    alignas(64) Row attitude[4];  ///< w, x, y, z
+
+    State<double> lane(int b) const noexcept {
+      State<double> s;
+      for (int i = 0; i < 3; ++i)
+        s.angular_velocity[i] = angular_velocity[i][b], s.angular_momentum[i] = angular_momentum[i][b];
+      s.attitude = {attitude[0][b], attitude[1][b], attitude[2][b], attitude[3][b]};
+      return s;
+    }
+
+    /// How far the farthest of the lanes is from a state: rad/s, N m s, rad.
+    struct Apart {
+      double angular_velocity, angular_momentum, attitude;
+    };
+    Apart apart(const State<double>& from) const noexcept;
+  };
+
+  /// Nothing is known of any lane until set.
+  MotionLanes() = default;
+
+  /// The body of the lanes first to last - 1; attitude: of the body axes, unit.
+  void set(int first, int last, const PrincipalProblem<double>& body, const Quat<double>& attitude) noexcept {
+    const auto put = [first, last](Row& row, double value) { std::fill(row + first, row + last, value); };
+    for (int i = 0; i < 3; ++i) {
+      put(moments_[i], body.moments[i]);
+      put(l_[i], body.l[i]), put(G_[i], body.G[i]), put(M_[i], body.M[i]);
+      for (int j = 0; j < 3; ++j) put(R_BP_[i][j], body.R_BP(i, j));
+    }
+    const Quat<double> c = conjugate(from_matrix(body.R_BP));
+    const double from_body[4] = {c.w, c.x, c.y, c.z}, start[4] = {attitude.w, attitude.x, attitude.y, attitude.z};
+    for (int i = 0; i < 4; ++i) put(c_[i], from_body[i]), put(start_attitude_[i], start[i]);
+  }
+
+  /// Sets all up. A bit, 2^b, for each lane whose motion is tame; what is told of the others means nothing.
+  unsigned make() noexcept {
+    tame_ = 0;
+    for (int first = 0; first < size; first += Many::size) tame_ |= make(first) << first;
+    return tame_;
+  }
+  bool tame(int b) const noexcept { return tame_ >> b & 1; }
+
+  /// Of each lane at its own time.
+  States at(const Row& t) const noexcept {
+    States s;
+    for (int first = 0; first < size; first += Many::size) at(first, Many::from(t + first), s);
+    return s;
+  }
+
+  /// The same motion in all lanes; nothing where it is not tame.
+  static std::optional<MotionLanes> of(const Motion<double>& motion) noexcept;
+
+  /// States, and what Motion tells of them: cancellation, rate_terms, and what defect is without the start, not over `fastest`.
+  struct Looks {
+    States states;
+    alignas(64) Row cancellation, rate_terms, defect;
+  };
+  Looks look(const Row& t) const noexcept {
+    Looks seen;
+    for (int first = 0; first < size; first += Many::size) look(first, Many::from(t + first), seen);
+    return seen;
+  }
+
+  /// As those of Motion.
+  Kind kind(int b) const noexcept {
+    return side_[b] == 0 ? Kind::one_component : side_[b] > 0 ? Kind::about_largest : Kind::about_smallest;
+  }
+  const Row& period() const noexcept { return period_; }
+  const Row& turn_per_period() const noexcept { return turn_; }
+  const Row& modulus_squared() const noexcept { return k2_; }
+  const Row& energy() const noexcept { return energy_; }
+  const Row& angular_momentum_norm() const noexcept { return norm_; }
+
+ private:
+  static constexpr int powers = 8;  ///< of E, enough for every nome below exp(-pi)
+
+  unsigned make(int first) noexcept;
+  void at(int first, const Many& t, States& to) const noexcept;
+  void look(int first, const Many& t, Looks& to) const noexcept;
+
+  struct C {
+    Many re, im;
+    GYROSTAT_INLINE friend C operator+(const C& a, const C& b) noexcept { return {a.re + b.re, a.im + b.im}; }
+    GYROSTAT_INLINE friend C operator*(const C& a, const C& b) noexcept {
+      return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+    }
+  };
+  /// The sums of even and of odd powers of E, the latter times -i, and their slopes by the angle of E.
+  struct Sums {
+    C even, odd, even_slope, odd_slope;
+  };
+  template <bool slopes>
+  Sums sums(int first, const math::ManyCircle& E) const noexcept;
+  /// omega, M and attitude of sums and the phase of the spinor.
+  void assemble(int first, const C& a, const C& b, const C& phase, States& to) const noexcept;
+
+  /// The sums of even and of odd powers at E = 1, and their slopes.
+  struct AtOne {
+    Many even, odd, even_slope, odd_slope;
+  };
+  AtOne set_sums(int first, const detail::FrameLanes& frame, const Many& K) noexcept;
+  void set_forms(int first, const detail::PencilLanes& pencil, const detail::FrameLanes& frame) noexcept;
+
+  /// t rate + start less the nearest whole number.
+  static Many fraction(const Many& rate, const Many& t, const Many& start) noexcept {
+    const Many p = t * rate, rest = math::rounding_of(p, t, rate), n = math::nearest(p + start);
+    const Many part = p - n, sum = part + start, back = sum - part;
+    const Many low = ((part - (sum - back)) + (start - back)) + rest;
+    return (sum - math::nearest(sum + low)) + low;
+  }
+
+  unsigned tame_ = 0;
+  alignas(64) Row moments_[3], l_[3], G_[3], M_[3], R_BP_[3][3], c_[4], start_attitude_[4];
+  alignas(64) Row side_, period_, turn_, k2_, energy_, norm_;
+  alignas(64) Row rate_, start_, phase_rate_;      // turns of the argument a second, at time 0; of the spinor's phase
+  alignas(64) Row x_[powers + 1], y_[powers + 1];  // of even powers (x + i y), of odd ones times -i
+  alignas(64) Row forms_[4][7];                    // size, omega, M by the products of the two sums
+  alignas(64) Row spinor_[2][2][2];
+  alignas(64) Row lay_[4];
+};
+
+inline unsigned MotionLanes::make(int first) noexcept {
+  const auto row = [first](const Row& r) { return Many::from(r + first); };
+  detail::ManyBodies body;
+  for (int i = 0; i < 3; ++i)
+    body.moments[i] = row(moments_[i]), body.l[i] = row(l_[i]), body.G[i] = row(G_[i]), body.M[i] = row(M_[i]);
+  const detail::PencilLanes pencil(body);
+  const detail::FrameLanes frame(pencil);
+  const Many K = math::quarter_period(frame.kp2), R = pencil.R;
+  const AtOne one = set_sums(first, frame, K);
+  set_forms(first, pencil, frame);
+
+  // Motion::set_regular
+  const Many u_rate = frame.rate * R, window = 4 * K;
+  const Many rate = u_rate / window, h = 0.5 * pi<double> / K;
+  const Many even_psi = math::choose(frame.single, frame.psi[1], frame.psi[0]),
+             odd_psi = math::choose(frame.single, frame.psi[0], frame.psi[1]);
+  const Choice by_even = math::abs(one.odd) < math::abs(one.even);
+  const Many psi = math::choose(by_even, even_psi, odd_psi);
+  const Many turning = h * math::choose(by_even, one.even_slope / one.even, one.odd_slope / one.odd);
+  const Many phase_rate = R * (psi - frame.rate * turning) * (0.5 / pi<double>);
+  const Many period = window / u_rate, turns = 2 * (phase_rate * period);
+  rate.to(rate_ + first);
+  (frame.u_start / window).to(start_ + first);
+  phase_rate.to(phase_rate_ + first);
+  period.to(period_ + first);
+  (2 * pi<double> * (turns - math::nearest(turns))).to(turn_ + first);
+  frame.k2.to(k2_ + first);
+  R.to(norm_ + first);
+  math::choose(frame.single, 0., frame.side).to(side_ + first);
+  Many twice = 0;
+  for (int i = 0; i < 3; ++i) twice += body.G[i] * body.G[i] * pencil.a[i];
+  (0.5 * twice).to(energy_ + first);
+
+  // the attitude at time 0 is the given one
+  const double identity[4] = {1, 0, 0, 0};
+  for (int i = 0; i < 4; ++i) Many(identity[i]).to(lay_[i] + first);
+  States s;
+  at(first, 0., s);
+  Many q[4], p[4];
+  for (int i = 0; i < 4; ++i) q[i] = row(start_attitude_[i]), p[i] = row(s.attitude[i]);
+  (q[0] * p[0] + q[1] * p[1] + q[2] * p[2] + q[3] * p[3]).to(lay_[0] + first);
+  (q[1] * p[0] - q[0] * p[1] - q[2] * p[3] + q[3] * p[2]).to(lay_[1] + first);
+  (q[2] * p[0] - q[0] * p[2] - q[3] * p[1] + q[1] * p[3]).to(lay_[2] + first);
+  (q[3] * p[0] - q[0] * p[3] - q[1] * p[2] + q[2] * p[1]).to(lay_[3] + first);
+  const Many sum = rate + phase_rate + row(lay_[0]) + row(lay_[1]) + row(lay_[2]) + row(lay_[3]) + frame.u_start;
+  return (frame.sound & (math::abs(sum) < 1e200) & (R > 1e-100) & (R < 1e100)).bits();
+}
+
+/// ThetaPair::trigonometric_sums, with the coefficients as products of powers of two exponentials.
+inline MotionLanes::AtOne MotionLanes::set_sums(int first, const detail::FrameLanes& f, const Many& K) noexcept {
+  const Many unit = -0.25 * pi<double> / K;
+  const Many A = math::exp(math::max(unit * f.eta_rest, -600.)), B = math::exp(math::max(unit * f.eta, -600.));
+  const Many A2 = A * A, B2 = B * B, one = 1.;
+  AtOne sum{1., 0., 0., 0.};
+  Many x[powers + 1], y[powers + 1];
+  x[0] = 1, y[0] = 0;
+  // two components: A^(2 m^2) B^(2 (m^2 +- m)); one: A^(m^2) B^(m^2 +- 2 m), over A and times B where m is odd
+  Many rest = 1, rest_step = math::choose(f.single, A, A2);  // A^.. m^2, and its step
+  Many more = 1, less = 1;                                   // B^..
+  const Many A_twice = rest_step * rest_step, B_unit = math::choose(f.single, B, B2);
+  Many up_step = math::choose(f.single, B * B2, B2 * B2), down_step = math::choose(f.single, 1 / B, one);
+  const Many B_twice = B_unit * B_unit, odd_factor = math::choose(f.single, B / A, one);
+  for (int m = 1; m <= powers; ++m) {
+    rest *= rest_step, rest_step *= A_twice;
+    more *= up_step, up_step *= B_twice;
+    less *= down_step, down_step *= B_twice;
+    const Many factor = m % 2 ? rest * odd_factor : rest, up = factor * more, down = factor * less;
+    const double sign = m / 2 % 2 ? -1 : 1;
+    const Many along = f.delta * (up - down), both = up + down;
+    if (m % 2) {
+      x[m] = sign * along, y[m] = sign * both;
+      sum.odd += x[m], sum.odd_slope += m * y[m];
+    } else {
+      const Many s = math::choose(f.single, 1., sign);
+      x[m] = s * both, y[m] = s * along;
+      sum.even += x[m], sum.even_slope += m * y[m];
+    }
+  }
+  // A and B of ThetaPair::scale
+  const Many odd = math::choose(f.single, math::sqrt(f.size[0]) / math::abs(sum.odd), 1.),
+             even = math::choose(f.single, math::sqrt(f.size[1]) / math::abs(sum.even), 1.);
+  for (int m = 0; m <= powers; ++m) {
+    (x[m] * (m % 2 ? odd : even)).to(x_[m] + first);
+    (y[m] * (m % 2 ? odd : even)).to(y_[m] + first);
+  }
+  return {sum.even * even, sum.odd * odd, sum.even_slope * even, sum.odd_slope * odd};
+}
+
+inline void MotionLanes::set_forms(int first, const detail::PencilLanes& pencil, const detail::FrameLanes& f) noexcept {
+  using detail::Many4;
+  const auto row = [first](const Row& r) { return Many::from(r + first); };
+  const Many R = pencil.R;
+  const Many4* basis[4] = {&f.plus, &f.minus, &f.xa, &f.xb};
+  Many momentum[4][4], form[4][7];
+  for (int k = 0; k < 4; ++k) {
+    const Many4& x = *basis[k];
+    const Many factor = k < 2 ? 1 : 2, scale = factor * R;
+    Many w[3];
+    for (int i = 0; i < 3; ++i) {
+      momentum[k][i] = x.x[i] + pencil.d[i] * x.x[3];
+      w[i] = pencil.a[i] * x.x[i] - pencil.b[i] * x.x[3];
+    }
+    momentum[k][3] = x.x[3];
+    form[k][0] = factor * x.x[3];
+    for (int i = 0; i < 3; ++i) {
+      const Many r[3] = {row(R_BP_[i][0]), row(R_BP_[i][1]), row(R_BP_[i][2])};
+      form[k][1 + i] = scale * (r[0] * w[0] + r[1] * w[1] + r[2] * w[2]);
+      form[k][4 + i] = scale * (r[0] * momentum[k][0] + r[1] * momentum[k][1] + r[2] * momentum[k][2]);
+    }
+  }
+  // of one component the odd sum is the first: its square and the even one's change places, and the area its sign
+  for (int n = 0; n < 7; ++n) {
+    math::choose(f.single, form[1][n], form[0][n]).to(forms_[0][n] + first);
+    math::choose(f.single, form[0][n], form[1][n]).to(forms_[1][n] + first);
+    form[2][n].to(forms_[2][n] + first);
+    math::choose(f.single, -form[3][n], form[3][n]).to(forms_[3][n] + first);
+  }
+  const auto conj = [](const C& a) { return C{a.re, -a.im}; };
+  const Many *N = momentum[0], *a = momentum[2], *b = momentum[3];
+  const Many root = math::sqrt(0.5 * (N[3] + math::abs(N[2]))), across = 0.5 / root;
+  const Choice north = N[2] > 0.;
+  const C o[2] = {{math::choose(north, root, N[0] * across), math::choose(north, 0., -N[1] * across)},
+                  {math::choose(north, N[0] * across, root), math::choose(north, N[1] * across, 0.)}};
+  const C H[2][2] = {{{0.5 * (a[3] + a[2]), 0.5 * (b[3] + b[2])}, {0.5 * (a[0] + b[1]), 0.5 * (b[0] - a[1])}},
+                     {{0.5 * (a[0] - b[1]), 0.5 * (a[1] + b[0])}, {0.5 * (a[3] - a[2]), 0.5 * (b[3] - b[2])}}};
+  const Many inverse = 1 / (o[0].re * o[0].re + o[0].im * o[0].im + o[1].re * o[1].re + o[1].im * o[1].im);
+  C iota[2];
+  for (int j = 0; j < 2; ++j) {
+    const C sum = conj(o[0]) * H[0][j] + conj(o[1]) * H[1][j];
+    iota[j] = {inverse * sum.re, -inverse * sum.im};
+  }
+  const Many cw = row(c_[0]), cx = row(c_[1]), cy = row(c_[2]), cz = row(c_[3]);
+  const C U[2][2] = {{{cw, cz}, {cy, cx}}, {{-cy, cx}, {cw, -cz}}};
+  for (int i = 0; i < 2; ++i) {
+    const C one = U[i][0] * o[0] + U[i][1] * o[1], two = U[i][0] * iota[0] + U[i][1] * iota[1];
+    math::choose(f.single, two.re, one.re).to(spinor_[i][0][0] + first);
+    math::choose(f.single, two.im, one.im).to(spinor_[i][0][1] + first);
+    math::choose(f.single, one.re, two.re).to(spinor_[i][1][0] + first);
+    math::choose(f.single, one.im, two.im).to(spinor_[i][1][1] + first);
+  }
+}
+
+template <bool slopes>
+GYROSTAT_INLINE MotionLanes::Sums MotionLanes::sums(int first, const math::ManyCircle& E) const noexcept {
+  const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+  Many re = 1, im = 0;
+  C sum[2] = {{row(x_[0]), 0.}, {0., 0.}}, slope[2] = {{0., 0.}, {0., 0.}};  // of even and of odd powers
+  for (int m = 1; m <= powers; ++m) {
+    const Many r = re * E.c - im * E.s, x = row(x_[m]), y = row(y_[m]), n = double(m);
+    im = re * E.s + im * E.c;
+    re = r;
+    sum[m % 2] = sum[m % 2] + C{x * re, y * im};
+    if constexpr (slopes) slope[m % 2] = slope[m % 2] + C{-n * x * im, n * y * re};
+  }
+  return {sum[0], {sum[1].im, -sum[1].re}, slope[0], {slope[1].im, -slope[1].re}};
+}
+
+GYROSTAT_INLINE void MotionLanes::assemble(int first, const C& a, const C& b, const C& phase,
+                                           States& to) const noexcept {
+  const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+  const Many f[4] = {a.re * a.re + a.im * a.im, b.re * b.re + b.im * b.im, a.re * b.re + a.im * b.im,
+                     a.re * b.im - a.im * b.re};
+  const auto form = [&](int n) GYROSTAT_INLINE_LAMBDA {
+    return row(forms_[0][n]) * f[0] + row(forms_[1][n]) * f[1] + row(forms_[2][n]) * f[2] + row(forms_[3][n]) * f[3];
+  };
+  const Many inverse = 1 / form(0);
+  for (int i = 0; i < 3; ++i) {
+    (form(1 + i) * inverse).to(to.angular_velocity[i] + first);
+    (form(4 + i) * inverse).to(to.angular_momentum[i] + first);
+  }
+  const auto spinor = [&](int i, int j)
+                          GYROSTAT_INLINE_LAMBDA { return C{row(spinor_[i][j][0]), row(spinor_[i][j][1])}; };
+  const C up = (spinor(0, 0) * a + spinor(0, 1) * b) * phase, down = (spinor(1, 0) * a + spinor(1, 1) * b) * phase;
+  const Many w = up.re, x = down.im, y = -down.re, z = up.im;
+  const Many length = 1 / math::sqrt(w * w + x * x + y * y + z * z);
+  const Many lw = row(lay_[0]), lx = row(lay_[1]), ly = row(lay_[2]), lz = row(lay_[3]);
+  (length * (lw * w - lx * x - ly * y - lz * z)).to(to.attitude[0] + first);
+  (length * (lw * x + lx * w + ly * z - lz * y)).to(to.attitude[1] + first);
+  (length * (lw * y - lx * z + ly * w + lz * x)).to(to.attitude[2] + first);
+  (length * (lw * z + lx * y - ly * x + lz * w)).to(to.attitude[3] + first);
+}
+
+inline MotionLanes::States::Apart MotionLanes::States::apart(const State<double>& from) const noexcept {
+  Many far[3] = {0., 0., 0.};
+  for (int first = 0; first < size; first += Many::size) {
+    const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+    Many velocity = 0, momentum = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Many v = row(angular_velocity[i]) - from.angular_velocity[i],
+                 m = row(angular_momentum[i]) - from.angular_momentum[i];
+      velocity += v * v, momentum += m * m;
+    }
+    const Quat<double>& a = from.attitude;  // twice the vector part of a^-1 b
+    const Many w = row(attitude[0]), x = row(attitude[1]), y = row(attitude[2]), z = row(attitude[3]);
+    const Many p = a.w * x - a.x * w - a.y * z + a.z * y, q = a.w * y + a.x * z - a.y * w - a.z * x,
+               r = a.w * z - a.x * y + a.y * x - a.z * w;
+    far[0] = math::max(velocity, far[0]);
+    far[1] = math::max(momentum, far[1]);
+    far[2] = math::max(4 * (p * p + q * q + r * r), far[2]);
+  }
+  double most[3] = {0, 0, 0};
+  for (int n = 0; n < 3; ++n)
+    for (int i = 0; i < Many::size; ++i) most[n] = std::max(most[n], far[n][i]);
+  return {std::sqrt(most[0]), std::sqrt(most[1]), std::sqrt(most[2])};
+}
+
+inline void MotionLanes::at(int first, const Many& t, States& to) const noexcept {
+  const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+  const auto phase = math::circle(fraction(row(phase_rate_), t, 0.));
+  const Sums s = sums<false>(first, math::circle(fraction(row(rate_), t, row(start_))));
+  assemble(first, s.even, s.odd, {phase.c, phase.s}, to);
+}
+
+inline void MotionLanes::look(int first, const Many& t, Looks& to) const noexcept {
+  const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+  const auto phase = math::circle(fraction(row(phase_rate_), t, 0.));
+  const Sums s = sums<true>(first, math::circle(fraction(row(rate_), t, row(start_))));
+  const C &a = s.even, &b = s.odd, &da = s.even_slope, &db = s.odd_slope;
+  assemble(first, a, b, {phase.c, phase.s}, to.states);
+
+  const auto dot = [](const C& x, const C& y) GYROSTAT_INLINE_LAMBDA { return x.re * y.re + x.im * y.im; };
+  const auto area = [](const C& x, const C& y) GYROSTAT_INLINE_LAMBDA { return x.re * y.im - x.im * y.re; };
+  const Many f[4] = {dot(a, a), dot(b, b), dot(a, b), area(a, b)};
+  const Many df[4] = {2 * dot(a, da), 2 * dot(b, db), dot(da, b) + dot(a, db), area(da, b) + area(a, db)};
+  Many size = 0, parts = 0, growth = 0;
+  for (int j = 0; j < 4; ++j) {
+    const Many factor = row(forms_[j][0]);
+    size += factor * f[j], parts += math::abs(factor * f[j]), growth += factor * df[j];
+  }
+  const Many inverse = 1 / size, pace = 2 * pi<double> * row(rate_);
+  (parts * math::abs(inverse)).to(to.cancellation + first);
+  Many omega[3], M[3], change[3], terms = 0;
+  for (int i = 0; i < 3; ++i) {
+    omega[i] = row(to.states.angular_velocity[i]), M[i] = row(to.states.angular_momentum[i]);
+    Many sum = 0, slope = 0;
+    for (int j = 0; j < 4; ++j) sum += math::abs(row(forms_[j][1 + i]) * f[j]), slope += row(forms_[j][4 + i]) * df[j];
+    terms += sum * sum;
+    change[i] = pace * (slope - M[i] * growth) * inverse;
+  }
+  (math::sqrt(terms) * math::abs(inverse)).to(to.rate_terms + first);
+
+  const auto spinor = [&](int i, int j)
+                          GYROSTAT_INLINE_LAMBDA { return C{row(spinor_[i][j][0]), row(spinor_[i][j][1])}; };
+  const C kappa{0., row(phase_rate_) / row(rate_)};
+  const C up = spinor(0, 0) * a + spinor(0, 1) * b, down = spinor(1, 0) * a + spinor(1, 1) * b;
+  const C dup = spinor(0, 0) * da + spinor(0, 1) * db + kappa * up,
+          ddown = spinor(1, 0) * da + spinor(1, 1) * db + kappa * down;
+  const Many v[3] = {down.im, -down.re, up.im}, dv[3] = {ddown.im, -ddown.re, dup.im};
+  const Many turn = 2 * pace / (up.re * up.re + v[0] * v[0] + v[1] * v[1] + v[2] * v[2]), per_R = 1 / row(norm_);
+  Many of_momentum = 0, of_attitude = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Many flow = (change[i] - (M[j] * omega[k] - M[k] * omega[j])) * per_R;
+    const Many turning = turn * (up.re * dv[i] - dup.re * v[i] - (v[j] * dv[k] - v[k] * dv[j])) - omega[i];
+    of_momentum += flow * flow, of_attitude += turning * turning;
+  }
+  math::sqrt(math::max(of_momentum, of_attitude)).to(to.defect + first);
+}
+
+inline std::optional<MotionLanes> MotionLanes::of(const Motion<double>& motion) noexcept {
+  const auto& pair = motion.pair_;
+  if (pair.hyperbolic || pair.powers > powers || motion.kind_ == Kind::steady || motion.kind_ == Kind::spherical)
+    return std::nullopt;
+  MotionLanes lanes;
+  const auto put = [](Row& row, double value) { std::fill_n(row, size, value); };
+  put(lanes.rate_, motion.rate_.high);
+  put(lanes.start_, motion.start_.high);
+  put(lanes.phase_rate_, motion.phase_rate_.high);
+  put(lanes.norm_, motion.R_);
+  for (int m = 0; m <= powers; ++m) put(lanes.x_[m], pair.x[m]), put(lanes.y_[m], pair.y[m]);
+  for (int k = 0; k < 4; ++k) {
+    const int from = pair.single && k < 2 ? 1 - k : k;
+    const double sign = pair.single && k == 3 ? -1 : 1;
+    put(lanes.forms_[k][0], sign * motion.size_[from]);
+    for (int i = 0; i < 3; ++i) {
+      put(lanes.forms_[k][1 + i], sign * motion.W_(i, from));
+      put(lanes.forms_[k][4 + i], sign * motion.M_(i, from));
+    }
+  }
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const auto& c = motion.spinor_[i][pair.single ? 1 - j : j];
+      put(lanes.spinor_[i][j][0], c.re), put(lanes.spinor_[i][j][1], c.im);
+    }
+  const double lay[4] = {motion.lay_.w, motion.lay_.x, motion.lay_.y, motion.lay_.z};
+  for (int i = 0; i < 4; ++i) put(lanes.lay_[i], lay[i]);
+  lanes.tame_ = (1u << size) - 1;
+  return lanes;
+}
+
+}  // namespace gyrostat::free
