@@ -15,7 +15,8 @@
 namespace gyrostat::free {
 
 /// Motion<double>, set up in double, of eight bodies side by side. Only where the motion is tame: two components or one, the sums of its
-/// theta functions in trigonometric form, kp2 not small and k2 not tiny, moments apart. What is not is left out, for Motion<double> to do.
+/// theta functions in trigonometric form, kp2 not small and k2 not tiny, moments apart. What is not is left out, for Motion<double> to do. The last
+/// digits of a lane may depend on the bodies beside it, which decide when an iteration ends.
 class MotionLanes {
  public:
   static constexpr int size = 8;
