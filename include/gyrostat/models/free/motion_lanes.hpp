@@ -372,12 +372,12 @@ inline void MotionLanes::look(int first, const Many& t, Looks& to) const noexcep
   const auto area = [](const C& x, const C& y) GYROSTAT_INLINE_LAMBDA { return x.re * y.im - x.im * y.re; };
   const Many f[4] = {dot(a, a), dot(b, b), dot(a, b), area(a, b)};
   const Many df[4] = {2 * dot(a, da), 2 * dot(b, db), dot(da, b) + dot(a, db), area(da, b) + area(a, db)};
-  Many size = 0, parts = 0, growth = 0;
+  Many whole = 0, parts = 0, growth = 0;
   for (int j = 0; j < 4; ++j) {
     const Many factor = row(forms_[j][0]);
-    size += factor * f[j], parts += math::abs(factor * f[j]), growth += factor * df[j];
+    whole += factor * f[j], parts += math::abs(factor * f[j]), growth += factor * df[j];
   }
-  const Many inverse = 1 / size, pace = 2 * pi<double> * row(rate_);
+  const Many inverse = 1 / whole, pace = 2 * pi<double> * row(rate_);
   (parts * math::abs(inverse)).to(to.cancellation + first);
   Many omega[3], M[3], change[3], terms = 0;
   for (int i = 0; i < 3; ++i) {
