@@ -8,6 +8,7 @@
 #include "gyrostat/models/free/flips.hpp"
 #include "gyrostat/models/free/motion.hpp"
 #include "gyrostat/models/free/motion_error.hpp"
+#include "gyrostat/models/free/motion_lanes.hpp"
 #include "gyrostat/models/free/permanent.hpp"
 #include "gyrostat/models/free/theta_pair.hpp"
 #include "gyrostat/models/free/view.hpp"

@@ -52,7 +52,7 @@ struct Many {
   GYROSTAT_INLINE friend Choice operator>(const Many& a, const Many& b) noexcept { return b < a; }
 };
 
-inline constexpr unsigned all = (1u << Many::size) - 1;  ///< bits of a Choice that says yes to every number
+inline constexpr unsigned all_numbers = (1u << Many::size) - 1;  ///< bits of a Choice that says yes to every number
 
 GYROSTAT_INLINE Many choose(const Choice& c, const Many& a, const Many& b) noexcept {
   return gyrostat::choose<double>(c.yes, a.x, b.x);

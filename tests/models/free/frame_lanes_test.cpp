@@ -64,8 +64,8 @@ TEST_CASE("the frames of free bodies side by side are orthogonal", "[free]") {
         const auto S = [&](const Many4& first, const Many4& second) {
           Vec4<double> x = lane(first, b), y = lane(second, b);
           for (int k = 0; k < 3; ++k) x[k] += pencil.d[k][b] * x[3], y[k] += pencil.d[k][b] * y[3];
-          const double size = x.norm() * y.norm();
-          return (x.head<3>().dot(y.head<3>()) - x[3] * y[3]) / (1 + size);
+          const double terms = x.norm() * y.norm();
+          return (x.head<3>().dot(y.head<3>()) - x[3] * y[3]) / (1 + terms);
         };
         CHECK(std::abs(S(frame.plus, frame.plus)) < 1e-11);
         CHECK(std::abs(S(frame.minus, frame.minus)) < 1e-11);

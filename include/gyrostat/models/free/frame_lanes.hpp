@@ -206,7 +206,7 @@ struct PlaneLanes {
     for (int trip = 0; trip < 12; ++trip) {
       first.step();
       second.step();
-      if ((first.found() & second.found()).bits() == math::all) break;
+      if ((first.found() & second.found()).bits() == math::all_numbers) break;
     }
     u = first.axis(pencil);
     v = second.axis(pencil);
@@ -224,7 +224,7 @@ struct PlaneLanes {
     const Many square = pencil.S(e, e);
     const Choice near = 4 * square > s * s;
     e = (1 / math::sqrt(square)) * e;
-    if (near.bits() != math::all) e = choose(near, e, spacelike(pencil, V));
+    if (near.bits() != math::all_numbers) e = choose(near, e, spacelike(pencil, V));
     Many D = pencil.S(W, e);
     const Choice back = D < 0.;
     D = math::abs(D);
@@ -315,9 +315,9 @@ GYROSTAT_INLINE FrameLanes::Form FrameLanes::lobe(const PencilLanes&, const Plan
   const Many boost = math::sqrt(math::sqrt(math::abs(p.E_minus / p.E_plus))), lower = 1 / boost;
   const Many al = p.al * lower, be = p.be * boost;
   const Choice swapped = al < be;
-  const Many4 plus = boost * p.plus, minus = lower * p.minus;
-  f.plus = choose(swapped, minus, plus);
-  f.minus = choose(swapped, plus, minus);
+  const Many4 boosted_plus = boost * p.plus, boosted_minus = lower * p.minus;
+  f.plus = choose(swapped, boosted_minus, boosted_plus);
+  f.minus = choose(swapped, boosted_plus, boosted_minus);
   f.al = math::max(al, be);
   f.be = math::min(al, be);
   const Many Y4 = 1 / (f.al + f.be);
@@ -336,10 +336,10 @@ GYROSTAT_INLINE FrameLanes::Form FrameLanes::alone(const PencilLanes& pencil, co
   const Many B = math::sqrt(-p.E_plus * p.E_minus);
   const Many boost = math::sqrt(math::sqrt(math::abs(p.E_minus / p.E_plus))), lower = 1 / boost;
   const Many al = p.al * lower, be = p.be * boost;
-  const Many4 plus = boost * p.plus, minus = lower * p.minus;
+  const Many4 boosted_plus = boost * p.plus, boosted_minus = lower * p.minus;
   const Choice straight = p.E_plus > 0.;
-  f.plus = choose(straight, plus, minus);
-  f.minus = choose(straight, minus, plus);
+  f.plus = choose(straight, boosted_plus, boosted_minus);
+  f.minus = choose(straight, boosted_minus, boosted_plus);
   f.al = math::choose(straight, al, be);
   f.be = math::choose(straight, be, al);
   f.x1 = p.u.x, f.x2 = p.v.x;

@@ -15,7 +15,8 @@
 namespace gyrostat::free {
 
 /// Motion<double>, set up in double, of eight bodies side by side. Only where the motion is tame: two components or one, the sums of its
-/// theta functions in trigonometric form, kp2 not small and k2 not tiny, moments apart. What is not is left out, for Motion<double> to do.
+/// theta functions in trigonometric form, kp2 not small and k2 not tiny, moments apart. What is not is left out, for Motion<double> to do. The last
+/// digits of a lane may depend on the bodies beside it, which decide when an iteration ends.
 class MotionLanes {
  public:
   static constexpr int size = 8;
@@ -371,12 +372,12 @@ inline void MotionLanes::look(int first, const Many& t, Looks& to) const noexcep
   const auto area = [](const C& x, const C& y) GYROSTAT_INLINE_LAMBDA { return x.re * y.im - x.im * y.re; };
   const Many f[4] = {dot(a, a), dot(b, b), dot(a, b), area(a, b)};
   const Many df[4] = {2 * dot(a, da), 2 * dot(b, db), dot(da, b) + dot(a, db), area(da, b) + area(a, db)};
-  Many size = 0, parts = 0, growth = 0;
+  Many whole = 0, parts = 0, growth = 0;
   for (int j = 0; j < 4; ++j) {
     const Many factor = row(forms_[j][0]);
-    size += factor * f[j], parts += math::abs(factor * f[j]), growth += factor * df[j];
+    whole += factor * f[j], parts += math::abs(factor * f[j]), growth += factor * df[j];
   }
-  const Many inverse = 1 / size, pace = 2 * pi<double> * row(rate_);
+  const Many inverse = 1 / whole, pace = 2 * pi<double> * row(rate_);
   (parts * math::abs(inverse)).to(to.cancellation + first);
   Many omega[3], M[3], change[3], terms = 0;
   for (int i = 0; i < 3; ++i) {
