@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Warnings, and how an optional library is looked for.
+# Warnings, what is compiled as one unit, and how an optional library is looked for.
 
 # Warnings for all our own translation units, the header checks among them. They are on, and errors, only where gyrostat
 # is the top-level project, and no errors in a Python wheel: a newer compiler never breaks somebody else's build.
@@ -18,6 +18,17 @@ if(PROJECT_IS_TOP_LEVEL)
     endif()
   endif()
 endif()
+
+# gyrostat_unite(SOURCE...): in targets of this folder with UNITY_BUILD_MODE GROUP the sources of one family are compiled as one unit (the C
+# interface with general, which knows all families), and so is what belongs to none: they share headers and what these instantiate.
+function(gyrostat_unite)
+  foreach(source IN LISTS ARGN)
+    get_filename_component(name "${source}" NAME)
+    string(REGEX MATCH "^(deceleration|spinning|heavy|rotor|free|general|c_)" family "${name}")
+    string(REPLACE "c_" "general" family "${family}")
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "of_${family}")
+  endforeach()
+endfunction()
 
 # Finds an optional library as its switch (AUTO, ON, OFF) says; sets <package>_FOUND.
 function(gyrostat_find_optional package switch debian_name)

@@ -15,6 +15,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/gyrostat.h"
 #include "gyrostat/ladder/answer.hpp"
+#include "gyrostat/ladder/general/full_motion.hpp"
 #include "gyrostat/ladder/general/propagator.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/ladder/goal.hpp"

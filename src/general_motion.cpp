@@ -10,3 +10,7 @@ template BalanceResiduals<double> balance_residuals<double>(const Problem<double
                                                             std::uint64_t) noexcept;
 
 }  // namespace gyrostat::general
+
+// for who steps the equations without the ladder
+template class gyrostat::ode::Taylor<gyrostat::general::FullSystem<double, true>>;
+template class gyrostat::ode::Taylor<gyrostat::general::FullSystem<double, false>>;

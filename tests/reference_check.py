@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """High-precision reference cases through the command line: a scene file goes in, the answer is held against the truth.
 
-    reference_check.py [FAMILY ...] [--command gyrostat] [--case TEXT] [--quick] [-j JOBS]
+    reference_check.py [FAMILY ...] [--command COMMAND] [--case TEXT] [--quick] [-j JOBS]
 
 Each case of tests/data/reference/FAMILY.json is solved by
   full      at tolerance 1e-11: within 1e-9 of the true motion (rotor, heavy: or a multiple of what the case says of double precision),
@@ -13,10 +13,12 @@ Each case of tests/data/reference/FAMILY.json is solved by
   auto      at tolerances 1e-3, 1e-6, 1e-9 (--quick: 1e-3): the true error is within the tolerance where the answer
             says `met`, and in no column more than the error that the answer itself states.
 Errors are relative to the greatest value of the column over the span; of modulus_squared, absolute; of attitude, the angle.
-What the truth itself is good to is allowed on top. Needs Python 3.11 and nothing else. Exit status 1 if any check failed.
+What the truth itself is good to is allowed on top. Needs the package, or with --command only that. Exit status 1 if any check failed.
 """
 import argparse
 import concurrent.futures
+import contextlib
+import io
 import json
 import math
 import pathlib
@@ -333,11 +335,23 @@ class Check:
         with tempfile.TemporaryDirectory() as scratch:
             scene = pathlib.Path(scratch) / "scene.toml"
             scene.write_text(scene_text(self.family, case, model, tolerance), encoding="utf-8")
-            run = subprocess.run([*self.command, "solve", str(scene), "--json"], capture_output=True, text=True, timeout=300)
-        if run.returncode in (0, 3):
-            return json.loads(run.stdout)
-        self.say(False, f"{case_name(case)} {model}: exit {run.returncode}: {(run.stderr or run.stdout).strip()[-300:]}")
+            status, out, wrong = self.run(["solve", str(scene), "--json"])
+        if status in (0, 3):
+            return json.loads(out)
+        self.say(False, f"{case_name(case)} {model}: exit {status}: {(wrong or out).strip()[-300:]}")
         return None
+
+    def run(self, arguments):
+        """Exit status and what was printed, by the command or, where none is named, by its main function in this process."""
+        if self.command:
+            run = subprocess.run([*self.command, *arguments], capture_output=True, text=True, timeout=300)
+            return run.returncode, run.stdout, run.stderr
+        from gyrostat.cli import main
+
+        out, wrong = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(wrong):
+            status = main(arguments)
+        return status, out.getvalue(), wrong.getvalue()
 
     def named(self, case, model):
         answer = self.solve(case, model, 1e-11)
@@ -370,29 +384,32 @@ class Check:
                  f"{'' if answer['met'] else ' (not met)'}, true of stated: {', '.join(seen)}")
 
 
+def checked(work):
+    """The lines of one case."""
+    command, tolerances, family, case = work
+    check = Check(FAMILIES[family], command)
+    for model in check.family.models:
+        check.named(case, model)
+    for tolerance in tolerances:
+        check.ladder(case, tolerance)
+    return check.lines
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("families", nargs="*", metavar="FAMILY", choices=[*FAMILIES, []], help=f"of {', '.join(FAMILIES)}; left out: all")
-    parser.add_argument("--command", default="gyrostat", help="the command line to test")
+    parser.add_argument("--command", default="", help="the command to test; left out: its main function, without starting a process for each answer")
     parser.add_argument("--case", default="", help="only cases whose name holds this text")
     parser.add_argument("--quick", action="store_true", help="auto at the loosest tolerance alone")
     parser.add_argument("-j", "--jobs", type=int, default=1, help="cases at a time")
     args = parser.parse_args()
 
-    def checked(work):
-        family, case = work
-        check = Check(FAMILIES[family], args.command)
-        for model in check.family.models:
-            check.named(case, model)
-        for tolerance in [1e-3] if args.quick else [1e-3, 1e-6, 1e-9]:
-            check.ladder(case, tolerance)
-        return check.lines
-
-    cases = [(family, case) for family in args.families or FAMILIES
+    tolerances = [1e-3] if args.quick else [1e-3, 1e-6, 1e-9]
+    cases = [(args.command, tolerances, family, case) for family in args.families or FAMILIES
              for case in json.loads((CASES / f"{family}.json").read_text(encoding="utf-8"))["cases"]
              if args.case in case_name(case) and solvable(family, case)]
     passed = failed = 0
-    with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
+    with concurrent.futures.ProcessPoolExecutor(args.jobs) as pool:
         for lines in pool.map(checked, cases):
             for right, text in lines:
                 passed, failed = passed + right, failed + (not right)

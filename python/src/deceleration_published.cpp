@@ -72,7 +72,7 @@ struct Run {
   bool ended;
 };
 
-Run integrate(const pub::Data<double>& d, const std::string& how, double modulus_squared, double end, int samples) {
+Run run_published(const pub::Data<double>& d, const std::string& how, double modulus_squared, double end, int samples) {
   if (!(modulus_squared >= 0 && modulus_squared < 1))
     raise("DomainError", "modulus_squared = " + text(modulus_squared) + ": not in [0, 1)");
   if (!(end > 0 && std::isfinite(end))) raise("DomainError", "end = " + text(end) + ": not positive");
@@ -136,7 +136,7 @@ void bind_deceleration_published(py::module_& module) {
       .def_readonly("momentum", &Run::momentum, "|M|/M0")
       .def_readonly("modulus_squared", &Run::modulus_squared, "k2")
       .def_readonly("ended", &Run::ended, "whether the equations ended before the time asked for");
-  module.def("published_run", &integrate, py::arg("data"), py::kw_only(), py::arg("reading"),
+  module.def("published_run", &run_published, py::arg("data"), py::kw_only(), py::arg("reading"),
              py::arg("modulus_squared"), py::arg("end"), py::arg("samples"),
              "The system (27) from (28), printed or corrected.");
   module.def("published_stationary_ratio", py::vectorize(printed_ratio), py::arg("kappa2"), py::arg("modulus_squared"),

@@ -6,6 +6,9 @@
 #include "gyrostat/rotation/kinematics.hpp"
 #include "integrators.hpp"
 
+// the library has it
+extern template class gyrostat::ode::Taylor<gyrostat::free::FullSystem<double>>;
+
 namespace {
 
 using namespace gyrostat;

@@ -10,6 +10,10 @@
 #include "gyrostat/models/general/right_side.hpp"
 #include "integrators.hpp"
 
+// the library has them
+extern template class gyrostat::ode::Taylor<gyrostat::general::FullSystem<double, true>>;
+extern template class gyrostat::ode::Taylor<gyrostat::general::FullSystem<double, false>>;
+
 namespace {
 
 using namespace gyrostat;

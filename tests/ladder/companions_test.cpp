@@ -10,7 +10,7 @@ using namespace gyrostat;
 
 namespace {
 
-struct Writer {
+struct PairWriter {
   using Scalar = double;
   using State = double;
   static constexpr ColumnKind columns[] = {{"x", 1, "m", Frame::none, Measure::relative, ""}};
@@ -41,14 +41,14 @@ using Function = double (*)(double);
 using Run = Course<Function>;
 
 struct Found {
-  Walk<Writer> walk;
+  Walk<PairWriter> walk;
   std::vector<double> states;
 };
 
 Found walked(Run course, Run companion, Run second, std::vector<double> times, double rate = 0,
              const MotionOptions<double>& options = {}) {
   std::vector<double> states(times.size());
-  auto walk = walk_beside(Writer{}, Runs<Run>{course, companion, &second}, course.at(0), rate, times, states, -1.0,
+  auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, &second}, course.at(0), rate, times, states, -1.0,
                           options, 0, 1, not_noted);
   return {walk, states};
 }
@@ -86,7 +86,7 @@ TEST_CASE("one companion shows truncation alone", "[ladder]") {
   Run course{still, 1}, companion{farther, 1};
   const std::vector<double> times{0, 3, 5};
   std::vector<double> states(3), noted;
-  const auto walk = walk_beside(Writer{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
+  const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
                                 MotionOptions<double>{}, 0, 1,
                                 [&](std::size_t, const Errors<1>& error) { noted.push_back(error[0]); });
   CHECK(walk.error[0] == margin * 0.5);
@@ -111,7 +111,7 @@ TEST_CASE("the first steps of the runs end apart", "[ladder]") {
   Stepped course, companion, second;
   const std::vector<double> times{1};
   std::vector<double> states(1);
-  const auto walk = walk_beside(Writer{}, Runs<Stepped>{course, companion, &second}, 1.0, 0.0, times, states, -1.0,
+  const auto walk = walk_beside(PairWriter{}, Runs<Stepped>{course, companion, &second}, 1.0, 0.0, times, states, -1.0,
                                 MotionOptions<double>{}, 0, 1, not_noted);
   CHECK(walk.error[0] == Approx(margin).epsilon(1e-2));
 }
@@ -149,8 +149,8 @@ TEST_CASE("the stated error is the distance times its margin and what rounding a
     Run course{still, 1}, companion{beside, 1}, second{still, 1};
     MotionOptions<double> options;
     options.tolerance = 1e-3;
-    solve_beside(answer, Writer{}, Runs<Run>{course, companion, &second}, 1.0, 0.0, times, states, -1.0, options, 0, 1,
-                 [](const Errors<1>& size, double steps) noexcept { return steps * size; });
+    solve_beside(answer, PairWriter{}, Runs<Run>{course, companion, &second}, 1.0, 0.0, times, states, -1.0, options, 0,
+                 1, [](const Errors<1>& size, double steps) noexcept { return steps * size; });
     return answer;
   };
   const double rounding = 10 * epsilon<double>;  // of 100 steps, of a column of size 1

@@ -45,7 +45,7 @@ struct Follower : Timeless<S> {
 };
 
 /// The same, put back onto the unit circle.
-struct Circle : Follower<double> {
+struct FollowedCircle : Follower<double> {
   using Follower<double>::Follower;
   void project(double, double* x, double* low) const noexcept {
     const double stretch = (1 - x[0] * x[0] - x[1] * x[1]) / 2 - x[0] * low[0] - x[1] * low[1];
@@ -56,7 +56,7 @@ struct Circle : Follower<double> {
 };
 
 /// y' = y^2, infinite at t = 1 from y = 1.
-struct Explosion : Timeless<double> {
+struct StiffExplosion : Timeless<double> {
   static constexpr int width = 1;
   static double rate(int) noexcept { return 1; }
   static void sources(const Moment&, const Lanes<double>*, Lanes<double>* source) noexcept { *source = lanes(0.0); }
@@ -122,8 +122,8 @@ struct Weak : Driven {
   }
 };
 
-static_assert(ode::RelaxingSystem<Follower<float>> && ode::RelaxingSystem<Driven> && ode::RelaxingSystem<Explosion> &&
-              ode::Projects<Circle>);
+static_assert(ode::RelaxingSystem<Follower<float>> && ode::RelaxingSystem<Driven> &&
+              ode::RelaxingSystem<StiffExplosion> && ode::Projects<FollowedCircle>);
 
 template <class System>
 typename ode::Radau<System>::Options watching(typename System::Scalar tolerance, typename System::Scalar inside = 0) {
@@ -400,9 +400,9 @@ TEST_CASE("many short steps leave little") {
 
 TEST_CASE("Radau: a projection keeps the state on its law") {
   const auto error = [](bool projected) {
-    auto options = watching<Circle>(1e-9);
+    auto options = watching<FollowedCircle>(1e-9);
     options.projected = projected;
-    ode::Radau<Circle> solver(Circle(50), 0, {1, 0, 0.3}, options);
+    ode::Radau<FollowedCircle> solver(FollowedCircle(50), 0, {1, 0, 0.3}, options);
     double worst = 0;
     while (solver.time() < 1000) {
       REQUIRE(solver.step(1000) == Status::reached);
@@ -415,7 +415,7 @@ TEST_CASE("Radau: a projection keeps the state on its law") {
 }
 
 TEST_CASE("Radau: a singularity ends the integration after few steps") {
-  ode::Radau<Explosion> solver({}, 0, {1, 0}, watching<Explosion>(1e-12));
+  ode::Radau<StiffExplosion> solver({}, 0, {1, 0}, watching<StiffExplosion>(1e-12));
   const Status status = solver.advance(2);
   CHECK((status == Status::step_underflow || status == Status::not_finite));
   CHECK(solver.time() == Approx(1).epsilon(1e-6));

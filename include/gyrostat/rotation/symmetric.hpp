@@ -55,4 +55,9 @@ SymmetricEigen<Scalar> symmetric_eigen(const Mat3<Scalar>& S) noexcept {
   return result;
 }
 
+#ifdef GYROSTAT_COMPILED
+extern template SymmetricEigen<double> symmetric_eigen<double>(const Mat3<double>&) noexcept;
+extern template SymmetricEigen<long double> symmetric_eigen<long double>(const Mat3<long double>&) noexcept;
+#endif
+
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "gyrostat/core/double_double.hpp"
+#include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// What Eigen asks of a scalar, so that Vec3<DoubleDouble> and its kin work.
@@ -43,5 +44,9 @@ Mat3<To> matrix_cast(const Mat3<From>& m) noexcept {
     for (int j = 0; j < 3; ++j) cast(i, j) = static_cast<To>(m(i, j));
   return cast;
 }
+
+#ifdef GYROSTAT_COMPILED
+extern template SymmetricEigen<DoubleDouble> symmetric_eigen<DoubleDouble>(const Mat3<DoubleDouble>&) noexcept;
+#endif
 
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

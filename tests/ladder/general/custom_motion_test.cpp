@@ -19,15 +19,15 @@ using namespace gyrostat;
 using namespace gyrostat::general;
 using ode::Status;
 
-struct Run {
+struct CustomRun {
   CustomMotionAnswer<double> answer;
   std::vector<State<double>> states;
 };
 
 template <class Law>
-Run run(const Problem<double>& problem, const Law& law, const std::vector<double>& named,
-        const std::vector<double>& times, double tolerance) {
-  Run made;
+CustomRun run(const Problem<double>& problem, const Law& law, const std::vector<double>& named,
+              const std::vector<double>& times, double tolerance) {
+  CustomRun made;
   made.states.resize(times.size());
   MotionOptions<double> options;
   options.tolerance = tolerance, options.step_cap = 1'000'000;
@@ -176,7 +176,7 @@ TEST_CASE("a step of a law, named and not", "[general]") {
   const auto right = truth(problem, times, law, {7.3});
   for (const double tolerance : tolerances) {
     const auto named = run(problem, law, {7.3}, times, tolerance), unnamed = run(problem, law, {}, times, tolerance);
-    for (const Run* made : {&named, &unnamed}) {
+    for (const CustomRun* made : {&named, &unnamed}) {
       REQUIRE(made->answer.status == Status::reached);
       const auto error = apart(problem, law, times, right, made->states);
       for (std::size_t k = 0; k < std::size(full_columns); ++k) {

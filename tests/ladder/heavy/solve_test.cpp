@@ -28,9 +28,9 @@ Solved solved(const Scene& scene, Monitor* monitor = nullptr) {
   return made;
 }
 
-const Vec3<double> centre{0.012, 0.009, 0.01};
+const Vec3<double> stone_centre{0.012, 0.009, 0.01};
 const Problem<double> stone =
-    *Problem<double>::make({0.0011, 0.0016, 0.002}, 0.8, centre, 9.80665, 4.617791555485795e-06);
+    *Problem<double>::make({0.0011, 0.0016, 0.002}, 0.8, stone_centre, 9.80665, 4.617791555485795e-06);
 const Problem<double> top = *Problem<double>::make({0.0016, 0.0016, 0.002}, 0.8, {0, 0, 0.01}, 9.80665, 0);
 
 }  // namespace
@@ -112,7 +112,7 @@ TEST_CASE("a rung of the heavy family asked for by name answers or refuses", "[h
 
 TEST_CASE("the first row of a heavy answer is the start to the bit, in the caller's axes", "[heavy]") {
   const Mat3<double> R = to_matrix(normalised(Quat<double>{0.9, 0.1, -0.2, 0.15}));
-  const auto body = Body::make(R * stone.inertia().asDiagonal() * R.transpose(), 0.8, R * centre, 9.80665, 0);
+  const auto body = Body::make(R * stone.inertia().asDiagonal() * R.transpose(), 0.8, R * stone_centre, 9.80665, 0);
   const auto sleeper =
       Body::make(R * top.inertia().asDiagonal() * R.transpose(), 0.8, R * top.centre_of_mass(), 9.80665, 0);
   REQUIRE(body);
@@ -169,7 +169,7 @@ TEST_CASE("a heavy answer is in the caller's axes and ends when cancelled", "[he
   Tops random(4);
   const Mat3<double> R = to_matrix(normalised(Quat<double>{0.9, 0.1, -0.2, 0.15}));
   const auto& I = stone.inertia();
-  const auto body = Body::make(R * I.asDiagonal() * R.transpose(), 0.8, R * centre, 9.80665, 4.6e-6);
+  const auto body = Body::make(R * I.asDiagonal() * R.transpose(), 0.8, R * stone_centre, 9.80665, 4.6e-6);
   REQUIRE(body);
   Question question;
   const Start start{{}, Periodic{150, 0.1}};

@@ -11,7 +11,7 @@ using namespace gyrostat::rotor;
 
 namespace {
 
-Asked asked(double span, double tolerance) {
+Asked asked_fully(double span, double tolerance) {
   Asked data;
   for (int i = 0; i <= 6; ++i) data.times.push_back(span * i / 6);
   data.tolerance = tolerance;
@@ -25,7 +25,7 @@ Asked asked(double span, double tolerance) {
 TEST_CASE("the full rung meets what it is asked for and says its error", "[rotor]") {
   for (const Integrator integrator : {Integrator::any, Integrator::taylor, Integrator::radau}) {
     for (const double tolerance : {1e-3, 1e-7, 1e-11}) {
-      Asked data = asked(30, tolerance);
+      Asked data = asked_fully(30, tolerance);
       data.integrator = integrator;
       const Scene scene = *make_scene(reference_body(0.05, 30), data);
       const Track track = full_track(scene, nullptr);
@@ -44,7 +44,7 @@ TEST_CASE("the full rung meets what it is asked for and says its error", "[rotor
 }
 
 TEST_CASE("equations that the scene brings take the place of the library's", "[rotor]") {
-  Asked data = asked(1, 1e-6);
+  Asked data = asked_fully(1, 1e-6);
   data.full_equations = [](const Scene&, Monitor*) { return refused<Track>(Errc::unavailable, "not mine"); };
   const Track track = full_track(*make_scene(reference_body(0.05, 30), data), nullptr);
   CHECK(track.failure == Errc::unavailable);
@@ -53,12 +53,12 @@ TEST_CASE("equations that the scene brings take the place of the library's", "[r
 TEST_CASE("a full rung that is stopped says so", "[rotor]") {
   Monitor stopped;
   stopped.cancel = true;
-  const Scene scene = *make_scene(reference_body(0.05, 30), asked(1e5, 1e-6));
+  const Scene scene = *make_scene(reference_body(0.05, 30), asked_fully(1e5, 1e-6));
   CHECK(full_track(scene, &stopped).failure == Errc::cancelled);
 }
 
 TEST_CASE("one time, and time zero alone, are answered", "[rotor]") {
-  Asked data = asked(1, 1e-9);
+  Asked data = asked_fully(1, 1e-9);
   data.times = {0};
   const Scene start = *make_scene(reference_body(0.05, 30), data);
   const Track track = full_track(start, nullptr);

@@ -9,7 +9,7 @@ using namespace gyrostat::spinning;
 
 namespace {
 
-Problem<double> stage(double tilt) {
+Problem<double> tilted_stage(double tilt) {
   auto p = Spinners(5).spinner(tilt);
   p.force[2] = 3;
   return p;
@@ -34,7 +34,7 @@ TEST_CASE("rung linear is the linear motion with honest errors", "[spinning]") {
 }
 
 TEST_CASE("rung linear gives up early, unless asked for by name", "[spinning]") {
-  const auto p = stage(1e-3);
+  const auto p = tilted_stage(1e-3);
   const double span = 100 / std::abs(p.spin());
   const Track early = linear_track(posed(p, span, 1e-9), nullptr);
   CHECK(early.failure == Errc::not_applicable);
@@ -49,7 +49,7 @@ TEST_CASE("rung linear gives up early, unless asked for by name", "[spinning]") 
 }
 
 TEST_CASE("rung linear beyond small tilt is passed over; by name it answers with a warning", "[spinning]") {
-  const auto p = stage(1);
+  const auto p = tilted_stage(1);
   const double span = 100 / std::abs(p.spin());
   const Track passed = linear_track(posed(p, span, 0.5), nullptr);
   CHECK(passed.failure == Errc::not_applicable);
@@ -82,7 +82,7 @@ TEST_CASE("rung linear refuses where the motion grows beyond the greatest double
 TEST_CASE("rung linear on long even grids is the linear motion at each time", "[spinning]") {
   for (int kind = 0; kind < 4; ++kind) {
     CAPTURE(kind);
-    auto p = stage(1e-3);
+    auto p = tilted_stage(1e-3);
     if (kind == 1) p.rotor_momentum -= p.effective_momentum();                       // no stiffness
     if (kind == 2) p.inertia = {2, 2, 2}, p.rotor_momentum = p.charge_momentum = 0;  // no nutation
     double span = 60 / std::abs(p.spin());
@@ -112,7 +112,7 @@ TEST_CASE("rung linear on long even grids is the linear motion at each time", "[
 }
 
 TEST_CASE("rung linear under an axial torque", "[spinning]") {
-  auto p = stage(1e-3);
+  auto p = tilted_stage(1e-3);
   const double span = 60 / std::abs(p.spin());
   p.torque[2] = -1.5 * p.inertia[2] * p.spin() / span;  // through zero spin
   p.rotor_momentum = 2 * p.inertia[2] * p.spin();
@@ -136,7 +136,7 @@ TEST_CASE("rung linear under an axial torque", "[spinning]") {
 
 TEST_CASE("rung linear at the start alone", "[spinning]") {
   for (const double axial : {0.0, 0.1}) {
-    auto p = stage(1e-3);
+    auto p = tilted_stage(1e-3);
     p.torque[2] = axial;
     Question question;
     question.times = {0};

@@ -44,7 +44,7 @@ Vec3<Scalar> mean(const Orbit<Scalar>& o, int n, bool squared = false) {
 }
 
 /// Random bodies: some near symmetric, some with rotor momentum on one or two axes or on none.
-struct Bodies {
+struct OrbitBodies {
   std::mt19937_64 random{7};
   std::uniform_real_distribution<double> u{0, 1};
   std::normal_distribution<double> z;
@@ -89,7 +89,7 @@ TEST_CASE("reference orbits", "[deceleration]") {
 }
 
 TEST_CASE("an orbit keeps |M| and h, moves with the flow, and knows the phase of its points", "[deceleration]") {
-  Bodies bodies;
+  OrbitBodies bodies;
   for (int trial = 0; trial < 2000; ++trial) {
     const auto p = bodies.next(1e-4);
     const V M = bodies.vector();
@@ -117,7 +117,7 @@ TEST_CASE("an orbit keeps |M| and h, moves with the flow, and knows the phase of
 }
 
 TEST_CASE("orbits of random bodies agree with integration in long double", "[deceleration]") {
-  Bodies bodies;
+  OrbitBodies bodies;
   double worst = 0;
   int compared = 0;
   for (int trial = 0; trial < 300; ++trial) {
@@ -148,7 +148,7 @@ TEST_CASE("orbits of random bodies agree with integration in long double", "[dec
 }
 
 TEST_CASE("rounding: double against long double", "[deceleration]") {
-  Bodies bodies;
+  OrbitBodies bodies;
   int bad = 0, trials = 3000;
   for (int trial = 0; trial < trials; ++trial) {
     const auto p = bodies.next(1e-3);
@@ -252,7 +252,7 @@ TEST_CASE("symmetric bodies", "[deceleration]") {
 }
 
 TEST_CASE("equilibria are points", "[deceleration]") {
-  Bodies bodies;
+  OrbitBodies bodies;
   for (int trial = 0; trial < 300; ++trial) {
     const auto p = bodies.next(1e-2);
     const double R = .1 + bodies.uniform();

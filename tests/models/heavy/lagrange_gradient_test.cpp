@@ -43,10 +43,10 @@ const std::vector<double> some_times{0.0, 0.01, 0.033, 0.07, 0.13, 0.2, 0.31, 0.
 TEST_CASE("nearest root: the next on either side, not any", "[heavy]") {
   // (y + 3)(y + 1)(y - 2)(y - 5), positive at 0
   const std::array<double, 5> a{30, 19, -15, -3, 1};
-  CHECK(detail::nearest_root<4>(a, 10.0) == Approx(2).epsilon(1e-15));
-  CHECK(detail::nearest_root<4>(a, -10.0) == Approx(-1).epsilon(1e-15));
-  CHECK(detail::nearest_root<4>(a, 1.5) == 1.5);
-  CHECK(detail::nearest_root<4>({1e-30, 0, -1, 0, 0}, 1.0) == Approx(1e-15).epsilon(1e-14));
+  CHECK(heavy::detail::nearest_root<4>(a, 10.0) == Approx(2).epsilon(1e-15));
+  CHECK(heavy::detail::nearest_root<4>(a, -10.0) == Approx(-1).epsilon(1e-15));
+  CHECK(heavy::detail::nearest_root<4>(a, 1.5) == 1.5);
+  CHECK(heavy::detail::nearest_root<4>({1e-30, 0, -1, 0, 0}, 1.0) == Approx(1e-15).epsilon(1e-14));
 }
 
 TEST_CASE("lagrange top in a gradient: the full equations from any start", "[heavy]") {

@@ -40,8 +40,8 @@ Problem<double> lined(int k, double gravity, double gradient, double way = 0.3) 
 
 const std::vector<double> swing_times{0.0, 0.05, 0.13, 0.4, 0.77, 1.3};
 
-Distance worst(const Problem<double>& problem, const State<double>& start,
-               const std::vector<double>& times = swing_times) {
+Distance worst_swing(const Problem<double>& problem, const State<double>& start,
+                     const std::vector<double>& times = swing_times) {
   const auto made = Pendulum<double>::make(problem, start);
   REQUIRE(made);
   const auto truth = LongMotion::from(problem, start, times);
@@ -64,7 +64,7 @@ TEST_CASE("heavy pendulum: libration and rotation about each principal axis", "[
     for (const double angle : {0.0, 0.4, 2.0, -1.1, 3.0})
       for (const double rate : {0.0, 1.0, -7.0, 25.0, -60.0}) {
         CAPTURE(k, angle, rate);
-        const auto d = worst(lined(k, 9.8, 0), swung(k, angle, rate));
+        const auto d = worst_swing(lined(k, 9.8, 0), swung(k, angle, rate));
         CHECK(d.attitude < 1e-12);
         CHECK(d.angular_velocity < 1e-11);
       }
@@ -75,7 +75,7 @@ TEST_CASE("heavy pendulum: the gradient alone", "[heavy]") {
     for (const double angle : {0.0, 0.4, 2.0, -1.1})
       for (const double rate : {0.0, 1.0, -4.0, 9.0}) {
         CAPTURE(k, angle, rate);
-        const auto d = worst(lined(k, 0, 40), swung(k, angle, rate));
+        const auto d = worst_swing(lined(k, 0, 40), swung(k, angle, rate));
         CHECK(d.attitude < 1e-12);
         CHECK(d.angular_velocity < 1e-11);
       }
@@ -96,7 +96,7 @@ TEST_CASE("heavy pendulum: separatrix, rest and small swings", "[heavy]") {
     const auto made = Pendulum<double>::make(problem, start);
     REQUIRE(made);
     CAPTURE(off, made->modulus().kp2);
-    worst(problem, start, {0.1, 0.5, 2, 5, 12});
+    worst_swing(problem, start, {0.1, 0.5, 2, 5, 12});
     CHECK(made->error(0.1).attitude < 1e-12);
     if (std::abs(off) >= 1e-4) CHECK(made->error(12.0).attitude < 1e-7);
   }

@@ -42,12 +42,12 @@ std::array<double, 3> characteristic(const Gyrostat<double>& g, const Vec3<doubl
     A.col(i) = (rate(at + d) - rate(at - d)) / (2 * at.norm());
   }
   // Faddeev and Le Verrier
-  Eigen::Matrix<L, 4, 4> M = A;
+  Eigen::Matrix<L, 4, 4> grown = A;
   std::array<double, 3> c{};
   for (int i = 0; i < 3; ++i) {
-    const L trace = M.trace() / (i + 1);
+    const L trace = grown.trace() / (i + 1);
     c[std::size_t(i)] = double(-trace);
-    M = A * (M - trace * Eigen::Matrix<L, 4, 4>::Identity());
+    grown = A * (grown - trace * Eigen::Matrix<L, 4, 4>::Identity());
   }
   return c;
 }

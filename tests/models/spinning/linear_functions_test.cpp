@@ -69,7 +69,7 @@ TEST_CASE("phases keep their digits over many turns", "[spinning]") {
   for (const double r0 : {0.7, -1.3}) {
     const auto p = body<double>(2.1, r0);
     const LinearFunctions<double> functions(p);
-    const LinearFunctions<long double> wide(detail::problem_cast<long double>(p));
+    const LinearFunctions<long double> wide(spinning::detail::problem_cast<long double>(p));
     double worst = 0;
     for (int i = 1; i <= 1000; ++i) {
       const double t = 97.7 * i;

@@ -13,7 +13,7 @@ using namespace gyrostat::spinning;
 
 namespace {
 
-Problem<double> stage() {
+Problem<double> pointed_stage() {
   Problem<double> p;
   p.inertia = {8, 7, 12};
   p.mass = 10;
@@ -33,7 +33,7 @@ std::complex<double> std_of(math::Complex<double> z) { return {z.re, z.im}; }
 TEST_CASE("the mean tilt is the mean of the tilt", "[spinning]") {
   for (const double r0 : {1.0, -0.7}) {
     for (const double lambda3 : {2.0, -3.0}) {
-      auto p = stage();
+      auto p = pointed_stage();
       p.angular_velocity[2] = r0;
       p.rotor_momentum = lambda3;
       if (p.nutation_squared() <= 0) continue;
@@ -57,7 +57,7 @@ TEST_CASE("the mean tilt is the mean of the tilt", "[spinning]") {
             Approx(std::hypot(0.04, 0.02) / std::abs(r0 * (12 * r0 + lambda3 - 0.4))).epsilon(1e-14));
     }
   }
-  auto p = stage();
+  auto p = pointed_stage();
   p.angular_velocity[2] = 0;
   CHECK(pointing_error(p) == infinity<double>);
   p.torque.setZero();
@@ -66,7 +66,7 @@ TEST_CASE("the mean tilt is the mean of the tilt", "[spinning]") {
 
 TEST_CASE("the velocity turns to its secular direction", "[spinning]") {
   for (const double r0 : {1.0, -0.7}) {
-    auto p = stage();
+    auto p = pointed_stage();
     p.angular_velocity[2] = r0;
     p.velocity = {0.1, 0.2, 0.3};
     const Linear<double> linear(p);
@@ -89,7 +89,7 @@ TEST_CASE("the velocity turns to its secular direction", "[spinning]") {
 }
 
 TEST_CASE("the momentum runs on a circle, the charge apart", "[spinning]") {
-  const auto p = stage();
+  const auto p = pointed_stage();
   const Linear<double> linear(p);
   const auto circle = momentum_circle(p);
   const std::complex<double> i(0, 1);
@@ -112,7 +112,7 @@ TEST_CASE("the momentum runs on a circle, the charge apart", "[spinning]") {
 
 TEST_CASE("distances from the resonances", "[spinning]") {
   for (const double detuning : {1.0, 1e-5, 1e-10, 1e-13}) {
-    auto p = stage();
+    auto p = pointed_stage();
     p.charge_momentum = 0;
     p.rotor_momentum = 3 + detuning;  // X = r0 (D1 + D2) + detuning
     const long double exact = (3 + detuning) - 3.0L;
@@ -127,7 +127,7 @@ TEST_CASE("distances from the resonances", "[spinning]") {
     CHECK(spin_flags(p).compliant == (detuning < 0.5));
     CHECK(spin_flags(p).resonant == (detuning < 0.5));
   }
-  auto p = stage();
+  auto p = pointed_stage();
   p.rotor_momentum = 0;
   p.charge_momentum = 0;
   p.inertia = {8, 11, 9};

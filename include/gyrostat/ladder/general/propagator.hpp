@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
-#include <utility>
 
-#include "gyrostat/body/inertia.hpp"
-#include "gyrostat/core/double_double.hpp"
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
-#include "gyrostat/ladder/general/full_motion.hpp"
-#include "gyrostat/ladder/outcome.hpp"
-#include "gyrostat/models/free/motion.hpp"
-#include "gyrostat/models/free/motion_error.hpp"
 #include "gyrostat/models/free/reduced.hpp"
-#include "gyrostat/models/general/collected.hpp"
-#include "gyrostat/models/general/full.hpp"
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/wheels.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
@@ -53,35 +41,12 @@ class Propagator {
   Propagator() = default;
 
   /// Why states alone do not tell how the body moves on; nullptr: they do. Of a problem that check() finds right.
-  static const char* clock_needed(const Problem<double>& problem) noexcept {
-    for (const auto& wheel : problem.wheels)
-      if (!wheel.table.times.empty()) return "the rate or torque of a wheel changes with time";
-    const auto torques = Collected<double>::of(problem, infinity<double>);
-    if (!torques.is_steady()) return "a torque changes with time";
-    const Terms<double>& sum = torques.steady().sum;
-    for (const auto& each : sum.orbital)
-      if (!each.isZero(0)) return "a torque is given in the axes of an orbit";
-    if (sum.orbit_gradient != 0) return "the gravity gradient turns with an orbit";
-    const bool currents_in_moving = !sum.eddy.isZero(0) && problem.field.magnetic != MagneticField::uniform;
-    if (!sum.dipole.isZero(0) || currents_in_moving) return "the magnetic field moves";
-    return nullptr;
-  }
+  GYROSTAT_COMPILED_ONCE static const char* clock_needed(const Problem<double>& problem) noexcept;
 
   /// Of body, wheels and torques of a problem, whose start does not matter. tolerance: of the full equations; the closed form is set up in
   /// double where that errs by less than a thousandth of it, so that a thousand steps stay within it, else to twice the digits. Errors: those of check();
   /// out_of_domain: the tolerance; not_applicable: clock_needed.
-  static Result<Propagator> make(const Problem<double>& problem, double tolerance) {
-    if (const Fault wrong = check(problem)) return wrong.code;
-    if (!(tolerance > 0 && tolerance < 1)) return Errc::out_of_domain;
-    if (clock_needed(problem) != nullptr) return Errc::not_applicable;
-    Propagator made;
-    made.problem_ = problem;
-    made.problem_.velocity = made.problem_.position = {0, 0, 0};
-    made.wheels_ = Wheels<double>::of(problem);
-    made.tolerance_ = tolerance;
-    made.closed_ = made.find_closed_form();
-    return made;
-  }
+  GYROSTAT_COMPILED_ONCE static Result<Propagator> make(const Problem<double>& problem, double tolerance);
 
   std::size_t wheels() const noexcept { return wheels_.count; }
   bool is_closed_form() const noexcept { return closed_; }
@@ -89,18 +54,7 @@ class Propagator {
   /// Moves a state on by dt >= 0, s. error: how far it may be then from that to which the given state moves, where that is right to
   /// a rounding; nullptr saves most of the time of a closed form. Errors, which leave the state as it is: not_finite; negative (dt); out_of_domain: an attitude that is not of
   /// unit length to 1e-6, or a locked wheel that turns; not_applicable: a brake stops the body; step_limit and no_convergence.
-  Errc advance(double dt, Moving& state, MovedError* error = nullptr) const noexcept {
-    if (const Errc wrong = check_state(dt, state); wrong != Errc::ok) return wrong;
-    Moving begin = state;
-    begin.attitude = as_unit(state.attitude);
-    if (dt == 0) {
-      state = begin;
-      if (error != nullptr) *error = {4 * epsilon<double>, 0, 0};
-      return Errc::ok;
-    }
-    if (closed_ && advance_freely(dt, begin, state, error)) return Errc::ok;
-    return advance_fully(dt, begin, state, error);
-  }
+  GYROSTAT_COMPILED_ONCE Errc advance(double dt, Moving& state, MovedError* error = nullptr) const noexcept;
 
  private:
   static constexpr double quick_share = 1e-3;
@@ -108,103 +62,14 @@ class Propagator {
   template <Real Scalar>
   using Assembly = free::Assembly<Scalar, Room>;
 
-  bool find_closed_form() const noexcept {
-    if (Collected<double>::of(problem_, infinity<double>).steady().sum.any_torque()) return false;
-    for (std::size_t i = 0; i < wheels_.count; ++i)
-      if (wheels_.laws[i].follows > Follows::constant) return false;
-    return bool(Inertia<double>::from_tensor(wheels_.reduced));
-  }
-
-  Errc check_state(double dt, const Moving& state) const noexcept {
-    const double length = norm(state.attitude);
-    if (!std::isfinite(dt) || !std::isfinite(length) || !state.angular_velocity.allFinite()) return Errc::not_finite;
-    if (dt < 0) return Errc::negative;
-    if (!(std::abs(length - 1) <= 1e-6)) return Errc::out_of_domain;
-    for (std::size_t i = 0; i < wheels_.count; ++i) {
-      if (!std::isfinite(state.rotor_rate[i])) return Errc::not_finite;
-      if (wheels_.laws[i].follows == Follows::body && state.rotor_rate[i] != 0) return Errc::out_of_domain;
-    }
-    return Errc::ok;
-  }
-
-  Assembly<double> assembly_of(const Moving& state) const noexcept {
-    Assembly<double> made;
-    made.body.inertia = wheels_.whole;
-    made.body.rotor_momentum = problem_.rotor_momentum;
-    made.body.angular_velocity = state.angular_velocity;
-    made.body.attitude = state.attitude;
-    for (std::size_t i = 0; i < wheels_.count; ++i) {
-      const auto& law = wheels_.laws[i];
-      if (law.follows == Follows::body) continue;
-      made.wheels.push_back({law.axis, law.axial_inertia, state.rotor_rate[i], law.follows == Follows::constant});
-    }
-    return made;
-  }
-
+  GYROSTAT_COMPILED_ONCE bool find_closed_form() const noexcept;
+  GYROSTAT_COMPILED_ONCE Errc check_state(double dt, const Moving& state) const noexcept;
+  GYROSTAT_COMPILED_ONCE Assembly<double> assembly_of(const Moving& state) const noexcept;
   /// False where the closed form does not know the motion.
-  bool advance_freely(double dt, const Moving& begin, Moving& state, MovedError* error) const noexcept {
-    const auto assembly = assembly_of(begin);
-    auto motion = free::Motion<double>::make(free::Reduced<double, Room>::taken(assembly).problem);
-    const auto quick = motion ? free::MotionError<double>::quick(*motion, assembly, dt) : std::nullopt;
-    const bool suffices = quick && quick->at(dt).attitude < quick_share * tolerance_;
-    if (!suffices)
-      motion = free::Motion<double>::make<DoubleDouble>(free::Reduced<DoubleDouble, Room>::taken(assembly).problem);
-    if (!motion) return false;
-    const auto there = motion->at(dt);
-    state = {there.attitude, there.angular_velocity, begin.rotor_rate};
-    double freely = 0, fastest = there.angular_velocity.norm();
-    for (std::size_t i = 0; i < wheels_.count; ++i) {
-      const auto& law = wheels_.laws[i];
-      fastest = std::max(fastest, std::abs(begin.rotor_rate[i]) + begin.angular_velocity.norm());
-      if (law.follows != Follows::constant) continue;
-      const Vec3<double> change = begin.angular_velocity - there.angular_velocity;
-      state.rotor_rate[i] = begin.rotor_rate[i] + law.axis.dot(change);
-      freely += 1;
-    }
-    if (error == nullptr) return true;
-    using free::MotionError;
-    const auto known =
-        suffices ? *quick : MotionError<double>::of<DoubleDouble>(*motion, assembly, free::Data::rounded, dt);
-    const auto bound = known.at(dt);
-    error->attitude = bound.attitude;
-    error->angular_velocity = bound.angular_velocity * known.fastest();
-    const double off = error->angular_velocity + 8 * epsilon<double> * fastest;
-    error->rotor_rate = freely > 0 ? std::sqrt(freely) * off : 0.0;
-    return true;
-  }
-
-  Errc advance_fully(double dt, const Moving& begin, Moving& state, MovedError* error) const noexcept {
-    Problem<double> problem = problem_;
-    problem.attitude = begin.attitude;
-    problem.angular_velocity = begin.angular_velocity;
-    for (std::size_t i = 0; i < wheels_.count; ++i) problem.wheels[i].rate = begin.rotor_rate[i];
-    FullErrors<double> wanted = FullErrors<double>::all(infinity<double>);
-    for (const auto column : {full_column::attitude, full_column::angular_velocity, full_column::rotor_rate})
-      wanted[column] = tolerance_;
-    FullMotionOptions<double> options;
-    options.tolerance = tolerance_;
-    options.wanted = wanted.of;
-    options.step_cap = step_cap;
-    State<double> there;
-    const std::array<double, 1> times{dt};
-    const auto made = full_motion<double>(problem, times, std::span<State<double>>(&there, 1), options);
-    if (!made) return made.error();
-    if (made->status == ode::Status::event) return Errc::not_applicable;
-    if (made->status != ode::Status::reached) return failure_of(made->status);
-    state = {there.attitude, there.angular_velocity, begin.rotor_rate};
-    for (std::size_t i = 0; i < wheels_.count; ++i) state.rotor_rate[i] = there.rotor_rate[i];
-    if (error == nullptr) return Errc::ok;
-    const FullRow<double> row(Prepared<double>(problem, dt));
-    double square = 0;
-    for (const double rate : there.rotor_rate) square += rate * rate;
-    const auto absolute = [&](std::size_t column, double size) noexcept {
-      return made->error[column] * std::max(size, row.scale[column]);
-    };
-    error->attitude = made->error[full_column::attitude];
-    error->angular_velocity = absolute(full_column::angular_velocity, there.angular_velocity.norm());
-    error->rotor_rate = wheels_.count == 0 ? 0.0 : absolute(full_column::rotor_rate, std::sqrt(square));
-    return Errc::ok;
-  }
+  GYROSTAT_COMPILED_ONCE bool advance_freely(double dt, const Moving& begin, Moving& state,
+                                             MovedError* error) const noexcept;
+  GYROSTAT_COMPILED_ONCE Errc advance_fully(double dt, const Moving& begin, Moving& state,
+                                            MovedError* error) const noexcept;
 
   Problem<double> problem_;
   Wheels<double> wheels_;
@@ -213,3 +78,7 @@ class Propagator {
 };
 
 }  // namespace gyrostat::general
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/general/propagator_definition.hpp"
+#endif

@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <optional>
 
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/general/instances.hpp"
 #include "gyrostat/ladder/general/motion.hpp"
-#include "gyrostat/ladder/general/recognise.hpp"
 #include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/question.hpp"
@@ -27,28 +27,9 @@ namespace gyrostat::general {
 
 namespace detail {
 
-/// The size that the parts of a torque have before they cancel, N m.
-inline double size_of_torque(const Problem<double>& problem, const Torque<double>& torque, const Pose<double>& pose,
-                             double t) noexcept {
-  const auto& field = problem.field;
-  switch (torque.type) {
-    case TorqueType::weight: return problem.mass * field.gravity * problem.centre_of_mass.norm();
-    case TorqueType::gravity_gradient:
-      return std::abs(torque.gradient ? *torque.gradient : orbit_at(*problem.orbit, t).gradient) *
-             problem.inertia.norm();
-    case TorqueType::magnetic: return torque.vector.norm() * field_at(problem, t).flux_density.norm();
-    case TorqueType::charge: return torque.vector.norm() * pose.angular_velocity.norm();
-    default: return load_of(problem, torque, pose, t, t).torque.norm();
-  }
-}
-
 /// Of all torques at t: what the rounding of their sum is relative to, N m.
-inline double sum_of_torques(const Problem<double>& problem, const Pose<double>& pose, double t) noexcept {
-  double sum = 0;
-  for (const auto& torque : problem.torques)
-    sum += std::abs(factor_at(torque.factor, t, t)) * size_of_torque(problem, torque, pose, t);
-  return sum;
-}
+GYROSTAT_COMPILED_ONCE double sum_of_torques(const Problem<double>& problem, const Pose<double>& pose,
+                                             double t) noexcept;
 
 }  // namespace detail
 
@@ -74,23 +55,8 @@ class Scene {
   Scene() = default;
 
   /// What check_times() and check() find. recognised: look for families.
-  static Result<Scene> make(const Problem<double>& problem, const Question& question, bool recognised = true) {
-    if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
-    if (const Fault wrong = check(problem)) return wrong.code;
-    Scene scene;
-    scene.problem_ = problem;
-    scene.question_ = question;
-    const Prepared<double> prepared(problem, question.times.back());
-    scene.wheels_ = prepared.wheels;
-    scene.sizes_ = prepared.sizes;
-    scene.large_ = prepared.is_large();
-    scene.stiff_ = prepared.is_stiff();
-    scene.settling_rate_ = prepared.settling.fastest();
-    scene.breaks_ = breakpoints(problem, question.times.back()).size();
-    scene.recognised_ = recognised;
-    if (recognised) scene.instances_ = recognise(problem, prepared.wheels, prepared.torques, question);
-    return scene;
-  }
+  GYROSTAT_COMPILED_ONCE static Result<Scene> make(const Problem<double>& problem, const Question& question,
+                                                   bool recognised = true);
 
   /// The same motion, asked otherwise; `question` must be one that make would take, with the same last time.
   Scene asked(const Question& question) const {
@@ -163,7 +129,7 @@ class Scene {
   const Question& question() const noexcept { return question_; }
 
   /// The scales of the columns, in their units.
-  ColumnErrors scales() const noexcept;
+  GYROSTAT_COMPILED_ONCE ColumnErrors scales() const noexcept;
 
   /// Whether the scene has the column at all.
   bool has_column(std::size_t column) const noexcept {
@@ -204,35 +170,8 @@ class Scene {
   Question question_;
 };
 
-inline ColumnErrors Scene::scales() const noexcept {
-  constexpr double share = 1e-3;
-  const auto& p = problem_;
-  const double omega = p.angular_velocity.norm(), most = symmetric_eigen<double>(wheels_.whole).values[2];
-  double momenta = (wheels_.whole * p.angular_velocity).norm() + p.rotor_momentum.norm(), fastest = omega;
-  for (std::size_t i = 0; i < wheels_.count; ++i) {
-    const auto& law = wheels_.laws[i];
-    momenta += law.axial_inertia * std::abs(law.rate);
-    fastest = std::max(fastest, std::abs(law.rate));
-  }
-  const Vec3<double> M = wheels_.reduced * p.angular_velocity + wheels_.momentum_of_wheels();
-  const Flow<double> flow(p, wheels_);
-  const double torques = detail::sum_of_torques(p, {p.attitude, p.angular_velocity, M}, 0) +
-                         own_torque_(0, seen_of(flow.state(0, flow.start()))).norm();
-  const double T = question_.times.back();
-  const Vec3<double> g = p.fixed ? Vec3<double>(0, 0, 0) : Vec3<double>(p.field.gravity * p.field.down);
-  ColumnErrors scale;
-  scale[column::angular_velocity] = omega > 0 ? omega : share * momenta / most;
-  scale[column::angular_momentum] = scale[column::angular_momentum_inertial] = scale[column::angular_momentum_norm] =
-      share * momenta;
-  scale[column::energy] = share * momenta / most * momenta / 2;
-  scale[column::rotor_rate] = share * fastest;
-  scale[column::rotor_angle] = share;
-  scale[column::velocity] = p.velocity.norm() + g.norm() * T;
-  scale[column::position] = p.position.norm() + (p.velocity.norm() + g.norm() * T) * T;
-  scale[column::down] = 1;
-  scale[column::torque] = share * torques;
-  scale[column::euler] = 1;
-  return scale;
-}
-
 }  // namespace gyrostat::general
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/general/scene_definition.hpp"
+#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/monitor.hpp"
@@ -28,20 +27,8 @@ class Scene {
   Scene() = default;
 
   /// not_finite; zero_vector (an attitude without length); and what check_times finds.
-  static Result<Scene> make(const Gyrostat<double>& gyrostat, const Start& start, const Question& question) {
-    if (!start.angular_velocity.allFinite() || !std::isfinite(start.rotor_rate)) return Errc::not_finite;
-    if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
-    const double length = norm(start.attitude);
-    if (!std::isfinite(length)) return Errc::not_finite;
-    if (!(length > 0)) return Errc::zero_vector;
-    Scene scene;
-    scene.gyrostat_ = gyrostat;
-    scene.given_ = start;
-    scene.given_.attitude = as_unit(start.attitude);
-    scene.question_ = question;
-    scene.start_ = gyrostat.state(scene.given_.attitude, start.angular_velocity, start.rotor_rate);
-    return scene;
-  }
+  GYROSTAT_COMPILED_ONCE static Result<Scene> make(const Gyrostat<double>& gyrostat, const Start& start,
+                                                   const Question& question);
 
   /// The same motion, asked otherwise; `question` must be one that make would take.
   Scene asked(const Question& question) const {
@@ -71,3 +58,7 @@ class Scene {
 };
 
 }  // namespace gyrostat::rotor
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/rotor/scene_definition.hpp"
+#endif

@@ -26,18 +26,7 @@ class EulerCase {
   }
 
   /// Errors: not_applicable; not_finite; zero_vector; those of free::Motion::make. The start is aligned().
-  static Result<EulerCase> make(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept {
-    if (!holds(problem)) return Errc::not_applicable;
-    const auto from = aligned(start);
-    if (!from) return from.error();
-    EulerCase made;
-    made.given_.body =
-        free::Problem<Scalar>::from_moments(problem.inertia(), {0, 0, 0}, from->angular_velocity, from->attitude);
-    const auto motion = Motion::template make<DoubleDouble>(made.given_.body.template cast<DoubleDouble>());
-    if (!motion) return motion.error();
-    made.motion_ = *motion;
-    return made;
-  }
+  static Result<EulerCase> make(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept;
 
   State<Scalar> at(Scalar t) const noexcept {
     const auto now = motion_.at(t);
@@ -46,12 +35,7 @@ class EulerCase {
 
   /// Bound of the error of at() up to time |t|, infinite where the data do not fix the phase. Found anew at each call, from neighbours
   /// (free::MotionError): 0.1 ms.
-  ExactError<Scalar> error(Scalar t) const noexcept {
-    const auto known = free::MotionError<Scalar>::template of<DoubleDouble>(motion_, given_, free::Data::rounded, t);
-    const auto bound = known.at(t);
-    const Scalar angle = bound.attitude + 8 * epsilon<Scalar>;  // of the alignment
-    return {angle, angle, bound.angular_velocity * known.fastest()};
-  }
+  ExactError<Scalar> error(Scalar t) const noexcept;
 
   math::Modulus<Scalar> modulus() const noexcept { return motion_.modulus(); }
   /// Of the angular velocity in the body, s; infinite on the separatrix and in a permanent rotation.
@@ -63,5 +47,31 @@ class EulerCase {
   free::Assembly<Scalar> given_;
   Motion motion_;
 };
+
+template <Real Scalar>
+Result<EulerCase<Scalar>> EulerCase<Scalar>::make(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept {
+  if (!holds(problem)) return Errc::not_applicable;
+  const auto from = aligned(start);
+  if (!from) return from.error();
+  EulerCase made;
+  made.given_.body =
+      free::Problem<Scalar>::from_moments(problem.inertia(), {0, 0, 0}, from->angular_velocity, from->attitude);
+  const auto motion = Motion::template make<DoubleDouble>(made.given_.body.template cast<DoubleDouble>());
+  if (!motion) return motion.error();
+  made.motion_ = *motion;
+  return made;
+}
+
+template <Real Scalar>
+ExactError<Scalar> EulerCase<Scalar>::error(Scalar t) const noexcept {
+  const auto known = free::MotionError<Scalar>::template of<DoubleDouble>(motion_, given_, free::Data::rounded, t);
+  const auto bound = known.at(t);
+  const Scalar angle = bound.attitude + 8 * epsilon<Scalar>;  // of the alignment
+  return {angle, angle, bound.angular_velocity * known.fastest()};
+}
+
+#ifdef GYROSTAT_COMPILED
+extern template class EulerCase<double>;
+#endif
 
 }  // namespace gyrostat::heavy
