@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/deceleration/cost_definition.hpp"
 #include "gyrostat/ladder/deceleration/solve_definition.hpp"
 
 namespace gyrostat::deceleration {

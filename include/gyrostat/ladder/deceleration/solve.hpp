@@ -24,5 +24,6 @@ extern template Answer solve<math::Native>(const Scene&, Refusal&, Monitor*);
 }  // namespace gyrostat::deceleration
 
 #ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/deceleration/cost_definition.hpp"
 #include "gyrostat/ladder/deceleration/solve_definition.hpp"
 #endif

@@ -67,10 +67,6 @@ inline constexpr Rung<Scene, Track> models[] = {{&equal_torque_track, &cost_of_e
 
 }  // namespace detail
 
-GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept {
-  return detail::models<math::Native>[rung].cost(scene);
-}
-
 template <class Elliptic>
 Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   return climb<Scene, Track>(tables, detail::models<Elliptic>, scene, monitor, refusal);
