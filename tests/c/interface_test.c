@@ -116,12 +116,11 @@ static const double* column(const gyrostat_answer* answer, const char* name, siz
 static void free_symmetric_body(void) {
   gyrostat_scene* scene = body(A, A, C, p, 0, r);
   gyrostat_answer* answer;
-  const double tolerance = 1e-12; /* a looser one has a quicker set-up, and a wider error */
   double turned_within, within, recognised = 0;
   const double *q, *w;
   int i;
   OK(gyrostat_set_word(scene, "solve.model", "free:closed-form"));
-  OK(gyrostat_set(scene, "solve.tolerance", &tolerance, 1));
+  OK(gyrostat_set_number(scene, "solve.tolerance", 1e-12)); /* a looser one has a quicker set-up, and a wider error */
   answer = solved(scene, "free:closed-form");
   if (answer == NULL) return;
   q = column(answer, "attitude", 4, &turned_within);
