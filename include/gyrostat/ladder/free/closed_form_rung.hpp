@@ -127,6 +127,14 @@ inline void warn_of_form(Track& track, const ClosedForm& form, double last, bool
   if (!known) track.warn(warning_kinds[warning::phase_unknown], last);
 }
 
+/// Of M, over its length or its scale; where the bound knows nothing, as where M is all rounding: M keeps its length, and cannot be off by more
+/// than two of it and the rounding of the parts that it is summed of.
+inline double momentum_error(const Scene& scene, const ClosedForm& form, double bound) noexcept {
+  const double R = form.motion.angular_momentum_norm(), l = scene.gyrostat().problem.rotor_momentum.norm();
+  if (bound < infinity<double>) return bound;
+  return over(2 * R + 8 * epsilon<double> * (R + 2 * l), std::max(R, scene.scales()[column::angular_momentum]));
+}
+
 /// What the rung answers by a form.
 inline Track track_of(const Scene& scene, const ClosedForm& form) {
   const auto& times = scene.question().times;
@@ -142,7 +150,8 @@ inline Track track_of(const Scene& scene, const ClosedForm& form) {
                           over(rounding * form.motion.angular_momentum_norm() / slightest, fastest);
   track.error[column::attitude] = bound.attitude + rounding;
   track.error[column::angular_velocity] = relative_to_truth(velocity);
-  track.error[column::angular_momentum] = relative_to_truth(bound.angular_momentum + rounding);
+  track.error[column::angular_momentum] =
+      relative_to_truth(momentum_error(scene, form, bound.angular_momentum) + rounding);
   if (scene.wheels() > 0) {
     track.error[column::rotor_rate] = rate_error(scene, track.states, velocity);
     if (scene.gives(column::rotor_angle)) turn_wheels(track, scene, form);
