@@ -34,3 +34,27 @@ TEST_CASE("rung closed-form: where the data do not fix the phase it says so", "[
   CHECK(stands.warns("unstable-rotation"));
   CHECK_FALSE(stands.met);
 }
+
+TEST_CASE("rung closed-form: a momentum that is all rounding is stated by the size of its parts", "[free]") {
+  Mat3<double> J = body({3, 2.9, 0.2}, {0, 0, 0}, {0, 0, 0}).body.inertia;
+  const Mat3<double> R = to_matrix<double>(normalised(Quat<double>{0.3, -0.5, 0.7, 0.2}));
+  J = R * J * R.transpose();
+  for (const bool turned : {false, true}) {
+    auto assembly = body({4, 3, 2}, {-2, -3, -0.5}, {0.5, 1, 0.25});
+    if (turned) {
+      assembly.body.inertia = (J + J.transpose()) / 2;
+      assembly.body.angular_velocity = R.col(2);
+      assembly.body.rotor_momentum = -(assembly.body.inertia * R.col(2));
+    }
+    const Scene scene = posed(assembly, {10, 20, 30}, 1e-3, free::rung::closed_form);
+    const Answer answer = solved(scene);
+    const auto& column = *answer.find("angular_momentum");
+    const Vec3<DoubleDouble> truth = scene.precise().problem.momentum();  // and it keeps that length
+    double off = 0;
+    for (std::size_t i = 0; i < column.values.size(); i += 3)
+      off = std::max(off, Vec3<double>(&column.values[i]).norm() + double(truth.norm()));
+    CAPTURE(turned, off, column.error, column.scale);
+    CHECK(column.error < 1e-9);
+    CHECK(off <= column.error * std::max(column.scale, off));
+  }
+}

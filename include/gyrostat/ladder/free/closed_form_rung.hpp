@@ -130,9 +130,11 @@ inline void warn_of_form(Track& track, const ClosedForm& form, double last, bool
 /// Of M, over its length or its scale; where the bound knows nothing, as where M is all rounding: M keeps its length, and cannot be off by more
 /// than two of it and the rounding of the parts that it is summed of.
 inline double momentum_error(const Scene& scene, const ClosedForm& form, double bound) noexcept {
-  const double R = form.motion.angular_momentum_norm(), l = scene.gyrostat().problem.rotor_momentum.norm();
   if (bound < infinity<double>) return bound;
-  return over(2 * R + 8 * epsilon<double> * (R + 2 * l), std::max(R, scene.scales()[column::angular_momentum]));
+  const double R = form.motion.angular_momentum_norm();
+  const double parts = form.motion.principal_moments()[0] * scene.angular_velocity().norm() +
+                       scene.gyrostat().problem.rotor_momentum.norm();
+  return over(2 * R + 8 * epsilon<double> * parts, std::max(R, scene.scales()[column::angular_momentum]));
 }
 
 /// What the rung answers by a form.
