@@ -3,6 +3,7 @@
 
 #include "allocations.hpp"
 #include "catch.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 
 #include <algorithm>
 #include <array>
@@ -300,6 +301,39 @@ TEST_CASE("a start off the source is resolved, and the step grows again") {
   REQUIRE(solver.step() == Status::reached);
   CHECK(solver.time() == 0.1);
   CHECK(std::abs(solver.state()[2] - 0.3) < 0.1);
+}
+
+TEST_CASE("the last coefficients tell the error inside each step") {
+  using System = Follower<double>;
+  for (const double rate : {30.0, 1e3, 1e5}) {
+    for (const double inside : {1e-4, 1e-7, 1e-10}) {
+      ode::Radau<System> solver({rate}, 0, {1, 0, 1.3}, watching<System>(1e-14, inside));
+      double state[3], moved[3], greatest = 0, most_suspected = 0;
+      while (solver.time() < 5) {
+        REQUIRE(solver.step(5) == Status::reached);
+        double error = 0, suspected = 0;
+        for (int k = 1; k < 32; ++k) {
+          const double t = solver.previous_time() + k / 32.0 * (solver.time() - solver.previous_time());
+          solver.at(t, state);
+          solver.beside(t, moved);
+          error = std::max(error, std::abs(state[2] - (0.3 * std::cos(t) + std::exp(-rate * t))));
+          suspected = std::max(suspected, std::abs(moved[2] - state[2]));
+        }
+        CAPTURE(rate, inside, solver.previous_time(), solver.time(), error, suspected);
+        CHECK(error <=
+              honesty::margin_between * suspected + 2e-13);  // and what rounding at the start of a step makes of p
+        greatest = std::max(greatest, error);
+        most_suspected = std::max(most_suspected, suspected);
+      }
+      CAPTURE(rate, inside, greatest, most_suspected);
+      CHECK(most_suspected < 30 * greatest);
+      // y is better by far at the end of a step than inside it
+      solver.at(5, state);
+      solver.beside(5, moved);
+      CHECK(moved[0] == state[0]);
+      CHECK(moved[1] == state[1]);
+    }
+  }
 }
 
 TEST_CASE("the error keeps to the tolerance over many decades") {

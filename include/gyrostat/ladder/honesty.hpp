@@ -20,8 +20,9 @@ inline constexpr Companions side_by_side{64, 4, 5, 3};
 /// Step tolerance, roundings times the condition of the tensor, below which rounding rules, and a second companion runs along.
 inline constexpr double rounding_below = 1 << 20;
 
-/// Collocation: the margin of what a companion errs inside its steps, which no distance shows.
-inline constexpr double margin_between = 4;
+/// Collocation: the margin of what a companion's last coefficients tell of its error inside the step that holds an asked time; answer and companion may
+/// err alike there, where a jump of the data sets the steps of both.
+inline constexpr double margin_between = 2;
 
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;

@@ -199,15 +199,15 @@ class Radau {
   /// y and p.
   const Scalar* state() const noexcept { return state_; }
   const Counts& counts() const noexcept { return counts_; }
-  /// What y and p inside the steps so far were off by at most, relative to scale, as far as their last coefficients tell: within Options::inside, and
-  /// far below it where the ends of steps or their sweeps limit these.
-  Scalar inside_error() const noexcept { return most_inside_; }
 
   /// Begin of the last step; the polynomial holds from here to time().
   Scalar previous_time() const noexcept { return start_time_.high; }
 
   /// The state at t inside the last step, within Options::inside. Outside it the polynomial is extrapolated.
   void at(Scalar t, Scalar* state) const noexcept;
+
+  /// at(t) with the error that the last coefficients of each component let suspect added to it.
+  void beside(Scalar t, Scalar* state) const noexcept;
 
  private:
   using Row = Lanes<Scalar>;
@@ -246,11 +246,31 @@ class Radau {
   enum class Sweeps : std::uint8_t { converged, slow, not_finite };
   Sweeps solve(Scalar h, Scalar rounding) noexcept;
 
+  /// Coefficients of p without what its rounding may have made of them.
+  Row clear(const Row& a, Scalar p) const noexcept {
+    const Scalar blur = options_.blur * epsilon<Scalar> * std::abs(p);
+    const auto left = [&](int k) noexcept { return std::max(std::abs(a[k]) - blur * table.tail_size[k], Scalar(0)); };
+    return lanes(left(0), left(1), left(2), left(3));
+  }
+
+  /// What the last four coefficients, their squares summed over components, tell of those left out.
+  struct Tail {
+    explicit Tail(const Row& squares) noexcept {
+      const Scalar a4 = squares[0], a5 = squares[1], a6 = squares[2], a7 = squares[3];
+      sum = a4 + a5 + a6 + a7;
+      // how the coefficients fall, by pairs since even and odd ones may vanish in turn
+      const Scalar early = std::max(a4, a5), late = std::max(a6, a7);
+      const Scalar fall = early > 0 ? std::min(std::sqrt(std::sqrt(late / early)), Scalar(1)) : Scalar(0);
+      tail = std::max(std::sqrt(a7), fall * std::sqrt(a6));
+      inside = fall * tail / 30;
+    }
+    Scalar sum, tail, inside;
+  };
+
   /// Of the next step, from the last coefficients of one that has converged.
   struct Verdict {
     Scalar factor;  ///< by which to change its length; NaN if a coefficient is not finite
     bool accurate;  ///< good enough to be accepted
-    Scalar inside;  ///< error inside it, relative to scale
   };
   GYROSTAT_INLINE Verdict judge(Scalar h, Scalar tolerance, Scalar most_inside) const noexcept;
   /// The length to begin with; NaN if the rates are not finite.
@@ -262,7 +282,6 @@ class Radau {
   Options options_;
   Scalar rate_[relaxing];
   Scalar tolerance_, inside_, goal_;
-  Scalar most_inside_ = 0;  ///< seen
   Sum time_, start_time_;
   Scalar wish_ = 0;         ///< the next step
   Scalar last_step_ = 0;    ///< of the polynomial in last_
@@ -464,19 +483,12 @@ GYROSTAT_INLINE auto Radau<System>::judge(Scalar h, Scalar tolerance, Scalar mos
     squares = multiply_add(a, a, squares);
   }
   for (int i = 0; i < relaxing; ++i) {
-    const Row a = last_coefficients(table.tail_of_values, p_[i]) * lanes(weight_[width + i]);
-    const Scalar blur = options_.blur * epsilon<Scalar> * std::abs(state_[width + i]) * weight_[width + i];
-    const auto clear = [&](int k) noexcept { return std::max(std::abs(a[k]) - blur * table.tail_size[k], Scalar(0)); };
-    const Row left = lanes(clear(0), clear(1), clear(2), clear(3));
-    squares = multiply_add(left, left, squares);
+    const Row a = clear(last_coefficients(table.tail_of_values, p_[i]), state_[width + i]) * lanes(weight_[width + i]);
+    squares = multiply_add(a, a, squares);
   }
-  const Scalar a4 = squares[0], a5 = squares[1], a6 = squares[2], a7 = squares[3];
-  if (!(a4 + a5 + a6 + a7 < infinity<Scalar>)) return {nan<Scalar>, false, nan<Scalar>};
-  // how the coefficients fall, by pairs since even and odd ones may vanish in turn
-  const Scalar early = std::max(a4, a5), late = std::max(a6, a7);
-  const Scalar fall = early > 0 ? std::min(std::sqrt(std::sqrt(late / early)), Scalar(1)) : Scalar(0);
-  const Scalar tail = std::max(std::sqrt(a7), fall * std::sqrt(a6));
-  const Scalar inside = fall * tail / 30;
+  const Tail left_out(squares);
+  if (!(left_out.sum < infinity<Scalar>)) return {nan<Scalar>, false};
+  const Scalar inside = left_out.inside, tail = left_out.tail;
   // the same coefficient of the sensitivity, 15 j_7(z/2), with z = h |df/dy| from the pace of the sweeps: A contracts tenfold
   Scalar z = 10 * contraction_;
   // what swings by itself is integrated as if the sensitivity did
@@ -488,7 +500,7 @@ GYROSTAT_INLINE auto Radau<System>::judge(Scalar h, Scalar tolerance, Scalar mos
   const float by_inside = inside > 0 ? std::log2(static_cast<float>(most_inside / inside)) / 9 : 3.0F;
   const float by_sweeps = contraction_ > 0 ? std::log2(static_cast<float>(Scalar(0.25L) / contraction_)) : 3.0F;
   const float by = std::min({by_end - 0.2F, by_inside - 0.25F, by_sweeps, 2.0F});
-  return {static_cast<Scalar>(std::exp2(std::max(by, -4.0F))), !(end > tolerance || inside > most_inside), inside};
+  return {static_cast<Scalar>(std::exp2(std::max(by, -4.0F))), !(end > tolerance || inside > most_inside)};
 }
 
 template <RelaxingSystem System>
@@ -566,7 +578,6 @@ Status Radau<System>::step(Scalar t_max) noexcept {
     }
 
     accept(h);
-    most_inside_ = std::max(most_inside_, verdict.inside);
     start_time_ = time_;
     time_ = lands ? Sum{t_max, 0} : add(time_, h);
     ++counts_.steps;
@@ -605,6 +616,18 @@ void Radau<System>::at(Scalar t, Scalar* state) const noexcept {
   store(&weight[0], low);
   store(&weight[4], high);
   for (int i = 0; i < all; ++i) state[i] = start_[i] + (start_low_[i] + dot(weight, last_[i]));
+}
+
+template <RelaxingSystem System>
+void Radau<System>::beside(Scalar t, Scalar* state) const noexcept {
+  at(t, state);
+  if (!(last_step_ > 0)) return;
+  // at its end y is better by far
+  for (int i = t < time_.high ? 0 : width; i < all; ++i) {
+    Row a = last_coefficients(table.tail, last_[i]);
+    if (i >= width) a = clear(a, start_[i]);
+    state[i] += Tail(a * a).inside;
+  }
 }
 
 }  // namespace gyrostat::ode

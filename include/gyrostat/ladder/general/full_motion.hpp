@@ -259,10 +259,11 @@ class FullCourse {
   }
   Scalar previous_time() const noexcept { return solver_->previous_time(); }
 
-  /// What the states inside steps are off by beyond what adds up, relative to their scales; of collocation alone.
-  Scalar inside_error() const noexcept {
-    if constexpr (Method::integrator == Integrator::radau) return std::max(inside_error_, solver_->inside_error());
-    else return 0;
+  /// Of collocation alone: inside() with the error that its last coefficients let suspect.
+  State<Scalar> beside(Scalar t) const noexcept {
+    alignas(32) Numbers x;
+    solver_->beside(t, x.data());
+    return system_->state(piece_, t, x.data());
   }
 
   ode::Counts counts() const noexcept {
@@ -286,7 +287,6 @@ class FullCourse {
     Numbers numbers;
     std::copy_n(solver_->state(), numbers.size(), numbers.begin());
     const Scalar t = time();
-    inside_error_ = inside_error();
     counts_ += solver_->counts();
     options_.step_cap -= std::min(options_.step_cap, solver_->counts().steps);
     piece_ = std::move(*next_);
@@ -303,7 +303,7 @@ class FullCourse {
   static constexpr Scalar nearly_ = Scalar(1e-6L);
   Prepared<Scalar> of_;
   std::span<const Scalar> cuts_;
-  Scalar last_, share_, inside_error_ = 0;
+  Scalar last_, share_;
   bool outgrown_ = false;
   std::size_t cut_ = 0;
   Piece<Scalar> piece_;
@@ -480,13 +480,18 @@ class FullMotion {
     std::unique_ptr<Course> second;
     if (rounding_rules(tolerance.end, condition_of(of.wheels))) second = begin(two, 3, tight);
     const FullRow<Scalar> row(of);
-    // rounding at the asked times
+    // rounding at the asked times, and between steps
+    FullErrors<Scalar> between;
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
-      const Scalar between = Scalar(honesty::margin_between) * companion->inside_error();
-      return rounding_of_columns(of, row, size, 4 * eps + steps + between);
+      return rounding_of_columns(of, row, size, 4 * eps + steps) + Scalar(honesty::margin_between) * between;
+    };
+    const Comparison<FullRow<Scalar>> rows(row);
+    const auto note = [&](std::size_t i, const auto&) noexcept {
+      if constexpr (Method::integrator == Integrator::radau)
+        between.raise(rows.apart(rows.row(companion->inside(times_[i])), rows.row(companion->beside(times_[i]))));
     };
     solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of.sizes.turning, times_,
-                 states_, nowhere<Scalar>(), options_, progress_from, progress_to, rounding);
+                 states_, nowhere<Scalar>(), options_, progress_from, progress_to, rounding, note);
     if (answer.status == ode::Status::event) answer.stop = course->time();
     answer.outgrown = course->outgrown() || companion->outgrown() || (second && second->outgrown());
     return answer;

@@ -110,14 +110,19 @@ class Course {
     series_.at(t, x);
     return full_.state(t, x);
   }
+  /// at(t) with the error between steps of collocation that its last coefficients let suspect.
+  State<Scalar> beside(Scalar t) const noexcept {
+    if (!collocates_) return at(t);
+    alignas(32) Scalar x[FullSystem<Scalar>::width];
+    collocation_.beside(t, x);
+    return relaxing_.state(x);
+  }
 
   ode::Counts counts() const noexcept {
     ode::Counts both = series_.counts();
     both += collocation_.counts();
     return both;
   }
-  /// What the states inside steps of collocation are off by, relative to their scales.
-  Scalar inside_error() const noexcept { return collocation_.inside_error(); }
 
  private:
   static auto series_options(const FullSystem<Scalar>& system, Scalar tolerance, std::uint64_t step_cap) noexcept {
@@ -251,14 +256,19 @@ class FullMotion {
     Course<Scalar> companion = beside(0);
     std::optional<Course<Scalar>> second;
     if (rounding_rules(step_tolerance, gyrostat_.condition())) second = beside(1);
-    // rounding at the asked times
+    // rounding at the asked times, and between steps
     const Row<Scalar> row(gyrostat_, start_);
+    ColumnErrors<Scalar> between;
     const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
-      const Scalar between = Scalar(honesty::margin_between) * companion.inside_error();
-      return rounding_of_columns(row, start_, size, 4 * eps + steps + between);
+      return rounding_of_columns(row, start_, size, 4 * eps + steps) + Scalar(honesty::margin_between) * between;
+    };
+    const Comparison<Row<Scalar>> rows(row);
+    const auto note = [&](std::size_t i, const auto&) noexcept {
+      if (answer.used == Integrator::radau)
+        between.raise(rows.apart(rows.row(companion.at(times_[i])), rows.row(companion.beside(times_[i]))));
     };
     solve_beside(answer, row, Runs<Course<Scalar>>{course, companion, second ? &*second : nullptr}, start_, turning_,
-                 times_, states_, nowhere(), options_, progress_from, progress_to, rounding);
+                 times_, states_, nowhere(), options_, progress_from, progress_to, rounding, note);
     return answer;
   }
 
