@@ -303,6 +303,18 @@ TEST_CASE("a start off the source is resolved, and the step grows again") {
   CHECK(std::abs(solver.state()[2] - 0.3) < 0.1);
 }
 
+TEST_CASE("runs that are to be compared may begin apart") {
+  using System = Follower<double>;
+  const auto end_of_first = [](double share) {
+    auto options = watching<System>(1e-9);
+    options.first_share = share;
+    ode::Radau<System> solver({30.0}, 0, {1, 0, 0.3}, options);
+    REQUIRE(solver.step(5) == Status::reached);
+    return solver.time();
+  };
+  CHECK(end_of_first(0.5) == end_of_first(1) / 2);
+}
+
 TEST_CASE("the last coefficients tell the error inside each step") {
   using System = Follower<double>;
   for (const double rate : {30.0, 1e3, 1e5}) {

@@ -143,6 +143,8 @@ struct RadauOptions {
   /// Roundings of p in the values at the stages, which its coefficients show and no shorter step would lessen: so much of them is left out.
   Scalar blur = 0;
   Scalar first_step = 0;  ///< 0: chosen from the rates at the start
+  Scalar first_share =
+      1;  ///< the share of such a first step that is taken: runs that are to be compared must not begin alike
   std::uint64_t step_cap = 100'000'000;
   bool projected = true;  ///< project after every step, where the system can
 };
@@ -446,7 +448,8 @@ auto Radau<System>::solve(Scalar h, Scalar rounding) noexcept -> Sweeps {
     if (k == 1) {
       first = before = change;
       contraction_ = 0;
-      if (change <= goal_ / 16) return Sweeps::converged;
+      // the first change may be small where the second is not: what pushes has moved, and what it moves has not
+      if (change == 0) return Sweeps::converged;
       continue;
     }
     const Scalar ratio = change / before;
@@ -472,7 +475,7 @@ auto Radau<System>::first_step() noexcept -> Scalar {
   Scalar greatest = 0;
   for (int c = 0; c < width; ++c) greatest += std::abs(rate[c][0]) * weight_[c];
   if (!(greatest < infinity<Scalar>)) return nan<Scalar>;
-  return greatest > 0 ? Scalar(0.1L) / greatest : Scalar(1);
+  return options_.first_share * (greatest > 0 ? Scalar(0.1L) / greatest : Scalar(1));
 }
 
 template <RelaxingSystem System>

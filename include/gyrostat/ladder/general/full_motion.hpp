@@ -161,7 +161,7 @@ struct Series {
   using System = FullSystem<Scalar, large>;
   using Solver = ode::Taylor<System>;
   using Numbers = typename System::Numbers;
-  static typename Solver::Options options(Scalar tolerance, Scalar, std::uint64_t step_cap) noexcept {
+  static typename Solver::Options options(Scalar tolerance, Scalar, Scalar, std::uint64_t step_cap) noexcept {
     typename Solver::Options made;
     made.tolerance = tolerance, made.step_cap = step_cap;
     return made;
@@ -175,10 +175,12 @@ struct Collocation {
   using System = StiffSystem<Scalar, most>;
   using Solver = ode::Radau<System>;
   using Numbers = typename System::Numbers;
-  static typename Solver::Options options(Scalar tolerance, Scalar inside, std::uint64_t step_cap) noexcept {
+  static typename Solver::Options options(Scalar tolerance, Scalar inside, Scalar share,
+                                          std::uint64_t step_cap) noexcept {
     typename Solver::Options made;
     made.tolerance = tolerance, made.inside = inside, made.step_cap = step_cap;
     made.blur = 4;
+    made.first_share = share;
     return made;
   }
 };
@@ -207,7 +209,7 @@ class FullCourse {
         cuts_(cuts),
         last_(span),
         share_(share),
-        options_(Method::options(tolerance.end, tolerance.inside, step_cap)) {
+        options_(Method::options(tolerance.end, tolerance.inside, share, step_cap)) {
     piece_ = Piece<Scalar>::first(problem, of_.wheels, of_.torques, cuts.empty() ? span : cuts.front());
     enter(0, System::first_numbers(of_));
   }
