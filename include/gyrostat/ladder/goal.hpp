@@ -89,6 +89,11 @@ inline double size_of(const Column& column) noexcept {
   return size;
 }
 
+/// The magnitude of a scalar, or of the vector that it is.
+inline double size_of(const Quantity& quantity) noexcept {
+  return std::hypot(quantity.values[0], quantity.values[1], quantity.values[2]);
+}
+
 /// Holds an answer's errors against what is asked: sets error, excess, and the tolerance of each column and scalar.
 inline void judge(Answer& answer, const Question& question, const Family& family) noexcept {
   answer.error = answer.excess = 0;
@@ -115,7 +120,7 @@ inline void judge(Answer& answer, const Question& question, const Family& family
     }
     if (std::isnan(at->error)) continue;  // a definition
     const bool over_value = aim->absolute && at->kind->measure == Measure::relative;
-    at->tolerance = over_value ? aim->tolerance / std::abs(at->values[0]) : aim->tolerance;
+    at->tolerance = over_value ? aim->tolerance / size_of(*at) : aim->tolerance;
     hold(at->error, at->tolerance);
   }
 }

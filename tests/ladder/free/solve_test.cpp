@@ -2,6 +2,8 @@
 #include "gyrostat/ladder/free/solve.hpp"
 
 #include "../../models/free/gyrostats.hpp"
+#include "gyrostat/models/free/averages.hpp"
+#include "gyrostat/models/free/view.hpp"
 #include "posed.hpp"
 
 using namespace free_scenes;
@@ -40,6 +42,67 @@ TEST_CASE("the scalars of a free motion: Toutatis as Hudson and Ostro (1995) saw
   CHECK(value("flip_interval") == Approx(value("period") / 2));
   CHECK((value("view_fraction") > 0 && value("view_fraction") < 1));
   CHECK(answer.quantity("period")->error < 1e-13);
+}
+
+TEST_CASE("the means, rates and views of a free motion state what a rounding of the data makes of them", "[free]") {
+  free_bodies::Bodies bodies(77);
+  int known = 0, told = 0;
+  std::vector<double> ratios;
+  for (const auto regime : free_bodies::regimes)
+    for (int i = 0; i < 24; ++i) {
+      const auto given = bodies.of(regime, i);
+      Assembly<double> assembly;
+      assembly.body = given;
+      Question question;
+      question.times = {std::pow(10, bodies.uniform(-1, 3))};
+      question.tolerance = 1e-3;
+      for (const auto place :
+           {free::scalar::angular_momentum_inertial, free::scalar::mean_angular_velocity, free::scalar::precession_rate,
+            free::scalar::spin_rate, free::scalar::view_fraction, free::scalar::view_cosine})
+        question.asked.push_back({place, true, question.tolerance, false, false});
+      const auto scene = Scene::make(assembly, question);
+      if (!scene) continue;
+      const free::ViewRequest view{bodies.vector().normalized(), bodies.vector().normalized(), bodies.uniform(0.1, 2)};
+      Refusal refusal;
+      const Answer answer = free::solve(scene->viewed(view), refusal);
+      // the motion of data a rounding away, set up to twice the digits
+      auto moved = given;
+      const auto move = [&](double& x) { x *= 1 + epsilon<double> * bodies.uniform(-1, 1); };
+      for (int k = 0; k < 3; ++k)
+        move(moved.inertia(k, k)), move(moved.rotor_momentum[k]), move(moved.angular_velocity[k]);
+      const auto motion = free::Motion<double>::make<DoubleDouble>(moved.cast<DoubleDouble>());
+      if (!motion) continue;
+      const auto check = [&](const char* name, Vec3<double> truth) {
+        const Quantity* q = answer.quantity(name);
+        if (!q || std::isnan(q->values[0]) || std::isnan(truth[0])) return;
+        ++told;
+        if (std::isnan(q->error) || !(q->error < 1)) return;
+        ++known;
+        const Vec3<double> value(q->values[0], q->values[1], q->values[2]);
+        const double unit = q->kind->measure == Measure::relative ? truth.norm() : 1;
+        const double error = (value - truth).norm(), stated = q->error * unit;
+        CAPTURE(free_bodies::name(regime), i, name, error * 1e15, stated * 1e15, value[0], truth[0]);
+        CHECK(error <= stated);
+        if (error > 0) ratios.push_back(stated / error);
+      };
+      check("angular_momentum_inertial", motion->inertial_momentum());
+      check("mean_angular_velocity", free::averages(*motion).angular_velocity);
+      const int axis = motion->kind() == free::Kind::about_largest ? 0 : 2;
+      const auto turning = free::precession<double>(*motion, motion->R_BP().col(axis));
+      if (turning.converged) {
+        // of the axis in the sense of M
+        const double along = motion->R_BP().col(axis).dot(free::averages(*motion).angular_momentum);
+        check("spin_rate", {std::copysign(turning.about_axis, turning.about_axis * along), 0, 0});
+        check("precession_rate", {turning.about_momentum, 0, 0});
+      }
+      const auto seen = free::long_run_view(*motion, view.axis, view.direction, view.half_angle);
+      check("view_fraction", {seen.fraction, 0, 0});
+      check("view_cosine", {seen.mean_cosine, 0, 0});
+    }
+  std::sort(ratios.begin(), ratios.end());
+  CAPTURE(known, told, ratios[ratios.size() / 2]);
+  CHECK(known > 0.8 * told);
+  CHECK(ratios[ratios.size() / 2] < 1e3);
 }
 
 TEST_CASE("rest, a sphere and a steady rotation have their answers", "[free]") {

@@ -36,6 +36,31 @@ TEST_CASE("the view of the long run is what a long span of the motion shows", "[
   }
 }
 
+TEST_CASE("the view of the long run is that of many phases, far better than they find it", "[free]") {
+  Bodies bodies(47);
+  for (const auto regime : {Regime::generic, Regime::middle_axis, Regime::much_momentum, Regime::bisected})
+    for (int i = 0; i < 6; ++i) {
+      const auto m = Motion<double>::make<DoubleDouble>(bodies.of(regime, i).cast<DoubleDouble>());
+      if (!m || !(m->period() < infinity<double>)) continue;
+      const V b = bodies.vector().normalized(), s = bodies.vector().normalized();
+      const double cone = i % 3 == 0 ? pi<double> / 2 : bodies.uniform(.1, 3);
+      const auto view = long_run_view<double>(*m, b, s, cone);
+      const V pole = m->inertial_momentum().normalized();
+      const gyrostat::free::detail::SeenInTurn<double> turn{s.dot(pole), std::cos(cone)};
+      double seen = 0, cosine = 0;
+      constexpr int n = 1 << 16;
+      for (int k = 0; k < n; ++k) {
+        const auto at = turn(b.dot(m->at(m->period() * (k + .5) / n).angular_momentum.normalized()));
+        seen += at.fraction / n, cosine += at.mean_cosine / n;
+      }
+      CAPTURE(name(regime), i, cone, m->modulus().kp2);
+      CHECK(view.error < 1e-9);
+      // the rule of many nodes falls with their number to the power of 1.5
+      CHECK(std::abs(view.fraction - seen) < 4e-7);
+      CHECK(std::abs(view.mean_cosine - cosine) < 1e-9);
+    }
+}
+
 TEST_CASE("the view from a steady rotation and its limits", "[free]") {
   const auto m = *Motion<double>::make(Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {0, 0, 2}));
   const V z(0, 0, 1), x(1, 0, 0);

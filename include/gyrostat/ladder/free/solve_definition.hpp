@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,6 +14,33 @@
 #include "gyrostat/models/free/view.hpp"
 
 namespace gyrostat::free {
+
+namespace detail {
+
+/// How far a motion is off over one period, or to the last time where it has none; NaN where that is not known.
+inline MotionError<double>::Bound bound_over_period(const Motion<double>& motion, const MotionError<double>& error,
+                                                    double last) noexcept {
+  if (!(motion.period() < infinity<double>)) return error.at(last);
+  return error.spans_period() ? error.at(motion.period())
+                              : MotionError<double>::Bound{nan<double>, nan<double>, nan<double>};
+}
+
+/// How much of the time the axis is in view, and how far that is off where M in the body is off by so much, rad.
+inline View<double> view_of(const ViewRequest& view, const Motion<double>& motion, double off) {
+  const auto seen = [&](double half_angle) { return long_run_view(motion, view.axis, view.direction, half_angle); };
+  auto made = seen(view.half_angle);
+  if (!(off < pi<double>)) {
+    made.error = off == off ? 1.0 : nan<double>;
+    return made;
+  }
+  // as if the cone were wider and narrower
+  const double wide = seen(std::min(view.half_angle + off, pi<double>)).fraction;
+  const double narrow = seen(std::max(view.half_angle - off, 0.0)).fraction;
+  made.error += std::max(wide - narrow, off);
+  return made;
+}
+
+}  // namespace detail
 
 /// What is known of the whole motion, whichever rung answers.
 inline void describe(Answer& answer, const Scene& scene, const Track& track) {
@@ -33,24 +61,35 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   tell(scalar::modulus_squared, {motion.modulus_squared()}, error.modulus_squared());
   tell(scalar::energy, {motion.energy()}, error.energy());
   tell(scalar::angular_momentum_norm, {motion.angular_momentum_norm()}, error.angular_momentum_norm());
-  const Vec3<double> M_I = motion.inertial_momentum(), mean = averages(motion).angular_velocity;
-  tell(scalar::angular_momentum_inertial, {M_I[0], M_I[1], M_I[2]});
-  tell(scalar::mean_angular_velocity, {mean[0], mean[1], mean[2]});
-  const bool two = motion.kind() == Kind::about_largest || motion.kind() == Kind::about_smallest;
-  if (two) {
-    const Vec3<double> axis = motion.R_BP().col(motion.kind() == Kind::about_largest ? 0 : 2);
+  const Vec3<double> M_I = motion.inertial_momentum();
+  tell(scalar::angular_momentum_inertial, {M_I[0], M_I[1], M_I[2]},
+       error.at(0).angular_momentum + error.angular_momentum_norm());
+  const auto over_period = detail::bound_over_period(motion, error, scene.question().times.back());
+  const auto means = averages(motion);
+  const Vec3<double>& mean = means.angular_velocity;
+  tell(scalar::mean_angular_velocity, {mean[0], mean[1], mean[2]},
+       over((over_period.angular_velocity + error.period() + means.error) * error.fastest(), mean.norm()));
+  if (motion.kind() == Kind::about_largest || motion.kind() == Kind::about_smallest) {
+    const bool largest = motion.kind() == Kind::about_largest;
+    const Vec3<double> one = motion.R_BP().col(largest ? 0 : 2);
+    const Vec3<double> axis = one.dot(means.angular_momentum) < 0 ? Vec3<double>(-one) : one;
     const auto turning = precession(motion, axis);
     if (turning.converged) {
-      tell(scalar::precession_rate, {turning.about_momentum});
-      tell(scalar::spin_rate, {turning.about_axis});
+      // rounding turns the axes of equal moments
+      const Vec3<double>& J = motion.principal_moments();
+      const bool fixed = std::abs(J[largest ? 0 : 2] - J[1]) > 1e3 * epsilon<double> * J[0];
+      const double rate = turning.about_momentum, off = error.turn_rate(motion.turn_per_period(), rate);
+      tell(scalar::precession_rate, {rate}, fixed ? over(off, std::abs(rate)) : infinity<double>);
+      tell(scalar::spin_rate, {turning.about_axis}, fixed ? error.period() : infinity<double>);
     }
     if (const double interval = flip_interval(motion); interval == interval)
       tell(scalar::flip_interval, {interval}, error.period());
   }
   if (const auto& view = scene.view()) {
-    const auto seen = long_run_view(motion, view->axis, view->direction, view->half_angle);
-    tell(scalar::view_fraction, {seen.fraction});
-    tell(scalar::view_cosine, {seen.mean_cosine});
+    const double off = over_period.angular_momentum + error.angular_momentum_norm() + 16 * epsilon<double>;
+    const auto seen = detail::view_of(*view, motion, off);
+    tell(scalar::view_fraction, {seen.fraction}, seen.error);
+    tell(scalar::view_cosine, {seen.mean_cosine}, seen.error);
   }
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -20,13 +22,19 @@ struct ClosedForm {
   bool precise;  ///< set up to twice the digits
 };
 
+/// Up to which errors are to be known, s: the last time, or over a period where means are asked for.
+inline double horizon_of(const Scene& scene, const Motion<double>& motion) noexcept {
+  const double last = scene.question().times.back();
+  return asks_for_scalars(scene.question()) && std::isfinite(motion.period()) ? std::max(last, motion.period()) : last;
+}
+
 /// Of the scene's data to twice the digits; an error where the data fit no motion (Motion::make).
 inline Result<ClosedForm> closed_form_of(const Scene& scene) noexcept {
   const auto motion = Motion<double>::make<DoubleDouble>(scene.precise().problem);
   if (!motion) return motion.error();
   return ClosedForm{
       *motion,
-      MotionError<double>::of<DoubleDouble>(*motion, scene.assembly(), Data::rounded, scene.question().times.back()),
+      MotionError<double>::of<DoubleDouble>(*motion, scene.assembly(), Data::rounded, horizon_of(scene, *motion)),
       true};
 }
 
@@ -35,8 +43,11 @@ inline Result<ClosedForm> closed_form_of(const Scene& scene) noexcept {
 inline std::optional<ClosedForm> quick_form_of(const Scene& scene) noexcept {
   const auto motion = Motion<double>::make(scene.gyrostat().problem);
   if (!motion) return std::nullopt;
-  const auto error = MotionError<double>::quick(*motion, scene.assembly(), scene.question().times.back());
-  if (!error || !(error->of_scalars() <= scene.goal().tightest)) return std::nullopt;
+  const auto error = MotionError<double>::quick(*motion, scene.assembly(), horizon_of(scene, *motion));
+  const double tightest = scene.goal().tightest;
+  if (!error || !(error->of_scalars() <= tightest)) return std::nullopt;
+  if (asks_for_scalars(scene.question()) && !(16 * error->at(motion->period()).angular_velocity <= tightest))
+    return std::nullopt;
   return ClosedForm{*motion, *error, false};
 }
 

@@ -17,6 +17,18 @@
 /// on the average.
 namespace gyrostat::free {
 
+namespace detail {
+
+/// Nodes in a period, a power of two, with which a rule may begin: fewer would miss what happens beside a separatrix, and agree.
+template <Real Scalar>
+int first_nodes(const Motion<Scalar>& motion) noexcept {
+  int n = 16;
+  while (n < 8192 && 2 * n < nodes_of(motion)) n *= 2;
+  return n;
+}
+
+}  // namespace detail
+
 /// Body axes. Of a motion without a period what it has for ever (steady) or tends to (separatrix).
 template <Real Scalar>
 struct Averages {
@@ -44,7 +56,7 @@ Averages<Scalar> averages(const Motion<Scalar>& motion) noexcept {
         return std::array<Scalar, 12>{w[0],        w[1],        w[2],        M[0],        M[1],        M[2],
                                       M[0] * M[0], M[1] * M[1], M[2] * M[2], M[0] * M[1], M[1] * M[2], M[2] * M[0]};
       },
-      64 * epsilon<Scalar>, 16, 16384);
+      64 * epsilon<Scalar>, detail::first_nodes(motion), 16384);
   const auto& v = means.value;
   for (int i = 0; i < 3; ++i) {
     mean.angular_velocity[i] = v[std::size_t(i)];
@@ -62,7 +74,7 @@ Averages<Scalar> averages(const Motion<Scalar>& motion) noexcept {
 template <Real Scalar>
 struct Precession {
   Scalar about_momentum = 0, about_axis = 0;
-  bool converged = true;  ///< false where M passes (near) the axis
+  bool converged = true;  ///< false where M passes so near the axis that its turns cannot be counted
 };
 
 /// @param axis unit, body axes
@@ -80,9 +92,15 @@ Precession<Scalar> precession(const Motion<Scalar>& motion, const Vec3<Scalar>& 
     const auto r = rates(Scalar(0));
     return {r[0], r[1], motion.kind() == Kind::steady};
   }
-  const auto means =
-      math::periodic_means<Scalar, 2>([&](Scalar x) { return rates(x * T); }, 256 * epsilon<Scalar>, 16, 16384);
-  return {means.value[0], means.value[1], means.converged};
+  // M comes back in the body after a period: but for whole turns the axis has then gone round M by the turn in a period, and the body about the axis
+  // not at all. A rough mean tells how many.
+  const auto means = math::periodic_means<Scalar, 2>([&](Scalar x) { return rates(x * T); }, Scalar(1e-3L),
+                                                     detail::first_nodes(motion), 16384);
+  const Scalar once = 2 * pi<Scalar> / T, rest = motion.turn_per_period() / T;
+  const Scalar round = (means.value[0] - rest) / once, about = means.value[1] / once;
+  const Scalar rounds = std::nearbyint(round), abouts = std::nearbyint(about);
+  const bool sure = std::abs(round - rounds) < Scalar(0.1L) && std::abs(about - abouts) < Scalar(0.1L);
+  return {rest + once * rounds, once * abouts, sure};
 }
 
 /// Least and greatest angle between a body axis and M, rad.

@@ -167,6 +167,10 @@ class MotionError {
   Scalar turn_per_period() const noexcept {                                                           ///< rad
     return scalar_margin_ * turn_ + 16 * epsilon<Scalar>;
   }
+  /// Of the turn in the long run at the mean rate `about` [rad/s], all of them counted; rad/s.
+  Scalar turn_rate(Scalar turn_per_period, Scalar about) const noexcept {
+    return scalar_margin_ * turn_rate_ + std::abs(about - turn_per_period / period_) * period();
+  }
   Scalar modulus_squared() const noexcept { return scalar_margin_ * modulus_ + 4 * epsilon<Scalar>; }  ///< absolute
   Scalar energy() const noexcept { return scalar_margin_ * energy_ + 4 * epsilon<Scalar>; }            ///< relative
   Scalar angular_momentum_norm() const noexcept { return scalar_margin_ * norm_ + 4 * epsilon<Scalar>; }
@@ -174,6 +178,8 @@ class MotionError {
   Scalar of_scalars() const noexcept {
     return std::max({period(), turn_per_period(), modulus_squared(), energy(), angular_momentum_norm()});
   }
+  /// Whether bounds reach over a whole period, which means over it need.
+  bool spans_period() const noexcept { return period_ <= horizon_; }
   /// The greatest |omega| over a period or up to the horizon, rad/s: what bounds of the rates are relative to.
   Scalar fastest() const noexcept { return fastest_; }
   /// The neighbours are motions of the same kind; else the data do not tell on which side of a separatrix the motion is.

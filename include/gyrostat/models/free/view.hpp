@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "gyrostat/core/real.hpp"
-#include "gyrostat/math/periodic.hpp"
+#include "gyrostat/core/result.hpp"
+#include "gyrostat/math/quadrature.hpp"
 #include "gyrostat/math/root.hpp"
 #include "gyrostat/models/free/flips.hpp"
 #include "gyrostat/models/free/motion.hpp"
@@ -18,17 +21,71 @@ template <Real Scalar>
 struct View {
   Scalar fraction = 0;     ///< of the time with an angle between the two of half_angle or less
   Scalar mean_cosine = 0;  ///< of max(0, cos of the angle): what a flat panel across the axis receives
+  Scalar error = 0;        ///< estimate of what the quadrature leaves, of both
 };
 
+namespace detail {
+
+/// What is seen in one turn about a pole, at the angle arc cos s from the direction, of an axis at the angle arc cos b from the pole.
+template <Real Scalar>
+struct SeenInTurn {
+  Scalar s, limit;  ///< limit: cosine of half the angle of the cone
+
+  View<Scalar> operator()(Scalar b) const noexcept {
+    const Scalar A = b * s, B = std::sqrt(std::max(Scalar(0), (1 - b) * (1 + b) * (1 - s) * (1 + s)));
+    const auto angle = [](Scalar above, Scalar below) noexcept {
+      return below > 0    ? std::acos(std::clamp(above / below, Scalar(-1), Scalar(1)))
+             : above <= 0 ? pi<Scalar>
+                          : Scalar(0);
+    };
+    const Scalar lit = angle(-A, B);
+    return {angle(limit - A, B) / pi<Scalar>, (A * lit + B * std::sin(lit)) / pi<Scalar>};
+  }
+  /// The b beyond which a turn touches the cone or leaves it, or the half space of the direction: where the above has roots for ends.
+  std::array<Scalar, 4> edges() const noexcept {
+    const Scalar c = std::sqrt(std::max(Scalar(0), (1 - s) * (1 + s)));
+    const Scalar sine = std::sqrt(std::max(Scalar(0), (1 - limit) * (1 + limit)));
+    return {s * limit - c * sine, s * limit + c * sine, -c, c};
+  }
+};
+
+/// Adds the integral of what is seen over [from, to] of a period, a root of the time at either end taken in.
+template <Real Scalar, class Seen>
+void add_view(View<Scalar>& sum, const Seen& seen, Scalar from, Scalar to) noexcept {
+  constexpr Scalar wanted = Scalar(1e-11L);
+  const Scalar width = to - from;
+  const auto take = [&](Scalar middle, Scalar half, bool halvable) noexcept -> Result<bool> {
+    View<Scalar> part;
+    Scalar gauss = 0, gauss_cosine = 0;
+    for (const auto& point : math::kronrod_points<Scalar>) {
+      const Scalar u = middle + half * point.node, x = from + width * (u * u * (3 - 2 * u));
+      const auto at = seen(x);
+      const Scalar stretch = half * width * (6 * u * (1 - u));
+      part.fraction += point.weight * stretch * at.fraction;
+      part.mean_cosine += point.weight * stretch * at.mean_cosine;
+      gauss += point.gauss_weight * stretch * at.fraction;
+      gauss_cosine += point.gauss_weight * stretch * at.mean_cosine;
+    }
+    part.error = std::max(std::abs(part.fraction - gauss), std::abs(part.mean_cosine - gauss_cosine));
+    if (halvable && part.error > wanted * half) return false;
+    sum.fraction += part.fraction;
+    sum.mean_cosine += part.mean_cosine;
+    sum.error += part.error;
+    return true;
+  };
+  (void)math::halved_panels(Scalar(0), Scalar(1), 1, 12, take);
+}
+
+}  // namespace detail
+
 /// In the long run, of a motion whose turn in a period is no fraction of a whole turn with a small denominator (resonance()): the phases
-/// then fill a torus evenly, and the azimuth about M integrates in closed form. To 1e-6 (the fraction), 1e-9 (the mean). In a steady
-/// rotation over a turn; on a separatrix NaN.
+/// then fill a torus evenly, and the azimuth about M integrates in closed form; over the other phase by Kronrod's rule between the times at
+/// which the axis comes to see the direction all the way round, or not at all. In a steady rotation over a turn; on a separatrix NaN.
 /// @param axis unit, body axes; @param direction unit, inertial axes; @param half_angle in [0, pi], rad
 template <Real Scalar>
 View<Scalar> long_run_view(const Motion<Scalar>& motion, const Vec3<Scalar>& axis, const Vec3<Scalar>& direction,
                            Scalar half_angle) noexcept {
-  using std::acos, std::cos, std::sin, std::sqrt;
-  if (motion.kind() == Kind::separatrix) return {nan<Scalar>, nan<Scalar>};
+  if (motion.kind() == Kind::separatrix) return {nan<Scalar>, nan<Scalar>, nan<Scalar>};
   const bool steady = motion.kind() == Kind::steady;
   const auto start = motion.at(Scalar(0));
   // the axis about which all goes round: M, or omega where that is steady
@@ -36,28 +93,23 @@ View<Scalar> long_run_view(const Motion<Scalar>& motion, const Vec3<Scalar>& axi
       steady ? rotate<Scalar>(start.attitude, start.angular_velocity) : motion.inertial_momentum();
   const Scalar length = pole.norm();
   const Scalar s = length > 0 ? direction.dot(pole) / length : direction.dot(rotate<Scalar>(start.attitude, axis));
-  const Scalar limit = cos(half_angle);
-  const auto at = [&](Scalar b) -> std::array<Scalar, 2> {
-    const Scalar A = b * s, B = sqrt(std::max(Scalar(0), (1 - b) * (1 + b) * (1 - s) * (1 + s)));
-    const auto angle = [](Scalar above, Scalar below) {
-      return below > 0 ? acos(std::clamp(above / below, Scalar(-1), Scalar(1))) : above <= 0 ? pi<Scalar> : Scalar(0);
-    };
-    const Scalar lit = angle(-A, B);
-    return {angle(limit - A, B) / pi<Scalar>, (A * lit + B * sin(lit)) / pi<Scalar>};
-  };
-  if (steady) {
-    const auto v = length > 0 ? at(axis.dot(start.angular_velocity) / length)
-                              : std::array<Scalar, 2>{Scalar(s >= limit), std::max(s, Scalar(0))};
-    return {v[0], v[1]};
-  }
-  constexpr int nodes = 16384;
+  const detail::SeenInTurn<Scalar> turn{std::clamp(s, Scalar(-1), Scalar(1)), std::cos(half_angle)};
+  if (steady)
+    return length > 0 ? turn(axis.dot(start.angular_velocity) / length)
+                      : View<Scalar>{Scalar(s >= turn.limit), std::max(s, Scalar(0))};
+  const Scalar T = motion.period();
+  const auto along = [&](Scalar t) noexcept { return axis.dot(motion.at(t).angular_momentum) / length; };
+  std::vector<Scalar> cuts{Scalar(0), T};
+  for (const Scalar edge : turn.edges())
+    for (const Scalar t : periodic_zeros(motion, [&](Scalar x) noexcept { return along(x) - edge; }, Scalar(0), T))
+      cuts.push_back(t);
+  // beside a separatrix all happens in a small share of the period
+  const int pieces = nodes_of(motion) / 16;
+  for (int i = 1; i < pieces; ++i) cuts.push_back(T * Scalar(i) / Scalar(pieces));
+  std::sort(cuts.begin(), cuts.end());
   View<Scalar> view;
-  for (int i = 0; i < nodes; ++i) {
-    const auto v =
-        at(axis.dot(motion.at(motion.period() * (Scalar(i) + Scalar(0.5)) / nodes).angular_momentum) / length);
-    view.fraction += v[0] / nodes;
-    view.mean_cosine += v[1] / nodes;
-  }
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+    detail::add_view(view, [&](Scalar x) noexcept { return turn(along(x * T)); }, cuts[i] / T, cuts[i + 1] / T);
   return view;
 }
 
