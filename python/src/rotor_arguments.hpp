@@ -25,7 +25,7 @@ inline double positive(const char* name, double value) {
 /// A direction from numpy, of unit length within 1e-8.
 inline Vec3<double> unit_vector(const char* name, const Array& values) {
   const Vec3<double> v = vector(name, values);
-  const double length = v.stableNorm();
+  const double length = magnitude(v);
   if (!(std::abs(length - 1) <= 1e-8))
     raise("DomainError", name + (" = " + text(values)) + ": the length is " + text(length) + ", not 1");
   return v / length;

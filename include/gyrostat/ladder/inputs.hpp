@@ -53,7 +53,7 @@ class InputReader {
   /// A vector brought to unit length; one that has it to rounding, and one without length, stays as it is.
   Vec3<double> direction() noexcept {
     const Vec3<double> v = vector();
-    const double length = v.stableNorm();
+    const double length = magnitude(v);
     return std::abs(length - 1) <= 4 * epsilon<double> || !(length > 0) ? v : Vec3<double>(v / length);
   }
   /// An attitude brought to unit norm.

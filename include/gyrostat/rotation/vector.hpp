@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include <Eigen/Core>
 
 #include "gyrostat/core/real.hpp"
@@ -24,6 +27,21 @@ struct Quat {
 
   friend constexpr bool operator==(const Quat&, const Quat&) = default;
 };
+
+/// |v|, also where its square would overflow or vanish. The same bits wherever v lies: Eigen's sums hang on the address.
+template <Real Scalar>
+Scalar magnitude(const Vec3<Scalar>& v) noexcept {
+  using std::abs, std::sqrt;
+  const Scalar least = std::numeric_limits<Scalar>::min() / epsilon<Scalar>;  // whose roundings are numbers
+  const Scalar square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  if (square > least && square < infinity<Scalar>) return sqrt(square);
+  const Scalar x = abs(v[0]), y = abs(v[1]), z = abs(v[2]);
+  Scalar most = x < y ? y : x;
+  most = most < z ? z : most;
+  if (!(square == square) || !(most > 0) || !(most < infinity<Scalar>)) return x + y + z;
+  const Scalar a = x / most, b = y / most, c = z / most;
+  return most * sqrt(a * a + b * b + c * c);
+}
 
 /// a x b.
 template <Real Scalar>

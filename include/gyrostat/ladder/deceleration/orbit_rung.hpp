@@ -83,8 +83,10 @@ class OrbitError {
     const double beside = small_torque(problem_, M).norm() * turn;
     keep(first_.norm, beside);
     keep(first_.energy, beside * problem_.angular_velocity(M).norm() + beside * beside * problem_.inverse_inertia[2]);
-    const auto away = Orbit<double, Elliptic>::through(
-        problem_, (M + beside * M.cross(Vec3<double>(1, 1, 1)).stableNormalized()).eval());
+    const Vec3<double> aside = cross<double>(M, Vec3<double>(1, 1, 1));
+    const double length = magnitude(aside);
+    const auto away =
+        Orbit<double, Elliptic>::through(problem_, length > 0 ? Vec3<double>(M + beside / length * aside) : M);
     keep(first_.k2, away ? 4 * away->modulus().k2 : 1.0);
     keep(second_.vector, beside);
   }

@@ -28,11 +28,9 @@ struct Level {
 /// Level of the momentum M; R = 0 gives eta = 0.
 template <Real Scalar>
 Level<Scalar> level_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M) noexcept {
-  // Eigen adds up in an order that hangs on where a vector lies: here always at the same kind of place
-  alignas(64) const Vec3<Scalar> here = M;
-  const Scalar R = here.stableNorm();
+  const Scalar R = magnitude(M);
   if (R == 0) return {};
-  const Vec3<Scalar> n = here / R;
+  const Vec3<Scalar> n = M / R;
   return {R, R / 2 * n.dot(problem.inverse_inertia.cwiseProduct(n)) - problem.gyro_rate().dot(n)};
 }
 
@@ -94,8 +92,7 @@ class Orbit {
 
   /// Phase of a momentum on (or near) the orbit, in [0, 1).
   Scalar phase_of(const Vec3<Scalar>& M) const noexcept {
-    alignas(64) const Vec3<Scalar> here = M;
-    const Vec3<Scalar> n = here / here.stableNorm();
+    const Vec3<Scalar> n = M / magnitude(M);
     const auto product = [&](const Vec4& v) { return v.template head<3>().dot(n) - v[3]; };
     Scalar sn, cn;
     if (regime_ == Regime::point) return 0;
@@ -240,8 +237,7 @@ class Orbit {
 
   static Vec4 with_unit(const Vec3<Scalar>& M) noexcept {
     Vec4 x;
-    alignas(64) const Vec3<Scalar> here = M;
-    x << here / here.stableNorm(), Scalar(1);
+    x << M / magnitude(M), Scalar(1);
     return x;
   }
 

@@ -68,7 +68,7 @@ class FullSystem {
   /// What the steps measure errors against: 1 for the quaternion and W (rad), |X| for X.
   Numbers scale() const noexcept {
     // where nothing moves any scale will do, but zero would leave the component out
-    const Scalar size = Vec3<Scalar>(start_[4], start_[5], start_[6]).stableNorm(), s = size > 0 ? size : Scalar(1);
+    const Scalar size = magnitude(Vec3<Scalar>(start_[4], start_[5], start_[6])), s = size > 0 ? size : Scalar(1);
     return {1, 1, 1, 1, s, s, s, 0, 1, 1, 1, 0};
   }
 
@@ -147,14 +147,14 @@ class FullSystem {
 template <Real Real_>
 FullSystem<Real_>::FullSystem(const Problem<Scalar>& problem) noexcept {
   const auto p = PrincipalProblem<Scalar>::of(problem);
-  const bool steps_momentum = p.M.stableNorm() < p.G.stableNorm();
+  const bool steps_momentum = magnitude(p.M) < magnitude(p.G);
   a_ = p.inverse;
   quadratic_ = {p.gaps(1, 2), p.gaps(2, 0), p.gaps(0, 1)};
   g_ = l_ = Vec3<Scalar>(0, 0, 0);
   if (steps_momentum) g_ = a_.cwiseProduct(p.l);
   else l_ = p.l;
   // beside much rotor momentum the energy is known better by itself
-  const bool alone = l_.stableNorm() > p.G.stableNorm();
+  const bool alone = magnitude(l_) > magnitude(p.G);
   gap_ = alone ? a_ : Vec3<Scalar>(-quadratic_[2], Scalar(0), quadratic_[0]);
   pull_ = alone ? g_ : Vec3<Scalar>(g_ + a_[1] * l_);
   linear_ = cross_matrix<Scalar>(l_) * a_.asDiagonal();

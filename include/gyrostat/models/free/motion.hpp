@@ -78,7 +78,7 @@ class Motion {
     if (const Errc wrong = problem.template check<Scalar>(); wrong != Errc::ok) return wrong;
     Motion motion;
     const auto p = PrincipalProblem<Setup>::of(problem);
-    const Setup R = p.M.stableNorm();
+    const Setup R = magnitude(p.M);
     if (!(R - R == 0)) return Errc::not_finite;
     const Quat<Setup> q0 = as_unit(problem.attitude);
     motion.common(p, R, q0);
@@ -194,7 +194,7 @@ class Motion {
   /// v in turns about its direction: rate of the half angle over 2 pi, and the direction.
   template <Real Setup>
   static detail::Turns<Scalar> half_turns(const Vec3<Setup>& v, Vec3<Scalar>& direction) noexcept {
-    const Setup size = v.stableNorm();
+    const Setup size = magnitude(v);
     direction = size > 0 ? vector_cast<Scalar>(Vec3<Setup>(v / size)) : Vec3<Scalar>(Vec3<Scalar>::Zero());
     return detail::Turns<Scalar>::split(size / (4 * pi<Setup>));
   }
@@ -233,7 +233,7 @@ class Motion {
     rate_ = half_turns<Setup>(l, axis_);
     precession_ = half_turns<Setup>(M, precession_axis_);
     precession_axis_ = rotate<Scalar>(initial_.attitude, precession_axis_);
-    const Setup size = l.stableNorm(), turns = M.stableNorm() / size;
+    const Setup size = magnitude(l), turns = magnitude(M) / size;
     period_ = static_cast<Scalar>(2 * pi<Setup> / size);
     set_turn(turns);
   }

@@ -28,7 +28,7 @@ struct Directions {
   void need(const Vec3<Scalar>& v) noexcept {
     if (v.isZero(0) || count == 3) return;
     if (count == 0) {
-      of[0] = v.stableNormalized();
+      of[0] = v / magnitude(v);
       count = 1;
     } else if (cross<Scalar>(of[0], v).cwiseAbs().maxCoeff() > 4 * epsilon<Scalar> * v.cwiseAbs().maxCoeff()) {
       need_all();

@@ -34,7 +34,7 @@ Quat<Scalar> shortest_turn(const Vec3<Scalar>& from, const Vec3<Scalar>& to) noe
 /// not_finite; zero_vector.
 template <Real Scalar>
 Result<State<Scalar>> aligned(const State<Scalar>& start) noexcept {
-  const Scalar turn = norm(start.attitude), length = start.down.stableNorm();
+  const Scalar turn = norm(start.attitude), length = magnitude(start.down);
   if (!start.angular_velocity.allFinite() || !start.down.allFinite() || !std::isfinite(turn)) return Errc::not_finite;
   if (!(length > 0) || !(turn > 0)) return Errc::zero_vector;
   State<Scalar> made;

@@ -83,7 +83,7 @@ struct TopStart {
 
   /// @param start aligned
   TopStart(const SymmetricTop<Scalar>& top, const State<Scalar>& start) noexcept {
-    unit = start.angular_velocity.stableNorm() + std::sqrt(std::abs(top.pull())) +
+    unit = magnitude(start.angular_velocity) + std::sqrt(std::abs(top.pull())) +
            std::sqrt(std::abs(top.gradient_rate()));
     if (!(unit > 0)) unit = 1;
     rate = top.axes.transpose() * (start.angular_velocity / unit);

@@ -171,7 +171,7 @@ Result<Scalar> first_reach(Scalar d, Scalar unit, bool growing, const Motion& mo
       a = curvature(horizon);
     }
     const auto [y, rate] = motion(t);
-    const Scalar size = y.stableNorm(), speed = rate.stableNorm();
+    const Scalar size = magnitude(y), speed = magnitude(rate);
     if (!(size < infinity<Scalar> && speed < infinity<Scalar> && a < infinity<Scalar>)) return Errc::not_finite;
     const Scalar left = (d - size) * (d + size);
     if (left <= 4 * epsilon<Scalar> * d * d) return t;
