@@ -158,7 +158,7 @@ struct Neighbour {
     problem.inverse_inertia = axes.moments.cwiseInverse();
     problem.rotor_momentum = back * Vec3<Scalar>(l + l.norm() * v);
     problem.control = back * problem.control * R;
-    problem.momentum = back * Vec3<Scalar>(of.momentum + parts.norm() * v);
+    problem.momentum = back * Vec3<Scalar>(of.momentum + of.momentum_terms() * v);
   }
 
  private:
