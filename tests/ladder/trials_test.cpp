@@ -87,6 +87,9 @@ TEST_CASE("a run of so many steps that another would take seconds is not tried a
 
 TEST_CASE("a companion takes tighter steps down to the finest, and rounding rules where steps are fine", "[ladder]") {
   CHECK(companion_step(1e-9) == 1e-9 / honesty::side_by_side.tighter);
+  CHECK(data_change(1e-12) == honesty::side_by_side.data_change * epsilon<double>);
+  CHECK(data_change(1e-9) == honesty::alone_change * epsilon<double>);  // no second one beside it
+  CHECK(data_change(1e-9, 10.) == data_change(1e-12));
   CHECK(companion_step(finest_step_tolerance<double>) == finest_step_tolerance<double>);
   CHECK_FALSE(rounding_rules(1e-9));
   CHECK(rounding_rules(epsilon<double>));

@@ -17,6 +17,8 @@ struct Companions {
 
 /// All families, watched in every step, all components moved. Stated error: the two distances by their margins, added.
 inline constexpr Companions side_by_side{64, 4, 5, 3};
+/// By how much the data of a companion differ that runs alone, roundings: in its one direction it may be near by chance.
+inline constexpr double alone_change = 32;
 /// Step tolerance, roundings times the condition of the tensor, below which rounding rules, and a second companion runs along.
 inline constexpr double rounding_below = 1 << 20;
 

@@ -26,6 +26,13 @@ constexpr bool rounding_rules(Scalar step_tolerance, Scalar condition = 1) noexc
   return step_tolerance < Scalar(honesty::rounding_below) * epsilon<Scalar> * condition;
 }
 
+/// By how much the data of companions of an answer in steps of this tolerance differ. condition: as in rounding_rules.
+template <Real Scalar>
+constexpr Scalar data_change(Scalar step_tolerance, Scalar condition = 1) noexcept {
+  return epsilon<Scalar> *
+         Scalar(rounding_rules(step_tolerance, condition) ? honesty::side_by_side.data_change : honesty::alone_change);
+}
+
 /// First guess of the step tolerance of a motion that turns through `phase` rad.
 template <Real Scalar>
 Scalar first_step_tolerance(Scalar tolerance, Scalar phase, Scalar loosest) noexcept {

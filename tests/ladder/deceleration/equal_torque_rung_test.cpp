@@ -159,3 +159,23 @@ TEST_CASE("equal-torque rung: also under actuators off the principal axes", "[de
   CHECK(std::strcmp(answer.model, "equal-torque") == 0);
   check_honest(answer, truth);
 }
+
+TEST_CASE("equal-torque rung: M across an axis of symmetry, where a set-up in double loses its phase",
+          "[deceleration]") {
+  Case c(1e-3, 100);
+  c.data.control.setZero();
+  c.data.drag = 1e-4;
+  for (const double slight : {.5, 1e-2, 1e-4})
+    for (const double share : {1e-2, 1e-4, 1e-6}) {
+      c.moments = V(1, 1, slight);
+      c.data.momentum = V(.6, .8, share * slight);
+      c.data.asked = {{column::angular_momentum}};
+      const Answer answer = c.with(rung::equal_torque, 1e-5).solve();
+      c.data.asked = {{column::angular_momentum}, {column::attitude}};  // to twice the digits
+      const Answer truth = c.with(rung::equal_torque, 1e-5).solve();
+      const double error = answer.find("angular_momentum")->error;
+      CAPTURE(slight, share, error);
+      CHECK(distance(answer, truth, "angular_momentum") <= error + 8 * epsilon<double>);
+      CHECK(error <= 1e-5);
+    }
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 
+#include "gyrostat/rotation/exp_log.hpp"
 #include "reference_table.hpp"
 #include "scenes.hpp"
 
@@ -52,5 +53,35 @@ TEST_CASE("full rung: a free body keeps its momentum in space", "[deceleration]"
     const Quat<double> R_IB{q[4 * i + 3], q[4 * i], q[4 * i + 1], q[4 * i + 2]};
     const V M_I = to_matrix(R_IB) * V(M[3 * i], M[3 * i + 1], M[3 * i + 2]);
     CHECK((M_I - M0).norm() < 1e-8);
+  }
+}
+
+TEST_CASE("full rung: a momentum that a tensor makes of omega errs as the greatest moment does", "[deceleration]") {
+  const double slight = 1e-6;
+  for (const double turn : {.3, .7, 1.1, 2.3}) {
+    const Mat3<double> R = to_matrix<double>(quaternion_from_vector<double>(turn * V(.48, -.6, .64)));
+    Mat3<double> tensor = R * V(1, 1 - slight / 2, slight).asDiagonal() * R.transpose();
+    tensor = ((tensor + tensor.transpose()) / 2).eval();
+    const V omega = R.col(2) + 1e-7 * V(1, 1, 1);
+    Asked data;
+    data.angular_velocity = omega;
+    data.momentum = tensor * omega;
+    data.times = {1e-2};
+    data.rung = rung::full;
+    data.asked = {{column::angular_momentum}, {column::angular_momentum_norm}};
+    Refusal refusal;
+    const Answer answer = deceleration::solve<>(*make_scene(*Inertia<double>::from_tensor(tensor), data), refusal);
+    REQUIRE(refusal.code == Errc::ok);
+    const long double exact =
+        Vec3<long double>(tensor.cast<long double>() * omega.cast<long double>()).norm();  // it stays
+    const Column& norm = *answer.find("angular_momentum_norm");
+    CAPTURE(turn, norm.error);
+    CHECK(std::abs(double(norm.values[0] / exact - 1)) <= norm.error);
+    CHECK(norm.error < 1e-7);
+    CHECK(norm.error <= answer.find("angular_momentum")->error);
+    // given by itself M is exact
+    data.angular_velocity.reset();
+    const Answer given = deceleration::solve<>(*make_scene(*Inertia<double>::from_tensor(tensor), data), refusal);
+    CHECK(given.find("angular_momentum_norm")->error < 1e-13);
   }
 }

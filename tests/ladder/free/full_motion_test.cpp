@@ -191,6 +191,18 @@ TEST_CASE("rest, spheres and vanishing momentum in the full free equations", "[f
   CHECK(tally.met == 4);
 }
 
+TEST_CASE("a companion that runs alone is not near by chance beside the middle axis", "[free]") {
+  Problem<double> problem;
+  problem.inertia << 0.029001510775688518, -0.002785352288565872, 0.0018508892419081913,  //
+      -0.002785352288565872, 0.03168233909397403, 0.001770549165917692,                   //
+      0.0018508892419081913, 0.001770549165917692, 0.03102551867971546;
+  problem.angular_velocity = {-4.317617460330585, 0.3796768783022357, -6.698841320139436};
+  problem.momentum_given = false;
+  Tally tally;
+  check_stated(problem, {0, 14.55995659634997, 20.799937994785672}, 1e-3, tally);
+  CHECK(tally.met == 1);
+}
+
 TEMPLATE_TEST_CASE("the full free equations meet the tolerance of every precision", "[free]", float, double,
                    long double) {
   using S = TestType;

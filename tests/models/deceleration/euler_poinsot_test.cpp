@@ -195,3 +195,16 @@ TEST_CASE("rounding does not put the modulus of a polhode out of [0, 1]", "[dece
   }
   CHECK(over > 100);
 }
+
+TEST_CASE("the energy of a polhode keeps its digits where M lies across the slight axis of a slim body",
+          "[deceleration]") {
+  for (const double slight : {1e-2, 1e-5, 1e-8})
+    for (const double share : {1e-1, 1e-3, 1e-6}) {
+      const V a(1, 1 + 1e-6, 1 / slight), M(.3, 1, share * slight);
+      const auto p = polhode_through<double>(a, M);
+      const Vec3<long double> wide = a.cast<long double>(), momentum = M.cast<long double>();
+      const long double truth = momentum.dot(wide.cwiseProduct(momentum)) / momentum.squaredNorm();
+      CAPTURE(slight, share);
+      CHECK(std::abs(double(p.energy_ratio() / truth - 1)) < 8 * epsilon<double>);
+    }
+}

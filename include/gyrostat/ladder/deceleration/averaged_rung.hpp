@@ -181,7 +181,7 @@ Track averaged_track(const Scene& scene) {
   track.stop_error = std::isfinite(track.stop_time) ? late + stop_gain * tolerance : 0;
 
   const double local = mean_gain * tolerance, doubt = k2_of_data(problem, start, M0);
-  error.norm += local * norm0;
+  error.norm += local * norm0 + problem.momentum_error();
   error.energy += local * energy0 + problem.energy_error(M0);
   error.k2 += local + doubt;
   if (track.states.back().norm < low) {

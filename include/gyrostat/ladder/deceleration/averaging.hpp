@@ -101,7 +101,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   for (const auto& state : track.states)
     own_k2 =
         std::max(own_k2, k2_uncertainty(problem, state.momentum, {state.regime, state.k2}, local * norm, own_energy));
-  detail::state_errors(track, {in_span.norm + local * norm + lag * oscillating.norm,
+  detail::state_errors(track, {in_span.norm + local * norm + problem.momentum_error() + lag * oscillating.norm,
                                in_span.energy + own_energy + lag * oscillating.energy,
                                std::min(1.0, in_span.k2 + own_k2 + lag * oscillating.k2), 0});
   track.know_momentum(problem, in_span.vector + (local + lag) * norm);

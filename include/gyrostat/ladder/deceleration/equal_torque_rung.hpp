@@ -17,7 +17,7 @@ namespace gyrostat::deceleration {
 /// How the free motion that a body under equal torques goes through is found, as little as what is asked needs.
 enum class Unbraked : std::uint8_t {
   not_needed,  ///< columns that do not turn with the body follow from |M| alone
-  in_double,   ///< M: set up in double, with an error foreseen from the start
+  in_double,   ///< M: set up in double, if the quick form of the free motion is sound there
   in_two,      ///< set up in double-double, with the error that neighbours show
 };
 
@@ -40,8 +40,8 @@ inline free::Problem<double> unbraked_body(const Scene& scene) noexcept {
   return body;
 }
 
-/// Relative error of M up to the last time where the free motion is set up in double: the rounding of the start grows with the turn, and as
-/// 1/kp2 near the separatrix; that of the moments counts the more the nearer they are to each other.
+/// About what M will err, relatively, up to the last time where the free motion is set up in double: the rounding of the start grows with the
+/// turn, and as 1/kp2 near the separatrix; that of the moments counts the more the nearer they are to each other. What it does err shows then.
 inline double rounding_in_double(const Scene& scene) noexcept {
   const auto& problem = scene.problem();
   const auto p = polhode_through<double>(problem.inverse_inertia, problem.inverse_gaps(), problem.momentum);
@@ -84,7 +84,7 @@ inline Unbraked unbraked_motion(const Scene& scene) noexcept {
 
 namespace detail {
 
-/// Follows M, and with two words the attitude. Errors: those of free::Motion::make.
+/// Follows M, and with two words the attitude. Errors: those of free::Motion::make; not_applicable where a double does not do.
 template <Real Setup>
 Errc follow_unbraked(Track& track, const Scene& scene) {
   constexpr bool in_two = !std::is_same_v<Setup, double>;
@@ -97,55 +97,51 @@ Errc follow_unbraked(Track& track, const Scene& scene) {
   const auto& law = made->law();
   const Mat3<double> R_PB = scene.R_BP().transpose();
   const Quat<double> q_BP = from_matrix(scene.R_BP());
-  free::MotionError<double> known;
-  if constexpr (in_two) {
-    const double last =
-        law.clock(times.back());  // next to the stop rounding may put a time before the last one behind it
-    known = free::MotionError<double>::of<Setup>(made->unbraked(), given, free::Data::rounded,
-                                                 last + law.clock_error(last));
-  }
+  const double last =
+      law.clock(times.back());  // next to the stop rounding may put a time before the last one behind it
+  const double horizon = last + law.clock_error(last);
+  std::optional<free::MotionError<double>> known;
+  if constexpr (in_two)
+    known = free::MotionError<double>::of<Setup>(made->unbraked(), given, free::Data::rounded, horizon);
+  else known = free::MotionError<double>::quick(made->unbraked(), given, horizon);
+  if (!known) return Errc::not_applicable;
   double momentum = 0, velocity = 0, attitude = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto now = made->at(times[i]);
     State<double>& state = track.states[i];
     state.momentum = R_PB * now.angular_momentum;
     state.attitude = now.unbraked.attitude * q_BP;
-    if constexpr (in_two) {
-      const auto bound = known.at(now.tau);
-      const Vec3<double>&M = now.unbraked.angular_momentum, &omega = now.unbraked.angular_velocity;
-      const Vec3<double> flow = R_PB * cross<double>(M, omega);
-      const double late = law.clock_error(now.tau);
-      const double slower = now.norm / made->unbraked().angular_momentum_norm();
-      const double rounding = 10 * epsilon<double> * made->unbraked().cancellation(now.tau);
-      momentum = std::max(momentum, now.norm * bound.angular_momentum + slower * flow.norm() * late);
-      velocity = std::max(
-          velocity, slower * (known.fastest() * bound.angular_velocity + problem.angular_velocity(flow).norm() * late) +
-                        now.norm * rounding * problem.inverse_inertia[2]);
-      attitude = std::max(attitude, bound.attitude + omega.norm() * late);
-    }
+    const auto bound = known->at(now.tau);
+    const Vec3<double>&M = now.unbraked.angular_momentum, &omega = now.unbraked.angular_velocity;
+    const Vec3<double> flow = R_PB * cross<double>(M, omega);
+    const double late = law.clock_error(now.tau);
+    const double slower = now.norm / made->unbraked().angular_momentum_norm();
+    const double rounding = 10 * epsilon<double> * made->unbraked().cancellation(now.tau);
+    momentum = std::max(momentum, now.norm * bound.angular_momentum + slower * flow.norm() * late);
+    velocity = std::max(
+        velocity, slower * (known->fastest() * bound.angular_velocity + problem.angular_velocity(flow).norm() * late) +
+                      now.norm * rounding * problem.inverse_inertia[2]);
+    attitude = std::max(attitude, bound.attitude + omega.norm() * late);
   }
+  constexpr double turned = 8 * epsilon<double>;  // into principal axes and back
   track.knows_momentum = true;
-  if constexpr (in_two) {
-    constexpr double turned = 8 * epsilon<double>;  // into principal axes and back
-    track.knows_attitude = scene.question().wants_attitude;
-    track.error[column::attitude] = attitude + turned;
-    track.error[column::angular_momentum] = momentum + turned * problem.momentum.norm();
-    track.error[column::angular_velocity] = velocity + velocity_rounding(problem);
-  } else {
-    const double off = rounding_in_double(scene) * problem.momentum.norm();
-    track.error[column::angular_momentum] = off;
-    track.error[column::angular_velocity] = off * problem.inverse_inertia[2] + velocity_rounding(problem);
-  }
-  return Errc::ok;
+  track.knows_attitude = in_two && scene.question().wants_attitude;
+  track.error[column::attitude] = attitude + turned;
+  track.error[column::angular_momentum] = momentum + turned * problem.momentum.norm();
+  track.error[column::angular_velocity] = velocity + velocity_rounding(problem);
+  if (in_two) return Errc::ok;
+  const auto goal = scene.goal();
+  const double M = problem.momentum.norm(), omega = problem.angular_velocity(problem.momentum).norm();
+  return track.error[column::angular_momentum] <= goal.columns[column::angular_momentum] * M &&
+                 track.error[column::angular_velocity] <= goal.columns[column::angular_velocity] * omega
+             ? Errc::ok
+             : Errc::not_applicable;
 }
 
 /// How far |M| may be off at the start, relative: taken from omega by a tensor it errs as the greatest moment does.
 inline double norm_rounding(const Scene& scene) noexcept {
   const auto& problem = scene.problem();
-  const bool converted = scene.setup().angular_velocity && !problem.exact_gaps;
-  const double M = problem.momentum.norm();
-  const double most = problem.angular_velocity(problem.momentum).norm() / problem.inverse_inertia[0];
-  return 8 * epsilon<double> + (converted ? 4 * epsilon<double> * most / M : 0);
+  return 8 * epsilon<double> + problem.momentum_error() / problem.momentum.norm();
 }
 
 /// What |M| and the start tell: all but M, omega and the attitude.

@@ -158,7 +158,7 @@ struct Neighbour {
     problem.inverse_inertia = axes.moments.cwiseInverse();
     problem.rotor_momentum = back * Vec3<Scalar>(l + l.norm() * v);
     problem.control = back * problem.control * R;
-    problem.momentum = back * Vec3<Scalar>(of.momentum + parts.norm() * v);
+    problem.momentum = back * Vec3<Scalar>(of.momentum + of.momentum_terms() * v);
   }
 
  private:
@@ -419,6 +419,7 @@ class FullMotion {
     answer.step_tolerance = step_tolerance;
     const Scalar tight = companion_step(step_tolerance);
     const Scalar slim = problem_.exact_gaps ? Scalar(1) : problem_.inverse_inertia[2] / problem_.inverse_inertia[0];
+    const Scalar change = data_change(step_tolerance, slim);
     Run course(itself_, attitude_, step_tolerance, Scalar(0.3L), options_.step_cap);
     Run companion(Neighbour<Scalar>(problem_, change, 0), attitude_, tight, Scalar(0.33L), options_.step_cap);
     std::optional<Run> second;
@@ -453,7 +454,6 @@ class FullMotion {
  private:
   using Run = Course<Scalar, with_control, with_attitude>;
   static constexpr const auto& how = honesty::side_by_side;
-  static constexpr Scalar change = Scalar(how.data_change) * epsilon<Scalar>;
 
   /// To the errors at single times, what no distance shows.
   template <class Rounding>

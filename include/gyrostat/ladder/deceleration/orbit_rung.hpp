@@ -267,7 +267,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   // the energy is a difference of numbers of the size of what the rotors hold
   double energy = problem.rotor_energy_scale() / 2;
   for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
-  const double norm = local * problem.momentum.norm();
+  const double norm = local * problem.momentum.norm() + problem.momentum_error();
   energy = local * energy + problem.energy_error(problem.momentum);
   double k2 = local;
   for (const std::size_t i : {std::size_t(0), track.states.size() - 1})

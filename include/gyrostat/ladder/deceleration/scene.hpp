@@ -62,6 +62,7 @@ class Scene {
     scene.problem_.law = setup.law;
     scene.problem_.drag_law = setup.drag_law;
     scene.problem_.momentum = R_PB * setup.momentum;
+    scene.problem_.momentum_converted = setup.angular_velocity && !body.has_exact_moments();
     return scene;
   }
 

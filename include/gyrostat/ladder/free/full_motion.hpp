@@ -200,9 +200,10 @@ class FullMotion {
     answer.step_tolerance = step_tolerance;
     FullCourse<Scalar> course(problem_, step_tolerance, options_.step_cap);
     const Scalar tight = companion_step(step_tolerance);
+    const Scalar condition = condition_of(problem_), change = data_change(step_tolerance, condition);
     FullCourse<Scalar> companion(beside(problem_, change, 0), tight, options_.step_cap);
     std::optional<FullCourse<Scalar>> second;
-    if (rounding_rules(step_tolerance, condition_of(problem_)))
+    if (rounding_rules(step_tolerance, condition))
       second.emplace(beside(problem_, change, 1), tight, options_.step_cap);
     const auto& system = course.system();
     const FullState<Scalar> start = system.state(0, system.start().data());
@@ -230,8 +231,6 @@ class FullMotion {
   Scalar phase() const noexcept { return turning_ * times_.back(); }
 
  private:
-  static constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
-
   static FullState<Scalar> nowhere() noexcept {
     constexpr Scalar no = nan<Scalar>;
     return {{no, no, no, no}, {no, no, no}, {no, no, no}, {no, no, no}};

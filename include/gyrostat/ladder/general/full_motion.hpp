@@ -472,15 +472,17 @@ class FullMotion {
     answer.step_tolerance = tolerance.end;
     const StepTolerance<Scalar> tight{companion_step(tolerance.end), companion_step(tolerance.inside)};
     const Scalar span = times_.back();
-    const auto one = beside(problem_, change, 0), two = beside(problem_, change, 1);
     // a course is large
     const auto begin = [&](const Problem<Scalar>& problem, int share, const StepTolerance<Scalar>& its) noexcept {
       return std::make_unique<Course>(problem, span, cuts_, 1 / Scalar(share), its, options_.step_cap);
     };
-    const auto course = begin(problem_, 1, tolerance), companion = begin(one, 2, tight);
+    const auto course = begin(problem_, 1, tolerance);
     const auto& of = course->prepared();
+    const Scalar condition = condition_of(of.wheels), change = data_change(tolerance.end, condition);
+    const auto one = beside(problem_, change, 0), two = beside(problem_, change, 1);
+    const auto companion = begin(one, 2, tight);
     std::unique_ptr<Course> second;
-    if (rounding_rules(tolerance.end, condition_of(of.wheels))) second = begin(two, 3, tight);
+    if (rounding_rules(tolerance.end, condition)) second = begin(two, 3, tight);
     const FullRow<Scalar> row(of);
     // rounding at the asked times, and between steps
     FullErrors<Scalar> between;
@@ -501,7 +503,6 @@ class FullMotion {
 
  private:
   using Course = FullCourse<Method>;
-  static constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
 
   const Problem<Scalar>& problem_;
   std::span<const Scalar> times_;

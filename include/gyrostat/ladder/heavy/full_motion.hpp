@@ -150,8 +150,9 @@ class FullMotion {
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     Course course(problem_, start_, step_tolerance, options_.step_cap);
+    const Scalar change = data_change(step_tolerance, condition());
     const auto beside = [&](int which) noexcept {
-      const Neighbour<Scalar> near(problem_, start_, amount, which, options_.converted);
+      const Neighbour<Scalar> near(problem_, start_, change, which, options_.converted);
       return Course(near.problem, near.start, companion_step(step_tolerance), options_.step_cap, near.turn);
     };
     Course companion = beside(0);
@@ -179,7 +180,6 @@ class FullMotion {
  private:
   using System = FullSystem<Scalar, turning>;
   using Solver = ode::Taylor<System>;
-  static constexpr Scalar amount = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
 
   /// One run.
   class Course {

@@ -249,6 +249,7 @@ class FullMotion {
     answer.step_tolerance = step_tolerance;
     answer.used = layer_ < times_.back() ? Integrator::radau : Integrator::taylor;
     Course<Scalar> course(gyrostat_, start_, layer_, step_tolerance, inside, 1, options_.step_cap);
+    const Scalar change = data_change(step_tolerance, gyrostat_.condition());
     const auto beside = [&](int which) noexcept {
       const Neighbour<Scalar> neighbour(gyrostat_, start_, change, which);
       return Course<Scalar>(neighbour.gyrostat, neighbour.start, layer_, companion_step(step_tolerance),
@@ -277,8 +278,6 @@ class FullMotion {
   Scalar phase() const noexcept { return turning_ * times_.back(); }
 
  private:
-  static constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
-
   static State<Scalar> nowhere() noexcept {
     constexpr Scalar no = nan<Scalar>;
     return {{no, no, no, no}, {no, no, no}, no, no};

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -162,12 +161,7 @@ class FullMotion {
  public:
   FullMotion(const Problem<Scalar>& problem, std::span<const Scalar> times, std::span<State<Scalar>> states,
              const FullMotionOptions<Scalar>& options) noexcept
-      : problem_(problem),
-        times_(times),
-        states_(states),
-        options_(options),
-        rate_(problem.rate_size(times.back())),
-        neighbours_{neighbour(problem, rate_, amount, 0), neighbour(problem, rate_, amount, 1)} {}
+      : problem_(problem), times_(times), states_(states), options_(options), rate_(problem.rate_size(times.back())) {}
 
   /// The answer's run and its neighbours' side by side, and their distance.
   FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
@@ -177,9 +171,11 @@ class FullMotion {
     const Scalar span = times_.back();
     Course<Scalar> course(problem_, span, step_tolerance, options_.step_cap, true);
     const Scalar tight = companion_step(step_tolerance);
-    Course<Scalar> companion(neighbours_[0], span, tight, options_.step_cap, false);
+    const Scalar change = data_change(step_tolerance);
+    const Problem<Scalar> one = neighbour(problem_, rate_, change, 0), two = neighbour(problem_, rate_, change, 1);
+    Course<Scalar> companion(one, span, tight, options_.step_cap, false);
     std::optional<Course<Scalar>> second;
-    if (rounding_rules(step_tolerance)) second.emplace(neighbours_[1], span, tight, options_.step_cap, false);
+    if (rounding_rules(step_tolerance)) second.emplace(two, span, tight, options_.step_cap, false);
     const Runs<Course<Scalar>> runs{course, companion, second ? &*second : nullptr};
     const auto walk = walk_beside(Row<Scalar>{scales(problem_, span)}, runs, start_state(problem_), rate_, times_,
                                   states_, nowhere(), options_, progress_from, progress_to, not_noted);
@@ -205,9 +201,6 @@ class FullMotion {
   }
 
  private:
-  static constexpr auto& how = honesty::side_by_side;
-  static constexpr Scalar amount = Scalar(how.data_change) * epsilon<Scalar>;
-
   /// The sizes of the numbers that a column is made of, some of which may cancel.
   ColumnErrors<Scalar> rounded_in(const ColumnErrors<Scalar>& size) const noexcept {
     const auto& p = problem_;
@@ -230,7 +223,6 @@ class FullMotion {
   std::span<State<Scalar>> states_;
   const FullMotionOptions<Scalar>& options_;
   Scalar rate_;  ///< how fast the body turns, or is soon made to, rad/s
-  std::array<Problem<Scalar>, 2> neighbours_;
 };
 
 }  // namespace detail

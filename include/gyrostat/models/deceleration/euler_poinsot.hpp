@@ -48,7 +48,7 @@ struct Polhode {
   int side;            ///< sign of M along the near axis
 
   /// 2H/M^2, 1/(kg m^2).
-  Scalar energy_ratio() const noexcept { return axes.a_near + (axes.a_far - axes.a_near) * tilt; }
+  Scalar energy_ratio() const noexcept { return axes.a_near * along + axes.a_far * tilt; }
   /// du/dt per unit |M|, where u is the argument of the Jacobi functions: n/M of docs/deceleration.md.
   Scalar rate_per_momentum() const noexcept { return std::sqrt(axes.near_mid * axes.near_far * along); }
 };

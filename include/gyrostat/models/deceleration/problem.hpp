@@ -24,11 +24,12 @@ struct Problem {
   std::optional<Vec3<Scalar>> exact_gaps{};
   Vec3<Scalar> rotor_momentum{0, 0, 0};  ///< l, constant in the carrier and relative to it, N m s
   Mat3<Scalar> control =
-      Mat3<Scalar>::Zero();        ///< eps b: symmetric, diagonal if the actuators lie on principal axes, N m
-  Scalar drag = 0;                 ///< eps lambda, 1/s
-  Law law = Law::total;            ///< U: M or G
-  Law drag_law = Law::total;       ///< D: M or G
-  Vec3<Scalar> momentum{0, 0, 0};  ///< M at t = 0, N m s
+      Mat3<Scalar>::Zero();         ///< eps b: symmetric, diagonal if the actuators lie on principal axes, N m
+  Scalar drag = 0;                  ///< eps lambda, 1/s
+  Law law = Law::total;             ///< U: M or G
+  Law drag_law = Law::total;        ///< D: M or G
+  Vec3<Scalar> momentum{0, 0, 0};   ///< M at t = 0, N m s
+  bool momentum_converted = false;  ///< M was taken from omega by a tensor, whose elements err as the greatest does
 
   /// (a2 - a1, a3 - a2, a3 - a1), as well as they are known.
   Vec3<Scalar> inverse_gaps() const noexcept {
@@ -47,6 +48,19 @@ struct Problem {
   /// How far off the carrier energy of M may be because the moments come from a tensor, by the rounding of its greatest element, J.
   Scalar energy_error(const Vec3<Scalar>& M) const noexcept {
     return exact_gaps ? Scalar(0) : 4 * epsilon<Scalar> / inverse_inertia[0] * angular_velocity(M).squaredNorm();
+  }
+
+  /// The size of what M at t = 0 is summed of, and so of its rounding over that of a number, N m s: of a slim body that turns about its
+  /// slight axis far more than |M|.
+  Scalar momentum_terms() const noexcept {
+    const Scalar carrier = momentum_converted ? Scalar(angular_velocity(momentum).norm() / inverse_inertia[0])
+                                              : Scalar((momentum - rotor_momentum).norm());
+    return carrier + rotor_momentum.norm();
+  }
+
+  /// How far M at t = 0 may be off because it was taken from omega by a tensor, N m s.
+  Scalar momentum_error() const noexcept {
+    return momentum_converted ? 4 * epsilon<Scalar> * momentum_terms() : Scalar(0);
   }
 
   /// g = J^-1 l, the rate at which the carrier would turn if all of l were its own, rad/s.
