@@ -20,7 +20,7 @@ namespace detail {
 
 /// The angle that the body turns through up to the last time, rad.
 inline double turned_angle(const Scene& scene) noexcept {
-  return turning_rate(scene.gyrostat().problem) * scene.question().times.back();
+  return turning_rate(scene.principal()) * scene.question().times.back();
 }
 
 /// Whether the quick form will do: it states some hundred roundings, and some twenty a radian.
