@@ -109,7 +109,7 @@ Study<heavy::Scene> fast_top() {
           &heavy::scene_of,
           &heavy::solve,
           {.0011, 0,    0, 0, .0016, 0,    0, 0,  .002, .8,   .012, .009, .01,  9.80665,
-           none,  none, 0, 0, 150,   .995, 0, .1, none, none, none, none, none, none},
+           none,  none, 0, 0, 1500,  .995, 0, .1, none, none, none, none, none, none},
           {9, 13},
           asked({.04}, 1e-3, {{heavy::column::angular_velocity}})};
 }
