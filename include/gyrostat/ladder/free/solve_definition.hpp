@@ -66,11 +66,12 @@ GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monito
 
 namespace detail {
 
-/// Whether the ladder begins with the closed form, by states alone.
+/// Whether the ladder begins with the closed form, by states alone, where that has a quick form.
 inline bool begins_with_states(const Scene& scene) noexcept {
   const Question& question = scene.question();
   return question.rung == any_rung && question.alone == any_rung && asks_for_states(scene) &&
-         !(cost_of_full(scene) < clearly_cheaper * cost_of_closed_form(scene));
+         !(cost_of_states(scene) <
+           clearly_cheaper * cost_of_form(scene, suits_quick_form(scene) ? SetUp::quick : SetUp::precise));
 }
 
 }  // namespace detail

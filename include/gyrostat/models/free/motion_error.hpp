@@ -113,13 +113,26 @@ class MotionError {
   template <bool in_lanes = math::many_pays, class Room>
   static std::optional<MotionError> quick(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
                                           Scalar horizon) noexcept {
-    if (!is_tame(motion, assembly.body.inertia.isDiagonal(0))) return std::nullopt;
+    if (!is_tame(motion, assembly)) return std::nullopt;
     MotionError error;
     error.begin_quick(horizon);
     // principal axes found in Scalar are off by more than a rounding
     const Scalar by = (assembly.body.inertia.isDiagonal(0) ? 1 : 2) * epsilon<Scalar>;
     if (!in_lanes || !error.see_side_by_side(motion, assembly, by)) error.see_one_by_one(motion, assembly, by);
     return error.trust_quick() ? std::optional(error) : std::nullopt;
+  }
+
+  /// Whether nothing that the set-up subtracts cancels as a matter of course: no separatrix is near, and no principal axes found in Scalar belong to
+  /// moments that are nearly equal. Else there is no quick error.
+  template <class Room>
+  static bool is_tame(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly) noexcept {
+    if (motion.kind() == Kind::steady || motion.kind() == Kind::separatrix || motion.kind() == Kind::spherical ||
+        motion.hyperbolic())
+      return false;
+    const auto& modulus = motion.modulus();
+    const Vec3<Scalar>& J = motion.principal_moments();
+    return modulus.kp2 > quick_modulus && !(motion.kind() == Kind::one_component && modulus.k2 < quick_least) &&
+           (assembly.body.inertia.isDiagonal(0) || std::min(J[0] - J[1], J[1] - J[2]) > quick_gap * J[0]);
   }
 
   /// Of every time up to |t|. Infinite where the data fix the phase to less than 0.05 rad only, and beyond the horizon.
@@ -272,16 +285,6 @@ class MotionError {
       }
       return true;
     }
-  }
-
-  /// Whether nothing that the set-up subtracts cancels as a matter of course: no separatrix is near, and no principal axes found in Scalar belong to
-  /// moments that are nearly equal.
-  static bool is_tame(const Motion<Scalar>& motion, bool axes_given) noexcept {
-    if (motion.kind() == Kind::steady || motion.kind() == Kind::separatrix || motion.hyperbolic()) return false;
-    const auto& modulus = motion.modulus();
-    const Vec3<Scalar>& J = motion.principal_moments();
-    return modulus.kp2 > quick_modulus && !(motion.kind() == Kind::one_component && modulus.k2 < quick_least) &&
-           (axes_given || std::min(J[0] - J[1], J[1] - J[2]) > quick_gap * J[0]);
   }
 
   /// What the rounding of the period and the turn hides.

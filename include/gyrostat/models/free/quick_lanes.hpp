@@ -87,12 +87,14 @@ class QuickLanes {
   int own_lane(int b) const noexcept { return lane_of(itself, b); }
 
   void enlist(std::span<const Body> bodies) noexcept;
-  /// What MotionError::quick asks of the motion itself.
+  /// What MotionError::is_tame asks, and more: a motion that is set up by itself is on the same side of each limit.
   bool suits(const Body& body, int b) const noexcept {
-    const Vec3<double>& J = body.principal->moments;
-    return !(own(b).kind(own_lane(b)) == Kind::one_component &&
-             own(b).modulus_squared()[own_lane(b)] < Error::quick_least) &&
-           (has_axes(body) || std::min(J[0] - J[1], J[1] - J[2]) > Error::quick_gap * J[0]);
+    const PrincipalProblem<double>& p = *body.principal;
+    const Vec3<double>& J = p.moments;
+    const double R = own(b).angular_momentum_norm()[own_lane(b)], k2 = own(b).modulus_squared()[own_lane(b)];
+    const bool single = own(b).kind(own_lane(b)) == Kind::one_component;
+    return !(single && (k2 < 2 * Error::quick_least || k2 > 0.499)) && k2 < 0.97 && !p.spherical() && !p.steady(R) &&
+           (has_axes(body) || std::min(J[0] - J[1], J[1] - J[2]) > 1.01 * Error::quick_gap * J[0]);
   }
   /// Squares of how far the farthest neighbour is from each body over its span: rates, momentum, attitude.
   void compare(const Row& span, Row (&squares)[3]) const noexcept;
