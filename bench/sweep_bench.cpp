@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps: rows a second and core, of one scene of each family two of whose numbers vary. `alone` makes each scene and calls the ladder in a
 // loop; `swept` does the same rows by gyrostat::sweep on 1 and 2 threads. CPU time of all threads, errors included; what is asked is one
-// column at two times, and of a despin when it stops.
+// column at two times (`once`, `fast_top`: one), and of a despin when it stops.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -98,6 +98,36 @@ Study<free::Scene> free_body() {
           asked({5000, 10000}, 1e-6, {{free::column::angular_velocity}})};
 }
 
+Study<spinning::Scene> spinner_once() {
+  auto study = spinner();
+  study.question.times = {100};
+  return study;
+}
+
+Study<heavy::Scene> fast_top() {
+  return {heavy::tables,
+          &heavy::scene_of,
+          &heavy::solve,
+          {.0011, 0,    0, 0, .0016, 0,    0, 0,  .002, .8,   .012, .009, .01,  9.80665,
+           none,  none, 0, 0, 1500,  .995, 0, .1, none, none, none, none, none, none},
+          {9, 13},
+          asked({.04}, 1e-3, {{heavy::column::angular_velocity}})};
+}
+
+Study<free::Scene> gyrostat_once() {
+  auto study = free_body();
+  study.numbers[9] = 3, study.numbers[10] = -2, study.numbers[11] = 5;
+  study.question = asked({100}, 1e-6, {{free::column::attitude}});
+  return study;
+}
+
+/// What sweeps take for the ladder.
+template <class Scene>
+auto solver_of(const Study<Scene>& study) {
+  return study.solve;
+}
+free::SweepSolver solver_of(const Study<free::Scene>&) { return {}; }
+
 template <class Scene>
 std::vector<std::vector<double>> values_of(const Study<Scene>& study) {
   std::mt19937_64 engine(1);
@@ -149,7 +179,7 @@ void swept(benchmark::State& state, Study<Scene> (*made)()) {
   std::vector<SweepRow> told(rows);
   const auto posed = [&](std::span<const double> numbers) { return study.scene_of(numbers, study.question); };
   for (auto _ : state) {
-    sweep(study.family, study.numbers, varied, posed, study.solve, targets, told, unsigned(state.range(0)));
+    sweep(study.family, study.numbers, varied, posed, solver_of(study), targets, told, unsigned(state.range(0)));
     benchmark::ClobberMemory();
   }
   label(state, study);
@@ -161,7 +191,10 @@ void swept(benchmark::State& state, Study<Scene> (*made)()) {
 GYROSTAT_SWEEP_BENCH(despin);
 GYROSTAT_SWEEP_BENCH(driven_rotor);
 GYROSTAT_SWEEP_BENCH(spinner);
+GYROSTAT_SWEEP_BENCH(spinner_once);
 GYROSTAT_SWEEP_BENCH(symmetric_top);
+GYROSTAT_SWEEP_BENCH(fast_top);
 GYROSTAT_SWEEP_BENCH(free_body);
+GYROSTAT_SWEEP_BENCH(gyrostat_once);
 
 }  // namespace

@@ -10,5 +10,6 @@
 #include "gyrostat/models/free/motion_error.hpp"
 #include "gyrostat/models/free/motion_lanes.hpp"
 #include "gyrostat/models/free/permanent.hpp"
+#include "gyrostat/models/free/quick_lanes.hpp"
 #include "gyrostat/models/free/theta_pair.hpp"
 #include "gyrostat/models/free/view.hpp"

@@ -176,6 +176,7 @@
 #include "gyrostat/models/free/pencil.hpp"
 #include "gyrostat/models/free/permanent.hpp"
 #include "gyrostat/models/free/problem.hpp"
+#include "gyrostat/models/free/quick_lanes.hpp"
 #include "gyrostat/models/free/reduced.hpp"
 #include "gyrostat/models/free/theta_pair.hpp"
 #include "gyrostat/models/free/view.hpp"

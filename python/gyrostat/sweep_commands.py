@@ -64,7 +64,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-n", type=int, metavar="N", help="rows; left out: as many as the grid and the cases have")
     parser.add_argument("--ask", metavar="WHAT", help="columns and scalars wanted, as for solve: stop_time,angular_momentum_norm")
     parser.add_argument("--seed", type=int, metavar="INTEGER", help="of the random numbers (default: 0)")
-    parser.add_argument("--design", metavar="NAME", help="random (default), sobol or latin-hypercube")
+    parser.add_argument("--design", metavar="NAME", help="random (default), sobol, latin-hypercube or saltelli, which report makes Sobol indices of")
     parser.add_argument("--threads", type=int, metavar="N", help="default: all of this machine")
     parser.add_argument("--chunk", type=int, metavar="ROWS", help="rows that are done, and kept, in one go")
     parser.add_argument("--shard", metavar="I/M", help="part I of M alone, from 1; gyrostat merge puts the parts together")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The files that hold the results of a sweep: NetCDF, CSV, parquet and zarr."""
 
+import json
 import os
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from gyrostat.errors import DomainError
+from gyrostat.facts import FACTS
 
 if TYPE_CHECKING:
     import xarray
@@ -102,5 +104,14 @@ def open_results(file: str | os.PathLike[str]) -> "xarray.Dataset":
     if "study" not in found.attrs:
         raise DomainError(f"{file}: this holds no results of a sweep")
     words = {name: values.astype(object) for name, values in found.data_vars.items() if values.dtype.kind in "UT"}
-    made: xarray.Dataset = found.assign(words)
+    made: xarray.Dataset = found.assign(words)[_in_order(found)]
     return made
+
+
+def _in_order(dataset: "xarray.Dataset") -> list[str]:
+    """The names of its variables as a sweep makes them, which not every form of file keeps."""
+    study = json.loads(dataset.attrs["study"])
+    quantities = (name for each in FACTS[dataset.attrs["kind"]].quantities for name in (each, f"{each}_error"))
+    order = (*study["cases"].get("keys", ()), *study["vary"], *quantities, "model", "met", "excess", "warnings", "reason")
+    places = {name: i for i, name in enumerate(order)}
+    return sorted(map(str, dataset.data_vars), key=lambda name: places.get(name, len(places)))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the results of a sweep say: tables, and figures that need matplotlib."""
 
+import json
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -13,17 +14,19 @@ from numpy.typing import NDArray
 from gyrostat.console import short, small
 from gyrostat.drawing import COLOURS, Drawing, new_figure, note, save, time_unit
 from gyrostat.facts import FACTS
+from gyrostat.vary import Spread, read_words
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Response", "drawings", "rank_correlations", "responses", "save_figures", "shares", "tables"]
+__all__ = ["Index", "Response", "drawings", "rank_correlations", "responses", "save_figures", "shares", "sobol_indices", "tables"]
 
 PERCENTILES: Final = (1, 5, 25, 50, 75, 95, 99)
 MOST_DOTS: Final = 20000  # of a scatter plot
 MOST_PANELS: Final = 12
+RESAMPLED: Final = 200  # times, for a standard error
 
 Floats = NDArray[np.float64]
 Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
@@ -92,6 +95,45 @@ def rank_correlations(dataset: "xarray.Dataset", response: Response) -> dict[str
     return made
 
 
+@dataclass(frozen=True, slots=True)
+class Index:
+    """Sobol indices of one number: its share of the variance by itself, and with all that it does together with others; each with its standard error."""
+
+    first: float
+    first_error: float
+    total: float
+    total_error: float
+
+
+def sobol_indices(dataset: "xarray.Dataset", response: Response) -> dict[str, Index]:
+    """Of each random number, by the estimators of Saltelli et al. (2010), as scipy.stats.sobol_indices has them; standard errors by resampling the points.
+    Points one of whose rows has no answer are left out. Empty where the rows are not of the design saltelli, or a grid or cases stand beside it."""
+    study = json.loads(dataset.attrs["study"])
+    vary = {key: read_words(text) for key, text in study["vary"].items()}
+    names = sorted(vary)
+    if study["design"] != "saltelli" or study["cases"] or not all(isinstance(each, Spread) for each in vary.values()):
+        return {}
+    block = len(names) + 2
+    skipped = -int(dataset["row"][0]) % block  # of a point that begins in another shard
+    rows = response.values[skipped:]
+    points = rows[:len(rows) // block * block].reshape(-1, block)
+    points = points[np.isfinite(points).all(axis=1)]
+    if len(points) < 2 or not np.ptp(points[:, :2]) > 0:
+        return {}
+    found = _indices(points)
+    draws = np.random.default_rng(0).integers(len(points), size=(RESAMPLED, len(points)))
+    error = np.std([_indices(points[draw]) for draw in draws], axis=0)
+    return {name: Index(*map(float, (found[0, i], error[0, i], found[1, i], error[1, i]))) for i, name in enumerate(names)}
+
+
+def _indices(points: Floats) -> Floats:
+    """First-order and total indices, (2, numbers), of values at A, B and their mixtures, a line a point."""
+    centred = points - np.mean(points[:, :2])
+    a, b, mixed = centred[:, :1], centred[:, 1:2], centred[:, 2:]
+    made: Floats = np.array([np.mean(b * (mixed - a), axis=0), np.mean((a - mixed) ** 2, axis=0) / 2]) / np.var(centred[:, :2])
+    return made
+
+
 def shares(values: "xarray.DataArray") -> dict[str, float]:
     """Of a variable of words: word -> share of the rows, the greatest first."""
     words, counts = np.unique(values.values.astype(str), return_counts=True)
@@ -128,6 +170,10 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
     rows = [[each.label, *(f"{value:+.3f}" if math.isfinite(value) else "-" for value in rank_correlations(dataset, each).values())]
             for each in responses(dataset)]
     yield "Rank correlations", ["", *keys], rows
+    found = {each.label: sobol_indices(dataset, each) for each in responses(dataset)}
+    yield "Sobol indices: share of the variance by itself / with all others, each with its standard error", ["", *sorted(keys)], [
+        [label, *(f"{index.first:.3f}({index.first_error:.3f}) / {index.total:.3f}({index.total_error:.3f})" for index in indices.values())]
+        for label, indices in found.items() if indices]
     yield "No answer", ["reason", "share", "rows"], [
         [reason, _percent(share), str(round(share * len(met)))] for reason, share in shares(dataset["reason"]).items() if reason]
     bits, masks = dataset["warnings"].values, np.atleast_1d(dataset["warnings"].attrs["flag_masks"])

@@ -193,7 +193,7 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
         "body.inertia[0,1]", "wheel[2].rate".
     n : rows; a multiple of the combinations of the grid, which is taken as often. cases : a table, CSV or key -> values, all of one length: its
         lines are taken together, as one more axis of the grid.
-    seed, design : of the random numbers: "random", "sobol" or "latin-hypercube".
+    seed, design : of the random numbers: "random", "sobol", "latin-hypercube", or "saltelli" for Sobol indices, with n a multiple of their number + 2.
     threads : all of this machine where it is None. chunk : rows that are taken in one go; where it is None as many as suit.
     shard : (i, m) or "i/m": part i of m alone, from 1.
     parts : folder in which each chunk is kept when it is done; those that are there already are not done again.

@@ -30,7 +30,7 @@ Number = float | str  # a text: with a unit, "3 deg/s", or a share, "5%"; where 
 # Takes a number as it was given to what the compiled core takes.
 Reader = Callable[[Number], float]
 
-DESIGNS: Final = ("random", "sobol", "latin-hypercube")
+DESIGNS: Final = ("random", "sobol", "latin-hypercube", "saltelli")
 
 
 @dataclass(frozen=True, slots=True)
@@ -284,6 +284,11 @@ class Plan:
         if not 0 <= n < 2**31 or n % every:
             raise DomainError(f"n = {n}: give a multiple of the {every} combinations of the grid, below 2^31" if every > 1 else
                               f"n = {n}: give a number of rows from 1 to 2^31 - 1")
+        if design == "saltelli" and not made.block:
+            raise DomainError('design = "saltelli": no random number varies')
+        if design == "saltelli" and n // every % made.block:
+            raise DomainError(f"n = {n}: for the design saltelli give a multiple of {every * made.block}, {made.block} rows for each of its points, which are "
+                              "best as many as a power of two")
         for key, each in vary.items():
             if isinstance(each, Spread):
                 try:
@@ -309,6 +314,12 @@ class Plan:
         """Lengths of the table of cases, where there is one, and of the axes of the grid; the last runs fastest."""
         return (*{len(values) for values in self.cases.values()}, *(len(values) for values in self._axes.values()))
 
+    @property
+    def block(self) -> int:
+        """Rows that a point of the design saltelli has: A, B, and of each random number A with that number from B."""
+        random = sum(isinstance(each, Spread) for each in self.vary.values())
+        return random + 2 if random else 0
+
     def columns(self, rows: range) -> dict[str, Floats]:
         """The values of these rows, by key: (len(rows),) each."""
         made: dict[str, Floats] = {}
@@ -329,6 +340,8 @@ class Plan:
         every = math.prod(self._shape)
         # each combination of the grid gets the same points of the design
         first, last = rows.start // every, (rows.stop - 1) // every + 1
+        if self.design == "saltelli":
+            return self._saltelli(names, np.arange(rows.start, rows.stop) // every, range(first // self.block, (last - 1) // self.block + 1))
         points = (self._sobol if self.design == "sobol" else self._latin)(len(names), first, last)
         shown = np.ascontiguousarray(points[np.arange(rows.start, rows.stop) // every - first].T)
         return dict(zip(names, shown, strict=True))
@@ -341,6 +354,12 @@ class Plan:
                 engine.fast_forward(first)
             points: Floats = engine.random(last - first) + 2.0**-31  # of multiples of 2^-30 the middles
         return points
+
+    def _saltelli(self, names: list[str], places: NDArray[np.int64], bases: range) -> dict[str, Floats]:
+        """Of each point of a Sobol sequence two halves, A and B, and these mixed: Saltelli et al. (2010), doi:10.1016/j.cpc.2009.09.018."""
+        width, member = len(names), places % self.block
+        points = self._sobol(2 * width, bases.start, bases.stop)[places // self.block - bases.start]
+        return {name: np.where((member == 1) | (member == 2 + i), points[:, width + i], points[:, i]) for i, name in enumerate(names)}
 
     @cached_property
     def _hypercube(self) -> Floats:

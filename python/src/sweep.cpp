@@ -253,7 +253,7 @@ Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector
   if (kind == "rotor") return run(rotor::tables, &rotor::scene_of, &rotor::solve);
   if (kind == "spinning") return run(spinning::tables, &spinning::scene_of, &spinning::solve);
   if (kind == "heavy") return run(heavy::tables, &heavy::scene_of, &heavy::solve);
-  if (kind == "free") return run(free::tables, &free::scene_of, &free::solve);
+  if (kind == "free") return run(free::tables, &free::scene_of, free::SweepSolver{});
   if (kind == "general" && scene) {
     const auto problem = general_problem(*scene);
     require_shape("numbers", numbers, {general_numbers(*scene)[0].cast<Array>().size()});

@@ -87,3 +87,17 @@ TEST_CASE("the row at zero is the start as given", "[ladder]") {
     CHECK(answer.find("number")->values[0] == 4);
   }
 }
+
+TEST_CASE("a column takes the room of the one before in its place, and nothing else of it", "[ladder]") {
+  Answer answer;
+  Column& first = renewed_column(answer, 0, Writer::columns[0], 6);
+  first.error = 1e-3, first.tolerance = 1e-2, first.scale = 2;
+  const double* room = first.values.data();
+  const Column& again = renewed_column(answer, 0, Writer::columns[1], 4);
+  CHECK(again.values.data() == room);
+  CHECK(again.values.size() == 4);
+  CHECK(again.kind == &Writer::columns[1]);
+  CHECK((std::isnan(again.error) && std::isnan(again.tolerance) && again.scale == 0));
+  (void)renewed_column(answer, 1, Writer::columns[0], 3);
+  CHECK(answer.columns.size() == 2);
+}

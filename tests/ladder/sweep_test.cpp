@@ -12,6 +12,8 @@
 #include "catch.hpp"
 #include "gyrostat/ladder/deceleration/inputs.hpp"
 #include "gyrostat/ladder/deceleration/solve.hpp"
+#include "gyrostat/ladder/free/inputs.hpp"
+#include "gyrostat/ladder/free/solve.hpp"
 
 using namespace gyrostat;
 
@@ -70,6 +72,23 @@ TEST_CASE("rows are done once each, whatever the number of threads", "[ladder]")
       CAPTURE(threads, rows);
       std::vector<std::atomic<int>> done(rows);
       for_rows(rows, threads, nullptr, [&](Monitor&) { return [&](std::size_t row) { ++done[row]; }; });
+      CHECK(std::all_of(done.begin(), done.end(), [](const auto& times) { return times == 1; }));
+    }
+}
+
+TEST_CASE("blocks cover all rows, none longer than wanted", "[ladder]") {
+  for (const unsigned threads : {1U, 3U})
+    for (const std::size_t rows : {0U, 5U, 1001U}) {
+      CAPTURE(threads, rows);
+      std::vector<std::atomic<int>> done(rows);
+      std::atomic<bool> longer{false};
+      for_blocks(rows, threads, 16, nullptr, [&](Monitor&) {
+        return [&](std::size_t begin, std::size_t end) {
+          if (end - begin > 16) longer = true;
+          for (; begin < end; ++begin) ++done[begin];
+        };
+      });
+      CHECK_FALSE(longer.load());
       CHECK(std::all_of(done.begin(), done.end(), [](const auto& times) { return times == 1; }));
     }
 }
@@ -182,4 +201,61 @@ TEST_CASE("a sweep that is stopped says which rows it left out", "[ladder]") {
   CHECK(left == 4000 - solved);
   CHECK(despins.told[0].reason == nullptr);
   CHECK(despins.told.back().reason == not_reached);
+}
+
+namespace {
+
+/// Attitudes of free gyrostats, of whom every seventh is no body, every fifth turns beside a separatrix and every eleventh rests.
+struct Tumblers {
+  std::vector<double> numbers, moment, rate, side;
+  Question question;
+  std::vector<double> attitude, error;
+  std::vector<SweepRow> told;
+
+  explicit Tumblers(std::size_t rows) : numbers(input_width(free::input_kinds), gyrostat::nan<double>) {
+    std::fill_n(numbers.begin(), 12, 0.0);
+    numbers[0] = 35, numbers[4] = 22, numbers[8] = 16;
+    numbers[9] = 3, numbers[10] = -2, numbers[11] = 5;
+    numbers[18] = numbers[19] = numbers[20] = 0, numbers[21] = 1;
+    for (std::size_t i = 0; i < rows; ++i) {
+      moment.push_back(i % 7 == 6 ? 99 : 34 + 0.01 * double(i % 200));
+      rate.push_back(i % 11 == 10 ? 0 : i % 5 == 4 ? 1e-9 : 0.7 - 1e-3 * double(i % 300));
+      side.push_back(i % 11 == 10 ? 0 : i % 5 == 4 ? 1e-9 : 0.4);
+    }
+    numbers[13] = .55;
+    question.times = {3, 90};
+    question.tolerance = 1e-6;
+    question.asked = {{free::column::attitude}};
+    attitude.resize(8 * rows), error.resize(rows), told.resize(rows);
+  }
+  template <class Solve>
+  void run(unsigned threads, const Solve& solve) {
+    const Varied varied[] = {{0, moment}, {14, rate}, {12, side}};
+    const SweepTarget targets[] = {{free::column::attitude, false, 8, attitude, error}};
+    const auto scene_of = [&](std::span<const double> row) { return free::scene_of(row, question); };
+    sweep(free::tables, numbers, varied, scene_of, solve, targets, told, threads);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("rows that are answered side by side have the bits of the ladder, however they are divided", "[ladder]") {
+  constexpr std::size_t rows = 700;
+  Tumblers alone(rows);
+  alone.run(1, &free::solve);
+  for (const unsigned threads : {1U, 2U, 5U, 64U}) {
+    Tumblers together(rows);
+    together.run(threads, free::SweepSolver{});
+    CAPTURE(threads);
+    CHECK(same_bits(together.attitude, alone.attitude));
+    CHECK(same_bits(together.error, alone.error));
+    for (std::size_t row = 0; row < rows; ++row) {
+      const SweepRow &a = together.told[row], &b = alone.told[row];
+      CAPTURE(row);
+      CHECK((a.reason == b.reason && a.rung == b.rung && a.met == b.met && a.warnings == b.warnings));
+      CHECK((a.excess == b.excess || (std::isnan(a.excess) && std::isnan(b.excess))));
+      CHECK((a.reason != nullptr) == (row % 7 == 6));
+      CHECK(std::isnan(together.attitude[8 * row]) == (row % 7 == 6));
+    }
+  }
 }

@@ -6,7 +6,7 @@ import itertools
 import json
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from gyrostat.cli import main
 from gyrostat.families import FAMILIES
 from gyrostat.rows import numbers_of, place_of, plan_of
 from gyrostat.scenes import bundled, load, scene_from
-from gyrostat.sweep_report import drawings, rank_correlations, responses, tables
+from gyrostat.sweep_report import drawings, rank_correlations, responses, sobol_indices, tables
 from gyrostat.sweeps import merge, open_results, save
 from gyrostat.toml_text import toml_text
 from gyrostat.vary import DESIGNS, Plan, Varied, choice, grid, linspace, lognormal, logspace, normal, number_in, read_words, uniform
@@ -32,6 +32,15 @@ LIGHT: dict[str, Any] = {"tolerance": 1e-2, "times": [10000.0, 40000.0], "ask": 
 def light(n: int = 60, **more: Any) -> xarray.Dataset:
     """A sweep of despins that is done in a few milliseconds."""
     return sweep("tiangong-1", VARY, **{"n": n, **LIGHT, **more})
+
+
+TUMBLING: dict[str, Any] = {"body.inertia[0]": uniform(1.0e-4, 1.35e-4), "initial.angular_velocity[0]": choice(0, 1e-3, 2, 5),
+                            "initial.angular_velocity[1]": normal(0, 3)}
+
+
+def tumbling(n: int = 60, **more: Any) -> xarray.Dataset:
+    """A sweep of free bodies, some of which are none: most are answered side by side, those beside a separatrix one by one."""
+    return sweep("t-handle", TUMBLING, **{"n": n, "times": [0.0, 0.7, 40.0], "ask": ["attitude", "angular_velocity"], **more})
 
 
 def same(one: xarray.Dataset, other: xarray.Dataset) -> bool:
@@ -94,6 +103,21 @@ def test_the_points_of_a_design_fill_every_stratum(design: str) -> None:
 def test_each_combination_of_a_grid_gets_the_same_points_of_a_design() -> None:
     drawn = plan({"a": uniform(0, 1), "g": grid([1, 2, 3])}, 48, design="sobol").columns(range(48))
     assert np.max(np.ptp(drawn["a"].reshape(16, 3), axis=1)) == 0
+
+
+def test_the_rows_of_the_design_saltelli_mix_two_points() -> None:
+    drawn = plan({"a": uniform(0, 1), "b": normal(0, 1), "c": uniform(0, 1)}, 40, design="saltelli").columns(range(40))
+    points = {key: values.reshape(8, 5) for key, values in drawn.items()}
+    for i, (key, values) in enumerate(points.items()):
+        for other in range(3):
+            assert values[:, 2 + other].tolist() == values[:, 1 if other == i else 0].tolist(), (key, other)
+        assert not np.any(values[:, 0] == values[:, 1])
+    for half in (0, 1):  # each is as even as the sequence
+        assert sorted((points["a"][:, half] * 8).astype(int)) == list(range(8))
+    with pytest.raises(DomainError, match="multiple of 5"):
+        plan({"a": uniform(0, 1), "b": normal(0, 1), "c": uniform(0, 1)}, 41, design="saltelli")
+    with pytest.raises(DomainError, match="no random number"):
+        plan({"g": grid([1, 2])}, 4, design="saltelli")
 
 
 def test_grids_and_cases_are_combined_in_full() -> None:
@@ -246,12 +270,31 @@ def test_a_row_without_an_answer_says_why_and_is_no_exception() -> None:
 # ---- the same bits however it is cut ----
 
 
+@pytest.mark.parametrize("study", [light, tumbling])
 @pytest.mark.parametrize("settings", [{"threads": 1}, {"threads": 5}, {"chunk": 7}, {"threads": 2, "chunk": 59}])
-def test_threads_and_chunks_change_no_bit(settings: dict[str, int]) -> None:
-    assert same(light(**settings), light())
+def test_threads_and_chunks_change_no_bit(study: Callable[..., xarray.Dataset], settings: dict[str, int]) -> None:
+    assert same(study(**settings), study())
+
+
+def test_rows_side_by_side_are_what_solve_answers_to_the_bit() -> None:
+    found = tumbling(n=40, threads=1)
+    assert 0 < int((found["reason"].values == "").sum()) < 40
+    for row in range(40):
+        if found["reason"].values[row]:
+            continue
+        scene = load("t-handle").to_dict()
+        scene["body"]["inertia"][0] = float(found["body.inertia[0]"].values[row])
+        for i in (0, 1):
+            scene["initial"]["angular_velocity"][i] = float(found[f"initial.angular_velocity[{i}]"].values[row])
+        answer = gyrostat.solve(scene, times=[0.0, 0.7, 40.0], ask=["attitude", "angular_velocity"])
+        assert found["model"].values[row] == answer.model
+        for name in ("attitude", "angular_velocity"):
+            assert found[name].values[row].tolist() == answer.columns[name].tolist()
+            assert found[f"{name}_error"].values[row] == answer.error[name]
 
 
 def test_shards_put_together_are_the_whole(tmp_path: Path) -> None:
+    assert same(merge([tumbling(shard=(i, 7)) for i in range(1, 8)]), tumbling())
     whole, parts = light(), [light(shard=(i, 4)) for i in (3, 1, 4, 2)]
     assert same(merge(parts), whole)
     for i, part in enumerate(parts):
@@ -278,6 +321,9 @@ def test_a_sweep_that_is_interrupted_goes_on_where_it_was(tmp_path: Path) -> Non
     asked: list[tuple[int, int]] = []
     resumed = light(chunk=25, parts=tmp_path, progress=lambda done, rows: asked.append((done, rows)))
     assert same(resumed, light())
+    tumbling(n=60, chunk=13, parts=tmp_path / "free", shard=(1, 1))
+    (tmp_path / "free" / "rows-0000000013-0000000026.nc").unlink()
+    assert same(tumbling(parts=tmp_path / "free"), tumbling())
     assert asked[0][0] > 10 * len(left) and asked[-1] == (60, 60)
     with pytest.raises(DomainError, match="another study"):
         light(seed=9, parts=tmp_path)
@@ -297,7 +343,9 @@ def test_long_rows_are_left_at_once_when_a_sweep_is_stopped() -> None:
 def test_results_are_read_back_as_they_were(tmp_path: Path) -> None:
     found = light()
     save(found, tmp_path / "out.nc")
-    assert same(open_results(tmp_path / "out.nc"), found)
+    again = open_results(tmp_path / "out.nc")
+    assert same(again, found)
+    assert list(again.data_vars) == list(found.data_vars)  # so that a table has its columns where it had them
     save(found, tmp_path / "out.csv")
     with (tmp_path / "out.csv").open() as stream:
         lines = list(csv.DictReader(stream))
@@ -402,6 +450,58 @@ def test_a_report_ranks_what_matters() -> None:
     assert float(titles["Percentiles"][0][6]) == pytest.approx(float(np.median(found["stop_time"])), rel=1e-4)
     assert not titles["No answer"]
     assert [name for name, _ in drawings(found)] == ["histograms", "bands", "tornado", "scatter"]
+
+
+def ishigami(n: int) -> xarray.Dataset:
+    """The function of Ishigami and Homma (1990), sin a + 7 sin^2 b + 0.1 c^4 sin a, as if it were the answer of a sweep."""
+    made = plan({key: uniform(-math.pi, math.pi) for key in ("c", "a", "b")}, n, design="saltelli", seed=4)
+    drawn = made.columns(range(n))
+    answer = np.sin(drawn["a"]) * (1 + 0.1 * drawn["c"] ** 4) + 7 * np.sin(drawn["b"]) ** 2
+    return xarray.Dataset({key: ("row", values, {"role": "parameter"}) for key, values in drawn.items()} | {"stop_time": ("row", answer)},
+                          {"row": np.arange(n)}, {"kind": "deceleration", "study": json.dumps(made.told())})
+
+
+def test_sobol_indices_are_those_of_a_function_whose_are_known() -> None:
+    found = ishigami(5 * 4096)
+    response, = responses(found)
+    indices = sobol_indices(found, response)
+    known = {"a": (0.3139, 0.5576), "b": (0.4424, 0.4424), "c": (0.0, 0.2437)}
+    for key, (first, total) in known.items():
+        assert 0 < indices[key].first_error < 0.03 and 0 < indices[key].total_error < 0.03
+        assert indices[key].first == pytest.approx(first, abs=max(0.005, 3 * indices[key].first_error))
+        assert indices[key].total == pytest.approx(total, abs=max(0.005, 3 * indices[key].total_error))
+    # and to rounding what scipy makes of the same values
+    values = response.values.reshape(4096, 5).T
+    scipy = pytest.importorskip("scipy.stats").sobol_indices(
+        func={"f_A": values[None, 0], "f_B": values[None, 1], "f_AB": values[2:, None]}, n=4096)
+    assert [indices[key].first for key in "abc"] == pytest.approx(scipy.first_order.ravel().tolist(), abs=1e-12)
+    assert [indices[key].total for key in "abc"] == pytest.approx(scipy.total_order.ravel().tolist(), abs=1e-12)
+
+
+def test_sobol_indices_leave_out_points_without_an_answer() -> None:
+    found = ishigami(5 * 512)
+    found["stop_time"][::37] = math.nan
+    few = sobol_indices(found, responses(found)[0])
+    assert few["b"].total == pytest.approx(0.4424, abs=0.15)
+    part = found.isel(row=slice(3, 5 * 400 + 1))  # a shard that begins and ends within a point
+    whole = found.isel(row=slice(5, 5 * 400))
+    assert sobol_indices(part, responses(part)[0]) == sobol_indices(whole, responses(whole)[0])
+    random = light(40)
+    assert not sobol_indices(random, responses(random)[0])
+
+
+def test_a_report_of_the_design_saltelli_has_sobol_indices(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    study = ["sweep", "tiangong-1", "--vary", "torque.control[0]=normal(0.06, 5%)", "--vary", "torque.drag=lognormal(1.2e-6, 20%)", "--ask", "stop_time",
+             "--set", "tolerance=1e-2", "--set", "times=[20000]", "--design", "saltelli", "-o", str(tmp_path / "out.nc")]
+    assert main([*study, "-n", "258"]) == 2
+    assert "multiple of 4" in capsys.readouterr().err
+    assert main([*study, "-n", "256"]) == 0
+    found = open_results(tmp_path / "out.nc")
+    indices = sobol_indices(found, responses(found)[0])
+    assert sum(each.first for each in indices.values()) == pytest.approx(1, abs=0.1)  # nearly a sum of two functions
+    capsys.readouterr()
+    assert main(["report", str(tmp_path / "out.nc")]) == 0
+    assert "Sobol indices" in capsys.readouterr().out
 
 
 def test_every_kind_has_a_report() -> None:

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <span>
+#include <utility>
 
 #include "gyrostat/ladder/answer.hpp"
 #include "gyrostat/ladder/errors.hpp"
@@ -21,6 +22,15 @@ inline void fill_head(Answer& answer, const Question& question, const Outcome& o
   answer.times = question.times;
   answer.warnings = outcome.warnings;
   answer.counts = outcome.counts;
+}
+
+/// Column number i of an answer, with room for `size` values; the room of an earlier answer in its place is used again.
+inline Column& renewed_column(Answer& answer, std::size_t i, const ColumnKind& kind, std::size_t size) {
+  if (i == answer.columns.size()) answer.columns.push_back({&kind, {}, nan<double>});
+  Column& column = answer.columns[i];
+  column = {&kind, std::move(column.values), nan<double>};
+  column.values.resize(size);
+  return column;
 }
 
 /// Columns of the writer's table from states: those that are asked for, or of a rung that is named and asked for nothing those that it has.

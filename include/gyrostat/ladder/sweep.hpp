@@ -2,14 +2,17 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <semaphore>
 #include <span>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -51,15 +54,15 @@ struct SweepRow {
 
 inline constexpr const char* not_reached = "the sweep was stopped before this row";
 
-/// Does rows 0 to rows - 1 on `threads` threads, at least one. make_worker(monitor), called once on each thread, gives what a row is done
-/// with: worker(row); long work should look at the monitor, which is cancelled with that of the caller. After that rows are left out.
-/// Returns when all threads have ended.
+/// Does rows 0 to rows - 1 on `threads` threads, at least one, at most `most` in one go. make_worker(monitor), called once on each thread, gives what
+/// rows are done with: worker(begin, end); long work should look at the monitor, which is cancelled with that of the caller. After that rows are
+/// left out. Returns when all threads have ended.
 template <class MakeWorker>
-void for_rows(std::size_t rows, unsigned threads, Monitor* monitor, const MakeWorker& make_worker) {
+void for_blocks(std::size_t rows, unsigned threads, std::size_t most, Monitor* monitor, const MakeWorker& make_worker) {
   constexpr std::chrono::milliseconds pause{20};
   const unsigned pool_size = unsigned(std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(rows, 1)));
-  // what is handed out in one go: few rows, so that no thread waits long for the last to end
-  const std::size_t block = std::clamp<std::size_t>(rows / (16 * std::size_t(pool_size)), 1, 8);
+  // few rows, so that no thread waits long for the last to end
+  const std::size_t block = std::clamp<std::size_t>(rows / (16 * std::size_t(pool_size)), 1, most);
   std::atomic<std::size_t> next{0}, done{0};
   std::vector<Monitor> monitors(pool_size);
   std::counting_semaphore<> ended{0};
@@ -70,8 +73,9 @@ void for_rows(std::size_t rows, unsigned threads, Monitor* monitor, const MakeWo
       auto worker = make_worker(own);
       for (;;) {
         const std::size_t begin = next.fetch_add(block), end = std::min(begin + block, rows);
-        for (std::size_t row = begin; row < end && !own.cancel.load(std::memory_order_relaxed); ++row) worker(row);
         if (begin >= rows || own.cancel.load(std::memory_order_relaxed)) break;
+        worker(begin, end);
+        if (own.cancel.load(std::memory_order_relaxed)) break;
         done.fetch_add(end - begin, std::memory_order_relaxed);
       }
       ended.release();
@@ -83,6 +87,16 @@ void for_rows(std::size_t rows, unsigned threads, Monitor* monitor, const MakeWo
     if (monitor->cancel.load(std::memory_order_relaxed))
       for (Monitor& own : monitors) own.cancel.store(true);
   }
+}
+
+/// The same row by row: worker(row).
+template <class MakeWorker>
+void for_rows(std::size_t rows, unsigned threads, Monitor* monitor, const MakeWorker& make_worker) {
+  for_blocks(rows, threads, 8, monitor, [&](Monitor& own) {
+    return [worker = make_worker(own), &own](std::size_t begin, std::size_t end) mutable {
+      for (std::size_t row = begin; row < end && !own.cancel.load(std::memory_order_relaxed); ++row) worker(row);
+    };
+  });
 }
 
 namespace detail {
@@ -117,31 +131,73 @@ const char* why_none(const SceneOf& scene_of, std::span<const double> numbers, E
   return message(error);
 }
 
+/// Puts an answer into its row.
+inline SweepRow told_of(const Family& family, const Answer& answer, std::span<const SweepTarget> targets,
+                        std::size_t row) noexcept {
+  for (const SweepTarget& target : targets) store(target, row, answer, family);
+  return {nullptr, place_of(family.rungs, answer.model), answer.met, answer.excess, warning_bits(answer, family)};
+}
+
 /// Solves the scene and puts its answer into the row.
 template <class Scene, class Solve>
 SweepRow swept(const Family& family, const Scene& scene, const Solve& solve, std::span<const SweepTarget> targets,
                std::size_t row, Monitor* monitor) {
-  SweepRow said;
   Refusal refusal;
   const Answer answer = solve(scene, refusal, monitor);
-  if (refusal.code != Errc::ok) {
-    said.reason = refusal.why;
-    said.rung = place_of(family.rungs, refusal.model);
-    return said;
-  }
-  for (const SweepTarget& target : targets) store(target, row, answer, family);
-  said.rung = place_of(family.rungs, answer.model);
-  said.met = answer.met;
-  said.excess = answer.excess;
-  said.warnings = warning_bits(answer, family);
-  return said;
+  if (refusal.code == Errc::ok) return told_of(family, answer, targets, row);
+  return {.reason = refusal.why, .rung = place_of(family.rungs, refusal.model)};
 }
+
+/// A solver that answers up to Solve::width scenes side by side, as far as it can: solve.together(scenes, answers), a bit for each answer.
+template <class Solve, class Scene>
+concept SolvesTogether = requires(const Solve& solve, std::span<const Scene> scenes, std::span<Answer> answers) {
+  { Solve::width } -> std::convertible_to<std::size_t>;
+  { solve.together(scenes, answers) } -> std::same_as<unsigned>;
+};
+
+template <class Solve>
+inline constexpr std::size_t solved_at_once = 1;
+template <class Solve>
+  requires requires { Solve::width; }
+inline constexpr std::size_t solved_at_once<Solve> = Solve::width;
+
+/// Scenes that wait to be solved at once, and their rows.
+template <class Scene, class Solve>
+class Waiting {
+ public:
+  void add(Scene scene, std::size_t row) noexcept {
+    scenes_[count_] = std::move(scene);
+    rows_[count_++] = row;
+  }
+  bool full() const noexcept { return count_ == width; }
+  /// Solves them; none waits any longer.
+  void solve_all(const Family& family, const Solve& solve, std::span<const SweepTarget> targets,
+                 std::span<SweepRow> told, Monitor& own) {
+    unsigned answered = 0;
+    if constexpr (SolvesTogether<Solve, Scene>)
+      answered = solve.together(std::span<const Scene>(scenes_).first(count_), answers_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (answered >> i & 1) told[rows_[i]] = told_of(family, answers_[i], targets, rows_[i]);
+      else if (!own.cancel.load(std::memory_order_relaxed))
+        told[rows_[i]] = swept(family, scenes_[i], solve, targets, rows_[i], &own);
+    }
+    count_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t width = solved_at_once<Solve>;
+  std::array<Scene, width> scenes_;
+  std::array<std::size_t, width> rows_{};
+  std::array<Answer, SolvesTogether<Solve, Scene> ? width : 0> answers_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace detail
 
 /// Answers a row for each element of `told`: the scene of `numbers` (inputs.hpp), with what is varied in place. scene_of(numbers) gives a
 /// Result<Scene>, and where it has a member why(numbers) words for why there is none, or nullptr; solve(scene, refusal, monitor) gives the
-/// Answer. All are called on several threads. A row that is no scene, or has no answer, says why.
+/// Answer, and solve.together, where it has that, several to the same bits. All are called on several threads. A row that is no scene, or has no answer,
+/// says why.
 template <class SceneOf, class Solve>
 void sweep(const Family& family, std::span<const double> numbers, std::span<const Varied> varied,
            const SceneOf& scene_of, const Solve& solve, std::span<const SweepTarget> targets, std::span<SweepRow> told,
@@ -151,20 +207,27 @@ void sweep(const Family& family, std::span<const double> numbers, std::span<cons
     std::fill(target.errors.begin(), target.errors.end(), nan<double>);
   }
   for (SweepRow& row : told) row = {.reason = not_reached};
-  for_rows(told.size(), threads, monitor, [&](Monitor& own) {
-    return [&, scene = std::vector<double>(numbers.begin(), numbers.end())](std::size_t row) mutable {
-      bool finite = true;
-      for (const Varied& each : varied) {
-        scene[each.place] = each.values[row];
-        finite = finite && std::isfinite(each.values[row]);
+  using Scene = std::remove_cvref_t<decltype(*scene_of(numbers))>;
+  constexpr std::size_t at_once = detail::solved_at_once<Solve>;
+  for_blocks(told.size(), threads, std::max<std::size_t>(at_once, 8), monitor, [&](Monitor& own) {
+    return [&, scene = std::vector<double>(numbers.begin(), numbers.end()), waiting = detail::Waiting<Scene, Solve>()](
+               std::size_t begin, std::size_t end) mutable {
+      for (std::size_t row = begin; row < end && !own.cancel.load(std::memory_order_relaxed); ++row) {
+        bool finite = true;
+        for (const Varied& each : varied) {
+          scene[each.place] = each.values[row];
+          finite = finite && std::isfinite(each.values[row]);
+        }
+        if (!finite) {
+          told[row] = {.reason = message(Errc::not_finite)};
+          continue;
+        }
+        const std::span<const double> all(scene);
+        if (auto made = scene_of(all)) waiting.add(std::move(made).value(), row);
+        else told[row] = {.reason = detail::why_none(scene_of, all, made.error())};
+        if (waiting.full()) waiting.solve_all(family, solve, targets, told, own);
       }
-      if (!finite) {
-        told[row] = {.reason = message(Errc::not_finite)};
-        return;
-      }
-      const std::span<const double> all(scene);
-      if (const auto made = scene_of(all)) told[row] = detail::swept(family, *made, solve, targets, row, &own);
-      else told[row] = {.reason = detail::why_none(scene_of, all, made.error())};
+      waiting.solve_all(family, solve, targets, told, own);
     };
   });
 }

@@ -151,7 +151,7 @@ class ExpDifferences {
     Split() = default;
     template <Real Wider>
     Split(Complex<Wider> apart, Set i, Set j) noexcept
-        : spread(static_cast<Scalar>(magnitude(apart))),
+        : spread(magnitude(complex_cast<Scalar>(apart))),
           inverse(complex_cast<Scalar>(math::inverse(apart))),
           first(i),
           second(j) {}

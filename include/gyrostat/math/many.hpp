@@ -132,25 +132,28 @@ GYROSTAT_INLINE Many quarter_period(const Many& kp2) noexcept {
   return pi<double> / (a + b);
 }
 
-/// Carlson's R_F(x, y, 1) of N pairs at once, x and y from 1e-18 to 1e6: by duplication until all numbers are within reach of the series.
+/// Carlson's R_F(x, y, 1) of N pairs at once, x and y from 1e-18 to 1e6: by duplication, each until it is within reach of the series, so that none
+/// hangs on those beside it.
 template <int N>
 GYROSTAT_INLINE void carlson_RF(Many (&x)[N], Many (&y)[N], Many (&result)[N]) noexcept {
   constexpr double reach = 0.009;  // (eps/4)^(1/8)
   Many z[N], mean[N], a[N], b[N];
   for (int n = 0; n < N; ++n) z[n] = 1;
   for (int trip = 0; trip < 14; ++trip) {
-    Many far = 0;
+    Choice far[N];
+    unsigned some = 0;
     for (int n = 0; n < N; ++n) {
       mean[n] = (x[n] + y[n] + z[n]) * (1. / 3);
       a[n] = mean[n] - x[n], b[n] = mean[n] - y[n];
-      far = max(far, max(max(abs(a[n]), abs(b[n])), abs(a[n] + b[n])) - reach * mean[n]);
+      far[n] = max(max(abs(a[n]), abs(b[n])), abs(a[n] + b[n])) > reach * mean[n];
+      some |= far[n].bits();
     }
-    if ((far > 0.).bits() == 0) break;
+    if (some == 0) break;
     for (int n = 0; n < N; ++n) {
       const Many rx = sqrt(x[n]), ry = sqrt(y[n]), rz = sqrt(z[n]), lambda = fused(rx, ry + rz, ry * rz);
-      x[n] = 0.25 * (x[n] + lambda);
-      y[n] = 0.25 * (y[n] + lambda);
-      z[n] = 0.25 * (z[n] + lambda);
+      x[n] = choose(far[n], 0.25 * (x[n] + lambda), x[n]);
+      y[n] = choose(far[n], 0.25 * (y[n] + lambda), y[n]);
+      z[n] = choose(far[n], 0.25 * (z[n] + lambda), z[n]);
     }
   }
   for (int n = 0; n < N; ++n) {

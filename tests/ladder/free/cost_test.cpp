@@ -20,3 +20,20 @@ TEST_CASE("of a free body the full equations cost less over a few turns, the clo
   CHECK(std::string_view(solved(many.asked(question)).model) == "closed-form");
   CHECK(free::cost_of_closed_form(posed(wheeled(), {1})) > free::cost_of_closed_form(few));
 }
+
+TEST_CASE("where a free body has no quick form the closed form is not said to be cheap", "[free]") {
+  Question question = posed(body({3, 2, 1}, {0, 0, 0}, {1, 0.1, 0.1}), {100}).question();
+  question.asked = {{free::column::attitude}};
+  const auto asked = [&](const Assembly<double>& given) { return posed(given, {100}).asked(question); };
+  const Scene tame = asked(body({3, 2, 1}, {0.1, 0, 0}, {1, 0.1, 0.1})),
+              flips = asked(body({3, 2, 1}, {0, 0, 0}, {0.01, 1, 0.01})),
+              round = asked(body({2, 2, 2}, {0, 0, 0}, {0.1, 0.2, 1}));
+  CHECK(free::cost_of_closed_form(tame) < 20e-6);
+  CHECK(free::cost_of_closed_form(flips) > 10 * free::cost_of_closed_form(tame));
+  CHECK(free::cost_of_closed_form(round) > 5 * free::cost_of_closed_form(tame));
+  // over some turns the full equations cost less then
+  CHECK(std::string_view(solved(tame).model) == "closed-form");
+  CHECK(std::string_view(solved(flips).model) == "full");
+  question.times = {1e5};
+  CHECK(std::string_view(solved(flips.asked(question)).model) == "closed-form");
+}

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/free/solve.hpp"
 
+#include <array>
+#include <string_view>
+#include <vector>
+
 #include "../../models/free/gyrostats.hpp"
 #include "gyrostat/models/free/averages.hpp"
 #include "gyrostat/models/free/view.hpp"
@@ -115,4 +119,51 @@ TEST_CASE("rest, a sphere and a steady rotation have their answers", "[free]") {
   const Answer turning = solved(steady);
   CHECK(turning.met);
   check_honest(steady, turning);
+}
+
+TEST_CASE("answers to free bodies side by side are those of the ladder, to the bit", "[free]") {
+  free_bodies::Bodies bodies(42);
+  std::array<Answer, free::SweepSolver::width> answers;  // used again and again
+  int together = 0, all = 0;
+  for (int batch = 0; batch < 60; ++batch) {
+    std::vector<Scene> scenes;
+    for (int i = 0; i < 1 + batch % int(answers.size()); ++i) {
+      Assembly<double> assembly;
+      assembly.body = bodies.of(free_bodies::regimes[(batch + i) % 10], i);
+      if (i % 4 == 3) assembly.wheels = {{{0, 0.6, 0.8}, 0.02, 5, false}, {{1, 0, 0}, 0.01, -9, true}};
+      Question question;
+      const double end = bodies.scale(-1, 3);
+      question.times = {0, end / 3, end};
+      question.asked = {{free::column::attitude}, {free::column::rotor_rate, false, 1e-3}};
+      if (i % 3 == 0) question.asked = {{free::column::angular_velocity, false, 1e-9, true}};
+      if (i % 5 == 0) question.asked = {};
+      if (i == 6) question.rung = free::rung::closed_form;
+      if (const auto scene = Scene::make(assembly, question)) scenes.push_back(*scene);
+    }
+    const unsigned answered = free::SweepSolver{}.together(scenes, answers);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      ++all;
+      if (!(answered >> i & 1)) continue;
+      ++together;
+      CAPTURE(batch, i);
+      const Answer alone = solved(scenes[i]);
+      CHECK(answers[i].model == std::string_view(alone.model));
+      CHECK((answers[i].met && alone.met));
+      CHECK(answers[i].excess == alone.excess);
+      CHECK(answers[i].error == alone.error);
+      CHECK((answers[i].warnings.empty() && alone.warnings.empty()));
+      CHECK((answers[i].quantities.empty() && alone.quantities.empty()));
+      CHECK(answers[i].times == alone.times);
+      REQUIRE(answers[i].columns.size() == alone.columns.size());
+      for (std::size_t c = 0; c < alone.columns.size(); ++c) {
+        CHECK(answers[i].columns[c].kind == alone.columns[c].kind);
+        CHECK(answers[i].columns[c].values == alone.columns[c].values);
+        CHECK(answers[i].columns[c].error == alone.columns[c].error);
+        CHECK(answers[i].columns[c].tolerance == alone.columns[c].tolerance);
+        CHECK(answers[i].columns[c].width == alone.columns[c].width);
+      }
+    }
+  }
+  CHECK(together > (math::many_pays ? all / 8 : -1));
+  CHECK(free::SweepSolver{}.together({}, answers) == 0);
 }

@@ -10,8 +10,12 @@
 #include "gyrostat/ladder/even_times.hpp"
 #include "gyrostat/ladder/free/track.hpp"
 #include "gyrostat/ladder/monitor.hpp"
+#include "gyrostat/ladder/question.hpp"
+#include "gyrostat/math/many.hpp"
 #include "gyrostat/models/free/averages.hpp"
 #include "gyrostat/models/free/motion.hpp"
+#include "gyrostat/models/free/motion_error.hpp"
+#include "gyrostat/models/free/quick_lanes.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
 
 namespace gyrostat::free {
@@ -129,12 +133,26 @@ inline void warn_of_form(Track& track, const ClosedForm& form, double last, bool
 
 /// Of M, over its length or its scale; where the bound knows nothing, as where M is all rounding: M keeps its length, and cannot be off by more
 /// than two of it and the rounding of the parts that it is summed of.
-inline double momentum_error(const Scene& scene, const ClosedForm& form, double bound) noexcept {
+inline double momentum_error(const Scene& scene, double R, double bound) noexcept {
   if (bound < infinity<double>) return bound;
-  const double R = form.motion.angular_momentum_norm();
-  const double parts = form.motion.principal_moments()[0] * scene.angular_velocity().norm() +
-                       scene.gyrostat().problem.rotor_momentum.norm();
+  const double parts =
+      scene.principal().moments[0] * scene.angular_velocity().norm() + scene.gyrostat().problem.rotor_momentum.norm();
   return over(2 * R + 8 * epsilon<double> * parts, std::max(R, scene.scales()[column::angular_momentum]));
+}
+
+/// Of states by a form: `bound` of it up to the last time, that of the rates over `fastest`, rad/s; R = |M|; `rounding`: what a recurrence adds.
+inline void state_errors(Track& track, const Scene& scene, const MotionError<double>::Bound& bound, double fastest,
+                         double R, double rounding) noexcept {
+  double of_times = 0;
+  for (const auto& s : track.states) of_times = std::max(of_times, s.angular_velocity.norm());
+  // over the greatest rate of the asked times, which may all lie where the body turns slowly
+  const double slightest = scene.principal().moments[2];
+  const double velocity = bound.angular_velocity * over(fastest, of_times) + over(rounding * R / slightest, of_times);
+  track.error[column::attitude] = bound.attitude + rounding;
+  track.error[column::angular_velocity] = relative_to_truth(velocity);
+  track.error[column::angular_momentum] =
+      relative_to_truth(momentum_error(scene, R, bound.angular_momentum) + rounding);
+  if (scene.wheels() > 0) track.error[column::rotor_rate] = rate_error(scene, track.states, velocity);
 }
 
 /// What the rung answers by a form.
@@ -143,24 +161,34 @@ inline Track track_of(const Scene& scene, const ClosedForm& form) {
   Track track;
   track.states = states_of(form.motion, times);
   const auto bound = form.error.at(times.back());
-  double fastest = 0;
-  for (const auto& s : track.states) fastest = std::max(fastest, s.angular_velocity.norm());
-  // over the greatest rate of the asked times, which may all lie where the body turns slowly
-  const double rounding = takes_grid(times) ? grid_rounding : 0;
-  const double slightest = form.motion.principal_moments()[2];
-  const double velocity = bound.angular_velocity * over(form.error.fastest(), fastest) +
-                          over(rounding * form.motion.angular_momentum_norm() / slightest, fastest);
-  track.error[column::attitude] = bound.attitude + rounding;
-  track.error[column::angular_velocity] = relative_to_truth(velocity);
-  track.error[column::angular_momentum] =
-      relative_to_truth(momentum_error(scene, form, bound.angular_momentum) + rounding);
-  if (scene.wheels() > 0) {
-    track.error[column::rotor_rate] = rate_error(scene, track.states, velocity);
-    if (scene.gives(column::rotor_angle)) turn_wheels(track, scene, form);
-  }
+  state_errors(track, scene, bound, form.error.fastest(), form.motion.angular_momentum_norm(),
+               takes_grid(times) ? grid_rounding : 0);
+  if (scene.gives(column::rotor_angle)) turn_wheels(track, scene, form);
   warn_of_form(track, form, times.back(), bound.attitude < infinity<double>);
   track.form = form;
   return track;
+}
+
+/// Whether states are all that is asked for, at times of which each is worked out by itself.
+inline bool asks_for_states(const Scene& scene) noexcept {
+  return math::many_pays && !tells_scalars(scene.question()) && !scene.gives(column::rotor_angle) &&
+         !takes_grid(scene.question().times);
+}
+
+inline QuickLanes::Body lane_of(const Scene& scene) noexcept {
+  return {&scene.assembly(), &scene.principal(), scene.question().times.back()};
+}
+
+/// Whether what lanes know of a scene is within what is asked; then `track` has it.
+inline bool take_lane(Track& track, const Scene& scene, const QuickLanes& lanes, int b) {
+  const auto& times = scene.question().times;
+  const auto& known = lanes.known(b);
+  const auto goal = scene.goal();
+  if (!(known.of_scalars <= goal.tightest)) return false;
+  track.states.resize(times.size());
+  lanes.at(b, times, track.states.data());
+  state_errors(track, scene, known.bound, known.fastest, known.momentum, 0);
+  return goal.excess(track.error) <= 1;
 }
 
 }  // namespace detail
@@ -168,6 +196,12 @@ inline Track track_of(const Scene& scene, const ClosedForm& form) {
 /// Rung `closed-form`: the motion as a pair of theta functions (docs/free.md), set up in double where that is known to do for what is asked, else to
 /// twice the digits of a double, so that the data are what limits it.
 inline Track closed_form_track(const Scene& scene, Monitor*) {
+  if (detail::asks_for_states(scene)) {
+    QuickLanes lanes;
+    Track track;
+    const QuickLanes::Body body = detail::lane_of(scene);
+    if (lanes.make({&body, 1}) != 0 && detail::take_lane(track, scene, lanes, 0)) return track;
+  }
   if (const auto form = quick_form_of(scene)) {
     Track track = detail::track_of(scene, *form);
     if (scene.goal().excess(track.error) <= 1) return track;

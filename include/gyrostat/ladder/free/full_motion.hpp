@@ -79,9 +79,12 @@ using FullMotionAnswer = MotionOutcome<std::size(full_columns), Scalar>;
 
 /// How fast the body turns, or M in it, a bound of the order of |omega|, rad/s.
 template <Real Scalar>
-Scalar turning_rate(const Problem<Scalar>& problem) noexcept {
-  const auto p = PrincipalProblem<Scalar>::of(problem);
+Scalar turning_rate(const PrincipalProblem<Scalar>& p) noexcept {
   return p.inverse[2] * p.M.norm() + p.inverse.cwiseProduct(p.l).norm();
+}
+template <Real Scalar>
+Scalar turning_rate(const Problem<Scalar>& problem) noexcept {
+  return turning_rate(PrincipalProblem<Scalar>::of(problem));
 }
 
 /// The full motion at the given times (s, increasing, the first >= 0). What lies behind a failure is NaN.

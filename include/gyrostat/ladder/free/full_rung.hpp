@@ -19,7 +19,7 @@ inline Track full_track(const Scene& scene, Monitor* monitor) {
   const auto& times = question.times;
   const auto goal = scene.goal();
   const Problem<double>& problem = scene.gyrostat().problem;
-  const double phase = turning_rate(problem) * times.back();
+  const double phase = turning_rate(scene.principal()) * times.back();
   if (phase_too_long(phase, goal.tightest)) return refused<Track>(Errc::step_limit, phase_lost);
   if (phase > (question.rung == any_rung ? vain_angle : unreachable_angle))
     return refused<Track>(

@@ -21,16 +21,16 @@ inline constexpr InputKind input_kinds[] = {{"body.inertia", 9},
                                             {"wheel", 6, true}};
 
 /// The scene of the numbers of input_kinds; of angular_velocity and angular_momentum one is given. Errors: those of
-/// Inertia::from_tensor and Scene::make; out_of_domain: numbers of no whole wheel.
+/// symmetric_part and Scene::make; out_of_domain: numbers of no whole wheel.
 inline Result<Scene> scene_of(std::span<const double> numbers, const Question& question) {
   constexpr std::size_t fixed = input_width(input_kinds), each = 6;
   if (numbers.size() < fixed || (numbers.size() - fixed) % each != 0) return Errc::out_of_domain;
   InputReader next(numbers);
   Assembly<double> assembly;
   Problem<double>& body = assembly.body;
-  const auto inertia = Inertia<double>::from_tensor(next.tensor());
+  const auto inertia = symmetric_part<double>(next.tensor());
   if (!inertia) return inertia.error();
-  body.inertia = inertia->tensor();
+  body.inertia = *inertia;
   body.rotor_momentum = next.vector();
   const Vec3<double> omega = next.vector(), momentum = next.vector();
   body.momentum_given = !is_given(omega);

@@ -34,8 +34,8 @@ class Scene {
     if (!sound) return sound.error();
     Scene scene;
     scene.assembly_ = assembly;
-    scene.reduced_ = Reduced<DoubleDouble>::taken(assembly);
     scene.gyrostat_ = *sound;
+    scene.principal_ = PrincipalProblem<double>::of(sound->problem);
     scene.question_ = question;
     return scene;
   }
@@ -56,8 +56,10 @@ class Scene {
 
   const Assembly<double>& assembly() const noexcept { return assembly_; }
   const Reduced<double>& gyrostat() const noexcept { return gyrostat_; }
+  /// The same in its principal axes.
+  const PrincipalProblem<double>& principal() const noexcept { return principal_; }
   /// The same to twice the digits, of the data as they are.
-  const Reduced<DoubleDouble>& precise() const noexcept { return reduced_; }
+  Reduced<DoubleDouble> precise() const { return Reduced<DoubleDouble>::taken(assembly_); }
   const std::optional<ViewRequest>& view() const noexcept { return view_; }
   const Question& question() const noexcept { return question_; }
   std::size_t wheels() const noexcept { return gyrostat_.wheels.size(); }
@@ -95,7 +97,7 @@ class Scene {
  private:
   Assembly<double> assembly_;
   Reduced<double> gyrostat_;
-  Reduced<DoubleDouble> reduced_;
+  PrincipalProblem<double> principal_;
   std::optional<ViewRequest> view_;
   Question question_;
 };

@@ -103,4 +103,40 @@ GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monito
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 
+namespace detail {
+
+/// Whether the ladder begins with the closed form, by states alone, where that has a quick form.
+inline bool begins_with_states(const Scene& scene) noexcept {
+  const Question& question = scene.question();
+  return question.rung == any_rung && question.alone == any_rung && asks_for_states(scene) &&
+         !(cost_of_states(scene) <
+           clearly_cheaper * cost_of_form(scene, suits_quick_form(scene) ? SetUp::quick : SetUp::precise));
+}
+
+}  // namespace detail
+
+GYROSTAT_COMPILED_ONCE unsigned solve_together(std::span<const Scene> scenes, std::span<Answer> answers) {
+  std::array<QuickLanes::Body, QuickLanes::size> bodies;
+  std::array<std::size_t, QuickLanes::size> places;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    if (detail::begins_with_states(scenes[i])) bodies[count] = detail::lane_of(scenes[i]), places[count++] = i;
+  QuickLanes lanes;
+  const unsigned known = lanes.make(std::span(bodies).first(count));
+  unsigned answered = 0;
+  Track track;
+  for (std::size_t b = 0; b < count; ++b) {
+    const Scene& scene = scenes[places[b]];
+    if (!(known >> b & 1) || !detail::take_lane(track, scene, lanes, int(b))) continue;
+    Answer& answer = answers[places[b]];
+    answer.model = tables.rungs[rung::closed_form].name;
+    answer.tolerance = scene.question().tolerance;
+    fill(answer, scene, track);
+    judge(answer, scene.question(), tables);
+    answer.met = answer.excess <= 1;
+    if (answer.met) answered |= 1u << places[b];
+  }
+  return answered;
+}
+
 }  // namespace gyrostat::free

@@ -69,13 +69,14 @@ inline void fill(Answer& answer, const Scene& scene, const Track& track) {
   const auto scale = scene.scales();
   const std::size_t n = track.states.size();
   const auto& wheels = scene.gyrostat().wheels;
+  std::size_t filled = 0;
   for (std::size_t place = 0; place < std::size(column_kinds); ++place) {
     if (!scene.gives(place)) continue;
     const ColumnKind& kind = column_kinds[place];
     const std::size_t width = kind.width == per_rotor ? wheels.size() : std::size_t(kind.width);
-    answer.columns.push_back({&kind, std::vector<double>(n * width), track.error[place], scale[place]});
-    answer.columns.back().width = int(width);
-    double* to = answer.columns.back().values.data();
+    Column& made = renewed_column(answer, filled++, kind, n * width);
+    made.error = track.error[place], made.scale = scale[place], made.width = int(width);
+    double* to = made.values.data();
     for (std::size_t i = 0; i < n; ++i, to += width) {
       const State<double>& s = track.states[i];
       const auto put = [&](const Vec3<double>& v) { std::copy_n(v.data(), 3, to); };

@@ -41,16 +41,11 @@ inline void put_start(Answer& answer, const Problem<double>& problem) {
   put(column::position, problem.position);
 }
 
-}  // namespace detail
-
-/// Numbers and warnings that belong to the scene, whichever rung answers.
-inline void describe(Answer& answer, const Scene& scene, const Track& track) {
-  const Problem<double>& problem = scene.problem();
-  detail::put_start(answer, problem);
-  const double nu2 = problem.nutation_squared(), r0 = problem.spin();
+inline void tell_scalars(Answer& answer, const Problem<double>& problem, const Track& track) {
+  const double nu2 = problem.nutation_squared();
   double mean = nan<double>;
   math::Complex<double> ratio{nan<double>, nan<double>};
-  if (problem.torque[2] == 0 && nu2 > 0 && r0 * problem.effective_momentum() != 0) {
+  if (problem.torque[2] == 0 && nu2 > 0 && problem.spin() * problem.effective_momentum() != 0) {
     mean = pointing_error(problem);
     ratio = secular_velocity_ratio(problem);
   }
@@ -59,8 +54,18 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   };
   give(scalar::pointing_error, {mean});
   give(scalar::secular_velocity_ratio, {ratio.re, ratio.im});
-  give(scalar::tilt_max, {detail::greatest_tilt(track.states)}, track.error[column::attitude]);
+  give(scalar::tilt_max, {greatest_tilt(track.states)}, track.error[column::attitude]);
   give(scalar::nutation_frequency_squared, {nu2});
+}
+
+}  // namespace detail
+
+/// Numbers and warnings that belong to the scene, whichever rung answers.
+inline void describe(Answer& answer, const Scene& scene, const Track& track) {
+  const Problem<double>& problem = scene.problem();
+  detail::put_start(answer, problem);
+  const double nu2 = problem.nutation_squared(), r0 = problem.spin();
+  if (tells_scalars(scene.question())) detail::tell_scalars(answer, problem, track);
 
   const auto warn = [&](std::size_t which, double value = nan<double>) {
     answer.warnings.push_back({&warning_kinds[which], warning_kinds[which].text, value});
@@ -81,9 +86,7 @@ inline constexpr Rung<Scene, Track> models[] = {{&linear_track, &cost_of_linear}
                                                 {&picard_track, &cost_of_picard},
                                                 {&full_track, &cost_of_full}};
 
-GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept {
-  return models[rung].cost(scene);
-}
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept { return models[rung].cost(scene); }
 
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);

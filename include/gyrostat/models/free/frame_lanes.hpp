@@ -131,9 +131,10 @@ class RootLanes {
     lo_ = from * width - shift_;
     hi_ = to * width - shift_;
     x_ = 0.5 * (lo_ + hi_);
+    found_ = x_ < x_;
   }
 
-  /// A step towards the root; where all are there, what it leaves is of the order of its square.
+  /// A step towards each root that is not found: what the last one leaves is of the order of its square.
   GYROSTAT_INLINE void step() noexcept {
     const Many p = 1 / ((next_ - x_) * (far_ - x_)), of_next = (far_ - x_) * p, of_far = (next_ - x_) * p;
     const Many first = beside_ * of_next, second = other_ * of_far;
@@ -149,8 +150,9 @@ class RootLanes {
     Many y = 0.5 * (lo_ + hi_);
     y = math::choose((least < two) & (two < most), two, y);
     y = math::choose((least < one) & (one < most), one, y);
-    found_ = math::abs(y - x_) < 1e-8 * math::abs(x_);
-    x_ = y;
+    const Choice near = math::abs(y - x_) < 1e-8 * math::abs(x_);
+    x_ = math::choose(found_, x_, y);
+    found_ = found_ | near;
   }
   Choice found() const noexcept { return found_; }
 
@@ -246,7 +248,7 @@ struct PlaneLanes {
   GYROSTAT_INLINE Many4 across(const PencilLanes& pencil, const Many4& x) const noexcept {
     return x - pencil.along(u, x) * u.x - pencil.along(v, x) * v.x;
   }
-  GYROSTAT_INLINE Many4 spacelike(const PencilLanes& pencil, const Many4& V) const noexcept {
+  GYROSTAT_NOINLINE Many4 spacelike(const PencilLanes& pencil, const Many4& V) const noexcept {
     Many4 best = V;
     Many most = 0;
     for (int i = 0; i < 3; ++i) {
@@ -279,8 +281,9 @@ struct FrameLanes {
     Many factor, x, y, rest_factor, rest_x, rest_y;
     Choice sound;
   };
-  GYROSTAT_INLINE Form lobe(const PencilLanes& pencil, const PlaneLanes& p) noexcept;
-  GYROSTAT_INLINE static Form alone(const PencilLanes& pencil, const PlaneLanes& p) noexcept;
+  // compiled once each, so that a lane has the same bits whether the other form is there beside it or not
+  GYROSTAT_NOINLINE inline Form lobe(const PencilLanes& pencil, const PlaneLanes& p) noexcept;
+  GYROSTAT_NOINLINE static inline Form alone(const PencilLanes& pencil, const PlaneLanes& p) noexcept;
   GYROSTAT_INLINE static Many determinant(const Many4& a, const Many4& b, const Many4& c, const Many4& d) noexcept {
     const auto minor = [](const Many4& x, const Many4& y, int i, int j)
                            GYROSTAT_INLINE_LAMBDA { return x.x[i] * y.x[j] - x.x[j] * y.x[i]; };
@@ -291,7 +294,7 @@ struct FrameLanes {
   static constexpr double least_k2 = 1e-16;
 };
 
-GYROSTAT_INLINE FrameLanes::Form FrameLanes::lobe(const PencilLanes&, const PlaneLanes& p) noexcept {
+FrameLanes::Form FrameLanes::lobe(const PencilLanes&, const PlaneLanes& p) noexcept {
   Form f;
   const Choice first = p.from_u < 0.;  // u is x1
   side = math::choose(first, 1., -1.);
@@ -331,7 +334,7 @@ GYROSTAT_INLINE FrameLanes::Form FrameLanes::lobe(const PencilLanes&, const Plan
   return f;
 }
 
-GYROSTAT_INLINE FrameLanes::Form FrameLanes::alone(const PencilLanes& pencil, const PlaneLanes& p) noexcept {
+FrameLanes::Form FrameLanes::alone(const PencilLanes& pencil, const PlaneLanes& p) noexcept {
   Form f;
   const Many B = math::sqrt(-p.E_plus * p.E_minus);
   const Many boost = math::sqrt(math::sqrt(math::abs(p.E_minus / p.E_plus))), lower = 1 / boost;

@@ -113,21 +113,26 @@ class MotionError {
   template <bool in_lanes = math::many_pays, class Room>
   static std::optional<MotionError> quick(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
                                           Scalar horizon) noexcept {
-    if (!is_tame(motion, assembly.body.inertia.isDiagonal(0))) return std::nullopt;
+    if (!is_tame(motion, assembly)) return std::nullopt;
     MotionError error;
-    error.horizon_ = std::abs(horizon);
-    error.nodes_ = few;
-    error.weight_ = quick_margin / 4;
-    error.scalar_margin_ = 4 * quick_margin;
+    error.begin_quick(horizon);
     // principal axes found in Scalar are off by more than a rounding
     const Scalar by = (assembly.body.inertia.isDiagonal(0) ? 1 : 2) * epsilon<Scalar>;
     if (!in_lanes || !error.see_side_by_side(motion, assembly, by)) error.see_one_by_one(motion, assembly, by);
-    if (!error.agree_ || !(error.cancellation_ < quick_cancellation) || !(error.defect_ < quick_defect))
-      return std::nullopt;
-    error.modulus_ = std::max(error.modulus_, error.defect_);
-    error.turn_ = std::max(error.turn_, error.defect_);
-    error.add_hidden(std::max(epsilon<Scalar>, error.defect_ / 4));
-    return error;
+    return error.trust_quick() ? std::optional(error) : std::nullopt;
+  }
+
+  /// Whether nothing that the set-up subtracts cancels as a matter of course: no separatrix is near, and no principal axes found in Scalar belong to
+  /// moments that are nearly equal. Else there is no quick error.
+  template <class Room>
+  static bool is_tame(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly) noexcept {
+    if (motion.kind() == Kind::steady || motion.kind() == Kind::separatrix || motion.kind() == Kind::spherical ||
+        motion.hyperbolic())
+      return false;
+    const auto& modulus = motion.modulus();
+    const Vec3<Scalar>& J = motion.principal_moments();
+    return modulus.kp2 > quick_modulus && !(motion.kind() == Kind::one_component && modulus.k2 < quick_least) &&
+           (assembly.body.inertia.isDiagonal(0) || std::min(J[0] - J[1], J[1] - J[2]) > quick_gap * J[0]);
   }
 
   /// Of every time up to |t|. Infinite where the data fix the phase to less than 0.05 rad only, and beyond the horizon.
@@ -186,6 +191,8 @@ class MotionError {
   bool kinds_agree() const noexcept { return agree_; }
 
  private:
+  friend class QuickLanes;
+
   static constexpr Scalar quick_modulus = Scalar(0.01), quick_cancellation = 4, quick_defect = 16 * epsilon<Scalar>,
                           quick_margin = 6, quick_gap = Scalar(1e-3), quick_least = Scalar(1e-8);
 
@@ -214,6 +221,22 @@ class MotionError {
     int first_;
     std::array<State<Scalar>, std::size_t(many.last - many.first + 1)> states_;
   };
+
+  void begin_quick(Scalar horizon) noexcept {
+    horizon_ = std::abs(horizon);
+    nodes_ = few;
+    weight_ = quick_margin / 4;
+    scalar_margin_ = 4 * quick_margin;
+  }
+
+  /// Whether what quick() has seen can be believed; takes the defect into what is constant.
+  bool trust_quick() noexcept {
+    if (!agree_ || !(cancellation_ < quick_cancellation) || !(defect_ < quick_defect)) return false;
+    modulus_ = std::max(modulus_, defect_);
+    turn_ = std::max(turn_, defect_);
+    add_hidden(std::max(epsilon<Scalar>, defect_ / 4));
+    return true;
+  }
 
   /// The defect and the neighbours of quick().
   template <class Room>
@@ -249,14 +272,11 @@ class MotionError {
       MotionLanes::Row times;
       for (int i = 0; i < few.last; ++i) times[i] = span_ * i / few.last;
       const auto seen = centre->look(times);
-      const Mat3<Scalar> inverse = inverse_inertia(motion);
-      for (int i = 0; i < few.last; ++i)
-        visit(motion, seen.states.lane(i), inverse, seen.cancellation[i], seen.rate_terms[i]);
-      margins();
-      for (int i = 0; i < few.last; ++i) defect_ = std::max(defect_, seen.defect[i] / fastest_);
+      take_extent(seen, inverse_inertia(motion), motion.turn_per_period(), motion.angular_momentum_norm());
+      const Figures own = figures_of(motion);
       for (int k = 0; k < MotionLanes::size; ++k)
-        see_figures(motion, {others.energy()[k], others.angular_momentum_norm()[k], others.modulus_squared()[k],
-                             others.period()[k], others.turn_per_period()[k], others.kind(k)});
+        see_figures(own, {others.energy()[k], others.angular_momentum_norm()[k], others.modulus_squared()[k],
+                          others.period()[k], others.turn_per_period()[k], others.kind(k)});
       Bound worst;
       for (int i = 0; i <= few.last; ++i) {
         const Scalar t = span_ * i / few.last;
@@ -271,16 +291,6 @@ class MotionError {
       }
       return true;
     }
-  }
-
-  /// Whether nothing that the set-up subtracts cancels as a matter of course: no separatrix is near, and no principal axes found in Scalar belong to
-  /// moments that are nearly equal.
-  static bool is_tame(const Motion<Scalar>& motion, bool axes_given) noexcept {
-    if (motion.kind() == Kind::steady || motion.kind() == Kind::separatrix || motion.hyperbolic()) return false;
-    const auto& modulus = motion.modulus();
-    const Vec3<Scalar>& J = motion.principal_moments();
-    return modulus.kp2 > quick_modulus && !(motion.kind() == Kind::one_component && modulus.k2 < quick_least) &&
-           (axes_given || std::min(J[0] - J[1], J[1] - J[2]) > quick_gap * J[0]);
   }
 
   /// What the rounding of the period and the turn hides.
@@ -354,6 +364,19 @@ class MotionError {
     attitude_change_ = max(attitude_change_, Vec3<Scalar>(at.angular_velocity - turn / R * at.angular_momentum).norm());
   }
 
+  /// The same of all that was looked at, with margins and the defect.
+  void take_extent(const MotionLanes::Looks& seen, const Mat3<double>& inverse, double turn, double R) noexcept {
+    const auto most = seen.extent(inverse, turn / span_ / R);
+    cancellation_ = std::max(cancellation_, most.cancellation);
+    rate_terms_ = most.rate_terms;
+    fastest_ = most.angular_velocity;
+    momentum_change_ = most.flow / R;
+    rates_change_ = most.acceleration;
+    attitude_change_ = most.relative;
+    defect_ = most.defect / fastest_;
+    margins();
+  }
+
   /// Per period that the phase is late, with a margin for what lies between the nodes.
   void margins() noexcept {
     const Scalar margin = Scalar(1.25);
@@ -383,8 +406,7 @@ class MotionError {
       return;
     }
     const Motion<Scalar>& other = *made;
-    see_figures(motion, {other.energy(), other.angular_momentum_norm(), other.modulus_squared(), other.period(),
-                         other.turn_per_period(), other.kind()});
+    see_figures(figures_of(motion), figures_of(other));
     if (kind_ == Kind::steady) return see_steady(other);
     Bound worst;
     for (int i = 0; i <= nodes_.last; ++i) {
@@ -412,24 +434,30 @@ class MotionError {
     bound.attitude = max(bound.attitude, margin * worst.attitude);
   }
 
-  /// What is constant of a neighbour.
+  /// What is constant of a motion.
   struct Figures {
     Scalar energy, norm, modulus_squared, period, turn;
     Kind kind;
   };
-  void see_figures(const Motion<Scalar>& motion, const Figures& other) noexcept {
+  static Figures figures_of(const Motion<Scalar>& motion) noexcept {
+    return {motion.energy(), motion.angular_momentum_norm(), motion.modulus_squared(),
+            motion.period(), motion.turn_per_period(),       motion.kind()};
+  }
+  /// Of the motion and of a neighbour.
+  void see_figures(const Figures& own, const Figures& other) noexcept {
     using std::abs, std::max;
     const auto relative = [](Scalar a, Scalar b) { return a == b ? Scalar(0) : abs(a - b) / abs(a); };
-    energy_ = max(energy_, weight_ * relative(motion.energy(), other.energy));
-    norm_ = max(norm_, weight_ * relative(motion.angular_momentum_norm(), other.norm));
+    energy_ = max(energy_, weight_ * relative(own.energy, other.energy));
+    norm_ = max(norm_, weight_ * relative(own.norm, other.norm));
     if (kind_ == Kind::steady) return;
-    modulus_ = max(modulus_, weight_ * abs(motion.modulus_squared() - other.modulus_squared));
+    modulus_ = max(modulus_, weight_ * abs(own.modulus_squared - other.modulus_squared));
     if (kind_ != Kind::spherical && other.kind != kind_) agree_ = false;
-    share_ = max(share_, weight_ * relative(motion.period(), other.period) / period_);
-    const Scalar turn = motion.turn_per_period(), raw = other.turn - turn;
+    share_ = max(share_, weight_ * relative(own.period, other.period) / period_);
+    const Scalar raw = other.turn - own.turn;
     const Scalar turned = raw - 2 * pi<Scalar> * std::nearbyint(raw / (2 * pi<Scalar>));
     turn_ = max(turn_, weight_ * abs(turned));
-    turn_rate_ = max(turn_rate_, weight_ * abs((turned - turn * (other.period - period_) / period_) / other.period));
+    turn_rate_ =
+        max(turn_rate_, weight_ * abs((turned - own.turn * (other.period - period_) / period_) / other.period));
   }
 
   void see_steady(const Motion<Scalar>& other) noexcept {

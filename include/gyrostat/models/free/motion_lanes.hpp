@@ -15,8 +15,8 @@
 namespace gyrostat::free {
 
 /// Motion<double>, set up in double, of eight bodies side by side. Only where the motion is tame: two components or one, the sums of its
-/// theta functions in trigonometric form, kp2 not small and k2 not tiny, moments apart. What is not is left out, for Motion<double> to do. The last
-/// digits of a lane may depend on the bodies beside it, which decide when an iteration ends.
+/// theta functions in trigonometric form, kp2 not small and k2 not tiny, moments apart. What is not is left out, for Motion<double> to do. A
+/// lane comes to the same bits whatever stands beside it.
 class MotionLanes {
  public:
   static constexpr int size = 8;
@@ -43,6 +43,21 @@ class MotionLanes {
       double angular_velocity, angular_momentum, attitude;
     };
     Apart apart(const State<double>& from) const noexcept;
+    /// The squares of the distances of each lane to that of others, where they are greater than what is there.
+    void widen(const States& from, Row (&far)[3]) const noexcept;
+
+    /// Takes a lane of others for one of these.
+    void take(int to, const States& from, int lane) noexcept {
+      for (int i = 0; i < 3; ++i) {
+        angular_velocity[i][to] = from.angular_velocity[i][lane];
+        angular_momentum[i][to] = from.angular_momentum[i][lane];
+      }
+      for (int i = 0; i < 4; ++i) attitude[i][to] = from.attitude[i][lane];
+    }
+
+   private:
+    void squares(int first, const Many (&w)[3], const Many (&m)[3], const Many (&a)[4],
+                 Many (&square)[3]) const noexcept;
   };
 
   /// Nothing is known of any lane until set.
@@ -78,11 +93,20 @@ class MotionLanes {
 
   /// The same motion in all lanes; nothing where it is not tame.
   static std::optional<MotionLanes> of(const Motion<double>& motion) noexcept;
+  /// The motion of a tame lane in all lanes, for at and look alone.
+  MotionLanes spread(int b) const noexcept;
 
   /// States, and what Motion tells of them: cancellation, rate_terms, and what defect is without the start, not over `fastest`.
   struct Looks {
     States states;
     alignas(64) Row cancellation, rate_terms, defect;
+
+    /// The greatest of eight times of one motion: |omega|, rad/s; |M x omega|, N m; |J^-1 (M x omega)|, rad/s^2; |omega - pace M|, rad/s; and of the
+    /// rows above.
+    struct Extent {
+      double angular_velocity, flow, acceleration, relative, cancellation, rate_terms, defect;
+    };
+    Extent extent(const Mat3<double>& inverse_inertia, double pace) const noexcept;
   };
   Looks look(const Row& t) const noexcept {
     Looks seen;
@@ -103,9 +127,10 @@ class MotionLanes {
  private:
   static constexpr int powers = 8;  ///< of E, enough for every nome below exp(-pi)
 
-  unsigned make(int first) noexcept;
-  void at(int first, const Many& t, States& to) const noexcept;
-  void look(int first, const Many& t, Looks& to) const noexcept;
+  // compiled once each, so that all callers get the same bits
+  GYROSTAT_NOINLINE inline unsigned make(int first) noexcept;
+  GYROSTAT_NOINLINE inline void at(int first, const Many& t, States& to) const noexcept;
+  GYROSTAT_NOINLINE inline void look(int first, const Many& t, Looks& to) const noexcept;
 
   struct C {
     Many re, im;
@@ -148,7 +173,7 @@ class MotionLanes {
   alignas(64) Row lay_[4];
 };
 
-inline unsigned MotionLanes::make(int first) noexcept {
+unsigned MotionLanes::make(int first) noexcept {
   const auto row = [first](const Row& r) { return Many::from(r + first); };
   detail::ManyBodies body;
   for (int i = 0; i < 3; ++i)
@@ -330,23 +355,29 @@ GYROSTAT_INLINE void MotionLanes::assemble(int first, const C& a, const C& b, co
   (length * (lw * z + lx * y - ly * x + lz * w)).to(to.attitude[3] + first);
 }
 
+/// Squares of how far states are from others: rates, momentum, and twice the vector part of a^-1 b of the attitudes.
+GYROSTAT_INLINE void MotionLanes::States::squares(int first, const Many (&w)[3], const Many (&m)[3], const Many (&a)[4],
+                                                  Many (&square)[3]) const noexcept {
+  const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+  square[0] = square[1] = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Many v = row(angular_velocity[i]) - w[i], n = row(angular_momentum[i]) - m[i];
+    square[0] += v * v, square[1] += n * n;
+  }
+  const Many b[4] = {row(attitude[0]), row(attitude[1]), row(attitude[2]), row(attitude[3])};
+  const Many p = a[0] * b[1] - a[1] * b[0] - a[2] * b[3] + a[3] * b[2],
+             q = a[0] * b[2] + a[1] * b[3] - a[2] * b[0] - a[3] * b[1],
+             r = a[0] * b[3] - a[1] * b[2] + a[2] * b[1] - a[3] * b[0];
+  square[2] = 4 * (p * p + q * q + r * r);
+}
+
 inline MotionLanes::States::Apart MotionLanes::States::apart(const State<double>& from) const noexcept {
-  Many far[3] = {0., 0., 0.};
+  const Vec3<double>&w = from.angular_velocity, &m = from.angular_momentum;
+  const Quat<double>& q = from.attitude;
+  Many far[3] = {0., 0., 0.}, square[3];
   for (int first = 0; first < size; first += Many::size) {
-    const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
-    Many velocity = 0, momentum = 0;
-    for (int i = 0; i < 3; ++i) {
-      const Many v = row(angular_velocity[i]) - from.angular_velocity[i],
-                 m = row(angular_momentum[i]) - from.angular_momentum[i];
-      velocity += v * v, momentum += m * m;
-    }
-    const Quat<double>& a = from.attitude;  // twice the vector part of a^-1 b
-    const Many w = row(attitude[0]), x = row(attitude[1]), y = row(attitude[2]), z = row(attitude[3]);
-    const Many p = a.w * x - a.x * w - a.y * z + a.z * y, q = a.w * y + a.x * z - a.y * w - a.z * x,
-               r = a.w * z - a.x * y + a.y * x - a.z * w;
-    far[0] = math::max(velocity, far[0]);
-    far[1] = math::max(momentum, far[1]);
-    far[2] = math::max(4 * (p * p + q * q + r * r), far[2]);
+    squares(first, {w[0], w[1], w[2]}, {m[0], m[1], m[2]}, {q.w, q.x, q.y, q.z}, square);
+    for (int n = 0; n < 3; ++n) far[n] = math::max(square[n], far[n]);
   }
   double most[3] = {0, 0, 0};
   for (int n = 0; n < 3; ++n)
@@ -354,14 +385,26 @@ inline MotionLanes::States::Apart MotionLanes::States::apart(const State<double>
   return {std::sqrt(most[0]), std::sqrt(most[1]), std::sqrt(most[2])};
 }
 
-inline void MotionLanes::at(int first, const Many& t, States& to) const noexcept {
+inline void MotionLanes::States::widen(const States& from, Row (&far)[3]) const noexcept {
+  for (int first = 0; first < size; first += Many::size) {
+    const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+    const auto &w = from.angular_velocity, &m = from.angular_momentum;
+    const auto& q = from.attitude;
+    Many square[3];
+    squares(first, {row(w[0]), row(w[1]), row(w[2])}, {row(m[0]), row(m[1]), row(m[2])},
+            {row(q[0]), row(q[1]), row(q[2]), row(q[3])}, square);
+    for (int n = 0; n < 3; ++n) math::max(square[n], row(far[n])).to(far[n] + first);
+  }
+}
+
+void MotionLanes::at(int first, const Many& t, States& to) const noexcept {
   const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
   const auto phase = math::circle(fraction(row(phase_rate_), t, 0.));
   const Sums s = sums<false>(first, math::circle(fraction(row(rate_), t, row(start_))));
   assemble(first, s.even, s.odd, {phase.c, phase.s}, to);
 }
 
-inline void MotionLanes::look(int first, const Many& t, Looks& to) const noexcept {
+void MotionLanes::look(int first, const Many& t, Looks& to) const noexcept {
   const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
   const auto phase = math::circle(fraction(row(phase_rate_), t, 0.));
   const Sums s = sums<true>(first, math::circle(fraction(row(rate_), t, row(start_))));
@@ -405,6 +448,53 @@ inline void MotionLanes::look(int first, const Many& t, Looks& to) const noexcep
     of_momentum += flow * flow, of_attitude += turning * turning;
   }
   math::sqrt(math::max(of_momentum, of_attitude)).to(to.defect + first);
+}
+
+inline MotionLanes::Looks::Extent MotionLanes::Looks::extent(const Mat3<double>& inverse, double pace) const noexcept {
+  Many most[7] = {0., 0., 0., 0., 0., 0., 0.};
+  for (int first = 0; first < size; first += Many::size) {
+    const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
+    const auto square = [](const Many(&v)[3])
+                            GYROSTAT_INLINE_LAMBDA { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
+    Many omega[3], M[3], flow[3], relative[3], turned[3];
+    for (int i = 0; i < 3; ++i) omega[i] = row(states.angular_velocity[i]), M[i] = row(states.angular_momentum[i]);
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      flow[i] = M[j] * omega[k] - M[k] * omega[j];
+      relative[i] = omega[i] - pace * M[i];
+    }
+    for (int i = 0; i < 3; ++i) turned[i] = inverse(i, 0) * flow[0] + inverse(i, 1) * flow[1] + inverse(i, 2) * flow[2];
+    const Many seen[7] = {square(omega),     square(flow),    square(turned), square(relative),
+                          row(cancellation), row(rate_terms), row(defect)};
+    for (int n = 0; n < 7; ++n) most[n] = math::max(most[n], seen[n]);
+  }
+  double greatest[7] = {};
+  for (int n = 0; n < 7; ++n)
+    for (int i = 0; i < Many::size; ++i) greatest[n] = std::max(greatest[n], most[n][i]);
+  return {std::sqrt(greatest[0]),
+          std::sqrt(greatest[1]),
+          std::sqrt(greatest[2]),
+          std::sqrt(greatest[3]),
+          greatest[4],
+          greatest[5],
+          greatest[6]};
+}
+
+inline MotionLanes MotionLanes::spread(int b) const noexcept {
+  MotionLanes lanes;
+  const auto put = [b](Row& to, const Row& from) {
+    for (int first = 0; first < size; first += Many::size) Many(from[b]).to(to + first);
+  };
+  put(lanes.rate_, rate_), put(lanes.start_, start_), put(lanes.phase_rate_, phase_rate_), put(lanes.norm_, norm_);
+  for (int m = 0; m <= powers; ++m) put(lanes.x_[m], x_[m]), put(lanes.y_[m], y_[m]);
+  for (int k = 0; k < 4; ++k)
+    for (int n = 0; n < 7; ++n) put(lanes.forms_[k][n], forms_[k][n]);
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j)
+      for (int part = 0; part < 2; ++part) put(lanes.spinor_[i][j][part], spinor_[i][j][part]);
+  for (int i = 0; i < 4; ++i) put(lanes.lay_[i], lay_[i]);
+  lanes.tame_ = (1u << size) - 1;
+  return lanes;
 }
 
 inline std::optional<MotionLanes> MotionLanes::of(const Motion<double>& motion) noexcept {
