@@ -303,6 +303,17 @@ TEST_CASE("a start off the source is resolved, and the step grows again") {
   CHECK(std::abs(solver.state()[2] - 0.3) < 0.1);
 }
 
+TEST_CASE("less pace: a shorter first step") {
+  using System = Follower<double>;
+  auto options = watching<System>(1e10, 1e10);
+  ode::Radau<System> whole(System(1e8), 0, {1, 0, .3}, options);
+  options.pace = .5;
+  ode::Radau<System> half(System(1e8), 0, {1, 0, .3}, options);
+  REQUIRE(whole.step() == Status::reached);
+  REQUIRE(half.step() == Status::reached);
+  CHECK(half.time() == Approx(whole.time() / 2));
+}
+
 TEST_CASE("the last coefficients tell the error inside each step") {
   using System = Follower<double>;
   for (const double rate : {30.0, 1e3, 1e5}) {
