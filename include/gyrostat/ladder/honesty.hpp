@@ -26,6 +26,9 @@ inline constexpr double rounding_below = 1 << 20;
 /// err alike there, where a jump of the data sets the steps of both.
 inline constexpr double margin_between = 2;
 
+/// Collocation: the pace of a companion (RadauOptions::pace). Ends of steps err as the sixteenth power of the length, inside as the ninth.
+inline constexpr double companion_pace = 0.7;
+
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;
 

@@ -143,8 +143,9 @@ struct RadauOptions {
   /// Roundings of p in the values at the stages, which its coefficients show and no shorter step would lessen: so much of them is left out.
   Scalar blur = 0;
   Scalar first_step = 0;  ///< 0: chosen from the rates at the start
-  Scalar first_share =
-      1;  ///< the share of such a first step that is taken: runs that are to be compared must not begin alike
+  /// Part that is taken of the first step and of those that the sweeps allow. For a run beside another: where these and not the tolerance limit the
+  /// steps, both would take the same and err alike.
+  Scalar pace = 1;
   std::uint64_t step_cap = 100'000'000;
   bool projected = true;  ///< project after every step, where the system can
 };
@@ -475,7 +476,7 @@ auto Radau<System>::first_step() noexcept -> Scalar {
   Scalar greatest = 0;
   for (int c = 0; c < width; ++c) greatest += std::abs(rate[c][0]) * weight_[c];
   if (!(greatest < infinity<Scalar>)) return nan<Scalar>;
-  return options_.first_share * (greatest > 0 ? Scalar(0.1L) / greatest : Scalar(1));
+  return options_.pace * (greatest > 0 ? Scalar(0.1L) / greatest : Scalar(1));
 }
 
 template <RelaxingSystem System>
@@ -501,7 +502,8 @@ GYROSTAT_INLINE auto Radau<System>::judge(Scalar h, Scalar tolerance, Scalar mos
 
   const float by_end = end > 0 ? std::log2(static_cast<float>(tolerance / end)) / 16 : 3.0F;
   const float by_inside = inside > 0 ? std::log2(static_cast<float>(most_inside / inside)) / 9 : 3.0F;
-  const float by_sweeps = contraction_ > 0 ? std::log2(static_cast<float>(Scalar(0.25L) / contraction_)) : 3.0F;
+  const float by_sweeps =
+      contraction_ > 0 ? std::log2(static_cast<float>(options_.pace * Scalar(0.25L) / contraction_)) : 3.0F;
   const float by = std::min({by_end - 0.2F, by_inside - 0.25F, by_sweeps, 2.0F});
   return {static_cast<Scalar>(std::exp2(std::max(by, -4.0F))), !(end > tolerance || inside > most_inside)};
 }

@@ -319,6 +319,24 @@ TEST_CASE("a stiff motor is handed to collocation", "[rotor]") {
   CHECK(solve<double>(soft.body, soft.start(), {5.0}, 1e-9, Integrator::radau).answer.used == Integrator::radau);
 }
 
+TEST_CASE("collocation: a companion does not step as the answer does where the tolerance does not limit the steps",
+          "[rotor]") {
+  Mat3<double> theta;
+  theta << 0.8935674446483661, -0.3427251901010436, -0.12114096383804812,  //
+      -0.3427251901010436, 1.255184112635051, 0.2992328181370981,          //
+      -0.12114096383804812, 0.2992328181370981, 1.2121625626274404;
+  const Vec3<double> axis(-0.28596772775766144, -0.6656321527895841, -0.6893158172085011);
+  const auto body =
+      Gyrostat<double>::make(theta, axis, 0.00020077011038276873, 0.0007430126427142202, -2.432718726467986);
+  REQUIRE(body);
+  Motion<double> motion{*body, {1, 0, 0, 1}, {-0.007770283648871459, -0.0052502992823221925, 0.0011844191881189023}, 0};
+  for (const double end : {15., 20., 27.357167214063523, 40.})
+    for (const double tolerance : {1e-6, 1e-8, 1e-9, 1e-10}) {
+      CAPTURE(end, tolerance);
+      check_honest(motion, grid(end, 11), tolerance, Integrator::radau);
+    }
+}
+
 TEMPLATE_TEST_CASE("every precision meets its own tolerance", "[rotor]", float, double, long double) {
   using S = TestType;
   Mat3<S> theta;

@@ -180,7 +180,7 @@ struct Collocation {
     typename Solver::Options made;
     made.tolerance = tolerance, made.inside = inside, made.step_cap = step_cap;
     made.blur = 4;
-    made.first_share = share;
+    made.pace = share < 1 ? Scalar(honesty::companion_pace) : Scalar(1);
     return made;
   }
 };

@@ -77,14 +77,14 @@ class Course {
   using Collocation = ode::Radau<RelaxingRotor<Scalar>>;
 
  public:
-  /// inside: what collocation may err between its steps.
+  /// inside: what collocation may err between its steps. pace: RadauOptions::pace.
   Course(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start, Scalar layer, Scalar tolerance, Scalar inside,
-         Scalar share, std::uint64_t step_cap) noexcept
+         std::uint64_t step_cap, Scalar pace) noexcept
       : layer_(layer),
         full_(gyrostat, start),
         relaxing_(gyrostat, start),
         series_(full_, 0, full_.start(), series_options(full_, tolerance, step_cap)),
-        collocation_options_(collocation_options(gyrostat, start, tolerance, inside, share, step_cap)),
+        collocation_options_(collocation_options(gyrostat, start, tolerance, inside, step_cap, pace)),
         collocation_(relaxing_, 0, relaxing_.components(start), collocation_options_),
         collocates_(!(layer > 0)) {}
 
@@ -133,11 +133,11 @@ class Course {
     return options;
   }
   static auto collocation_options(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start, Scalar tolerance,
-                                  Scalar inside, Scalar share, std::uint64_t step_cap) noexcept {
+                                  Scalar inside, std::uint64_t step_cap, Scalar pace) noexcept {
     typename Collocation::Options options;
     options.tolerance = tolerance;
     options.inside = inside;
-    options.first_share = share;
+    options.pace = pace;
     options.scale = RelaxingRotor<Scalar>::scale(gyrostat, start);
     options.step_cap = step_cap;
     return options;
@@ -248,12 +248,12 @@ class FullMotion {
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     answer.used = layer_ < times_.back() ? Integrator::radau : Integrator::taylor;
-    Course<Scalar> course(gyrostat_, start_, layer_, step_tolerance, inside, 1, options_.step_cap);
+    Course<Scalar> course(gyrostat_, start_, layer_, step_tolerance, inside, options_.step_cap, Scalar(1));
     const Scalar change = data_change(step_tolerance, gyrostat_.condition());
     const auto beside = [&](int which) noexcept {
       const Neighbour<Scalar> neighbour(gyrostat_, start_, change, which);
       return Course<Scalar>(neighbour.gyrostat, neighbour.start, layer_, companion_step(step_tolerance),
-                            companion_step(inside), 1 / Scalar(2 + which), options_.step_cap);
+                            companion_step(inside), options_.step_cap, Scalar(honesty::companion_pace));
     };
     Course<Scalar> companion = beside(0);
     std::optional<Course<Scalar>> second;
