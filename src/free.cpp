@@ -3,3 +3,24 @@
 
 // for who steps the equations without the ladder
 template class gyrostat::ode::Taylor<gyrostat::free::FullSystem<double>>;
+
+namespace gyrostat::free {
+
+template Result<Motion<double>> Motion<double>::make<double>(const Problem<double>&) noexcept;
+template Result<Motion<double>> Motion<double>::make<DoubleDouble>(const Problem<DoubleDouble>&) noexcept;
+template double Motion<double>::defect(double, double) const noexcept;
+template void Motion<double>::grid(double, double, std::size_t, double*, double*, double*) const noexcept;
+
+template MotionError<double> MotionError<double>::of<DoubleDouble>(const Motion<double>&,
+                                                                   const Assembly<double, Unbounded>&, Data,
+                                                                   double) noexcept;
+template std::optional<MotionError<double>> MotionError<double>::quick<math::many_pays>(
+    const Motion<double>&, const Assembly<double, Unbounded>&, double) noexcept;
+template MotionError<double>::Bound MotionError<double>::at(double) const noexcept;
+
+template Result<Reduced<double>> Reduced<double>::of<double>(const Assembly<double>&, UnsoundWheel<double>*) noexcept;
+template Reduced<double> Reduced<double>::taken<double>(const Assembly<double>&) noexcept;
+template Reduced<DoubleDouble> Reduced<DoubleDouble>::taken<double>(const Assembly<double>&) noexcept;
+template Reduced<DoubleDouble> Reduced<DoubleDouble>::taken<DoubleDouble>(const Assembly<DoubleDouble>&) noexcept;
+
+}  // namespace gyrostat::free
