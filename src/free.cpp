@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/free/closed_form_rung_definition.hpp"
+#include "gyrostat/ladder/free/full_rung_definition.hpp"
 #include "gyrostat/ladder/free/solve_definition.hpp"
+#include "gyrostat/ladder/free/track_definition.hpp"
 
 // for who steps the equations without the ladder
 template class gyrostat::ode::Taylor<gyrostat::free::FullSystem<double>>;
