@@ -9,6 +9,9 @@ template class gyrostat::ode::Taylor<gyrostat::free::FullSystem<double>>;
 
 namespace gyrostat::free {
 
+template void FullSystem<double>::expand<20>(double, double, double (&)[21][FullSystem<double>::width],
+                                             FullSystem<double>::Work<20>&) const noexcept;
+
 template Result<Motion<double>> Motion<double>::make<double>(const Problem<double>&) noexcept;
 template Result<Motion<double>> Motion<double>::make<DoubleDouble>(const Problem<DoubleDouble>&) noexcept;
 template double Motion<double>::defect(double, double) const noexcept;

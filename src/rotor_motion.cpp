@@ -3,6 +3,9 @@
 
 namespace gyrostat::rotor {
 
+template void FullSystem<double>::expand<20>(double, double, double (&)[21][FullSystem<double>::width],
+                                             FullSystem<double>::Work<20>&) const noexcept;
+
 template Result<FullMotionAnswer<double>> full_motion<double>(const Gyrostat<double>&, const State<double>&,
                                                               std::span<const double>, std::span<State<double>>,
                                                               const FullMotionOptions<double>&) noexcept;
