@@ -7,6 +7,7 @@
 #include "gyrostat/ladder/deceleration/hand_over_definition.hpp"
 #include "gyrostat/ladder/deceleration/orbit_kind_definition.hpp"
 #include "gyrostat/ladder/deceleration/orbit_rung_definition.hpp"
+#include "gyrostat/ladder/deceleration/scene_definition.hpp"
 #include "gyrostat/ladder/deceleration/solve_definition.hpp"
 #include "gyrostat/ladder/deceleration/track_definition.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/free/closed_form_rung_definition.hpp"
 #include "gyrostat/ladder/free/full_rung_definition.hpp"
+#include "gyrostat/ladder/free/scene_definition.hpp"
 #include "gyrostat/ladder/free/solve_definition.hpp"
 #include "gyrostat/ladder/free/track_definition.hpp"
 

@@ -3,5 +3,6 @@
 #include "gyrostat/ladder/spinning/linear_rung_definition.hpp"
 #include "gyrostat/ladder/spinning/picard_rung_definition.hpp"
 #include "gyrostat/ladder/spinning/second_order_rung_definition.hpp"
+#include "gyrostat/ladder/spinning/scene_definition.hpp"
 #include "gyrostat/ladder/spinning/solve_definition.hpp"
 #include "gyrostat/ladder/spinning/track_definition.hpp"

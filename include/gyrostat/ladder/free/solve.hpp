@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gyrostat/core/linkage.hpp"
-#include "gyrostat/ladder/free/track.hpp"
+#include "gyrostat/ladder/free/scene.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/rung.hpp"
 
