@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include "gyrostat/ladder/free/closed_form_rung.hpp"
 #include "gyrostat/ladder/free/cost.hpp"

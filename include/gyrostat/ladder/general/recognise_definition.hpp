@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "gyrostat/ladder/general/recognise.hpp"
 

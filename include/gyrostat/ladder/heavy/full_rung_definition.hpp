@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include "gyrostat/ladder/heavy/full_rung.hpp"
 
 namespace gyrostat::heavy {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/goal.hpp"
