@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/deceleration/full_motion.hpp"
+#include "gyrostat/models/deceleration/orbit.hpp"
 
 namespace gyrostat::deceleration {
 
+template class Orbit<double, math::Native>;
 template void FullSystem<double, true, true>::expand<20>(double, double,
                                                          double (&)[21][FullSystem<double, true, true>::width],
                                                          FullSystem<double, true, true>::Work<20>&) const noexcept;
