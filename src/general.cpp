@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/general/custom_rung_definition.hpp"
+#include "gyrostat/ladder/general/full_rung_definition.hpp"
+#include "gyrostat/ladder/general/instances_definition.hpp"
 #include "gyrostat/ladder/general/propagator_definition.hpp"
+#include "gyrostat/ladder/general/recognise_definition.hpp"
 #include "gyrostat/ladder/general/scene_definition.hpp"
+#include "gyrostat/ladder/general/segments_rung_definition.hpp"
 #include "gyrostat/ladder/general/solve_definition.hpp"
+#include "gyrostat/ladder/general/special_rung_definition.hpp"
+#include "gyrostat/ladder/general/start_error_definition.hpp"
+#include "gyrostat/ladder/general/track_definition.hpp"

@@ -3,6 +3,13 @@
 
 namespace gyrostat::general {
 
+template Load<double> load_at<double>(const Problem<double>&, const Pose<double>&, double, double) noexcept;
+
+template void FullSystem<double, true>::expand<20>(double, double, double (&)[21][FullSystem<double, true>::width],
+                                                   FullSystem<double, true>::Work<20>&) const noexcept;
+template void FullSystem<double, false>::expand<20>(double, double, double (&)[21][FullSystem<double, false>::width],
+                                                    FullSystem<double, false>::Work<20>&) const noexcept;
+
 template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
                                                               std::span<State<double>>,
                                                               const FullMotionOptions<double>&) noexcept;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/deceleration/hand_over.hpp"
 #include "gyrostat/ladder/deceleration/orbit_kind.hpp"
 
@@ -25,19 +26,11 @@ inline constexpr double mean_gain = 10, stop_gain = 100;
 namespace detail {
 
 /// Why no averaged rung answers the scene, or nullptr.
-inline const char* not_averaged(const Scene& scene) noexcept {
-  if (scene.sphere()) return "a sphere has no fast polhode to average over";
-  if (!(scene.problem().momentum.norm() > 0)) return "the body is at rest at the start";
-  return nullptr;
-}
+GYROSTAT_COMPILED_ONCE const char* not_averaged(const Scene& scene) noexcept;
 
 /// What averaging does not like at the start. mu: relative change of M in one radian; gap: between the two moments that are nearest
 /// each other, over the widest, and from where on it is narrow; kp2: of the first orbit.
-inline void warn_of_start(Track& track, double mu, double gap, double narrow, double kp2) {
-  if (mu > 0.1) track.warn(warning::not_slow, mu);
-  if (gap < narrow) track.warn(warning::near_symmetric, gap);
-  if (kp2 < std::max(1e-2, 10 * mu)) track.warn(warning::near_separatrix, kp2);
-}
+GYROSTAT_COMPILED_ONCE void warn_of_start(Track& track, double mu, double gap, double narrow, double kp2);
 
 /// The gap between the two principal axes that are nearest each other, over that of the outer two.
 inline double symmetry_gap(const Problem<double>& problem) noexcept {
@@ -46,11 +39,7 @@ inline double symmetry_gap(const Problem<double>& problem) noexcept {
 }
 
 /// The slow columns' errors.
-inline void state_errors(Track& track, const SlowError<double>& error) noexcept {
-  track.error[column::angular_momentum_norm] = error.norm;
-  track.error[column::energy] = error.energy;
-  track.error[column::modulus_squared] = error.k2;
-}
+GYROSTAT_COMPILED_ONCE void state_errors(Track& track, const SlowError<double>& error) noexcept;
 
 /// Why a mean motion cannot be followed on; ok where it was.
 struct Halt {
@@ -58,13 +47,7 @@ struct Halt {
   const char* why = nullptr;
 };
 
-inline Halt not_followed(Errc failure) noexcept {
-  if (failure == Errc::undetermined)
-    return {failure, "the motion is captured into one of two lobes, and averaging does not tell which"};
-  if (failure == Errc::separatrix) return {failure, "the motion comes to a separatrix"};
-  if (failure == Errc::step_limit) return {failure, "the mean equations need too many steps"};
-  return {failure, "the mean equations could not be integrated"};
-}
+GYROSTAT_COMPILED_ONCE Halt not_followed(Errc failure) noexcept;
 
 inline Track refused(const Halt& halt) { return gyrostat::refused<Track>(halt.code, halt.why); }
 
@@ -133,3 +116,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
 }
 
 }  // namespace gyrostat::deceleration
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/deceleration/averaging_definition.hpp"
+#endif

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/deceleration/averaging.hpp"
 #include "gyrostat/ladder/deceleration/orbit_kind.hpp"
 #include "gyrostat/ladder/deceleration/orbit_motion.hpp"
@@ -123,36 +124,14 @@ class OrbitError {
 namespace detail {
 
 /// |U| below which a turn of the body takes as long as the rest of the braking by a torque [N m], N m s.
-inline double orbit_breakdown(const Problem<double>& problem, double torque) noexcept {
-  const double turn = problem.gyro_rate().norm();
-  const double free = breakdown_momentum(problem, torque);
-  return turn > 0 ? std::min(free, torque / turn) : free;
-}
+GYROSTAT_COMPILED_ONCE double orbit_breakdown(const Problem<double>& problem, double torque) noexcept;
 
-inline State<double> slow_state(const Problem<double>& problem, const Level<double>& level, Component component,
-                                bool at_rest) {
-  State<double> state;
-  if (at_rest) {
-    state.norm = problem.law == Law::total ? 0.0 : problem.rotor_momentum.norm();
-    state.energy = problem.law == Law::total ? problem.rotor_energy_scale() / 2 : 0.0;
-    return state;
-  }
-  const auto orbit = Orbit<double>::at(problem, level, component);
-  state.norm = level.R;
-  state.energy = std::max(0.0, energy_of(problem, level));
-  state.k2 = orbit ? orbit->modulus().k2 : nan<double>;
-  state.regime = orbit ? orbit->regime() : component.regime;
-  return state;
-}
+GYROSTAT_COMPILED_ONCE State<double> slow_state(const Problem<double>& problem, const Level<double>& level,
+                                                Component component, bool at_rest);
 
 /// How far the modulus of a state can be off when |M| and the energy are, N m s and J.
-inline double k2_beside(const Problem<double>& problem, const State<double>& state, double norm,
-                        double energy) noexcept {
-  if (!(state.norm > 0) || state.regime == Regime::rest || state.regime == Regime::point) return 0;
-  const Level<double> level{state.norm, (state.energy - problem.rotor_energy_scale() / 2) / state.norm};
-  return k2_of_level(problem, level, {state.regime, state.k2}, norm,
-                     (energy + std::abs(level.eta) * norm) / state.norm);
-}
+GYROSTAT_COMPILED_ONCE double k2_beside(const Problem<double>& problem, const State<double>& state, double norm,
+                                        double energy) noexcept;
 
 /// Two moments nearer each other than this gap: the body librates slowly.
 inline constexpr double narrow_gap = 1e-3;
@@ -169,17 +148,8 @@ struct Impasse {
 };
 
 /// From one component a motion that nears a separatrix is captured into one of two lobes.
-inline Impasse impasse(const Problem<double>& problem, const Level<double>& level, Component component, Errc failure) {
-  if (failure == Errc::step_limit || component.regime != Regime::one_component) return {failure};
-  const auto band = band_of(problem, level);
-  if (!band || !(band->separatrix_distance() < 1e-4)) return {failure};
-  const bool below = band->below.kind == Critical::saddle &&
-                     !(band->above.kind == Critical::saddle && band->to_above < band->to_below);
-  const auto next = capture(problem, level.R, below ? band->below.lobes : band->above.lobes, component);
-  if (!next) return {next.error() == Errc::undetermined ? Errc::separatrix : failure};
-  if (next->determined()) return {Errc::separatrix};
-  return {Errc::undetermined, std::max({next->plus, next->minus, next->outside})};
-}
+GYROSTAT_COMPILED_ONCE Impasse impasse(const Problem<double>& problem, const Level<double>& level, Component component,
+                                       Errc failure);
 
 template <class Motion>
 Impasse impasse(const Problem<double>& problem, const Motion& motion) {
@@ -334,3 +304,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
 }
 
 }  // namespace gyrostat::deceleration
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/deceleration/orbit_rung_definition.hpp"
+#endif

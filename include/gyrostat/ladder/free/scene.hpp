@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "gyrostat/core/double_double.hpp"
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/free/motion.hpp"
 #include "gyrostat/ladder/goal.hpp"
@@ -27,18 +28,8 @@ class Scene {
   Scene() = default;
 
   /// What Reduced::of and check_times find; `unsound` tells which wheel is.
-  static Result<Scene> make(const Assembly<double>& assembly, const Question& question,
-                            UnsoundWheel<double>* unsound = nullptr) {
-    if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
-    const auto sound = Reduced<double>::of(assembly, unsound);
-    if (!sound) return sound.error();
-    Scene scene;
-    scene.assembly_ = assembly;
-    scene.gyrostat_ = *sound;
-    scene.principal_ = PrincipalProblem<double>::of(sound->problem);
-    scene.question_ = question;
-    return scene;
-  }
+  GYROSTAT_COMPILED_ONCE static Result<Scene> make(const Assembly<double>& assembly, const Question& question,
+                                                   UnsoundWheel<double>* unsound = nullptr);
 
   /// The same motion, asked otherwise; `question` must be one that make would take.
   Scene asked(const Question& question) const {
@@ -65,11 +56,7 @@ class Scene {
   std::size_t wheels() const noexcept { return gyrostat_.wheels.size(); }
 
   /// What moves at t = 0: omega, rad/s, and M, N m s.
-  Vec3<double> angular_velocity() const noexcept {
-    const auto& p = gyrostat_.problem;
-    return p.momentum_given ? Vec3<double>(p.inertia.inverse() * (p.angular_momentum - p.rotor_momentum))
-                            : p.angular_velocity;
-  }
+  GYROSTAT_COMPILED_ONCE Vec3<double> angular_velocity() const noexcept;
   Vec3<double> angular_momentum() const noexcept { return gyrostat_.problem.momentum(); }
 
   /// The scales of the columns, in their units.
@@ -103,3 +90,7 @@ class Scene {
 };
 
 }  // namespace gyrostat::free
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/free/scene_definition.hpp"
+#endif

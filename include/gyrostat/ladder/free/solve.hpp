@@ -5,7 +5,7 @@
 #include <span>
 
 #include "gyrostat/core/linkage.hpp"
-#include "gyrostat/ladder/free/track.hpp"
+#include "gyrostat/ladder/free/scene.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/rung.hpp"
 #include "gyrostat/models/free/quick_lanes.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "gyrostat/ladder/free/closed_form_rung.hpp"
 #include "gyrostat/ladder/free/cost.hpp"

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <utility>
 #include <vector>
 
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/general/special_rung.hpp"
 #include "gyrostat/ladder/general/start_error.hpp"
 #include "gyrostat/ladder/goal.hpp"
@@ -38,128 +37,20 @@ namespace detail {
 using gyrostat::detail::Candidate;
 using gyrostat::detail::enlist;
 
-/// What a table says from a time to its next one; nothing where it changes.
-inline std::optional<double> steady_value(const Table<double>& table, std::size_t width, std::size_t column,
-                                          double from) noexcept {
-  const auto law = piece(table, width, column, from);
-  return law.is_constant() ? std::optional(law.c[0]) : std::nullopt;
-}
-
-/// A torque on a segment that holds `inside`; one without type and size where it does not act, nothing where it is not steady there.
-inline std::optional<std::optional<Torque<double>>> steady_torque(const Problem<double>& of,
-                                                                  const Torque<double>& torque, double inside) {
-  Factor<double> gate;
-  gate.on = torque.factor.on;
-  if (factor_at(gate, inside, inside) == 0) return std::optional<Torque<double>>{};
-  double factor = torque.factor.mean;
-  if (torque.factor.amplitude != 0) return std::nullopt;
-  if (!torque.factor.table.times.empty()) {
-    const auto value = steady_value(torque.factor.table, 1, 0, inside);
-    if (!value) return std::nullopt;
-    factor *= *value;
-  }
-  const bool orbits = torque.axes == Axes::orbit || (torque.type == TorqueType::gravity_gradient && !torque.gradient);
-  const bool moves = (torque.type == TorqueType::magnetic || torque.type == TorqueType::eddy_current) &&
-                     of.field.magnetic != MagneticField::uniform;
-  if (orbits || moves || torque.type == TorqueType::brake) return std::nullopt;
-  Torque<double> made = torque;
-  made.factor = {};
-  made.factor.mean = factor;
-  if (torque.type == TorqueType::table) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto value = steady_value(torque.table, 3, i, inside);
-      if (!value) return std::nullopt;
-      made.vector[int(i)] = *value;
-    }
-    made.type = TorqueType::constant;
-    made.table = {};
-  }
-  if (factor == 0 || (made.type == TorqueType::constant && made.vector.isZero(0)))
-    return std::optional<Torque<double>>{};
-  return std::optional(made);
-}
-
-/// Nothing where a law is not steady from `from` to `to`.
-inline std::optional<Problem<double>> steady_problem(const Problem<double>& of, double from, double to) {
-  const double inside = from + (to - from) / 2;
-  Problem<double> made = of;
-  made.torques.clear();
-  for (const auto& torque : of.torques) {
-    auto steady = steady_torque(of, torque, inside);
-    if (!steady) return std::nullopt;
-    if (*steady) made.torques.push_back(std::move(**steady));
-  }
-  for (auto& wheel : made.wheels) {
-    if (wheel.table.times.empty()) continue;
-    const auto value = steady_value(wheel.table, 1, 0, inside);
-    if (!value) return std::nullopt;
-    if (wheel.type == WheelType::held) wheel.rate = *value;
-    else wheel.torque += *value;
-    wheel.table = {};
-  }
-  return made;
-}
-
 /// The segments of a motion up to `span`; none where a law is not steady within one, or nothing changes, or too often.
-inline std::vector<Segment> segments_of(const Problem<double>& problem, double span) {
-  auto edges = breakpoints(problem, span);
-  if (edges.empty() || edges.size() >= most_segments) return {};
-  edges.insert(edges.begin(), 0.0);
-  edges.push_back(span);
-  std::vector<Segment> made;
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    auto steady = steady_problem(problem, edges[i], edges[i + 1]);
-    if (!steady) return {};
-    made.push_back({edges[i], edges[i + 1], std::move(*steady)});
-  }
-  return made;
-}
+GYROSTAT_COMPILED_ONCE std::vector<Segment> segments_of(const Problem<double>& problem, double span);
 
 /// Sets the start of a segment to the end of the one before: the momentum stays, also where the rate at which a wheel is held has stepped.
-inline void begin_at(const State<double>& end, const Segment& before, Segment& next) noexcept {
-  auto& problem = next.problem;
-  problem.attitude = end.attitude;
-  problem.angular_velocity = end.angular_velocity;
-  if (!problem.fixed) problem.velocity = end.velocity, problem.position = end.position;
-  bool stepped = false;
-  for (std::size_t i = 0; i < problem.wheels.size(); ++i) {
-    auto& wheel = problem.wheels[i];
-    wheel.angle = end.rotor_angle[i];
-    if (turns_by_itself(wheel)) wheel.rate = end.rotor_rate[i];
-    else stepped = stepped || wheel.rate != before.problem.wheels[i].rate;
-  }
-  if (!stepped) return;
-  const auto wheels = Wheels<double>::of(problem);
-  problem.angular_velocity = wheels.inverse * (end.angular_momentum - wheels.momentum_of_wheels());
-  for (std::size_t i = 0; i < problem.wheels.size(); ++i)
-    if (auto& wheel = problem.wheels[i]; turns_by_itself(wheel))
-      wheel.rate = wheels.laws[i].momentum / wheel.axial_inertia - wheel.axis.dot(problem.angular_velocity);
-}
+GYROSTAT_COMPILED_ONCE void begin_at(const State<double>& end, const Segment& before, Segment& next) noexcept;
 
 /// The asked times in a segment, from `next` on, and its end, by its clock; the last of the whole is in the last one.
-inline std::vector<double> times_in(const Segment& segment, const std::vector<double>& asked, std::size_t& next) {
-  const double length = segment.to - segment.from;
-  std::vector<double> made;
-  for (; next < asked.size() && (asked[next] < segment.to || asked.back() == segment.to); ++next)
-    if (const double t = asked[next] - segment.from; made.empty() || t > made.back()) made.push_back(t);
-  if (made.empty() || made.back() < length) made.push_back(length);
-  return made;
-}
+GYROSTAT_COMPILED_ONCE std::vector<double> times_in(const Segment& segment, const std::vector<double>& asked,
+                                                    std::size_t& next);
 
 /// What is asked of a segment: all that the next one begins with, so well that what is left of it grows to a share of the tolerance: with the angle
 /// that the body turns through from there on.
-inline Question question_of(const Scene& scene, std::vector<double> times, double from, std::size_t segments) {
-  Question made;
-  made.times = std::move(times);
-  const double ahead = scene.sizes().turning * (scene.question().times.back() - from);
-  made.tolerance = std::clamp(scene.goal().tightest / double(2 * segments) / (1 + ahead), 1e-14, 0.5);
-  for (const std::size_t place :
-       {column::attitude, column::angular_velocity, column::angular_momentum, column::rotor_rate, column::rotor_angle})
-    if (scene.has_column(place)) made.asked.push_back({place});
-  if (scene.gives(column::velocity) || scene.gives(column::position))
-    made.asked.push_back({column::velocity}), made.asked.push_back({column::position});
-  return made;
-}
+GYROSTAT_COMPILED_ONCE Question question_of(const Scene& scene, std::vector<double> times, double from,
+                                            std::size_t segments);
 
 /// The rungs of families that may answer a segment, in the order of their costs.
 template <std::size_t... Place>
@@ -304,33 +195,13 @@ class SegmentedMotion {
 
 /// What the rung `segments` costs, s: every segment by its cheapest rung, with those that carry errors on; NaN: one of them is no instance of a
 /// family.
-inline double cost_of_segments(const Scene& scene) noexcept {
-  if (!scene.is_recognised() || scene.breaks() == 0 || scene.breaks() >= most_segments) return nan<double>;
-  const auto segments = detail::segments_of(scene.problem(), scene.question().times.back());
-  double sum = segments.empty() ? nan<double> : 0, displaced = 0;
-  std::size_t next = 0;
-  for (const Segment& segment : segments) {
-    auto times = detail::times_in(segment, scene.question().times, next);
-    const auto made =
-        Scene::make(segment.problem, detail::question_of(scene, std::move(times), segment.from, segments.size()));
-    const auto candidates = made ? detail::candidates_of(*made) : std::vector<detail::Candidate>{};
-    if (candidates.empty()) return nan<double>;
-    const double cost = candidates.front().cost;
-    const double ways = 3 + (detail::turns_along(segment.problem) ? 0 : 3) + double(scene.wheels().count);
-    sum += cost * (1 + displaced * ways);
-    displaced = 1;
-  }
-  return sum;
-}
+GYROSTAT_COMPILED_ONCE double cost_of_segments(const Scene& scene) noexcept;
 
 /// Rung `segments`; solve: the ladder, which answers each.
-inline Track segments_track(const Scene& scene, Monitor* monitor, detail::Solve solve) {
-  if (std::isnan(cost_of_segments(scene))) return refused<Track>(Errc::not_applicable, not_in_segments);
-  detail::SegmentedMotion motion(scene, detail::segments_of(scene.problem(), scene.question().times.back()), solve);
-  const char* why = nullptr;
-  if (const Errc wrong = motion.run(monitor, why); wrong != Errc::ok)
-    return refused<Track>(wrong, why ? why : message(wrong));
-  return motion.take();
-}
+GYROSTAT_COMPILED_ONCE Track segments_track(const Scene& scene, Monitor* monitor, detail::Solve solve);
 
 }  // namespace gyrostat::general
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/general/segments_rung_definition.hpp"
+#endif

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/models/heavy/exact.hpp"
@@ -18,47 +18,16 @@ namespace gyrostat::heavy {
 inline constexpr double conversion = 8 * epsilon<double>;
 
 /// A body whose moments are off by the rounding of the greatest; symmetric where it was. which: 0 or 1, in another direction.
-inline Problem<double> off_body(const Problem<double>& of, int which) noexcept {
-  const auto top = SymmetricTop<double>::of(of);
-  Vec3<double> inertia = of.inertia();
-  const double by = conversion * inertia.maxCoeff();
-  for (int i = 0; i < 3; ++i) {
-    const bool plus = top ? (std::abs(top->axes(i, 2)) == 1) == (which == 0) : i != which;
-    inertia[i] += plus ? by : -by;
-  }
-  const auto made =
-      Problem<double>::make(inertia, of.mass(), of.centre_of_mass() * (1 + conversion), of.gravity(), of.gradient());
-  return made ? *made : of;
-}
+GYROSTAT_COMPILED_ONCE Problem<double> off_body(const Problem<double>& of, int which) noexcept;
 
 /// Two principal moments of a tensor agree so nearly that its rounding turns their axes by more than a millionth.
-inline bool axes_undecided(const Problem<double>& of) noexcept {
-  const Vec3<double>& I = of.inertia();
-  const double gap = std::min({std::abs(I[0] - I[1]), std::abs(I[1] - I[2]), std::abs(I[2] - I[0])});
-  return gap < 1e6 * conversion * I.maxCoeff();
-}
+GYROSTAT_COMPILED_ONCE bool axes_undecided(const Problem<double>& of) noexcept;
 inline constexpr const char* undecided_axes =
     "two principal moments of the tensor agree but for rounding, which turns their axes: a series about one of them "
     "means nothing";
 
 /// A start off by as much, all components of it; of a pendulum about the axis k (k >= 0) in its plane.
-inline State<double> off_start(const State<double>& of, int which, int k) noexcept {
-  const Vec3<double> direction = which == 0 ? Vec3<double>(0.6, -0.64, 0.48) : Vec3<double>(-0.48, 0.6, 0.64);
-  const double turn = which == 0 ? conversion : -conversion;
-  State<double> made = of;
-  Vec3<double> by = conversion * direction;
-  if (k >= 0) {
-    made.angular_velocity[k] *= 1 + turn;
-    by = turn * Vec3<double>::Unit(k);
-  } else {
-    made.angular_velocity +=
-        conversion * of.angular_velocity.norm() * Vec3<double>(direction[1], direction[2], direction[0]);
-  }
-  made.attitude = normalised(of.attitude * Quat<double>{1, by[0] / 2, by[1] / 2, by[2] / 2});
-  made.down = (of.down - cross<double>(by, of.down)).normalized();
-  if (k >= 0) made.down[k] = of.down[k];
-  return made;
-}
+GYROSTAT_COMPILED_ONCE State<double> off_start(const State<double>& of, int which, int k) noexcept;
 
 /// Error of an exact motion up to a time, s, with that of conversions: the distance to the exact motions of two bodies and starts that
 /// are off by what they err, these motions' own errors, and what keeps them from being exact: a top that is not quite symmetric, a pendulum
@@ -95,3 +64,7 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
 }
 
 }  // namespace gyrostat::heavy
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/heavy/conversion_error_definition.hpp"
+#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/heavy/conversion_error.hpp"
 #include "gyrostat/ladder/heavy/track.hpp"
 #include "gyrostat/models/heavy/exact.hpp"
@@ -12,95 +11,18 @@
 namespace gyrostat::heavy {
 
 /// Of the fast periodic motion that the scene asks for, known exactly.
-inline Periodicity periodicity_of(const Scene& scene, const State<double>& start, const Exact<double>& exact) {
-  const auto& [spin, cosine] = *scene.periodic();
-  const auto s = *Scaled<double>::make(scene.problem(), spin, cosine);
-  constexpr double rounding = 64 * epsilon<double>;
-  Periodicity known;
-  if (const auto* pendulum = exact.pendulum()) {
-    // with the gradient alone half a round repeats the rates, not down
-    known.period = pendulum->period() * (scene.problem().moment().isZero(0) ? 2 : 1);
-    known.period_error = rounding + exact.error(known.period).attitude;
-    known.precession = known.precession_error = 0;
-    return known;
-  }
-  const auto top = SymmetricTop<double>::of(scene.problem());
-  if (!exact.euler() && !(top && top->axes(2, 2) == 1)) return known;
-  // regular precession, or none
-  known.precession = start.angular_velocity[0] / s.M3;
-  known.precession_error = rounding * std::abs(known.precession);
-  const double turning = start.angular_velocity[2] - known.precession * cosine;
-  known.period = 2 * pi<double> / std::abs(turning);
-  known.period_error = rounding * (1 + std::abs(known.precession * cosine / turning));
-  const double nutation = exact.euler()        ? s.nutation_squared()
-                          : exact.period() > 0 ? std::pow(known.period / exact.period(), 2)
-                                               : nan<double>;
-  const double angle = 2 * pi<double> * std::sqrt(std::abs(nutation));
-  known.trace = nutation < 0 ? 2 * std::cosh(angle) : 2 * std::cos(angle);
-  known.trace_error = rounding * (1 + angle * (nutation < 0 ? std::sinh(angle) : 1.0));
-  return known;
-}
+GYROSTAT_COMPILED_ONCE Periodicity periodicity_of(const Scene& scene, const State<double>& start,
+                                                  const Exact<double>& exact);
 
 /// Of the motion from a start, whichever rung answers: of a pendulum the period, and a plane that stands still; of a top its mean
 /// precession, and the period where its inclination is constant.
-inline Periodicity periodicity_from(const Problem<double>& problem, const State<double>& start) {
-  const Exact<double> exact(problem, start);
-  Periodicity known;
-  const auto repeats = [&](double period) {
-    known.period = period;
-    known.period_error = exact.error(period).attitude;
-  };
-  if (const auto* pendulum = exact.pendulum()) {
-    if (pendulum->motion() == PendulumMotion::separatrix) return known;
-    // with the gradient alone half a round repeats the rates, not down
-    const bool half = pendulum->motion() == PendulumMotion::rotation && problem.moment().isZero(0);
-    repeats(pendulum->period() * (half ? 2 : 1));
-    known.precession = known.precession_error = 0;
-    return known;
-  }
-  const auto of_top = [&](const auto& top) {
-    const double nutation = top.nutation_period(), wide = top.greatest() - top.least();
-    const bool still = wide <= 1e-12;
-    const auto axes = SymmetricTop<double>::of(problem)->axes;
-    const Vec3<double> down = axes.transpose() * start.down;
-    // an axis that stays upright has no precession
-    if (!(nutation < infinity<double>) || (still && std::hypot(down[0], down[1]) < 1e-6)) return;
-    known.precession = top.mean_precession();
-    known.precession_error = exact.error(nutation).attitude / nutation;
-    if (still) {
-      const double turning = axes.col(2).dot(start.angular_velocity) - known.precession * down[2];
-      if (turning != 0) repeats(2 * pi<double> / std::abs(turning));
-      known.period_error += wide;
-    } else if (top.planar()) {
-      // down passes one of the poles where the top swings through it, none or both else
-      constexpr double near = 1e-12;
-      const bool one = (1 + top.least() < near) != (1 - top.greatest() < near);
-      repeats(nutation * (one ? 2 : 1));
-      known.precession_error = 0;
-    }
-  };
-  if (const auto* top = exact.top()) of_top(*top);
-  if (const auto* top = exact.top_in_gradient()) of_top(*top);
-  return known;
-}
+GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Problem<double>& problem, const State<double>& start);
 
 /// The same of a scene, with what its conversions err: by the bodies and starts that are off by as much. What they lose is not known.
-inline Periodicity periodicity_from(const Scene& scene) {
-  const Problem<double>& problem = scene.problem();
-  Periodicity known = periodicity_from(problem, scene.start());
-  if (!scene.converts_start() || (std::isnan(known.period) && std::isnan(known.precession))) return known;
-  const Exact<double> exact(problem, scene.start());
-  const int plane = exact.pendulum() ? exact.pendulum()->axis() : -1;
-  constexpr double margin = 4;
-  for (const int which : {0, 1}) {
-    const Problem<double> body = scene.converts_body() ? off_body(problem, which) : problem;
-    const auto off = periodicity_from(body, off_start(scene.start(), which, plane));
-    if (std::isnan(off.precession)) known.precession = nan<double>;
-    known.precession_error += margin * std::abs(off.precession - known.precession);
-    // a top whose inclination is steady nods a little in a start that is off
-    if (!std::isnan(off.period)) known.period_error += margin * std::abs(off.period / known.period - 1);
-  }
-  return known;
-}
+GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Scene& scene);
 
 }  // namespace gyrostat::heavy
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/heavy/exact_periodicity_definition.hpp"
+#endif

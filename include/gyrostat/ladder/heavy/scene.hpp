@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "gyrostat/core/linkage.hpp"

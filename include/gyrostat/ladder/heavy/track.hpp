@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <vector>
 
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/fill.hpp"
 #include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/heavy/scene.hpp"
@@ -29,11 +29,7 @@ struct Track : Outcome {
 };
 
 /// Whether small changes of a periodic motion stay small: 1 or 0; NaN: not known.
-inline double stability(const Periodicity& known) noexcept {
-  const OrbitStability verdict = orbit_stability(known.trace, known.trace_error);
-  if (verdict == OrbitStability::undecided) return known.stable;
-  return verdict == OrbitStability::stable ? 1 : 0;
-}
+GYROSTAT_COMPILED_ONCE double stability(const Periodicity& known) noexcept;
 
 /// The columns of a scene's states, and their scales.
 inline Row<double> row_of(const Scene& scene) noexcept {
@@ -49,27 +45,13 @@ struct CallersRow : Row<double> {
   }
 };
 
-inline void fill(Answer& answer, const Scene& scene, const Track& track) {
-  fill_head(answer, scene.question(), track);
-  fill_columns(answer, CallersRow{row_of(scene), scene.R_BP()}, track.states, track.error, scene.question(), tables,
-               scene.question().wants_attitude ? 0 : column_set(column::attitude));
-  if (!scene.periodic()) {
-    const auto& [w, d, q] = scene.given();
-    put_start(answer, column_kinds[column::angular_velocity], {w[0], w[1], w[2]});
-    if (!scene.oriented()) put_start(answer, column_kinds[column::down], {d[0], d[1], d[2]});
-    put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
-  }
-}
+GYROSTAT_COMPILED_ONCE void fill(Answer& answer, const Scene& scene, const Track& track);
 
 /// The scalars that are known.
-inline void tell(Answer& answer, const Periodicity& known) {
-  const auto quantity = [&](std::size_t which, double value, double error) {
-    if (!std::isnan(value)) answer.quantities.push_back({&scalar_kinds[which], {value}, error});
-  };
-  quantity(scalar::period, known.period, known.period_error);
-  quantity(scalar::floquet_trace, known.trace, known.trace_error);
-  quantity(scalar::stable, stability(known), nan<double>);
-  quantity(scalar::precession_rate, known.precession, known.precession_error);
-}
+GYROSTAT_COMPILED_ONCE void tell(Answer& answer, const Periodicity& known);
 
 }  // namespace gyrostat::heavy
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/heavy/track_definition.hpp"
+#endif

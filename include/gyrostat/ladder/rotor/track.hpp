@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/fill.hpp"
 #include "gyrostat/ladder/outcome.hpp"
 #include "gyrostat/ladder/rotor/motion.hpp"
@@ -17,14 +18,10 @@ struct Track : Outcome {
   ColumnErrors<double> error;
 };
 
-inline void fill(Answer& answer, const Scene& scene, const Track& track) {
-  fill_head(answer, scene.question(), track);
-  fill_columns(answer, Row<double>(scene.gyrostat(), scene.start()), track.states, track.error, scene.question(),
-               tables);
-  const auto& [q, Omega, omega] = scene.given();
-  put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
-  put_start(answer, column_kinds[column::angular_velocity], {Omega[0], Omega[1], Omega[2]});
-  put_start(answer, column_kinds[column::rotor_rate], {omega});
-}
+GYROSTAT_COMPILED_ONCE void fill(Answer& answer, const Scene& scene, const Track& track);
 
 }  // namespace gyrostat::rotor
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/rotor/track_definition.hpp"
+#endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/spinning/full_motion.hpp"
 #include "gyrostat/ladder/spinning/track.hpp"
 
@@ -15,26 +16,10 @@ inline void warn_of_gimbal_lock(Track& track, double least_cosine) {
 }  // namespace detail
 
 /// Rung `full`: the full equations, by Taylor series or by what the scene brings.
-inline Track full_track(const Scene& scene, Monitor* monitor) {
-  const Question& question = scene.question();
-  const auto goal = scene.goal();
-  if (phase_too_long(scene.problem().phase(question.times.back()), goal.tightest))
-    return refused<Track>(Errc::step_limit, phase_lost);
-  if (scene.full_equations) return scene.full_equations(scene, monitor);
-  Track track;
-  track.states.resize(question.times.size());
-  FullMotionOptions<double> options;
-  options.tolerance = goal.tightest;
-  options.wanted = goal.columns.of;
-  if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
-  const auto answer = full_motion<double>(scene.problem(), question.times, track.states, options);
-  if (!answer) return refused<Track>(answer.error(), message(answer.error()));
-  if (answer->status != ode::Status::reached)
-    return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
-  track.error = answer->error;
-  track.counts = answer->counts;
-  if (!answer->turns_known) detail::warn_of_gimbal_lock(track, answer->least_cosine);
-  return track;
-}
+GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor);
 
 }  // namespace gyrostat::spinning
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/spinning/full_rung_definition.hpp"
+#endif

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <iterator>
-#include <span>
-#include <utility>
-#include <vector>
-
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/even_times.hpp"
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/spinning/axial_motion.hpp"
@@ -28,123 +20,24 @@ namespace detail {
 inline constexpr const char* tilt_too_large =
     "the tilt, or the error of the spin angle, may exceed 0.3 rad: equations for small tilt do not hold";
 
-/// The linear motion on an even grid.
-inline void linear_on_grid(const LinearGrid<double>& grid, double spin, std::span<State<double>> states) noexcept {
-  constexpr std::size_t chunk = 128;
-  std::array<std::array<double, chunk>, 14> store;
-  auto& s = store;
-  const GridColumns<double> columns{s[0].data(),  s[1].data(),  s[2].data(),  s[3].data(), s[4].data(),
-                                    s[5].data(),  s[6].data(),  s[7].data(),  s[8].data(), s[9].data(),
-                                    s[10].data(), s[11].data(), s[12].data(), s[13].data()};
-  for (std::size_t first = 0; first < states.size(); first += chunk) {
-    const std::size_t count = std::min(chunk, states.size() - first);
-    grid.write(first, count, columns);
-    for (std::size_t i = 0; i < count; ++i) {
-      State<double>& state = states[first + i];
-      state.angular_velocity = {s[0][i], s[1][i], spin};
-      state.angles = {s[2][i], s[3][i], s[4][i]};
-      state.attitude = quaternion_from_312(s[2][i], s[3][i], s[4][i]);
-      state.momentum_I = {s[5][i], s[6][i], s[13][i]};
-      state.velocity = {s[7][i], s[8][i], s[9][i]};
-      state.position = {s[10][i], s[11][i], s[12][i]};
-    }
-  }
-}
-
-inline void linear_states(const Problem<double>& problem, std::span<const double> times,
-                          std::span<State<double>> states) noexcept {
-  // below, the tables of a grid cost more than they save
-  constexpr std::size_t worth = 512;
-  const std::size_t n = times.size();
-  if (n >= worth && even(times)) {
-    const double step = (times.back() - times.front()) / double(n - 1);
-    const LinearGrid<double> grid(problem, times.front(), step, n);
-    if (grid.kernel() != GridKernel::points) {
-      linear_on_grid(grid, problem.spin(), states);
-      return;
-    }
-  }
-  Linear<double>(problem).at(times, states);
-}
-
-/// What a motion for small tilt says where it leaves its domain.
-inline void warn_beyond_validity(Track& track, const LinearErrors<double>& error) {
-  track.warn(warning_kinds[warning::beyond_validity], error.size.tilt);
-}
-
 /// Gives up before the motion is computed, where another rung may answer.
 inline bool gives_up(const Scene& scene, int rung, const LinearErrors<double>& error) noexcept {
   return scene.question().rung != rung && !(holds(error) && error.attitude <= scene.goal().columns[column::attitude]);
 }
 
-inline Track given_up(const LinearErrors<double>& error) {
-  Track track = over_tolerance<Track>(error.attitude);
-  if (!holds(error)) track.refusal = tilt_too_large;
-  return track;
-}
+GYROSTAT_COMPILED_ONCE Track given_up(const LinearErrors<double>& error);
 
 /// The track with the stated errors and the domain, where its states are numbers.
-inline Track judged(Track track, const Scene& scene, const LinearErrors<double>& error) {
-  const Row<double> row{};
-  for (const State<double>& state : track.states) {
-    double numbers[row_width(column_kinds)];
-    row(state, numbers);
-    if (!std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::isfinite(x); }))
-      return refused<Track>(Errc::not_finite, "the equations for small tilt grow beyond the greatest double");
-  }
-  track.error = tilt_errors(scene.problem(), error, track.states, scene.question().times.back());
-  track.in_domain = holds(error);
-  if (!track.in_domain) warn_beyond_validity(track, error);
-  return track;
-}
-
-inline Track axial_track(const Scene& scene, Monitor* monitor) {
-  const Question& question = scene.question();
-  const double end = question.times.back();
-  AxialMotionOptions<double> options;
-  options.step_cap = step_budget;
-  if (monitor) options.cancel = &monitor->cancel;
-  Track track;
-  const auto advance = [&](std::span<const double> times, std::span<State<double>> states, auto& error) {
-    const auto made = axial_motion<double>(scene.problem(), times, states, options);
-    if (!made) return made.error();
-    track.counts += made->counts;
-    if (made->status != ode::Status::reached) return failure_of(made->status);
-    error = axial_torque_errors(scene.problem(), times.back(), Amplitudes<double>{made->tilt, made->rate});
-    return Errc::ok;
-  };
-  const auto why = [](Errc wrong) {
-    return wrong == Errc::step_limit ? why_stopped(ode::Status::step_limit) : message(wrong);
-  };
-  LinearErrors<double> error{};
-  if (question.rung != rung::linear) {
-    // the errors only grow: a sixteenth of the motion often suffices
-    const std::array<double, 1> early{end / 16};
-    std::array<State<double>, 1> unused;
-    if (const Errc wrong = advance(early, unused, error); wrong != Errc::ok) return refused<Track>(wrong, why(wrong));
-    if (gives_up(scene, rung::linear, error)) return given_up(error);
-  }
-  track.states.resize(question.times.size());
-  if (const Errc wrong = advance(question.times, track.states, error); wrong != Errc::ok)
-    return refused<Track>(wrong, why(wrong));
-  if (gives_up(scene, rung::linear, error)) return given_up(error);
-  return judged(std::move(track), scene, error);
-}
+GYROSTAT_COMPILED_ONCE Track judged(Track track, const Scene& scene, const LinearErrors<double>& error);
 
 }  // namespace detail
 
 /// Rung `linear`: the exact motion for small tilt (docs/spinning.md, section 3), under a torque about the spin axis by Taylor series
 /// (section 6.3).
-inline Track linear_track(const Scene& scene, Monitor* monitor) {
-  const Problem<double>& problem = scene.problem();
-  if (problem.torque[2] != 0) return detail::axial_track(scene, monitor);
-  const auto& times = scene.question().times;
-  const auto error = linear_errors(problem, times.back());
-  if (detail::gives_up(scene, rung::linear, error)) return detail::given_up(error);
-  Track track;
-  track.states.resize(times.size());
-  detail::linear_states(problem, times, track.states);
-  return detail::judged(std::move(track), scene, error);
-}
+GYROSTAT_COMPILED_ONCE Track linear_track(const Scene& scene, Monitor* monitor);
 
 }  // namespace gyrostat::spinning
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/spinning/linear_rung_definition.hpp"
+#endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/goal.hpp"
 #include "gyrostat/ladder/monitor.hpp"
@@ -20,23 +19,7 @@ class Scene {
   Scene() = default;
 
   /// not_finite; not_positive (inertia, mass); triangle_inequality (beyond 8 eps); and what check_times finds.
-  static Result<Scene> make(const Problem<double>& problem, const Question& question) {
-    const auto& p = problem;
-    const auto& a = p.angles;
-    if (!p.inertia.allFinite() || !p.torque.allFinite() || !p.force.allFinite() || !p.angular_velocity.allFinite() ||
-        !p.velocity.allFinite() || !p.position.allFinite() || !std::isfinite(p.mass) ||
-        !std::isfinite(p.rotor_momentum) || !std::isfinite(p.charge_momentum) || !std::isfinite(a.psi) ||
-        !std::isfinite(a.phi) || !std::isfinite(a.theta))
-      return Errc::not_finite;
-    if (!(p.mass > 0) || !(p.inertia.minCoeff() > 0)) return Errc::not_positive;
-    const double most = p.inertia.maxCoeff();
-    if (most > (p.inertia.sum() - most) + 8 * epsilon<double> * most) return Errc::triangle_inequality;
-    if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
-    Scene scene;
-    scene.problem_ = problem;
-    scene.question_ = question;
-    return scene;
-  }
+  GYROSTAT_COMPILED_ONCE static Result<Scene> make(const Problem<double>& problem, const Question& question);
 
   /// The same motion, asked otherwise; `question` must be one that make would take.
   Scene asked(const Question& question) const {
@@ -61,3 +44,7 @@ class Scene {
 };
 
 }  // namespace gyrostat::spinning
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/spinning/scene_definition.hpp"
+#endif

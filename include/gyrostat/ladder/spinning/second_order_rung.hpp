@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/spinning/linear_rung.hpp"
 #include "gyrostat/ladder/spinning/track.hpp"
 #include "gyrostat/models/spinning/second_order.hpp"
@@ -13,28 +10,10 @@ namespace gyrostat::spinning {
 
 /// Rung `second-order`: the linear motion with spin rate, spin angle, momentum and thrust right to the next order (docs/spinning.md,
 /// section 6.1). Passed over where that would not make it better.
-inline Track second_order_track(const Scene& scene, Monitor*) {
-  const Problem<double>& problem = scene.problem();
-  if (problem.torque[2] != 0)
-    return refused<Track>(Errc::not_applicable,
-                          "a torque acts about the spin axis: the spin is not constant to first order");
-  const auto& times = scene.question().times;
-  const double end = times.back();
-  const auto error = second_order_errors(problem, end);
-  if (detail::gives_up(scene, rung::second_order, error)) return detail::given_up(error);
-  const SecondOrder<double> motion(problem, end > 0 ? end : 1e-6);  // of the start alone any span will do
-  if (!motion.applies())
-    return refused<Track>(
-        Errc::not_applicable,
-        "more than 1e8 rad at the fastest rate of the motion: too many turns for the integrals of second order");
-  if (!motion.helps())
-    return refused<Track>(Errc::not_applicable,
-                          "the corrections of second order would harm: they turn the body by more than 0.5 rad, or the "
-                          "tilt exceeds 0.3 rad");
-  Track track;
-  track.states.reserve(times.size());
-  for (const double t : times) track.states.push_back(motion.at(t));
-  return detail::judged(std::move(track), scene, error);
-}
+GYROSTAT_COMPILED_ONCE Track second_order_track(const Scene& scene, Monitor*);
 
 }  // namespace gyrostat::spinning
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/spinning/second_order_rung_definition.hpp"
+#endif

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/fill.hpp"
 #include "gyrostat/ladder/outcome.hpp"
 #include "gyrostat/ladder/spinning/motion.hpp"
@@ -17,10 +18,10 @@ struct Track : Outcome {
   ColumnErrors<double> error;
 };
 
-inline void fill(Answer& answer, const Scene& scene, const Track& track) {
-  fill_head(answer, scene.question(), track);
-  fill_columns(answer, Row<double>{scales(scene.problem(), scene.question().times.back())}, track.states, track.error,
-               scene.question(), tables);
-}
+GYROSTAT_COMPILED_ONCE void fill(Answer& answer, const Scene& scene, const Track& track);
 
 }  // namespace gyrostat::spinning
+
+#ifndef GYROSTAT_COMPILED
+#include "gyrostat/ladder/spinning/track_definition.hpp"
+#endif

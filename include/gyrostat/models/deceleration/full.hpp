@@ -377,4 +377,19 @@ void FullSystem<Real_, with_control, with_attitude>::project(Scalar t, Scalar* x
   }
 }
 
+#ifdef GYROSTAT_COMPILED
+extern template void FullSystem<double, true, true>::expand<20>(
+    double, double, double (&)[21][FullSystem<double, true, true>::width],
+    FullSystem<double, true, true>::Work<20>&) const noexcept;
+extern template void FullSystem<double, true, false>::expand<20>(
+    double, double, double (&)[21][FullSystem<double, true, false>::width],
+    FullSystem<double, true, false>::Work<20>&) const noexcept;
+extern template void FullSystem<double, false, true>::expand<20>(
+    double, double, double (&)[21][FullSystem<double, false, true>::width],
+    FullSystem<double, false, true>::Work<20>&) const noexcept;
+extern template void FullSystem<double, false, false>::expand<20>(
+    double, double, double (&)[21][FullSystem<double, false, false>::width],
+    FullSystem<double, false, false>::Work<20>&) const noexcept;
+#endif
+
 }  // namespace gyrostat::deceleration

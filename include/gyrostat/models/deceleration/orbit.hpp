@@ -488,4 +488,8 @@ class Orbit {
   Scalar norm_sn_ = 0, norm_cn_ = 0, cos_ = 1, sin_ = 0;
 };
 
+#ifdef GYROSTAT_COMPILED
+extern template class Orbit<double, math::Native>;
+#endif
+
 }  // namespace gyrostat::deceleration

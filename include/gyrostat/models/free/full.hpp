@@ -305,4 +305,9 @@ void FullSystem<Real_>::project(Scalar, Scalar* x, Scalar* low) const noexcept {
   add_to(x[3], low[3], more.z);
 }
 
+#ifdef GYROSTAT_COMPILED
+extern template void FullSystem<double>::expand<20>(double, double, double (&)[21][FullSystem<double>::width],
+                                                    FullSystem<double>::Work<20>&) const noexcept;
+#endif
+
 }  // namespace gyrostat::free

@@ -74,28 +74,7 @@ class Motion {
   /// Setup: the numbers in which what is constant is found, DoubleDouble where rounding in it is not to be seen; at() works in Scalar.
   /// Errors: those of Problem::check(); no_convergence, separatrix (a level that rounding makes undecidable).
   template <Real Setup = Scalar>
-  static Result<Motion> make(const Problem<Setup>& problem) noexcept {
-    if (const Errc wrong = problem.template check<Scalar>(); wrong != Errc::ok) return wrong;
-    Motion motion;
-    const auto p = PrincipalProblem<Setup>::of(problem);
-    const Setup R = magnitude(p.M);
-    if (!(R - R == 0)) return Errc::not_finite;
-    const Quat<Setup> q0 = as_unit(problem.attitude);
-    motion.common(p, R, q0);
-    const Setup floor = Setup(1e-140) * (p.l.cwiseAbs().maxCoeff() + p.G.cwiseAbs().maxCoeff());
-    if (R <= floor || p.steady(R)) {
-      motion.set_steady(p, R);
-      return motion;
-    }
-    if (p.spherical()) {
-      motion.set_sphere(p, R);
-      return motion;
-    }
-    const Pencil<Setup> pencil(p.inverse, p.gaps, p.G, p.l, p.M, R);
-    const auto frame = SpinorFrame<Setup>::of(pencil);
-    if (!frame) return frame.error();
-    return motion.set_regular(pencil, *frame, p, R) ? Result<Motion>(motion) : Result<Motion>(Errc::no_convergence);
-  }
+  static Result<Motion> make(const Problem<Setup>& problem) noexcept;
 
   State<Scalar> at(Scalar t) const noexcept {
     if (kind_ == Kind::steady) return steady_at(t);
@@ -417,6 +396,31 @@ class Motion {
 };
 
 template <Real Scalar>
+template <Real Setup>
+Result<Motion<Scalar>> Motion<Scalar>::make(const Problem<Setup>& problem) noexcept {
+  if (const Errc wrong = problem.template check<Scalar>(); wrong != Errc::ok) return wrong;
+  Motion motion;
+  const auto p = PrincipalProblem<Setup>::of(problem);
+  const Setup R = magnitude(p.M);
+  if (!(R - R == 0)) return Errc::not_finite;
+  const Quat<Setup> q0 = as_unit(problem.attitude);
+  motion.common(p, R, q0);
+  const Setup floor = Setup(1e-140) * (p.l.cwiseAbs().maxCoeff() + p.G.cwiseAbs().maxCoeff());
+  if (R <= floor || p.steady(R)) {
+    motion.set_steady(p, R);
+    return motion;
+  }
+  if (p.spherical()) {
+    motion.set_sphere(p, R);
+    return motion;
+  }
+  const Pencil<Setup> pencil(p.inverse, p.gaps, p.G, p.l, p.M, R);
+  const auto frame = SpinorFrame<Setup>::of(pencil);
+  if (!frame) return frame.error();
+  return motion.set_regular(pencil, *frame, p, R) ? Result<Motion>(motion) : Result<Motion>(Errc::no_convergence);
+}
+
+template <Real Scalar>
 Scalar Motion<Scalar>::defect(Scalar t, Scalar fastest) const noexcept {
   using std::max;
   if (pair_.hyperbolic || kind_ == Kind::steady || kind_ == Kind::spherical) return infinity<Scalar>;
@@ -627,5 +631,12 @@ void Motion<Scalar>::grid(Scalar first, Scalar step, std::size_t count, Scalar* 
     put(angular_momentum, b.momentum, 3);
   }
 }
+
+#ifdef GYROSTAT_COMPILED
+extern template Result<Motion<double>> Motion<double>::make<double>(const Problem<double>&) noexcept;
+extern template Result<Motion<double>> Motion<double>::make<DoubleDouble>(const Problem<DoubleDouble>&) noexcept;
+extern template double Motion<double>::defect(double, double) const noexcept;
+extern template void Motion<double>::grid(double, double, std::size_t, double*, double*, double*) const noexcept;
+#endif
 
 }  // namespace gyrostat::free

@@ -77,34 +77,12 @@ class MotionError {
   /// period is long. Errors: those of Reduced::of and Motion::make.
   template <Real Setup = Scalar, class Room>
   static Result<MotionError> of(const Assembly<Scalar, Room>& assembly, Data data = Data::rounded,
-                                Scalar horizon = infinity<Scalar>) noexcept {
-    if (const auto sound = Reduced<Scalar, Room>::of(assembly); !sound) return sound.error();
-    const auto motion = motion_of(assembly.template cast<Setup>());
-    if (!motion) return motion.error();
-    return of<Setup>(*motion, assembly, data, horizon);
-  }
+                                Scalar horizon = infinity<Scalar>) noexcept;
 
   /// The same where that motion is there already, of a sound assembly.
   template <Real Setup = Scalar, class Room>
   static MotionError of(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly, Data data = Data::rounded,
-                        Scalar horizon = infinity<Scalar>) noexcept {
-    MotionError error;
-    error.horizon_ = std::abs(horizon);
-    error.nodes_ = motion.hyperbolic() ? many : some;
-    error.start(motion);
-    const Setup by = data == Data::exact ? epsilon<Setup> : Setup(epsilon<Scalar>);
-    constexpr bool wide = !std::is_same_v<Setup, Scalar>;
-    if (!(wide && data == Data::rounded && error.see_from_afar(assembly))) {
-      const auto given = assembly.template cast<Setup>();
-      const Centre centre(motion, error.span_, error.nodes_);
-      for (int k = 0; k < detail::neighbours; ++k) error.see(centre, motion_of(neighbour<Setup>(given, k, by)));
-    }
-    // what rounding did to this very set-up
-    if constexpr (std::is_same_v<Setup, double>)
-      error.see(Centre(motion, error.span_, error.nodes_), motion_of(assembly.template cast<DoubleDouble>()));
-    error.add_hidden(static_cast<Scalar>(by));
-    return error;
-  }
+                        Scalar horizon = infinity<Scalar>) noexcept;
 
   /// The same for a tenth of the cost, for times from 0 up to the horizon, of a motion of a sound assembly that was set up in Scalar like its
   /// neighbours, so that their distances show the rounding of the set-up too; nothing beside a separatrix and in other places where rounding grows, and
@@ -112,15 +90,7 @@ class MotionError {
   /// `in_lanes`: with the neighbours side by side where that can be.
   template <bool in_lanes = math::many_pays, class Room>
   static std::optional<MotionError> quick(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
-                                          Scalar horizon) noexcept {
-    if (!is_tame(motion, assembly)) return std::nullopt;
-    MotionError error;
-    error.begin_quick(horizon);
-    // principal axes found in Scalar are off by more than a rounding
-    const Scalar by = (assembly.body.inertia.isDiagonal(0) ? 1 : 2) * epsilon<Scalar>;
-    if (!in_lanes || !error.see_side_by_side(motion, assembly, by)) error.see_one_by_one(motion, assembly, by);
-    return error.trust_quick() ? std::optional(error) : std::nullopt;
-  }
+                                          Scalar horizon) noexcept;
 
   /// Whether nothing that the set-up subtracts cancels as a matter of course: no separatrix is near, and no principal axes found in Scalar belong to
   /// moments that are nearly equal. Else there is no quick error.
@@ -136,37 +106,7 @@ class MotionError {
   }
 
   /// Of every time up to |t|. Infinite where the data fix the phase to less than 0.05 rad only, and beyond the horizon.
-  Bound at(Scalar t) const noexcept {
-    using std::abs;
-    Bound b = near(abs(t));
-    const Scalar beyond = abs(t);
-    const Scalar late = beyond * share_, turned = beyond * turn_rate_;
-    if (!(beyond <= horizon_)) b.attitude = infinity<Scalar>;
-    if (kind_ == Kind::steady) {
-      const Scalar off = wander(beyond);
-      b.angular_momentum += 4 * off;
-      b.angular_velocity += 4 * off * gain_;
-      b.attitude += 4 * (off * gain_ + 2 * epsilon<Scalar>)*speed_ * beyond;
-    } else if (!(beyond <= period_)) {
-      b.angular_velocity += 4 * late * rates_change_;
-      b.angular_momentum += 4 * late * momentum_change_;
-      b.attitude += 4 * (turned + late * attitude_change_);
-      if (!agree_) b.attitude = infinity<Scalar>;
-    }
-    // a defect that were always on the same side
-    const Scalar off_course = defect_ * fastest_ * beyond;
-    b.angular_velocity += off_course;
-    b.angular_momentum += off_course;
-    b.attitude += off_course;
-    const Scalar rounding = 10 * cancellation_ * epsilon<Scalar>;
-    const Scalar most = Scalar(0.2);  // four times 0.05
-    if (!(b.attitude <= most && b.angular_velocity <= most))
-      return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
-    // M may be all rounding and the body's motion not
-    if (!(b.angular_momentum <= most)) b.angular_momentum = infinity<Scalar>;
-    const Scalar of_rates = fastest_ > 0 ? std::max(rounding, 4 * epsilon<Scalar> * rate_terms_ / fastest_) : rounding;
-    return {b.angular_velocity + of_rates, b.angular_momentum + rounding, b.attitude + rounding};
-  }
+  Bound at(Scalar t) const noexcept;
 
   Scalar period() const noexcept { return scalar_margin_ * share_ * period_ + 4 * epsilon<Scalar>; }  ///< relative
   Scalar turn_per_period() const noexcept {                                                           ///< rad
@@ -502,5 +442,93 @@ class MotionError {
   Scalar drift_ = 0, unstable_ = 0, frequency_ = 0, shear_ = 0, gain_ = 0;  // of a steady rotation
   std::array<Bound, std::size_t(many.last + 1)> first_{};
 };
+
+template <Real Scalar>
+template <Real Setup, class Room>
+Result<MotionError<Scalar>> MotionError<Scalar>::of(const Assembly<Scalar, Room>& assembly, Data data,
+                                                    Scalar horizon) noexcept {
+  if (const auto sound = Reduced<Scalar, Room>::of(assembly); !sound) return sound.error();
+  const auto motion = motion_of(assembly.template cast<Setup>());
+  if (!motion) return motion.error();
+  return of<Setup>(*motion, assembly, data, horizon);
+}
+
+template <Real Scalar>
+template <Real Setup, class Room>
+MotionError<Scalar> MotionError<Scalar>::of(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
+                                            Data data, Scalar horizon) noexcept {
+  MotionError error;
+  error.horizon_ = std::abs(horizon);
+  error.nodes_ = motion.hyperbolic() ? many : some;
+  error.start(motion);
+  const Setup by = data == Data::exact ? epsilon<Setup> : Setup(epsilon<Scalar>);
+  constexpr bool wide = !std::is_same_v<Setup, Scalar>;
+  if (!(wide && data == Data::rounded && error.see_from_afar(assembly))) {
+    const auto given = assembly.template cast<Setup>();
+    const Centre centre(motion, error.span_, error.nodes_);
+    for (int k = 0; k < detail::neighbours; ++k) error.see(centre, motion_of(neighbour<Setup>(given, k, by)));
+  }
+  // what rounding did to this very set-up
+  if constexpr (std::is_same_v<Setup, double>)
+    error.see(Centre(motion, error.span_, error.nodes_), motion_of(assembly.template cast<DoubleDouble>()));
+  error.add_hidden(static_cast<Scalar>(by));
+  return error;
+}
+
+template <Real Scalar>
+template <bool in_lanes, class Room>
+std::optional<MotionError<Scalar>> MotionError<Scalar>::quick(const Motion<Scalar>& motion,
+                                                              const Assembly<Scalar, Room>& assembly,
+                                                              Scalar horizon) noexcept {
+  if (!is_tame(motion, assembly)) return std::nullopt;
+  MotionError error;
+  error.begin_quick(horizon);
+  // principal axes found in Scalar are off by more than a rounding
+  const Scalar by = (assembly.body.inertia.isDiagonal(0) ? 1 : 2) * epsilon<Scalar>;
+  if (!in_lanes || !error.see_side_by_side(motion, assembly, by)) error.see_one_by_one(motion, assembly, by);
+  return error.trust_quick() ? std::optional(error) : std::nullopt;
+}
+
+template <Real Scalar>
+auto MotionError<Scalar>::at(Scalar t) const noexcept -> Bound {
+  using std::abs;
+  Bound b = near(abs(t));
+  const Scalar beyond = abs(t);
+  const Scalar late = beyond * share_, turned = beyond * turn_rate_;
+  if (!(beyond <= horizon_)) b.attitude = infinity<Scalar>;
+  if (kind_ == Kind::steady) {
+    const Scalar off = wander(beyond);
+    b.angular_momentum += 4 * off;
+    b.angular_velocity += 4 * off * gain_;
+    b.attitude += 4 * (off * gain_ + 2 * epsilon<Scalar>)*speed_ * beyond;
+  } else if (!(beyond <= period_)) {
+    b.angular_velocity += 4 * late * rates_change_;
+    b.angular_momentum += 4 * late * momentum_change_;
+    b.attitude += 4 * (turned + late * attitude_change_);
+    if (!agree_) b.attitude = infinity<Scalar>;
+  }
+  // a defect that were always on the same side
+  const Scalar off_course = defect_ * fastest_ * beyond;
+  b.angular_velocity += off_course;
+  b.angular_momentum += off_course;
+  b.attitude += off_course;
+  const Scalar rounding = 10 * cancellation_ * epsilon<Scalar>;
+  const Scalar most = Scalar(0.2);  // four times 0.05
+  if (!(b.attitude <= most && b.angular_velocity <= most))
+    return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
+  // M may be all rounding and the body's motion not
+  if (!(b.angular_momentum <= most)) b.angular_momentum = infinity<Scalar>;
+  const Scalar of_rates = fastest_ > 0 ? std::max(rounding, 4 * epsilon<Scalar> * rate_terms_ / fastest_) : rounding;
+  return {b.angular_velocity + of_rates, b.angular_momentum + rounding, b.attitude + rounding};
+}
+
+#ifdef GYROSTAT_COMPILED
+extern template MotionError<double> MotionError<double>::of<DoubleDouble>(const Motion<double>&,
+                                                                          const Assembly<double, Unbounded>&, Data,
+                                                                          double) noexcept;
+extern template std::optional<MotionError<double>> MotionError<double>::quick<math::many_pays>(
+    const Motion<double>&, const Assembly<double, Unbounded>&, double) noexcept;
+extern template MotionError<double>::Bound MotionError<double>::at(double) const noexcept;
+#endif
 
 }  // namespace gyrostat::free

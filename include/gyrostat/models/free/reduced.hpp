@@ -78,39 +78,11 @@ struct Reduced {
   /// Errors: those of Problem::check(); of a wheel those of Rotor::from_axis; triangle_inequality where a free wheel leaves an inertia
   /// that is not positive or that no mass distribution has. `unsound` tells which wheel.
   template <Real Given>
-  static Result<Reduced> of(const Assembly<Given, Room>& assembly, UnsoundWheel<Given>* unsound = nullptr) noexcept {
-    if (const Errc wrong = assembly.body.check(); wrong != Errc::ok) return wrong;
-    if (const Errc wrong = check_wheels(assembly, unsound); wrong != Errc::ok) return wrong;
-    return taken(assembly);
-  }
+  static Result<Reduced> of(const Assembly<Given, Room>& assembly, UnsoundWheel<Given>* unsound = nullptr) noexcept;
 
   /// The same of an assembly that is known to be sound.
   template <Real Given>
-  static Reduced taken(const Assembly<Given, Room>& assembly) noexcept {
-    Reduced reduced;
-    reduced.problem = assembly.body.template cast<Scalar>();
-    Problem<Scalar>& body = reduced.problem;
-    typename Room::template List<Scalar> inertia;
-    Vec3<Scalar> relative = body.rotor_momentum;  // of all rotors
-    for (const auto& wheel : assembly.wheels) {
-      const Vec3<Scalar> axis = vector_cast<Scalar>(wheel.axis);
-      reduced.wheels.push_back({axis / axis.norm(), Scalar(wheel.rate), wheel.turns_freely});
-      inertia.push_back(wheel.axial_inertia);
-      relative += inertia.back() * Scalar(wheel.rate) * reduced.wheels.back().axis;
-    }
-    const Vec3<Scalar> omega = body.momentum_given
-                                   ? Vec3<Scalar>(body.inertia.inverse() * (body.angular_momentum - relative))
-                                   : body.angular_velocity;
-    for (std::size_t i = 0; i < reduced.wheels.size(); ++i) {
-      Turning& wheel = reduced.wheels[i];
-      if (wheel.turns_freely) {
-        wheel.rate += wheel.axis.dot(omega);
-        body.inertia -= inertia[i] * wheel.axis * wheel.axis.transpose();
-      }
-      body.rotor_momentum += inertia[i] * wheel.rate * wheel.axis;
-    }
-    return reduced;
-  }
+  static Reduced taken(const Assembly<Given, Room>& assembly) noexcept;
 
  private:
   template <Real Given>
@@ -143,5 +115,51 @@ struct Reduced {
     return Errc::ok;
   }
 };
+
+template <Real Scalar, class Room>
+template <Real Given>
+Result<Reduced<Scalar, Room>> Reduced<Scalar, Room>::of(const Assembly<Given, Room>& assembly,
+                                                        UnsoundWheel<Given>* unsound) noexcept {
+  if (const Errc wrong = assembly.body.check(); wrong != Errc::ok) return wrong;
+  if (const Errc wrong = check_wheels(assembly, unsound); wrong != Errc::ok) return wrong;
+  return taken(assembly);
+}
+
+template <Real Scalar, class Room>
+template <Real Given>
+Reduced<Scalar, Room> Reduced<Scalar, Room>::taken(const Assembly<Given, Room>& assembly) noexcept {
+  Reduced reduced;
+  reduced.problem = assembly.body.template cast<Scalar>();
+  Problem<Scalar>& body = reduced.problem;
+  typename Room::template List<Scalar> inertia;
+  Vec3<Scalar> relative = body.rotor_momentum;  // of all rotors
+  for (const auto& wheel : assembly.wheels) {
+    const Vec3<Scalar> axis = vector_cast<Scalar>(wheel.axis);
+    reduced.wheels.push_back({axis / axis.norm(), Scalar(wheel.rate), wheel.turns_freely});
+    inertia.push_back(wheel.axial_inertia);
+    relative += inertia.back() * Scalar(wheel.rate) * reduced.wheels.back().axis;
+  }
+  const Vec3<Scalar> omega = body.momentum_given
+                                 ? Vec3<Scalar>(body.inertia.inverse() * (body.angular_momentum - relative))
+                                 : body.angular_velocity;
+  for (std::size_t i = 0; i < reduced.wheels.size(); ++i) {
+    Turning& wheel = reduced.wheels[i];
+    if (wheel.turns_freely) {
+      wheel.rate += wheel.axis.dot(omega);
+      body.inertia -= inertia[i] * wheel.axis * wheel.axis.transpose();
+    }
+    body.rotor_momentum += inertia[i] * wheel.rate * wheel.axis;
+  }
+  return reduced;
+}
+
+#ifdef GYROSTAT_COMPILED
+extern template Result<Reduced<double>> Reduced<double>::of<double>(const Assembly<double>&,
+                                                                    UnsoundWheel<double>*) noexcept;
+extern template Reduced<double> Reduced<double>::taken<double>(const Assembly<double>&) noexcept;
+extern template Reduced<DoubleDouble> Reduced<DoubleDouble>::taken<double>(const Assembly<double>&) noexcept;
+extern template Reduced<DoubleDouble> Reduced<DoubleDouble>::taken<DoubleDouble>(
+    const Assembly<DoubleDouble>&) noexcept;
+#endif
 
 }  // namespace gyrostat::free

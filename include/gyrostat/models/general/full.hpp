@@ -794,4 +794,13 @@ auto FullSystem<Real_, large>::braked(Scalar t, const Scalar* x) const noexcept 
   return least;
 }
 
+#ifdef GYROSTAT_COMPILED
+extern template void FullSystem<double, true>::expand<20>(double, double,
+                                                          double (&)[21][FullSystem<double, true>::width],
+                                                          FullSystem<double, true>::Work<20>&) const noexcept;
+extern template void FullSystem<double, false>::expand<20>(double, double,
+                                                           double (&)[21][FullSystem<double, false>::width],
+                                                           FullSystem<double, false>::Work<20>&) const noexcept;
+#endif
+
 }  // namespace gyrostat::general

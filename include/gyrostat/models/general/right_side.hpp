@@ -211,4 +211,8 @@ struct Flow {
   }
 };
 
+#ifdef GYROSTAT_COMPILED
+extern template Load<double> load_at<double>(const Problem<double>&, const Pose<double>&, double, double) noexcept;
+#endif
+
 }  // namespace gyrostat::general

@@ -95,4 +95,8 @@ class Exact {
       motion_;
 };
 
+#ifdef GYROSTAT_COMPILED
+extern template class Exact<double>;
+#endif
+
 }  // namespace gyrostat::heavy

@@ -293,20 +293,7 @@ class FullSystem {
   }
 
   template <int Order>
-  void expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept {
-    const auto c = equations_.begin(unit, x, work.rows);
-    const Row half = lanes(unit / 2);
-    if constexpr (turning) {
-      const Row motion = half * load(&x[0][0]), q = load(&x[0][8]);
-      store(work.turn[0], motion);
-      store(&x[1][8], times_units(lanes(motion[0]) * q, lanes(motion[1]) * q, lanes(motion[2]) * q));
-    }
-    const auto next = [&](auto k) GYROSTAT_INLINE_LAMBDA {
-      equations_.extend(k, x, work.rows, c);
-      if constexpr (turning) turn(k, x, work, half);
-    };
-    count_up<Scalar, Order - 1>(next);
-  }
+  void expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept;
 
   /// Moves a state onto what it keeps: |d|, energy, vertical momentum; and the attitude onto unit norm and onto d.
   void project(Scalar, Scalar* x, Scalar* low) const noexcept;
@@ -357,6 +344,24 @@ class FullSystem {
   detail::EulerPoisson<Scalar> equations_;
   Numbers start_{};
 };
+
+template <Real Real_, bool turning>
+template <int Order>
+void FullSystem<Real_, turning>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width],
+                                        Work<Order>& work) const noexcept {
+  const auto c = equations_.begin(unit, x, work.rows);
+  const Row half = lanes(unit / 2);
+  if constexpr (turning) {
+    const Row motion = half * load(&x[0][0]), q = load(&x[0][8]);
+    store(work.turn[0], motion);
+    store(&x[1][8], times_units(lanes(motion[0]) * q, lanes(motion[1]) * q, lanes(motion[2]) * q));
+  }
+  const auto next = [&](auto k) GYROSTAT_INLINE_LAMBDA {
+    equations_.extend(k, x, work.rows, c);
+    if constexpr (turning) turn(k, x, work, half);
+  };
+  count_up<Scalar, Order - 1>(next);
+}
 
 template <Real Real_, bool turning>
 void FullSystem<Real_, turning>::project(Scalar, Scalar* x, Scalar* low) const noexcept {
@@ -476,5 +481,17 @@ void VariationalSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1
     }
   }
 }
+
+#ifdef GYROSTAT_COMPILED
+extern template void FullSystem<double, true>::expand<20>(double, double,
+                                                          double (&)[21][FullSystem<double, true>::width],
+                                                          FullSystem<double, true>::Work<20>&) const noexcept;
+extern template void FullSystem<double, false>::expand<20>(double, double,
+                                                           double (&)[21][FullSystem<double, false>::width],
+                                                           FullSystem<double, false>::Work<20>&) const noexcept;
+extern template void VariationalSystem<double>::expand<20>(double, double,
+                                                           double (&)[21][VariationalSystem<double>::width],
+                                                           VariationalSystem<double>::Work<20>&) const noexcept;
+#endif
 
 }  // namespace gyrostat::heavy

@@ -324,4 +324,8 @@ AxisPoint<Scalar> LagrangeGradient<Scalar>::axis(Scalar t) const noexcept {
           phase(side_below_, below_b_, below_o_, 2)};
 }
 
+#ifdef GYROSTAT_COMPILED
+extern template class LagrangeGradient<double>;
+#endif
+
 }  // namespace gyrostat::heavy

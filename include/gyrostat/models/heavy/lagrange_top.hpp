@@ -243,4 +243,8 @@ AxisPoint<Scalar> LagrangeTop<Scalar>::axis(Scalar t) const noexcept {
                 : AxisPoint<Scalar>{-w, -rate, below, above, phase_below, phase_above};
 }
 
+#ifdef GYROSTAT_COMPILED
+extern template class LagrangeTop<double>;
+#endif
+
 }  // namespace gyrostat::heavy

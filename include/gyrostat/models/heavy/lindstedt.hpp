@@ -376,4 +376,8 @@ class Lindstedt {
   std::array<std::array<Nodes, most + 1>, unknowns> values_;
 };
 
+#ifdef GYROSTAT_COMPILED
+extern template class Lindstedt<double>;
+#endif
+
 }  // namespace gyrostat::heavy

@@ -238,4 +238,8 @@ class Series {
   alignas(64) Scalar s_[Lindstedt<Scalar>::harmonics][width] = {};
 };
 
+#ifdef GYROSTAT_COMPILED
+extern template class Series<double>;
+#endif
+
 }  // namespace gyrostat::heavy

@@ -326,4 +326,9 @@ void FullSystem<Real_>::project(Scalar, Scalar* x, Scalar* low) const noexcept {
   }
 }
 
+#ifdef GYROSTAT_COMPILED
+extern template void FullSystem<double>::expand<20>(double, double, double (&)[21][FullSystem<double>::width],
+                                                    FullSystem<double>::Work<20>&) const noexcept;
+#endif
+
 }  // namespace gyrostat::rotor

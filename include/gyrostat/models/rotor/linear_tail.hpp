@@ -379,4 +379,8 @@ TailError<Scalar> LinearTail<Scalar>::carried(Scalar momentum, Scalar rotor_rate
   return error;
 }
 
+#ifdef GYROSTAT_COMPILED
+extern template class LinearTail<double>;
+#endif
+
 }  // namespace gyrostat::rotor

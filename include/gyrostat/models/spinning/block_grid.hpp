@@ -438,4 +438,8 @@ class BlockGrid {
   bool pushed_ = false;          ///< a transverse force acts
 };
 
+#ifdef GYROSTAT_COMPILED
+extern template class BlockGrid<double>;
+#endif
+
 }  // namespace gyrostat::spinning

@@ -381,4 +381,9 @@ void FullSystem<Real_>::project(Scalar t, Scalar* x, Scalar* low) const noexcept
   add_to(x[7], low[7], change.z);
 }
 
+#ifdef GYROSTAT_COMPILED
+extern template void FullSystem<double>::expand<20>(double, double, double (&)[21][FullSystem<double>::width],
+                                                    FullSystem<double>::Work<20>&) const noexcept;
+#endif
+
 }  // namespace gyrostat::spinning

@@ -248,4 +248,8 @@ class ModeGrid {
   bool pushed_ = false;  ///< a transverse force acts
 };
 
+#ifdef GYROSTAT_COMPILED
+extern template class ModeGrid<double>;
+#endif
+
 }  // namespace gyrostat::spinning

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gyrostat/ladder/deceleration/full_rung.hpp"
+
+namespace gyrostat::deceleration {
+
+namespace detail {
+
+GYROSTAT_COMPILED_ONCE State<double> state_on_orbit(const Problem<double>& problem, const Vec3<double>& M) noexcept {
+  State<double> state = state_of(problem, M, {});
+  const OrbitKind kind = orbit_kind(problem, M);
+  state.k2 = kind.k2;
+  state.regime = kind.regime;
+  return state;
+}
+
+/// Error of the modulus, where |M| and the energy are known to the track's errors, or to these at every k2_stride-th point.
+inline double k2_error(const Track& track, const Problem<double>& problem,
+                       std::span<const ColumnErrors<double>> errors) noexcept {
+  double most = 0;
+  const std::size_t stride = k2_stride(track.states.size());
+  for (std::size_t i = 0; i < track.states.size(); i += stride) {
+    const State<double>& at = track.states[i];
+    const ColumnErrors<double>& error = errors.empty() ? track.error : errors[i / stride];
+    most = std::max(most, k2_uncertainty(problem, at.momentum, {at.regime, at.k2}, error[column::angular_momentum_norm],
+                                         error[column::energy]));
+  }
+  return most;
+}
+
+GYROSTAT_COMPILED_ONCE Track track_of(const Problem<double>& problem, std::vector<State<double>> states,
+                                      bool knows_attitude, const ColumnErrors<double>& error,
+                                      std::span<const ColumnErrors<double>> errors) {
+  Track track;
+  track.knows_momentum = true;
+  track.knows_attitude = knows_attitude;
+  track.states = std::move(states);
+  Comparison sizes(Row<double>{problem});
+  for (State<double>& state : track.states) {
+    const OrbitKind kind = orbit_kind(problem, state.momentum);
+    state.k2 = kind.k2;
+    state.regime = kind.regime;
+    sizes.add(state);
+  }
+  track.error = sizes.absolute(error);
+  track.error[column::modulus_squared] = k2_error(track, problem, errors);
+  return track;
+}
+
+}  // namespace detail
+
+GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, std::span<const double> times,
+                                               double tolerance, std::span<const double> wanted, bool find_stop,
+                                               const Quat<double>* attitude, Monitor* monitor) {
+  std::vector<State<double>> states(times.size());
+  FullMotionOptions<double> options;
+  options.tolerance = tolerance;
+  options.wanted = wanted;
+  options.find_stop = find_stop;
+  std::array<ColumnErrors<double>, detail::k2_looks + 1> errors{};
+  options.errors = errors;
+  options.stride = detail::k2_stride(times.size());
+  if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
+  const auto answer = full_motion<double>(problem, times, states, options, attitude);
+  if (!answer) return refused<Track>(answer.error(), message(answer.error()));
+  if (answer->status != ode::Status::reached)
+    return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
+  Track track = detail::track_of(problem, std::move(states), attitude != nullptr, answer->error, errors);
+  track.counts = answer->counts;
+  track.stop_time = answer->stop_time;
+  track.stop_error = answer->stop_error;
+  return track;
+}
+
+GYROSTAT_COMPILED_ONCE bool goes_to_stop(const Scene& scene) noexcept {
+  if (!scene.asks_for_stop()) return false;
+  const auto& problem = scene.problem();
+  const double longest = scene.opposed().norm() / scene.least_control();
+  return scene.needs_stop() || longest <= 20 * scene.question().times.back() ||
+         longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
+}
+
+GYROSTAT_COMPILED_ONCE double turned_angle(const Scene& scene) noexcept {
+  const auto& problem = scene.problem();
+  const FullCoefficients<double> f(problem);
+  const double size = (problem.momentum - f.offset).norm(), b = scene.greatest_control();
+  const double stop = !(b > 0)           ? infinity<double>
+                      : problem.drag > 0 ? std::log1p(problem.drag * size / b) / problem.drag
+                                         : size / b;
+  const double last = scene.question().times.back();
+  const double span = goes_to_stop(scene) && stop < infinity<double> ? stop : std::min(last, stop);
+  const double mean = size / (1 + problem.drag * span);
+  const double own = scene.question().wants_attitude ? problem.inverse_inertia[0] : f.quadratic.cwiseAbs().maxCoeff();
+  return span * (own * mean + problem.gyro_rate().norm()) / 2;
+}
+
+GYROSTAT_COMPILED_ONCE const char* not_worth(const Scene& scene, const Goal<std::size(column_kinds)>& goal) noexcept {
+  const double angle = turned_angle(scene);
+  double phase = infinity<double>;
+  for (std::size_t i = 0; i < std::size(column_kinds); ++i)
+    if (has(fast_columns, i)) phase = std::min(phase, goal.columns[i]);
+  if (phase < infinity<double> && phase_too_long(angle, phase)) return phase_lost;
+  return angle > unreachable_angle ? "the body turns so often that the budget of 10 million steps would end before the "
+                                     "last time: ask for a shorter span"
+                                   : nullptr;
+}
+
+GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
+  if (scene.full_equations) return scene.full_equations(scene, monitor);
+  const auto& question = scene.question();
+  const auto& problem = scene.problem();
+  const auto goal = scene.goal();
+  if (const char* why = not_worth(scene, goal)) return refused<Track>(Errc::step_limit, why);
+  const bool find_stop = goes_to_stop(scene);
+  const Quat<double> q_IP = scene.attitude();
+  const auto at_tolerance = [&](double tolerance) {
+    return full_motion_track(problem, question.times, tolerance, goal.columns.of, find_stop,
+                             question.wants_attitude ? &q_IP : nullptr, monitor);
+  };
+  double tolerance = goal.tightest;
+  Track track = at_tolerance(tolerance);
+  // The modulus and the stop may need more digits of M than M itself was asked for.
+  const bool stop_counts = scene.needs_stop() || (scene.asks_for_stop() && track.stop_time <= question.times.back());
+  for (int trial = 0; trial < 3 && track.failure == Errc::ok; ++trial) {
+    const double of_modulus = track.error[column::modulus_squared] / goal.columns[column::modulus_squared];
+    const double excess = 4 * std::max(of_modulus, stop_counts ? track.stop_error / goal.tightest : 0.0);
+    if (!(excess > 4) || excess > 1e5 || tolerance <= 1e-13) break;
+    tolerance = std::max(1e-13, tolerance / excess);
+    Track finer = at_tolerance(tolerance);
+    finer.counts += track.counts;
+    track = std::move(finer);
+  }
+  return track;
+}
+
+}  // namespace gyrostat::deceleration

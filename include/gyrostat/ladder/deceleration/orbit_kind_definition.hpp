@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gyrostat/ladder/deceleration/orbit_kind.hpp"
+
+namespace gyrostat::deceleration {
+
+GYROSTAT_COMPILED_ONCE OrbitKind orbit_kind(const Problem<double>& problem, const Vec3<double>& M) noexcept {
+  if (M.isZero(0) || M == problem.rotor_momentum) return {};
+  if (problem.rotor_momentum.isZero(0)) {
+    const auto p = polhode_through<double>(problem.inverse_inertia, problem.inverse_gaps(), M);
+    if (!std::isfinite(p.modulus.k2)) return {Regime::point, 0};
+    if (!(p.modulus.kp2 > 0)) return {Regime::separatrix, 1};
+    return {p.regime, p.modulus.k2};
+  }
+  const auto orbit = Orbit<double>::through(problem, M);
+  if (orbit) return {orbit->regime(), orbit->modulus().k2};
+  return orbit.error() == Errc::separatrix ? OrbitKind{Regime::separatrix, 1} : OrbitKind{Regime::point, 0};
+}
+
+GYROSTAT_COMPILED_ONCE double k2_of_data(const Problem<double>& problem, const Polhode<double>& p,
+                                         const Vec3<double>& M) noexcept {
+  const auto& x = p.axes;
+  const Vec3<double> error = problem.gap_errors();
+  const double near_mid = error[x.near / 2], mid_far = error[1 - x.near / 2];
+  double k2 = p.tilt / p.along / x.near_mid * (mid_far + x.mid_far * near_mid / x.near_mid);
+  if (!problem.exact_gaps) {
+    // a tensor that is off by the rounding of its greatest element turns the axes, too: what that does to 2H/M^2
+    const double ratio = problem.energy_error(M) / M.squaredNorm();
+    k2 += x.mid_far / x.near_mid * ratio / x.near_far / (p.along * p.along);
+  }
+  return k2 < 1 ? k2 + 8 * epsilon<double> : 1.0;
+}
+
+GYROSTAT_COMPILED_ONCE double k2_of_level(const Problem<double>& problem, const Level<double>& level,
+                                          const OrbitKind& at, double R, double eta) noexcept {
+  double most = 0;
+  for (const auto& moved : {Level<double>{level.R + R, level.eta}, Level<double>{level.R, level.eta + eta},
+                            Level<double>{level.R, level.eta - eta}}) {
+    const auto orbit = Orbit<double>::at(problem, moved, {at.regime, 1});
+    most += orbit ? std::abs(orbit->modulus().k2 - at.k2) : orbit.error() == Errc::separatrix ? 1 - at.k2 : 1.0;
+  }
+  return std::min(1.0, most);
+}
+
+GYROSTAT_COMPILED_ONCE double k2_uncertainty(const Problem<double>& problem, const Vec3<double>& M, const OrbitKind& at,
+                                             double norm, double energy) noexcept {
+  if (at.regime == Regime::rest) return 0;
+  const auto& a = problem.inverse_inertia;
+  if (at.regime == Regime::point && (problem.rotor_momentum.isZero(0) || a[2] - a[0] <= 8 * epsilon<double> * a[2]))
+    return 4 * epsilon<double>;
+  const double R = M.norm();
+  norm = std::max(norm, 2 * epsilon<double> * R);
+  if (problem.rotor_momentum.isZero(0)) {
+    const auto p = polhode_through<double>(problem.inverse_inertia, problem.inverse_gaps(), M);
+    const double ratio = (2 * energy / R + 2 * p.energy_ratio() * norm) / R;  // of 2H/M^2
+    const double tilt = ratio / p.axes.near_far;
+    const double slope = p.axes.mid_far / (p.axes.near_mid * (1 - p.tilt) * (1 - p.tilt));
+    const double k2 = slope * tilt + k2_of_data(problem, p, M);
+    return k2 < 1 ? k2 : 1.0;
+  }
+  const auto level = level_of(problem, M);
+  const double eta = (energy + (std::abs(level.eta) + problem.angular_velocity(M).norm()) * norm) / R;
+  double most = 4 * epsilon<double> + k2_of_level(problem, level, at, norm, eta);
+  // rounding of the moments, which the orbit takes differences of
+  for (const double change : {4 * epsilon<double>, -4 * epsilon<double>}) {
+    Problem<double> off = problem;
+    off.inverse_inertia[1] *= 1 + change;
+    const OrbitKind moved = orbit_kind(off, M);
+    most += std::abs(moved.k2 - at.k2);
+  }
+  return std::min(1.0, most);
+}
+
+}  // namespace gyrostat::deceleration

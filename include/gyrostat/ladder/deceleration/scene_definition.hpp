@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "gyrostat/ladder/deceleration/scene.hpp"
+
+namespace gyrostat::deceleration {
+
+GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Inertia<double>& body, const Setup& setup,
+                                                 const Question& question) {
+  if (!setup.rotor_momentum.allFinite() || !setup.control.allFinite() || !std::isfinite(setup.drag) ||
+      !setup.momentum.allFinite())
+    return Errc::not_finite;
+  if (setup.control.minCoeff() < 0 || setup.drag < 0) return Errc::negative;
+  if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
+  const double length = norm(setup.attitude);
+  if (!std::isfinite(length)) return Errc::not_finite;
+  if (!(length > 0)) return Errc::zero_vector;
+
+  Scene scene;
+  scene.setup_ = setup;
+  scene.inertia_ = body.tensor();
+  scene.ask(question);
+  scene.R_BP_ = body.R_BP();
+  const Mat3<double> R_PB = scene.R_BP_.transpose();
+  scene.problem_.inverse_inertia = body.inverse_principal();
+  // of a tensor that is not diagonal the moments are rounded, and so are their differences
+  if (body.has_exact_moments()) scene.problem_.exact_gaps = body.inverse_gaps();
+  scene.problem_.rotor_momentum = R_PB * setup.rotor_momentum;
+  scene.problem_.control = R_PB * setup.control.asDiagonal() * scene.R_BP_;
+  if (scene.equal_control()) scene.problem_.control = setup.control.asDiagonal();  // in any axes
+  scene.problem_.drag = setup.drag;
+  scene.problem_.law = setup.law;
+  scene.problem_.drag_law = setup.drag_law;
+  scene.problem_.momentum = R_PB * setup.momentum;
+  scene.problem_.momentum_converted = setup.angular_velocity && !body.has_exact_moments();
+  return scene;
+}
+
+}  // namespace gyrostat::deceleration

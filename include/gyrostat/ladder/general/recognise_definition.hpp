@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "gyrostat/ladder/general/recognise.hpp"
+
+namespace gyrostat::general {
+
+namespace detail {
+
+/// Each as_...: nullptr where the scene is an instance, else why it is none.
+inline const char* as_free(const Given& given, std::optional<free::Scene>& scene) {
+  const auto& [problem, wheels, loads, spinners, question] = given;
+  if (loads.other) return loads.other;
+  if (!loads.quiet()) return "a torque acts on the body";
+  if (spinners.why) return spinners.why;
+  if (!spinners.spare) return "a wheel has friction or a motor";
+  free::Assembly<double> assembly;
+  assembly.body.inertia = wheels.whole;
+  assembly.body.rotor_momentum = problem.rotor_momentum - loads.charge;
+  assembly.body.angular_velocity = problem.angular_velocity;
+  assembly.body.attitude = problem.attitude;
+  for (std::size_t i = 0; i < wheels.count; ++i) {
+    const auto& law = wheels.laws[i];
+    if (law.follows != Follows::body)
+      assembly.wheels.push_back({law.axis, law.axial_inertia, law.rate, law.follows == Follows::constant});
+  }
+  const auto made = free::Scene::make(assembly, question);
+  if (!made) return "no body of this inertia holds its wheels";
+  scene = *made;
+  return nullptr;
+}
+
+/// The factor by which a matrix is a multiple of another, to 8 roundings of `size`; NaN: it is none.
+inline double multiple_of(const Mat3<double>& m, const Mat3<double>& of, const Mat3<double>& size) noexcept {
+  const double factor = m.trace() / of.trace();
+  return vanishes(m - factor * of, size) ? factor : nan<double>;
+}
+
+inline const char* as_deceleration(const Given& given, std::optional<deceleration::Scene>& scene) {
+  const auto& [problem, wheels, loads, spinners, question] = given;
+  if (loads.other) return loads.other;
+  if (!loads.damps() && !loads.brakes()) return "nothing brakes the body";
+  if (!loads.body.isZero(0) || loads.weighs || !loads.charge.isZero(0))
+    return "another torque acts beside brake and drag";
+  if (spinners.why) return spinners.why;
+  if (!spinners.spare) return "a wheel has friction or a motor";
+  const bool carrier = !loads.damping.isZero(0), total = !loads.by_momentum.isZero(0);
+  if (carrier && total) return "drag acts both on the carrier and on the whole";
+  if (!loads.brake_total.isZero(0) && !loads.brake_carrier.isZero(0)) return "two brakes obey different laws";
+  deceleration::Setup setup;
+  if (!loads.brake_carrier.isZero(0)) setup.law = deceleration::Law::carrier;
+  if (carrier) setup.drag_law = deceleration::Law::carrier;
+  const bool on_carrier = carrier || setup.law == deceleration::Law::carrier;
+  if (on_carrier && spinners.free)
+    return "a wheel turns freely, and what brakes the carrier acts on it with that wheel locked";
+  if (carrier) setup.drag = multiple_of(loads.damping, wheels.whole, loads.damping_size);
+  if (total) setup.drag = multiple_of(loads.by_momentum, Mat3<double>::Identity(), loads.by_momentum_size);
+  if (!(setup.drag >= 0))
+    return carrier ? "the damping is not a positive multiple of the inertia"
+                   : "the drag on the momentum is not the same about all axes, or drives";
+  setup.control = setup.law == deceleration::Law::carrier ? loads.brake_carrier : loads.brake_total;
+  setup.rotor_momentum = spinners.kept;
+  setup.momentum = wheels.reduced * problem.angular_velocity + spinners.kept;
+  setup.attitude = problem.attitude;
+  setup.angular_velocity = problem.angular_velocity;
+  const auto body = Inertia<double>::from_tensor(wheels.reduced);
+  if (!body) return "without its free wheels the body breaks the triangle inequality";
+  const auto made = deceleration::Scene::make(*body, setup, question);
+  if (!made) return message(made.error());
+  scene = *made;
+  return nullptr;
+}
+
+/// A rotation that takes the unit vector d to -e3; the identity where it is that.
+inline Quat<double> to_heavy_axes(const Vec3<double>& d) noexcept {
+  if (d[0] == 0 && d[1] == 0 && d[2] < 0) return {};
+  // half way between d and -e3, or any axis across where they are opposite
+  const Vec3<double> target(0, 0, -1);
+  const double cosine = d.dot(target);
+  if (cosine < -0.5) {
+    const Quat<double> flip{0, 1, 0, 0};
+    return to_heavy_axes(rotate<double>(flip, d)) * flip;
+  }
+  const Vec3<double> axis = cross<double>(d, target);
+  return normalised(Quat<double>{1 + cosine, axis[0], axis[1], axis[2]});
+}
+
+inline const char* as_heavy(const Given& given, std::optional<HeavyInstance>& instance) {
+  const auto& [problem, wheels, loads, spinners, question] = given;
+  if (loads.other) return loads.other;
+  if (!loads.weighs) return "no weight, gradient or dipole in a field that stands still";
+  if (!loads.body.isZero(0) || loads.damps() || loads.brakes()) return "another torque acts beside what stands still";
+  if (spinners.why) return spinners.why;
+  if (!spinners.spare) return "a wheel has friction or a motor";
+  if (spinners.free && loads.gradient != 0)
+    return "a wheel turns freely, and the gradient acts on the body with it locked";
+  HeavyInstance made;
+  const Vec3<double> l = spinners.kept - loads.charge;
+  if (const double size = l.norm(); size > 0) {
+    const Vec3<double> e = l / size;
+    if (!symmetric_about(wheels.reduced, e) || !parallel(loads.moment, e))
+      return "momentum of wheels, and neither body nor weight symmetric about it";
+    made.turn = l / e.dot(wheels.reduced * e);
+  }
+  // the product of mass, gravity and arm alone counts: a body of little mass can always have it
+  double mass = problem.mass, gravity = problem.field.gravity;
+  Vec3<double> centre = problem.centre_of_mass;
+  const bool own = vanishes(mass * gravity * centre - loads.moment, loads.moment.cwiseAbs());
+  auto body = heavy::Body::make(wheels.reduced, mass, centre, gravity, loads.gradient);
+  if (!own || !body) {
+    const double moment = loads.moment.norm();
+    mass = 1e-9 * wheels.reduced.trace();
+    gravity = moment / mass;
+    centre = moment > 0 ? Vec3<double>(loads.moment / moment) : Vec3<double>(0, 0, 0);
+    body = heavy::Body::make(wheels.reduced, mass, centre, gravity, loads.gradient);
+  }
+  if (!body) return message(body.error());
+  made.q_HI = to_heavy_axes(loads.direction);
+  heavy::Start start;
+  start.state.angular_velocity = problem.angular_velocity + made.turn;
+  start.state.attitude = made.q_HI * problem.attitude;
+  start.oriented = true;
+  const auto scene = heavy::Scene::make(*body, start, question);
+  if (!scene) return message(scene.error());
+  made.scene = *scene;
+  instance = made;
+  return nullptr;
+}
+
+inline const char* as_rotor(const Given& given, std::optional<RotorInstance>& instance) {
+  const auto& [problem, wheels, loads, spinners, question] = given;
+  if (loads.other) return loads.other;
+  if (!loads.quiet()) return "a torque acts on the body";
+  if (spinners.why) return spinners.why;
+  if (spinners.driven == -1) return "no wheel has friction or a motor";
+  if (spinners.driven == -2) return "more than one wheel has friction or a motor";
+  RotorInstance made;
+  made.driven = std::size_t(spinners.driven);
+  const auto& law = wheels.laws[made.driven];
+  const Vec3<double> rest = spinners.kept - loads.charge;
+  if (!parallel(rest, law.axis)) return "other momentum is not along the driven wheel";
+  made.shift = rest.dot(law.axis) / law.axial_inertia;
+  const double no_load = law.torque / law.friction;
+  if (!(std::abs(no_load) <= 1e8)) return "the motor hardly feels its rate";
+  const Mat3<double> J = wheels.reduced + law.axial_inertia * law.axis * law.axis.transpose();
+  const bool alone = !spinners.free;  // then J is that of the whole, as it was given
+  const auto body = rotor::Gyrostat<double>::make(alone ? wheels.whole : J, law.axis, law.axial_inertia, law.friction,
+                                                  no_load + made.shift);
+  if (!body) return message(body.error());
+  const auto scene =
+      rotor::Scene::make(*body, {problem.attitude, problem.angular_velocity, law.rate + made.shift}, question);
+  if (!scene) return message(scene.error());
+  made.scene = *scene;
+  instance = made;
+  return nullptr;
+}
+
+/// The principal axes of which the given momenta are along one, that one the third; nothing where there is none.
+inline std::optional<Mat3<double>> spin_axes(const Mat3<double>& J, const Vec3<double>& l, const Vec3<double>& charge,
+                                             const Vec3<double>& omega) noexcept {
+  const bool diagonal = J.isDiagonal(0);
+  const Mat3<double> axes = diagonal ? Mat3<double>(Mat3<double>::Identity()) : symmetric_eigen<double>(J).axes;
+  int best = -1;
+  double most = -1;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<double> e = axes.col(i);
+    if (!parallel(e, l) || !parallel(e, charge)) continue;
+    if (const double spin = std::abs(e.dot(J * omega)); spin > most) best = i, most = spin;
+  }
+  if (best < 0) return std::nullopt;
+  Mat3<double> R;
+  for (int row = 0; row < 3; ++row) R.row(row) = axes.col((best + 1 + row) % 3).transpose();
+  return R;
+}
+
+inline const char* as_spinning(const Given& given, std::optional<SpinningInstance>& instance) {
+  const auto& [problem, wheels, loads, spinners, question] = given;
+  if (loads.other) return loads.other;
+  if (loads.damps() || loads.brakes() || loads.weighs) return "a torque that is not constant in the body acts";
+  if (loads.body.isZero(0) && loads.force.isZero(0)) return "neither torque nor thrust";
+  if (!loads.force_I.isZero(0)) return "a force is constant in space";
+  if (spinners.why) return spinners.why;
+  if (!spinners.spare) return "a wheel has friction or a motor";
+  const auto axes = spin_axes(wheels.reduced, spinners.kept, loads.charge, problem.angular_velocity);
+  if (!axes) return "momentum of wheels or charge is not along a principal axis";
+  SpinningInstance made;
+  made.R_SB = *axes;
+  made.q_IS = problem.attitude * conjugate(from_matrix<double>(made.R_SB));
+  spinning::Problem<double> p;
+  const Mat3<double> J = made.R_SB * wheels.reduced * made.R_SB.transpose();
+  p.inertia = J.diagonal();
+  p.mass = problem.mass;
+  p.rotor_momentum = made.R_SB.row(2).dot(spinners.kept);
+  p.charge_momentum = made.R_SB.row(2).dot(loads.charge);
+  p.torque = made.R_SB * loads.body;
+  p.force = made.R_SB * loads.force;
+  p.angular_velocity = made.R_SB * problem.angular_velocity;
+  p.velocity = rotate<double>(conjugate(made.q_IS), problem.velocity);
+  p.position = rotate<double>(conjugate(made.q_IS), problem.position);
+  const auto scene = spinning::Scene::make(p, question);
+  if (!scene) return message(scene.error());
+  made.scene = *scene;
+  instance = made;
+  return nullptr;
+}
+
+}  // namespace detail
+
+GYROSTAT_COMPILED_ONCE Instances recognise(const Problem<double>& problem, const Wheels<double>& wheels,
+                                           const Collected<double>& torques, const Question& question) {
+  const detail::Given given{problem, wheels, detail::Loads::of(problem, torques), detail::Spinners::of(wheels),
+                            detail::plain(question)};
+  Instances found;
+  found.charge = given.loads.charge;
+  found.pushed = !given.loads.force.isZero(0) || !given.loads.force_I.isZero(0) || !torques.is_steady();
+  const auto why = [&](Special special) -> const char*& { return found.why[std::size_t(special)]; };
+  why(Special::free) = detail::as_free(given, found.free);
+  why(Special::deceleration) = detail::as_deceleration(given, found.deceleration);
+  why(Special::heavy) = detail::as_heavy(given, found.heavy);
+  why(Special::rotor) = detail::as_rotor(given, found.rotor);
+  why(Special::spinning) = detail::as_spinning(given, found.spinning);
+  return found;
+}
+
+}  // namespace gyrostat::general

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "gyrostat/ladder/general/start_error.hpp"
+
+namespace gyrostat::general {
+
+namespace detail {
+
+GYROSTAT_COMPILED_ONCE double apart(const Column& one, const Column& other) noexcept {
+  const auto width = std::size_t(one.row_width());
+  double most = 0;
+  for (std::size_t at = 0; at + width <= one.values.size(); at += width) {
+    const double *x = &one.values[at], *y = &other.values[at];
+    double square = 0;
+    for (std::size_t i = 0; i < width; ++i) square += (x[i] - y[i]) * (x[i] - y[i]);
+    const bool turns = one.kind->measure == Measure::angle && width == 4;
+    most = greater(
+        turns ? angle_between<double>({x[3], x[0], x[1], x[2]}, {y[3], y[0], y[1], y[2]}) : std::sqrt(square), most);
+  }
+  return most;
+}
+
+GYROSTAT_COMPILED_ONCE bool turns_along(const Problem<double>& problem) noexcept {
+  return std::all_of(problem.torques.begin(), problem.torques.end(), [](const auto& torque) {
+    switch (torque.type) {
+      case TorqueType::constant:
+      case TorqueType::table: return torque.axes == Axes::body;
+      case TorqueType::damping:
+      case TorqueType::brake:
+      case TorqueType::charge: return true;
+      default: return false;
+    }
+  });
+}
+
+GYROSTAT_COMPILED_ONCE std::vector<Displacement> displacements(const Scene& scene) {
+  std::vector<Displacement> made;
+  const auto& error = scene.start_error();
+  const bool turns = error.attitude > 0 && !turns_along(scene);
+  for (int i = 0; i < 3; ++i) {
+    if (turns) made.push_back({Displacement::turn, i});
+    if (error.angular_velocity > 0) made.push_back({Displacement::rate, i});
+  }
+  if (error.rotor_rate > 0)
+    for (std::size_t i = 0; i < scene.wheels().count; ++i)
+      if (const auto& law = scene.wheels().laws[i]; law.follows != Follows::body && !law.tabled)
+        made.push_back({Displacement::wheel, int(i)});
+  return made;
+}
+
+}  // namespace detail
+
+GYROSTAT_COMPILED_ONCE void add_carried(Answer& answer, const Carried& carried) noexcept {
+  for (std::size_t i = 0; i < answer.columns.size(); ++i) {
+    Column& column = answer.columns[i];
+    const bool relative = column.kind->measure == Measure::relative;
+    column.error += relative ? over(carried.columns[i], size_of(column)) : carried.columns[i];
+  }
+  for (Quantity& quantity : answer.quantities)
+    if (quantity.kind == &scalar_kinds[scalar::stop_time])
+      quantity.error += over(carried.stop_time, std::abs(quantity.values[0]));
+}
+
+}  // namespace gyrostat::general

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "gyrostat/ladder/general/track.hpp"
+
+namespace gyrostat::general {
+
+namespace detail {
+
+GYROSTAT_COMPILED_ONCE Quat<double> orbit_axes(const OrbitPoint<double>& at) noexcept {
+  const Vec3<double> normal = cross<double>(at.radial, at.along);
+  Mat3<double> R;
+  R.col(0) = at.along;
+  R.col(1) = -normal;
+  R.col(2) = -at.radial;
+  return from_matrix<double>(R);
+}
+
+GYROSTAT_COMPILED_ONCE bool known(const Track& track, std::size_t place) noexcept {
+  if (place == column::angular_momentum_norm && !track.norm.values.empty()) return true;
+  if (place == column::energy && !track.energy.values.empty()) return true;
+  for (std::size_t p = 0; p < primitive::count; ++p)
+    if (has(made_of[place], p) && p != primitive::rotor_rate && std::isnan(track.off[p])) return false;
+  return place != column::rotor_rate || !std::isnan(track.off[primitive::rotor_rate]);
+}
+
+/// Writes the columns of a scene's states: the one place that knows what they are made of.
+class Writer {
+ public:
+  Writer(const Scene& scene, const Track& track) noexcept : scene_(scene), track_(track) {}
+
+  /// Numbers of column `place` at time i.
+  void operator()(std::size_t place, std::size_t i, double t, double* to) const noexcept {
+    const State<double>& s = track_.states[i];
+    const auto put = [&](const Vec3<double>& v) { std::copy_n(v.data(), 3, to); };
+    const auto turn = [&](const Quat<double>& q) { to[0] = q.x, to[1] = q.y, to[2] = q.z, to[3] = q.w; };
+    switch (place) {
+      case column::attitude: return turn(s.attitude);
+      case column::angular_velocity: return put(s.angular_velocity);
+      case column::angular_momentum: return put(s.angular_momentum);
+      case column::angular_momentum_inertial: return put(rotate<double>(s.attitude, s.angular_momentum));
+      case column::angular_momentum_norm:
+        *to = track_.norm.values.empty() ? s.angular_momentum.norm() : track_.norm.values[i];
+        return;
+      case column::energy:
+        *to = track_.energy.values.empty() ? energy(scene_.wheels(), s) : track_.energy.values[i];
+        return;
+      case column::rotor_rate: std::copy_n(s.rotor_rate.data(), scene_.wheels().count, to); return;
+      case column::rotor_angle: std::copy_n(s.rotor_angle.data(), scene_.wheels().count, to); return;
+      case column::velocity: return put(s.velocity);
+      case column::position: return put(s.position);
+      case column::down: return put(rotate<double>(conjugate(s.attitude), scene_.problem().field.down));
+      case column::attitude_orbit:
+        return turn(conjugate(orbit_axes(orbit_at(*scene_.problem().orbit, t))) * s.attitude);
+      case column::euler: return put(euler_angles(*scene_.euler(), s.attitude).angles);
+      default: put(scene_.torque(t, seen_of(s)));
+    }
+  }
+
+  /// The absolute error of column `place`.
+  double off(std::size_t place) const noexcept {
+    const auto& off = track_.off;
+    const double turning = off[primitive::attitude], rate = off[primitive::angular_velocity];
+    const double momentum = off[primitive::angular_momentum];
+    const double M = greatest([](const State<double>& s) { return s.angular_momentum.norm(); });
+    switch (place) {
+      case column::attitude: return turning;
+      case column::angular_velocity: return rate;
+      case column::angular_momentum: return momentum;
+      case column::angular_momentum_inertial: return momentum + M * (turning + 4 * epsilon<double>);
+      case column::angular_momentum_norm: return track_.norm.values.empty() ? momentum : track_.norm.off;
+      case column::energy: return track_.energy.values.empty() ? energy_off(rate) : track_.energy.off;
+      case column::rotor_rate: return off[primitive::rotor_rate];
+      case column::rotor_angle: return off[primitive::rotor_angle];
+      case column::velocity: return off[primitive::velocity];
+      case column::position: return off[primitive::position];
+      case column::down: return turning + 4 * epsilon<double>;
+      case column::attitude_orbit: return turning + 8 * epsilon<double> * (1 + orbit_phase());
+      case column::euler: return euler_off(turning + 4 * epsilon<double>);
+      default: return torque_off();
+    }
+  }
+
+ private:
+  template <class Size>
+  double greatest(const Size& size) const noexcept {
+    double most = 0;
+    for (const auto& s : track_.states) most = greater(size(s), most);
+    return most;
+  }
+  double absolute_rate(const State<double>& s, std::size_t i) const noexcept {
+    return s.rotor_rate[i] + scene_.wheels().laws[i].axis.dot(s.angular_velocity);
+  }
+  double energy_off(double rate) const noexcept {
+    const auto& wheels = scene_.wheels();
+    const double J = wheels.reduced.norm();
+    double sum = (greatest([&](const State<double>& s) { return (wheels.reduced * s.angular_velocity).norm(); }) +
+                  J * rate / 2) *
+                 rate;
+    for (std::size_t i = 0; i < wheels.count; ++i) {
+      const auto& law = wheels.laws[i];
+      if (law.follows != Follows::integral && law.follows != Follows::state) continue;  // else p stays
+      const double its = track_.off[primitive::rotor_rate] + rate;
+      sum += law.axial_inertia * its *
+             (greatest([&](const State<double>& s) { return std::abs(absolute_rate(s, i)); }) + its / 2);
+    }
+    return sum + 8 * epsilon<double> * greatest([&](const State<double>& s) { return energy(wheels, s); });
+  }
+  /// Of the angles, those of first and last turn counted on from time to time: not known where one of them may be a turn off.
+  double euler_off(double turning) const noexcept {
+    double most = 0, counted[2] = {0, 0}, back[2] = {0, 0};
+    bool begun = false;
+    for (std::size_t i = 0; i < track_.states.size(); ++i) {
+      const auto at = euler_angles(*scene_.euler(), track_.states[i].attitude);
+      const bool given = scene_.question().times[i] == 0;
+      const double off = at.error(given ? 4 * epsilon<double> : turning);
+      for (int end = 0; end < 2; ++end) {
+        const double angle = at.angles[2 * end], step = std::remainder(angle - back[end], 2 * pi<double>);
+        // of one that is told alone, it is where the count begins
+        if (!given && pi<double> - std::abs(step) <= (begun ? 2 : 1) * off) return infinity<double>;
+        back[end] = angle;
+        counted[end] += step;
+      }
+      begun = true;
+      most = greater(off + 2 * epsilon<double> * (std::abs(counted[0]) + std::abs(counted[1])), most);
+    }
+    return most;
+  }
+  /// By how much the torques change where attitude, rates and momentum change by their errors, by differences at some of the times, or at all.
+  double torque_off() const noexcept {
+    for (const std::size_t p : {primitive::attitude, primitive::angular_velocity, primitive::angular_momentum})
+      if (!(track_.off[p] < infinity<double>)) return infinity<double>;
+    const auto& times = scene_.question().times;
+    // what turns over, as a brake where what it opposes nearly vanishes, or acts for a while would not show at some of the times
+    const auto& torques = scene_.problem().torques;
+    const bool changes = scene_.breaks() > 0 || scene_.own_torque().any() ||
+                         std::any_of(torques.begin(), torques.end(), [](const auto& torque) {
+                           return torque.type == TorqueType::brake || torque.factor.amplitude != 0;
+                         });
+    const std::size_t n = track_.states.size(), stride = changes ? 1 : 1 + n / 16;
+    double most = 0;
+    for (std::size_t back = 0; back < n; back += stride) {
+      const std::size_t i = n - 1 - back;
+      const Seen<double> here = seen_of(track_.states[i]);
+      const auto torque = [&](const Seen<double>& at) { return scene_.torque(times[i], at); };
+      const Vec3<double> now = torque(here);
+      const double sizes =
+          sum_of_torques(scene_.problem(), here, times[i]) + scene_.own_torque()(times[i], here).norm();
+      double sum = 8 * epsilon<double> * sizes;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vec3<double> e = Vec3<double>::Unit(axis);
+        // by at least the root of a rounding, so that the difference means something
+        const auto moved = [&](std::size_t p, double size, auto&& move) {
+          const double off = track_.off[p], by = std::max(off, 1e-8 * size);
+          if (by > 0) sum += (torque(move(by)) - now).norm() * (off / by);
+        };
+        moved(primitive::attitude, 1, [&](double by) {
+          Seen<double> at = here;
+          at.attitude = normalised(at.attitude * Quat<double>{1, by / 2 * e[0], by / 2 * e[1], by / 2 * e[2]});
+          return at;
+        });
+        moved(primitive::angular_velocity, here.angular_velocity.norm(), [&](double by) {
+          Seen<double> at = here;
+          at.angular_velocity += by * e;
+          return at;
+        });
+        moved(primitive::angular_momentum, here.angular_momentum.norm(), [&](double by) {
+          Seen<double> at = here;
+          at.angular_momentum += by * e;
+          return at;
+        });
+      }
+      if (scene_.own_torque().any()) sum += off_by_wheels(here, now, times[i]);
+      most = greater(sum, most);
+    }
+    return most;
+  }
+  /// By how much a torque of the caller's own changes where the rates of the wheels change by their error.
+  double off_by_wheels(const Seen<double>& here, const Vec3<double>& now, double t) const noexcept {
+    double sum = 0;
+    for (std::size_t i = 0; i < scene_.wheels().count; ++i) {
+      const double off = track_.off[primitive::rotor_rate], by = std::max(off, 1e-8 * std::abs(here.rotor_rate[i]));
+      if (!(by > 0)) continue;
+      Seen<double> at = here;
+      at.rotor_rate[i] += by;
+      sum += (scene_.torque(t, at) - now).norm() * (off / by);
+    }
+    return sum;
+  }
+  /// The angle that the orbit turns through, to its order, rad.
+  double orbit_phase() const noexcept {
+    return orbit_at(*scene_.problem().orbit, 0.0).rate * scene_.question().times.back();
+  }
+
+  const Scene& scene_;
+  const Track& track_;
+};
+
+}  // namespace detail
+
+/// First and last angle of each row counted on from the row before.
+inline void count_turns(Column& euler) noexcept {
+  auto& values = euler.values;
+  for (std::size_t i = 3; i < values.size(); ++i)
+    if (i % 3 != 1) values[i] = values[i - 3] + std::remainder(values[i] - values[i - 3], 2 * pi<double>);
+}
+
+/// Rates and angles of the wheels at t = 0 as they were given.
+inline void put_wheels(Answer& answer, const Wheels<double>& wheels) {
+  if (answer.times.front() != 0) return;
+  for (Column& column : answer.columns) {
+    const bool rate = column.kind == &column_kinds[column::rotor_rate];
+    if ((!rate && column.kind != &column_kinds[column::rotor_angle]) || column.error == infinity<double>) continue;
+    for (std::size_t i = 0; i < wheels.count; ++i) column.values[i] = rate ? wheels.laws[i].rate : wheels.laws[i].angle;
+  }
+}
+
+GYROSTAT_COMPILED_ONCE void fill(Answer& answer, const Scene& scene, const Track& track) {
+  fill_head(answer, scene.question(), track);
+  const auto scale = scene.scales();
+  const detail::Writer write(scene, track);
+  const std::size_t n = answer.times.size();
+  for (std::size_t place = 0; place < std::size(column_kinds); ++place) {
+    if (!scene.gives(place)) continue;
+    const ColumnKind& kind = column_kinds[place];
+    const std::size_t width = kind.width == per_rotor ? scene.wheels().count : std::size_t(kind.width);
+    if (!detail::known(track, place)) {
+      answer.columns.push_back({&kind, std::vector<double>(n * width, nan<double>), infinity<double>, scale[place]});
+      answer.columns.back().width = int(width);
+      continue;
+    }
+    answer.columns.push_back({&kind, std::vector<double>(n * width), 0, scale[place]});
+    Column& column = answer.columns.back();
+    column.width = int(width);
+    for (std::size_t i = 0; i < n; ++i) write(place, i, answer.times[i], column.values.data() + i * width);
+    if (place == column::euler) count_turns(column);
+    const double off = write.off(place);
+    column.error = kind.measure == Measure::relative ? relative_to_truth(over(off, size_of(column))) : off;
+  }
+  const auto& q = scene.problem().attitude;
+  const auto& w = scene.problem().angular_velocity;
+  put_start(answer, column_kinds[column::attitude], {q.x, q.y, q.z, q.w});
+  put_start(answer, column_kinds[column::angular_velocity], {w[0], w[1], w[2]});
+  put_wheels(answer, scene.wheels());
+}
+
+}  // namespace gyrostat::general
