@@ -110,7 +110,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     file = tmp_path / "view.html"
     assert main(["view", "t-handle", "--from", "1", "--to", "0.05 min", "-o", str(file)]) == 0
     assert (shown(file.read_text())["begin"], shown(file.read_text())["end"]) == (1, 3)
-    assert f"wrote {file}: answered by closed-form" in capsys.readouterr().err
+    assert f"wrote {file}: answered by full" in capsys.readouterr().err
     assert main(["view", "tiangong-1", "--set", "model=averaged", "-o", str(file)]) == 2
     with pytest.raises(SystemExit):
         main(["view", "t-handle", "--to", "3 kg"])
