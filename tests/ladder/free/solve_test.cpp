@@ -109,6 +109,15 @@ TEST_CASE("the means, rates and views of a free motion state what a rounding of 
   CHECK(ratios[ratios.size() / 2] < 1e3);
 }
 
+TEST_CASE("an answer beside a separatrix says so, whichever rung gives it", "[free]") {
+  for (const int named : {any_rung, int(free::rung::closed_form), int(free::rung::full)}) {
+    const Answer answer = solved(posed(body({3, 2, 1.5}, {0, 0, 0}, {1e-5, 1, 1e-5}), {2}, 1e-6, named));
+    CAPTURE(named, answer.model);
+    REQUIRE(answer.warnings.size() == 1);
+    CHECK(answer.warnings[0].code() == "near-separatrix");
+  }
+}
+
 TEST_CASE("rest, a sphere and a steady rotation have their answers", "[free]") {
   const Answer rest = solved(posed(body({3, 2, 1.5}, {0, 0, 0}, {0, 0, 0}), {0, 5}));
   CHECK(rest.met);

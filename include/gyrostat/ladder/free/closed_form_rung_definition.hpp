@@ -110,7 +110,7 @@ GYROSTAT_COMPILED_ONCE double rate_error(const Scene& scene, std::span<const Sta
   return relative_to_truth(over(off, size));
 }
 
-inline void warn_of_form(Track& track, const ClosedForm& form, double last, bool known) {
+GYROSTAT_COMPILED_ONCE void warn_of_form(Outcome& track, const ClosedForm& form, double last, bool known) {
   const Motion<double>& motion = form.motion;
   if (motion.kind() == Kind::steady && motion.steady_square() < 0)
     track.warn(warning_kinds[warning::unstable_rotation], std::sqrt(-motion.steady_square()));

@@ -51,6 +51,11 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
     form = *made;
   }
   const auto& [motion, error, precise] = *form;
+  if (!track.form) {
+    Outcome known;
+    detail::warn_of_form(known, *form, scene.question().times.back(), true);
+    answer.warnings.insert(answer.warnings.end(), known.warnings.begin(), known.warnings.end());
+  }
   const auto tell = [&](std::size_t which, std::array<double, 3> values, double its_error = nan<double>) {
     answer.quantities.push_back({&scalar_kinds[which], values, its_error});
   };
