@@ -179,3 +179,14 @@ TEST_CASE("equal-torque rung: M across an axis of symmetry, where a set-up in do
       CHECK(error <= 1e-5);
     }
 }
+
+TEST_CASE("equal-torque rung: drag alone never brings the body to rest, though |M| underflows", "[deceleration]") {
+  Case c(1e-3, 100);
+  c.data.control.setZero();
+  c.data.drag = 1;
+  c.data.times = {1, 1e3, 1e5};
+  const Answer answer = c.with(rung::equal_torque, 1e-6).solve();
+  const auto& k2 = answer.find("modulus_squared")->values;
+  CHECK(k2[0] > 0);
+  CHECK(k2[2] == k2[0]);
+}

@@ -143,7 +143,8 @@ inline Track follow_norm(const Scene& scene) {
     State<double> state;
     state.norm = law.norm(t);
     state.energy = energy * (state.norm / norm) * (state.norm / norm);
-    if (state.norm > 0) state.k2 = kind.k2, state.regime = kind.regime;
+    if (t < law.stop_time())  // |M| may underflow long before
+      state.k2 = kind.k2, state.regime = kind.regime;
     track.states.push_back(state);
   }
   track.stop_time = law.stop_time();
