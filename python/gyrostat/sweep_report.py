@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["Index", "Response", "drawings", "rank_correlations", "responses", "save_figures", "shares", "sobol_indices", "tables"]
 
 PERCENTILES: Final = (1, 5, 25, 50, 75, 95, 99)
+ROUNDINGS: Final = 1e-12  # a spread this small beside the values cannot be cut into bins
 MOST_DOTS: Final = 20000  # of a scatter plot
 MOST_PANELS: Final = 12
 RESAMPLED: Final = 200  # times, for a standard error
@@ -207,7 +208,10 @@ def histograms(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure"
     figure, axes = _panels(len(shown), 11, 2.9, 2)
     for place, each in zip(axes, shown, strict=True):
         values = each.values[np.isfinite(each.values)]
-        place.hist(values, bins=min(60, max(10, round(math.sqrt(len(values))))), color=COLOURS[0], alpha=0.75)
+        low, high = float(np.min(values)), float(np.max(values))
+        least = ROUNDINGS * max(abs(low), abs(high))
+        wide = None if high == low or high - low > least else (low - least, high + least)
+        place.hist(values, bins=min(60, max(10, round(math.sqrt(len(values))))), range=wide, color=COLOURS[0], alpha=0.75)
         for share, dashes in ((5, ":"), (50, "-"), (95, ":")):
             at = float(np.percentile(values, share))
             place.axvline(at, color=COLOURS[1], linestyle=dashes, linewidth=1.2, label=f"{share} %: {short(at, 5)}")

@@ -28,7 +28,7 @@ inline Vec3<double> unit_vector(const char* name, const Array& values) {
   const double length = magnitude(v);
   if (!(std::abs(length - 1) <= 1e-8))
     raise("DomainError", name + (" = " + text(values)) + ": the length is " + text(length) + ", not 1");
-  return v / length;
+  return std::abs(length - 1) <= 4 * epsilon<double> ? v : Vec3<double>(v / length);  // as in a row of a sweep
 }
 
 /// The physics of a gyrostat with a driven rotor.

@@ -53,6 +53,7 @@ struct SeenInTurn {
 template <Real Scalar, class Seen>
 void add_view(View<Scalar>& sum, const Seen& seen, Scalar from, Scalar to) noexcept {
   constexpr Scalar wanted = Scalar(1e-11L);
+  constexpr int deepest = 12;
   const Scalar width = to - from;
   const auto take = [&](Scalar middle, Scalar half, bool halvable) noexcept -> Result<bool> {
     View<Scalar> part;
@@ -73,7 +74,7 @@ void add_view(View<Scalar>& sum, const Seen& seen, Scalar from, Scalar to) noexc
     sum.error += part.error;
     return true;
   };
-  (void)math::halved_panels(Scalar(0), Scalar(1), 1, 12, take);
+  (void)math::halved_panels(Scalar(0), Scalar(1), 1, deepest, take);
 }
 
 }  // namespace detail
