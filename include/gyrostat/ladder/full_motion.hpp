@@ -23,7 +23,7 @@ inline constexpr std::uint64_t step_budget = 10'000'000;
 constexpr const char* why_stopped(ode::Status status) noexcept {
   switch (status) {
     case ode::Status::step_limit:
-      return "the budget of 10 million steps is used up before the last time: ask for a shorter span or a looser "
+      return "the budget of 10 million steps does not reach the last time: ask for a shorter span or a looser "
              "tolerance";
     case ode::Status::cancelled: return "the caller stopped the work";
     default: return ode::message(status);

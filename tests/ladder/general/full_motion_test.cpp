@@ -292,6 +292,30 @@ TEST_CASE("a motion that grows without end is given up before the budget of step
   CHECK((early->status == Status::reached && !early->outgrown));
 }
 
+TEST_CASE("a body that a torque spins up beyond all budgets is given up early", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(1, 1, 1e-3).asDiagonal();
+  auto& drive = p.torques.emplace_back();
+  drive.type = TorqueType::constant, drive.vector = {0, 0, 1};
+  std::vector<State<double>> states(1);
+  FullMotionOptions<double> options;
+  options.tolerance = 1e-4;
+  const std::vector<double> times{5000};  // 1e10 rad
+  const auto answer = full_motion<double>(p, times, states, options);
+  REQUIRE(answer);
+  CHECK(answer->status == Status::step_limit);
+  CHECK(answer->counts.steps < step_budget / 10);
+  // and one that slackens is followed: as many turns at the start, by far fewer later
+  p.torques.clear();
+  p.angular_velocity = {0, 0, 5e5};
+  auto& damping = p.torques.emplace_back();
+  damping.type = TorqueType::damping, damping.matrix = Vec3<double>(1, 1, 1e-3).asDiagonal();
+  const auto damped = full_motion<double>(p, times, states, options);
+  REQUIRE(damped);
+  CHECK(damped->status == Status::reached);
+  CHECK(states[0].angular_velocity.norm() < 1);
+}
+
 TEST_CASE("the full general equations can be watched and stopped", "[general]") {
   Problem<double> p;
   p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();

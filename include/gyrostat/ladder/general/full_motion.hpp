@@ -234,7 +234,7 @@ class FullCourse {
     if (status != ode::Status::reached) return status;
     const Scalar rate = (System::turned(solver_->state()) - heading).norm() / (time() - begin);
     outgrown_ = rate > Scalar(outgrown_rate) * of_.sizes.turning && rate * (last_ - begin) > Scalar(outgrown_angle);
-    if (outgrown_) return ode::Status::step_limit;
+    if (outgrown_ || is_hopeless()) return ode::Status::step_limit;
     if (before < infinity<Scalar> && has_stopped(system_->braked(time(), solver_->state()), before))
       return ode::Status::event;
     if (time() >= piece_.to && cut_ < cuts_.size()) {
@@ -293,7 +293,16 @@ class FullCourse {
     options_.step_cap -= std::min(options_.step_cap, solver_->counts().steps);
     piece_ = std::move(*next_);
     next_.reset();
+    mark_ = t, stretch_ = 0;
     enter(t, numbers);
+  }
+  /// Whether steps that do not lengthen would overrun the budget by far, where no law changes any more; looked at now and then.
+  bool is_hopeless() noexcept {
+    constexpr std::uint64_t some = 1 << 16;
+    if (next_ || cut_ < cuts_.size() || solver_->counts().steps % some != 0) return false;
+    const Scalar before = stretch_;
+    stretch_ = time() - mark_, mark_ = time();
+    return stretch_ <= before && (last_ - time()) / stretch_ * Scalar(some) > 4 * Scalar(options_.step_cap);
   }
   /// Whether what a brake opposes, which was `before`, is as good as gone.
   bool has_stopped(Scalar now, Scalar before) noexcept {
@@ -306,6 +315,7 @@ class FullCourse {
   Prepared<Scalar> of_;
   std::span<const Scalar> cuts_;
   Scalar last_, share_;
+  Scalar mark_ = 0, stretch_ = 0;  ///< when the pace was looked at last, and how far the steps before had come, s
   bool outgrown_ = false;
   std::size_t cut_ = 0;
   Piece<Scalar> piece_;
