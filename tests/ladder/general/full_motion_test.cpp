@@ -304,6 +304,7 @@ TEST_CASE("a body that a torque spins up beyond all budgets is given up early", 
   const auto answer = full_motion<double>(p, times, states, options);
   REQUIRE(answer);
   CHECK(answer->status == Status::step_limit);
+  CHECK(answer->outgrown);
   CHECK(answer->counts.steps < step_budget / 10);
   // and one that slackens is followed: as many turns at the start, by far fewer later
   p.torques.clear();

@@ -128,9 +128,12 @@ inline constexpr const char* why_stopped_by_brake =
 /// A motion is given up where the body turns so many times faster than its momentum and the torques let foresee, and would turn through
 /// this angle, rad, at the rate it has come to: no budget of steps reaches so far.
 inline constexpr double outgrown_rate = 1e3, outgrown_angle = 50 * unreachable_angle;
+/// Or so many times faster, in steps that would overrun the budget by far.
+inline constexpr double outgrown_pace = 30;
 inline constexpr const char* why_outgrown =
-    "the body turns ever faster, a thousand times faster than its momentum and the torques at the start let foresee: "
-    "something drives it, such as damping with a negative sign; ask for a shorter span";
+    "the body turns ever faster, far beyond what its momentum and the torques at the start let foresee: something "
+    "drives it, such as a torque about an axis of little inertia or damping with a negative sign; ask for a shorter "
+    "span";
 
 /// Angle, rad, that waves, fields and the orbit may go through: their phases are not known behind it.
 inline constexpr double most_forcing = 1e8;
@@ -234,7 +237,9 @@ class FullCourse {
     if (status != ode::Status::reached) return status;
     const Scalar rate = (System::turned(solver_->state()) - heading).norm() / (time() - begin);
     outgrown_ = rate > Scalar(outgrown_rate) * of_.sizes.turning && rate * (last_ - begin) > Scalar(outgrown_angle);
-    if (outgrown_ || is_hopeless()) return ode::Status::step_limit;
+    const bool hopeless = is_hopeless();
+    outgrown_ = outgrown_ || (hopeless && rate > Scalar(outgrown_pace) * of_.sizes.turning);
+    if (outgrown_ || hopeless) return ode::Status::step_limit;
     if (before < infinity<Scalar> && has_stopped(system_->braked(time(), solver_->state()), before))
       return ode::Status::event;
     if (time() >= piece_.to && cut_ < cuts_.size()) {
