@@ -79,9 +79,11 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
     const Vec3<double> axis = one.dot(means.angular_momentum) < 0 ? Vec3<double>(-one) : one;
     const auto turning = precession(motion, axis);
     if (turning.converged) {
-      // rounding turns the axes of equal moments
+      // rounding turns the axes of equal moments, and an axis that M is across to on the average
       const Vec3<double>& J = motion.principal_moments();
-      const bool fixed = std::abs(J[largest ? 0 : 2] - J[1]) > 1e3 * epsilon<double> * J[0];
+      constexpr double clear = 1e3 * epsilon<double>;
+      const bool fixed = std::abs(J[largest ? 0 : 2] - J[1]) > clear * J[0] &&
+                         axis.dot(means.angular_momentum) > clear * motion.angular_momentum_norm();
       const double rate = turning.about_momentum, off = error.turn_rate(motion.turn_per_period(), rate);
       tell(scalar::precession_rate, {rate}, fixed ? over(off, std::abs(rate)) : infinity<double>);
       tell(scalar::spin_rate, {turning.about_axis}, fixed ? error.period() : infinity<double>);
