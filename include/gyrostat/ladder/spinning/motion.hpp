@@ -45,7 +45,8 @@ enum : std::size_t { pointing_error, secular_velocity_ratio, tilt_max, nutation_
 inline constexpr ScalarKind scalar_kinds[] = {
     {"pointing_error", 1, "rad", Frame::none, Measure::none, "mean lean of axis 3 under the torque, |M|/|r0 X|"},
     {"secular_velocity_ratio", 2, "1", Frame::inertial, Measure::none, "limit of (v1, v2)/v3"},
-    {"tilt_max", 1, "rad", Frame::none, Measure::absolute, "greatest tilt of axis 3 from inertial axis 3"},
+    {"tilt_max", 1, "rad", Frame::none, Measure::absolute,
+     "greatest tilt of axis 3 from inertial axis 3 at the asked times"},
     {"nutation_frequency_squared", 1, "1/s2", Frame::none, Measure::none,
      "square of the nutation frequency; negative: the spin is unstable"},
 };
