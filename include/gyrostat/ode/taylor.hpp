@@ -47,6 +47,12 @@ concept Projects = requires(const System& system, typename System::Scalar t, typ
   { system.project(t, x, x) } noexcept;
 };
 
+/// The system knows that only its first numbers change, a multiple of four, and expands no others: these are left as they are.
+template <class System>
+concept MovesInPart = requires(const System& system) {
+  { system.moving() } noexcept -> std::convertible_to<int>;
+};
+
 template <Real Scalar, int Width>
 struct TaylorOptions {
   /// Size of the last kept term relative to scale, in every step. The global error grows from it with the motion.
@@ -125,6 +131,11 @@ class Taylor {
  private:
   using Sum = gyrostat::Sum<Scalar>;
 
+  int moving() const noexcept {
+    if constexpr (MovesInPart<System>) return system_.moving();
+    else return width;
+  }
+
   /// x(theta) - x(0), four lanes from the given one; theta = s/unit.
   GYROSTAT_INLINE Lanes<Scalar> increment(int lane, Scalar theta) const noexcept {
     const Lanes<Scalar> z = lanes(theta);
@@ -139,7 +150,7 @@ class Taylor {
   /// Greatest |x[k][i]| / (tolerance scale[i]); NaN if a coefficient is.
   GYROSTAT_INLINE Scalar size(int k) const noexcept {
     Scalar greatest = 0;
-    for (int lane = 0; lane < width; lane += 4) {
+    for (int lane = 0; lane < moving(); lane += 4) {
       const Scalar here = greatest_magnitude(load(&x_[k][lane]) * load(&weight_[lane]));
       greatest = here > greatest ? here : greatest + 0 * here;
     }
@@ -204,7 +215,7 @@ GYROSTAT_INLINE Status Taylor<System, Order>::expand(Scalar& theta) noexcept {
 
 template <TaylorSystem System, int Order>
 GYROSTAT_INLINE void Taylor<System, Order>::move(Scalar theta) noexcept {
-  for (int i = 0; i < width; i += 4) {
+  for (int i = 0; i < moving(); i += 4) {
     const Lanes<Scalar> high = load(&x_[0][i]);
     const Lanes<Scalar> delta = increment(i, theta);
     if (options_.compensated) {
@@ -270,9 +281,11 @@ Status Taylor<System, Order>::step(Scalar t_max) noexcept {
 template <TaylorSystem System, int Order>
 void Taylor<System, Order>::at(Scalar t, Scalar* state, int numbers) const noexcept {
   const Scalar theta = ((t - start_.high) - start_.low) / row_unit_;
-  for (int i = 0; i < numbers; i += 4) {
+  const int moved = std::min(numbers, moving());
+  for (int i = 0; i < moved; i += 4) {
     store(state + i, load(&x_[0][i]) + (load(&start_low_[i]) + increment(i, theta)));
   }
+  for (int i = moved; i < numbers; i += 4) store(state + i, load(&x_[0][i]));
 }
 
 template <TaylorSystem System, int Order>

@@ -30,7 +30,7 @@ std::array<S, Places<large>::width> numbers_of(const Prepared<S>& of, const type
   if constexpr (large) {
     for (std::size_t i = 0; i < of.wheels.count; ++i)
       if (of.wheels.laws[i].follows == Follows::state)
-        x[At::wheel + i] = y[Plain::wheel + i], x[At::angle + i] = y[Plain::angle + i];
+        x[At::wheel(i)] = y[Plain::wheel + i], x[At::angle(i)] = y[Plain::angle + i];
   }
   return x;
 }
@@ -43,7 +43,7 @@ struct Expansion {
   Prepared<double> of;
   Piece<double> piece;
   System system;
-  alignas(32) double x[order + 1][System::width];
+  alignas(32) double x[order + 1][System::width] = {};
   typename System::template Work<order> work;
 
   Expansion(const Problem<double>& p, double span, double t, double unit)
@@ -90,7 +90,7 @@ void check_series(const general_scenes::Made& made, double share) {
   for (std::size_t i = 0; i < step.of.wheels.count; ++i) {
     const auto follows = step.of.wheels.laws[i].follows;
     if (follows == Follows::integral) y[8 + i] = step.piece.wheels[i].at(s);
-    if (large && follows == Follows::state) y[8 + i] = x[At::wheel + i];
+    if (large && follows == Follows::state) y[8 + i] = x[At::wheel(i)];
   }
   if (large && !p.fixed)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -107,9 +107,9 @@ void check_series(const general_scenes::Made& made, double share) {
       const double turn = sized.sizes.turning;
       const double size =
           (std::abs(y[8 + i]) + step.of.wheels.laws[i].axial_inertia * turn) * turn + std::abs(wanted[8 + i]);
-      CHECK(std::abs(rate[At::wheel + i] - wanted[8 + i]) <= 1e-11 * size);
+      CHECK(std::abs(rate[At::wheel(i)] - wanted[8 + i]) <= 1e-11 * size);
       const double turning = std::abs(y[8 + i]) / step.of.wheels.laws[i].axial_inertia + sized.sizes.turning;
-      CHECK(std::abs(rate[At::angle + i] - wanted[16 + i]) <= 1e-11 * turning);
+      CHECK(std::abs(rate[At::angle(i)] - wanted[16 + i]) <= 1e-11 * turning);
     }
     const double push = sized.sizes.force / p.mass;
     for (std::size_t i = 0; i < 3 && !p.fixed; ++i)
@@ -172,6 +172,50 @@ TEST_CASE("the small state and the large one are one motion", "[general]") {
   CHECK(Prepared<double>(motor, 20).is_large());
   motor.wheels[0].friction = 0;
   CHECK_FALSE(Prepared<double>(motor, 20).is_large());
+}
+
+TEST_CASE("numbers that nothing moves are not stepped, and stay", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3.2, 4.1, 5.0).asDiagonal();
+  p.angular_velocity = {0.3, -0.5, 0.8};
+  const auto moving = [&](const auto& change) {
+    const Prepared<double> of(p, 20);
+    const auto piece = Piece<double>::first(p, of.wheels, of.torques, 20);
+    auto start = first_numbers<double, true>(of);
+    change(start);
+    return FullSystem<double, true>(of, piece, start).moving();
+  };
+  const auto as_it_is = [](auto&) {};
+  CHECK(moving(as_it_is) == 12);
+  p.wheels.resize(4);
+  for (auto& wheel : p.wheels)
+    wheel.type = WheelType::friction, wheel.axial_inertia = 0.1, wheel.friction = 0.1, wheel.rate = 3;
+  CHECK(moving(as_it_is) == 20);
+  // the place of a wheel counts
+  p.wheels.resize(8);
+  CHECK(moving(as_it_is) == 20);
+  p.wheels[6] = p.wheels[0];
+  CHECK(moving(as_it_is) == 28);
+  // the centre goes on with what an earlier force has given it
+  CHECK(moving([](auto& x) { x[28] = 0.5; }) == 36);
+  p.torques.resize(1);
+  p.torques[0].type = TorqueType::thrust, p.torques[0].vector = {0, 0, 1};
+  CHECK(moving(as_it_is) == 36);
+
+  p.torques.clear();
+  const Prepared<double> of(p, 20);
+  const auto piece = Piece<double>::first(p, of.wheels, of.torques, 20);
+  auto start = first_numbers<double, true>(of);
+  start[33] = 7;
+  const FullSystem<double, true> system(of, piece, start);
+  ode::TaylorOptions<double, 36> options;
+  options.scale = system.scale();
+  ode::Taylor<FullSystem<double, true>> solver(system, 0, start, options);
+  REQUIRE(solver.step(0.1) == ode::Status::reached);
+  double x[36];
+  solver.at(0.05, x);
+  CHECK(x[33] == 7);
+  CHECK(solver.state()[33] == 7);
 }
 
 TEST_CASE("the error of a step falls as its order says", "[general]") {

@@ -215,7 +215,7 @@ TEST_CASE("numbers of the relaxing form and states are the same", "[general]") {
     const auto full = scale_of<double, true>(of);
     for (std::size_t m = 0; m < 3; ++m)
       CHECK(scale[System::width + m] * std::abs(of.settling.to_wheel[k][m]) <=
-            full[std::size_t(Places<true>::wheel) + k] * (1 + 1e-14));
+            full[Places<true>::wheel(k)] * (1 + 1e-14));
   }
   System::Numbers low{};
   for (std::size_t i = 0; i < 4; ++i) x[i] *= 1.001;

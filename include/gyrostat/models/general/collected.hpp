@@ -40,25 +40,26 @@ struct Terms {
   Mat3<Scalar> eddy = Mat3<Scalar>::Zero();                           ///< S m^4
   Vec3<Scalar> force_body{0, 0, 0}, force_inertial{0, 0, 0};          ///< that moves the mass centre of a free body, N
 
-  /// action(mine, its) for each coefficient of this and another sum.
-  template <class Action>
-  void beside(const Terms& other, const Action& action) noexcept {
-    action(body, other.body), action(by_rate, other.by_rate), action(by_carrier, other.by_carrier);
-    action(by_momentum, other.by_momentum);
-    action(brake_total, other.brake_total), action(brake_carrier, other.brake_carrier);
-    for (std::size_t j = 0; j < 3; ++j) action(inertial[j], other.inertial[j]), action(orbital[j], other.orbital[j]);
-    action(gradient, other.gradient), action(orbit_gradient, other.orbit_gradient);
-    action(dipole, other.dipole), action(eddy, other.eddy);
-    action(force_body, other.force_body), action(force_inertial, other.force_inertial);
+  /// action(one, its) for each coefficient of two sums.
+  template <class One, class Action>
+  static void beside(One& one, const Terms& other, const Action& action) noexcept {
+    action(one.body, other.body), action(one.by_rate, other.by_rate), action(one.by_carrier, other.by_carrier);
+    action(one.by_momentum, other.by_momentum);
+    action(one.brake_total, other.brake_total), action(one.brake_carrier, other.brake_carrier);
+    for (std::size_t j = 0; j < 3; ++j)
+      action(one.inertial[j], other.inertial[j]), action(one.orbital[j], other.orbital[j]);
+    action(one.gradient, other.gradient), action(one.orbit_gradient, other.orbit_gradient);
+    action(one.dipole, other.dipole), action(one.eddy, other.eddy);
+    action(one.force_body, other.force_body), action(one.force_inertial, other.force_inertial);
   }
   /// Adds a multiple of another sum.
   void add(Scalar times, const Terms& other) noexcept {
-    beside(other, [times](auto& mine, const auto& its) noexcept { mine += times * its; });
+    beside(*this, other, [times](auto& mine, const auto& its) noexcept { mine += times * its; });
   }
   /// Adds a multiple of the magnitudes of another sum.
   void add_sizes(Scalar times, const Terms& other) noexcept {
     using std::abs;
-    beside(other, [size = abs(times)](auto& mine, const auto& its) noexcept {
+    beside(*this, other, [size = abs(times)](auto& mine, const auto& its) noexcept {
       using std::abs;
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(mine)>, Scalar>) mine += size * abs(its);
       else mine += size * its.cwiseAbs();
@@ -67,7 +68,7 @@ struct Terms {
   /// Whether a torque or force is left.
   bool any() const noexcept {
     bool found = false;
-    Terms(*this).beside(*this, [&](auto& mine, const auto&) noexcept {
+    beside(*this, *this, [&](const auto& mine, const auto&) noexcept {
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(mine)>, Scalar>) found = found || mine != 0;
       else found = found || !mine.isZero(0);
     });

@@ -64,12 +64,15 @@ struct Prepared {
 };
 
 /// The numbers of a state: (w, x, y, z | M1, M2, M3, - | W1, W2, W3, -), W the integral of the angular velocity, and in the large one the
-/// momenta and angles of wheels whose p is a state and what forces have given to velocity and position:
-/// (p ... | angles ... | v1, v2, v3, - | x1, x2, x3, -).
+/// momenta and angles of wheels whose p is a state, by fours, and what forces have given to velocity and position:
+/// (p of 0 to 3 | angles of 0 to 3 | p of 4 to 7 | angles of 4 to 7 | v1, v2, v3, - | x1, x2, x3, -).
 template <bool large>
 struct Places {
-  static constexpr int attitude = 0, momentum = 4, turned = 8, wheel = 12, angle = 20, velocity = 28, position = 32;
+  static constexpr int attitude = 0, momentum = 4, turned = 8, velocity = 28, position = 32;
   static constexpr int width = large ? 36 : 12;
+  /// p and angle of a wheel.
+  static constexpr std::size_t wheel(std::size_t i) noexcept { return 12 + 8 * (i / 4) + i % 4; }
+  static constexpr std::size_t angle(std::size_t i) noexcept { return wheel(i) + 4; }
 };
 
 template <Real Scalar, bool large>
@@ -83,8 +86,8 @@ std::array<Scalar, Places<large>::width> first_numbers(const Prepared<Scalar>& f
     for (std::size_t i = 0; i < from.wheels.count; ++i) {
       const auto& law = from.wheels.laws[i];
       if (law.follows != Follows::state) continue;
-      x[At::wheel + i] = law.momentum;
-      x[At::angle + i] = law.angle;
+      x[At::wheel(i)] = law.momentum;
+      x[At::angle(i)] = law.angle;
     }
   return x;
 }
@@ -105,8 +108,7 @@ std::array<Scalar, Places<large>::width> scale_of(const Prepared<Scalar>& of) no
       const auto& law = of.wheels.laws[i];
       if (law.follows != Follows::state) continue;
       const Scalar push = abs(law.torque), driven = std::min(law.axial_inertia * push / law.friction, push * of.span);
-      made[std::size_t(At::wheel) + i] =
-          positive(abs(law.momentum) + driven + std::min(M, law.axial_inertia * M / sizes.least));
+      made[At::wheel(i)] = positive(abs(law.momentum) + driven + std::min(M, law.axial_inertia * M / sizes.least));
     }
     const Scalar time = sizes.turning > 0 ? std::min(of.span, 1 / sizes.turning) : of.span;
     for (std::size_t i = 0; i < 3; ++i) made[At::velocity + i] = sizes.force / of.problem.mass * time;
@@ -127,7 +129,7 @@ State<Scalar> state_of(const Prepared<Scalar>& of, const Piece<Scalar>& piece, S
   Vec3<Scalar> G = M - piece.momentum_at(t);
   if constexpr (large)
     for (std::size_t i = 0; i < wheels.count; ++i)
-      if (wheels.laws[i].follows == Follows::state) G -= x[At::wheel + int(i)] * wheels.laws[i].axis;
+      if (wheels.laws[i].follows == Follows::state) G -= x[At::wheel(i)] * wheels.laws[i].axis;
   const Vec3<Scalar> w = wheels.inverse * G, w0 = of.problem.angular_velocity;
   made.angular_velocity = w;
   made.work = Vec3<Scalar>(w - w0).dot(wheels.reduced * Vec3<Scalar>(w + w0)) / 2;
@@ -139,9 +141,9 @@ State<Scalar> state_of(const Prepared<Scalar>& of, const Piece<Scalar>& piece, S
     }
     const Scalar I = law.axial_inertia, own = piece.wheels[i].at(s);
     if (law.follows == Follows::state) {
-      made.rotor_rate[i] = x[At::wheel + int(i)] / I - law.axis.dot(w);
-      made.rotor_angle[i] = x[At::angle + int(i)];
-      made.work += (x[At::wheel + int(i)] - law.momentum) * (x[At::wheel + int(i)] + law.momentum) / (2 * I);
+      made.rotor_rate[i] = x[At::wheel(i)] / I - law.axis.dot(w);
+      made.rotor_angle[i] = x[At::angle(i)];
+      made.work += (x[At::wheel(i)] - law.momentum) * (x[At::wheel(i)] + law.momentum) / (2 * I);
       continue;
     }
     const Scalar integral = piece.wheels[i].integral + piece.wheels[i].gained(s) / I;
@@ -182,16 +184,18 @@ class FullSystem {
   struct Work {
     using Vectors = VectorSeries<Scalar, Order>;
     using Series = NumberSeries<Scalar, Order>;
-    using Rows = Lanes<Scalar>[Order + 1];
+    using Row_ = Lanes<Scalar>;
+    using Rows = Row_[Order + 1];
     Vectors rate;               ///< w unit
     Scalar turn[Order + 1][4];  ///< the same number by number
     Rows momentum_turned;       ///< (M2, M3, M1)
     Vectors seen[7];  ///< directions; radial, along; the part of a rotating field across its axis, and ahead of it
-    Rows wheels;      ///< w unit, less that of M
+    Row_ known_wheels[5], known_torque[5];  ///< w unit by the wheels whose momentum is known, and dM/dt by it
     Vectors field, down, down_J, radial_J;
     Rows induced;  ///< w_rel x B unit
     Rows gradient, orbit_shape, orbit_gradient;
-    Rows drive, force_body, force_inertial;
+    Rows drive;  ///< torque that does not depend on the motion and has a factor, times unit
+    Rows force_body, force_inertial;
     Vectors current[most_factors + 1];  ///< K (w_rel x B) unit of each part
     Rows torque[most_factors];          ///< of each part without its factor, times unit
     Series factor[most_factors];
@@ -199,7 +203,7 @@ class FullSystem {
     Series strength, strength_out;  ///< of a dipole: b and -3 b cosine
     Rows opposed[2], opposed_unit[2];
     Scalar opposed_size[2][Order + 1];
-    Rows push[2];  ///< of wheels whose p is a state: T unit
+    Row_ push[2][4];  ///< of wheels whose p is a state: T unit
   };
 
   /// The equations over a piece that begins with these numbers.
@@ -233,32 +237,48 @@ class FullSystem {
 
   Numbers scale() const noexcept { return scale_of<Scalar, large>(of_); }
 
+  /// How many of the numbers change over the piece: none behind them does.
+  int moving() const noexcept { return moves_centre_ ? width : 12 + 8 * halves_; }
+
  private:
   using Row = Lanes<Scalar>;
-  enum : int { radial = 3, along = 4, across = 5, ahead = 6 };
+  enum : int { radial = 3, along = 4, across = 5, leading = 6 };
+
+  /// A sum of torques with a factor: where it stands in the piece, and what it has.
+  struct Source {
+    int power = 0, wave = 0;  ///< of time, or 0 and the place of the wave
+    bool drives = false, forces = false, moves = false;
+  };
 
   /// The constants of an expansion.
   struct Constants {
     Columns<Scalar> jacobian;  ///< of dM/dt by M
     Columns<Scalar> rate;      ///< of w by M
     Columns<Scalar> damping, direction[3];
+    Row wheel_rate[most_wheels], wheel_torque[most_wheels];  ///< of w and of dM/dt by the momentum of a wheel
     Row first_momentum;
     Scalar unit;
+
+    /// What w turns M by, and damps.
+    GYROSTAT_INLINE Row torque_by(const Row& w) const noexcept { return cross_rows(first_momentum, w) - damping * w; }
+  };
+
+  /// What two orders have in common is summed for both at once, as loads are what an order costs: the part of the second one.
+  struct Ahead {
+    Row momentum[2], turn[3], seen[3][2];
   };
 
   /// Order k + 1 from the orders up to k. Index: an integral constant, so that everything unrolls, or an int.
   template <class Index, int Order>
-  GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
+  GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, Ahead& ahead,
                               const Constants& c) const noexcept;
   template <class Index, int Order>
   GYROSTAT_INLINE void turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, const Row& rate,
-                            const Row& share) const noexcept;
-  /// w unit of order k that does not come from M of that order.
-  template <int Order>
-  Row rate_of_wheels(int k, const Scalar (&x)[Order + 1][width], const Work<Order>& work,
-                     const Constants& c) const noexcept;
-  /// All torque of order k, times unit, but what is linear and has no factor; and order k + 1 of all vectors and numbers that are not in the
-  /// core.
+                            const Row& share, Ahead& ahead) const noexcept;
+  template <class Index, int Order>
+  GYROSTAT_INLINE void turn_seen(Index k, int i, Work<Order>& work, const Row& share, Ahead& ahead) const noexcept;
+  /// All torque of order k, times unit, that bends or has a factor and depends on the motion; and order k + 1 of all vectors and numbers
+  /// that are not in the core.
   template <int Order>
   GYROSTAT_NOINLINE Row rest(int k, Scalar (&x)[Order + 1][width], Work<Order>& work,
                              const Constants& c) const noexcept;
@@ -283,7 +303,8 @@ class FullSystem {
   template <int Order>
   void oppose(int which, int k, const Row& opposed, Work<Order>& work) const noexcept;
   template <int Order>
-  void turn_wheels(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work, Scalar unit) const noexcept;
+  GYROSTAT_INLINE void turn_wheels(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work,
+                                   Scalar unit) const noexcept;
   template <int Order>
   void move_centre(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work, Scalar unit) const noexcept;
 
@@ -297,12 +318,13 @@ class FullSystem {
   Sees sees_;
   Vec3<Scalar> normal_{0, 0, 1};
   Part<Scalar> steady_;
-  int factors_ = 0;
-  std::array<Part<Scalar>, most_factors> parts_;
-  std::array<int, most_factors> source_{};  ///< of each part: its power of time, or 4 + the place of its wave
-  bool has_rest_ = false, wheels_move_ = false, polynomial_ = false;
-  int wheel_count_ = 0;
+  int factors_ = 0, sources_ = 0;
+  std::array<Part<Scalar>, most_factors> parts_;  ///< of the sources that depend on the motion
+  std::array<Source, most_factors> source_;
+  bool has_rest_ = false, drives_ = false, polynomial_ = false, moves_centre_ = false;
+  int wheel_count_ = 0, halves_ = 0;
   std::array<int, most_wheels> wheel_{};  ///< those whose p is a state
+  Vec3<Scalar> by_wheel_[most_wheels];    ///< what w changes by with its momentum
   Row axes_[2][3], inverse_[2], friction_[2];
   KnownMomentum<Scalar> known_;
 };
@@ -314,6 +336,9 @@ FullSystem<Real_, large>::FullSystem(const Prepared<Scalar>& of, const Piece<Sca
   if (of.problem.orbit) normal_ = cross<Scalar>(of.problem.orbit->radial, of.problem.orbit->along);
   take_parts();
   take_wheels();
+  if constexpr (large)
+    moves_centre_ = sees_.force || std::any_of(start.begin() + At::velocity, start.begin() + At::position,
+                                               [](Scalar v) noexcept { return v != 0; });
 }
 
 template <Real Real_, bool large>
@@ -332,17 +357,17 @@ void FullSystem<Real_, large>::take_parts() noexcept {
   sees_.orbit = sees_.orbit || (sees_.field && field.magnetic == MagneticField::dipole);
 
   steady_ = Part<Scalar>(piece_.power[0], directions_, normal_);
-  bool drives = false;
-  const auto take = [&](const Terms<Scalar>& terms, int source) noexcept {
+  const auto take = [&](const Terms<Scalar>& terms, int power, int wave) noexcept {
+    if (!terms.any()) return;
     const Part<Scalar> part(terms, directions_, normal_);
-    drives = drives || terms.any();
-    if (!part.moves()) return;
-    parts_[std::size_t(factors_)] = part;
-    source_[std::size_t(factors_++)] = source;
+    const bool forces = !terms.force_body.isZero(0) || !terms.force_inertial.isZero(0);
+    source_[std::size_t(sources_++)] = {power, wave, !terms.body.isZero(0), forces, part.moves()};
+    drives_ = drives_ || !terms.body.isZero(0);
+    if (part.moves()) parts_[std::size_t(factors_++)] = part;
   };
-  for (int i = 1; i < 4; ++i) take(piece_.power[std::size_t(i)], i);
-  for (std::size_t i = 0; i < piece_.waves.size(); ++i) take(piece_.waves[i].terms, 4 + int(i));
-  has_rest_ = steady_.bends() || drives || sees_.force;
+  for (int i = 1; i < 4; ++i) take(piece_.power[std::size_t(i)], i, 0);
+  for (std::size_t i = 0; i < piece_.waves.size(); ++i) take(piece_.waves[i].terms, 0, int(i));
+  has_rest_ = steady_.bends() || factors_ > 0 || sees_.force;
 }
 
 template <Real Real_, bool large>
@@ -358,7 +383,9 @@ void FullSystem<Real_, large>::take_wheels() noexcept {
     for (std::size_t i = 0; i < of_.wheels.count; ++i) {
       const auto& law = of_.wheels.laws[i];
       if (law.follows != Follows::state) continue;
+      by_wheel_[wheel_count_] = -(of_.wheels.inverse * law.axis);
       wheel_[std::size_t(wheel_count_++)] = int(i);
+      halves_ = i < 4 ? 1 : 2;
       for (int j = 0; j < 3; ++j) axes[j][i] = law.axis[j];
       inverse[i] = 1 / law.axial_inertia, friction[i] = law.friction;
     }
@@ -367,34 +394,31 @@ void FullSystem<Real_, large>::take_wheels() noexcept {
       inverse_[half] = load(&inverse[4 * half]), friction_[half] = load(&friction[4 * half]);
     }
   }
-  wheels_move_ = polynomial_ || wheel_count_ > 0;
-}
-
-template <Real Real_, bool large>
-template <int Order>
-auto FullSystem<Real_, large>::rate_of_wheels(int k, const Scalar (&x)[Order + 1][width], const Work<Order>& work,
-                                              const Constants& c) const noexcept -> Row {
-  Row momentum = work.wheels[k];
-  if constexpr (large)
-    for (int i = 0; i < wheel_count_; ++i) {
-      const int wheel = wheel_[std::size_t(i)];
-      momentum = multiply_add(lanes(-x[k][At::wheel + wheel]), row(of_.wheels.laws[std::size_t(wheel)].axis), momentum);
-    }
-  return c.rate * momentum;
 }
 
 template <Real Real_, bool large>
 template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_, large>::turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
-                                                    const Row& rate, const Row& share) const noexcept {
+                                                    const Row& rate, const Row& share, Ahead& ahead) const noexcept {
   store(work.turn[k], rate);
   Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-  count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
-    const Row q = load(&x[k - j][0]);
-    s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
-    s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
-    s2 = multiply_add(lanes(work.turn[j][2]), q, s2);
-  });
+  const auto add = [&](int j, const Row& q, Row& sum_0, Row& sum_1, Row& sum_2) GYROSTAT_INLINE_LAMBDA {
+    sum_0 = multiply_add(lanes(work.turn[j][0]), q, sum_0);
+    sum_1 = multiply_add(lanes(work.turn[j][1]), q, sum_1);
+    sum_2 = multiply_add(lanes(work.turn[j][2]), q, sum_2);
+  };
+  if (k % 2 == 1) {
+    auto& next = ahead.turn;
+    next[0] = next[1] = next[2] = s0;
+    count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
+      add(j, load(&x[k - j][0]), s0, s1, s2);
+      if (j > 1) add(j, load(&x[k + 1 - j][0]), next[0], next[1], next[2]);
+    });
+  } else {
+    s0 = ahead.turn[0], s1 = ahead.turn[1], s2 = ahead.turn[2];
+    if (k > 2) add(k - 1, load(&x[1][0]), s0, s1, s2);
+    add(1, load(&x[k - 1][0]), s0, s1, s2);
+  }
   const Row first = load(&x[0][0]), last = load(&x[k][0]);
   s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(rate), first, s0));
   s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(rate), first, s1));
@@ -405,40 +429,73 @@ GYROSTAT_INLINE void FullSystem<Real_, large>::turn(Index k, Scalar (&x)[Order +
 
 template <Real Real_, bool large>
 template <class Index, int Order>
+GYROSTAT_INLINE void FullSystem<Real_, large>::turn_seen(Index k, int i, Work<Order>& work, const Row& share,
+                                                         Ahead& ahead) const noexcept {
+  const auto &o = work.rate.v, &o_turned = work.rate.turned;
+  auto& seen = work.seen[i];
+  Row first = lanes(Scalar(0)), second = first;
+  const auto add = [&](int j, int at, Row& sum_1, Row& sum_2) GYROSTAT_INLINE_LAMBDA {
+    sum_1 = multiply_add(seen.v[j], o_turned[at], sum_1);
+    sum_2 = multiply_add(seen.turned[j], o[at], sum_2);
+  };
+  if (k % 2 == 1) {
+    auto& next = ahead.seen[i];
+    next[0] = next[1] = first;
+    count_down<Scalar>(k, [&](int j) GYROSTAT_INLINE_LAMBDA {
+      add(j, k - j, first, second);
+      add(j, k + 1 - j, next[0], next[1]);
+    });
+  } else {
+    first = ahead.seen[i][0], second = ahead.seen[i][1];
+    add(k, 0, first, second);
+  }
+  add(0, k, first, second);
+  seen.set(k + 1, share * shuffle<1, 2, 0, 3>(first - second));
+}
+
+template <Real Real_, bool large>
+template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_, large>::extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
-                                                      Row& newest, const Constants& c) const noexcept {
+                                                      Row& newest, Ahead& ahead, const Constants& c) const noexcept {
   const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
   const auto &o = work.rate.v, &o_turned = work.rate.turned;
   // M_j x w_(k-j) but for j = 0 and k
   Row known = lanes(Scalar(0)), known_2 = known;
-  count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
-    known = multiply_add(load(&x[j][At::momentum]), o_turned[k - j], known);
-    known_2 = multiply_add(work.momentum_turned[j], o[k - j], known_2);
-  });
+  const auto add = [&](int j, int at, Row& sum_1, Row& sum_2) GYROSTAT_INLINE_LAMBDA {
+    sum_1 = multiply_add(load(&x[j][At::momentum]), o_turned[at], sum_1);
+    sum_2 = multiply_add(work.momentum_turned[j], o[at], sum_2);
+  };
+  if (k % 2 == 1) {
+    auto& next = ahead.momentum;
+    next[0] = next[1] = known;
+    count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
+      add(j, k - j, known, known_2);
+      if (j > 1) add(j, k + 1 - j, next[0], next[1]);
+    });
+  } else {
+    known = ahead.momentum[0], known_2 = ahead.momentum[1];
+    if (k > 2) add(k - 1, 1, known, known_2);
+    add(1, k - 1, known, known_2);
+  }
   known = shuffle<1, 2, 0, 3>(known - known_2);
 
   Row rate = c.rate * newest;
-  if (wheels_move_) {
-    const Row of_wheels = rate_of_wheels(k, x, work, c);
-    rate = rate + of_wheels;
-    known = known + cross_rows(c.first_momentum, of_wheels) - c.damping * of_wheels;
-  }
+  if constexpr (large)
+    for (int i = 0; i < wheel_count_; ++i) {
+      const Row p = lanes(x[k][At::wheel(std::size_t(wheel_[std::size_t(i)]))]);
+      rate = multiply_add(p, c.wheel_rate[i], rate), known = multiply_add(p, c.wheel_torque[i], known);
+    }
+  if (k < 5 && polynomial_) rate = rate + work.known_wheels[k], known = known + work.known_torque[k];
   work.rate.set(k, rate);
   work.momentum_turned[k] = shuffle<1, 2, 0, 3>(newest);
   for (int i = 0; i < directions_.count; ++i) {
-    auto& seen = work.seen[i];
-    known = c.direction[i].times(seen.v[k], known);
-    Row first = lanes(Scalar(0)), second = first;
-    count_down<Scalar>(k, [&](int j) GYROSTAT_INLINE_LAMBDA {
-      first = multiply_add(seen.v[j], o_turned[k - j], first);
-      second = multiply_add(seen.turned[j], o[k - j], second);
-    });
-    first = multiply_add(seen.v[0], o_turned[k], first), second = multiply_add(seen.turned[0], o[k], second);
-    seen.set(k + 1, share * shuffle<1, 2, 0, 3>(first - second));
+    known = c.direction[i].times(work.seen[i].v[k], known);
+    turn_seen(k, i, work, share, ahead);
   }
-  turn(k, x, work, rate, share);
+  turn(k, x, work, rate, share, ahead);
+  if (drives_) known = known + work.drive[k];
   if (has_rest_) known = known + rest(k, x, work, c);
-  if (large && wheel_count_ > 0) turn_wheels(k, x, work, c.unit);
+  if constexpr (large) turn_wheels(k, x, work, c.unit);
   newest = share * c.jacobian.times(newest, known);
   store(&x[k + 1][At::momentum], newest);
 }
@@ -451,8 +508,8 @@ void FullSystem<Real_, large>::expand(Scalar t, Scalar unit, Scalar (&x)[Order +
   Vec3<Scalar> G = M - piece_.momentum_at(t);
   if constexpr (large)
     for (int i = 0; i < wheel_count_; ++i) {
-      const int wheel = wheel_[std::size_t(i)];
-      G -= x[0][At::wheel + wheel] * of_.wheels.laws[std::size_t(wheel)].axis;
+      const auto wheel = std::size_t(wheel_[std::size_t(i)]);
+      G -= x[0][At::wheel(wheel)] * of_.wheels.laws[wheel].axis;
     }
   const Mat3<Scalar> inverse = unit * of_.wheels.inverse;
   const Vec3<Scalar> w = inverse * G;
@@ -461,11 +518,17 @@ void FullSystem<Real_, large>::expand(Scalar t, Scalar unit, Scalar (&x)[Order +
   c.unit = unit;
   c.rate = Columns<Scalar>(inverse);
   c.first_momentum = row(M);
-  c.jacobian = Columns<Scalar>(cross_matrix<Scalar>(M) * inverse - cross_matrix<Scalar>(w) - terms.by_rate * inverse -
-                               unit * terms.by_momentum);
+  Mat3<Scalar> jacobian = cross_matrix<Scalar>(M) * inverse - cross_matrix<Scalar>(w);
+  if (steady_.has_rate) jacobian -= terms.by_rate * inverse;
+  if (steady_.has_momentum) jacobian -= unit * terms.by_momentum;
+  c.jacobian = Columns<Scalar>(jacobian);
   c.damping = steady_.by_rate;
   for (int i = 0; i < directions_.count; ++i)
     for (int j = 0; j < 3; ++j) c.direction[i].of[j] = lanes(unit) * steady_.direction[i].of[j];
+  for (int i = 0; i < wheel_count_; ++i) {
+    c.wheel_rate[i] = lanes(unit) * row(by_wheel_[i]);
+    c.wheel_torque[i] = c.torque_by(c.wheel_rate[i]);
+  }
 
   const Row rate = row(w), half = lanes(Scalar(0.5L)) * rate, q = load(&x[0][0]);
   work.rate.set(0, rate);
@@ -475,18 +538,19 @@ void FullSystem<Real_, large>::expand(Scalar t, Scalar unit, Scalar (&x)[Order +
         times_units(shuffle<0, 0, 0, 0>(half) * q, shuffle<1, 1, 1, 1>(half) * q, shuffle<2, 2, 2, 2>(half) * q));
   store(&x[1][At::turned], rate);
   begin(t, x, work, c);
-  Row newest = cross_rows(c.first_momentum, rate) - c.damping * rate +
-               lanes(unit) * (steady_.body - steady_.by_momentum * c.first_momentum);
+  Row newest = c.torque_by(rate) + lanes(unit) * (steady_.body - steady_.by_momentum * c.first_momentum);
+  if (drives_) newest = newest + work.drive[0];
   for (int i = 0; i < directions_.count; ++i) {
     auto& seen = work.seen[i];
     newest = c.direction[i].times(seen.v[0], newest);
     seen.set(1, cross_rows(seen.v[0], rate));
   }
   if (has_rest_) newest = newest + rest(0, x, work, c);
-  if (large && wheel_count_ > 0) turn_wheels(0, x, work, unit);
+  if constexpr (large) turn_wheels(0, x, work, unit);
   store(&x[1][At::momentum], newest);
 
-  const auto next = [&](auto k) GYROSTAT_INLINE_LAMBDA { extend(k, x, work, newest, c); };
+  Ahead ahead;
+  const auto next = [&](auto k) GYROSTAT_INLINE_LAMBDA { extend(k, x, work, newest, ahead, c); };
   count_up<Scalar, Order - 1>(next);
 }
 
@@ -495,17 +559,21 @@ template <int Order>
 void FullSystem<Real_, large>::begin(Scalar t, Scalar (&x)[Order + 1][width], Work<Order>& work,
                                      const Constants& c) const noexcept {
   const Scalar unit = c.unit, s = t - piece_.from;
-  const auto to_body = [q = conjugate(normalised(Quat<Scalar>{x[0][0], x[0][1], x[0][2], x[0][3]}))](
-                           const Vec3<Scalar>& v_I) noexcept { return row<Scalar>(rotate<Scalar>(q, v_I)); };
+  const Quat<Scalar> q = conjugate(Quat<Scalar>{x[0][0], x[0][1], x[0][2], x[0][3]});
+  // of unit length but for rounding, so that first order sets it right
+  const Scalar share = 2 - (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  const auto to_body = [&](const Vec3<Scalar>& v_I) noexcept {
+    return row<Scalar>(v_I + share * Vec3<Scalar>(rotate<Scalar>(q, v_I) - v_I));
+  };
   for (int i = 0; i < directions_.count; ++i) work.seen[i].set(0, to_body(directions_.of[std::size_t(i)]));
-  if (wheels_move_) {
-    for (int k = 0; k <= Order; ++k) work.wheels[k] = lanes(Scalar(0));
+  if (polynomial_) {
     // the coefficients about s, by Horner's scheme repeated
     auto h = piece_.momentum;
     Scalar scale = -1;
     for (std::size_t k = 0; k < 5; ++k, scale *= unit) {
       for (std::size_t j = 4; j > k; --j) h[j - 1] += s * h[j];
-      if (k > 0) work.wheels[k] = row<Scalar>(scale * h[k]);
+      work.known_wheels[k] = c.rate * row<Scalar>(scale * h[k]),
+      work.known_torque[k] = c.torque_by(work.known_wheels[k]);
     }
   }
   if constexpr (large) {
@@ -517,18 +585,21 @@ void FullSystem<Real_, large>::begin(Scalar t, Scalar (&x)[Order + 1][width], Wo
       Scalar scale = unit;
       for (std::size_t k = 0; k < 4; ++k, scale *= unit) push[k][wheel] = scale * about.c[k];
     }
-    for (int half = 0; half < 2; ++half)
-      for (int k = 0; k <= Order; ++k) work.push[half][k] = k < 4 ? load(&push[k][4 * half]) : lanes(Scalar(0));
-    for (int k = 1; k <= Order; ++k)
-      for (int lane = At::wheel; lane < width; lane += 4) store(&x[k][lane], lanes(Scalar(0)));
-    // without a force the centre goes on as it does
-    store(&x[1][At::position], lanes(unit) * load(&x[0][At::velocity]));
+    for (int half = 0; half < halves_; ++half)
+      for (int k = 0; k < 4; ++k) work.push[half][k] = load(&push[k][4 * half]);
+    if (moves_centre_) {
+      // without a force the centre goes on as it does
+      for (int k = 1; k <= Order; ++k)
+        for (int lane = At::velocity; lane < width; lane += 4) store(&x[k][lane], lanes(Scalar(0)));
+      store(&x[1][At::position], lanes(unit) * load(&x[0][At::velocity]));
+    }
   }
+  if (sources_ > 0 || sees_.force) begin_factors(t, work, unit);
   if (!has_rest_) return;
   OrbitPoint<Scalar> at;
   if (sees_.orbit) {
     at = orbit_at(*of_.problem.orbit, t);
-    work.orbit.set(*of_.problem.orbit, at, unit, of_.problem.field.axis);
+    work.orbit.set(*of_.problem.orbit, at, unit);
     work.seen[radial].set(0, to_body(at.radial));
     work.seen[along].set(0, to_body(at.along));
   }
@@ -536,10 +607,9 @@ void FullSystem<Real_, large>::begin(Scalar t, Scalar (&x)[Order + 1][width], Wo
     const Vec3<Scalar>& k = of_.problem.field.axis;
     const Vec3<Scalar> B = field_at(of_.problem, t).flux_density, part = B - k * k.dot(B);
     work.seen[across].set(0, to_body(part));
-    work.seen[ahead].set(0, to_body(cross<Scalar>(k, part)));
+    work.seen[leading].set(0, to_body(cross<Scalar>(k, part)));
   }
   begin_field(t, at, work, unit);
-  begin_factors(t, work, unit);
 }
 
 template <Real Real_, bool large>
@@ -551,10 +621,11 @@ void FullSystem<Real_, large>::begin_field(Scalar, const OrbitPoint<Scalar>& at,
   if (field.magnetic == MagneticField::dipole) {
     const Scalar ratio = field.radius / at.radius, b = field.strength * ratio * ratio * ratio;
     const auto& gradient = work.orbit.gradient;
+    const auto cosine = work.orbit.cosine_of(at, field.axis);
     work.strength.last = gradient.last;
     for (int k = 0; k <= gradient.last; ++k) work.strength.c[k] = b / at.gradient * gradient.c[k];
     work.strength_out.last = Order;
-    for (int k = 0; k <= Order; ++k) work.strength_out.c[k] = -3 * work.strength.times(work.orbit.cosine.c, k);
+    for (int k = 0; k <= Order; ++k) work.strength_out.c[k] = -3 * work.strength.times(cosine.c, k);
   }
   see_field(0, work);
 }
@@ -562,32 +633,32 @@ void FullSystem<Real_, large>::begin_field(Scalar, const OrbitPoint<Scalar>& at,
 template <Real Real_, bool large>
 template <int Order>
 void FullSystem<Real_, large>::begin_factors(Scalar t, Work<Order>& work, Scalar unit) const noexcept {
-  const Row zero = lanes(Scalar(0));
-  for (int k = 0; k <= Order; ++k) work.drive[k] = work.force_body[k] = work.force_inertial[k] = zero;
-  work.force_body[0] = row(piece_.power[0].force_body);
-  work.force_inertial[0] = row(piece_.power[0].force_inertial);
-  int next = 0;
-  const auto take = [&](const Terms<Scalar>& terms, int source, const auto& factor) noexcept {
-    if (!terms.any()) return;
-    for (int k = 0; k <= factor.last; ++k) {
-      const Row by = lanes(factor.c[k]);
-      work.drive[k] = multiply_add(by, row(terms.body), work.drive[k]);
-      work.force_body[k] = multiply_add(by, row(terms.force_body), work.force_body[k]);
-      work.force_inertial[k] = multiply_add(by, row(terms.force_inertial), work.force_inertial[k]);
-    }
-    if (next < factors_ && source_[std::size_t(next)] == source) work.factor[next++] = factor;
-  };
-  NumberSeries<Scalar, Order> factor;
-  for (std::size_t i = 1; i < 4; ++i) {
-    Cubic<Scalar> power{piece_.from, {}};
-    power.c[i] = 1;
-    factor.set(power.about(t), unit);
-    take(piece_.power[i], int(i), factor);
+  const auto clear = [](auto& rows) noexcept { std::fill_n(rows, Order + 1, lanes(Scalar(0))); };
+  if (drives_) clear(work.drive);
+  if (sees_.force) {
+    clear(work.force_body), clear(work.force_inertial);
+    work.force_body[0] = row(piece_.power[0].force_body);
+    work.force_inertial[0] = row(piece_.power[0].force_inertial);
   }
-  for (std::size_t i = 0; i < piece_.waves.size(); ++i) {
-    const auto& wave = piece_.waves[i];
-    factor.set(wave.cubic.about(t), unit, wave.rate, wave.phase);
-    take(wave.terms, 4 + int(i), factor);
+  int next = 0;
+  for (int i = 0; i < sources_; ++i) {
+    const Source& source = source_[std::size_t(i)];
+    const auto* wave = source.power > 0 ? nullptr : &piece_.waves[std::size_t(source.wave)];
+    const Terms<Scalar>& terms = wave ? wave->terms : piece_.power[std::size_t(source.power)];
+    NumberSeries<Scalar, Order> factor;
+    if (wave) {
+      factor.set(wave->cubic.about(t), unit, wave->rate, wave->phase);
+    } else {
+      Cubic<Scalar> power{piece_.from, {}};
+      power.c[std::size_t(source.power)] = 1;
+      factor.set(power.about(t), unit);
+    }
+    const auto add = [&factor](auto& rows, const Row& by) noexcept {
+      for (int k = 0; k <= factor.last; ++k) rows[k] = multiply_add(lanes(factor.c[k]), by, rows[k]);
+    };
+    if (source.drives) add(work.drive, lanes(unit) * row(terms.body));
+    if (source.forces) add(work.force_body, row(terms.force_body)), add(work.force_inertial, row(terms.force_inertial));
+    if (source.moves) work.factor[next++] = factor;
   }
 }
 
@@ -620,11 +691,18 @@ void FullSystem<Real_, large>::see_field(int k, Work<Order>& work) const noexcep
 template <Real Real_, bool large>
 template <int Order>
 void FullSystem<Real_, large>::see(int k, Work<Order>& work, Scalar unit) const noexcept {
-  const Row share = lanes(Scalar(1) / Scalar(k + 1));
+  const Row share = lanes(one_over<Scalar>(k + 1));
   const auto pair = [&](int first, int second, const auto& turning) noexcept {
     auto &a = work.seen[first], &b = work.seen[second];
-    const Row a_rate = cross_term(a, work.rate, k) + turning.times(b.v, k);
-    const Row b_rate = cross_term(b, work.rate, k) - turning.times(a.v, k);
+    const auto &o = work.rate.v, &o_turned = work.rate.turned;
+    Row a_1 = lanes(Scalar(0)), a_2 = a_1, b_1 = a_1, b_2 = a_1;
+    for (int j = k; j >= 0; --j) {
+      const Row &w = o[k - j], &w_turned = o_turned[k - j];
+      a_1 = multiply_add(a.v[j], w_turned, a_1), a_2 = multiply_add(a.turned[j], w, a_2);
+      b_1 = multiply_add(b.v[j], w_turned, b_1), b_2 = multiply_add(b.turned[j], w, b_2);
+    }
+    const Row a_rate = shuffle<1, 2, 0, 3>(a_1 - a_2) + turning.times(b.v, k);
+    const Row b_rate = shuffle<1, 2, 0, 3>(b_1 - b_2) - turning.times(a.v, k);
     a.set(k + 1, share * a_rate), b.set(k + 1, share * b_rate);
   };
   if (sees_.orbit) pair(radial, along, work.orbit.rate);
@@ -632,7 +710,7 @@ void FullSystem<Real_, large>::see(int k, Work<Order>& work, Scalar unit) const 
   if (sees_.field && field.magnetic == MagneticField::rotating) {
     NumberSeries<Scalar, Order> turning;
     turning.set_constant(unit * field.rate);
-    pair(across, ahead, turning);
+    pair(across, leading, turning);
   }
   if (sees_.field) {
     see_field(k + 1, work);
@@ -712,7 +790,7 @@ auto FullSystem<Real_, large>::rest(int k, Scalar (&x)[Order + 1][width], Work<O
     work.orbit_shape[k] = cross_term(work.seen[radial], work.radial_J, k);
     work.orbit_gradient[k] = work.orbit.gradient.times(work.orbit_shape, k);
   }
-  Row sum = bending(steady_, k, work.current[0], work, unit) + lanes(unit) * work.drive[k];
+  Row sum = bending(steady_, k, work.current[0], work, unit);
   for (int i = 0; i < factors_; ++i) {
     const auto& part = parts_[std::size_t(i)];
     work.torque[i][k] = bending(part, k, work.current[i + 1], work, unit) + linear(part, k, x, work, unit);
@@ -726,16 +804,16 @@ template <Real Real_, bool large>
 template <int Order>
 void FullSystem<Real_, large>::turn_wheels(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work,
                                            Scalar unit) const noexcept {
-  const Row share = lanes(Scalar(1) / Scalar(k + 1)), rate = work.rate.v[k];
-  for (int half = 0; half < 2; ++half) {
-    const int lane = 4 * half;
+  const Row share = lanes(one_over<Scalar>(k + 1)), rate = work.rate.v[k];
+  for (int half = 0; half < halves_; ++half) {
+    const std::size_t p = At::wheel(4 * std::size_t(half)), angle = At::angle(4 * std::size_t(half));
     const auto& u = axes_[half];
     const Row along_axes =
         multiply_add(u[0], shuffle<0, 0, 0, 0>(rate),
                      multiply_add(u[1], shuffle<1, 1, 1, 1>(rate), u[2] * shuffle<2, 2, 2, 2>(rate)));
-    const Row turning = lanes(unit) * inverse_[half] * load(&x[k][At::wheel + lane]) - along_axes;
-    store(&x[k + 1][At::wheel + lane], share * (work.push[half][k] - friction_[half] * turning));
-    store(&x[k + 1][At::angle + lane], share * turning);
+    const Row turning = lanes(unit) * inverse_[half] * load(&x[k][p]) - along_axes, slowed = friction_[half] * turning;
+    store(&x[k + 1][p], share * (k < 4 ? work.push[half][k] - slowed : lanes(Scalar(0)) - slowed));
+    store(&x[k + 1][angle], share * turning);
   }
 }
 
@@ -743,7 +821,7 @@ template <Real Real_, bool large>
 template <int Order>
 void FullSystem<Real_, large>::move_centre(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work,
                                            Scalar unit) const noexcept {
-  const Row share = lanes(unit / Scalar(k + 1));
+  const Row share = lanes(unit * one_over<Scalar>(k + 1));
   Row force = work.force_inertial[k];
   if (sees_.body_force) {
     Scalar component[3];

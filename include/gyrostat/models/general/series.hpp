@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
@@ -19,6 +21,17 @@ namespace gyrostat::general {
 template <Real Scalar>
 GYROSTAT_INLINE Lanes<Scalar> row(const Vec3<Scalar>& v) noexcept {
   return lanes(v[0], v[1], v[2], Scalar(0));
+}
+
+/// 1/n, n up to that of the highest order: a division would be waited for.
+template <Real Scalar>
+GYROSTAT_INLINE Scalar one_over(int n) noexcept {
+  static constexpr auto table = [] {
+    std::array<Scalar, 1024> made{};
+    for (std::size_t i = 1; i < made.size(); ++i) made[i] = 1 / Scalar(i);
+    return made;
+  }();
+  return table[std::size_t(n)];
 }
 
 /// A matrix by its columns.
@@ -66,10 +79,14 @@ GYROSTAT_INLINE Lanes<Scalar> cross_rows(const Lanes<Scalar>& a, const Lanes<Sca
 template <Real Scalar, int Order>
 Lanes<Scalar> cross_term(const VectorSeries<Scalar, Order>& a, const VectorSeries<Scalar, Order>& b, int k) noexcept {
   Lanes<Scalar> first = lanes(Scalar(0)), second = first;
-  for (int j = 0; j <= k; ++j) {
+  const auto add = [&](int j) GYROSTAT_INLINE_LAMBDA {
     first = multiply_add(a.v[j], b.turned[k - j], first);
     second = multiply_add(a.turned[j], b.v[k - j], second);
-  }
+  };
+  // the newest ones last
+  for (int j = 1; j < k; ++j) add(j);
+  if (k > 0) add(k);
+  add(0);
   return shuffle<1, 2, 0, 3>(first - second);
 }
 
@@ -92,7 +109,7 @@ struct NumberSeries {
     const Scalar angle = rate * cubic.origin + phase, turn = rate * unit;
     Scalar s[Order + 1];
     s[0] = sin(angle), s[1] = turn * cos(angle);
-    for (int k = 2; k <= Order; ++k) s[k] = -turn * turn * s[k - 2] / Scalar(k * (k - 1));
+    for (int k = 2; k <= Order; ++k) s[k] = -turn * turn * one_over<Scalar>(k * (k - 1)) * s[k - 2];
     NumberSeries factor;
     factor.set(cubic, unit);
     for (int k = 0; k <= Order; ++k) c[k] = factor.times(s, k);
@@ -105,33 +122,42 @@ struct NumberSeries {
     return sum;
   }
   Lanes<Scalar> times(const Lanes<Scalar>* a, int k) const noexcept {
-    Lanes<Scalar> sum = lanes(Scalar(0));
-    for (int j = std::min(last, k); j >= 0; --j) sum = multiply_add(lanes(c[j]), a[k - j], sum);
-    return sum;
+    Lanes<Scalar> sum = lanes(Scalar(0)), other = sum;
+    int j = std::min(last, k);
+    for (; j >= 1; j -= 2) {
+      sum = multiply_add(lanes(c[j]), a[k - j], sum);
+      other = multiply_add(lanes(c[j - 1]), a[k - j + 1], other);
+    }
+    if (j == 0) sum = multiply_add(lanes(c[0]), a[k], sum);
+    return sum + other;
   }
 };
 
-/// The orbit from t on: rate of turning times unit, gradient N, and the cosine of the angle between radius and a direction m, its two
-/// parts given at t.
+/// The orbit from t on: rate of turning times unit, and gradient N.
 template <Real Scalar, int Order>
 struct OrbitSeries {
-  NumberSeries<Scalar, Order> rate, gradient, cosine;
+  NumberSeries<Scalar, Order> rate, gradient;
 
-  void set(const Orbit<Scalar>& orbit, const OrbitPoint<Scalar>& at, Scalar unit, const Vec3<Scalar>& m) noexcept {
+  void set(const Orbit<Scalar>& orbit, const OrbitPoint<Scalar>& at, Scalar unit) noexcept {
     if (orbit.eccentricity == 0) {
       rate.set_constant(unit * at.rate);
       gradient.set_constant(at.gradient);
     } else {
       set_eccentric(at, unit);
     }
+  }
+  /// The cosine of the angle between the radius and a direction, which is `at` at t.
+  NumberSeries<Scalar, Order> cosine_of(const OrbitPoint<Scalar>& at, const Vec3<Scalar>& m) const noexcept {
+    NumberSeries<Scalar, Order> cosine;
     Scalar out[Order + 1], on[Order + 1];  // m.radial, m.along
     out[0] = m.dot(at.radial), on[0] = m.dot(at.along);
     for (int k = 0; k < Order; ++k) {
-      out[k + 1] = rate.times(on, k) / Scalar(k + 1);
-      on[k + 1] = -rate.times(out, k) / Scalar(k + 1);
+      out[k + 1] = rate.times(on, k) * one_over<Scalar>(k + 1);
+      on[k + 1] = -rate.times(out, k) * one_over<Scalar>(k + 1);
     }
     std::copy(out, out + Order + 1, cosine.c);
     cosine.last = Order;
+    return cosine;
   }
 
  private:
@@ -146,7 +172,7 @@ struct OrbitSeries {
       cube[k] = math::product(z, square, k);
       rate.c[k] = turn * square[k];
       gradient.c[k] = at.gradient * cube[k];
-      if (k + 2 <= Order) y[k + 2] = (centrifugal * cube[k] - pull * square[k]) / Scalar((k + 1) * (k + 2));
+      if (k + 2 <= Order) y[k + 2] = (centrifugal * cube[k] - pull * square[k]) * one_over<Scalar>((k + 1) * (k + 2));
     }
     rate.last = gradient.last = Order;
   }

@@ -216,7 +216,7 @@ auto StiffSystem<Real_, most>::scale() const noexcept -> Numbers {
     Scalar least = infinity<Scalar>;
     for (std::size_t k = 0; k < settling.count; ++k) {
       const Scalar share = std::abs(settling.to_wheel[k][i]);
-      if (share > 0) least = std::min(least, full[std::size_t(At::wheel) + settling.wheel[k]] / share);
+      if (share > 0) least = std::min(least, full[At::wheel(settling.wheel[k])] / share);
     }
     made[mode + i] = least;
   }
@@ -446,8 +446,8 @@ auto StiffSystem<Real_, most>::state(const Piece<Scalar>& piece, Scalar t, const
       p += settling.to_wheel[k][i] * x[mode + int(i)];
       integral += settling.to_wheel[k][i] * x[passed + int(i)];
     }
-    full[std::size_t(At::wheel) + wheel] = p;
-    full[std::size_t(At::angle) + wheel] = law.angle + (integral / law.axial_inertia - law.axis.dot(turned(x)));
+    full[At::wheel(wheel)] = p;
+    full[At::angle(wheel)] = law.angle + (integral / law.axial_inertia - law.axis.dot(turned(x)));
   }
   return state_of<Scalar, true>(*of_, piece, t, full.data());
 }
