@@ -9,7 +9,7 @@
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
-#include "gyrostat/rotation/quaternion_lanes.hpp"
+#include "gyrostat/rotation/quaternion_series.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full equations (deceleration.md, section 1): right-hand side, Jacobian and Taylor recurrences. The state is U, what the
@@ -110,7 +110,7 @@ class FullSystem {
     Lanes<Scalar> whole[Order + 1];
     Lanes<Scalar> torque[Order + 1];
     Scalar norm[Order + 1];
-    Scalar omega[with_attitude ? Order + 1 : 1][4];
+    QuaternionSeries<Scalar, with_attitude ? Order : 0> turn;
   };
 
   /// reach < 1: part of the way to U = 0 that one step may go at most.
@@ -244,19 +244,7 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
 
   if constexpr (with_attitude) {
     const Row omega = inverse_inertia_ * newest * lanes(half_unit);
-    store(work.omega[k], omega);
-    Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-    count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
-      const Row q = load(&x[k - j][4]);
-      s0 = multiply_add(lanes(work.omega[j][0]), q, s0);
-      s1 = multiply_add(lanes(work.omega[j][1]), q, s1);
-      s2 = multiply_add(lanes(work.omega[j][2]), q, s2);
-    });
-    const Row first = load(&x[0][4]), last = load(&x[k][4]);
-    s0 = multiply_add(lanes(work.omega[0][0]), last, multiply_add(lanes(omega[0]), first, s0));
-    s1 = multiply_add(lanes(work.omega[0][1]), last, multiply_add(lanes(omega[1]), first, s1));
-    s2 = multiply_add(lanes(work.omega[0][2]), last, multiply_add(lanes(omega[2]), first, s2));
-    store(&x[k + 1][4], lanes(share) * times_units(s0, s1, s2));
+    store(&x[k + 1][4], lanes(share) * work.turn.extend(k, x, 4, omega));
   }
 
   newest = next;
@@ -312,9 +300,7 @@ void FullSystem<Real_, with_control, with_attitude>::expand(Scalar, Scalar unit,
   }
   if constexpr (with_attitude) {
     const Row omega = (inverse_inertia_ * start + rate_) * lanes(unit / 2);
-    store(work.omega[0], omega);
-    const Row q = load(&x[0][4]);
-    store(&x[1][4], times_units(lanes(omega[0]) * q, lanes(omega[1]) * q, lanes(omega[2]) * q));
+    store(&x[1][4], work.turn.begin(x, 4, omega));
   }
   store(x[1], with_last(first, zero));
   work.forward[1] = shuffle<1, 2, 0, 3>(first);

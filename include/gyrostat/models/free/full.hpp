@@ -10,7 +10,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/free/problem.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
-#include "gyrostat/rotation/quaternion_lanes.hpp"
+#include "gyrostat/rotation/quaternion_series.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full equations of a free gyrostat as Taylor recurrences:
@@ -47,7 +47,7 @@ class FullSystem {
   struct Work {
     Lanes<Scalar> forward[Order + 1];
     Lanes<Scalar> backward[Order + 1];
-    Scalar turn[Order + 1][4];
+    QuaternionSeries<Scalar, Order> turn;
   };
 
   /// The motion of a problem that Problem::check() finds right, from which the projection takes its constants.
@@ -181,19 +181,7 @@ template <Real Real_>
 template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_>::turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
                                              const Row& motion, const Row& share) const noexcept {
-  store(work.turn[k], motion);
-  Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-  count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
-    const Row q = load(&x[k - j][0]);
-    s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
-    s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
-    s2 = multiply_add(lanes(work.turn[j][2]), q, s2);
-  });
-  const Row first = load(&x[0][0]), last = load(&x[k][0]);
-  s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(motion), first, s0));
-  s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(motion), first, s1));
-  s2 = multiply_add(lanes(work.turn[0][2]), last, multiply_add(shuffle<2, 2, 2, 2>(motion), first, s2));
-  store(&x[k + 1][0], share * times_units(s0, s1, s2));
+  store(&x[k + 1][0], share * work.turn.extend(k, x, 0, motion));
   store(&x[k + 1][8], share * (motion + motion));
 }
 
@@ -244,9 +232,8 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
   const Scalar half = unit / 2;
   c.motion = row(half * a_);
 
-  const Row motion = row(half * (a_.cwiseProduct(X) - g_)), q = load(x[0]);
-  store(work.turn[0], motion);
-  store(&x[1][0], times_units(lanes(motion[0]) * q, lanes(motion[1]) * q, lanes(motion[2]) * q));
+  const Row motion = row(half * (a_.cwiseProduct(X) - g_));
+  store(&x[1][0], work.turn.begin(x, 0, motion));
   Row newest = row(rate);
   store(&x[1][4], newest);
   store(&x[1][8], motion + motion);

@@ -21,7 +21,7 @@
 #include "gyrostat/models/general/surroundings.hpp"
 #include "gyrostat/models/general/wheels.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
-#include "gyrostat/rotation/quaternion_lanes.hpp"
+#include "gyrostat/rotation/quaternion_series.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full equations of a body with any wheels under any torques as Taylor recurrences, from one breakpoint to the next.
@@ -186,9 +186,9 @@ class FullSystem {
     using Series = NumberSeries<Scalar, Order>;
     using Row_ = Lanes<Scalar>;
     using Rows = Row_[Order + 1];
-    Vectors rate;               ///< w unit
-    Scalar turn[Order + 1][4];  ///< the same number by number
-    Rows momentum_turned;       ///< (M2, M3, M1)
+    Vectors rate;                          ///< w unit
+    QuaternionSeries<Scalar, Order> turn;  ///< by the same
+    Rows momentum_turned;                  ///< (M2, M3, M1)
     Vectors seen[7];  ///< directions; radial, along; the part of a rotating field across its axis, and ahead of it
     Row_ known_wheels[5], known_torque[5];  ///< w unit by the wheels whose momentum is known, and dM/dt by it
     Vectors field, down, down_J, radial_J;
@@ -265,16 +265,13 @@ class FullSystem {
 
   /// What two orders have in common is summed for both at once, as loads are what an order costs: the part of the second one.
   struct Ahead {
-    Row momentum[2], turn[3], seen[3][2];
+    Row momentum[2], seen[3][2];
   };
 
   /// Order k + 1 from the orders up to k. Index: an integral constant, so that everything unrolls, or an int.
   template <class Index, int Order>
   GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, Ahead& ahead,
                               const Constants& c) const noexcept;
-  template <class Index, int Order>
-  GYROSTAT_INLINE void turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, const Row& rate,
-                            const Row& share, Ahead& ahead) const noexcept;
   template <class Index, int Order>
   GYROSTAT_INLINE void turn_seen(Index k, int i, Work<Order>& work, const Row& share, Ahead& ahead) const noexcept;
   /// All torque of order k, times unit, that bends or has a factor and depends on the motion; and order k + 1 of all vectors and numbers
@@ -398,37 +395,6 @@ void FullSystem<Real_, large>::take_wheels() noexcept {
 
 template <Real Real_, bool large>
 template <class Index, int Order>
-GYROSTAT_INLINE void FullSystem<Real_, large>::turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
-                                                    const Row& rate, const Row& share, Ahead& ahead) const noexcept {
-  store(work.turn[k], rate);
-  Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-  const auto add = [&](int j, const Row& q, Row& sum_0, Row& sum_1, Row& sum_2) GYROSTAT_INLINE_LAMBDA {
-    sum_0 = multiply_add(lanes(work.turn[j][0]), q, sum_0);
-    sum_1 = multiply_add(lanes(work.turn[j][1]), q, sum_1);
-    sum_2 = multiply_add(lanes(work.turn[j][2]), q, sum_2);
-  };
-  if (k % 2 == 1) {
-    auto& next = ahead.turn;
-    next[0] = next[1] = next[2] = s0;
-    count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
-      add(j, load(&x[k - j][0]), s0, s1, s2);
-      if (j > 1) add(j, load(&x[k + 1 - j][0]), next[0], next[1], next[2]);
-    });
-  } else {
-    s0 = ahead.turn[0], s1 = ahead.turn[1], s2 = ahead.turn[2];
-    if (k > 2) add(k - 1, load(&x[1][0]), s0, s1, s2);
-    add(1, load(&x[k - 1][0]), s0, s1, s2);
-  }
-  const Row first = load(&x[0][0]), last = load(&x[k][0]);
-  s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(rate), first, s0));
-  s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(rate), first, s1));
-  s2 = multiply_add(lanes(work.turn[0][2]), last, multiply_add(shuffle<2, 2, 2, 2>(rate), first, s2));
-  store(&x[k + 1][0], share * lanes(Scalar(0.5L)) * times_units(s0, s1, s2));
-  store(&x[k + 1][At::turned], share * rate);
-}
-
-template <Real Real_, bool large>
-template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_, large>::turn_seen(Index k, int i, Work<Order>& work, const Row& share,
                                                          Ahead& ahead) const noexcept {
   const auto &o = work.rate.v, &o_turned = work.rate.turned;
@@ -492,7 +458,8 @@ GYROSTAT_INLINE void FullSystem<Real_, large>::extend(Index k, Scalar (&x)[Order
     known = c.direction[i].times(work.seen[i].v[k], known);
     turn_seen(k, i, work, share, ahead);
   }
-  turn(k, x, work, rate, share, ahead);
+  store(&x[k + 1][0], share * lanes(Scalar(0.5L)) * work.turn.extend(k, x, 0, rate));
+  store(&x[k + 1][At::turned], share * rate);
   if (drives_) known = known + work.drive[k];
   if (has_rest_) known = known + rest(k, x, work, c);
   if constexpr (large) turn_wheels(k, x, work, c.unit);
@@ -530,12 +497,10 @@ void FullSystem<Real_, large>::expand(Scalar t, Scalar unit, Scalar (&x)[Order +
     c.wheel_torque[i] = c.torque_by(c.wheel_rate[i]);
   }
 
-  const Row rate = row(w), half = lanes(Scalar(0.5L)) * rate, q = load(&x[0][0]);
+  const Row rate = row(w);
   work.rate.set(0, rate);
-  store(work.turn[0], rate);
   work.momentum_turned[0] = shuffle<1, 2, 0, 3>(c.first_momentum);
-  store(&x[1][0],
-        times_units(shuffle<0, 0, 0, 0>(half) * q, shuffle<1, 1, 1, 1>(half) * q, shuffle<2, 2, 2, 2>(half) * q));
+  store(&x[1][0], lanes(Scalar(0.5L)) * work.turn.begin(x, 0, rate));
   store(&x[1][At::turned], rate);
   begin(t, x, work, c);
   Row newest = c.torque_by(rate) + lanes(unit) * (steady_.body - steady_.by_momentum * c.first_momentum);

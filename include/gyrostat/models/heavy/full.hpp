@@ -13,7 +13,7 @@
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/rotation/kinematics.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
-#include "gyrostat/rotation/quaternion_lanes.hpp"
+#include "gyrostat/rotation/quaternion_series.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full equations (docs/heavy.md, section 2): right-hand side, Jacobian, Taylor recurrences, and those of the variational
@@ -278,7 +278,7 @@ class FullSystem {
   template <int Order>
   struct Work {
     typename detail::EulerPoisson<Scalar>::template Rows<Order> rows;
-    Scalar turn[turning ? Order + 1 : 1][4];  ///< half the angular velocity times the unit
+    QuaternionSeries<Scalar, turning ? Order : 0> turn;  ///< half the angular velocity times the unit
   };
 
   /// The motion from `start`, from which the projection takes its constants. Turning: start.attitude has unit norm and
@@ -326,19 +326,7 @@ class FullSystem {
   GYROSTAT_INLINE void turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, const Row& half) const noexcept {
     const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
     const Row motion = half * load(&x[k][0]);
-    store(work.turn[k], motion);
-    Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-    count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
-      const Row q = load(&x[k - j][8]);
-      s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
-      s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
-      s2 = multiply_add(lanes(work.turn[j][2]), q, s2);
-    });
-    const Row first = load(&x[0][8]), last = load(&x[k][8]);
-    s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(motion), first, s0));
-    s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(motion), first, s1));
-    s2 = multiply_add(lanes(work.turn[0][2]), last, multiply_add(shuffle<2, 2, 2, 2>(motion), first, s2));
-    store(&x[k + 1][8], share * times_units(s0, s1, s2));
+    store(&x[k + 1][8], share * work.turn.extend(k, x, 8, motion));
   }
 
   detail::EulerPoisson<Scalar> equations_;
@@ -352,9 +340,7 @@ void FullSystem<Real_, turning>::expand(Scalar, Scalar unit, Scalar (&x)[Order +
   const auto c = equations_.begin(unit, x, work.rows);
   const Row half = lanes(unit / 2);
   if constexpr (turning) {
-    const Row motion = half * load(&x[0][0]), q = load(&x[0][8]);
-    store(work.turn[0], motion);
-    store(&x[1][8], times_units(lanes(motion[0]) * q, lanes(motion[1]) * q, lanes(motion[2]) * q));
+    store(&x[1][8], work.turn.begin(x, 8, half * load(&x[0][0])));
   }
   const auto next = [&](auto k) GYROSTAT_INLINE_LAMBDA {
     equations_.extend(k, x, work.rows, c);

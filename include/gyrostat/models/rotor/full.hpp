@@ -12,7 +12,7 @@
 #include "gyrostat/models/rotor/gyrostat.hpp"
 #include "gyrostat/rotation/kinematics.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
-#include "gyrostat/rotation/quaternion_lanes.hpp"
+#include "gyrostat/rotation/quaternion_series.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full equations (docs/rotor.md, section 2, form C): right-hand side, Jacobian and Taylor recurrences of
@@ -92,7 +92,7 @@ class FullSystem {
     Lanes<Scalar> forward[Order + 1];
     Lanes<Scalar> backward[Order + 1];
     Lanes<Scalar> across[Order + 1];
-    Scalar turn[Order + 1][4];
+    QuaternionSeries<Scalar, Order> turn;
   };
 
   /// The motion from `start` at t = 0, from which the projection takes its constants.
@@ -214,19 +214,7 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
 
   // (Omega unit/2, omega) of order k
   const Row motion = multiply_add(c.motion[0], y0, c.motion[1] * y1) + multiply_add(c.motion[2], y2, c.motion[3] * y3);
-  store(work.turn[k], motion);
-  Row s0 = lanes(Scalar(0)), s1 = s0, s2 = s0;
-  count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
-    const Row q = load(&x[k - j][0]);
-    s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
-    s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
-    s2 = multiply_add(lanes(work.turn[j][2]), q, s2);
-  });
-  const Row first = load(&x[0][0]), last = load(&x[k][0]);
-  s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(motion), first, s0));
-  s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(motion), first, s1));
-  s2 = multiply_add(lanes(work.turn[0][2]), last, multiply_add(shuffle<2, 2, 2, 2>(motion), first, s2));
-  store(&x[k + 1][0], share * times_units(s0, s1, s2));
+  store(&x[k + 1][0], share * work.turn.extend(k, x, 0, motion));
   store(&x[k + 1][4], next);
 
   const Row rate = shuffle<3, 3, 3, 3>(motion);
@@ -270,7 +258,6 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
   motion = multiply_add(c.motion[0], lanes(H[0]), motion);
   motion = multiply_add(c.motion[1], lanes(H[1]), motion);
   motion = multiply_add(c.motion[2], lanes(H[2]), motion);
-  store(work.turn[0], motion);
   const Scalar excess = motion[3] - no_load_rate_;
   c.first_x = lanes(Scalar(0), Scalar(0), Scalar(0), 2 * excess);
 
@@ -278,8 +265,7 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
   const Row forward = shuffle<1, 2, 0, 3>(start), backward = shuffle<2, 0, 1, 3>(start);
   const Row turning = forward * shuffle<2, 0, 1, 3>(motion) - backward * shuffle<1, 2, 0, 3>(motion);
   Row newest = with_last(turning + turning, lanes(-slope * excess));
-  const Row q = load(x[0]);
-  store(&x[1][0], times_units(lanes(motion[0]) * q, lanes(motion[1]) * q, lanes(motion[2]) * q));
+  store(&x[1][0], work.turn.begin(x, 0, motion));
   store(&x[1][4], newest);
   const Scalar advance = unit * excess;
   store(&x[1][8], lanes(advance, advance, advance, slope * excess * excess));

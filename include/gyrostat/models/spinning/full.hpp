@@ -12,7 +12,7 @@
 #include "gyrostat/models/spinning/problem.hpp"
 #include "gyrostat/rotation/euler_312.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
-#include "gyrostat/rotation/quaternion_lanes.hpp"
+#include "gyrostat/rotation/quaternion_series.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full equations (docs/spinning.md, section 2): right-hand side, Jacobian and Taylor recurrences.
@@ -91,7 +91,7 @@ class FullSystem {
     Lanes<Scalar> thrust[Order + 1];
     Lanes<Scalar> outer[Order + 1];
     Lanes<Scalar> inner[Order + 1];
-    Scalar turn[Order + 1][4];
+    QuaternionSeries<Scalar, Order> turn;
   };
 
   explicit FullSystem(const Problem<Scalar>& problem) noexcept;
@@ -233,22 +233,10 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
 
   // the quaternion
   const Row motion = c.half * newest;
-  store(work.turn[k], motion);
-  Row s0 = zero, s1 = zero, s2 = zero;
-  count_down<Scalar>(k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA {
-    const Row q = load(&x[k - j][4]);
-    s0 = multiply_add(lanes(work.turn[j][0]), q, s0);
-    s1 = multiply_add(lanes(work.turn[j][1]), q, s1);
-    s2 = multiply_add(lanes(work.turn[j][2]), q, s2);
-  });
-  const Row first = load(&x[0][4]), last = load(&x[k][4]);
-  s0 = multiply_add(lanes(work.turn[0][0]), last, multiply_add(shuffle<0, 0, 0, 0>(motion), first, s0));
-  s1 = multiply_add(lanes(work.turn[0][1]), last, multiply_add(shuffle<1, 1, 1, 1>(motion), first, s1));
-  s2 = multiply_add(lanes(work.turn[0][2]), last, multiply_add(shuffle<2, 2, 2, 2>(motion), first, s2));
-  store(&x[k + 1][4], lanes(share) * times_units(s0, s1, s2));
+  store(&x[k + 1][4], lanes(share) * work.turn.extend(k, x, 4, motion));
 
   // the force's direction, power and quadratures
-  const Row thrust = to_thrust(last);
+  const Row thrust = to_thrust(load(&x[k][4]));
   const Row outer = shuffle<0, 3, 3, 0>(thrust), inner = shuffle<2, 1, 2, 1>(thrust);
   work.thrust[k] = thrust;
   work.outer[k] = outer;
@@ -293,7 +281,6 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
 
   const Row start = load(x[0]);
   const Row motion = c.half * start;
-  store(work.turn[0], motion);
   work.forward[0] = shuffle<1, 2, 0, 3>(start);
   work.backward[0] = shuffle<2, 0, 1, 3>(start);
   Row newest = lanes(unit * angular_acceleration_[0] + q * (a[0] * r - l1),
@@ -304,7 +291,7 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
   work.backward[1] = shuffle<2, 0, 1, 3>(newest);
 
   const Row attitude = load(&x[0][4]);
-  store(&x[1][4], times_units(lanes(motion[0]) * attitude, lanes(motion[1]) * attitude, lanes(motion[2]) * attitude));
+  store(&x[1][4], work.turn.begin(x, 4, motion));
   work.thrust[0] = to_thrust(attitude);
   work.outer[0] = shuffle<0, 3, 3, 0>(work.thrust[0]);
   work.inner[0] = shuffle<2, 1, 2, 1>(work.thrust[0]);
