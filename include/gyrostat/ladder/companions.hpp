@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -52,7 +53,7 @@ ode::Status reach(Course& course, Scalar t, Scalar t_max) noexcept {
 /// Steps the answer, and beside it its companions, over the asked times, and keeps its states there. Companions take tighter steps: their
 /// distance to the answer is its truncation, and their own distance what rounding and the data's last digits do. A course has step(t_max),
 /// time(), at(t) within the last step, and counts(). The first companion leads, and all are compared at the end of each of its steps and at
-/// the asked times. Their first steps end apart: from one start all would take the same polynomial, and err alike. A distance that was seen
+/// the asked times, of those in one step at a few. Their first steps end apart: from one start all would take the same polynomial, and err alike. A distance that was seen
 /// fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which all are near by chance does
 /// not hide it. States behind a failure are `nowhere`. note(i, error) is called at each asked time.
 template <class Writer, class Course, class Note>
@@ -67,9 +68,9 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   using Rows = Comparison<Writer>;
   Walk<Writer> walk{Status::reached, Rows(writer), {}};
   typename Rows::ColumnErrors kept;
-  const auto look = [&](const State& here, Scalar t) noexcept {
+  const auto look = [&](const typename Rows::Row& answer, Scalar t) noexcept {
     constexpr auto& how = honesty::side_by_side;
-    const auto answer = walk.asked.row(here), one = walk.asked.row(runs.companion.at(t));
+    const auto one = walk.asked.row(runs.companion.at(t));
     auto away = Rows::apart(answer, one);
     if (runs.second == nullptr) return kept.raise(Scalar(how.margin) * away);
     const auto two = walk.asked.row(runs.second->at(t));
@@ -100,15 +101,21 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     if (walk.status != Status::reached) break;
     const Scalar now = runs.companion.time();
     kept *= 1 / (1 + (now - before) * rate / Scalar(honesty::fading_angle));
-    for (; next < times.size() && times[next] <= now && all_reach(times[next]); ++next) {
+    // where times lie densely some of them tell of all, the last one among them: distances grow smoothly inside a step
+    const auto behind = std::upper_bound(times.begin() + std::ptrdiff_t(next), times.end(), now);
+    const std::size_t end = std::size_t(behind - times.begin());
+    const std::size_t stride = 1 + (end - next) / honesty::looks_in_a_step;
+    for (std::size_t heard = next; next < end && all_reach(times[next]); ++next) {
       states[next] = runs.answer.at(times[next]);
-      walk.asked.add(states[next]);
-      look(states[next], times[next]);
+      const auto row = walk.asked.row(states[next]);
+      walk.asked.add(row);
+      if ((end - 1 - next) % stride != 0) continue;
+      look(row, times[next]);
       walk.error.raise(kept);
-      note(next, kept);
+      for (; heard <= next; ++heard) note(heard, kept);
     }
     if (next == times.size() || walk.status != Status::reached || !all_reach(now)) break;
-    look(runs.answer.at(now), now);
+    look(walk.asked.row(runs.answer.at(now)), now);
     if ((trips++ & 255U) == 0) {
       options.report(progress_from + static_cast<double>(now / last) * (progress_to - progress_from));
       if (options.cancelled()) {

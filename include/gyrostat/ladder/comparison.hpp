@@ -72,6 +72,11 @@ class Comparison {
   }
   /// One motion alone: its sizes.
   void add(const State& state) noexcept { add(row(state)); }
+  void add(const Row& row) noexcept {
+    const Scalar* x = row.data();
+    for (std::size_t i = 0; i < count; x += Writer::columns[i++].width)
+      if (Writer::columns[i].measure != Measure::angle) size_[i] = greater(norm(x, Writer::columns[i]), size_[i]);
+  }
 
   /// In units of the columns.
   const ColumnErrors& difference() const noexcept { return difference_; }
@@ -95,11 +100,6 @@ class Comparison {
   }
 
  private:
-  void add(const Row& row) noexcept {
-    const Scalar* x = row.data();
-    for (std::size_t i = 0; i < count; x += Writer::columns[i++].width)
-      if (Writer::columns[i].measure != Measure::angle) size_[i] = greater(norm(x, Writer::columns[i]), size_[i]);
-  }
   static Scalar norm(const Scalar* x, const ColumnKind& column) noexcept {
     if (column.width == 3) return Vec3<Scalar>(x[0], x[1], x[2]).norm();
     if (column.width == 1) return std::abs(x[0]);

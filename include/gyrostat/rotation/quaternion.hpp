@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "gyrostat/rotation/vector.hpp"
 
@@ -23,7 +24,10 @@ constexpr Quat<Scalar> conjugate(const Quat<Scalar>& q) noexcept {
 /// Without overflow or underflow of the squares.
 template <Real Scalar>
 Scalar norm(const Quat<Scalar>& q) noexcept {
-  using std::hypot;
+  using std::hypot, std::sqrt;
+  const Scalar least = std::numeric_limits<Scalar>::min() / epsilon<Scalar>;  // whose roundings are numbers
+  const Scalar square = (q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z);
+  if (square > least && square < infinity<Scalar>) return sqrt(square);
   return hypot(hypot(q.w, q.x), hypot(q.y, q.z));
 }
 

@@ -40,14 +40,14 @@ inline void linear_on_grid(const LinearGrid<double>& grid, double spin, std::spa
 
 inline void linear_states(const Problem<double>& problem, std::span<const double> times,
                           std::span<State<double>> states) noexcept {
-  // below, the tables of a grid cost more than they save
-  constexpr std::size_t worth = 512;
+  // below, what a grid begins with costs more than it saves: modes of the motion, or tables of blocks
+  constexpr std::size_t worth_modes = 16, worth_blocks = 512;
   const std::size_t n = times.size();
-  if (n >= worth && even(times)) {
+  if (n >= worth_modes && even(times)) {
     const double step = (times.back() - times.front()) / double(n - 1);
-    const LinearGrid<double> grid(problem, times.front(), step, n);
-    if (grid.kernel() != GridKernel::points) {
-      linear_on_grid(grid, problem.spin(), states);
+    const GridKernel best = LinearGrid<double>::best(problem, times.front(), step, n);
+    if (best == GridKernel::modes || (best == GridKernel::blocks && n >= worth_blocks)) {
+      linear_on_grid(LinearGrid<double>(problem, times.front(), step, n, best), problem.spin(), states);
       return;
     }
   }
