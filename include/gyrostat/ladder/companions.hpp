@@ -63,7 +63,6 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
                          const MotionOptions<typename Writer::Scalar>& options, double progress_from,
                          double progress_to, const Note& note) noexcept {
   using Scalar = typename Writer::Scalar;
-  using State = typename Writer::State;
   using ode::Status;
   using Rows = Comparison<Writer>;
   Walk<Writer> walk{Status::reached, Rows(writer), {}};
