@@ -47,6 +47,7 @@ concept Projects = requires(const System& system, typename System::Scalar t, typ
   { system.project(t, x, x) } noexcept;
 };
 
+/// How a state of Width numbers is integrated.
 template <Real Scalar, int Width>
 struct TaylorOptions {
   /// Size of the last kept term relative to scale, in every step. The global error grows from it with the motion.

@@ -72,6 +72,7 @@ struct Places {
   static constexpr int width = large ? 36 : 12;
 };
 
+/// The numbers of the state at t = 0, in the order of Places, SI.
 template <Real Scalar, bool large>
 std::array<Scalar, Places<large>::width> first_numbers(const Prepared<Scalar>& from) noexcept {
   using At = Places<large>;

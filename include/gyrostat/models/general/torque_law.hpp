@@ -62,6 +62,7 @@ struct OwnTorque {
   }
 };
 
+/// What a torque sees of a state.
 template <Real Scalar>
 Seen<Scalar> seen_of(const State<Scalar>& state) noexcept {
   return {{state.attitude, state.angular_velocity, state.angular_momentum}, state.rotor_rate};
