@@ -21,7 +21,8 @@ def shown(module):
 
 
 def newest_glibc(module):
-    return max(tuple(map(int, found.split("."))) for found in re.findall(r"\(GLIBC_([\d.]+)\)", ran("objdump", "-T", module)))
+    asked = re.findall(r"\(GLIBC_([\d.]+)\)", ran("objdump", "-T", module))
+    return max((tuple(map(int, each.split("."))) for each in asked), default=())
 
 
 def main():
@@ -40,7 +41,7 @@ def main():
             wrong = (ours and names != entry) or glibc > allowed
             sound = sound and not wrong
             told = " ".join(names) if ours else f"{len(names)} symbols"
-            print(f"{member.file_size / 1e6:7.2f} MB ({member.compress_size / 1e6:.2f} MB packed), glibc {'.'.join(map(str, glibc))}, "
+            print(f"{member.file_size / 1e6:7.2f} MB ({member.compress_size / 1e6:.2f} MB packed), glibc {'.'.join(map(str, glibc)) or 'any'}, "
                   f"{told}: {member.filename}{'  WRONG' if wrong else ''}")
     return 0 if sound else 1
 
