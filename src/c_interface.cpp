@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The functions of gyrostat.h.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -19,6 +20,8 @@
 #include "gyrostat/ladder/general/propagator.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/ladder/goal.hpp"
+#include "gyrostat/ladder/monitor.hpp"
+#include "gyrostat/models/general/torque_law.hpp"
 #include "gyrostat/version.hpp"
 
 using gyrostat::c::Outcome;
@@ -30,6 +33,12 @@ struct gyrostat_answer {
 struct gyrostat_propagator {
   gyrostat::general::Propagator propagator;
 };
+
+struct gyrostat_monitor {
+  gyrostat::Monitor monitor;
+};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<double>::is_always_lock_free,
+              "a signal handler may cancel");
 
 namespace {
 
@@ -59,7 +68,21 @@ int told(const Work& work) noexcept {
 
 Outcome no_pointer(const char* what) { return {GYROSTAT_BAD_ARGUMENT, std::string(what) + " is NULL"}; }
 
-Outcome answered(const gyrostat_scene& given, std::unique_ptr<gyrostat_answer>& made) {
+/// The torque of a scene's own; lost_at: told when it has no finite value.
+gyrostat::general::OwnTorque own_torque(const gyrostat_scene& given, double& lost_at) {
+  using namespace gyrostat;
+  if (given.torque == nullptr) return {};
+  const auto call = [](const void* law, double t, const general::Seen<double>& seen) noexcept -> Vec3<double> {
+    const auto& scene = *static_cast<const gyrostat_scene*>(law);
+    const auto state = general::numbers_of(seen);
+    double torque[3] = {gyrostat::nan<double>, gyrostat::nan<double>, gyrostat::nan<double>};
+    scene.torque(scene.torque_data, t, state.data(), torque);
+    return {torque[0], torque[1], torque[2]};
+  };
+  return {call, &given, given.breakpoints, &lost_at};
+}
+
+Outcome answered(const gyrostat_scene& given, gyrostat::Monitor* monitor, std::unique_ptr<gyrostat_answer>& made) {
   using namespace gyrostat;
   if (auto wrong = c::complete(given, true); wrong.code != GYROSTAT_OK) return wrong;
   const auto problem = c::problem_of(given);
@@ -71,14 +94,21 @@ Outcome answered(const gyrostat_scene& given, std::unique_ptr<gyrostat_answer>& 
                                       ": do not ask for it, or add what it is of (docs/columns.md)"};
   Refusal refusal;
   made = std::make_unique<gyrostat_answer>();
-  made->answer = general::solve(scene->known_within(given.start_error), refusal);
-  if (refusal.code != Errc::ok) return {GYROSTAT_NO_ANSWER, std::string("model ") + refusal.model + ": " + refusal.why};
-  return {};
+  double lost_at = gyrostat::nan<double>;
+  made->answer =
+      general::solve(scene->known_within(given.start_error).driven_by(own_torque(given, lost_at)), refusal, monitor);
+  if (refusal.code == Errc::ok) return {};
+  if (refusal.code == Errc::cancelled) return {GYROSTAT_CANCELLED, refusal.why};
+  auto why = std::string("model ") + refusal.model + ": " + refusal.why;
+  if (lost_at == lost_at) why += ", at t = " + std::to_string(lost_at) + " s";
+  return {GYROSTAT_NO_ANSWER, why};
 }
 
 Outcome prepared(const gyrostat_scene& given, std::unique_ptr<gyrostat_propagator>& made) {
   using namespace gyrostat;
   if (auto wrong = c::complete(given, false); wrong.code != GYROSTAT_OK) return wrong;
+  if (given.torque != nullptr)
+    return {GYROSTAT_BAD_SCENE, "a propagator takes no torque of your own: ask gyrostat_solve for the span"};
   const auto problem = c::problem_of(given);
   const auto propagator = general::Propagator::make(problem, given.question.tolerance);
   if (propagator) {
@@ -184,17 +214,38 @@ int gyrostat_ask(gyrostat_scene* scene, const char* name, double tolerance) {
   });
 }
 
+int gyrostat_drive(gyrostat_scene* scene, gyrostat_torque torque, void* data, const double* breakpoints, size_t count) {
+  return told([&] {
+    if (scene == nullptr) return no_pointer("scene");
+    if (breakpoints == nullptr && count > 0) return no_pointer("breakpoints");
+    return gyrostat::c::drive(*scene, torque, data, {breakpoints, count});
+  });
+}
+
 int gyrostat_solve(const gyrostat_scene* scene, gyrostat_answer** answer) {
+  return gyrostat_solve_watched(scene, nullptr, answer);
+}
+
+int gyrostat_solve_watched(const gyrostat_scene* scene, gyrostat_monitor* monitor, gyrostat_answer** answer) {
   if (answer != nullptr) *answer = nullptr;
   return told([&] {
     if (scene == nullptr || answer == nullptr) return no_pointer(scene == nullptr ? "scene" : "answer");
     std::unique_ptr<gyrostat_answer> made;
-    auto outcome = answered(*scene, made);
+    auto outcome = answered(*scene, monitor != nullptr ? &monitor->monitor : nullptr, made);
     if (outcome.code == GYROSTAT_OK) *answer = made.release();
     return outcome;
   });
 }
 void gyrostat_answer_free(gyrostat_answer* answer) { delete answer; }
+
+gyrostat_monitor* gyrostat_monitor_new(void) { return new (std::nothrow) gyrostat_monitor; }
+void gyrostat_monitor_free(gyrostat_monitor* monitor) { delete monitor; }
+double gyrostat_monitor_fraction(const gyrostat_monitor* monitor) {
+  return monitor != nullptr ? monitor->monitor.fraction.load() : 0;
+}
+void gyrostat_monitor_cancel(gyrostat_monitor* monitor) {
+  if (monitor != nullptr) monitor->monitor.cancel.store(true);
+}
 
 const char* gyrostat_answer_model(const gyrostat_answer* answer) {
   return answer != nullptr ? answer->answer.model : nullptr;

@@ -404,6 +404,14 @@ Outcome ask(gyrostat_scene& scene, const char* name, double tolerance) {
   return {};
 }
 
+Outcome drive(gyrostat_scene& scene, gyrostat_torque torque, void* data, std::span<const double> breakpoints) {
+  if (!std::all_of(breakpoints.begin(), breakpoints.end(), [](double t) { return std::isfinite(t); }))
+    return bad("a breakpoint is NaN or infinite");
+  scene.breakpoints.assign(breakpoints.begin(), breakpoints.end());
+  scene.torque = torque, scene.torque_data = data;
+  return {};
+}
+
 Outcome complete(const gyrostat_scene& scene, bool with_question) {
   const auto lacks = [](GivenKeys given, const Key& key) { return (given & bit_of(key)) == 0; };
   for (const Key& key : keys) {

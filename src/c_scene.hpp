@@ -19,6 +19,9 @@ using GivenKeys = std::uint64_t;
 struct gyrostat_scene {
   gyrostat::general::Problem<double> problem;
   gyrostat::general::StartError start_error;
+  gyrostat_torque torque = nullptr;  // of the caller's own, and what it is handed
+  void* torque_data = nullptr;
+  std::vector<double> breakpoints;
   gyrostat::Question question;
   bool recognise = true;
   GivenKeys given = 0;                  // but those of wheels and torques
@@ -37,6 +40,7 @@ struct Outcome {
 Outcome add(gyrostat_scene& scene, const char* what, const char* type);
 Outcome set(gyrostat_scene& scene, const char* key, std::span<const double> values);
 Outcome set_word(gyrostat_scene& scene, const char* key, const char* word);
+Outcome drive(gyrostat_scene& scene, gyrostat_torque torque, void* data, std::span<const double> breakpoints);
 Outcome ask(gyrostat_scene& scene, const char* name, double tolerance);
 
 /// Whether all that body, wheels, torques and surroundings need is there; with the question, start and times, too.

@@ -45,7 +45,7 @@ COMMON = "free"  # the family of models that the others stand on: their motion w
 DEFINITION = "_definition.hpp"  # what x_definition.hpp defines x.hpp declares, and includes unless the library is compiled
 
 SPDX = "SPDX-License-Identifier: BSD-3-Clause"
-SPDX_KINDS = {".hpp", ".cpp", ".h", ".c", ".rs", ".py", ".cmake", ".toml", ".in"}
+SPDX_KINDS = {".hpp", ".cpp", ".h", ".c", ".rs", ".py", ".sh", ".cmake", ".toml", ".in"}
 SPDX_NAMES = {"CMakeLists.txt", "dev", "run", ".clang-format", ".clang-tidy", ".editorconfig", ".gitignore"}
 NOT_OURS = {"build", "demo", "dist", "__pycache__"}  # and every hidden folder but .ci
 

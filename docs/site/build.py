@@ -32,19 +32,12 @@ def module_page(name: str) -> str:
     return f"{name}\n{'=' * len(name)}\n\n.. automodule:: {name}\n   :members:\n   :exclude-members: {', '.join(shown)}\n"
 
 
-def listed_headers(text: str) -> list[str]:
-    """The headers in the tables of docs/headers.md; FAMILY stands for each of the families."""
-    include = ROOT / "include" / "gyrostat"
-    patterns = [name for row in re.findall(r"^\| (`.*?) \|", text, re.M) for name in re.findall(r"`([\w/]+\.hpp)`", row)]
-    return [found.relative_to(include).as_posix() for name in patterns for found in sorted(include.glob(name.replace("FAMILY", "*")))]
-
-
 def stage_headers(folder: pathlib.Path) -> None:
     """A page for each folder with such headers, and links to them."""
     guide = folder / "docs" / "headers.md"
     text = guide.read_text(encoding="utf-8")
     pages: dict[str, dict[str, str]] = {}
-    for name in sorted(set(listed_headers(text))):
+    for name in sorted(set(cpp.listed(text, ROOT / "include" / "gyrostat"))):
         pages.setdefault(name.rpartition("/")[0], {})[name] = (ROOT / "include" / "gyrostat" / name).read_text(encoding="utf-8")
     (folder / "cpp").mkdir()
     for place, headers in pages.items():

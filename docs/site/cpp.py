@@ -4,6 +4,7 @@
 No compiler: the sources are laid out by clang-format, which sets a space before the brace of a body and none before that of a value.
 """
 import dataclasses
+import pathlib
 import re
 
 TYPE = re.compile(r"(struct|class|union|enum class|enum) (?:\[\[\w+\]\] |alignas\(.*?\) )?(\w[\w:<>, ]*?)(?: : .*)?$")
@@ -172,6 +173,12 @@ def member(of: Declaration) -> list[str]:
     code = " ".join(line.split("//")[0].strip() for line in of.text.splitlines())
     made = [f"* ``{code}``" + (f": {said}" if said else "")]
     return made + ["  " + line for each in of.members for line in member(each)]
+
+
+def listed(guide: str, include: pathlib.Path) -> list[str]:
+    """The headers in the tables of the page headers.md; FAMILY stands for each of the families."""
+    patterns = [name for row in re.findall(r"^\| (`.*?) \|", guide, re.M) for name in re.findall(r"`([\w/]+\.hpp)`", row)]
+    return [found.relative_to(include).as_posix() for name in patterns for found in sorted(include.glob(name.replace("FAMILY", "*")))]
 
 
 def page(folder: str, headers: dict[str, str]) -> str:

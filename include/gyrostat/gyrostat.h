@@ -17,7 +17,7 @@
  * any other argument. A program ends only where memory runs out in the midst of a computation.
  *
  * Threads: no function waits for another. Different objects may be used from different threads at once, and so may one
- * object by functions that take it as const. What changes an object must have it alone.
+ * object by functions that take it as const. What changes an object must have it alone. (A monitor is for all at once.)
  *
  * Lifetime: what a *_new or gyrostat_solve gives is the caller's, to be freed by the function of its name; freeing NULL does
  * nothing. Texts and arrays that a function hands out belong to the object asked, and last as long as it; a name of a column,
@@ -42,12 +42,14 @@ enum {
   GYROSTAT_BAD_SCENE =
       2, /* each part is possible and the whole is not: something is missing, or no body is like that */
   GYROSTAT_NO_ANSWER = 3, /* no model could answer: too long, too stiff, a brake that stops the body, lost digits */
-  GYROSTAT_NO_MEMORY = 4
+  GYROSTAT_NO_MEMORY = 4,
+  GYROSTAT_CANCELLED = 5 /* gyrostat_monitor_cancel was called */
 };
 
 typedef struct gyrostat_scene gyrostat_scene;
 typedef struct gyrostat_answer gyrostat_answer;
 typedef struct gyrostat_propagator gyrostat_propagator;
+typedef struct gyrostat_monitor gyrostat_monitor;
 
 /* The version of the library that is linked, "major.minor.patch". */
 const char* gyrostat_version(void);
@@ -138,11 +140,29 @@ int gyrostat_set_word(gyrostat_scene* scene, const char* key, const char* word);
  * is measured; 0: solve.tolerance. Where nothing is asked for, an answer has attitude, rates, and rates and angles of the wheels. */
 int gyrostat_ask(gyrostat_scene* scene, const char* name, double tolerance);
 
+/* ---- A torque of your own ----
+ *
+ * At t, s: writes torque[3], N m about the reference point, body axes. state: attitude [x, y, z, w], angular velocity[3], rad/s, angular
+ * momentum[3], N m s, both in body axes, and the rate of each wheel, rad/s relative to the body, one behind the other. `yours` is what was
+ * given with the function. It must be a function: the same numbers give the same torque, whenever and in whatever order it is asked
+ * (docs/general.md, section 7). NaN where it has no value. It is called by the thread that solves, and must return: no longjmp, no
+ * exception. */
+typedef void (*gyrostat_torque)(void* yours, double t, const double* state, double* torque);
+
+/* Adds a torque of your own to those of the scene, in place of the one that was there; NULL: none. breakpoints: the `count` times at which
+ * it or its derivatives jump, s, in any order; NULL and 0 for a smooth one. The function and `yours` are kept, and must last while the
+ * scene is solved. No family is looked for, and a propagator takes none. */
+int gyrostat_drive(gyrostat_scene* scene, gyrostat_torque torque, void* yours, const double* breakpoints, size_t count);
+
 /* ---- An answer ---- */
 
-/* Answers a scene, which it leaves as it is. *answer is NULL where it fails. It may take seconds for a long and hard motion, and
- * cannot be interrupted. An answer whose errors exceed the tolerance is one too: see gyrostat_answer_met. */
+/* Answers a scene, which it leaves as it is. *answer is NULL where it fails. It may take seconds for a long and hard motion. An answer
+ * whose errors exceed the tolerance is one too: see gyrostat_answer_met. */
 int gyrostat_solve(const gyrostat_scene* scene, gyrostat_answer** answer);
+
+/* The same, watched: other threads ask the monitor how far it is, and stop it. NULL: nobody does. Stopped, it ends within some hundred steps of
+ * the full equations with GYROSTAT_CANCELLED, or with the answer of a cheaper model that stood already. */
+int gyrostat_solve_watched(const gyrostat_scene* scene, gyrostat_monitor* monitor, gyrostat_answer** answer);
 void gyrostat_answer_free(gyrostat_answer* answer);
 
 /* The model that answered, such as "free:closed-form"; NULL of NULL. */
@@ -175,11 +195,22 @@ const char* gyrostat_answer_warning_code(const gyrostat_answer* answer, size_t p
 const char* gyrostat_answer_warning_text(const gyrostat_answer* answer, size_t place);
 double gyrostat_answer_warning_value(const gyrostat_answer* answer, size_t place);
 
+/* ---- A monitor ----
+ *
+ * For one call of gyrostat_solve_watched, which it must outlast; once cancelled it stays so. Fraction and cancel may be called at any time,
+ * from any thread, from a signal handler, and from a torque of your own. NULL: there is no memory. */
+gyrostat_monitor* gyrostat_monitor_new(void);
+void gyrostat_monitor_free(gyrostat_monitor* monitor);
+
+/* How much of the model at work is done, 0 to 1: the full equations count their span. */
+double gyrostat_monitor_fraction(const gyrostat_monitor* monitor);
+void gyrostat_monitor_cancel(gyrostat_monitor* monitor);
+
 /* ---- One step of a loop ---- */
 
 /* Prepares the body, wheels and torques of a scene; its start, times and what is asked do not matter, solve.tolerance does. Refused
- * where something changes with time by itself: a table, a wave, an interval, an orbit or a field that moves. *propagator is
- * NULL where it fails. The scene is not kept. */
+ * where something changes with time by itself: a table, a wave, an interval, an orbit or a field that moves; and with a torque of your
+ * own. *propagator is NULL where it fails. The scene is not kept. */
 int gyrostat_propagator_new(const gyrostat_scene* scene, gyrostat_propagator** propagator);
 void gyrostat_propagator_free(gyrostat_propagator* propagator);
 

@@ -2,11 +2,10 @@
 // A torque of the caller's own, from Python: a callable, or the address of a compiled function.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,19 +47,9 @@ class CallerTorque {
   }
 
  private:
-  static constexpr std::size_t most = 10 + general::most_wheels;
-
-  /// The state, one behind the other.
-  static std::array<double, most> row(const general::Seen<double>& seen) noexcept {
-    std::array<double, most> made{seen.attitude.x, seen.attitude.y, seen.attitude.z, seen.attitude.w};
-    std::copy_n(seen.angular_velocity.data(), 3, made.begin() + 4);
-    std::copy_n(seen.angular_momentum.data(), 3, made.begin() + 7);
-    std::copy_n(seen.rotor_rate.begin(), general::most_wheels, made.begin() + 10);
-    return made;
-  }
   static Vec3<double> by_address(const void* its, double t, const general::Seen<double>& seen) noexcept {
     const auto& self = *static_cast<const CallerTorque*>(its);
-    const auto state = row(seen);
+    const auto state = general::numbers_of(seen);
     double torque[3] = {nan<double>, nan<double>, nan<double>};
     self.compiled_(t + self.clock_, state.data(), torque);
     return {torque[0], torque[1], torque[2]};
@@ -71,13 +60,13 @@ class CallerTorque {
     if (self.raised_) return {no, no, no};
     const py::gil_scoped_acquire hold;
     try {
-      return self.called(t + self.clock_, row(seen));
+      return self.called(t + self.clock_, general::numbers_of(seen));
     } catch (...) {
       self.raised_ = std::current_exception();
       return {no, no, no};
     }
   }
-  Vec3<double> called(double t, const std::array<double, most>& state) const {
+  Vec3<double> called(double t, std::span<const double> state) const {
     const auto part = [&](std::size_t from, std::size_t size) {
       return py::array_t<double>(py::ssize_t(size), state.data() + from);
     };

@@ -266,6 +266,107 @@ static void an_uncertain_start(void) {
   gyrostat_answer_free(answer);
 }
 
+/* ---- a torque of one's own ---- */
+
+/* What a law is handed, and how often it was asked. */
+typedef struct {
+  double rate; /* N m s/rad */
+  double jump; /* s: from here on it pushes the other way */
+  double lost; /* s: from here on it has no value */
+  int asked, cancels_after;
+  gyrostat_monitor* monitor;
+  double seen; /* the greatest fraction that the monitor told */
+} damper;
+
+static void own_damping(void* yours, double t, const double* state, double* torque) {
+  damper* its = yours;
+  const double push = t < its->jump ? -its->rate : its->rate;
+  int i;
+  for (i = 0; i < 3; ++i) torque[i] = t < its->lost ? push * state[4 + i] : NAN;
+  if (gyrostat_monitor_fraction(its->monitor) > its->seen) its->seen = gyrostat_monitor_fraction(its->monitor);
+  if (++its->asked == its->cancels_after) gyrostat_monitor_cancel(its->monitor);
+}
+
+/* By the momentum, the wheel and the attitude: M3 = 5 w3 + 0.1 rate, so that w3 falls as the exponential; and a spring that pulls where
+ * the attitude is not the one that belongs to it. */
+static void own_by_all_that_is_seen(void* yours, double t, const double* state, double* torque) {
+  const double angle = 0.4 / 0.02 * -expm1(-0.02 * t);
+  *(int*)yours += 1;
+  torque[0] = torque[1] = 0;
+  torque[2] = -0.02 * (state[9] - 0.1 * state[10]) - 0.5 * (2 * state[2] * state[3] - sin(angle));
+}
+
+static void a_torque_of_ones_own(void) {
+  const double jump[] = {40}, axis[] = {0, 0, 1}, no_time[] = {NAN};
+  damper its = {0.05, 40, INFINITY, 0, -1, NULL, 0};
+  gyrostat_scene* scene = body(3, 4, 5, 0, 0, 1);
+  gyrostat_propagator* loop;
+  gyrostat_answer* answer;
+  const double* w;
+  double within;
+  int i, asked = 0;
+  OK(gyrostat_drive(scene, own_damping, &its, jump, 1));
+  answer = solved(scene, "full");
+  if (answer == NULL) return;
+  CHECK(its.asked > 100);
+  w = column(answer, "angular_velocity", 3, &within);
+  for (i = 0; i < count; ++i)
+    CHECK(fabs(w[3 * i + 2] - exp(-0.01 * (times[i] < 40 ? times[i] : 80 - times[i]))) <= within);
+  CHECK(within < 1e-5);
+  gyrostat_answer_free(answer);
+
+  scene = body(3, 4, 5, 0, 0, 0.4);
+  OK(gyrostat_add(scene, "wheel", "held"));
+  OK(gyrostat_set(scene, "wheel.axis", axis, 3));
+  OK(gyrostat_set_number(scene, "wheel.axial_inertia", 0.1));
+  OK(gyrostat_set_number(scene, "wheel.rate", 20));
+  OK(gyrostat_drive(scene, own_by_all_that_is_seen, &asked, NULL, 0));
+  answer = solved(scene, "full");
+  if (answer == NULL) return;
+  w = column(answer, "angular_velocity", 3, &within);
+  for (i = 0; i < count; ++i) CHECK(fabs(w[3 * i + 2] - 0.4 * exp(-0.02 * times[i])) <= within);
+  CHECK(within < 1e-5 && asked > 100);
+  gyrostat_answer_free(answer);
+
+  scene = body(3, 4, 5, 0, 0, 1);
+  REFUSED(gyrostat_drive(NULL, own_damping, &its, NULL, 0), GYROSTAT_BAD_ARGUMENT, "scene is NULL");
+  REFUSED(gyrostat_drive(scene, own_damping, &its, NULL, 1), GYROSTAT_BAD_ARGUMENT, "breakpoints is NULL");
+  REFUSED(gyrostat_drive(scene, own_damping, &its, no_time, 1), GYROSTAT_BAD_ARGUMENT, "breakpoint");
+  its.lost = 50;
+  OK(gyrostat_drive(scene, own_damping, &its, jump, 1));
+  REFUSED(gyrostat_propagator_new(scene, &loop), GYROSTAT_BAD_SCENE, "torque of your own");
+  REFUSED(gyrostat_solve(scene, &answer), GYROSTAT_NO_ANSWER, "no finite value, at t = 5");
+  OK(gyrostat_drive(scene, NULL, NULL, NULL, 0));
+  answer = solved(scene, "free:");
+  gyrostat_answer_free(answer);
+}
+
+/* ---- a monitor ---- */
+
+static void watched_and_stopped(void) {
+  damper its = {0.01, INFINITY, INFINITY, 0, 20000, NULL, 0};
+  gyrostat_scene* scene = body(3, 4, 5, 6, 4, 20);
+  gyrostat_answer* answer = NULL;
+  its.monitor = gyrostat_monitor_new();
+  CHECK(its.monitor != NULL && gyrostat_monitor_fraction(its.monitor) == 0);
+  OK(gyrostat_set_number(scene, "solve.tolerance", 1e-9));
+  OK(gyrostat_drive(scene, own_damping, &its, NULL, 0));
+  REFUSED(gyrostat_solve_watched(scene, its.monitor, &answer), GYROSTAT_CANCELLED, "stopped");
+  CHECK(answer == NULL && its.asked >= 20000 && its.asked < 40000 && its.seen > 0 && its.seen < 1);
+  REFUSED(gyrostat_solve_watched(scene, its.monitor, &answer), GYROSTAT_CANCELLED, "stopped");
+  gyrostat_monitor_free(its.monitor);
+
+  its.monitor = gyrostat_monitor_new(), its.cancels_after = -1;
+  OK(gyrostat_solve_watched(scene, its.monitor, &answer));
+  CHECK(gyrostat_answer_met(answer) == 1 && its.seen > 0.9);
+  gyrostat_answer_free(answer);
+  gyrostat_monitor_free(its.monitor);
+  gyrostat_monitor_free(NULL);
+  gyrostat_monitor_cancel(NULL);
+  CHECK(gyrostat_monitor_fraction(NULL) == 0);
+  gyrostat_scene_free(scene);
+}
+
 /* ---- a loop ---- */
 
 static void loop_in_closed_form(void) {
@@ -482,6 +583,8 @@ int main(void) {
   surroundings();
   a_warning();
   an_uncertain_start();
+  a_torque_of_ones_own();
+  watched_and_stopped();
   loop_in_closed_form();
   loops_with_wheels_and_torques();
   refused_nulls();

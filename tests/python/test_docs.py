@@ -149,6 +149,15 @@ def test_the_pages_of_the_headers_show_what_is_for_users(monkeypatch: pytest.Mon
         cpp.read(header.read_text(encoding="utf-8"))
 
 
+def test_what_the_public_headers_declare_has_a_comment(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(ROOT / "docs" / "site"))
+    cpp, include = importlib.import_module("cpp"), ROOT / "include" / "gyrostat"
+    for name in cpp.listed((ROOT / "docs" / "headers.md").read_text(encoding="utf-8"), include):
+        declared = cpp.read((include / name).read_text(encoding="utf-8"))
+        told = {each.name for each in declared if each.comment.strip()}  # one defined below has it where it is declared
+        assert [each.words for each in declared if each.name not in told] == [], name
+
+
 def test_the_counts_of_the_headers_are_theirs() -> None:
     for row in re.findall(r"^\| `[\w/]+\.hpp`.*$", (ROOT / "docs" / "headers.md").read_text(encoding="utf-8"), re.M):
         paths = [path for name in re.findall(r"`([\w/]+\.hpp)`", row) for path in (ROOT / "include" / "gyrostat").glob(name.replace("FAMILY", "*"))]

@@ -99,12 +99,19 @@ inline constexpr bool is_real_class<DoubleDouble> = true;
 template <>
 inline constexpr DoubleDouble pi<DoubleDouble> = {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 
+/// Whether the high word, and so the number, is NaN.
 inline bool isnan(const DoubleDouble& x) noexcept { return std::isnan(x.high); }
+/// Whether it is infinite, of either sign.
 inline bool isinf(const DoubleDouble& x) noexcept { return std::isinf(x.high); }
+/// Whether it is neither NaN nor infinite.
 inline bool isfinite(const DoubleDouble& x) noexcept { return std::isfinite(x.high); }
+/// Whether it has a minus sign, -0 too.
 inline bool signbit(const DoubleDouble& x) noexcept { return std::signbit(x.high); }
+/// |x|, exact; NaN of NaN.
 inline DoubleDouble abs(const DoubleDouble& x) noexcept { return std::signbit(x.high) ? -x : x; }
+/// abs() by its other name.
 inline DoubleDouble fabs(const DoubleDouble& x) noexcept { return abs(x); }
+/// x with the sign of `sign`, exact.
 inline DoubleDouble copysign(const DoubleDouble& x, const DoubleDouble& sign) noexcept {
   return std::signbit(x.high) == std::signbit(sign.high) ? x : -x;
 }
@@ -118,6 +125,7 @@ inline DoubleDouble nearbyint(const DoubleDouble& x) noexcept {
   return n;
 }
 
+/// The greatest whole number that is not above x, exact.
 inline DoubleDouble floor(const DoubleDouble& x) noexcept {
   const double n = std::floor(x.high);
   return n == x.high ? DoubleDouble::quick_sum(n, std::floor(x.low)) : DoubleDouble(n);
@@ -142,12 +150,14 @@ inline DoubleDouble sqrt(const DoubleDouble& x) noexcept {
   return first + (x - first * first) / (2 * first);
 }
 
+/// sqrt(x^2 + y^2), whose squares do not overflow. Infinite where the larger is.
 inline DoubleDouble hypot(const DoubleDouble& x, const DoubleDouble& y) noexcept {
   const DoubleDouble a = abs(x) < abs(y) ? abs(y) : abs(x), b = abs(x) < abs(y) ? abs(x) : abs(y);
   if (a.high == 0 || std::isinf(a.high)) return a;
   const DoubleDouble ratio = b / a;
   return a * sqrt(1 + ratio * ratio);
 }
+/// sqrt(x^2 + y^2 + z^2), likewise.
 inline DoubleDouble hypot(const DoubleDouble& x, const DoubleDouble& y, const DoubleDouble& z) noexcept {
   return hypot(hypot(x, y), z);
 }
@@ -223,6 +233,7 @@ inline DoubleDouble sin(const DoubleDouble& x) noexcept {
   const DoubleDouble y = turn.quarter % 2 ? at.c : at.s;
   return turn.quarter >= 2 ? -y : y;
 }
+/// As sin(): x in rad, NaN from |x| = 2^50 on.
 inline DoubleDouble cos(const DoubleDouble& x) noexcept {
   if (!(std::abs(x.high) < 0x1p50)) return nan<double>;
   const detail::QuarterTurn turn(x);
@@ -239,6 +250,7 @@ inline DoubleDouble atan2(const DoubleDouble& y, const DoubleDouble& x) noexcept
   const DoubleDouble s = sin(DoubleDouble(first)), c = cos(DoubleDouble(first));
   return first + (y / size * c - x / size * s);
 }
+/// In [-pi/2, pi/2], rad; NaN for |x| > 1.
 inline DoubleDouble asin(const DoubleDouble& x) noexcept { return atan2(x, sqrt((1 - x) * (1 + x))); }
 
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -31,9 +31,11 @@ inline constexpr long double epsilon<long double> = std::numeric_limits<long dou
 template <Real Scalar>
 inline constexpr Scalar nan = std::numeric_limits<Scalar>::quiet_NaN();
 
+/// What is larger than every number, or not bounded.
 template <Real Scalar>
 inline constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
 
+/// Half the circumference of the unit circle, to the last digit of the type.
 template <Real Scalar>
 inline constexpr Scalar pi = Scalar(3.141592653589793238462643383279502884L);
 

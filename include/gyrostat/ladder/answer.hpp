@@ -55,30 +55,33 @@ struct Attempt {
   double spent = 0;                ///< what it took on this machine, s
 };
 
+/// What solve() gives: a model, what it says at the times asked for and of the whole motion, and how sure it is. On the heap.
 struct Answer {
-  const char* model = "";
-  double tolerance = 0;
+  const char* model = "";       ///< the rung that answers, by its name in the table of the family
+  double tolerance = 0;         ///< that of the question
   double error = nan<double>;   ///< greatest error of what is asked
   double excess = nan<double>;  ///< greatest error over its tolerance
-  bool met = false;
-  std::vector<double> times;
+  bool met = false;             ///< no error of what is asked is over its tolerance
+  std::vector<double> times;    ///< those of the question, s: a row of each column for each
   std::vector<Column> columns;
   std::vector<Quantity> quantities;
   std::vector<Warning> warnings;
-  std::vector<Attempt> tried;
-  ode::Counts counts;
+  std::vector<Attempt> tried;  ///< the rungs that were looked at, in that order
+  ode::Counts counts;          ///< work of the rung that answers
 
-  /// nullptr where there is none.
+  /// The column of that name; nullptr where there is none.
   const Column* find(std::string_view name) const noexcept {
     for (const Column& column : columns)
       if (column.name() == name) return &column;
     return nullptr;
   }
+  /// The scalar of that name, likewise.
   const Quantity* quantity(std::string_view name) const noexcept {
     for (const Quantity& each : quantities)
       if (each.name() == name) return &each;
     return nullptr;
   }
+  /// Whether there is a warning of that code.
   bool warns(std::string_view code) const noexcept {
     for (const Warning& warning : warnings)
       if (warning.code() == code) return true;

@@ -76,10 +76,12 @@ struct WarningKind {
 /// A set of columns: one bit for the place of each.
 using ColumnSet = std::uint32_t;
 
+/// The set of these places, each below 32.
 template <std::convertible_to<std::size_t>... Places>
 constexpr ColumnSet column_set(Places... places) noexcept {
   return ((ColumnSet{1} << std::size_t{places}) | ... | ColumnSet{0});
 }
+/// Whether the column at `place`, below 32, is in the set.
 constexpr bool has(ColumnSet set, std::size_t place) noexcept { return (set >> place & 1U) != 0; }
 
 /// A model of the ladder, and what it is in a few words.

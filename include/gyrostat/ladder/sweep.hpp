@@ -52,6 +52,7 @@ struct SweepRow {
   std::uint32_t warnings = 0;   ///< a bit for the place of each in the table; behind them that of no_value
 };
 
+/// SweepRow::reason of a row that nobody came to.
 inline constexpr const char* not_reached = "the sweep was stopped before this row";
 
 /// Does rows 0 to rows - 1 on `threads` threads, at least one, at most `most` in one go. make_worker(monitor), called once on each thread, gives what

@@ -53,6 +53,7 @@ concept MovesInPart = requires(const System& system) {
   { system.moving() } noexcept -> std::convertible_to<int>;
 };
 
+/// How a state of Width numbers is integrated.
 template <Real Scalar, int Width>
 struct TaylorOptions {
   /// Size of the last kept term relative to scale, in every step. The global error grows from it with the motion.

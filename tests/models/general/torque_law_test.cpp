@@ -2,6 +2,8 @@
 #include "gyrostat/models/general/torque_law.hpp"
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "catch.hpp"
 #include "laws.hpp"
@@ -85,4 +87,15 @@ TEST_CASE("a law of any type by a pointer", "[general]") {
   CHECK(own.any());
   CHECK(own(0.5, seen) == stepping(0.5, seen));
   CHECK(own.breakpoints == std::vector<double>{1.0});
+}
+
+TEST_CASE("what a law sees stands in one order as numbers", "[general]") {
+  Seen<double> seen;
+  seen.attitude = {0.1, 0.2, 0.3, 0.4};  // w, x, y, z
+  seen.angular_velocity = {5, 6, 7};
+  seen.angular_momentum = {8, 9, 10};
+  for (std::size_t i = 0; i < most_wheels; ++i) seen.rotor_rate[i] = 11 + double(i);
+  const auto made = numbers_of(seen);
+  CHECK(std::vector<double>(made.begin(), made.begin() + 4) == std::vector<double>{0.2, 0.3, 0.4, 0.1});
+  for (std::size_t i = 4; i < made.size(); ++i) CHECK(made[i] == double(i) + 1);
 }

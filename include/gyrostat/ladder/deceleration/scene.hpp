@@ -107,6 +107,7 @@ struct FinalTorque {
   double least, greatest;
 };
 
+/// FinalTorque of a scene.
 inline FinalTorque final_torque(const Scene& scene) noexcept {
   const auto& p = scene.problem();
   const double other = p.law == p.drag_law ? 0 : p.drag * p.rotor_momentum.norm();

@@ -39,6 +39,7 @@ enum class LawFault : std::uint8_t {
   not_repeatable,  ///< asked twice with the same numbers, it gives two torques
 };
 
+/// How a motion under a torque of the caller's own came out, the estimated errors of its columns, and what of the law ended it.
 template <Real Scalar>
 struct CustomMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
   LawFault fault = LawFault::none;

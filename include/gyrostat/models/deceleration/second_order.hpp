@@ -62,6 +62,7 @@ struct Shifted {
   bool valid;
 };
 
+/// Shifted of p; of an axisymmetric body, which has no modulus, the tilt is changed by `relative` times itself.
 template <Real Scalar>
 Shifted<Scalar> shifted(Polhode<Scalar> p, Scalar relative) noexcept {
   const Scalar size = std::abs(relative);

@@ -22,6 +22,7 @@ struct PermanentRotation {
   bool stable() const noexcept { return square > 0; }
 };
 
+/// The permanent rotations of a body with a given norm of the momentum.
 template <Real Scalar>
 struct PermanentRotations {
   int count = 0;  ///< 2, 4 or 6

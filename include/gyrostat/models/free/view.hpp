@@ -17,6 +17,7 @@
 /// How long an axis of the body sees a direction of space (the sun, a station).
 namespace gyrostat::free {
 
+/// What an axis of the body sees of a direction, as fractions of the time.
 template <Real Scalar>
 struct View {
   Scalar fraction = 0;     ///< of the time with an angle between the two of half_angle or less

@@ -75,6 +75,7 @@ struct Places {
   static constexpr std::size_t angle(std::size_t i) noexcept { return wheel(i) + 4; }
 };
 
+/// The numbers of the state at t = 0, in the order of Places, SI.
 template <Real Scalar, bool large>
 std::array<Scalar, Places<large>::width> first_numbers(const Prepared<Scalar>& from) noexcept {
   using At = Places<large>;

@@ -17,6 +17,7 @@
 ///     M = J w + sum I_k Om_k u_k + l,      dM/dt = M x w + tau,   dq/dt = q (0, w)/2,   dp_k/dt = T_k - c_k Om_k.
 namespace gyrostat::general {
 
+/// How many wheels a body can carry.
 inline constexpr std::size_t most_wheels = 8;
 
 /// How a table goes on from one of its times to the next.
@@ -44,6 +45,7 @@ struct Factor {
   Scalar rate = 0, phase = 0;  ///< rad/s, rad
 };
 
+/// What makes a wheel turn.
 enum class WheelType : std::uint8_t {
   locked,    ///< part of the body
   held,      ///< a motor keeps its rate, or takes it through a table
@@ -68,6 +70,7 @@ struct Wheel {
   Table<Scalar> table;  ///< of type torque: added to its torque, N m; of type held: its rate in place of `rate`, rad/s
 };
 
+/// What a torque is, and the numbers of Torque that it is made of.
 enum class TorqueType : std::uint8_t {
   constant,          ///< vector, N m
   table,             ///< three numbers a time, N m
@@ -95,6 +98,7 @@ enum class Opposed : std::uint8_t {
   carrier_momentum,  ///< J w
 };
 
+/// One torque that acts on the body, times its factor. Which of the numbers count is said by its type; in SI units.
 template <Real Scalar>
 struct Torque {
   TorqueType type = TorqueType::constant;
@@ -118,6 +122,7 @@ struct Orbit {
   Vec3<Scalar> radial{1, 0, 0}, along{0, 1, 0};  ///< at t = 0, inertial axes, orthonormal
 };
 
+/// The magnetic field where the body is: none, the same always, turning about an axis, or a dipole that the body orbits.
 enum class MagneticField : std::uint8_t { none, uniform, rotating, dipole };
 
 /// Fields, inertial axes.

@@ -11,6 +11,7 @@
 /// Orbit and magnetic field at a time (docs/general.md, section 1.3), inertial axes.
 namespace gyrostat::general {
 
+/// Where on its orbit the mass centre is.
 template <Real Scalar>
 struct OrbitPoint {
   Vec3<Scalar> radial{1, 0, 0}, along{0, 1, 0};  ///< unit: outward, and along track
@@ -41,6 +42,7 @@ Scalar eccentric_anomaly(Scalar M, Scalar e) noexcept {
 
 }  // namespace detail
 
+/// Where on the orbit it is at t, s. The eccentric anomaly takes up to 100 steps; a circle needs none.
 template <Real Scalar>
 OrbitPoint<Scalar> orbit_at(const Orbit<Scalar>& orbit, Scalar t) noexcept {
   using std::atan2, std::cos, std::sin, std::sqrt;
@@ -70,6 +72,7 @@ OrbitPoint<Scalar> orbit_at(const Orbit<Scalar>& orbit, Scalar t) noexcept {
   return made;
 }
 
+/// The magnetic field in one place, inertial axes.
 template <Real Scalar>
 struct MagneticPoint {
   Vec3<Scalar> flux_density{0, 0, 0};  ///< B, T

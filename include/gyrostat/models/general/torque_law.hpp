@@ -62,9 +62,19 @@ struct OwnTorque {
   }
 };
 
+/// What a torque sees of a state.
 template <Real Scalar>
 Seen<Scalar> seen_of(const State<Scalar>& state) noexcept {
   return {{state.attitude, state.angular_velocity, state.angular_momentum}, state.rotor_rate};
+}
+
+/// What a torque sees as numbers, one behind the other: attitude [x, y, z, w], angular velocity, angular momentum, rates of the wheels.
+inline std::array<double, 10 + most_wheels> numbers_of(const Seen<double>& seen) noexcept {
+  std::array<double, 10 + most_wheels> made{seen.attitude.x, seen.attitude.y, seen.attitude.z, seen.attitude.w};
+  std::copy_n(seen.angular_velocity.data(), 3, made.begin() + 4);
+  std::copy_n(seen.angular_momentum.data(), 3, made.begin() + 7);
+  std::copy_n(seen.rotor_rate.begin(), most_wheels, made.begin() + 10);
+  return made;
 }
 
 /// The equations of Flow with a law beside the torques of the problem, between two breakpoints.

@@ -32,6 +32,7 @@ struct CollocatedOrbit {
   int iterations = 0;   ///< of Newton's method, all node counts together
 };
 
+/// How a periodic motion is looked for: node counts are odd, and at least 5.
 template <Real Scalar>
 struct CollocationOptions {
   int first_nodes = 17;

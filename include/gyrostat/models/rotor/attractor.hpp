@@ -19,6 +19,7 @@ enum class Certificate : std::uint8_t {
   none,           ///< there is no attractor: S = 0, L = 0, symmetry about e, or a continuum of minima
 };
 
+/// The steady rotation that a motion tends to, and how that is known.
 template <Real Scalar>
 struct Attractor {
   int index = -1;  ///< into SteadyRotations; -1: not certified

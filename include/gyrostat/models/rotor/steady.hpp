@@ -30,6 +30,7 @@ enum class SteadyType : std::uint8_t {
   degenerate,  ///< two or more steady rotations merge here to rounding (fold), or it is one of a continuum
 };
 
+/// One steady rotation.
 template <Real Scalar>
 struct SteadyRotation {
   Vec3<Scalar> direction{0, 0, 0};  ///< m = H/|H|, unit, body axes

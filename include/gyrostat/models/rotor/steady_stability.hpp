@@ -18,6 +18,7 @@
 /// others have the sum -kappa a/(a^2 + D): the slow damping of a nutation comes without cancellation.
 namespace gyrostat::rotor {
 
+/// What the eigenvalues say of a steady rotation.
 enum class Verdict : std::uint8_t {
   asymptotically_stable,  ///< a strict minimum of F that the rotor feels
   unstable,               ///< at least one growing mode
@@ -27,6 +28,7 @@ enum class Verdict : std::uint8_t {
   conservative,  ///< S = 0
 };
 
+/// Eigenvalues of a steady rotation, how fast it damps, and the motor that would damp it fastest.
 template <Real Scalar>
 struct SteadyStability {
   Scalar determinant = 0;                             ///< D, of B on the tangent plane, 1/s^2

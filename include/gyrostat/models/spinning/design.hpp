@@ -16,6 +16,7 @@
 /// section 3.1).
 namespace gyrostat::spinning {
 
+/// A scene that keeps its budget, and the number that was sought for it.
 template <Real Scalar>
 struct Design {
   Scalar value;             ///< what was asked for

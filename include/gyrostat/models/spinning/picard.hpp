@@ -48,12 +48,14 @@ struct SweepErrors {
   }
 };
 
+/// How many sweeps, over how many panels at most.
 template <Real Scalar>
 struct PicardOptions {
   int sweeps = 2;                       ///< 2 to 8
   std::uint64_t panel_cap = 1'000'000;  ///< of about half a turn each
 };
 
+/// What the sweeps say of their error, and of that of the linear motion.
 template <Real Scalar>
 struct PicardAnswer {
   SweepErrors<Scalar> linear;  ///< estimated error of the linear motion, |sweep 1 - linear| + 3 |sweep 2 - sweep 1|

@@ -25,6 +25,7 @@ struct Divisors {
   Scalar least() const noexcept { return std::min({nu, spin, sum, difference}); }
 };
 
+/// Divisors of a problem, in the wider arithmetic of linear.hpp.
 template <Real Scalar>
 Divisors<Scalar> divisors(const Problem<Scalar>& problem) noexcept {
   using Wide = detail::Wide<Scalar>;
@@ -50,6 +51,7 @@ struct SpinFlags {
   bool compliant;  ///< |X| is below a hundredth of |r0| (D1 + D2): no gyroscopic stiffness
 };
 
+/// SpinFlags of a problem.
 template <Real Scalar>
 SpinFlags spin_flags(const Problem<Scalar>& problem) noexcept {
   const auto d = divisors(problem);
@@ -98,6 +100,7 @@ struct MomentumCircle {
   Scalar radius;                 ///< |M|/|r0|, N m s
 };
 
+/// MomentumCircle of a problem.
 template <Real Scalar>
 MomentumCircle<Scalar> momentum_circle(const Problem<Scalar>& problem) noexcept {
   const LinearStart<Scalar> s(problem);
