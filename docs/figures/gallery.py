@@ -126,7 +126,7 @@ def general(axes, scene, answer):
 def picture(name, file):
     scene = gyrostat.load(name)
     if scene.kind != "deceleration":
-        scene = scene.replace(duration=float(scene.times[-1]) - scene.start_time, samples=SAMPLES)
+        scene = scene.replace(duration=float(scene.times[-1]) - scene.start_time, samples=SAMPLES, **({} if scene.kind == "general" else {"ask": "default"}))
     answer = gyrostat.solve(scene)
     figure, axes = plt.subplots(figsize=(WIDTH, HEIGHT), layout="constrained")
     axes.tick_params(labelsize=7)

@@ -6,11 +6,13 @@ import math
 import os
 import re
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from contextlib import closing
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 import numpy as np
 
@@ -37,8 +39,16 @@ CHUNK_BYTES: Final = 2**27
 MOST_CHUNK: Final = 16384
 FIRST_CHUNK: Final = 128  # where chunks are kept; they grow as long as one takes less than
 CHUNK_SECONDS: Final = 5.0
+ENGINE_CHUNKS: Final = 256  # of an engine, which does not know beforehand what a row costs
 
 Progress = Callable[[int, int], None]
+
+
+class Engine(Protocol):
+    """What does work elsewhere: a dask.distributed.Client, a concurrent.futures.Executor."""
+
+    def submit(self, work: Callable[..., Any], /, *arguments: Any) -> Any:
+        """A future of work(*arguments), with result, cancel and add_done_callback."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,7 +193,8 @@ def _kept(folder: Path, study: Study, rows: range) -> "dict[range, xarray.Datase
 
 def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | None = None, cases: Any = None, seed: int | None = None,
           design: str | None = None, threads: int | None = None, chunk: int | None = None, shard: tuple[int, int] | str | None = None,
-          parts: str | os.PathLike[str] | None = None, progress: Progress | None = None, **overrides: Any) -> "xarray.Dataset":
+          parts: str | os.PathLike[str] | None = None, progress: Progress | None = None, engine: Engine | None = None,
+          **overrides: Any) -> "xarray.Dataset":
     """Answer a scene many times over, each row with other numbers.
 
     scene : a `Scene`, a dict in the layout of a scene file, a file, or the name of a bundled scene; its own table [vary] is taken, too.
@@ -194,9 +205,11 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
     n : rows; a multiple of the combinations of the grid, which is taken as often. cases : a table, CSV or key -> values, all of one length: its
         lines are taken together, as one more axis of the grid.
     seed, design : of the random numbers: "random", "sobol", "latin-hypercube", or "saltelli" for Sobol indices, with n a multiple of their number + 2.
-    threads : all of this machine where it is None. chunk : rows that are taken in one go; where it is None as many as suit.
+    threads : all of this machine where it is None; one a chunk with an engine. chunk : rows that are taken in one go; where it is None as many as suit.
     shard : (i, m) or "i/m": part i of m alone, from 1.
     parts : folder in which each chunk is kept when it is done; those that are there already are not done again.
+    engine : what does the chunks instead of this process, each as a task of its own: a dask.distributed.Client, whose workers need gyrostat and may
+        come and go, or a concurrent.futures.ProcessPoolExecutor.
     progress(done, rows) is called now and then. overrides : keys of the scene file to change, as in `gyrostat.solve`, among them `ask` and `times`.
 
     What a row comes to is a function of the study, the seed and the number of the row, to the last bit: the same for any number of threads, any
@@ -216,29 +229,69 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
     for name, value in (("chunk", chunk), ("threads", threads)):
         if value is not None and value < 1:
             raise DomainError(f"{name} = {value}: give a number > 0")
-    pool = threads or len(os.sched_getaffinity(0))
     folder = None if parts is None else Path(parts)
     made = {} if folder is None else _kept(folder, study, rows)
+    gaps = list(_missing(rows, made))
     done = sum(map(len, made))
-    most = min(MOST_CHUNK, max(1, CHUNK_BYTES // study.row_bytes))
-    size = chunk or (most if folder is None else min(FIRST_CHUNK, most))
-    for gap in list(_missing(rows, made)):
+
+    def look(more: int) -> None:
+        if progress is not None:
+            progress(done + more, len(rows))
+
+    with closing(_done_by(engine, study, gaps, threads, chunk) if engine is not None else
+                 _done_here(study, gaps, threads, chunk, folder is None, look)) as ended:
+        for part, dataset in ended:
+            if folder is not None:
+                _keep(dataset, folder, part)
+            made[part], done = dataset, done + len(part)
+            look(0)
+    return _joined([made[part] for part in sorted(made, key=lambda part: part.start)])
+
+
+def _most_rows(study: Study) -> int:
+    """Of a chunk."""
+    return min(MOST_CHUNK, max(1, CHUNK_BYTES // study.row_bytes))
+
+
+def _done_here(study: Study, gaps: list[range], threads: int | None, chunk: int | None, at_once: bool,
+               look: Callable[[int], None]) -> "Generator[tuple[range, xarray.Dataset]]":
+    """Chunk after chunk, on threads of this process; look(rows) hears of the rows of the chunk at hand that are done. at_once: as large as they may be,
+    else from small ones on, which grow while they take little time."""
+    pool = threads or len(os.sched_getaffinity(0))
+    most = _most_rows(study)
+    size = chunk or (most if at_once else min(FIRST_CHUNK, most))
+    for gap in gaps:
         at = gap.start
         while at < gap.stop:
             part, began = range(at, min(at + size, gap.stop)), time.monotonic()
 
-            def look(share: float, part: range = part) -> None:
-                if progress is not None:
-                    progress(done + int(share * len(part)), len(rows))
+            def seen(share: float, part: range = part) -> None:
+                look(int(share * len(part)))
 
-            made[part] = watched(lambda monitor, part=part: study.rows(part, pool, monitor), look)  # type: ignore[misc]
-            at, done = part.stop, done + len(part)
-            look(0.0)
-            if folder is not None:
-                _keep(made[part], folder, part)
+            made = watched(lambda monitor, part=part: study.rows(part, pool, monitor), seen)  # type: ignore[misc]
             if chunk is None and time.monotonic() - began < CHUNK_SECONDS:
                 size = min(2 * size, most)
-    return _joined([made[part] for part in sorted(made, key=lambda part: part.start)])
+            at = part.stop
+            yield part, made
+
+
+def _done_by(engine: Engine, study: Study, gaps: list[range], threads: int | None, chunk: int | None) -> "Generator[tuple[range, xarray.Dataset]]":
+    """The chunks as the engine comes to them; those that are not done are called off where something fails."""
+    most = _most_rows(study)
+    size = chunk or min(most, max(FIRST_CHUNK, sum(map(len, gaps)) // ENGINE_CHUNKS))
+    chunks = [range(at, min(at + size, gap.stop)) for gap in gaps for at in range(gap.start, gap.stop, size)]
+    ended: SimpleQueue[range] = SimpleQueue()
+    futures = {}
+    try:
+        for part in chunks:
+            futures[part] = engine.submit(Study.rows, study, part, threads or 1)
+            futures[part].add_done_callback(lambda _, part=part: ended.put(part))
+        while futures:
+            part = ended.get()
+            yield part, futures.pop(part).result()
+    finally:
+        for left in futures.values():
+            left.cancel()
 
 
 def _keep(dataset: "xarray.Dataset", folder: Path, rows: range) -> None:
