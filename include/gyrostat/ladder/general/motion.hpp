@@ -139,7 +139,8 @@ enum : std::size_t {
   beyond_no_load,
   start_uncertain,
   gimbal_lock,
-  custom_smooth
+  custom_smooth,
+  stiff
 };
 }
 
@@ -158,6 +159,9 @@ inline constexpr WarningKind warning_kinds[] = {
      "cannot be told apart; distance, rad"},
     {"custom-smooth",
      "no times are named at which the torque of your own jumps or has kinks: it is taken to be smooth"},
+    {"stiff",
+     "wheels settle so much faster than the body turns that the equations are solved by collocation (Radau IIA); "
+     "greatest rate of settling, 1/s"},
 };
 
 /// A rung of the ladder is one of a family, or the full equations of the family `general`.
