@@ -116,6 +116,44 @@ TEST_CASE("the first steps of the runs end apart", "[ladder]") {
   CHECK(walk.error[0] == Approx(margin).epsilon(1e-2));
 }
 
+TEST_CASE("of many times some are looked at, and steps' ends; each hears an error that holds for it", "[ladder]") {
+  struct Counting {
+    Function state;
+    double length;
+    double now = 0;
+    int* looks = nullptr;
+    ode::Status step(double t_max) {
+      now = std::min(now + length, t_max);
+      return ode::Status::reached;
+    }
+    double time() const { return now; }
+    double at(double t) const {
+      if (looks != nullptr) ++*looks;
+      return state(t);
+    }
+    ode::Counts counts() const { return {0, 1, 0}; }
+  };
+  const Function grows = [](double t) { return 1 + t * 0x1p-20; };
+  for (const std::size_t count : {10, 64, 100, 6400, 6401}) {
+    int looks = 0;
+    Counting course{still, 0.7}, companion{grows, 0.5, 0, &looks};
+    std::vector<double> times, noted(count, -1.0), states(count);
+    for (std::size_t i = 1; i <= count; ++i) times.push_back(10 * double(i) / double(count));
+    std::size_t next = 0;
+    const auto walk = walk_beside(PairWriter{}, Runs<Counting>{course, companion, nullptr}, 1.0, 0.0, times, states,
+                                  -1.0, MotionOptions<double>{}, 0, 1, [&](std::size_t i, const Errors<1>& error) {
+                                    CHECK(i == next++);
+                                    noted[i] = error[0];
+                                  });
+    CAPTURE(count);
+    CHECK(next == count);
+    CHECK(states == std::vector<double>(count, 1.0));
+    CHECK(walk.error[0] == Approx(margin * 10 * 0x1p-20).epsilon(1e-9));
+    for (std::size_t i = 0; i < count; ++i) CHECK(noted[i] >= margin * times[i] * 0x1p-20 * (1 - 1e-6));
+    CHECK(looks <= 65 + 21);
+  }
+}
+
 TEST_CASE("what lies behind a failure is nowhere, whichever run fails", "[ladder]") {
   for (int which = 0; which < 3; ++which) {
     Run runs[3] = {{still, 1}, {still, 1}, {still, 1}};

@@ -53,7 +53,7 @@ ode::Status reach(Course& course, Scalar t, Scalar t_max) noexcept {
 /// Steps the answer, and beside it its companions, over the asked times, and keeps its states there. Companions take tighter steps: their
 /// distance to the answer is its truncation, and their own distance what rounding and the data's last digits do. A course has step(t_max),
 /// time(), at(t) within the last step, and counts(). The first companion leads, and all are compared at the end of each of its steps and at
-/// the asked times, of those in one step at a few. Their first steps end apart: from one start all would take the same polynomial, and err alike. A distance that was seen
+/// the asked times, of many at some. Their first steps end apart: from one start all would take the same polynomial, and err alike. A distance that was seen
 /// fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which all are near by chance does
 /// not hide it. States behind a failure are `nowhere`. note(i, error) is called at each asked time.
 template <class Writer, class Course, class Note>
@@ -83,11 +83,17 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     return walk.status == Status::reached;
   };
 
-  std::size_t next = 0;
+  // of many times some are looked at; the others lie between two ends of steps
+  const std::size_t stride = 1 + times.size() / honesty::looks;
+  std::size_t next = 0, told = 0;
+  const auto tell = [&](std::size_t end) noexcept {
+    walk.error.raise(kept);
+    for (; told < end; ++told) note(told, kept);
+  };
   for (; next < times.size() && !(times[next] > 0); ++next) {
     states[next] = start;
     walk.asked.add(start);
-    note(next, kept);
+    tell(next + 1);
   }
   if (next < times.size()) walk.status = runs.answer.step(last);
   const Scalar first = runs.answer.time();
@@ -100,21 +106,18 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     if (walk.status != Status::reached) break;
     const Scalar now = runs.companion.time();
     kept *= 1 / (1 + (now - before) * rate / Scalar(honesty::fading_angle));
-    // where times lie densely some of them tell of all, the last one among them: distances grow smoothly inside a step
-    const auto behind = std::upper_bound(times.begin() + std::ptrdiff_t(next), times.end(), now);
-    const std::size_t end = std::size_t(behind - times.begin());
-    const std::size_t stride = 1 + (end - next) / honesty::looks_in_a_step;
-    for (std::size_t heard = next; next < end && all_reach(times[next]); ++next) {
+    for (; next < times.size() && times[next] <= now && all_reach(times[next]); ++next) {
       states[next] = runs.answer.at(times[next]);
       const auto row = walk.asked.row(states[next]);
       walk.asked.add(row);
-      if ((end - 1 - next) % stride != 0) continue;
+      if (next % stride != 0) continue;
       look(row, times[next]);
-      walk.error.raise(kept);
-      for (; heard <= next; ++heard) note(heard, kept);
+      tell(next + 1);
     }
-    if (next == times.size() || walk.status != Status::reached || !all_reach(now)) break;
+    if (walk.status != Status::reached || told == times.size() || !all_reach(now)) break;
     look(walk.asked.row(runs.answer.at(now)), now);
+    if (told < next) tell(next);
+    if (next == times.size()) break;
     if ((trips++ & 255U) == 0) {
       options.report(progress_from + static_cast<double>(now / last) * (progress_to - progress_from));
       if (options.cancelled()) {

@@ -32,8 +32,8 @@ inline constexpr double companion_pace = 0.7;
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;
 
-/// At so many of the asked times that lie in one step of a companion the runs are compared, and at its end.
-inline constexpr std::size_t looks_in_a_step = 4;
+/// The runs are compared at the end of every step, and at so many of the asked times, or all where these are fewer.
+inline constexpr std::size_t looks = 64;
 
 /// Deceleration: errors sink with the motion, and a distance fades so many times as fast.
 inline constexpr double sinking = 8;
