@@ -82,6 +82,9 @@ GYROSTAT_COMPILED_ONCE Track judged(Track track, const Scene& scene, const Linea
 inline Track axial_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
   const double end = question.times.back();
+  // the phase is an estimate
+  if (scene.problem().phase(end) > 4 * unreachable_angle)
+    return refused<Track>(Errc::step_limit, why_stopped(ode::Status::step_limit));
   AxialMotionOptions<double> options;
   options.step_cap = step_budget;
   if (monitor) options.cancel = &monitor->cancel;
