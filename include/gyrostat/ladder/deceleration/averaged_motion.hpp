@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "gyrostat/core/result.hpp"
@@ -136,12 +137,20 @@ class AveragedMotion {
   Scalar locate(std::size_t i, Scalar value) noexcept {
     const Scalar low = solver_.previous_time(), high = solver_.time();
     const Scalar first = solver_.previous_state()[i], rise = solver_.state()[i] - first;
-    Scalar sigma = low + (high - low) * (value - first) / rise;
+    // from the last place on, where that is near, or along the chord
+    Scalar sigma = i == Equations::time ? near_.sigma + (value - near_.value) / near_.slope : nan<Scalar>;
+    if (!(sigma >= low && sigma <= high)) sigma = low + (high - low) * (value - first) / rise;
     for (int trip = 0; trip < 6 && sigma >= low && sigma <= high; ++trip) {
       const auto [there, slope] = solver_.component(i, sigma);
-      const Scalar off = value - there;
-      if (std::abs(off) <= 4 * epsilon<Scalar> * (std::abs(value) + std::abs(rise))) return sigma;
-      sigma += off / slope;
+      const Scalar off = value - there, further = off / slope;
+      const bool there_already = std::abs(off) <= 4 * epsilon<Scalar> * (std::abs(value) + std::abs(rise));
+      // a step of Newton's method so short is the last one
+      const bool last = std::abs(further) <= Scalar(1e-9L) * (high - low);
+      if (!there_already) sigma += further;
+      if (!there_already && !last) continue;
+      sigma = std::clamp(sigma, low, high);
+      if (i == Equations::time) near_ = {value, sigma, slope};
+      return sigma;
     }
     const auto root = math::bracketed_root([&](Scalar s) { return solver_.component(i, s)[0] - value; }, low, high);
     if (root) return *root;
@@ -175,6 +184,11 @@ class AveragedMotion {
       log_rest_;  ///< ln |M|/|M(0)| from which the mean torque is taken as constant: what is left of the time is below the tolerance
   Equations equations_;
   ode::RungeKutta<Scalar, 4, Equations> solver_;
+  /// The time that was looked for last, where it was found, and how fast it goes on there.
+  struct Place {
+    Scalar value = 0, sigma = nan<Scalar>, slope = 1;
+  };
+  Place near_;
   Scalar now_ = 0;
   Scalar crossing_norm_ = 0;
   bool stuck_ = false, at_rest_ = false, floored_ = false;
