@@ -19,13 +19,15 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
 endif()
 
-# gyrostat_unite(SOURCE...): in targets of this folder with UNITY_BUILD_MODE GROUP the sources of one family are compiled as one unit (the C
-# interface with general, which knows all families), and so is what belongs to none: they share headers and what these instantiate.
+# gyrostat_unite(SOURCE...): in targets of this folder with UNITY_BUILD_MODE GROUP the sources of one family are compiled as one unit, and what
+# belongs to none with general, which knows all families: they share headers and what these instantiate.
 function(gyrostat_unite)
   foreach(source IN LISTS ARGN)
     get_filename_component(name "${source}" NAME)
-    string(REGEX MATCH "^(deceleration|spinning|heavy|rotor|free|general|c_)" family "${name}")
-    string(REPLACE "c_" "general" family "${family}")
+    string(REGEX MATCH "^(deceleration|spinning|heavy|rotor|free)" family "${name}")
+    if(NOT family)
+      set(family general)
+    endif()
     set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "of_${family}")
   endforeach()
 endfunction()
