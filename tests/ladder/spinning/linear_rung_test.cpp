@@ -131,7 +131,7 @@ TEST_CASE("rung linear under an axial torque", "[spinning]") {
 
   // what no budget of steps reaches is refused at once
   p.torque[2] = 1e16 * p.inertia[2];
-  for (const int asked : {any_rung, rung::linear}) {
+  for (const int asked : {any_rung, int(rung::linear)}) {
     const Track refused = linear_track(posed(p, 1, 1e-2, asked), nullptr);
     CHECK(refused.failure == Errc::step_limit);
     CHECK(refused.counts.steps == 0);
