@@ -177,6 +177,48 @@ TEST_CASE("a walk can be stopped, and reports how far it is", "[ladder]") {
   CHECK(progress > 0);
 }
 
+/// Steps of a length that time changes.
+struct Plodding {
+  static constexpr bool goes_on_alike = true;
+  double (*length)(double);
+  double now = 0;
+  std::uint64_t steps = 0;
+  ode::Status step(double t_max) {
+    ++steps, now = std::min(now + length(now), t_max);
+    return ode::Status::reached;
+  }
+  double time() const { return now; }
+  double at(double) const { return 1; }
+  ode::Counts counts() const { return {0, steps, 0}; }
+};
+
+TEST_CASE("steps that would overrun their budget by far, and do not lengthen, are given up early", "[ladder]") {
+  const auto walked_by = [](double (*length)(double), double end, std::uint64_t budget) {
+    Plodding course{length}, companion{length};
+    const std::vector<double> times{end};
+    std::vector<double> states(1);
+    MotionOptions<double> options;
+    options.step_cap = budget;
+    const auto walk = walk_beside(PairWriter{}, Runs<Plodding>{course, companion, nullptr}, 1.0, 0.0, times, states,
+                                  -1.0, options, 0, 1, not_noted);
+    return std::pair{walk.status, companion.steps};
+  };
+  const auto even = [](double) { return 1.0; };
+  const auto [status, steps] = walked_by(even, 1e9, 1000000);
+  CHECK(status == ode::Status::step_limit);
+  CHECK(steps < 300000);
+  // what the budget nearly holds is not
+  CHECK(walked_by(even, 3e5, 100000).first == ode::Status::reached);
+  // nor are steps that lengthen
+  CHECK(walked_by([](double t) { return 1 + 1e-4 * t; }, 1e9, 100000).first == ode::Status::reached);
+  Pace<double> pace;
+  CHECK_FALSE(pace.is_hopeless(0, 0, 1e9, 10));
+  CHECK_FALSE(pace.is_hopeless(1 << 16, 1, 1e9, 10));
+  CHECK(pace.is_hopeless(2 << 16, 2, 1e9, 10));
+  pace.restart(2);
+  CHECK_FALSE(pace.is_hopeless(3 << 16, 3, 1e9, 10));
+}
+
 TEST_CASE("the stated error is the distance times its margin and what rounding adds, relative to the truth",
           "[ladder]") {
   struct Answer : MotionOutcome<1, double> {};

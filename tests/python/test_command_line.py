@@ -224,7 +224,14 @@ def test_ctrl_c_stops_long_work(tmp_path: Path) -> None:
          "times=[3e8]"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # a job in the background may be deaf to Ctrl-C
-    time.sleep(2.0)
+
+    def at_work() -> float:
+        """CPU seconds of the process: of its start it takes less than one."""
+        fields = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    while process.poll() is None and at_work() < 2.0:
+        time.sleep(0.05)
     assert process.poll() is None
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=20)

@@ -16,6 +16,29 @@
 /// The full equations and their error: the answer's run and the runs of neighbours side by side.
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
+/// Watches whether steps that do not lengthen would overrun their budget by far; looks once in 65536 steps.
+template <Real Scalar>
+class Pace {
+ public:
+  /// The motion begins anew at t, as where a law changes.
+  void restart(Scalar t) noexcept { mark_ = t, stretch_ = 0; }
+  /// After so many steps, now, where they go on to `last` and `budget` is theirs.
+  bool is_hopeless(std::uint64_t steps, Scalar now, Scalar last, std::uint64_t budget) noexcept {
+    constexpr std::uint64_t some = 1 << 16;
+    if (steps == 0 || steps % some != 0) return false;
+    const Scalar before = stretch_;
+    stretch_ = now - mark_, mark_ = now;
+    return stretch_ <= before && (last - now) / stretch_ * Scalar(some) > 4 * Scalar(budget);
+  }
+
+ private:
+  Scalar mark_ = 0, stretch_ = 0;  ///< when it was looked last, and how far the steps before had come, s
+};
+
+/// A course in which no law changes and no event ends the motion, so that the pace of its steps tells of the rest: `goes_on_alike`.
+template <class Course>
+concept GoesOnAlike = Course::goes_on_alike;
+
 /// What the walk found, over the asked times: the error that the distances of the runs tell, in units of the columns, and the sizes of these.
 template <class Writer>
 struct Walk {
@@ -52,7 +75,7 @@ ode::Status reach(Course& course, Scalar t, Scalar t_max) noexcept {
 
 /// Steps the answer, and beside it its companions, over the asked times, and keeps its states there. Companions take tighter steps: their
 /// distance to the answer is its truncation, and their own distance what rounding and the data's last digits do. A course has step(t_max),
-/// time(), at(t) within the last step, and counts(). The first companion leads, and all are compared at the end of each of its steps and at
+/// time(), at(t) within the last step, and counts(); one that GoesOnAlike is given up where its steps would overrun their budget by far. The first companion leads, and all are compared at the end of each of its steps and at
 /// the asked times, of many at some. Their first steps end apart: from one start all would take the same polynomial, and err alike. A distance that was seen
 /// fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which all are near by chance does
 /// not hide it. States behind a failure are `nowhere`. note(i, error) is called at each asked time.
@@ -99,7 +122,8 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   const Scalar first = runs.answer.time();
   if (next < times.size() && walk.status == Status::reached && runs.second != nullptr)
     walk.status = runs.second->step(first / 3);
-  std::uint32_t trips = 0;
+  Pace<Scalar> pace;
+  std::uint64_t trips = 0;
   while (next < times.size() && walk.status == Status::reached) {
     const Scalar before = runs.companion.time();
     walk.status = runs.companion.step(trips == 0 ? first / 2 : last);
@@ -118,6 +142,12 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     look(walk.asked.row(runs.answer.at(now)), now);
     if (told < next) tell(next);
     if (next == times.size()) break;
+    if constexpr (GoesOnAlike<Course>) {
+      if (pace.is_hopeless(trips, now, last, options.step_cap)) {
+        walk.status = Status::step_limit;
+        break;
+      }
+    }
     if ((trips++ & 255U) == 0) {
       options.report(progress_from + static_cast<double>(now / last) * (progress_to - progress_from));
       if (options.cancelled()) {

@@ -107,6 +107,8 @@ namespace detail {
 template <Real Scalar>
 class FullCourse {
  public:
+  static constexpr bool goes_on_alike = true;
+
   FullCourse(const Problem<Scalar>& problem, Scalar tolerance, std::uint64_t step_cap) noexcept
       : system_(problem), solver_(system_, 0, system_.start(), options(system_, tolerance, step_cap)) {}
 

@@ -298,16 +298,13 @@ class FullCourse {
     options_.step_cap -= std::min(options_.step_cap, solver_->counts().steps);
     piece_ = std::move(*next_);
     next_.reset();
-    mark_ = t, stretch_ = 0;
+    pace_.restart(t);
     enter(t, numbers);
   }
-  /// Whether steps that do not lengthen would overrun the budget by far, where no law changes any more; looked at now and then.
+  /// Whether steps that do not lengthen would overrun the budget by far, where no law changes any more.
   bool is_hopeless() noexcept {
-    constexpr std::uint64_t some = 1 << 16;
-    if (next_ || cut_ < cuts_.size() || solver_->counts().steps % some != 0) return false;
-    const Scalar before = stretch_;
-    stretch_ = time() - mark_, mark_ = time();
-    return stretch_ <= before && (last_ - time()) / stretch_ * Scalar(some) > 4 * Scalar(options_.step_cap);
+    if (next_ || cut_ < cuts_.size()) return false;
+    return pace_.is_hopeless(solver_->counts().steps, time(), last_, options_.step_cap);
   }
   /// Whether what a brake opposes, which was `before`, is as good as gone.
   bool has_stopped(Scalar now, Scalar before) noexcept {
@@ -320,7 +317,7 @@ class FullCourse {
   Prepared<Scalar> of_;
   std::span<const Scalar> cuts_;
   Scalar last_, share_;
-  Scalar mark_ = 0, stretch_ = 0;  ///< when the pace was looked at last, and how far the steps before had come, s
+  Pace<Scalar> pace_;
   bool outgrown_ = false;
   std::size_t cut_ = 0;
   Piece<Scalar> piece_;

@@ -184,6 +184,8 @@ class FullMotion {
   /// One run.
   class Course {
    public:
+    static constexpr bool goes_on_alike = true;
+
     /// turn: the axes of the states that are given to those of the problem
     Course(const Problem<Scalar>& problem, const State<Scalar>& start, Scalar tolerance, std::uint64_t step_cap,
            const Mat3<Scalar>& turn = Mat3<Scalar>::Identity()) noexcept

@@ -77,6 +77,8 @@ class Course {
   using Collocation = ode::Radau<RelaxingRotor<Scalar>>;
 
  public:
+  static constexpr bool goes_on_alike = true;
+
   /// inside: what collocation may err between its steps. pace: RadauOptions::pace.
   Course(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start, Scalar layer, Scalar tolerance, Scalar inside,
          std::uint64_t step_cap, Scalar pace) noexcept

@@ -62,6 +62,8 @@ namespace detail {
 template <Real Scalar>
 class Course {
  public:
+  static constexpr bool goes_on_alike = true;
+
   Course(const Problem<Scalar>& problem, Scalar span, Scalar tolerance, std::uint64_t step_cap, bool follows) noexcept
       : problem_(problem),
         system_(problem),
