@@ -107,7 +107,7 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   };
 
   // of many times some are looked at; the others lie between two ends of steps
-  const std::size_t stride = 1 + times.size() / honesty::looks;
+  const std::size_t stride = 1 + times.size() / std::size_t(honesty::looks);
   std::size_t next = 0, told = 0;
   const auto tell = [&](std::size_t end) noexcept {
     walk.error.raise(kept);

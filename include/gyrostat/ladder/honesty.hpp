@@ -33,7 +33,7 @@ inline constexpr double companion_pace = 0.7;
 inline constexpr double fading_angle = 128;
 
 /// The runs are compared at the end of every step, and at so many of the asked times, or all where these are fewer.
-inline constexpr std::size_t looks = 64;
+inline constexpr double looks = 64;
 
 /// Deceleration: errors sink with the motion, and a distance fades so many times as fast.
 inline constexpr double sinking = 8;
