@@ -137,6 +137,22 @@ TEST_CASE("the series of every torque and wheel satisfy the equations as they ar
   CHECK(small > 50);
 }
 
+TEST_CASE("waves that drive alone may be as many as one likes", "[general]") {
+  general_scenes::Made made;
+  auto& p = made.problem;
+  p.inertia << 3.2, 0.1, -0.15, 0.1, 4.1, 0.2, -0.15, 0.2, 5.0;
+  p.angular_velocity = {0.3, -0.5, 0.8};
+  made.span = 10;
+  for (int i = 0; i < 40; ++i) {
+    Torque<double> torque;
+    torque.vector = {0.1 + 0.01 * i, 0.2, -0.1};
+    torque.factor.mean = 0, torque.factor.amplitude = 1, torque.factor.rate = 0.1 + 0.05 * i, torque.factor.phase = i;
+    p.torques.push_back(torque);
+  }
+  REQUIRE(check(p).code == Errc::ok);
+  for (const double share : {0., 0.6}) check_series<false>(made, share), check_series<true>(made, share);
+}
+
 template <bool large>
 auto walk(const Prepared<double>& of, const Piece<double>& piece, double end, double tolerance) {
   const auto start = first_numbers<double, large>(of);

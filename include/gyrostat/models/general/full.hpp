@@ -316,9 +316,9 @@ class FullSystem {
   Sees sees_;
   Vec3<Scalar> normal_{0, 0, 1};
   Part<Scalar> steady_;
-  int factors_ = 0, sources_ = 0;
+  int factors_ = 0;
   std::array<Part<Scalar>, most_factors> parts_;  ///< of the sources that depend on the motion
-  std::array<Source, most_factors> source_;
+  std::vector<Source> sources_;
   bool has_rest_ = false, drives_ = false, polynomial_ = false, moves_centre_ = false;
   int wheel_count_ = 0, halves_ = 0;
   std::array<int, most_wheels> wheel_{};  ///< those whose p is a state
@@ -359,7 +359,7 @@ void FullSystem<Real_, large>::take_parts() noexcept {
     if (!terms.any()) return;
     const Part<Scalar> part(terms, directions_, normal_);
     const bool forces = !terms.force_body.isZero(0) || !terms.force_inertial.isZero(0);
-    source_[std::size_t(sources_++)] = {power, wave, !terms.body.isZero(0), forces, part.moves()};
+    sources_.push_back({power, wave, !terms.body.isZero(0), forces, part.moves()});
     drives_ = drives_ || !terms.body.isZero(0);
     if (part.moves()) parts_[std::size_t(factors_++)] = part;
   };
@@ -560,7 +560,7 @@ void FullSystem<Real_, large>::begin(Scalar t, Scalar (&x)[Order + 1][width], Wo
       store(&x[1][At::position], lanes(unit) * load(&x[0][At::velocity]));
     }
   }
-  if (sources_ > 0 || sees_.force) begin_factors(t, work, unit);
+  if (!sources_.empty() || sees_.force) begin_factors(t, work, unit);
   if (!has_rest_) return;
   OrbitPoint<Scalar> at;
   if (sees_.orbit) {
@@ -607,8 +607,7 @@ void FullSystem<Real_, large>::begin_factors(Scalar t, Work<Order>& work, Scalar
     work.force_inertial[0] = row(piece_.power[0].force_inertial);
   }
   int next = 0;
-  for (int i = 0; i < sources_; ++i) {
-    const Source& source = source_[std::size_t(i)];
+  for (const Source& source : sources_) {
     const auto* wave = source.power > 0 ? nullptr : &piece_.waves[std::size_t(source.wave)];
     const Terms<Scalar>& terms = wave ? wave->terms : piece_.power[std::size_t(source.power)];
     NumberSeries<Scalar, Order> factor;
