@@ -30,6 +30,8 @@ struct Case {
 /// What is seen at one tolerance.
 struct Tally {
   int answered = 0, honest = 0, met = 0, over = 0, refused = 0, outside = 0, unknown = 0;
+  int climbed = 0, waste = 0;                          ///< answers of the ladder, and those that a cheaper rung would have done for
+  std::map<std::string, int> wasted;                   ///< that rung, that which answered, and the column in which its stated error was widest
   std::map<std::string, int> outcomes;
   std::map<std::string, std::vector<double>> ratios;  ///< stated over true
   std::vector<Case> worst;
@@ -103,6 +105,22 @@ struct Tally {
     over += answer.met && !within;
     if (!good) worst.push_back({most, which + " " + scene});
   }
+  /// `passed` is what a cheaper rung, which was passed over, answers by name: whether all of what the ladder's answer gives would have been
+  /// within the tolerance.
+  bool was_in_vain(const Answer& passed, const Answer& answer, const Answer& truth) {
+    double most = 0;
+    std::string which;
+    for (const Column& column : answer.columns) {
+      if (column.kind->measure == Measure::none) continue;
+      const Column *right = truth.find(column.name()), *found = passed.find(column.name());
+      if (!right) continue;
+      if (!found || !(column_error(*found, *right) + right->error <= answer.tolerance)) return false;
+      if (!(found->error <= most)) most = found->error, which = column.name();
+    }
+    ++waste;
+    ++wasted[std::string(passed.model) + " for " + answer.model + ", " + which];
+    return true;
+  }
   void print(double tolerance) {
     std::printf("tolerance %.0e: %d answered, %d refused, %d of them outside the rung's domain, %d without a truth\n",
                 tolerance, answered, refused, outside, unknown);
@@ -110,6 +128,9 @@ struct Tally {
     for (const auto& [name, n] : outcomes) std::printf("  %6d %s\n", n, name.c_str());
     std::printf("  true <= stated in %.4f %%; met in %d, of which over the tolerance %d\n",
                 100.0 * honest / std::max(1, answered), met, over);
+    std::printf("  %d of %d answers of the ladder (%.1f %%) could have been a cheaper rung's\n", waste, climbed,
+                100.0 * waste / std::max(1, climbed));
+    for (const auto& [name, n] : wasted) std::printf("  %6d wasted: %s\n", n, name.c_str());
     std::vector<double> all;
     for (auto& [name, values] : ratios) {
       std::sort(values.begin(), values.end());
@@ -228,8 +249,20 @@ void run(int argc, char** argv, const Family& family, int count, Scenes source, 
           has_truth = has_truth && (column.kind->measure == Measure::none || column.error < 0.01);
       }
       known = true;
-      if (!has_truth) ++tallies[k].unknown;
-      else tallies[k].compare(answer, right, text, scalars);
+      if (!has_truth) {
+        ++tallies[k].unknown;
+        continue;
+      }
+      tallies[k].compare(answer, right, text, scalars);
+      if (question.rung != any_rung) continue;
+      ++tallies[k].climbed;
+      for (const Attempt& attempt : answer.tried) {
+        if (attempt.accepted || !(attempt.spent > 0)) continue;
+        question.rung = place_of(family.rungs, attempt.model);
+        const auto again = made.posed(question);
+        const Answer passed = solve(*again, refusal);
+        if (refusal.code == Errc::ok && tallies[k].was_in_vain(passed, answer, right)) break;
+      }
     }
     if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);
   }

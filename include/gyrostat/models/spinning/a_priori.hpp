@@ -65,6 +65,54 @@ struct SpinChange {
   }
 };
 
+/// What nutation adds to the spin angle over [0, T], half the integral of Im(Pi Gamma~): its greatest value, and that of the same modes if
+/// none of their mean rates cancelled; from the modes where these are apart, else from g and P.
+template <Real Scalar>
+struct NutationPhase {
+  Scalar net, gross;
+
+  NutationPhase(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, const Amplitudes<Scalar>& size,
+                Scalar T) noexcept {
+    net = gross = size.tilt * size.rate * T / 2;
+    const Scalar nu2 = problem.nutation_squared(), r0 = problem.spin();
+    if (!(nu2 > 0)) return;
+    const RateModes<Scalar> modes(start, nu2);
+    const Scalar nu = modes.lambda.im;
+    const Scalar turning[] = {r0, r0 + nu, r0 - nu};
+    const math::Complex<Scalar> rates[] = {modes.constant, modes.up, modes.down};
+    math::Complex<Scalar> still = start.Gamma;
+    Scalar rate[3], tilt[3], steady = 0, all = 0, swings = 0;
+    for (int j = 0; j < 3; ++j) {
+      const auto of_tilt = rates[j] * math::inverse(math::Complex<Scalar>{0, turning[j]});
+      still = still - of_tilt;
+      rate[j] = magnitude(rates[j]);
+      tilt[j] = magnitude(of_tilt);
+      steady += rate[j] * rate[j] / turning[j];
+      all += rate[j] * tilt[j];
+    }
+    const auto swing = [T](Scalar w) noexcept { return std::min(T, 2 / std::abs(w)); };
+    for (int j = 0; j < 3; ++j) {
+      swings += rate[j] * magnitude(still) * swing(turning[j]);
+      for (int k = 0; k < 3; ++k)
+        if (j != k) swings += rate[j] * tilt[k] * swing(turning[j] - turning[k]);
+    }
+    lower(net, (std::abs(steady) * T + swings) / 2);
+    lower(gross, (all * T + swings) / 2);
+  }
+};
+
+/// Greatest integral over [0, T] of an error of third order of the tilt that is 1 at most, and of what it makes of products with the tilt: it
+/// swings with r0, nu, and with r0 less some nu, but for the cubes of what stands still.
+template <Real Scalar>
+Scalar third_order_swing(const Problem<Scalar>& problem, Scalar T) noexcept {
+  const Divisors<Scalar> rates = divisors(problem);
+  Scalar least = rates.least();
+  if (problem.nutation_squared() > 0)
+    for (const Scalar apart : {rates.spin - 2 * rates.nu, rates.spin - 3 * rates.nu, 2 * rates.spin - rates.nu})
+      least = std::min(least, std::abs(apart));
+  return std::min(T, 2 / least);
+}
+
 }  // namespace detail
 
 /// At the cost of a few dozen operations; no bounds, but wide (docs/spinning.md, section 5.1a). T > 0.
@@ -80,14 +128,15 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
   const Scalar zeta = std::max(std::abs(D[2] - D[1]) / D[0], std::abs(D[2] - D[0]) / D[1]);
   // greatest ratio of the rates' ellipse, or what it grows to within T
   const Scalar skew = std::min(1 + steep * T, std::sqrt(steep / flat));
-  const Scalar answer = std::min(T, 2 / divisors(problem).least());
+  const Scalar answer = std::min(T, 2 / divisors(problem).least()), swing = detail::third_order_swing(problem, T);
 
   LinearErrors<Scalar> error;
   error.size = size;
-  Scalar g = size.tilt, P = size.rate, rate = rho.rate, angle = rho.angle;
+  const detail::NutationPhase<Scalar> nutation(problem, start, size, T);
+  Scalar g = size.tilt, P = size.rate, rate = rho.rate, angle = rho.angle, net = nutation.net, gross = nutation.gross;
   const auto third_order = [&]() noexcept {
     error.rates = skew * P * zeta * rate * T;
-    error.tilt = g * (g * P * T + angle) + g * g * g + error.rates * answer;
+    error.tilt = (g * (2 * gross + angle) + g * g * g) / 2 + error.rates * answer;
   };
   third_order();
   // the motion itself may be larger than the linear one by its error
@@ -96,23 +145,24 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
   const Scalar more = size.rate > 0 ? P / size.rate : Scalar(1);
   rate *= more * more;
   angle *= more * more;
+  net *= more * more, gross *= more * more;
   third_order();
 
   // of the phase of the turning frame; and int e^(i theta) (this error), also by parts
-  const Scalar phase = angle + g * P * T / 2 + g * g / 2;
+  const Scalar phase = angle + net + g * g / 2;
   const Scalar turned = std::min(T * phase, (phase + T * (rate + g * P / 2)) / r0) + g * g * T / 2;
   const Scalar f = magnitude(start.acceleration), f3 = std::abs(start.axial_acceleration);
   const Scalar M = magnitude(start.torque), e = std::abs(start.charge_momentum);
   error.spin = Scalar(1.25L) * rate;
-  error.theta = (g * g * r0 + g * P) * T + Scalar(1.25L) * angle + g * g / 2;
+  error.theta = Scalar(1.25L) * (net + angle) + g * g / 2 + g * g * gross;
   error.attitude = std::hypot(error.theta, error.tilt);
   error.momentum = M * turned + e * (error.tilt + g * phase) +
                    g * g * (std::abs(problem.axial_momentum()) * g + std::max(D[0], D[1]) * P);
   error.axial_momentum = (M * T + e * g) * error.tilt;
-  error.velocity = f * turned + f3 * T * error.tilt;
+  error.velocity = f * turned + f3 * (swing * error.tilt + T * g * g * g / 2);
   error.axial_velocity = f3 * g * g * T / 2 + f * T * error.tilt;
-  error.position = T * error.velocity;
-  error.axial_position = T * error.axial_velocity;
+  error.position = T * error.velocity / 2;
+  error.axial_position = T * error.axial_velocity / 2;
   return error;
 }
 
