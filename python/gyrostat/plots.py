@@ -74,6 +74,7 @@ METHODS: Final = {
     "SciPy DOP853 (Python right-hand side)": ("D", 5, "#E31A1C", ":"), "heyoka (compile time left out)": ("D", 5, "#FB6FB1", ":"),
 }
 OTHER: Final = (".", 8, COLOURS[-1], "-")
+STATED: Final = "error that a rung states"
 CHART_FLOOR: Final = 1e-17  # an error of zero is drawn here
 
 
@@ -84,7 +85,8 @@ def _looks(chart: "Chart") -> dict[str, tuple[str, int, str, str]]:
 
 
 def plot_chart(chart: "Chart") -> "Figure":
-    """True error against time per solution, on log axes: a panel for each of the two errors. What is left out stands below."""
+    """True error against time per solution, on log axes: a panel for each of the two errors, whiskers from true to stated ones.
+    What is left out stands below."""
     figure = new_figure(14, 6.5 + 0.17 * len(chart.left_out))
     left, right, key = figure.subplots(1, 3, width_ratios=(1, 1, 0.42))
     key.axis("off")
@@ -94,21 +96,26 @@ def plot_chart(chart: "Chart") -> "Figure":
     handles: dict[str, Any] = {}
     for axes, measure in zip((left, right), chart.measures, strict=True):
         for label, points in chart.by_label().items():
-            shown = [(p.seconds, max(p.error[measure.key], CHART_FLOOR)) for p in points
+            shown = [(p.seconds, max(p.error[measure.key], CHART_FLOOR), p.stated.get(measure.key, math.nan)) for p in points
                      if math.isfinite(p.error.get(measure.key, math.nan))]
             if not shown:
                 continue
-            x, y = zip(*shown, strict=True)
+            x, y, stated = zip(*shown, strict=True)
             edged = label.startswith("rung ")
             marker, size, colour, dashes = looks.get(label, OTHER)
             handles[label], = axes.loglog(
                 x, y, marker=marker, color=colour, linestyle=dashes if len(shown) > 1 else "none", markersize=size, linewidth=1.1, label=label,
                 markeredgecolor="black" if edged else colour, markeredgewidth=0.7, zorder=4 if edged else 2)
+            if any(math.isfinite(e) for e in stated):
+                axes.vlines(x, y, stated, colors=colour, linewidth=1.1, zorder=3)
+                handles[STATED], = axes.plot(x, stated, marker="_", color=colour, linestyle="none", markersize=9, zorder=3, label=STATED)
         axes.set_title(f"Error of {measure.title}", fontsize=10)
         axes.set_xlabel("CPU time per solution, least of several [s]")
         axes.set_ylabel(measure.axis)
         axes.grid(alpha=0.35, which="major", linewidth=0.6)
         axes.grid(alpha=0.15, which="minor", linewidth=0.4)
+    if handles.pop(STATED, None):
+        handles[STATED], = key.plot([], [], marker="_", color="black", linestyle="none", markersize=9)
     key.legend(handles.values(), handles.keys(), loc="upper left", fontsize=8, borderaxespad=0)
     figure.suptitle(f"{chart.name}: {chart.title}", fontsize=11)
     if chart.left_out:

@@ -160,6 +160,13 @@ def test_files(chart: Chart, tmp_path: Path) -> None:
     rows = list(csv.DictReader(io.StringIO(files[2].read_text())))
     assert len(rows) == len(chart.points) + sum(len(each.settings) for each in chart.left_out)
     assert float(rows[len(chart.points) - 1]["seconds"]) == chart.points[-1].seconds
+    for row, point in zip(rows, chart.points, strict=False):
+        for measure in chart.measures:
+            stated = row[f"stated_{measure.key}"]
+            assert (float(stated) == point.stated[measure.key]) if measure.key in point.stated else not stated
+            if stated and row[f"error_{measure.key}"]:
+                assert float(row[f"error_{measure.key}"]) <= float(stated), row
+    assert any(row["stated_angular_momentum"] for row in rows)
     assert rows[-1]["method"] == "rung equal-torque" and rows[-1]["note"] == "left out: the control torques are not equal"
 
 

@@ -4,8 +4,8 @@
 import csv
 import io
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
@@ -27,7 +27,7 @@ GROWTH: Final = 2.5
 
 @dataclass(frozen=True, slots=True)
 class ChartPoint:
-    """One method at one setting. `error` holds true errors (NaN: the method does not give the column)."""
+    """One method at one setting. `error` holds true errors (NaN: the method does not give the column), `stated` those that it states itself."""
 
     group: str  # rung, taylor, dop853, radau, cvode or rival
     label: str
@@ -36,6 +36,7 @@ class ChartPoint:
     seconds: float
     rhs: int
     note: str = ""
+    stated: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,12 +80,13 @@ class Chart:
         """One row a point, then one a setting that was left out, without numbers and with the reason as its note."""
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(["group", "method", "setting", *(f"error_{m.key}" for m in self.measures), "seconds", "rhs", "note"])
+        writer.writerow(["group", "method", "setting", *(f"error_{m.key}" for m in self.measures), "seconds", "rhs", "note",
+                         *(f"stated_{m.key}" for m in self.measures)])
         for p in self.points:
-            errors = [p.error.get(m.key, math.nan) for m in self.measures]
-            writer.writerow([p.group, p.label, p.setting, *("" if math.isnan(e) else e for e in errors), p.seconds, p.rhs, p.note])
+            errors, stated = (["" if math.isnan(e := of.get(m.key, math.nan)) else e for m in self.measures] for of in (p.error, p.stated))
+            writer.writerow([p.group, p.label, p.setting, *errors, p.seconds, p.rhs, p.note, *stated])
         for each in self.left_out:
-            writer.writerows([each.group, each.label, setting, *[""] * (len(self.measures) + 2), f"left out: {each.why}"] for setting in each.settings)
+            writer.writerows([each.group, each.label, setting, *[""] * (len(self.measures) + 2), f"left out: {each.why}", *[""] * len(self.measures)] for setting in each.settings)
         return text.getvalue()
 
     def _repr_html_(self) -> str:
@@ -131,7 +133,7 @@ def measured(line: Line, errors: Errors, repeats: int) -> tuple[list[ChartPoint]
             if GROWTH * seconds > methods.LONGEST:
                 raise TooLong
             made, seconds = _least(run, repeats)
-            points.append(ChartPoint(line.group, line.label, setting, errors(made.columns), seconds, made.rhs, made.note))
+            points.append(ChartPoint(line.group, line.label, setting, errors(made.columns), seconds, made.rhs, made.note, made.stated))
         except Unanswered as why:
             missing.setdefault(str(why), []).append(setting)
             if isinstance(why, TooLong):

@@ -87,7 +87,7 @@ def _rung(problem: Problem, model: str) -> Line:
         stated = max((e for e in made.error.values() if math.isfinite(e)), default=math.nan)
         if not stated < 1:
             raise Unanswered("states an error of the size of the answer")
-        return Run(made.seconds, made.columns, made.counts["rhs"], f"stated error {stated:.2g}")
+        return Run(made.seconds, made.columns, made.counts["rhs"], f"stated error {stated:.2g}", made.error)
 
     if model.rpartition(":")[2] == "full":
         return Line("rung", f"rung {model}", tuple((f"tolerance {tolerance:g}", partial(run, tolerance)) for tolerance in TOLERANCES))

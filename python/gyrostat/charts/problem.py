@@ -42,6 +42,7 @@ class Run:
     columns: Mapping[str, Any]
     rhs: int
     note: str = ""
+    stated: Mapping[str, float] = field(default_factory=dict)  # errors by column, where the method states its own
 
 
 class Unanswered(Exception):

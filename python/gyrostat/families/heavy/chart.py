@@ -88,8 +88,9 @@ def _series(given: Mapping[str, Any]) -> Iterable[Line]:
             raise Unanswered(str(error)) from None
         if int(made.order) < order:
             raise Unanswered("the terms between are below rounding")
-        stated = max(float(made.error["angular_velocity"]) / abs(given["periodic"]["spin"]), float(made.error["down"]))
-        return Run(seconds, {"angular_velocity": made.angular_velocity @ axes.T, "down": made.down @ axes.T}, 0, f"stated error {stated:.2g}")
+        stated = {"angular_velocity": float(made.error["angular_velocity"]) / abs(given["periodic"]["spin"]), "down": float(made.error["down"])}
+        columns = {"angular_velocity": made.angular_velocity @ axes.T, "down": made.down @ axes.T}
+        return Run(seconds, columns, 0, f"stated error {max(stated.values()):.2g}", stated)
 
     yield Line("rung", "series, by order (from Python)", tuple((f"order {order}", partial(run, order)) for order in SERIES_ORDERS))
 
