@@ -73,3 +73,34 @@ TEST_CASE("rung second-order at the start alone", "[spinning]") {
   REQUIRE(track.failure == Errc::ok);
   check_honest(*scene, track);
 }
+
+TEST_CASE("rung second-order along an even grid is what it is time by time", "[spinning]") {
+  Spinners random(29);
+  int gone = 0;
+  for (int i = 0; i < 20; ++i) {
+    CAPTURE(i);
+    auto p = random.spinner(random.log_any(1e-4, 1e-2));
+    if (p.nutation_squared() < 0) continue;
+    const double span = random.log_any(10, 1000) / std::abs(p.spin());
+    Question question;
+    question.rung = rung::second_order;
+    for (int k = 0; k < 700; ++k) question.times.push_back(span * (k + 100) / 799);
+    const Track track = second_order_track(*Scene::make(p, question), nullptr);
+    if (track.failure != Errc::ok) continue;
+    REQUIRE(goes_along_grid(question.times));
+    ++gone;
+    const SecondOrder<double> motion(p, span);
+    const double phase = 1 + std::abs(p.spin() * span);
+    for (std::size_t k = 0; k < track.states.size(); k += 33) {
+      CAPTURE(k);
+      const auto& found = track.states[k];
+      const auto right = motion.at(question.times[k]);
+      CHECK((found.velocity - right.velocity).norm() <= 1e-14 * phase * right.velocity.norm());
+      CHECK((found.position - right.position).norm() <= 1e-14 * phase * right.position.norm());
+      CHECK((found.momentum_I - right.momentum_I).norm() <= 1e-14 * phase * right.momentum_I.norm());
+      CHECK(std::abs(found.angles.theta - right.angles.theta) <= 1e-14 * phase);
+    }
+    check_honest(*Scene::make(p, question), track);
+  }
+  CHECK(gone > 8);
+}

@@ -20,7 +20,7 @@ inline constexpr FormulaCost quick_form_cost{15e-6, 0.06e-6}, closed_form_cost{1
     separatrix_form_cost{350e-6, 0.06e-6};
 /// Where the angles of wheels are asked: the neighbours' integrals, and a series at each time.
 inline constexpr FormulaCost quick_angle_cost{200e-6, 0.5e-6}, rotor_angle_cost{500e-6, 0.5e-6};
-inline constexpr SeriesCost series_cost{1e-6, 1.5e-6, 0.6e-6, 0.5};
+inline constexpr SeriesCost series_cost{1e-6, 1.5e-6, 0.25e-6, 0.5};
 
 namespace detail {
 

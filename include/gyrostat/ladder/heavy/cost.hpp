@@ -18,7 +18,7 @@ inline constexpr FormulaCost exact_cost{10e-6, 0.3e-6};
 inline constexpr FormulaCost euler_cost{150e-6, 0.1e-6};
 inline constexpr FormulaCost series_2_cost{10e-6, 0.1e-6};
 inline constexpr FormulaCost forced_series_cost{10e-6, 0.15e-6};
-inline constexpr SeriesCost series_cost{4e-6, 1.3e-6, 0.8e-6, 0.8};
+inline constexpr SeriesCost series_cost{4e-6, 1.3e-6, 0.15e-6, 0.8};
 /// Where shooting looks for the periodic motion first.
 inline constexpr double shooting_cost = 200e-6;
 

@@ -15,7 +15,7 @@ namespace gyrostat::rotor {
 inline constexpr FormulaCost closed_form_cost{1.5e-6, 0.25e-6};
 /// From a start that is near; where the full equations bring it near first, that is more.
 inline constexpr FormulaCost linear_tail_cost{40e-6, 1e-6};
-inline constexpr SeriesCost series_cost{6e-6, 1.7e-6, 1e-6, 0.25};
+inline constexpr SeriesCost series_cost{6e-6, 1.7e-6, 0.3e-6, 0.25};
 
 inline double cost_of_closed_form(const Scene& scene) noexcept {
   return closed_form_cost(scene.question().times.size());

@@ -27,6 +27,10 @@ inline bool gives_up(const Scene& scene, int rung, const LinearErrors<double>& e
 
 GYROSTAT_COMPILED_ONCE Track given_up(const LinearErrors<double>& error);
 
+/// The linear motion at the times, on a grid where they are even and many.
+GYROSTAT_COMPILED_ONCE void linear_states(const Problem<double>& problem, std::span<const double> times,
+                                          std::span<State<double>> states) noexcept;
+
 /// The track with the stated errors and the domain, where its states are numbers.
 GYROSTAT_COMPILED_ONCE Track judged(Track track, const Scene& scene, const LinearErrors<double>& error);
 

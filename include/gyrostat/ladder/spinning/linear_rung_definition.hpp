@@ -38,8 +38,8 @@ inline void linear_on_grid(const LinearGrid<double>& grid, double spin, std::spa
   }
 }
 
-inline void linear_states(const Problem<double>& problem, std::span<const double> times,
-                          std::span<State<double>> states) noexcept {
+GYROSTAT_COMPILED_ONCE void linear_states(const Problem<double>& problem, std::span<const double> times,
+                                          std::span<State<double>> states) noexcept {
   // below, what a grid begins with costs more than it saves: modes of the motion, or tables of blocks
   constexpr std::size_t worth_modes = 16, worth_blocks = 512;
   const std::size_t n = times.size();

@@ -8,6 +8,9 @@
 
 namespace gyrostat::spinning {
 
+/// Whether the times are worth going along as an even grid: what that begins with costs as much as some forty of them.
+inline bool goes_along_grid(std::span<const double> times) noexcept { return times.size() >= 64 && even(times); }
+
 /// Rung `second-order`: the linear motion with spin rate, spin angle, momentum and thrust right to the next order (docs/spinning.md,
 /// section 6.1). Passed over where that would not make it better.
 GYROSTAT_COMPILED_ONCE Track second_order_track(const Scene& scene, Monitor*);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include "gyrostat/ladder/spinning/second_order_rung.hpp"
@@ -26,8 +27,13 @@ GYROSTAT_COMPILED_ONCE Track second_order_track(const Scene& scene, Monitor*) {
                           "the corrections of second order would harm: they turn the body by more than 0.5 rad, or the "
                           "tilt exceeds 0.3 rad");
   Track track;
-  track.states.reserve(times.size());
-  for (const double t : times) track.states.push_back(motion.at(t));
+  track.states.resize(times.size());
+  if (goes_along_grid(times)) {
+    detail::linear_states(problem, times, track.states);
+    motion.correct(times.front(), (end - times.front()) / double(times.size() - 1), track.states);
+  } else {
+    std::transform(times.begin(), times.end(), track.states.begin(), [&](double t) { return motion.at(t); });
+  }
   return detail::judged(std::move(track), scene, error);
 }
 
