@@ -26,6 +26,7 @@ PROGRAMS = {  # scenes, and the tolerance of the table by rung and column
     "heavy_honesty": (600, "1e-05"),
     "general_honesty": (600, "1e-05"),
 }
+FEW = 20  # of so few errors the tables tell nothing
 RATIO = re.compile(
     r"  stated/true (\S+) +(\S+) +n +(\d+)  below 1: +(\d+)  least +(\S+)  1 % +(\S+)  median +(\S+)  90 % +(\S+)")
 
@@ -68,7 +69,10 @@ def row(name, cells):
 
 
 def brief(number):
-    return f"{float(number):.3g}".replace("e+0", "e+").replace("e-0", "e-")
+    """Three digits; of a power of ten that alone."""
+    power = f"{float(number):.0e}"
+    text = power if power.startswith("1e-") and float(power) == float(number) else f"{float(number):.3g}"
+    return text.replace("e+0", "e+").replace("e-0", "e-")
 
 
 def tables(name, runs, detailed):
@@ -103,6 +107,8 @@ def tables(name, runs, detailed):
             continue
         parts = [run.columns[rung, column] for run in chosen if (rung, column) in run.columns]
         n, below = sum(p[0] for p in parts), sum(p[1] for p in parts)
+        if n < FEW:
+            continue
         text += row(rung, [column, str(n), str(below), brief(min(p[2] for p in parts)), *map(brief, parts[0][3:])])
     return text
 
