@@ -175,7 +175,7 @@ class Scenes {
     const std::vector<double> times{span};
     std::vector<State<double>> states(1);
     const auto made = axial_motion<double>(p, times, states);
-    return made && made->status == ode::Status::reached ? made->tilt : infinity<double>;
+    return made && made->status == ode::Status::reached ? made->seen.size.tilt : infinity<double>;
   }
   double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   double sign() { return unit() < 0.5 ? -1 : 1; }

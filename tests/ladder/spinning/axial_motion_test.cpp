@@ -159,8 +159,8 @@ TEST_CASE("the errors of the linear motion under an axial torque", "[spinning]")
     options.tolerance = 1e-12;
     const auto truth = full_motion<double>(p, times, right, options);
     REQUIRE(answer);
-    if (!(answer->tilt < 0.5) || truth->error.greatest() > 1e-9) continue;
-    const auto stated = axial_torque_errors<double>(p, end, {answer->tilt, answer->rate});
+    if (!(answer->seen.size.tilt < 0.5) || truth->error.greatest() > 1e-9) continue;
+    const auto stated = axial_torque_errors<double>(p, end, answer->seen);
     for (std::size_t k = 0; k < times.size(); ++k) {
       const auto &a = found[k], &b = right[k];
       const auto within = [&](const Vec3<double>& x, const Vec3<double>& y, double across, double axial) {
@@ -191,8 +191,8 @@ TEST_CASE("the greatest tilt and rate are reported", "[spinning]") {
     tilt = std::max(tilt, std::hypot(s.angles.psi, s.angles.phi));
     rate = std::max(rate, s.angular_velocity.head<2>().norm());
   }
-  CHECK(answer->tilt == Approx(tilt).epsilon(0.05));
-  CHECK(answer->rate == Approx(rate).epsilon(0.05));
+  CHECK(answer->seen.size.tilt == Approx(tilt).epsilon(0.05));
+  CHECK(answer->seen.size.rate == Approx(rate).epsilon(0.05));
   CHECK(answer->counts.steps > 0);
 }
 

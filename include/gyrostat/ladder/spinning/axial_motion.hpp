@@ -27,8 +27,7 @@ struct AxialMotionOptions {
 template <Real Scalar>
 struct AxialMotionAnswer {
   ode::Status status = ode::Status::reached;
-  Scalar tilt = 0;  ///< greatest |psi + i phi| on the way, rad
-  Scalar rate = 0;  ///< greatest |p + i q| on the way, rad/s
+  AxialSizes<Scalar> seen;  ///< on the way
   ode::Counts counts;
 };
 
@@ -55,11 +54,18 @@ Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, s
   ode::Taylor<System> solver(system, 0, system.start(), how);
 
   AxialMotionAnswer<Scalar> answer;
-  const auto look = [&](const Scalar* x) noexcept {
-    answer.rate = std::max(answer.rate, std::hypot(x[0], x[1]));
-    answer.tilt = std::max(answer.tilt, std::hypot(x[2], x[3]));
+  Scalar before = 0;
+  const auto look = [&](const Scalar* x, Scalar since) noexcept {
+    auto& [size, spin, phase, gross] = answer.seen;
+    const Scalar rate = std::hypot(x[0], x[1]), tilt = std::hypot(x[2], x[3]);
+    size.rate = std::max(size.rate, rate);
+    size.tilt = std::max(size.tilt, tilt);
+    spin = std::max(spin, std::abs(x[6]));
+    phase = std::max(phase, std::abs(x[7]));
+    gross += std::max(before, rate * tilt) * since / 2;
+    before = rate * tilt;
   };
-  look(system.start().data());
+  look(system.start().data(), 0);
   std::size_t next = 0;
   for (; next < times.size() && times[next] <= 0; ++next) states[next] = system.state(0, system.start().data());
   alignas(32) Scalar x[System::width];
@@ -68,9 +74,10 @@ Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, s
     answer.status = solver.step(end);
     if (answer.status != ode::Status::reached) break;
     // the tilt may be greatest between the ends of a step
-    for (const Scalar share : {Scalar(0.25L), Scalar(0.5L), Scalar(0.75L), Scalar(1)}) {
-      solver.at(solver.previous_time() + share * (solver.time() - solver.previous_time()), x);
-      look(x);
+    const Scalar quarter = (solver.time() - solver.previous_time()) / 4;
+    for (int i = 1; i <= 4; ++i) {
+      solver.at(i < 4 ? solver.previous_time() + Scalar(i) * quarter : solver.time(), x);
+      look(x, quarter);
     }
     for (; next < times.size() && times[next] <= solver.time(); ++next) {
       solver.at(times[next], x);

@@ -94,7 +94,7 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
     if (!made) return made.error();
     track.counts += made->counts;
     if (made->status != ode::Status::reached) return failure_of(made->status);
-    error = axial_torque_errors(scene.problem(), times.back(), Amplitudes<double>{made->tilt, made->rate});
+    error = axial_torque_errors(scene.problem(), times.back(), made->seen);
     return Errc::ok;
   };
   const auto why = [](Errc wrong) {

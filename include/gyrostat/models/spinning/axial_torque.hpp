@@ -21,9 +21,10 @@ namespace gyrostat::spinning {
 /// Taylor recurrences of the linear equations with a spin rate that grows evenly,
 ///     p' = M1/D1 - kappa1(r) q,   q' = M2/D2 + kappa2(r) p,   Gamma' + i r Gamma = p + i q,   theta' = r,
 /// to which r = 0 and the resonances are points like all others. A state is
-///     (p, q, psi, phi | cos(theta), sin(theta), -, - | E, W | B, C, - | int E, int W | int B, -, -),
+///     (p, q, psi, phi | cos(theta), sin(theta), rho, Z | E, W | B, C, - | int E, int W | int B, -, -),
 /// E = int e^(i theta), W = int e^(i theta) Gamma, B = int Gamma (each two numbers), C = int |Gamma|^2/2: the last four rows are quadratures
-/// of which momentum, velocity and position are made,
+/// of which momentum, velocity and position are made; rho = ((D1 - D2)/D3) int p q, what the spin rate leaves out, and
+/// Z = int rho + int Im(Pi Gamma~)/2, what the spin angle does, for the errors,
 ///     G = G0 + M E - i e_H [e^(i theta) Gamma] - i M3 W,   m v = m v0 + f E - i f3 W,   m v3 = m v30 + f3 t + Re(i f~ B).
 template <Real Real_>
 class AxialTorqueSystem {
@@ -39,7 +40,8 @@ class AxialTorqueSystem {
       : problem_(problem),
         spin_rate_(problem.torque[2] / problem.inertia[2]),
         stiffness_1_((problem.inertia[2] - problem.inertia[1]) / problem.inertia[0]),
-        stiffness_2_((problem.inertia[2] - problem.inertia[0]) / problem.inertia[1]) {
+        stiffness_2_((problem.inertia[2] - problem.inertia[0]) / problem.inertia[1]),
+        skew_((problem.inertia[0] - problem.inertia[1]) / problem.inertia[2]) {
     const auto& a = problem.angles;
     const auto& w = problem.angular_velocity;
     start_ = {w[0], w[1], a.psi, a.phi, std::cos(a.theta), std::sin(a.theta)};
@@ -94,14 +96,17 @@ class AxialTorqueSystem {
       next[3] = share * (unit * now[1] - turned(2, r, r_slope));
       next[4] = -share * turned(5, r, r_slope);
       next[5] = share * turned(4, r, r_slope);
-      next[6] = next[7] = 0;
-      Scalar re = 0, im = 0, square = 0;
+      Scalar re = 0, im = 0, square = 0, product = 0, nutation = 0;
       for (int j = 0; j <= k; ++j) {
         re += x[j][4] * x[k - j][2] - x[j][5] * x[k - j][3];
         im += x[j][4] * x[k - j][3] + x[j][5] * x[k - j][2];
         square += x[j][2] * x[k - j][2] + x[j][3] * x[k - j][3];
+        product += x[j][0] * x[k - j][1];
+        nutation += x[j][1] * x[k - j][2] - x[j][0] * x[k - j][3];
       }
       const Scalar step = share * unit;
+      next[6] = step * skew_ * product;
+      next[7] = step * (nutation / 2 + now[6]);
       next[8] = step * now[4], next[9] = step * now[5];
       next[10] = step * re, next[11] = step * im;
       next[12] = step * now[2], next[13] = step * now[3];
@@ -152,14 +157,25 @@ class AxialTorqueSystem {
  private:
   Problem<Scalar> problem_;
   Scalar spin_rate_, stiffness_1_, stiffness_2_;  ///< r', rad/s^2; the slopes of kappa over r
+  Scalar skew_;                                   ///< (D1 - D2)/D3
   Scalar axial_momentum_;                         ///< G3 at t = 0, exact, N m s
   Numbers start_{};
 };
 
-/// Estimated greatest errors of the linear motion under an axial torque over [0, T] against the full equations, as linear_errors has them
-/// without one. `size`: the greatest tilt and rate on the way. No bounds, but wide. T > 0.
+/// What was seen of a motion under an axial torque on the way, greatest magnitudes.
 template <Real Scalar>
-LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar T, Amplitudes<Scalar> size) noexcept {
+struct AxialSizes {
+  Amplitudes<Scalar> size{0, 0};
+  Scalar spin = 0;   ///< change of r to second order, rad/s
+  Scalar phase = 0;  ///< what this and nutation add to the spin angle, rad
+  Scalar gross = 0;  ///< half the integral of |Pi| |Gamma|, what nutation would add if nothing cancelled, rad
+};
+
+/// Estimated greatest errors of the linear motion under an axial torque over [0, T] against the full equations, as linear_errors has them
+/// without one, from what was seen on the way. No bounds. T > 0.
+template <Real Scalar>
+LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar T,
+                                         const AxialSizes<Scalar>& seen) noexcept {
   const auto& D = problem.inertia;
   const Scalar start = problem.spin(), end = start + problem.torque[2] / D[2] * T;
   const Scalar fastest = std::max(std::abs(start), std::abs(end));
@@ -172,24 +188,23 @@ LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar 
   }
   const Scalar zeta = std::max(std::abs(D[2] - D[1]) / D[0], std::abs(D[2] - D[0]) / D[1]);
   const Scalar skew = std::min(1 + steep * T, std::sqrt(steep / flat));
-  const Scalar asymmetry = std::abs(D[0] - D[1]) / (2 * D[2]);
 
   LinearErrors<Scalar> error;
-  error.size = size;
-  Scalar g = size.tilt, P = size.rate, rate = 0, angle = 0;
+  error.size = seen.size;
+  Scalar g = seen.size.tilt, P = seen.size.rate, rate = seen.spin, net = seen.phase, gross = seen.gross;
   const auto third_order = [&]() noexcept {
-    rate = asymmetry * P * P * T;
-    angle = rate * T / 2;
     error.rates = skew * P * zeta * rate * T;
-    error.tilt = g * (g * P * T + angle) + g * g * g + error.rates * T;
+    error.tilt = (g * (2 * gross + rate * T) + g * g * g) / 2 + error.rates * T;
   };
   third_order();
   // the motion itself may be larger than the linear one by its error
   g += error.tilt;
   P += error.rates;
+  const Scalar more = seen.size.rate > 0 ? P / seen.size.rate : Scalar(1);
+  rate *= more * more, net *= more * more, gross *= more * more;
   third_order();
 
-  const Scalar phase = angle + g * P * T / 2 + g * g / 2;
+  const Scalar phase = net + g * g / 2;
   Scalar turned = T * phase;
   if (slowest > 0) turned = std::min(turned, (phase + T * (rate + g * P / 2)) / slowest);
   turned += g * g * T / 2;
@@ -198,15 +213,15 @@ LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar 
   const Scalar M = std::hypot(problem.torque[0], problem.torque[1]), M3 = std::abs(problem.torque[2]);
   const Scalar e = std::abs(problem.charge_momentum), L3 = D[2] * fastest + std::abs(problem.rotor_momentum);
   error.spin = Scalar(1.25L) * rate;
-  error.theta = (g * g * fastest + g * P) * T + Scalar(1.25L) * angle + g * g / 2;
+  error.theta = Scalar(1.25L) * net + g * g / 2 + g * g * gross;
   error.attitude = std::hypot(error.theta, error.tilt);
   error.momentum = M * turned + e * (error.tilt + g * phase) + M3 * T * (error.tilt + g * phase) +
                    g * g * (L3 * g + std::max(D[0], D[1]) * P);
   error.axial_momentum = (M * T + (M3 * T + e) * g) * error.tilt + M3 * T * g * g * g * g;
   error.velocity = f * turned + f3 * T * error.tilt;
   error.axial_velocity = f3 * g * g * T / 2 + f * T * error.tilt;
-  error.position = T * error.velocity;
-  error.axial_position = T * error.axial_velocity;
+  error.position = T * error.velocity / 2;
+  error.axial_position = T * error.axial_velocity / 2;
   return error;
 }
 
