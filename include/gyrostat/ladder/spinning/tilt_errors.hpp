@@ -13,9 +13,7 @@
 /// The stated errors of a motion for small tilt, column by column.
 namespace gyrostat::spinning {
 
-/// Tilt and error of the spin angle, rad, up to which a motion for small tilt and its estimates mean something.
-inline constexpr double small_tilt = 0.3;
-
+/// Whether a motion for small tilt means something: so far the error of the spin angle counts as the tilt does.
 inline bool holds(const LinearErrors<double>& error) noexcept {
   return error.size.tilt + error.tilt <= small_tilt && error.theta <= small_tilt;
 }

@@ -12,6 +12,9 @@
 
 namespace gyrostat::spinning {
 
+/// Tilt, rad, up to which orders of it tell of errors: beyond it sizes alone do, as if nothing swung or cancelled.
+inline constexpr double small_tilt = 0.3;
+
 /// Estimated greatest errors of the linear motion over [0, T] against the full equations, in units of the quantities; of a pair,
 /// of its norm.
 template <Real Scalar>
@@ -128,7 +131,8 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
   const Scalar zeta = std::max(std::abs(D[2] - D[1]) / D[0], std::abs(D[2] - D[0]) / D[1]);
   // greatest ratio of the rates' ellipse, or what it grows to within T
   const Scalar skew = std::min(1 + steep * T, std::sqrt(steep / flat));
-  const Scalar answer = std::min(T, 2 / divisors(problem).least()), swing = detail::third_order_swing(problem, T);
+  const Scalar answer = std::min(T, 2 / divisors(problem).least());
+  Scalar swing = detail::third_order_swing(problem, T);
 
   LinearErrors<Scalar> error;
   error.size = size;
@@ -139,6 +143,11 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
     error.tilt = (g * (2 * gross + angle) + g * g * g) / 2 + error.rates * answer;
   };
   third_order();
+  if (!(g + error.tilt <= Scalar(small_tilt))) {
+    net = gross = g * P * T;
+    swing = T;
+    third_order();
+  }
   // the motion itself may be larger than the linear one by its error
   g += error.tilt;
   P += error.rates;

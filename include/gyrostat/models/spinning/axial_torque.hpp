@@ -197,6 +197,11 @@ LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar 
     error.tilt = (g * (2 * gross + rate * T) + g * g * g) / 2 + error.rates * T;
   };
   third_order();
+  if (!(g + error.tilt <= Scalar(small_tilt))) {
+    rate = std::abs(D[0] - D[1]) / (2 * D[2]) * P * P * T;
+    net = gross = g * P * T;
+    third_order();
+  }
   // the motion itself may be larger than the linear one by its error
   g += error.tilt;
   P += error.rates;

@@ -507,7 +507,7 @@ LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar 
   const Scalar f = magnitude(start.acceleration), f3 = std::abs(start.axial_acceleration);
   const Scalar M = magnitude(start.torque), e = std::abs(start.charge_momentum);
   error.momentum = M * turned + e * (first.tilt + g * error.theta);
-  const Scalar swing = detail::third_order_swing(problem, T);
+  const Scalar swing = g <= Scalar(small_tilt) ? detail::third_order_swing(problem, T) : T;
   error.velocity = f * turned + f3 * (swing * first.tilt + T * g * g * g / 2);
   error.axial_velocity = f3 * (swing * g * first.tilt + T * g * g * g * g) / 4 + f * T * first.tilt;
   error.position = T * error.velocity / 2;
