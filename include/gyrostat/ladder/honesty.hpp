@@ -58,6 +58,9 @@ inline constexpr double stop_margin = 2;
 /// Deceleration: to the error of the stop time so many step tolerances are added; it is one number, at which two runs may be near by chance.
 inline constexpr double stop_steps = 1;
 
+/// General scenes: neighbours that part by so many times more than in proportion to the angle turned through are told as chaotic.
+inline constexpr double chaotic_growth = 1e4;
+
 /// CVODE is compared with itself at a tolerance so many times looser.
 inline constexpr double cvode_looser = 10;
 /// The stated error of CVODE over the distance of its two runs.

@@ -118,6 +118,9 @@ struct FullMotionOptions : MotionOptions<Scalar> {
 template <Real Scalar>
 struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
   Integrator used = Integrator::taylor;
+  /// How far apart attitudes of neighbours are at the last time, over what errors of their data and steps come to in proportion to the angle that the body turns
+  /// through.
+  Scalar growth = 0;
   /// When a brake has first brought what it opposes to zero and held it there, s, and the error of that, s: infinite where neighbours do not
   /// come to the same stops. Status::event: when one has brought it to a stop, or all but, that the equations do not go through.
   Scalar stop = nan<Scalar>, stop_off = nan<Scalar>;
@@ -214,15 +217,15 @@ class FullCourse {
  public:
   using Scalar = typename System::Scalar;
 
-  /// slack: as of stop_at().
+  /// spare: the slack of stop_at().
   FullCourse(const Problem<Scalar>& problem, Scalar span, std::span<const Scalar> cuts, Scalar share,
              const StepTolerance<Scalar>& tolerance, std::uint64_t step_cap,
-             Scalar slack = share_slack<Scalar>) noexcept
+             Scalar spare = share_slack<Scalar>) noexcept
       : of_(problem, span),
         cuts_(cuts),
         last_(span),
         share_(share),
-        slack_(slack),
+        spare_(spare),
         options_(Method::options(tolerance.end, tolerance.inside, share, step_cap)) {
     piece_ = Piece<Scalar>::first(problem, of_.wheels, of_.torques, cuts.empty() ? span : cuts.front());
     enter(0, System::first_numbers(of_));
@@ -381,7 +384,7 @@ class FullCourse {
       at_stop_ = AtStop::turning;
     } else {
       const auto q = normalised(Quat<Scalar>{numbers[0], numbers[1], numbers[2], numbers[3]});
-      const Stop<Scalar> made = stop_at(of_, piece_, q, t, slack_);
+      const Stop<Scalar> made = stop_at(of_, piece_, q, t, spare_);
       if (made.what == AtStop::leaves) return leave(made, t, numbers);
       if (made.what == AtStop::rests) return rest(made, t, numbers, rested);
       at_stop_ = made.what;
@@ -455,7 +458,7 @@ class FullCourse {
   static constexpr Scalar precision_ = Scalar(1e-13L) * std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
   Prepared<Scalar> of_;
   std::span<const Scalar> cuts_;
-  Scalar last_, share_, slack_, time_ = 0, previous_ = 0;
+  Scalar last_, share_, spare_, time_ = 0, previous_ = 0;
   Pace<Scalar> pace_;
   bool outgrown_ = false;
   std::size_t cut_ = 0;
@@ -628,15 +631,15 @@ class FullMotion {
     const StepTolerance<Scalar> tight{companion_step(tolerance.end), companion_step(tolerance.inside)};
     const Scalar span = times_.back();
     // a course is large
-    Scalar slack = share_slack<Scalar>;
+    Scalar spare = share_slack<Scalar>;
     const auto begin = [&](const Problem<Scalar>& problem, int share, const StepTolerance<Scalar>& its) noexcept {
-      return std::make_unique<Course>(problem, span, cuts_, 1 / Scalar(share), its, options_.step_cap, slack);
+      return std::make_unique<Course>(problem, span, cuts_, 1 / Scalar(share), its, options_.step_cap, spare);
     };
     const auto course = begin(problem_, 1, tolerance);
     const auto& of = course->prepared();
     const Scalar condition = condition_of(of.wheels), change = data_change(tolerance.end, condition);
     // what the answer's brakes hold those of neighbours must hold, too
-    slack += 8 * change;
+    spare += 8 * change;
     const auto one = beside(problem_, change, 0), two = beside(problem_, change, 1);
     const auto companion = begin(one, 2, tight);
     std::unique_ptr<Course> second;
@@ -657,6 +660,12 @@ class FullMotion {
     solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of.sizes.turning, times_,
                  states_, nowhere<Scalar>(), options_, progress_from, progress_to, rounding, note);
     tell_stops(answer, *course, *companion, second.get());
+    if (answer.status == ode::Status::reached && span > 0) {
+      const Course& other = second ? *second : *course;
+      const auto off = rows.apart(rows.row(companion->at(span)), rows.row(other.at(span)));
+      const Scalar phase = of.sizes.turning * span, steps = second ? tight.end : tolerance.end;
+      answer.growth = off[full_column::attitude] / ((change + steps * (1 + phase / 16)) * (1 + phase));
+    }
     answer.outgrown = course->outgrown() || companion->outgrown() || (second && second->outgrown());
     return answer;
   }

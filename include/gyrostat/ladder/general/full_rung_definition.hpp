@@ -99,6 +99,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   if (answer->outgrown) return refused<Track>(Errc::step_limit, why_outgrown);
   if (answer->status != ode::Status::reached)
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
+  if (answer->growth > honesty::chaotic_growth) track.warn(warning_kinds[warning::chaotic], answer->growth);
   if (answer->used == Integrator::radau) track.warn(warning_kinds[warning::stiff], scene.settling_rate());
   track.rests = answer->rests, track.rest_off = answer->rest_off;
   if (answer->stop_off < infinity<double>) {

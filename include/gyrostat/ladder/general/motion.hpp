@@ -140,7 +140,13 @@ enum : std::size_t {
   start_uncertain,
   gimbal_lock,
   custom_smooth,
-  stiff
+  stiff,
+  rest,
+  orbit_mismatch,
+  inside_planet,
+  torque_outruns,
+  chaotic,
+  with_rounding
 };
 }
 
@@ -162,6 +168,18 @@ inline constexpr WarningKind warning_kinds[] = {
     {"stiff",
      "wheels settle so much faster than the body turns that the equations are solved by collocation (Radau IIA); "
      "greatest rate of settling, 1/s"},
+    {"rest", "a brake has stopped the body and holds it against all other torques; first from, s"},
+    {"orbit-mismatch",
+     "the gravity gradient that is given is none of the orbit, 3 mu/r^3: it is greater by a share of"},
+    {"inside-planet", "the orbit goes below the surface of its planet: height of its lowest point, m"},
+    {"torque-outruns",
+     "torques that come and go bring the body to more than a thousand times the rate that it starts with; times"},
+    {"chaotic",
+     "motions that start closer than any data part far faster than in proportion to the time: the motion is chaotic, or "
+     "passes by an unstable one; greater than in proportion by a factor of"},
+    {"recognised-with-rounding",
+     "the scene is an instance of the family that answers but for roundings, which were dropped; the greatest, in "
+     "roundings of 2e-16"},
 };
 
 /// A rung of the ladder is one of a family, or the full equations of the family `general`.

@@ -153,7 +153,7 @@ class Writer {
           sum_of_torques(scene_.problem(), here, times[i]) + scene_.own_torque()(times[i], here).norm();
       double sum = 8 * epsilon<double> * sizes;
       const bool rests = std::any_of(track_.rests.begin(), track_.rests.end(), [&](const auto& rest) {
-        return times[i] >= rest[0] + track_.rest_off && times[i] < rest[1];
+        return times[i] >= rest[0] + track_.rest_off && times[i] <= rest[1];
       });
       if (rests) {
         most = greater(sum, most);

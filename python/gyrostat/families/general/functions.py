@@ -169,6 +169,8 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
         return None
     mu, planet = given.get("mu"), PLANETS[given.get("planet") or "earth"]
     radius, rate = given.get("radius"), given.get("rate")
+    # of an orbit that is given by numbers of its own the planet is not known
+    surface = planet[1] if given.get("altitude") is not None or (radius is not None and mu is None and rate is None) else 0.0
     if given.get("altitude") is not None:
         radius = planet[1] + given["altitude"]
     if given.get("period") is not None:
@@ -182,7 +184,7 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
     along = stacked(_or(given.get("along"), (0.0, 1.0, 0.0)))
     return {"radius": radius, "mu": planet[0] if mu is None else mu, "eccentricity": _or(given.get("eccentricity"), 0.0),
             "true_anomaly": _or(given.get("true_anomaly"), 0.0), "radial": radial,
-            "along": _unit(along - radial * dot(radial, along)[..., None], "orbit.along")}
+            "along": _unit(along - radial * dot(radial, along)[..., None], "orbit.along"), "surface": surface}
 
 
 def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
