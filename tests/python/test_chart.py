@@ -370,9 +370,31 @@ def test_the_rungs_on_the_chart_of_a_general_scene_are_those_of_its_families() -
     assert len({(line.get_color(), line.get_marker(), line.get_markersize()) for line in lines}) == len(lines)
 
 
+@pytest.mark.parametrize("name", ["wheel-seized", "clock"])
+def test_a_scene_that_goes_on_is_charted_from_its_start_on(name: str) -> None:
+    pytest.importorskip("scipy")
+    later: dict[str, Any] = {"name": "clock", "kind": "general", "solve": {"times": [40.0, 41.0, 44.0]}, "initial": {
+        "time": 40.0, "angular_velocity": [0.3, -0.5, 0.8], "error": {"attitude": 0.1}}, "field": {"rotating": {"axis": [0.0, 0.3, 1.0], "rate": 0.3, "vector": [1e-4, 0.0, 2e-4]}},
+        "body": {"inertia": [3.0, 2.5, 2.0]}, "orbit": {"altitude": 4e5, "eccentricity": 0.1},
+        "wheel": [{"type": "held", "axis": [0.0, 1.0, 0.0], "axial_inertia": 0.1, "rate": {"times": [39.0, 42.0, 50.0], "values": [1.0, 3.0, 2.0]}}],
+        "torque": [{"type": "constant", "torque": [0.1, 0.0, 0.02], "on": [[10.0, 43.0]], "factor": {"mean": 1.0, "amplitude": 0.3, "rate": 0.4, "phase": 0.2}},
+                   {"type": "magnetic", "dipole": [100.0, 200.0, 50.0]}, {"type": "gravity-gradient"}]}
+    made = gyrostat.chart(name, samples=13) if name != "clock" else gyrostat.chart(later)
+    assert "the start taken as exact" in made.title and "from" in made.title.splitlines()[0]
+    for label, points in made.by_label().items():
+        for key in ("attitude", "angular_velocity"):
+            if points[0].group == "rung":
+                assert all(point.error[key] <= float(point.note.removeprefix("stated error ")) for point in points), label
+            else:
+                assert points[-1].error[key] < min(1e-3 * points[0].error[key], 1e-7), (label, key)
+    assert {each.label for each in made.left_out} <= {"heyoka (compile time left out)"}
+
+
 def test_a_general_scene_that_a_brake_stops_is_not_charted_beyond(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = {"name": "braked", "kind": "general", "solve": {"times": [1.0, 60.0]}, **GENERAL["laws"], "torque": [{"type": "brake", "limit": [0.1, 0.2, 0.1]}]}
-    with pytest.raises(DomainError, match="choose a shorter time: .*brake"):
-        gyrostat.chart({**scene, "wheel": GENERAL["laws"]["wheel"][2:], "body": {"inertia": [3.0, 2.5, 2.0]}})
+    for wheels in (GENERAL["laws"]["wheel"][2:], []):
+        with pytest.raises(DomainError, match="choose a shorter time: .*brake"):
+            pushed = [*scene["torque"], {"type": "constant", "torque": [0.01, 0.0, 0.0]}]
+            gyrostat.chart({**scene, "wheel": wheels, "torque": pushed, "body": {"inertia": [3.0, 2.5, 2.0]}})
     monkeypatch.setattr(general_charts, "MOST_TURNS", 2.0)
     assert "of the scene's 180 s" in gyrostat.chart("spinner-pulsed-thrust").title

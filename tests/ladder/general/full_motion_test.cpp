@@ -232,7 +232,7 @@ TEST_CASE("a push in space stops a tumbling body, holds it, and takes it on as a
     std::vector<std::array<double, 2>> pushes;
     std::size_t rests;
   };
-  const Case cases[] = {{{{0, 0}, {10, 0.3}, {15, -0.05}}, 2},   // rests, leaves at a switch, rests again
+  const Case cases[] = {{{{0, 0}, {10, 0.3}, {15, -0.05}}, 2},     // rests, leaves at a switch, rests again
                         {{{0, -0.08}, {5, 0.09}, {12, -0.2}}, 1},  // held by two pushes in turn, then leaves
                         {{{0, -0.3}}, 0},                          // never rests
                         {{{0, -0.3}, {6, 0.05}}, 1},               // through zero, and back to it

@@ -404,8 +404,8 @@ class FullCourse {
       using std::sqrt;
       // so short that what the direction and the torque have changed is lost in rounding
       const auto& sizes = of_.sizes;
-      const Scalar pace = sizes.turning + sizes.damping + sizes.forcing + 1 / (piece_.to - t) +
-                          sqrt(stop.departure.rate / sizes.least);
+      const Scalar pace =
+          sizes.turning + sizes.damping + sizes.forcing + 1 / (piece_.to - t) + sqrt(stop.departure.rate / sizes.least);
       const Scalar moment = std::max(Scalar(1e-9L) * (1 + share_) / pace, 64 * epsilon<Scalar> * t);
       const Scalar until = t + moment < piece_.to ? t + moment : t;
       const Vec3<Scalar> rate = stop.departure.rate * stop.departure.direction;

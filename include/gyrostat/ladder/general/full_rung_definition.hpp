@@ -95,7 +95,8 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(scene.problem(), times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
-  if (answer->status == ode::Status::event) return refused<Track>(Errc::not_applicable, why_not_through(answer->at_stop));
+  if (answer->status == ode::Status::event)
+    return refused<Track>(Errc::not_applicable, why_not_through(answer->at_stop));
   if (answer->outgrown) return refused<Track>(Errc::step_limit, why_outgrown);
   if (answer->status != ode::Status::reached)
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));

@@ -10,8 +10,7 @@ namespace gyrostat::general {
 
 namespace detail {
 
-GYROSTAT_COMPILED_ONCE bool symmetric_about(const Mat3<double>& J, const Vec3<double>& e,
-                                            double* dropped) noexcept {
+GYROSTAT_COMPILED_ONCE bool symmetric_about(const Mat3<double>& J, const Vec3<double>& e, double* dropped) noexcept {
   const double size = J.cwiseAbs().maxCoeff(), C = e.dot(J * e);
   const Vec3<double> across = symmetric_eigen<double>(J - C * e * e.transpose()).values;  // 0 and the two others
   Vec3<double> sizes = across.cwiseAbs();

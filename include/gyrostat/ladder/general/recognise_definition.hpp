@@ -59,8 +59,7 @@ inline const char* as_deceleration(const Given& given, std::optional<deceleratio
   if (on_carrier && spinners.free)
     return "a wheel turns freely, and what brakes the carrier acts on it with that wheel locked";
   if (carrier) setup.drag = multiple_of(loads.damping, wheels.whole, loads.damping_size, dropped);
-  if (total)
-    setup.drag = multiple_of(loads.by_momentum, Mat3<double>::Identity(), loads.by_momentum_size, dropped);
+  if (total) setup.drag = multiple_of(loads.by_momentum, Mat3<double>::Identity(), loads.by_momentum_size, dropped);
   if (!(setup.drag >= 0))
     return carrier ? "the damping is not a positive multiple of the inertia"
                    : "the drag on the momentum is not the same about all axes, or drives";

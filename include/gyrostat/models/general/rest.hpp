@@ -22,13 +22,13 @@ namespace gyrostat::general {
 
 /// What a body does at a stop.
 enum class AtStop : std::uint8_t {
-  rests,   ///< up to the end of the piece at least
-  leaves,  ///< at once
-  barely,  ///< what acts is hardly more than the brakes can hold
-  later,   ///< it would leave within the piece, where a table takes the torque beyond the brakes
-  turning, ///< undecided: wheels turn by torques of their own
-  laws,    ///< undecided: brakes of both laws, and wheels that hold momentum
-  varying, ///< undecided: what acts goes on by itself, or turns as the body does
+  rests,    ///< up to the end of the piece at least
+  leaves,   ///< at once
+  barely,   ///< what acts is hardly more than the brakes can hold
+  later,    ///< it would leave within the piece, where a table takes the torque beyond the brakes
+  turning,  ///< undecided: wheels turn by torques of their own
+  laws,     ///< undecided: brakes of both laws, and wheels that hold momentum
+  varying,  ///< undecided: what acts goes on by itself, or turns as the body does
 };
 
 /// Why the motion is not followed through a stop, and what to do.
@@ -61,10 +61,10 @@ inline constexpr double least_departure = 1e-4;
 template <Real Scalar>
 struct Stop {
   AtStop what = AtStop::rests;
-  Departure<Scalar> departure;       ///< of what the brakes oppose, where the body leaves
-  Vec3<Scalar> turning{0, 0, 0};     ///< w, rad/s: that of held wheels alone
-  Scalar slip = 0;                   ///< at most so much torque may be left over, as share_slack is allowed, N m
-  bool carrier = false;              ///< J w is opposed, not M
+  Departure<Scalar> departure;    ///< of what the brakes oppose, where the body leaves
+  Vec3<Scalar> turning{0, 0, 0};  ///< w, rad/s: that of held wheels alone
+  Scalar slip = 0;                ///< at most so much torque may be left over, as share_slack is allowed, N m
+  bool carrier = false;           ///< J w is opposed, not M
 };
 
 namespace detail {
@@ -168,10 +168,10 @@ Stop<Scalar> stop_at(const Prepared<Scalar>& of, const Piece<Scalar>& piece, con
   bool varies = !piece.waves.empty();
   for (std::size_t k = 0; k < piece.power.size(); ++k) {
     const Terms<Scalar>& terms = piece.power[k];
-    const bool in_space = std::any_of(terms.inertial.begin(), terms.inertial.end(),
-                                      [](const auto& m) noexcept { return !m.isZero(0); });
-    const bool in_orbit = std::any_of(terms.orbital.begin(), terms.orbital.end(),
-                                      [](const auto& m) noexcept { return !m.isZero(0); });
+    const bool in_space =
+        std::any_of(terms.inertial.begin(), terms.inertial.end(), [](const auto& m) noexcept { return !m.isZero(0); });
+    const bool in_orbit =
+        std::any_of(terms.orbital.begin(), terms.orbital.end(), [](const auto& m) noexcept { return !m.isZero(0); });
     const bool stands = of.problem.field.magnetic == MagneticField::uniform && !turns;
     varies = varies || in_orbit || terms.orbit_gradient != 0 || !terms.dipole.isZero(0);
     varies = varies || (!terms.eddy.isZero(0) && !stands);
@@ -245,14 +245,13 @@ class Resting {
     const Scalar s = t - from_;
     if (const Scalar rate = magnitude(turning_); rate > 0) {
       const Scalar c = cos(s * rate / 2), part = sin(s * rate / 2) / rate;
-      const Quat<Scalar> q =
-          Quat<Scalar>{x[0], x[1], x[2], x[3]} *
-          Quat<Scalar>{c, part * turning_[0], part * turning_[1], part * turning_[2]};
+      const Quat<Scalar> q = Quat<Scalar>{x[0], x[1], x[2], x[3]} *
+                             Quat<Scalar>{c, part * turning_[0], part * turning_[1], part * turning_[2]};
       x[0] = q.w, x[1] = q.x, x[2] = q.y, x[3] = q.z;
       for (std::size_t i = 0; i < 3; ++i) x[At::turned + i] += s * turning_[int(i)];
     }
     if constexpr (large) {
-      const Vec3<Scalar>*a = push_.data();
+      const Vec3<Scalar>* a = push_.data();
       const Vec3<Scalar> v = s * (a[0] + s * (a[1] / 2 + s * (a[2] / 3 + s * a[3] / 4)));
       const Vec3<Scalar> way = s * s * (a[0] / 2 + s * (a[1] / 6 + s * (a[2] / 12 + s * a[3] / 20)));
       for (std::size_t i = 0; i < 3; ++i) {

@@ -11,6 +11,7 @@ from gyrostat.broadcast import Floats
 from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, Unanswered, first_turns, greatest, reference, relative
 from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS
+from gyrostat.families.general.clock import since
 from gyrostat.families.general.functions import QUESTION, integrate, posed, recognise, segments, solve
 from gyrostat.families.general.scene import arguments
 from gyrostat.rotation import angle_between
@@ -37,35 +38,41 @@ def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, f
 
 
 def problem(scene: "Scene") -> Problem:
-    """The scene, or its first part where the whole is too long. Raises DomainError for a motion that a brake stops."""
-    if not scene.starts_plainly:
-        raise DomainError("a scene that begins where another ends, at another time than 0 or with initial.error is not charted; give it a start of its own in "
-                          "[initial]")
+    """The scene, or its first part where the whole is too long. What is known of the error of its start is no error of a method: all begin at the same
+    start, as if it were exact. Raises DomainError for a motion that a brake stops."""
     given = {**arguments(scene), "ask": ("attitude", "angular_velocity"), "euler": None}
+    exact, begin = "; the start taken as exact" if given.pop("start_error", None) else "", scene.start_time
     physics = {name: value for name, value in given.items() if name not in QUESTION}
     found = {family for family, why in recognise(**physics, times=given["times"]).items() if not why}
     rival = Rival(physics)
     rate = _rate(given, rival)
-    given["times"], cut = first_turns(given["times"], lambda end: rate * end, MOST_TURNS)
-    physics["times"] = rival.times = given["times"]
+    since_start, cut = first_turns(given["times"] - begin, lambda end: rate * end, MOST_TURNS)
+    if cut:
+        given["times"] = since_start + begin
+    physics["times"], rival.times = given["times"], given["times"] - begin
     want, source = reference(integrate, physics, "taylor")
-    end = float(given["times"][-1])
-    title = f"{len(given['times'])} times to {end:.6g} s{cut}\n{rate * end:.3g} turns at most; {source}"
+    end, last = float(rival.times[-1]), float(given["times"][-1])
+    first = f" from {begin:.6g}" if begin else ""
+    title = f"{len(given['times'])} times{first} to {last:.6g} s{cut}\n{rate * end:.3g} turns at most; {source}{exact}"
     lacks = set() if segments(**physics) else {"segments"}
     rungs = tuple(name for name in FACTS["general"].rungs if name.rpartition(":")[0] in {"", *found} and name not in lacks)
     return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), rival, end * 10 * rate, rungs=rungs,
-                   cuts=rival.cuts)
+                   cuts=rival.cuts, begin=begin)
 
 
 def _rate(given: Mapping[str, Any], rival: "Rival") -> float:
     """The greatest rate of body, orbit, field and waves, in turns a second."""
-    end = float(given["times"][-1])
-    if end <= 0:
+    begin, end = given.get("start_time", 0.0), float(given["times"][-1])
+    if end <= begin:
         return 1.0  # which first_turns refuses
     try:
-        answer = solve(**{**given, "times": np.linspace(0.0, end, LOOKS), "tolerance": ROUGH, "model": "auto", "ask": ("angular_velocity",)})
+        answer = solve(**{**given, "times": np.linspace(begin, end, LOOKS), "tolerance": ROUGH, "model": "auto", "ask": ("angular_velocity",)})
     except DomainError as error:
         raise DomainError(f"the motion cannot be charted to {end:.6g} s, choose a shorter time: {error}") from None
+    for warning in answer.warnings:
+        if warning.code == "rest":
+            raise DomainError(f"the motion cannot be charted to {end:.6g} s, choose a shorter time: integrators do not go through a stop, and "
+                              f"{warning.message}")
     return max(float(np.max(np.linalg.norm(answer["angular_velocity"], axis=1))), rival.forcing, 1e-300) / (2 * math.pi)
 
 
@@ -167,10 +174,11 @@ class Surroundings:
 
 
 class Rival:
-    """Attitude (x, y, z, w), M and the momenta of wheels that turn by themselves over a size that they have; the attitude is not normalised."""
+    """By the time since the start: attitude (x, y, z, w), M and the momenta of wheels that turn by themselves over a size that they have; the attitude is not normalised."""
 
     def __init__(self, physics: Mapping[str, Any]) -> None:
-        self.scene = scene = posed(**physics)
+        begin = physics.get("start_time", 0.0)
+        self.scene = scene = since(begin, posed(**{name: value for name, value in physics.items() if name != "start_time"}))
         self.times = np.zeros(0)
         self.body, self.surroundings = scene["body"], Surroundings(scene)
         wheels = [each for each in scene["wheels"] if each["type"] != "locked"]

@@ -329,13 +329,13 @@ def segments(*, times: ArrayLike, start_time: float = 0.0, **physics: Any) -> li
 
 
 def integrate(*, times: ArrayLike, method: str, tolerance: float, order: int = 20, precision: str = "double", patience: float = math.inf,
-              **physics: Any) -> dict[str, Any]:
+              start_time: float = 0.0, **physics: Any) -> dict[str, Any]:
     """The full equations under one integrator, timed, anew from each time at which a torque or a wheel changes its law.
 
-    physics : arguments of `solve` that are no question; times as there; method : taylor (of order 8, 12 or 20; in long double 30), dop853, and where
+    physics : arguments of `solve` that are no question; times and start_time as there; method : taylor (of order 8, 12 or 20; in long double 30), dop853, and where
     the build has them cvode-adams and cvode-bdf; patience : CPU time after which it gives up [s].
     Returns columns attitude and angular_velocity, seconds, rhs, steps and status. Raises DomainError.
     """
-    made: dict[str, Any] = _core.general_integrate(scene=posed(**physics), times=np.asarray(times, dtype=float), method=method, order=order,
-                                                   tolerance=tolerance, precision=precision, patience=patience)
+    made: dict[str, Any] = _core.general_integrate(scene=since(start_time, posed(**physics)), times=np.asarray(times, dtype=float) - start_time,
+                                                   method=method, order=order, tolerance=tolerance, precision=precision, patience=patience)
     return made
