@@ -16,14 +16,14 @@ import numpy as np
 import pytest
 from gyrostat import DomainError, heavy
 from gyrostat.charts import Chart, LeftOut, measured, methods
-from gyrostat.charts.problem import Line, Run
+from gyrostat.charts.problem import Line, Run, Unanswered
 from gyrostat.cli import main
 from gyrostat.families.deceleration.chart import true_errors
 from gyrostat.families.general import chart as general_charts
 from gyrostat.families.heavy import chart as heavy_charts
 from gyrostat.families.rotor import chart as rotor_charts
 from gyrostat.families.spinning import chart as spinning_charts
-from gyrostat.scenes import load
+from gyrostat.scenes import load, scene_from
 
 
 @pytest.fixture(scope="module")
@@ -359,6 +359,48 @@ def test_every_method_of_a_general_scene_stands_on_the_chart(name: str) -> None:
             else:
                 assert points[-1].error[key] < min(1e-3 * points[0].error[key], 1e-7), (label, key)
     assert {each.label for each in made.left_out} <= {"heyoka (compile time left out)"}
+
+
+class Told:
+    """Stands in for heyoka: its expressions are numbers, of one time and one state."""
+
+    expression = float
+    cos, sin, sqrt = map(staticmethod, (math.cos, math.sin, math.sqrt))
+
+    def __init__(self, time: float, state: list[float]) -> None:
+        self.time, self.state = time, state
+
+    def make_vars(self, *names: str) -> list[float]:
+        assert len(names) == len(self.state)
+        return self.state
+
+
+def without_single_times(tables: dict[str, Any]) -> dict[str, Any]:
+    """Of a general scene, what has no table, no interval and no ellipse."""
+    made = {**tables, "wheel": [each for each in tables.get("wheel", ()) if not any(isinstance(value, dict) for value in each.values())]}
+    made["torque"] = [{key: value for key, value in each.items() if key != "on" and not (key == "factor" and "times" in value)} for each in tables["torque"]
+                      if each["type"] != "table"]
+    if "orbit" in tables:
+        made["orbit"] = {**tables["orbit"], "eccentricity": 0.0}
+    return made
+
+
+@pytest.mark.parametrize("name", GENERAL)
+def test_what_heyoka_integrates_is_the_right_hand_side(name: str) -> None:
+    data = {"name": name, "kind": "general", "solve": {"times": [4.0]}, **GENERAL[name]}
+    if name != "fixed":
+        with pytest.raises(Unanswered, match="are not written for it"):
+            general_charts.problem(scene_from(data)).rival.system(Told(0.0, []))
+    rival = general_charts.problem(scene_from({**data, **without_single_times(GENERAL[name])})).rival
+    for time in (0.0, 1.3):
+        state = rival.start + 0.1 * time
+        state[:4] /= np.linalg.norm(state[:4])
+        pairs = rival.system(Told(time, state.tolist()))
+        assert np.allclose([rate for _, rate in pairs], rival.right()(time, state), rtol=1e-12, atol=1e-14)
+    pytest.importorskip("heyoka")
+    chart = gyrostat.chart({**data, **without_single_times(GENERAL[name])})
+    points = chart.by_label()["heyoka (compile time left out)"]
+    assert points[-1].error["attitude"] < 1e-10
 
 
 def test_the_rungs_on_the_chart_of_a_general_scene_are_those_of_its_families() -> None:

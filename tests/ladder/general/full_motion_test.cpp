@@ -365,6 +365,44 @@ TEST_CASE("wheels turn a body on whose momentum a brake has taken, and forces mo
   CHECK((bend - rotate<double>(s[0].attitude, {0.5, 0, 0})).norm() < 1e-10);
 }
 
+TEST_CASE("a body at rest is let go by its brake, by a table, and by a held wheel that steps", "[general]") {
+  auto p = braked(0.1);
+  p.torques[0].opposed = Opposed::carrier_momentum;
+  auto& push = p.torques.emplace_back();
+  push.vector = {0, 0, 0.06};
+  p.torques[0].factor.on = {{0, 10}, {20, 100}};
+  // free from 10 s to 20 s, then braked by what the brake has over the push
+  const double held = 0.06 * 10, stop = 20 + held / 0.04;
+  const auto off = run(p, {10, 15, 20, 30, 50}, 1e-10);
+  REQUIRE(off.answer.met);
+  CHECK(off.states[0].angular_velocity.isZero(0));
+  CHECK(off.states[1].angular_momentum[2] == Approx(held / 2));
+  CHECK(off.states[2].angular_momentum[2] == Approx(held));
+  CHECK(off.states[3].angular_momentum[2] == Approx(held - 0.04 * 10));
+  REQUIRE(off.answer.rests.size() == 2);
+  CHECK(std::abs(off.answer.rests[1][0] - stop) <= off.answer.rest_off);
+  CHECK(off.states[4].angular_velocity.isZero(0));
+  // a ramp that stays below the brake, and a step at its end
+  p.torques[0].factor.on.clear();
+  p.torques[1].vector = {0, 0, 1};
+  p.torques[1].factor.table = {{0, 10, 10.5}, {-0.09, 0.09, 0.2}, Between::linear, true};
+  CHECK(run(p, {10}, 1e-10).answer.met);
+  CHECK(run(p, {10.4}, 1e-10).answer.at_stop == AtStop::later);
+  p.torques[1].factor.table = {{0, 10, 10.5}, {-0.09, 0.2, 0.2}, Between::step, true};
+  CHECK(run(p, {20}, 1e-10).states[0].angular_momentum[2] == Approx(0.1 * 10));
+  // a wheel that is brought to another rate throws the body, which its brake stops again
+  p.torques.pop_back();
+  p.wheels.push_back({WheelType::held, Vec3<double>(0, 0, 1), 0.1, 0, 0, 0, 0, 0, 0, {}});
+  p.wheels[0].table = {{0, 5}, {0, 20}, Between::step, true};
+  const auto thrown = run(p, {4, 5, 20, 30}, 1e-10);
+  REQUIRE(thrown.answer.met);
+  CHECK(thrown.states[0].angular_velocity.isZero(0));
+  CHECK(thrown.states[1].angular_velocity[2] == Approx(-2 / 1.5));
+  CHECK(thrown.states[2].angular_velocity[2] == Approx(-(2 - 0.1 * 15) / 1.5));
+  CHECK(thrown.states[3].angular_velocity.isZero(0));
+  CHECK(thrown.answer.rests.size() == 2);
+}
+
 TEST_CASE("a stop that is not gone through says why", "[general]") {
   const auto why = [](const Problem<double>& p) {
     const auto made = run(p, {1, 100}, 1e-6);

@@ -3,6 +3,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -107,14 +108,26 @@ def _table(table: Mapping[str, Any]) -> Law:
     return law
 
 
-def _factor(torque: Mapping[str, Any]) -> Callable[[float], float]:
+@dataclass(frozen=True, slots=True)
+class Maths:
+    """Functions of numbers, or of expressions."""
+
+    cos: Callable[[Any], Any]
+    sin: Callable[[Any], Any]
+    sqrt: Callable[[Any], Any]
+
+
+NUMBERS: Final = Maths(math.cos, math.sin, math.sqrt)
+
+
+def _factor(torque: Mapping[str, Any], maths: Maths) -> Callable[[Any], Any]:
     on, table = torque["on"], _table(torque["factor_table"]) if torque["factor_table"] else None
     mean, amplitude, rate, phase = (float(torque[name]) for name in ("mean", "amplitude", "rate", "phase"))
 
-    def factor(t: float) -> float:
+    def factor(t: Any) -> Any:
         if len(on) and not any(begin <= t < end for begin, end in on):
             return 0.0
-        wave = mean + amplitude * math.sin(rate * t + phase) if amplitude else mean
+        wave = mean + amplitude * maths.sin(rate * t + phase) if amplitude else mean
         return wave if table is None else wave * float(table(t)[0])
 
     return factor
@@ -122,7 +135,12 @@ def _factor(torque: Mapping[str, Any]) -> Callable[[float], float]:
 
 def _rotation(state: Floats) -> Floats:
     """Body to inertial, of a quaternion (x, y, z, w) of any length."""
-    x, y, z, w = (state[:4] / np.linalg.norm(state[:4])).tolist()
+    return _matrix(state[:4] / np.linalg.norm(state[:4]))
+
+
+def _matrix(q: Floats) -> Floats:
+    """Of a unit quaternion (x, y, z, w)."""
+    x, y, z, w = q.tolist()
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
@@ -130,8 +148,8 @@ def _rotation(state: Floats) -> Floats:
 class Surroundings:
     """Orbit and field, inertial axes."""
 
-    def __init__(self, scene: Mapping[str, Any]) -> None:
-        self.orbit, self.field = scene["orbit"], scene["field"]
+    def __init__(self, scene: Mapping[str, Any], maths: Maths = NUMBERS) -> None:
+        self.orbit, self.field, self.maths = scene["orbit"], scene["field"], maths
         self.mean = 0.0
         if self.orbit:
             e, nu = self.orbit["eccentricity"], self.orbit["true_anomaly"]
@@ -140,9 +158,12 @@ class Surroundings:
             E = 2 * math.atan(math.sqrt((1 - e) / (1 + e)) * math.tan(nu / 2))
             self.first = E - e * math.sin(E)
 
-    def place(self, t: float) -> tuple[Floats, Floats, float, float, float]:
+    def place(self, t: Any) -> tuple[Floats, Floats, float, float, float]:
         """Radial and along, unit; distance, its rate, and the rate of turn."""
         e, nu, mu = self.orbit["eccentricity"], self.orbit["true_anomaly"], self.orbit["mu"]
+        if e == 0:
+            c, s = self.maths.cos(self.mean * t), self.maths.sin(self.mean * t)
+            return self.orbit["radial"] * c + self.orbit["along"] * s, self.orbit["along"] * c - self.orbit["radial"] * s, self.axis, 0.0, self.mean
         M = self.first + self.mean * t
         E = M
         for _ in range(60):
@@ -157,20 +178,20 @@ class Surroundings:
         return (c * self.orbit["radial"] + s * self.orbit["along"], c * self.orbit["along"] - s * self.orbit["radial"], r, mu / h * e * math.sin(true),
                 h / (r * r))
 
-    def flux(self, t: float) -> tuple[Floats, Floats]:
+    def flux(self, t: Any) -> tuple[Floats, Floats]:
         """The magnetic flux density and its rate."""
         field, kind = self.field, self.field["magnetic"]
         B, k = field["flux_density"], field["axis"]
         if kind == "rotating":
             along, ahead = k * float(k @ B), np.cross(k, B)
-            c, s, rate = math.cos(field["rate"] * t), math.sin(field["rate"] * t), field["rate"]
-            return along + c * (B - along) + s * ahead, rate * (c * ahead - s * (B - along))
+            c, s, rate = self.maths.cos(field["rate"] * t), self.maths.sin(field["rate"] * t), field["rate"]
+            return along + (B - along) * c + ahead * s, (ahead * c - (B - along) * s) * rate
         if kind != "dipole":
             return B, np.zeros(3)
         radial, on, r, climb, turn = self.place(t)
         b = field["strength"] * (field["radius"] / r) ** 3
-        shape = k - 3 * float(k @ radial) * radial
-        return b * shape, -3 * climb / r * b * shape - 3 * b * turn * (float(k @ on) * radial + float(k @ radial) * on)
+        shape = k - radial * (3 * (k @ radial))
+        return shape * b, shape * (-3 * climb / r * b) - (radial * (k @ on) + on * (k @ radial)) * (3 * b * turn)
 
 
 class Rival:
@@ -191,7 +212,7 @@ class Rival:
         self.slope = np.array([each["slope"] + each["friction"] if each["type"] == "motor" else each["friction"] if each["type"] != "free" else 0.0
                                for each in own])
         self.inverse = np.linalg.inv(self.body["inertia"] - np.einsum("k,ki,kj->ij", self.axial, self.axes, self.axes))
-        self.torques = [(_factor(each), self._torque(each)) for each in scene["torques"]]
+        self.torques = self._torques(NUMBERS)
         w = scene["initial"]["angular_velocity"]
         p = self.axial * (np.array([each["rate"] for each in own]) + self.axes @ w)
         M = self.body["inertia"] @ w + self._given(0.0) + (p - self.axial * (self.axes @ w)) @ self.axes
@@ -214,14 +235,20 @@ class Rival:
             made = made + arm * float(rate(t)[0])
         return made
 
-    def _rate(self, t: float, state: Floats) -> Floats:
-        made: Floats = self.inverse @ (self.size * (state[4:7] - state[7:] @ self.axes) - self._given(t))
+    def _rate(self, t: Any, state: Floats) -> Floats:
+        carried = sum((p * axis for p, axis in zip(state[7:], self.axes, strict=True)), np.zeros(3))
+        made: Floats = self.inverse @ (self.size * (state[4:7] - carried) - self._given(t))
         return made
 
-    def _torque(self, torque: Mapping[str, Any]) -> Callable[[float, Floats, Floats, Floats], Floats]:
+    def _torques(self, maths: Maths) -> list[tuple[Callable[[Any], Any], Callable[[Any, Floats, Floats, Floats], Floats]]]:
+        """Factor and law of each."""
+        around = Surroundings(self.scene, maths)
+        return [(_factor(each, maths), self._torque(each, around)) for each in self.scene["torques"]]
+
+    def _torque(self, torque: Mapping[str, Any], around: Surroundings) -> Callable[[Any, Floats, Floats, Floats], Floats]:
         """A torque of t, the rotation, w and M, body axes."""
         kind, vector, matrix, body = torque["type"], torque["vector"], torque["matrix"], self.body
-        around, field, J = self.surroundings, self.scene["field"], self.body["inertia"]
+        field, J = self.scene["field"], self.body["inertia"]
         table = _table(torque["table"]) if torque["table"] else None
 
         def in_body(t: float, R: Floats, v: Floats) -> Floats:
@@ -251,7 +278,7 @@ class Rival:
 
         def brake(t: float, R: Floats, w: Floats, M: Floats) -> Floats:
             U = opposed(w, M)
-            made: Floats = -vector * U / np.linalg.norm(U)
+            made: Floats = -vector * U / around.maths.sqrt(U @ U)
             return made
 
         arm = torque["point"] - (0.0 if body["fixed"] else body["centre_of_mass"])
@@ -270,23 +297,32 @@ class Rival:
 
     def right(self) -> Callable[[float, Floats], Floats]:
         """The right-hand side in Python."""
-        def right(t: float, state: Floats) -> Floats:
-            w, M, R = self._rate(t, state), self.size * state[4:7], _rotation(state)
-            torque = np.cross(M, w)
-            for factor, one in self.torques:
-                if share := factor(t):
-                    torque = torque + share * one(t, R, w, M)
-            x, y, z, q = state[:4].tolist()
-            o1, o2, o3 = w.tolist()
-            turning = (q * o1 + y * o3 - z * o2, q * o2 + z * o1 - x * o3, q * o3 + x * o2 - y * o1, -(x * o1 + y * o2 + z * o3))
-            push = np.array([drive(t) for drive in self.drive]) - self.slope * (self.size * state[7:] / self.axial - self.axes @ w)
-            return np.concatenate([0.5 * np.array(turning), torque / self.size, push / self.size])
+        return lambda t, state: self._flow(t, state, _rotation(state), self.torques)
 
-        return right
+    def _flow(self, t: Any, state: Floats, R: Floats, torques: list[tuple[Callable[[Any], Any], Callable[[Any, Floats, Floats, Floats], Floats]]]) -> Floats:
+        w, M = self._rate(t, state), self.size * state[4:7]
+        torque = np.cross(M, w)
+        for factor, one in torques:
+            share = factor(t)
+            if not isinstance(share, float) or share:
+                torque = torque + one(t, R, w, M) * share
+        x, y, z, q = state[:4].tolist()
+        o1, o2, o3 = w.tolist()
+        turning = (q * o1 + y * o3 - z * o2, q * o2 + z * o1 - x * o3, q * o3 + x * o2 - y * o1, -(x * o1 + y * o2 + z * o3))
+        push = np.array([drive(t) for drive in self.drive]) - self.slope * (self.size * state[7:] / self.axial - self.axes @ w)
+        return np.concatenate([0.5 * np.array(turning), torque / self.size, push / self.size])
 
     def system(self, heyoka: Any) -> list[Any]:
-        """There is none for heyoka."""
-        raise Unanswered("the equations of general scenes are not written for it")
+        """For heyoka, with the quaternion as it stands. Raises Unanswered for laws that change at single times, and on an ellipse."""
+        parts = (*self.scene["wheels"], *self.scene["torques"])
+        if any(each.get(name) for each in parts for name in ("table", "factor_table")) or any(len(each["on"]) for each in self.scene["torques"]):
+            raise Unanswered("tables and intervals are not written for it")
+        if self.scene["orbit"] and self.scene["orbit"]["eccentricity"]:
+            raise Unanswered("orbits but circles are not written for it")
+        names = ("x", "y", "z", "w", "M1", "M2", "M3", *(f"p{i}" for i in range(len(self.axial))))
+        state = np.array(heyoka.make_vars(*names), dtype=object)
+        made = self._flow(heyoka.time, state, _matrix(state[:4]), self._torques(Maths(heyoka.cos, heyoka.sin, heyoka.sqrt)))
+        return [(one, rate if isinstance(rate, heyoka.expression) else heyoka.expression(float(rate))) for one, rate in zip(state, made, strict=True)]
 
 
 def _drive(wheel: Mapping[str, Any]) -> Callable[[float], float]:
