@@ -403,6 +403,18 @@ TEST_CASE("a body at rest is let go by its brake, by a table, and by a held whee
   CHECK(thrown.answer.rests.size() == 2);
 }
 
+TEST_CASE("a stop is none because a far greater torque acted before", "[general]") {
+  auto p = braked(1e-9);
+  p.angular_velocity = {0, 0, 1e-5};
+  auto& push = p.torques.emplace_back();
+  push.vector = {0, 0, 1e8}, push.factor.on = {{0, 1e-14}};
+  const auto made = run(p, {1e3, 1e4}, 1e-9);
+  REQUIRE(made.answer.met);
+  CHECK(made.states[0].angular_momentum[2] == Approx(1.6e-5 - 1e-6));
+  CHECK(made.states[1].angular_momentum[2] == Approx(1.6e-5 - 1e-5));
+  CHECK(made.answer.rests.empty());
+}
+
 TEST_CASE("a stop that is not gone through says why", "[general]") {
   const auto why = [](const Problem<double>& p) {
     const auto made = run(p, {1, 100}, 1e-6);

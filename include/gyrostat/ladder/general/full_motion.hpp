@@ -307,7 +307,8 @@ class FullCourse {
     const Scalar before = system_->has_brake() ? system_->braked(time_, solver_->state()) : infinity<Scalar>;
     // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
     if (before < infinity<Scalar>)
-      until = std::min(until, time_ + (1 + share_) * before / (4 * system_->torque(time_, solver_->state())));
+      until = std::min(
+          until, time_ + (1 + share_) * before / (4 * std::min(bound_, system_->torque(time_, solver_->state()))));
     // and where the time cannot tell the rest of it
     if (!(until > time_)) return come_to_stop(time_);
     greatest_ = before < infinity<Scalar> ? std::max(greatest_, before) : greatest_;
@@ -357,8 +358,24 @@ class FullCourse {
     options_.scale = system_->scale();
     time_ = previous_ = t;
     greatest_ = 0;
+    bound_ = torque_of_piece();
     if (system_->has_brake() && !(system_->braked(t, numbers.data()) > 0)) stop(t, numbers, rested);
     else begin(t, numbers);
+  }
+  /// A bound of the torques in the piece; infinite where wheels add theirs.
+  Scalar torque_of_piece() const noexcept {
+    using std::abs;
+    if (!system_->has_brake() || stoppable(of_, piece_) == AtStop::turning) return infinity<Scalar>;
+    const Scalar length = piece_.to - piece_.from;
+    const auto size = [&](const Terms<Scalar>& terms) noexcept {
+      return torque_size(of_.problem, terms, of_.sizes.greatest);
+    };
+    Scalar sum = 0, power = 1;
+    for (std::size_t k = 0; k < 4; ++k, power *= length) {
+      sum += power * size(piece_.power[k]);
+      for (const auto& wave : piece_.waves) sum += power * abs(wave.cubic.about(piece_.from).c[k]) * size(wave.terms);
+    }
+    return sum;
   }
   void begin(Scalar t, const Numbers& numbers) noexcept {
     if (solver_) {
@@ -468,7 +485,7 @@ class FullCourse {
   std::optional<System> system_;
   std::optional<Solver> solver_;
   ode::Counts counts_;
-  Scalar greatest_ = 0, slipped_ = 0, slipped_angle_ = 0;
+  Scalar greatest_ = 0, bound_ = infinity<Scalar>, slipped_ = 0, slipped_angle_ = 0;
   AtStop at_stop_ = AtStop::rests;
   std::optional<Rest> rest_;
   std::optional<Leaving> leaving_;
