@@ -41,7 +41,7 @@ enum {
   GYROSTAT_BAD_ARGUMENT = 1, /* NULL, not finite, outside its interval, an unknown name, a wrong number of numbers */
   GYROSTAT_BAD_SCENE =
       2, /* each part is possible and the whole is not: something is missing, or no body is like that */
-  GYROSTAT_NO_ANSWER = 3, /* no model could answer: too long, too stiff, a brake that stops the body, lost digits */
+  GYROSTAT_NO_ANSWER = 3, /* no model could answer: too long, too stiff, a stop that is not followed, lost digits */
   GYROSTAT_NO_MEMORY = 4,
   GYROSTAT_CANCELLED = 5 /* gyrostat_monitor_cancel was called */
 };

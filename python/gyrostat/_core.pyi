@@ -354,7 +354,7 @@ def spinning_solve(problem: SpinningProblems, *, times: typing.Annotated[numpy.t
     """
 def sweep(*, kind: str, numbers: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], places: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], tolerance: typing.SupportsFloat | typing.SupportsIndex, model: str, integrator: str, elliptic: str, ask: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, bool, bool]] | None, threads: typing.SupportsInt | typing.SupportsIndex, monitor: Monitor | None, scene: dict[str, typing.Any] | None = None, recognise: bool = True, euler: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] | None = None) -> dict[str, typing.Any]:
     """
-    Answers of the ladder to rows of scenes: `numbers` in the order of the family's inputs, those at `places` from `values` (k, n); of a general `scene` in that of general_numbers.
+    Answers of the ladder to rows of scenes: `numbers` in the order of the family's inputs, those at `places` from `values` (k, n); of a general `scene` in that of general_numbers, and behind them, where there are more, the errors of the start: attitude, angular_velocity, rotor_rate, rotor_angle, velocity, position.
     """
 def vector_from_matrix(rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     ...

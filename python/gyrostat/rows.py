@@ -245,9 +245,6 @@ def _flat(table: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any
 def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any = None, **settings: Any) -> tuple[Plan, dict[str, Place]]:
     """Which rows a study has, and where its numbers are, by full key: of what the table [vary] of the scene says and of what is given here, which
     goes first. settings: n, seed, design. Raises DomainError."""
-    if not scene.starts_plainly:
-        raise DomainError("a scene that begins where another ends, at another time than 0 or with initial.error cannot vary; give it a start of its own in "
-                          "[initial]")
     own = dict(_flat(scene.vary))
     beside = scene.path.parent if scene.path is not None and cases is None else Path()
     table = own.get("cases") if cases is None else cases
@@ -271,6 +268,8 @@ def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any
     from_scene = {key: value for key, value in in_full({key: own[key] for key in own if key not in SETTINGS}).items() if key not in listed}
     varied = {key: _varied(key, value) for key, value in {**from_scene, **in_full(vary or {})}.items()}
     _require_apart([places[key] for key in (*listed, *varied)])
+    if "initial.time" in places:
+        raise DomainError("initial.time: all rows have one clock, as they have the same times; make a study for each")
     plan = Plan.of(varied, listed, {key: place.read for key, place in places.items()}, chosen["n"], chosen["seed"] or 0, chosen["design"] or "random")
     return plan, {key: places[key] for key in (*listed, *varied)}
 

@@ -72,13 +72,13 @@ class Study:
     def told(self) -> str:
         """The study as JSON, by which two parts of it know each other."""
         scene = {key: value for key, value in self.scene.to_dict().items() if key != "vary"}
-        return json.dumps({"version": _core.__version__, "scene": scene, **self.plan.told()})
+        return json.dumps({"version": _core.__version__, "scene": scene, **_before(self.scene), **self.plan.told()})
 
     @cached_property
     def _request(self) -> dict[str, Any]:
         """What the compiled sweep takes, apart from the rows."""
         solve = self.scene.tables["solve"]
-        return {"kind": self.scene.kind, "times": self.scene.times, "tolerance": solve["tolerance"], "model": solve["model"],
+        return {"kind": self.scene.kind, "times": self.scene.times - self.scene.start_time, "tolerance": solve["tolerance"], "model": solve["model"],
                 "integrator": solve["integrator"], "elliptic": solve.get("elliptic", "auto"),
                 "ask": asked(self.scene.kind, solve["ask"], knows_attitude(self.scene.kind, self.scene.tables))}
 
@@ -127,6 +127,11 @@ class Study:
         used = {name for dims, *_ in variables.values() if isinstance(dims, tuple) for name in dims}
         every = {"time": ("time", self.scene.times, {"units": "s", "long_name": MEANINGS["t"]}), "axis": list("xyz"), "component": list("xyzw")}
         return {"row": np.arange(rows.start, rows.stop, dtype=np.int32), **{name: values for name, values in every.items() if name in used}}
+
+
+def _before(scene: Scene) -> dict[str, Any]:
+    """The scene at whose end this one begins, where there is one: its file may change."""
+    return {} if scene.before is None else {"before": {"scene": scene.before.to_dict(), **_before(scene.before)}}
 
 
 def _reason(facts: Facts, why: str, rung: int) -> str:

@@ -120,6 +120,7 @@ inline general::Orbit<double> orbit_of(const Entries& given) {
   made.true_anomaly = given.number("true_anomaly");
   made.radial = given.vector("radial");
   made.along = given.vector("along");
+  if (given.has("surface")) made.surface = given.number("surface");
   return made;
 }
 

@@ -173,22 +173,27 @@ struct Posed {
   }
 };
 
-/// The general scene of a row, a problem with other numbers.
+/// The general scene of a row, a problem with other numbers; behind the first `count` of these there may be those of the error of the start.
 struct GeneralOf {
   const general::Problem<double>& problem;
+  std::size_t count;
   bool recognise, dop853;
   const std::optional<EulerAxes>& euler;
 
   Result<general::Scene> operator()(std::span<const double> numbers, const Question& question) const {
-    const auto made = general::Scene::make(general::with_numbers(problem, numbers), question, recognise);
+    const auto made = general::Scene::make(general::with_numbers(problem, numbers.first(count)), question, recognise);
     if (!made) return made;
-    general::Scene scene = euler ? made->told_by(*euler) : *made;
+    const auto off = numbers.subspan(count);
+    for (const double each : off)
+      if (!(each >= 0 && each < infinity<double>)) return Errc::not_finite;
+    general::Scene scene = off.empty() ? *made : made->known_within({off[0], off[1], off[2], off[3], off[4], off[5]});
+    if (euler) scene = scene.told_by(*euler);
     if (dop853) scene.full_equations = &general::full_by_dop853;
     return scene;
   }
   /// What must hold of the body; of a wheel or torque the words do not say which it is.
   const char* why(std::span<const double> numbers) const {
-    const general::Fault fault = general::check(general::with_numbers(problem, numbers));
+    const general::Fault fault = general::check(general::with_numbers(problem, numbers.first(count)));
     return fault && fault.place < 0 ? fault.why : nullptr;
   }
 };
@@ -256,8 +261,10 @@ Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector
   if (kind == "free") return run(free::tables, &free::scene_of, free::SweepSolver{});
   if (kind == "general" && scene) {
     const auto problem = general_problem(*scene);
-    require_shape("numbers", numbers, {general_numbers(*scene)[0].cast<Array>().size()});
-    return run(general::tables, GeneralOf{problem, recognise, integrator == "dop853", euler}, &general::solve);
+    const auto count = general_numbers(*scene)[0].cast<Array>().size();
+    require_shape("numbers", numbers, {numbers.size() == count ? count : count + 6});
+    return run(general::tables, GeneralOf{problem, std::size_t(count), recognise, integrator == "dop853", euler},
+               &general::solve);
   }
   raise("DomainError", "kind = '" + kind + "': there is no such family");
 }
@@ -270,7 +277,9 @@ void bind_sweep(py::module_& module) {
              py::arg("elliptic"), py::arg("ask"), py::arg("threads"), py::arg("monitor"), py::arg("scene") = py::none(),
              py::arg("recognise") = true, py::arg("euler") = py::none(),
              "Answers of the ladder to rows of scenes: `numbers` in the order of the family's inputs, those at "
-             "`places` from `values` (k, n); of a general `scene` in that of general_numbers.");
+             "`places` from `values` (k, n); of a general `scene` in that of general_numbers, and behind them, where "
+             "there are more, the errors of the start: attitude, angular_velocity, rotor_rate, rotor_angle, velocity, "
+             "position.");
   module.def("general_numbers", &general_numbers, py::arg("scene"),
              "The numbers of a general scene (n,), and name and width of what they are, in their order.");
 }

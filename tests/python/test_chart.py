@@ -16,14 +16,14 @@ import numpy as np
 import pytest
 from gyrostat import DomainError, heavy
 from gyrostat.charts import Chart, LeftOut, measured, methods
-from gyrostat.charts.problem import Line, Run
+from gyrostat.charts.problem import Line, Run, Unanswered
 from gyrostat.cli import main
 from gyrostat.families.deceleration.chart import true_errors
 from gyrostat.families.general import chart as general_charts
 from gyrostat.families.heavy import chart as heavy_charts
 from gyrostat.families.rotor import chart as rotor_charts
 from gyrostat.families.spinning import chart as spinning_charts
-from gyrostat.scenes import load
+from gyrostat.scenes import load, scene_from
 
 
 @pytest.fixture(scope="module")
@@ -368,6 +368,48 @@ def test_every_method_of_a_general_scene_stands_on_the_chart(name: str) -> None:
     assert {each.label for each in made.left_out} <= {"heyoka (compile time left out)"}
 
 
+class Told:
+    """Stands in for heyoka: its expressions are numbers, of one time and one state."""
+
+    expression = float
+    cos, sin, sqrt = map(staticmethod, (math.cos, math.sin, math.sqrt))
+
+    def __init__(self, time: float, state: list[float]) -> None:
+        self.time, self.state = time, state
+
+    def make_vars(self, *names: str) -> list[float]:
+        assert len(names) == len(self.state)
+        return self.state
+
+
+def without_single_times(tables: dict[str, Any]) -> dict[str, Any]:
+    """Of a general scene, what has no table, no interval and no ellipse."""
+    made = {**tables, "wheel": [each for each in tables.get("wheel", ()) if not any(isinstance(value, dict) for value in each.values())]}
+    made["torque"] = [{key: value for key, value in each.items() if key != "on" and not (key == "factor" and "times" in value)} for each in tables["torque"]
+                      if each["type"] != "table"]
+    if "orbit" in tables:
+        made["orbit"] = {**tables["orbit"], "eccentricity": 0.0}
+    return made
+
+
+@pytest.mark.parametrize("name", GENERAL)
+def test_what_heyoka_integrates_is_the_right_hand_side(name: str) -> None:
+    data = {"name": name, "kind": "general", "solve": {"times": [4.0]}, **GENERAL[name]}
+    if name != "fixed":
+        with pytest.raises(Unanswered, match="are not written for it"):
+            general_charts.problem(scene_from(data)).rival.system(Told(0.0, []))
+    rival = general_charts.problem(scene_from({**data, **without_single_times(GENERAL[name])})).rival
+    for time in (0.0, 1.3):
+        state = rival.start + 0.1 * time
+        state[:4] /= np.linalg.norm(state[:4])
+        pairs = rival.system(Told(time, state.tolist()))
+        assert np.allclose([rate for _, rate in pairs], rival.right()(time, state), rtol=1e-12, atol=1e-14)
+    pytest.importorskip("heyoka")
+    chart = gyrostat.chart({**data, **without_single_times(GENERAL[name])})
+    points = chart.by_label()["heyoka (compile time left out)"]
+    assert points[-1].error["attitude"] < 1e-10
+
+
 def test_the_rungs_on_the_chart_of_a_general_scene_are_those_of_its_families() -> None:
     pytest.importorskip("matplotlib")
     made = gyrostat.chart("iss-drift", duration=4000.0, samples=11)
@@ -377,9 +419,31 @@ def test_the_rungs_on_the_chart_of_a_general_scene_are_those_of_its_families() -
     assert len({(line.get_color(), line.get_marker(), line.get_markersize()) for line in lines}) == len(lines)
 
 
+@pytest.mark.parametrize("name", ["wheel-seized", "clock"])
+def test_a_scene_that_goes_on_is_charted_from_its_start_on(name: str) -> None:
+    pytest.importorskip("scipy")
+    later: dict[str, Any] = {"name": "clock", "kind": "general", "solve": {"times": [40.0, 41.0, 44.0]}, "initial": {
+        "time": 40.0, "angular_velocity": [0.3, -0.5, 0.8], "error": {"attitude": 0.1}}, "field": {"rotating": {"axis": [0.0, 0.3, 1.0], "rate": 0.3, "vector": [1e-4, 0.0, 2e-4]}},
+        "body": {"inertia": [3.0, 2.5, 2.0]}, "orbit": {"altitude": 4e5, "eccentricity": 0.1},
+        "wheel": [{"type": "held", "axis": [0.0, 1.0, 0.0], "axial_inertia": 0.1, "rate": {"times": [39.0, 42.0, 50.0], "values": [1.0, 3.0, 2.0]}}],
+        "torque": [{"type": "constant", "torque": [0.1, 0.0, 0.02], "on": [[10.0, 43.0]], "factor": {"mean": 1.0, "amplitude": 0.3, "rate": 0.4, "phase": 0.2}},
+                   {"type": "magnetic", "dipole": [100.0, 200.0, 50.0]}, {"type": "gravity-gradient"}]}
+    made = gyrostat.chart(name, samples=13) if name != "clock" else gyrostat.chart(later)
+    assert "the start taken as exact" in made.title and "from" in made.title.splitlines()[0]
+    for label, points in made.by_label().items():
+        for key in ("attitude", "angular_velocity"):
+            if points[0].group == "rung":
+                assert all(point.error[key] <= float(point.note.removeprefix("stated error ")) for point in points), label
+            else:
+                assert points[-1].error[key] < min(1e-3 * points[0].error[key], 1e-7), (label, key)
+    assert {each.label for each in made.left_out} <= {"heyoka (compile time left out)"}
+
+
 def test_a_general_scene_that_a_brake_stops_is_not_charted_beyond(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = {"name": "braked", "kind": "general", "solve": {"times": [1.0, 60.0]}, **GENERAL["laws"], "torque": [{"type": "brake", "limit": [0.1, 0.2, 0.1]}]}
-    with pytest.raises(DomainError, match="choose a shorter time: .*brake"):
-        gyrostat.chart({**scene, "wheel": GENERAL["laws"]["wheel"][2:], "body": {"inertia": [3.0, 2.5, 2.0]}})
+    for wheels in (GENERAL["laws"]["wheel"][2:], []):
+        with pytest.raises(DomainError, match="choose a shorter time: .*brake"):
+            pushed = [*scene["torque"], {"type": "constant", "torque": [0.01, 0.0, 0.0]}]
+            gyrostat.chart({**scene, "wheel": wheels, "torque": pushed, "body": {"inertia": [3.0, 2.5, 2.0]}})
     monkeypatch.setattr(general_charts, "MOST_TURNS", 2.0)
     assert "of the scene's 180 s" in gyrostat.chart("spinner-pulsed-thrust").title

@@ -49,11 +49,15 @@ def test_a_wave_whose_phase_is_lost_is_refused() -> None:
 
 
 @pytest.mark.parametrize("law", ["total", "carrier"])
-def test_a_brake_that_stops_the_body_against_another_torque_is_refused(law: str) -> None:
-    torques = [{"type": "brake", "limit": [0.5, 0.5, 0.5], "law": law}, {"type": "constant", "frame": "inertial", "torque": [0.01, 0.0, 0.0]}]
-    with pytest.raises(DomainError, match="do not go through a stop"):
-        gyrostat.solve(scene(torque=torques))
-    assert gyrostat.solve(scene(torque=torques, solve={"times": [0.0, 1.0], "tolerance": 1e-9})).met
+def test_a_body_that_a_brake_stops_against_another_torque_rests_where_that_is_known(law: str) -> None:
+    torques: list[dict[str, Any]] = [{"type": "brake", "limit": [0.5, 0.5, 0.5], "law": law}, {"type": "constant", "frame": "inertial", "torque": [0.01, 0.0, 0.0]}]
+    made = gyrostat.solve(scene(torque=torques, solve={"times": [1.0, 1e3], "tolerance": 1e-9}), ask=["attitude", "angular_velocity", "torque", "stop_time"])
+    assert made.met and not np.any(made["angular_velocity"][1]) and not np.any(made["torque"][1])
+    assert [warning.code for warning in made.warnings] == ["rest"] and 1.0 < made.scalars["stop_time"] < 1e3
+    for late in ({"factor": {"amplitude": 1.0, "rate": 0.1}}, {"factor": {"times": [0.0, 1e3], "values": [1.0, 80.0]}}):
+        with pytest.raises(DomainError, match="is not followed"):
+            gyrostat.solve(scene(torque=[torques[0], {**torques[1], **late}], solve={"times": [1.0, 1e3], "tolerance": 1e-9}))
+        assert gyrostat.solve(scene(torque=[torques[0], {**torques[1], **late}], solve={"times": [0.0, 1.0], "tolerance": 1e-9})).met
 
 
 def test_drag_on_the_momentum_brakes_what_wheels_have_stored() -> None:

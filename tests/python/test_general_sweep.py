@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sweeps of general scenes: every number of a scene, to the bits that the scene alone has; rows without an answer; what cannot vary."""
 
+import copy
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -240,7 +241,65 @@ def test_a_column_of_angles_is_swept() -> None:
     assert rows["euler"].values[0].tobytes() == answer["euler"].tobytes() and rows["euler_error"].values[0] == answer.error["euler"]
 
 
-def test_a_scene_that_begins_where_another_ends_is_neither_swept_nor_charted() -> None:
-    for work in (lambda: sweep("wheel-seized", {"body.mass": [1.0, 2.0]}), lambda: gyrostat.chart("wheel-seized")):
-        with pytest.raises(DomainError, match="begins where another ends"):
-            work()
+# Scenes whose start is not their own, or not exact, or at another time than 0, and what of them varies.
+GOING_ON: dict[str, tuple[list[str], dict[str, Any]]] = {
+    "seized": (["body.inertia[0]", "body.mass", "wheel[0].axial_inertia", "wheel[1].angle"], {
+        "from": {"file": "cubesat-three-wheels", "keep": "momentum"}, "body": {"inertia": [0.041, 0.039, 0.0092], "mass": 4.0},
+        "wheel": [{"name": "x", "type": "free", "axis": [1.0, 0.0, 0.0], "axial_inertia": 2.4e-5},
+                  {"name": "y", "type": "free", "axis": [0.0, 1.0, 0.0], "axial_inertia": 2.4e-5, "angle": 0.5},
+                  {"name": "z", "type": "locked", "axis": [0.0, 0.0, 1.0]}]}),
+    "clock": (["torque[0].factor.phase", "field.rotating.rate", "orbit.true_anomaly", "orbit.altitude", "wheel[0].torque.values[1]", "initial.angular_velocity[1]",
+               "initial.attitude[2]"], {
+        "body": {"inertia": [3.0, 2.5, 2.0]}, "orbit": {"altitude": 4e5, "eccentricity": 0.1, "true_anomaly": 0.4},
+        "field": {"rotating": {"axis": [0.0, 0.3, 1.0], "rate": 0.03, "vector": [1e-4, 0.0, 2e-4]}},
+        "wheel": [{"type": "torque", "axis": [0.0, 1.0, 0.0], "axial_inertia": 0.01, "rate": 5.0,
+                   "torque": {"times": [0.0, 95.0, 130.0], "values": [0.01, 0.03, -0.02], "extend": "hold"}}],
+        "torque": [{"type": "constant", "torque": [0.01, 0.0, 0.002], "on": [[10.0, 120.0]], "factor": {"mean": 1.0, "amplitude": 0.3, "rate": 0.4, "phase": 0.2}},
+                   {"type": "magnetic", "dipole": [1.0, 2.0, 0.5]}, {"type": "gravity-gradient"}],
+        "initial": {"time": 90.0, "angular_velocity": [0.3, -0.5, 0.8], "attitude": [0.5, 0.5, -0.5, 0.5]}}),
+    "error": (["initial.error.attitude", "initial.error.angular_velocity", "body.inertia[2]"], {
+        "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": {"angular_velocity": [0.3, -0.5, 0.8], "error": {"attitude": 1e-5, "angular_velocity": 1e-8}}})}
+
+
+@pytest.mark.parametrize("name", GOING_ON)
+def test_rows_of_a_scene_that_goes_on_are_what_each_comes_to_alone(name: str) -> None:
+    varied, tables = GOING_ON[name]
+    data = {"name": name, "kind": "general", "solve": {"times": [91.0, 110.0], "tolerance": 1e-4}, **tables}
+    scene = scene_from(data)
+    for key in varied:
+        number = 1.01 * float(numbers_of(scene)[place_of(scene, key).numbers[0]])
+        rows = sweep(scene, {key: [number, number * 1.001]}, threads=2)
+        assert rows["time"].values.tolist() == [91.0, 110.0]
+        made = copy.deepcopy(data)
+        home: Any = made
+        *path, last = [int(part) if part.isdigit() else part for part in re.findall(r"[\w-]+", key)]
+        for part in path:
+            home = home[part]
+        home[last] = number
+        answer = gyrostat.solve(made)
+        assert rows["model"].values[0] == answer.model, key
+        for column, error in answer.error.items():
+            assert rows[column].values[0].tobytes() == answer[column].tobytes(), (key, column)
+            assert rows[f"{column}_error"].values[0] == error, (key, column)
+        codes = {code for bit, code in enumerate(FAMILIES["general"].facts.warnings) if rows["warnings"].values[0] >> bit & 1}
+        assert codes == {warning.code for warning in answer.warnings} & set(FAMILIES["general"].facts.warnings), key
+
+
+def test_what_a_row_of_a_scene_that_goes_on_may_be_and_what_not(tmp_path: Path) -> None:
+    varied, tables = GOING_ON["error"]
+    scene = scene_from({"name": "error", "kind": "general", "solve": {"times": [1.0], "tolerance": 1e-4}, **tables})
+    rows = sweep(scene, {"body.inertia[2]": [2.0, 9.0, 2.1], "initial.error.attitude": [0.0, 1e-3]})
+    assert [bool(reason) for reason in rows["reason"].values] == [False, False, True, True, False, False]
+    assert rows["attitude_error"].values[1] > 1e-3 > rows["attitude_error"].values[0]
+    with pytest.raises(DomainError, match="all rows have one clock"):
+        sweep(scene_from({"name": "clock", "kind": "general", "solve": {"times": [91.0]}, **GOING_ON["clock"][1]}), {"initial.time": [80.0, 90.0]})
+    # a part of a study whose scene before has changed is one of another study
+    first = tmp_path / "first.toml"
+    text = 'name = "first"\n[solve]\ntimes = [1.0]\n[body]\ninertia = [3.0, 2.5, 2.0]\n[initial]\nangular_velocity = [0.1, 0.2, %s]\n'
+    studies = []
+    for rate in (0.3, 0.4):
+        first.write_text(text % rate)
+        later = scene_from({"name": "later", "kind": "general", "from": str(first), "solve": {"times": [2.0]}, "body": {"inertia": [3.0, 2.5, 2.0]}})
+        studies.append(sweep(later, {"body.inertia[0]": [3.0, 3.1]}))
+    assert studies[0].attrs["study"] != studies[1].attrs["study"]
+    assert np.all(studies[0]["attitude"].values != studies[1]["attitude"].values)

@@ -53,10 +53,13 @@ inline constexpr double retry = 8;
 /// After so many steps of all runs no second try is made: it would take seconds more.
 inline constexpr double retry_steps = 3e6;
 
-/// Deceleration: the margin of the stop time over that of the columns.
+/// Stops: the margin of their time over that of the columns.
 inline constexpr double stop_margin = 2;
-/// Deceleration: to the error of the stop time so many step tolerances are added; it is one number, at which two runs may be near by chance.
+/// Stops: to the error of their time so many step tolerances are added; it is one number, at which two runs may be near by chance.
 inline constexpr double stop_steps = 1;
+
+/// General scenes: neighbours that part by so many times more than in proportion to the angle turned through are told as chaotic.
+inline constexpr double chaotic_growth = 1e4;
 
 /// CVODE is compared with itself at a tolerance so many times looser.
 inline constexpr double cvode_looser = 10;

@@ -121,7 +121,7 @@ def _scipy(problem: Problem) -> Iterator[Line]:
     except ImportError:
         return
     right, start = problem.rival.right(), problem.rival.start
-    times = np.asarray(problem.physics["times"], dtype=float)
+    times = np.asarray(problem.physics["times"], dtype=float) - problem.begin
 
     def predicted() -> float:
         return STAGES * problem.steps * min(timed(lambda: right(0.0, start))[1] for _ in range(5))
@@ -160,7 +160,7 @@ def _heyoka(problem: Problem) -> Iterator[Line]:
         import heyoka
     except ImportError:
         return
-    times = np.asarray(problem.physics["times"], dtype=float)
+    times = np.asarray(problem.physics["times"], dtype=float) - problem.begin
     grid = times if times[0] == 0 else np.concatenate([[0.0], times])
     made: dict[float, Any] = {}  # the integrator of a tolerance: compiling it is no part of a solution
 

@@ -89,7 +89,8 @@ class Problem:
     methods: tuple[tuple[str, str, str], ...] = ()  # (group, label, method) of `integrate` besides those that all families have
     lines: Callable[[], Iterable[Line]] = field(default=tuple)  # besides rungs, integrators and rivals
     rungs: tuple[str, ...] = ()  # none: all that the family has
-    cuts: tuple[float, ...] = ()  # times at which the equations change, where a rival begins anew [s]
+    cuts: tuple[float, ...] = ()  # times since the start at which the equations change, where a rival begins anew [s]
+    begin: float = 0.0  # where the clock of the times stands at the start [s]
 
 
 def first_turns(times: Vectors, turns: Callable[[float], float], most: float) -> tuple[Vectors, str]:

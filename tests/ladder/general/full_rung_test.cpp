@@ -45,16 +45,48 @@ TEST_CASE("energy and momentum balance with work and impulse", "[general]") {
   CHECK(answer.quantity("recognised")->values[0] == 0);
 }
 
+TEST_CASE("a brake that holds the body tells when it stopped, and that no torque is left", "[general]") {
+  using namespace general_scenes;
+  Problem<double> p = brick();
+  p.torques = {torque(TorqueType::brake, {1, 1, 2}), torque(TorqueType::constant, {1e-3, 0, 0})};
+  p.torques[0].opposed = Opposed::momentum;
+  Question question = question_at({1, 100});
+  question.asked = {{column::attitude}, {column::angular_velocity}, {column::torque}, {scalar::stop_time, true}};
+  const Answer answer = solved(posed(p, question));
+  CHECK(answer.met);
+  CHECK(answer.warns("rest"));
+  const auto* stop = answer.quantity("stop_time");
+  REQUIRE(stop);
+  // between what the strongest and the weakest of the brakes would need
+  const double M = (p.inertia * p.angular_velocity).norm();
+  CHECK(stop->values[0] > M / 2 - 0.01);
+  CHECK(stop->values[0] < M / 1 + 0.01);
+  CHECK(stop->error < 1e-6);
+  for (int i = 3; i < 6; ++i) {
+    CHECK(answer.find("torque")->values[std::size_t(i)] == 0);
+    CHECK(answer.find("angular_velocity")->values[std::size_t(i)] == 0);
+  }
+  CHECK(answer.find("torque")->error < 1e-3);
+  // just before the stop nothing rests, and there is no time of a stop
+  question.times = {1, stop->values[0] * (1 - 1e-6)};
+  question.asked.pop_back();
+  const Answer before = solved(posed(p, question));
+  CHECK(!before.warns("rest"));
+  CHECK(!before.quantity("stop_time"));
+}
+
 TEST_CASE(
-    "the full general equations refuse a stop, wheels that settle too fast beside one, and what grows without end",
+    "the full general equations refuse a stop that they cannot tell, wheels that settle too fast beside damping, and "
+    "what grows without end",
     "[general]") {
   using namespace general_scenes;
   Problem<double> p = brick();
   p.torques = {torque(TorqueType::brake, {1, 1, 2}), torque(TorqueType::constant, {1e-3, 0, 0})};
   p.torques[0].opposed = Opposed::momentum;
+  p.torques[1].factor.amplitude = 1, p.torques[1].factor.rate = 1;
   gyrostat::Refusal refusal;
   general::solve(posed(p, question_at({100})), refusal);
-  CHECK(std::string_view(refusal.why) == why_stopped_by_brake);
+  CHECK(std::string_view(refusal.why) == why_not_through(AtStop::varying));
   Problem<double> stiff = brick();
   stiff.wheels = {wheel(WheelType::motor, {1, 0, 0}), wheel(WheelType::motor, {0, 1, 0})};
   for (auto& each : stiff.wheels) each.slope = 1e6, each.no_load_rate = 10;

@@ -57,6 +57,22 @@ TEST_CASE("a body is symmetric about an axis to 8 roundings of its greatest elem
   CHECK_FALSE(general::detail::symmetric_about(Vec3<double>(2, 2, 3).asDiagonal(), {1, 0, 0}));
 }
 
+TEST_CASE("what is dropped is counted in roundings", "[general]") {
+  using namespace general::detail;
+  constexpr double eps = epsilon<double>;
+  double dropped = 0;
+  CHECK(drops(0, 1, &dropped));
+  CHECK(drops(0, 0, &dropped));
+  CHECK(dropped == 0);
+  CHECK(drops(6 * eps, 2, &dropped));
+  CHECK(dropped == 3);
+  CHECK(drops(2 * eps, 2, &dropped));
+  CHECK(dropped == 3);
+  CHECK_FALSE(drops(9 * eps, 1, &dropped));
+  CHECK(dropped == 3);
+  CHECK(drops(8 * eps, 1, nullptr));
+}
+
 TEST_CASE("wheels: what stays, what turns freely, what is driven", "[general]") {
   Problem<double> p = brick();
   p.wheels = {wheel(WheelType::held, {1, 0, 0}), wheel(WheelType::free, {0, 1, 0}, -7),

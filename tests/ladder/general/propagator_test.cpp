@@ -238,6 +238,7 @@ TEST_CASE("what cannot be moved on is refused, and the state stays", "[general]"
   brake.type = TorqueType::brake, brake.opposed = Opposed::momentum, brake.vector = {10, 10, 10};
   problem.torques = {brake};
   Moving state = fine;
+  problem.wheels.push_back({WheelType::friction, Vec3<double>(0, 0, 1), 1e-3, 0, 0, 0, 1e-3, 0, 0, {}});
   CHECK(Propagator::make(problem, 1e-9)->advance(1000, state) == Errc::not_applicable);
   CHECK(state.angular_velocity == fine.angular_velocity);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/general/solve.hpp"
 
+#include <cmath>
 #include <string_view>
 
 #include "answered.hpp"
@@ -52,6 +53,86 @@ TEST_CASE("warnings of a general scene", "[general]") {
   p.torques = {damping(-1e-3 * Mat3<double>::Identity(), Opposed::angular_velocity)};
   const Answer answer = solved(posed(p, question_at({1})));
   for (const char* code : {"not-realisable", "driven-damping", "wheel-beyond-no-load"}) CHECK(answer.warns(code));
+}
+
+TEST_CASE("a gradient that is not that of the orbit, and an orbit inside its planet", "[general]") {
+  auto p = brick();
+  p.orbit.emplace();
+  p.orbit->radius = 7e6, p.orbit->mu = 4e14;
+  const double N = 3 * p.orbit->mu / std::pow(p.orbit->radius, 3);
+  p.torques = {torque(TorqueType::gravity_gradient, {0, 0, 0})};
+  const auto warns = [&](double gradient) {
+    p.torques[0].gradient = gradient;
+    return solved(posed(p, question_at({1}))).warns("orbit-mismatch");
+  };
+  CHECK(warns(1.0011 * N));
+  CHECK(!warns(1.0009 * N));
+  CHECK(!warns(0.9991 * N));
+  CHECK(warns(0.9989 * N));
+  // on an ellipse it is that of some place
+  p.orbit->eccentricity = 0.1;
+  CHECK(warns(1.0011 * N));
+  CHECK(!warns(0.9 * N));
+  CHECK(!warns(N / std::pow(1.1 / 0.9, 3) * 0.9991));
+  CHECK(warns(N / std::pow(1.1 / 0.9, 3) * 0.9989));
+  p.torques[0].gradient.reset();
+  CHECK(!solved(posed(p, question_at({1}))).warns("orbit-mismatch"));
+
+  p.orbit->true_anomaly = pi<double> / 2;  // the lowest point is at 1/1.1 of the distance here
+  p.orbit->surface = 7e6 / 1.1 + 1;
+  CHECK(solved(posed(p, question_at({1}))).warns("inside-planet"));
+  p.orbit->surface -= 2;
+  CHECK(!solved(posed(p, question_at({1}))).warns("inside-planet"));
+}
+
+TEST_CASE("torques that come and go and leave the start a thousandth", "[general]") {
+  auto p = brick();
+  p.angular_velocity = {1e-3, 0, 0};
+  p.torques = {torque(TorqueType::constant, {3, 0, 0})};
+  const auto warns = [&](double last) { return solved(posed(p, question_at({last}))).warns("torque-outruns"); };
+  CHECK(!warns(1.1));  // it always acts
+  p.torques[0].factor.on = {{0, 10}};
+  CHECK(!warns(0.998));
+  CHECK(warns(1.0));
+}
+
+TEST_CASE("motions that part are told as chaotic, those that drift are not", "[general]") {
+  auto p = brick();
+  p.inertia = Vec3<double>(0.6, 0.5, 0.3).asDiagonal();
+  p.fixed = true, p.mass = 10, p.centre_of_mass = {0.1, 0.05, -0.2}, p.field.gravity = 9.8;
+  p.attitude = normalised(Quat<double>{1, 2, 0.3, 0});
+  p.angular_velocity = {2, 1, 3};
+  p.torques = {torque(TorqueType::weight, {0, 0, 0})};
+  const auto warns = [&](double last, int rung) {
+    return solved(posed(p, question_at({last}, 1e-6, rung))).warns("chaotic");
+  };
+  CHECK(!warns(15, rung::full));
+  CHECK(warns(25, rung::full));
+  // a free body over many turns drifts
+  p.fixed = false, p.torques.clear();
+  CHECK(!warns(2e3, rung::full));
+}
+
+TEST_CASE("what is dropped to find a family is told from one rounding on", "[general]") {
+  constexpr double eps = epsilon<double>;
+  auto p = brick();
+  p.torques = {torque(TorqueType::constant, {1, 0, 0}), torque(TorqueType::constant, {-1, 0, 0})};
+  const auto answer = [&](double over) {
+    p.torques[1].vector[0] = -(1 + over);
+    return solved(posed(p, question_at({1})));
+  };
+  const Answer exact = answer(0), half = answer(eps), one = answer(3 * eps), none = answer(20 * eps);
+  for (const Answer* each : {&exact, &half, &one}) CHECK(std::string_view(each->model).starts_with("free:"));
+  CHECK(!exact.warns("recognised-with-rounding"));
+  CHECK(!half.warns("recognised-with-rounding"));
+  CHECK(one.warns("recognised-with-rounding"));
+  CHECK(!none.warns("recognised-with-rounding"));
+  // of two matrices that are nearly multiples
+  p.torques = {damping(0.01 * p.inertia, Opposed::angular_velocity)};
+  CHECK(!solved(posed(p, question_at({1}))).warns("recognised-with-rounding"));
+  p.torques[0].matrix(0, 1) = 3 * eps * p.torques[0].matrix(2, 2);
+  p.torques[0].matrix(1, 0) = p.torques[0].matrix(0, 1);
+  CHECK(solved(posed(p, question_at({1}))).warns("recognised-with-rounding"));
 }
 
 TEST_CASE("a body at rest that nothing moves stays, one that a torque moves turns", "[general]") {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,7 @@
 #include "gyrostat/models/general/full.hpp"
 #include "gyrostat/models/general/piece.hpp"
 #include "gyrostat/models/general/problem.hpp"
+#include "gyrostat/models/general/rest.hpp"
 #include "gyrostat/models/general/right_side.hpp"
 #include "gyrostat/models/general/sizes.hpp"
 #include "gyrostat/models/general/stiff.hpp"
@@ -116,14 +118,21 @@ struct FullMotionOptions : MotionOptions<Scalar> {
 template <Real Scalar>
 struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
   Integrator used = Integrator::taylor;
-  /// Status::event: when a brake has brought what it opposes to a stop, or all but, s. The equations do not go through it.
-  Scalar stop = nan<Scalar>;
+  /// How far apart attitudes of neighbours are at the last time, over what errors of their data and steps come to in proportion to the angle that the body turns
+  /// through.
+  Scalar growth = 0;
+  /// When a brake has first brought what it opposes to zero and held it there, s, and the error of that, s: infinite where neighbours do not
+  /// come to the same stops. Status::event: when one has brought it to a stop, or all but, that the equations do not go through.
+  Scalar stop = nan<Scalar>, stop_off = nan<Scalar>;
+  AtStop at_stop = AtStop::rests;            ///< Status::event: why not
+  std::vector<std::array<Scalar, 2>> rests;  ///< from when to when a brake holds the body, s
+  Scalar rest_off = 0;                       ///< to which each of their begins is known, s
   /// Status::step_limit: the body turns far faster than foreseen, and would go on through an angle that no run reaches.
   bool outgrown = false;
 };
 
 inline constexpr const char* why_stopped_by_brake =
-    "a brake brings the momentum that it opposes to zero, and the full equations do not go through a stop";
+    "a brake brings the momentum that it opposes to zero, and what becomes of the body then is not followed";
 
 /// A motion is given up where the body turns so many times faster than its momentum and the torques let foresee, and would turn through
 /// this angle, rad, at the rate it has come to: no budget of steps reaches so far.
@@ -161,6 +170,7 @@ inline constexpr int few_wheels = 4;
 template <Real Scalar, bool large>
 struct Series {
   static constexpr Integrator integrator = Integrator::taylor;
+  static constexpr bool is_large = large;
   using System = FullSystem<Scalar, large>;
   using Solver = ode::Taylor<System>;
   using Numbers = typename System::Numbers;
@@ -175,6 +185,7 @@ struct Series {
 template <Real Scalar, int most>
 struct Collocation {
   static constexpr Integrator integrator = Integrator::radau;
+  static constexpr bool is_large = true;
   using System = StiffSystem<Scalar, most>;
   using Solver = ode::Radau<System>;
   using Numbers = typename System::Numbers;
@@ -206,12 +217,15 @@ class FullCourse {
  public:
   using Scalar = typename System::Scalar;
 
+  /// spare: the slack of stop_at().
   FullCourse(const Problem<Scalar>& problem, Scalar span, std::span<const Scalar> cuts, Scalar share,
-             const StepTolerance<Scalar>& tolerance, std::uint64_t step_cap) noexcept
+             const StepTolerance<Scalar>& tolerance, std::uint64_t step_cap,
+             Scalar spare = share_slack<Scalar>) noexcept
       : of_(problem, span),
         cuts_(cuts),
         last_(span),
         share_(share),
+        spare_(spare),
         options_(Method::options(tolerance.end, tolerance.inside, share, step_cap)) {
     piece_ = Piece<Scalar>::first(problem, of_.wheels, of_.torques, cuts.empty() ? span : cuts.front());
     enter(0, System::first_numbers(of_));
@@ -219,52 +233,36 @@ class FullCourse {
   FullCourse(const FullCourse&) = delete;
   FullCourse& operator=(const FullCourse&) = delete;
 
-  /// One step, at most up to t_max, and to the end of the piece.
+  /// One step, at most up to t_max, and to the end of the piece; where a brake holds the body, all the way.
   ode::Status step(Scalar t_max) noexcept {
     if (next_) pass();
-    Scalar until = std::min(t_max, piece_.to);
-    if (!(time() > piece_.from)) until = std::min(until, piece_.from + share_ * (piece_.to - piece_.from));
-    const Scalar before = system_->has_brake() ? system_->braked(time(), solver_->state()) : infinity<Scalar>;
-    // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
-    if (before < infinity<Scalar>)
-      until = std::min(until, time() + (1 + share_) * before / (4 * system_->torque(time(), solver_->state())));
-    // and where the time cannot tell the rest of it
-    const bool lost = before < infinity<Scalar> && !(until > time()) && t_max > time();
-    if (lost || has_stopped(before, infinity<Scalar>)) return ode::Status::event;
-    const Scalar begin = time();
-    const Vec3<Scalar> heading = System::turned(solver_->state());
-    const ode::Status status = solver_->step(until);
-    if (status != ode::Status::reached) return status;
-    const Scalar rate = (System::turned(solver_->state()) - heading).norm() / (time() - begin);
-    outgrown_ = rate > Scalar(outgrown_rate) * of_.sizes.turning && rate * (last_ - begin) > Scalar(outgrown_angle);
-    const bool hopeless = is_hopeless();
-    outgrown_ = outgrown_ || (hopeless && rate > Scalar(outgrown_pace) * of_.sizes.turning);
-    if (outgrown_ || hopeless) return ode::Status::step_limit;
-    if (before < infinity<Scalar> && has_stopped(system_->braked(time(), solver_->state()), before))
-      return ode::Status::event;
-    if (time() >= piece_.to && cut_ < cuts_.size()) {
-      const Scalar to = ++cut_ < cuts_.size() ? cuts_[cut_] : last_;
-      next_ = Piece<Scalar>::behind(piece_, of_.problem, of_.wheels, of_.torques, to);
+    if (at_stop_ != AtStop::rests) return ode::Status::event;
+    if (!(t_max > time_)) return ode::Status::reached;
+    if (rest_) {
+      previous_ = time_;
+      time_ = rests_.back()[1] = std::min(t_max, piece_.to);
+      look_ahead();
+      return ode::Status::reached;
     }
+    const ode::Status status = move(t_max);
+    if (status == ode::Status::reached) look_ahead();
     return status;
   }
 
-  Scalar time() const noexcept { return solver_->time(); }
+  Scalar time() const noexcept { return time_; }
 
   /// The state at t in the last step; where the piece ends with it, by the laws of the next.
   State<Scalar> at(Scalar t) const noexcept {
-    alignas(32) Numbers x;
-    solver_->at(t, x.data());
+    alignas(32) const Numbers x = numbers(t);
     return system_->state(next_ && t >= piece_.to ? *next_ : piece_, t, x.data());
   }
 
   /// The same by the laws of the piece that the last step is in, to its end.
   State<Scalar> inside(Scalar t) const noexcept {
-    alignas(32) Numbers x;
-    solver_->at(t, x.data());
+    alignas(32) const Numbers x = numbers(t);
     return system_->state(piece_, t, x.data());
   }
-  Scalar previous_time() const noexcept { return solver_->previous_time(); }
+  Scalar previous_time() const noexcept { return previous_; }
 
   /// Of collocation alone: inside() with the error that its last coefficients let suspect.
   State<Scalar> beside(Scalar t) const noexcept {
@@ -273,9 +271,19 @@ class FullCourse {
     return system_->state(piece_, t, x.data());
   }
 
+  /// From when to when brakes have held the body so far, s.
+  const std::vector<std::array<Scalar, 2>>& rests() const noexcept { return rests_; }
+  /// What a torque that brakes may not quite have held can have given the body, N m s, and turned it by, rad.
+  Scalar slipped() const noexcept { return slipped_; }
+  Scalar slipped_angle() const noexcept { return slipped_angle_; }
+  /// Share of its time to which a stop is found.
+  static constexpr Scalar precision() noexcept { return precision_; }
+  /// Behind Status::event: why the stop is not gone through.
+  AtStop at_stop() const noexcept { return at_stop_; }
+
   ode::Counts counts() const noexcept {
     ode::Counts all = counts_;
-    all += solver_->counts();
+    if (solver_) all += solver_->counts();
     return all;
   }
   const Prepared<Scalar>& prepared() const noexcept { return of_; }
@@ -283,40 +291,191 @@ class FullCourse {
   bool outgrown() const noexcept { return outgrown_; }
 
  private:
+  static constexpr bool rests_through = Method::integrator == Integrator::taylor;
+  using Rest = std::conditional_t<rests_through, Resting<Scalar, Method::is_large>, Numbers>;
+
+  /// How a body leaves its rest: what brakes oppose grows by `rate`, N m, from the numbers of `rest` on, up to `until`.
+  struct Leaving {
+    Rest rest;
+    Vec3<Scalar> rate;
+    Scalar until;
+  };
+
+  ode::Status move(Scalar t_max) noexcept {
+    Scalar until = std::min(t_max, piece_.to);
+    if (!(time_ > piece_.from)) until = std::min(until, piece_.from + share_ * (piece_.to - piece_.from));
+    const Scalar before = system_->has_brake() ? system_->braked(time_, solver_->state()) : infinity<Scalar>;
+    // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
+    if (before < infinity<Scalar>)
+      until = std::min(
+          until, time_ + (1 + share_) * before / (4 * std::min(bound_, system_->torque(time_, solver_->state()))));
+    // and where the time cannot tell the rest of it
+    if (!(until > time_)) return come_to_stop(time_);
+    greatest_ = before < infinity<Scalar> ? std::max(greatest_, before) : greatest_;
+    const Vec3<Scalar> heading = System::turned(solver_->state());
+    const ode::Status status = solver_->step(until);
+    if (status != ode::Status::reached) return status;
+    previous_ = solver_->previous_time(), time_ = solver_->time();
+    const Scalar rate = (System::turned(solver_->state()) - heading).norm() / (time_ - previous_);
+    outgrown_ = rate > Scalar(outgrown_rate) * of_.sizes.turning && rate * (last_ - previous_) > Scalar(outgrown_angle);
+    const bool hopeless = is_hopeless();
+    outgrown_ = outgrown_ || (hopeless && rate > Scalar(outgrown_pace) * of_.sizes.turning);
+    if (outgrown_ || hopeless) return ode::Status::step_limit;
+    if (before < infinity<Scalar>)
+      if (const Scalar stop = stop_time(before); stop < infinity<Scalar>) return come_to_stop(stop);
+    return ode::Status::reached;
+  }
+
+  /// The piece behind this one, where it ends with the last step.
+  void look_ahead() noexcept {
+    if (!(time_ >= piece_.to && cut_ < cuts_.size())) return;
+    const Scalar to = ++cut_ < cuts_.size() ? cuts_[cut_] : last_;
+    next_ = Piece<Scalar>::behind(piece_, of_.problem, of_.wheels, of_.torques, to);
+  }
+
+  Numbers numbers(Scalar t) const noexcept {
+    alignas(32) Numbers x;
+    if constexpr (rests_through) {
+      if (rest_ && t >= rest_->from()) return rest_->at(t);
+      if (leaving_ && t < leaving_->until) return leaving(t);
+    }
+    solver_->at(t, x.data());
+    return x;
+  }
+  /// A moment after a rest.
+  Numbers leaving(Scalar t) const noexcept {
+    Numbers x = leaving_->rest.at(t);
+    for (std::size_t i = 0; i < 3; ++i)
+      x[System::At::momentum + i] += (t - leaving_->rest.from()) * leaving_->rate[int(i)];
+    return x;
+  }
+
   /// Begins piece_ at t.
   void enter(Scalar t, const Numbers& numbers) noexcept {
+    const bool rested = bool(rest_);
+    rest_.reset(), leaving_.reset();
     system_.emplace(of_, piece_, numbers);
     options_.scale = system_->scale();
+    time_ = previous_ = t;
+    greatest_ = 0;
+    bound_ = torque_of_piece();
+    if (system_->has_brake() && !(system_->braked(t, numbers.data()) > 0)) stop(t, numbers, rested);
+    else begin(t, numbers);
+  }
+  /// A bound of the torques in the piece; infinite where wheels add theirs.
+  Scalar torque_of_piece() const noexcept {
+    using std::abs;
+    if (!system_->has_brake() || stoppable(of_, piece_) == AtStop::turning) return infinity<Scalar>;
+    const Scalar length = piece_.to - piece_.from;
+    const auto size = [&](const Terms<Scalar>& terms) noexcept {
+      return torque_size(of_.problem, terms, of_.sizes.greatest);
+    };
+    Scalar sum = 0, power = 1;
+    for (std::size_t k = 0; k < 4; ++k, power *= length) {
+      sum += power * size(piece_.power[k]);
+      for (const auto& wave : piece_.waves) sum += power * abs(wave.cubic.about(piece_.from).c[k]) * size(wave.terms);
+    }
+    return sum;
+  }
+  void begin(Scalar t, const Numbers& numbers) noexcept {
+    if (solver_) {
+      counts_ += solver_->counts();
+      options_.step_cap -= std::min(options_.step_cap, solver_->counts().steps);
+    }
     solver_.emplace(*system_, t, numbers, options_);
+    time_ = t;
   }
   /// Goes on to the next piece.
   void pass() noexcept {
-    Numbers numbers;
-    std::copy_n(solver_->state(), numbers.size(), numbers.begin());
-    const Scalar t = time();
-    counts_ += solver_->counts();
-    options_.step_cap -= std::min(options_.step_cap, solver_->counts().steps);
+    const Scalar t = time_;
+    const Numbers x = numbers(t);
     piece_ = std::move(*next_);
     next_.reset();
     pace_.restart(t);
-    enter(t, numbers);
+    enter(t, x);
+  }
+
+  /// What a brake opposes is zero from t on, at these numbers. rested: it was already.
+  void stop(Scalar t, const Numbers& numbers, bool rested = false) noexcept {
+    if constexpr (!rests_through) {
+      at_stop_ = AtStop::turning;
+    } else {
+      const auto q = normalised(Quat<Scalar>{numbers[0], numbers[1], numbers[2], numbers[3]});
+      const Stop<Scalar> made = stop_at(of_, piece_, q, t, spare_);
+      if (made.what == AtStop::leaves) return leave(made, t, numbers);
+      if (made.what == AtStop::rests) return rest(made, t, numbers, rested);
+      at_stop_ = made.what;
+    }
+    if (at_stop_ != AtStop::rests && !solver_) begin(t, numbers);
+  }
+  void rest(const Stop<Scalar>& made, Scalar t, const Numbers& numbers, bool rested) noexcept {
+    if constexpr (rests_through) {
+      rest_.emplace(of_, piece_, made, t, numbers);
+      if (!rested) rests_.push_back({t, t});
+      const Scalar given = made.slip * (piece_.to - t);
+      slipped_ += given, slipped_angle_ += given / of_.sizes.least * (last_ - t);
+    }
+  }
+  void leave(const Stop<Scalar>& stop, Scalar t, const Numbers& numbers) noexcept {
+    if constexpr (rests_through) {
+      using std::sqrt;
+      // so short that what the direction and the torque have changed is lost in rounding
+      const auto& sizes = of_.sizes;
+      const Scalar pace =
+          sizes.turning + sizes.damping + sizes.forcing + 1 / (piece_.to - t) + sqrt(stop.departure.rate / sizes.least);
+      const Scalar moment = std::max(Scalar(1e-9L) * (1 + share_) / pace, 64 * epsilon<Scalar> * t);
+      const Scalar until = t + moment < piece_.to ? t + moment : t;
+      const Vec3<Scalar> rate = stop.departure.rate * stop.departure.direction;
+      leaving_.emplace(Leaving{Rest(of_, piece_, stop, t, numbers), rate, until});
+      Numbers x = leaving(until);
+      if (!(until > t))
+        for (std::size_t i = 0; i < 3; ++i) x[System::At::momentum + i] += moment * rate[int(i)];
+      previous_ = t;
+      begin(until, x);
+    }
+  }
+  /// The motion has come to a stop, but for what no step can tell.
+  ode::Status come_to_stop(Scalar when) noexcept {
+    Numbers x;
+    std::copy_n(solver_->state(), x.size(), x.begin());
+    at_stop_ = stoppable(of_, piece_);
+    if (at_stop_ == AtStop::rests) {
+      leaving_.reset();
+      const std::size_t before = rests_.size();
+      stop(time_, x);
+      if (rests_.size() > before) rests_.back()[0] = when;
+    }
+    return at_stop_ == AtStop::rests ? ode::Status::reached : ode::Status::event;
+  }
+  /// When what a brake opposes, `before` at the begin of the last step, is gone, if it is as good as that now; else infinite.
+  Scalar stop_time(Scalar before) const noexcept {
+    const Scalar now = system_->braked(time_, solver_->state());
+    if (!(now > 0)) return time_;
+    if (!(now < before && now < nearly_ * std::max(greatest_, now))) return infinity<Scalar>;
+    if (!rests_through || stoppable(of_, piece_) != AtStop::rests) return time_;
+    const State<Scalar> at = system_->state(time_, solver_->state());
+    const Vec3<Scalar>&M = at.angular_momentum, &w = at.angular_velocity, Jw = of_.wheels.whole * w;
+    const Pose<Scalar> pose{at.attitude, w, M};
+    const Vec3<Scalar> torque = load_at(of_.problem, pose, time_, piece_.from + (piece_.to - piece_.from) / 2).torque;
+    const bool of_carrier = std::abs(Jw.norm() - now) < std::abs(M.norm() - now);
+    const Vec3<Scalar> rate = cross<Scalar>(M, w) + torque, U = of_carrier ? Jw : M;
+    const Scalar fall = -U.dot(rate) / now;
+    // where U is a difference of greater momenta
+    const Scalar blur = Vec3<Scalar>(M - U).norm();
+    const Scalar gone = std::max(precision_ * time_ * fall, 16 * epsilon<Scalar> * blur);
+    return fall > 0 && now <= gone ? time_ + now / fall : infinity<Scalar>;
   }
   /// Whether steps that do not lengthen would overrun the budget by far, where no law changes any more.
   bool is_hopeless() noexcept {
     if (next_ || cut_ < cuts_.size()) return false;
     return pace_.is_hopeless(solver_->counts().steps, time(), last_, options_.step_cap);
   }
-  /// Whether what a brake opposes, which was `before`, is as good as gone.
-  bool has_stopped(Scalar now, Scalar before) noexcept {
-    if (now == infinity<Scalar>) return false;
-    greatest_ = std::max(greatest_, now);
-    return !(now > 0) || (now < before && now < nearly_ * greatest_);
-  }
-
   static constexpr Scalar nearly_ = Scalar(1e-6L);
+  /// Share of its time to which a stop is found; float cannot resolve 1e-13.
+  static constexpr Scalar precision_ = Scalar(1e-13L) * std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
   Prepared<Scalar> of_;
   std::span<const Scalar> cuts_;
-  Scalar last_, share_;
+  Scalar last_, share_, spare_, time_ = 0, previous_ = 0;
   Pace<Scalar> pace_;
   bool outgrown_ = false;
   std::size_t cut_ = 0;
@@ -326,7 +485,11 @@ class FullCourse {
   std::optional<System> system_;
   std::optional<Solver> solver_;
   ode::Counts counts_;
-  Scalar greatest_ = 0;
+  Scalar greatest_ = 0, bound_ = infinity<Scalar>, slipped_ = 0, slipped_angle_ = 0;
+  AtStop at_stop_ = AtStop::rests;
+  std::optional<Rest> rest_;
+  std::optional<Leaving> leaving_;
+  std::vector<std::array<Scalar, 2>> rests_;
 };
 
 /// By how much the inverse of the tensor without its wheels magnifies its rounding; 1 where it is diagonal.
@@ -485,12 +648,15 @@ class FullMotion {
     const StepTolerance<Scalar> tight{companion_step(tolerance.end), companion_step(tolerance.inside)};
     const Scalar span = times_.back();
     // a course is large
+    Scalar spare = share_slack<Scalar>;
     const auto begin = [&](const Problem<Scalar>& problem, int share, const StepTolerance<Scalar>& its) noexcept {
-      return std::make_unique<Course>(problem, span, cuts_, 1 / Scalar(share), its, options_.step_cap);
+      return std::make_unique<Course>(problem, span, cuts_, 1 / Scalar(share), its, options_.step_cap, spare);
     };
     const auto course = begin(problem_, 1, tolerance);
     const auto& of = course->prepared();
     const Scalar condition = condition_of(of.wheels), change = data_change(tolerance.end, condition);
+    // what the answer's brakes hold those of neighbours must hold, too
+    spare += 8 * change;
     const auto one = beside(problem_, change, 0), two = beside(problem_, change, 1);
     const auto companion = begin(one, 2, tight);
     std::unique_ptr<Course> second;
@@ -499,7 +665,9 @@ class FullMotion {
     // rounding at the asked times, and between steps
     FullErrors<Scalar> between;
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
-      return rounding_of_columns(of, row, size, 4 * eps + steps) + Scalar(honesty::margin_between) * between;
+      auto error = rounding_of_columns(of, row, size, 4 * eps + steps) + Scalar(honesty::margin_between) * between;
+      add_slip(error, *course);
+      return error;
     };
     const Comparison<FullRow<Scalar>> rows(row);
     const auto note = [&](std::size_t i, const auto&) noexcept {
@@ -508,13 +676,58 @@ class FullMotion {
     };
     solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of.sizes.turning, times_,
                  states_, nowhere<Scalar>(), options_, progress_from, progress_to, rounding, note);
-    if (answer.status == ode::Status::event) answer.stop = course->time();
+    tell_stops(answer, *course, *companion, second.get());
+    if (answer.status == ode::Status::reached && span > 0) {
+      const Course& other = second ? *second : *course;
+      const auto off = rows.apart(rows.row(companion->at(span)), rows.row(other.at(span)));
+      const Scalar phase = of.sizes.turning * span, steps = second ? tight.end : tolerance.end;
+      answer.growth = off[full_column::attitude] / ((change + steps * (1 + phase / 16)) * (1 + phase));
+    }
     answer.outgrown = course->outgrown() || companion->outgrown() || (second && second->outgrown());
     return answer;
   }
 
  private:
   using Course = FullCourse<Method>;
+
+  /// What a torque that brakes hold but for roundings may have done.
+  static void add_slip(FullErrors<Scalar>& error, const Course& course) noexcept {
+    const Scalar rate = course.slipped() / course.prepared().sizes.least, angle = course.slipped_angle();
+    error[full_column::attitude] += angle;
+    error[full_column::angular_momentum] += course.slipped();
+    error[full_column::angular_velocity] += rate;
+    if (course.prepared().wheels.count == 0) return;
+    error[full_column::rotor_rate] += rate;
+    error[full_column::rotor_angle] += angle;
+  }
+
+  static void tell_stops(FullMotionAnswer<Scalar>& answer, const Course& course, const Course& one,
+                         const Course* two) noexcept {
+    if (answer.status == ode::Status::event) {
+      answer.stop = course.time();
+      for (const Course* each : {&course, &one, two})
+        if (each != nullptr && answer.at_stop == AtStop::rests) answer.at_stop = each->at_stop();
+      return;
+    }
+    answer.rests = course.rests();
+    if (answer.rests.empty() || answer.status != ode::Status::reached) return;
+    constexpr auto& how = honesty::side_by_side;
+    const std::size_t count = answer.rests.size();
+    const bool alike = one.rests().size() == count && (two == nullptr || two->rests().size() == count);
+    answer.stop = answer.rests[0][0];
+    answer.stop_off = answer.rest_off = alike ? Scalar(0) : infinity<Scalar>;
+    for (std::size_t i = 0; alike && i < count; ++i) {
+      using std::abs;
+      const Scalar stop = answer.rests[i][0], first = one.rests()[i][0];
+      const Scalar last = two != nullptr ? two->rests()[i][0] : first;
+      const Scalar apart = Scalar(how.margin) * std::max(abs(first - stop), abs(last - stop)) +
+                           Scalar(how.margin_of_rounding) * abs(first - last);
+      const Scalar found = 2 * course.precision() + Scalar(honesty::stop_steps) * answer.step_tolerance;
+      const Scalar off = Scalar(honesty::stop_margin) * apart + found * stop;
+      if (i == 0) answer.stop_off = off;
+      answer.rest_off = std::max(answer.rest_off, off);
+    }
+  }
 
   const Problem<Scalar>& problem_;
   std::span<const Scalar> times_;

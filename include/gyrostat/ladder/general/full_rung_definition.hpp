@@ -95,11 +95,18 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
   const auto answer = full_motion<double>(scene.problem(), times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
-  if (answer->status == ode::Status::event) return refused<Track>(Errc::not_applicable, why_stopped_by_brake);
+  if (answer->status == ode::Status::event)
+    return refused<Track>(Errc::not_applicable, why_not_through(answer->at_stop));
   if (answer->outgrown) return refused<Track>(Errc::step_limit, why_outgrown);
   if (answer->status != ode::Status::reached)
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
+  if (answer->growth > honesty::chaotic_growth) track.warn(warning_kinds[warning::chaotic], answer->growth);
   if (answer->used == Integrator::radau) track.warn(warning_kinds[warning::stiff], scene.settling_rate());
+  track.rests = answer->rests, track.rest_off = answer->rest_off;
+  if (answer->stop_off < infinity<double>) {
+    track.stop_time = answer->stop;
+    track.stop_error = answer->stop > 0 ? relative_to_truth(answer->stop_off / answer->stop) : 0;
+  }
   track.counts = answer->counts;
   track.off = detail::off_of(track, answer->error, row, scene);
   detail::balance(track, scene, answer->step_tolerance);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -61,6 +62,9 @@ struct Instances {
                                            "families are not looked for", "families are not looked for",
                                            "families are not looked for"};
 
+  /// The greatest of what was dropped to find each family, in roundings of what it is part of.
+  std::array<double, specials> dropped{};
+
   bool has(Special special) const noexcept { return special != Special::none && why[std::size_t(special)] == nullptr; }
 };
 
@@ -68,19 +72,27 @@ namespace detail {
 
 inline constexpr double slack = 8 * epsilon<double>;
 
+/// Whether a residue is below 8 roundings of `size`; then it is dropped, and raises `dropped`, in roundings, where that is wanted.
+inline bool drops(double residue, double size, double* dropped) noexcept {
+  if (!(residue <= slack * size)) return false;
+  if (dropped != nullptr && residue > 0) *dropped = std::max(*dropped, residue / (epsilon<double> * size));
+  return true;
+}
+
 /// Every component is below 8 roundings of the greatest of `size`.
 template <class Value, class Size>
-bool vanishes(const Value& value, const Size& size) noexcept {
-  return value.cwiseAbs().maxCoeff() <= slack * size.maxCoeff();
+bool vanishes(const Value& value, const Size& size, double* dropped = nullptr) noexcept {
+  return drops(value.cwiseAbs().maxCoeff(), size.maxCoeff(), dropped);
 }
 
 /// To 8 roundings; a vector of no length is parallel to all.
-inline bool parallel(const Vec3<double>& a, const Vec3<double>& b) noexcept {
-  return cross<double>(a, b).norm() <= slack * a.norm() * b.norm();
+inline bool parallel(const Vec3<double>& a, const Vec3<double>& b, double* dropped = nullptr) noexcept {
+  return drops(cross<double>(a, b).norm(), a.norm() * b.norm(), dropped);
 }
 
 /// Symmetric about the axis e, a principal one.
-GYROSTAT_COMPILED_ONCE bool symmetric_about(const Mat3<double>& J, const Vec3<double>& e) noexcept;
+GYROSTAT_COMPILED_ONCE bool symmetric_about(const Mat3<double>& J, const Vec3<double>& e,
+                                            double* dropped = nullptr) noexcept;
 
 /// What is summed and does not change, sorted by what a family may have; what is below rounding is dropped.
 struct Loads {
@@ -93,6 +105,7 @@ struct Loads {
   bool weighs = false;  ///< a moment or a gradient
   Vec3<double> force{0, 0, 0}, force_I{0, 0, 0};
   const char* other = nullptr;  ///< something that no family has
+  double dropped = 0;           ///< the greatest of what was dropped, in roundings
 
   bool damps() const noexcept { return !damping.isZero(0) || !by_momentum.isZero(0); }
   bool brakes() const noexcept { return !brake_total.isZero(0) || !brake_carrier.isZero(0); }

@@ -10,12 +10,12 @@ namespace gyrostat::general {
 
 namespace detail {
 
-GYROSTAT_COMPILED_ONCE bool symmetric_about(const Mat3<double>& J, const Vec3<double>& e) noexcept {
+GYROSTAT_COMPILED_ONCE bool symmetric_about(const Mat3<double>& J, const Vec3<double>& e, double* dropped) noexcept {
   const double size = J.cwiseAbs().maxCoeff(), C = e.dot(J * e);
   const Vec3<double> across = symmetric_eigen<double>(J - C * e * e.transpose()).values;  // 0 and the two others
   Vec3<double> sizes = across.cwiseAbs();
   std::sort(sizes.data(), sizes.data() + 3);
-  return (J * e - C * e).cwiseAbs().maxCoeff() <= slack * size && sizes[2] - sizes[1] <= slack * size;
+  return drops((J * e - C * e).cwiseAbs().maxCoeff(), size, dropped) && drops(sizes[2] - sizes[1], size, dropped);
 }
 
 /// Of torques that are linear in the inertial axes, sum A_j e_j: the moment m and direction d with A_j = d_j [m]x. False: there are none.
@@ -24,15 +24,15 @@ inline bool one_direction(const Terms<double>& sum, const Terms<double>& size, L
   for (int j = 0; j < 3; ++j) {
     const Mat3<double>& A = sum.inertial[std::size_t(j)];
     most = most.cwiseMax(size.inertial[std::size_t(j)]);
-    if (!vanishes((A + A.transpose()) / 2, size.inertial[std::size_t(j)])) return false;
+    if (!vanishes((A + A.transpose()) / 2, size.inertial[std::size_t(j)], &loads.dropped)) return false;
     outer.col(j) = Vec3<double>(A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1)) / 2;
   }
-  if (vanishes(outer, most)) return true;
+  if (vanishes(outer, most, &loads.dropped)) return true;
   int longest = 0;
   outer.colwise().norm().maxCoeff(&longest);
   const Vec3<double> along = outer.col(longest).normalized();
   const Vec3<double> direction = outer.transpose() * along;
-  if ((outer - along * direction.transpose()).cwiseAbs().maxCoeff() > slack * most.maxCoeff()) return false;
+  if (!vanishes(outer - along * direction.transpose(), most, &loads.dropped)) return false;
   const double length = direction.norm();
   loads.direction = direction / length;
   loads.moment = length * along;
@@ -43,35 +43,36 @@ inline bool one_direction(const Terms<double>& sum, const Terms<double>& size, L
 GYROSTAT_COMPILED_ONCE Loads Loads::of(const Problem<double>& problem, const Collected<double>& torques) noexcept {
   Loads made;
   const Terms<double>&sum = torques.steady().sum, &size = torques.steady().size;
+  double* const dropped = &made.dropped;
   const auto outside = [&](const char* what) noexcept {
     if (!made.other) made.other = what;
   };
   if (!torques.is_steady()) outside("a torque changes with time");
   for (std::size_t j = 0; j < 3; ++j)
-    if (!vanishes(sum.orbital[j], size.orbital[j])) outside("a torque is given in the axes of an orbit");
+    if (!vanishes(sum.orbital[j], size.orbital[j], dropped)) outside("a torque is given in the axes of an orbit");
   if (sum.orbit_gradient != 0) outside("the gravity gradient turns with an orbit");
   if (!sum.dipole.isZero(0)) outside("the magnetic field moves");
   if (!sum.eddy.isZero(0)) outside("no family has eddy currents");
-  if (!vanishes(sum.body, size.body)) made.body = sum.body;
+  if (!vanishes(sum.body, size.body, dropped)) made.body = sum.body;
   const Mat3<double> skew = (sum.by_rate - sum.by_rate.transpose()) / 2;
-  if (!vanishes(skew, size.by_rate)) made.charge = {skew(2, 1), skew(0, 2), skew(1, 0)};
+  if (!vanishes(skew, size.by_rate, dropped)) made.charge = {skew(2, 1), skew(0, 2), skew(1, 0)};
   const Mat3<double> damping = (sum.by_rate + sum.by_rate.transpose()) / 2;
-  if (!vanishes(damping, size.by_rate)) made.damping = damping, made.damping_size = size.by_rate;
-  if (!vanishes(sum.by_momentum, size.by_momentum))
+  if (!vanishes(damping, size.by_rate, dropped)) made.damping = damping, made.damping_size = size.by_rate;
+  if (!vanishes(sum.by_momentum, size.by_momentum, dropped))
     made.by_momentum = sum.by_momentum, made.by_momentum_size = size.by_momentum;
   made.brake_total = sum.brake_total;
   made.brake_carrier = sum.brake_carrier;
   if (!one_direction(sum, size, made)) outside("torques are constant along more than one direction of space");
   if (sum.gradient != 0) {
-    if (made.weighs && !parallel(made.direction, problem.field.down))
+    if (made.weighs && !parallel(made.direction, problem.field.down, dropped))
       outside("weight and gravity gradient have different directions");
     made.gradient = sum.gradient;
     if (!made.weighs) made.direction = problem.field.down;
     else if (made.direction.dot(problem.field.down) < 0) made.direction *= -1, made.moment *= -1;
     made.weighs = true;
   }
-  if (!vanishes(sum.force_body, size.force_body)) made.force = sum.force_body;
-  if (!vanishes(sum.force_inertial, size.force_inertial)) made.force_I = sum.force_inertial;
+  if (!vanishes(sum.force_body, size.force_body, dropped)) made.force = sum.force_body;
+  if (!vanishes(sum.force_inertial, size.force_inertial, dropped)) made.force_I = sum.force_inertial;
   return made;
 }
 

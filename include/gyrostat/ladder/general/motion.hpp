@@ -122,7 +122,8 @@ inline constexpr const char* special_words[specials] = {"free", "deceleration", 
 inline constexpr ScalarKind scalar_kinds[] = {
     {"recognised", 1, "", Frame::none, Measure::none, "families of which the scene is exactly an instance",
      gyrostat::Kind::words, special_words},
-    {"stop_time", 1, "s", Frame::none, Measure::relative, "time at which a brake has brought the body to its stop"},
+    {"stop_time", 1, "s", Frame::none, Measure::relative,
+     "time from the start on after which a brake has first stopped the body, and holds it"},
     {"energy_balance", 1, "1", Frame::none, Measure::none,
      "of the full equations: change of the energy up to the last time less the integral of all power, over that of its "
      "size"},
@@ -140,7 +141,13 @@ enum : std::size_t {
   start_uncertain,
   gimbal_lock,
   custom_smooth,
-  stiff
+  stiff,
+  rest,
+  orbit_mismatch,
+  inside_planet,
+  torque_outruns,
+  chaotic,
+  with_rounding
 };
 }
 
@@ -162,6 +169,19 @@ inline constexpr WarningKind warning_kinds[] = {
     {"stiff",
      "wheels settle so much faster than the body turns that the equations are solved by collocation (Radau IIA); "
      "greatest rate of settling, 1/s"},
+    {"rest", "a brake has stopped the body and holds it against all other torques; first so long after the start, s"},
+    {"orbit-mismatch",
+     "the gravity gradient that is given is none of the orbit, 3 mu/r^3: it is greater by a share of"},
+    {"inside-planet", "the orbit goes below the surface of its planet: height of its lowest point, m"},
+    {"torque-outruns",
+     "torques that come and go bring the body to more than a thousand times the rate that it starts with; times"},
+    {"chaotic",
+     "motions that start closer than any data part far faster than in proportion to the time: the motion is chaotic, "
+     "or "
+     "passes by an unstable one; greater than in proportion by a factor of"},
+    {"recognised-with-rounding",
+     "the scene is an instance of the family that answers but for roundings, which were dropped; the greatest, in "
+     "roundings of 2e-16"},
 };
 
 /// A rung of the ladder is one of a family, or the full equations of the family `general`.

@@ -11,7 +11,7 @@ namespace gyrostat::general {
 
 namespace detail {
 
-/// Each as_...: nullptr where the scene is an instance, else why it is none.
+/// Each as_...: nullptr where the scene is an instance, else why it is none. dropped: raised to the greatest of what is dropped, in roundings.
 inline const char* as_free(const Given& given, std::optional<free::Scene>& scene) {
   const auto& [problem, wheels, loads, spinners, question] = given;
   if (loads.other) return loads.other;
@@ -35,12 +35,13 @@ inline const char* as_free(const Given& given, std::optional<free::Scene>& scene
 }
 
 /// The factor by which a matrix is a multiple of another, to 8 roundings of `size`; NaN: it is none.
-inline double multiple_of(const Mat3<double>& m, const Mat3<double>& of, const Mat3<double>& size) noexcept {
+inline double multiple_of(const Mat3<double>& m, const Mat3<double>& of, const Mat3<double>& size,
+                          double* dropped) noexcept {
   const double factor = m.trace() / of.trace();
-  return vanishes(m - factor * of, size) ? factor : nan<double>;
+  return vanishes(m - factor * of, size, dropped) ? factor : nan<double>;
 }
 
-inline const char* as_deceleration(const Given& given, std::optional<deceleration::Scene>& scene) {
+inline const char* as_deceleration(const Given& given, std::optional<deceleration::Scene>& scene, double* dropped) {
   const auto& [problem, wheels, loads, spinners, question] = given;
   if (loads.other) return loads.other;
   if (!loads.damps() && !loads.brakes()) return "nothing brakes the body";
@@ -57,8 +58,8 @@ inline const char* as_deceleration(const Given& given, std::optional<deceleratio
   const bool on_carrier = carrier || setup.law == deceleration::Law::carrier;
   if (on_carrier && spinners.free)
     return "a wheel turns freely, and what brakes the carrier acts on it with that wheel locked";
-  if (carrier) setup.drag = multiple_of(loads.damping, wheels.whole, loads.damping_size);
-  if (total) setup.drag = multiple_of(loads.by_momentum, Mat3<double>::Identity(), loads.by_momentum_size);
+  if (carrier) setup.drag = multiple_of(loads.damping, wheels.whole, loads.damping_size, dropped);
+  if (total) setup.drag = multiple_of(loads.by_momentum, Mat3<double>::Identity(), loads.by_momentum_size, dropped);
   if (!(setup.drag >= 0))
     return carrier ? "the damping is not a positive multiple of the inertia"
                    : "the drag on the momentum is not the same about all axes, or drives";
@@ -89,7 +90,7 @@ inline Quat<double> to_heavy_axes(const Vec3<double>& d) noexcept {
   return normalised(Quat<double>{1 + cosine, axis[0], axis[1], axis[2]});
 }
 
-inline const char* as_heavy(const Given& given, std::optional<HeavyInstance>& instance) {
+inline const char* as_heavy(const Given& given, std::optional<HeavyInstance>& instance, double* dropped) {
   const auto& [problem, wheels, loads, spinners, question] = given;
   if (loads.other) return loads.other;
   if (!loads.weighs) return "no weight, gradient or dipole in a field that stands still";
@@ -102,7 +103,7 @@ inline const char* as_heavy(const Given& given, std::optional<HeavyInstance>& in
   const Vec3<double> l = spinners.kept - loads.charge;
   if (const double size = l.norm(); size > 0) {
     const Vec3<double> e = l / size;
-    if (!symmetric_about(wheels.reduced, e) || !parallel(loads.moment, e))
+    if (!symmetric_about(wheels.reduced, e, dropped) || !parallel(loads.moment, e, dropped))
       return "momentum of wheels, and neither body nor weight symmetric about it";
     made.turn = l / e.dot(wheels.reduced * e);
   }
@@ -131,7 +132,7 @@ inline const char* as_heavy(const Given& given, std::optional<HeavyInstance>& in
   return nullptr;
 }
 
-inline const char* as_rotor(const Given& given, std::optional<RotorInstance>& instance) {
+inline const char* as_rotor(const Given& given, std::optional<RotorInstance>& instance, double* dropped) {
   const auto& [problem, wheels, loads, spinners, question] = given;
   if (loads.other) return loads.other;
   if (!loads.quiet()) return "a torque acts on the body";
@@ -142,7 +143,7 @@ inline const char* as_rotor(const Given& given, std::optional<RotorInstance>& in
   made.driven = std::size_t(spinners.driven);
   const auto& law = wheels.laws[made.driven];
   const Vec3<double> rest = spinners.kept - loads.charge;
-  if (!parallel(rest, law.axis)) return "other momentum is not along the driven wheel";
+  if (!parallel(rest, law.axis, dropped)) return "other momentum is not along the driven wheel";
   made.shift = rest.dot(law.axis) / law.axial_inertia;
   const double no_load = law.torque / law.friction;
   if (!(std::abs(no_load) <= 1e8)) return "the motor hardly feels its rate";
@@ -161,7 +162,7 @@ inline const char* as_rotor(const Given& given, std::optional<RotorInstance>& in
 
 /// The principal axes of which the given momenta are along one, that one the third; nothing where there is none.
 inline std::optional<Mat3<double>> spin_axes(const Mat3<double>& J, const Vec3<double>& l, const Vec3<double>& charge,
-                                             const Vec3<double>& omega) noexcept {
+                                             const Vec3<double>& omega, double* dropped) noexcept {
   const bool diagonal = J.isDiagonal(0);
   const Mat3<double> axes = diagonal ? Mat3<double>(Mat3<double>::Identity()) : symmetric_eigen<double>(J).axes;
   int best = -1;
@@ -172,12 +173,13 @@ inline std::optional<Mat3<double>> spin_axes(const Mat3<double>& J, const Vec3<d
     if (const double spin = std::abs(e.dot(J * omega)); spin > most) best = i, most = spin;
   }
   if (best < 0) return std::nullopt;
+  for (const auto& along : {l, charge}) parallel(axes.col(best), along, dropped);
   Mat3<double> R;
   for (int row = 0; row < 3; ++row) R.row(row) = axes.col((best + 1 + row) % 3).transpose();
   return R;
 }
 
-inline const char* as_spinning(const Given& given, std::optional<SpinningInstance>& instance) {
+inline const char* as_spinning(const Given& given, std::optional<SpinningInstance>& instance, double* dropped) {
   const auto& [problem, wheels, loads, spinners, question] = given;
   if (loads.other) return loads.other;
   if (loads.damps() || loads.brakes() || loads.weighs) return "a torque that is not constant in the body acts";
@@ -185,7 +187,7 @@ inline const char* as_spinning(const Given& given, std::optional<SpinningInstanc
   if (!loads.force_I.isZero(0)) return "a force is constant in space";
   if (spinners.why) return spinners.why;
   if (!spinners.spare) return "a wheel has friction or a motor";
-  const auto axes = spin_axes(wheels.reduced, spinners.kept, loads.charge, problem.angular_velocity);
+  const auto axes = spin_axes(wheels.reduced, spinners.kept, loads.charge, problem.angular_velocity, dropped);
   if (!axes) return "momentum of wheels or charge is not along a principal axis";
   SpinningInstance made;
   made.R_SB = *axes;
@@ -218,11 +220,13 @@ GYROSTAT_COMPILED_ONCE Instances recognise(const Problem<double>& problem, const
   found.charge = given.loads.charge;
   found.pushed = !given.loads.force.isZero(0) || !given.loads.force_I.isZero(0) || !torques.is_steady();
   const auto why = [&](Special special) -> const char*& { return found.why[std::size_t(special)]; };
+  found.dropped.fill(given.loads.dropped);
+  const auto dropped = [&](Special special) { return &found.dropped[std::size_t(special)]; };
   why(Special::free) = detail::as_free(given, found.free);
-  why(Special::deceleration) = detail::as_deceleration(given, found.deceleration);
-  why(Special::heavy) = detail::as_heavy(given, found.heavy);
-  why(Special::rotor) = detail::as_rotor(given, found.rotor);
-  why(Special::spinning) = detail::as_spinning(given, found.spinning);
+  why(Special::deceleration) = detail::as_deceleration(given, found.deceleration, dropped(Special::deceleration));
+  why(Special::heavy) = detail::as_heavy(given, found.heavy, dropped(Special::heavy));
+  why(Special::rotor) = detail::as_rotor(given, found.rotor, dropped(Special::rotor));
+  why(Special::spinning) = detail::as_spinning(given, found.spinning, dropped(Special::spinning));
   return found;
 }
 

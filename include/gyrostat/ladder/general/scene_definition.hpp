@@ -21,6 +21,7 @@ inline double size_of_torque(const Problem<double>& problem, const Torque<double
       return std::abs(torque.gradient ? *torque.gradient : orbit_at(*problem.orbit, t).gradient) *
              problem.inertia.norm();
     case TorqueType::magnetic: return torque.vector.norm() * field_at(problem, t).flux_density.norm();
+    case TorqueType::brake: return torque.vector.norm();
     case TorqueType::charge: return torque.vector.norm() * pose.angular_velocity.norm();
     default: return load_of(problem, torque, pose, t, t).torque.norm();
   }

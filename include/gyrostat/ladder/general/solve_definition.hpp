@@ -17,6 +17,61 @@
 
 namespace gyrostat::general {
 
+namespace detail {
+
+/// The extent of an orbit, m.
+struct Apsides {
+  double lowest, highest;
+};
+inline Apsides apsides_of(const Orbit<double>& orbit) noexcept {
+  const double e = orbit.eccentricity, parameter = orbit.radius * (1 + e * std::cos(orbit.true_anomaly));
+  return {parameter / (1 + e), parameter / (1 - e)};
+}
+
+/// By how much a gradient is greater than any of an orbit, as a share of that: 0 within a thousandth.
+inline double beyond_orbit(double gradient, const Orbit<double>& orbit) noexcept {
+  const auto [lowest, highest] = apsides_of(orbit);
+  const auto over = [&](double r) noexcept { return gradient / (3 * (orbit.mu / r) / (r * r)) - 1; };
+  const double low = over(highest), high = over(lowest);  // over the least of the orbit, and over the greatest
+  return high > 1e-3 ? high : low < -1e-3 ? low : 0;
+}
+
+/// How many times as fast as at the start a body is at some time where torques come and go; 0 where none does, or where it starts at rest.
+inline double outrun(const Scene& scene, const Track& track) noexcept {
+  const auto& torques = scene.problem().torques;
+  const double first = scene.problem().angular_velocity.norm();
+  const bool come_and_go = std::any_of(torques.begin(), torques.end(), [](const Torque<double>& torque) {
+    return !torque.table.times.empty() || !torque.factor.table.times.empty() || !torque.factor.on.empty();
+  });
+  if (!come_and_go || !(first > 0)) return 0;
+  double most = 0;
+  for (const auto& state : track.states) most = std::max(most, state.angular_velocity.norm());
+  return most / first;
+}
+
+/// What is odd about orbit and torques, or was dropped on the way to a family.
+template <class Warn>
+void warn_of_scene(const Answer& answer, const Scene& scene, const Track& track, const Warn& warn) {
+  const auto& problem = scene.problem();
+  if (problem.orbit) {
+    for (const auto& torque : problem.torques)
+      if (torque.type == TorqueType::gravity_gradient && torque.gradient)
+        if (const double beyond = beyond_orbit(*torque.gradient, *problem.orbit); beyond != 0)
+          warn(warning::orbit_mismatch, beyond);
+    const double height = apsides_of(*problem.orbit).lowest - problem.orbit->surface;
+    if (problem.orbit->surface > 0 && height < 0) warn(warning::inside_planet, height);
+  }
+  if (const double times = outrun(scene, track); times > 1e3) warn(warning::torque_outruns, times);
+  if (!track.rests.empty()) warn(warning::rest, track.rests.front()[0]);
+  const int rung = place_of(tables.rungs, answer.model);
+  const Special by = rung < 0 ? Special::none : special_rungs[std::size_t(rung)].special;
+  if (by == Special::none) return;
+  if (const double dropped = scene.instances().dropped[std::size_t(by)]; dropped >= 1)
+    warn(warning::with_rounding, dropped);
+}
+
+}  // namespace detail
+
 /// What is known of the scene and of the whole motion.
 inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   const auto tell = [&](std::size_t which, double value, double error = nan<double>) {
@@ -51,6 +106,7 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   for (const auto& wheel : problem.wheels)
     if (wheel.type == WheelType::motor && std::abs(wheel.rate) > std::abs(wheel.no_load_rate) && wheel.slope > 0)
       warn(warning::beyond_no_load, wheel.rate);
+  detail::warn_of_scene(answer, scene, track, warn);
 }
 
 namespace detail {

@@ -31,6 +31,9 @@ struct Track : Outcome {
   };
   Slow norm, energy;
   double stop_time = nan<double>, stop_error = nan<double>;
+  /// From when to when a brake holds the body, s, and how well each begin is known: there all torque is that of rest.
+  std::vector<std::array<double, 2>> rests;
+  double rest_off = 0;
   double energy_balance = nan<double>, momentum_balance = nan<double>;
 
   Track() { off.fill(nan<double>); }

@@ -152,6 +152,13 @@ class Writer {
       const double sizes =
           sum_of_torques(scene_.problem(), here, times[i]) + scene_.own_torque()(times[i], here).norm();
       double sum = 8 * epsilon<double> * sizes;
+      const bool rests = std::any_of(track_.rests.begin(), track_.rests.end(), [&](const auto& rest) {
+        return times[i] >= rest[0] + track_.rest_off && times[i] <= rest[1];
+      });
+      if (rests) {
+        most = greater(sum, most);
+        continue;
+      }
       for (int axis = 0; axis < 3; ++axis) {
         const Vec3<double> e = Vec3<double>::Unit(axis);
         // by at least the root of a rounding, so that the difference means something

@@ -120,6 +120,7 @@ struct Orbit {
   Scalar eccentricity = 0;                       ///< in [0, 1)
   Scalar true_anomaly = 0;                       ///< at t = 0, rad
   Vec3<Scalar> radial{1, 0, 0}, along{0, 1, 0};  ///< at t = 0, inertial axes, orthonormal
+  Scalar surface = 0;                            ///< radius of the planet, m; 0: not known
 };
 
 /// The magnetic field where the body is: none, the same always, turning about an axis, or a dipole that the body orbits.

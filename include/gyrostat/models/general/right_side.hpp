@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "gyrostat/core/real.hpp"
+#include "gyrostat/models/general/holding.hpp"
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/surroundings.hpp"
 #include "gyrostat/models/general/table.hpp"
@@ -60,7 +61,16 @@ Vec3<Scalar> gradient_shape(const Mat3<Scalar>& J, const Vec3<Scalar>& d) noexce
   return cross<Scalar>(d, Vec3<Scalar>(J * d));
 }
 
-/// One torque without its factor.
+/// What damping and brakes oppose.
+template <Real Scalar>
+Vec3<Scalar> opposed_by(const Problem<Scalar>& problem, const Torque<Scalar>& torque,
+                        const Pose<Scalar>& pose) noexcept {
+  if (torque.opposed == Opposed::angular_velocity) return pose.angular_velocity;
+  if (torque.opposed == Opposed::momentum) return pose.angular_momentum;
+  return problem.inertia * pose.angular_velocity;
+}
+
+/// One torque without its factor; that of a brake where what it opposes is not zero.
 template <Real Scalar>
 Load<Scalar> load_of(const Problem<Scalar>& problem, const Torque<Scalar>& torque, const Pose<Scalar>& pose, Scalar t,
                      Scalar inside) noexcept {
@@ -75,9 +85,7 @@ Load<Scalar> load_of(const Problem<Scalar>& problem, const Torque<Scalar>& torqu
   };
   const Vec3<Scalar>& w = pose.angular_velocity;
   const Vec3<Scalar> down = to_body(problem.field.down);
-  const Vec3<Scalar> opposed = torque.opposed == Opposed::angular_velocity ? w
-                               : torque.opposed == Opposed::momentum       ? pose.angular_momentum
-                                                                           : Vec3<Scalar>(problem.inertia * w);
+  const Vec3<Scalar> opposed = opposed_by(problem, torque, pose);
   switch (torque.type) {
     case TorqueType::constant: return {turned(torque.vector), {0, 0, 0}};
     case TorqueType::table: return {turned(table_at(torque.table, t, inside)), {0, 0, 0}};
@@ -110,18 +118,24 @@ Load<Scalar> load_of(const Problem<Scalar>& problem, const Torque<Scalar>& torqu
 
 }  // namespace detail
 
-/// All external torques and forces at t. inside: a time in the piece between two breakpoints whose laws are meant; t itself for what
-/// holds from t on.
+/// All external torques and forces at t. Brakes whose momentum is zero take up the others as far as they can (holding.hpp). inside: a time in
+/// the piece between two breakpoints whose laws are meant; t itself for what holds from t on.
 template <Real Scalar>
 Load<Scalar> load_at(const Problem<Scalar>& problem, const Pose<Scalar>& pose, Scalar t, Scalar inside) noexcept {
   Load<Scalar> sum;
+  Vec3<Scalar> holding(0, 0, 0);
   for (const Torque<Scalar>& torque : problem.torques) {
     const Scalar factor = detail::factor_at(torque.factor, t, inside);
     if (factor == 0) continue;
+    if (torque.type == TorqueType::brake && detail::opposed_by(problem, torque, pose).isZero(0)) {
+      holding += factor * torque.vector;
+      continue;
+    }
     const Load<Scalar> one = detail::load_of(problem, torque, pose, t, inside);
     sum.torque += factor * one.torque;
     sum.force += factor * one.force;
   }
+  if (!holding.isZero(0)) sum.torque += torque_at_rest<Scalar>(holding, sum.torque);
   return sum;
 }
 

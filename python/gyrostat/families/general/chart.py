@@ -3,6 +3,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -11,6 +12,7 @@ from gyrostat.broadcast import Floats
 from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, Unanswered, first_turns, greatest, reference, relative
 from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS
+from gyrostat.families.general.clock import since
 from gyrostat.families.general.functions import QUESTION, integrate, posed, recognise, segments, solve
 from gyrostat.families.general.scene import arguments
 from gyrostat.rotation import angle_between
@@ -37,35 +39,41 @@ def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, f
 
 
 def problem(scene: "Scene") -> Problem:
-    """The scene, or its first part where the whole is too long. Raises DomainError for a motion that a brake stops."""
-    if not scene.starts_plainly:
-        raise DomainError("a scene that begins where another ends, at another time than 0 or with initial.error is not charted; give it a start of its own in "
-                          "[initial]")
+    """The scene, or its first part where the whole is too long. What is known of the error of its start is no error of a method: all begin at the same
+    start, as if it were exact. Raises DomainError for a motion that a brake stops."""
     given = {**arguments(scene), "ask": ("attitude", "angular_velocity"), "euler": None}
+    exact, begin = "; the start taken as exact" if given.pop("start_error", None) else "", scene.start_time
     physics = {name: value for name, value in given.items() if name not in QUESTION}
     found = {family for family, why in recognise(**physics, times=given["times"]).items() if not why}
     rival = Rival(physics)
     rate = _rate(given, rival)
-    given["times"], cut = first_turns(given["times"], lambda end: rate * end, MOST_TURNS)
-    physics["times"] = rival.times = given["times"]
+    since_start, cut = first_turns(given["times"] - begin, lambda end: rate * end, MOST_TURNS)
+    if cut:
+        given["times"] = since_start + begin
+    physics["times"], rival.times = given["times"], given["times"] - begin
     want, source = reference(integrate, physics, "taylor")
-    end = float(given["times"][-1])
-    title = f"{len(given['times'])} times to {end:.6g} s{cut}\n{rate * end:.3g} turns at most; {source}"
+    end, last = float(rival.times[-1]), float(given["times"][-1])
+    first = f" from {begin:.6g}" if begin else ""
+    title = f"{len(given['times'])} times{first} to {last:.6g} s{cut}\n{rate * end:.3g} turns at most; {source}{exact}"
     lacks = set() if segments(**physics) else {"segments"}
     rungs = tuple(name for name in FACTS["general"].rungs if name.rpartition(":")[0] in {"", *found} and name not in lacks)
     return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), rival, end * 10 * rate, rungs=rungs,
-                   cuts=rival.cuts)
+                   cuts=rival.cuts, begin=begin)
 
 
 def _rate(given: Mapping[str, Any], rival: "Rival") -> float:
     """The greatest rate of body, orbit, field and waves, in turns a second."""
-    end = float(given["times"][-1])
-    if end <= 0:
+    begin, end = given.get("start_time", 0.0), float(given["times"][-1])
+    if end <= begin:
         return 1.0  # which first_turns refuses
     try:
-        answer = solve(**{**given, "times": np.linspace(0.0, end, LOOKS), "tolerance": ROUGH, "model": "auto", "ask": ("angular_velocity",)})
+        answer = solve(**{**given, "times": np.linspace(begin, end, LOOKS), "tolerance": ROUGH, "model": "auto", "ask": ("angular_velocity",)})
     except DomainError as error:
         raise DomainError(f"the motion cannot be charted to {end:.6g} s, choose a shorter time: {error}") from None
+    for warning in answer.warnings:
+        if warning.code == "rest":
+            raise DomainError(f"the motion cannot be charted to {end:.6g} s, choose a shorter time: integrators do not go through a stop, and "
+                              f"{warning.message}")
     return max(float(np.max(np.linalg.norm(answer["angular_velocity"], axis=1))), rival.forcing, 1e-300) / (2 * math.pi)
 
 
@@ -100,14 +108,26 @@ def _table(table: Mapping[str, Any]) -> Law:
     return law
 
 
-def _factor(torque: Mapping[str, Any]) -> Callable[[float], float]:
+@dataclass(frozen=True, slots=True)
+class Maths:
+    """Functions of numbers, or of expressions."""
+
+    cos: Callable[[Any], Any]
+    sin: Callable[[Any], Any]
+    sqrt: Callable[[Any], Any]
+
+
+NUMBERS: Final = Maths(math.cos, math.sin, math.sqrt)
+
+
+def _factor(torque: Mapping[str, Any], maths: Maths) -> Callable[[Any], Any]:
     on, table = torque["on"], _table(torque["factor_table"]) if torque["factor_table"] else None
     mean, amplitude, rate, phase = (float(torque[name]) for name in ("mean", "amplitude", "rate", "phase"))
 
-    def factor(t: float) -> float:
+    def factor(t: Any) -> Any:
         if len(on) and not any(begin <= t < end for begin, end in on):
             return 0.0
-        wave = mean + amplitude * math.sin(rate * t + phase) if amplitude else mean
+        wave = mean + amplitude * maths.sin(rate * t + phase) if amplitude else mean
         return wave if table is None else wave * float(table(t)[0])
 
     return factor
@@ -115,7 +135,12 @@ def _factor(torque: Mapping[str, Any]) -> Callable[[float], float]:
 
 def _rotation(state: Floats) -> Floats:
     """Body to inertial, of a quaternion (x, y, z, w) of any length."""
-    x, y, z, w = (state[:4] / np.linalg.norm(state[:4])).tolist()
+    return _matrix(state[:4] / np.linalg.norm(state[:4]))
+
+
+def _matrix(q: Floats) -> Floats:
+    """Of a unit quaternion (x, y, z, w)."""
+    x, y, z, w = q.tolist()
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
@@ -123,8 +148,8 @@ def _rotation(state: Floats) -> Floats:
 class Surroundings:
     """Orbit and field, inertial axes."""
 
-    def __init__(self, scene: Mapping[str, Any]) -> None:
-        self.orbit, self.field = scene["orbit"], scene["field"]
+    def __init__(self, scene: Mapping[str, Any], maths: Maths = NUMBERS) -> None:
+        self.orbit, self.field, self.maths = scene["orbit"], scene["field"], maths
         self.mean = 0.0
         if self.orbit:
             e, nu = self.orbit["eccentricity"], self.orbit["true_anomaly"]
@@ -133,9 +158,12 @@ class Surroundings:
             E = 2 * math.atan(math.sqrt((1 - e) / (1 + e)) * math.tan(nu / 2))
             self.first = E - e * math.sin(E)
 
-    def place(self, t: float) -> tuple[Floats, Floats, float, float, float]:
+    def place(self, t: Any) -> tuple[Floats, Floats, float, float, float]:
         """Radial and along, unit; distance, its rate, and the rate of turn."""
         e, nu, mu = self.orbit["eccentricity"], self.orbit["true_anomaly"], self.orbit["mu"]
+        if e == 0:
+            c, s = self.maths.cos(self.mean * t), self.maths.sin(self.mean * t)
+            return self.orbit["radial"] * c + self.orbit["along"] * s, self.orbit["along"] * c - self.orbit["radial"] * s, self.axis, 0.0, self.mean
         M = self.first + self.mean * t
         E = M
         for _ in range(60):
@@ -150,27 +178,28 @@ class Surroundings:
         return (c * self.orbit["radial"] + s * self.orbit["along"], c * self.orbit["along"] - s * self.orbit["radial"], r, mu / h * e * math.sin(true),
                 h / (r * r))
 
-    def flux(self, t: float) -> tuple[Floats, Floats]:
+    def flux(self, t: Any) -> tuple[Floats, Floats]:
         """The magnetic flux density and its rate."""
         field, kind = self.field, self.field["magnetic"]
         B, k = field["flux_density"], field["axis"]
         if kind == "rotating":
             along, ahead = k * float(k @ B), np.cross(k, B)
-            c, s, rate = math.cos(field["rate"] * t), math.sin(field["rate"] * t), field["rate"]
-            return along + c * (B - along) + s * ahead, rate * (c * ahead - s * (B - along))
+            c, s, rate = self.maths.cos(field["rate"] * t), self.maths.sin(field["rate"] * t), field["rate"]
+            return along + (B - along) * c + ahead * s, (ahead * c - (B - along) * s) * rate
         if kind != "dipole":
             return B, np.zeros(3)
         radial, on, r, climb, turn = self.place(t)
         b = field["strength"] * (field["radius"] / r) ** 3
-        shape = k - 3 * float(k @ radial) * radial
-        return b * shape, -3 * climb / r * b * shape - 3 * b * turn * (float(k @ on) * radial + float(k @ radial) * on)
+        shape = k - radial * (3 * (k @ radial))
+        return shape * b, shape * (-3 * climb / r * b) - (radial * (k @ on) + on * (k @ radial)) * (3 * b * turn)
 
 
 class Rival:
-    """Attitude (x, y, z, w), M and the momenta of wheels that turn by themselves over a size that they have; the attitude is not normalised."""
+    """By the time since the start: attitude (x, y, z, w), M and the momenta of wheels that turn by themselves over a size that they have; the attitude is not normalised."""
 
     def __init__(self, physics: Mapping[str, Any]) -> None:
-        self.scene = scene = posed(**physics)
+        begin = physics.get("start_time", 0.0)
+        self.scene = scene = since(begin, posed(**{name: value for name, value in physics.items() if name != "start_time"}))
         self.times = np.zeros(0)
         self.body, self.surroundings = scene["body"], Surroundings(scene)
         wheels = [each for each in scene["wheels"] if each["type"] != "locked"]
@@ -183,7 +212,7 @@ class Rival:
         self.slope = np.array([each["slope"] + each["friction"] if each["type"] == "motor" else each["friction"] if each["type"] != "free" else 0.0
                                for each in own])
         self.inverse = np.linalg.inv(self.body["inertia"] - np.einsum("k,ki,kj->ij", self.axial, self.axes, self.axes))
-        self.torques = [(_factor(each), self._torque(each)) for each in scene["torques"]]
+        self.torques = self._torques(NUMBERS)
         w = scene["initial"]["angular_velocity"]
         p = self.axial * (np.array([each["rate"] for each in own]) + self.axes @ w)
         M = self.body["inertia"] @ w + self._given(0.0) + (p - self.axial * (self.axes @ w)) @ self.axes
@@ -206,14 +235,20 @@ class Rival:
             made = made + arm * float(rate(t)[0])
         return made
 
-    def _rate(self, t: float, state: Floats) -> Floats:
-        made: Floats = self.inverse @ (self.size * (state[4:7] - state[7:] @ self.axes) - self._given(t))
+    def _rate(self, t: Any, state: Floats) -> Floats:
+        carried = sum((p * axis for p, axis in zip(state[7:], self.axes, strict=True)), np.zeros(3))
+        made: Floats = self.inverse @ (self.size * (state[4:7] - carried) - self._given(t))
         return made
 
-    def _torque(self, torque: Mapping[str, Any]) -> Callable[[float, Floats, Floats, Floats], Floats]:
+    def _torques(self, maths: Maths) -> list[tuple[Callable[[Any], Any], Callable[[Any, Floats, Floats, Floats], Floats]]]:
+        """Factor and law of each."""
+        around = Surroundings(self.scene, maths)
+        return [(_factor(each, maths), self._torque(each, around)) for each in self.scene["torques"]]
+
+    def _torque(self, torque: Mapping[str, Any], around: Surroundings) -> Callable[[Any, Floats, Floats, Floats], Floats]:
         """A torque of t, the rotation, w and M, body axes."""
         kind, vector, matrix, body = torque["type"], torque["vector"], torque["matrix"], self.body
-        around, field, J = self.surroundings, self.scene["field"], self.body["inertia"]
+        field, J = self.scene["field"], self.body["inertia"]
         table = _table(torque["table"]) if torque["table"] else None
 
         def in_body(t: float, R: Floats, v: Floats) -> Floats:
@@ -243,7 +278,7 @@ class Rival:
 
         def brake(t: float, R: Floats, w: Floats, M: Floats) -> Floats:
             U = opposed(w, M)
-            made: Floats = -vector * U / np.linalg.norm(U)
+            made: Floats = -vector * U / around.maths.sqrt(U @ U)
             return made
 
         arm = torque["point"] - (0.0 if body["fixed"] else body["centre_of_mass"])
@@ -262,23 +297,32 @@ class Rival:
 
     def right(self) -> Callable[[float, Floats], Floats]:
         """The right-hand side in Python."""
-        def right(t: float, state: Floats) -> Floats:
-            w, M, R = self._rate(t, state), self.size * state[4:7], _rotation(state)
-            torque = np.cross(M, w)
-            for factor, one in self.torques:
-                if share := factor(t):
-                    torque = torque + share * one(t, R, w, M)
-            x, y, z, q = state[:4].tolist()
-            o1, o2, o3 = w.tolist()
-            turning = (q * o1 + y * o3 - z * o2, q * o2 + z * o1 - x * o3, q * o3 + x * o2 - y * o1, -(x * o1 + y * o2 + z * o3))
-            push = np.array([drive(t) for drive in self.drive]) - self.slope * (self.size * state[7:] / self.axial - self.axes @ w)
-            return np.concatenate([0.5 * np.array(turning), torque / self.size, push / self.size])
+        return lambda t, state: self._flow(t, state, _rotation(state), self.torques)
 
-        return right
+    def _flow(self, t: Any, state: Floats, R: Floats, torques: list[tuple[Callable[[Any], Any], Callable[[Any, Floats, Floats, Floats], Floats]]]) -> Floats:
+        w, M = self._rate(t, state), self.size * state[4:7]
+        torque = np.cross(M, w)
+        for factor, one in torques:
+            share = factor(t)
+            if not isinstance(share, float) or share:
+                torque = torque + one(t, R, w, M) * share
+        x, y, z, q = state[:4].tolist()
+        o1, o2, o3 = w.tolist()
+        turning = (q * o1 + y * o3 - z * o2, q * o2 + z * o1 - x * o3, q * o3 + x * o2 - y * o1, -(x * o1 + y * o2 + z * o3))
+        push = np.array([drive(t) for drive in self.drive]) - self.slope * (self.size * state[7:] / self.axial - self.axes @ w)
+        return np.concatenate([0.5 * np.array(turning), torque / self.size, push / self.size])
 
     def system(self, heyoka: Any) -> list[Any]:
-        """There is none for heyoka."""
-        raise Unanswered("the equations of general scenes are not written for it")
+        """For heyoka, with the quaternion as it stands. Raises Unanswered for laws that change at single times, and on an ellipse."""
+        parts = (*self.scene["wheels"], *self.scene["torques"])
+        if any(each.get(name) for each in parts for name in ("table", "factor_table")) or any(len(each["on"]) for each in self.scene["torques"]):
+            raise Unanswered("tables and intervals are not written for it")
+        if self.scene["orbit"] and self.scene["orbit"]["eccentricity"]:
+            raise Unanswered("orbits but circles are not written for it")
+        names = ("x", "y", "z", "w", "M1", "M2", "M3", *(f"p{i}" for i in range(len(self.axial))))
+        state = np.array(heyoka.make_vars(*names), dtype=object)
+        made = self._flow(heyoka.time, state, _matrix(state[:4]), self._torques(Maths(heyoka.cos, heyoka.sin, heyoka.sqrt)))
+        return [(one, rate if isinstance(rate, heyoka.expression) else heyoka.expression(float(rate))) for one, rate in zip(state, made, strict=True)]
 
 
 def _drive(wheel: Mapping[str, Any]) -> Callable[[float], float]:

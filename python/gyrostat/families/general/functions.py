@@ -169,6 +169,8 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
         return None
     mu, planet = given.get("mu"), PLANETS[given.get("planet") or "earth"]
     radius, rate = given.get("radius"), given.get("rate")
+    # of an orbit that is given by numbers of its own the planet is not known
+    surface = planet[1] if given.get("altitude") is not None or (radius is not None and mu is None and rate is None) else 0.0
     if given.get("altitude") is not None:
         radius = planet[1] + given["altitude"]
     if given.get("period") is not None:
@@ -182,7 +184,7 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
     along = stacked(_or(given.get("along"), (0.0, 1.0, 0.0)))
     return {"radius": radius, "mu": planet[0] if mu is None else mu, "eccentricity": _or(given.get("eccentricity"), 0.0),
             "true_anomaly": _or(given.get("true_anomaly"), 0.0), "radial": radial,
-            "along": _unit(along - radial * dot(radial, along)[..., None], "orbit.along")}
+            "along": _unit(along - radial * dot(radial, along)[..., None], "orbit.along"), "surface": surface}
 
 
 def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
@@ -327,13 +329,13 @@ def segments(*, times: ArrayLike, start_time: float = 0.0, **physics: Any) -> li
 
 
 def integrate(*, times: ArrayLike, method: str, tolerance: float, order: int = 20, precision: str = "double", patience: float = math.inf,
-              **physics: Any) -> dict[str, Any]:
+              start_time: float = 0.0, **physics: Any) -> dict[str, Any]:
     """The full equations under one integrator, timed, anew from each time at which a torque or a wheel changes its law.
 
-    physics : arguments of `solve` that are no question; times as there; method : taylor (of order 8, 12 or 20; in long double 30), dop853, and where
+    physics : arguments of `solve` that are no question; times and start_time as there; method : taylor (of order 8, 12 or 20; in long double 30), dop853, and where
     the build has them cvode-adams and cvode-bdf; patience : CPU time after which it gives up [s].
     Returns columns attitude and angular_velocity, seconds, rhs, steps and status. Raises DomainError.
     """
-    made: dict[str, Any] = _core.general_integrate(scene=posed(**physics), times=np.asarray(times, dtype=float), method=method, order=order,
-                                                   tolerance=tolerance, precision=precision, patience=patience)
+    made: dict[str, Any] = _core.general_integrate(scene=since(start_time, posed(**physics)), times=np.asarray(times, dtype=float) - start_time,
+                                                   method=method, order=order, tolerance=tolerance, precision=precision, patience=patience)
     return made
