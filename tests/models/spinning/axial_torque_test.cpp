@@ -28,8 +28,8 @@ std::array<S, 24> rate_of(const Problem<S>& p, S t, const S* x) {
           x[1] - r * x[2],
           -r * x[5],
           r * x[4],
-          0,
-          0,
+          (p.inertia[0] - p.inertia[1]) / p.inertia[2] * x[0] * x[1],
+          (x[1] * x[2] - x[0] * x[3]) / 2 + x[6],
           x[4],
           x[5],
           x[4] * x[2] - x[5] * x[3],
@@ -63,7 +63,7 @@ TEMPLATE_TEST_CASE("the series solve the linear equations under an axial torque"
     const S t = S(0.5L) / p.angular_velocity.norm();
     S x[order + 1][width] = {};
     typename AxialTorqueSystem<S>::template Work<order> work;
-    for (std::size_t k = 0; k < width; ++k) x[0][k] = system.start()[k] + (k >= 8 ? S(0.1L) : S(0));
+    for (std::size_t k = 0; k < width; ++k) x[0][k] = system.start()[k] + (k >= 6 ? S(0.1L) : S(0));
     for (const std::size_t k : {15U, 22U, 23U}) x[0][k] = 0;
     const S unit = S(0.2L) / (std::abs(system.spin(t)) + std::abs(p.kappa1(system.spin(t))) +
                               std::abs(p.kappa2(system.spin(t))) + std::sqrt(p.torque.norm() / p.inertia.minCoeff()));
