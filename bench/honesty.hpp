@@ -31,8 +31,8 @@ struct Case {
 struct Tally {
   int answered = 0, honest = 0, met = 0, over = 0, refused = 0, outside = 0, unknown = 0;
   int climbed = 0, waste = 0;  ///< answers of the ladder, and those that a cheaper rung would have done for
-  std::map<std::string, int>
-      wasted;  ///< that rung, that which answered, and the column in which its stated error was widest
+  /// By that rung, the one that answered, and the column in which its stated error was widest.
+  std::map<std::string, int> wasted;
   std::map<std::string, int> outcomes;
   std::map<std::string, std::vector<double>> ratios;  ///< stated over true
   std::vector<Case> worst;
