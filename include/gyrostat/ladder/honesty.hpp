@@ -37,6 +37,9 @@ inline constexpr double looks = 64;
 
 /// Deceleration: errors sink with the motion, and a distance fades so many times as fast.
 inline constexpr double sinking = 8;
+/// Deceleration: the part of the way to the stop that one step of the answer may go at most, and of its companions. It rules the first
+/// steps of loose tolerances, whose truncation sinks as its power: of companions that went as far one step in some thousand erred alike.
+inline constexpr double reach = 0.3, companion_reach = 0.25, second_reach = 0.24;
 
 /// First guess of the step tolerance over the tolerance asked for, before the turns count.
 inline constexpr double first_share = 1.0 / 8;

@@ -430,7 +430,7 @@ namespace {
 /// The true motion of a body that was given as a tensor, made anew in long double.
 struct FromTensor {
   Mat3<double> J, control = Mat3<double>::Zero();
-  Vec3<double> M;
+  Vec3<double> M, l = Vec3<double>::Zero();
 
   template <Real S>
   Problem<S> problem() const {
@@ -441,6 +441,7 @@ struct FromTensor {
     made.inverse_inertia = body->inverse_principal();
     made.control = back * control.cast<S>() * R;
     made.momentum = back * M.cast<S>();
+    made.rotor_momentum = back * l.cast<S>();
     return made;
   }
   template <Real S>
@@ -495,6 +496,22 @@ TEST_CASE("one asked time in the first step is judged, too") {
     const auto solved = solve(problem, {t}, 1e-3);
     const auto error = (solved.momentum[0].cast<long double>() - truth.momentum[0]).norm() / problem.momentum.norm();
     CHECK(error <= solved.answer.error[column::angular_momentum]);
+  }
+}
+
+TEST_CASE("companions err less where the way to the stop rules the steps") {
+  FromTensor body;
+  body.J = Vec3<double>(2093.1830102987042, 2998.9331466039534, 2160.7154021010192).asDiagonal();
+  body.l = {84.320385087223883, -93.476449068071332, -0.91029210302280095};
+  body.control = Vec3<double>(181.96301141741475, 111.12978005952993, 144.92238540105646).asDiagonal();
+  body.M = {2087.832754595619, 192.00505062843553, -3014.8764668516314};
+  const auto truth = solve(body.problem<long double>(), {15.508123653497828L}, 1e-17L);
+  for (const double early :
+       {1.4, 3.6, 4.4, 5.2, 5.8, 7.7}) {  // behind 5.2 the error of the first step is seen, before it not
+    CAPTURE(early);
+    const auto solved = solve(body.problem<double>(), {early, 15.508123653497828}, 1e-3);
+    const double error = static_cast<double>(solved.momentum[1].cast<long double>().norm() - truth.momentum[0].norm());
+    CHECK(std::abs(error) / body.M.norm() <= solved.answer.error[column::angular_momentum_norm]);
   }
 }
 

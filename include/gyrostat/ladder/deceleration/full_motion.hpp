@@ -420,11 +420,13 @@ class FullMotion {
     const Scalar tight = companion_step(step_tolerance);
     const Scalar slim = problem_.exact_gaps ? Scalar(1) : problem_.inverse_inertia[2] / problem_.inverse_inertia[0];
     const Scalar change = data_change(step_tolerance, slim);
-    Run course(itself_, attitude_, step_tolerance, Scalar(0.3L), options_.step_cap);
-    Run companion(Neighbour<Scalar>(problem_, change, 0), attitude_, tight, Scalar(0.33L), options_.step_cap);
+    Run course(itself_, attitude_, step_tolerance, Scalar(honesty::reach), options_.step_cap);
+    Run companion(Neighbour<Scalar>(problem_, change, 0), attitude_, tight, Scalar(honesty::companion_reach),
+                  options_.step_cap);
     std::optional<Run> second;
     if (rounding_rules(step_tolerance, slim))
-      second.emplace(Neighbour<Scalar>(problem_, change, 1), attitude_, tight, Scalar(0.35L), options_.step_cap);
+      second.emplace(Neighbour<Scalar>(problem_, change, 1), attitude_, tight, Scalar(honesty::second_reach),
+                     options_.step_cap);
     const Runs<Run> runs{course, companion, second ? &*second : nullptr};
     if (!times_.empty()) {
       const Row<Scalar> row(problem_);
