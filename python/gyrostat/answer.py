@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.facts import FACTS
-from gyrostat.orientation import form_of
+from gyrostat.orientation import NOT_ORTHONORMAL, form_of
 
 if TYPE_CHECKING:
     import pandas
@@ -97,10 +97,13 @@ class Answer:
         """The scene in the layout of a scene file; it is written out when it is first looked at."""
         return self.told()
 
-    def of_scene(self, told: Callable[[], dict[str, Any]]) -> "Answer":
-        """This answer, as that of the scene that `told` tells."""
+    def of_scene(self, told: Callable[[], dict[str, Any]], off_orthonormal: float = 0) -> "Answer":
+        """This answer, as that of the scene that `told` tells, whose direction cosines are so far off being orthonormal."""
         self.__dict__.pop("scene", None)
         self.__dict__["told"] = told
+        if off_orthonormal > 0:
+            code, text = NOT_ORTHONORMAL
+            self.__dict__["warnings"] = (*self.warnings, Warning_(code, f"{text} {off_orthonormal:.2g}"))
         return self
 
     @property

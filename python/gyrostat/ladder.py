@@ -9,6 +9,7 @@ from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
+from gyrostat.orientation import off_orthonormal
 from gyrostat.scenes import Scene, load, scene_from
 
 if TYPE_CHECKING:
@@ -48,7 +49,8 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = Non
     own = {} if torque is None and len(breakpoints) == 0 else {"torque": torque, "breakpoints": breakpoints}
     if own and family.name != "general":
         raise DomainError(f"torque: a torque of your own is for scenes of the kind general, and this one is of the kind {family.name}")
-    return family.solve(**family.arguments(checked), **own, monitor=monitor).of_scene(checked.to_dict)
+    answer = family.solve(**family.arguments(checked), **own, monitor=monitor)
+    return answer.of_scene(checked.to_dict, off_orthonormal(checked.tables.get("initial", {})))
 
 
 def chart(scene: SceneLike, **overrides: Any) -> "Chart":

@@ -16,12 +16,16 @@ from gyrostat.errors import Refused
 from gyrostat.fields import ROUNDING, UNSET, Choices, Field, Table
 from gyrostat.rotation import quaternion_from_matrix, quaternion_from_vector
 
-__all__ = ["EXAMPLE", "FORMS", "SEQUENCES", "axes_of", "form_of", "require_rotation", "settle", "with_alternatives", "with_forms"]
+__all__ = ["EXAMPLE", "FORMS", "NOT_ORTHONORMAL", "SEQUENCES", "axes_of", "form_of", "off_orthonormal", "require_rotation", "settle",
+           "with_alternatives", "with_forms"]
 
 Quaternion = tuple[float, float, float, float]
 
-# Rows of a direction cosine matrix are of unit length and across each other within this.
+# Rows of a direction cosine matrix are of unit length and across each other within this, and where they are not within the second, a warning says so.
 ORTHONORMAL: Final = 1e-8
+ROUNDED: Final = 1e-12
+# The code of that warning and its text, to which the greatest product that should be 0 or 1 adds how far it is off.
+NOT_ORTHONORMAL: Final = ("not-orthonormal", "the direction cosines of the start are rounded, and the nearest rotation is taken; off by")
 
 FORMS: Final[Table] = (
     Field("quaternion_scalar_first", "quaternion", "the attitude as [w, x, y, z]", "", UNSET),
@@ -85,6 +89,16 @@ def axes_of(sequence: str) -> tuple[int, ...]:
     if len(axes) == 3 and (set(axes) <= set("123") or set(axes) <= set("XYZ")):
         raise Refused("two turns about one axis, one after the other, are one turn", 'write three axes, neighbours different, as "3-2-1" or "3-1-3"')
     raise Refused("this is no sequence of axes", 'write three axes, neighbours different, as "3-2-1" or "ZYX"')
+
+
+def off_orthonormal(initial: Mapping[str, Any]) -> float:
+    """How far the direction cosines of a checked start are off being orthonormal, where that is more than roundings; else 0."""
+    form = form_of(initial)
+    if not form.startswith("dcm"):
+        return 0.0
+    matrix = np.array(initial[form])
+    off = float(np.max(np.abs(matrix @ matrix.T - np.eye(3))))
+    return off if off > ROUNDED else 0.0
 
 
 def require_rotation(rows: tuple[tuple[float, ...], ...]) -> None:

@@ -108,6 +108,15 @@ def test_a_matrix_that_is_not_quite_one_is_taken_as_the_nearest_rotation() -> No
         assert scene.to_dict()["initial"]["dcm_body_to_inertial"] == M.tolist()
 
 
+@pytest.mark.parametrize(("off", "warned"), [(0.0, False), (4e-13, False), (3e-12, True), (1e-9, True)])
+def test_an_answer_warns_of_direction_cosines_that_are_rounded(off: float, warned: bool) -> None:
+    for form in ("dcm_body_to_inertial", "dcm_inertial_to_body"):
+        answer = gyrostat.solve(scene_from(BASE, **{form: [[1.0 + off, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]}))
+        told = [warning.message for warning in answer.warnings if warning.code == "not-orthonormal"]
+        assert len(told) == warned
+        assert not told or told[0].endswith(f"off by {2 * off:.2g}")
+
+
 # ---- in scenes ----
 
 I3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
