@@ -55,8 +55,10 @@ Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, s
 
   AxialMotionAnswer<Scalar> answer;
   Scalar before = 0;
-  const auto look = [&](const Scalar* x, Scalar since) noexcept {
-    auto& [size, spin, phase, gross] = answer.seen;
+  const auto& D = problem.inertia;
+  const Scalar zeta = std::max(std::abs(D[2] - D[1]) / D[0], std::abs(D[2] - D[0]) / D[1]);
+  const auto look = [&](const Scalar* x, Scalar since, Scalar t) noexcept {
+    auto& [size, spin, phase, gross, left_out] = answer.seen;
     const Scalar rate = std::hypot(x[0], x[1]), tilt = std::hypot(x[2], x[3]);
     size.rate = std::max(size.rate, rate);
     size.tilt = std::max(size.tilt, tilt);
@@ -64,8 +66,11 @@ Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, s
     phase = std::max(phase, std::abs(x[7]));
     gross += std::max(before, rate * tilt) * since / 2;
     before = rate * tilt;
+    const Scalar stiff = problem.kappa1(system.spin(t)) * problem.kappa2(system.spin(t));
+    const Scalar grown = stiff < 0 ? left_out * std::exp(since * std::sqrt(-stiff)) : left_out;
+    left_out = std::max(grown + zeta * rate * std::abs(x[6]) * since, 8 * epsilon<Scalar> * rate);
   };
-  look(system.start().data(), 0);
+  look(system.start().data(), 0, 0);
   std::size_t next = 0;
   for (; next < times.size() && times[next] <= 0; ++next) states[next] = system.state(0, system.start().data());
   alignas(32) Scalar x[System::width];
@@ -76,8 +81,9 @@ Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, s
     // the tilt may be greatest between the ends of a step
     const Scalar quarter = (solver.time() - solver.previous_time()) / 4;
     for (int i = 1; i <= 4; ++i) {
-      solver.at(i < 4 ? solver.previous_time() + Scalar(i) * quarter : solver.time(), x);
-      look(x, quarter);
+      const Scalar t = i < 4 ? solver.previous_time() + Scalar(i) * quarter : solver.time();
+      solver.at(t, x);
+      look(x, quarter, t);
     }
     for (; next < times.size() && times[next] <= solver.time(); ++next) {
       solver.at(times[next], x);

@@ -41,15 +41,14 @@ inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const Li
 
   ColumnErrors<double> error;
   error[column::angular_velocity] =
-      std::hypot(left_out.rates, left_out.spin) + rounding * P + epsilon<double> * fastest;
+      std::hypot(left_out.rates, left_out.spin) + rounding * P + 4 * epsilon<double> * fastest;
   error[column::attitude] =
       left_out.attitude + rounding * g + 4 * epsilon<double> * (1 + std::abs(problem.angles.theta) + fastest * span);
   const double torque = std::hypot(problem.torque[0], problem.torque[1]);
   error[column::angular_momentum_inertial] =
       std::hypot(left_out.momentum, left_out.axial_momentum) +
       8 * epsilon<double> * size[column::angular_momentum_inertial] +
-      rounding * (torque * once + D.maxCoeff() * P +
-                  (std::abs(problem.axial_momentum()) + std::abs(problem.torque[2]) * span) * g);
+      rounding * (torque * once + D.maxCoeff() * P + (D[2] * fastest + std::abs(problem.rotor_momentum)) * g);
   const double v = push * once + thrust * span;
   error[column::velocity] = std::hypot(left_out.velocity, left_out.axial_velocity) +
                             4 * epsilon<double> * size[column::velocity] +

@@ -104,6 +104,34 @@ struct NutationPhase {
   }
 };
 
+/// What the rates at the start make of errors where the spin is unstable, rad/s: third order of theirs and roundings, even where no mode of
+/// the linear motion itself grows, as where the torque holds the body on its unstable axis. 0 where it is stable.
+template <Real Scalar>
+Scalar grown_error(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, Scalar zeta, Scalar T) noexcept {
+  const Scalar nu2 = problem.nutation_squared();
+  if (!(nu2 < 0)) return 0;
+  const Scalar mu = std::sqrt(-nu2), grown = std::exp(mu * T), once = std::min(T, 1 / mu);
+  const Scalar sizes = magnitude(start.Pi) + (magnitude(start.b) + magnitude(start.d) * once) * once;
+  const Scalar spin =
+      std::abs(problem.inertia[0] - problem.inertia[1]) / (2 * problem.inertia[2]) * sizes * sizes * once;
+  return sizes * (zeta * spin * once + 8 * epsilon<Scalar>)*grown;
+}
+
+/// By how much the linear motion errs in the transverse momentum at its start, which it takes to first order of the tilt, N m s.
+template <Real Scalar>
+Scalar momentum_left_out(const Problem<Scalar>& problem) noexcept {
+  const auto less_sine = [](Scalar x) noexcept {
+    const Scalar square = x * x;
+    return square < Scalar(0.25L) ? x * square / 6 * (1 - square / 20) : x - std::sin(x);
+  };
+  const Scalar psi = problem.angles.psi, phi = problem.angles.phi, L3 = problem.axial_momentum();
+  const Scalar G1 = problem.inertia[0] * problem.angular_velocity[0];
+  const Scalar G2 = problem.inertia[1] * problem.angular_velocity[1];
+  const Scalar less_psi = 2 * std::pow(std::sin(psi / 2), 2), less_phi = 2 * std::pow(std::sin(phi / 2), 2);
+  return std::hypot(less_phi * G1 + less_sine(phi) * L3,
+                    less_psi * G2 - std::sin(psi) * (std::sin(phi) * G1 + less_phi * L3) - less_sine(psi) * L3);
+}
+
 /// Greatest integral over [0, T] of an error of third order of the tilt that is 1 at most, and of what it makes of products with the tilt: it
 /// swings with r0, nu, and with r0 less some nu, but for the cubes of what stands still.
 template <Real Scalar>
@@ -138,8 +166,9 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
   error.size = size;
   const detail::NutationPhase<Scalar> nutation(problem, start, size, T);
   Scalar g = size.tilt, P = size.rate, rate = rho.rate, angle = rho.angle, net = nutation.net, gross = nutation.gross;
+  const Scalar grown = detail::grown_error(problem, start, zeta, T);
   const auto third_order = [&]() noexcept {
-    error.rates = skew * P * zeta * rate * T;
+    error.rates = skew * (P * zeta * rate * T + grown);
     error.tilt = (g * (2 * gross + angle) + g * g * g) / 2 + error.rates * answer;
   };
   third_order();
@@ -165,11 +194,11 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
   error.spin = Scalar(1.25L) * rate;
   error.theta = Scalar(1.25L) * (net + angle) + g * g / 2 + g * g * gross;
   error.attitude = std::hypot(error.theta, error.tilt);
-  error.momentum = M * turned + e * (error.tilt + g * phase) +
-                   g * g * (std::abs(problem.axial_momentum()) * g + std::max(D[0], D[1]) * P);
-  error.axial_momentum = (M * T + e * g) * error.tilt;
+  error.momentum =
+      M * turned + e * (error.tilt + g * phase + g * g * g) + Scalar(1.25L) * detail::momentum_left_out(problem);
+  error.axial_momentum = M * (swing * error.tilt + T * g * g * g / 2) + e * g * error.tilt;
   error.velocity = f * turned + f3 * (swing * error.tilt + T * g * g * g / 2);
-  error.axial_velocity = f3 * g * g * T / 2 + f * T * error.tilt;
+  error.axial_velocity = f3 * g * g * T / 2 + f * (swing * error.tilt + T * g * g * g / 2);
   error.position = T * error.velocity / 2;
   error.axial_position = T * error.axial_velocity / 2;
   return error;

@@ -169,6 +169,7 @@ struct AxialSizes {
   Scalar spin = 0;   ///< change of r to second order, rad/s
   Scalar phase = 0;  ///< what this and nutation add to the spin angle, rad
   Scalar gross = 0;  ///< half the integral of |Pi| |Gamma|, what nutation would add if nothing cancelled, rad
+  Scalar rates = 0;  ///< third order and roundings of the rates, grown where the spin was unstable, rad/s
 };
 
 /// Estimated greatest errors of the linear motion under an axial torque over [0, T] against the full equations, as linear_errors has them
@@ -178,7 +179,6 @@ LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar 
                                          const AxialSizes<Scalar>& seen) noexcept {
   const auto& D = problem.inertia;
   const Scalar start = problem.spin(), end = start + problem.torque[2] / D[2] * T;
-  const Scalar fastest = std::max(std::abs(start), std::abs(end));
   const Scalar slowest = start * end > 0 ? std::min(std::abs(start), std::abs(end)) : Scalar(0);
   const Scalar kappa[] = {problem.kappa1(start), problem.kappa1(end), problem.kappa2(start), problem.kappa2(end)};
   Scalar steep = 0, flat = infinity<Scalar>;
@@ -192,21 +192,23 @@ LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar 
   LinearErrors<Scalar> error;
   error.size = seen.size;
   Scalar g = seen.size.tilt, P = seen.size.rate, rate = seen.spin, net = seen.phase, gross = seen.gross;
+  Scalar rates = seen.rates;
   const auto third_order = [&]() noexcept {
-    error.rates = skew * P * zeta * rate * T;
+    error.rates = Scalar(1.5L) * skew * rates;
     error.tilt = (g * (2 * gross + rate * T) + g * g * g) / 2 + error.rates * T;
   };
   third_order();
   if (!(g + error.tilt <= Scalar(small_tilt))) {
     rate = std::abs(D[0] - D[1]) / (2 * D[2]) * P * P * T;
     net = gross = g * P * T;
+    rates = std::max(rates, P * zeta * rate * T);
     third_order();
   }
   // the motion itself may be larger than the linear one by its error
   g += error.tilt;
   P += error.rates;
   const Scalar more = seen.size.rate > 0 ? P / seen.size.rate : Scalar(1);
-  rate *= more * more, net *= more * more, gross *= more * more;
+  rate *= more * more, net *= more * more, gross *= more * more, rates *= more * more * more;
   third_order();
 
   const Scalar phase = net + g * g / 2;
@@ -216,12 +218,12 @@ LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar 
   const Scalar f = std::hypot(problem.force[0], problem.force[1]) / problem.mass;
   const Scalar f3 = std::abs(problem.force[2]) / problem.mass;
   const Scalar M = std::hypot(problem.torque[0], problem.torque[1]), M3 = std::abs(problem.torque[2]);
-  const Scalar e = std::abs(problem.charge_momentum), L3 = D[2] * fastest + std::abs(problem.rotor_momentum);
+  const Scalar e = std::abs(problem.charge_momentum);
   error.spin = Scalar(1.25L) * rate;
   error.theta = Scalar(1.25L) * net + g * g / 2 + g * g * gross;
   error.attitude = std::hypot(error.theta, error.tilt);
-  error.momentum = M * turned + e * (error.tilt + g * phase) + M3 * T * (error.tilt + g * phase) +
-                   g * g * (L3 * g + std::max(D[0], D[1]) * P);
+  error.momentum = M * turned + (e + M3 * T) * (error.tilt + g * phase + g * g * g) +
+                   Scalar(1.25L) * detail::momentum_left_out(problem);
   error.axial_momentum = (M * T + (M3 * T + e) * g) * error.tilt + M3 * T * g * g * g * g;
   error.velocity = f * turned + f3 * T * error.tilt;
   error.axial_velocity = f3 * g * g * T / 2 + f * T * error.tilt;

@@ -503,13 +503,14 @@ LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar 
   const detail::NutationPhase<Scalar> nutation(problem, start, first.size, T);
   const Scalar phase = rho.angle + nutation.net, left = error.theta + (phase * phase + g * g * phase) / 2;
   const Scalar rate = error.spin + (P * first.tilt + g * first.rates) / 2 + (phase + g * g) * (rho.rate + g * P / 2);
-  const Scalar turned = std::min(T * left, (left + T * rate) / r0) + g * g * g * g * T / 8;
+  const Scalar swing = g <= Scalar(small_tilt) ? detail::third_order_swing(problem, T) : T;
+  const Scalar turned = std::min(T * left, (left + swing * rate) / r0) + g * g * g * g * T / 8;
   const Scalar f = magnitude(start.acceleration), f3 = std::abs(start.axial_acceleration);
   const Scalar M = magnitude(start.torque), e = std::abs(start.charge_momentum);
   error.momentum = M * turned + e * (first.tilt + g * error.theta);
-  const Scalar swing = g <= Scalar(small_tilt) ? detail::third_order_swing(problem, T) : T;
   error.velocity = f * turned + f3 * (swing * first.tilt + T * g * g * g / 2);
-  error.axial_velocity = f3 * (swing * g * first.tilt + T * g * g * g * g) / 4 + f * T * first.tilt;
+  error.axial_velocity =
+      f3 * (swing * g * first.tilt + T * g * g * g * g) / 4 + f * (swing * first.tilt + T * g * g * g / 2);
   error.position = T * error.velocity / 2;
   error.axial_position = T * error.axial_velocity / 2;
   return error;
