@@ -95,6 +95,7 @@
 #include "gyrostat/ladder/inputs.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/outcome.hpp"
+#include "gyrostat/ladder/pace.hpp"
 #include "gyrostat/ladder/question.hpp"
 #include "gyrostat/ladder/rotor/capture.hpp"
 #include "gyrostat/ladder/rotor/closed_form_rung.hpp"

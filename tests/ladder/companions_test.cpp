@@ -211,12 +211,6 @@ TEST_CASE("steps that would overrun their budget by far, and do not lengthen, ar
   CHECK(walked_by(even, 3e5, 100000).first == ode::Status::reached);
   // nor are steps that lengthen
   CHECK(walked_by([](double t) { return 1 + 1e-4 * t; }, 1e9, 100000).first == ode::Status::reached);
-  Pace<double> pace;
-  CHECK_FALSE(pace.is_hopeless(0, 0, 1e9, 10));
-  CHECK_FALSE(pace.is_hopeless(1 << 16, 1, 1e9, 10));
-  CHECK(pace.is_hopeless(2 << 16, 2, 1e9, 10));
-  pace.restart(2);
-  CHECK_FALSE(pace.is_hopeless(3 << 16, 3, 1e9, 10));
 }
 
 TEST_CASE("the stated error is the distance times its margin and what rounding adds, relative to the truth",

@@ -35,7 +35,7 @@ struct CvodeOptions {
   CvodeMethod method = CvodeMethod::adams;
   double relative = 1e-9;
   double absolute = 1e-12;  ///< in the units of the state, the same for all components
-  std::uint64_t step_cap = 100'000'000;
+  std::uint64_t step_cap = 10'000'000;
 };
 
 class Cvode {

@@ -64,3 +64,21 @@ TEST_CASE("a law without a value ends a run of CVODE, too", "[general]") {
   CHECK(lost >= 4);
   CHECK(lost < 4.1);
 }
+
+TEST_CASE("CVODE gives up early where a brake holds the body against a push", "[general]") {
+  // the torque of the brake jumps with the momentum: there CVODE goes to and fro in steps of nothing
+  Problem<double> p;
+  p.inertia = Vec3<double>(3.8, 4.4, 3.5).asDiagonal();
+  p.angular_velocity = {0, 0, 1};
+  p.torques.resize(2);
+  p.torques[0].type = TorqueType::brake, p.torques[0].opposed = Opposed::momentum;
+  p.torques[0].vector = {14, 32, 5.2};
+  p.torques[1].axes = Axes::inertial;
+  p.torques[1].vector = {-0.28, -0.06, 0.6};
+  Scene scene = posed(p, question_at({0.3, 0.9}, 1e-5));
+  scene.full_equations = &full_by_cvode;
+  gyrostat::Refusal refusal;
+  const Answer answer = solve(scene, refusal);
+  CHECK(refusal.code == Errc::step_limit);
+  CHECK(answer.counts.steps < 1000000);
+}

@@ -11,6 +11,7 @@
 
 #include "gyrostat/ladder/cvode_pair.hpp"
 #include "gyrostat/ladder/general/custom_rung.hpp"
+#include "gyrostat/ladder/pace.hpp"
 #include "gyrostat/models/general/torque_law.hpp"
 #include "gyrostat/ode/cvode.hpp"
 
@@ -87,12 +88,16 @@ inline CvodeRun<State<double>> run_pieces(const Scene& scene, CvodeEquations equ
     if (!made) return run.failure = made.error(), run;
     auto cvode = std::move(made).value();
     ode::Status status = ode::Status::reached;
+    Pace<double> pace;
+    pace.restart(from);
     while (cvode.time() < to && status == ode::Status::reached) {
       const double before = cvode.time();
       status = cvode.step(to);
       // CVODE goes up to where the law has no value in ever shorter steps
       const bool stuck = equations.lost_at() >= cvode.time() && !(cvode.time() - before > 1e-10 * cvode.time());
       if (status == ode::Status::reached && stuck) status = ode::Status::not_finite;
+      if (status == ode::Status::reached && pace.is_hopeless(cvode.counts().steps, cvode.time(), to, options.step_cap))
+        status = ode::Status::step_limit;
       for (std::size_t i; status == ode::Status::reached && (i = run.states.size()) < times.size() &&
                           (times[i] < to || last) && times[i] <= cvode.time();) {
         if (!cvode.at(times[i], y)) return run.failure = Errc::no_convergence, run;
