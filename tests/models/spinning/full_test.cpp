@@ -80,7 +80,7 @@ TEMPLATE_TEST_CASE("the series solve the equations", "[spinning]", float, double
     x[0][15] = 0;
     // short enough that what lies beyond the order is below rounding
     const S unit = S(0.14L) / (p.angular_velocity.norm() + std::abs(p.gyroscopic()) / p.inertia.minCoeff() +
-                              std::sqrt(p.torque.norm() / p.inertia.minCoeff()));
+                               std::sqrt(p.torque.norm() / p.inertia.minCoeff()));
     system.expand(0, unit, x, work);
     for (const S at : {S(0), S(0.5L), S(1)}) {
       S value[width], slope[width];
