@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every rung comes back, whatever is absent: torques, rotors, rotation. Work is counted in steps.
-#include "at_length.hpp"
 #include "gyrostat/ladder/deceleration/full_motion.hpp"
+
+#include "at_length.hpp"
 #include "scenes.hpp"
 
 using namespace scenes;
