@@ -9,7 +9,8 @@
 
 Layers: core <- math <- rotation <- body <- models <- ladder; ode sees core and math only. core, math and ode know no Eigen;
 GSL is included by math/gsl.hpp alone, SUNDIALS by src/cvode.cpp alone. No function is longer than 80 lines;
-what a comment cites (docs/x.md, section 3; math/root.hpp) exists. Needs Python 3.9 and nothing else.
+what a comment cites (docs/x.md, section 3; math/root.hpp) exists. No header throws, and what x_definition.hpp defines is
+inline where the headers are used alone. Needs Python 3.9 and nothing else.
 """
 import argparse
 import ast
@@ -269,6 +270,25 @@ def check_functions(root):
                 yield f"{path.relative_to(root).as_posix()}:{name} (line {first}) has {last - first + 1} lines: cut it along its ideas"
 
 
+EXCEPTIONS = re.compile(r"\b(throw|try|catch|dynamic_cast|typeid)\b")
+DEFINES = re.compile(r"^(?!(?:GYROSTAT_COMPILED_ONCE|inline|constexpr|consteval|static|extern|static_assert|using|namespace|struct|class|template)\b)"
+                     r"[A-Za-z_][^\n;={}]*\(", re.M)
+
+
+def check_headers_alone(root):
+    """What only a program of the headers alone would show: that none throws, and that each definition may stand in two files."""
+    for path in sources(root, {"include"}, {".hpp"}):
+        name = path.relative_to(root).as_posix()
+        text = COMMENTS_AND_TEXTS.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), path.read_text(encoding="utf-8"))
+        for found in EXCEPTIONS.finditer(text):
+            yield f"{name}:{text.count(chr(10), 0, found.start()) + 1} has the word {found[0]}: exceptions exist only in Python"
+        if path.name.endswith(DEFINITION):
+            for found in DEFINES.finditer(text):
+                before = text[:found.start()].rstrip()
+                if not re.search(r"(template <[^\n]*|\brequires\b[^\n]*|\\)$", before):
+                    yield f"{name}:{text.count(chr(10), 0, found.start()) + 1} is no template and not GYROSTAT_COMPILED_ONCE"
+
+
 NUMBERS = r"\d+(?:\.\d+)*(?:(?:, | and | to )\d+(?:\.\d+)*)*"
 PAGE = re.compile(r"((?:docs/)?[\w-]+\.md)(?:,? sections? (" + NUMBERS + "))?")
 CITED = re.compile(r"(?<![\w<>*./-])((?:[\w-]+/)*[\w-]+\.(?:hpp|cpp))\b")
@@ -330,7 +350,8 @@ def check_c_keys(root):
         yield f"{C_HEADER} lists {name}, which {C_KEYS} does not know" if name in told else f"{C_HEADER} does not list the key {name} of {C_KEYS}"
 
 
-CHECKS = [check_layers, check_sundials, check_umbrellas, check_page_of_headers, check_headers, check_c_keys, check_spdx, check_version, check_functions, check_citations]
+CHECKS = [check_layers, check_sundials, check_umbrellas, check_page_of_headers, check_headers, check_c_keys, check_spdx, check_version, check_functions, check_headers_alone,
+          check_citations]
 
 
 def breaches(root):
@@ -398,6 +419,8 @@ SOUND = [  # what the rules must let pass
     ("a table, a class and a short function", append("include/gyrostat/core/real.hpp",
         "constexpr int table[] = {\n" + "  1,\n" * 90 + "};\nstruct S {\n  int f() { return 1; }\n" + "  int x;\n" * 90 + "};\n"
         "#define F(x) { \\\n  x\nconst char* s = \"{\"; char c = '{';  // {\nint f(int x = 1) {\n" + "\n" * 78 + "}\n")),
+    ("definitions", append("include/gyrostat/ladder/heavy/solve_definition.hpp", f"// {SPDX}\n#pragma once\n"
+        "GYROSTAT_COMPILED_ONCE int f(int x) {\n  return g(x);\n}\ntemplate <class T>\nint h(T) {\n  return 1;\n}\n")),
     ("citations", append("src/cvode.cpp", "/// docs/heavy.md, sections 2 and\n/// 2.1 (real.hpp, gyrostat/math/root.hpp); CHANGELOG.md.\n")),
 ]
 
@@ -436,6 +459,9 @@ BREACHES = [
      "core/real.hpp:f (line 6) has 81 lines"),
     ("a long member", append("src/cvode.cpp", "struct S {\n  S() : a{1}, b(a) {" + "\n" * 80 + "  }\n  int a, b;\n};\n"), "src/cvode.cpp:S (line 4) has 81"),
     ("a long function in Python", append("python/gyrostat/tool.py", "def f():\n" + "    pass\n" * 80), "python/gyrostat/tool.py:f (line 4) has 81 lines"),
+    ("a header that throws", append("include/gyrostat/core/real.hpp", "inline int f() {\n  throw 1;\n}\n"), "real.hpp:5 has the word throw"),
+    ("a definition that is not inline", append("include/gyrostat/ladder/heavy/solve_definition.hpp",
+        f"// {SPDX}\n#pragma once\nint f(int x) {{\n  return x;\n}}\n"), "solve_definition.hpp:3 is no template and not"),
     ("a page that is not there", append("src/cvode.cpp", "/// See docs/light.md.\n"), "src/cvode.cpp:3 cites docs/light.md"),
     ("a section that is not there", append("src/cvode.cpp", "int a;  // as in heavy.md,\n        // sections 2.1 and 3\n"),
      "src/cvode.cpp:3 cites section 3 of heavy.md"),

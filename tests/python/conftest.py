@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the Python tests share."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -137,6 +138,11 @@ down = [0.6, 0.0, 0.8]
 PERIODIC = HEAVY.replace("""angular_velocity = [0.1, -0.2, 150.0]
 down = [0.6, 0.0, 0.8]
 """, "periodic = { spin = 150.0, cos_inclination = 0.1 }\n")
+
+
+def at_length(few: int, all_of_them: int) -> int:
+    """How many cases a test takes: all by night, when GYROSTAT_TESTS_AT_LENGTH is in the environment."""
+    return all_of_them if "GYROSTAT_TESTS_AT_LENGTH" in os.environ else few
 
 
 @pytest.fixture(autouse=True)

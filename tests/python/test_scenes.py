@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import ASSEMBLED, GOOD, HEAVY, PERIODIC, ROTOR, SPINNING
+from conftest import ASSEMBLED, GOOD, HEAVY, PERIODIC, ROTOR, SPINNING, at_length
 from gyrostat.errors import SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import bundled, load, parse_override, scene_from
@@ -497,7 +497,7 @@ keys = st.sampled_from(sorted({field.name for family in FAMILIES.values() for fi
 tables = st.dictionaries(keys | st.text(max_size=6), values, max_size=6)
 
 
-@settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=at_length(100, 400), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(kind=st.sampled_from(sorted(FAMILIES)),
        data=st.dictionaries(st.sampled_from(["name", "source", *sorted({table for family in FAMILIES.values() for table in family.keys})])
                             | st.text(max_size=5), tables | values, max_size=7))
@@ -508,7 +508,7 @@ def test_random_dicts(kind: str, data: dict[str, object]) -> None:
         assert str(error)
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=at_length(100, 400), deadline=None)
 @given(data=st.sampled_from([GOOD, ROTOR, ASSEMBLED, SPINNING, HEAVY, PERIODIC]), key=keys, value=values,
        dotted=st.sampled_from(["", "solve.", "body.", "torque.", "initial.", "carrier.", "rotor.", "motor.", "field.", "x.y."]))
 def test_random_overrides(data: str, key: str, value: object, dotted: str) -> None:

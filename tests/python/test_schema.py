@@ -35,14 +35,19 @@ def accepts(rule: dict[str, Any], value: Any) -> bool:
         return False
     if "enum" in rule and value not in rule["enum"]:
         return False
+    if not accepts_parts(rule, value):
+        return False
     if "not" in rule and accepts(rule["not"], value):
         return False
     if "oneOf" in rule and sum(accepts(part, value) for part in rule["oneOf"]) != 1:
         return False
     if "anyOf" in rule and not any(accepts(part, value) for part in rule["anyOf"]):
         return False
-    if "allOf" in rule and not all(accepts(part, value) for part in rule["allOf"]):
-        return False
+    return "allOf" not in rule or all(accepts(part, value) for part in rule["allOf"])
+
+
+def accepts_parts(rule: dict[str, Any], value: Any) -> bool:
+    """What a rule says of the members of a table or a list, of the length of a text, of the size of a number."""
     if isinstance(value, dict):
         known = rule.get("properties", {})
         if rule.get("additionalProperties", True) is False and not set(value) <= set(known):

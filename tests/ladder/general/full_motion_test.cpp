@@ -9,6 +9,7 @@
 #include "../../models/general/cases.hpp"
 #include "../../models/general/scenes.hpp"
 #include "../../models/general/truth.hpp"
+#include "at_length.hpp"
 #include "catch.hpp"
 #include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/rotor/full_motion.hpp"
@@ -712,11 +713,11 @@ TEST_CASE("wheels of every speed under waves, orbits, tables and breakpoints: st
   }
 }
 
-TEST_CASE("stated errors bound the true ones where wheels settle thousands of times", "[general]") {
+TEST_CASE("stated errors bound the true ones where wheels settle thousands of times", "[general][length]") {
   constexpr double tolerances[] = {1e-3, 1e-6, 1e-9, 1e-12};
   general_scenes::Scenes source(83);
   int collocated = 0, met = 0, all = 0;
-  for (int i = 0; i < (slow_build ? 4 : 24); ++i) {
+  for (int i = 0; i < (slow_build ? 4 : at_length(8, 24)); ++i) {
     const auto made = source.stiff(2, source.scale(2e3, 2e4));
     const std::vector<double> times{0, 0.3 * made.span, made.span};
     const auto right = truth(made.problem, times);

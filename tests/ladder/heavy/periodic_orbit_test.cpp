@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/heavy/periodic_orbit.hpp"
 
+#include "at_length.hpp"
 #include "catch.hpp"
 
 #include <utility>
@@ -170,14 +171,16 @@ TEST_CASE("heavy periodic orbit: laminas, whose nutation keeps step with the spi
   }
 }
 
-TEST_CASE("heavy periodic orbit: a weakly held one errs within what it states", "[heavy]") {
+TEST_CASE("heavy periodic orbit: a weakly held one errs within what it states", "[heavy][length]") {
   // a lamina whose axis 3 is nearly vertical: a closure of some roundings leaves the start open by a million of them
   const auto orbit = [](auto real, double inclination, double spin) {
     using S = decltype(real);
     const auto body = Problem<S>::make({1.75, 1.734375, 3.484375}, 0.234375, {0.2703125, -0.371875, 0}, 15.71875, 0);
     return periodic_orbit<S>(body.value(), spin, inclination);
   };
-  for (const auto& [inclination, spin] : {std::pair{0.99993, 90.5}, {0.999, 20.}}) {
+  std::vector given{std::pair{0.999, 20.}};
+  if (at_length()) given.emplace_back(0.99993, 90.5);
+  for (const auto& [inclination, spin] : given) {
     const auto made = orbit(0., inclination, spin);
     const auto truth = orbit(0.0L, inclination, spin);
     REQUIRE((made && truth));
