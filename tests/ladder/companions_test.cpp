@@ -213,6 +213,42 @@ TEST_CASE("steps that would overrun their budget by far, and do not lengthen, ar
   CHECK(walked_by([](double t) { return 1 + 1e-4 * t; }, 1e9, 100000).first == ode::Status::reached);
 }
 
+/// A course on which a kick is seen, as something far away.
+struct KickedCourse {
+  double away = 0, now = 0;
+  int kicks = 0;
+  double kicked_at = 0;
+  ode::Status step(double t_max) {
+    now = std::min(now + 1, t_max);
+    return ode::Status::reached;
+  }
+  void kick(double amount) { away += amount, ++kicks, kicked_at = now; }
+  double time() const { return now; }
+  double at(double) const { return 1 + away; }
+  ode::Counts counts() const { return {}; }
+};
+
+TEST_CASE("a companion that runs alone is kicked once, behind half the span", "[ladder]") {
+  const std::vector<double> times{4, 10};
+  std::vector<double> states(2);
+  const auto walked_with = [&](KickedCourse* second, KickedCourse& companion) {
+    KickedCourse answer;
+    const auto walk = walk_beside(PairWriter{}, Runs<KickedCourse>{answer, companion, second}, 1.0, 0.0, times, states,
+                                  -1.0, MotionOptions<double>{}, 0, 1, not_noted);
+    CHECK(answer.kicks == 0);
+    return walk.error[0];
+  };
+  KickedCourse alone;
+  const double error = walked_with(nullptr, alone);
+  CHECK(alone.kicks == 1);
+  CHECK(alone.kicked_at > 5);
+  CHECK(alone.kicked_at < 7);
+  CHECK(error == Approx(margin * honesty::kick * epsilon<double>).epsilon(1e-3));
+  KickedCourse first, second;
+  CHECK(walked_with(&second, first) == 0);
+  CHECK(first.kicks + second.kicks == 0);
+}
+
 TEST_CASE("the stated error is the distance times its margin and what rounding adds, relative to the truth",
           "[ladder]") {
   struct Answer : MotionOutcome<1, double> {};

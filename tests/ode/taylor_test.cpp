@@ -274,6 +274,24 @@ TEST_CASE("an integration can start anew from another state") {
   CHECK(solver.state()[0] == Approx(std::sin(1.0)).epsilon(1e-15));
 }
 
+TEST_CASE("a kick moves what is not zero, and leaves the last step as it was") {
+  ode::Taylor<Oscillator<double>> solver({}, 0, {1, 0, 0, 0}, watching(1e-16));
+  solver.kick(1e-6);
+  CHECK(std::abs(solver.state()[0] - 1) > 4e-7);
+  CHECK(std::abs(solver.state()[0] - 1) < 1e-6);
+  CHECK(solver.state()[1] == 0);
+  REQUIRE(solver.step() == Status::reached);
+  double before[4], after[4];
+  const double inside = (solver.previous_time() + solver.time()) / 2;
+  solver.at(inside, before);
+  solver.kick(1e-6);
+  solver.at(inside, after);
+  CHECK(before[0] == after[0]);
+  const double kicked = solver.state()[0] / std::cos(solver.time());
+  REQUIRE(solver.step() == Status::reached);
+  CHECK(std::abs(kicked - 1) > 4e-7);
+}
+
 TEST_CASE("taylor: what stands still or goes on for ever comes back with a status") {
   using Solver = ode::Taylor<Oscillator<double>>;
   Solver::Options options;

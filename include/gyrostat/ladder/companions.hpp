@@ -21,6 +21,10 @@ namespace gyrostat::inline GYROSTAT_LEVEL {
 template <class Course>
 concept GoesOnAlike = Course::goes_on_alike;
 
+/// A course whose state can be moved by about an amount of itself.
+template <class Course>
+concept Kicked = requires(Course course) { course.kick(course.time()); };
+
 /// What the walk found, over the asked times: the error that the distances of the runs tell, in units of the columns, and the sizes of these.
 template <class Writer>
 struct Walk {
@@ -42,6 +46,23 @@ struct Runs {
     if (second != nullptr) all += second->counts();
     return all;
   }
+};
+
+/// Kicks a companion that runs alone, once, behind half the span.
+template <class Course, Real Scalar>
+class HalfwayKick {
+ public:
+  HalfwayKick(const Runs<Course>& runs, Scalar last) noexcept
+      : companion_(runs.companion), after_(runs.second == nullptr ? last / 2 : infinity<Scalar>) {}
+  void operator()(Scalar now) noexcept {
+    if (!(now > after_)) return;
+    if constexpr (Kicked<Course>) companion_.kick(Scalar(honesty::kick) * epsilon<Scalar>);
+    after_ = infinity<Scalar>;
+  }
+
+ private:
+  Course& companion_;
+  Scalar after_;
 };
 
 /// Hears what nobody wants to know.
@@ -89,7 +110,6 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     return walk.status == Status::reached;
   };
 
-  // of many times some are looked at; the others lie between two ends of steps
   const std::size_t stride = 1 + times.size() / std::size_t(honesty::looks);
   std::size_t next = 0, told = 0;
   const auto tell = [&](std::size_t end) noexcept {
@@ -107,6 +127,7 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     walk.status = runs.second->step(first / 3);
   Pace<Scalar> pace;
   std::uint64_t trips = 0;
+  HalfwayKick<Course, Scalar> kick(runs, last);
   while (next < times.size() && walk.status == Status::reached) {
     const Scalar before = runs.companion.time();
     walk.status = runs.companion.step(trips == 0 ? first / 2 : last);
@@ -125,6 +146,7 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     look(walk.asked.row(runs.answer.at(now)), now);
     if (told < next) tell(next);
     if (next == times.size()) break;
+    kick(now);
     if constexpr (GoesOnAlike<Course>) {
       if (pace.is_hopeless(trips, now, last, options.step_cap)) {
         walk.status = Status::step_limit;

@@ -234,6 +234,8 @@ class Course {
     return seen(state_of(problem_, Vec3<Scalar>(opposed(x) + f_.offset), quaternion(x)));
   }
 
+  /// Moves the state by about `amount` of itself.
+  void kick(Scalar amount) noexcept { solver_.kick(amount); }
   ode::Counts counts() const noexcept { return solver_.counts(); }
   bool rests() const noexcept { return rests_; }
   /// When U = 0 is reached and held, s; infinite where it never is, NaN before.

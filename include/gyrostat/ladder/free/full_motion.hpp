@@ -121,6 +121,8 @@ class FullCourse {
     solver_.at(t, x);
     return system_.state(t, x);
   }
+  /// Moves the state by about `amount` of itself.
+  void kick(Scalar amount) noexcept { solver_.kick(amount); }
   const ode::Counts& counts() const noexcept { return solver_.counts(); }
   const FullSystem<Scalar>& system() const noexcept { return system_; }
 

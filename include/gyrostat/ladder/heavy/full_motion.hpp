@@ -206,6 +206,8 @@ class FullMotion {
       if constexpr (!turning) state.attitude = {};
       return state;
     }
+    /// Moves the state by about `amount` of itself.
+    void kick(Scalar amount) noexcept { solver_.kick(amount); }
     const ode::Counts& counts() const noexcept { return solver_.counts(); }
 
    private:

@@ -120,6 +120,9 @@ class Course {
     return relaxing_.state(x);
   }
 
+  /// Moves the state by about `amount` of itself; by collocation not.
+  void kick(Scalar amount) noexcept { series_.kick(amount); }
+
   ode::Counts counts() const noexcept {
     ode::Counts both = series_.counts();
     both += collocation_.counts();

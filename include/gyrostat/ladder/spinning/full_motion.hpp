@@ -89,6 +89,8 @@ class Course {
             system_.velocity(x),   system_.position(t, x)};
   }
 
+  /// Moves the state by about `amount` of itself.
+  void kick(Scalar amount) noexcept { solver_.kick(amount); }
   const ode::Counts& counts() const noexcept { return solver_.counts(); }
   /// A lower bound of cos(psi) on the way.
   Scalar least_cosine() const noexcept { return angle_.least_cosine(); }
