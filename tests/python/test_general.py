@@ -518,6 +518,24 @@ def test_the_brick_falls_as_in_the_check_case() -> None:
     np.testing.assert_allclose(np.degrees(rates), [-4.975149746119, 9.513212393022, 24.744593695309], atol=0.02)
 
 
+def test_what_is_radial_is_dropped_from_along_however_near_the_two_are() -> None:
+    from gyrostat import general
+
+    draw = np.random.default_rng(12)
+    for sine in (1.0, 0.2, 1e-2, 1e-6):
+        radial, other = draw.normal(size=(2, 3))
+        radial /= np.linalg.norm(radial)
+        other -= radial * (radial @ other)
+        other /= np.linalg.norm(other)
+        for along in (radial + sine * other, 30.0 * (other * sine - radial)):
+            axes, _ = general.orbit_start({"altitude": 4e5, "radial": radial, "along": along})
+            assert np.abs(axes[:, 0] - other).max() < 1e-14 / sine
+            made = gyrostat.solve({
+                "name": "near", "kind": "general", "solve": {"times": [1.0, 100.0]}, "body": {"inertia": [3.0, 2.5, 2.0]}, "torque": [{"type": "gravity-gradient"}],
+                "initial": {"angular_velocity": [0.0, 0.0, 0.1]}, "orbit": {"altitude": 4e5, "radial": radial.tolist(), "along": along.tolist()}})
+            assert made.met
+
+
 def test_the_functions_take_arrays() -> None:
     from gyrostat import general
 

@@ -57,6 +57,24 @@ TEST_CASE("solve: moments in another order give the same answer in that order", 
     }
 }
 
+TEST_CASE("solve: a dual spinner, equal moments and the rotor on the axis, is averaged as any body", "[deceleration]") {
+  for (const double last : {0.7, 1.4})
+    for (const double spin : {0., 1e-3, 0.4}) {
+      Case c(1e-5, 20000);
+      c.moments = V(1, 1, last);
+      c.data.rotor_momentum = V(0, 0, .3);
+      c.data.momentum = V(.01, .9, .3 + last * spin);
+      const Answer truth = c.truth();
+      CAPTURE(last, spin);
+      for (const int rung : {rung::averaged, rung::averaged_2}) {
+        const Answer answer = c.with(rung, 1e-2).solve();
+        for (const char* name : {"angular_momentum_norm", "energy", "modulus_squared"})
+          CHECK(distance(answer, truth, name) <= answer.find(name)->error);
+      }
+      CHECK(c.with(any_rung, 1e-2).solve().met);
+    }
+}
+
 TEST_CASE("solve: turned body axes turn the answer", "[deceleration]") {
   const Mat3<double> R = rotation(.9, V(1, -2, .5));
   Asked data = Case(1e-3, 300).data;

@@ -236,6 +236,25 @@ TEST_CASE("symmetric bodies", "[deceleration]") {
     const V square = mean(*o, 16, true);
     CHECK(square[0] == Approx(square[1]).epsilon(1e-14));
   }
+  SECTION("rotor momentum on the axis: steady precession, also where the carrier does not spin about it") {
+    for (const V& J : {V(1.2, 1.2, .7), V(1.2, .8, .8)}) {
+      const int axis = J[0] == J[1] ? 2 : 0;
+      for (const double l : {1e-3, .1, 20.})
+        for (const double spin : {-2., -1e-9, 0., 1e-9, 1e-2, .3}) {
+          V rotor = V::Zero(), rate = V(.01, .4, -.02);
+          rotor[axis] = l, rate[axis] = spin;
+          const auto p = body(J, rotor);
+          const V M = J.cwiseProduct(rate) + rotor;
+          const auto o = Orbit<double>::through(p, M);
+          CAPTURE(axis, l, spin);
+          REQUIRE(o);
+          CHECK(o->modulus().k2 == 0);
+          CHECK((o->momentum_at(o->phase_of(M)) - M).norm() < 1e-8 * M.norm());
+          const double turning = M[axis] * (p.inverse_inertia[axis] - p.inverse_inertia[1]) - l / J[axis];
+          CHECK(o->period() == Approx(2 * pi<double> / std::abs(turning)).epsilon(1e-10));
+        }
+    }
+  }
   SECTION("a sphere has no free orbit of this kind") {
     CHECK(Orbit<double>::through(body({1, 1, 1}, {.1, .2, .3}), {1, 2, 3}).error() == Errc::not_applicable);
   }

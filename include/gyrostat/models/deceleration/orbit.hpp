@@ -175,9 +175,41 @@ class Orbit {
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2] - x[3] * y[3];
   }
 
-  static Result<Orbit> build(const Problem<Scalar>& problem, Level<Scalar> level, Component followed,
+  static Result<Orbit> build(const Problem<Scalar>& problem, const Level<Scalar>& level, const Component& followed,
                              const Vec3<Scalar>* M) noexcept {
     const Vec3<Scalar>& a = problem.inverse_inertia;
+    const auto made = build_for(a, problem, level, followed, M);
+    if (made || made.error() != Errc::no_convergence) return made;
+    // a body of revolution with its rotor on the axis: no direction across it is an axis of the orbit, until some roundings make one
+    const Vec3<Scalar> g = problem.gyro_rate();
+    for (const int i : {0, 1}) {
+      const int axis = 2 - 2 * i;
+      if (a[i] != a[i + 1] || g[i] != 0 || g[i + 1] != 0 || g[axis] == 0) continue;
+      for (const int roundings : {1, 4, 16, 64}) {
+        Vec3<Scalar> parted = a;
+        parted[2 - axis] *= 1 + static_cast<Scalar>(i == 0 ? -roundings : roundings) * epsilon<Scalar>;
+        const auto nearly = build_for(parted, problem, level, followed, M);
+        if (!nearly) continue;
+        Orbit circle = *nearly;
+        circle.close_round(a, g, axis);
+        return circle;
+      }
+    }
+    return made;
+  }
+
+  /// Makes of what is all but a circle about a principal axis that circle, on which M turns evenly.
+  void close_round(const Vec3<Scalar>& a, const Vec3<Scalar>& g, int axis) noexcept {
+    if (regime_ == Regime::point) return;
+    const Scalar turning = std::abs(momentum_at(0)[axis] * (a[axis] - a[1]) - g[axis]);
+    if (!(turning > 0)) return;
+    modulus_ = {0, 1};
+    K_ = pi<Scalar> / 2;
+    rate_ = turning;
+  }
+
+  static Result<Orbit> build_for(const Vec3<Scalar>& a, const Problem<Scalar>& problem, Level<Scalar> level,
+                                 const Component& followed, const Vec3<Scalar>* M) noexcept {
     const Vec3<Scalar> g = problem.gyro_rate();
     if (!std::isfinite(level.R) || !std::isfinite(level.eta) || !a.allFinite() || !g.allFinite())
       return Errc::not_finite;

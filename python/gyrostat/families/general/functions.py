@@ -182,9 +182,11 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
         mu = rate * rate * (radius * radius * radius)
     radial = _unit(_or(given.get("radial"), (1.0, 0.0, 0.0)), "orbit.radial")
     along = stacked(_or(given.get("along"), (0.0, 1.0, 0.0)))
+    for _ in range(2):  # what is radial is dropped; of axes nearly along each other the first time leaves roundings of it
+        along = _unit(along - radial * dot(radial, along)[..., None], "orbit.along")
     return {"radius": radius, "mu": planet[0] if mu is None else mu, "eccentricity": _or(given.get("eccentricity"), 0.0),
             "true_anomaly": _or(given.get("true_anomaly"), 0.0), "radial": radial,
-            "along": _unit(along - radial * dot(radial, along)[..., None], "orbit.along"), "surface": surface}
+            "along": along, "surface": surface}
 
 
 def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
