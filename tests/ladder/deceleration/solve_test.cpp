@@ -75,6 +75,24 @@ TEST_CASE("solve: a dual spinner, equal moments and the rotor on the axis, is av
     }
 }
 
+TEST_CASE("solve: a stop within the times is told by every rung, to its error", "[deceleration]") {
+  Case c;
+  c.moments = V(0.0003665, 0.000377, 0.0004129);
+  c.data.rotor_momentum = V(0, 0, 0.00015);
+  c.data.control = V::Constant(5.7178e-6);
+  c.data.law = Law::carrier;
+  c.data.momentum = c.moments.cwiseProduct(V(2.02, -1.05, 1.67)) + c.data.rotor_momentum;
+  c.data.times = until(195, 20);
+  const double stop = quantity(c.truth(), "stop_time");
+  REQUIRE(stop < 195);
+  for (const int rung : {rung::averaged, rung::averaged_2}) {
+    const Answer answer = c.with(rung, 1e-2).solve();
+    CAPTURE(answer.model);
+    REQUIRE(answer.quantity("stop_time") != nullptr);
+    CHECK(std::abs(quantity(answer, "stop_time") / stop - 1) <= answer.quantity("stop_time")->error);
+  }
+}
+
 TEST_CASE("solve: turned body axes turn the answer", "[deceleration]") {
   const Mat3<double> R = rotation(.9, V(1, -2, .5));
   Asked data = Case(1e-3, 300).data;
