@@ -165,9 +165,23 @@ class Scenes {
         p.angular_velocity[0] *= by, p.angular_velocity[1] *= by;
         p.angles.psi *= by, p.angles.phi *= by;
       }
+      if (unit() < 0.1) hold(made, span);
       made.times = honesty::asked_times(random_, span);
       return made;
     }
+  }
+
+  /// Lets the torque hold the body in a lean, where no mode of the linear motion is at work, and instability grows from nothing.
+  void hold(Made& made, double& span) {
+    Problem<double>& p = made.problem;
+    const double kappa1 = p.kappa1(p.spin()), kappa2 = p.kappa2(p.spin()), nu2 = kappa1 * kappa2;
+    const double lean =
+        std::abs(p.torque[0] / (p.inertia[0] * kappa1)) + std::abs(p.torque[1] / (p.inertia[1] * kappa2));
+    if (p.torque[2] != 0 || !(lean < std::abs(p.spin()))) return;
+    p.angular_velocity[0] = -p.torque[1] / (p.inertia[1] * kappa2);
+    p.angular_velocity[1] = p.torque[0] / (p.inertia[0] * kappa1);
+    if (nu2 < 0) span = scale(1, 25) / std::sqrt(-nu2);
+    made.kind = "held by the torque";
   }
 
   static double tilt_of(const Problem<double>& p, double span) {
