@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # wheel.sh WHEEL FOLDER: what a user does with the wheel alone. Installed in a virtual environment in FOLDER, which is made anew, it tests
-# itself, solves, plots and draws a chart; where there are a C++ compiler, CMake and Eigen, programs find the C++ package in it, by CMake and,
-# where that is there, by pkg-config. Needs python3 with venv, and the package index for numpy and matplotlib.
+# itself, solves, plots, sweeps and draws a chart; where there are a C++ compiler, CMake and Eigen, programs find the C++ package in it, by CMake and,
+# where that is there, by pkg-config. Needs python3 with venv, and the package index for numpy, matplotlib and xarray.
 set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 wheel=$(readlink -f "$1")
@@ -31,13 +31,15 @@ printf '%s, Python %s; of compiler, CMake, GSL and SUNDIALS there are:%s\n' "$(l
   "$(python3 -c 'import platform; print(platform.python_version())')" "${there:- none}"
 
 step venv python3 -m venv venv
-step install venv/bin/python -m pip install --disable-pip-version-check "$wheel[cli]"
+step install venv/bin/python -m pip install --disable-pip-version-check "$wheel[cli,xarray]"
 PATH=$folder/venv/bin:$PATH
 step info gyrostat info
 step selftest gyrostat selftest
 step solve gyrostat solve tiangong-1 --plot answer.png
 step integrator gyrostat solve tiangong-1 --set model=full --set integrator=cvode --set duration='1 h'
 step chart gyrostat chart t-handle -o chart
+step sweep gyrostat sweep stage-despin-study -n 200 -o study.nc
+step report gyrostat report study.nc -o study
 is_picture answer.png
 is_picture chart/chart.png
 step python python -c 'import gyrostat; answer = gyrostat.solve("t-handle"); assert answer.met; print(answer.model)'
