@@ -133,8 +133,7 @@ struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
 
 inline constexpr const char* why_stopped_by_brake =
     "a brake brings the momentum that it opposes to zero, and this integrator does not follow what becomes of the body "
-    "then: leave it to "
-    "the Taylor series, integrator = \"auto\"";
+    "then: leave it to the Taylor series, integrator = \"auto\"";
 
 /// A motion is given up where the body turns so many times faster than its momentum and the torques let foresee, and would turn through
 /// this angle, rad, at the rate it has come to: no budget of steps reaches so far.
