@@ -80,8 +80,9 @@ ode::Status reach(Course& course, Scalar t, Scalar t_max) noexcept {
 /// distance to the answer is its truncation, and their own distance what rounding and the data's last digits do. A course has step(t_max),
 /// time(), at(t) within the last step, and counts(); one that GoesOnAlike is given up where its steps would overrun their budget by far.
 /// The first companion leads, and all are compared at the end of each of its steps and at the asked times, of many at some. Their first
-/// steps end apart: from one start all would take the same polynomial, and err alike. A distance that was seen fades while the body, at
-/// turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which all are near by chance does not hide it. States
+/// steps end apart: from one start all would take the same polynomial, and err alike; one that runs alone is kicked at half the span. A
+/// distance that was seen fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which
+/// all are near by chance does not hide it. States
 /// behind a failure are `nowhere`. note(i, error) is called at each asked time.
 template <class Writer, class Course, class Note>
 Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const typename Writer::State& start,

@@ -20,7 +20,7 @@ inline constexpr Companions side_by_side{64, 4, 5, 3};
 /// By how much the data of a companion differ that runs alone, roundings: in its one direction it may be near by chance.
 inline constexpr double alone_change = 32;
 /// At half the span a companion that runs alone is kicked by so many roundings of each number: what its data do may cancel the truncation
-/// by chance, at the end or on the way, but not both with the kick and without.
+/// by chance, at the end or on the way, but not both with the kick and without. Not of general scenes.
 inline constexpr double kick = 64;
 /// Step tolerance, roundings times the condition of the tensor, below which rounding rules, and a second companion runs along.
 inline constexpr double rounding_below = 1 << 20;
