@@ -2,6 +2,7 @@
 #include "gyrostat/ladder/deceleration/solve.hpp"
 
 #include <array>
+#include <random>
 
 #include "reference_table.hpp"
 #include "scenes.hpp"
@@ -73,6 +74,37 @@ TEST_CASE("solve: a dual spinner, equal moments and the rotor on the axis, is av
       }
       CHECK(c.with(any_rung, 1e-2).solve().met);
     }
+}
+
+TEST_CASE("solve: a dual spinner in turned axes is averaged as any body", "[deceleration]") {
+  std::mt19937_64 random(4711);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 24; ++k) {
+    const Mat3<double> R = rotation(1 + k, V(normal(random), normal(random), normal(random)));
+    const V moments = 100 * V(1, 1, k % 2 == 0 ? 0.7 : 1.4);
+    const Mat3<double> J = R * moments.asDiagonal() * R.transpose();
+    Asked data = Case(1e-5, 2e4).data;
+    data.control.setConstant(1e-3);  // the same along any axes
+    data.momentum = R * V(1, 90, 30 + normal(random));
+    data.rotor_momentum = R * V(0, 0, k % 4 < 2 ? 3 : 50);  // about the axis, and all round
+    const auto body = Inertia<double>::from_tensor((J + J.transpose()) / 2);
+    const auto by = [&](int rung, double tolerance) {
+      data.rung = rung, data.tolerance = tolerance;
+      Refusal refusal;
+      const Answer answer = deceleration::solve<>(*make_scene(*body, data), refusal);
+      INFO(refusal.model << ": " << (refusal.why ? refusal.why : ""));
+      REQUIRE(refusal.code == Errc::ok);
+      return answer;
+    };
+    const Answer truth = by(rung::full, 1e-9);
+    CAPTURE(k);
+    CHECK(truth.find("modulus_squared")->error < 1e-9);
+    for (const int rung : {rung::averaged, rung::averaged_2}) {
+      const Answer answer = by(rung, 1e-2);
+      for (const char* name : {"angular_momentum_norm", "energy", "modulus_squared"})
+        CHECK(distance(answer, truth, name) <= answer.find(name)->error);
+    }
+  }
 }
 
 TEST_CASE("solve: a stop within the times is told by every rung, to its error", "[deceleration]") {

@@ -449,3 +449,25 @@ TEST_CASE("an orbit does not hang on where its momentum lies in memory", "[decel
     }
   }
 }
+
+TEST_CASE("orbit: a dual spinner that was on one component stays where it was when a second lobe is born",
+          "[deceleration]") {
+  for (const double last : {0.7, 1.4})
+    for (const double l : {-20., 20.})
+      for (const double side : {-0.9, -0.4, 0.25, 0.5}) {
+        CAPTURE(last, l, side);
+        const int axis = last > 1 ? 0 : 2;
+        Problem<double> p;
+        p.inverse_inertia = Vec3<double>(1, 1, 1);
+        p.inverse_inertia[axis] = 1 / last;
+        p.rotor_momentum[axis] = l;
+        // M does not turn where its part along the axis is `still`, and the other lobe is born at the pole on that side
+        const double far = 1 / last - 1, g = l / last, R = std::abs(g / far) / 0.6, still = g / (R * far);
+        const double n = side * (still > 0 ? 1 : -1);
+        Vec3<double> M = Vec3<double>::Zero();
+        M[axis] = n * R, M[1] = std::sqrt(1 - n * n) * R;
+        const auto orbit = Orbit<double>::at(p, level_of(p, M), {Regime::one_component, 0});
+        REQUIRE(orbit);
+        CHECK(orbit->momentum_at(0.3)[axis] / R == Approx(n).margin(1e-7));
+      }
+}

@@ -46,6 +46,20 @@ GYROSTAT_COMPILED_ONCE double k2_of_level(const Problem<double>& problem, const 
   return std::min(1.0, most);
 }
 
+/// How far from 0 the modulus of a body of revolution may be where roundings part its moments and tilt its rotor: split nu/turning^2 on two
+/// components, the square of a quarter of it on one, with the roots of the quadratic that the quartic then is nu apart.
+inline double k2_of_roundness(const Problem<double>& problem, const Revolution<double>& about,
+                              const Vec3<double>& M) noexcept {
+  const double R = M.norm(), n = M[about.axis] / R, g = problem.gyro_rate()[about.axis];
+  const double far = problem.inverse_inertia[about.axis] - about.across, turning = R * n * far - g;
+  const double tilted = about.oblique / turning;
+  const double split = R * (about.parted + tilted * tilted * std::abs(far));
+  const double lean = R * (1 - n * n) * far + 2 * g * n;
+  const double disc = lean * lean - 4 * g * g;
+  const double k2 = split / turning * std::sqrt(std::abs(disc)) / std::abs(turning);
+  return disc > 0 ? std::abs(k2) : k2 * k2 / 16;
+}
+
 GYROSTAT_COMPILED_ONCE double k2_uncertainty(const Problem<double>& problem, const Vec3<double>& M, const OrbitKind& at,
                                              double norm, double energy) noexcept {
   if (at.regime == Regime::rest) return 0;
@@ -65,6 +79,10 @@ GYROSTAT_COMPILED_ONCE double k2_uncertainty(const Problem<double>& problem, con
   const auto level = level_of(problem, M);
   const double eta = (energy + (std::abs(level.eta) + problem.angular_velocity(M).norm()) * norm) / R;
   double most = 4 * epsilon<double> + k2_of_level(problem, level, at, norm, eta);
+  if (const auto about = revolution(problem); about.axis >= 0) {
+    const double k2 = most + k2_of_roundness(problem, about, M);
+    return k2 < 1 ? k2 : 1.0;
+  }
   // rounding of the moments, which the orbit takes differences of
   for (const double change : {4 * epsilon<double>, -4 * epsilon<double>}) {
     Problem<double> off = problem;

@@ -47,6 +47,32 @@ struct Component {
   int branch = 0;
 };
 
+/// A body of revolution with its rotor on the axis, but for some roundings.
+template <Real Scalar>
+struct Revolution {
+  int axis = -1;       ///< 0 or 2; -1: the body is not such a one
+  Scalar across = 0;   ///< 1/moment about the axes across, 1/(kg m^2)
+  Scalar parted = 0;   ///< how far apart the two may be
+  Scalar oblique = 0;  ///< what g may have across, rad/s
+};
+
+/// Whether the body is one of revolution about its greatest or its least axis, with the rotor on it. A tensor in turned axes has moments off
+/// by some roundings of the greatest, and axes off by as much of the difference of moments.
+template <Real Scalar>
+Revolution<Scalar> revolution(const Problem<Scalar>& problem) noexcept {
+  const Vec3<Scalar>& a = problem.inverse_inertia;
+  const Vec3<Scalar> g = problem.gyro_rate();
+  for (const int i : {0, 1}) {
+    const int axis = 2 - 2 * i;
+    const Scalar parted = 32 * epsilon<Scalar> * a[2], gap = std::abs(a[axis] - a[1]);
+    const Scalar oblique = parted * std::abs(g[axis]) / gap;
+    const Scalar most = std::max(std::abs(g[i]), std::abs(g[i + 1]));
+    if (a[i + 1] - a[i] <= parted && parted < gap && g[axis] != 0 && most <= oblique)
+      return {axis, (a[i] + a[i + 1]) / 2, parted, oblique};
+  }
+  return {};
+}
+
 /// A free orbit. Phase is measured in turns: it grows by one in a period, with time; its origin is a point of symmetry of
 /// the Jacobi functions, the same along a family of orbits up to quarter turns (see aligned_to).
 template <Real Scalar, class Elliptic = math::Native>
@@ -179,21 +205,25 @@ class Orbit {
                              const Vec3<Scalar>* M) noexcept {
     const Vec3<Scalar>& a = problem.inverse_inertia;
     const auto made = build_for(a, problem, level, followed, M);
-    if (made || made.error() != Errc::no_convergence) return made;
-    // a body of revolution with its rotor on the axis: no direction across it is an axis of the orbit, until some roundings make one
-    const Vec3<Scalar> g = problem.gyro_rate();
-    for (const int i : {0, 1}) {
-      const int axis = 2 - 2 * i;
-      if (a[i] != a[i + 1] || g[i] != 0 || g[i + 1] != 0 || g[axis] == 0) continue;
-      for (const int roundings : {1, 4, 16, 64}) {
-        Vec3<Scalar> parted = a;
-        parted[2 - axis] *= 1 + static_cast<Scalar>(i == 0 ? -roundings : roundings) * epsilon<Scalar>;
-        const auto nearly = build_for(parted, problem, level, followed, M);
-        if (!nearly) continue;
-        Orbit circle = *nearly;
-        circle.close_round(a, g, axis);
-        return circle;
-      }
+    if (made || (made.error() != Errc::no_convergence && made.error() != Errc::undetermined)) return made;
+    const Revolution<Scalar> about = revolution(problem);
+    if (about.axis < 0) return made;
+    // the lobes of such a body touch in rest alone, so that a motion stays in the older
+    const Scalar lead = about.axis == 0 ? problem.rotor_momentum[0] : -problem.rotor_momentum[2];
+    Component lobe{about.axis == 0 ? Regime::about_largest : Regime::about_smallest, lead > 0 ? 1 : -1};
+    if (made.error() != Errc::undetermined) lobe = followed;
+    // no direction across the axis is an axis of the orbit, until some roundings make one
+    Problem<Scalar> even = problem;
+    const int i = about.axis == 2 ? 0 : 1;
+    for (const int across : {i, i + 1}) even.inverse_inertia[across] = about.across, even.rotor_momentum[across] = 0;
+    for (const int roundings : {1, 4, 16, 64}) {
+      Vec3<Scalar> parted = even.inverse_inertia;
+      parted[2 - about.axis] *= 1 + static_cast<Scalar>(i == 0 ? -roundings : roundings) * epsilon<Scalar>;
+      const auto nearly = build_for(parted, even, level, lobe, M);
+      if (!nearly) continue;
+      Orbit circle = *nearly;
+      circle.close_round(even.inverse_inertia, even.gyro_rate(), about.axis);
+      return circle;
     }
     return made;
   }
