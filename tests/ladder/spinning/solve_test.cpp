@@ -164,6 +164,33 @@ TEST_CASE("the first row of a spinning motion is the start as given, to the bit"
   }
 }
 
+TEST_CASE("the greatest tilt has the error of the tilt, not of the spin angle", "[spinning]") {
+  const auto tilt = [](const Answer& answer) {
+    const Quantity* found = answer.quantity("tilt_max");
+    REQUIRE(found != nullptr);
+    return *found;
+  };
+  Spinners random(12);
+  int compared = 0;
+  for (int i = 0; i < 20; ++i) {
+    CAPTURE(i);
+    const auto p = random.spinner(random.log_any(1e-4, 0.03));
+    if (p.nutation_squared() < 0) continue;
+    const double span = 3000 / std::abs(p.spin());
+    const Answer truth = solved(posed(p, span, 1e-11, rung::full)).answer;
+    for (const int rung : {rung::linear, rung::second_order}) {
+      const Solved made = solved(posed(p, span, 1e-3, rung));
+      if (made.refusal.code != Errc::ok || made.warns("beyond-validity")) continue;
+      ++compared;
+      CHECK(std::abs(tilt(made.answer).values[0] - tilt(truth).values[0]) <=
+            tilt(made.answer).error + tilt(truth).error);
+      CHECK(tilt(made.answer).error <= made.answer.find("attitude")->error);
+      if (rung == rung::linear) CHECK(tilt(made.answer).error < 0.3 * made.answer.find("attitude")->error);
+    }
+  }
+  CHECK(compared > 10);
+}
+
 TEST_CASE("a position that comes back to zero is judged by its scale", "[spinning]") {
   // the force turns with the body: after a whole turn velocity and way start anew
   Problem<double> p;

@@ -73,7 +73,9 @@ GYROSTAT_COMPILED_ONCE Track judged(Track track, const Scene& scene, const Linea
     if (!std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::isfinite(x); }))
       return refused<Track>(Errc::not_finite, "the equations for small tilt grow beyond the greatest double");
   }
-  track.error = tilt_errors(scene.problem(), error, track.states, scene.question().times.back());
+  const double span = scene.question().times.back();
+  track.error = tilt_errors(scene.problem(), error, track.states, span);
+  track.tilt_error = error.tilt + rounding_of_phases(scene.problem(), span) * error.size.tilt + 8 * epsilon<double>;
   track.in_domain = holds(error);
   if (!track.in_domain) warn_beyond_validity(track, error);
   return track;

@@ -54,7 +54,7 @@ inline void tell_scalars(Answer& answer, const Problem<double>& problem, const T
   };
   give(scalar::pointing_error, {mean});
   give(scalar::secular_velocity_ratio, {ratio.re, ratio.im});
-  give(scalar::tilt_max, {greatest_tilt(track.states)}, track.error[column::attitude]);
+  give(scalar::tilt_max, {greatest_tilt(track.states)}, std::fmin(track.tilt_error, track.error[column::attitude]));
   give(scalar::nutation_frequency_squared, {nu2});
 }
 

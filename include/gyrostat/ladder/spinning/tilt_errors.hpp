@@ -18,6 +18,15 @@ inline bool holds(const LinearErrors<double>& error) noexcept {
   return error.size.tilt + error.tilt <= small_tilt && error.theta <= small_tilt;
 }
 
+/// What rounding makes of a few operations and of the phases of spin and nutation over [0, span], relative.
+inline double rounding_of_phases(const Problem<double>& problem, double span) noexcept {
+  const double r0 = std::abs(problem.spin()),
+               r1 = std::abs(problem.spin() + problem.torque[2] / problem.inertia[2] * span);
+  const double stiffest = std::max({std::abs(problem.kappa1(r0)), std::abs(problem.kappa1(-r0)),
+                                    std::abs(problem.kappa2(r0)), std::abs(problem.kappa2(-r0))});
+  return epsilon<double> * (16 + 2 * (std::max(r0, r1) + stiffest) * span);
+}
+
 /// `left_out` (in units of the quantities) and rounding over [0, span], relative to the least greatest norms that the right columns
 /// can have, or to their scales where those are greater. Infinite where a column without a scale may be all error.
 inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const LinearErrors<double>& left_out,
@@ -30,14 +39,11 @@ inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const Li
   const auto& D = problem.inertia;
   const double r0 = std::abs(problem.spin()), r1 = std::abs(problem.spin() + problem.torque[2] / D[2] * span);
   const double fastest = std::max(r0, r1);
-  const double stiffest = std::max({std::abs(problem.kappa1(r0)), std::abs(problem.kappa1(-r0)),
-                                    std::abs(problem.kappa2(r0)), std::abs(problem.kappa2(-r0))});
   const double g = left_out.size.tilt, P = left_out.size.rate;
   const double once = problem.torque[2] == 0 ? std::min(span, 2 / r0) : span;  // greatest int e^(i theta)
   const double push = std::hypot(problem.force[0], problem.force[1]) / problem.mass;
   const double thrust = std::abs(problem.force[2]) / problem.mass;
-  // a few operations, and the phases of spin and nutation
-  const double rounding = epsilon<double> * (16 + 2 * (fastest + stiffest) * span);
+  const double rounding = rounding_of_phases(problem, span);
 
   ColumnErrors<double> error;
   error[column::angular_velocity] =

@@ -16,6 +16,8 @@ struct Track : Outcome {
   std::vector<State<double>> states;
   /// Estimated greatest errors over the times, as column_kinds measures them.
   ColumnErrors<double> error;
+  /// Of the tilt alone, rad, where the rung knows it; NaN: it is within the error of the attitude.
+  double tilt_error = nan<double>;
 };
 
 GYROSTAT_COMPILED_ONCE void fill(Answer& answer, const Scene& scene, const Track& track);
