@@ -107,6 +107,16 @@ TEST_CASE("solve: a dual spinner in turned axes is averaged as any body", "[dece
   }
 }
 
+TEST_CASE("solve: a body at rest is not told that it never stops", "[deceleration]") {
+  Case c(0, 10);
+  c.data.drag = 0.1;
+  CHECK(warns(c.solve(), "no-control"));
+  c.data.momentum.setZero();
+  const Answer rest = c.solve();
+  CHECK(quantity(rest, "stop_time") == 0);
+  CHECK_FALSE(warns(rest, "no-control"));
+}
+
 TEST_CASE("solve: a stop within the times is told by every rung, to its error", "[deceleration]") {
   Case c;
   c.moments = V(0.0003665, 0.000377, 0.0004129);

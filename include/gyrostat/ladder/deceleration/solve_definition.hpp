@@ -35,7 +35,7 @@ inline double separatrix_distance(const Scene& scene) noexcept {
 }  // namespace detail
 
 /// Numbers and warnings that belong to the scene, whichever rung answers.
-inline void describe(Answer& answer, const Scene& scene, const Track&) {
+inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   const auto& problem = scene.problem();
   const bool control = scene.greatest_control() > 0;
   const bool total = problem.law == Law::total;
@@ -50,11 +50,14 @@ inline void describe(Answer& answer, const Scene& scene, const Track&) {
   const auto warn = [&](std::size_t which, double value, const char* text = nullptr) {
     answer.warnings.push_back({&warning_kinds[which], text ? text : warning_kinds[which].text, value});
   };
-  if (!control) warn(warning::no_control, nan<double>);
-  else if (!Hold<double>(problem).holds)
+  if (!control) {
+    if (track.stop_time != 0) warn(warning::no_control, nan<double>);
+  } else if (!Hold<double>(problem).holds) {
     warn(warning::does_not_stop, problem.drag * problem.rotor_momentum.norm(),
          "the control cannot hold the carrier at rest against the drag of the stored momentum");
-  else if (total && scene.has_rotor()) warn(warning::does_not_stop, problem.gyro_rate().norm());
+  } else if (total && scene.has_rotor()) {
+    warn(warning::does_not_stop, problem.gyro_rate().norm());
+  }
 }
 
 namespace detail {
