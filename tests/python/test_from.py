@@ -2,6 +2,8 @@
 """General scenes that begin where another ends, bodies that are told without their wheels, and attitudes told by angles."""
 
 import copy
+import math
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,7 @@ import pytest
 from gyrostat import DomainError, SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.families.general.before import end_of
+from gyrostat.families.general.clock import PI, orbit_since, phase
 from gyrostat.families.general.scene import arguments
 from gyrostat.rotation import angle_between, matrix_from_quaternion
 from gyrostat.scenes import load, scene_from
@@ -285,6 +288,35 @@ def test_a_start_may_be_given_at_any_time() -> None:
         scene_from(later, times=[39.0, 50.0])
     with pytest.raises(SceneError, match="the clock goes on from the scene before"):
         scene_from(later | {"from": "iss-drift"})
+
+
+@pytest.mark.parametrize("start", [5e7, 1e9, 3e12])
+def test_a_clock_loses_no_phase_however_late(start: float) -> None:
+    late = phase(1.3, start, 0.3)
+    turns = Fraction(1.3) * Fraction(start) + Fraction(0.3) - Fraction(late)
+    whole = turns / (2 * Fraction(PI))
+    assert abs(late) <= math.pi and abs(whole - round(whole)) < 1e-16
+    # mean motion 1 to the bit: half an axis of 1, mu 1
+    orbit = {"radius": 0.5, "mu": 1.0, "eccentricity": 0.5, "true_anomaly": 0.0, "radial": np.array([1.0, 0, 0]), "along": np.array([0, 1.0, 0])}
+    there = orbit_since(start, orbit)
+    E = 2 * math.atan2(math.sqrt(0.5) * math.sin(there["true_anomaly"] / 2), math.sqrt(1.5) * math.cos(there["true_anomaly"] / 2))
+    assert math.remainder(E - 0.5 * math.sin(E) - phase(1.0, start), 2 * math.pi) == pytest.approx(0, abs=4e-15)
+    assert there["radius"] == pytest.approx(1 - 0.5 * math.cos(E), rel=4e-15)
+
+
+def test_a_wave_that_began_long_ago_acts_as_one_that_begins_now() -> None:
+    start = 5e7
+    times = np.array([2.5, 10.0, 50.0])
+
+    def solved(begin: float, first: float) -> Any:
+        wave = {"mean": 0.0, "amplitude": 1.0, "rate": 1.3, "phase": first}
+        return gyrostat.solve({"name": "late", "kind": "general", "solve": {"times": (begin + times).tolist(), "tolerance": 1e-11, "ask": "all"},
+                               "body": {"inertia": [30.0, 20.0, 15.0]}, "torque": [{"type": "constant", "torque": [0.1, 0.2, -0.1], "factor": wave}],
+                               "initial": {"angular_velocity": [0.01, 0.02, 0.03], "time": begin}})
+
+    late, now = solved(start, 0.3), solved(0.0, phase(1.3, start, 0.3))
+    for column in ("attitude", "angular_velocity", "torque"):
+        assert np.array_equal(late[column], now[column])
 
 
 def test_an_error_of_the_start_is_part_of_the_answer() -> None:
