@@ -16,7 +16,7 @@ struct Companions {
 };
 
 /// All families, watched in every step, all components moved. Stated error: the two distances by their margins, added.
-inline constexpr Companions side_by_side{64, 4, 5, 3};
+inline constexpr Companions side_by_side{64, 2, 5, 3};
 /// By how much the data of a companion differ that runs alone, roundings: in its one direction it may be near by chance.
 inline constexpr double alone_change = 32;
 /// At half the span a companion that runs alone is kicked by so many roundings of each number: what its data do may cancel the truncation

@@ -448,3 +448,19 @@ TEST_CASE("a hundred thousand turns") {
     CHECK(run(2.1e5, {-0.7307974244156757, -0.0060289225606136, -0.27269759775278590, 0.6257274140870230}) < 4e-9);
   }
 }
+
+TEST_CASE("a rotor that was far from no load leaves the body its energy") {
+  // at first V is a million times the energy of the body
+  const auto end = []<Real S>(S tolerance) {
+    Mat3<S> theta;
+    theta << S(3.161L), S(0.2833L), S(-0.0108L), S(0.2833L), S(2.1726L), S(1.4538L), S(-0.0108L), S(1.4538L),
+        S(2.0604L);
+    const Vec3<S> e = Vec3<S>(S(-0.1485L), S(-0.9456L), S(0.2894L)).normalized();
+    const auto g = Gyrostat<S>::make(theta, e, S(0.001936L), S(0.00035L), 49842).value();
+    const auto start = g.state({1, 0, 0, 0}, {S(1.69L), S(3.07L), S(2.74L)}, 0);
+    Motion<S, std::is_same_v<S, double> ? 20 : 28> motion(g, start, tolerance);
+    const auto s = motion.at(144);
+    return Quat<double>{double(s.attitude.w), double(s.attitude.x), double(s.attitude.y), double(s.attitude.z)};
+  };
+  CHECK(angle_between(end(1e-14), end(1e-19L)) < 5e-11);
+}

@@ -284,16 +284,16 @@ void FullSystem<Real_>::project(Scalar, Scalar* x, Scalar* low) const noexcept {
   Quat<Scalar> change{stretch * q.w, stretch * q.x, stretch * q.y, stretch * q.z};
   Vec3<Scalar> H = rotate<Scalar>(conjugate(q), L_I_);
 
-  // V + W = V0. A small turn d of the body changes V by d.(Omega x H) = d.slope. Rounding of V is eps size: the part
-  // slope^2/(slope^2 + size^2) of what is missing is corrected, so that the rounding turns the body by eps/2 at most, and V is kept in the
-  // course of the steps. What is more than rounding explains comes of the truncation of H or of W: then W gives way, for to turn
-  // the body by it would hide it from a comparison of runs.
+  // V + W = V0. A small turn d of the body changes V by d.(Omega x H) = d.slope. Rounding of V and W is eps most: the part
+  // slope^2/(slope^2 + most^2) of what is missing is corrected, so that the rounding turns the body by eps/2 at most, and V is kept in the
+  // course of the steps; where the rotor brought far more energy than the body has, nothing is. What is more than rounding explains comes
+  // of the truncation of H or of W: then W gives way, for to turn the body by it would hide it from a comparison of runs.
   const Levels at = levels(H, x[7]);
   const Vec3<Scalar> Omega = a_.cwiseProduct(H) - x[7] * g_;
   const Vec3<Scalar> slope = cross<Scalar>(Omega, H);
-  const Scalar size = at.carrier + at.rotor;
-  const Scalar lacking = ((level_ - size) - x[11]) - low[11];
-  const Scalar square = slope.squaredNorm() + size * size;
+  const Scalar size = at.carrier + at.rotor, most = std::max(size, level_);
+  const Scalar lacking = ((level_ - x[11]) - low[11]) - size;  // the great ones first: V may have sunk far below V0
+  const Scalar square = slope.squaredNorm() + most * most;
   if (!(std::abs(lacking) <= slack_ * size)) {
     add_to(x[11], low[11], lacking);
   } else if (square > 0) {
