@@ -18,6 +18,9 @@
 /// The linear motion under a torque about the spin axis, by Taylor series.
 namespace gyrostat::spinning {
 
+/// Tilt, rad, beyond which a motion for small tilt is not followed: it says nothing any more, and steps get short where it grows on.
+inline constexpr double senseless_tilt = 1e6;
+
 template <Real Scalar>
 struct AxialMotionOptions {
   std::uint64_t step_cap = 10'000'000;
@@ -26,8 +29,8 @@ struct AxialMotionOptions {
 
 template <Real Scalar>
 struct AxialMotionAnswer {
-  ode::Status status = ode::Status::reached;
-  AxialSizes<Scalar> seen;  ///< on the way
+  ode::Status status = ode::Status::reached;  ///< event: the tilt grew beyond senseless_tilt
+  AxialSizes<Scalar> seen;                    ///< on the way
   ode::Counts counts;
 };
 
@@ -84,6 +87,10 @@ Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, s
       const Scalar t = i < 4 ? solver.previous_time() + Scalar(i) * quarter : solver.time();
       solver.at(t, x);
       look(x, quarter, t);
+    }
+    if (answer.seen.size.tilt > Scalar(senseless_tilt)) {
+      answer.status = ode::Status::event;
+      break;
     }
     for (; next < times.size() && times[next] <= solver.time(); ++next) {
       solver.at(times[next], x);

@@ -95,11 +95,14 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
     const auto made = axial_motion<double>(scene.problem(), times, states, options);
     if (!made) return made.error();
     track.counts += made->counts;
+    if (made->status == ode::Status::event) return Errc::not_applicable;
     if (made->status != ode::Status::reached) return failure_of(made->status);
     error = axial_torque_errors(scene.problem(), times.back(), made->seen);
     return Errc::ok;
   };
   const auto why = [](Errc wrong) {
+    if (wrong == Errc::not_applicable)
+      return "the spin is unstable: the tilt grows beyond all sense of the equations for small tilt";
     return wrong == Errc::step_limit ? why_stopped(ode::Status::step_limit) : message(wrong);
   };
   LinearErrors<double> error{};
