@@ -17,6 +17,18 @@ Orbit<double> orbit_of(double e) {
   return orbit;
 }
 
+TEST_CASE("the angle of a clock keeps its digits over many turns", "[general]") {
+  for (const double t : {0., 0.3, -2e3, 3.1e5, 7.7e6}) {
+    const auto at = clock_angle(1.7, t, 0.4);
+    const long double angle =
+        static_cast<long double>(1.7) * static_cast<long double>(t) + static_cast<long double>(0.4);
+    CAPTURE(t);
+    CHECK(std::abs(double(at.sine - std::sin(angle))) < 2e-12);
+    CHECK(std::abs(double(at.cosine - std::cos(angle))) < 2e-12);
+    CHECK(at.sine * at.sine + at.cosine * at.cosine == Approx(1).epsilon(1e-15));
+  }
+}
+
 TEST_CASE("an orbit obeys the law of gravity", "[general]") {
   for (const double e : {0., 1e-9, 0.1, 0.6, 0.95}) {
     const auto orbit = orbit_of(e);

@@ -105,10 +105,10 @@ struct NumberSeries {
   }
   /// The same times sin(rate t + phase).
   void set(const Cubic<Scalar>& cubic, Scalar unit, Scalar rate, Scalar phase) noexcept {
-    using std::cos, std::sin;
-    const Scalar angle = rate * cubic.origin + phase, turn = rate * unit;
+    const Scalar turn = rate * unit;
+    const auto first = clock_angle(rate, cubic.origin, phase);
     Scalar s[Order + 1];
-    s[0] = sin(angle), s[1] = turn * cos(angle);
+    s[0] = first.sine, s[1] = turn * first.cosine;
     for (int k = 2; k <= Order; ++k) s[k] = -turn * turn * one_over<Scalar>(k * (k - 1)) * s[k - 2];
     NumberSeries factor;
     factor.set(cubic, unit);

@@ -225,13 +225,13 @@ auto StiffSystem<Real_, most>::scale() const noexcept -> Numbers {
 
 template <Real Real_, int most>
 auto StiffSystem<Real_, most>::instant(Scalar t) const noexcept -> Instant {
-  using std::sin;
   const Scalar s = t - piece_->from;
   Instant made{piece_->power[0], {}, {}};
   Scalar power = 1;
   for (std::size_t k = 1; k < 4; ++k)
     if (power *= s; piece_->power[k].any()) made.terms.add(power, piece_->power[k]);
-  for (const auto& wave : piece_->waves) made.terms.add(wave.cubic(t) * sin(wave.rate * t + wave.phase), wave.terms);
+  for (const auto& wave : piece_->waves)
+    made.terms.add(wave.cubic(t) * clock_angle(wave.rate, t, wave.phase).sine, wave.terms);
   if (has_.field) made.field = field_at(of_->problem, t);
   if (has_.orbit) {
     made.orbit = orbit_at(*of_->problem.orbit, t);

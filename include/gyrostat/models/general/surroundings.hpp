@@ -11,6 +11,21 @@
 /// Orbit and magnetic field at a time (docs/general.md, section 1.3), inertial axes.
 namespace gyrostat::general {
 
+/// Where something that turns with the clock is.
+template <Real Scalar>
+struct ClockAngle {
+  Scalar sine, cosine;
+};
+
+/// Of the angle rate t + phase, rad, to rounding however many turns it has: what the product loses counts, too.
+template <Real Scalar>
+ClockAngle<Scalar> clock_angle(Scalar rate, Scalar t, Scalar phase = 0) noexcept {
+  using std::cos, std::fma, std::sin;
+  const Scalar whole = rate * t, rest = fma(rate, t, -whole) + phase;
+  const Scalar s = sin(whole), c = cos(whole), s_rest = sin(rest), c_rest = cos(rest);
+  return {s * c_rest + c * s_rest, c * c_rest - s * s_rest};
+}
+
 /// Where on its orbit the mass centre is.
 template <Real Scalar>
 struct OrbitPoint {
@@ -82,7 +97,6 @@ struct MagneticPoint {
 /// The field where the body is.
 template <Real Scalar>
 MagneticPoint<Scalar> field_at(const Problem<Scalar>& problem, Scalar t) noexcept {
-  using std::cos, std::sin;
   const auto& field = problem.field;
   const Vec3<Scalar>& k = field.axis;
   switch (field.magnetic) {
@@ -91,7 +105,7 @@ MagneticPoint<Scalar> field_at(const Problem<Scalar>& problem, Scalar t) noexcep
     case MagneticField::rotating: {
       const Vec3<Scalar> along = k * k.dot(field.flux_density), across = field.flux_density - along;
       const Vec3<Scalar> ahead = cross<Scalar>(k, across);
-      const Scalar c = cos(field.rate * t), s = sin(field.rate * t);
+      const auto [s, c] = clock_angle(field.rate, t);
       return {along + c * across + s * ahead, field.rate * (c * ahead - s * across)};
     }
     case MagneticField::dipole: {
