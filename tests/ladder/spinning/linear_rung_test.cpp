@@ -138,6 +138,20 @@ TEST_CASE("rung linear under an axial torque", "[spinning]") {
     CHECK(linear_track(posed(p, 1, 1e-2, asked), &monitor).failure == Errc::step_limit);
 }
 
+TEST_CASE("rung linear under an axial torque is not followed where its tilt has lost all sense", "[spinning]") {
+  Problem<double> p;
+  p.inertia = {0.1135, 0.6155, 0.5155};  // spins about the middle axis
+  p.angular_velocity = {0.0025, 0.018, 0.052};
+  p.torque = {4e-8, -2e-7, -7e-7};
+  for (const int asked : {any_rung, int(rung::linear)}) {
+    const Track track = linear_track(posed(p, 7000, 1e-2, asked), nullptr);
+    CHECK(track.failure == Errc::not_applicable);
+    REQUIRE(track.refusal != nullptr);
+    CHECK(track.states.empty());
+    CHECK(track.counts.steps < 1000);
+  }
+}
+
 TEST_CASE("what unstable spin makes of small errors is in the stated ones", "[spinning]") {
   // the torque holds the body on its middle axis, where no mode of the linear motion grows; what it leaves out does, by e^20
   Problem<double> p;
