@@ -74,10 +74,10 @@ def test_what_is_left_out_is_said(chart: Chart) -> None:
 
 
 def test_a_method_that_takes_too_long_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(methods, "LONGEST", 2e-3)
+    monkeypatch.setattr(methods, "LONGEST", 5e-3)
     made = gyrostat.chart("cubesat-wheel", duration=500.0, samples=3)
-    assert all(point.seconds < 4e-3 for point in made.points)
-    slow = {each.label: each for each in made.left_out if each.why == "takes over 0.002 s"}
+    assert all(point.seconds < 1e-2 for point in made.points)
+    slow = {each.label: each for each in made.left_out if each.why == "takes over 0.005 s"}
     assert slow["SciPy DOP853 (Python right-hand side)"].settings[0] == "tolerance 0.0001"
     assert all(each.settings[-1] == "tolerance 1e-12" for each in slow.values())
     assert str(LeftOut("rung", "series", ("order 4", "order 6"), "why")) == "series, order 4, 6: why"

@@ -504,7 +504,7 @@ def test_what_is_not_there_for_general_scenes_says_so(capsys: pytest.CaptureFixt
 def test_bundled_scenes_are_met_and_drawn(name: str, tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     answer = gyrostat.solve(name)
-    assert answer.met and answer.seconds < 0.9
+    assert answer.met and answer.counts["steps"] < 60_000
     answer.plot(tmp_path / "answer.png")
     assert (tmp_path / "answer.png").stat().st_size > 5_000
 
