@@ -6,6 +6,7 @@ import math
 import os
 import re
 import time
+import uuid
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass
@@ -287,9 +288,10 @@ def _done_by(engine: Engine, study: Study, gaps: list[range], threads: int | Non
     chunks = [range(at, min(at + size, gap.stop)) for gap in gaps for at in range(gap.start, gap.stop, size)]
     ended: SimpleQueue[range] = SimpleQueue()
     futures = {}
+    call = uuid.uuid4().hex
     try:
         for part in chunks:
-            futures[part] = engine.submit(Study.rows, study, part, threads or 1)
+            futures[part] = engine.submit(_rows_of_call, call, study, part, threads or 1)
             futures[part].add_done_callback(lambda _, part=part: ended.put(part))
         while futures:
             part = ended.get()
@@ -297,6 +299,12 @@ def _done_by(engine: Engine, study: Study, gaps: list[range], threads: int | Non
     finally:
         for left in futures.values():
             left.cancel()
+
+
+def _rows_of_call(call: str, study: Study, rows: range, threads: int) -> "xarray.Dataset":
+    """The work of an engine. call: names this run of the sweep, so that an engine that knows work by its arguments, as Dask does, does not take it
+    for the same work of a run that was called off a moment ago."""
+    return study.rows(rows, threads)
 
 
 def _keep(dataset: "xarray.Dataset", folder: Path, rows: range) -> None:
