@@ -48,6 +48,18 @@ TEST_CASE("the scalars of a free motion: Toutatis as Hudson and Ostro (1995) saw
   CHECK(answer.quantity("period")->error < 1e-13);
 }
 
+TEST_CASE("a view of a motion that closes is stated within one over its periods", "[free]") {
+  // spin 4 : precession 1, closed after one period: each time has but one azimuth about M, and the long run is a matter of where the motion began
+  Question question;
+  question.times = {100};
+  question.rung = free::rung::closed_form;
+  const auto scene = Scene::make(body({1, 1, 1.5}, {0, 0, 0}, {4, 0, 2}), question);
+  const Answer answer = solved(scene->viewed(free::ViewRequest{{1, 0, 0}, {0, .6, .8}, .4}));
+  const Quantity& seen = *answer.quantity("view_fraction");
+  CHECK(std::abs(seen.values[0] - 0.0661) <= seen.error);
+  CHECK(seen.error == Approx(1));
+}
+
 TEST_CASE("the means, rates and views of a free motion state what a rounding of the data makes of them", "[free]") {
   free_bodies::Bodies bodies(77);
   int known = 0, told = 0;

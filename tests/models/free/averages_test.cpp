@@ -54,6 +54,31 @@ TEST_CASE("precession and spin of tumbling bodies", "[free]") {
     CHECK(2 * pi<double> / std::abs(p.about_axis) == Approx(5.367).epsilon(2e-4));
     CHECK(2 * pi<double> / std::abs(p.about_momentum) == Approx(7.420).epsilon(2e-4));
   }
+  // nearly about an axis, down to where rounding hides the turns: regular precession, about -M/A and the rate (A - C) r/A about the axis
+  for (const double tilt : {1e-3, 1e-8, 1e-10, 1e-13, 1e-16, 1e-18}) {
+    gyrostat::free::Problem<double> body;
+    body.inertia = V(0.06, 0.06, 0.08).asDiagonal();
+    body.angular_velocity = {tilt, 0, 0.1};
+    const auto m = *Motion<double>::make<Wide>(body.cast<Wide>());
+    const auto p = precession<double>(m, V(0, 0, 1));
+    if (tilt > 1e-14) CHECK(p.converged);
+    if (!p.converged) continue;
+    CHECK(p.about_momentum == Approx(m.angular_momentum_norm() / 0.06).epsilon(1e-12));
+    CHECK(p.about_axis == Approx(-0.02 * 0.1 / 0.06).epsilon(1e-12));
+  }
+  {  // the same with axes that are not those of the data, whose rounding must not count
+    gyrostat::free::Problem<double> body;
+    body.inertia << 0.018512160134411877, -6.583994439447846e-05, -1.1405666827279548e-05, -6.583994439447846e-05,
+        0.018500253300109376, 2.3241015779578812e-05, -1.1405666827279548e-05, 2.3241015779578812e-05,
+        0.01852436191728041;
+    body.angular_velocity = {0.035140355701690315, -0.033952135470104554, -0.02049281963952005};
+    const auto m = *Motion<double>::make<Wide>(body.cast<Wide>());
+    const V one = m.R_BP().col(0);
+    const auto p = precession<double>(m, m.at(0).angular_momentum.dot(one) < 0 ? V(-one) : one);
+    CHECK(p.converged);
+    CHECK(p.about_momentum == Approx(0.053271).epsilon(1e-4));
+    CHECK(p.about_axis == Approx(-2.8126e-4).epsilon(1e-3));
+  }
   // the azimuth of an axis about M, and that of M about the axis, followed through a period step by step
   Bodies bodies(44);
   int used = 0;

@@ -319,6 +319,31 @@ TEST_CASE("neighbours side by side show what they show one by one", "[free]") {
   CHECK(ratio[ratio.size() / 2] < 2);
 }
 
+TEST_CASE("the quick error of bodies with equal moments bounds period and turn", "[free][length]") {
+  Bodies bodies(38);
+  int taken = 0;
+  for (int i = 0; i < at_length(3000, 100'000); ++i) {
+    // tumbling almost across the axis of symmetry, about which the turns are counted by a small part of M
+    const double A = bodies.uniform(1, 3), C = A * bodies.uniform(.2, 1.9),
+                 near = i % 2 ? A : A * (1 + 1e-14 * (i % 50));
+    auto p = Problem<double>::from_moments({near, A, C}, {0, 0, 0},
+                                           {bodies.uniform(-1, 1), bodies.uniform(-1, 1), bodies.scale(-4, 0)});
+    if (i % 3 == 0) p.rotor_momentum[2] = bodies.scale(-3, -1);
+    const auto m = Motion<double>::make(p);
+    const auto truth = Motion<Wide>::make<Wide>(p.cast<Wide>());
+    if (!m || !truth) continue;
+    const auto error = MotionError<double>::quick(*m, Assembly<double>{p, {}}, 100);
+    if (!error) continue;
+    ++taken;
+    CAPTURE(A, near, C, p.angular_velocity, p.rotor_momentum);
+    CHECK(std::abs(m->period() / double(truth->period()) - 1) <= error->period());
+    const double apart = std::abs(m->turn_per_period() - double(truth->turn_per_period()));
+    CHECK(std::min(apart, 2 * pi<double> - apart) <= error->turn_per_period());
+    CHECK(std::abs(m->modulus_squared() - double(truth->modulus_squared())) <= error->modulus_squared());
+  }
+  CHECK(taken > 1000);
+}
+
 TEST_CASE("no quick error where the set-up in double may be wrong", "[free]") {
   const auto quick = [](const Problem<double>& p) {
     return MotionError<double>::quick(*Motion<double>::make(p), Assembly<double>{p, {}}, 100).has_value();

@@ -24,8 +24,15 @@ inline MotionError<double>::Bound bound_over_period(const Motion<double>& motion
                               : MotionError<double>::Bound{nan<double>, nan<double>, nan<double>};
 }
 
-/// How much of the time the axis is in view, and how far that is off where M in the body is off by so much, rad.
-inline View<double> view_of(const ViewRequest& view, const Motion<double>& motion, double off) {
+/// Greatest difference of a share of the time to that of phases that fill a torus: where the motion closes after q periods, to the error of its turn
+/// in a period [rad], each azimuth about M is one of q, which an arc holds to one. 0 where it does not close.
+inline double closing_share(const Motion<double>& motion, double turn_error) noexcept {
+  const auto closed = resonance(motion, 1'000'000);
+  return closed.periods > 0 && std::abs(closed.rest) <= turn_error * closed.periods ? 1.0 / closed.periods : 0.0;
+}
+
+/// How much of the time the axis is in view, and how far that is off where M in the body is off by so much, rad, and the turn in a period by turn_error.
+inline View<double> view_of(const ViewRequest& view, const Motion<double>& motion, double off, double turn_error) {
   const auto seen = [&](double half_angle) { return long_run_view(motion, view.axis, view.direction, half_angle); };
   auto made = seen(view.half_angle);
   if (!(off < pi<double>)) {
@@ -35,7 +42,7 @@ inline View<double> view_of(const ViewRequest& view, const Motion<double>& motio
   // as if the cone were wider and narrower
   const double wide = seen(std::min(view.half_angle + off, pi<double>)).fraction;
   const double narrow = seen(std::max(view.half_angle - off, 0.0)).fraction;
-  made.error += std::max(wide - narrow, off);
+  made.error += std::max(wide - narrow, off) + closing_share(motion, turn_error);
   return made;
 }
 
@@ -93,7 +100,7 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   }
   if (const auto& view = scene.view()) {
     const double off = over_period.angular_momentum + error.angular_momentum_norm() + 16 * epsilon<double>;
-    const auto seen = detail::view_of(*view, motion, off);
+    const auto seen = detail::view_of(*view, motion, off, error.turn_per_period());
     tell(scalar::view_fraction, {seen.fraction}, seen.error);
     tell(scalar::view_cosine, {seen.mean_cosine}, seen.error);
   }

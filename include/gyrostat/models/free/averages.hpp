@@ -81,12 +81,16 @@ struct Precession {
 template <Real Scalar>
 Precession<Scalar> precession(const Motion<Scalar>& motion, const Vec3<Scalar>& axis) noexcept {
   const Scalar T = motion.period();
+  Scalar magnified = 0;  // a rounding of M's direction in these rates, over it
   const auto rates = [&](Scalar t) {
     const auto s = motion.at(t);
+    // by the parts of M and omega across the axis, which cancel nothing where both are nearly along it
     const Vec3<Scalar> n = s.angular_momentum / motion.angular_momentum_norm();
-    const Scalar along = axis.dot(n), b = axis.dot(s.angular_velocity), m = n.dot(s.angular_velocity);
-    const Scalar across = cross<Scalar>(axis, n).squaredNorm();
-    return std::array<Scalar, 2>{(m - along * b) / across, (b - along * m) / across};
+    const Scalar along = axis.dot(n), b = axis.dot(s.angular_velocity);
+    const Vec3<Scalar> across = n - along * axis;
+    const Scalar about = across.dot(s.angular_velocity - b * axis) / across.squaredNorm();
+    magnified = std::max(magnified, s.angular_velocity.norm() / across.norm());
+    return std::array<Scalar, 2>{about, b - along * about};
   };
   if (!(T < infinity<Scalar>)) {
     const auto r = rates(Scalar(0));
@@ -99,7 +103,8 @@ Precession<Scalar> precession(const Motion<Scalar>& motion, const Vec3<Scalar>& 
   const Scalar once = 2 * pi<Scalar> / T, rest = motion.turn_per_period() / T;
   const Scalar round = (means.value[0] - rest) / once, about = means.value[1] / once;
   const Scalar rounds = std::nearbyint(round), abouts = std::nearbyint(about);
-  const bool sure = std::abs(round - rounds) < Scalar(0.1L) && std::abs(about - abouts) < Scalar(0.1L);
+  const bool sure = std::abs(round - rounds) < Scalar(0.1L) && std::abs(about - abouts) < Scalar(0.1L) &&
+                    64 * epsilon<Scalar> * magnified < once;
   return {rest + once * rounds, once * abouts, sure};
 }
 

@@ -169,13 +169,31 @@ class MotionError {
     scalar_margin_ = 4 * quick_margin;
   }
 
-  /// Whether what quick() has seen can be believed; takes the defect into what is constant.
-  bool trust_quick() noexcept {
+  /// Whether what quick() has seen of a motion can be believed; takes the defect into what is constant. J: principal moments; M and l in their axes,
+  /// over |M|.
+  bool trust_quick(const Vec3<Scalar>& J, const Vec3<Scalar>& M, const Vec3<Scalar>& l) noexcept {
     if (!agree_ || !(cancellation_ < quick_cancellation) || !(defect_ < quick_defect)) return false;
     modulus_ = std::max(modulus_, defect_);
     turn_ = std::max(turn_, defect_);
     add_hidden(std::max(epsilon<Scalar>, defect_ / 4));
+    if (std::min(J[0] - J[1], J[1] - J[2]) <= 10 * quick_gap * J[0]) add_hidden_by_symmetry(J, M, l);
     return true;
+  }
+
+  /// Where two moments are equal, or nearly, the set-up in Scalar rounds them alike, for the neighbours as for the motion, and the period follows
+  /// from a small part of M, along the axis that it surrounds or of the rotors, known to a rounding of the whole: no neighbour shows that. Of 980 000
+  /// random motions, a third of them nearly symmetric, one period and turn was then off by more than stated, 1.4 times.
+  void add_hidden_by_symmetry(const Vec3<Scalar>& J, const Vec3<Scalar>& M, const Vec3<Scalar>& l) noexcept {
+    const Scalar part = kind_ == Kind::about_largest    ? M[0] * M[0]
+                        : kind_ == Kind::about_smallest ? M[2] * M[2]
+                                                        : std::min(l.norm(), Scalar(1));
+    const Scalar hidden = epsilon<Scalar> / (2 * part), turned = hidden * fastest_ * J[0] / J[1];
+    hidden_share_ = hidden / period_;
+    hidden_turn_ = turned;
+    share_ += hidden_share_;
+    turn_rate_ += hidden_turn_;
+    turn_ += turned * period_;
+    modulus_ += 2 * hidden * J[0] / (J[0] - J[2]);
   }
 
   /// The defect and the neighbours of quick().
@@ -438,6 +456,7 @@ class MotionError {
   Scalar fastest_ = 0, speed_ = 0, defect_ = 0;
   Scalar rates_change_ = 0, momentum_change_ = 0, attitude_change_ = 0;  // by a phase late by a period
   Scalar share_ = 0, turn_rate_ = 0, turn_ = 0;  // periods late a second; rad/s about M; rad a period
+  Scalar hidden_share_ = 0, hidden_turn_ = 0;    // of these what no neighbour shows, within a period either
   Scalar modulus_ = 0, energy_ = 0, norm_ = 0, cancellation_ = 1, rate_terms_ = 0;
   Scalar drift_ = 0, unstable_ = 0, frequency_ = 0, shear_ = 0, gain_ = 0;  // of a steady rotation
   std::array<Bound, std::size_t(many.last + 1)> first_{};
@@ -486,7 +505,10 @@ std::optional<MotionError<Scalar>> MotionError<Scalar>::quick(const Motion<Scala
   // principal axes found in Scalar are off by more than a rounding
   const Scalar by = (assembly.body.inertia.isDiagonal(0) ? 1 : 2) * epsilon<Scalar>;
   if (!in_lanes || !error.see_side_by_side(motion, assembly, by)) error.see_one_by_one(motion, assembly, by);
-  return error.trust_quick() ? std::optional(error) : std::nullopt;
+  const Mat3<Scalar> R_PB = motion.R_BP().transpose() / motion.angular_momentum_norm();
+  const bool trusted = error.trust_quick(motion.principal_moments(), R_PB * motion.at(0).angular_momentum,
+                                         R_PB * motion.rotor_momentum());
+  return trusted ? std::optional(error) : std::nullopt;
 }
 
 template <Real Scalar>
@@ -494,18 +516,20 @@ auto MotionError<Scalar>::at(Scalar t) const noexcept -> Bound {
   using std::abs;
   Bound b = near(abs(t));
   const Scalar beyond = abs(t);
-  const Scalar late = beyond * share_, turned = beyond * turn_rate_;
+  const bool within = beyond <= period_;
+  const Scalar late = beyond * (within ? hidden_share_ : share_),
+               turned = beyond * (within ? hidden_turn_ : turn_rate_);
   if (!(beyond <= horizon_)) b.attitude = infinity<Scalar>;
   if (kind_ == Kind::steady) {
     const Scalar off = wander(beyond);
     b.angular_momentum += 4 * off;
     b.angular_velocity += 4 * off * gain_;
     b.attitude += 4 * (off * gain_ + 2 * epsilon<Scalar>)*speed_ * beyond;
-  } else if (!(beyond <= period_)) {
+  } else if (!within || hidden_share_ > 0) {
     b.angular_velocity += 4 * late * rates_change_;
     b.angular_momentum += 4 * late * momentum_change_;
     b.attitude += 4 * (turned + late * attitude_change_);
-    if (!agree_) b.attitude = infinity<Scalar>;
+    if (!agree_ && !within) b.attitude = infinity<Scalar>;
   }
   // a defect that were always on the same side
   const Scalar off_course = defect_ * fastest_ * beyond;

@@ -178,7 +178,7 @@ inline bool QuickLanes::judge(const Body& body, int b, const std::array<double, 
   for (int k = 0; k < itself; ++k) error.see_figures(own_figures, figures(k, b));
   error.widen(error.first_[nodes],
               {std::sqrt(squares[0]) / error.fastest_, std::sqrt(squares[1]) / R, std::sqrt(squares[2])});
-  if (!error.trust_quick()) return false;
+  if (!error.trust_quick(p.moments, p.M / R, p.l / R)) return false;
   known_[std::size_t(b)] = {error.at(body.horizon), error.of_scalars(), error.fastest(), R};
   return true;
 }
