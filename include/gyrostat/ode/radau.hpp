@@ -543,7 +543,8 @@ Status Radau<System>::step(Scalar t_max) noexcept {
   if (!(wish_ > 0)) {
     const Scalar first = first_step();
     if (!(first == first)) return Status::not_finite;
-    wish_ = first;
+    // a run beside another lands elsewhere than where that may go in one step
+    wish_ = options_.pace < 1 ? std::min(first, options_.pace * (t_max - time_.high)) : first;
   }
 
   // rounding of a state that has outgrown its scale

@@ -111,6 +111,33 @@ TEST_CASE("mean precession of a nutating top is given by every rung, of an uprig
   CHECK(std::isnan(periodicity_from(body(0.0011, 0.0016, 0.002, {0.01, 0, 0.01}, 9.8, 0), from).period));
 }
 
+TEST_CASE("a top that nods a little about the vertical does not repeat", "[heavy]") {
+  const auto p = *Problem<double>::make({8.82e-4, 8.82e-4, 6.945e-4}, 10.8, {0, 0, -5.24e-4}, 9.80665, 0);
+  for (const double tilt : {1e-7, 1e-6, 3e-6, 1e-5, 1e-4, 1e-3}) {
+    CAPTURE(tilt);
+    CHECK(std::isnan(periodicity_from(p, released({0, 0, 73.907}, {std::sin(tilt), 0, std::cos(tilt)})).period));
+  }
+}
+
+TEST_CASE("a top that passes the vertical on a side which its data leave open says so", "[heavy]") {
+  Mat3<double> tensor;
+  tensor << 0.0015729044808591032, 2.0831217716788477e-06, -4.801832753988409e-05, 2.0831217716788477e-06,
+      0.0015562986210884667, -5.931738169170318e-06, -4.801832753988409e-05, -5.931738169170318e-06,
+      0.001692774607004645;
+  const auto made = Body::make(tensor, 36.860985249189945,
+                               {-0.00028785520386819376, -3.555895816156877e-05, 0.0008196744535978925}, 9.80665, 0);
+  REQUIRE(made);
+  State<double> from;
+  from.angular_velocity = {6.833391286779667, 0.8441336880589759, -19.458242178510144};
+  from.attitude = {0.9855761333368092, -0.020747724007615077, 0.16795599824170598, 0};
+  Question question;
+  question.times = {1};
+  const auto scene = Scene::make(*made, Start{from, {}, true}, question);
+  REQUIRE(scene);
+  const auto known = periodicity_from(*scene);
+  CHECK(std::abs(known.precession + 3.106148291663306) <= known.precession_error);
+}
+
 TEST_CASE("what a conversion errs is in the errors of period and precession", "[heavy]") {
   using Long = long double;
   // the start of a nodding top and of a swing, by an attitude that rounds

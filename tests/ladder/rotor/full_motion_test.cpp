@@ -339,6 +339,18 @@ TEST_CASE("collocation: a companion does not step as the answer does where the t
     }
 }
 
+TEST_CASE("collocation: a companion does not go all the way in the one step of the answer", "[rotor]") {
+  Mat3<double> theta;
+  theta << 0.0022798934794142204, 8.152301342131277e-05, 0.0007374957910340591,  //
+      8.152301342131277e-05, 0.0016680995106459423, 0.00012226014110750785,      //
+      0.0007374957910340591, 0.00012226014110750785, 0.002947839235201267;
+  const auto body = Gyrostat<double>::make(theta, {0.25521899886249616, -0.6771480552956659, 0.6901693805356212},
+                                           0.00028062146898224285, 5.6458701999705285, 6.958020608240542);
+  REQUIRE(body);
+  const Motion<double> motion{*body, {}, {-0.4951331405353694, -0.533445295628389, 0.07636506079176576}, 1.4045491};
+  for (const double end : {0.01, 0.03879280939919115, 0.1}) check_honest(motion, {end}, 1e-5);
+}
+
 TEMPLATE_TEST_CASE("every precision meets its own tolerance", "[rotor]", float, double, long double) {
   using S = TestType;
   Mat3<S> theta;

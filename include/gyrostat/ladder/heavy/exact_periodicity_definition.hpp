@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "gyrostat/ladder/heavy/exact_periodicity.hpp"
 
@@ -54,23 +56,28 @@ GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Problem<double>& probl
   }
   const auto of_top = [&](const auto& top) {
     const double nutation = top.nutation_period(), wide = top.greatest() - top.least();
-    const bool still = wide <= 1e-12;
     const auto axes = SymmetricTop<double>::of(problem)->axes;
     const Vec3<double> down = axes.transpose() * start.down;
+    const double sine = std::hypot(down[0], down[1]);
     // an axis that stays upright has no precession
-    if (!(nutation < infinity<double>) || (still && std::hypot(down[0], down[1]) < 1e-6)) return;
+    if (!(nutation < infinity<double>) || (wide <= 1e-12 && sine < 1e-6)) return;
+    // an inclination is told by its sine where the axis is nearly upright
+    const double nods = wide / sine;
+    const bool still = wide <= 1e-12 && nods <= 1e-9;
     known.precession = top.mean_precession();
     known.precession_error = exact.error(nutation).attitude / nutation;
     if (still) {
       const double turning = axes.col(2).dot(start.angular_velocity) - known.precession * down[2];
       if (turning != 0) repeats(2 * pi<double> / std::abs(turning));
-      known.period_error += wide;
+      known.period_error += nods;
     } else if (top.planar()) {
       // down passes one of the poles where the top swings through it, none or both else
       constexpr double near = 1e-12;
       const bool one = (1 + top.least() < near) != (1 - top.greatest() < near);
       repeats(nutation * (one ? 2 : 1));
       known.precession_error = 0;
+    } else {
+      known.sides = top.sides();
     }
   };
   if (const auto* top = exact.top()) of_top(*top);
@@ -92,6 +99,12 @@ GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Scene& scene) {
     known.precession_error += margin * std::abs(off.precession - known.precession);
     // a top whose inclination is steady nods a little in a start that is off
     if (!std::isnan(off.period)) known.period_error += margin * std::abs(off.period / known.period - 1);
+    // a side that is open leaves the turn open, and how long the axis lingers there; a body that is symmetric but for rounding trades so much of the
+    // momentum along its axis
+    const double traded = scene.converts_body() ? conversion : 0;
+    for (std::size_t pole : {0, 1})
+      if (std::abs(known.sides[pole]) <= margin * std::max(traded, std::abs(off.sides[pole] - known.sides[pole])))
+        known.precession_error = infinity<double>;
   }
   return known;
 }

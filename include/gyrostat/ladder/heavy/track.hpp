@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "gyrostat/core/linkage.hpp"
@@ -18,6 +19,7 @@ struct Periodicity {
   double trace = nan<double>, trace_error = nan<double>;            ///< of the monodromy, minus 4; absolute
   double precession = nan<double>, precession_error = nan<double>;  ///< mean turn about DOWN, rad/s; absolute
   double stable = nan<double>;                                      ///< 1 or 0 where more is known than the trace says
+  std::array<double, 2> sides{};  ///< of a top that nods: on which side its axis passes the poles (LagrangeTop::sides)
 };
 
 /// What a rung finds at the asked times, in principal axes.

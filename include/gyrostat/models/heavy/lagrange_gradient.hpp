@@ -115,6 +115,8 @@ class LagrangeGradient {
     if (still_) return mean_precession() * nutation_period();
     return pi<Scalar> * (side_above_ + side_below_) + 2 * pi<Scalar> * (mean_[1] + mean_[2]);
   }
+  /// On which side the axis passes the upper pole, and the lower, by the sign: what is left of momenta that cancel there, over their size.
+  std::array<Scalar, 2> sides() const noexcept { return {c_above_ / fastest_, c_below_ / fastest_}; }
   Scalar mean_precession() const noexcept {  ///< rad/s
     if (still_ && !planar_) return unit_ * (c_above_ / above_b_ + c_below_ / below_b_) / 2;
     return unit_ * precession_per_nutation() / period_;

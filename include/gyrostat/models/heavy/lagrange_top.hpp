@@ -86,6 +86,8 @@ class LagrangeTop {
             c_above_ * (T + minus_factor_ * 2 * minus_.complete()) / above1_) /
            2;
   }
+  /// On which side the axis passes the upper pole, and the lower, by the sign: what is left of momenta that cancel there, over their size.
+  std::array<Scalar, 2> sides() const noexcept { return {c_above_ / fastest_, c_below_ / fastest_}; }
   /// rad/s; on the separatrix that of its end.
   Scalar mean_precession() const noexcept {
     if (motion_ == AxisMotion::separatrix) return unit_ * s_ * rho_ / 2;
