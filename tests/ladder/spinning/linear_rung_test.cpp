@@ -138,6 +138,19 @@ TEST_CASE("rung linear under an axial torque", "[spinning]") {
     CHECK(linear_track(posed(p, 1, 1e-2, asked), &monitor).failure == Errc::step_limit);
 }
 
+TEST_CASE("momenta of body and rotor that cancel under an axial torque count with what they round", "[spinning]") {
+  Problem<double> p;
+  p.inertia = {2613.7322301636445, 1419.327843774858, 4033.0598935536277};
+  p.mass = 114.03874353797272;
+  p.rotor_momentum = -18826.90214284515;
+  p.torque = {0.0013877228921286094, 0.0011079945521293092, -169226.2482901884};
+  p.angular_velocity = {0, 0, 4.672601008849952};
+  for (const double span : {2.555815799916065e-05, 0.00011896062578669156}) {
+    const auto scene = posed(p, span, 1e-9, rung::linear, 3);
+    check_honest(scene, linear_track(scene, nullptr));
+  }
+}
+
 TEST_CASE("rung linear under an axial torque is not followed where its tilt has lost all sense", "[spinning]") {
   Problem<double> p;
   p.inertia = {0.1135, 0.6155, 0.5155};  // spins about the middle axis

@@ -19,7 +19,8 @@ struct Periodicity {
   double trace = nan<double>, trace_error = nan<double>;            ///< of the monodromy, minus 4; absolute
   double precession = nan<double>, precession_error = nan<double>;  ///< mean turn about DOWN, rad/s; absolute
   double stable = nan<double>;                                      ///< 1 or 0 where more is known than the trace says
-  std::array<double, 2> sides{};  ///< of a top that nods: on which side its axis passes the poles (LagrangeTop::sides)
+  std::array<double, 2> sides{
+      nan<double>, nan<double>};  ///< of a top that nods: on which side its axis passes the poles (LagrangeTop::sides)
 };
 
 /// What a rung finds at the asked times, in principal axes.
