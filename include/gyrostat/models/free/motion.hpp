@@ -6,10 +6,14 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/core/wide.hpp"
 #include "gyrostat/math/complex.hpp"
+#include "gyrostat/math/many.hpp"
 #include "gyrostat/math/modulus.hpp"
 #include "gyrostat/models/free/frame.hpp"
 #include "gyrostat/models/free/kind.hpp"
@@ -60,6 +64,50 @@ struct Fraction {
     return {n + more, high, low - (high - left)};
   }
 };
+
+/// One number with what Wide offers, where registers of four with a fused product are none: there many at once take longer than one by one.
+template <Real Scalar>
+struct OnePoint {
+  Scalar x;
+
+  GYROSTAT_INLINE friend OnePoint operator+(OnePoint a, OnePoint b) noexcept { return {a.x + b.x}; }
+  GYROSTAT_INLINE friend OnePoint operator-(OnePoint a, OnePoint b) noexcept { return {a.x - b.x}; }
+  GYROSTAT_INLINE friend OnePoint operator*(OnePoint a, OnePoint b) noexcept { return {a.x * b.x}; }
+  GYROSTAT_INLINE friend OnePoint operator/(OnePoint a, OnePoint b) noexcept { return {a.x / b.x}; }
+  GYROSTAT_INLINE friend OnePoint multiply_add(OnePoint a, OnePoint b, OnePoint c) noexcept {
+    return {a.x * b.x + c.x};
+  }
+  GYROSTAT_INLINE friend void store(Scalar* to, OnePoint a) noexcept { *to = a.x; }
+};
+
+/// As many points of a grid as are worked on at once.
+template <Real Scalar>
+struct GridPoints {
+  static constexpr bool many = math::many_pays && std::is_same_v<Scalar, double>;
+  using Type = std::conditional_t<many, Wide<Scalar>, OnePoint<Scalar>>;
+  static constexpr int size = many ? wide_size<Scalar> : 1;
+
+  GYROSTAT_INLINE static Type all(Scalar a) noexcept {
+    if constexpr (many) return wide(a);
+    else return {a};
+  }
+  GYROSTAT_INLINE static Type from(const Scalar* row) noexcept {
+    if constexpr (many) return load_wide(row);
+    else return {*row};
+  }
+  GYROSTAT_INLINE static Type root(const Type& a) noexcept {
+    if constexpr (many) return square_root<Scalar>(a);
+    else return {std::sqrt(a.x)};
+  }
+  /// a where the sign is below zero, else b.
+  GYROSTAT_INLINE static Type choose(const Type& sign, const Type& a, const Type& b) noexcept {
+    if constexpr (many) return gyrostat::choose<Scalar>(less<Scalar>(sign, wide(Scalar(0))), a, b);
+    else return sign.x < 0 ? a : b;
+  }
+};
+
+template <Real Scalar>
+struct Winding;
 
 }  // namespace detail
 
@@ -371,9 +419,11 @@ class Motion {
 
   static constexpr int block = 64;
   struct Block;
-  void fill(Block& b, Scalar first, Scalar step) const noexcept;
-  void sums(Block& b) const noexcept;
-  void forms(Block& b) const noexcept;
+  void fill(Block& b, Scalar first, Scalar step, const detail::Winding<Scalar>& angle,
+            const detail::Winding<Scalar>& phase) const noexcept;
+  using Points = typename detail::GridPoints<Scalar>::Type;
+  void sums(const Block& b, int k, Points (&zeta)[4]) const noexcept;
+  void forms(Block& b, int k, const Points (&zeta)[4], bool with_momentum) const noexcept;
 
   Kind kind_ = Kind::steady;
   State<Scalar> initial_;
@@ -452,53 +502,64 @@ Scalar Motion<Scalar>::defect(Scalar t, Scalar fastest) const noexcept {
              max((M - initial_.angular_momentum).norm() / R_, (omega - initial_.angular_velocity).norm() / fastest));
 }
 
-/// What a block of a grid works on, array by array so that compilers make vector instructions of the loops.
+/// What a block of a grid works on, array by array.
 template <Real Scalar>
 struct Motion<Scalar>::Block {
   using Row = Scalar[block];
   Row up, down;      // cos and sin of the angle of E, or E and 1/E
   Row cosine, sine;  // of the spinor's phase
   Row sign;          // -1 an odd number of half periods on (hyperbolic form)
-  Row zeta[4];       // zeta_1 and zeta_2, real and imaginary parts
   Row rate[3], momentum[3], attitude[4];
 };
 
 namespace detail {
 
-/// z_k = z_0 turn^k: eight in a row, and every further one from that eight before it.
-template <Real Scalar, std::size_t N>
-void wind(Scalar (&re)[N], Scalar (&im)[N], math::Complex<Scalar> z, math::Complex<Scalar> turn) noexcept {
-  math::Complex<Scalar> leap{1, 0};
-  for (std::size_t k = 0; k < 8; ++k) {
-    re[k] = z.re, im[k] = z.im;
-    z = z * turn;
-    leap = leap * turn;
+/// The powers of a turn by which rows of unit numbers are wound up: eight at once, and every further eight from those before.
+template <Real Scalar>
+struct Winding {
+  math::Complex<Scalar> power[8], leap{1, 0};
+
+  /// @param turns of one step, of which the whole ones do not count
+  explicit Winding(const Fraction<Scalar>& turns) noexcept {
+    const auto turn = math::unit(2 * pi<Scalar> * (turns.high + turns.low));
+    for (auto& p : power) p = leap, leap = leap * turn;
   }
-  for (std::size_t k = 8; k < N; ++k) {
-    re[k] = re[k - 8] * leap.re - im[k - 8] * leap.im;
-    im[k] = re[k - 8] * leap.im + im[k - 8] * leap.re;
+  const math::Complex<Scalar>& turn() const noexcept { return power[1]; }
+
+  /// z turn^k.
+  template <std::size_t N>
+  void wind(const math::Complex<Scalar>& z, Scalar (&re)[N], Scalar (&im)[N]) const noexcept {
+    using Grid = GridPoints<Scalar>;
+    for (std::size_t k = 0; k < 8; ++k) {
+      const auto first = z * power[k];
+      re[k] = first.re, im[k] = first.im;
+    }
+    const auto by_re = Grid::all(leap.re), by_im = Grid::all(leap.im);
+    for (std::size_t k = 8; k < N; k += std::size_t(Grid::size)) {
+      const auto last_re = Grid::from(re + k - 8), last_im = Grid::from(im + k - 8);
+      store(re + k, last_re * by_re - last_im * by_im);
+      store(im + k, multiply_add(last_re, by_im, last_im * by_re));
+    }
   }
-}
+};
 
 }  // namespace detail
 
 template <Real Scalar>
-void Motion<Scalar>::fill(Block& b, Scalar first, Scalar step) const noexcept {
+void Motion<Scalar>::fill(Block& b, Scalar first, Scalar step, const detail::Winding<Scalar>& angle,
+                          const detail::Winding<Scalar>& phase) const noexcept {
   using std::exp;
   const auto turned = [](Scalar turns) { return math::unit(2 * pi<Scalar> * turns); };
-  const auto f = detail::Fraction<Scalar>::of(phase_rate_, step, {});
-  const C turn = turned(f.high + f.low);
   if (!pair_.hyperbolic) {
-    const auto x = detail::Fraction<Scalar>::of(rate_, step, {});
     const Place place = place_at(first);
-    detail::wind(b.up, b.down, math::unit(place.exponent), turned(x.high + x.low));
-    detail::wind(b.cosine, b.sine, turned(place.turns), turn);
+    angle.wind(math::unit(place.exponent), b.up, b.down);
+    phase.wind(turned(place.turns), b.cosine, b.sine);
     return;
   }
   const bool endless = kind_ == Kind::separatrix;
   const Scalar rise = rate_.high * step * span_.high, end = endless ? Scalar(100) : span_.high / 2;
   const Scalar by = exp(rise), back = 1 / by;
-  C phase{1, 0};
+  C now{1, 0};
   Scalar exponent = end, sign = 1;  // beyond the end of a window: anew
   for (int k = 0; k < block; ++k) {
     if (k == 0 || !(exponent < end && exponent > -end)) {
@@ -506,114 +567,139 @@ void Motion<Scalar>::fill(Block& b, Scalar first, Scalar step) const noexcept {
       exponent = place.exponent;
       b.up[k] = exp(exponent) * (1 + place.rest);
       b.down[k] = 1 / b.up[k];
-      phase = turned(place.turns);
+      now = turned(place.turns);
       sign = place.odd ? -1 : 1;
     } else {
       b.up[k] = b.up[k - 1] * by;
       b.down[k] = b.down[k - 1] * back;
-      phase = phase * turn;
+      now = now * phase.turn();
     }
-    b.cosine[k] = phase.re, b.sine[k] = phase.im, b.sign[k] = sign;
+    b.cosine[k] = now.re, b.sine[k] = now.im, b.sign[k] = sign;
     exponent += rise;
   }
 }
 
-/// ThetaPair::at for a whole block.
+/// ThetaPair::at for the points from k on that a register holds.
 template <Real Scalar>
-void Motion<Scalar>::sums(Block& b) const noexcept {
-  typename Block::Row re, im, sum[2][2];
+GYROSTAT_INLINE void Motion<Scalar>::sums(const Block& b, int k, Points (&zeta)[4]) const noexcept {
+  using Grid = detail::GridPoints<Scalar>;
   const bool hyperbolic = pair_.hyperbolic, single = pair_.single;
-  for (int k = 0; k < block; ++k) {
-    re[k] = im[k] = 1;  // E^m and E^-m, or its real and imaginary part
-    if (!hyperbolic) im[k] = 0;
-    sum[0][0][k] = pair_.x[0], sum[0][1][k] = sum[1][0][k] = sum[1][1][k] = 0;
-  }
-  for (int m = 1; m <= pair_.powers; ++m) {
-    const Scalar x = pair_.x[m], y = pair_.y[m];
-    auto& s = sum[m & 1];
-    if (!hyperbolic) {
-      for (int k = 0; k < block; ++k) {
-        const Scalar r = re[k] * b.up[k] - im[k] * b.down[k];
-        im[k] = re[k] * b.down[k] + im[k] * b.up[k];
-        re[k] = r;
-        s[0][k] += x * re[k];
-        s[1][k] += y * im[k];
-      }
-      continue;
+  const Points up = Grid::from(b.up + k), down = Grid::from(b.down + k), none = Grid::all(Scalar(0));
+  Points re = up, im = down;  // E^m and E^-m, or its real and imaginary part
+  const auto advance = [&]() GYROSTAT_INLINE_LAMBDA {
+    if (hyperbolic) {
+      re = re * up, im = im * down;
+      return;
     }
-    for (int k = 0; k < block; ++k) re[k] *= b.up[k], im[k] *= b.down[k];
-    if (single) {
-      const Scalar odd = m & 1 ? -1 : 1;
-      for (int k = 0; k < block; ++k) s[0][k] += x * (re[k] + odd * im[k]), s[1][k] += y * (re[k] - odd * im[k]);
-    } else if (m & 1) {
+    const Points r = multiply_add(re, up, none - im * down);
+    im = multiply_add(re, down, im * up);
+    re = r;
+  };
+  // sums of odd and even powers: real and imaginary parts
+  Points odd_re = none, odd_im = none, even_re = Grid::all(pair_.x[0]), even_im = none;
+  for (int m = 1; m <= pair_.powers; m += 2) {
+    const Points x = Grid::all(pair_.x[m]), y = Grid::all(pair_.y[m]);
+    if (hyperbolic && !single) {
       const bool swapped = m % 4 == 3;
-      for (int k = 0; k < block; ++k) {
-        const Scalar one = swapped ? im[k] : re[k], two = swapped ? re[k] : im[k];
-        sum[1][0][k] += x * one, sum[1][1][k] += y * one;
-        sum[0][0][k] -= x * two, sum[0][1][k] += y * two;
-      }
-    }
-  }
-  for (int k = 0; k < block; ++k) {
-    Scalar a = sum[1][0][k], c = sum[1][1][k], e = sum[0][0][k], g = sum[0][1][k];
-    if (!hyperbolic) {
-      const Scalar turned = a;  // -i times the odd sum
-      a = c, c = -turned;
-      b.zeta[0][k] = single ? a : e, b.zeta[1][k] = single ? c : g;
-      b.zeta[2][k] = single ? e : a, b.zeta[3][k] = single ? g : c;
-    } else if (single) {
-      b.zeta[0][k] = b.sign[k] * a, b.zeta[1][k] = b.sign[k] * c, b.zeta[2][k] = e, b.zeta[3][k] = g;
+      const Points one = swapped ? im : re, two = swapped ? re : im;
+      odd_re = multiply_add(x, one, odd_re), odd_im = multiply_add(y, one, odd_im);
+      even_re = multiply_add(none - x, two, even_re), even_im = multiply_add(y, two, even_im);
     } else {
-      const bool odd = b.sign[k] < 0;
-      b.zeta[0][k] = odd ? -e : a, b.zeta[1][k] = odd ? -g : c, b.zeta[2][k] = odd ? -a : e,
-      b.zeta[3][k] = odd ? -c : g;
+      odd_re = multiply_add(x, hyperbolic ? re - im : re, odd_re);
+      odd_im = multiply_add(y, hyperbolic ? re + im : im, odd_im);
+    }
+    if (m == pair_.powers) break;
+    advance();
+    if (!hyperbolic || single) {
+      const Points x2 = Grid::all(pair_.x[m + 1]), y2 = Grid::all(pair_.y[m + 1]);
+      even_re = multiply_add(x2, hyperbolic ? re + im : re, even_re);
+      even_im = multiply_add(y2, hyperbolic ? re - im : im, even_im);
+    }
+    advance();
+  }
+  if (!hyperbolic) {  // -i times the odd sum
+    const Points turned = none - odd_re;
+    odd_re = odd_im, odd_im = turned;
+  } else {
+    const Points sign = Grid::from(b.sign + k);
+    if (single) {
+      odd_re = sign * odd_re, odd_im = sign * odd_im;
+    } else {
+      const Points one_re = Grid::choose(sign, none - even_re, odd_re),
+                   one_im = Grid::choose(sign, none - even_im, odd_im);
+      even_re = Grid::choose(sign, none - odd_re, even_re), even_im = Grid::choose(sign, none - odd_im, even_im);
+      odd_re = one_re, odd_im = one_im;
     }
   }
+  const bool odd_first = single || hyperbolic;
+  zeta[0] = odd_first ? odd_re : even_re, zeta[1] = odd_first ? odd_im : even_im;
+  zeta[2] = odd_first ? even_re : odd_re, zeta[3] = odd_first ? even_im : odd_im;
 }
 
-/// assemble() for a whole block.
+/// assemble() for these points.
 template <Real Scalar>
-void Motion<Scalar>::forms(Block& b) const noexcept {
-  using std::sqrt;
-  // copies: what the loops write could be members, for all the compiler knows
-  const Mat34<Scalar> W = W_, M = M_;
-  const Scalar size[4] = {size_[0], size_[1], size_[2], size_[3]};
-  const Quat<Scalar> l = lay_;
-  const C o[2] = {spinor_[0][0], spinor_[1][0]}, iota[2] = {spinor_[0][1], spinor_[1][1]};
-  typename Block::Row square;
-  for (int k = 0; k < block; ++k) {
-    const Scalar ar = b.zeta[0][k], ai = b.zeta[1][k], br = b.zeta[2][k], bi = b.zeta[3][k];
-    const Scalar f0 = ar * ar + ai * ai, f1 = br * br + bi * bi, f2 = ar * br + ai * bi, f3 = ar * bi - ai * br;
-    const Scalar inverse = 1 / (size[0] * f0 + size[1] * f1 + size[2] * f2 + size[3] * f3);
-    for (int i = 0; i < 3; ++i) {
-      b.rate[i][k] = (W(i, 0) * f0 + W(i, 1) * f1 + W(i, 2) * f2 + W(i, 3) * f3) * inverse;
-      b.momentum[i][k] = (M(i, 0) * f0 + M(i, 1) * f1 + M(i, 2) * f2 + M(i, 3) * f3) * inverse;
-    }
-    const C one{ar, ai}, two{br, bi}, turn{b.cosine[k], b.sine[k]};
-    const C up = (o[0] * one + iota[0] * two) * turn, down = (o[1] * one + iota[1] * two) * turn;
-    const Scalar w = up.re, x = down.im, y = -down.re, z = up.im;
-    square[k] = w * w + x * x + y * y + z * z;
-    b.attitude[0][k] = l.w * x + l.x * w + l.y * z - l.z * y;
-    b.attitude[1][k] = l.w * y - l.x * z + l.y * w + l.z * x;
-    b.attitude[2][k] = l.w * z + l.x * y - l.y * x + l.z * w;
-    b.attitude[3][k] = l.w * w - l.x * x - l.y * y - l.z * z;
-  }
-  for (int k = 0; k < block; ++k) square[k] = sqrt(square[k]);
-  for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < block; ++k) b.attitude[i][k] /= square[k];
+GYROSTAT_INLINE void Motion<Scalar>::forms(Block& b, int k, const Points (&zeta)[4],
+                                           bool with_momentum) const noexcept {
+  using Grid = detail::GridPoints<Scalar>;
+  const auto& [ar, ai, br, bi] = zeta;
+  const auto product = [](const Points& x, const Points& y, const Points& z, const Points& w)
+                           GYROSTAT_INLINE_LAMBDA { return multiply_add(x, y, z * w); };
+  const Points f[4] = {product(ar, ar, ai, ai), product(br, br, bi, bi), product(ar, br, ai, bi), ar * bi - ai * br};
+  const auto form = [&](Scalar c0, Scalar c1, Scalar c2, Scalar c3) GYROSTAT_INLINE_LAMBDA {
+    return multiply_add(Grid::all(c0), f[0],
+                        multiply_add(Grid::all(c1), f[1], multiply_add(Grid::all(c2), f[2], Grid::all(c3) * f[3])));
+  };
+  const auto form_of = [&](const Mat34<Scalar>& A, int i)
+                           GYROSTAT_INLINE_LAMBDA { return form(A(i, 0), A(i, 1), A(i, 2), A(i, 3)); };
+  const auto combined = [&](const C& one, const C& two, Points& re, Points& im) GYROSTAT_INLINE_LAMBDA {
+    re = multiply_add(
+        Grid::all(one.re), ar,
+        multiply_add(Grid::all(-one.im), ai, multiply_add(Grid::all(two.re), br, Grid::all(-two.im) * bi)));
+    im = multiply_add(Grid::all(one.re), ai,
+                      multiply_add(Grid::all(one.im), ar, multiply_add(Grid::all(two.re), bi, Grid::all(two.im) * br)));
+  };
+  // lay_ times the spinor, whose turn is left for the end: q = (up.re, down.im, -down.re, up.im)
+  const Points c = Grid::from(b.cosine + k), s = Grid::from(b.sine + k);
+  Points up_re, up_im, down_re, down_im;
+  combined(spinor_[0][0], spinor_[0][1], up_re, up_im);
+  combined(spinor_[1][0], spinor_[1][1], down_re, down_im);
+  const Points square = product(up_re, up_re, up_im, up_im) + product(down_re, down_re, down_im, down_im);
+  const Points size = form(size_[0], size_[1], size_[2], size_[3]), length = Grid::root(square);
+  // one division for both
+  const Points both = Grid::all(Scalar(1)) / (size * length), of_size = both * length, of_length = both * size;
+  for (int i = 0; i < 3; ++i) store(b.rate[i] + k, form_of(W_, i) * of_size);
+  for (int i = 0; with_momentum && i < 3; ++i) store(b.momentum[i] + k, form_of(M_, i) * of_size);
+  const Points tc = c * of_length, ts = s * of_length, none = Grid::all(Scalar(0));
+  const Points w = product(up_re, tc, none - up_im, ts), z = product(up_re, ts, up_im, tc);
+  const Points y = none - product(down_re, tc, none - down_im, ts), x = product(down_re, ts, down_im, tc);
+  const auto row = [&](int i, Scalar cw, Scalar cx, Scalar cy, Scalar cz) GYROSTAT_INLINE_LAMBDA {
+    store(b.attitude[i] + k,
+          multiply_add(Grid::all(cw), w,
+                       multiply_add(Grid::all(cx), x, multiply_add(Grid::all(cy), y, Grid::all(cz) * z))));
+  };
+  const Quat<Scalar>& l = lay_;
+  row(0, l.x, l.w, -l.z, l.y);
+  row(1, l.y, l.z, l.w, -l.x);
+  row(2, l.z, -l.y, l.x, l.w);
+  row(3, l.w, -l.x, -l.y, -l.z);
 }
 
 template <Real Scalar>
 void Motion<Scalar>::grid(Scalar first, Scalar step, std::size_t count, Scalar* angular_velocity, Scalar* attitude,
                           Scalar* angular_momentum) const noexcept {
   const bool special = kind_ == Kind::steady || kind_ == Kind::spherical;
+  const detail::Winding<Scalar> angle(detail::Fraction<Scalar>::of(rate_, step, {})),
+      phase(detail::Fraction<Scalar>::of(phase_rate_, step, {}));
   Block b{};
   for (std::size_t begin = 0; begin < count; begin += block) {
     const int n = static_cast<int>(std::min<std::size_t>(block, count - begin));
     if (!special) {
-      fill(b, first + step * Scalar(begin), step);
-      sums(b);
-      forms(b);
+      fill(b, first + step * Scalar(begin), step, angle, phase);
+      for (int k = 0; k < n; k += detail::GridPoints<Scalar>::size) {
+        Points zeta[4];
+        sums(b, k, zeta);
+        forms(b, k, zeta, angular_momentum != nullptr);
+      }
     }
     for (int k = 0; special && k < n; ++k) {
       const State<Scalar> s = at(first + step * Scalar(begin + std::size_t(k)));
@@ -621,14 +707,16 @@ void Motion<Scalar>::grid(Scalar first, Scalar step, std::size_t count, Scalar* 
       b.attitude[0][k] = s.attitude.x, b.attitude[1][k] = s.attitude.y, b.attitude[2][k] = s.attitude.z,
       b.attitude[3][k] = s.attitude.w;
     }
-    const auto put = [n](Scalar*& to, const auto& rows, int width) {
+    const auto put = [n]<std::size_t width>(Scalar*& to, const Scalar(&rows)[width][block]) {
       if (!to) return;
-      for (int k = 0; k < n; ++k)
-        for (int i = 0; i < width; ++i) *to++ = rows[i][k];
+      for (int k = 0; k < n; ++k, to += width)
+        [&]<std::size_t... i>(std::index_sequence<i...>) {
+          ((to[i] = rows[i][k]), ...);
+        }(std::make_index_sequence<width>());
     };
-    put(angular_velocity, b.rate, 3);
-    put(attitude, b.attitude, 4);
-    put(angular_momentum, b.momentum, 3);
+    put(angular_velocity, b.rate);
+    put(attitude, b.attitude);
+    put(angular_momentum, b.momentum);
   }
 }
 
