@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/heavy/inputs.hpp"
 
+#include <string_view>
 #include <vector>
 
 #include "catch.hpp"
@@ -54,6 +55,12 @@ TEST_CASE("a heavy body that is none says why", "[heavy]") {
   std::vector<double> row = heavy_row();
   row[10] = .2;
   CHECK(scene_of(row, question).error() == Errc::triangle_inequality);
+  const SceneOf scenes;
+  REQUIRE(scenes.why(row) != nullptr);
+  CHECK(std::string_view(scenes.why(row)).ends_with("has its mass centre there"));
+  row = heavy_row(), row[0] = 1;  // no body has these moments
+  CHECK(scenes(row, question).error() == Errc::triangle_inequality);
+  CHECK(scenes.why(row) == nullptr);
   row = heavy_row(), row[15] = -1;
   CHECK(scene_of(row, question).error() == Errc::not_positive);
   row.pop_back();

@@ -52,4 +52,21 @@ inline Result<Scene> scene_of(std::span<const double> numbers, const Question& q
   return Scene::make(*body, start, asked);
 }
 
+/// scene_of, with words of its own for a mass centre that no body can have, where all errors are told by their codes.
+struct SceneOf {
+  Result<Scene> operator()(std::span<const double> numbers, const Question& question) const {
+    return scene_of(numbers, question);
+  }
+  static const char* why(std::span<const double> numbers) {
+    InputReader next(numbers);
+    const Mat3<double> inertia = next.tensor();
+    const double mass = next.number();
+    const Vec3<double> centre = next.vector(), none(0, 0, 0);
+    const auto outside = Body::make(inertia, mass, centre, 0, 0);
+    return !outside && outside.error() == Errc::triangle_inequality && Body::make(inertia, mass, none, 0, 0)
+               ? "no body with this mass and this inertia about the fixed point has its mass centre there"
+               : nullptr;
+  }
+};
+
 }  // namespace gyrostat::heavy
