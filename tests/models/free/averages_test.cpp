@@ -54,15 +54,15 @@ TEST_CASE("precession and spin of tumbling bodies", "[free]") {
     CHECK(2 * pi<double> / std::abs(p.about_axis) == Approx(5.367).epsilon(2e-4));
     CHECK(2 * pi<double> / std::abs(p.about_momentum) == Approx(7.420).epsilon(2e-4));
   }
-  // nearly about an axis, down to where rounding hides the turns: regular precession, about -M/A and the rate (A - C) r/A about the axis
+  // nearly about an axis, down to where only rounding is left: regular precession, about -M/A and the rate (A - C) r/A about the axis
   for (const double tilt : {1e-3, 1e-8, 1e-10, 1e-13, 1e-16, 1e-18}) {
     gyrostat::free::Problem<double> body;
     body.inertia = V(0.06, 0.06, 0.08).asDiagonal();
     body.angular_velocity = {tilt, 0, 0.1};
     const auto m = *Motion<double>::make<Wide>(body.cast<Wide>());
     const auto p = precession<double>(m, V(0, 0, 1));
-    if (tilt > 1e-14) CHECK(p.converged);
-    if (!p.converged) continue;
+    CHECK(p.converged);
+    if (m.kind() == gyrostat::free::Kind::steady) continue;
     CHECK(p.about_momentum == Approx(m.angular_momentum_norm() / 0.06).epsilon(1e-12));
     CHECK(p.about_axis == Approx(-0.02 * 0.1 / 0.06).epsilon(1e-12));
   }
@@ -78,6 +78,19 @@ TEST_CASE("precession and spin of tumbling bodies", "[free]") {
     CHECK(p.converged);
     CHECK(p.about_momentum == Approx(0.053271).epsilon(1e-4));
     CHECK(p.about_axis == Approx(-2.8126e-4).epsilon(1e-3));
+  }
+  {  // a permanent rotation but for rounding
+    gyrostat::free::Problem<double> body;
+    body.inertia << 0.5930478690613811, 0.034631613473876985, -0.012038749679786057, 0.034631613473876985,
+        0.5769130801017612, 0.028761512102441746, -0.012038749679786057, 0.028761512102441746, 0.6503410734485566;
+    body.angular_velocity = {0.00578926913296689, -1.1858365169666605, -3.443594617851056};
+    const auto m = *Motion<double>::make<Wide>(body.cast<Wide>());
+    for (const double sign : {1., -1.}) {
+      const auto p = precession<double>(m, sign * m.R_BP().col(0));
+      CHECK(p.converged);
+      CHECK(std::abs(p.about_momentum) == Approx(4.083744986448943).epsilon(1e-12));
+      CHECK(std::abs(p.about_axis) == Approx(2 * pi<double> / m.period()).epsilon(1e-12));
+    }
   }
   // the azimuth of an axis about M, and that of M about the axis, followed through a period step by step
   Bodies bodies(44);

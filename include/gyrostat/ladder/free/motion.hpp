@@ -50,8 +50,8 @@ enum : std::size_t {
 
 inline constexpr ScalarKind scalar_kinds[] = {
     {"kind", 1, "", Frame::none, Measure::none,
-     "what the motion is: about-largest or about-smallest (M surrounds that axis), one-component, separatrix, steady, "
-     "spherical",
+     "what the motion is: about-largest or about-smallest (M surrounds that axis, with wheels one that may lie apart), "
+     "one-component, separatrix, steady, spherical",
      gyrostat::Kind::word, kind_words},
     {"period", 1, "s", Frame::none, Measure::relative,
      "of the angular velocity in the body; infinite on a separatrix, None in a steady rotation"},

@@ -101,10 +101,21 @@ Precession<Scalar> precession(const Motion<Scalar>& motion, const Vec3<Scalar>& 
   const auto means = math::periodic_means<Scalar, 2>([&](Scalar x) { return rates(x * T); }, Scalar(1e-3L),
                                                      detail::first_nodes(motion), 16384);
   const Scalar once = 2 * pi<Scalar> / T, rest = motion.turn_per_period() / T;
-  const Scalar round = (means.value[0] - rest) / once, about = means.value[1] / once;
+  Scalar about_momentum = means.value[0], about_axis = means.value[1];
+  bool sure = 64 * epsilon<Scalar> * magnified < once;
+  const bool largest = motion.kind() == Kind::about_largest;
+  if (!sure && motion.rotor_momentum() == Vec3<Scalar>(0, 0, 0) && (largest || motion.kind() == Kind::about_smallest)) {
+    // a permanent rotation but for rounding: M goes round the axis once in a period, backwards in the body about that of the smallest moment
+    const Vec3<Scalar> one = motion.R_BP().col(largest ? 0 : 2);
+    const Scalar along = axis.dot(one);
+    sure = 1 - along * along < 1e-12;
+    const Scalar spin = axis.dot(motion.at(Scalar(0)).angular_velocity), sense = spin < 0 ? Scalar(-1) : Scalar(1);
+    about_axis = (largest ? -once : once) * sense;
+    about_momentum = (spin - about_axis) * sense;
+  }
+  const Scalar round = (about_momentum - rest) / once, about = about_axis / once;
   const Scalar rounds = std::nearbyint(round), abouts = std::nearbyint(about);
-  const bool sure = std::abs(round - rounds) < Scalar(0.1L) && std::abs(about - abouts) < Scalar(0.1L) &&
-                    64 * epsilon<Scalar> * magnified < once;
+  sure = sure && std::abs(round - rounds) < Scalar(0.1L) && std::abs(about - abouts) < Scalar(0.1L);
   return {rest + once * rounds, once * abouts, sure};
 }
 
