@@ -4,13 +4,17 @@
 
 #include <time.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "convert.hpp"
 #include "gyrostat/ladder/answer.hpp"
+#include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/rung.hpp"
 
 namespace gyrostat::python {
@@ -37,8 +41,7 @@ inline py::object value_of(const Quantity& quantity) {
     case Kind::flag: return std::isnan(first) ? py::object(py::none()) : py::object(py::bool_(first != 0));
     case Kind::place: return std::isnan(first) ? py::object(py::none()) : py::object(py::int_(int(first)));
     case Kind::word:
-      return std::isnan(first) ? py::object(py::none())
-                               : py::object(py::str(quantity.kind->words[std::size_t(first)]));
+      return std::isnan(first) ? py::object(py::none()) : py::object(py::str(quantity.kind->words[std::size_t(first)]));
     case Kind::words: {
       py::list names;
       for (std::size_t i = 0; i < quantity.kind->words.size(); ++i)
@@ -129,6 +132,27 @@ auto timed(Work&& work) {
   const double began = thread_seconds();
   auto made = work();
   return std::pair(std::move(made), thread_seconds() - began);
+}
+
+/// Whether a signal wants this thread to raise an exception, as Ctrl-C does, which is then set: at most twenty times a second the interpreter is asked.
+inline bool signalled() noexcept {
+  using Clock = std::chrono::steady_clock;
+  thread_local Clock::time_point last;
+  const auto now = Clock::now();
+  if (now - last < std::chrono::milliseconds(50)) return false;
+  last = now;
+  const py::gil_scoped_acquire hold;
+  return PyErr_CheckSignals() != 0;
+}
+
+/// work(monitor) as timed() has it, watched by the caller's monitor or by one that hears signals alone. Raises what a signal raises.
+template <class Work>
+auto watched(const std::optional<std::shared_ptr<Monitor>>& given, Work&& work) {
+  Monitor own;
+  own.stop = &signalled;
+  auto made = timed([&] { return work(given ? given->get() : &own); });
+  if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+  return made;
 }
 
 /// The exception of a climb that ended without an answer.

@@ -53,8 +53,7 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
 #endif
 
   Refusal refusal;
-  auto [answer, seconds] =
-      timed([&] { return functions.decelerate(scene, refusal, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return functions.decelerate(scene, refusal, by); });
   require_answer(refusal);
   return to_python(answer, scene.question(), tables, seconds);
 }

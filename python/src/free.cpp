@@ -37,7 +37,7 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Wheels
   free::UnsoundWheel<double> unsound;
   const auto scene = sound(free::Scene::make(assembly, question, &unsound), assembly, unsound).viewed(seen);
   Refusal why;
-  auto [answer, seconds] = timed([&] { return free::solve(scene, why, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return free::solve(scene, why, by); });
   require_answer(why);
   return to_python(answer, scene.question(), free::tables, seconds);
 }

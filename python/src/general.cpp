@@ -62,7 +62,7 @@ Data solve_scene(const Data& given, const Array& at, double tolerance, const std
   (void)cvode;
 #endif
   gyrostat::Refusal why;
-  auto [answer, seconds] = timed([&] { return general::solve(scene, why, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return general::solve(scene, why, by); });
   own.raise_what_ended_it();
   require_answer(why);
   return to_python(answer, scene.question(), general::tables, seconds);

@@ -41,7 +41,7 @@ Data solve_scene(const Array& inertia, double mass, const Array& centre_of_mass,
 #endif
 
   Refusal refusal;
-  auto [answer, seconds] = timed([&] { return solve(scene, refusal, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return solve(scene, refusal, by); });
   require_answer(refusal);
   return to_python(answer, scene.question(), tables, seconds);
 }

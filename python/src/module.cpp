@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "answer.hpp"
 #include "bind.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/version.hpp"
@@ -71,7 +72,11 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
       "Version of the library, of the compiler, and of each optional library (None: this installation has it not).");
   py::class_<gyrostat::Monitor, std::shared_ptr<gyrostat::Monitor>>(module, "Monitor",
                                                                     "Watches and stops long work from another thread.")
-      .def(py::init<>())
+      .def(py::init([] {
+        auto made = std::make_shared<gyrostat::Monitor>();
+        made->stop = &gyrostat::python::signalled;
+        return made;
+      }))
       .def_property_readonly(
           "progress", [](const gyrostat::Monitor& m) { return m.fraction.load(); },
           "Share of the work done, from 0 to 1.")

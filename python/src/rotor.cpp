@@ -40,7 +40,7 @@ Data solve_scene(const Array& inertia, const Array& axis, double axial_inertia, 
 #endif
 
   Refusal refusal;
-  auto [answer, seconds] = timed([&] { return solve(scene, refusal, monitor ? monitor->get() : nullptr); });
+  auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return solve(scene, refusal, by); });
   require_answer(refusal);
   return to_python(answer, scene.question(), tables, seconds);
 }

@@ -31,6 +31,19 @@ TEST_CASE("progress is reported where it is asked for and never passes one; a se
   CHECK_FALSE(options.cancelled());
   cancel = true;
   CHECK(options.cancelled());
+
+  Monitor monitor;
+  MotionOptions<double> watched;
+  watched.watched_by(nullptr);
+  CHECK_FALSE(watched.cancelled());
+  watched.watched_by(&monitor);
+  watched.report(0.5);
+  CHECK(monitor.fraction == 0.5);
+  CHECK_FALSE(watched.cancelled());
+  monitor.stop = []() noexcept { return true; };
+  CHECK(monitor.cancelled());
+  watched.watched_by(&monitor);
+  CHECK(watched.cancelled());
 }
 
 TEST_CASE("a phase that no double holds is known before it is followed; a short motion is followed in any case",

@@ -7,13 +7,16 @@
 import ctypes
 import itertools
 import math
+import signal
 import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import gyrostat
 import numpy as np
+import pytest
 from gyrostat import elliptic, rotation
 from gyrostat.charts import make_chart
 from gyrostat.scenes import load
@@ -102,3 +105,24 @@ def test_threads_do_not_disturb_each_other() -> None:
         together = pool.map(lambda i: work[i][0](work[i][1]), order)
         for i, made in zip(order, together, strict=True):
             assert made == alone[i], (work[i][0].__name__, work[i][1])
+
+
+def test_a_signal_stops_long_work_in_a_program() -> None:
+    """As Ctrl-C does in a notebook: what its handler raises comes out of `solve`."""
+    class Enough(Exception):
+        pass
+
+    def enough(*_: object) -> None:
+        raise Enough
+
+    before = signal.signal(signal.SIGALRM, enough)
+    try:
+        for scene, changes in (("tiangong-1", {"control": [1e-13, 2e-13, 3e-13], "drag": 0.0, "times": [3e8]}), ("lab-gyroscope", {"times": [3e6]})):
+            signal.setitimer(signal.ITIMER_REAL, 0.4)
+            began = time.monotonic()
+            with pytest.raises(Enough):
+                gyrostat.solve(scene, model="full", **changes)
+            assert time.monotonic() - began < 20
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)

@@ -30,7 +30,7 @@ Errc walk(ode::Cvode& cvode, std::span<const double> times, std::size_t& next, o
       if (!keep(times[next])) return Errc::no_convergence;
     if (!moved()) return Errc::ok;
     if (monitor) {
-      if (monitor->cancel.load(std::memory_order_relaxed)) return Errc::cancelled;
+      if (monitor->cancelled()) return Errc::cancelled;
       monitor->fraction.store(cvode.time() / times.back(), std::memory_order_relaxed);
     }
   }

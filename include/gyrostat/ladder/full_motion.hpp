@@ -11,6 +11,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/errors.hpp"
+#include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ode/status.hpp"
 
 /// What the full equations of every family take and give.
@@ -54,6 +55,7 @@ struct MotionOptions {
   std::uint64_t step_cap = step_budget;
   std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
   const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
+  bool (*stop)() noexcept = nullptr;          ///< as that of Monitor
 
   /// The greatest error over its tolerance; NaN if one is.
   template <std::size_t columns>
@@ -67,7 +69,16 @@ struct MotionOptions {
   void report(double done) const noexcept {
     if (progress != nullptr) progress->store(std::min(done, 1.0), std::memory_order_relaxed);
   }
-  bool cancelled() const noexcept { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
+  bool cancelled() const noexcept {
+    return (cancel != nullptr && cancel->load(std::memory_order_relaxed)) || (stop != nullptr && stop());
+  }
+  /// Takes all that a monitor has; nullptr: nobody watches.
+  void watched_by(Monitor* monitor) noexcept {
+    if (monitor == nullptr) return;
+    progress = &monitor->fraction;
+    cancel = &monitor->cancel;
+    stop = monitor->stop;
+  }
 };
 
 /// What a run of the full equations hands back beside the states.

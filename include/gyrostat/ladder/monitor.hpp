@@ -7,10 +7,14 @@
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
-/// Lets a caller watch and stop long work from another thread.
+/// Lets a caller watch and stop long work, from another thread or by a function that the work asks.
 struct Monitor {
   std::atomic<double> fraction{0};  ///< of the work, in [0, 1]
   std::atomic<bool> cancel{false};
+  bool (*stop)() noexcept =
+      nullptr;  ///< asked now and then by the thread that works; true ends the work as `cancel` does
+
+  bool cancelled() const noexcept { return cancel.load(std::memory_order_relaxed) || (stop != nullptr && stop()); }
 };
 
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -85,7 +85,7 @@ void for_blocks(std::size_t rows, unsigned threads, std::size_t most, Monitor* m
     if (ended.try_acquire_for(pause)) --running;
     if (!monitor) continue;
     monitor->fraction.store(double(done.load()) / double(rows), std::memory_order_relaxed);
-    if (monitor->cancel.load(std::memory_order_relaxed))
+    if (monitor->cancelled())
       for (Monitor& own : monitors) own.cancel.store(true);
   }
 }

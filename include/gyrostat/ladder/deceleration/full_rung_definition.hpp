@@ -69,7 +69,7 @@ GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, s
   std::array<ColumnErrors<double>, detail::k2_looks + 1> errors{};
   options.errors = errors;
   options.stride = detail::k2_stride(times.size());
-  if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
+  options.watched_by(monitor);
   const auto answer = full_motion<double>(problem, times, states, options, attitude);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)

@@ -30,7 +30,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   MotionOptions<double> options;
   options.tolerance = goal.tightest;
   options.wanted = wanted.of;
-  if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
+  options.watched_by(monitor);
   const auto answer = full_motion<double>(problem, times, found, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)

@@ -104,7 +104,7 @@ inline CvodeRun<State<double>> run_pieces(const Scene& scene, CvodeEquations equ
         run.states.push_back(equations.state(times[i], y));
       }
       if (monitor == nullptr) continue;
-      if (monitor->cancel.load(std::memory_order_relaxed)) status = ode::Status::cancelled;
+      if (monitor->cancelled()) status = ode::Status::cancelled;
       monitor->fraction.store(cvode.time() / span, std::memory_order_relaxed);
     }
     run.counts += cvode.counts();

@@ -92,7 +92,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   options.integrator = question.integrator;
   options.tolerance = goal.tightest;
   options.wanted = wanted.of;
-  if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
+  options.watched_by(monitor);
   const auto answer = full_motion<double>(scene.problem(), times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status == ode::Status::event)

@@ -22,7 +22,7 @@ GYROSTAT_COMPILED_ONCE Track full_from_start(const Scene& scene, bool converted,
   options.wanted = goal.columns.of;
   options.attitude = question.wants_attitude;
   options.converted = converted;
-  if (monitor) options.progress = &monitor->fraction, options.cancel = &monitor->cancel;
+  options.watched_by(monitor);
   const auto answer = full_motion<double>(scene.problem(), scene.start(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)

@@ -25,6 +25,11 @@ template <Real Scalar>
 struct AxialMotionOptions {
   std::uint64_t step_cap = 10'000'000;
   const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
+  bool (*stop)() noexcept = nullptr;          ///< as that of Monitor
+
+  bool cancelled() const noexcept {
+    return (cancel != nullptr && cancel->load(std::memory_order_relaxed)) || (stop != nullptr && stop());
+  }
 };
 
 template <Real Scalar>
@@ -96,7 +101,7 @@ Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, s
       solver.at(times[next], x);
       states[next] = system.state(times[next], x);
     }
-    if ((++trips & 255U) == 0 && options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {
+    if ((++trips & 255U) == 0 && options.cancelled()) {
       answer.status = ode::Status::cancelled;
       break;
     }

@@ -17,8 +17,7 @@ GYROSTAT_COMPILED_ONCE Track picard_track(const Scene& scene, Monitor* monitor) 
   const auto scale = scales(scene.problem(), question.times.back());
   bool converges = false;
   for (const int sweeps : {2, 4, 8}) {
-    if (monitor && monitor->cancel.load(std::memory_order_relaxed))
-      return refused<Track>(Errc::cancelled, message(Errc::cancelled));
+    if (monitor && monitor->cancelled()) return refused<Track>(Errc::cancelled, message(Errc::cancelled));
     const auto made = picard_motion<double>(scene.problem(), question.times, track.states, {sweeps, 100'000});
     if (!made) {
       switch (made.error()) {
