@@ -117,7 +117,7 @@ def test_a_signal_stops_long_work_in_a_program() -> None:
 
     before = signal.signal(signal.SIGALRM, enough)
     try:
-        for scene, changes in (("tiangong-1", {"control": [1e-13, 2e-13, 3e-13], "drag": 0.0, "times": [3e8]}), ("lab-gyroscope", {"times": [3e6]})):
+        for scene, changes in (("tiangong-1", {"control": [1e-13, 2e-13, 3e-13], "drag": 0.0, "times": [3e8]}), ("lab-gyroscope", {"times": [3e5], "tolerance": 1e-2})):
             signal.setitimer(signal.ITIMER_REAL, 0.4)
             began = time.monotonic()
             with pytest.raises(Enough):

@@ -339,14 +339,17 @@ ClosedFormError<Scalar> ClosedForm<Scalar>::from_axisymmetric(Scalar t, const Si
   const Scalar nu_0 = (j_axis_ - j_across) * along_ - x.lambda * j_axis_ * rate_;
   const Scalar nu_t = (j_axis_ - j_across) * along_ - x.lambda * j_axis_ * rate(t);
   const Scalar nu = nu_0 * nu_t > 0 ? std::min(std::abs(nu_0), std::abs(nu_t)) : Scalar(0);
-  const Scalar defect = 2 * (off_ + oblateness_);
-  const Scalar tilt = x.l * defect * x.fast * std::min(t, 8 / nu) + x.data;
+  // an unevenness of the section acts with the second harmonic of H's turn, an axis that is off with the first; neither drifts to first order
+  const Scalar once = std::min(t, 2 / nu), pushed = x.fast * once, defect = off_ + oblateness_;
+  const Scalar lean = std::min(across_ + off_ * pushed, Scalar(1));  // of H from e
+  const Scalar tilt = x.l * lean * (oblateness_ * lean / 2 + off_) * pushed + x.data;
   ClosedFormError<Scalar> error;
   error.rotor_rate = 2 * x.e_n / x.k * tilt;
-  const Scalar drift =
-      t * (std::abs(j_axis_ - j_across) * tilt + x.lambda * j_axis_ * error.rotor_rate + defect * x.fast);
-  error.attitude = drift + t * (defect * x.fast + 2 * x.j * tilt);
-  error.momentum = x.l * drift + 2 * tilt;
+  const Scalar swing = defect * pushed;
+  const Scalar drift = t * (std::abs(j_axis_ - j_across) * tilt + x.lambda * j_axis_ * error.rotor_rate +
+                            x.fast * swing * (defect + swing) + x.j * x.data);
+  error.attitude = 2 * swing + drift;
+  error.momentum = x.l * (swing + lean * drift) + 2 * tilt;
   error.rotor_angle = t * error.rotor_rate;
   return error;
 }
@@ -396,8 +399,10 @@ ClosedFormError<Scalar> ClosedForm<Scalar>::from_steady(Scalar t, const Sizes& x
   ClosedFormError<Scalar> error;
   error.momentum = x.l * moved;
   error.rotor_rate = (linear.unit + linear.rate_of_tilt * x.e_n) * moved;
+  // the turn about L follows the energy, which is stationary here but for what the rotor's momentum adds
+  const Scalar p = std::abs(start_.axial_momentum), by_rotor = x.e_n * moved * (p + x.lambda * x.e_n * x.l);
   error.attitude =
-      2 * moved + t * (x.j * x.l * moved * (1 + moved) + x.lambda * x.e_n * error.rotor_rate + x.data * x.j);
+      2 * moved + t * (by_rotor + x.lambda * x.e_n * error.rotor_rate + x.fast * moved * moved + x.data * x.j);
   error.rotor_angle = t * error.rotor_rate;
   return error;
 }
@@ -442,8 +447,8 @@ ClosedFormError<Scalar> ClosedForm<Scalar>::error(Scalar t) const noexcept {
   const Scalar angle = rate * (decay_ * t > 1 ? 1 / decay_ : t);
   // the turn that a turn of the rotor makes comes from the inverse of the tensor
   const Scalar by_rotor = std::max(Scalar(1), gyrostat_.condition() / 4) * std::abs(rotor_turn_) * omega;
-  const Scalar phase = ulps * (1 + (std::abs(turn_) + std::abs(steady_turn_) + by_rotor) * t) +
-                       std::abs(rotor_turn_) * angle;
+  const Scalar phase =
+      ulps * (1 + (std::abs(turn_) + std::abs(steady_turn_) + by_rotor) * t) + std::abs(rotor_turn_) * angle;
   return {twice(error.attitude) + phase, twice(error.momentum) + norm_ * phase, twice(error.rotor_rate) + rate,
           twice(error.rotor_angle) + ulps * (omega * t + std::abs(start_.rotor_angle)) + angle};
 }
