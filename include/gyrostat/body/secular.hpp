@@ -123,6 +123,13 @@ class Secular {
     for (int i = 0; i < 3; ++i)
       if (gap_[origin][i] == 0) pole = std::max(pole, abs(g_[i]));
     found = {origin, Scalar(direction) * pole / R_};
+    if constexpr (!native) {  // from the turning point as a double knows it, on the pole's side of it
+      SecularPoint<double> rough;
+      if (narrow().turning_point(origin, direction, double(reach), rough) && rough.offset != 0) {
+        const Scalar near = Scalar(rough.offset) * (1 - 1e-9);
+        if (Scalar(direction) * (near - found.offset) > 0 && excess_at({origin, near}) > 0) found.offset = near;
+      }
+    }
     for (int trip = 0; trip < 80; ++trip) {
       if (abs(found.offset) > reach) return false;
       Scalar second = 0, third = 0;
@@ -184,6 +191,35 @@ class Secular {
   }
 
  private:
+  template <Real Other>
+  friend class Secular;
+
+  /// A class of numbers takes many times longer than a processor's own, and rounds its operations less well.
+  static constexpr bool native = std::floating_point<Scalar>;
+
+  /// The same equation in double, of which a place to begin at is taken.
+  Secular<double> narrow() const noexcept {
+    Secular<double> made;
+    made.R_ = double(R_);
+    for (int i = 0; i < 3; ++i) {
+      made.a_[i] = double(a_[i]), made.g_[i] = double(g_[i]), made.g2_[i] = double(g2_[i]);
+      for (int j = 0; j < 3; ++j) made.gap_[i][j] = double(gap_[i][j]);
+    }
+    return made;
+  }
+
+  /// |vertex|/R - 1.
+  Scalar excess_at(const Point& p) const noexcept {
+    Scalar second = 0;
+    for (int i = 0; i < 3; ++i)
+      if (active(i)) {
+        const Scalar x = g_[i] / distance(p, i);
+        second += x * x;
+      }
+    using std::sqrt;
+    return sqrt(second) / R_ - 1;
+  }
+
   /// a_i and a_{i+1} agree to rounding: the axes are turned so that e_i carries the whole weight.
   void merge(int i) noexcept {
     using std::hypot;
@@ -222,8 +258,10 @@ class Secular {
       if (y > 0 && y < 1)
         x = lo + (hi - lo) * (Scalar(.5) - Scalar(std::sin(std::asin(static_cast<double>(1 - 2 * y)) / 3)));
     }
-    // a class of numbers rounds its own operations less well than a processor does
-    constexpr bool native = std::floating_point<Scalar>;
+    if constexpr (!native) {  // from the root as a double knows it
+      const auto rough = narrow().solve(origin, double(lo), double(hi), double(eta), slope);
+      if (rough && lo < rough->offset && rough->offset < hi) x = rough->offset;
+    }
     constexpr int trips = native ? 100 : 300;
     const Scalar noise = (native ? 4 : 32) * epsilon<Scalar>;
     for (int trip = 0; trip < trips; ++trip) {
@@ -236,7 +274,6 @@ class Secular {
           size += abs(term);
         }
       const Scalar f = rest + (weight > 0 ? weight / x : Scalar(0));
-      // late trips stop at the rounding of c
       if (f == 0 || (trip > 12 && abs(f) <= noise * size)) return Point{origin, x};
       if ((f > 0) == (slope > 0)) hi = x;
       else lo = x;
@@ -250,6 +287,8 @@ class Secular {
       } else {
         next = x - f / (steep - (weight > 0 ? weight / (x * x) : Scalar(0)));
       }
+      // x is an end of the bracket now, and a step that is all rounding may leave it
+      if (abs(next - x) <= 2 * epsilon<Scalar> * abs(next)) return Point{origin, next};
       // c may have a hump in the bracket that throws the steps to and fro: beyond ten trips every other one halves it
       if (!(next > lo && next < hi) || (trip > 10 && trip % 2 == 0)) {
         // both ends on one side of the pole: halving the logarithm where they are far apart
@@ -257,7 +296,6 @@ class Secular {
         next = small > 0 && large > 16 * small ? side * sqrt(small * large) : (lo + hi) / 2;
         if (!(next > lo && next < hi)) return Point{origin, x};
       }
-      if (abs(next - x) <= 2 * epsilon<Scalar> * abs(next)) return Point{origin, next};
       x = next;
       if (!isfinite(x)) return Errc::not_finite;
     }

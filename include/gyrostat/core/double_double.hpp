@@ -9,6 +9,10 @@
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
+/// What a double holds to the last bit.
+template <class T>
+concept OneWord = std::same_as<T, double> || std::same_as<T, float> || (std::integral<T> && sizeof(T) <= 4);
+
 /// A number of about 106 bits as the unevaluated sum of two doubles, |low| no more than half a unit in the last place of high (Dekker
 /// 1971). With the exponents of double. Sums, products, quotients and roots have a relative error of a few epsilon = 2^-104, the
 /// elementary functions below of some tens. Needs rounding to nearest and no reordering by the compiler (-ffast-math).
@@ -54,33 +58,54 @@ struct DoubleDouble {
     return {p, std::fma(a, b, -p)};
   }
 
-  friend constexpr DoubleDouble operator+(const DoubleDouble& a) noexcept { return a; }
-  friend constexpr DoubleDouble operator-(const DoubleDouble& a) noexcept { return {-a.high, -a.low}; }
-  friend constexpr DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) noexcept {
+  // by value: both words travel in registers
+  friend constexpr DoubleDouble operator+(DoubleDouble a) noexcept { return a; }
+  friend constexpr DoubleDouble operator-(DoubleDouble a) noexcept { return {-a.high, -a.low}; }
+  friend constexpr DoubleDouble operator+(DoubleDouble a, DoubleDouble b) noexcept {
     const DoubleDouble s = sum(a.high, b.high), t = sum(a.low, b.low);
     if (!(s.high - s.high == 0)) return {s.high, 0};  // infinite or NaN
     const DoubleDouble u = quick_sum(s.high, s.low + t.high);
     return quick_sum(u.high, u.low + t.low);
   }
-  friend constexpr DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) noexcept { return a + (-b); }
-  friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) noexcept {
+  friend constexpr DoubleDouble operator-(DoubleDouble a, DoubleDouble b) noexcept { return a + (-b); }
+  friend DoubleDouble operator*(DoubleDouble a, DoubleDouble b) noexcept {
     const DoubleDouble p = product(a.high, b.high);
     if (!(p.high - p.high == 0)) return {p.high, 0};
     return quick_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
   }
-  friend DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) noexcept {
+  /// What the first quotient leaves is exact but for the low word of b (Joldes, Muller and Popescu 2017).
+  friend DoubleDouble operator/(DoubleDouble a, DoubleDouble b) noexcept {
     const double first = a.high / b.high;
     if (!(first - first == 0) || b.high - b.high != 0) return {first, 0};
-    DoubleDouble rest = a - DoubleDouble(first) * b;
-    const double second = rest.high / b.high;
-    rest = rest - DoubleDouble(second) * b;
-    const DoubleDouble q = quick_sum(first, second);
-    return quick_sum(q.high, q.low + rest.high / b.high);
+    const double rest = std::fma(-first, b.high, a.high) + std::fma(-first, b.low, a.low);
+    return quick_sum(first, rest / b.high);
   }
-  DoubleDouble& operator+=(const DoubleDouble& b) noexcept { return *this = *this + b; }
-  DoubleDouble& operator-=(const DoubleDouble& b) noexcept { return *this = *this - b; }
-  DoubleDouble& operator*=(const DoubleDouble& b) noexcept { return *this = *this * b; }
-  DoubleDouble& operator/=(const DoubleDouble& b) noexcept { return *this = *this / b; }
+  DoubleDouble& operator+=(DoubleDouble b) noexcept { return *this = *this + b; }
+  DoubleDouble& operator-=(DoubleDouble b) noexcept { return *this = *this - b; }
+  DoubleDouble& operator*=(DoubleDouble b) noexcept { return *this = *this * b; }
+  DoubleDouble& operator/=(DoubleDouble b) noexcept { return *this = *this / b; }
+
+  // one of the two in one word
+  friend constexpr DoubleDouble operator+(DoubleDouble a, OneWord auto b) noexcept {
+    const DoubleDouble s = sum(a.high, double(b));
+    if (!(s.high - s.high == 0)) return {s.high, 0};
+    return quick_sum(s.high, s.low + a.low);
+  }
+  friend constexpr DoubleDouble operator+(OneWord auto a, DoubleDouble b) noexcept { return b + a; }
+  friend constexpr DoubleDouble operator-(DoubleDouble a, OneWord auto b) noexcept { return a + -double(b); }
+  friend constexpr DoubleDouble operator-(OneWord auto a, DoubleDouble b) noexcept { return -b + a; }
+  friend DoubleDouble operator*(DoubleDouble a, OneWord auto b) noexcept {
+    const DoubleDouble p = product(a.high, double(b));
+    if (!(p.high - p.high == 0)) return {p.high, 0};
+    return quick_sum(p.high, p.low + a.low * double(b));
+  }
+  friend DoubleDouble operator*(OneWord auto a, DoubleDouble b) noexcept { return b * a; }
+  friend DoubleDouble operator/(DoubleDouble a, OneWord auto b) noexcept {
+    const double first = a.high / double(b);
+    if (!(first - first == 0) || double(b) - double(b) != 0) return {first, 0};
+    const double rest = std::fma(-first, double(b), a.high) + a.low;
+    return quick_sum(first, rest / double(b));
+  }
 
   friend constexpr bool operator==(const DoubleDouble& a, const DoubleDouble& b) noexcept {
     return a.high == b.high && a.low == b.low;
@@ -141,13 +166,11 @@ inline DoubleDouble fma(const DoubleDouble& a, const DoubleDouble& b, const Doub
   return a * b + c;
 }
 
-/// NaN for x < 0. One step of Karp and Markstein (1997) from the root of the high word.
+/// NaN for x < 0. A step of Newton's method from the root of the high word.
 inline DoubleDouble sqrt(const DoubleDouble& x) noexcept {
-  if (!(x.high > 0) || std::isinf(x.high)) return std::sqrt(x.high);
-  const double inverse = 1 / std::sqrt(x.high), root = x.high * inverse;
-  const DoubleDouble square = DoubleDouble::product(root, root);
-  const DoubleDouble first = DoubleDouble::quick_sum(root, (x - square).high * (inverse / 2));
-  return first + (x - first * first) / (2 * first);
+  const double root = std::sqrt(x.high);
+  if (!(x.high > 0) || std::isinf(x.high)) return root;
+  return DoubleDouble::quick_sum(root, (std::fma(-root, root, x.high) + x.low) / (2 * root));
 }
 
 /// sqrt(x^2 + y^2), whose squares do not overflow. Infinite where the larger is.
@@ -211,6 +234,11 @@ struct SineCosineSeries {
   }
 };
 
+/// Both at once.
+struct SineCosine {
+  DoubleDouble s = nan<double>, c = nan<double>;
+};
+
 /// x less the nearest multiple of pi/2 (three words of pi/2), and the multiple modulo 4. |x| < 2^50.
 struct QuarterTurn {
   DoubleDouble rest;
@@ -223,32 +251,29 @@ struct QuarterTurn {
   }
 };
 
+inline SineCosine sine_cosine(const DoubleDouble& x) noexcept {
+  if (!(std::abs(x.high) < 0x1p50)) return {};
+  const QuarterTurn turn(x);
+  const SineCosineSeries at(turn.rest);
+  const bool odd = turn.quarter % 2, back = turn.quarter >= 2, left = turn.quarter == 1 || turn.quarter == 2;
+  const DoubleDouble s = odd ? at.c : at.s, c = odd ? at.s : at.c;
+  return {back ? -s : s, left ? -c : c};
+}
+
 }  // namespace detail
 
 /// NaN for |x| >= 2^50.
-inline DoubleDouble sin(const DoubleDouble& x) noexcept {
-  if (!(std::abs(x.high) < 0x1p50)) return nan<double>;
-  const detail::QuarterTurn turn(x);
-  const detail::SineCosineSeries at(turn.rest);
-  const DoubleDouble y = turn.quarter % 2 ? at.c : at.s;
-  return turn.quarter >= 2 ? -y : y;
-}
+inline DoubleDouble sin(const DoubleDouble& x) noexcept { return detail::sine_cosine(x).s; }
 /// As sin(): x in rad, NaN from |x| = 2^50 on.
-inline DoubleDouble cos(const DoubleDouble& x) noexcept {
-  if (!(std::abs(x.high) < 0x1p50)) return nan<double>;
-  const detail::QuarterTurn turn(x);
-  const detail::SineCosineSeries at(turn.rest);
-  const DoubleDouble y = turn.quarter % 2 ? at.s : at.c;
-  return turn.quarter == 1 || turn.quarter == 2 ? -y : y;
-}
+inline DoubleDouble cos(const DoubleDouble& x) noexcept { return detail::sine_cosine(x).c; }
 
 /// One step of Newton's method from the angle of the high words.
 inline DoubleDouble atan2(const DoubleDouble& y, const DoubleDouble& x) noexcept {
   const double first = std::atan2(y.high, x.high);
   const DoubleDouble size = hypot(x, y);
   if (!(size.high > 0) || !std::isfinite(size.high)) return first;
-  const DoubleDouble s = sin(DoubleDouble(first)), c = cos(DoubleDouble(first));
-  return first + (y / size * c - x / size * s);
+  const auto at = detail::sine_cosine(first);
+  return first + (y * at.c - x * at.s) / size;
 }
 /// In [-pi/2, pi/2], rad; NaN for |x| > 1.
 inline DoubleDouble asin(const DoubleDouble& x) noexcept { return atan2(x, sqrt((1 - x) * (1 + x))); }
