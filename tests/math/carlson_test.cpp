@@ -2,6 +2,7 @@
 #include "gyrostat/math/carlson.hpp"
 
 #include "catch.hpp"
+#include "gyrostat/core/double_double.hpp"
 
 using namespace gyrostat::math;
 
@@ -34,6 +35,24 @@ TEMPLATE_TEST_CASE("laws of Carlson's integrals", "[math]", float, double, long 
   CHECK(near(carlson_RD(x, y, z) + carlson_RD(y, z, x) + carlson_RD(z, x, y), 3 / std::sqrt(x * y * z)));
   CHECK(near(carlson_RC(x, y), std::acos(std::sqrt(x / y)) / std::sqrt(y - x)));
   CHECK(near(carlson_RF(z, z, z), 1 / std::sqrt(z)));
+}
+
+TEST_CASE("the series of R_F does for a double and for two words", "[math]") {
+  using Wide = gyrostat::DoubleDouble;
+  // 40 digits (mpmath); the first needs no duplication in two words, the second none in one
+  struct Row {
+    double x, y, z;
+    Wide value;
+  };
+  const Row rows[] = {{1, 1.002, .999, {0x1.ffea30d03ef86p-1, -0x1.874ff3c2e4657p-58}},
+                      {1, 1.05, .96, {0x1.ff407b478d92dp-1, -0x1.4601b4a081129p-55}},
+                      {.5, 2, .001, {0x1.7e7d00f1c6002p+0, -0x1.9035f80cf0c47p-54}}};
+  for (const Row& row : rows) {
+    CAPTURE(row.x, row.y, row.z);
+    CHECK(std::abs(carlson_RF<double>(row.x, row.y, row.z) - row.value.high) <=
+          2 * gyrostat::epsilon<double> * row.value.high);
+    CHECK(abs(carlson_RF<Wide>(row.x, row.y, row.z) - row.value) <= 16 * gyrostat::epsilon<Wide> * row.value);
+  }
 }
 
 TEMPLATE_TEST_CASE("Carlson's integrals outside their domain", "[math]", float, double, long double) {

@@ -121,22 +121,27 @@ GYROSTAT_INLINE Many exp(const Many& x) noexcept {
 #endif
 }
 
-/// K by the arithmetic-geometric mean, kp2 from 1e-4 to 1.
-GYROSTAT_INLINE Many quarter_period(const Many& kp2) noexcept {
-  Many a = 1, b = sqrt(kp2);
-  for (int trip = 0; trip < 5; ++trip) {
-    const Many mean = 0.5 * (a + b);
-    b = sqrt(a * b);
-    a = mean;
-  }
-  return pi<double> / (a + b);
+/// K and K' by arithmetic-geometric means, kp2 from 1e-4 to 1, k2 from 1e-20.
+struct ManyPeriods {
+  Many K, Kp;
+};
+GYROSTAT_INLINE ManyPeriods quarter_periods(const Many& k2, const Many& kp2) noexcept {
+  Many a[2] = {1, 1}, b[2] = {sqrt(kp2), sqrt(k2)};
+  const auto advance = [&](int n) GYROSTAT_INLINE_LAMBDA {
+    const Many mean = 0.5 * (a[n] + b[n]);
+    b[n] = sqrt(a[n] * b[n]);
+    a[n] = mean;
+  };
+  for (int trip = 0; trip < 5; ++trip) advance(0), advance(1);
+  for (int trip = 0; trip < 2; ++trip) advance(1);
+  return {pi<double> / (a[0] + b[0]), pi<double> / (a[1] + b[1])};
 }
 
 /// Carlson's R_F(x, y, 1) of N pairs at once, x and y from 1e-18 to 1e6: by duplication, each until it is within reach of the series, so that none
 /// hangs on those beside it.
 template <int N>
 GYROSTAT_INLINE void carlson_RF(Many (&x)[N], Many (&y)[N], Many (&result)[N]) noexcept {
-  constexpr double reach = 0.009;  // (eps/4)^(1/8)
+  constexpr double reach = 0.052;  // (2 eps)^(1/12), carlson_RF_reach
   Many z[N], mean[N], a[N], b[N];
   for (int n = 0; n < N; ++n) z[n] = 1;
   for (int trip = 0; trip < 14; ++trip) {
@@ -158,10 +163,13 @@ GYROSTAT_INLINE void carlson_RF(Many (&x)[N], Many (&y)[N], Many (&result)[N]) n
   }
   for (int n = 0; n < N; ++n) {
     const Many inverse = 1 / mean[n], X = a[n] * inverse, Y = b[n] * inverse, Z = -(X + Y);
+    // detail::series_RF
     const Many e2 = X * Y - Z * Z, e3 = X * Y * Z;
-    const Many series = 1 + (e2 * (-0.1 + e2 * (1. / 24 - e2 * (5. / 208) - e3 * (1. / 16))) +
-                             e3 * (1. / 14 - e2 * (3. / 44) + e3 * (3. / 104)));
-    result[n] = series / sqrt(mean[n]);
+    const double alone[] = {-1. / 10, 1. / 24, -5. / 208, 35. / 2176, -3. / 256};
+    const double once[] = {1. / 14, -3. / 44, 1. / 16, -35. / 608, 315. / 5888};
+    const double twice[] = {3. / 104, -15. / 272, 5. / 64}, thrice[] = {5. / 304, -35. / 736};
+    const Many rest = polynomial(once, e2) + e3 * (polynomial(twice, e2) + e3 * polynomial(thrice, e2));
+    result[n] = (1 + (e2 * polynomial(alone, e2) + e3 * rest)) / sqrt(mean[n]);
   }
 }
 

@@ -142,10 +142,12 @@ TEST_CASE("a free motion at eight times is what it is at each", "[free]") {
       if (b > 0) CHECK(looks.defect[b] < 1e-14 * fastest + 4 * m->defect(t[b], 1));
       if (b > 0) CHECK(m->defect(t[b], 1) < 1e-14 * fastest + 4 * looks.defect[b]);
     }
-    const auto apart = looks.states.apart(m->at(t[3]));
-    double farthest = 0;
-    for (int b = 0; b < size; ++b) farthest = std::max(farthest, off(looks.states.lane(b), m->at(t[3])).momentum);
-    CHECK(apart.angular_momentum == Approx(farthest * m->angular_momentum_norm()));
+    MotionLanes::Row apart[3] = {};
+    looks.states.widen(m->at(t[3]), apart);
+    for (int b = 0; b < size; ++b) {
+      const double momentum = off(looks.states.lane(b), m->at(t[3])).momentum * m->angular_momentum_norm();
+      CHECK(std::sqrt(apart[1][b]) == Approx(momentum).margin(1e-15));
+    }
   }
   CHECK(seen > 300);
 }

@@ -16,8 +16,8 @@
 namespace gyrostat::free {
 
 /// Where a set-up in double does, where it does not, and beside a separatrix, where errors are looked at in many places.
-inline constexpr FormulaCost quick_form_cost{15e-6, 0.06e-6}, closed_form_cost{140e-6, 0.06e-6},
-    separatrix_form_cost{350e-6, 0.06e-6};
+inline constexpr FormulaCost quick_form_cost{15e-6, 0.06e-6}, closed_form_cost{90e-6, 0.06e-6},
+    separatrix_form_cost{190e-6, 0.06e-6};
 /// Where the angles of wheels are asked: the neighbours' integrals, and a series at each time.
 inline constexpr FormulaCost quick_angle_cost{200e-6, 0.5e-6}, rotor_angle_cost{500e-6, 0.5e-6};
 inline constexpr SeriesCost series_cost{1e-6, 1.5e-6, 0.25e-6, 0.5};

@@ -39,8 +39,7 @@ struct ManyBodies {
 
 /// A root of the pencil between two neighbouring inverse moments, and its eigenvector.
 struct AxisLanes {
-  Many sigma, offset, distance[3];  ///< sigma = a[origin] + offset; a_i - sigma
-  Choice upper;                     ///< the origin is the upper of the two
+  Many sigma;
   Many4 x;
   Choice found;
 };
@@ -49,7 +48,7 @@ class PencilLanes {
  public:
   Many a[3], gap01, gap12, gap02;
   Many lambda[3], d[3], b[3], rho, eps, plain, R;
-  Choice shifted;
+  Choice shifted, rigid;  ///< rigid: no rotor momentum
   Many4 start;
 
   GYROSTAT_INLINE explicit PencilLanes(const ManyBodies& body) noexcept {
@@ -66,6 +65,7 @@ class PencilLanes {
       most = math::max(most, math::abs(lambda[i]));
     }
     const Many least = 1e-20 * most;
+    rigid = math::max(math::max(math::abs(lambda[0]), math::abs(lambda[1])), math::abs(lambda[2])) < least;
     for (int i = 0; i < 3; ++i) lambda[i] = math::choose(math::abs(lambda[i]) < least, least, lambda[i]);
     shifted = g[0] * g[0] + g[1] * g[1] + g[2] * g[2] < 0.99;
     plain = 0., rho = 0., eps = 0.;
@@ -155,18 +155,19 @@ class RootLanes {
     found_ = found_ | near;
   }
   Choice found() const noexcept { return found_; }
+  const Many& offset() const noexcept { return x_; }  ///< from the pole that it is the nearer to
+  Choice upper() const noexcept { return upper_; }    ///< that is the upper of the two
 
   GYROSTAT_INLINE AxisLanes axis(const PencilLanes& pencil) const noexcept {
     AxisLanes u;
-    u.upper = upper_;
-    u.offset = x_;
     u.found = found_;
     u.sigma = origin_ + x_;
-    u.distance[low_] = -shift_ - x_;
-    u.distance[low_ + 1] = math::choose(upper_, 0., next_) - x_;
-    u.distance[low_ == 0 ? 2 : 0] = far_ - x_;
+    Many distance[3];  // a_i - sigma
+    distance[low_] = -shift_ - x_;
+    distance[low_ + 1] = math::choose(upper_, 0., next_) - x_;
+    distance[low_ == 0 ? 2 : 0] = far_ - x_;
     for (int i = 0; i < 3; ++i)
-      u.x.x[i] = math::choose(pencil.shifted, u.sigma, pencil.a[i]) * pencil.lambda[i] / u.distance[i];
+      u.x.x[i] = math::choose(pencil.shifted, u.sigma, pencil.a[i]) * pencil.lambda[i] / distance[i];
     u.x.x[3] = 1;
     u.x = (1 / math::sqrt(math::abs(pencil.S(u.x, u.x)))) * u.x;
     return u;
@@ -204,6 +205,35 @@ struct PlaneLanes {
   Many E_plus, E_minus, al, be, Yu, Yv, from_u, from_v;
 
   GYROSTAT_INLINE explicit PlaneLanes(const PencilLanes& pencil) noexcept {
+    const unsigned rigid = pencil.rigid.bits();
+    if (rigid == 0) by_roots(pencil);
+    else if (rigid == math::all_numbers) by_components(pencil);
+    else mix(pencil);
+  }
+
+ private:
+  PlaneLanes() = default;
+
+  GYROSTAT_NOINLINE void mix(const PencilLanes& pencil) noexcept {
+    by_roots(pencil);
+    PlaneLanes other;
+    other.by_components(pencil);
+    const Choice rigid = pencil.rigid;
+    const auto take = [&](auto member) { this->*member = choose(rigid, other.*member, this->*member); };
+    for (const auto axis : {&PlaneLanes::u, &PlaneLanes::v}) {
+      AxisLanes& to = this->*axis;
+      const AxisLanes& from = other.*axis;
+      to = {math::choose(rigid, from.sigma, to.sigma), choose(rigid, from.x, to.x), to.found | rigid};
+    }
+    for (const auto member : {&PlaneLanes::plus, &PlaneLanes::minus}) take(member);
+    for (const auto member :
+         {&PlaneLanes::split, &PlaneLanes::E_plus, &PlaneLanes::E_minus, &PlaneLanes::al, &PlaneLanes::be,
+          &PlaneLanes::Yu, &PlaneLanes::Yv, &PlaneLanes::from_u, &PlaneLanes::from_v})
+      take(member);
+  }
+
+  // compiled once each, so that a lane has the same bits whatever stands beside it
+  GYROSTAT_NOINLINE void by_roots(const PencilLanes& pencil) noexcept {
     RootLanes first(pencil, 0), second(pencil, 1);
     for (int trip = 0; trip < 12; ++trip) {
       first.step();
@@ -212,7 +242,8 @@ struct PlaneLanes {
     }
     u = first.axis(pencil);
     v = second.axis(pencil);
-    split = math::choose(u.upper, 0., pencil.gap01) + math::choose(v.upper, pencil.gap12, 0.) + (v.offset - u.offset);
+    split = math::choose(first.upper(), 0., pencil.gap01) + math::choose(second.upper(), pencil.gap12, 0.) +
+            (second.offset() - first.offset());
     v.x = v.x - pencil.S(v.x, u.x) * u.x;
     v.x = (1 / math::sqrt(pencil.S(v.x, v.x))) * v.x;
     const Many4& X = pencil.start;
@@ -244,7 +275,32 @@ struct PlaneLanes {
     from_v = -0.5 * pencil.form(v, plus, minus);
   }
 
- private:
+  /// Of rigid lanes, whose eigenvectors are the principal axes: all is told by the components of M (docs/free.md, section 2).
+  GYROSTAT_NOINLINE void by_components(const PencilLanes& pencil) noexcept {
+    const Many* n = pencil.start.x;
+    const Many* a = pencil.a;
+    const Many n0 = n[0] * n[0], n1 = n[1] * n[1], n2 = n[2] * n[2];
+    const Many rise = pencil.gap01 * n0 - pencil.gap12 * n2;
+    const Choice lowest = rise > 0.;  // the lobe's axis is that of a[0], else that of a[2]
+    const auto either = [lowest](const Many& x, const Many& y)
+                            GYROSTAT_INLINE_LAMBDA { return math::choose(lowest, x, y); };
+    const Many one = either(1., 0.), other = either(0., 1.), none = 0., m = either(n[0], n[2]);
+    u = {either(a[1], a[0]), {{other, one, none, none}}, Many(0.) < 1.};
+    v = {either(a[2], a[1]), {{none, other, one, none}}, u.found};
+    split = either(pencil.gap12, pencil.gap01);
+    Yu = either(n[1], n[0]), Yv = either(n[2], n[1]);
+    const Many half = 0.5 * (either(pencil.gap01, pencil.gap12) * n1 + pencil.gap02 * either(n2, n0));
+    const Many near = math::abs(rise) + half;
+    E_plus = E_minus = half;
+    from_u = either(-near, near + split), from_v = either(-near - split, near);
+    const Many side = math::choose(m < 0., -1., 1.);
+    const Many4 e{{side * one, none, side * other, none}}, V{{none, none, none, 1.}};
+    plus = V + e, minus = V - e;
+    const Many sum = 1 + math::abs(m);
+    al = 0.5 * sum;
+    be = (n1 + either(n2, n0)) / (2 * sum);
+  }
+
   GYROSTAT_INLINE Many4 across(const PencilLanes& pencil, const Many4& x) const noexcept {
     return x - pencil.along(u, x) * u.x - pencil.along(v, x) * v.x;
   }
@@ -269,16 +325,16 @@ struct FrameLanes {
   Many side, delta;      ///< side: of two components, 1 about the axis of the largest moment, else -1
   Many4 plus, minus, xa, xb;
   Many k2, kp2, rate, u_start;  ///< u_start: the argument of the start
-  Many eta, eta_rest, size[2], psi[2];
+  Many eta, size[2], psi[2];
 
   GYROSTAT_INLINE explicit FrameLanes(const PencilLanes& pencil) noexcept;
 
  private:
-  /// What one of the two forms has of its own; eta = factor R_F(x, y, 1), eta_rest by those of the rest.
+  /// What one of the two forms has of its own; eta = factor R_F(x, y, 1).
   struct Form {
     Many4 plus, minus, x1, x2;
     Many al, be, k2, kp2, rate, sn, cn, dn, psi[2], size[2];
-    Many factor, x, y, rest_factor, rest_x, rest_y;
+    Many factor, x, y;
     Choice sound;
   };
   // compiled once each, so that a lane has the same bits whether the other form is there beside it or not
@@ -313,8 +369,6 @@ FrameLanes::Form FrameLanes::lobe(const PencilLanes&, const PlaneLanes& p) noexc
   const Many c1 = math::sqrt(p3 * far), c2 = math::sqrt(nu * near), c3 = math::sqrt(nu * far);
   f.factor = math::sqrt((nu + p2) * far);
   f.x = p.split * far, f.y = p.split / p3;
-  f.rest_factor = c1;
-  f.rest_x = nu * far, f.rest_y = nu * near;
   const Many boost = math::sqrt(math::sqrt(math::abs(p.E_minus / p.E_plus))), lower = 1 / boost;
   const Many al = p.al * lower, be = p.be * boost;
   const Choice swapped = al < be;
@@ -370,8 +424,6 @@ FrameLanes::Form FrameLanes::alone(const PencilLanes& pencil, const PlaneLanes& 
   const Many bez = sg + cg * xc2, alz = xc2_width * rho / bez, sum = k + kp * tangent;
   f.factor = math::sqrt(alz / cg);
   f.x = tangent * k / kp, f.y = k * sum;
-  f.rest_factor = math::sqrt(tangent / (kp * sum));
-  f.rest_x = k * alz / (cg * sum), f.rest_y = k / sum;
   f.size[0] = alz, f.size[1] = bez;
   const Many m = -0.5 * pencil.E(f.plus, f.minus);
   f.psi[0] = 0.5 * (m + B * bez / alz);
@@ -382,14 +434,21 @@ FrameLanes::Form FrameLanes::alone(const PencilLanes& pencil, const PlaneLanes& 
 GYROSTAT_INLINE FrameLanes::FrameLanes(const PencilLanes& pencil) noexcept {
   const PlaneLanes p(pencil);
   single = p.E_plus * p.E_minus < 0.;
-  Form f = lobe(pencil, p);
-  if (const unsigned some = single.bits(); some != 0) {
+  const unsigned some = single.bits();
+  Form f;
+  if (some == math::all_numbers) {
+    side = 1;
+    f = alone(pencil, p);
+    f.sound = single & f.sound;
+  } else {
+    f = lobe(pencil, p);
+  }
+  if (some != 0 && some != math::all_numbers) {
     const Form g = alone(pencil, p);
     const auto take = [&](auto member) GYROSTAT_INLINE_LAMBDA { f.*member = choose(single, g.*member, f.*member); };
     take(&Form::plus), take(&Form::minus), take(&Form::x1), take(&Form::x2);
     take(&Form::k2), take(&Form::kp2), take(&Form::rate), take(&Form::sn), take(&Form::cn), take(&Form::dn);
     take(&Form::factor), take(&Form::x), take(&Form::y);
-    take(&Form::rest_factor), take(&Form::rest_x), take(&Form::rest_y);
     for (int i = 0; i < 2; ++i) {
       f.psi[i] = math::choose(single, g.psi[i], f.psi[i]);
       f.size[i] = math::choose(single, g.size[i], f.size[i]);
@@ -409,11 +468,10 @@ GYROSTAT_INLINE FrameLanes::FrameLanes(const PencilLanes& pencil) noexcept {
   plus = f.plus, minus = f.minus, xa = f.x1;
   xb = math::choose(single, 1., delta) * f.x2;
   k2 = f.k2, kp2 = f.kp2, rate = f.rate;
-  Many x[3] = {f.x, f.rest_x, f.cn * f.cn}, y[3] = {f.y, f.rest_y, f.dn * f.dn}, F[3];
+  Many x[2] = {f.x, f.cn * f.cn}, y[2] = {f.y, f.dn * f.dn}, F[2];
   math::carlson_RF(x, y, F);
   eta = f.factor * F[0];
-  eta_rest = f.rest_factor * F[1];
-  u_start = f.sn * F[2];
+  u_start = f.sn * F[1];
   for (int i = 0; i < 2; ++i) psi[i] = f.psi[i], size[i] = f.size[i];
 }
 

@@ -188,6 +188,7 @@ class Motion {
   Scalar steady_square() const noexcept { return steady_square_; }
   /// kappa of the attitude's phase by either component of the spinor, rad/s: equal but for rounding.
   Scalar kappa(int component) const noexcept { return kappa_[component]; }
+  Scalar phase_rate() const noexcept { return 2 * pi<Scalar> * phase_rate_.high; }  ///< the kappa that is used, rad/s
   /// Phase at time 0, in periods from a point of symmetry of the path (in half periods where hyperbolic()).
   Scalar start_phase() const noexcept { return start_.high; }
   bool hyperbolic() const noexcept { return pair_.hyperbolic; }
@@ -506,9 +507,10 @@ Scalar Motion<Scalar>::defect(Scalar t, Scalar fastest) const noexcept {
 template <Real Scalar>
 struct Motion<Scalar>::Block {
   using Row = Scalar[block];
-  Row up, down;      // cos and sin of the angle of E, or E and 1/E
-  Row cosine, sine;  // of the spinor's phase
-  Row sign;          // -1 an odd number of half periods on (hyperbolic form)
+  using Wound = Scalar[block + 8];  // what is wound up eight at once
+  Wound up, down;                   // cos and sin of the angle of E, or E and 1/E
+  Wound cosine, sine;               // of the spinor's phase
+  Row sign;                         // -1 an odd number of half periods on (hyperbolic form)
   Row rate[3], momentum[3], attitude[4];
 };
 
@@ -524,22 +526,37 @@ struct Winding {
     const auto turn = math::unit(2 * pi<Scalar> * (turns.high + turns.low));
     for (auto& p : power) p = leap, leap = leap * turn;
   }
-  const math::Complex<Scalar>& turn() const noexcept { return power[1]; }
-
-  /// z turn^k.
-  template <std::size_t N>
-  void wind(const math::Complex<Scalar>& z, Scalar (&re)[N], Scalar (&im)[N]) const noexcept {
+  /// z turn^k for k < n, and up to seven more.
+  void wind(const math::Complex<Scalar>& z, Scalar* re, Scalar* im, int n) const noexcept {
     using Grid = GridPoints<Scalar>;
-    for (std::size_t k = 0; k < 8; ++k) {
+    for (int k = 0; k < 8; ++k) {
       const auto first = z * power[k];
       re[k] = first.re, im[k] = first.im;
     }
     const auto by_re = Grid::all(leap.re), by_im = Grid::all(leap.im);
-    for (std::size_t k = 8; k < N; k += std::size_t(Grid::size)) {
+    for (int k = 8; k < n; k += Grid::size) {
       const auto last_re = Grid::from(re + k - 8), last_im = Grid::from(im + k - 8);
       store(re + k, last_re * by_re - last_im * by_im);
       store(im + k, multiply_add(last_re, by_im, last_im * by_re));
     }
+  }
+};
+
+/// The same of a real exponential.
+template <Real Scalar>
+struct Growth {
+  Scalar power[8], leap = 1;
+
+  explicit Growth(Scalar exponent) noexcept {
+    const Scalar by = std::exp(exponent);
+    for (auto& p : power) p = leap, leap *= by;
+  }
+
+  void grow(Scalar x, Scalar* to, int n) const noexcept {
+    using Grid = GridPoints<Scalar>;
+    for (int k = 0; k < 8; ++k) to[k] = x * power[k];
+    const auto by = Grid::all(leap);
+    for (int k = 8; k < n; k += Grid::size) store(to + k, Grid::from(to + k - 8) * by);
   }
 };
 
@@ -552,30 +569,23 @@ void Motion<Scalar>::fill(Block& b, Scalar first, Scalar step, const detail::Win
   const auto turned = [](Scalar turns) { return math::unit(2 * pi<Scalar> * turns); };
   if (!pair_.hyperbolic) {
     const Place place = place_at(first);
-    angle.wind(math::unit(place.exponent), b.up, b.down);
-    phase.wind(turned(place.turns), b.cosine, b.sine);
+    angle.wind(math::unit(place.exponent), b.up, b.down, block);
+    phase.wind(turned(place.turns), b.cosine, b.sine, block);
     return;
   }
   const bool endless = kind_ == Kind::separatrix;
   const Scalar rise = rate_.high * step * span_.high, end = endless ? Scalar(100) : span_.high / 2;
-  const Scalar by = exp(rise), back = 1 / by;
-  C now{1, 0};
-  Scalar exponent = end, sign = 1;  // beyond the end of a window: anew
-  for (int k = 0; k < block; ++k) {
-    if (k == 0 || !(exponent < end && exponent > -end)) {
-      const Place place = place_at(first + step * Scalar(k));
-      exponent = place.exponent;
-      b.up[k] = exp(exponent) * (1 + place.rest);
-      b.down[k] = 1 / b.up[k];
-      now = turned(place.turns);
-      sign = place.odd ? -1 : 1;
-    } else {
-      b.up[k] = b.up[k - 1] * by;
-      b.down[k] = b.down[k - 1] * back;
-      now = now * phase.turn();
-    }
-    b.cosine[k] = now.re, b.sine[k] = now.im, b.sign[k] = sign;
-    exponent += rise;
+  const detail::Growth<Scalar> up(rise), down(-rise);
+  for (int k = 0; k < block;) {  // from one end of a window to the next
+    const Place place = place_at(first + step * Scalar(k));
+    const Scalar left = (rise < 0 ? place.exponent + end : end - place.exponent) / std::abs(rise);
+    const int some = left < Scalar(block - k) ? std::max(1, int(left)) : block - k;
+    const Scalar E = exp(place.exponent) * (1 + place.rest);
+    up.grow(E, b.up + k, some);
+    down.grow(1 / E, b.down + k, some);
+    phase.wind(turned(place.turns), b.cosine + k, b.sine + k, some);
+    std::fill_n(b.sign + k, some, Scalar(place.odd ? -1 : 1));
+    k += some;
   }
 }
 

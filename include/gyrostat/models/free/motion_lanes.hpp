@@ -38,13 +38,9 @@ class MotionLanes {
       return s;
     }
 
-    /// How far the farthest of the lanes is from a state: rad/s, N m s, rad.
-    struct Apart {
-      double angular_velocity, angular_momentum, attitude;
-    };
-    Apart apart(const State<double>& from) const noexcept;
-    /// The squares of the distances of each lane to that of others, where they are greater than what is there.
+    /// The squares of the distances of each lane to that of others, or to one state, where they are greater than what is there: rates, momentum, attitude.
     void widen(const States& from, Row (&far)[3]) const noexcept;
+    void widen(const State<double>& from, Row (&far)[3]) const noexcept;
 
     /// Takes a lane of others for one of these.
     void take(int to, const States& from, int lane) noexcept {
@@ -121,6 +117,7 @@ class MotionLanes {
   const Row& period() const noexcept { return period_; }
   const Row& turn_per_period() const noexcept { return turn_; }
   const Row& modulus_squared() const noexcept { return k2_; }
+  const Row& phase_rate() const noexcept { return phase_; }
   const Row& energy() const noexcept { return energy_; }
   const Row& angular_momentum_norm() const noexcept { return norm_; }
 
@@ -152,7 +149,7 @@ class MotionLanes {
   struct AtOne {
     Many even, odd, even_slope, odd_slope;
   };
-  AtOne set_sums(int first, const detail::FrameLanes& frame, const Many& K) noexcept;
+  AtOne set_sums(int first, const detail::FrameLanes& frame, const math::ManyPeriods& periods) noexcept;
   void set_forms(int first, const detail::PencilLanes& pencil, const detail::FrameLanes& frame) noexcept;
 
   /// t rate + start less the nearest whole number.
@@ -165,7 +162,7 @@ class MotionLanes {
 
   unsigned tame_ = 0;
   alignas(64) Row moments_[3], l_[3], G_[3], M_[3], R_BP_[3][3], c_[4], start_attitude_[4];
-  alignas(64) Row side_, period_, turn_, k2_, energy_, norm_;
+  alignas(64) Row side_, period_, turn_, k2_, energy_, norm_, phase_;
   alignas(64) Row rate_, start_, phase_rate_;      // turns of the argument a second, at time 0; of the spinor's phase
   alignas(64) Row x_[powers + 1], y_[powers + 1];  // of even powers (x + i y), of odd ones times -i
   alignas(64) Row forms_[4][7];                    // size, omega, M by the products of the two sums
@@ -180,8 +177,9 @@ unsigned MotionLanes::make(int first) noexcept {
     body.moments[i] = row(moments_[i]), body.l[i] = row(l_[i]), body.G[i] = row(G_[i]), body.M[i] = row(M_[i]);
   const detail::PencilLanes pencil(body);
   const detail::FrameLanes frame(pencil);
-  const Many K = math::quarter_period(frame.kp2), R = pencil.R;
-  const AtOne one = set_sums(first, frame, K);
+  const math::ManyPeriods periods = math::quarter_periods(frame.k2, frame.kp2);
+  const Many K = periods.K, R = pencil.R;
+  const AtOne one = set_sums(first, frame, periods);
   set_forms(first, pencil, frame);
 
   // Motion::set_regular
@@ -197,6 +195,7 @@ unsigned MotionLanes::make(int first) noexcept {
   rate.to(rate_ + first);
   (frame.u_start / window).to(start_ + first);
   phase_rate.to(phase_rate_ + first);
+  (2 * pi<double> * phase_rate).to(phase_ + first);
   period.to(period_ + first);
   (2 * pi<double> * (turns - math::nearest(turns))).to(turn_ + first);
   frame.k2.to(k2_ + first);
@@ -222,9 +221,11 @@ unsigned MotionLanes::make(int first) noexcept {
 }
 
 /// ThetaPair::trigonometric_sums, with the coefficients as products of powers of two exponentials.
-inline MotionLanes::AtOne MotionLanes::set_sums(int first, const detail::FrameLanes& f, const Many& K) noexcept {
-  const Many unit = -0.25 * pi<double> / K;
-  const Many A = math::exp(math::max(unit * f.eta_rest, -600.)), B = math::exp(math::max(unit * f.eta, -600.));
+inline MotionLanes::AtOne MotionLanes::set_sums(int first, const detail::FrameLanes& f,
+                                                const math::ManyPeriods& periods) noexcept {
+  const Many unit = -0.25 * pi<double> / periods.K;
+  const Many A = math::exp(math::max(unit * (periods.Kp - f.eta), -600.)),
+             B = math::exp(math::max(unit * f.eta, -600.));
   const Many A2 = A * A, B2 = B * B, one = 1.;
   AtOne sum{1., 0., 0., 0.};
   Many x[powers + 1], y[powers + 1];
@@ -371,18 +372,14 @@ GYROSTAT_INLINE void MotionLanes::States::squares(int first, const Many (&w)[3],
   square[2] = 4 * (p * p + q * q + r * r);
 }
 
-inline MotionLanes::States::Apart MotionLanes::States::apart(const State<double>& from) const noexcept {
+inline void MotionLanes::States::widen(const State<double>& from, Row (&far)[3]) const noexcept {
   const Vec3<double>&w = from.angular_velocity, &m = from.angular_momentum;
   const Quat<double>& q = from.attitude;
-  Many far[3] = {0., 0., 0.}, square[3];
   for (int first = 0; first < size; first += Many::size) {
+    Many square[3];
     squares(first, {w[0], w[1], w[2]}, {m[0], m[1], m[2]}, {q.w, q.x, q.y, q.z}, square);
-    for (int n = 0; n < 3; ++n) far[n] = math::max(square[n], far[n]);
+    for (int n = 0; n < 3; ++n) math::max(square[n], Many::from(far[n] + first)).to(far[n] + first);
   }
-  double most[3] = {0, 0, 0};
-  for (int n = 0; n < 3; ++n)
-    for (int i = 0; i < Many::size; ++i) most[n] = std::max(most[n], far[n][i]);
-  return {std::sqrt(most[0]), std::sqrt(most[1]), std::sqrt(most[2])};
 }
 
 inline void MotionLanes::States::widen(const States& from, Row (&far)[3]) const noexcept {

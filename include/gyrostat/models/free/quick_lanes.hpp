@@ -44,16 +44,16 @@ class QuickLanes {
     unsigned tame[copies];
     for (int g = 0; g < groups(); ++g) tame[g] = lanes_[g].make();
     unsigned known = 0;
-    Row span, squares[3];
+    Row span, end, squares[3] = {};
     for (int b = 0; b < count_; ++b) {
       bool all = true;
       for (int k = 0; k < copies; ++k) all = all && (tame[group_of(k, b)] >> lane_of(k, b) & 1);
-      span[b] = std::min(bodies[std::size_t(b)].horizon, all ? own(b).period()[own_lane(b)] : 0.);
+      end[b] = bodies[std::size_t(b)].horizon;
+      span[b] = std::min(end[b], all ? own(b).period()[own_lane(b)] : 0.);
       if (all && suits(bodies[std::size_t(b)], b)) known |= 1u << b;
     }
     if (known == 0) return 0;
-    std::fill(span + count_, span + size, span[count_ - 1]);
-    compare(span, squares);
+    compare(span, end, squares);
     for (int b = 0; b < count_; ++b)
       if (known >> b & 1 && !judge(bodies[std::size_t(b)], b, {squares[0][b], squares[1][b], squares[2][b]}))
         known &= ~(1u << b);
@@ -77,7 +77,7 @@ class QuickLanes {
  private:
   using Error = MotionError<double>;
   static constexpr int copies = detail::neighbours + 1, itself = detail::neighbours;
-  static constexpr int nodes = Error::few.last;
+  static constexpr int nodes = Error::few;
 
   int groups() const noexcept { return (copies * count_ + size - 1) / size; }
   // the copies of all bodies one behind the other: of eight bodies a group each
@@ -96,8 +96,8 @@ class QuickLanes {
     return !(single && (k2 < 2 * Error::quick_least || k2 > 0.499)) && k2 < 0.97 && !p.spherical() && !p.steady(R) &&
            (has_axes(body) || std::min(J[0] - J[1], J[1] - J[2]) > 1.01 * Error::quick_gap * J[0]);
   }
-  /// Squares of how far the farthest neighbour is from each body over its span: rates, momentum, attitude.
-  void compare(const Row& span, Row (&squares)[3]) const noexcept;
+  /// Sums of the squares of how far each neighbour is at most from each body over its span before the end: rates, momentum, attitude.
+  void compare(const Row& span, const Row& end, Row (&squares)[3]) const noexcept;
   bool judge(const Body& body, int b, const std::array<double, 3>& squares) noexcept;
 
   /// The axes of the data are principal.
@@ -137,15 +137,15 @@ inline void QuickLanes::enlist(std::span<const Body> bodies) noexcept {
     }
 }
 
-inline void QuickLanes::compare(const Row& span, Row (&squares)[3]) const noexcept {
-  for (Row& each : squares) std::fill_n(each, size, 0.);
+inline void QuickLanes::compare(const Row& span, const Row& end, Row (&squares)[3]) const noexcept {
   MotionLanes::States seen[copies], sorted[copies];
+  Row farthest[itself][3] = {};
   for (int node = 1; node <= nodes; ++node) {
     for (int g = 0; g < groups(); ++g) {
       MotionLanes::Row t;
       for (int lane = 0; lane < size; ++lane) {
-        const int copy = g * size + lane;
-        t[lane] = span[std::min(copy, copies * count_ - 1) % count_] * node / nodes;
+        const int copy = g * size + lane, b = std::min(copy, copies * count_ - 1) % count_;
+        t[lane] = end[b] - span[b] * (nodes - node) / nodes;
       }
       seen[g] = lanes_[g].at(t);
     }
@@ -155,8 +155,11 @@ inline void QuickLanes::compare(const Row& span, Row (&squares)[3]) const noexce
         sorted[k].take(b, seen[group_of(k, of)], lane_of(k, of));
       }
     const MotionLanes::States* const by_body = count_ < size ? sorted : seen;
-    for (int k = 0; k < itself; ++k) by_body[k].widen(by_body[itself], squares);
+    for (int k = 0; k < itself; ++k) by_body[k].widen(by_body[itself], farthest[k]);
   }
+  for (int k = 0; k < itself; ++k)
+    for (int n = 0; n < 3; ++n)
+      for (int b = 0; b < size; ++b) squares[n][b] += farthest[k][n][b];
 }
 
 inline bool QuickLanes::judge(const Body& body, int b, const std::array<double, 3>& squares) noexcept {
@@ -176,9 +179,8 @@ inline bool QuickLanes::judge(const Body& body, int b, const std::array<double, 
   error.defect_ = std::max({error.defect_, (start.angular_momentum - p.R_BP * p.M).norm() / R,
                             (start.angular_velocity - p.R_BP * p.omega).norm() / error.fastest_});
   for (int k = 0; k < itself; ++k) error.see_figures(own_figures, figures(k, b));
-  error.widen(error.first_[nodes],
-              {std::sqrt(squares[0]) / error.fastest_, std::sqrt(squares[1]) / R, std::sqrt(squares[2])});
-  if (!error.trust_quick(p.moments, p.M / R, p.l / R)) return false;
+  error.add(error.last_node(), {squares[0] / (error.fastest_ * error.fastest_), squares[1] / (R * R), squares[2]});
+  if (!error.trust_quick(p.moments, p.M / R, p.l / R, own(b).phase_rate()[own_lane(b)])) return false;
   known_[std::size_t(b)] = {error.at(body.horizon), error.of_scalars(), error.fastest(), R};
   return true;
 }
