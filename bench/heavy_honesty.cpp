@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../tests/ladder/heavy/truth.hpp"
+#include "gyrostat/body/principal_axes.hpp"
 #include "gyrostat/ladder/heavy/full_motion.hpp"
 #include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/heavy/solve.hpp"

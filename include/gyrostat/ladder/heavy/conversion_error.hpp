@@ -58,7 +58,8 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
     const auto start = exact.at(0);
     const double rate = start.angular_velocity.norm() + rate_size(problem, start), angle = rate * end;
     const double skew = conversion * problem.inertia().maxCoeff() / SymmetricTop<double>::of(problem)->along;
-    worst += ExactError<double>::of(skew * angle * (1 + angle), rate);
+    const double turned = skew * angle * (1 + angle);
+    worst += ExactError<double>::of(turned, turned * rate);
   }
   return worst;
 }

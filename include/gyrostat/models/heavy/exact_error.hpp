@@ -20,10 +20,10 @@ struct ExactError {
     attitude += by.attitude, down += by.down, angular_velocity += by.angular_velocity;
     return *this;
   }
-  /// Of a motion that is off by an angle; `rate` is the greatest angular velocity and frequency in it.
-  static ExactError of(Scalar angle, Scalar rate) noexcept {
+  /// Of a motion that is off by an angle, and its rates by so much, rad/s.
+  static ExactError of(Scalar angle, Scalar rates) noexcept {
     if (!(angle < Scalar(0.05))) return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
-    return {angle, angle, angle * rate};
+    return {angle, angle, rates};
   }
 };
 

@@ -96,12 +96,13 @@ class LagrangeGradient {
   ExactError<Scalar> error(Scalar t) const noexcept {
     t = std::abs(unit_ * t);
     const Scalar rate = std::sqrt(most_) / 2, K = rate * period_ / 2;
-    const Scalar late =
-        time_error(rounding * size_ / least_, rounding * size_ / least_, K, rate, t) + 64 * tail_ * (t + period_);
+    const Scalar relative = stated * (size_ + parts_) / least_;
+    const Scalar late = still_ ? Scalar(0) : time_error(relative, relative, K, rate, t) + 64 * tail_ * (t + period_);
     const Scalar fast = fastest_ + std::sqrt(std::abs(most_)), skew = defect_ * fastest_ * t;
-    const Scalar angle = rounding * (1 + (still_ ? Scalar(0) : pole_)) * (1 + fast * t) + skew * (1 + fastest_ * t) +
-                         (still_ ? Scalar(0) : fastest_ * late);
-    return ExactError<Scalar>::of(angle, unit_ * (fastest_ + swing_));
+    const Scalar angle =
+        stated * (1 + (still_ ? Scalar(0) : pole_)) * (1 + fast * t) + skew * (1 + fastest_ * t) + fastest_ * late;
+    return ExactError<Scalar>::of(
+        angle, unit_ * (across_ * angle + swing_ * swing_ * late + stated * (fastest_ + parts_ * t)));
   }
 
   Scalar least() const noexcept { return u_b_ < u_o_ ? u_b_ : u_o_; }  ///< down along the axis of symmetry
@@ -125,7 +126,7 @@ class LagrangeGradient {
   Scalar truncation() const noexcept { return tail_; }
 
  private:
-  static constexpr Scalar rounding = 64 * epsilon<Scalar>;
+  static constexpr Scalar rounding = 64 * epsilon<Scalar>, stated = 4 * epsilon<Scalar>;
   static constexpr Scalar floor = epsilon<Scalar> * epsilon<Scalar> * epsilon<Scalar>;
   using Three = std::array<Scalar, 3>;  // of time and of the phases above and below
 
@@ -169,7 +170,8 @@ class LagrangeGradient {
   std::array<Three, harmonics + 1> series_{};
   int used_ = 0;
   bool still_ = false, planar_ = false;
-  Scalar tail_ = 0, most_ = 1, least_ = 1, size_ = 1, pole_ = 0, fastest_ = 0, swing_ = 0, defect_ = 0;
+  Scalar tail_ = 0, most_ = 1, least_ = 1, size_ = 1, pole_ = 0, fastest_ = 0, across_ = 0, swing_ = 0, defect_ = 0;
+  Scalar parts_ = 0;  // of the gradient, which may cancel: C and A are rounded
   TopAttitude<Scalar> attitude_;
 };
 
@@ -213,6 +215,7 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
   c_above_ = o.d - o.rho * o.above;
   c_below_ = o.d + o.rho * o.below;
   size_ = o.square + o.rho * o.rho + 2 * std::abs(o.pull) + 4 * std::abs(o.gradient);
+  parts_ = 4 * top.gradient * (top.along + top.across) / (top.across * o.unit * o.unit);
   swing_ = std::sqrt(std::abs(o.pull) + std::abs(o.gradient));
 
   still_ = x == 0 && b == 0;
@@ -252,7 +255,8 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
   u_b_ = below_b_ < above_b_ ? below_b_ - 1 : 1 - above_b_;
   u_o_ = below_o_ < above_o_ ? below_o_ - 1 : 1 - above_o_;
 
-  fastest_ = greatest_speed(o, pull, y1, y2) + std::abs(o.spin) + std::abs(o.rho);
+  across_ = greatest_speed(o, pull, y1, y2);
+  fastest_ = across_ + std::abs(o.spin) + std::abs(o.rho);
   if (still_) {
     period_ = 2 * pi<Scalar> / std::sqrt(h0_);
   } else {

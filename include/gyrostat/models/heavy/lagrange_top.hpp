@@ -58,10 +58,10 @@ class LagrangeTop {
   /// Bound of the error of at() up to time |t|.
   ExactError<Scalar> error(Scalar t) const noexcept {
     t = std::abs(unit_ * t);
-    const Scalar late = time_error(rounding * share_, rounding * shift_, K_, lam_, t);
+    const Scalar late = time_error(stated * share_, stated * shift_, K_, lam_, t);
     const Scalar skew = defect_ * fastest_ * t;
-    return ExactError<Scalar>::of(rounding * (1 + fastest_ * t) + fastest_ * late + skew * (1 + fastest_ * t),
-                                  unit_ * (fastest_ + swing_));
+    const Scalar angle = stated * (1 + fastest_ * t) + fastest_ * late + skew * (1 + fastest_ * t);
+    return ExactError<Scalar>::of(angle, unit_ * (across_ * angle + swing_ * swing_ * late + stated * fastest_));
   }
 
   AxisMotion motion() const noexcept { return motion_; }
@@ -98,7 +98,7 @@ class LagrangeTop {
  private:
   static constexpr Scalar floor = epsilon<Scalar> * epsilon<Scalar> * epsilon<Scalar>;
   static constexpr Scalar modulus_floor = epsilon<Scalar> * epsilon<Scalar>;
-  static constexpr Scalar rounding = 24 * epsilon<Scalar>;
+  static constexpr Scalar rounding = 24 * epsilon<Scalar>, stated = 4 * epsilon<Scalar>;
 
   void build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept;
   void roots(const TopStart<Scalar>& o, Scalar kappa) noexcept;
@@ -119,7 +119,7 @@ class LagrangeTop {
   math::JacobiAt<Scalar> functions_{math::Modulus<Scalar>{}};
   math::ThirdKind<Scalar> plus_, minus_;       // of the poles -1 (from w2) and +1 (from w1)
   Scalar plus_factor_ = 0, minus_factor_ = 0;  // before them, s
-  Scalar fastest_ = 0, swing_ = 0, share_ = 1, shift_ = 0, defect_ = 0;
+  Scalar fastest_ = 0, across_ = 0, swing_ = 0, share_ = 1, shift_ = 0, defect_ = 0;
   AxisMotion motion_ = AxisMotion::nutation;
   bool planar_ = false;
   TopAttitude<Scalar> attitude_;
@@ -197,7 +197,8 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   width_ = z2_ - z1_;
   lam_ = std::sqrt(h1_) / 2;
   const Scalar greatest = o.square - kappa * z1_;
-  fastest_ = std::sqrt(greatest) + std::abs(o.spin) + std::abs(o.rho);
+  across_ = std::sqrt(greatest);
+  fastest_ = across_ + std::abs(o.spin) + std::abs(o.rho);
   swing_ = std::sqrt(kappa);
   share_ = h1_ > 0 ? (greatest + o.rho * o.rho + 4 * kappa) / h1_ : Scalar(0);
   if (share_ * rounding >= 1) lam_ = 0;  // at rest in a place it may leave

@@ -71,10 +71,13 @@ class Pendulum {
   /// may fall. @param blur by how much, relative, the start may be off the plane beyond what is seen
   ExactError<Scalar> error(Scalar t, Scalar blur = 0) const noexcept {
     t = std::abs(unit_ * t);
-    const Scalar late = time_error(rounding, rounding * shift_, K_, rate_, t);
+    const Scalar share = rate_ > frequency_ ? frequency_ / rate_ : Scalar(1);  // what the torque has in the rate
+    const Scalar relative = stated * (1 + share * share * parts_);
+    const Scalar late = time_error(relative, relative * shift_, K_, rate_, t);
     const auto grown = [t](Scalar part, Scalar rate) { return part == 0 ? Scalar(0) : part * std::exp(rate * t); };
     const Scalar off = grown(defect_ + blur, fastest_ + growth_) + grown(upright_, frequency_);
-    return ExactError<Scalar>::of(rounding * (1 + fastest_ * t) + fastest_ * late + off, unit_ * (fastest_ + 1));
+    const Scalar angle = stated * (1 + fastest_ * t) + fastest_ * late + off;
+    return ExactError<Scalar>::of(angle, unit_ * (fastest_ + 1) * angle);
   }
 
   PendulumMotion motion() const noexcept { return motion_; }
@@ -94,7 +97,7 @@ class Pendulum {
   }
 
  private:
-  static constexpr Scalar rounding = 64 * epsilon<Scalar>;
+  static constexpr Scalar rounding = 64 * epsilon<Scalar>, stated = 8 * epsilon<Scalar>;
   struct Point {
     Scalar half, rate;  // half of fold theta, unwrapped; theta'
   };
@@ -102,6 +105,7 @@ class Pendulum {
   struct Hang {
     Scalar fold;          // 2 where the angle is twice that of the body
     Scalar square;        // of c, 1/s^2
+    Scalar parts;         // what it is a difference of, over it
     Scalar cosine, sine;  // of the angle, times any length
     Scalar doubt;         // rounding of the sine, over that length
   };
@@ -121,7 +125,7 @@ class Pendulum {
 
   State<Scalar> start_;
   int axis_ = 2;
-  Scalar unit_ = 1, fold_ = 1, frequency_ = 0, rate_ = 0, v0_ = 0, K_ = 0, half_ = 0, direction_ = 1;
+  Scalar unit_ = 1, fold_ = 1, parts_ = 0, frequency_ = 0, rate_ = 0, v0_ = 0, K_ = 0, half_ = 0, direction_ = 1;
   bool rotates_ = false;
   math::Modulus<Scalar> modulus_;
   math::JacobiAt<Scalar> functions_{math::Modulus<Scalar>{}};
@@ -139,11 +143,16 @@ auto Pendulum<Scalar>::hang(const Problem<Scalar>& problem, const Vec3<Scalar>& 
   const Vec3<Scalar> m = problem.moment();
   const Scalar weight = std::hypot(m[i], m[j]), gradient = problem.gradient() * (I[i] - I[j]);
   if (weight > 0 && gradient == 0)
-    return Hang{1, weight / I[k], (d[i] * m[i] + d[j] * m[j]) / weight, (d[i] * m[j] - d[j] * m[i]) / weight,
+    return Hang{1,
+                weight / I[k],
+                0,
+                (d[i] * m[i] + d[j] * m[j]) / weight,
+                (d[i] * m[j] - d[j] * m[i]) / weight,
                 epsilon<Scalar> * (std::abs(d[i] * m[j]) + std::abs(d[j] * m[i])) / weight};
   if (weight != 0) return std::nullopt;
   const Scalar sign = gradient > 0 ? 1 : -1;  // twice the angle beta of down: from axis j, or from i
-  return Hang{2, std::abs(gradient) / I[k], sign * (d[j] - d[i]) * (d[j] + d[i]), 2 * sign * d[i] * d[j], 0};
+  const Scalar parts = gradient != 0 ? (I[i] + I[j]) / std::abs(I[i] - I[j]) : Scalar(0);
+  return Hang{2, std::abs(gradient) / I[k], parts, sign * (d[j] - d[i]) * (d[j] + d[i]), 2 * sign * d[i] * d[j], 0};
 }
 
 /// The elliptic functions of the motion. @param v half the rate of the folded angle   @param s, c sine and cosine of its half   @param doubt error of c
@@ -196,6 +205,7 @@ bool Pendulum<Scalar>::build(const Problem<Scalar>& problem, const State<Scalar>
   const Vec3<Scalar> m = problem.moment();
   const Scalar size = m.norm() + problem.gradient() * (I.maxCoeff() - I.minCoeff());
   fold_ = hanging->fold;
+  parts_ = hanging->parts;
   const Scalar speed = w[k] * fold_;
   unit_ = std::abs(w[k]) + std::sqrt(hanging->square);
   if (!(unit_ > 0)) unit_ = 1;
