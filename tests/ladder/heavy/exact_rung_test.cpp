@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/heavy/exact_rung.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "catch.hpp"
+#include "gyrostat/core/double_double.hpp"
 #include "gyrostat/ladder/heavy/full_rung.hpp"
+#include "gyrostat/models/free/motion.hpp"
 
 using namespace gyrostat;
 using namespace gyrostat::heavy;
@@ -30,6 +35,44 @@ State<double> start(const V& omega, const Quat<double>& q) {
 }
 
 }  // namespace
+
+TEST_CASE("heavy exact rung: without torque a tensor answers for itself", "[heavy]") {
+  // a sphere but for roundings, which turn its axes as they please and let the rates drift
+  Mat3<double> J;
+  J << 1.5276172757148749, 4.2469731653849054e-16, 1.5779743266068923e-16,  //
+      4.2469731653849054e-16, 1.5276172757148749, -4.2496418380388664e-16,  //
+      1.5779743266068923e-16, -4.2496418380388664e-16, 1.5276172757148749;
+  const Mat3<double> slim = to_matrix<double>(normalised(Quat<double>{0.2, -0.5, 0.7, 0.4}));
+  for (const bool sphere : {true, false}) {
+    const Mat3<double> inertia = sphere ? J : Mat3<double>(slim * V(1, 0.999, 0.002).asDiagonal() * slim.transpose());
+    const V w =
+        sphere ? V(0.00011839820181059967, -0.072026448393569142, 0.1968009676702592) : V(slim * V(0.3, 1, -40));
+    for (const bool turning : {true, false}) {
+      CAPTURE(sphere, turning);
+      const auto body = Body::make(inertia, 3.1, {0, 0, 0}, 9.8, 0);
+      REQUIRE(body);
+      Question question;
+      question.times = sphere ? std::vector<double>{62.2, 405.0, 2124.9} : std::vector<double>{1, 10, 30};
+      question.wants_attitude = turning;
+      const auto scene = Scene::make(*body, {start(w, {0.01, 0.63, -0.65, 0.43})}, question);
+      REQUIRE(scene);
+      const Track track = exact_track(*scene, nullptr);
+      free::Problem<DoubleDouble> given;
+      given.inertia = ((inertia + inertia.transpose()) / 2).cast<DoubleDouble>();
+      given.angular_velocity = w.cast<DoubleDouble>();
+      const auto truth = free::Motion<DoubleDouble>::make<DoubleDouble>(given);
+      REQUIRE(truth);
+      double off = 0, size = 0;
+      for (std::size_t i = 0; i < track.states.size(); ++i) {
+        const V right = vector_cast<double>(truth->at(question.times[i]).angular_velocity);
+        off = std::max(off, (scene->R_BP() * track.states[i].angular_velocity - right).norm());
+        size = std::max(size, right.norm());
+      }
+      CHECK(off <= track.error[column::angular_velocity] * size);
+      CHECK(track.error[column::angular_velocity] < 1e-11);
+    }
+  }
+}
 
 TEST_CASE("heavy exact rung: agrees with the full equations within both estimates", "[heavy]") {
   const auto from = start({1, 2, 60}, {0.5, 0.1, -0.7, 0.3});

@@ -14,8 +14,8 @@
 namespace gyrostat::heavy {
 
 inline constexpr FormulaCost exact_cost{10e-6, 0.3e-6};
-/// Without torque: the free motion and its neighbours; where conversions made the start, of two more bodies.
-inline constexpr FormulaCost euler_cost{150e-6, 0.1e-6};
+/// Without torque: the free motion and its neighbours; where down comes from an attitude, of two more bodies.
+inline constexpr FormulaCost euler_cost{100e-6, 0.1e-6};
 inline constexpr FormulaCost series_2_cost{10e-6, 0.1e-6};
 inline constexpr FormulaCost forced_series_cost{10e-6, 0.15e-6};
 inline constexpr SeriesCost series_cost{4e-6, 1.3e-6, 0.15e-6, 0.8};
@@ -25,7 +25,7 @@ inline constexpr double shooting_cost = 200e-6;
 inline double cost_of_exact(const Scene& scene) noexcept {
   const std::size_t times = scene.question().times.size();
   if (!EulerCase<double>::holds(scene.problem())) return exact_cost(times);
-  return euler_cost(times) + (scene.converts_start() ? 2 * euler_cost(0) : 0);
+  return euler_cost(times) + (scene.converts_start() && !scene.converts_body() ? 2 * euler_cost(0) : 0);
 }
 inline double cost_of_series_2(const Scene& scene) noexcept { return series_2_cost(scene.question().times.size()); }
 inline double cost_of_series(const Scene& scene) noexcept { return forced_series_cost(scene.question().times.size()); }

@@ -2,10 +2,49 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
+#include "gyrostat/core/double_double.hpp"
 #include "gyrostat/ladder/heavy/exact_rung.hpp"
+#include "gyrostat/models/free/motion.hpp"
+#include "gyrostat/models/free/motion_error.hpp"
+#include "gyrostat/models/heavy/aligned_attitude.hpp"
 
 namespace gyrostat::heavy {
+
+namespace detail {
+
+/// The motion without torque of a body that a tensor describes: of the tensor itself, since its rounding turns axes of near moments. In principal axes
+/// like all others. Nothing where it is not found, or the start is not the given one.
+inline std::optional<ExactError<double>> follow_tensor(std::vector<State<double>>& states, const Scene& scene) {
+  if (!scene.converts_body() || scene.periodic()) return std::nullopt;
+  State<double> start = scene.given();
+  if (scene.oriented()) start.down = rotate<double>(conjugate(start.attitude), {0, 0, -1});
+  const auto from = aligned(start);
+  if (!from) return std::nullopt;
+  free::Assembly<double> given;
+  given.body.inertia = scene.given_inertia();
+  given.body.angular_velocity = from->angular_velocity;
+  given.body.attitude = from->attitude;
+  const auto motion = free::Motion<double>::make<DoubleDouble>(given.body.cast<DoubleDouble>());
+  if (!motion) return std::nullopt;
+  const auto& times = scene.question().times;
+  states.clear();
+  for (const double t : times) {
+    const auto now = motion->at(t);
+    states.push_back(
+        in_axes(scene.R_BP().transpose(),
+                {now.angular_velocity, rotate<double>(conjugate(now.attitude), {0, 0, -1}), now.attitude}));
+  }
+  const auto error = free::MotionError<double>::of<DoubleDouble>(*motion, given, free::Data::rounded, times.back());
+  const auto bound = error.at(times.back());
+  constexpr double turned = 16 * epsilon<double>;  // into principal axes and back
+  return ExactError<double>{bound.attitude + turned, bound.attitude + turned,
+                            (bound.angular_velocity + turned) * error.fastest()};
+}
+
+}  // namespace detail
 
 GYROSTAT_COMPILED_ONCE Track exact_track(const Scene& scene, Monitor*) {
   const Question& question = scene.question();
@@ -36,8 +75,9 @@ GYROSTAT_COMPILED_ONCE Track exact_track(const Scene& scene, Monitor*) {
   if (!std::isfinite(sizes.size()[column::down]))
     return refused<Track>(Errc::no_convergence,
                           "the closed form is lost in rounding: axis 3 starts too near the vertical, next to at rest");
-  auto bound = exact.error(question.times.back());
-  if (scene.converts_start() && bound.attitude < infinity<double>) {
+  const auto of_tensor = exact.euler() ? detail::follow_tensor(track.states, scene) : std::nullopt;
+  auto bound = of_tensor ? *of_tensor : exact.error(question.times.back());
+  if (!of_tensor && scene.converts_start() && bound.attitude < infinity<double>) {
     const int k = exact.pendulum() ? exact.pendulum()->axis() : -1;
     const auto off = [&](const Problem<double>& body, int which) -> Result<State<double>> {
       if (scene.periodic()) return plain_start(body, *scene.periodic());

@@ -38,6 +38,7 @@ inline State<double> in_axes(const Mat3<double>& R, const State<double>& state) 
 struct Body {
   Problem<double> problem;
   Mat3<double> R_BP = Mat3<double>::Identity();  ///< principal axes to body axes
+  Mat3<double> inertia = Mat3<double>::Zero();   ///< as it was given, in body axes, where R_BP is not the identity
 
   /// In the principal axes nearest to the caller's. Errors: not_symmetric (beyond 8 eps of the largest entry), and those of
   /// Problem::make.
@@ -65,6 +66,7 @@ class Scene {
 
   const Problem<double>& problem() const noexcept { return body_.problem; }
   const Mat3<double>& R_BP() const noexcept { return body_.R_BP; }  ///< principal axes to body axes
+  const Mat3<double>& given_inertia() const noexcept { return body_.inertia; }
   /// Principal axes; the attitude takes them to inertial ones.
   const State<double>& start() const noexcept { return start_; }
   /// The body comes from a tensor that is not diagonal; a start through it, or its down from an attitude. Conversions round.

@@ -17,7 +17,7 @@ GYROSTAT_COMPILED_ONCE Result<Body> Body::make(const Mat3<double>& inertia, doub
   const auto made =
       Problem<double>::make(axes.moments, mass, axes.R_BP.transpose() * centre_of_mass, gravity, gradient);
   if (!made) return made.error();
-  return Body{*made, axes.R_BP};
+  return Body{*made, axes.R_BP, inertia};
 }
 
 GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Body& body, const Start& start, const Question& question) {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "gyrostat/core/compensated.hpp"
+#include "gyrostat/core/double_double.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/free/problem.hpp"
@@ -146,7 +148,11 @@ class FullSystem {
 
 template <Real Real_>
 FullSystem<Real_>::FullSystem(const Problem<Scalar>& problem) noexcept {
-  const auto p = PrincipalProblem<Scalar>::of(problem);
+  // what near moments differ by is the first that rounding takes, and over many turns it decides
+  PrincipalProblem<Scalar> p;
+  if constexpr (std::is_same_v<Scalar, double>)
+    p = PrincipalProblem<DoubleDouble>::of(problem.template cast<DoubleDouble>()).template cast<double>();
+  else p = PrincipalProblem<Scalar>::of(problem);
   const bool steps_momentum = magnitude(p.M) < magnitude(p.G);
   a_ = p.inverse;
   quadratic_ = {p.gaps(1, 2), p.gaps(2, 0), p.gaps(0, 1)};

@@ -96,6 +96,12 @@ struct PrincipalProblem {
     return p;
   }
 
+  template <Real To>
+  PrincipalProblem<To> cast() const noexcept {
+    return {vector_cast<To>(moments), vector_cast<To>(inverse), matrix_cast<To>(gaps), matrix_cast<To>(R_BP),
+            vector_cast<To>(l),       vector_cast<To>(G),       vector_cast<To>(M),    vector_cast<To>(omega)};
+  }
+
   /// The same where axes are known that are wrong by roundings only, and the moments are apart: for a tenth of the cost.
   static PrincipalProblem beside(const Problem<Scalar>& problem, const Mat3<Scalar>& axes) noexcept {
     PrincipalProblem p;
