@@ -274,6 +274,7 @@ class Secular {
           size += abs(term);
         }
       const Scalar f = rest + (weight > 0 ? weight / x : Scalar(0));
+      // late trips stop at the rounding of c
       if (f == 0 || (trip > 12 && abs(f) <= noise * size)) return Point{origin, x};
       if ((f > 0) == (slope > 0)) hi = x;
       else lo = x;

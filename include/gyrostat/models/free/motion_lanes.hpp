@@ -117,7 +117,7 @@ class MotionLanes {
   const Row& period() const noexcept { return period_; }
   const Row& turn_per_period() const noexcept { return turn_; }
   const Row& modulus_squared() const noexcept { return k2_; }
-  const Row& phase_rate() const noexcept { return phase_; }
+  double phase_rate(int b) const noexcept { return 2 * pi<double> * phase_rate_[b]; }
   const Row& energy() const noexcept { return energy_; }
   const Row& angular_momentum_norm() const noexcept { return norm_; }
 
@@ -162,7 +162,7 @@ class MotionLanes {
 
   unsigned tame_ = 0;
   alignas(64) Row moments_[3], l_[3], G_[3], M_[3], R_BP_[3][3], c_[4], start_attitude_[4];
-  alignas(64) Row side_, period_, turn_, k2_, energy_, norm_, phase_;
+  alignas(64) Row side_, period_, turn_, k2_, energy_, norm_;
   alignas(64) Row rate_, start_, phase_rate_;      // turns of the argument a second, at time 0; of the spinor's phase
   alignas(64) Row x_[powers + 1], y_[powers + 1];  // of even powers (x + i y), of odd ones times -i
   alignas(64) Row forms_[4][7];                    // size, omega, M by the products of the two sums
@@ -195,7 +195,6 @@ unsigned MotionLanes::make(int first) noexcept {
   rate.to(rate_ + first);
   (frame.u_start / window).to(start_ + first);
   phase_rate.to(phase_rate_ + first);
-  (2 * pi<double> * phase_rate).to(phase_ + first);
   period.to(period_ + first);
   (2 * pi<double> * (turns - math::nearest(turns))).to(turn_ + first);
   frame.k2.to(k2_ + first);

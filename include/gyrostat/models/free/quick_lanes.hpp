@@ -180,7 +180,7 @@ inline bool QuickLanes::judge(const Body& body, int b, const std::array<double, 
                             (start.angular_velocity - p.R_BP * p.omega).norm() / error.fastest_});
   for (int k = 0; k < itself; ++k) error.see_figures(own_figures, figures(k, b));
   error.add(error.last_node(), {squares[0] / (error.fastest_ * error.fastest_), squares[1] / (R * R), squares[2]});
-  if (!error.trust_quick(p.moments, p.M / R, p.l / R, own(b).phase_rate()[own_lane(b)])) return false;
+  if (!error.trust_quick(p.moments, p.M / R, p.l / R, own(b).phase_rate(own_lane(b)))) return false;
   known_[std::size_t(b)] = {error.at(body.horizon), error.of_scalars(), error.fastest(), R};
   return true;
 }
