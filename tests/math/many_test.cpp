@@ -2,6 +2,7 @@
 #include "gyrostat/math/many.hpp"
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "catch.hpp"
@@ -69,32 +70,57 @@ TEST_CASE("circular and exponential functions side by side") {
   CHECK(off[1] < 3 * epsilon<double>);
 }
 
+TEST_CASE("inverse square roots side by side") {
+  double off = 0;
+  for_draws(
+      4, [](auto& e) { return std::pow(10, between(e, -290, 290)); },
+      [&](const double* x, const double*) {
+        const Many root = math::inverse_sqrt(Many::from(x));
+        for (int i = 0; i < Many::size; ++i) off = std::max(off, std::abs(root[i] * std::sqrt(x[i]) - 1));
+      });
+  CHECK(off < 3 * epsilon<double>);
+}
+
 TEST_CASE("elliptic integrals side by side") {
-  double off[3] = {0, 0, 0};
+  double off[4] = {0, 0, 0, 0};
   for_draws(
       3, [](auto& e) { return std::pow(10, between(e, -18, 6)); },
       [&](const double* x, const double* y) {
         double k2[8], kp2[8];
         for (int i = 0; i < 8; ++i) {
-          kp2[i] = std::max(std::min(x[i], 1 / x[i]), 1e-4);
-          k2[i] = i % 2 ? 1 - kp2[i] : std::min(y[i], 1 / y[i]);
-          if (i % 2 == 0) kp2[i] = 1 - k2[i];
-          kp2[i] = std::max(kp2[i], 1e-4);
+          const double small = std::max(std::min(x[i], 1 / x[i]), 1e-16);
+          k2[i] = i % 2 ? 1 - small : small, kp2[i] = i % 2 ? small : 1 - small;
         }
-        const auto [K, Kp] = math::quarter_periods(Many::from(k2), Many::from(kp2));
-        Many a[2] = {Many::from(x), Many::from(y)}, b[2] = {Many::from(y), 1.}, F[2];
-        math::carlson_RF(a, b, F);
+        const auto got = math::first_kind(Many::from(k2), Many::from(kp2), Many::from(y), Many::from(x));
         for (int i = 0; i < Many::size; ++i) {
-          off[0] = std::max(off[0], std::abs(K[i] / math::complete(math::Modulus<double>::from_kp2(kp2[i])).K - 1));
-          if (k2[i] > 1e-20)
-            off[2] = std::max(off[2], std::abs(Kp[i] / math::complete(math::Modulus<double>::from_kp2(k2[i])).K - 1));
-          off[1] = std::max(off[1], std::abs(F[0][i] / math::carlson_RF<double>(x[i], y[i], 1) - 1));
-          off[1] = std::max(off[1], std::abs(F[1][i] / math::carlson_RF<double>(y[i], 1, 1) - 1));
+          const double K = math::complete(math::Modulus<double>::from_kp2(kp2[i])).K,
+                       Kp = math::complete(math::Modulus<double>::from_kp2(k2[i])).K;
+          // amplitude phi of cotangent c: F = R_F(c^2, c^2 + k'^2, c^2 + 1)
+          const auto F = [](double c, double complement) {
+            const double z = 1 + c * c;
+            return math::carlson_RF<double>(c * c / z, (c * c + complement) / z, 1) / std::sqrt(z);
+          };
+          off[0] = std::max(off[0], std::abs(got.K[i] / K - 1));
+          off[1] = std::max(off[1], std::abs(got.Kp[i] / Kp - 1));
+          off[2] = std::max(off[2], std::abs(got.F_part[i] * 4 * K / F(y[i], kp2[i]) - 1));
+          off[3] = std::max(off[3], std::abs(got.Fp[i] / F(x[i], k2[i]) - 1));
         }
       });
-  CHECK(off[0] < 8 * epsilon<double>);
-  CHECK(off[1] < 8 * epsilon<double>);
-  CHECK(off[2] < 8 * epsilon<double>);
+  for (const double each : off) CHECK(each < 10 * epsilon<double>);
+}
+
+TEST_CASE("amplitudes of a quarter and of nothing side by side") {
+  double zero[8], infinite[8], half[8];
+  for (int i = 0; i < 8; ++i)
+    zero[i] = i % 2 ? -0. : 0., infinite[i] = std::numeric_limits<double>::infinity(), half[i] = .5;
+  const Many m = Many::from(half);
+  const auto whole = math::first_kind(m, m, Many::from(zero), Many::from(zero));
+  const auto none = math::first_kind(m, m, Many::from(infinite), Many::from(infinite));
+  for (int i = 0; i < Many::size; ++i) {
+    CHECK(whole.F_part[i] == Approx(.25).epsilon(1e-15));
+    CHECK(whole.Fp[i] == Approx(whole.Kp[i]).epsilon(1e-15));
+    CHECK((none.F_part[i] == 0 && none.Fp[i] == 0));
+  }
 }
 
 }  // namespace many_test

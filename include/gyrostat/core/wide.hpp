@@ -88,16 +88,25 @@ GYROSTAT_INLINE Wide<Scalar> greater_of(const Wide<Scalar>& a, const Wide<Scalar
   }
 }
 
+#if defined(__GNUC__) && defined(__AVX512F__)
+namespace detail {
+/// 1/sqrt a to some 40 bits; a finite number where a is 0.
+GYROSTAT_INLINE Wide<double> near_inverse_root(const Wide<double>& a) noexcept {
+  const auto half = wide(0.5), least = wide(1e-300);
+  const Wide<double> y = {_mm512_maskz_rsqrt14_pd(0xff, greater_of<double>(a, least).v)};
+  const Wide<double> s = a * y, e = multiply_add(wide(-0.0) - s, half * y, half);
+  return multiply_add(y, multiply_add(wide(1.5) * e, e, e), y);
+}
+}  // namespace detail
+#endif
+
 /// Of numbers that are not negative; to an eps. Zeros and what underflows in squares give zero.
 template <Real Scalar>
 GYROSTAT_INLINE Wide<Scalar> square_root(const Wide<Scalar>& a) noexcept {
 #if defined(__GNUC__) && defined(__AVX512F__)
   if constexpr (wide_size<Scalar> == 8) {  // a quarter of the time of the processor's own root
-    const auto half = wide(0.5), least = wide(1e-300);
-    const Wide<Scalar> y = {_mm512_maskz_rsqrt14_pd(0xff, greater_of<Scalar>(a, least).v)};
-    const Wide<Scalar> s = a * y, e = multiply_add(wide(0.0) - s, half * y, half);
-    const Wide<Scalar> y1 = multiply_add(y, multiply_add(wide(1.5) * e, e, e), y), s1 = a * y1;
-    return multiply_add(multiply_add(wide(0.0) - s1, s1, a), half * y1, s1);
+    const Wide<Scalar> y = detail::near_inverse_root(a), s = a * y;
+    return multiply_add(multiply_add(wide(-0.0) - s, s, a), wide(0.5) * y, s);
   }
 #endif
 #if defined(__GNUC__) && defined(__AVX__)
@@ -106,6 +115,18 @@ GYROSTAT_INLINE Wide<Scalar> square_root(const Wide<Scalar>& a) noexcept {
   Wide<Scalar> result = a;
   for (int i = 0; i < wide_size<Scalar>; ++i) result.v[i] = std::sqrt(a[i]);
   return result;
+}
+
+/// 1/sqrt a, a from 1e-300; error 2 eps.
+template <Real Scalar>
+GYROSTAT_INLINE Wide<Scalar> inverse_square_root(const Wide<Scalar>& a) noexcept {
+#if defined(__GNUC__) && defined(__AVX512F__)
+  if constexpr (wide_size<Scalar> == 8) {
+    const Wide<Scalar> y = detail::near_inverse_root(a);
+    return multiply_add(multiply_add(wide(-0.0) - a * y, y, wide(1.0)), wide(0.5) * y, y);
+  }
+#endif
+  return wide(Scalar(1)) / square_root<Scalar>(a);
 }
 
 namespace detail {

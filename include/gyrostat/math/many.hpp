@@ -70,6 +70,8 @@ GYROSTAT_INLINE Many rounding_of(const Many& product, const Many& a, const Many&
 #endif
 }
 GYROSTAT_INLINE Many sqrt(const Many& a) noexcept { return square_root<double>(a.x); }
+/// 1/sqrt a, a from 1e-300; error 2 eps.
+GYROSTAT_INLINE Many inverse_sqrt(const Many& a) noexcept { return inverse_square_root<double>(a.x); }
 GYROSTAT_INLINE Many max(const Many& a, const Many& b) noexcept { return greater_of<double>(a.x, b.x); }
 GYROSTAT_INLINE Many min(const Many& a, const Many& b) noexcept { return choose(a < b, a, b); }
 GYROSTAT_INLINE Many abs(const Many& a) noexcept { return max(a, -a); }
@@ -121,56 +123,54 @@ GYROSTAT_INLINE Many exp(const Many& x) noexcept {
 #endif
 }
 
-/// K and K' by arithmetic-geometric means, kp2 from 1e-4 to 1, k2 from 1e-20.
-struct ManyPeriods {
-  Many K, Kp;
-};
-GYROSTAT_INLINE ManyPeriods quarter_periods(const Many& k2, const Many& kp2) noexcept {
-  Many a[2] = {1, 1}, b[2] = {sqrt(kp2), sqrt(k2)};
-  const auto advance = [&](int n) GYROSTAT_INLINE_LAMBDA {
-    const Many mean = 0.5 * (a[n] + b[n]);
-    b[n] = sqrt(a[n] * b[n]);
-    a[n] = mean;
-  };
-  for (int trip = 0; trip < 5; ++trip) advance(0), advance(1);
-  for (int trip = 0; trip < 2; ++trip) advance(1);
-  return {pi<double> / (a[0] + b[0]), pi<double> / (a[1] + b[1])};
+/// The angle in (0, pi) whose cotangent is over/under, as a part of pi; under > 0, over may be infinite.
+GYROSTAT_INLINE Many angle_of_cotangent(const Many& over, const Many& under) noexcept {
+  // (atan t - t)/t^3 by t^2, a polynomial through the zeros of Chebyshev's on 0 <= t <= sqrt 2 - 1: error of atan below 6e-18 t
+  constexpr double rest[] = {-0.33333333333333331,  0.19999999999995521,  -0.14285714284666542,  0.11111111015256361,
+                             -0.090909045781239026, 0.076921831908260865, -0.066645114473819475, 0.0585814891280221,
+                             -0.050854497379402598, 0.039231658295587189, -0.01917688711906226};
+  constexpr double bound = 0.41421356237309503;
+  const Many size = abs(over), reach = bound * size, most = bound * under;
+  const Choice narrow = reach > under, wide = size < most;
+  const Many above = choose(narrow, under, choose(wide, -size, under - size)),
+             below = choose(narrow, size, choose(wide, under, under + size));
+  const Many t = above / below, t2 = t * t, part = fused(t * t2, polynomial(rest, t2), t) * (1 / pi<double>);
+  const Many angle = choose(narrow, part, choose(wide, 0.5 + part, 0.25 + part));
+  return choose(over < 0., 1 - angle, angle);
 }
 
-/// Carlson's R_F(x, y, 1) of N pairs at once, x and y from 1e-18 to 1e6: by duplication, each until it is within reach of the series, so that none
-/// hangs on those beside it.
-template <int N>
-GYROSTAT_INLINE void carlson_RF(Many (&x)[N], Many (&y)[N], Many (&result)[N]) noexcept {
-  constexpr double reach = 0.052;  // (2 eps)^(1/12), carlson_RF_reach
-  Many z[N], mean[N], a[N], b[N];
-  for (int n = 0; n < N; ++n) z[n] = 1;
-  for (int trip = 0; trip < 14; ++trip) {
-    Choice far[N];
+/// Integrals of the first kind, K of the modulus k and K' of k', and of each one that is incomplete, by the cotangent of its amplitude, not negative:
+/// F as a part of 4 K, and F' of k' as it is. By Landen's transformation, with the means that K is made of (Bulirsch 1965); each goes on until it is
+/// within rounding, so that none hangs on those beside it. k2 and kp2 from 1e-16 to 1.
+struct ManyIntegrals {
+  Many K, Kp, F_part, Fp;
+};
+GYROSTAT_INLINE ManyIntegrals first_kind(const Many& k2, const Many& kp2, const Many& cotangent,
+                                         const Many& cotangent_of_p) noexcept {
+  Many mean[2] = {1, 1}, other[2] = {sqrt(kp2), sqrt(k2)}, doubled[2] = {1, 1};
+  Many y[2] = {max(cotangent, 0.), max(cotangent_of_p, 0.)};  // without -0
+  Many turned[2] = {0, 0};                                    // whole multiples of pi in the amplitude
+  Choice going[2] = {k2 < 2., k2 < 2.};
+  for (int trip = 0; trip < 9; ++trip) {
+    Many product[2];
     unsigned some = 0;
-    for (int n = 0; n < N; ++n) {
-      mean[n] = (x[n] + y[n] + z[n]) * (1. / 3);
-      a[n] = mean[n] - x[n], b[n] = mean[n] - y[n];
-      far[n] = max(max(abs(a[n]), abs(b[n])), abs(a[n] + b[n])) > reach * mean[n];
-      some |= far[n].bits();
+    for (int n = 0; n < 2; ++n) {
+      product[n] = mean[n] * other[n];
+      const Many sum = mean[n] + other[n], apart = abs(mean[n] - other[n]);
+      turned[n] = choose(going[n], 2 * turned[n] + choose(y[n] < 0., 1., 0.), turned[n]);
+      y[n] = choose(going[n], y[n] - product[n] / y[n], y[n]);
+      doubled[n] = choose(going[n], doubled[n] + doubled[n], doubled[n]);
+      mean[n] = choose(going[n], sum, mean[n]);
+      going[n] = going[n] & (apart > 2e-8 * sum);
+      some |= going[n].bits();
     }
     if (some == 0) break;
-    for (int n = 0; n < N; ++n) {
-      const Many rx = sqrt(x[n]), ry = sqrt(y[n]), rz = sqrt(z[n]), lambda = fused(rx, ry + rz, ry * rz);
-      x[n] = choose(far[n], 0.25 * (x[n] + lambda), x[n]);
-      y[n] = choose(far[n], 0.25 * (y[n] + lambda), y[n]);
-      z[n] = choose(far[n], 0.25 * (z[n] + lambda), z[n]);
-    }
+    for (int n = 0; n < 2; ++n) other[n] = choose(going[n], 2 * sqrt(product[n]), other[n]);
   }
-  for (int n = 0; n < N; ++n) {
-    const Many inverse = 1 / mean[n], X = a[n] * inverse, Y = b[n] * inverse, Z = -(X + Y);
-    // detail::series_RF
-    const Many e2 = X * Y - Z * Z, e3 = X * Y * Z;
-    const double alone[] = {-1. / 10, 1. / 24, -5. / 208, 35. / 2176, -3. / 256};
-    const double once[] = {1. / 14, -3. / 44, 1. / 16, -35. / 608, 315. / 5888};
-    const double twice[] = {3. / 104, -15. / 272, 5. / 64}, thrice[] = {5. / 304, -35. / 736};
-    const Many rest = polynomial(once, e2) + e3 * (polynomial(twice, e2) + e3 * polynomial(thrice, e2));
-    result[n] = (1 + (e2 * polynomial(alone, e2) + e3 * rest)) / sqrt(mean[n]);
-  }
+  for (int n = 0; n < 2; ++n) turned[n] += angle_of_cotangent(y[n], mean[n]);
+  const Many per_mean[2] = {pi<double> / mean[0], pi<double> / mean[1]};
+  return {0.5 * (doubled[0] * per_mean[0]), 0.5 * (doubled[1] * per_mean[1]), 0.5 * (turned[0] / doubled[0]),
+          turned[1] * per_mean[1]};
 }
 
 }  // namespace gyrostat::math

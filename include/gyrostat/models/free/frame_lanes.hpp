@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <iterator>
+
 #include "gyrostat/math/many.hpp"
 
 /// The curve of null vectors and its frame (pencil.hpp, frame.hpp) for as many free gyrostats side by side as a register holds doubles,
@@ -26,6 +28,9 @@ struct Many4 {
   }
 };
 
+GYROSTAT_INLINE Many dot(const Many4& a, const Many4& b) noexcept {
+  return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2] + a.x[3] * b.x[3];
+}
 GYROSTAT_INLINE Many4 choose(const Choice& c, const Many4& a, const Many4& b) noexcept {
   Many4 r;
   for (int i = 0; i < 4; ++i) r.x[i] = math::choose(c, a.x[i], b.x[i]);
@@ -82,21 +87,14 @@ class PencilLanes {
     eps = math::choose(shifted, eps, plain);
   }
 
-  GYROSTAT_INLINE Many S(const Many4& x, const Many4& y) const noexcept {
-    Many sum = -rho * x.x[3] * y.x[3];
-    for (int i = 0; i < 3; ++i) sum += x.x[i] * y.x[i] + d[i] * (x.x[i] * y.x[3] + y.x[i] * x.x[3]);
-    return sum;
+  /// S x and E x, for products with others.
+  GYROSTAT_INLINE Many4 S_of(const Many4& x) const noexcept {
+    return {{x.x[0] + d[0] * x.x[3], x.x[1] + d[1] * x.x[3], x.x[2] + d[2] * x.x[3],
+             d[0] * x.x[0] + d[1] * x.x[1] + d[2] * x.x[2] - rho * x.x[3]}};
   }
-  GYROSTAT_INLINE Many E(const Many4& x, const Many4& y) const noexcept {
-    Many sum = eps * x.x[3] * y.x[3];
-    for (int i = 0; i < 3; ++i) sum += a[i] * x.x[i] * y.x[i] - b[i] * (x.x[i] * y.x[3] + y.x[i] * x.x[3]);
-    return sum;
-  }
-  GYROSTAT_INLINE Many form(const AxisLanes& at, const Many4& x, const Many4& y) const noexcept {
-    return E(x, y) - at.sigma * S(x, y);
-  }
-  GYROSTAT_INLINE Many along(const AxisLanes& u, const Many4& x) const noexcept {
-    return math::choose(shifted, E(x, u.x) / u.sigma, S(x, u.x));
+  GYROSTAT_INLINE Many4 E_of(const Many4& x) const noexcept {
+    return {{a[0] * x.x[0] - b[0] * x.x[3], a[1] * x.x[1] - b[1] * x.x[3], a[2] * x.x[2] - b[2] * x.x[3],
+             eps * x.x[3] - (b[0] * x.x[0] + b[1] * x.x[1] + b[2] * x.x[2])}};
   }
   GYROSTAT_INLINE Many4 timelike(int axis = -1) const noexcept {
     const Many g = math::sqrt(start.x[0] * start.x[0] + start.x[1] * start.x[1] + start.x[2] * start.x[2]);
@@ -116,10 +114,11 @@ class RootLanes {
     const Many width = low == 0 ? pencil.gap01 : pencil.gap12, third = low == 0 ? pencil.gap02 : -pencil.gap01;
     Many g2[3];
     for (int i = 0; i < 3; ++i) g2[i] = pencil.a[i] * pencil.lambda[i] * (pencil.a[i] * pencil.lambda[i]);
-    Many from, to;
-    bracket(pencil, g2, width, third, from, to);
-    // from the nearer pole, whose term is kept while the rest is made linear
+    Many from, to, start;
+    bracket(pencil, g2, width, third, from, to, start);
+    // from the nearer pole
     upper_ = from + to > 1.;
+    const Many shift = math::choose(upper_, 1., 0.);
     shift_ = math::choose(upper_, width, 0.);
     next_ = math::choose(upper_, -width, width);
     far_ = third - shift_;
@@ -128,30 +127,35 @@ class RootLanes {
     other_ = g2[low == 0 ? 2 : 0];
     origin_ = math::choose(upper_, pencil.a[low + 1], pencil.a[low]);
     constant_ = origin_ + pencil.plain;
-    lo_ = from * width - shift_;
-    hi_ = to * width - shift_;
-    x_ = 0.5 * (lo_ + hi_);
+    lo_ = (from - shift) * width;
+    hi_ = (to - shift) * width;
+    x_ = math::choose(upper_, -start, start) * width;
     found_ = x_ < x_;
   }
 
-  /// A step towards each root that is not found: what the last one leaves is of the order of its square.
+  /// A step towards each root that is not found: to that of c + s/(p - x) + S/(q - x), p and q the poles of the gap, which has the value and two
+  /// slopes (Gragg's; Borges and Gragg 1993). What it leaves is of the order of its cube.
   GYROSTAT_INLINE void step() noexcept {
-    const Many p = 1 / ((next_ - x_) * (far_ - x_)), of_next = (far_ - x_) * p, of_far = (next_ - x_) * p;
-    const Many first = beside_ * of_next, second = other_ * of_far;
-    const Many rest = constant_ + x_ - first - second, steep = 1 - first * of_next - second * of_far;
-    const Choice rises = (rest * x_ + weight_) * x_ > 0.;  // the sign of rest + weight/x
-    lo_ = math::choose(rises, x_, lo_);
-    hi_ = math::choose(rises, hi_, x_);
-    const Many beta = rest - steep * x_, root = math::sqrt(math::max(beta * beta - 4 * steep * weight_, 0.));
-    const Many q = -0.5 * (beta + math::choose(beta < 0., -root, root));
-    const Many one = weight_ / q, two = q / steep;
+    const Many to_next = next_ - x_, to_far = far_ - x_, both = x_ * to_next;
+    const Many p = 1 / (both * to_far), of_x = to_next * to_far * p, of_next = x_ * to_far * p, of_far = both * p;
+    const Many one = weight_ * of_x, two = beside_ * of_next, three = other_ * of_far;
+    const Many value = constant_ + x_ + (one - two - three);
+    const Many slope1 = one * of_x, slope2 = two * of_next, slope3 = three * of_far;
+    const Many slope = 1 - slope1 - slope2 - slope3;
+    const Many bend = slope1 * of_x - slope2 * of_next - slope3 * of_far;  // half the second slope
+    const Many sum = to_next - x_;
+    const Many a = sum * value + both * slope, b = -both * value, c = value - sum * slope - both * bend;
+    const Many root = math::sqrt(math::max(a * a - 4 * b * c, 0.));
+    const Many y = x_ + (b + b) / (a + math::choose(a < 0., -root, root));
+    const Choice above = value > 0.;
+    lo_ = math::choose(above, x_, lo_);
+    hi_ = math::choose(above, hi_, x_);
     // a step out of the bracket becomes a bisection, unless by rounding only
-    const Many little = 1e-9 * math::abs(x_), least = lo_ - little, most = hi_ + little;
-    Many y = 0.5 * (lo_ + hi_);
-    y = math::choose((least < two) & (two < most), two, y);
-    y = math::choose((least < one) & (one < most), one, y);
-    const Choice near = math::abs(y - x_) < 1e-8 * math::abs(x_);
-    x_ = math::choose(found_, x_, y);
+    const Many size = math::abs(x_), little = 1e-9 * size;
+    const Choice inside = (lo_ - little < y) & (y < hi_ + little);
+    const Many next = math::choose(inside, y, 0.5 * (lo_ + hi_));
+    const Choice near = math::abs(next - x_) < 2e-6 * size;
+    x_ = math::choose(found_, x_, next);
     found_ = found_ | near;
   }
   Choice found() const noexcept { return found_; }
@@ -166,30 +170,45 @@ class RootLanes {
     distance[low_] = -shift_ - x_;
     distance[low_ + 1] = math::choose(upper_, 0., next_) - x_;
     distance[low_ == 0 ? 2 : 0] = far_ - x_;
+    const Many low = distance[0] * distance[1], per_all = 1 / (low * distance[2]), per_low = per_all * distance[2];
+    const Many per[3] = {per_low * distance[1], per_low * distance[0], per_all * low};
     for (int i = 0; i < 3; ++i)
-      u.x.x[i] = math::choose(pencil.shifted, u.sigma, pencil.a[i]) * pencil.lambda[i] / distance[i];
+      u.x.x[i] = math::choose(pencil.shifted, u.sigma, pencil.a[i]) * pencil.lambda[i] * per[i];
     u.x.x[3] = 1;
-    u.x = (1 / math::sqrt(math::abs(pencil.S(u.x, u.x)))) * u.x;
+    u.x = math::inverse_sqrt(math::abs(dot(pencil.S_of(u.x), u.x))) * u.x;
     return u;
   }
 
  private:
-  /// Where the equation falls from + to -, as parts of the gap.
+  /// Where the equation falls from + to -, as parts of the gap; start: the zero of the chord there, from the pole that it is the nearer to.
   GYROSTAT_INLINE void bracket(const PencilLanes& pencil, const Many (&g2)[3], const Many& width, const Many& third,
-                               Many& from, Many& to) const noexcept {
-    constexpr int count = 12;
-    constexpr double parts[count + 2] = {0, 1e-5, .01, .05, .13, .25, .4, .6, .75, .87, .95, .99, .99999, 1};
-    const Many constant = pencil.a[low_] + pencil.plain, other = g2[low_ == 0 ? 2 : 0];
-    from = low_ == 0 ? parts[0] : parts[count];
-    to = low_ == 0 ? parts[1] : parts[count + 1];
-    for (int k = 0; k < count; ++k) {
-      const int j = low_ == 0 ? k + 1 : count - k, next = low_ == 0 ? j : j - 1;
-      const Many s = parts[j] * width, right = (1 - parts[j]) * width, far = third - s;
-      // the equation times the distances, of which only that to the third can be negative
-      const Many value = far * ((constant + s) * s * right + g2[low_] * right - g2[low_ + 1] * s) - other * s * right;
-      const Choice more = value > 0.;
-      from = math::choose(more, parts[next], from), to = math::choose(more, parts[next + 1], to);
+                               Many& from, Many& to, Many& start) const noexcept {
+    // from a[1] on: where two falls are near it, and one another, the far one is not to be taken
+    constexpr double distances[] = {0, 1e-5, .01, .05, .13, .25, .4, .65, .9, .999, 1};
+    constexpr int last = int(std::size(distances)) - 1;
+    const auto part_of = [&](int j) { return low_ == 0 ? 1 - distances[j] : distances[j]; };
+    const Many constant = pencil.a[low_] + pencil.plain, square = width * width, other = g2[low_ == 0 ? 2 : 0] * square;
+    const Many below = g2[low_] * width, above = g2[low_ + 1] * width;
+    // the equation times the distances, of which only that to the third, of the upper gap, is negative
+    const auto value = [&](double part) GYROSTAT_INLINE_LAMBDA {
+      const Many s = part * width, product = part * (1 - part), far = third - s;
+      return far * (product * (constant + s) * square + ((1 - part) * below - part * above)) - product * other;
+    };
+    // from the far end towards a[1]: the change of sign that comes last is kept
+    Many ends[2] = {part_of(last), part_of(last - 1)}, values[2] = {value(part_of(last)), value(part_of(last - 1))};
+    Many here = values[1];
+    for (int j = last - 1; j > 0; --j) {
+      const double part = part_of(j), next_part = part_of(j - 1);
+      const Many next = value(next_part);
+      const Choice more = here > 0.;
+      ends[0] = math::choose(more, part, ends[0]), ends[1] = math::choose(more, next_part, ends[1]);
+      values[0] = math::choose(more, here, values[0]), values[1] = math::choose(more, next, values[1]);
+      here = next;
     }
+    const int first = low_ == 0 ? 0 : 1;
+    from = ends[first], to = ends[1 - first];
+    const Many step = (to - from) / (values[first] - values[1 - first]);
+    start = math::choose(from + to > 1., (1 - to) - step * values[1 - first], from + step * values[first]);
   }
 
   int low_;
@@ -203,6 +222,7 @@ struct PlaneLanes {
   Many split;  ///< sigma_v - sigma_u
   Many4 plus, minus;
   Many E_plus, E_minus, al, be, Yu, Yv, from_u, from_v;
+  Many turned;  ///< its sign is that of the determinant of u, v, plus + minus, plus - minus
 
   GYROSTAT_INLINE explicit PlaneLanes(const PencilLanes& pencil) noexcept {
     const unsigned rigid = pencil.rigid.bits();
@@ -223,12 +243,14 @@ struct PlaneLanes {
     for (const auto axis : {&PlaneLanes::u, &PlaneLanes::v}) {
       AxisLanes& to = this->*axis;
       const AxisLanes& from = other.*axis;
-      to = {math::choose(rigid, from.sigma, to.sigma), choose(rigid, from.x, to.x), to.found | rigid};
+      to.sigma = math::choose(rigid, from.sigma, to.sigma);
+      to.x = choose(rigid, from.x, to.x);
+      to.found = to.found | rigid;
     }
     for (const auto member : {&PlaneLanes::plus, &PlaneLanes::minus}) take(member);
     for (const auto member :
          {&PlaneLanes::split, &PlaneLanes::E_plus, &PlaneLanes::E_minus, &PlaneLanes::al, &PlaneLanes::be,
-          &PlaneLanes::Yu, &PlaneLanes::Yv, &PlaneLanes::from_u, &PlaneLanes::from_v})
+          &PlaneLanes::Yu, &PlaneLanes::Yv, &PlaneLanes::from_u, &PlaneLanes::from_v, &PlaneLanes::turned})
       take(member);
   }
 
@@ -244,35 +266,41 @@ struct PlaneLanes {
     v = second.axis(pencil);
     split = math::choose(first.upper(), 0., pencil.gap01) + math::choose(second.upper(), pencil.gap12, 0.) +
             (second.offset() - first.offset());
-    v.x = v.x - pencil.S(v.x, u.x) * u.x;
-    v.x = (1 / math::sqrt(pencil.S(v.x, v.x))) * v.x;
-    const Many4& X = pencil.start;
-    Yu = pencil.along(u, X);
-    Yv = pencil.along(v, X);
+    const auto covector = [&pencil](const AxisLanes& w) GYROSTAT_INLINE_LAMBDA {
+      return choose(pencil.shifted, (1 / w.sigma) * pencil.E_of(w.x), pencil.S_of(w.x));
+    };
+    const Many4 of_u = covector(u);
+    v.x = v.x - dot(of_u, v.x) * u.x;
+    const Many4 of_v = covector(v), &X = pencil.start, T = pencil.timelike();
+    Yu = dot(of_u, X);
+    Yv = dot(of_v, X);
     const Many4 W = X - Yu * u.x - Yv * v.x;
-    Many4 V = across(pencil, pencil.timelike());
-    V = (1 / math::sqrt(-pencil.S(V, V))) * V;
-    const Many s = -pencil.S(W, V);
+    Many4 V = T - dot(of_u, T) * u.x - dot(of_v, T) * v.x;
+    V = math::inverse_sqrt(-dot(pencil.S_of(V), V)) * V;
+    const Many s = -dot(pencil.S_of(V), W);
     Many4 e = W - s * V;
-    const Many square = pencil.S(e, e);
+    const Many square = dot(pencil.S_of(e), e);
     const Choice near = 4 * square > s * s;
-    e = (1 / math::sqrt(square)) * e;
-    if (near.bits() != math::all_numbers) e = choose(near, e, spacelike(pencil, V));
-    Many D = pencil.S(W, e);
+    const Many4 cross = minors(V);
+    e = choose(near, math::inverse_sqrt(square) * e, across(pencil, cross));
+    Many D = dot(pencil.S_of(e), W);
     const Choice back = D < 0.;
     D = math::abs(D);
     e = choose(back, -1. * e, e);
+    turned = dot(cross, e);
     plus = V + e;
     minus = V - e;
     al = 0.5 * (s + D);
     be = (Yu * Yu + Yv * Yv) / (4 * al);
-    E_minus = 0.5 * pencil.form(u, minus, minus);
-    const Many tau = -2 * be;
-    const Many from_start =
-        (-split * Yv * Yv + 2 * tau * pencil.form(u, W, V) + tau * tau * pencil.form(u, V, V)) / (2 * D * D);
-    E_plus = math::choose(near, from_start, 0.5 * pencil.form(u, plus, plus));
-    from_u = -0.5 * pencil.form(u, plus, minus);
-    from_v = -0.5 * pencil.form(v, plus, minus);
+    // E - sigma_u S, in which what errors leave along u does not count
+    const auto part = [&](const Many4& x) GYROSTAT_INLINE_LAMBDA { return pencil.E_of(x) - u.sigma * pencil.S_of(x); };
+    const Many4 of_V = part(V), of_e = part(e);
+    const Many VV = dot(of_V, V), twice_Ve = 2 * dot(of_V, e), ee = dot(of_e, e), tau = -2 * be;
+    E_minus = 0.5 * (VV - twice_Ve + ee);
+    const Many from_start = (-split * Yv * Yv + 2 * tau * dot(of_V, W) + tau * tau * VV) / (2 * D * D);
+    E_plus = math::choose(near, from_start, 0.5 * (VV + twice_Ve + ee));
+    from_u = 0.5 * (ee - VV);
+    from_v = from_u - split;
   }
 
   /// Of rigid lanes, whose eigenvectors are the principal axes: all is told by the components of M (docs/free.md, section 2).
@@ -285,8 +313,9 @@ struct PlaneLanes {
     const auto either = [lowest](const Many& x, const Many& y)
                             GYROSTAT_INLINE_LAMBDA { return math::choose(lowest, x, y); };
     const Many one = either(1., 0.), other = either(0., 1.), none = 0., m = either(n[0], n[2]);
-    u = {either(a[1], a[0]), {{other, one, none, none}}, Many(0.) < 1.};
-    v = {either(a[2], a[1]), {{none, other, one, none}}, u.found};
+    u.sigma = either(a[1], a[0]), u.x = {{other, one, none, none}};
+    v.sigma = either(a[2], a[1]), v.x = {{none, other, one, none}};
+    u.found = v.found = Many(0.) < 1.;
     split = either(pencil.gap12, pencil.gap01);
     Yu = either(n[1], n[0]), Yv = either(n[2], n[1]);
     const Many half = 0.5 * (either(pencil.gap01, pencil.gap12) * n1 + pencil.gap02 * either(n2, n0));
@@ -296,26 +325,28 @@ struct PlaneLanes {
     const Many side = math::choose(m < 0., -1., 1.);
     const Many4 e{{side * one, none, side * other, none}}, V{{none, none, none, 1.}};
     plus = V + e, minus = V - e;
+    turned = -side;
     const Many sum = 1 + math::abs(m);
     al = 0.5 * sum;
     be = (n1 + either(n2, n0)) / (2 * sum);
   }
 
-  GYROSTAT_INLINE Many4 across(const PencilLanes& pencil, const Many4& x) const noexcept {
-    return x - pencil.along(u, x) * u.x - pencil.along(v, x) * v.x;
+  /// Of u, v and V: what times a fourth is the determinant of the four.
+  GYROSTAT_INLINE Many4 minors(const Many4& V) const noexcept {
+    const Many *a = u.x.x, *b = v.x.x, *c = V.x;
+    const auto minor = [a, b](int i, int j) GYROSTAT_INLINE_LAMBDA { return a[i] * b[j] - a[j] * b[i]; };
+    const Many m01 = minor(0, 1), m02 = minor(0, 2), m03 = minor(0, 3), m12 = minor(1, 2), m13 = minor(1, 3),
+               m23 = minor(2, 3);
+    return {{m13 * c[2] - m12 * c[3] - m23 * c[1], m02 * c[3] - m03 * c[2] + m23 * c[0],
+             m03 * c[1] - m01 * c[3] - m13 * c[0], m01 * c[2] - m02 * c[1] + m12 * c[0]}};
   }
-  GYROSTAT_NOINLINE Many4 spacelike(const PencilLanes& pencil, const Many4& V) const noexcept {
-    Many4 best = V;
-    Many most = 0;
-    for (int i = 0; i < 3; ++i) {
-      Many4 e = across(pencil, pencil.timelike(i));
-      e = e + pencil.S(e, V) * V;
-      const Many square = pencil.S(e, e);
-      const Choice more = square > most;
-      best = choose(more, e, best);
-      most = math::choose(more, square, most);
-    }
-    return (1 / math::sqrt(most)) * best;
+  /// The vector across them, of square 1: S has the inverse {{1 - d d', d}, {d', -1}}, because rho + d^2 = 1.
+  GYROSTAT_INLINE static Many4 across(const PencilLanes& pencil, const Many4& minors) noexcept {
+    const Many* y = minors.x;
+    Many4 e;
+    e.x[3] = pencil.d[0] * y[0] + pencil.d[1] * y[1] + pencil.d[2] * y[2] - y[3];
+    for (int i = 0; i < 3; ++i) e.x[i] = y[i] - pencil.d[i] * e.x[3];
+    return e;
   }
 };
 
@@ -324,33 +355,47 @@ struct FrameLanes {
   Choice single, sound;  ///< sound: of trigonometric form, and nothing went wrong
   Many side, delta;      ///< side: of two components, 1 about the axis of the largest moment, else -1
   Many4 plus, minus, xa, xb;
-  Many k2, kp2, rate, u_start;  ///< u_start: the argument of the start
-  Many eta, size[2], psi[2];
+  Many k2, kp2, rate, start;      ///< start: its argument, as a part of 4 K
+  math::ManyIntegrals integrals;  ///< K, K' and, as F', eta
+  Many size[2], psi[2];
 
   GYROSTAT_INLINE explicit FrameLanes(const PencilLanes& pencil) noexcept;
 
  private:
-  /// What one of the two forms has of its own; eta = factor R_F(x, y, 1).
+  /// What one of the two forms has of its own; cotangent: of the amplitude of eta.
   struct Form {
     Many4 plus, minus, x1, x2;
-    Many al, be, k2, kp2, rate, sn, cn, dn, psi[2], size[2];
-    Many factor, x, y;
+    Many al, be, k2, kp2, rate, sn, cn, psi[2], size[2];
+    Many cotangent;
+    Many turned;  ///< its sign is that of the determinant of x1, x2, plus - minus, plus + minus
     Choice sound;
   };
-  // compiled once each, so that a lane has the same bits whether the other form is there beside it or not
-  GYROSTAT_NOINLINE inline Form lobe(const PencilLanes& pencil, const PlaneLanes& p) noexcept;
-  GYROSTAT_NOINLINE static inline Form alone(const PencilLanes& pencil, const PlaneLanes& p) noexcept;
-  GYROSTAT_INLINE static Many determinant(const Many4& a, const Many4& b, const Many4& c, const Many4& d) noexcept {
-    const auto minor = [](const Many4& x, const Many4& y, int i, int j)
-                           GYROSTAT_INLINE_LAMBDA { return x.x[i] * y.x[j] - x.x[j] * y.x[i]; };
-    return minor(a, b, 0, 1) * minor(c, d, 2, 3) - minor(a, b, 0, 2) * minor(c, d, 1, 3) +
-           minor(a, b, 0, 3) * minor(c, d, 1, 2) + minor(a, b, 1, 2) * minor(c, d, 0, 3) -
-           minor(a, b, 1, 3) * minor(c, d, 0, 2) + minor(a, b, 2, 3) * minor(c, d, 0, 1);
+  /// The null directions, of equal |E|; inverse: of the root of E_plus E_minus.
+  struct NullPair {
+    Many4 plus, minus;
+    Many al, be;
+
+    GYROSTAT_INLINE NullPair(const PlaneLanes& p, const Many& inverse) noexcept {
+      const Many square = math::abs(p.E_minus) * inverse, lower = math::inverse_sqrt(square), boost = square * lower;
+      plus = boost * p.plus, minus = lower * p.minus;
+      al = lower * p.al, be = boost * p.be;
+    }
+  };
+  GYROSTAT_INLINE static void set_pair(Form& f, const NullPair& pair, const Choice& swapped,
+                                       const Many& turned) noexcept {
+    f.plus = choose(swapped, pair.minus, pair.plus);
+    f.minus = choose(swapped, pair.plus, pair.minus);
+    f.al = math::choose(swapped, pair.be, pair.al);
+    f.be = math::choose(swapped, pair.al, pair.be);
+    f.turned = math::choose(swapped, turned, -turned);
   }
+  // compiled once each, so that a lane has the same bits whether the other form is there beside it or not
+  GYROSTAT_NOINLINE inline Form lobe(const PlaneLanes& p) noexcept;
+  GYROSTAT_NOINLINE static inline Form alone(const PlaneLanes& p) noexcept;
   static constexpr double least_k2 = 1e-16;
 };
 
-FrameLanes::Form FrameLanes::lobe(const PencilLanes&, const PlaneLanes& p) noexcept {
+FrameLanes::Form FrameLanes::lobe(const PlaneLanes& p) noexcept {
   Form f;
   const Choice first = p.from_u < 0.;  // u is x1
   side = math::choose(first, 1., -1.);
@@ -358,29 +403,23 @@ FrameLanes::Form FrameLanes::lobe(const PencilLanes&, const PlaneLanes& p) noexc
   f.x2 = choose(first, p.v.x, p.u.x);
   const Many Y1 = math::choose(first, p.Yu, p.Yv), Y2 = math::choose(first, p.Yv, p.Yu);
   const Many to_u = math::abs(p.from_u), to_v = math::abs(p.from_v);
-  const Many nu = 2 * math::sqrt(math::abs(p.E_plus * p.E_minus));
+  const Many product = math::abs(p.E_plus * p.E_minus), inverse = math::inverse_sqrt(product),
+             nu = 2 * (product * inverse);
   const Many p2 = math::choose(first, to_u, to_v) - 0.5 * nu, p3 = math::choose(first, to_v, to_u) - 0.5 * nu;
-  const Many whole = (p2 + nu) * p3;
-  f.k2 = p.split * nu / whole;
-  f.kp2 = p2 * (p3 + nu) / whole;
-  f.rate = math::sqrt(whole);
+  const Many whole = (p2 + nu) * p3, of_rate = math::inverse_sqrt(whole), of_whole = of_rate * of_rate;
+  f.k2 = p.split * nu * of_whole;
+  f.kp2 = p2 * (p3 + nu) * of_whole;
+  f.rate = whole * of_rate;
   f.sound = (p.from_u * p.from_v > 0.) & (f.kp2 > 0.0295) & (f.k2 > least_k2);
-  const Many near = 1 / (nu + p2), far = 1 / (nu + p3);
-  const Many c1 = math::sqrt(p3 * far), c2 = math::sqrt(nu * near), c3 = math::sqrt(nu * far);
-  f.factor = math::sqrt((nu + p2) * far);
-  f.x = p.split * far, f.y = p.split / p3;
-  const Many boost = math::sqrt(math::sqrt(math::abs(p.E_minus / p.E_plus))), lower = 1 / boost;
-  const Many al = p.al * lower, be = p.be * boost;
-  const Choice swapped = al < be;
-  const Many4 boosted_plus = boost * p.plus, boosted_minus = lower * p.minus;
-  f.plus = choose(swapped, boosted_minus, boosted_plus);
-  f.minus = choose(swapped, boosted_plus, boosted_minus);
-  f.al = math::max(al, be);
-  f.be = math::min(al, be);
+  const Many far = 1 / (nu + p3), near = p3 * of_whole, c1 = math::sqrt(p3 * far);
+  f.cotangent = math::sqrt(p.split * near);
+  const NullPair pair(p, inverse);
+  const Choice swapped = pair.al < pair.be;
+  set_pair(f, pair, swapped, p.turned);
+  f.turned = math::choose(first, f.turned, -f.turned);
   const Many Y4 = 1 / (f.al + f.be);
-  f.sn = Y1 * Y4 / c2;
-  f.cn = Y2 * Y4 / c3;
-  f.dn = (f.al - f.be) * Y4 / c1;
+  f.sn = Y1 * Y4 * math::inverse_sqrt(nu * near);
+  f.cn = Y2 * Y4 * math::inverse_sqrt(nu * far);
   const Many st = math::choose(first, p.u.sigma, p.v.sigma) - side * p2, s0 = st - side * nu;
   f.psi[0] = 0.5 * (st + c1 * s0) / (1 + c1);
   f.psi[1] = 0.5 * (s0 + side * (p3 + nu) * (1 + c1));
@@ -388,46 +427,39 @@ FrameLanes::Form FrameLanes::lobe(const PencilLanes&, const PlaneLanes& p) noexc
   return f;
 }
 
-FrameLanes::Form FrameLanes::alone(const PencilLanes& pencil, const PlaneLanes& p) noexcept {
+FrameLanes::Form FrameLanes::alone(const PlaneLanes& p) noexcept {
   Form f;
-  const Many B = math::sqrt(-p.E_plus * p.E_minus);
-  const Many boost = math::sqrt(math::sqrt(math::abs(p.E_minus / p.E_plus))), lower = 1 / boost;
-  const Many al = p.al * lower, be = p.be * boost;
-  const Many4 boosted_plus = boost * p.plus, boosted_minus = lower * p.minus;
-  const Choice straight = p.E_plus > 0.;
-  f.plus = choose(straight, boosted_plus, boosted_minus);
-  f.minus = choose(straight, boosted_minus, boosted_plus);
-  f.al = math::choose(straight, al, be);
-  f.be = math::choose(straight, be, al);
+  const Many square = -p.E_plus * p.E_minus, inverse = math::inverse_sqrt(square), B = square * inverse;
+  set_pair(f, NullPair(p, inverse), p.E_plus < 0., p.turned);
   f.x1 = p.u.x, f.x2 = p.v.x;
-  const Many width = p.split, rho = math::sqrt(p.from_u * p.from_u + B * B),
-             rho2 = math::sqrt(p.from_v * p.from_v + B * B);
-  f.rate = math::sqrt(rho * rho2);
+  const Many width = p.split, rho_square = p.from_u * p.from_u + square, rho_inverse = math::inverse_sqrt(rho_square),
+             rho = rho_square * rho_inverse;
+  f.rate = math::sqrt(rho * math::sqrt(p.from_v * p.from_v + square));
   // of trigonometric form where reach <= 0
-  const Many reach = (-p.from_u * p.from_v - B * B) / B, root = math::sqrt(width * width + reach * reach);
-  f.k2 = width / (2 * root) * (width / (root + math::abs(reach)));
+  const Many reach = (-p.from_u * p.from_v - square) * inverse, root = math::sqrt(width * width + reach * reach);
+  const Many sum = root + math::abs(reach), per_both = 1 / (root * sum), per_sum = per_both * root;
+  f.k2 = 0.5 * (width * width) * per_both;
   f.kp2 = 1 - f.k2;
   f.sound = (reach < 0.) & (f.k2 > least_k2);
-  const Many xc2_width = 1 / (root - reach), xc2 = xc2_width * width;
-  const Many cosine = p.from_u / rho, sine = B / rho;
-  const Many larger = math::sqrt(0.5 * (1 + math::abs(cosine))), other = sine / (2 * larger);
+  const Many xc2 = per_sum * width, side_square = per_sum * rho, side_inverse = math::inverse_sqrt(side_square);
+  const Many cosine = p.from_u * rho_inverse, sine = B * rho_inverse;
+  const Many half = 0.5 * (1 + math::abs(cosine)), half_inverse = math::inverse_sqrt(half);
+  const Many larger = half * half_inverse, other = 0.5 * (sine * half_inverse);
   const Choice acute = cosine > 0.;
   const Many cg = math::choose(acute, larger, other), sg = math::choose(acute, other, larger);
   const Many l = 1 / (cg * f.al + sg * f.be);
-  f.cn = p.Yv * l / (2 * math::sqrt(xc2_width * rho));
-  f.sn = p.Yu * l / math::sqrt(2 * sine * (xc2 * xc2 + 1)) / math::sqrt(f.kp2 + f.k2 * f.cn * f.cn);
-  const Many length = 1 / math::sqrt(f.sn * f.sn + f.cn * f.cn);
+  f.cn = 0.5 * (p.Yv * l * side_inverse);
+  f.sn = p.Yu * l * math::inverse_sqrt(2 * sine * (xc2 * xc2 + 1) * (f.kp2 + f.k2 * f.cn * f.cn));
+  const Many length = math::inverse_sqrt(f.sn * f.sn + f.cn * f.cn);
   f.sn *= length;
   f.cn *= length;
-  f.dn = math::sqrt(f.kp2 + f.k2 * f.cn * f.cn);
-  const Many k = math::sqrt(f.k2), kp = math::sqrt(f.kp2), tangent = sg / cg;
-  const Many bez = sg + cg * xc2, alz = xc2_width * rho / bez, sum = k + kp * tangent;
-  f.factor = math::sqrt(alz / cg);
-  f.x = tangent * k / kp, f.y = k * sum;
-  f.size[0] = alz, f.size[1] = bez;
-  const Many m = -0.5 * pencil.E(f.plus, f.minus);
-  f.psi[0] = 0.5 * (m + B * bez / alz);
-  f.psi[1] = 0.5 * (m - B * alz / bez);
+  const Many bez = sg + cg * xc2, per_bez = 1 / bez, per_alz = bez * (side_inverse * side_inverse);
+  const Many moduli = f.k2 * math::inverse_sqrt(f.k2 * f.kp2);  // k/k'
+  f.cotangent = math::sqrt(sg * per_alz * moduli);
+  f.size[0] = side_square * per_bez, f.size[1] = bez;
+  const Many m = p.u.sigma + p.from_u;
+  f.psi[0] = 0.5 * (m + B * bez * per_alz);
+  f.psi[1] = 0.5 * (m - B * f.size[0] * per_bez);
   return f;
 }
 
@@ -438,40 +470,40 @@ GYROSTAT_INLINE FrameLanes::FrameLanes(const PencilLanes& pencil) noexcept {
   Form f;
   if (some == math::all_numbers) {
     side = 1;
-    f = alone(pencil, p);
+    f = alone(p);
     f.sound = single & f.sound;
   } else {
-    f = lobe(pencil, p);
+    f = lobe(p);
   }
   if (some != 0 && some != math::all_numbers) {
-    const Form g = alone(pencil, p);
+    const Form g = alone(p);
     const auto take = [&](auto member) GYROSTAT_INLINE_LAMBDA { f.*member = choose(single, g.*member, f.*member); };
     take(&Form::plus), take(&Form::minus), take(&Form::x1), take(&Form::x2);
-    take(&Form::k2), take(&Form::kp2), take(&Form::rate), take(&Form::sn), take(&Form::cn), take(&Form::dn);
-    take(&Form::factor), take(&Form::x), take(&Form::y);
+    take(&Form::k2), take(&Form::kp2), take(&Form::rate), take(&Form::sn), take(&Form::cn);
+    take(&Form::cotangent), take(&Form::turned);
     for (int i = 0; i < 2; ++i) {
       f.psi[i] = math::choose(single, g.psi[i], f.psi[i]);
       f.size[i] = math::choose(single, g.size[i], f.size[i]);
     }
     f.sound = (single & g.sound) | ((p.E_plus * p.E_minus > 0.) & f.sound);
   }
-  sound = f.sound & p.u.found & p.v.found & (pencil.gap01 > 1e-12 * pencil.a[2]) & (pencil.gap12 > 1e-12 * pencil.a[2]);
+  sound = f.sound & p.u.found & p.v.found & (pencil.gap01 > 1e-12 * pencil.a[2]) &
+          (pencil.gap12 > 1e-12 * pencil.a[2]) & (pencil.a[0] > 1e-60) & (pencil.a[2] < 1e60);
   const Choice back = f.cn < 0.;
   f.cn = math::abs(f.cn);
   f.x2 = choose(back, -1. * f.x2, f.x2);
   delta = math::choose(single, -1., -side);
-  const Many4 lobe_axis = 0.5 * (f.plus - f.minus), middle = 0.5 * (f.plus + f.minus);
-  const Many turned = determinant(f.x1, f.x2, lobe_axis, middle) * math::choose(single, 1., delta);
+  // delta det(x1, x2, plus - minus, plus + minus) > 0, without delta where there is one component
+  Many turned = math::choose(back, -f.turned, f.turned);
+  turned = math::choose(single, turned, delta * turned);
   const Choice turn = turned < 0.;
   f.sn = math::choose(turn, -f.sn, f.sn);
   f.x1 = choose(turn, -1. * f.x1, f.x1);
   plus = f.plus, minus = f.minus, xa = f.x1;
   xb = math::choose(single, 1., delta) * f.x2;
   k2 = f.k2, kp2 = f.kp2, rate = f.rate;
-  Many x[2] = {f.x, f.cn * f.cn}, y[2] = {f.y, f.dn * f.dn}, F[2];
-  math::carlson_RF(x, y, F);
-  eta = f.factor * F[0];
-  u_start = f.sn * F[1];
+  integrals = math::first_kind(k2, kp2, f.cn / math::abs(f.sn), f.cotangent);
+  start = math::choose(f.sn < 0., -integrals.F_part, integrals.F_part);
   for (int i = 0; i < 2; ++i) psi[i] = f.psi[i], size[i] = f.size[i];
 }
 

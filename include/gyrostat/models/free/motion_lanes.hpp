@@ -142,6 +142,12 @@ class MotionLanes {
   };
   template <bool slopes>
   Sums sums(int first, const math::ManyCircle& E) const noexcept;
+  struct Spinor {
+    C up, down;
+  };
+  /// That of the attitude before its phase and its start.
+  Spinor spinor(int first, const C& a, const C& b) const noexcept;
+  void to_body(int first, Many (&v)[3]) const noexcept;
   /// omega, M and attitude of sums and the phase of the spinor.
   void assemble(int first, const C& a, const C& b, const C& phase, States& to) const noexcept;
 
@@ -149,7 +155,7 @@ class MotionLanes {
   struct AtOne {
     Many even, odd, even_slope, odd_slope;
   };
-  AtOne set_sums(int first, const detail::FrameLanes& frame, const math::ManyPeriods& periods) noexcept;
+  AtOne set_sums(int first, const detail::FrameLanes& frame) noexcept;
   void set_forms(int first, const detail::PencilLanes& pencil, const detail::FrameLanes& frame) noexcept;
 
   /// t rate + start less the nearest whole number.
@@ -165,7 +171,7 @@ class MotionLanes {
   alignas(64) Row side_, period_, turn_, k2_, energy_, norm_;
   alignas(64) Row rate_, start_, phase_rate_;      // turns of the argument a second, at time 0; of the spinor's phase
   alignas(64) Row x_[powers + 1], y_[powers + 1];  // of even powers (x + i y), of odd ones times -i
-  alignas(64) Row forms_[4][7];                    // size, omega, M by the products of the two sums
+  alignas(64) Row forms_[4][7];                    // size, omega, M, in principal axes, by the products of the two sums
   alignas(64) Row spinor_[2][2][2];
   alignas(64) Row lay_[4];
 };
@@ -177,9 +183,8 @@ unsigned MotionLanes::make(int first) noexcept {
     body.moments[i] = row(moments_[i]), body.l[i] = row(l_[i]), body.G[i] = row(G_[i]), body.M[i] = row(M_[i]);
   const detail::PencilLanes pencil(body);
   const detail::FrameLanes frame(pencil);
-  const math::ManyPeriods periods = math::quarter_periods(frame.k2, frame.kp2);
-  const Many K = periods.K, R = pencil.R;
-  const AtOne one = set_sums(first, frame, periods);
+  const Many K = frame.integrals.K, R = pencil.R;
+  const AtOne one = set_sums(first, frame);
   set_forms(first, pencil, frame);
 
   // Motion::set_regular
@@ -193,7 +198,7 @@ unsigned MotionLanes::make(int first) noexcept {
   const Many phase_rate = R * (psi - frame.rate * turning) * (0.5 / pi<double>);
   const Many period = window / u_rate, turns = 2 * (phase_rate * period);
   rate.to(rate_ + first);
-  (frame.u_start / window).to(start_ + first);
+  frame.start.to(start_ + first);
   phase_rate.to(phase_rate_ + first);
   period.to(period_ + first);
   (2 * pi<double> * (turns - math::nearest(turns))).to(turn_ + first);
@@ -205,26 +210,25 @@ unsigned MotionLanes::make(int first) noexcept {
   (0.5 * twice).to(energy_ + first);
 
   // the attitude at time 0 is the given one
-  const double identity[4] = {1, 0, 0, 0};
-  for (int i = 0; i < 4; ++i) Many(identity[i]).to(lay_[i] + first);
-  States s;
-  at(first, 0., s);
-  Many q[4], p[4];
-  for (int i = 0; i < 4; ++i) q[i] = row(start_attitude_[i]), p[i] = row(s.attitude[i]);
+  const Sums start = sums<false>(first, math::circle(frame.start));
+  const auto [up, down] = spinor(first, start.even, start.odd);
+  const Many length = math::inverse_sqrt(up.re * up.re + up.im * up.im + down.re * down.re + down.im * down.im);
+  const Many p[4] = {length * up.re, length * down.im, -length * down.re, length * up.im};
+  Many q[4];
+  for (int i = 0; i < 4; ++i) q[i] = row(start_attitude_[i]);
   (q[0] * p[0] + q[1] * p[1] + q[2] * p[2] + q[3] * p[3]).to(lay_[0] + first);
   (q[1] * p[0] - q[0] * p[1] - q[2] * p[3] + q[3] * p[2]).to(lay_[1] + first);
   (q[2] * p[0] - q[0] * p[2] - q[3] * p[1] + q[1] * p[3]).to(lay_[2] + first);
   (q[3] * p[0] - q[0] * p[3] - q[1] * p[2] + q[2] * p[1]).to(lay_[3] + first);
-  const Many sum = rate + phase_rate + row(lay_[0]) + row(lay_[1]) + row(lay_[2]) + row(lay_[3]) + frame.u_start;
+  const Many sum = rate + phase_rate + row(lay_[0]) + row(lay_[1]) + row(lay_[2]) + row(lay_[3]) + frame.start;
   return (frame.sound & (math::abs(sum) < 1e200) & (R > 1e-100) & (R < 1e100)).bits();
 }
 
 /// ThetaPair::trigonometric_sums, with the coefficients as products of powers of two exponentials.
-inline MotionLanes::AtOne MotionLanes::set_sums(int first, const detail::FrameLanes& f,
-                                                const math::ManyPeriods& periods) noexcept {
-  const Many unit = -0.25 * pi<double> / periods.K;
-  const Many A = math::exp(math::max(unit * (periods.Kp - f.eta), -600.)),
-             B = math::exp(math::max(unit * f.eta, -600.));
+inline MotionLanes::AtOne MotionLanes::set_sums(int first, const detail::FrameLanes& f) noexcept {
+  const Many unit = -0.25 * pi<double> / f.integrals.K, eta = f.integrals.Fp;
+  const Many A = math::exp(math::max(unit * (f.integrals.Kp - eta), -600.)),
+             B = math::exp(math::max(unit * eta, -600.));
   const Many A2 = A * A, B2 = B * B, one = 1.;
   AtOne sum{1., 0., 0., 0.};
   Many x[powers + 1], y[powers + 1];
@@ -270,18 +274,13 @@ inline void MotionLanes::set_forms(int first, const detail::PencilLanes& pencil,
   for (int k = 0; k < 4; ++k) {
     const Many4& x = *basis[k];
     const Many factor = k < 2 ? 1 : 2, scale = factor * R;
-    Many w[3];
     for (int i = 0; i < 3; ++i) {
       momentum[k][i] = x.x[i] + pencil.d[i] * x.x[3];
-      w[i] = pencil.a[i] * x.x[i] - pencil.b[i] * x.x[3];
+      form[k][1 + i] = scale * (pencil.a[i] * x.x[i] - pencil.b[i] * x.x[3]);
+      form[k][4 + i] = scale * momentum[k][i];
     }
     momentum[k][3] = x.x[3];
     form[k][0] = factor * x.x[3];
-    for (int i = 0; i < 3; ++i) {
-      const Many r[3] = {row(R_BP_[i][0]), row(R_BP_[i][1]), row(R_BP_[i][2])};
-      form[k][1 + i] = scale * (r[0] * w[0] + r[1] * w[1] + r[2] * w[2]);
-      form[k][4 + i] = scale * (r[0] * momentum[k][0] + r[1] * momentum[k][1] + r[2] * momentum[k][2]);
-    }
   }
   // of one component the odd sum is the first: its square and the even one's change places, and the area its sign
   for (int n = 0; n < 7; ++n) {
@@ -330,6 +329,20 @@ GYROSTAT_INLINE MotionLanes::Sums MotionLanes::sums(int first, const math::ManyC
   return {sum[0], {sum[1].im, -sum[1].re}, slope[0], {slope[1].im, -slope[1].re}};
 }
 
+GYROSTAT_INLINE MotionLanes::Spinor MotionLanes::spinor(int first, const C& a, const C& b) const noexcept {
+  const auto c = [&](int i, int j) GYROSTAT_INLINE_LAMBDA {
+    return C{Many::from(spinor_[i][j][0] + first), Many::from(spinor_[i][j][1] + first)};
+  };
+  return {c(0, 0) * a + c(0, 1) * b, c(1, 0) * a + c(1, 1) * b};
+}
+
+GYROSTAT_INLINE void MotionLanes::to_body(int first, Many (&v)[3]) const noexcept {
+  const Many x = v[0], y = v[1], z = v[2];
+  for (int i = 0; i < 3; ++i)
+    v[i] =
+        Many::from(R_BP_[i][0] + first) * x + Many::from(R_BP_[i][1] + first) * y + Many::from(R_BP_[i][2] + first) * z;
+}
+
 GYROSTAT_INLINE void MotionLanes::assemble(int first, const C& a, const C& b, const C& phase,
                                            States& to) const noexcept {
   const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
@@ -339,15 +352,15 @@ GYROSTAT_INLINE void MotionLanes::assemble(int first, const C& a, const C& b, co
     return row(forms_[0][n]) * f[0] + row(forms_[1][n]) * f[1] + row(forms_[2][n]) * f[2] + row(forms_[3][n]) * f[3];
   };
   const Many inverse = 1 / form(0);
-  for (int i = 0; i < 3; ++i) {
-    (form(1 + i) * inverse).to(to.angular_velocity[i] + first);
-    (form(4 + i) * inverse).to(to.angular_momentum[i] + first);
-  }
-  const auto spinor = [&](int i, int j)
-                          GYROSTAT_INLINE_LAMBDA { return C{row(spinor_[i][j][0]), row(spinor_[i][j][1])}; };
-  const C up = (spinor(0, 0) * a + spinor(0, 1) * b) * phase, down = (spinor(1, 0) * a + spinor(1, 1) * b) * phase;
+  Many omega[3], M[3];
+  for (int i = 0; i < 3; ++i) omega[i] = form(1 + i) * inverse, M[i] = form(4 + i) * inverse;
+  to_body(first, omega);
+  to_body(first, M);
+  for (int i = 0; i < 3; ++i) omega[i].to(to.angular_velocity[i] + first), M[i].to(to.angular_momentum[i] + first);
+  const auto [one, two] = spinor(first, a, b);
+  const C up = one * phase, down = two * phase;
   const Many w = up.re, x = down.im, y = -down.re, z = up.im;
-  const Many length = 1 / math::sqrt(w * w + x * x + y * y + z * z);
+  const Many length = math::inverse_sqrt(w * w + x * x + y * y + z * z);
   const Many lw = row(lay_[0]), lx = row(lay_[1]), ly = row(lay_[2]), lz = row(lay_[3]);
   (length * (lw * w - lx * x - ly * y - lz * z)).to(to.attitude[0] + first);
   (length * (lw * x + lx * w + ly * z - lz * y)).to(to.attitude[1] + first);
@@ -424,16 +437,16 @@ void MotionLanes::look(int first, const Many& t, Looks& to) const noexcept {
     Many sum = 0, slope = 0;
     for (int j = 0; j < 4; ++j) sum += math::abs(row(forms_[j][1 + i]) * f[j]), slope += row(forms_[j][4 + i]) * df[j];
     terms += sum * sum;
-    change[i] = pace * (slope - M[i] * growth) * inverse;
+    change[i] = slope;
   }
+  to_body(first, change);
+  for (int i = 0; i < 3; ++i) change[i] = pace * (change[i] - M[i] * growth) * inverse;
   (math::sqrt(terms) * math::abs(inverse)).to(to.rate_terms + first);
 
-  const auto spinor = [&](int i, int j)
-                          GYROSTAT_INLINE_LAMBDA { return C{row(spinor_[i][j][0]), row(spinor_[i][j][1])}; };
   const C kappa{0., row(phase_rate_) / row(rate_)};
-  const C up = spinor(0, 0) * a + spinor(0, 1) * b, down = spinor(1, 0) * a + spinor(1, 1) * b;
-  const C dup = spinor(0, 0) * da + spinor(0, 1) * db + kappa * up,
-          ddown = spinor(1, 0) * da + spinor(1, 1) * db + kappa * down;
+  const auto [up, down] = spinor(first, a, b);
+  const auto [up_slope, down_slope] = spinor(first, da, db);
+  const C dup = up_slope + kappa * up, ddown = down_slope + kappa * down;
   const Many v[3] = {down.im, -down.re, up.im}, dv[3] = {ddown.im, -ddown.re, dup.im};
   const Many turn = 2 * pace / (up.re * up.re + v[0] * v[0] + v[1] * v[1] + v[2] * v[2]), per_R = 1 / row(norm_);
   Many of_momentum = 0, of_attitude = 0;
@@ -489,6 +502,8 @@ inline MotionLanes MotionLanes::spread(int b) const noexcept {
     for (int j = 0; j < 2; ++j)
       for (int part = 0; part < 2; ++part) put(lanes.spinor_[i][j][part], spinor_[i][j][part]);
   for (int i = 0; i < 4; ++i) put(lanes.lay_[i], lay_[i]);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) put(lanes.R_BP_[i][j], R_BP_[i][j]);
   lanes.tame_ = (1u << size) - 1;
   return lanes;
 }
@@ -520,6 +535,8 @@ inline std::optional<MotionLanes> MotionLanes::of(const Motion<double>& motion) 
     }
   const double lay[4] = {motion.lay_.w, motion.lay_.x, motion.lay_.y, motion.lay_.z};
   for (int i = 0; i < 4; ++i) put(lanes.lay_[i], lay[i]);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) put(lanes.R_BP_[i][j], i == j ? 1 : 0);
   lanes.tame_ = (1u << size) - 1;
   return lanes;
 }
