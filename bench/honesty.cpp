@@ -184,7 +184,7 @@ bool true_motion(const Made& made, Answer& answer) {
   const Setup& d = made.setup;
   Problem<Long> problem;
   problem.inverse_inertia = body->inverse_principal();
-  problem.exact_gaps = body->inverse_gaps();
+  problem.gaps = body->inverse_gaps(), problem.exact_moments = true;
   problem.rotor_momentum = back * d.rotor_momentum.cast<Long>();
   problem.control = back * d.control.cast<Long>().asDiagonal() * R;
   problem.drag = d.drag;
@@ -207,7 +207,7 @@ bool true_motion(const Made& made, Answer& answer) {
     State<Long> state = run.at(t);
     const bool rest = state.momentum.isZero(0) || state.momentum == problem.rotor_momentum;
     if (!rest && problem.rotor_momentum.isZero(0)) {
-      const auto p = polhode_through<Long>(problem.inverse_inertia, *problem.exact_gaps, state.momentum);
+      const auto p = polhode_through<Long>(problem.inverse_inertia, *problem.gaps, state.momentum);
       state.k2 = std::isfinite(p.modulus.k2) ? p.modulus.k2 : 0;
     } else if (!rest) {
       const auto orbit = Orbit<Long>::through(problem, state.momentum);

@@ -119,6 +119,7 @@
 #include "gyrostat/ladder/spinning/inputs.hpp"
 #include "gyrostat/ladder/spinning/linear_rung.hpp"
 #include "gyrostat/ladder/spinning/motion.hpp"
+#include "gyrostat/ladder/spinning/neighbour.hpp"
 #include "gyrostat/ladder/spinning/picard_rung.hpp"
 #include "gyrostat/ladder/spinning/scene.hpp"
 #include "gyrostat/ladder/spinning/second_order_rung.hpp"

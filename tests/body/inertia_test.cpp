@@ -140,3 +140,29 @@ TEST_CASE("moments are exact where the body axes are principal") {
   J(0, 1) = J(1, 0) = 1e-9;
   CHECK(!Inertia<double>::from_tensor(J)->has_exact_moments());
 }
+
+TEST_CASE("axes and differences of nearly equal moments are right to their own rounding") {
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> turn(-3, 3), part(0, 1);
+  for (int i = 0; i < 200; ++i) {
+    const double slight = std::pow(10, -5 * part(random)), gap = slight * std::pow(10, -1 - 7 * part(random));
+    const Mat3<double> R = matrix_from_vector<double>({turn(random), turn(random), turn(random)});
+    Mat3<double> J = R * Vec3<double>(2, 2 - gap, slight).asDiagonal() * R.transpose();
+    J = (J + J.transpose()).eval() / 2;
+    const auto inertia = Inertia<double>::from_tensor(J);
+    REQUIRE(inertia);
+    // what axes that are not quite at right angles leave off the diagonal taken away: by how much they are turned
+    const Mat3<DoubleDouble> axes = matrix_cast<DoubleDouble>(inertia->R_BP());
+    const Mat3<DoubleDouble> left = axes.transpose() * matrix_cast<DoubleDouble>(J) * axes;
+    const DoubleDouble skew = axes.col(0).dot(axes.col(1)), apart = left(0, 0) - left(1, 1);
+    const double turned = static_cast<double>((left(0, 1) - (left(0, 0) + left(1, 1)) / 2 * skew) / apart);
+    CAPTURE(gap, slight);
+    CHECK(std::abs(turned) <= 2 * epsilon<double> + 1e-30 / gap);
+    const Vec3<double>& m = inertia->principal();
+    const Vec3<DoubleDouble> truth = -symmetric_eigen<DoubleDouble>(-matrix_cast<DoubleDouble>(J)).values;
+    CHECK(m == vector_cast<double>(truth));
+    const double difference = static_cast<double>(truth[0] - truth[1]);
+    CHECK(inertia->inverse_gaps()[0] * m[0] * m[1] == Approx(difference).epsilon(4 * epsilon<double>));
+    CHECK(difference == Approx(gap).epsilon(1e-14 / gap));
+  }
+}

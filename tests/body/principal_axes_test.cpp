@@ -48,7 +48,7 @@ TEST_CASE("any turn: a proper rotation that gives the tensor back, no axis more 
   for (int i = 0; i < 300; ++i) {
     const Vec3<double> moments = i % 3 == 0 ? Vec3<double>(2, 2, 1) : Vec3<double>(1, 1.4, 2);
     const Mat3<double> J = turned<double>(moments, {part(random), part(random), part(random)});
-    const auto [found, R] = PrincipalAxes<double>::nearest(J);
+    const auto [found, R, gaps] = PrincipalAxes<double>::nearest(J);
     CHECK((R * found.asDiagonal() * R.transpose() - J).norm() <= 1e-14);
     CHECK((R.transpose() * R - Mat3<double>::Identity()).norm() <= 1e-14);
     CHECK(cross<double>(R.col(0), R.col(1)).dot(R.col(2)) > 0);

@@ -5,6 +5,7 @@
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
@@ -29,13 +30,16 @@ class Inertia {
     if (!symmetric) return symmetric.error();
     Inertia inertia;
     inertia.tensor_ = *symmetric;
-    const SymmetricEigen<Scalar> e = symmetric_eigen<Scalar>(-inertia.tensor_);
-    inertia.principal_ = -e.values;
-    inertia.axes_ = e.axes;
-    const Vec3<Scalar>& m = inertia.principal_;
-    if (!(m[2] > 0)) return Errc::not_positive;
-    if (!(m[0] - m[1] <= m[2] + 8 * epsilon<Scalar> * m[0])) return Errc::triangle_inequality;
+    if (inertia.has_exact_moments()) inertia.take(symmetric_eigen<Scalar>(-inertia.tensor_));
+    else inertia.take(symmetric_eigen<Wider<Scalar>>(-matrix_cast<Wider<Scalar>>(inertia.tensor_)));
+    if (const Errc wrong = error_of(inertia.principal_); wrong != Errc::ok) return wrong;
     return inertia;
+  }
+
+  /// What from_tensor has against a tensor.
+  static Errc check_tensor(const Mat3<Scalar>& J_B) noexcept {
+    const Result<Mat3<Scalar>> symmetric = symmetric_part<Scalar>(J_B);
+    return symmetric ? error_of(-symmetric_eigen<Scalar>(-*symmetric).values) : symmetric.error();
   }
 
   /// (A, B, C), descending, kg m^2.
@@ -44,11 +48,11 @@ class Inertia {
   /// (1/A, 1/B, 1/C), ascending, 1/(kg m^2).
   Vec3<Scalar> inverse_principal() const noexcept { return principal_.cwiseInverse(); }
 
-  /// (1/B - 1/A, 1/C - 1/B, 1/C - 1/A), 1/(kg m^2), from the differences of the moments: right to rounding also where two are nearly
-  /// equal.
+  /// (1/B - 1/A, 1/C - 1/B, 1/C - 1/A), 1/(kg m^2), from the differences of the moments: right to rounding of their own also where two are
+  /// nearly equal, if the tensor is exact.
   Vec3<Scalar> inverse_gaps() const noexcept {
     const Scalar A = principal_[0], B = principal_[1], C = principal_[2];
-    return {(A - B) / A / B, (B - C) / B / C, (A - C) / A / C};
+    return {gaps_[0] / A / B, gaps_[1] / B / C, gaps_[2] / A / C};
   }
 
   /// The body axes are principal: the moments are those given, to the last bit.
@@ -62,7 +66,23 @@ class Inertia {
   const Mat3<Scalar>& tensor() const noexcept { return tensor_; }
 
  private:
+  static Errc error_of(const Vec3<Scalar>& moments) noexcept {
+    if (!(moments[2] > 0)) return Errc::not_positive;
+    if (!(moments[0] - moments[1] <= moments[2] + 8 * epsilon<Scalar> * moments[0])) return Errc::triangle_inequality;
+    return Errc::ok;
+  }
+
+  /// Of the negative tensor.
+  template <Real Wide>
+  void take(const SymmetricEigen<Wide>& e) noexcept {
+    principal_ = -vector_cast<Scalar>(e.values);
+    axes_ = matrix_cast<Scalar>(e.axes);
+    gaps_ = {static_cast<Scalar>(e.values[1] - e.values[0]), static_cast<Scalar>(e.values[2] - e.values[1]),
+             static_cast<Scalar>(e.values[2] - e.values[0])};
+  }
+
   Vec3<Scalar> principal_ = Vec3<Scalar>::Ones();
+  Vec3<Scalar> gaps_ = Vec3<Scalar>::Zero();
   Mat3<Scalar> axes_ = Mat3<Scalar>::Identity();
   Mat3<Scalar> tensor_ = Mat3<Scalar>::Identity();
 };

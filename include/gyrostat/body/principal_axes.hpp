@@ -7,6 +7,7 @@
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
@@ -19,34 +20,46 @@ Result<Mat3<Scalar>> symmetric_part(const Mat3<Scalar>& J) noexcept {
   return Mat3<Scalar>((J + J.transpose()) / 2);
 }
 
-/// J = R_BP diag(moments) R_BP^T.
+/// J = R_BP diag(moments) R_BP^T, all to rounding of its own where the tensor is taken to be exact: with the digits of a double alone axes of
+/// nearly equal moments are off by as much as a rounding of the greatest element turns them, and so are the differences of the moments.
 template <Real Scalar>
 struct PrincipalAxes {
   Vec3<Scalar> moments{1, 1, 1};
   Mat3<Scalar> R_BP = Mat3<Scalar>::Identity();  ///< principal axes to body axes, a proper rotation
+  Vec3<Scalar> gaps{0, 0, 0};  ///< the first moment less the second, second less third, first less third
 
   /// Of a tensor in body axes that is symmetric to rounding. The principal axes are the body's where the tensor is diagonal; else those of
   /// its eigenvectors that are nearest, axis by axis, whatever the order of the moments.
-  static PrincipalAxes nearest(const Mat3<Scalar>& J) noexcept {
+  static PrincipalAxes nearest(const Mat3<Scalar>& J) noexcept { return nearest_of(matrix_cast<Wider<Scalar>>(J)); }
+
+  /// The same of one with more digits.
+  static PrincipalAxes nearest_of(const Mat3<Wider<Scalar>>& J) noexcept {
+    using Wide = Wider<Scalar>;
     PrincipalAxes made;
-    made.moments = J.diagonal();
-    if (J(0, 1) == 0 && J(0, 2) == 0 && J(1, 2) == 0) return made;
-    const SymmetricEigen<Scalar> eigen = symmetric_eigen<Scalar>((J + J.transpose()) / 2);
+    if (J(0, 1) == 0 && J(0, 2) == 0 && J(1, 2) == 0) {
+      made.take(J.diagonal());
+      return made;
+    }
+    const SymmetricEigen<Wide> eigen = symmetric_eigen<Wide>((J + J.transpose()) / 2);
+    const Mat3<Scalar> axes = matrix_cast<Scalar>(eigen.axes);
     int order[3] = {0, 1, 2}, best[3] = {0, 1, 2};
     Scalar most = -1;
     for (int i = 0; i < 6; ++i) {
-      const Scalar near =
-          std::abs(eigen.axes(0, order[0])) + std::abs(eigen.axes(1, order[1])) + std::abs(eigen.axes(2, order[2]));
+      const Scalar near = std::abs(axes(0, order[0])) + std::abs(axes(1, order[1])) + std::abs(axes(2, order[2]));
       if (near > most) most = near, std::copy(order, order + 3, best);
       std::next_permutation(order, order + 3);
     }
-    for (int i = 0; i < 3; ++i) {
-      made.moments[i] = eigen.values[best[i]];
-      made.R_BP.col(i) = std::copysign(Scalar(1), eigen.axes(i, best[i])) * eigen.axes.col(best[i]);
-    }
+    for (int i = 0; i < 3; ++i) made.R_BP.col(i) = std::copysign(Scalar(1), axes(i, best[i])) * axes.col(best[i]);
+    made.take({eigen.values[best[0]], eigen.values[best[1]], eigen.values[best[2]]});
     const Vec3<Scalar> first = made.R_BP.col(0), second = made.R_BP.col(1);
     if (cross<Scalar>(first, second).dot(made.R_BP.col(2)) < 0) made.R_BP.col(1) *= -1;
     return made;
+  }
+
+ private:
+  void take(const Vec3<Wider<Scalar>>& J) noexcept {
+    moments = vector_cast<Scalar>(J);
+    gaps = {static_cast<Scalar>(J[0] - J[1]), static_cast<Scalar>(J[1] - J[2]), static_cast<Scalar>(J[0] - J[2])};
   }
 };
 

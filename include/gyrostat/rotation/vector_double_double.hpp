@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <concepts>
+#include <type_traits>
 
 #include "gyrostat/core/double_double.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
@@ -31,6 +33,10 @@ struct Eigen::NumTraits<gyrostat::DoubleDouble> : Eigen::GenericNumTraits<gyrost
 };
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
+
+/// A scalar of more digits for what is to be right to those of Scalar where it cancels: that of double; others have none.
+template <Real Scalar>
+using Wider = std::conditional_t<std::same_as<Scalar, double>, DoubleDouble, Scalar>;
 
 template <Real To, Real From>
 Vec3<To> vector_cast(const Vec3<From>& v) noexcept {

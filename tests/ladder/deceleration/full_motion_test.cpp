@@ -516,19 +516,57 @@ TEST_CASE("companions err less where the way to the stop rules the steps") {
   }
 }
 
+TEST_CASE("a slim tumbler in turned axes errs less than is stated, however near its moments are") {
+  // along the way a rounding of the tensor turns the axes of near moments by far more than itself
+  const Vec3<double> moments[] = {
+      {2.42566864632, 2.425668633113, 6.74e-5}, {3.5e-4, 3.4999e-4, 1.2e-5}, {5, 4.99999, 4}};
+  std::mt19937_64 random(77);
+  std::normal_distribution<double> normal;
+  for (const Vec3<double>& m : moments)
+    for (int k = 0; k < 6; ++k) {
+      const Quat<double> turn =
+          normalised(Quat<double>{normal(random), normal(random), normal(random), normal(random)});
+      const Mat3<double> R = to_matrix(turn);
+      Mat3<double> J = R * m.asDiagonal() * R.transpose();
+      J = (J + J.transpose()).eval() / 2;
+      const Vec3<double> omega = R * Vec3<double>(2e-5, .385, 3e-6);
+      const auto problem_of = [&]<Real S>(S) {
+        const auto body = Inertia<S>::from_tensor(J.cast<S>());
+        REQUIRE(body);
+        Problem<S> p;
+        p.inverse_inertia = body->inverse_principal();
+        p.gaps = body->inverse_gaps();
+        p.control.diagonal().setConstant(S(3e-6 * m[0]));
+        p.momentum = body->R_BP().transpose() * (J.cast<S>() * omega.cast<S>());
+        p.momentum_converted = true;
+        return std::pair(p, Mat3<S>(body->R_BP()));
+      };
+      const auto [mine, axes] = problem_of(0.);
+      const auto [right, right_axes] = problem_of(0.L);
+      const auto solved = solve<double>(mine, {540, 1688}, 1e-9);
+      const auto truth = solve<long double>(right, {540, 1688}, 1e-15L);
+      const Vec3<long double> M = right_axes * truth.momentum[1];
+      const double error = static_cast<double>(
+          (axes.cast<long double>() * solved.momentum[1].cast<long double>() - M).norm() / M.norm());
+      CAPTURE(m, k);
+      CHECK(error <= solved.answer.error[column::angular_momentum]);
+      CHECK(error < 1e-5);
+    }
+}
+
 TEST_CASE("a neighbour keeps what the motion keeps") {
   auto problem = simple();
   const auto moved = [&] { return deceleration::detail::Neighbour<double>(problem, 1e-12, 0).problem; };
-  problem.exact_gaps = problem.inverse_gaps();
+  problem.gaps = problem.inverse_gaps(), problem.exact_moments = true;
   problem.momentum = {0, 2, 0};
   CHECK(moved().momentum[0] == 0);  // a steady rotation
   CHECK(moved().momentum[1] != 2);
   CHECK(moved().momentum[2] == 0);
   problem.momentum = {1, 0, 1};
   CHECK(moved().momentum[1] != 0);  // on its way across
-  problem.exact_gaps->x() = 0;
-  CHECK((*moved().exact_gaps)[0] == 0);  // a body of revolution
-  problem.exact_gaps.reset();
+  problem.gaps->x() = 0;
+  CHECK((*moved().gaps)[0] == 0);  // a body of revolution
+  problem.gaps.reset(), problem.exact_moments = false;
   problem.momentum = {0, 2, 0};
   CHECK(moved().momentum[0] != 0);  // out of a rotation
 }

@@ -40,7 +40,7 @@ inline double rounding_in_double(const Scene& scene) noexcept {
   const double gap = x.axisymmetric() ? x.near_mid : std::min(x.near_mid, x.mid_far);
   const double sphere = problem.inverse_inertia[2] / x.near_far;  // of the set-up
   double data = epsilon<double> * (3 + 3 * std::sqrt(x.near_far / gap) + 4 * sphere);
-  if (!problem.exact_gaps) {
+  if (!problem.exact_moments) {
     const Vec3<double> off = problem.gap_errors();
     const double near_mid = off[x.near / 2] / x.near_mid;
     data += near_mid + p.tilt / p.along * (off[1 - x.near / 2] + x.mid_far * near_mid) / x.near_mid;
@@ -50,7 +50,7 @@ inline double rounding_in_double(const Scene& scene) noexcept {
 
 /// What the angular velocity errs since columns take it from M by moments that come from a tensor and err as the greatest does, rad/s.
 inline double velocity_rounding(const Problem<double>& problem) noexcept {
-  const double slim = problem.exact_gaps ? 1 : problem.inverse_inertia[2] / problem.inverse_inertia[0];
+  const double slim = problem.exact_moments ? 1 : problem.inverse_inertia[2] / problem.inverse_inertia[0];
   return 8 * epsilon<double> * slim * problem.angular_velocity(problem.momentum).norm();
 }
 

@@ -115,7 +115,7 @@ State<Scalar> state_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M, co
 /// A problem that differs from the given one by about `amount`: by what rounding makes of its data. What is zero stays so where the
 /// motion keeps it.
 ///
-/// Where the moments are exact (Problem::exact_gaps) they and their differences change relatively, and the momentum component by component.
+/// Where the moments are exact (Problem::exact_moments) they and their differences change relatively, and the momentum component by component.
 /// Else tensor and vectors come from a rotation, and every component errs as the greatest does: `R` takes the neighbour's principal axes to
 /// those of the given problem.
 template <Real Scalar>
@@ -135,27 +135,32 @@ struct Neighbour {
     const Vec3<Scalar> parts = (of.momentum - l).cwiseAbs() + l.cwiseAbs();
     problem.drag *= 1 + v[0];
     problem.control *= 1 + v[1];
-    if (of.exact_gaps) {
-      const Vec3<Scalar>& gaps = *of.exact_gaps;
+    const Vec3<Scalar> gaps = of.inverse_gaps();
+    if (of.exact_moments) {
       const Vec3<Scalar> moved{gaps[0] * (1 + v[1]), gaps[1] * (1 + v[2]), gaps[0] * (1 + v[1]) + gaps[1] * (1 + v[2])};
       const Scalar first = of.inverse_inertia[0] * (1 + v[0]);
-      problem.exact_gaps = moved;
+      problem.gaps = moved;
       problem.inverse_inertia = {first, first + moved[0], first + moved[2]};
       problem.momentum += v.cwiseProduct(parts.cwiseMax(swing(of)));
       return;
     }
-    Mat3<Scalar> tensor = of.inverse_inertia.cwiseInverse().asDiagonal();
-    const Scalar most = tensor(0, 0);
+    // with all digits of the differences, so that axes of nearly equal moments turn as far as they must
+    using Wide = Wider<Scalar>;
+    const Wide first = of.inverse_inertia[0];
+    const Scalar most = 1 / of.inverse_inertia[0];
+    Mat3<Wide> tensor = Mat3<Wide>::Zero();
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
-      tensor(i, i) += v[i] * most;
+      tensor(i, i) = 1 / (i == 0 ? first : first + gaps[i == 1 ? 0 : 2]) + v[i] * most;
       tensor(j, k) = tensor(k, j) = v[k] * most;
     }
-    const auto axes = PrincipalAxes<Scalar>::nearest(tensor);
-    if (!(axes.moments.minCoeff() > 0)) return;
+    const auto axes = PrincipalAxes<Scalar>::nearest_of(tensor);
+    const Vec3<Scalar>& J = axes.moments;
+    if (!(J.minCoeff() > 0)) return;
     R = axes.R_BP;
     const Mat3<Scalar> back = R.transpose();
-    problem.inverse_inertia = axes.moments.cwiseInverse();
+    problem.inverse_inertia = J.cwiseInverse();
+    problem.gaps = Vec3<Scalar>(axes.gaps[0] / J[0] / J[1], axes.gaps[1] / J[1] / J[2], axes.gaps[2] / J[0] / J[2]);
     problem.rotor_momentum = back * Vec3<Scalar>(l + l.norm() * v);
     problem.control = back * problem.control * R;
     problem.momentum = back * Vec3<Scalar>(of.momentum + of.momentum_terms() * v);
@@ -397,7 +402,7 @@ ColumnErrors<Scalar> rounding_of_columns(const Problem<Scalar>& problem, const C
   const Scalar M = size[column::angular_momentum] + problem.rotor_momentum.norm();
   const Scalar omega = size[column::angular_velocity];
   // moments that come from a tensor err as the greatest does
-  const Scalar slim = problem.exact_gaps ? Scalar(1) : problem.inverse_inertia[2] / problem.inverse_inertia[0];
+  const Scalar slim = problem.exact_moments ? Scalar(1) : problem.inverse_inertia[2] / problem.inverse_inertia[0];
   ColumnErrors<Scalar> error;
   error[column::angular_momentum] = relative * M;
   error[column::angular_velocity] = relative * (M * problem.inverse_inertia[2] + slim * omega);
@@ -405,6 +410,18 @@ ColumnErrors<Scalar> rounding_of_columns(const Problem<Scalar>& problem, const C
   error[column::energy] = relative * M * omega;
   error[column::attitude] = 4 * (relative + epsilon<Scalar> * at_rest);
   return error;
+}
+
+/// How many times over a rounding of the tensor counts in the motion: where a moment is slight, or two are so near that it turns their axes.
+template <Real Scalar>
+Scalar condition_of(const Problem<Scalar>& problem) noexcept {
+  if (problem.exact_moments) return 1;
+  const Vec3<Scalar>& a = problem.inverse_inertia;
+  const Vec3<Scalar> gaps = problem.inverse_gaps();
+  Scalar most = a[2] / a[0];
+  if (gaps[0] > 0) most = std::max(most, a[1] / gaps[0]);
+  if (gaps[1] > 0) most = std::max(most, a[1] * a[2] / a[0] / gaps[1]);
+  return most;
 }
 
 /// The answer's run, its neighbours' side by side, and their distance.
@@ -420,13 +437,12 @@ class FullMotion {
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     const Scalar tight = companion_step(step_tolerance);
-    const Scalar slim = problem_.exact_gaps ? Scalar(1) : problem_.inverse_inertia[2] / problem_.inverse_inertia[0];
-    const Scalar change = data_change(step_tolerance, slim);
+    const Scalar condition = condition_of(problem_), change = data_change(step_tolerance, condition);
     Run course(itself_, attitude_, step_tolerance, Scalar(honesty::reach), options_.step_cap);
     Run companion(Neighbour<Scalar>(problem_, change, 0), attitude_, tight, Scalar(honesty::companion_reach),
                   options_.step_cap);
     std::optional<Run> second;
-    if (rounding_rules(step_tolerance, slim))
+    if (rounding_rules(step_tolerance, condition))
       second.emplace(Neighbour<Scalar>(problem_, change, 1), attitude_, tight, Scalar(honesty::second_reach),
                      options_.step_cap);
     const Runs<Run> runs{course, companion, second ? &*second : nullptr};

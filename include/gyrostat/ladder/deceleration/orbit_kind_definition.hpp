@@ -27,7 +27,7 @@ GYROSTAT_COMPILED_ONCE double k2_of_data(const Problem<double>& problem, const P
   const Vec3<double> error = problem.gap_errors();
   const double near_mid = error[x.near / 2], mid_far = error[1 - x.near / 2];
   double k2 = p.tilt / p.along / x.near_mid * (mid_far + x.mid_far * near_mid / x.near_mid);
-  if (!problem.exact_gaps) {
+  if (!problem.exact_moments) {
     // a tensor that is off by the rounding of its greatest element turns the axes, too: what that does to 2H/M^2
     const double ratio = problem.energy_error(M) / M.squaredNorm();
     k2 += x.mid_far / x.near_mid * ratio / x.near_far / (p.along * p.along);
@@ -87,6 +87,10 @@ GYROSTAT_COMPILED_ONCE double k2_uncertainty(const Problem<double>& problem, con
   for (const double change : {4 * epsilon<double>, -4 * epsilon<double>}) {
     Problem<double> off = problem;
     off.inverse_inertia[1] *= 1 + change;
+    if (!problem.exact_moments) {
+      const double more = change * problem.inverse_inertia[1];
+      off.gaps = problem.inverse_gaps() + Vec3<double>(more, -more, 0);
+    }
     const OrbitKind moved = orbit_kind(off, M);
     most += std::abs(moved.k2 - at.k2);
   }

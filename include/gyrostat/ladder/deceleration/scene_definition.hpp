@@ -25,8 +25,8 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Inertia<double>& body, co
   scene.R_BP_ = body.R_BP();
   const Mat3<double> R_PB = scene.R_BP_.transpose();
   scene.problem_.inverse_inertia = body.inverse_principal();
-  // of a tensor that is not diagonal the moments are rounded, and so are their differences
-  if (body.has_exact_moments()) scene.problem_.exact_gaps = body.inverse_gaps();
+  scene.problem_.gaps = body.inverse_gaps();
+  scene.problem_.exact_moments = body.has_exact_moments();
   scene.problem_.rotor_momentum = R_PB * setup.rotor_momentum;
   scene.problem_.control = R_PB * setup.control.asDiagonal() * scene.R_BP_;
   if (scene.equal_control()) scene.problem_.control = setup.control.asDiagonal();  // in any axes
@@ -35,6 +35,7 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Inertia<double>& body, co
   scene.problem_.drag_law = setup.drag_law;
   scene.problem_.momentum = R_PB * setup.momentum;
   scene.problem_.momentum_converted = setup.angular_velocity && !body.has_exact_moments();
+  if (!body.has_exact_moments()) scene.problem_.make_round();
   return scene;
 }
 

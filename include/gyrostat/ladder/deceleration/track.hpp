@@ -33,7 +33,7 @@ struct Track : Outcome {
     error[column::angular_momentum] = error_of_momentum;
     error[column::angular_velocity] = error_of_momentum * problem.inverse_inertia[2];
     // moments that come from a tensor err as the greatest does
-    if (!problem.exact_gaps)
+    if (!problem.exact_moments)
       error[column::angular_velocity] += 8 * epsilon<double> * problem.inverse_inertia[2] / problem.inverse_inertia[0] *
                                          problem.angular_velocity(problem.momentum).norm();
   }

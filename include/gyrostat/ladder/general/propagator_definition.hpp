@@ -62,7 +62,7 @@ GYROSTAT_COMPILED_ONCE bool Propagator::find_closed_form() const noexcept {
   if (Collected<double>::of(problem_, infinity<double>).steady().sum.any_torque()) return false;
   for (std::size_t i = 0; i < wheels_.count; ++i)
     if (wheels_.laws[i].follows > Follows::constant) return false;
-  return bool(Inertia<double>::from_tensor(wheels_.reduced));
+  return Inertia<double>::check_tensor(wheels_.reduced) == Errc::ok;
 }
 
 GYROSTAT_COMPILED_ONCE Errc Propagator::check_state(double dt, const Moving& state) const noexcept {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "gyrostat/body/principal_axes.hpp"
 #include "gyrostat/ladder/general/recognise.hpp"
 
 namespace gyrostat::general {
@@ -160,11 +161,16 @@ inline const char* as_rotor(const Given& given, std::optional<RotorInstance>& in
   return nullptr;
 }
 
+/// Moments, and the turn from body axes to principal ones.
+struct SpinAxes {
+  Vec3<double> moments;
+  Mat3<double> R_SB;
+};
+
 /// The principal axes of which the given momenta are along one, that one the third; nothing where there is none.
-inline std::optional<Mat3<double>> spin_axes(const Mat3<double>& J, const Vec3<double>& l, const Vec3<double>& charge,
-                                             const Vec3<double>& omega, double* dropped) noexcept {
-  const bool diagonal = J.isDiagonal(0);
-  const Mat3<double> axes = diagonal ? Mat3<double>(Mat3<double>::Identity()) : symmetric_eigen<double>(J).axes;
+inline std::optional<SpinAxes> spin_axes(const Mat3<double>& J, const Vec3<double>& l, const Vec3<double>& charge,
+                                         const Vec3<double>& omega, double* dropped) noexcept {
+  const auto [moments, axes, gaps] = PrincipalAxes<double>::nearest(J);
   int best = -1;
   double most = -1;
   for (int i = 0; i < 3; ++i) {
@@ -174,9 +180,13 @@ inline std::optional<Mat3<double>> spin_axes(const Mat3<double>& J, const Vec3<d
   }
   if (best < 0) return std::nullopt;
   for (const auto& along : {l, charge}) parallel(axes.col(best), along, dropped);
-  Mat3<double> R;
-  for (int row = 0; row < 3; ++row) R.row(row) = axes.col((best + 1 + row) % 3).transpose();
-  return R;
+  SpinAxes made;
+  for (int row = 0; row < 3; ++row) {
+    const int i = (best + 1 + row) % 3;
+    made.moments[row] = moments[i];
+    made.R_SB.row(row) = axes.col(i).transpose();
+  }
+  return made;
 }
 
 inline const char* as_spinning(const Given& given, std::optional<SpinningInstance>& instance, double* dropped) {
@@ -190,11 +200,11 @@ inline const char* as_spinning(const Given& given, std::optional<SpinningInstanc
   const auto axes = spin_axes(wheels.reduced, spinners.kept, loads.charge, problem.angular_velocity, dropped);
   if (!axes) return "momentum of wheels or charge is not along a principal axis";
   SpinningInstance made;
-  made.R_SB = *axes;
+  made.R_SB = axes->R_SB;
   made.q_IS = problem.attitude * conjugate(from_matrix<double>(made.R_SB));
   spinning::Problem<double> p;
-  const Mat3<double> J = made.R_SB * wheels.reduced * made.R_SB.transpose();
-  p.inertia = J.diagonal();
+  p.inertia = axes->moments;
+  p.converted = !wheels.reduced.isDiagonal(0);
   p.mass = problem.mass;
   p.rotor_momentum = made.R_SB.row(2).dot(spinners.kept);
   p.charge_momentum = made.R_SB.row(2).dot(loads.charge);

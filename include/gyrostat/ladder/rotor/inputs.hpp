@@ -39,16 +39,15 @@ inline Result<Scene> scene_of(std::span<const double> numbers, const Question& q
   parts.equatorial_inertia = next.number();
   parts.offset = next.vector();
   if (!is_given(whole)) {
-    const auto carrier = Inertia<double>::from_tensor(parts.carrier_inertia);
-    if (!carrier) return carrier.error();
+    if (const Errc wrong = Inertia<double>::check_tensor(parts.carrier_inertia); wrong != Errc::ok) return wrong;
     const auto together = parts.inertia();
     if (!together) return together.error();
     whole = *together;
   }
-  const auto body = Inertia<double>::from_tensor(whole);
-  if (!body) return body.error();
+  if (const Errc wrong = Inertia<double>::check_tensor(whole); wrong != Errc::ok) return wrong;
   const double slope = next.number(), no_load_rate = next.number();
-  const auto gyrostat = Gyrostat<double>::make(body->tensor(), parts.axis, parts.axial_inertia, slope, no_load_rate);
+  const auto gyrostat =
+      Gyrostat<double>::make(*symmetric_part<double>(whole), parts.axis, parts.axial_inertia, slope, no_load_rate);
   if (!gyrostat) return gyrostat.error();
   Start start;
   start.angular_velocity = next.vector();

@@ -14,6 +14,7 @@
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/spinning/motion.hpp"
+#include "gyrostat/ladder/spinning/neighbour.hpp"
 #include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/spinning/full.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
@@ -124,41 +125,6 @@ class Course {
   SpinAngle<Scalar> angle_;
   bool follows_;
 };
-
-/// Whether the body turns about one principal axis for ever, so that the rates across it stay zero.
-template <Real Scalar>
-bool keeps_axis(const Problem<Scalar>& problem) noexcept {
-  const auto &w = problem.angular_velocity, &M = problem.torque;
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    if (w[i] == 0 && w[j] == 0 && M[i] == 0 && M[j] == 0 && (k == 2 || problem.gyroscopic() == 0)) return true;
-  }
-  return false;
-}
-
-/// A problem that differs from the given one by about `amount`: by what rounding makes of data and arithmetic, which errs by what
-/// the greatest rate, about `rate`, rounds to. What is equal or zero by a symmetry stays so. which: 0 or 1, in another direction.
-template <Real Scalar>
-Problem<Scalar> neighbour(const Problem<Scalar>& of, Scalar rate, Scalar amount, int which) noexcept {
-  const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
-  const Vec3<Scalar> v = amount * (which == 0 ? Vec3<Scalar>(number(0.6L), number(-0.64L), number(0.48L))
-                                              : Vec3<Scalar>(number(-0.48L), number(0.6L), number(0.64L)));
-  const bool symmetric = of.inertia[0] == of.inertia[1], kept = keeps_axis(of);
-  Problem<Scalar> near = of;
-  near.inertia[0] *= 1 + v[0];
-  near.inertia[1] *= 1 + (symmetric ? v[0] : v[1]);
-  near.inertia[2] *= 1 + v[2];
-  // the stiffness is a difference of terms that may nearly cancel
-  near.rotor_momentum *= 1 + v[0];
-  near.charge_momentum *= 1 + v[1];
-  for (int i = 0; i < 3; ++i) {
-    const Scalar part = v[(i + 1) % 3];
-    near.torque[i] *= 1 + part;
-    Scalar& w = near.angular_velocity[i];
-    if (w != 0 || !kept) w += rate * amount / (part > 0 ? 2 : -2);
-  }
-  return near;
-}
 
 template <Real Scalar>
 class FullMotion {

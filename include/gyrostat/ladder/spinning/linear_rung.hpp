@@ -31,8 +31,12 @@ GYROSTAT_COMPILED_ONCE Track given_up(const LinearErrors<double>& error);
 GYROSTAT_COMPILED_ONCE void linear_states(const Problem<double>& problem, std::span<const double> times,
                                           std::span<State<double>> states) noexcept;
 
-/// The track with the stated errors and the domain, where its states are numbers.
-GYROSTAT_COMPILED_ONCE Track judged(Track track, const Scene& scene, const LinearErrors<double>& error);
+/// What the turning of the data into the axes of the spin makes of the linear motion, in the units of the columns.
+GYROSTAT_COMPILED_ONCE ColumnErrors<double> linear_conversion_errors(const Scene& scene);
+
+/// The track with the stated errors and the domain, where its states are numbers. of_data: of the columns, in their units.
+GYROSTAT_COMPILED_ONCE Track judged(Track track, const Scene& scene, const LinearErrors<double>& error,
+                                    const ColumnErrors<double>& of_data);
 
 }  // namespace detail
 

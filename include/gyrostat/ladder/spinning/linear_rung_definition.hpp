@@ -8,8 +8,10 @@
 #include <iterator>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "gyrostat/ladder/spinning/linear_rung.hpp"
+#include "gyrostat/ladder/spinning/neighbour.hpp"
 
 namespace gyrostat::spinning {
 
@@ -65,7 +67,32 @@ GYROSTAT_COMPILED_ONCE Track given_up(const LinearErrors<double>& error) {
   return track;
 }
 
-GYROSTAT_COMPILED_ONCE Track judged(Track track, const Scene& scene, const LinearErrors<double>& error) {
+/// What the turning of the data into the axes of the spin makes of a motion for small tilt, in the units of the columns: two neighbours of it
+/// say it. follow(problem, states): whether the motion is found.
+template <class Follow>
+ColumnErrors<double> conversion_errors(const Scene& scene, Follow&& follow) {
+  const Problem<double>& problem = scene.problem();
+  if (!problem.converted) return {};
+  const double rate = problem.rate_size(scene.question().times.back());
+  std::vector<State<double>> given(scene.question().times.size()), near(given.size());
+  bool found = follow(problem, given);
+  Comparison apart(Row<double>{});
+  for (const int which : {0, 1}) {
+    found = found && follow(neighbour<double>(problem, rate, 4 * epsilon<double>, which), near);
+    for (std::size_t i = 0; i < given.size(); ++i) apart.add(given[i], near[i]);
+  }
+  return found ? apart.difference() : ColumnErrors<double>::all(infinity<double>);
+}
+
+GYROSTAT_COMPILED_ONCE ColumnErrors<double> linear_conversion_errors(const Scene& scene) {
+  return conversion_errors(scene, [&](const Problem<double>& of, std::span<State<double>> states) {
+    linear_states(of, scene.question().times, states);
+    return true;
+  });
+}
+
+GYROSTAT_COMPILED_ONCE Track judged(Track track, const Scene& scene, const LinearErrors<double>& error,
+                                    const ColumnErrors<double>& of_data) {
   const Row<double> row{};
   for (const State<double>& state : track.states) {
     double numbers[row_width(column_kinds)];
@@ -74,8 +101,9 @@ GYROSTAT_COMPILED_ONCE Track judged(Track track, const Scene& scene, const Linea
       return refused<Track>(Errc::not_finite, "the equations for small tilt grow beyond the greatest double");
   }
   const double span = scene.question().times.back();
-  track.error = tilt_errors(scene.problem(), error, track.states, span);
-  track.tilt_error = error.tilt + rounding_of_phases(scene.problem(), span) * error.size.tilt + 8 * epsilon<double>;
+  track.error = tilt_errors(scene.problem(), error, track.states, span, of_data);
+  track.tilt_error = error.tilt + rounding_of_phases(scene.problem(), span) * error.size.tilt + 8 * epsilon<double> +
+                     of_data[column::attitude];
   track.in_domain = holds(error);
   if (!track.in_domain) warn_beyond_validity(track, error);
   return track;
@@ -117,7 +145,12 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
   if (const Errc wrong = advance(question.times, track.states, error); wrong != Errc::ok)
     return refused<Track>(wrong, why(wrong));
   if (gives_up(scene, rung::linear, error)) return given_up(error);
-  return judged(std::move(track), scene, error);
+  const auto of_data = conversion_errors(scene, [&](const Problem<double>& of, std::span<State<double>> states) {
+    const auto made = axial_motion<double>(of, question.times, states, options);
+    if (made) track.counts += made->counts;
+    return made && made->status == ode::Status::reached;
+  });
+  return judged(std::move(track), scene, error, of_data);
 }
 
 }  // namespace detail
@@ -131,7 +164,7 @@ GYROSTAT_COMPILED_ONCE Track linear_track(const Scene& scene, Monitor* monitor) 
   Track track;
   track.states.resize(times.size());
   detail::linear_states(problem, times, track.states);
-  return detail::judged(std::move(track), scene, error);
+  return detail::judged(std::move(track), scene, error, detail::linear_conversion_errors(scene));
 }
 
 }  // namespace gyrostat::spinning

@@ -34,7 +34,7 @@ GYROSTAT_COMPILED_ONCE Track second_order_track(const Scene& scene, Monitor*) {
   } else {
     std::transform(times.begin(), times.end(), track.states.begin(), [&](double t) { return motion.at(t); });
   }
-  return detail::judged(std::move(track), scene, error);
+  return detail::judged(std::move(track), scene, error, detail::linear_conversion_errors(scene));
 }
 
 }  // namespace gyrostat::spinning

@@ -27,10 +27,11 @@ inline double rounding_of_phases(const Problem<double>& problem, double span) no
   return epsilon<double> * (16 + 2 * (std::max(r0, r1) + stiffest) * span);
 }
 
-/// `left_out` (in units of the quantities) and rounding over [0, span], relative to the least greatest norms that the right columns
-/// can have, or to their scales where those are greater. Infinite where a column without a scale may be all error.
+/// `left_out` (in units of the quantities), `of_data` (in units of the columns) and rounding over [0, span], relative to the least greatest
+/// norms that the right columns can have, or to their scales where those are greater. Infinite where a column without a scale may be all error.
 inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const LinearErrors<double>& left_out,
-                                        std::span<const State<double>> states, double span) noexcept {
+                                        std::span<const State<double>> states, double span,
+                                        const ColumnErrors<double>& of_data = {}) noexcept {
   const Row<double> row{scales(problem, span)};
   Comparison sizes(row);
   for (const auto& state : states) sizes.add(state);
@@ -67,6 +68,7 @@ inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const Li
       rounding * (push * once + thrust * span * g) * span;
 
   for (std::size_t i = 0; i < std::size(column_kinds); ++i) {
+    error[i] += of_data[i];
     if (column_kinds[i].measure != Measure::relative || error[i] == 0) continue;
     const double least = std::max(size[i] - error[i], row.scale[i]);
     error[i] = least > 0 ? error[i] / least : infinity<double>;

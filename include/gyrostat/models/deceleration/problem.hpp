@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -19,9 +21,10 @@ enum class Law : std::uint8_t { total, carrier };
 template <Real Scalar>
 struct Problem {
   Vec3<Scalar> inverse_inertia{1, 1, 1};  ///< a = (1/A, 1/B, 1/C), ascending, 1/(kg m^2)
-  /// (a2 - a1, a3 - a2, a3 - a1), 1/(kg m^2), where the moments are exact and the differences so known better than a tells
-  /// (Inertia::inverse_gaps).
-  std::optional<Vec3<Scalar>> exact_gaps{};
+  /// (a2 - a1, a3 - a2, a3 - a1), 1/(kg m^2), where the differences are known better than a tells (Inertia::inverse_gaps).
+  std::optional<Vec3<Scalar>> gaps{};
+  bool exact_moments =
+      false;  ///< the moments are data; else they come from a tensor, whose elements err as the greatest does
   Vec3<Scalar> rotor_momentum{0, 0, 0};  ///< l, constant in the carrier and relative to it, N m s
   Mat3<Scalar> control =
       Mat3<Scalar>::Zero();         ///< eps b: symmetric, diagonal if the actuators lie on principal axes, N m
@@ -34,20 +37,36 @@ struct Problem {
   /// (a2 - a1, a3 - a2, a3 - a1), as well as they are known.
   Vec3<Scalar> inverse_gaps() const noexcept {
     const Vec3<Scalar>& a = inverse_inertia;
-    return exact_gaps ? *exact_gaps : Vec3<Scalar>(a[1] - a[0], a[2] - a[1], a[2] - a[0]);
+    return gaps ? *gaps : Vec3<Scalar>(a[1] - a[0], a[2] - a[1], a[2] - a[0]);
+  }
+
+  /// Of a body in turned axes: moments that agree to some roundings of the greatest are made equal, and a rotor that is on the axis of
+  /// revolution but for some roundings is put there.
+  void make_round() noexcept {
+    Vec3<Scalar>& a = inverse_inertia;
+    Vec3<Scalar> d = inverse_gaps();
+    for (int i = 0; i < 2; ++i) {
+      if (!(d[i] <= 4 * epsilon<Scalar> * a[i] * a[i + 1] / a[0])) continue;
+      a[i] = a[i + 1] = (a[i] + a[i + 1]) / 2;
+      Scalar &l = rotor_momentum[i], &m = rotor_momentum[i + 1];
+      if (std::max(std::abs(l), std::abs(m)) <= 4 * epsilon<Scalar> * rotor_momentum.norm()) l = m = 0;
+      d[i] = 0;
+      d[2] = d[1 - i];
+    }
+    gaps = d;
   }
 
   /// How far off the inverse_gaps may be: by their own rounding where the moments are exact, else by that of the greatest
   /// moment in all of them, 1/(kg m^2).
   Vec3<Scalar> gap_errors() const noexcept {
     const Vec3<Scalar>& a = inverse_inertia;
-    if (exact_gaps) return 2 * epsilon<Scalar> * *exact_gaps;
+    if (exact_moments) return 2 * epsilon<Scalar> * inverse_gaps();
     return 4 * epsilon<Scalar> * Vec3<Scalar>(a[1], a[1] * a[2] / a[0], a[2] * a[2] / a[0]);
   }
 
   /// How far off the carrier energy of M may be because the moments come from a tensor, by the rounding of its greatest element, J.
   Scalar energy_error(const Vec3<Scalar>& M) const noexcept {
-    return exact_gaps ? Scalar(0) : 4 * epsilon<Scalar> / inverse_inertia[0] * angular_velocity(M).squaredNorm();
+    return exact_moments ? Scalar(0) : 4 * epsilon<Scalar> / inverse_inertia[0] * angular_velocity(M).squaredNorm();
   }
 
   /// The size of what M at t = 0 is summed of, and so of its rounding over that of a number, N m s: of a slim body that turns about its

@@ -43,7 +43,7 @@ struct Problem {
     const Scalar length = norm(attitude);
     if (!(length - length == 0)) return Errc::not_finite;
     if (!(abs(length - 1) <= Scalar(1e-8) + 4 * Scalar(epsilon<Tolerance>))) return Errc::out_of_domain;
-    return Inertia<Tolerance>::from_tensor(matrix_cast<Tolerance>(inertia)).error();
+    return Inertia<Tolerance>::check_tensor(matrix_cast<Tolerance>(inertia));
   }
 
   /// M at t = 0, body axes, N m s.

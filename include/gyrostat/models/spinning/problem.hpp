@@ -51,6 +51,7 @@ struct Problem {
   Angles<Scalar> angles;                   ///< at t = 0
   Vec3<Scalar> velocity{0, 0, 0};          ///< at t = 0, inertial, m/s
   Vec3<Scalar> position{0, 0, 0};          ///< at t = 0, inertial, m
+  bool converted = false;  ///< rates and torque were turned into these axes: each component errs as the greatest does
 
   Scalar spin() const noexcept { return angular_velocity[2]; }                     ///< r0, rad/s
   Scalar gyroscopic() const noexcept { return rotor_momentum - charge_momentum; }  ///< Lambda, N m s

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/spinning/neighbour.hpp"
+
+#include "catch.hpp"
+
+namespace neighbour_test {
+
+using namespace gyrostat;
+using spinning::neighbour;
+using Problem = spinning::Problem<double>;
+
+Problem spinner() {
+  Problem p;
+  p.inertia = {2, 2, 3};
+  p.angular_velocity = {0, 0, 4};
+  p.torque = {0, 1e-9, 0};
+  return p;
+}
+
+TEST_CASE("a neighbour of a spinner keeps its symmetry and its axis", "[spinning]") {
+  Problem p = spinner();
+  for (const int which : {0, 1}) {
+    Problem near = neighbour<double>(p, 4, 1e-12, which);
+    CHECK(near.inertia[0] == near.inertia[1]);
+    CHECK(near.inertia[0] != p.inertia[0]);
+    CHECK(near.angular_velocity[0] != 0);  // the torque takes it off the axis
+    p.torque.setZero();
+    near = neighbour<double>(p, 4, 1e-12, which);
+    CHECK((near.angular_velocity[0] == 0 && near.angular_velocity[1] == 0));
+    p = spinner();
+  }
+}
+
+TEST_CASE("what was turned into the axes of the spin errs as its greatest component does", "[spinning]") {
+  Problem p = spinner();
+  p.torque = {1, 1e-9, 0};
+  const double change = 1e-12;
+  for (const bool converted : {false, true}) {
+    p.converted = converted;
+    const auto near = neighbour<double>(p, 4, change, 0);
+    CHECK((std::abs(near.torque[1] - p.torque[1]) > .4 * change) == converted);
+    CHECK((near.torque[2] != 0) == converted);
+    CHECK(std::abs(near.torque[0] - 1) < change);
+  }
+}
+
+}  // namespace neighbour_test
