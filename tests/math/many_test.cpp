@@ -106,7 +106,7 @@ TEST_CASE("elliptic integrals side by side") {
           off[3] = std::max(off[3], std::abs(got.Fp[i] / F(x[i], k2[i]) - 1));
         }
       });
-  for (const double each : off) CHECK(each < 10 * epsilon<double>);
+  for (const double each : off) CHECK(each < 8 * epsilon<double>);
 }
 
 TEST_CASE("amplitudes of a quarter and of nothing side by side") {

@@ -96,13 +96,12 @@ class PencilLanes {
     return {{a[0] * x.x[0] - b[0] * x.x[3], a[1] * x.x[1] - b[1] * x.x[3], a[2] * x.x[2] - b[2] * x.x[3],
              eps * x.x[3] - (b[0] * x.x[0] + b[1] * x.x[1] + b[2] * x.x[2])}};
   }
-  GYROSTAT_INLINE Many4 timelike(int axis = -1) const noexcept {
+  GYROSTAT_INLINE Many4 timelike() const noexcept {
     const Many g = math::sqrt(start.x[0] * start.x[0] + start.x[1] * start.x[1] + start.x[2] * start.x[2]);
     const Many step = math::choose(shifted & (4 * g < 1.), 3 * g, 1.);
     Many4 x;
     for (int i = 0; i < 3; ++i) x.x[i] = -step * d[i];
     x.x[3] = 1;
-    if (axis >= 0) x.x[axis] += step;
     return x;
   }
 };
