@@ -19,6 +19,16 @@
 #include "gyrostat/ladder/deceleration/cvode_motion.hpp"
 #endif
 
+template <>
+decltype(gyrostat::deceleration::Scene::full_equations)
+gyrostat::python::by_cvode<gyrostat::deceleration::Scene>() noexcept {
+#ifdef GYROSTAT_HAVE_CVODE
+  return &deceleration::full_by_cvode;
+#else
+  return nullptr;
+#endif
+}
+
 namespace {
 
 using namespace gyrostat;
@@ -46,11 +56,7 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
   const bool cvode = takes_cvode(tables, integrator, question);
   const EllipticBackend& functions = elliptic_backend(elliptic);
   Scene scene = checked(Scene::make(body(inertia), setup, question));
-#ifdef GYROSTAT_HAVE_CVODE
-  if (cvode) scene.full_equations = &full_by_cvode;
-#else
-  (void)cvode;
-#endif
+  if (cvode) scene.full_equations = by_cvode<Scene>();
 
   Refusal refusal;
   auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return functions.decelerate(scene, refusal, by); });

@@ -21,6 +21,15 @@
 #include "gyrostat/ladder/general/cvode_motion.hpp"
 #endif
 
+template <>
+decltype(gyrostat::general::Scene::full_equations) gyrostat::python::by_cvode<gyrostat::general::Scene>() noexcept {
+#ifdef GYROSTAT_HAVE_CVODE
+  return &general::full_by_cvode;
+#else
+  return nullptr;
+#endif
+}
+
 namespace {
 
 using namespace gyrostat;
@@ -56,11 +65,7 @@ Data solve_scene(const Data& given, const Array& at, double tolerance, const std
   CallerTorque own(torque, scene.wheels().count, clock);
   scene = scene.driven_by(own.law(breakpoints));
   if (integrator == "dop853") scene.full_equations = &general::full_by_dop853;
-#ifdef GYROSTAT_HAVE_CVODE
-  if (cvode) scene.full_equations = &general::full_by_cvode;
-#else
-  (void)cvode;
-#endif
+  if (cvode) scene.full_equations = by_cvode<general::Scene>();
   gyrostat::Refusal why;
   auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return general::solve(scene, why, by); });
   own.raise_what_ended_it();

@@ -17,6 +17,15 @@
 #include "gyrostat/ladder/heavy/cvode_motion.hpp"
 #endif
 
+template <>
+decltype(gyrostat::heavy::Scene::full_equations) gyrostat::python::by_cvode<gyrostat::heavy::Scene>() noexcept {
+#ifdef GYROSTAT_HAVE_CVODE
+  return &heavy::full_by_cvode;
+#else
+  return nullptr;
+#endif
+}
+
 namespace {
 
 using namespace gyrostat;
@@ -34,11 +43,7 @@ Data solve_scene(const Array& inertia, double mass, const Array& centre_of_mass,
   if (!start.oriented && !question.asked.empty() && needs_column(question, tables, column::attitude))
     raise("DomainError", "ask: the attitude follows from that of the start alone: give attitude in place of down");
   Scene scene = checked(Scene::make(heavy_body(inertia, mass, centre_of_mass, gravity, gradient), start, question));
-#ifdef GYROSTAT_HAVE_CVODE
-  if (cvode) scene.full_equations = &full_by_cvode;
-#else
-  (void)cvode;
-#endif
+  if (cvode) scene.full_equations = by_cvode<Scene>();
 
   Refusal refusal;
   auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return solve(scene, refusal, by); });

@@ -46,6 +46,10 @@ inline bool takes_cvode(const Family& family, const std::string& name, Question&
   return name == "cvode";
 }
 
+/// What solves the full equations by CVODE; nullptr where the build has none. Each family has its own, beside its solve_scene.
+template <class Scene>
+decltype(Scene::full_equations) by_cvode() noexcept;
+
 /// What is asked for: name, tolerance (NaN: that of the question), whether it is in the unit, whether a value has to be there. None: the
 /// default of the family.
 using Ask = std::optional<std::vector<std::tuple<std::string, double, bool, bool>>>;

@@ -17,6 +17,15 @@
 #include "gyrostat/ladder/rotor/cvode_motion.hpp"
 #endif
 
+template <>
+decltype(gyrostat::rotor::Scene::full_equations) gyrostat::python::by_cvode<gyrostat::rotor::Scene>() noexcept {
+#ifdef GYROSTAT_HAVE_CVODE
+  return &rotor::full_by_cvode;
+#else
+  return nullptr;
+#endif
+}
+
 namespace {
 
 using namespace gyrostat;
@@ -33,11 +42,7 @@ Data solve_scene(const Array& inertia, const Array& axis, double axial_inertia, 
   Question question = question_of(tables, at, tolerance, model, ask);
   const bool cvode = takes_cvode(tables, integrator, question);
   Scene scene = checked(Scene::make(gyrostat, start, question));
-#ifdef GYROSTAT_HAVE_CVODE
-  if (cvode) scene.full_equations = &full_by_cvode;
-#else
-  (void)cvode;
-#endif
+  if (cvode) scene.full_equations = by_cvode<Scene>();
 
   Refusal refusal;
   auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return solve(scene, refusal, by); });

@@ -23,6 +23,15 @@
 #include "gyrostat/ladder/spinning/cvode_motion.hpp"
 #endif
 
+template <>
+decltype(gyrostat::spinning::Scene::full_equations) gyrostat::python::by_cvode<gyrostat::spinning::Scene>() noexcept {
+#ifdef GYROSTAT_HAVE_CVODE
+  return &spinning::full_by_cvode;
+#else
+  return nullptr;
+#endif
+}
+
 namespace {
 
 using namespace gyrostat;
@@ -35,11 +44,7 @@ Data solve_scene(const SpinningProblems& problems, const Array& at, double toler
   Question question = question_of(tables, at, tolerance, model, ask);
   const bool cvode = takes_cvode(tables, integrator, question);
   Scene scene = checked(Scene::make(problems.single(), question));
-#ifdef GYROSTAT_HAVE_CVODE
-  if (cvode) scene.full_equations = &full_by_cvode;
-#else
-  (void)cvode;
-#endif
+  if (cvode) scene.full_equations = by_cvode<Scene>();
 
   Refusal refusal;
   auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return solve(scene, refusal, by); });

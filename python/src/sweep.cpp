@@ -30,34 +30,26 @@
 #include "gyrostat/ladder/spinning/inputs.hpp"
 #include "gyrostat/ladder/spinning/solve.hpp"
 #include "question_arguments.hpp"
-#ifdef GYROSTAT_HAVE_CVODE
-#include "gyrostat/ladder/deceleration/cvode_motion.hpp"
-#include "gyrostat/ladder/general/cvode_motion.hpp"
-#include "gyrostat/ladder/heavy/cvode_motion.hpp"
-#include "gyrostat/ladder/rotor/cvode_motion.hpp"
-#include "gyrostat/ladder/spinning/cvode_motion.hpp"
-#endif
+
+namespace gyrostat::python {
+
+template <>
+decltype(deceleration::Scene::full_equations) by_cvode<deceleration::Scene>() noexcept;
+template <>
+decltype(rotor::Scene::full_equations) by_cvode<rotor::Scene>() noexcept;
+template <>
+decltype(spinning::Scene::full_equations) by_cvode<spinning::Scene>() noexcept;
+template <>
+decltype(heavy::Scene::full_equations) by_cvode<heavy::Scene>() noexcept;
+template <>
+decltype(general::Scene::full_equations) by_cvode<general::Scene>() noexcept;
+
+}  // namespace gyrostat::python
 
 namespace {
 
 using namespace gyrostat;
 using namespace gyrostat::python;
-
-/// What solves the full equations by CVODE; nullptr where the build has none.
-template <class Scene>
-constexpr decltype(Scene::full_equations) cvode_of = nullptr;
-#ifdef GYROSTAT_HAVE_CVODE
-template <>
-constexpr decltype(deceleration::Scene::full_equations) cvode_of<deceleration::Scene> = &deceleration::full_by_cvode;
-template <>
-constexpr decltype(rotor::Scene::full_equations) cvode_of<rotor::Scene> = &rotor::full_by_cvode;
-template <>
-constexpr decltype(spinning::Scene::full_equations) cvode_of<spinning::Scene> = &spinning::full_by_cvode;
-template <>
-constexpr decltype(heavy::Scene::full_equations) cvode_of<heavy::Scene> = &heavy::full_by_cvode;
-template <>
-constexpr decltype(general::Scene::full_equations) cvode_of<general::Scene> = &general::full_by_cvode;
-#endif
 
 /// The rows that are asked for, apart from the family.
 struct Rows {
@@ -160,7 +152,7 @@ struct Posed {
     if constexpr (requires(Scene s) { s.full_equations; }) {
       if (!cvode || !scene) return scene;
       Scene made = std::move(scene).value();
-      made.full_equations = cvode_of<Scene>;
+      made.full_equations = by_cvode<Scene>();
       return Result<Scene>(std::move(made));
     } else {
       return scene;
