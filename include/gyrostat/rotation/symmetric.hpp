@@ -56,6 +56,7 @@ SymmetricEigen<Scalar> symmetric_eigen(const Mat3<Scalar>& S) noexcept {
 }
 
 #ifdef GYROSTAT_COMPILED
+extern template SymmetricEigen<float> symmetric_eigen<float>(const Mat3<float>&) noexcept;
 extern template SymmetricEigen<double> symmetric_eigen<double>(const Mat3<double>&) noexcept;
 extern template SymmetricEigen<long double> symmetric_eigen<long double>(const Mat3<long double>&) noexcept;
 #endif
