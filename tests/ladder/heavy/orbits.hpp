@@ -15,10 +15,10 @@ template <Real S>
 State<S> later(const Problem<S>& problem, const State<S>& start, S t) {
   using System = FullSystem<S>;
   const System system(problem, start);
-  typename ode::Taylor<System, 16>::Options options;
+  typename ode::Taylor<System>::Options options;
   options.tolerance = epsilon<S> / 16;
   options.scale = system.scale();
-  ode::Taylor<System, 16> solver(system, 0, system.start(), options);
+  ode::Taylor<System> solver(system, 0, system.start(), options);
   CHECK(solver.advance(t) == ode::Status::reached);
   return system.state(solver.state());
 }
