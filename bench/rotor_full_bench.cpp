@@ -112,9 +112,9 @@ struct Equations {
   double lambda, slope, no_load_rate;
 
   explicit Equations(const Gyrostat<double>& g)
-      : a(g.free_principal().cwiseInverse()),
-        e(g.R_BF().transpose() * g.axis()),
-        L(g.R_BF().transpose() * start(g).momentum),
+      : a(g.free_axes().moments.cwiseInverse()),
+        e(g.free_axes().R_BP.transpose() * g.axis()),
+        L(g.free_axes().R_BP.transpose() * start(g).momentum),
         lambda(g.axial_inertia()),
         slope(g.slope()),
         no_load_rate(g.no_load_rate()) {}
@@ -153,7 +153,7 @@ void dop853(benchmark::State& state) {
                                                         control);
     solver.advance(end_time);
     const auto& y = solver.state();
-    const Quat<double> q_BF = from_matrix<double>(gyrostat.R_BF());
+    const Quat<double> q_BF = from_matrix<double>(gyrostat.free_axes().R_BP);
     return normalised(q_BF * Quat<double>{y[0], y[1], y[2], y[3]} * conjugate(q_BF));
   });
 }

@@ -96,8 +96,8 @@ TEMPLATE_TEST_CASE("the first coefficients are the rates of the model", "", floa
   batch.system().expand(unit, x, work);
   for (int b = 0; b < 8; ++b) {
     const State<S> rate = state_rate(body[b], start[b]);
-    const Quat<S> q = rate.attitude * from_matrix<S>(body[b].R_BF());
-    const Vec3<S> H = body[b].R_BF().transpose() * rate.momentum;
+    const Quat<S> q = rate.attitude * from_matrix<S>(body[b].free_axes().R_BP);
+    const Vec3<S> H = body[b].free_axes().R_BP.transpose() * rate.momentum;
     const S expected[9] = {
         q.w, q.x, q.y, q.z, H[0], H[1], H[2], rate.axial_momentum, rate.rotor_angle - body[b].no_load_rate()};
     const S size = start[b].momentum.norm() + std::abs(start[b].axial_momentum) + 1;

@@ -143,7 +143,8 @@ class FullSystem {
     return {G.dot(a_.cwiseProduct(G)) / 2, lambda_ * y * y / 2};
   }
 
-  Vec3<Scalar> a_, e_, g_;  ///< 1/R, e and R^-1 e in principal axes of R
+  Vec3<Scalar> a_, e_, g_;    ///< 1/R, e and R^-1 e in principal axes of R
+  Vec3<Scalar> differences_;  ///< (a_3 - a_2, a_1 - a_3, a_2 - a_1), from those of the moments
   Scalar lambda_, slope_, no_load_rate_, relaxation_rate_, rotor_inverse_;
   Quat<Scalar> q_BF_;
   Vec3<Scalar> L_I_;
@@ -154,17 +155,19 @@ class FullSystem {
 
 template <Real Real_>
 FullSystem<Real_>::FullSystem(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept
-    : a_(gyrostat.free_principal().cwiseInverse()),
-      lambda_(gyrostat.axial_inertia()),
+    : lambda_(gyrostat.axial_inertia()),
       slope_(gyrostat.slope()),
       no_load_rate_(gyrostat.no_load_rate()),
-      relaxation_rate_(gyrostat.relaxation_rate()),
-      rotor_inverse_(1 / (gyrostat.axial_inertia() * gyrostat.coupling())),
-      q_BF_(from_matrix<Scalar>(gyrostat.R_BF())),
       L_I_(rotate<Scalar>(normalised(start.attitude), start.momentum)),
       angle_(start.rotor_angle) {
-  e_ = gyrostat.R_BF().transpose() * gyrostat.axis();
+  const PrincipalAxes<Scalar> free = gyrostat.free_axes();
+  a_ = free.moments.cwiseInverse();
+  differences_ = {free.gaps[1] * a_[1] * a_[2], -free.gaps[2] * a_[2] * a_[0], free.gaps[0] * a_[0] * a_[1]};
+  q_BF_ = from_matrix<Scalar>(free.R_BP);
+  e_ = free.R_BP.transpose() * gyrostat.axis();
   g_ = a_.cwiseProduct(e_);
+  rotor_inverse_ = 1 / lambda_ + e_.dot(g_);
+  relaxation_rate_ = slope_ * rotor_inverse_;
   const Quat<Scalar> q = normalised(start.attitude) * q_BF_;
   const Vec3<Scalar> H = rotate<Scalar>(conjugate(q_BF_), start.momentum);
   start_ = {q.w, q.x, q.y, q.z, H[0], H[1], H[2], start.axial_momentum, 0, 0, 0, 0};
@@ -187,7 +190,7 @@ auto FullSystem<Real_>::scale() const noexcept -> Numbers {
   // where nothing moves any scale will do, but zero would leave the component out
   const auto positive = [](Scalar size) noexcept { return size > 0 ? size : Scalar(1); };
   const Scalar h = positive(l + wheel), p = positive(std::min(l, lambda_ * a_.maxCoeff() * l) + wheel);
-  return {1, 1, 1, 1, h, h, h, p, 0, 0, 0, std::min(positive(level_), h * h * a_[2])};
+  return {1, 1, 1, 1, h, h, h, p, 0, 0, 0, std::min(positive(level_), h * h * a_.maxCoeff())};
 }
 
 template <Real Real_>
@@ -234,7 +237,7 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
   const Scalar* H = &x[0][4];
   const Scalar p = x[0][7];
   const Vec3<Scalar> g = unit * g_;
-  const Vec3<Scalar> quadratic = unit * Vec3<Scalar>(a_[2] - a_[1], a_[0] - a_[2], a_[1] - a_[0]);
+  const Vec3<Scalar> quadratic = unit * differences_;
   const Scalar half = unit / 2, slope = unit * slope_;
 
   Constants c;

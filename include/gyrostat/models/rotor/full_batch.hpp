@@ -39,18 +39,19 @@ class FullBatch {
 
   /// The constants of problem b, and those that its projection keeps.
   void set(int b, const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept {
-    const Vec3<Scalar> e = gyrostat.R_BF().transpose() * gyrostat.axis();
+    const PrincipalAxes<Scalar> free = gyrostat.free_axes();
+    const Vec3<Scalar> e = free.R_BP.transpose() * gyrostat.axis();
     const Vec3<Scalar> L = rotate<Scalar>(normalised(start.attitude), start.momentum);
     for (int i = 0; i < 3; ++i) {
-      inverse_[i][b] = 1 / gyrostat.free_principal()[i];
+      inverse_[i][b] = 1 / free.moments[i];
       pull_[i][b] = inverse_[i][b] * e[i];
       momentum_[i][b] = L[i];
     }
-    rotor_inverse_[b] = 1 / (gyrostat.axial_inertia() * gyrostat.coupling());
+    rotor_inverse_[b] = 1 / gyrostat.axial_inertia() + e.dot(free.moments.cwiseInverse().cwiseProduct(e));
     no_load_rate_[b] = gyrostat.no_load_rate();
     slope_[b] = gyrostat.slope();
     const auto at = static_cast<std::size_t>(b);
-    q_BF_[at] = from_matrix<Scalar>(gyrostat.R_BF());
+    q_BF_[at] = from_matrix<Scalar>(free.R_BP);
     angle_[at] = start.rotor_angle;
     const Quat<Scalar> q = normalised(start.attitude) * q_BF_[at];
     const Vec3<Scalar> H = rotate<Scalar>(conjugate(q_BF_[at]), start.momentum);

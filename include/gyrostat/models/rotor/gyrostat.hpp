@@ -61,7 +61,6 @@ class Gyrostat {
     made.principal_ = whole.values;
     made.R_BP_ = whole.axes;
     made.free_principal_ = free.values;
-    made.R_BF_ = free.axes;
     made.inverse_ = whole.axes * whole.values.cwiseInverse().asDiagonal() * whole.axes.transpose();
     made.free_inverse_ = free.axes * free.values.cwiseInverse().asDiagonal() * free.axes.transpose();
     // k = 1 - lambda e.J e without the cancellation
@@ -76,7 +75,12 @@ class Gyrostat {
   const Vec3<Scalar>& principal() const noexcept { return principal_; }  ///< of theta, ascending, kg m^2
   const Mat3<Scalar>& R_BP() const noexcept { return R_BP_; }            ///< principal axes of theta to body axes
   const Vec3<Scalar>& free_principal() const noexcept { return free_principal_; }  ///< of R, ascending, kg m^2
-  const Mat3<Scalar>& R_BF() const noexcept { return R_BF_; }                      ///< principal axes of R to body axes
+  /// The principal axes and moments of R, to rounding of their own; found anew in each call, some 2 us where R is not diagonal.
+  PrincipalAxes<Scalar> free_axes() const noexcept {
+    using Wide = Wider<Scalar>;
+    const Vec3<Wide> e = vector_cast<Wide>(axis());
+    return PrincipalAxes<Scalar>::nearest_of(matrix_cast<Wide>(inertia_) - Wide(axial_inertia()) * e * e.transpose());
+  }
 
   const Vec3<Scalar>& axis() const noexcept { return rotor_.axis(); }       ///< e
   Scalar axial_inertia() const noexcept { return rotor_.axial_inertia(); }  ///< lambda, kg m^2
@@ -141,7 +145,7 @@ class Gyrostat {
   struct Unset {};
   explicit Gyrostat(Unset) noexcept {}
 
-  Mat3<Scalar> inertia_, inverse_, free_inverse_, R_BP_, R_BF_;
+  Mat3<Scalar> inertia_, inverse_, free_inverse_, R_BP_;
   Vec3<Scalar> principal_, free_principal_;
   Rotor<Scalar> rotor_;
   Scalar slope_, no_load_rate_, coupling_;

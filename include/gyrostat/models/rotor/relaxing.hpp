@@ -25,15 +25,16 @@ class RelaxingRotor {
 
   /// start: gives the angular momentum in inertial axes, which stays.
   RelaxingRotor(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept
-      : R_BF_(gyrostat.R_BF()),
-        q_BF_(from_matrix<Scalar>(gyrostat.R_BF())),
-        momentum_I_(rotate(normalised(start.attitude), start.momentum)),
+      : momentum_I_(rotate(normalised(start.attitude), start.momentum)),
         rate_(gyrostat.relaxation_rate()),
         drive_(gyrostat.slope() * gyrostat.no_load_rate()),
         per_axial_inertia_(1 / gyrostat.axial_inertia()) {
+    const PrincipalAxes<Scalar> free = gyrostat.free_axes();
+    R_BF_ = free.R_BP;
+    q_BF_ = from_matrix<Scalar>(R_BF_);
     const Vec3<Scalar> e = R_BF_.transpose() * gyrostat.axis();
     for (int i = 0; i < 3; ++i) {
-      inverse_[i] = 1 / gyrostat.free_principal()[i];
+      inverse_[i] = 1 / free.moments[i];
       axis_[i] = e[i];
       source_[i] = gyrostat.slope() * inverse_[i] * e[i];
     }
