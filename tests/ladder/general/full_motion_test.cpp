@@ -293,6 +293,29 @@ TEST_CASE("the edge of a brake: 8 roundings over are held, 9 not followed, a tho
   REQUIRE(leaves.answer.status == Status::reached);
   CHECK(leaves.answer.met);
   CHECK(leaves.states[1].angular_momentum[2] == Approx(0.1 * 1e-3 * 100).epsilon(1e-9));
+  CHECK(leaves.answer.counts.steps <
+        40'000);  // steps are no longer than some of the times in which its direction settles
+}
+
+TEST_CASE("steps that lengthen with what a brake opposes do not jump over the stop where it shrinks again",
+          "[general]") {
+  for (const double span : {1e-3, 1.0, 1e4}) {
+    auto p = braked(0.1);
+    const double first = 1e-6 * span;
+    p.angular_velocity = {0, 0, first / 1.5};
+    auto& push = p.torques.emplace_back();
+    push.vector = {0, 0, 0.25};
+    push.factor.table = {{0, 0.65 * span}, {1, -0.3}, Between::linear, true};
+    // d|M|/dt = 0.15 - 0.5 t/span, from the first on
+    const double stop = (0.15 + std::sqrt(0.0225 + first / span)) * 2 * span;
+    const auto made = run(p, {0.3 * span, 0.64 * span}, 1e-9);
+    CAPTURE(span, stop, made.answer.stop, made.answer.stop_off, made.answer.counts.steps);
+    REQUIRE(made.answer.status == Status::reached);
+    REQUIRE(made.answer.rests.size() == 1);
+    CHECK(std::abs(made.answer.stop - stop) <= made.answer.stop_off + 4 * epsilon<double> * stop);
+    CHECK(made.states[0].angular_momentum[2] == Approx(first + 0.0225 * span).epsilon(1e-9));
+    CHECK(made.states[1].angular_velocity.isZero(0));
+  }
 }
 
 TEST_CASE("stated errors hold before a stop, of its time, and behind it", "[general]") {

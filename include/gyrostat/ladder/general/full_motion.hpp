@@ -307,14 +307,24 @@ class FullCourse {
     if (!(time_ > piece_.from)) until = std::min(until, piece_.from + share_ * (piece_.to - piece_.from));
     const Scalar before = system_->has_brake() ? system_->braked(time_, solver_->state()) : infinity<Scalar>;
     // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
-    if (before < infinity<Scalar>)
-      until = std::min(
-          until, time_ + (1 + share_) * before / (4 * std::min(bound_, system_->torque(time_, solver_->state()))));
+    const Scalar sound =
+        before < infinity<Scalar>
+            ? time_ + (1 + share_) * before / (4 * std::min(bound_, system_->torque(time_, solver_->state())))
+            : infinity<Scalar>;
     // and where the time cannot tell the rest of it
-    if (!(until > time_)) return come_to_stop(time_);
+    if (!(std::min(until, sound) > time_)) return come_to_stop(time_);
+    const Scalar bold = std::max(sound, time_ + std::min(doubling(before), steady_ * (sound - time_)));
     greatest_ = before < infinity<Scalar> ? std::max(greatest_, before) : greatest_;
+    braked_ = before;
     const Vec3<Scalar> heading = System::turned(solver_->state());
-    const ode::Status status = solver_->step(until);
+    Numbers from;
+    if (bold > sound) from = numbers_now();
+    ode::Status status = solver_->step(std::min(until, bold));
+    if constexpr (rests_through)
+      if (status == ode::Status::reached && solver_->time() > sound && !keeps_on(from)) {
+        solver_->restart(time_, from);
+        status = solver_->step(std::min(until, sound));
+      }
     if (status != ode::Status::reached) return status;
     previous_ = solver_->previous_time(), time_ = solver_->time();
     const Scalar rate = (System::turned(solver_->state()) - heading).norm() / (time_ - previous_);
@@ -325,6 +335,29 @@ class FullCourse {
     if (before < infinity<Scalar>)
       if (const Scalar stop = stop_time(before); stop < infinity<Scalar>) return come_to_stop(stop);
     return ode::Status::reached;
+  }
+
+  /// In what time what brakes oppose, `now`, doubles, if it goes on to grow as it did in the last step; else 0. Taylor series alone step so far.
+  Scalar doubling(Scalar now) const noexcept {
+    if (!rests_through || !(now < infinity<Scalar> && braked_ > 0 && now > braked_)) return 0;
+    return (1 + share_) / 2 * now * ((time_ - previous_) / (now - braked_));
+  }
+  /// Whether what brakes oppose points, in inertial axes, much as it did where the last step began, from these numbers: it has not passed zero.
+  bool keeps_on(const Numbers& from) const noexcept {
+    const State<Scalar> old = system_->state(time_, from.data());
+    const State<Scalar> now = system_->state(solver_->time(), solver_->state());
+    const auto alike = [&](const Vec3<Scalar>& u, const Vec3<Scalar>& v) noexcept {
+      const Scalar along = rotate<Scalar>(old.attitude, u).dot(rotate<Scalar>(now.attitude, v));
+      return 2 * along > u.norm() * v.norm();
+    };
+    const Mat3<Scalar>& J = of_.wheels.whole;
+    return alike(old.angular_momentum, now.angular_momentum) &&
+           alike(J * old.angular_velocity, J * now.angular_velocity);
+  }
+  Numbers numbers_now() const noexcept {
+    Numbers x;
+    std::copy_n(solver_->state(), x.size(), x.begin());
+    return x;
   }
 
   /// The piece behind this one, where it ends with the last step.
@@ -358,7 +391,7 @@ class FullCourse {
     system_.emplace(of_, piece_, numbers);
     options_.scale = system_->scale();
     time_ = previous_ = t;
-    greatest_ = 0;
+    greatest_ = braked_ = 0;
     bound_ = torque_of_piece();
     if (system_->has_brake() && !(system_->braked(t, numbers.data()) > 0)) stop(t, numbers, rested);
     else begin(t, numbers);
@@ -437,8 +470,7 @@ class FullCourse {
   }
   /// The motion has come to a stop, but for what no step can tell.
   ode::Status come_to_stop(Scalar when) noexcept {
-    Numbers x;
-    std::copy_n(solver_->state(), x.size(), x.begin());
+    const Numbers x = numbers_now();
     at_stop_ = stoppable(of_, piece_);
     if (at_stop_ == AtStop::rests) {
       leaving_.reset();
@@ -472,6 +504,9 @@ class FullCourse {
     return pace_.is_hopeless(solver_->counts().steps, time(), last_, options_.step_cap);
   }
   static constexpr Scalar nearly_ = Scalar(1e-6L);
+  /// By how much steps may be longer than what excludes a stop: what lies across the direction of a departure decays with brake over momentum,
+  /// and a step over more than some 8 of its times would let it grow.
+  static constexpr Scalar steady_ = 24;
   /// Share of its time to which a stop is found; float cannot resolve 1e-13.
   static constexpr Scalar precision_ = Scalar(1e-13L) * std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
   Prepared<Scalar> of_;
@@ -487,6 +522,7 @@ class FullCourse {
   std::optional<Solver> solver_;
   ode::Counts counts_;
   Scalar greatest_ = 0, bound_ = infinity<Scalar>, slipped_ = 0, slipped_angle_ = 0;
+  Scalar braked_ = 0;  ///< what brakes opposed where the last step began, in the same piece
   AtStop at_stop_ = AtStop::rests;
   std::optional<Rest> rest_;
   std::optional<Leaving> leaving_;
