@@ -62,6 +62,14 @@ class Inertia {
   /// diagonal tensors a signed permutation, exact, and the identity where they already descend.
   const Mat3<Scalar>& R_BP() const noexcept { return axes_; }
 
+  /// Principal components of a vector in body axes, by axes that are right to twice the digits: R_BP rounded turns what is great into what is
+  /// little, as into the momentum of a slim body across its axis.
+  Vec3<Wider<Scalar>> in_principal_axes(const Vec3<Wider<Scalar>>& v_B) const noexcept {
+    using Wide = Wider<Scalar>;
+    const Mat3<Wide> R_PB = (matrix_cast<Wide>(axes_) + matrix_cast<Wide>(axes_low_)).transpose();
+    return R_PB * v_B;
+  }
+
   /// J in body axes.
   const Mat3<Scalar>& tensor() const noexcept { return tensor_; }
 
@@ -77,13 +85,14 @@ class Inertia {
   void take(const SymmetricEigen<Wide>& e) noexcept {
     principal_ = -vector_cast<Scalar>(e.values);
     axes_ = matrix_cast<Scalar>(e.axes);
+    axes_low_ = matrix_cast<Scalar, Wide>(e.axes - matrix_cast<Wide>(axes_));
     gaps_ = {static_cast<Scalar>(e.values[1] - e.values[0]), static_cast<Scalar>(e.values[2] - e.values[1]),
              static_cast<Scalar>(e.values[2] - e.values[0])};
   }
 
   Vec3<Scalar> principal_ = Vec3<Scalar>::Ones();
   Vec3<Scalar> gaps_ = Vec3<Scalar>::Zero();
-  Mat3<Scalar> axes_ = Mat3<Scalar>::Identity();
+  Mat3<Scalar> axes_ = Mat3<Scalar>::Identity(), axes_low_ = Mat3<Scalar>::Zero();
   Mat3<Scalar> tensor_ = Mat3<Scalar>::Identity();
 };
 

@@ -247,8 +247,8 @@ TEST_CASE("the first row is the start as it was given, to the bit", "[decelerati
       J << 1.4, .1, .02, .1, 1, .05, .02, .05, .7;
       Asked data = Case(1e-4, 3000).data;
       data.rotor_momentum = l * V(1, 2, -1);
-      data.momentum = V(.8, .5, .33);
-      data.angular_velocity = V(.1, .2, .3);  // as given, whatever follows from the momentum
+      data.angular_velocity = V(.51, .47, .33);  // as given, not as the momentum in principal axes makes it again
+      data.momentum = J * *data.angular_velocity + data.rotor_momentum;
       data.attitude = {.5, .5, .5, -.5};
       data.wants_attitude = rung == rung::full;
       data.times.insert(data.times.begin(), 0);

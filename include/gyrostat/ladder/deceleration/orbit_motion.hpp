@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "gyrostat/math/root.hpp"
+#include "gyrostat/models/deceleration/capture.hpp"
 #include "gyrostat/models/deceleration/orbit_second_order.hpp"
 #include "gyrostat/ode/runge_kutta.hpp"
 
@@ -108,6 +110,14 @@ struct SecondOrderRates {
   }
 };
 
+/// The energy over those whose difference it is, where rotors hold most of them, but no less than a thousandth: the mean equations are
+/// integrated to so much of a tolerance, for what is slow at a low energy changes with R and eta by so much more.
+template <Real Scalar>
+Scalar energy_share(const Problem<Scalar>& problem, const Level<Scalar>& level) noexcept {
+  const Scalar whole = level.R * (problem.inverse_inertia[2] * level.R + problem.gyro_rate().norm());
+  return whole > 0 ? std::clamp(2 * energy_of(problem, level) / whole, Scalar(1e-3L), Scalar(1)) : Scalar(1);
+}
+
 /// Advances mean equations over free orbits forward in time. No heap, no throw, at most Rates::step_cap
 /// steps. A motion whose
 /// further way the averages do not determine (capture from one component into one of two lobes) ends with
@@ -181,6 +191,8 @@ class OrbitMotion {
   Component last_component() const noexcept { return component_; }
   const Rates& rates() const noexcept { return solver_.rhs().rates; }
   bool changed_component() const noexcept { return changed_; }
+  /// Behind a failure `undetermined` on a separatrix: the chance of the likelier way on; else NaN.
+  Scalar chance() const noexcept { return chance_; }
   const ode::Counts& counts() const noexcept { return solver_.counts(); }
 
  private:
@@ -194,7 +206,8 @@ class OrbitMotion {
     const Scalar swing = problem.inverse_inertia[2] * start.R + problem.gyro_rate().norm();
     const Scalar b = problem.control.diagonal().maxCoeff();
     const Scalar fading = problem.drag + (b > 0 ? b / start.R : Scalar(0));
-    control.absolute = {tolerance, tolerance * swing, fading > 0 ? tolerance / fading : infinity<Scalar>, phase_error};
+    const Scalar local = tolerance * energy_share(problem, start);
+    control.absolute = {local, local * swing, fading > 0 ? tolerance / fading : infinity<Scalar>, phase_error};
     control.first_step = Scalar(.02);
     control.longest_step = Rates::longest_step;
     control.step_cap = Rates::step_cap;
@@ -209,9 +222,12 @@ class OrbitMotion {
     const Level<Scalar> at = solver_.rhs().level(solver_.state());
     const auto orbit = Orbit<Scalar>::at(solver_.rhs().problem, at, component_);
     if (orbit) {
-      const Component now = orbit->component();
+      Component now = orbit->component();
       const bool to_point = now.regime == Regime::point || component_.regime == Regime::point;
-      changed_ = changed_ || (!to_point && (now.regime != component_.regime || now.branch != component_.branch));
+      if (!to_point && (now.regime != component_.regime || now.branch != component_.branch)) {
+        changed_ = true;
+        if (!cross(at.R, now)) return ode::Status::event;
+      }
       component_ = now;
       solver_.rhs().rates.accept(solver_.rhs().problem, at, now);
     }
@@ -223,6 +239,22 @@ class OrbitMotion {
                              : Scalar(0);
     at_rest_ = opposed() <= std::max(Scalar(1e-8) * start_opposed_, floor);
     return ode::Status::reached;
+  }
+
+  /// Takes the motion over a separatrix, where the last step found `now` behind it: into the lobe, or outside, where all motions go. False where
+  /// they part.
+  bool cross(Scalar R, Component& now) noexcept {
+    const auto& problem = solver_.rhs().problem;
+    if (problem.rotor_momentum.isZero(0)) return true;  // lobes mirror each other
+    const Regime lobes = now.regime == Regime::one_component ? component_.regime : now.regime;
+    const auto next = capture(problem, R, lobes, component_);
+    if (next && next->determined()) {
+      now = next->outside == 1 ? Component{} : Component{lobes, next->plus == 1 ? 1 : -1};
+      return true;
+    }
+    solver_.rhs().failure = next ? Errc::undetermined : Errc::separatrix;
+    if (next) chance_ = std::max({next->plus, next->minus, next->outside});
+    return false;
   }
 
   /// Time from the end of the last step to the stop, with |U| falling at its present mean rate.
@@ -247,7 +279,7 @@ class OrbitMotion {
   Scalar start_opposed_;
   ode::RungeKutta<Scalar, 4, Equations> solver_;
   Component component_;
-  Scalar now_ = 0;
+  Scalar now_ = 0, chance_ = nan<Scalar>;
   bool at_rest_ = false, changed_ = false, floored_ = false;
 };
 

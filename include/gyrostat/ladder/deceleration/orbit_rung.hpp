@@ -48,6 +48,7 @@ class OrbitError {
     keep(second_.energy, std::max(s->second_oscillation.h, s->oscillation.h * shift));
     keep(first_.k2, k2_swing(*s, level, component, s->oscillation.R, s->oscillation.eta));
     keep(second_.k2, k2_swing(*s, level, component, s->second_oscillation.R, s->second_oscillation.eta));
+    if (!(t > 0)) unclear_ = !(k2_swing(*s, level, component, 2 * s->oscillation.R, 2 * s->oscillation.eta) < 1);
     const double size = std::sqrt(std::max(0.0, transverse(*s)));
     keep(second_.vector, 2 * pi<double> * size * s->phase_oscillation);
     keep(change_, s->phase_oscillation);
@@ -56,6 +57,8 @@ class OrbitError {
   /// False where some level had no second order: the errors below are then not bounds.
   bool known() const noexcept { return known_; }
   double phase_oscillation() const noexcept { return change_; }
+  /// Whether the oscillation at the start leads over a separatrix: then the mean motion may begin on its other side, and lead elsewhere.
+  bool start_is_unclear() const noexcept { return unclear_; }
 
   SlowError<double> first_order() const noexcept {
     const double f = first_factor;
@@ -118,7 +121,7 @@ class OrbitError {
   const Problem<double>& problem_;
   SlowError<double> first_{}, second_{};
   double drift_R_ = 0, drift_h_ = 0, last_ = 0, last_opposed_ = 0, change_ = 0;
-  bool known_ = true;
+  bool known_ = true, unclear_ = false;
 };
 
 namespace detail {
@@ -153,6 +156,7 @@ GYROSTAT_COMPILED_ONCE Impasse impasse(const Problem<double>& problem, const Lev
 
 template <class Motion>
 Impasse impasse(const Problem<double>& problem, const Motion& motion) {
+  if (motion.chance() == motion.chance()) return {Errc::undetermined, motion.chance()};
   return impasse(problem, motion.last_level(), motion.last_component(), motion.failure());
 }
 
@@ -223,6 +227,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   };
   OrbitMotion<FirstOrderRates<Elliptic>, double> motion(problem, orbit->level(), orbit->component(), 0,
                                                         mean_tolerance(scene), infinity<double>);
+  visit(orbit->level(), orbit->component(), 0);
   for (const double t : scene.question().times) {
     if (motion.advance(t, 0, visit) != ode::Status::reached)
       return detail::refused(detail::not_followed(detail::impasse(problem, motion).code));
@@ -265,7 +270,9 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   }
   if (end >= track.stop_time || motion.changed_component()) track.error[column::modulus_squared] = 1;
   if (motion.changed_component()) track.warn(warning::crosses_separatrix);
-  if (!known || !(small_parameter(scene) < 0.1) || !(breakdown <= scene.opposed().norm() / 3)) track.leave_domain();
+  if (!known || error.start_is_unclear() || !(small_parameter(scene) < 0.1) ||
+      !(breakdown <= scene.opposed().norm() / 3))
+    track.leave_domain();
   else if (!error.known() && std::isfinite(track.stop_time)) track.stop_error = infinity<double>;
   track.counts = motion.counts();
   detail::warn_of_start(track, scene, orbit->modulus().kp2);

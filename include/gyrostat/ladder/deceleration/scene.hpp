@@ -26,7 +26,7 @@ struct Setup {
   Law law = Law::total, drag_law = Law::total;
   Vec3<double> momentum{0, 0, 0};  ///< M at t = 0, N m s
   Quat<double> attitude{};         ///< body to inertial at t = 0, of unit norm
-  /// omega at t = 0, rad/s, where it is what was given and momentum what follows from it: for the first row of an answer.
+  /// omega at t = 0, rad/s, where it is what was given and momentum what follows from it, J omega + l: the motion starts from it.
   std::optional<Vec3<double>> angular_velocity{};
 };
 

@@ -27,13 +27,20 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Inertia<double>& body, co
   scene.problem_.inverse_inertia = body.inverse_principal();
   scene.problem_.gaps = body.inverse_gaps();
   scene.problem_.exact_moments = body.has_exact_moments();
-  scene.problem_.rotor_momentum = R_PB * setup.rotor_momentum;
   scene.problem_.control = R_PB * setup.control.asDiagonal() * scene.R_BP_;
   if (scene.equal_control()) scene.problem_.control = setup.control.asDiagonal();  // in any axes
   scene.problem_.drag = setup.drag;
   scene.problem_.law = setup.law;
   scene.problem_.drag_law = setup.drag_law;
-  scene.problem_.momentum = R_PB * setup.momentum;
+  using Wide = DoubleDouble;
+  const Vec3<Wide> l = body.in_principal_axes(vector_cast<Wide>(setup.rotor_momentum));
+  scene.problem_.rotor_momentum = vector_cast<double>(l);
+  Vec3<Wide> M = body.in_principal_axes(vector_cast<Wide>(setup.momentum));
+  if (setup.angular_velocity) {
+    const Vec3<Wide> omega = body.in_principal_axes(vector_cast<Wide>(*setup.angular_velocity));
+    for (int i = 0; i < 3; ++i) M[i] = body.principal()[i] * omega[i] + l[i];
+  }
+  scene.problem_.momentum = vector_cast<double>(M);
   scene.problem_.momentum_converted = setup.angular_velocity && !body.has_exact_moments();
   if (!body.has_exact_moments()) scene.problem_.make_round();
   return scene;

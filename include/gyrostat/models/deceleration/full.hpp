@@ -11,6 +11,7 @@
 #include "gyrostat/models/deceleration/problem.hpp"
 #include "gyrostat/rotation/quaternion_series.hpp"
 #include "gyrostat/rotation/vector.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 /// The full equations (deceleration.md, section 1): right-hand side, Jacobian and Taylor recurrences. The state is U, what the
 /// control opposes (M for law total, G = M - l for law carrier), so that the end of the motion is U = 0 for both laws:
@@ -23,8 +24,10 @@ struct FullCoefficients {
   Vec3<Scalar> offset;     ///< M - U: zero or l, N m s
   Vec3<Scalar> rate;       ///< omega - a U: -a l or zero, rad/s
   Vec3<Scalar> quadratic;  ///< a_k - a_j, 1/(kg m^2)
-  Mat3<Scalar> linear;     ///< L, 1/s
-  Vec3<Scalar> constant;   ///< c, N m
+  /// What the second lacks for all three to add up to zero: U.q(U) would drift by their rounding, alike in every step.
+  Scalar quadratic_low;
+  Mat3<Scalar> linear;    ///< L, 1/s
+  Vec3<Scalar> constant;  ///< c, N m
 
   explicit FullCoefficients(const Problem<Scalar>& problem) noexcept {
     const Vec3<Scalar>& a = problem.inverse_inertia;
@@ -32,6 +35,8 @@ struct FullCoefficients {
     const bool total = problem.law == Law::total || problem.control.isZero(0);  // without control U is ours to choose
     const Vec3<Scalar> gaps = problem.inverse_gaps();
     quadratic = {gaps[1], -gaps[2], gaps[0]};
+    using Wide = Wider<Scalar>;
+    quadratic_low = static_cast<Scalar>((Wide(gaps[2]) - Wide(gaps[0])) - Wide(gaps[1]));
     const Vec3<Scalar> g = problem.gyro_rate();
     if (total) {
       // M x a(M - l) = M x aM - M x g
@@ -153,10 +158,11 @@ class FullSystem {
   /// Order k + 1 from the orders up to k. Index: an integral constant, so that everything unrolls, or an int.
   template <class Index, int Order>
   GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
-                              const Row (&jacobian)[3], const Row (&turn)[3], const Row& quadratic, const Row& along,
-                              const Row& inverse, const Row& half_inverse, Scalar half_unit) const noexcept;
+                              const Row (&jacobian)[3], const Row (&turn)[3], const Row (&quadratic)[2],
+                              const Row& along, const Row& inverse, const Row& half_inverse,
+                              Scalar half_unit) const noexcept;
 
-  Row quadratic_, constant_, inverse_inertia_, rate_;
+  Row quadratic_, quadratic_low_, constant_, inverse_inertia_, rate_;
   Row linear_[3];
   Row control_[3];
   Scalar reach_, control_bound_, constant_bound_, linear_bound_, drag_;
@@ -171,6 +177,7 @@ FullSystem<Real_, with_control, with_attitude>::FullSystem(const Problem<Scalar>
     : reach_(reach) {
   const FullCoefficients<Scalar> f(problem);
   quadratic_ = row(f.quadratic);
+  quadratic_low_ = lanes(Scalar(0), f.quadratic_low, Scalar(0), Scalar(0));
   constant_ = row(f.constant);
   inverse_inertia_ = row(problem.inverse_inertia);
   rate_ = row(f.rate);
@@ -201,7 +208,7 @@ template <Real Real_, bool with_control, bool with_attitude>
 template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
     Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3],
-    const Row (&turn)[3], const Row& quadratic, const Row& along, const Row& inverse, const Row& half_inverse,
+    const Row (&turn)[3], const Row (&quadratic)[2], const Row& along, const Row& inverse, const Row& half_inverse,
     Scalar half_unit) const noexcept {
   const Scalar share = Scalar(1) / static_cast<Scalar>(k + 1);
   const Row u0 = shuffle<0, 0, 0, 0>(newest), u1 = shuffle<1, 1, 1, 1>(newest), u2 = shuffle<2, 2, 2, 2>(newest);
@@ -213,7 +220,8 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
     product = multiply_add(work.forward[j], work.backward[k - j], product);
     product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
   });
-  Row known = quadratic * (product + product_2);
+  product = product + product_2;
+  Row known = multiply_add(quadratic[0], product, quadratic[1] * product);
 
   if constexpr (with_control) {
     Row square = lanes(Scalar(0));
@@ -262,7 +270,7 @@ void FullSystem<Real_, with_control, with_attitude>::expand(Scalar, Scalar unit,
   const Row zero = lanes(Scalar(0));
   const Row scale = lanes(unit);
   const Row start = with_last(load(x[0]), zero);
-  const Row quadratic = quadratic_ * scale;
+  const Row quadratic[2] = {quadratic_ * scale, quadratic_low_ * scale};
   const Row u[3] = {shuffle<0, 0, 0, 0>(start), shuffle<1, 1, 1, 1>(start), shuffle<2, 2, 2, 2>(start)};
 
   Row jacobian[3], turn[3] = {zero, zero, zero};
@@ -270,11 +278,12 @@ void FullSystem<Real_, with_control, with_attitude>::expand(Scalar, Scalar unit,
   const Row forward = shuffle<1, 2, 0, 3>(start), backward = shuffle<2, 0, 1, 3>(start);
   Row first = constant_;
   for (int j = 0; j < 3; ++j) first = multiply_add(linear_[j], u[j], first);
-  first = scale * first + quadratic * forward * backward;
+  const auto times_quadratic = [&](const Row& v) { return multiply_add(quadratic[0], v, quadratic[1] * v); };
+  first = scale * first + times_quadratic(forward * backward);
   // columns of the derivative of q(U) + L U
-  jacobian[0] = scale * linear_[0] + quadratic * lanes(Scalar(0), start[2], start[1], Scalar(0));
-  jacobian[1] = scale * linear_[1] + quadratic * lanes(start[2], Scalar(0), start[0], Scalar(0));
-  jacobian[2] = scale * linear_[2] + quadratic * lanes(start[1], start[0], Scalar(0), Scalar(0));
+  jacobian[0] = scale * linear_[0] + times_quadratic(lanes(Scalar(0), start[2], start[1], Scalar(0)));
+  jacobian[1] = scale * linear_[1] + times_quadratic(lanes(start[2], Scalar(0), start[0], Scalar(0)));
+  jacobian[2] = scale * linear_[2] + times_quadratic(lanes(start[1], start[0], Scalar(0), Scalar(0)));
 
   if constexpr (with_control) {
     const Scalar norm = std::sqrt(sum(start * start)[0]);
