@@ -191,6 +191,8 @@ class OrbitMotion {
   Component last_component() const noexcept { return component_; }
   const Rates& rates() const noexcept { return solver_.rhs().rates; }
   bool changed_component() const noexcept { return changed_; }
+  /// Whether the motion has gone from one curve to another without a separatrix: its energy is not known from there on.
+  bool doubtful() const noexcept { return doubtful_; }
   /// Behind a failure `undetermined` on a separatrix: the chance of the likelier way on; else NaN.
   Scalar chance() const noexcept { return chance_; }
   const ode::Counts& counts() const noexcept { return solver_.counts(); }
@@ -218,15 +220,19 @@ class OrbitMotion {
   ode::Status step(Visitor visit) noexcept {
     if (!(solver_.time() < far_away)) return ode::Status::step_limit;
     solver_.rhs().followed = component_;  // and no sooner: the dense output of the last step still needs the old one
+    const Level<Scalar> from = solver_.rhs().level(solver_.state());
     if (const auto status = solver_.step(far_away); status != ode::Status::reached) return status;
     const Level<Scalar> at = solver_.rhs().level(solver_.state());
     const auto orbit = Orbit<Scalar>::at(solver_.rhs().problem, at, component_);
     if (orbit) {
       Component now = orbit->component();
-      const bool to_point = now.regime == Regime::point || component_.regime == Regime::point;
-      if (!to_point && (now.regime != component_.regime || now.branch != component_.branch)) {
-        changed_ = true;
-        if (!cross(at.R, now)) return ode::Status::event;
+      if (now.regime != Regime::point) {
+        const bool known = around_.regime != Regime::point;
+        if (known && (now.regime != around_.regime || now.branch != around_.branch)) {
+          changed_ = true;
+          if (!cross(from, at, now)) return ode::Status::event;
+        }
+        around_ = now;
       }
       component_ = now;
       solver_.rhs().rates.accept(solver_.rhs().problem, at, now);
@@ -241,19 +247,24 @@ class OrbitMotion {
     return ode::Status::reached;
   }
 
-  /// Takes the motion over a separatrix, where the last step found `now` behind it: into the lobe, or outside, where all motions go. False where
-  /// they part.
-  bool cross(Scalar R, Component& now) noexcept {
+  /// Takes the motion over a separatrix between two levels, where it was found on `now` behind it: into the lobe, or outside, where all motions
+  /// go; false where they part. Where no separatrix is so near rounding beside an equilibrium has taken one curve for another.
+  bool cross(const Level<Scalar>& from, const Level<Scalar>& to, Component& now) noexcept {
     const auto& problem = solver_.rhs().problem;
+    if (const auto band = band_of(problem, from)) {
+      const Scalar range = (band->above.eta - band->below.eta) / (band->to_above + band->to_below);
+      const Scalar moved = std::abs(to.eta - from.eta) / range + std::abs(to.R - from.R) / to.R;
+      if (moved < band->separatrix_distance() / 4) return doubtful_ = true;
+    }
     if (problem.rotor_momentum.isZero(0)) return true;  // lobes mirror each other
-    const Regime lobes = now.regime == Regime::one_component ? component_.regime : now.regime;
-    const auto next = capture(problem, R, lobes, component_);
+    const Regime lobes = now.regime == Regime::one_component ? around_.regime : now.regime;
+    const auto next = capture(problem, to.R, lobes, around_);
     if (next && next->determined()) {
       now = next->outside == 1 ? Component{} : Component{lobes, next->plus == 1 ? 1 : -1};
       return true;
     }
-    solver_.rhs().failure = next ? Errc::undetermined : Errc::separatrix;
     if (next) chance_ = std::max({next->plus, next->minus, next->outside});
+    solver_.rhs().failure = next ? Errc::undetermined : Errc::separatrix;
     return false;
   }
 
@@ -278,9 +289,9 @@ class OrbitMotion {
 
   Scalar start_opposed_;
   ode::RungeKutta<Scalar, 4, Equations> solver_;
-  Component component_;
+  Component component_, around_ = component_;  ///< the curve; the last one that is not a point
   Scalar now_ = 0, chance_ = nan<Scalar>;
-  bool at_rest_ = false, changed_ = false, floored_ = false;
+  bool at_rest_ = false, changed_ = false, doubtful_ = false, floored_ = false;
 };
 
 }  // namespace gyrostat::deceleration

@@ -41,14 +41,18 @@ class OrbitError {
     // What second order leaves out: its own oscillation, or that of first order times the change during it.
     const double shift = 2 * pi<double> * s->phase_oscillation + s->orbit.period() * std::abs(s->first.R) / level.R;
     drift_R_ += std::abs(s->second.R) * span;
-    drift_h_ += std::abs(s->second.h) * span;
+    // and what the oscillation of |M|, part of which the mean motion begins with, changes of the rate
+    drift_h_ += (std::abs(s->second.h) + std::abs(s->first.h) * s->oscillation.R / level.R) * span;
     keep(first_.norm, s->oscillation.R);
     keep(first_.energy, s->oscillation.h);
     keep(second_.norm, std::max(s->second_oscillation.R, s->oscillation.R * shift));
     keep(second_.energy, std::max(s->second_oscillation.h, s->oscillation.h * shift));
     keep(first_.k2, k2_swing(*s, level, component, s->oscillation.R, s->oscillation.eta));
     keep(second_.k2, k2_swing(*s, level, component, s->second_oscillation.R, s->second_oscillation.eta));
-    if (!(t > 0)) unclear_ = !(k2_swing(*s, level, component, 2 * s->oscillation.R, 2 * s->oscillation.eta) < 1);
+    if (!(t > 0)) {
+      const double f = first_factor;
+      unclear_ = !(k2_swing(*s, level, component, f * s->oscillation.R, f * s->oscillation.eta) < 1);
+    }
     const double size = std::sqrt(std::max(0.0, transverse(*s)));
     keep(second_.vector, 2 * pi<double> * size * s->phase_oscillation);
     keep(change_, s->phase_oscillation);
@@ -57,7 +61,7 @@ class OrbitError {
   /// False where some level had no second order: the errors below are then not bounds.
   bool known() const noexcept { return known_; }
   double phase_oscillation() const noexcept { return change_; }
-  /// Whether the oscillation at the start leads over a separatrix: then the mean motion may begin on its other side, and lead elsewhere.
+  /// Whether the error of the start leads over a separatrix: then the mean motion may begin on its other side, and lead elsewhere.
   bool start_is_unclear() const noexcept { return unclear_; }
 
   SlowError<double> first_order() const noexcept {
@@ -270,7 +274,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   }
   if (end >= track.stop_time || motion.changed_component()) track.error[column::modulus_squared] = 1;
   if (motion.changed_component()) track.warn(warning::crosses_separatrix);
-  if (!known || error.start_is_unclear() || !(small_parameter(scene) < 0.1) ||
+  if (!known || error.start_is_unclear() || motion.doubtful() || !(small_parameter(scene) < 0.1) ||
       !(breakdown <= scene.opposed().norm() / 3))
     track.leave_domain();
   else if (!error.known() && std::isfinite(track.stop_time)) track.stop_error = infinity<double>;
