@@ -163,6 +163,64 @@ TEST_CASE("leaving the lobes is determined", "[deceleration]") {
   CHECK(capture(p, 1., Regime::about_largest, Component{}).error() == Errc::undetermined);
 }
 
+TEST_CASE("a motion that leaves a lobe is caught by the other one as often as predicted", "[deceleration]") {
+  Problem<double> p;
+  p.inverse_inertia = {1 / 1.25734996, 1 / 1.25734989, 1 / 0.078985};
+  p.rotor_momentum = {-0.826, 1.285, 0.437};
+  p.control = 1e-5 * Mat3<double>::Identity();
+  const auto from = Component{Regime::about_smallest, 1};
+  const auto predicted = capture(p, 1.0076, Regime::about_smallest, from);
+  REQUIRE(predicted);
+  CHECK(predicted->inflow_plus < 0);
+  CHECK(predicted->inflow_minus > 0);
+  CHECK_FALSE(predicted->determined());
+  CHECK(predicted->minus + predicted->outside == Approx(1));
+  const auto levels = critical_levels(p, 1.0076);
+  const auto* saddle = find(*levels, Critical::saddle, Regime::about_smallest);
+  REQUIRE(saddle);
+  const auto full = [&](double, const std::array<double, 3>& y, std::array<double, 3>& d) noexcept {
+    const V M(y[0], y[1], y[2]);
+    const V f = M.cross(p.angular_velocity(M)) + small_torque(p, M);
+    d = {f[0], f[1], f[2]};
+  };
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> u(0, 1);
+  const double turn = -predicted->inflow_plus, back = predicted->inflow_minus;
+  const int runs = 300;
+  int caught = 0, left = 0;
+  for (int run = 0; run < runs; ++run) {
+    const auto o = Orbit<double>::at(p, {1.0076, saddle->eta + turn * (2 + 2 * u(random))}, from);
+    REQUIRE(o);
+    const V M = o->momentum_at(u(random));
+    ode::StepControl<double, 3> control;
+    control.relative = 1e-9;
+    control.absolute.fill(1e-11);
+    ode::RungeKutta<double, 3, decltype(full)> solver(full, 0., {M[0], M[1], M[2]}, control);
+    for (int step = 0; step < 20'000; ++step) {
+      REQUIRE(solver.step(1e9) == ode::Status::reached);
+      const V m(solver.state()[0], solver.state()[1], solver.state()[2]);
+      const auto level = level_of(p, m);
+      const auto now = critical_levels(p, level.R);
+      REQUIRE(now);
+      const auto* edge = find(*now, Critical::saddle, Regime::about_smallest);
+      REQUIRE(edge);
+      const double inside = level.R * (level.eta - edge->eta);
+      if (inside < -1.5 * back) {
+        ++left;
+        break;
+      }
+      if (!(inside > 0.3 * back)) continue;
+      if (const auto at = Orbit<double>::through(p, m); at && at->branch() < 0) {
+        ++caught;
+        break;
+      }
+    }
+  }
+  CAPTURE(predicted->minus, caught, left);
+  CHECK(caught + left == runs);
+  CHECK(double(caught) / runs == Approx(predicted->minus).margin(3.5 * .5 / std::sqrt(runs)));
+}
+
 TEST_CASE("inflow is the loss of energy against the saddle over a loop", "[deceleration]") {
   // by time integration over the lobe's orbit close to the separatrix
   const auto p = entering(1e-3);

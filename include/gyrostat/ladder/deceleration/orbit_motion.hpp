@@ -191,7 +191,7 @@ class OrbitMotion {
   Component last_component() const noexcept { return component_; }
   const Rates& rates() const noexcept { return solver_.rhs().rates; }
   bool changed_component() const noexcept { return changed_; }
-  /// Whether the motion has gone from one curve to another without a separatrix: its energy is not known from there on.
+  /// Whether the motion has gone to a curve where it does not belong: its energy is not known from there on.
   bool doubtful() const noexcept { return doubtful_; }
   /// Behind a failure `undetermined` on a separatrix: the chance of the likelier way on; else NaN.
   Scalar chance() const noexcept { return chance_; }
@@ -260,7 +260,10 @@ class OrbitMotion {
     const Regime lobes = now.regime == Regime::one_component ? around_.regime : now.regime;
     const auto next = capture(problem, to.R, lobes, around_);
     if (next && next->determined()) {
-      now = next->outside == 1 ? Component{} : Component{lobes, next->plus == 1 ? 1 : -1};
+      const Component there = next->outside == 1 ? Component{} : Component{lobes, next->plus == 1 ? 1 : -1};
+      // a step that goes on beside the separatrix has missed the lobe
+      if (there.regime != now.regime) return doubtful_ = true;
+      now = there;
       return true;
     }
     if (next) chance_ = std::max({next->plus, next->minus, next->outside});

@@ -115,7 +115,8 @@ struct Capture {
 
 /// What follows on the separatrix of the lobes `lobes` (about_largest, about_smallest) at |M| = R for a motion that comes
 /// from `from` (one_component, or a lobe). Theta_i = -oint_i (h' - h_s'(R) R') dt over the loop of lobe i, taken with the
-/// sign that makes inwards positive; entering both lobes, P_i = Theta_i/(Theta_1 + Theta_2). The loops are those of the orbit at
+/// sign that makes inwards positive; entering both lobes, P_i = Theta_i/(Theta_1 + Theta_2); leaving lobe 1, the loop of the other takes in the
+/// part Theta_2/-Theta_1 of those that pass it (Neishtadt 1975). The loops are those of the orbit at
 /// a distance of 1e-8 of the energy range, which errs by about 1e-7.
 /// Errors: not_applicable where there is no such separatrix or it is shared by the lobes around both axes (no rotor momentum
 /// along the middle one: arcs, not loops); undetermined where the torques hold the motion at the separatrix, or take it away
@@ -162,7 +163,9 @@ Result<Capture<Scalar>> capture(const Problem<Scalar>& problem, Scalar R, Regime
   } else if (minus > 0 && plus + minus > 0) {
     r.minus = 1;
   } else if (!outer && plus + minus < 0) {
-    r.outside = 1;
+    const Scalar other = from.branch > 0 ? minus : plus;
+    (from.branch > 0 ? r.minus : r.plus) = other > 0 ? other / -own : Scalar(0);
+    r.outside = 1 - std::max(r.plus, r.minus);
   } else {
     return Errc::undetermined;
   }
