@@ -177,7 +177,11 @@ class SecondOrderOrbit {
         monitor_(monitor),
         phase_error_(std::max(1e-6, scene.goal().tightest * 1e-2)),
         error_(problem_),
-        motion_(problem_, start.level, start.component, start.phase, tolerance, phase_error_, Rates{orbit}) {}
+        motion_(problem_, start.level, start.component, start.phase, tolerance, phase_error_, Rates{orbit}) {
+    error_.visit(start.level, start.component, 0);
+  }
+
+  bool start_is_unclear() const noexcept { return error_.start_is_unclear(); }
 
   Halt advance(double t, double floor) noexcept {
     const auto visit = [this](const Level<double>& level, Component component, double now) {
@@ -309,6 +313,9 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   // f2 is a difference of neighbouring orbits: below its noise a tighter tolerance only costs steps.
   const double tolerance = std::max(1e-9, mean_tolerance(scene));
   detail::SecondOrderOrbit<Elliptic> motion(scene, *mean, orbit, tolerance, monitor);
+  if (motion.start_is_unclear())
+    return refused<Track>(Errc::separatrix,
+                          "the motion starts so near a separatrix that averaging does not tell on which side of it");
   Track track;
   detail::warn_of_start(track, scene, Orbit<double>::through(problem, problem.momentum)->modulus().kp2);
   return second_order_track(std::move(track), scene, motion, floor, tolerance, monitor);
