@@ -90,12 +90,13 @@ GYROSTAT_INLINE Wide<Scalar> greater_of(const Wide<Scalar>& a, const Wide<Scalar
 
 #if defined(__GNUC__) && defined(__AVX512F__)
 namespace detail {
-/// 1/sqrt a to some 40 bits; a finite number where a is 0.
-GYROSTAT_INLINE Wide<double> near_inverse_root(const Wide<double>& a) noexcept {
-  const auto half = wide(0.5), least = wide(1e-300);
-  const Wide<double> y = {_mm512_maskz_rsqrt14_pd(0xff, greater_of<double>(a, least).v)};
-  const Wide<double> s = a * y, e = multiply_add(wide(-0.0) - s, half * y, half);
-  return multiply_add(y, multiply_add(wide(1.5) * e, e, e), y);
+/// 1/sqrt a, or sqrt a, by the binomial series about what the processor has to 14 bits, up to the fourth power of what that is off; finite where a is 0.
+GYROSTAT_INLINE Wide<double> refined_root(const Wide<double>& a, bool of_itself) noexcept {
+  const Wide<double> y = {_mm512_maskz_rsqrt14_pd(0xff, greater_of<double>(a, wide(1e-300)).v)}, s = a * y;
+  const Wide<double> e = multiply_add(wide(-0.0) - s, y, wide(1.)), first = of_itself ? s : y;
+  const Wide<double> high = multiply_add(e, wide(35. / 128), wide(5. / 16)),
+                     low = multiply_add(e, wide(.375), wide(.5));
+  return multiply_add(first * e, multiply_add(e * e, high, low), first);
 }
 }  // namespace detail
 #endif
@@ -104,10 +105,7 @@ GYROSTAT_INLINE Wide<double> near_inverse_root(const Wide<double>& a) noexcept {
 template <Real Scalar>
 GYROSTAT_INLINE Wide<Scalar> square_root(const Wide<Scalar>& a) noexcept {
 #if defined(__GNUC__) && defined(__AVX512F__)
-  if constexpr (wide_size<Scalar> == 8) {  // a quarter of the time of the processor's own root
-    const Wide<Scalar> y = detail::near_inverse_root(a), s = a * y;
-    return multiply_add(multiply_add(wide(-0.0) - s, s, a), wide(0.5) * y, s);
-  }
+  if constexpr (wide_size<Scalar> == 8) return detail::refined_root(a, true);  // sooner than the processor's own root
 #endif
 #if defined(__GNUC__) && defined(__AVX__)
   if constexpr (wide_size<Scalar> == 4 && std::is_same_v<Scalar, double>) return {_mm256_sqrt_pd(a.v)};
@@ -121,10 +119,7 @@ GYROSTAT_INLINE Wide<Scalar> square_root(const Wide<Scalar>& a) noexcept {
 template <Real Scalar>
 GYROSTAT_INLINE Wide<Scalar> inverse_square_root(const Wide<Scalar>& a) noexcept {
 #if defined(__GNUC__) && defined(__AVX512F__)
-  if constexpr (wide_size<Scalar> == 8) {
-    const Wide<Scalar> y = detail::near_inverse_root(a);
-    return multiply_add(multiply_add(wide(-0.0) - a * y, y, wide(1.0)), wide(0.5) * y, y);
-  }
+  if constexpr (wide_size<Scalar> == 8) return detail::refined_root(a, false);
 #endif
   return wide(Scalar(1)) / square_root<Scalar>(a);
 }
