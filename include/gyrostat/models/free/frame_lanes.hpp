@@ -106,69 +106,85 @@ class PencilLanes {
   }
 };
 
-/// The root between a[low] and a[low + 1] that is the nearest to a[1], where the secular equation falls.
+/// The root between a[low] and a[low + 1] that is the nearest to a[1], where the secular equation falls. Times its poles it is a polynomial, here of
+/// the distance y from one end of the gap, as parts of the gap.
 class RootLanes {
  public:
   GYROSTAT_INLINE RootLanes(const PencilLanes& pencil, int low) noexcept : low_(low) {
-    const Many width = low == 0 ? pencil.gap01 : pencil.gap12, third = low == 0 ? pencil.gap02 : -pencil.gap01;
-    Many g2[3];
-    for (int i = 0; i < 3; ++i) g2[i] = pencil.a[i] * pencil.lambda[i] * (pencil.a[i] * pencil.lambda[i]);
-    Many from, to, start;
-    bracket(pencil, g2, width, third, from, to, start);
-    // from the nearer pole
-    upper_ = from + to > 1.;
-    const Many shift = math::choose(upper_, 1., 0.);
-    shift_ = math::choose(upper_, width, 0.);
+    const Many width = low == 0 ? pencil.gap01 : pencil.gap12, beyond = low == 0 ? pencil.gap12 : pencil.gap01;
+    const Many per = 1 / width, side = low == 0 ? -per : per;
+    Many g2[3];  // of a[1], of the other end of the gap, of the third
+    for (int i = 0; i < 3; ++i) {
+      const int of = i == 0 ? 1 : (i == 1) == (low == 0) ? 0 : 2;
+      const Many g = pencil.a[of] * pencil.lambda[of] * per;
+      g2[i] = g * g;
+    }
+    const Many constant = (pencil.a[1] + pencil.plain) * side, third = beyond * per;
+    const Quartic from_middle(1., third, constant, g2[0], g2[1], g2[2]);
+
+    // from the far end towards a[1]: the change of sign that comes last is kept; where two falls are near a[1], and one another, the far
+    // one is not to be taken
+    constexpr double distances[] = {0, 1e-5, .01, .05, .13, .25, .4, .65, .9, .999, 1};
+    constexpr int last = int(std::size(distances)) - 1;
+    Many near, far = distances[last], here, value, beside = -(third + 1) * g2[1];
+    near = distances[last - 1], here = value = from_middle(near);
+    for (int j = last - 1; j > 0; --j) {
+      const Many next = j > 1 ? from_middle(distances[j - 1]) : third * g2[0];
+      const Choice more = here < 0.;
+      far = math::choose(more, distances[j], far), near = math::choose(more, distances[j - 1], near);
+      beside = math::choose(more, here, beside), value = math::choose(more, next, value);
+      here = next;
+    }
+    const Choice other = near + far > 1.;  // nearer to the other end
+    const Many step = (far - near) / (value - beside);
+    y_ = math::choose(other, (1 - far) - step * beside, near + step * value);
+    lo_ = math::choose(other, 1 - far, near);
+    hi_ = math::choose(other, 1 - near, far);
+    equation_ = Quartic(math::choose(other, -1., 1.), math::choose(other, third + 1, third),
+                        math::choose(other, -1 - constant, constant), math::choose(other, g2[1], g2[0]),
+                        math::choose(other, g2[0], g2[1]), g2[2]);
+    upper_ = low == 0 ? near + far < 1. : other;
+    found_ = y_ < y_;
+    const Many shift = math::choose(upper_, width, 0.);
+    shift_ = shift;
     next_ = math::choose(upper_, -width, width);
-    far_ = third - shift_;
-    weight_ = math::choose(upper_, g2[low + 1], g2[low]);
-    beside_ = math::choose(upper_, g2[low], g2[low + 1]);
-    other_ = g2[low == 0 ? 2 : 0];
+    far_ = (low == 0 ? pencil.gap02 : -pencil.gap01) - shift;
     origin_ = math::choose(upper_, pencil.a[low + 1], pencil.a[low]);
-    constant_ = origin_ + pencil.plain;
-    lo_ = (from - shift) * width;
-    hi_ = (to - shift) * width;
-    x_ = math::choose(upper_, -start, start) * width;
-    found_ = x_ < x_;
   }
 
-  /// A step towards each root that is not found: to that of c + s/(p - x) + S/(q - x), p and q the poles of the gap, which has the value and two
-  /// slopes (Gragg's; Borges and Gragg 1993). What it leaves is of the order of its cube.
+  /// A step towards each root that is not found: Householder's of the fourth order.
   GYROSTAT_INLINE void step() noexcept {
-    const Many to_next = next_ - x_, to_far = far_ - x_, both = x_ * to_next;
-    const Many p = 1 / (both * to_far), of_x = to_next * to_far * p, of_next = x_ * to_far * p, of_far = both * p;
-    const Many one = weight_ * of_x, two = beside_ * of_next, three = other_ * of_far;
-    const Many value = constant_ + x_ + (one - two - three);
-    const Many slope1 = one * of_x, slope2 = two * of_next, slope3 = three * of_far;
-    const Many slope = 1 - slope1 - slope2 - slope3;
-    const Many bend = slope1 * of_x - slope2 * of_next - slope3 * of_far;  // half the second slope
-    const Many sum = to_next - x_;
-    const Many a = sum * value + both * slope, b = -both * value, c = value - sum * slope - both * bend;
-    const Many root = math::sqrt(math::max(a * a - 4 * b * c, 0.));
-    const Many y = x_ + (b + b) / (a + math::choose(a < 0., -root, root));
-    const Choice above = value > 0.;
-    lo_ = math::choose(above, x_, lo_);
-    hi_ = math::choose(above, hi_, x_);
+    const auto [c0, c1, c2, c3, c4] = equation_;
+    const Many y = y_, y2 = y * y;
+    const Many f = (c0 + c1 * y) + y2 * ((c2 + c3 * y) + c4 * y2);
+    const Many f1 = (c1 + 2 * c2 * y) + y2 * (3 * c3 + 4 * c4 * y), f2 = (c2 + 3 * c3 * y) + 6 * c4 * y2,
+               f3 = c3 + 4 * c4 * y;
+    const Many of_f2 = f * f2, square = f1 * f1 - of_f2;
+    const Many next = y - f * square / (f1 * (square - of_f2) + f * f * f3);
+    const Choice above = f > 0.;
+    lo_ = math::choose(above, y, lo_);
+    hi_ = math::choose(above, hi_, y);
     // a step out of the bracket becomes a bisection, unless by rounding only
-    const Many size = math::abs(x_), little = 1e-9 * size;
-    const Choice inside = (lo_ - little < y) & (y < hi_ + little);
-    const Many next = math::choose(inside, y, 0.5 * (lo_ + hi_));
-    const Choice near = math::abs(next - x_) < 2e-6 * size;
-    x_ = math::choose(found_, x_, next);
+    const Many little = 1e-9 * y;
+    const Choice inside = (lo_ - little < next) & (next < hi_ + little);
+    const Many to = math::choose(inside, next, 0.5 * (lo_ + hi_));
+    const Choice near = math::abs(to - y) < 5e-6 * y;
+    y_ = math::choose(found_, y, to);
     found_ = found_ | near;
   }
   Choice found() const noexcept { return found_; }
-  const Many& offset() const noexcept { return x_; }  ///< from the pole that it is the nearer to
-  Choice upper() const noexcept { return upper_; }    ///< that is the upper of the two
+  Many offset() const noexcept { return y_ * next_; }  ///< from the pole that it is the nearer to
+  Choice upper() const noexcept { return upper_; }     ///< that is the upper of the two
 
   GYROSTAT_INLINE AxisLanes axis(const PencilLanes& pencil) const noexcept {
     AxisLanes u;
+    const Many x = offset();
     u.found = found_;
-    u.sigma = origin_ + x_;
+    u.sigma = origin_ + x;
     Many distance[3];  // a_i - sigma
-    distance[low_] = -shift_ - x_;
-    distance[low_ + 1] = math::choose(upper_, 0., next_) - x_;
-    distance[low_ == 0 ? 2 : 0] = far_ - x_;
+    distance[low_] = -shift_ - x;
+    distance[low_ + 1] = math::choose(upper_, 0., next_) - x;
+    distance[low_ == 0 ? 2 : 0] = far_ - x;
     const Many low = distance[0] * distance[1], per_all = 1 / (low * distance[2]), per_low = per_all * distance[2];
     const Many per[3] = {per_low * distance[1], per_low * distance[0], per_all * low};
     for (int i = 0; i < 3; ++i)
@@ -179,40 +195,29 @@ class RootLanes {
   }
 
  private:
-  /// Where the equation falls from + to -, as parts of the gap; start: the zero of the chord there, from the pole that it is the nearer to.
-  GYROSTAT_INLINE void bracket(const PencilLanes& pencil, const Many (&g2)[3], const Many& width, const Many& third,
-                               Many& from, Many& to, Many& start) const noexcept {
-    // from a[1] on: where two falls are near it, and one another, the far one is not to be taken
-    constexpr double distances[] = {0, 1e-5, .01, .05, .13, .25, .4, .65, .9, .999, 1};
-    constexpr int last = int(std::size(distances)) - 1;
-    const auto part_of = [&](int j) { return low_ == 0 ? 1 - distances[j] : distances[j]; };
-    const Many constant = pencil.a[low_] + pencil.plain, square = width * width, other = g2[low_ == 0 ? 2 : 0] * square;
-    const Many below = g2[low_] * width, above = g2[low_ + 1] * width;
-    // the equation times the distances, of which only that to the third, of the upper gap, is negative
-    const auto value = [&](double part) GYROSTAT_INLINE_LAMBDA {
-      const Many s = part * width, product = part * (1 - part), far = third - s;
-      return far * (product * (constant + s) * square + ((1 - part) * below - part * above)) - product * other;
-    };
-    // from the far end towards a[1]: the change of sign that comes last is kept
-    Many ends[2] = {part_of(last), part_of(last - 1)}, values[2] = {value(part_of(last)), value(part_of(last - 1))};
-    Many here = values[1];
-    for (int j = last - 1; j > 0; --j) {
-      const double part = part_of(j), next_part = part_of(j - 1);
-      const Many next = value(next_part);
-      const Choice more = here > 0.;
-      ends[0] = math::choose(more, part, ends[0]), ends[1] = math::choose(more, next_part, ends[1]);
-      values[0] = math::choose(more, here, values[0]), values[1] = math::choose(more, next, values[1]);
-      here = next;
+  /// (third + side y) (y (1 - y) (constant + y) + (1 - y) near - y next) + side y (1 - y) far, falling from y = 0.
+  struct Quartic {
+    Many c0, c1, c2, c3, c4;
+
+    Quartic() = default;
+    GYROSTAT_INLINE Quartic(const Many& side, const Many& third, const Many& constant, const Many& near,
+                            const Many& next, const Many& far) noexcept {
+      const Many first = constant - near - next, second = 1 - constant;
+      c0 = third * near;
+      c1 = third * first + side * (near + far);
+      c2 = third * second + side * (first - far);
+      c3 = side * second - third;
+      c4 = -side;
     }
-    const int first = low_ == 0 ? 0 : 1;
-    from = ends[first], to = ends[1 - first];
-    const Many step = (to - from) / (values[first] - values[1 - first]);
-    start = math::choose(from + to > 1., (1 - to) - step * values[1 - first], from + step * values[first]);
-  }
+    GYROSTAT_INLINE Many operator()(const Many& y) const noexcept {
+      return c0 + y * (c1 + y * (c2 + y * (c3 + y * c4)));
+    }
+  };
 
   int low_;
   Choice upper_, found_;
-  Many shift_, next_, far_, weight_, beside_, other_, origin_, constant_, lo_, hi_, x_;
+  Quartic equation_;
+  Many shift_, next_, far_, origin_, lo_, hi_, y_;
 };
 
 /// The plane that two spacelike eigenvectors leave, by its null directions (NullPlane).
