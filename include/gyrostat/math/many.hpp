@@ -168,8 +168,8 @@ GYROSTAT_INLINE ManyIntegrals first_kind(const Many& k2, const Many& kp2, const 
     for (int n = 0; n < 2; ++n) other[n] = choose(going[n], 2 * sqrt(product[n]), other[n]);
   }
   for (int n = 0; n < 2; ++n) turned[n] += angle_of_cotangent(y[n], mean[n]);
-  const Many per_mean[2] = {pi<double> / mean[0], pi<double> / mean[1]};
-  return {0.5 * (doubled[0] * per_mean[0]), 0.5 * (doubled[1] * per_mean[1]), 0.5 * (turned[0] / doubled[0]),
+  const Many per_mean[2] = {pi<double> / mean[0], pi<double> / mean[1]}, part = 0.5 / doubled[0];
+  return {0.5 * (doubled[0] * per_mean[0]), 0.5 * (doubled[1] * per_mean[1]), part * turned[0],
           turned[1] * per_mean[1]};
 }
 

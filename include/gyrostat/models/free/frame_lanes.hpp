@@ -62,8 +62,9 @@ class PencilLanes {
     gap01 = (J[0] - J[1]) * (a[0] * a[1]);
     gap12 = (J[1] - J[2]) * (a[1] * a[2]);
     gap02 = (J[0] - J[2]) * (a[0] * a[2]);
-    R = math::sqrt(body.M[0] * body.M[0] + body.M[1] * body.M[1] + body.M[2] * body.M[2]);
-    const Many per_R = 1 / R;
+    const Many square = body.M[0] * body.M[0] + body.M[1] * body.M[1] + body.M[2] * body.M[2];
+    const Many per_R = math::inverse_sqrt(square);
+    R = square * per_R;
     Many n[3], g[3], most = 1;
     for (int i = 0; i < 3; ++i) {
       lambda[i] = body.l[i] * per_R, n[i] = body.M[i] * per_R, g[i] = body.G[i] * per_R;
@@ -106,28 +107,27 @@ class PencilLanes {
   }
 };
 
-/// The root between a[low] and a[low + 1] that is the nearest to a[1], where the secular equation falls. Times its poles it is a polynomial, here of
-/// the distance y from one end of the gap, as parts of the gap.
+/// The root between a[low] and a[low + 1] that is the nearest to a[1], where the secular equation falls. Times the distances from its poles that is
+/// a quartic, here of the distance from one end of the gap, all as parts of the gap.
 class RootLanes {
  public:
   GYROSTAT_INLINE RootLanes(const PencilLanes& pencil, int low) noexcept : low_(low) {
     const Many width = low == 0 ? pencil.gap01 : pencil.gap12, beyond = low == 0 ? pencil.gap12 : pencil.gap01;
-    const Many per = 1 / width, side = low == 0 ? -per : per;
+    const Many per = 1 / width, third = beyond * per, constant = (pencil.a[1] + pencil.plain) * (low == 0 ? -per : per);
     Many g2[3];  // of a[1], of the other end of the gap, of the third
     for (int i = 0; i < 3; ++i) {
       const int of = i == 0 ? 1 : (i == 1) == (low == 0) ? 0 : 2;
       const Many g = pencil.a[of] * pencil.lambda[of] * per;
       g2[i] = g * g;
     }
-    const Many constant = (pencil.a[1] + pencil.plain) * side, third = beyond * per;
     const Quartic from_middle(1., third, constant, g2[0], g2[1], g2[2]);
 
     // from the far end towards a[1]: the change of sign that comes last is kept; where two falls are near a[1], and one another, the far
     // one is not to be taken
     constexpr double distances[] = {0, 1e-5, .01, .05, .13, .25, .4, .65, .9, .999, 1};
     constexpr int last = int(std::size(distances)) - 1;
-    Many near, far = distances[last], here, value, beside = -(third + 1) * g2[1];
-    near = distances[last - 1], here = value = from_middle(near);
+    Many near = distances[last - 1], far = distances[last], value = from_middle(near), beside = -(third + 1) * g2[1];
+    Many here = value;
     for (int j = last - 1; j > 0; --j) {
       const Many next = j > 1 ? from_middle(distances[j - 1]) : third * g2[0];
       const Choice more = here < 0.;
@@ -143,19 +143,15 @@ class RootLanes {
     equation_ = Quartic(math::choose(other, -1., 1.), math::choose(other, third + 1, third),
                         math::choose(other, -1 - constant, constant), math::choose(other, g2[1], g2[0]),
                         math::choose(other, g2[0], g2[1]), g2[2]);
-    upper_ = low == 0 ? near + far < 1. : other;
+    other_ = other, width_ = width, per_width_ = per;
     found_ = y_ < y_;
-    const Many shift = math::choose(upper_, width, 0.);
-    shift_ = shift;
-    next_ = math::choose(upper_, -width, width);
-    far_ = (low == 0 ? pencil.gap02 : -pencil.gap01) - shift;
-    origin_ = math::choose(upper_, pencil.a[low + 1], pencil.a[low]);
   }
 
-  /// A step towards each root that is not found: Householder's of the fourth order.
+  /// A step towards each root that is not found, Householder's with three slopes: what it leaves is of the order of its fourth power.
   GYROSTAT_INLINE void step() noexcept {
-    const auto [c0, c1, c2, c3, c4] = equation_;
-    const Many y = y_, y2 = y * y;
+    const auto& [side, third, c0, c1, c2, c3] = equation_;
+    const Many c4 = -side, y = y_, y2 = y * y;
+    // the value and the slopes over 1, 2 and 6
     const Many f = (c0 + c1 * y) + y2 * ((c2 + c3 * y) + c4 * y2);
     const Many f1 = (c1 + 2 * c2 * y) + y2 * (3 * c3 + 4 * c4 * y), f2 = (c2 + 3 * c3 * y) + 6 * c4 * y2,
                f3 = c3 + 4 * c4 * y;
@@ -173,51 +169,54 @@ class RootLanes {
     found_ = found_ | near;
   }
   Choice found() const noexcept { return found_; }
-  Many offset() const noexcept { return y_ * next_; }  ///< from the pole that it is the nearer to
-  Choice upper() const noexcept { return upper_; }     ///< that is the upper of the two
+  Many from_middle() const noexcept { return width_ * math::choose(other_, 1 - y_, y_); }  ///< its distance from a[1]
 
+  /// Its eigenvector, of any length.
   GYROSTAT_INLINE AxisLanes axis(const PencilLanes& pencil) const noexcept {
     AxisLanes u;
-    const Many x = offset();
+    const int end = low_ == 0 ? 0 : 2;
+    const double side = low_ == 0 ? 1 : -1;
+    const Many off = side * width_ * y_, rest = 1 - y_;
     u.found = found_;
-    u.sigma = origin_ + x;
-    Many distance[3];  // a_i - sigma
-    distance[low_] = -shift_ - x;
-    distance[low_ + 1] = math::choose(upper_, 0., next_) - x;
-    distance[low_ == 0 ? 2 : 0] = far_ - x;
-    const Many low = distance[0] * distance[1], per_all = 1 / (low * distance[2]), per_low = per_all * distance[2];
-    const Many per[3] = {per_low * distance[1], per_low * distance[0], per_all * low};
-    for (int i = 0; i < 3; ++i)
-      u.x.x[i] = math::choose(pencil.shifted, u.sigma, pencil.a[i]) * pencil.lambda[i] * per[i];
-    u.x.x[3] = 1;
-    u.x = math::inverse_sqrt(math::abs(dot(pencil.S_of(u.x), u.x))) * u.x;
+    u.sigma = math::choose(other_, pencil.a[end] + off, pencil.a[1] - off);
+    // a_i - sigma as parts of the gap
+    const Many middle = math::choose(other_, rest, y_), of_end = math::choose(other_, y_, rest),
+               third = equation_.third + equation_.side * y_;
+    const Many product[3] = {of_end * third, -middle * third, middle * of_end};
+    const int at[3] = {1, end, 2 - end};
+    for (int i = 0; i < 3; ++i) {
+      const int n = at[i];
+      u.x.x[n] = math::choose(pencil.shifted, u.sigma, pencil.a[n]) * pencil.lambda[n] * (per_width_ * product[i]);
+    }
+    u.x.x[3] = side * middle * product[0];
     return u;
   }
 
  private:
-  /// (third + side y) (y (1 - y) (constant + y) + (1 - y) near - y next) + side y (1 - y) far, falling from y = 0.
+  /// (third + side y) (y (1 - y) (constant + y) + (1 - y) near - y next) + side y (1 - y) far, falling from y = 0: with side 1 from a[1], the third
+  /// pole behind it; with side -1 from the other end.
   struct Quartic {
-    Many c0, c1, c2, c3, c4;
+    Many side, third, c0, c1, c2, c3;  ///< the last coefficient is -side
 
     Quartic() = default;
-    GYROSTAT_INLINE Quartic(const Many& side, const Many& third, const Many& constant, const Many& near,
-                            const Many& next, const Many& far) noexcept {
+    GYROSTAT_INLINE Quartic(const Many& side_of_third, const Many& third_pole, const Many& constant, const Many& near,
+                            const Many& next, const Many& far) noexcept
+        : side(side_of_third), third(third_pole) {
       const Many first = constant - near - next, second = 1 - constant;
       c0 = third * near;
       c1 = third * first + side * (near + far);
       c2 = third * second + side * (first - far);
       c3 = side * second - third;
-      c4 = -side;
     }
     GYROSTAT_INLINE Many operator()(const Many& y) const noexcept {
-      return c0 + y * (c1 + y * (c2 + y * (c3 + y * c4)));
+      return c0 + y * (c1 + y * (c2 + y * (c3 - y * side)));
     }
   };
 
   int low_;
-  Choice upper_, found_;
+  Choice other_, found_;
   Quartic equation_;
-  Many shift_, next_, far_, origin_, lo_, hi_, y_;
+  Many width_, per_width_, lo_, hi_, y_;
 };
 
 /// The plane that two spacelike eigenvectors leave, by its null directions (NullPlane).
@@ -226,7 +225,8 @@ struct PlaneLanes {
   Many split;  ///< sigma_v - sigma_u
   Many4 plus, minus;
   Many E_plus, E_minus, al, be, Yu, Yv, from_u, from_v;
-  Many turned;  ///< its sign is that of the determinant of u, v, plus + minus, plus - minus
+  Many turned;     ///< its sign is that of the determinant of u, v, plus + minus, plus - minus
+  Choice decided;  ///< rounding does not decide of which signs E_plus and E_minus are
 
   GYROSTAT_INLINE explicit PlaneLanes(const PencilLanes& pencil) noexcept {
     const unsigned rigid = pencil.rigid.bits();
@@ -256,6 +256,7 @@ struct PlaneLanes {
          {&PlaneLanes::split, &PlaneLanes::E_plus, &PlaneLanes::E_minus, &PlaneLanes::al, &PlaneLanes::be,
           &PlaneLanes::Yu, &PlaneLanes::Yv, &PlaneLanes::from_u, &PlaneLanes::from_v, &PlaneLanes::turned})
       take(member);
+    decided = decided | rigid;
   }
 
   // compiled once each, so that a lane has the same bits whatever stands beside it
@@ -268,43 +269,56 @@ struct PlaneLanes {
     }
     u = first.axis(pencil);
     v = second.axis(pencil);
-    split = math::choose(first.upper(), 0., pencil.gap01) + math::choose(second.upper(), pencil.gap12, 0.) +
-            (second.offset() - first.offset());
-    const auto covector = [&pencil](const AxisLanes& w) GYROSTAT_INLINE_LAMBDA {
-      return choose(pencil.shifted, (1 / w.sigma) * pencil.E_of(w.x), pencil.S_of(w.x));
-    };
-    const Many4 of_u = covector(u);
-    v.x = v.x - dot(of_u, v.x) * u.x;
-    const Many4 of_v = covector(v), &X = pencil.start, T = pencil.timelike();
-    Yu = dot(of_u, X);
-    Yv = dot(of_v, X);
-    const Many4 W = X - Yu * u.x - Yv * v.x;
-    Many4 V = T - dot(of_u, T) * u.x - dot(of_v, T) * v.x;
-    V = math::inverse_sqrt(-dot(pencil.S_of(V), V)) * V;
-    const Many s = -dot(pencil.S_of(V), W);
-    Many4 e = W - s * V;
+    split = first.from_middle() + second.from_middle();
+    // of vectors of any length, so that nothing waits for the roots that make it 1
+    const Many4 Su = pencil.S_of(u.x), Sv = pencil.S_of(v.x), &X = pencil.start, T = pencil.timelike();
+    const Many per_v = 1 / v.sigma;
+    const Many4 of_u = choose(pencil.shifted, (1 / u.sigma) * pencil.E_of(u.x), Su),
+                of_v = choose(pencil.shifted, per_v * pencil.E_of(v.x), Sv);
+    const Many uu = math::abs(dot(Su, u.x)), vv = math::abs(dot(Sv, v.x)), per_uu = 1 / uu, per_vv = 1 / vv;
+    const Many along = per_uu * dot(of_u, v.x), of_along = along * math::choose(pencil.shifted, u.sigma * per_v, 1.);
+    v.x = v.x - along * u.x;
+    const Many uX = dot(of_u, X), uT = dot(of_u, T);
+    const Many vX = dot(of_v, X) - of_along * uX, vT = dot(of_v, T) - of_along * uT;
+    const Many4 W = X - per_uu * uX * u.x - per_vv * vX * v.x, V = T - per_uu * uT * u.x - per_vv * vT * v.x;
+    const Many u_length = math::inverse_sqrt(uu), v_length = math::inverse_sqrt(vv);
+    Yu = u_length * uX;
+    Yv = v_length * vX;
+    const Many4 SV = pencil.S_of(V);
+    const Many VV = -dot(SV, V), VW = -dot(SV, W), length = math::inverse_sqrt(VV), s = length * VW;
+    const Many ratio = VW / VV;
+    Many4 e = W - ratio * V;
     const Many square = dot(pencil.S_of(e), e);
     const Choice near = 4 * square > s * s;
     const Many4 cross = minors(V);
-    e = choose(near, math::inverse_sqrt(square) * e, across(pencil, cross));
-    Many D = dot(pencil.S_of(e), W);
-    const Choice back = D < 0.;
+    e = choose(near, e, across(pencil, cross));
+    Many e_length = math::choose(near, math::inverse_sqrt(square), u_length * v_length * length);
+    Many D = math::choose(near, square, dot(cross, W)) * e_length;
+    e_length = math::choose(D < 0., -e_length, e_length);
     D = math::abs(D);
-    e = choose(back, -1. * e, e);
-    turned = dot(cross, e);
-    plus = V + e;
-    minus = V - e;
-    al = 0.5 * (s + D);
-    be = (Yu * Yu + Yv * Yv) / (4 * al);
+    turned = dot(cross, e) * e_length;
     // E - sigma_u S, in which what errors leave along u does not count
     const auto part = [&](const Many4& x) GYROSTAT_INLINE_LAMBDA { return pencil.E_of(x) - u.sigma * pencil.S_of(x); };
     const Many4 of_V = part(V), of_e = part(e);
-    const Many VV = dot(of_V, V), twice_Ve = 2 * dot(of_V, e), ee = dot(of_e, e), tau = -2 * be;
-    E_minus = 0.5 * (VV - twice_Ve + ee);
-    const Many from_start = (-split * Yv * Yv + 2 * tau * dot(of_V, W) + tau * tau * VV) / (2 * D * D);
-    E_plus = math::choose(near, from_start, 0.5 * (VV + twice_Ve + ee));
-    from_u = 0.5 * (ee - VV);
+    al = 0.5 * (s + D);
+    be = (Yu * Yu + Yv * Yv) / (4 * al);
+    const Many tau = -2 * be, of_VV = length * length * dot(of_V, V), of_ee = e_length * e_length * dot(of_e, e),
+               twice_Ve = 2 * length * e_length * dot(of_V, e);
+    E_minus = 0.5 * (of_VV - twice_Ve + of_ee);
+    // of `near` E_plus by that of the start, which is 0
+    const Many one = -split * Yv * Yv, two = 2 * tau * length * dot(of_V, W), three = tau * tau * of_VV;
+    const Many per_start = 1 / (2 * D * D);
+    E_plus = math::choose(near, per_start * (one + two + three), 0.5 * (of_VV + twice_Ve + of_ee));
+    const Many terms = math::abs(of_VV) + math::abs(twice_Ve) + math::abs(of_ee),
+               terms_of_start = per_start * (math::abs(one) + math::abs(two) + math::abs(three));
+    decided =
+        (math::abs(E_minus) > 1e-13 * terms) & (math::abs(E_plus) > 1e-13 * math::choose(near, terms_of_start, terms));
+    from_u = 0.5 * (of_ee - of_VV);
     from_v = from_u - split;
+    u.x = u_length * u.x, v.x = v_length * v.x;
+    const Many4 timelike = length * V, spacelike = e_length * e;
+    plus = timelike + spacelike;
+    minus = timelike - spacelike;
   }
 
   /// Of rigid lanes, whose eigenvectors are the principal axes: all is told by the components of M (docs/free.md, section 2).
@@ -319,7 +333,7 @@ struct PlaneLanes {
     const Many one = either(1., 0.), other = either(0., 1.), none = 0., m = either(n[0], n[2]);
     u.sigma = either(a[1], a[0]), u.x = {{other, one, none, none}};
     v.sigma = either(a[2], a[1]), v.x = {{none, other, one, none}};
-    u.found = v.found = Many(0.) < 1.;
+    u.found = v.found = decided = Many(0.) < 1.;
     split = either(pencil.gap12, pencil.gap01);
     Yu = either(n[1], n[0]), Yv = either(n[2], n[1]);
     const Many half = 0.5 * (either(pencil.gap01, pencil.gap12) * n1 + pencil.gap02 * either(n2, n0));
@@ -366,12 +380,12 @@ struct FrameLanes {
   GYROSTAT_INLINE explicit FrameLanes(const PencilLanes& pencil) noexcept;
 
  private:
-  /// What one of the two forms has of its own; cotangent: of the amplitude of eta.
+  /// What one of the two forms has of its own; sn, cn: of the start, but for a positive factor of each.
   struct Form {
     Many4 plus, minus, x1, x2;
-    Many al, be, k2, kp2, rate, sn, cn, psi[2], size[2];
-    Many cotangent;
-    Many turned;  ///< its sign is that of the determinant of x1, x2, plus - minus, plus + minus
+    Many k2, kp2, rate, sn, cn, psi[2], size[2];
+    Many cotangent[2];  ///< of the amplitudes of the start and of eta
+    Many turned;        ///< its sign is that of the determinant of x1, x2, plus - minus, plus + minus
     Choice sound;
   };
   /// The null directions, of equal |E|; inverse: of the root of E_plus E_minus.
@@ -389,8 +403,6 @@ struct FrameLanes {
                                        const Many& turned) noexcept {
     f.plus = choose(swapped, pair.minus, pair.plus);
     f.minus = choose(swapped, pair.plus, pair.minus);
-    f.al = math::choose(swapped, pair.be, pair.al);
-    f.be = math::choose(swapped, pair.al, pair.be);
     f.turned = math::choose(swapped, turned, -turned);
   }
   // compiled once each, so that a lane has the same bits whether the other form is there beside it or not
@@ -416,14 +428,13 @@ FrameLanes::Form FrameLanes::lobe(const PlaneLanes& p) noexcept {
   f.rate = whole * of_rate;
   f.sound = (p.from_u * p.from_v > 0.) & (f.kp2 > 0.0295) & (f.k2 > least_k2);
   const Many far = 1 / (nu + p3), near = p3 * of_whole, c1 = math::sqrt(p3 * far);
-  f.cotangent = math::sqrt(p.split * near);
+  f.cotangent[1] = math::sqrt(p.split * near);
   const NullPair pair(p, inverse);
   const Choice swapped = pair.al < pair.be;
   set_pair(f, pair, swapped, p.turned);
   f.turned = math::choose(first, f.turned, -f.turned);
-  const Many Y4 = 1 / (f.al + f.be);
-  f.sn = Y1 * Y4 * math::inverse_sqrt(nu * near);
-  f.cn = Y2 * Y4 * math::inverse_sqrt(nu * far);
+  f.sn = Y1, f.cn = Y2;
+  f.cotangent[0] = math::abs(Y2 / Y1) * math::sqrt(near * (nu + p3));
   const Many st = math::choose(first, p.u.sigma, p.v.sigma) - side * p2, s0 = st - side * nu;
   f.psi[0] = 0.5 * (st + c1 * s0) / (1 + c1);
   f.psi[1] = 0.5 * (s0 + side * (p3 + nu) * (1 + c1));
@@ -434,7 +445,9 @@ FrameLanes::Form FrameLanes::lobe(const PlaneLanes& p) noexcept {
 FrameLanes::Form FrameLanes::alone(const PlaneLanes& p) noexcept {
   Form f;
   const Many square = -p.E_plus * p.E_minus, inverse = math::inverse_sqrt(square), B = square * inverse;
-  set_pair(f, NullPair(p, inverse), p.E_plus < 0., p.turned);
+  const NullPair pair(p, inverse);
+  const Choice swapped = p.E_plus < 0.;
+  set_pair(f, pair, swapped, p.turned);
   f.x1 = p.u.x, f.x2 = p.v.x;
   const Many width = p.split, rho_square = p.from_u * p.from_u + square, rho_inverse = math::inverse_sqrt(rho_square),
              rho = rho_square * rho_inverse;
@@ -451,15 +464,13 @@ FrameLanes::Form FrameLanes::alone(const PlaneLanes& p) noexcept {
   const Many larger = half * half_inverse, other = 0.5 * (sine * half_inverse);
   const Choice acute = cosine > 0.;
   const Many cg = math::choose(acute, larger, other), sg = math::choose(acute, other, larger);
-  const Many l = 1 / (cg * f.al + sg * f.be);
-  f.cn = 0.5 * (p.Yv * l * side_inverse);
-  f.sn = p.Yu * l * math::inverse_sqrt(2 * sine * (xc2 * xc2 + 1) * (f.kp2 + f.k2 * f.cn * f.cn));
-  const Many length = math::inverse_sqrt(f.sn * f.sn + f.cn * f.cn);
-  f.sn *= length;
-  f.cn *= length;
+  const Many l = 1 / (math::choose(swapped, sg, cg) * pair.al + math::choose(swapped, cg, sg) * pair.be);
+  f.sn = p.Yu, f.cn = p.Yv;
+  const Many cn = 0.5 * (p.Yv * side_inverse), cn_start = cn * l;
+  f.cotangent[0] = math::abs(cn / p.Yu) * math::sqrt(2 * sine * (xc2 * xc2 + 1) * (f.kp2 + f.k2 * cn_start * cn_start));
   const Many bez = sg + cg * xc2, per_bez = 1 / bez, per_alz = bez * (side_inverse * side_inverse);
   const Many moduli = f.k2 * math::inverse_sqrt(f.k2 * f.kp2);  // k/k'
-  f.cotangent = math::sqrt(sg * per_alz * moduli);
+  f.cotangent[1] = math::sqrt(sg * per_alz * moduli);
   f.size[0] = side_square * per_bez, f.size[1] = bez;
   const Many m = p.u.sigma + p.from_u;
   f.psi[0] = 0.5 * (m + B * bez * per_alz);
@@ -471,43 +482,35 @@ GYROSTAT_INLINE FrameLanes::FrameLanes(const PencilLanes& pencil) noexcept {
   const PlaneLanes p(pencil);
   single = p.E_plus * p.E_minus < 0.;
   const unsigned some = single.bits();
-  Form f;
-  if (some == math::all_numbers) {
-    side = 1;
-    f = alone(p);
-    f.sound = single & f.sound;
-  } else {
-    f = lobe(p);
-  }
+  side = 1;
+  Form f = some == math::all_numbers ? alone(p) : lobe(p);
+  if (some == math::all_numbers) f.sound = single & f.sound;
   if (some != 0 && some != math::all_numbers) {
     const Form g = alone(p);
     const auto take = [&](auto member) GYROSTAT_INLINE_LAMBDA { f.*member = choose(single, g.*member, f.*member); };
     take(&Form::plus), take(&Form::minus), take(&Form::x1), take(&Form::x2);
     take(&Form::k2), take(&Form::kp2), take(&Form::rate), take(&Form::sn), take(&Form::cn);
-    take(&Form::cotangent), take(&Form::turned);
+    take(&Form::turned);
     for (int i = 0; i < 2; ++i) {
+      f.cotangent[i] = math::choose(single, g.cotangent[i], f.cotangent[i]);
       f.psi[i] = math::choose(single, g.psi[i], f.psi[i]);
       f.size[i] = math::choose(single, g.size[i], f.size[i]);
     }
     f.sound = (single & g.sound) | ((p.E_plus * p.E_minus > 0.) & f.sound);
   }
-  sound = f.sound & p.u.found & p.v.found & (pencil.gap01 > 1e-12 * pencil.a[2]) &
+  sound = f.sound & p.decided & p.u.found & p.v.found & (pencil.gap01 > 1e-12 * pencil.a[2]) &
           (pencil.gap12 > 1e-12 * pencil.a[2]) & (pencil.a[0] > 1e-60) & (pencil.a[2] < 1e60);
-  const Choice back = f.cn < 0.;
-  f.cn = math::abs(f.cn);
-  f.x2 = choose(back, -1. * f.x2, f.x2);
+  const Many back = math::choose(f.cn < 0., -1., 1.);
   delta = math::choose(single, -1., -side);
   // delta det(x1, x2, plus - minus, plus + minus) > 0, without delta where there is one component
-  Many turned = math::choose(back, -f.turned, f.turned);
-  turned = math::choose(single, turned, delta * turned);
-  const Choice turn = turned < 0.;
-  f.sn = math::choose(turn, -f.sn, f.sn);
-  f.x1 = choose(turn, -1. * f.x1, f.x1);
-  plus = f.plus, minus = f.minus, xa = f.x1;
-  xb = math::choose(single, 1., delta) * f.x2;
+  const Many of_x2 = math::choose(single, back, delta * back);
+  const Many of_x1 = math::choose(of_x2 * f.turned < 0., -1., 1.);
+  plus = f.plus, minus = f.minus;
+  xa = of_x1 * f.x1;
+  xb = of_x2 * f.x2;
   k2 = f.k2, kp2 = f.kp2, rate = f.rate;
-  integrals = math::first_kind(k2, kp2, f.cn / math::abs(f.sn), f.cotangent);
-  start = math::choose(f.sn < 0., -integrals.F_part, integrals.F_part);
+  integrals = math::first_kind(k2, kp2, f.cotangent[0], f.cotangent[1]);
+  start = math::choose(of_x1 * f.sn < 0., -integrals.F_part, integrals.F_part);
   for (int i = 0; i < 2; ++i) psi[i] = f.psi[i], size[i] = f.size[i];
 }
 
