@@ -15,8 +15,8 @@
 namespace gyrostat::free {
 
 /// Motion<double>, set up in double, of eight bodies side by side. Only where the motion is tame: two components or one, the sums of its
-/// theta functions in trigonometric form, kp2 not small and k2 not tiny, moments apart. What is not is left out, for Motion<double> to do. A
-/// lane comes to the same bits whatever stands beside it.
+/// theta functions in trigonometric form, kp2 not small and k2 not tiny, moments apart, and which of the two it is beyond rounding. What is not is
+/// left out, for Motion<double> to do. A lane comes to the same bits whatever stands beside it.
 class MotionLanes {
  public:
   static constexpr int size = 8;
@@ -317,12 +317,12 @@ inline void MotionLanes::set_forms(int first, const detail::PencilLanes& pencil,
 template <bool slopes>
 GYROSTAT_INLINE MotionLanes::Sums MotionLanes::sums(int first, const math::ManyCircle& E) const noexcept {
   const auto row = [first](const Row& r) GYROSTAT_INLINE_LAMBDA { return Many::from(r + first); };
-  Many re = 1, im = 0;
+  C power[powers + 1];
+  power[1] = {E.c, E.s};
   C sum[2] = {{row(x_[0]), 0.}, {0., 0.}}, slope[2] = {{0., 0.}, {0., 0.}};  // of even and of odd powers
   for (int m = 1; m <= powers; ++m) {
-    const Many r = re * E.c - im * E.s, x = row(x_[m]), y = row(y_[m]), n = double(m);
-    im = re * E.s + im * E.c;
-    re = r;
+    if (m > 1) power[m] = power[m / 2] * power[m - m / 2];
+    const Many re = power[m].re, im = power[m].im, x = row(x_[m]), y = row(y_[m]), n = double(m);
     sum[m % 2] = sum[m % 2] + C{x * re, y * im};
     if constexpr (slopes) slope[m % 2] = slope[m % 2] + C{-n * x * im, n * y * re};
   }
