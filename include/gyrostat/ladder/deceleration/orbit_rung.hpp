@@ -54,6 +54,7 @@ class OrbitError {
       unclear_ = !(k2_swing(*s, level, component, f * s->oscillation.R, f * s->oscillation.eta) < 1);
     }
     const double size = std::sqrt(std::max(0.0, transverse(*s)));
+    swing_aside(*s, size);
     keep(second_.vector, 2 * pi<double> * size * s->phase_oscillation);
     keep(change_, s->phase_oscillation);
   }
@@ -97,6 +98,20 @@ class OrbitError {
         Orbit<double, Elliptic>::through(problem_, length > 0 ? Vec3<double>(M + beside / length * aside) : M);
     keep(first_.k2, away ? 4 * away->modulus().k2 : 1.0);
     keep(second_.vector, beside);
+  }
+
+  /// The torque across M swings the body beside an equilibrium, however small its orbit is: then what oscillates is that of an orbit so wide.
+  void swing_aside(const SecondOrder<double, Elliptic>& s, double size) noexcept {
+    const Vec3<double> M = s.orbit.momentum_at(0.0), torque = small_torque(problem_, M);
+    const double across = cross<double>(M, torque).norm() / M.norm();
+    const double beside = across * s.orbit.period() / (2 * pi<double>);
+    if (!(size < beside)) return;
+    const Vec3<double> aside = cross<double>(M, Vec3<double>(1, 1, 1));
+    const auto away = Orbit<double, Elliptic>::through(problem_, Vec3<double>(M + beside / aside.norm() * aside));
+    if (!away) return;
+    const auto wide = second_order<Elliptic>(problem_, away->level(), away->component());
+    keep(first_.norm, wide ? wide->oscillation.R : beside);
+    keep(first_.energy, wide ? wide->oscillation.h : beside * problem_.angular_velocity(M).norm());
   }
 
   /// Mean square distance of M from its mean over the orbit.
