@@ -107,6 +107,39 @@ TEST_CASE("solve: a dual spinner in turned axes is averaged as any body", "[dece
   }
 }
 
+TEST_CASE("solve: averaged by name beside a separatrix or an equilibrium states what it misses there",
+          "[deceleration]") {
+  struct One {
+    V moments, rotor, omega, control;
+    double drag, end;
+  };
+  const double J = 2.6289e-4;
+  for (const One& one : {// a slim body whose rotor holds it beside the saddle: the first oscillation leads over it
+                         One{V(J * (1 + 1e-5), J, 1.71e-7), V(-3.92e-7, 4.62e-6, 1.806e-5),
+                             V(-.02921827, .01522464, 2.182), V::Constant(4.9e-12), 4.925e-6, 800},
+                         // out of one lobe, and by chance into the other
+                         One{V(1.25734996, 1.25734989, .07898505), V(-.82643929, -1.2849851, -.43698588),
+                             V(1.02432, 1.59026, -1.305), V::Constant(3.918e-5), 0, 330},
+                         // on an equilibrium, from which the torque swings the body away
+                         One{V(1.06878147, 1.06147612, 1.06147497), V(0, 0, -.18386755), V(5.7e-5, -8.36e-5, -1.957068),
+                             V(.0103, .0034, .0029), .00626, 141}}) {
+    Case c;
+    c.moments = one.moments;
+    c.data.rotor_momentum = one.rotor;
+    c.data.momentum = one.moments.cwiseProduct(one.omega) + one.rotor;
+    c.data.control = one.control;
+    c.data.drag = one.drag;
+    c.data.times = until(one.end);
+    const Answer truth = c.truth(1e-9);
+    Refusal refusal;
+    const Answer answer = c.with(rung::averaged, 1e-4).solve(refusal);
+    CAPTURE(one.moments[0], refusal.code);
+    if (refusal.code != Errc::ok) continue;
+    for (const char* name : {"angular_momentum_norm", "energy"})
+      CHECK(distance(answer, truth, name) <= answer.find(name)->error);
+  }
+}
+
 TEST_CASE("solve: a body at rest is not told that it never stops", "[deceleration]") {
   Case c(0, 10);
   c.data.drag = 0.1;

@@ -299,7 +299,7 @@ TEST_CASE("the edge of a brake: 8 roundings over are held, 9 not followed, a tho
 
 TEST_CASE("steps that lengthen with what a brake opposes do not jump over the stop where it shrinks again",
           "[general]") {
-  for (const double span : {1e-3, 1.0, 1e4}) {
+  for (const double span : {1e-3, 1.0, 30.0}) {
     auto p = braked(0.1);
     const double first = 1e-6 * span;
     p.angular_velocity = {0, 0, first / 1.5};

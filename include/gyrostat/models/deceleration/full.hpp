@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lanes.hpp"
@@ -24,8 +25,9 @@ struct FullCoefficients {
   Vec3<Scalar> offset;     ///< M - U: zero or l, N m s
   Vec3<Scalar> rate;       ///< omega - a U: -a l or zero, rad/s
   Vec3<Scalar> quadratic;  ///< a_k - a_j, 1/(kg m^2)
-  /// What the second lacks for all three to add up to zero: U.q(U) would drift by their rounding, alike in every step.
-  Scalar quadratic_low;
+  /// The same in two parts, of which the first has half the digits: together they add up to zero, which three rounded numbers do not, and U.q(U)
+  /// drifts by that, alike in every step.
+  Vec3<Scalar> quadratic_parts[2];
   Mat3<Scalar> linear;    ///< L, 1/s
   Vec3<Scalar> constant;  ///< c, N m
 
@@ -36,7 +38,14 @@ struct FullCoefficients {
     const Vec3<Scalar> gaps = problem.inverse_gaps();
     quadratic = {gaps[1], -gaps[2], gaps[0]};
     using Wide = Wider<Scalar>;
-    quadratic_low = static_cast<Scalar>((Wide(gaps[2]) - Wide(gaps[0])) - Wide(gaps[1]));
+    const Scalar lacks = static_cast<Scalar>((Wide(gaps[2]) - Wide(gaps[0])) - Wide(gaps[1]));
+    constexpr Scalar splitter = Scalar(1ULL << (std::numeric_limits<Scalar>::digits + 1) / 2) + 1;
+    for (int i = 0; i < 3; ++i) {
+      const Scalar far = splitter * quadratic[i];
+      quadratic_parts[0][i] = far - (far - quadratic[i]);
+      quadratic_parts[1][i] = quadratic[i] - quadratic_parts[0][i];
+    }
+    quadratic_parts[1][1] += lacks;
     const Vec3<Scalar> g = problem.gyro_rate();
     if (total) {
       // M x a(M - l) = M x aM - M x g
@@ -162,7 +171,7 @@ class FullSystem {
                               const Row& along, const Row& inverse, const Row& half_inverse,
                               Scalar half_unit) const noexcept;
 
-  Row quadratic_, quadratic_low_, constant_, inverse_inertia_, rate_;
+  Row quadratic_[2], constant_, inverse_inertia_, rate_;
   Row linear_[3];
   Row control_[3];
   Scalar reach_, control_bound_, constant_bound_, linear_bound_, drag_;
@@ -176,8 +185,7 @@ template <Real Real_, bool with_control, bool with_attitude>
 FullSystem<Real_, with_control, with_attitude>::FullSystem(const Problem<Scalar>& problem, Scalar reach) noexcept
     : reach_(reach) {
   const FullCoefficients<Scalar> f(problem);
-  quadratic_ = row(f.quadratic);
-  quadratic_low_ = lanes(Scalar(0), f.quadratic_low, Scalar(0), Scalar(0));
+  for (int i = 0; i < 2; ++i) quadratic_[i] = row(f.quadratic_parts[i]);
   constant_ = row(f.constant);
   inverse_inertia_ = row(problem.inverse_inertia);
   rate_ = row(f.rate);
@@ -270,7 +278,7 @@ void FullSystem<Real_, with_control, with_attitude>::expand(Scalar, Scalar unit,
   const Row zero = lanes(Scalar(0));
   const Row scale = lanes(unit);
   const Row start = with_last(load(x[0]), zero);
-  const Row quadratic[2] = {quadratic_ * scale, quadratic_low_ * scale};
+  const Row quadratic[2] = {quadratic_[0] * scale, quadratic_[1] * scale};
   const Row u[3] = {shuffle<0, 0, 0, 0>(start), shuffle<1, 1, 1, 1>(start), shuffle<2, 2, 2, 2>(start)};
 
   Row jacobian[3], turn[3] = {zero, zero, zero};
