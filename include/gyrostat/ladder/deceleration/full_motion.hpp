@@ -451,7 +451,10 @@ class FullMotion {
       const Scalar last = times_.back();
       const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
         const Scalar rest = last > course.stop_time() ? last - course.stop_time() : Scalar(0);
-        return rounding_of_columns(problem_, size, 4 * eps + steps, rest * problem_.gyro_rate().norm());
+        const Scalar gyro = problem_.gyro_rate().norm(), omega = size[column::angular_velocity];
+        // omega is the difference of J^-1 M and J^-1 l in every step
+        const Scalar swell = problem_.law == Law::total && omega > 0 ? std::min(gyro / omega, Scalar(100)) : Scalar(0);
+        return rounding_of_columns(problem_, size, 4 * eps + (1 + 6 * swell) * steps, rest * gyro);
       };
       const auto note = [&](std::size_t i, const ColumnErrors<Scalar>& error) noexcept {
         if (i % options_.stride == 0 && i / options_.stride < options_.errors.size())

@@ -193,6 +193,8 @@ class OrbitMotion {
   bool changed_component() const noexcept { return changed_; }
   /// Whether the motion has gone to a curve where it does not belong: its energy is not known from there on.
   bool doubtful() const noexcept { return doubtful_; }
+  /// What the turns beside separatrices that were crossed have changed of the energy against theirs, J: nobody knows in which of them it was.
+  Scalar crossing() const noexcept { return crossing_; }
   /// Behind a failure `undetermined` on a separatrix: the chance of the likelier way on; else NaN.
   Scalar chance() const noexcept { return chance_; }
   const ode::Counts& counts() const noexcept { return solver_.counts(); }
@@ -264,6 +266,7 @@ class OrbitMotion {
       // a step that goes on beside the separatrix has missed the lobe
       if (there.regime != now.regime) return doubtful_ = true;
       now = there;
+      crossing_ += std::abs(next->inflow_plus) + std::abs(next->inflow_minus);
       return true;
     }
     if (next) chance_ = std::max({next->plus, next->minus, next->outside});
@@ -293,7 +296,7 @@ class OrbitMotion {
   Scalar start_opposed_;
   ode::RungeKutta<Scalar, 4, Equations> solver_;
   Component component_, around_ = component_;  ///< the curve; the last one that is not a point
-  Scalar now_ = 0, chance_ = nan<Scalar>;
+  Scalar now_ = 0, chance_ = nan<Scalar>, crossing_ = 0;
   bool at_rest_ = false, changed_ = false, doubtful_ = false, floored_ = false;
 };
 

@@ -20,7 +20,7 @@ namespace gyrostat::deceleration {
 template <class Elliptic>
 class OrbitError {
  public:
-  static constexpr double first_factor = 6, second_factor = 15;
+  static constexpr double first_factor = 6, second_factor = 15, crossing_factor = 4;
 
   explicit OrbitError(const Problem<double>& problem) noexcept : problem_(problem) {}
 
@@ -259,8 +259,11 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     track.states.push_back(detail::slow_state(problem, now.level, now.component, now.at_rest));
   }
   const double end = scene.question().times.back();
-  const auto in_span = error.first_order();
+  auto in_span = error.first_order();
   const bool known = error.known();
+  const double crossing = OrbitError<Elliptic>::crossing_factor * motion.crossing();
+  in_span.energy += crossing;
+  in_span.norm += crossing / (2 * scales(problem)[column::energy]) * problem.momentum.norm();
   const double local = mean_gain * mean_tolerance(scene);
   // the energy is a difference of numbers of the size of what the rotors hold
   double energy = problem.rotor_energy_scale() / 2;
