@@ -132,6 +132,8 @@ class EulerPoisson {
         (I.cwiseProduct(w).dot(loose_.cwiseProduct(w)) + gradient_ * d.dot(I.cwiseProduct(d))) / 2 - moment_.dot(d);
   }
 
+  /// |d|, which stays.
+  Scalar length_of_down() const noexcept { return std::sqrt(square_); }
   /// |w| that is reached, rad/s; 1 for a body at rest.
   Scalar rate() const noexcept { return rate_ > 0 ? rate_ : Scalar(1); }
 
@@ -305,7 +307,9 @@ class FullSystem {
   State<Scalar> state(const Scalar* x) const noexcept {
     State<Scalar> s;
     s.angular_velocity = {x[0], x[1], x[2]};
-    s.down = {x[4], x[5], x[6]};
+    // of its length also inside a step, where the series sums to some roundings
+    const Vec3<Scalar> down{x[4], x[5], x[6]};
+    s.down = equations_.length_of_down() / down.norm() * down;
     if constexpr (turning) s.attitude = normalised(Quat<Scalar>{x[8], x[9], x[10], x[11]});
     return s;
   }
