@@ -207,3 +207,18 @@ TEST_CASE("exact: none", "[heavy]") {
   CHECK(none.error(1).attitude == infinity<double>);
   CHECK(std::isnan(none.period()));
 }
+
+TEST_CASE("exact motion: upright at rest but for rounding, when it falls is not known", "[heavy]") {
+  const auto p = Problem<double>::make({1, 1, 1}, 0.0113, {0.00408, -0.00616, 0.01163}, 8.39e-6, 0);
+  REQUIRE(p);
+  State<double> start;
+  start.down = -p->centre_of_mass().normalized();
+  start.down[0] = std::nextafter(start.down[0], 1.0);
+  const Exact<double> upright(*p, start);
+  REQUIRE(upright.which() == ExactCase::lagrange);
+  CHECK(upright.error(1.7e6).down == infinity<double>);
+  start.down = p->centre_of_mass().normalized();
+  const Exact<double> hanging(*p, start);
+  REQUIRE(hanging.applies());
+  CHECK(hanging.error(1.7e6).down < 1e-11);
+}

@@ -205,7 +205,9 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   if (h1_ > 0 && width_ > 0)
     modulus_ = {std::min(kappa * width_ / h1_, Scalar(1)), std::clamp(h2_ / h1_, modulus_floor, Scalar(1))};
   if (width_ > 0 && h2_ <= rounding * shift_) motion_ = AxisMotion::separatrix;
-  shift_ /= h2_;
+  // the vertical is known to rounding, and the tilt from it no better
+  const Scalar tilt = std::sqrt(2 * (s_ > 0 ? o.above : o.below));
+  shift_ = (shift_ + 2 * kappa * (tilt + stated)) / h2_;
   functions_ = math::JacobiAt<Scalar>(modulus_);
   K_ = functions_.quarter_period();
   if (width_ > 0) {
