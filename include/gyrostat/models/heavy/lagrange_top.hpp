@@ -58,7 +58,7 @@ class LagrangeTop {
   /// Bound of the error of at() up to time |t|.
   ExactError<Scalar> error(Scalar t) const noexcept {
     t = std::abs(unit_ * t);
-    const Scalar late = time_error(stated * share_, stated * shift_, K_, lam_, t);
+    const Scalar late = time_error((stated + defect_) * share_, stated * shift_ + skew_shift_, K_, lam_, t);
     const Scalar skew = defect_ * fastest_ * t;
     const Scalar angle = stated * (1 + fastest_ * t) + fastest_ * late + skew * (1 + fastest_ * t);
     return ExactError<Scalar>::of(angle, unit_ * (across_ * angle + swing_ * swing_ * late + stated * fastest_));
@@ -119,7 +119,7 @@ class LagrangeTop {
   math::JacobiAt<Scalar> functions_{math::Modulus<Scalar>{}};
   math::ThirdKind<Scalar> plus_, minus_;       // of the poles -1 (from w2) and +1 (from w1)
   Scalar plus_factor_ = 0, minus_factor_ = 0;  // before them, s
-  Scalar fastest_ = 0, across_ = 0, swing_ = 0, share_ = 1, shift_ = 0, defect_ = 0;
+  Scalar fastest_ = 0, across_ = 0, swing_ = 0, share_ = 1, shift_ = 0, skew_shift_ = 0, defect_ = 0;
   AxisMotion motion_ = AxisMotion::nutation;
   bool planar_ = false;
   TopAttitude<Scalar> attitude_;
@@ -207,7 +207,8 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   if (width_ > 0 && h2_ <= rounding * shift_) motion_ = AxisMotion::separatrix;
   // the vertical is known to rounding, and the tilt from it no better
   const Scalar tilt = std::sqrt(2 * (s_ > 0 ? o.above : o.below));
-  shift_ = (shift_ + 2 * kappa * (tilt + stated)) / h2_;
+  shift_ = (shift_ + 2 * kappa * (tilt + stated + defect_)) / h2_;
+  skew_shift_ = 4 * defect_ * (kappa + fastest_ * fastest_) / h2_;  // an uneven body keeps no spin
   functions_ = math::JacobiAt<Scalar>(modulus_);
   K_ = functions_.quarter_period();
   if (width_ > 0) {
