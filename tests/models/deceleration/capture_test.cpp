@@ -32,6 +32,22 @@ const CriticalLevel<double>* find(const CriticalLevels<double>& all, Critical ki
   return nullptr;
 }
 
+/// The full equations of M.
+struct FullRate {
+  const Problem<double>& problem;
+  void operator()(double, const std::array<double, 3>& y, std::array<double, 3>& d) const noexcept {
+    const V M(y[0], y[1], y[2]);
+    const V f = M.cross(problem.angular_velocity(M)) + small_torque(problem, M);
+    d = {f[0], f[1], f[2]};
+  }
+};
+ode::RungeKutta<double, 3, FullRate> full_motion(const Problem<double>& problem, const V& M) {
+  ode::StepControl<double, 3> control;
+  control.relative = 1e-9;
+  control.absolute.fill(1e-11);
+  return {FullRate{problem}, 0., {M[0], M[1], M[2]}, control};
+}
+
 }  // namespace
 
 TEST_CASE("critical levels are in order, and equilibria lie on them", "[deceleration]") {
@@ -115,11 +131,6 @@ TEST_CASE("capture probabilities are those of motions spread over the energy", "
   const auto* saddle = find(*levels, Critical::saddle, Regime::about_largest);
   REQUIRE(saddle);
   const double turn = predicted->inflow_plus + predicted->inflow_minus;
-  const auto full = [&](double, const std::array<double, 3>& y, std::array<double, 3>& d) noexcept {
-    const V M(y[0], y[1], y[2]);
-    const V f = M.cross(p.angular_velocity(M)) + small_torque(p, M);
-    d = {f[0], f[1], f[2]};
-  };
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> u(0, 1);
   const int runs = 600;
@@ -128,10 +139,7 @@ TEST_CASE("capture probabilities are those of motions spread over the energy", "
     const auto o = Orbit<double>::at(p, {1., saddle->eta + turn * (2 + 2 * u(random))}, Component{});
     REQUIRE(o);
     const V M = o->momentum_at(u(random));
-    ode::StepControl<double, 3> control;
-    control.relative = 1e-9;
-    control.absolute.fill(1e-11);
-    ode::RungeKutta<double, 3, decltype(full)> solver(full, 0., {M[0], M[1], M[2]}, control);
+    auto solver = full_motion(p, M);
     for (int step = 0; step < 5000; ++step) {
       REQUIRE(solver.step(1e9) == ode::Status::reached);
       const V m(solver.state()[0], solver.state()[1], solver.state()[2]);
@@ -178,11 +186,6 @@ TEST_CASE("a motion that leaves a lobe is caught by the other one as often as pr
   const auto levels = critical_levels(p, 1.0076);
   const auto* saddle = find(*levels, Critical::saddle, Regime::about_smallest);
   REQUIRE(saddle);
-  const auto full = [&](double, const std::array<double, 3>& y, std::array<double, 3>& d) noexcept {
-    const V M(y[0], y[1], y[2]);
-    const V f = M.cross(p.angular_velocity(M)) + small_torque(p, M);
-    d = {f[0], f[1], f[2]};
-  };
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> u(0, 1);
   const double turn = -predicted->inflow_plus, back = predicted->inflow_minus;
@@ -192,10 +195,7 @@ TEST_CASE("a motion that leaves a lobe is caught by the other one as often as pr
     const auto o = Orbit<double>::at(p, {1.0076, saddle->eta + turn * (2 + 2 * u(random))}, from);
     REQUIRE(o);
     const V M = o->momentum_at(u(random));
-    ode::StepControl<double, 3> control;
-    control.relative = 1e-9;
-    control.absolute.fill(1e-11);
-    ode::RungeKutta<double, 3, decltype(full)> solver(full, 0., {M[0], M[1], M[2]}, control);
+    auto solver = full_motion(p, M);
     for (int step = 0; step < 20'000; ++step) {
       REQUIRE(solver.step(1e9) == ode::Status::reached);
       const V m(solver.state()[0], solver.state()[1], solver.state()[2]);

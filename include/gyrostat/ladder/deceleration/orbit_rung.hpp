@@ -108,8 +108,8 @@ class OrbitError {
     if (!(size < beside)) return;
     const Vec3<double> aside = cross<double>(M, Vec3<double>(1, 1, 1));
     const auto away = Orbit<double, Elliptic>::through(problem_, Vec3<double>(M + beside / aside.norm() * aside));
-    if (!away) return;
-    const auto wide = second_order<Elliptic>(problem_, away->level(), away->component());
+    const auto wide = away ? second_order<Elliptic>(problem_, away->level(), away->component())
+                           : Result<SecondOrder<double, Elliptic>>(away.error());
     keep(first_.norm, wide ? wide->oscillation.R : beside);
     keep(first_.energy, wide ? wide->oscillation.h : beside * problem_.angular_velocity(M).norm());
   }
