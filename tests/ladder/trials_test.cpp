@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <vector>
 
 #include "catch.hpp"
@@ -94,4 +95,12 @@ TEST_CASE("a companion takes tighter steps down to the finest, and rounding rule
   CHECK_FALSE(rounding_rules(1e-9));
   CHECK(rounding_rules(epsilon<double>));
   CHECK(rounding_rules(1e-9, 1e6));
+}
+
+TEST_CASE("neighbours lie in two directions, far apart along every axis", "[ladder]") {
+  const auto a = neighbour_direction<double>(0), b = neighbour_direction<double>(1);
+  CHECK(std::abs(a.norm() - 1) < 1e-2);
+  CHECK(std::abs(b.norm() - 1) < 1e-2);
+  CHECK(std::abs(a.dot(b)) < 0.1);
+  CHECK((a - b).cwiseAbs().minCoeff() > 0.75);
 }

@@ -17,6 +17,9 @@ struct Companions {
 
 /// All families, watched in every step, all components moved. Stated error: the two distances by their margins, added.
 inline constexpr Companions side_by_side{64, 2, 5, 3};
+/// The directions in which the vectors of the data of two companions differ: across each other, and as far apart along every axis as such
+/// can be (0.82). Where one number rules, as in a steady rotation, the truncation may cancel what one companion shows, not what both do.
+inline constexpr double directions[2][3] = {{0.90, -0.12, 0.42}, {0.12, -0.90, -0.42}};
 /// By how much the data of a companion differ that runs alone, roundings: in its one direction it may be near by chance.
 inline constexpr double alone_change = 32;
 /// At half the span a companion that runs alone is kicked by so many roundings of each number: what its data do may cancel the truncation

@@ -6,6 +6,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ode/status.hpp"
+#include "gyrostat/rotation/vector.hpp"
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
@@ -31,6 +32,13 @@ template <Real Scalar>
 constexpr Scalar data_change(Scalar step_tolerance, Scalar condition = 1) noexcept {
   return epsilon<Scalar> *
          Scalar(rounding_rules(step_tolerance, condition) ? honesty::side_by_side.data_change : honesty::alone_change);
+}
+
+/// The direction in which the vectors of a companion's data differ. which: 0 or 1.
+template <Real Scalar>
+Vec3<Scalar> neighbour_direction(int which) noexcept {
+  const auto& v = honesty::directions[which == 0 ? 0 : 1];
+  return {Scalar(v[0]), Scalar(v[1]), Scalar(v[2])};
 }
 
 /// First guess of the step tolerance of a motion that turns through `phase` rad.

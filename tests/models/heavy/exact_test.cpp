@@ -208,6 +208,25 @@ TEST_CASE("exact: none", "[heavy]") {
   CHECK(std::isnan(none.period()));
 }
 
+TEST_CASE("exact motion: a mass centre beside the axis by less than a rounding makes an upright body fall", "[heavy]") {
+  State<double> start;
+  start.down = {0, 0, -1};
+  for (const double gradient : {0.0, 0.1}) {
+    const auto p = Problem<double>::make({1, 1, 0.5}, 1, {1e-17, 0, 0.5}, 9.8, gradient);
+    REQUIRE(p);
+    const Exact<double> upright(*p, start);
+    REQUIRE(upright.which() == ExactCase::lagrange);
+    CAPTURE(gradient);
+    CHECK(upright.error(22).down == infinity<double>);
+    for (const double t : {3.0, 8.0}) {  // as the linear equations have it
+      const auto truth = LongMotion::from(*p, start, {t});
+      const double away = distance(upright.at(t), truth[0]).down;
+      CHECK(away <= upright.error(t).down);
+      CHECK(upright.error(t).down < 40 * away + 1e-14);
+    }
+  }
+}
+
 TEST_CASE("exact motion: upright at rest but for rounding, when it falls is not known", "[heavy]") {
   const auto p = Problem<double>::make({1, 1, 1}, 0.0113, {0.00408, -0.00616, 0.01163}, 8.39e-6, 0);
   REQUIRE(p);

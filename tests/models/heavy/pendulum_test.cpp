@@ -119,6 +119,45 @@ TEST_CASE("heavy pendulum: separatrix, rest and small swings", "[heavy]") {
   CHECK(standing->motion() == PendulumMotion::rest);
 }
 
+TEST_CASE("heavy pendulum: nudged or tilted from upright by less than a rounding, it falls when it does", "[heavy]") {
+  const auto made = Problem<double>::make({0.6, 1.0, 1.2}, 1, {0, 0, 0.3}, 9.8, 0);
+  REQUIRE(made);
+  const double growth = std::sqrt(9.8 * 0.3);  // rad/s: what is off grows by the linear equations to an angle of 1e-6
+  constexpr double angle = 1e-6;
+  const auto falls = [&](const State<double>& start, double reached, double sign, double square) {
+    const auto pendulum = Pendulum<double>::make(*made, start);
+    REQUIRE(pendulum);
+    State<double> off;
+    off.down = {sign * std::sin(angle), 0, -std::cos(angle)};
+    const double rate = growth * angle * std::sqrt(1 + square);  // cosh^2 - sinh^2 = 1
+    off.angular_velocity = {0, sign * rate, 0};
+    const std::vector<double> later{1, 6, 9, 11, 13};  // down and up again
+    const auto truth = LongMotion::from(*made, off, later);
+    for (std::size_t i = 0; i < later.size(); ++i) {
+      const double t = reached + later[i];
+      const auto there = pendulum->at(t);
+      CHECK(std::abs(there.down[0] - double(truth[i].down[0])) < 1e-9);
+      CHECK(std::abs(there.angular_velocity[1] - double(truth[i].angular_velocity[1])) < 1e-9);
+      CHECK(pendulum->error(t).down < 1e-11);
+    }
+  };
+  State<double> start;
+  start.down = {0, 0, -1};
+  for (const double rate : {1e-12, 1e-16, -1e-30, 1e-90}) {
+    start.angular_velocity = {0, rate, 0};
+    CAPTURE(-std::log10(std::abs(rate)));
+    const double part = std::abs(rate) / (angle * growth);
+    falls(start, std::asinh(1 / part) / growth, rate > 0 ? 1 : -1, part * part);
+  }
+  start.angular_velocity = {0, 0, 0};
+  for (const double tilt : {1e-9, 1e-17, -1e-40}) {
+    start.down = {tilt, 0, -1};
+    CAPTURE(-std::log10(std::abs(tilt)));
+    const double part = std::abs(tilt) / angle;
+    falls(start, std::acosh(1 / part) / growth, tilt > 0 ? 1 : -1, -part * part);
+  }
+}
+
 TEST_CASE("heavy pendulum: the reference motions and their periods", "[heavy]") {
   int seen = 0;
   for (const auto& row : reference_rows("motion")) {

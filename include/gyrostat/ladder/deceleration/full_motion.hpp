@@ -128,9 +128,7 @@ struct Neighbour {
 
   /// which: 0 or 1, in another direction.
   Neighbour(const Problem<Scalar>& of, Scalar amount, int which) noexcept : problem(of) {
-    const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
-    const Vec3<Scalar> v = amount * (which == 0 ? Vec3<Scalar>(number(0.6L), number(-0.64L), number(0.48L))
-                                                : Vec3<Scalar>(number(-0.48L), number(0.6L), number(0.64L)));
+    const Vec3<Scalar> v = amount * neighbour_direction<Scalar>(which);
     const Vec3<Scalar>& l = of.rotor_momentum;
     const Vec3<Scalar> parts = (of.momentum - l).cwiseAbs() + l.cwiseAbs();
     problem.drag *= 1 + v[0];

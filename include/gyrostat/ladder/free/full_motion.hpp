@@ -172,8 +172,7 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noex
   else
     change << number(-0.7L), number(0.5L), number(0.8L), number(0.5L), number(0.9L), number(0.6L), number(0.8L),
         number(0.6L), number(-0.5L);
-  const Vec3<Scalar> direction = which == 0 ? Vec3<Scalar>(number(0.6L), number(-0.64L), number(0.48L))
-                                            : Vec3<Scalar>(number(-0.48L), number(0.6L), number(0.64L));
+  const Vec3<Scalar> direction = neighbour_direction<Scalar>(which);
   Problem<Scalar> near = of;
   const bool diagonal = of.inertia.isDiagonal(0), kept = keeps_axis(of);
   if (diagonal) near.inertia += amount * of.inertia * Vec3<Scalar>(change.diagonal()).asDiagonal();

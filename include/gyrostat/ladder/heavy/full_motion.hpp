@@ -65,9 +65,7 @@ struct Neighbour {
   Neighbour(const Problem<Scalar>& of, const State<Scalar>& from, Scalar amount, int which,
             bool converted = false) noexcept
       : problem(of), start(from) {
-    const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
-    const Vec3<Scalar> v = amount * (which == 0 ? Vec3<Scalar>(number(0.6L), number(-0.64L), number(0.48L))
-                                                : Vec3<Scalar>(number(-0.48L), number(0.6L), number(0.64L)));
+    const Vec3<Scalar> v = amount * neighbour_direction<Scalar>(which);
     const auto changed = [](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c) noexcept {
       return Vec3<Scalar>(x[0] * (1 + a), x[1] * (1 + b), x[2] * (1 + c));
     };

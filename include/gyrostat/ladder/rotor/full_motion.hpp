@@ -168,17 +168,15 @@ struct Neighbour {
       : gyrostat(of), start(from) {
     const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
     Mat3<Scalar> change;  // arbitrary, of norm 1.5
-    Vec3<Scalar> direction;
     if (which == 0) {
       change << number(0.9L), number(-0.6L), number(0.7L), number(-0.6L), number(-0.8L), number(0.5L), number(0.7L),
           number(0.5L), number(0.6L);
-      direction = {number(0.6L), number(-0.64L), number(0.48L)};
     } else {
       change << number(-0.7L), number(0.5L), number(0.8L), number(0.5L), number(0.9L), number(0.6L), number(0.8L),
           number(0.6L), number(-0.5L);
-      direction = {number(0.48L), number(0.6L), number(0.64L)};
-      amount = -amount;
     }
+    const Vec3<Scalar> direction = (which == 0 ? 1 : -1) * neighbour_direction<Scalar>(which);
+    if (which != 0) amount = -amount;
     const Mat3<Scalar> inertia = of.inertia() + amount * of.principal()[2] * change;
     const auto moved = Gyrostat<Scalar>::make(inertia, of.axis() + amount * cross<Scalar>(direction, of.axis()),
                                               of.axial_inertia() * (1 + amount), of.slope() * (1 - amount),

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gyrostat/core/real.hpp"
+#include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
 
 /// Problems that differ from a given one by what rounding makes of it.
@@ -25,9 +26,7 @@ bool keeps_axis(const Problem<Scalar>& problem) noexcept {
 /// the greatest rate, about `rate`, rounds to. What is equal or zero by a symmetry stays so. which: 0 or 1, in another direction.
 template <Real Scalar>
 Problem<Scalar> neighbour(const Problem<Scalar>& of, Scalar rate, Scalar amount, int which) noexcept {
-  const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
-  const Vec3<Scalar> v = amount * (which == 0 ? Vec3<Scalar>(number(0.6L), number(-0.64L), number(0.48L))
-                                              : Vec3<Scalar>(number(-0.48L), number(0.6L), number(0.64L)));
+  const Vec3<Scalar> v = amount * neighbour_direction<Scalar>(which);
   const bool symmetric = of.inertia[0] == of.inertia[1], kept = keeps_axis(of);
   Problem<Scalar> near = of;
   near.inertia[0] *= 1 + v[0];
@@ -43,6 +42,9 @@ Problem<Scalar> neighbour(const Problem<Scalar>& of, Scalar rate, Scalar amount,
     Scalar& w = near.angular_velocity[i];
     if (w != 0 || !kept) w += rate * amount / (part > 0 ? 2 : -2);
   }
+  // the axes whose third is the force's are known to a rounding: what they leave along the spin axis pushes on
+  const bool oblique = of.force[0] != 0 || of.force[1] != 0;
+  if (oblique) near.force += of.force.norm() * Vec3<Scalar>(v[1], v[2], v[0]);
   return near;
 }
 

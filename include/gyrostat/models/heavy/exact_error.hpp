@@ -38,4 +38,14 @@ Scalar time_error(Scalar relative, Scalar shift, Scalar K, Scalar rate, Scalar t
   return relative * t + passages * std::min(shift, relative * std::expm1(rate * t)) / rate;
 }
 
+/// How far what should stand still has gone by the time t where it is pushed off at the acceleration `push`: z'' = push + square z, from rest.
+template <Real Scalar>
+Scalar pushed_off(Scalar push, Scalar square, Scalar t) noexcept {
+  if (push == 0) return 0;
+  const Scalar half = std::sqrt(std::abs(square)) * t / 2;
+  if (square <= 0) return push * (half < 1 ? t * t / 2 : 2 / -square);
+  const Scalar growth = half > 0 ? std::sinh(half) / half : Scalar(1);
+  return push * t * t / 2 * growth * growth;
+}
+
 }  // namespace gyrostat::heavy

@@ -99,10 +99,11 @@ class LagrangeGradient {
     const Scalar relative = stated * (size_ + parts_) / least_;
     const Scalar late = still_ ? Scalar(0) : time_error(relative, relative, K, rate, t) + 64 * tail_ * (t + period_);
     const Scalar fast = fastest_ + std::sqrt(std::abs(most_)), skew = defect_ * fastest_ * t;
-    const Scalar angle =
-        stated * (1 + (still_ ? Scalar(0) : pole_)) * (1 + fast * t) + skew * (1 + fastest_ * t) + fastest_ * late;
+    const Scalar off = still_ ? pushed_off(defect_ * (swing_ * swing_ + parts_), growth_, t) : Scalar(0);
+    const Scalar angle = stated * (1 + (still_ ? Scalar(0) : pole_)) * (1 + fast * t) + skew * (1 + fastest_ * t) +
+                         fastest_ * late + off;
     return ExactError<Scalar>::of(
-        angle, unit_ * (across_ * angle + swing_ * swing_ * late + stated * (fastest_ + parts_ * t)));
+        angle, unit_ * (across_ * angle + swing_ * (swing_ * late + off) + stated * (fastest_ + parts_ * t)));
   }
 
   Scalar least() const noexcept { return u_b_ < u_o_ ? u_b_ : u_o_; }  ///< down along the axis of symmetry
@@ -171,7 +172,8 @@ class LagrangeGradient {
   int used_ = 0;
   bool still_ = false, planar_ = false;
   Scalar tail_ = 0, most_ = 1, least_ = 1, size_ = 1, pole_ = 0, fastest_ = 0, across_ = 0, swing_ = 0, defect_ = 0;
-  Scalar parts_ = 0;  // of the gradient, which may cancel: C and A are rounded
+  Scalar growth_ = 0;  // see LagrangeTop
+  Scalar parts_ = 0;   // of the gradient, which may cancel: C and A are rounded
   TopAttitude<Scalar> attitude_;
 };
 
@@ -257,6 +259,7 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
 
   across_ = greatest_speed(o, pull, y1, y2);
   fastest_ = across_ + std::abs(o.spin) + std::abs(o.rho);
+  growth_ = o.ground == 0 ? -h0_ / 4 : -h0_;
   if (still_) {
     period_ = 2 * pi<Scalar> / std::sqrt(h0_);
   } else {

@@ -60,8 +60,10 @@ class LagrangeTop {
     t = std::abs(unit_ * t);
     const Scalar late = time_error((stated + defect_) * share_, stated * shift_ + skew_shift_, K_, lam_, t);
     const Scalar skew = defect_ * fastest_ * t;
-    const Scalar angle = stated * (1 + fastest_ * t) + fastest_ * late + skew * (1 + fastest_ * t);
-    return ExactError<Scalar>::of(angle, unit_ * (across_ * angle + swing_ * swing_ * late + stated * fastest_));
+    const Scalar off = standing_ ? pushed_off(defect_ * swing_ * swing_, growth_, t) : Scalar(0);
+    const Scalar angle = stated * (1 + fastest_ * t) + fastest_ * late + skew * (1 + fastest_ * t) + off;
+    return ExactError<Scalar>::of(angle,
+                                  unit_ * (across_ * angle + swing_ * (swing_ * late + off) + stated * fastest_));
   }
 
   AxisMotion motion() const noexcept { return motion_; }
@@ -121,7 +123,8 @@ class LagrangeTop {
   Scalar plus_factor_ = 0, minus_factor_ = 0;  // before them, s
   Scalar fastest_ = 0, across_ = 0, swing_ = 0, share_ = 1, shift_ = 0, skew_shift_ = 0, defect_ = 0;
   AxisMotion motion_ = AxisMotion::nutation;
-  bool planar_ = false;
+  bool planar_ = false, standing_ = false;
+  Scalar growth_ = 0;  // of what is off an axis that stands: square of its rate, of its tilt beside a pole
   TopAttitude<Scalar> attitude_;
 };
 
@@ -173,6 +176,8 @@ void LagrangeTop<Scalar>::roots(const TopStart<Scalar>& o, Scalar kappa) noexcep
   z2_ = std::min(z2_, above0);
   if (still && w0 * w0 < 1) motion_ = AxisMotion::regular;
   if (still && o.ground == 0) motion_ = AxisMotion::sleeping;
+  standing_ = still;
+  growth_ = o.ground == 0 ? -a / 4 : -a;
 
   // A pole that is touched is kept away by less than rounding, with the c that belongs to this distance.
   below2_ = std::max(below0 + z2_, floor);

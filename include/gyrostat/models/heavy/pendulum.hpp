@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "gyrostat/core/real.hpp"
@@ -161,7 +162,7 @@ void Pendulum<Scalar>::set_phase(Scalar v, Scalar s, Scalar c, Scalar doubt) noe
   const Scalar p = v * v, inside = frequency_ * c, up = frequency_ * s;
   const Scalar total = p + up * up;  // rate^2 k^2 of libration, rate^2 of rotation
   const Scalar short_of = (inside - std::abs(v)) * (inside + std::abs(v));
-  constexpr Scalar floor = epsilon<Scalar> * epsilon<Scalar>;
+  constexpr Scalar floor = std::numeric_limits<Scalar>::min() / (epsilon<Scalar> * epsilon<Scalar>);
   fastest_ = 2 * std::sqrt(total) / fold_;
   half_ = std::atan2(s, c);
   motion_ = PendulumMotion::rest;

@@ -54,7 +54,8 @@ struct SymmetricTop {
     const Scalar sign = m[2] < 0 ? -1 : 1;
     const Vec3<Scalar> n = sign / size * m;
     const Quat<Scalar> turn = normalised(Quat<Scalar>{1 + n[2], -n[1], n[0], 0});
-    best = {I.sum() / 3, I.sum() / 3, sign * size, 0, uneven, to_matrix(turn), turn};
+    const Scalar off = 2 * epsilon<Scalar>;  // of the mass centre from the axis, by the rounding of the turn
+    best = {I.sum() / 3, I.sum() / 3, sign * size, 0, uneven + off, to_matrix(turn), turn};
     return best;
   }
 
@@ -83,8 +84,8 @@ struct TopStart {
 
   /// @param start aligned
   TopStart(const SymmetricTop<Scalar>& top, const State<Scalar>& start) noexcept {
-    unit = magnitude(start.angular_velocity) + std::sqrt(std::abs(top.pull())) +
-           std::sqrt(std::abs(top.gradient_rate()));
+    unit =
+        magnitude(start.angular_velocity) + std::sqrt(std::abs(top.pull())) + std::sqrt(std::abs(top.gradient_rate()));
     if (!(unit > 0)) unit = 1;
     rate = top.axes.transpose() * (start.angular_velocity / unit);
     pull = top.pull() / unit / unit;

@@ -184,9 +184,11 @@ void ClosedForm<Scalar>::offer_rotor_axis() noexcept {
   const Scalar j_most = 1 / gyrostat_.principal()[0];
   const detail::AxisView<Scalar> rotor(gyrostat_.inverse_inertia(), e);
   const Vec3<Scalar> H_across = H - H.dot(e) * e;
+  const auto zero = [](Scalar x) { return x == 0; };
+  const Scalar blur = std::count_if(e.begin(), e.end(), zero) == 2 ? Scalar(0) : epsilon<Scalar>;  // of an oblique axis
   const auto take = [&] {
     axis_B_ = e;
-    off_ = rotor.off / j_most;
+    off_ = rotor.off / j_most + blur;
     oblateness_ = rotor.oblateness() / j_most;
     across_ = H_across.norm() / norm_;
     along_ = H.dot(e);
