@@ -85,9 +85,9 @@ struct Neighbour {
     if (made) problem = *made;
     // arithmetic errs by what the greatest component rounds to, in all of them but where a symmetry keeps the zeros
     const bool kept = !converted && keeps_zeros(of, from);
-    const auto moved = [amount, kept](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c, Scalar size) noexcept {
-      const auto one = [kept, by = size * amount / 2](Scalar component, Scalar part) noexcept {
-        return component == 0 && kept ? component : component * (1 + part) + by * (part > 0 ? 1 : -1);
+    const auto moved = [kept](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c, Scalar size) noexcept {
+      const auto one = [kept, size](Scalar component, Scalar part) noexcept {
+        return component == 0 && kept ? component : component + size * part;
       };
       return Vec3<Scalar>(one(x[0], a), one(x[1], b), one(x[2], c));
     };

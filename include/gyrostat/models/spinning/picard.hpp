@@ -60,7 +60,7 @@ template <Real Scalar>
 struct PicardAnswer {
   SweepErrors<Scalar> linear;  ///< estimated error of the linear motion, |sweep 1 - linear| + 3 |sweep 2 - sweep 1|
   SweepErrors<Scalar>
-      error;  ///< of the states, |last sweep - the one before| times 128 of the greatest ratio of two sweeps, twice at most
+      error;  ///< of the states, |last sweep - the one before| once to twice, by 128 of the greatest ratio of two sweeps
   SweepErrors<Scalar> size;  ///< greatest norms of the columns; attitude: 1
   bool converges = true;    ///< false: a sweep moved a column by more than half of what the sweep before did; no answer
   std::uint64_t nodes = 0;  ///< times sweeps: values of the motion computed
@@ -366,7 +366,7 @@ Result<PicardAnswer<Scalar>> picard_motion(const Problem<Scalar>& problem, std::
     if (moves) ratio = std::max(ratio, now[i] / before[i]);
   }
   answer.linear = combine(1, moved[1], 3, moved[2], rounding);
-  answer.error = combine(std::min(Scalar(2), 128 * ratio), moved[last], 0, moved[last], 4 * rounding);
+  answer.error = combine(std::clamp(128 * ratio, Scalar(1), Scalar(2)), moved[last], 0, moved[last], 4 * rounding);
   return answer;
 }
 
