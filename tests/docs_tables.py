@@ -108,9 +108,9 @@ def constants(_: str, __: str) -> str:
     made += "".join(f"* `{name}`: {sentence(comment)}.\n" for comment, name, _ in sets) + "\n"
     single = []
     for comment, values in re.findall(r"((?:^///[^\n]*\n)+)^inline constexpr double ([^;]*);", text, re.M):
-        for i, each in enumerate(values.split(",")):
+        for i, each in enumerate([values] if "{" in values else values.split(",")):
             name, value = (part.strip() for part in each.split("="))
-            single.append([f"`{name}`", value.replace("1.0 / ", "1/"), sentence(comment) if i == 0 else "the same"])
+            single.append([f"`{name.partition('[')[0]}`", value.replace("1.0 / ", "1/"), sentence(comment) if i == 0 else "the same"])
     return made + table(["constant", "value", "meaning"], single)
 
 
