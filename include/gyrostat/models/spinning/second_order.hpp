@@ -163,11 +163,31 @@ class TiltIntegrals {
     return m;
   }
 
+  /// A sum of multiples of rows in registers: in memory each addition waits for the one before it.
+  struct RowSum {
+    Lanes<Scalar> part[4] = {lanes(Scalar(0)), lanes(Scalar(0)), lanes(Scalar(0)), lanes(Scalar(0))};
+
+    GYROSTAT_INLINE void add(Scalar share, const Row& row) noexcept {
+      const Lanes<Scalar> by = lanes(share);
+#pragma GCC unroll 4
+      for (int i = 0; i < 4; ++i) part[i] = multiply_add(by, load(row.data() + 4 * i), part[i]);
+    }
+
+    GYROSTAT_INLINE Row row() const noexcept {
+      Row row;
+#pragma GCC unroll 4
+      for (int i = 0; i < 4; ++i) store(row.data() + 4 * i, part[i]);
+      return row;
+    }
+  };
+
   static Row form(const Level& level, const Vector& y) noexcept {
     const Monomials m = monomials(y);
     Row sum{};
-    for (std::size_t k = 0; k < 15; ++k)
-      for (std::size_t c = 0; c < columns; ++c) sum[c] += m[k] * level.row[k][c];
+    for (std::size_t k = 0; k < 15; ++k) {
+#pragma GCC unroll 16
+      for (std::size_t c = 0; c < columns; ++c) sum[c] += m[k] * level.row[k][c];  // unrolled: it stays in registers
+    }
     return sum;
   }
 
@@ -354,7 +374,7 @@ class TiltIntegrals {
     for (std::size_t c = 0; c < 5; ++c) {
       for (std::size_t d = c; d < 5; ++d, ++m) {
         // what the second part makes of y_c y_d
-        Row second{};
+        RowSum second;
         std::size_t k = 0;
         for (std::size_t i = 0; i < 5; ++i) {
           for (std::size_t j = i; j < 5; ++j, ++k) {
@@ -362,11 +382,11 @@ class TiltIntegrals {
                 c == d ? a.transition[i][c] * a.transition[j][c]
                        : a.transition[i][c] * a.transition[j][d] + a.transition[i][d] * a.transition[j][c];
             if (share == 0) continue;  // the transition is block triangular
-            for (std::size_t n = 0; n < columns; ++n) second[n] += share * b.row[k][n];
+            second.add(share, b.row[k]);
           }
         }
         to.row[m] = a.row[m];
-        join(to.row[m], a.turned, b, second);
+        join(to.row[m], a.turned, b, second.row());
       }
     }
     to.turned = a.turned * b.turned;
