@@ -238,7 +238,7 @@ void run(int argc, char** argv, const Family& family, int count, Scenes source, 
         if (question.rung == any_rung || named != any_rung) tallies[k].refuse(refusal, text);
         continue;
       }
-      tallies[k].outside += question.rung != any_rung && answer.tried.back().why;
+      tallies[k].outside += question.rung != any_rung && !answer.tried.empty() && answer.tried.back().why;
       if (!known) {
         Question whole;
         whole.rung = int(rungs) - 1;

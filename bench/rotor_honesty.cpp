@@ -3,7 +3,9 @@
 // double. Prints the fraction of answers whose true error is within the stated one in every column, the median of stated over true, and
 // the worst cases with their scenes.
 //
-//     rotor_honesty [SCENES = 5000] [SEED = 1] [RUNG = auto]
+//     rotor_honesty [SCENES = 5000] [SEED = 1] [RUNG = auto] [together]
+//
+// together: as a sweep answers them, with `full` in lanes.
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -169,5 +171,10 @@ int main(int argc, char** argv) {
   honesty::run(
       argc, argv, tables, 5000, Scenes(honesty::seed_of(argc, argv)),
       [](const Scene& scene, Answer& truth) { return true_motion(scene, truth); },
-      [](const Scene& scene, Refusal& refusal) { return solve(scene, refusal); }, {1e-2, 1e-5, 1e-8, 1e-11});
+      [together = argc > 4 && std::string(argv[4]) == "together"](const Scene& scene, Refusal& refusal) {
+        Answer answer;
+        if (together && SweepSolver{}.together({&scene, 1}, {&answer, 1}) == 1) return answer;
+        return solve(scene, refusal);
+      },
+      {1e-2, 1e-5, 1e-8, 1e-11});
 }

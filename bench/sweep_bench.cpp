@@ -25,6 +25,7 @@ auto solver_of(const Study<Scene>& study) {
   return study.solve;
 }
 free::SweepSolver solver_of(const Study<free::Scene>&) { return {}; }
+rotor::SweepSolver solver_of(const Study<rotor::Scene>&) { return {}; }
 
 template <class Scene>
 std::vector<std::vector<double>> values_of(const Study<Scene>& study) {

@@ -247,7 +247,7 @@ Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector
   };
   if (kind == "deceleration")
     return run(deceleration::tables, &deceleration::scene_of, elliptic_backend(elliptic).decelerate);
-  if (kind == "rotor") return run(rotor::tables, &rotor::scene_of, &rotor::solve);
+  if (kind == "rotor") return run(rotor::tables, &rotor::scene_of, rotor::SweepSolver{});
   if (kind == "spinning") return run(spinning::tables, &spinning::scene_of, &spinning::solve);
   if (kind == "heavy") return run(heavy::tables, heavy::SceneOf{}, &heavy::solve);
   if (kind == "free") return run(free::tables, &free::scene_of, free::SweepSolver{});

@@ -276,3 +276,42 @@ TEST_CASE("taylor batch: what stands still or goes on for ever comes back with a
   CHECK_FALSE(batch.advance(bad));
   CHECK(batch.time(2) == 0);
 }
+
+namespace {
+
+/// x' = 1 in the unit that a step finds, which it doubles where it ends.
+struct Doubling {
+  using Scalar = double;
+  static constexpr int width = 1, carried = 1;
+  template <int Order>
+  struct Work {};
+  template <int Order>
+  void expand(const double (&unit)[8], double (&x)[Order + 1][1][8], Work<Order>&) const noexcept {
+    for (int b = 0; b < 8; ++b)
+      for (int k = 1; k <= Order; ++k) x[k][0][b] = k == 1 ? unit[b] : 0;
+  }
+  void settle(int first, double (&x)[1][8], double (&low)[1][8], double (&held)[1][8]) const noexcept {
+    for (int b = first; b < first + wide_size<double>; ++b) x[0][b] = low[0][b] = 0, held[0][b] *= 2;
+  }
+};
+
+static_assert(ode::BatchCarries<Doubling> && !ode::BatchCarries<Circles>);
+
+}  // namespace
+
+TEST_CASE("numbers that change between steps alone") {
+  ode::TaylorBatch<Doubling> batch(Doubling{}, {1e-15});
+  for (int b = 0; b < 8; ++b) batch.start(b, 0, {0, 1}, {1});
+  ode::TaylorBatch<Doubling>::Ends ends{1, 1, 1, 1, -1, 1, 1, 1};
+  batch.step(ends);
+  CHECK(batch.state(0) == std::array<double, 2>{0, 2});
+  CHECK(batch.state(4) == std::array<double, 2>{0, 1});
+  CHECK(batch.at(0, 0.25) == std::array<double, 2>{0.25, 1});
+  alignas(64) ode::TaylorBatch<Doubling>::Rows rows;
+  batch.at({.5, .5, .5, .5, 0, .5, .5, .75}, rows);
+  CHECK((rows[0][0] == .5 && rows[0][4] == 0 && rows[0][7] == .75));
+  CHECK((rows[1][0] == 1 && rows[1][4] == 1));
+  batch.kick(0, 1e-3);
+  CHECK(batch.state(0)[1] == 2 * (1 + 1e-3 * 0.48));
+  CHECK(batch.state(1)[1] == 2);
+}

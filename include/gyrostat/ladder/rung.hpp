@@ -107,6 +107,19 @@ inline std::optional<Question> in_relative_terms(const Question& question, const
   return changed ? std::optional(made) : std::nullopt;
 }
 
+/// What the track of a rung comes to, held against what is asked.
+template <class Scene, class Track>
+Answer answer_of(const Family& family, const char* model, const Scene& scene, const Track& track, bool describes) {
+  Answer answer;
+  answer.model = model;
+  answer.tolerance = scene.question().tolerance;
+  fill(answer, scene, track);
+  if (describes) describe(answer, scene, track);
+  judge(answer, scene.question(), family);
+  answer.met = track.in_domain && answer.excess <= 1;
+  return answer;
+}
+
 /// Leaves the scalars that were asked for, each of them, and says where one has no value.
 inline void keep_asked(Answer& answer, const Question& question, const Family& family) {
   const auto without_value = [](const Column& column) {
@@ -127,6 +140,43 @@ inline void keep_asked(Answer& answer, const Question& question, const Family& f
 }
 
 }  // namespace detail
+
+/// The answer that the track of a rung is, where it meets what is asked; else nothing.
+template <class Scene, class Track>
+std::optional<Answer> met_by(const Family& family, const char* model, const Scene& scene, const Track& track) {
+  const bool describes_all = asks_for_scalars(scene.question());
+  Answer answer = detail::answer_of(family, model, scene, track, describes_all);
+  if (!answer.met) return std::nullopt;
+  if (!describes_all) describe(answer, scene, track);
+  detail::keep_asked(answer, scene.question(), family);
+  return answer;
+}
+
+/// Climbs the ladder of a scene as `climb` does up to the rung `last`. The answer is that of a rung before it which meets what is asked;
+/// nothing where there is none. comes: whether the ladder goes on to `last`. What was tried is not told.
+template <class Scene, class Track>
+std::optional<Answer> climb_to(const Family& family, std::span<const Rung<Scene, Track>> rungs, std::size_t last,
+                               const Scene& scene, Monitor* monitor, bool& comes) {
+  const Question& question = scene.question();
+  const int only = question.rung, alone = only >= 0 ? only : question.alone;
+  comes = false;
+  std::vector<detail::Candidate> order;
+  for (std::size_t i = 0; i < rungs.size(); ++i) {
+    if (alone >= 0 && i != std::size_t(alone)) continue;
+    const double cost = rungs[i].cost(scene);
+    if (only < 0 && (std::isnan(cost) || detail::lacks_needed(family.rungs[i], question, family))) continue;
+    detail::enlist(order, {i, cost});
+  }
+  for (const detail::Candidate& candidate : order) {
+    comes = candidate.rung == last;
+    if (comes) break;
+    const Track track = rungs[candidate.rung].answer(scene, monitor);
+    if (track.failure == Errc::cancelled) break;
+    if (track.failure != Errc::ok) continue;
+    if (auto answer = met_by(family, family.rungs[candidate.rung].name, scene, track)) return answer;
+  }
+  return std::nullopt;
+}
 
 /// The answer of the first rung whose own error estimates meet what is asked, in the order of the family's table but for those that predict
 /// to be clearly cheaper for this scene; failing that of the rung that comes nearest to it, one in its domain before any outside, with met
@@ -157,13 +207,7 @@ Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, co
       refusal = {track.failure, kinds[i].name, track.refusal ? track.refusal : message(track.failure)};
       return track.failure != Errc::cancelled;
     }
-    Answer answer;
-    answer.model = kinds[i].name;
-    answer.tolerance = question.tolerance;
-    fill(answer, scene, track);
-    if (describes_all) describe(answer, scene, track);
-    judge(answer, question, family);
-    answer.met = track.in_domain && answer.excess <= 1;
+    Answer answer = detail::answer_of(family, kinds[i].name, scene, track, describes_all);
     tried.push_back({kinds[i].name, answer.error, answer.met || only >= 0,
                      track.in_domain ? nullptr : "the scene leaves its domain", answer.excess, candidate.cost,
                      watch.seconds()});

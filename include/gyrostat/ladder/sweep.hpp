@@ -149,12 +149,14 @@ SweepRow swept(const Family& family, const Scene& scene, const Solve& solve, std
   return {.reason = refusal.why, .rung = place_of(family.rungs, refusal.model)};
 }
 
-/// A solver that answers up to Solve::width scenes side by side, as far as it can: solve.together(scenes, answers), a bit for each answer.
+/// A solver that answers up to Solve::width scenes side by side, 32 at most, as far as it can: solve.together(scenes, answers, monitor), a bit
+/// for each answer. No answer may hang on the scenes beside it.
 template <class Solve, class Scene>
-concept SolvesTogether = requires(const Solve& solve, std::span<const Scene> scenes, std::span<Answer> answers) {
-  { Solve::width } -> std::convertible_to<std::size_t>;
-  { solve.together(scenes, answers) } -> std::same_as<unsigned>;
-};
+concept SolvesTogether =
+    requires(const Solve& solve, std::span<const Scene> scenes, std::span<Answer> answers, Monitor* monitor) {
+      { Solve::width } -> std::convertible_to<std::size_t>;
+      { solve.together(scenes, answers, monitor) } -> std::same_as<unsigned>;
+    };
 
 template <class Solve>
 inline constexpr std::size_t solved_at_once = 1;
@@ -176,7 +178,7 @@ class Waiting {
                  std::span<SweepRow> told, Monitor& own) {
     unsigned answered = 0;
     if constexpr (SolvesTogether<Solve, Scene>)
-      answered = solve.together(std::span<const Scene>(scenes_).first(count_), answers_);
+      answered = solve.together(std::span<const Scene>(scenes_).first(count_), answers_, &own);
     for (std::size_t i = 0; i < count_; ++i) {
       if (answered >> i & 1) told[rows_[i]] = told_of(family, answers_[i], targets, rows_[i]);
       else if (!own.cancel.load(std::memory_order_relaxed))
@@ -197,7 +199,7 @@ class Waiting {
 
 /// Answers a row for each element of `told`: the scene of `numbers` (inputs.hpp), with what is varied in place. scene_of(numbers) gives a
 /// Result<Scene>, and where it has a member why(numbers) words for why there is none, or nullptr; solve(scene, refusal, monitor) gives the
-/// Answer, and solve.together, where it has that, several to the same bits. All are called on several threads. A row that is no scene, or has no answer,
+/// Answer, and solve.together, where it has that, several at once. All are called on several threads. A row that is no scene, or has no answer,
 /// says why.
 template <class SceneOf, class Solve>
 void sweep(const Family& family, std::span<const double> numbers, std::span<const Varied> varied,

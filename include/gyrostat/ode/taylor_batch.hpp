@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
@@ -39,6 +40,24 @@ concept BatchSystem =
              BatchRows<typename System::Scalar, System::width, 2>& x, typename System::template Work<2>& work) {
       { system.expand(unit, x, work) } noexcept;
     };
+
+/// Systems whose states have, behind the `width` numbers that are series, numbers that stay as they are in a step and change between steps
+/// alone: a frame of reference, say, of which the series are told.
+/// * `carried`: how many.
+/// * `settle(first, x, low, carried)`: ends a step of the problems first, first + 1, ... that fit into a Wide: x + low is where it led to.
+template <class System>
+concept BatchCarries =
+    (System::carried > 0) && requires(const System& system, BatchRow<typename System::Scalar, System::width>& x,
+                                      BatchRow<typename System::Scalar, System::carried>& carried) {
+      { system.settle(0, x, x, carried) } noexcept;
+    };
+
+namespace detail {
+template <class System>
+inline constexpr int batch_carried = 0;
+template <BatchCarries System>
+inline constexpr int batch_carried<System> = System::carried;
+}  // namespace detail
 
 /// The systems know invariants and move the states x + low of the problems first, first + 1, ... that fit into a Wide onto them.
 template <class System>
@@ -88,7 +107,10 @@ class TaylorBatch {
   static constexpr int width = System::width;
   static constexpr int order = Order;
   static constexpr int size = batch_size;
-  using State = std::array<Scalar, width>;
+  static constexpr int carried = detail::batch_carried<System>;
+  using State = std::array<Scalar, width + carried>;
+  using Scale = std::array<Scalar, width>;
+  using Rows = BatchRow<Scalar, width + carried>;
   using Options = TaylorBatchOptions<Scalar>;
   using Ends = std::array<Scalar, batch_size>;
 
@@ -99,6 +121,7 @@ class TaylorBatch {
       unit_[b] = next_unit_[b] = 1;
       live_[b] = false;
       for (int i = 0; i < width; ++i) state_[i][b] = low_[i][b] = start_low_[i][b] = weight_[i][b] = 0;
+      for (int i = 0; i < carried; ++i) carried_[i][b] = start_carried_[i][b] = 0;
       for (auto& row : x_)
         for (auto& component : row) component[b] = 0;
     }
@@ -108,11 +131,12 @@ class TaylorBatch {
   System& system() noexcept { return system_; }
   const System& system() const noexcept { return system_; }
 
-  /// Problem b begins (anew). scale: the size against which the error of each component is measured; 0 leaves a component out.
-  void start(int b, Scalar t, const State& state, const State& scale) noexcept {
+  /// Problem b begins (anew). scale: the size against which the error of each component is measured; 0 leaves a component out. unit: a time
+  /// of the order of the first step, which saves expansions.
+  void start(int b, Scalar t, const State& state, const Scale& scale, Scalar unit = 1) noexcept {
     time_[b] = start_time_[b] = t;
     time_low_[b] = start_time_low_[b] = 0;
-    unit_[b] = next_unit_[b] = 1;
+    unit_[b] = next_unit_[b] = unit;
     flat_[b] = false;
     live_[b] = true;
     status_[b] = Status::reached;
@@ -123,6 +147,15 @@ class TaylorBatch {
       weight_[i][b] = scale[i] > 0 ? 1 / (scale[i] * options_.tolerance) : Scalar(0);
       for (int k = 1; k <= Order; ++k) x_[k][i][b] = 0;
     }
+    for (std::size_t i = 0; i < carried; ++i) carried_[i][b] = start_carried_[i][b] = state[width + i];
+  }
+
+  /// Moves every number of problem b by about `amount` of itself, this way and that; what is zero stays so. The last step stays as it was.
+  void kick(int b, Scalar amount) noexcept {
+    constexpr std::array<Scalar, 3> part{Scalar(0.64L), Scalar(0.48L), Scalar(-0.6L)};
+    const auto by = [&](int i) noexcept { return 1 + amount * part[static_cast<std::size_t>(i % 3)]; };
+    for (int i = 0; i < width; ++i) state_[i][b] *= by(i);
+    for (int i = 0; i < carried; ++i) carried_[i][b] *= by(width + i);
   }
 
   /// One step of every problem that has been started, has not failed and is before its end, at most up to it. How many these were.
@@ -146,13 +179,14 @@ class TaylorBatch {
   State state(int b) const noexcept {
     State state;
     for (std::size_t i = 0; i < width; ++i) state[i] = state_[i][b];
+    for (std::size_t i = 0; i < carried; ++i) state[width + i] = carried_[i][b];
     return state;
   }
 
-  /// Begin of the problem's part in the last call of step(); the polynomial holds from here to time().
+  /// Begin of the last step of problem b; the polynomial holds from here to time().
   Scalar previous_time(int b) const noexcept { return start_time_[b]; }
 
-  /// The state of problem b at t inside its part in the last call of step().
+  /// The state of problem b at t inside its last step.
   State at(int b, Scalar t) const noexcept {
     const Scalar theta = ((t - start_time_[b]) - start_time_low_[b]) / unit_[b];
     State state;
@@ -161,13 +195,37 @@ class TaylorBatch {
       for (int k = Order - 1; k >= 1; --k) sum = sum * theta + x_[k][i][b];
       state[i] = x_[0][i][b] + (start_low_[i][b] + theta * sum);
     }
+    for (std::size_t i = 0; i < carried; ++i) state[width + i] = start_carried_[i][b];
     return state;
+  }
+
+  /// The states of all problems, each at its own t inside its last step. The time of one hundred products a number.
+  GYROSTAT_NOINLINE void at(const Ends& t, Rows& states) const noexcept {
+    alignas(64) Scalar theta[size];
+    for (int b = 0; b < size; ++b)
+      theta[b] = ((t[static_cast<std::size_t>(b)] - start_time_[b]) - start_time_low_[b]) / unit_[b];
+    for (int first = 0; first < size; first += pack) {
+      const Pack z = load_wide(&theta[first]), z2 = z * z;
+      for (int i = 0; i < width; ++i)
+        store(&states[i][first],
+              load_wide(&x_[0][i][first]) + (load_wide(&start_low_[i][first]) + increment(i, first, z, z2)));
+      for (int i = 0; i < carried; ++i) store(&states[width + i][first], load_wide(&start_carried_[i][first]));
+    }
   }
 
  private:
   using Pack = Wide<Scalar>;
   static constexpr int pack = wide_size<Scalar>;
   static constexpr Scalar small = Scalar(1e-20L), large = Scalar(1e20L);  ///< sizes that decide the step
+
+  /// x(z) - x(0) of component i of the problems of one register.
+  GYROSTAT_INLINE Pack increment(int i, int first, const Pack& z, const Pack& z2) const noexcept {
+    Pack even = load_wide(&x_[Order - Order % 2][i][first]);
+    Pack odd = load_wide(&x_[Order - 1 + Order % 2][i][first]);
+    for (int k = Order - Order % 2 - 2; k >= 2; k -= 2) even = multiply_add(even, z2, load_wide(&x_[k][i][first]));
+    for (int k = Order - 3 + Order % 2; k >= 1; k -= 2) odd = multiply_add(odd, z2, load_wide(&x_[k][i][first]));
+    return z * multiply_add(even, z, odd);
+  }
 
   /// The greatest sizes of the coefficients k relative to the tolerance.
   GYROSTAT_INLINE void sizes(int k, Scalar* to) const noexcept {
@@ -202,8 +260,8 @@ class TaylorBatch {
   bool change_unit(int b, int trial, Scalar last, Scalar last_but_one, Scalar& theta) noexcept;
   /// Moves the times of those that run, at most up to their ends; taken: h/unit of each problem, 0 where it makes no step.
   GYROSTAT_INLINE void move_times(const Ends& ends, const Numbers& theta, Flags& runs, Numbers& taken) noexcept;
-  /// Moves the states by what was taken.
-  GYROSTAT_INLINE void move_states(const Numbers& taken) noexcept;
+  /// Moves the states of those that run by what was taken.
+  GYROSTAT_INLINE void move_states(const Numbers& taken, const Flags& runs) noexcept;
 
   System system_;
   Options options_;
@@ -221,6 +279,8 @@ class TaylorBatch {
   alignas(64) BatchRow<Scalar, width> low_;
   alignas(64) BatchRow<Scalar, width> start_low_;
   alignas(64) BatchRow<Scalar, width> weight_;
+  alignas(64) BatchRow<Scalar, carried + (carried == 0)> carried_;
+  alignas(64) BatchRow<Scalar, carried + (carried == 0)> start_carried_;
   alignas(64) BatchRows<Scalar, width, Order> x_;
   alignas(64) typename System::template Work<Order> work_;
 };
@@ -263,23 +323,32 @@ bool TaylorBatch<System, Order>::change_unit(int b, int trial, Scalar last, Scal
 template <BatchSystem System, int Order>
 GYROSTAT_INLINE int TaylorBatch<System, Order>::begin(const Ends& ends, Flags& runs) noexcept {
   int running = 0;
+  alignas(64) Numbers goes;
   for (int b = 0; b < size; ++b) {
     runs[b] = live_[b] && time_[b] < ends[static_cast<std::size_t>(b)];
     if (runs[b] && counts_[b].steps >= options_.step_cap) {
       status_[b] = Status::step_limit;
       live_[b] = runs[b] = false;
     }
-    running += runs[b] ? 1 : 0;
+    goes[b] = runs[b] ? Scalar(1) : Scalar(0);
+    if (!runs[b]) continue;
+    ++running;
     start_time_[b] = time_[b];
     start_time_low_[b] = time_low_[b];
     unit_[b] = next_unit_[b];
   }
   if (running == 0) return 0;
-  for (int i = 0; i < width; ++i) {
-    for (int first = 0; first < size; first += pack) {
-      store(&x_[0][i][first], load_wide(&state_[i][first]));
-      store(&start_low_[i][first], load_wide(&low_[i][first]));
+  // what makes no step keeps the begin of its last one, and its rows are made again to the same bits
+  for (int first = 0; first < size; first += pack) {
+    const auto yes = less<Scalar>(wide(Scalar(0)), load_wide(&goes[first]));
+    const auto take = [&](Scalar* to, const Scalar* from) {
+      store(to, choose<Scalar>(yes, load_wide(from), load_wide(to)));
+    };
+    for (int i = 0; i < width; ++i) {
+      take(&x_[0][i][first], &state_[i][first]);
+      take(&start_low_[i][first], &low_[i][first]);
     }
+    for (int i = 0; i < carried; ++i) take(&start_carried_[i][first], &carried_[i][first]);
   }
   return running;
 }
@@ -350,16 +419,17 @@ GYROSTAT_INLINE void TaylorBatch<System, Order>::move_times(const Ends& ends, co
 }
 
 template <BatchSystem System, int Order>
-GYROSTAT_INLINE void TaylorBatch<System, Order>::move_states(const Numbers& taken) noexcept {
+GYROSTAT_INLINE void TaylorBatch<System, Order>::move_states(const Numbers& taken, const Flags& runs) noexcept {
+  alignas(64) BatchRow<Scalar, width> state, low;
+  alignas(64) BatchRow<Scalar, carried + (carried == 0)> held;
+  std::memcpy(state, state_, sizeof state_);
+  std::memcpy(low, low_, sizeof low_);
+  std::memcpy(held, carried_, sizeof carried_);
   for (int first = 0; first < size; first += pack) {
     const Pack z = load_wide(&taken[first]);
     const Pack z2 = z * z;
     for (int i = 0; i < width; ++i) {
-      Pack even = load_wide(&x_[Order - Order % 2][i][first]);
-      Pack odd = load_wide(&x_[Order - 1 + Order % 2][i][first]);
-      for (int k = Order - Order % 2 - 2; k >= 2; k -= 2) even = multiply_add(even, z2, load_wide(&x_[k][i][first]));
-      for (int k = Order - 3 + Order % 2; k >= 1; k -= 2) odd = multiply_add(odd, z2, load_wide(&x_[k][i][first]));
-      const Pack delta = z * multiply_add(even, z, odd);
+      const Pack delta = increment(i, first, z, z2);
       const Pack high = load_wide(&x_[0][i][first]);
       const Pack y = load_wide(&start_low_[i][first]) + delta;
       const Pack next = high + y;
@@ -367,9 +437,18 @@ GYROSTAT_INLINE void TaylorBatch<System, Order>::move_states(const Numbers& take
       store(&state_[i][first], next);
       store(&low_[i][first], (high - (next - part)) + (y - part));
     }
+    if constexpr (BatchCarries<System>) system_.settle(first, state_, low_, carried_);
     if constexpr (BatchProjects<System>) {
       if (options_.projected) system_.project(first, state_, low_);
     }
+  }
+  for (int b = 0; b < size; ++b) {
+    if (runs[b]) continue;  // else as it was
+    for (int i = 0; i < width; ++i) {
+      state_[i][b] = state[i][b];
+      low_[i][b] = low[i][b];
+    }
+    for (int i = 0; i < carried; ++i) carried_[i][b] = held[i][b];
   }
 }
 
@@ -381,18 +460,9 @@ int TaylorBatch<System, Order>::step(const Ends& ends) noexcept {
   if (running == 0) return 0;
   expand(runs, running, theta);
   move_times(ends, theta, runs, taken);
-  move_states(taken);
+  move_states(taken, runs);
   int moved = 0;
-  for (int b = 0; b < size; ++b) {
-    if (runs[b]) {
-      ++moved;
-    } else {  // as it was
-      for (int i = 0; i < width; ++i) {
-        state_[i][b] = x_[0][i][b];
-        low_[i][b] = start_low_[i][b];
-      }
-    }
-  }
+  for (int b = 0; b < size; ++b) moved += runs[b] ? 1 : 0;
   return moved;
 }
 

@@ -27,7 +27,7 @@ struct SweepSolver {
   Answer operator()(const Scene& scene, Refusal& refusal, Monitor* monitor) const {
     return solve(scene, refusal, monitor);
   }
-  unsigned together(std::span<const Scene> scenes, std::span<Answer> answers) const {
+  unsigned together(std::span<const Scene> scenes, std::span<Answer> answers, Monitor* = nullptr) const {
     return solve_together(scenes, answers);
   }
 };

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "gyrostat/ladder/rotor/closed_form_rung.hpp"
 #include "gyrostat/ladder/rotor/cost.hpp"
+#include "gyrostat/ladder/rotor/full_lanes.hpp"
 #include "gyrostat/ladder/rotor/full_rung.hpp"
 #include "gyrostat/ladder/rotor/linear_tail_rung.hpp"
 #include "gyrostat/ladder/rotor/solve.hpp"
@@ -56,12 +61,56 @@ inline constexpr Rung<Scene, Track> models[] = {{&closed_form_track, &cost_of_cl
                                                 {&linear_tail_track, &cost_of_linear_tail},
                                                 {&full_track, &cost_of_full}};
 
-GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept {
-  return models[rung].cost(scene);
-}
+GYROSTAT_COMPILED_ONCE double cost_of(const Scene& scene, int rung) noexcept { return models[rung].cost(scene); }
 
 GYROSTAT_COMPILED_ONCE Answer solve(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
+}
+
+GYROSTAT_COMPILED_ONCE unsigned solve_together(std::span<const Scene> scenes, std::span<Answer> answers,
+                                               Monitor* monitor) {
+  unsigned answered = 0;
+  const auto take = [&](std::size_t i, std::optional<Answer>&& answer) {
+    if (!answer) return;
+    answers[i] = *std::move(answer);
+    answered |= 1U << i;
+  };
+  std::array<LaneTask, SweepSolver::width> tasks;
+  std::array<Track, SweepSolver::width> tracks;
+  std::array<Goal<std::size(column_kinds)>, SweepSolver::width> goals;
+  std::array<std::size_t, SweepSolver::width> places{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Scene& scene = scenes[i];
+    const Question& question = scene.question();
+    if (scene.full_equations ||
+        !suits_lanes(scene.gyrostat(), scene.start(), question.times.back(), question.integrator))
+      continue;
+    bool comes = false;
+    take(i, climb_to<Scene, Track>(tables, models, std::size_t(rung::full), scene, monitor, comes));
+    if (!comes) continue;
+    goals[count] = scene.goal();
+    tracks[count].states.resize(question.times.size());
+    LaneTask& task = tasks[count];
+    task.gyrostat = &scene.gyrostat();
+    task.start = scene.start();
+    task.times = question.times;
+    task.states = tracks[count].states;
+    task.options.tolerance = goals[count].tightest;
+    task.options.wanted = goals[count].columns.of;
+    task.options.watched_by(monitor);
+    task.options.progress = nullptr;
+    places[count++] = i;
+  }
+  full_in_lanes(std::span(tasks).first(count));
+  for (std::size_t n = 0; n < count; ++n) {
+    const FullMotionAnswer<double>& found = tasks[n].answer;
+    if (found.status != ode::Status::reached) continue;
+    tracks[n].error = found.error;
+    tracks[n].counts = found.counts;
+    take(places[n], met_by(tables, rung_kinds[rung::full].name, scenes[places[n]], tracks[n]));
+  }
+  return answered;
 }
 
 }  // namespace gyrostat::rotor
