@@ -189,6 +189,7 @@
 #include "gyrostat/models/general/full.hpp"
 #include "gyrostat/models/general/holding.hpp"
 #include "gyrostat/models/general/known_momentum.hpp"
+#include "gyrostat/models/general/outward.hpp"
 #include "gyrostat/models/general/parts.hpp"
 #include "gyrostat/models/general/piece.hpp"
 #include "gyrostat/models/general/problem.hpp"

@@ -16,8 +16,8 @@ from gyrostat.errors import Refused
 from gyrostat.fields import ROUNDING, UNSET, Choices, Field, Table
 from gyrostat.rotation import quaternion_from_matrix, quaternion_from_vector
 
-__all__ = ["EXAMPLE", "FORMS", "NOT_ORTHONORMAL", "SEQUENCES", "axes_of", "form_of", "off_orthonormal", "require_rotation", "settle",
-           "with_alternatives", "with_forms"]
+__all__ = ["EXAMPLE", "FORMS", "NOT_ORTHONORMAL", "SEQUENCES", "axes_of", "form_of", "off_orthonormal", "quaternions", "require_rotation",
+           "rotation_rows", "settle", "with_alternatives", "with_forms"]
 
 Quaternion = tuple[float, float, float, float]
 
@@ -101,7 +101,26 @@ def off_orthonormal(initial: Mapping[str, Any]) -> float:
     return off if off > ROUNDED else 0.0
 
 
-def require_rotation(rows: tuple[tuple[float, ...], ...]) -> None:
+def quaternions(form: str, matrices: Any) -> list[Quaternion]:
+    """The unit quaternions of direction cosines (n, 3, 3) that are given in this form."""
+    return [_quaternion(form, matrix) for matrix in matrices]
+
+
+def rotation_rows(matrices: Any) -> tuple[list[str], Any]:
+    """Of direction cosines (n, 3, 3): why they are those of no rotation, empty where they are; and which of these are rounded, (n,)."""
+    wrong = [""] * len(matrices)
+    with np.errstate(invalid="ignore"):
+        off = np.max(np.abs(matrices @ np.swapaxes(matrices, -1, -2) - np.eye(3)), axis=(-1, -2))
+        suspect = (off > ORTHONORMAL) | (np.linalg.det(matrices) < 0)
+    for row in np.flatnonzero(suspect):
+        try:
+            require_rotation(matrices[row])
+        except Refused as refused:
+            wrong[row] = f"{NOT_ORTHONORMAL[0]}: {refused.problem}"
+    return wrong, off > ROUNDED
+
+
+def require_rotation(rows: Any) -> None:
     """Raises Refused for direction cosines that are those of no rotation."""
     matrix = np.array(rows)
     gram = matrix @ matrix.T

@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import Field, parts_of
-from gyrostat.orientation import FORMS
+from gyrostat.orientation import FORMS, form_of, rotation_rows
 from gyrostat.schema import interval
 from gyrostat.vary import Floats, Number, Plan, as_varied, number_in, read_cases
 
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["SETTINGS", "Place", "inputs_of", "numbers_of", "place_of", "plan_of", "refilled", "request"]
+__all__ = ["SETTINGS", "Place", "inputs_of", "numbers_of", "place_of", "plan_of", "refilled", "request", "turned"]
 
 # Words of a table [vary] beside its keys.
 SETTINGS: Final = ("n", "seed", "design", "cases")
@@ -33,9 +33,9 @@ T = TypeVar("T")
 WIDTHS: Final = {"number": 1, "choice": 1, "vector": 3, "axis": 3, "direction": 3, "moments": 3, "quaternion": 4, "turn": 4, "inertia": 9, "matrix": 9,
                  "number or record": 1, "vector or record": 3}
 # Numbers of a row of a table.
-_ROWS: Final = {"rows": 3, "intervals": 2, "matrix": 3}
+_ROWS: Final = {"rows": 3, "intervals": 2, "matrix": 3, "rotation": 3}
 # As many numbers as are given.
-_LISTS: Final = ("numbers", "times", "rows", "intervals")
+_LISTS: Final = ("numbers", "times", "rows", "intervals", "rotation")
 
 
 def _parts(field: Field, value: Any) -> tuple[Field, ...]:
@@ -87,10 +87,10 @@ def refilled(field: Field, value: Any, numbers: Iterator[Any]) -> Any:
 
 def inputs_of(family: Family) -> tuple[tuple[str, str, Field], ...]:
     """The keys that can vary, in their order: full name, table and field. A family of which the compiled core lists none takes all that
-    have numbers, but the question and the forms of an attitude, which the quaternion stands for."""
+    have numbers, but the question and the forms of an attitude that the quaternion stands for: direction cosines vary by themselves."""
     if names := [name for name, _, _ in family.facts.inputs]:
         return tuple((name, *_field(family, name)) for name in names)
-    left_out = {field.name for field in FORMS}
+    left_out = {field.name for field in FORMS if field.form != "rotation"}
     numeric = {*WIDTHS, *_LISTS, "record", "records"} - {"choice"}
     return tuple((f"{table}.{field.name}" if table else field.name, table, field) for table, fields in family.keys.items() if table != "solve"
                  for field in fields if field.form in numeric and field.name not in left_out)
@@ -136,7 +136,7 @@ class Place:
 
     def outside(self, values: Floats) -> NDArray[np.bool_]:
         """Which of the values (n,) the key does not allow; NaN among them."""
-        if self.product:
+        if self._is_free:
             return ~np.isfinite(values)
         low, high = self.field.low, self.field.high
         above = values > low if self.field.open_low else values >= low
@@ -146,7 +146,12 @@ class Place:
     @property
     def remedy(self) -> str:
         """What would be allowed."""
-        return f"{self.key} is not {'finite' if self.product else interval(self.field) or 'finite'}"
+        return f"{self.key} is not {'finite' if self._is_free else interval(self.field) or 'finite'}"
+
+    @property
+    def _is_free(self) -> bool:
+        """Any number may stand here: what it must be hangs on others."""
+        return self.product or self.field.form == "rotation"
 
 
 def _indices(key: str, text: str | None, field: Field, value: Any) -> tuple[int, ...]:
@@ -305,6 +310,21 @@ def request(scene: "Scene", places: Iterable[Place], columns: Iterable[Floats], 
         return made
     held = [(number, np.where(sound, column, np.nan)) for place, column in zip(places, columns, strict=True) for number in place.numbers]
     return {"numbers": numbers_of(scene), "places": [number for number, _ in held], "values": np.array([column for _, column in held])}
+
+
+def turned(scene: "Scene", places: Iterable[Place], columns: Iterable[Floats], n: int) -> tuple[list[str], NDArray[np.bool_]] | None:
+    """Of n rows of a scene that begins with direction cosines: why those of a row are no rotation, empty where they are one, and which are rounded; None
+    for a scene that gives its attitude in another form."""
+    initial = scene.tables.get("initial", {})
+    form = form_of(initial)
+    if not form.startswith("dcm"):
+        return None
+    matrices = np.tile(np.array(initial[form], dtype=float), (n, 1, 1))
+    for place, column in zip(places, columns, strict=True):
+        if place.field.name == form:
+            number = place.numbers[0] - place_of(scene, f"initial.{form}[0,0]").numbers[0]
+            matrices[:, number // 3, number % 3] = column
+    return rotation_rows(matrices)
 
 
 def _alone(family: Family, name: str) -> bool:

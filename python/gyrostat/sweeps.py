@@ -24,7 +24,8 @@ from gyrostat.errors import DomainError
 from gyrostat.facts import MEANINGS, Facts, Quantity
 from gyrostat.families import FAMILIES
 from gyrostat.ladder import SceneLike, scene_of
-from gyrostat.rows import Place, plan_of, request
+from gyrostat.orientation import NOT_ORTHONORMAL, form_of
+from gyrostat.rows import Place, plan_of, request, turned
 from gyrostat.scenes import Scene
 from gyrostat.sweep_files import import_xarray, open_results, save, to_netcdf, writer_of
 from gyrostat.vary import Plan
@@ -91,21 +92,25 @@ class Study:
         return int(8 * (numbers + len(self.places) + 4))
 
     def _answered(self, rows: range, threads: int, monitor: Monitor | None) -> tuple[dict[str, Any], dict[str, Any], np.ndarray[Any, Any]]:
-        """Parameters, answers, and for each row which of the parameters is not allowed (-1: none)."""
+        """Parameters, answers, and for each row what is wrong with its numbers, else empty."""
         columns = self.plan.columns(rows)
-        outside = np.full(len(rows), -1)
-        for i, (key, values) in reversed(list(enumerate(columns.items()))):
-            outside[self.places[key].outside(values)] = i
-        made = _core.sweep(**self._request, **request(self.scene, self.places.values(), columns.values(), outside < 0), threads=threads, monitor=monitor)
-        return columns, made, outside
+        wrong = np.full(len(rows), "", dtype=object)
+        turn = turned(self.scene, self.places.values(), columns.values(), len(rows))
+        if turn is not None:
+            wrong[:] = turn[0]
+        for key, values in reversed(list(columns.items())):
+            wrong[self.places[key].outside(values)] = self.places[key].remedy
+        made = _core.sweep(**self._request, **request(self.scene, self.places.values(), columns.values(), wrong == ""), threads=threads, monitor=monitor)
+        if turn is not None:
+            made["warnings"] = made["warnings"] | (turn[1] & (made["rung"] >= 0)) * (1 << len(FAMILIES[self.scene.kind].facts.warnings))
+        return columns, made, wrong
 
     def rows(self, rows: range, threads: int, monitor: Monitor | None = None) -> "xarray.Dataset":
         """The answers to some of the rows."""
-        columns, made, outside = self._answered(rows, threads, monitor)
+        columns, made, wrong = self._answered(rows, threads, monitor)
         facts = FAMILIES[self.scene.kind].facts
         reasons = np.array([_reason(facts, why, rung) for why, rung in made["reasons"]], dtype=object)[made["reason"]]
-        for i, key in enumerate(columns):
-            reasons[outside == i] = self.places[key].remedy
+        reasons = np.where(wrong != "", wrong, reasons)
         variables: dict[str, Any] = {}
         for key, values in columns.items():
             variables[key] = ("row", values, {"units": self.places[key].field.unit, "long_name": self.places[key].field.meaning, "role": "parameter",
@@ -116,7 +121,7 @@ class Study:
         variables["model"] = ("row", rungs[made["rung"]], {"long_name": "rung that answered"})
         variables["met"] = ("row", made["met"], {"long_name": "the tolerance is met"})
         variables["excess"] = ("row", made["excess"], {"units": "1", "long_name": "greatest error over its tolerance"})
-        codes = list(facts.warnings)
+        codes = [*facts.warnings, *([NOT_ORTHONORMAL[0]] if form_of(self.scene.tables.get("initial", {})).startswith("dcm") else [])]
         variables["warnings"] = ("row", made["warnings"].astype(np.int32), {
             "long_name": "warnings", "flag_masks": np.array([1 << i for i in range(len(codes))], dtype=np.int32), "flag_meanings": " ".join(codes)})
         variables["reason"] = ("row", reasons, {"long_name": "why there is no answer"})

@@ -60,6 +60,65 @@ def test_a_body_that_a_brake_stops_against_another_torque_rests_where_that_is_kn
         assert gyrostat.solve(scene(torque=[torques[0], {**torques[1], **late}], solve={"times": [0.0, 1.0], "tolerance": 1e-9})).met
 
 
+RAMP: dict[str, Any] = {"times": [0.0, 100.0], "values": [0.0, 1.0]}
+
+
+@pytest.mark.parametrize("law", ["total", "carrier"])
+@pytest.mark.parametrize("ramp", [{"type": "constant", "torque": [0.0, 0.0, 1.0], "factor": RAMP},
+                                  {"type": "table", "times": RAMP["times"], "values": [[0.0, 0.0, v] for v in RAMP["values"]], "interpolation": "linear"}])
+def test_a_body_that_leaves_its_rest_inside_a_ramp_is_refused_and_one_that_does_not_is_answered(law: str, ramp: dict[str, Any]) -> None:
+    # about the third axis J w' = t/100 - 0.3 sign(w): at rest it would leave at 30 s, which is no time of the table
+    brake = {"type": "brake", "limit": [0.3, 0.3, 0.3], "law": law}
+
+    def answer(w: float, times: list[float], *torques: dict[str, Any]) -> gyrostat.Answer:
+        return gyrostat.solve(scene(torque=[brake, *torques], initial={"angular_velocity": [0.0, 0.0, w]}, solve={"times": times, "tolerance": 1e-9}))
+
+    for w in (0.0, 0.5):  # at rest from the start, or from 3.8 s on
+        with pytest.raises(DomainError, match="past what its brake can hold between two of its times, and how the body leaves is not followed: give the table in steps"):
+            answer(w, [10.0, 40.0], ramp)
+    # while it turns it goes through the limit of the brake as through any other torque
+    turning = answer(3.0, [20.0, 30.0, 80.0], ramp)
+    assert turning.met and np.allclose(turning["angular_velocity"][:, 2], [3 + (t * t / 200 - 0.3 * t) / 2 for t in turning.t], rtol=1e-9)
+    # in steps it leaves at the one that is too much: 0.4 N m from 40 s on
+    steps = {"type": "table", "times": [10.0 * i for i in range(11)], "values": [[0.0, 0.0, 0.1 * i] for i in range(11)], "interpolation": "step"}
+    left = answer(0.0, [20.0, 35.0, 45.0, 60.0], steps)
+    assert left.met and np.allclose(left["angular_velocity"][:, 2], [0.0, 0.0, 0.1 * 5 / 2, (0.1 * 10 + 0.2 * 10) / 2], rtol=1e-9, atol=1e-15)
+    # and a ramp that ends within the limit is held to its end
+    low = {**ramp, **({"factor": {**RAMP, "values": [0.0, 0.299]}} if "factor" in ramp else {"values": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.299]]})}
+    held = answer(0.0, [50.0, 100.0], low)
+    assert not np.any(held["angular_velocity"])
+
+
+def test_a_wave_that_is_fast_against_the_motion_is_followed() -> None:
+    torque = {"type": "constant", "torque": [0.0, 0.0, 0.4], "factor": {"mean": 0.0, "amplitude": 1.0, "rate": 500.0, "phase": 0.3}}
+    made = gyrostat.solve(scene(torque=[torque], initial={"angular_velocity": [0.0, 0.0, 0.01]}, solve={"times": [0.0, 1.0, 7.0], "tolerance": 1e-10}))
+    law = 0.01 + 0.4 / 2.0 / 500.0 * (math.cos(0.3) - np.cos(500.0 * made.t + 0.3))
+    assert made.met and np.allclose(made["angular_velocity"][:, 2], law, rtol=0, atol=1e-12)
+
+
+def test_an_eccentric_orbit_drives_a_body_that_a_circle_leaves_at_rest() -> None:
+    # seen from the orbit a slender body that is upright at the pericentre swings by about 2 e/(3 k - 1) sin(n t), k = (J2 - J1)/J3
+    def swing(eccentricity: float) -> float:
+        made = gyrostat.solve(scene(
+            body={"inertia": [0.1, 1.0, 1.0]}, torque=[{"type": "gravity-gradient"}], orbit={"radius": 7e6, "mu": 3.986e14, "eccentricity": eccentricity},
+            initial={"attitude": [0.0, 0.0, 0.0, 1.0], "angular_velocity": [0.0, 0.0, rate * (1 + eccentricity) ** 0.5]},
+            solve={"times": np.linspace(0.0, 8000.0, 81).tolist(), "tolerance": 1e-9}), ask=["attitude"])
+        angle = 2 * np.arctan2(made["attitude"][:, 2], made["attitude"][:, 3])
+        return float(np.max(np.abs(np.angle(np.exp(1j * (angle - anomaly(eccentricity, made.t)))))))
+
+    def anomaly(e: float, t: Any) -> Any:
+        axis = 7e6 / (1 - e)
+        mean = math.sqrt(3.986e14 / axis**3) * t
+        eccentric = mean
+        for _ in range(40):
+            eccentric = mean + e * np.sin(eccentric)
+        return 2 * np.arctan2(math.sqrt(1 + e) * np.sin(eccentric / 2), math.sqrt(1 - e) * np.cos(eccentric / 2))
+
+    rate = math.sqrt(3.986e14 / 7e6**3)
+    assert swing(0.0) < 1e-7
+    assert swing(0.02) > 0.01
+
+
 def test_drag_on_the_momentum_brakes_what_wheels_have_stored() -> None:
     wheel = {"type": "held", "axis": [0, 0, 1], "axial_inertia": 0.1, "rate": 50.0}
     made = gyrostat.solve(scene(wheel=[wheel], torque=[{"type": "damping", "against": "momentum", "coefficient": 0.07}]), ask=["angular_momentum_inertial"])

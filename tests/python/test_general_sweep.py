@@ -191,6 +191,46 @@ def test_rows_without_an_answer_say_why() -> None:
     assert turned["reason"].values[0] != "" and turned["reason"].values[1] == ""
 
 
+@pytest.mark.parametrize("form", ["dcm_body_to_inertial", "dcm_inertial_to_body"])
+def test_a_row_whose_direction_cosines_are_no_rotation_says_so(form: str) -> None:
+    c, s = 0.8, 0.6
+    given = {"name": "test", "kind": "general", "solve": {"times": [0.0, 3.0]}, "body": {"inertia": [3.0, 2.5, 2.0]},
+             "torque": [{"type": "constant", "torque": [0.1, 0.0, 0.2], "frame": "inertial"}],
+             "initial": {form: [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]], "angular_velocity": [0.3, -0.5, 0.8]}}
+    key = f"initial.{form}"
+    angle = 1.1
+    turn = {f"{key}[0,0]": np.cos(angle), f"{key}[0,1]": -np.sin(angle), f"{key}[1,0]": np.sin(angle), f"{key}[1,1]": np.cos(angle)}
+    own = {f"{key}[0,0]": c, f"{key}[0,1]": -s, f"{key}[1,0]": s, f"{key}[1,1]": c}
+    lines = [turn, own | {f"{key}[0,0]": c + 1e-7}, own | {f"{key}[0,0]": c + 1e-10}, own | {f"{key}[0,0]": 3.0}, own | {f"{key}[0,0]": np.nan},
+             {name: -value if name.endswith("[1,0]") or name.endswith("[1,1]") else value for name, value in own.items()}, own]
+    rows = sweep(scene_from(given), cases={name: [float(line[name]) for line in lines] for name in own}, threads=2)
+    reasons = rows["reason"].values.tolist()
+    assert [reason.partition(":")[0] for reason in reasons] == ["", "not-orthonormal", "", "not-orthonormal", f"{key}[0,0] is not finite", "not-orthonormal", ""]
+    assert "mirror" in reasons[5] and "row 1 has the length" in reasons[1]
+    assert np.isnan(rows["attitude"].values[[1, 3, 4, 5]]).all() and np.isfinite(rows["attitude"].values[[0, 2, 6]]).all()
+    # the row that is rounded has its warning, and each that has an answer is the scene alone
+    flag = rows["warnings"].attrs["flag_masks"][rows["warnings"].attrs["flag_meanings"].split().index("not-orthonormal")]
+    assert [bool(bits & flag) for bits in rows["warnings"].values] == [False, False, True, False, False, False, False]
+    for row in (0, 2, 6):
+        line, matrix = lines[row], [list(each) for each in given["initial"][form]]  # type: ignore[index]
+        for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            matrix[i][j] = float(line[f"{key}[{i},{j}]"])
+        answer = gyrostat.solve({**given, "initial": {**given["initial"], form: matrix}})  # type: ignore[dict-item]
+        assert rows["attitude"].values[row].tobytes() == answer["attitude"].tobytes()
+        assert (bool([warning for warning in answer.warnings if warning.code == "not-orthonormal"])) == (row == 2)
+    with pytest.raises(DomainError, match=re.escape(f"{key}[0,1], counting")):
+        place_of(scene_from(given), key)
+
+
+def test_rounded_direction_cosines_of_a_scene_are_told_in_every_row() -> None:
+    c, s = 0.8 + 1e-10, 0.6
+    scene = {"name": "test", "kind": "free", "solve": {"times": [0.0, 3.0]}, "body": {"inertia": [3.0, 2.5, 2.0]},
+             "initial": {"dcm_body_to_inertial": [[c, -s, 0.0], [s, 0.8, 0.0], [0.0, 0.0, 1.0]], "angular_velocity": [0.3, -0.5, 0.8]}}
+    rows = sweep(scene, {"initial.angular_velocity[0]": [0.1, 0.2]})
+    told = rows["warnings"].attrs["flag_meanings"].split()
+    assert told[-1] == "not-orthonormal" and all(bits >> (len(told) - 1) & 1 for bits in rows["warnings"].values)
+
+
 def test_a_brake_that_stops_the_body_is_a_reason_or_a_stop_time() -> None:
     scene = scene_from({"name": "test", "kind": "general", "solve": {"times": [1.0, 5.0]}, "body": {"inertia": [3.0, 2.5, 2.0]},
                         "torque": [{"type": "brake", "limit": [0.1, 0.2, 0.1]}], "wheel": [{"type": "friction", "axis": [0, 0, 1], "axial_inertia": 0.1,

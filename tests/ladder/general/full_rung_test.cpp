@@ -28,6 +28,26 @@ TEST_CASE("the full general equations through the ladder are honest in every col
   CHECK(answered > 50);
 }
 
+TEST_CASE("what is kept is known better than the phase", "[general]") {
+  using namespace general_scenes;
+  Problem<double> p = brick();
+  p.wheels = {wheel(WheelType::free, {0, 0.6, 0.8})};
+  for (const bool charged : {false, true}) {
+    if (charged) p.torques = {torque(TorqueType::charge, {0.3, -0.2, 0.5})};
+    Question question = question_at({50, 150}, 1e-4, rung::full);
+    question.asked = all_columns();
+    for (auto& each : question.asked) each.needed = false;
+    const Scene scene = posed(p, question);
+    const Answer answer = solved(scene);
+    CAPTURE(charged);
+    check_honest(scene, answer);
+    CHECK(answer.find("energy")->error < 0.3 * answer.find("angular_velocity")->error);
+    if (charged) continue;
+    CHECK(answer.find("angular_momentum_norm")->error < 0.3 * answer.find("angular_momentum")->error);
+    CHECK(answer.find("angular_momentum_inertial")->error < 0.3 * answer.find("attitude")->error);
+  }
+}
+
 TEST_CASE("energy and momentum balance with work and impulse", "[general]") {
   using namespace general_scenes;
   Problem<double> p = brick();

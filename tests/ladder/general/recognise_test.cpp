@@ -140,6 +140,81 @@ TEST_CASE("constant torque and thrust, momentum of wheels along a principal axis
   CHECK_FALSE(is(p, Special::spinning));
 }
 
+TEST_CASE("a scene is an instance to 8 roundings and none with 9, and the answers go on from one to the other",
+          "[general]") {
+  constexpr double eps = epsilon<double>;
+  struct Row {
+    Special family;
+    Problem<double> (*make)(double roundings);
+  };
+  const Row rows[] = {
+      {Special::free,
+       [](double k) {
+         Problem<double> p = brick();
+         p.torques = {torque(TorqueType::constant, {1, 0, 0}),
+                      torque(TorqueType::constant, {-(1 + 2 * k * eps), 0, 0})};
+         return p;
+       }},
+      {Special::deceleration,
+       [](double k) {
+         Problem<double> p = brick();
+         p.torques = {damping(0.03125 * Mat3<double>::Identity(), Opposed::momentum)};
+         p.torques[0].matrix(0, 1) = k * eps * 0.03125;
+         return p;
+       }},
+      {Special::deceleration,  // drag on the carrier
+       [](double k) {
+         Problem<double> p = brick();
+         p.inertia = Vec3<double>(4, 4, 4).asDiagonal();
+         p.torques = {damping(0.25 * Mat3<double>::Identity(), Opposed::angular_velocity)};
+         p.torques[0].matrix(0, 1) = p.torques[0].matrix(1, 0) = k * eps * 0.25;
+         return p;
+       }},
+      {Special::heavy,  // symmetric, with a wheel
+       [](double k) {
+         Problem<double> p = top();
+         p.inertia(0, 0) *= 1 + k * eps;
+         p.wheels = {wheel(WheelType::held, {0, 0, 1})};
+         return p;
+       }},
+      {Special::rotor,
+       [](double k) {
+         Problem<double> p = brick();
+         p.wheels = {wheel(WheelType::motor, {0, 0, 1}), wheel(WheelType::held, {0, 0, 1})};
+         p.wheels[0].slope = 0.01, p.wheels[0].no_load_rate = 30;
+         p.wheels[1].axis[0] = k * eps;
+         return p;
+       }},
+      {Special::spinning,
+       [](double k) {
+         Problem<double> p = brick();
+         p.torques = {torque(TorqueType::constant, {0.01, -0.02, 0.005})};
+         p.wheels = {wheel(WheelType::held, {0, 1, 0})};
+         p.wheels[0].axis[2] = k * eps;
+         return p;
+       }},
+  };
+  for (const Row& row : rows) {
+    CAPTURE(special_words[std::size_t(row.family)], &row - rows);
+    const auto inside = row.make(8), outside = row.make(9);
+    CHECK(is(inside, row.family));
+    CHECK_FALSE(is(outside, row.family));
+    const Answer one = solved(posed(inside, question_at({1, 10}, 1e-10)));
+    const Answer other = solved(posed(outside, question_at({1, 10}, 1e-10)));
+    CHECK(std::string(one.model).starts_with(special_words[std::size_t(row.family)]));
+    CHECK_FALSE(std::string(other.model).starts_with(special_words[std::size_t(row.family)]));
+    int compared = 0;
+    for (const Column& column : one.columns) {
+      const Column* its = other.find(column.name());
+      if (its == nullptr || !(column.error < infinity<double>)) continue;
+      CAPTURE(column.name(), column.error, its->error);
+      CHECK(column_error(column, *its) <= column.error + its->error);
+      ++compared;
+    }
+    CHECK(compared >= 2);
+  }
+}
+
 TEST_CASE("a scene that is none says why, and where it is not to be recognised is none", "[general]") {
   const Problem<double> p = brick();
   const auto alone = Scene::make(p, question_at({1}), false);

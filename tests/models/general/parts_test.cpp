@@ -63,7 +63,8 @@ TEST_CASE("a part knows what is in it", "[general]") {
   CHECK(sees.field_rate);
   CHECK(sees.force);
   CHECK_FALSE(sees.body_force);
-  CHECK_FALSE(sees.orbit);
+  CHECK_FALSE(sees.orbit_axes);
+  CHECK_FALSE(sees.orbit_gradient);
 }
 
 }  // namespace general_parts_test

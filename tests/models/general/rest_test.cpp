@@ -118,6 +118,11 @@ TEST_CASE("a table that stays within the brakes all along is held", "[general]")
   for (const auto between : {Between::linear, Between::cubic}) {
     torque.factor.table = {{0, 10}, {-0.9, 0.95}, between, false};
     CHECK(stop(p).what == AtStop::rests);
+    CHECK(stop(p).slip == 0);
+    // up to its limit, a rounding of it may be left over
+    torque.factor.table.values[1] = 1;
+    CHECK(stop(p).what == AtStop::rests);
+    CHECK(stop(p).slip > 0);
     torque.factor.table.values[1] = 1.05;
     CHECK(stop(p).what == AtStop::later);
     torque.factor.table.values = {1.05, 0.5};

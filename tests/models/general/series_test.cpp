@@ -33,6 +33,31 @@ TEST_CASE("rows and columns multiply as vectors and matrices", "[general]") {
   for (int i = 0; i < 3; ++i) CHECK(cross_term(x, y, 3)[i] == Approx(sum[i]));
 }
 
+TEST_CASE("products of rows, and the torque on a shape, order by order", "[general]") {
+  VectorSeries<double, order> v;
+  for (int k = 0; k <= order; ++k) v.set(k, lanes(std::cos(3. * k), std::sin(2. * k + 1), 0.5 - k / 7., 0.));
+  for (const bool diagonal : {true, false}) {
+    Mat3<double> J = Vec3<double>(4, 3, 0.5).asDiagonal();
+    if (!diagonal) J(0, 1) = J(1, 0) = 0.3, J(0, 2) = J(2, 0) = -0.1, J(1, 2) = J(2, 1) = 0.2;
+    const ShapeTorque<double> torque(J);
+    CHECK(torque.has_squares == !diagonal);
+    for (int k = 0; k <= order; ++k) {
+      Vec3<double> sum(0, 0, 0), squares(0, 0, 0), products(0, 0, 0);
+      for (int j = 0; j <= k; ++j) {
+        const Vec3<double> a(v.v[j][0], v.v[j][1], v.v[j][2]), b(v.v[k - j][0], v.v[k - j][1], v.v[k - j][2]);
+        sum += cross<double>(a, J * b), squares += a.cwiseProduct(b);
+        products += a.cwiseProduct(Vec3<double>(b[1], b[2], b[0]));
+      }
+      for (int i = 0; i < 3; ++i) {
+        CAPTURE(diagonal, k, i);
+        CHECK(torque(v, k)[i] == Approx(sum[i]).margin(1e-12));
+        CHECK(square_term(v.v, k)[i] == Approx(squares[i]).margin(1e-12));
+        CHECK(product_term(v.v, v.turned, k)[i] == Approx(products[i]).margin(1e-12));
+      }
+    }
+  }
+}
+
 TEST_CASE("a cubic and a wave as series are themselves", "[general]") {
   const Cubic<double> cubic{2, {1, -0.5, 0.25, 0.1}};
   Series plain, wave;

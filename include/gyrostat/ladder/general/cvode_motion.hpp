@@ -150,7 +150,9 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   // of what columns are made of, some of which may cancel
   const auto rounding = detail::rounding_of_columns(of, row, pair.both.size(), honesty::cvode_looser * pair.tolerance);
   const auto error = pair.both.relative(pair.margin * pair.both.difference() + rounding);
-  track.off = detail::off_of(track, relative_to_truth(error, full_columns), row, scene);
+  const auto to_truth = relative_to_truth(error, full_columns);
+  track.off = detail::off_of(track, to_truth, row, scene);
+  track.compared = detail::compared_of(track, to_truth, row, scene);
   detail::warn_of_law(track, scene);
   return track;
 }

@@ -38,6 +38,15 @@ GYROSTAT_COMPILED_ONCE std::array<double, primitive::count> off_of(const Track& 
   return off;
 }
 
+GYROSTAT_COMPILED_ONCE Track::Compared compared_of(const Track& track, const FullErrors<double>& error,
+                                                   const FullRow<double>& row, const Scene& scene) noexcept {
+  Comparison<FullRow<double>> sizes(row);
+  double most = 0;
+  for (const auto& s : track.states) sizes.add(s), most = greater(energy(scene.wheels(), s), most);
+  const auto off = sizes.absolute(error);
+  return {off[full_column::impulse], off[full_column::gain], off[full_column::work] + 8 * epsilon<double> * most};
+}
+
 GYROSTAT_COMPILED_ONCE void balance(Track& track, const Scene& scene, double step_tolerance) noexcept {
   const Question& question = scene.question();
   if (!aim_of(question, tables, true, scalar::energy_balance) &&
@@ -109,6 +118,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   }
   track.counts = answer->counts;
   track.off = detail::off_of(track, answer->error, row, scene);
+  track.compared = detail::compared_of(track, answer->error, row, scene);
   detail::balance(track, scene, answer->step_tolerance);
   return track;
 }

@@ -52,6 +52,9 @@ GYROSTAT_COMPILED_ONCE std::vector<double> times_in(const Segment& segment, cons
 GYROSTAT_COMPILED_ONCE Question question_of(const Scene& scene, std::vector<double> times, double from,
                                             std::size_t segments);
 
+/// So many rungs at the head of rung_kinds are closed forms.
+inline constexpr std::size_t closed_forms = 3;
+
 /// The rungs of families that may answer a segment, in the order of their costs.
 template <std::size_t... Place>
 std::vector<Candidate> candidates_of(const Scene& scene, std::index_sequence<Place...>) {
@@ -193,8 +196,15 @@ class SegmentedMotion {
 
 }  // namespace detail
 
-/// What the rung `segments` costs, s: every segment by its cheapest rung, with those that carry errors on; NaN: one of them is no instance of a
-/// family.
+/// Measured over that of the full equations: each segment takes so long, s, for its scene, for the families that are found and for errors
+/// that are handed on, and its rungs so many times what they alone do, as tighter tolerances are asked of them.
+struct SegmentCost {
+  double each, share;
+};
+inline constexpr SegmentCost segment_cost{120e-6, 2};
+
+/// What the rung `segments` costs, s: every segment by the rungs up to the first that is sure, with those that carry errors on; NaN: one of
+/// them is no instance of a family.
 GYROSTAT_COMPILED_ONCE double cost_of_segments(const Scene& scene) noexcept;
 
 /// Rung `segments`; solve: the ladder, which answers each.

@@ -134,6 +134,23 @@ GYROSTAT_COMPILED_ONCE Question question_of(const Scene& scene, std::vector<doub
   return made;
 }
 
+/// Gives a body the rate at which it may turn behind torques of a motion, which its start need not have.
+inline void set_turning(Problem<double>& problem, double rate) noexcept {
+  Vec3<double>& w = problem.angular_velocity;
+  const double own = w.norm();
+  if (own < rate) w = own > 0 ? Vec3<double>(rate / own * w) : Vec3<double>(rate * Vec3<double>(0.48, 0.6, 0.64));
+}
+
+/// What rungs cost, in their order, up to the first that surely meets what is asked: a closed form, or the full equations of a family.
+inline double cost_of_sure(const std::vector<Candidate>& candidates) noexcept {
+  double sum = 0;
+  for (const Candidate& candidate : candidates) {
+    sum += candidate.cost;
+    if (candidate.rung < closed_forms || candidate.rung >= std::size_t(rung::family_full)) break;
+  }
+  return sum;
+}
+
 }  // namespace detail
 
 GYROSTAT_COMPILED_ONCE double cost_of_segments(const Scene& scene) noexcept {
@@ -143,13 +160,13 @@ GYROSTAT_COMPILED_ONCE double cost_of_segments(const Scene& scene) noexcept {
   std::size_t next = 0;
   for (const Segment& segment : segments) {
     auto times = detail::times_in(segment, scene.question().times, next);
-    const auto made =
-        Scene::make(segment.problem, detail::question_of(scene, std::move(times), segment.from, segments.size()));
+    auto problem = segment.problem;
+    if (displaced > 0) detail::set_turning(problem, scene.sizes().turning);
+    const auto made = Scene::make(problem, detail::question_of(scene, std::move(times), segment.from, segments.size()));
     const auto candidates = made ? detail::candidates_of(*made) : std::vector<detail::Candidate>{};
     if (candidates.empty()) return nan<double>;
-    const double cost = candidates.front().cost;
     const double ways = 3 + (detail::turns_along(segment.problem) ? 0 : 3) + double(scene.wheels().count);
-    sum += cost * (1 + displaced * ways);
+    sum += segment_cost.each + segment_cost.share * detail::cost_of_sure(candidates) * (1 + displaced * ways);
     displaced = 1;
   }
   return sum;

@@ -30,6 +30,12 @@ struct Track : Outcome {
     double off = nan<double>;
   };
   Slow norm, energy;
+  /// By how much momentum in space, its size and the energy are off, where a rung has compared them, too: absolute. NaN: what the primitives make
+  /// of them is all that is known.
+  struct Compared {
+    double inertial = nan<double>, norm = nan<double>, energy = nan<double>;
+  };
+  Compared compared;
   double stop_time = nan<double>, stop_error = nan<double>;
   /// From when to when a brake holds the body, s, and how well each begin is known: there all torque is that of rest.
   std::vector<std::array<double, 2>> rests;

@@ -72,9 +72,12 @@ class Writer {
       case column::attitude: return turning;
       case column::angular_velocity: return rate;
       case column::angular_momentum: return momentum;
-      case column::angular_momentum_inertial: return momentum + M * (turning + 4 * epsilon<double>);
-      case column::angular_momentum_norm: return track_.norm.values.empty() ? momentum : track_.norm.off;
-      case column::energy: return track_.energy.values.empty() ? energy_off(rate) : track_.energy.off;
+      case column::angular_momentum_inertial:
+        return least(momentum + M * (turning + 4 * epsilon<double>), track_.compared.inertial);
+      case column::angular_momentum_norm:
+        return track_.norm.values.empty() ? least(momentum, track_.compared.norm) : track_.norm.off;
+      case column::energy:
+        return track_.energy.values.empty() ? least(energy_off(rate), track_.compared.energy) : track_.energy.off;
       case column::rotor_rate: return off[primitive::rotor_rate];
       case column::rotor_angle: return off[primitive::rotor_angle];
       case column::velocity: return off[primitive::velocity];
@@ -93,6 +96,8 @@ class Writer {
     for (const auto& s : track_.states) most = greater(size(s), most);
     return most;
   }
+  /// The lesser of two bounds; the second need not be known.
+  static double least(double one, double two) noexcept { return two < one ? two : one; }
   double absolute_rate(const State<double>& s, std::size_t i) const noexcept {
     return s.rotor_rate[i] + scene_.wheels().laws[i].axis.dot(s.angular_velocity);
   }

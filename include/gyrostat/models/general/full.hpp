@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "gyrostat/core/compensated.hpp"
@@ -12,6 +14,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/known_momentum.hpp"
+#include "gyrostat/models/general/outward.hpp"
 #include "gyrostat/models/general/parts.hpp"
 #include "gyrostat/models/general/piece.hpp"
 #include "gyrostat/models/general/problem.hpp"
@@ -192,15 +195,17 @@ class FullSystem {
     Rows momentum_turned;                  ///< (M2, M3, M1)
     Vectors seen[7];  ///< directions; radial, along; the part of a rotating field across its axis, and ahead of it
     Row_ known_wheels[5], known_torque[5];  ///< w unit by the wheels whose momentum is known, and dM/dt by it
-    Vectors field, down, down_J, radial_J;
+    Vectors field, down;
+    OutwardSeries<Scalar, Order> outward;
     Rows induced;  ///< w_rel x B unit
-    Rows gradient, orbit_shape, orbit_gradient;
+    Rows gradient, orbit_gradient;
     Rows drive;  ///< torque that does not depend on the motion and has a factor, times unit
     Rows force_body, force_inertial;
     Vectors current[most_factors + 1];  ///< K (w_rel x B) unit of each part
     Rows torque[most_factors];          ///< of each part without its factor, times unit
     Series factor[most_factors];
     OrbitSeries<Scalar, Order> orbit;
+    OrbitTurn<Scalar, Order> orbit_turn;
     Series strength, strength_out;  ///< of a dipole: b and -3 b cosine
     Rows opposed[2], opposed_unit[2];
     Scalar opposed_size[2][Order + 1];
@@ -273,6 +278,10 @@ class FullSystem {
   template <class Index, int Order>
   GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, Ahead& ahead,
                               const Constants& c) const noexcept;
+  /// Order k of the torque by the gradient of the orbit, without a factor; of what of it always acts, times unit.
+  template <class Index, int Order>
+  GYROSTAT_INLINE Row fall(Index k, const Scalar (&x)[Order + 1][width], Work<Order>& work,
+                           const Constants& c) const noexcept;
   template <class Index, int Order>
   GYROSTAT_INLINE void turn_seen(Index k, int i, Work<Order>& work, const Row& share, Ahead& ahead) const noexcept;
   /// All torque of order k, times unit, that bends or has a factor and depends on the motion; and order k + 1 of all vectors and numbers
@@ -312,10 +321,12 @@ class FullSystem {
   const Prepared<Scalar>& of_;
   const Piece<Scalar>& piece_;
   Columns<Scalar> whole_;  ///< J
+  ShapeTorque<Scalar> shape_;
   Directions<Scalar> directions_;
   Sees sees_;
   Vec3<Scalar> normal_{0, 0, 1};
-  Part<Scalar> steady_;
+  Part<Scalar> steady_;  ///< but for `fall_`
+  Scalar fall_ = 0;      ///< how often the gradient of the orbit always counts
   int factors_ = 0;
   std::array<Part<Scalar>, most_factors> parts_;  ///< of the sources that depend on the motion
   std::vector<Source> sources_;
@@ -330,7 +341,7 @@ class FullSystem {
 template <Real Real_, bool large>
 FullSystem<Real_, large>::FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece,
                                      const Numbers& start) noexcept
-    : of_(of), piece_(piece), whole_(of.wheels.whole), known_(piece, start.data()) {
+    : of_(of), piece_(piece), whole_(of.wheels.whole), shape_(of.wheels.whole), known_(piece, start.data()) {
   if (of.problem.orbit) normal_ = cross<Scalar>(of.problem.orbit->radial, of.problem.orbit->along);
   take_parts();
   take_wheels();
@@ -352,9 +363,10 @@ void FullSystem<Real_, large>::take_parts() noexcept {
   if (sees_.field && field.magnetic == MagneticField::uniform) directions_.need(field.flux_density);
   if (sees_.field && field.magnetic != MagneticField::uniform) directions_.need(field.axis);
   if (sees_.body_force) directions_.need_all();
-  sees_.orbit = sees_.orbit || (sees_.field && field.magnetic == MagneticField::dipole);
+  sees_.orbit_axes = sees_.orbit_axes || (sees_.field && field.magnetic == MagneticField::dipole);
 
   steady_ = Part<Scalar>(piece_.power[0], directions_, normal_);
+  fall_ = std::exchange(steady_.orbit_gradient, Scalar(0));
   const auto take = [&](const Terms<Scalar>& terms, int power, int wave) noexcept {
     if (!terms.any()) return;
     const Part<Scalar> part(terms, directions_, normal_);
@@ -422,6 +434,16 @@ GYROSTAT_INLINE void FullSystem<Real_, large>::turn_seen(Index k, int i, Work<Or
 
 template <Real Real_, bool large>
 template <class Index, int Order>
+GYROSTAT_INLINE auto FullSystem<Real_, large>::fall(Index k, const Scalar (&x)[Order + 1][width], Work<Order>& work,
+                                                    const Constants& c) const noexcept -> Row {
+  if (k > 0) work.orbit_turn.extend(k);
+  work.outward.extend(k, load(&x[k][At::attitude]), work.orbit_turn);
+  work.orbit_gradient[k] = shape_(work.outward.v, k);
+  return lanes(c.unit * fall_) * work.orbit_gradient[k];
+}
+
+template <Real Real_, bool large>
+template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_, large>::extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
                                                       Row& newest, Ahead& ahead, const Constants& c) const noexcept {
   const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
@@ -459,6 +481,7 @@ GYROSTAT_INLINE void FullSystem<Real_, large>::extend(Index k, Scalar (&x)[Order
     known = c.direction[i].times(work.seen[i].v[k], known);
     turn_seen(k, i, work, share, ahead);
   }
+  if (sees_.orbit_gradient) known = known + fall(k, x, work, c);
   store(&x[k + 1][0], share * lanes(Scalar(0.5L)) * work.turn.extend(k, x, 0, rate));
   store(&x[k + 1][At::turned], share * rate);
   if (drives_) known = known + work.drive[k];
@@ -506,6 +529,7 @@ void FullSystem<Real_, large>::expand(Scalar t, Scalar unit, Scalar (&x)[Order +
   begin(t, x, work, c);
   Row newest = c.torque_by(rate) + lanes(unit) * (steady_.body - steady_.by_momentum * c.first_momentum);
   if (drives_) newest = newest + work.drive[0];
+  if (sees_.orbit_gradient) newest = newest + fall(std::integral_constant<int, 0>{}, x, work, c);
   for (int i = 0; i < directions_.count; ++i) {
     auto& seen = work.seen[i];
     newest = c.direction[i].times(seen.v[0], newest);
@@ -561,13 +585,19 @@ void FullSystem<Real_, large>::begin(Scalar t, Scalar (&x)[Order + 1][width], Wo
     }
   }
   if (!sources_.empty() || sees_.force) begin_factors(t, work, unit);
-  if (!has_rest_) return;
+  if (!has_rest_ && !sees_.orbit_gradient) return;
   OrbitPoint<Scalar> at;
-  if (sees_.orbit) {
+  if (sees_.orbit_gradient || sees_.orbit_axes) {
     at = orbit_at(*of_.problem.orbit, t);
-    work.orbit.set(*of_.problem.orbit, at, unit);
-    work.seen[radial].set(0, to_body(at.radial));
-    work.seen[along].set(0, to_body(at.along));
+    if (sees_.orbit_gradient) {
+      work.orbit_turn.begin(*of_.problem.orbit, at, unit);
+      work.outward.begin(at, (1 + share) / 2);
+    }
+    if (sees_.orbit_axes) {
+      work.orbit.set(*of_.problem.orbit, at, unit);
+      work.seen[radial].set(0, to_body(at.radial));
+      work.seen[along].set(0, to_body(at.along));
+    }
   }
   if (sees_.field && of_.problem.field.magnetic == MagneticField::rotating) {
     const Vec3<Scalar>& k = of_.problem.field.axis;
@@ -670,7 +700,7 @@ void FullSystem<Real_, large>::see(int k, Work<Order>& work, Scalar unit) const 
     const Row b_rate = shuffle<1, 2, 0, 3>(b_1 - b_2) - turning.times(a.v, k);
     a.set(k + 1, share * a_rate), b.set(k + 1, share * b_rate);
   };
-  if (sees_.orbit) pair(radial, along, work.orbit.rate);
+  if (sees_.orbit_axes) pair(radial, along, work.orbit.rate);
   const auto& field = of_.problem.field;
   if (sees_.field && field.magnetic == MagneticField::rotating) {
     NumberSeries<Scalar, Order> turning;
@@ -747,13 +777,7 @@ auto FullSystem<Real_, large>::rest(int k, Scalar (&x)[Order + 1][width], Work<O
     for (int i = 0; i < directions_.count; ++i)
       down = multiply_add(lanes(directions_.share(i, of_.problem.field.down)), work.seen[i].v[k], down);
     work.down.set(k, down);
-    work.down_J.set(k, whole_ * down);
-    work.gradient[k] = cross_term(work.down, work.down_J, k);
-  }
-  if (sees_.orbit) {
-    work.radial_J.set(k, whole_ * work.seen[radial].v[k]);
-    work.orbit_shape[k] = cross_term(work.seen[radial], work.radial_J, k);
-    work.orbit_gradient[k] = work.orbit.gradient.times(work.orbit_shape, k);
+    work.gradient[k] = shape_(work.down, k);
   }
   Row sum = bending(steady_, k, work.current[0], work, unit);
   for (int i = 0; i < factors_; ++i) {

@@ -44,12 +44,14 @@ struct Directions {
 
 /// Which of the vectors that move in inertial space a sum of torques depends on.
 struct Sees {
-  bool orbit = false, field = false, field_rate = false, down = false, total_brake = false, carrier_brake = false;
+  bool orbit_axes = false, orbit_gradient = false, field = false, field_rate = false, down = false;
+  bool total_brake = false, carrier_brake = false;
   bool body_force = false, force = false;
 
   template <Real Scalar>
   void add(const Terms<Scalar>& terms) noexcept {
-    orbit = orbit || terms.orbit_gradient != 0 || !terms.orbital[0].isZero(0) || !terms.orbital[1].isZero(0);
+    orbit_axes = orbit_axes || !terms.orbital[0].isZero(0) || !terms.orbital[1].isZero(0);
+    orbit_gradient = orbit_gradient || terms.orbit_gradient != 0;
     down = down || terms.gradient != 0;
     field_rate = field_rate || !terms.eddy.isZero(0);
     field = field || field_rate || !terms.dipole.isZero(0);

@@ -207,7 +207,8 @@ Stop<Scalar> stop_at(const Prepared<Scalar>& of, const Piece<Scalar>& piece, con
   } else {
     // where the margin hides in roundings the torque may be more than the brake, and drive the body by so much
     const bool changes = !(torque[1].isZero(0) && torque[2].isZero(0) && torque[3].isZero(0));
-    const Scalar over = (changes ? most : share) - 1 + allowed;
+    const bool clear = changes && detail::holds_all(limit, torque, piece.to - t, 1 - allowed);
+    const Scalar over = clear ? Scalar(0) : (changes ? most : share) - 1 + allowed;
     stop.slip = over > 0 ? over * limit.maxCoeff() : Scalar(0);
   }
   return stop;

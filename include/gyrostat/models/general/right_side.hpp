@@ -214,6 +214,16 @@ struct Flow {
       made.rotor_angle[i] = y[angle + i];
     }
     made.velocity = get(y, velocity), made.position = get(y, position);
+    const Vec3<Scalar>&w = made.angular_velocity, &w0 = problem.angular_velocity;
+    made.work = Vec3<Scalar>(w - w0).dot(wheels.reduced * Vec3<Scalar>(w + w0)) / 2;
+    for (std::size_t i = 0; i < wheels.count; ++i) {
+      const auto& law = wheels.laws[i];
+      if (!law.turns_by_itself()) continue;
+      const Scalar p = y[wheel + i], p0 = law.momentum;
+      made.work += (p - p0) * (p + p0) / (2 * law.axial_inertia);
+    }
+    const Vec3<Scalar> M0 = wheels.reduced * w0 + wheels.momentum_of_wheels();
+    made.impulse = rotate<Scalar>(made.attitude, made.angular_momentum) - rotate<Scalar>(problem.attitude, M0);
     return made;
   }
 

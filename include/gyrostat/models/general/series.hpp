@@ -75,6 +75,26 @@ GYROSTAT_INLINE Lanes<Scalar> cross_rows(const Lanes<Scalar>& a, const Lanes<Sca
   return shuffle<1, 2, 0, 3>(half_cross(a, shuffle<1, 2, 0, 3>(a), b, shuffle<1, 2, 0, 3>(b), lanes(Scalar(0))));
 }
 
+/// Coefficient k of the squares of all four numbers of a row. Index: an integral constant, so that everything unrolls, or an int.
+template <class Index, Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> square_term(const Lanes<Scalar>* a, Index k) noexcept {
+  Lanes<Scalar> sum = lanes(Scalar(0));
+  count_down<Scalar>((k - 1) / 2, [&](int j) GYROSTAT_INLINE_LAMBDA { sum = multiply_add(a[j], a[k - j], sum); });
+  if (k > 0) sum = multiply_add(a[0], a[k], sum);
+  sum = sum + sum;
+  return k % 2 == 0 ? multiply_add(a[k / 2], a[k / 2], sum) : sum;
+}
+
+/// Coefficient k of the products of the numbers of two rows, the newest last.
+template <class Index, Real Scalar>
+GYROSTAT_INLINE Lanes<Scalar> product_term(const Lanes<Scalar>* a, const Lanes<Scalar>* b, Index k) noexcept {
+  Lanes<Scalar> sum[2] = {lanes(Scalar(0)), lanes(Scalar(0))};
+  count_down<Scalar>(k - 1,
+                     [&](int j) GYROSTAT_INLINE_LAMBDA { sum[j % 2] = multiply_add(a[j], b[k - j], sum[j % 2]); });
+  if (k > 0) sum[1] = multiply_add(a[0], b[k], sum[1]);
+  return multiply_add(a[k], b[0], sum[0]) + sum[1];
+}
+
 /// Coefficient k of a x b.
 template <Real Scalar, int Order>
 Lanes<Scalar> cross_term(const VectorSeries<Scalar, Order>& a, const VectorSeries<Scalar, Order>& b, int k) noexcept {
@@ -89,6 +109,33 @@ Lanes<Scalar> cross_term(const VectorSeries<Scalar, Order>& a, const VectorSerie
   add(0);
   return shuffle<1, 2, 0, 3>(first - second);
 }
+
+/// v x J v of a vector v and a symmetric J, by the products of the numbers of v: one convolution where J is diagonal, else one and a half, in
+/// place of the two of a cross product.
+template <Real Scalar>
+struct ShapeTorque {
+  Columns<Scalar> mixed, squares;  ///< by (v1 v2, v2 v3, v3 v1), and by (v1^2, v2^2, v3^2)
+  bool has_squares = false;
+
+  ShapeTorque() = default;
+  explicit ShapeTorque(const Mat3<Scalar>& J) noexcept {
+    Mat3<Scalar> pairs, own;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3<Scalar> a = Vec3<Scalar>::Unit(i), b = Vec3<Scalar>::Unit((i + 1) % 3);
+      pairs.col(i) = cross<Scalar>(a, J * b) + cross<Scalar>(b, J * a);
+      own.col(i) = cross<Scalar>(a, J * a);
+    }
+    mixed = Columns<Scalar>(pairs), squares = Columns<Scalar>(own);
+    has_squares = !own.isZero(0);
+  }
+
+  /// Coefficient k.
+  template <class Index, int Order>
+  GYROSTAT_INLINE Lanes<Scalar> operator()(const VectorSeries<Scalar, Order>& v, Index k) const noexcept {
+    const Lanes<Scalar> torque = mixed * product_term(v.v, v.turned, k);
+    return has_squares ? squares.times(square_term(v.v, k), torque) : torque;
+  }
+};
 
 /// A number over time, with coefficients up to `last`.
 template <Real Scalar, int Order>

@@ -15,10 +15,10 @@ from gyrostat.broadcast import Floats
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
 from gyrostat.families.general.clock import since
-from gyrostat.families.general.functions import QUESTION, OverRows, posed
+from gyrostat.families.general.functions import QUESTION, OverRows, posed, stacked, varies
 from gyrostat.families.general.scene import arguments
 from gyrostat.fields import ROUNDING
-from gyrostat.orientation import axes_of
+from gyrostat.orientation import axes_of, form_of, quaternions
 from gyrostat.rows import Place, inputs_of, numbers_of, refilled
 
 if TYPE_CHECKING:
@@ -96,7 +96,18 @@ def _with_numbers(scene: "Scene", numbers: Iterator[Any]) -> "Scene":
         home = tables[table] if table else top
         made = refilled(field, home[field.name], numbers)
         home[field.name] = _unit_turn(made) if field.form == "turn" and made is not None else made
+    form = form_of(tables["initial"])
+    if form.startswith("dcm") and (varies(tables["initial"][form]) or tables["initial"][form] != scene.tables["initial"][form]):
+        tables["initial"]["attitude"] = _of_matrix(form, tables["initial"][form])
     return replace(scene, tables=tables, top=top)
+
+
+def _of_matrix(form: str, matrix: tuple[Any, ...]) -> tuple[Any, ...]:
+    """The quaternion of direction cosines, of one row or of all."""
+    if not varies(matrix):
+        return quaternions(form, [matrix])[0]
+    made = np.reshape(quaternions(form, np.asarray(stacked(matrix))), (-1, 4))
+    return tuple(column.view(OverRows) for column in np.ascontiguousarray(made.T))
 
 
 def _unit_turn(turn: tuple[Any, ...]) -> tuple[Any, ...]:
