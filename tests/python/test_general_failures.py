@@ -86,7 +86,7 @@ def test_a_body_that_leaves_its_rest_inside_a_ramp_is_refused_and_one_that_does_
     # and a ramp that ends within the limit is held to its end
     low = {**ramp, **({"factor": {**RAMP, "values": [0.0, 0.299]}} if "factor" in ramp else {"values": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.299]]})}
     held = answer(0.0, [50.0, 100.0], low)
-    assert not np.any(held["angular_velocity"])
+    assert held.met and not np.any(held["angular_velocity"])
 
 
 def test_a_wave_that_is_fast_against_the_motion_is_followed() -> None:

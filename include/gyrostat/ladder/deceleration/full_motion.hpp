@@ -507,8 +507,8 @@ class FullMotion {
                         Scalar(2e-13L) * std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
     // where the runs have parted, three of them may stop together by chance: what they had |M| apart takes the weakest torque so long
     if (!times_.empty() && !(answer.error[column::angular_momentum] < 1))
-      answer.stop_error += answer.error[column::angular_momentum_norm] * problem_.momentum.norm() /
-                           (Hold<Scalar>(problem_).weakest * stop);
+      answer.stop_error += Scalar(honesty::stop_margin) * answer.error[column::angular_momentum_norm] *
+                           problem_.momentum.norm() / (Hold<Scalar>(problem_).weakest * stop);
   }
 
   const Problem<Scalar>& problem_;

@@ -66,6 +66,7 @@ GYROSTAT_COMPILED_ONCE ColumnErrors Scene::scales() const noexcept {
     momenta += law.axial_inertia * std::abs(law.rate);
     fastest = std::max(fastest, std::abs(law.rate));
   }
+  if (momenta == 0) momenta = sizes_.momentum();
   const Vec3<double> M = wheels_.reduced * p.angular_velocity + wheels_.momentum_of_wheels();
   const Flow<double> flow(p, wheels_);
   const double torques = detail::sum_of_torques(p, {p.attitude, p.angular_velocity, M}, 0) +
