@@ -71,13 +71,16 @@ TEST_CASE("failure map: a slow spin", "[heavy]") {
   CHECK(second.error > 0.1);
 }
 
-TEST_CASE("failure map: below the end of the fast family", "[heavy]") {
+TEST_CASE("failure map: below the end of the fast family a budget ends the walk", "[heavy][.long]") {
   const auto p = unit_body(0.55, 0.8, towards);
   const Refusal refusal = refusal_of(periodic(p, 0.05, 0.1, 1));
   CHECK(refusal.code == Errc::step_limit);
   CHECK(std::strstr(refusal.why, "budget of 50 thousand steps"));
   CHECK(std::strstr(refusal.why, "sqrt(M g l/C)"));
   CHECK(heavy::detail::walk_budget == 50'000);
+}
+
+TEST_CASE("failure map: below the end of the fast family", "[heavy]") {
   // the flat pendulum: to r0 = 2 c exactly
   const auto flat = unit_body(0.55, 0.8, {1, 0, 0});
   const Answer turning = periodic_of(flat, 2.01, 0);
@@ -126,6 +129,9 @@ TEST_CASE("failure map: nearly a lamina", "[heavy]") {
   // to its plane nothing divides, at first; later orders do
   const auto near = unit_body(0.55, 0.455, {0.6, 0.8, 0});
   CHECK(periodic_of(near, 50, 0.1, 1e-4).met);
+}
+
+TEST_CASE("failure map: a lamina", "[heavy][.long]") {
   // in it the nutation keeps step with the spin: held by its own amplitude alone, of the order c eps^(1/3)
   const Answer lamina = honest(periodic(unit_body(0.55, 0.45, {0.6, 0.8, 0}), 20, 0.1, 1));
   CHECK(lamina.model == std::string_view("full"));
