@@ -111,7 +111,6 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     return walk.status == Status::reached;
   };
 
-  const std::size_t stride = 1 + times.size() / std::size_t(honesty::looks);
   std::size_t next = 0, told = 0;
   const auto tell = [&](std::size_t end) noexcept {
     walk.error.raise(kept);
@@ -139,7 +138,7 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
       states[next] = runs.answer.at(times[next]);
       const auto row = walk.asked.row(states[next]);
       walk.asked.add(row);
-      if (next % stride != 0) continue;
+      if (!honesty::looked_at(next, times.size())) continue;
       look(row, times[next]);
       tell(next + 1);
     }

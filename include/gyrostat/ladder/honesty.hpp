@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+
 #include "gyrostat/core/real.hpp"
 
 /// The constants behind the error estimates of the full equations, in one place (docs/errors.md has what was measured with them). The
@@ -38,8 +40,13 @@ inline constexpr double companion_pace = 0.7;
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;
 
-/// The runs are compared at the end of every step, and at so many of the asked times, or all where these are fewer.
-inline constexpr double looks = 64;
+/// The runs are compared at the end of every step, and at so many of the asked times, or all where these are fewer; at the first of them in any
+/// case: what a first step errs on its way may be gone at its end.
+inline constexpr std::size_t looks = 64, first_looks = 16;
+/// Whether the runs are compared at the asked time `i` of so many.
+constexpr bool looked_at(std::size_t i, std::size_t times) noexcept {
+  return i < first_looks || i % (1 + times / looks) == 0;
+}
 
 /// Deceleration: errors sink with the motion, and a distance fades so many times as fast.
 inline constexpr double sinking = 8;

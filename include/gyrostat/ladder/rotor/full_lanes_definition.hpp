@@ -61,7 +61,7 @@ class FullLanes {
   struct Lane {
     LaneTask* task = nullptr;
     double step_tolerance, first, last, event, kick_after;
-    std::size_t next, told, stride;
+    std::size_t next, told;
     int trial;
     bool fresh;  ///< the companions have made no step
     bool alone;  ///< with one companion
@@ -144,7 +144,6 @@ class FullLanes {
 
     lane.last = task.times.back();
     lane.next = lane.told = 0;
-    lane.stride = 1 + task.times.size() / std::size_t(honesty::looks);
     lane.kick_after = lane.alone ? lane.last / 2 : infinity<double>;
     lane.fresh = true, lane.seen = false;
     lane.event = std::numeric_limits<double>::min();  // behind the first step
@@ -286,7 +285,7 @@ class FullLanes {
       t[b] = here[b] ? lane.event : answers_.time(int(b));
       asked[b] = here[b] && lane.next < lane.task->times.size() && lane.task->times[lane.next] == lane.event;
       const bool now = here[b] && lane.event == firsts_.time(int(b));
-      const bool compare = now || (asked[b] && lane.next % lane.stride == 0);
+      const bool compare = now || (asked[b] && honesty::looked_at(lane.next, lane.task->times.size()));
       looks[b] = compare, adds[b] = asked[b], pairs[b] = compare && !lane.alone;
       any = any || here[b];
       compares = compares || compare;

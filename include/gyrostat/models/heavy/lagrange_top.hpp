@@ -61,7 +61,7 @@ class LagrangeTop {
     const Scalar late = time_error((stated + defect_) * share_, stated * shift_ + skew_shift_, K_, lam_, t);
     const Scalar skew = defect_ * fastest_ * t;
     const Scalar off = standing_ ? pushed_off(defect_ * swing_ * swing_, growth_, t) : Scalar(0);
-    const Scalar angle = stated * (1 + fastest_ * t) + fastest_ * late + skew * (1 + fastest_ * t) + off;
+    const Scalar angle = set_up + stated * fastest_ * t + fastest_ * late + skew * (1 + fastest_ * t) + off;
     return ExactError<Scalar>::of(angle,
                                   unit_ * (across_ * angle + swing_ * (swing_ * late + off) + stated * fastest_));
   }
@@ -101,6 +101,8 @@ class LagrangeTop {
   static constexpr Scalar floor = epsilon<Scalar> * epsilon<Scalar> * epsilon<Scalar>;
   static constexpr Scalar modulus_floor = epsilon<Scalar> * epsilon<Scalar>;
   static constexpr Scalar rounding = 24 * epsilon<Scalar>, stated = 4 * epsilon<Scalar>;
+  // of where the motion starts: the greatest of 60 000 random starts was 9.4 eps
+  static constexpr Scalar set_up = 12 * epsilon<Scalar>;
 
   void build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept;
   void roots(const TopStart<Scalar>& o, Scalar kappa) noexcept;
