@@ -2,10 +2,19 @@
 """What the Python tests share."""
 
 import os
+import sys
 from pathlib import Path
 
 import pytest
-from gyrostat import drawing
+
+if sys.dont_write_bytecode:
+    # Beside the sources none is wanted; without any, each worker and each command that a test starts compiles all that it imports.
+    sys.dont_write_bytecode = False
+    sys.pycache_prefix = str(Path(__file__).resolve().parents[2] / ".pytest_cache" / "bytecode")
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
+
+from gyrostat import drawing  # noqa: E402
 
 GOOD = """\
 name = "test"
