@@ -3,7 +3,9 @@
 
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TypeVar
 
 import pytest
 
@@ -14,7 +16,7 @@ if sys.dont_write_bytecode:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
 
-from gyrostat import drawing  # noqa: E402
+from gyrostat import charts, drawing  # noqa: E402
 
 GOOD = """\
 name = "test"
@@ -149,8 +151,11 @@ down = [0.6, 0.0, 0.8]
 """, "periodic = { spin = 150.0, cos_inclination = 0.1 }\n")
 
 
-def at_length(few: int, all_of_them: int) -> int:
-    """How many cases a test takes: all by night, when GYROSTAT_TESTS_AT_LENGTH is in the environment."""
+Cases = TypeVar("Cases")
+
+
+def at_length(few: Cases, all_of_them: Cases) -> Cases:
+    """Which or how many cases a test takes: all by night, when GYROSTAT_TESTS_AT_LENGTH is in the environment."""
     return all_of_them if "GYROSTAT_TESTS_AT_LENGTH" in os.environ else few
 
 
@@ -158,6 +163,14 @@ def at_length(few: int, all_of_them: int) -> int:
 def coarse_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures of few dots: their files are looked for, not at."""
     monkeypatch.setattr(drawing, "DENSITY", 40)
+
+
+@pytest.fixture(autouse=True, scope="session")
+def charts_of_single_runs() -> Iterator[None]:
+    """By day a chart times each solution once: the least of several is test_chart.py's."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(charts, "LONG", at_length(0.0, charts.LONG))
+        yield
 
 
 @pytest.fixture
