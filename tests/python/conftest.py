@@ -4,8 +4,9 @@
 import os
 import sys
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import pytest
 
@@ -16,7 +17,10 @@ if sys.dont_write_bytecode:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
 
+import gyrostat  # noqa: E402
 from gyrostat import charts, drawing  # noqa: E402
+from gyrostat.cli import main  # noqa: E402
+from gyrostat.families import FAMILIES  # noqa: E402
 
 GOOD = """\
 name = "test"
@@ -159,10 +163,38 @@ def at_length(few: Cases, all_of_them: Cases) -> Cases:
     return all_of_them if "GYROSTAT_TESTS_AT_LENGTH" in os.environ else few
 
 
+def drawn(answer: gyrostat.Answer, file: Path, by_day: bool, least: int = 5000) -> Any:
+    """The figure of an answer, written into a file of more than the least size [bytes]; by day only where it is to be."""
+    written = at_length(by_day, True)
+    figure = answer.plot(file if written else None)
+    assert not written or file.stat().st_size > least
+    return figure
+
+
+def drawn_by_command(figure: str, name: str, folder: Path, capsys: pytest.CaptureFixture[str], by_day: bool) -> None:
+    """A figure of a paper, deceleration-figure-4.png say, drawn by the command; by day only where it is to be, else it is composed and not written."""
+    paper = name.partition("-")[0]
+    if not at_length(by_day, True):
+        ((stem, draw),) = FAMILIES[paper].part("gallery").drawings([figure])
+        assert f"{stem}.png" == name and draw().axes
+        return
+    assert main(["reproduce", paper, figure, "-o", str(folder / "figures")]) == 0
+    file = folder / "figures" / name
+    assert file.read_bytes().startswith(b"\x89PNG")
+    assert str(file) in capsys.readouterr().out
+
+
 @pytest.fixture(autouse=True)
 def coarse_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures of few dots: their files are looked for, not at."""
     monkeypatch.setattr(drawing, "DENSITY", 40)
+
+
+@pytest.fixture(autouse=True)
+def room_for_labels(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By day none is made in pictures, as that is half of the work; in those of test_figures.py it is."""
+    if at_length(True, False) and find_spec("matplotlib"):
+        monkeypatch.setattr("matplotlib.layout_engine.ConstrainedLayoutEngine.execute", lambda *_: None)
 
 
 @pytest.fixture(autouse=True, scope="session")

@@ -12,7 +12,7 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
-from conftest import SPINNING
+from conftest import SPINNING, drawn
 from gyrostat import Answer, DomainError, Monitor, rotation, spinning
 from gyrostat.cli import main
 from gyrostat.facts import UNITS
@@ -160,8 +160,7 @@ def test_bundled_scenes_are_met_and_drawn(name: str, tmp_path: Path) -> None:
     made = gyrostat.solve(name)
     assert made.met
     pytest.importorskip("matplotlib")
-    figure = made.plot(tmp_path / "answer.png")
-    assert (tmp_path / "answer.png").stat().st_size > 5000
+    figure = drawn(made, tmp_path / "answer.png", name == "pam-d-burn")
     labels = [axes.get_ylabel() for axes in figure.axes]
     assert "theta [turns]" in labels if not gyrostat.load(name).tables["solve"]["ask"] else labels
 
