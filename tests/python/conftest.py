@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the Python tests share."""
 
+import functools
 import os
 import sys
 from collections.abc import Iterator
@@ -18,9 +19,10 @@ if sys.dont_write_bytecode:
     os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
 
 import gyrostat  # noqa: E402
-from gyrostat import charts, drawing  # noqa: E402
+from gyrostat import charts, drawing, heavy  # noqa: E402
 from gyrostat.cli import main  # noqa: E402
 from gyrostat.families import FAMILIES  # noqa: E402
+from gyrostat.scenes import bundled, load  # noqa: E402
 
 GOOD = """\
 name = "test"
@@ -163,6 +165,22 @@ def at_length(few: Cases, all_of_them: Cases) -> Cases:
     return all_of_them if "GYROSTAT_TESTS_AT_LENGTH" in os.environ else few
 
 
+@functools.cache
+def kinds() -> dict[str, str]:
+    """Of the bundled scenes."""
+    return {name: load(name).kind for name, _ in bundled()}
+
+
+def of_kind(kind: str) -> list[str]:
+    """The bundled scenes of a kind."""
+    return [name for name, its in kinds().items() if its == kind]
+
+
+def scene_names() -> list[str]:
+    """The bundled scenes; by day without the one that takes half a second."""
+    return [name for name in kinds() if name != at_length("upper-stage-eddy-currents", "")]
+
+
 def drawn(answer: gyrostat.Answer, file: Path, by_day: bool, least: int = 5000) -> Any:
     """The figure of an answer, written into a file of more than the least size [bytes]; by day only where it is to be."""
     written = at_length(by_day, True)
@@ -203,6 +221,13 @@ def charts_of_single_runs() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(charts, "LONG", at_length(0.0, charts.LONG))
         yield
+
+
+@pytest.fixture
+def few_members(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By day families of periodic motions are followed over a few members, where the test is not about where they end."""
+    if at_length(True, False):
+        monkeypatch.setattr(heavy, "periodic_family", functools.partial(heavy.periodic_family, most_members=12))
 
 
 @pytest.fixture

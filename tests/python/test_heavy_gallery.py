@@ -132,6 +132,7 @@ def test_what_is_refused() -> None:
         _core.heavy_published_run(weightless, **good)
 
 
+@pytest.mark.usefixtures("few_members")
 @pytest.mark.parametrize("figure", ["table-1", "table-2", "readings", "corrections"])
 def test_a_figure_is_drawn(figure: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("matplotlib")

@@ -12,12 +12,12 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
-from conftest import SPINNING, drawn
+from conftest import SPINNING, drawn, of_kind
 from gyrostat import Answer, DomainError, Monitor, rotation, spinning
 from gyrostat.cli import main
 from gyrostat.facts import UNITS
 from gyrostat.families.spinning.functions import SHAPES
-from gyrostat.scenes import bundled, load, scene_from
+from gyrostat.scenes import load, scene_from
 
 SCENE = tomllib.loads(SPINNING)
 GOOD: dict[str, Any] = {
@@ -27,7 +27,7 @@ GOOD: dict[str, Any] = {
 }
 TIMES = [0.0, 10.0, 60.0]
 HAS_CVODE = gyrostat.build_info()["cvode"] is not None
-SPINNERS = [name for name, _ in bundled() if load(name).kind == "spinning"]
+SPINNERS = of_kind("spinning")
 RUNGS = ["linear", "second-order", "picard", "full"]
 
 
