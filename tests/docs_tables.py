@@ -11,6 +11,7 @@ written by hand in the last cell of its row, what a scene is behind its command;
 one that answers it. Needs the package gyrostat.
 """
 import argparse
+import functools
 import pathlib
 import re
 import sys
@@ -85,10 +86,15 @@ def keys(kind: str, _: str) -> str:
     return "".join(parts())
 
 
+@functools.cache
+def scenes() -> dict[str, gyrostat.Scene]:
+    return {name: gyrostat.load(name) for name, _ in bundled()}
+
+
 def gallery(kind: str, was: str) -> str:
     told = {name: text for name, text in re.findall(r"\| `gyrostat solve ([\w-]+)`<br>(.*?) \|", was)}
     rows = [[f"![{name}](gallery/{name}.png)", f"`gyrostat solve {name}`<br>{told.get(name, '')}", f"`{gyrostat.solve(scene).model}`"]
-            for name, scene in ((name, gyrostat.load(name)) for name, _ in bundled()) if scene.kind == kind]
+            for name, scene in scenes().items() if scene.kind == kind]
     return table(["motion", "scene", "rung"], rows)
 
 

@@ -42,14 +42,17 @@ def differ(programs):
 def wrong(name, command):
     """What is wrong with the example; None: nothing."""
     ran = run(command)
+    return f"exit status {ran.returncode}\n{ran.stdout}" if ran.returncode != 0 else misprinted(name, ran.stdout)
+
+
+def misprinted(name, printed):
+    """What is wrong with what it printed; None: nothing."""
     words, value, tolerance = EXPECTED[name]
-    found = re.search(re.escape(words) + r"\s+([-+]?[\d.]+(?:e[-+]?\d+)?)", ran.stdout)
-    if ran.returncode != 0:
-        return f"exit status {ran.returncode}\n{ran.stdout}"
+    found = re.search(re.escape(words) + r"\s+([-+]?[\d.]+(?:e[-+]?\d+)?)", printed)
     if not found:
-        return f'"{words}" and a number are not there\n{ran.stdout}'
+        return f'"{words}" and a number are not there\n{printed}'
     if not abs(float(found[1]) - value) <= tolerance:
-        return f"{words} {found[1]}: expected {value:.9g} within {tolerance:.2g}\n{ran.stdout}"
+        return f"{words} {found[1]}: expected {value:.9g} within {tolerance:.2g}\n{printed}"
     return None
 
 

@@ -1,11 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the Python tests share."""
 
+import functools
 import os
+import sys
+from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
+from typing import Any, TypeVar
 
 import pytest
-from gyrostat import drawing
+
+if sys.dont_write_bytecode:
+    # Beside the sources none is wanted; without any, each worker and each command that a test starts compiles all that it imports.
+    sys.dont_write_bytecode = False
+    sys.pycache_prefix = str(Path(__file__).resolve().parents[2] / ".pytest_cache" / "bytecode")
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
+
+import gyrostat  # noqa: E402
+from gyrostat import charts, drawing, heavy  # noqa: E402
+from gyrostat.cli import main  # noqa: E402
+from gyrostat.families import FAMILIES  # noqa: E402
+from gyrostat.scenes import bundled, load  # noqa: E402
 
 GOOD = """\
 name = "test"
@@ -140,15 +157,77 @@ down = [0.6, 0.0, 0.8]
 """, "periodic = { spin = 150.0, cos_inclination = 0.1 }\n")
 
 
-def at_length(few: int, all_of_them: int) -> int:
-    """How many cases a test takes: all by night, when GYROSTAT_TESTS_AT_LENGTH is in the environment."""
+Cases = TypeVar("Cases")
+
+
+def at_length(few: Cases, all_of_them: Cases) -> Cases:
+    """Which or how many cases a test takes: all by night, when GYROSTAT_TESTS_AT_LENGTH is in the environment."""
     return all_of_them if "GYROSTAT_TESTS_AT_LENGTH" in os.environ else few
+
+
+@functools.cache
+def kinds() -> dict[str, str]:
+    """Of the bundled scenes."""
+    return {name: load(name).kind for name, _ in bundled()}
+
+
+def of_kind(kind: str) -> list[str]:
+    """The bundled scenes of a kind."""
+    return [name for name, its in kinds().items() if its == kind]
+
+
+def scene_names() -> list[str]:
+    """The bundled scenes; by day without the one that takes half a second."""
+    return [name for name in kinds() if name != at_length("upper-stage-eddy-currents", "")]
+
+
+def drawn(answer: gyrostat.Answer, file: Path, by_day: bool, least: int = 5000) -> Any:
+    """The figure of an answer, written into a file of more than the least size [bytes]; by day only where it is to be."""
+    written = at_length(by_day, True)
+    figure = answer.plot(file if written else None)
+    assert not written or file.stat().st_size > least
+    return figure
+
+
+def drawn_by_command(figure: str, name: str, folder: Path, capsys: pytest.CaptureFixture[str], by_day: bool) -> None:
+    """A figure of a paper, deceleration-figure-4.png say, drawn by the command; by day only where it is to be, else it is composed and not written."""
+    paper = name.partition("-")[0]
+    if not at_length(by_day, True):
+        ((stem, draw),) = FAMILIES[paper].part("gallery").drawings([figure])
+        assert f"{stem}.png" == name and draw().axes
+        return
+    assert main(["reproduce", paper, figure, "-o", str(folder / "figures")]) == 0
+    file = folder / "figures" / name
+    assert file.read_bytes().startswith(b"\x89PNG")
+    assert str(file) in capsys.readouterr().out
 
 
 @pytest.fixture(autouse=True)
 def coarse_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures of few dots: their files are looked for, not at."""
     monkeypatch.setattr(drawing, "DENSITY", 40)
+
+
+@pytest.fixture(autouse=True)
+def room_for_labels(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By day none is made in pictures, as that is half of the work; in those of test_figures.py it is."""
+    if at_length(True, False) and find_spec("matplotlib"):
+        monkeypatch.setattr("matplotlib.layout_engine.ConstrainedLayoutEngine.execute", lambda *_: None)
+
+
+@pytest.fixture(autouse=True, scope="session")
+def charts_of_single_runs() -> Iterator[None]:
+    """By day a chart times each solution once: the least of several is test_chart.py's."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(charts, "LONG", at_length(0.0, charts.LONG))
+        yield
+
+
+@pytest.fixture
+def few_members(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By day families of periodic motions are followed over a few members, where the test is not about where they end."""
+    if at_length(True, False):
+        monkeypatch.setattr(heavy, "periodic_family", functools.partial(heavy.periodic_family, most_members=12))
 
 
 @pytest.fixture

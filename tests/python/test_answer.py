@@ -13,13 +13,13 @@ from pathlib import Path
 import gyrostat
 import numpy as np
 import pytest
+from conftest import scene_names
 from gyrostat._core import csv_rows, json_numbers
 from gyrostat.answer import Answer
 from gyrostat.deceleration import Monitor
 from gyrostat.facts import UNITS
 from gyrostat.families import FAMILIES
 from gyrostat.rotation import angle_between
-from gyrostat.scenes import bundled
 
 BRAKE = {
     "name": "brake", "kind": "deceleration", "solve": {"duration": 4000.0, "samples": 41, "tolerance": 1e-3},
@@ -82,7 +82,7 @@ def test_the_error_that_is_shown_is_the_one_that_was_judged() -> None:
     assert not gyrostat.solve("tiangong-1", model="averaged", tolerance=answer.greatest_error * 0.99).met
 
 
-@pytest.mark.parametrize("name", [name for name, _ in bundled()])
+@pytest.mark.parametrize("name", scene_names())
 def test_every_answer_names_what_has_the_greatest_error(name: str) -> None:
     answer = gyrostat.solve(name)
     assert set(answer.scalar_error) == set(answer.scalars)
@@ -95,7 +95,7 @@ def test_a_stop_that_never_comes_has_no_error() -> None:
     assert math.isinf(answer.scalars["stop_time"]) and math.isnan(answer.scalar_error["stop_time"])
 
 
-@pytest.mark.parametrize("name", [name for name, _ in bundled()])
+@pytest.mark.parametrize("name", scene_names())
 def test_the_functions_of_a_family_answer_as_scenes_do(name: str) -> None:
     """Same type, same numbers; and what they were asked can be asked again as a scene."""
     scene = gyrostat.load(name)

@@ -14,7 +14,7 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat import DomainError, heavy
+from gyrostat import DomainError, charts, heavy
 from gyrostat.charts import Chart, LeftOut, measured, methods
 from gyrostat.charts.problem import Line, Run, Unanswered
 from gyrostat.cli import main
@@ -85,7 +85,7 @@ def test_a_method_that_takes_too_long_is_stopped(monkeypatch: pytest.MonkeyPatch
 
 def test_what_else_the_machine_does_is_not_in_the_cost() -> None:
     """Beside a program on the same processor the clock on the wall runs twice as long as the solution."""
-    swinging = {**heavy.arguments(load("toy-top", times=[1500.0])), "attitude": None, "down": [0.6, 0.0, 0.8]}
+    swinging = {**heavy.arguments(load("toy-top", times=[500.0])), "attitude": None, "down": [0.6, 0.0, 0.8]}
     given = {key: value for key, value in swinging.items() if key not in ("periodic", "tolerance", "model", "integrator")}
     every = os.sched_getaffinity(0)
     for_a_minute = "import os, time\nos.sched_setaffinity(0, {%d})\nend = time.monotonic() + 60\nwhile time.monotonic() < end: pass"
@@ -102,15 +102,25 @@ def test_what_else_the_machine_does_is_not_in_the_cost() -> None:
     assert 0.05 < made["seconds"] <= used
 
 
-def test_a_tighter_setting_that_would_take_too_long_is_not_tried() -> None:
+def test_a_tighter_setting_that_would_take_too_long_is_not_tried(monkeypatch: pytest.MonkeyPatch) -> None:
     def run() -> Run:
         nonlocal runs
         runs += 1
         return Run(0.6 * methods.LONGEST, {}, 1)
 
+    monkeypatch.setattr(charts, "LONG", 0.2)
     runs = 0
     points, left_out = measured(Line("rival", "slow", (("loose", run), ("tight", run))), lambda _: {}, 7)
     assert runs == 1 and [point.setting for point in points] == ["loose"] and [each.settings for each in left_out] == [("tight",)]
+
+
+@pytest.mark.parametrize("taken", [[0.03, 0.01, 0.02, 0.05, 0.1], [2e-3, *[1e-2] * 5, 1e-3]])
+def test_the_cost_is_the_least_of_several_runs(taken: list[float], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of seven, and no more once they have taken 0.2 s."""
+    monkeypatch.setattr(charts, "LONG", 0.2)
+    runs = iter([*taken, 1e-6])
+    (point,), _ = measured(Line("rival", "quick", (("loose", lambda: Run(next(runs), {}, 1)),)), lambda _: {}, 7)
+    assert point.seconds == min(taken) and list(runs) == [1e-6]
 
 
 KINDS = ("tiangong-1", "two-attractors", "spinning-paper", "toy-top", "iss-drift", "rolling-gyroscope")

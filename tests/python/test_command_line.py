@@ -14,6 +14,7 @@ from pathlib import Path
 
 import gyrostat
 import pytest
+from conftest import scene_names
 from gyrostat.cli import main
 from gyrostat.facts import FACTS
 from gyrostat.families import FAMILIES
@@ -144,7 +145,7 @@ def test_exit_status_1_for_an_internal_failure(capsys: pytest.CaptureFixture[str
     assert status == 1 and err == "gyrostat: internal failure: RuntimeError: broken (GYROSTAT_DEBUG=1 shows where)\n"
 
 
-@pytest.mark.parametrize("name", [name for name, _ in bundled()])
+@pytest.mark.parametrize("name", scene_names())
 def test_every_bundled_scene_is_answered(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = run(capsys, "solve", name)
     assert status == 0, out

@@ -36,8 +36,10 @@ def alike(one: xarray.Dataset, other: xarray.Dataset) -> bool:
 @pytest.fixture(scope="module")
 def client() -> Iterator[Any]:
     """Of a Dask cluster of two processes on this machine."""
-    pytest.importorskip("dask")
+    # each worker is a fork of a process that has imported what they need
+    pytest.importorskip("dask").config.set({"distributed.worker.multiprocessing-method": "forkserver"})
     distributed = pytest.importorskip("distributed")
+    distributed.utils.get_mp_context().set_forkserver_preload(["distributed", "xarray", "gyrostat"])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None)

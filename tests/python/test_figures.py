@@ -1,15 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures of answers."""
 
+import functools
+import itertools
 import math
+from pathlib import Path
 from typing import Any
 
 import gyrostat
 import numpy as np
 import pytest
+from conftest import at_length
 from gyrostat.drawing import changes, curve, new_figure, time_unit
 
 pytest.importorskip("matplotlib")
+
+@pytest.fixture(autouse=True)
+def room_for_labels() -> None:
+    """Is made, here by day, too."""
+
 
 SCENES = ("tiangong-1", "cubesat-wheel", "two-attractors", "pam-d-burn", "spinning-paper", "toy-top", "fast-spin")
 
@@ -19,13 +28,18 @@ def drawn(figure: Any) -> list[Any]:
     return [axes for axes in figure.axes if axes.lines and not axes.get_xlabel().startswith(("direction", "ω")) and axes.axison]
 
 
+@functools.cache
+def figure_of(scene: str) -> Any:
+    return gyrostat.solve(scene).plot()
+
+
 def legend_texts(figure: Any) -> set[str]:
     return {text.get_text() for axes in figure.axes if axes.get_legend() for text in axes.get_legend().get_texts()}
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_every_panel_shows_something_and_nothing_lies_on_the_frame(scene: str) -> None:
-    figure = gyrostat.solve(scene).plot()
+    figure = figure_of(scene)
     assert all(axes.lines for axes in figure.axes)
     for axes in drawn(figure):
         low, high = axes.get_ylim()
@@ -33,6 +47,16 @@ def test_every_panel_shows_something_and_nothing_lies_on_the_frame(scene: str) -
         values = values[np.isfinite(values)]
         room = 0.02 * (high - low) if axes.get_yscale() == "linear" else 0.0
         assert low <= values.min() and values.max() < high - room, axes.get_title(loc="left")
+
+
+@pytest.mark.parametrize("scene", at_length(["toy-top"], ["spinning-paper", "toy-top"]))
+def test_what_is_written_has_room(scene: str, tmp_path: Path) -> None:
+    figure = gyrostat.solve(scene).plot(tmp_path / "answer.png")
+    boxes = [axes.get_tightbbox() for axes in figure.axes]
+    whole = figure.bbox.expanded(1.03, 1.03)  # at this density letters are wider than they should be
+    assert all(whole.x0 <= box.x0 and whole.y0 <= box.y0 and box.x1 <= whole.x1 and box.y1 <= whole.y1 for box in boxes)
+    for (one, its), (other, of_other) in itertools.combinations(zip(boxes, figure.axes, strict=True), 2):
+        assert its.get_position().bounds == of_other.get_position().bounds or not one.overlaps(other)
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -59,19 +83,19 @@ def test_a_tumbler_has_no_panels_of_what_stands_still() -> None:
 
 
 def test_a_stop_beyond_the_axis_is_marked() -> None:
-    notes = [text.get_text() for axes in gyrostat.solve("tiangong-1").plot().axes for text in axes.texts]
+    notes = [text.get_text() for axes in figure_of("tiangong-1").axes for text in axes.texts]
     assert notes == ["stops at 16.4 h →"]
-    inside = gyrostat.solve("cubesat-wheel").plot()
+    inside = figure_of("cubesat-wheel")
     assert not [text for axes in inside.axes for text in axes.texts]
     assert any(line.get_linestyle() == ":" for line in inside.axes[0].lines)
 
 
 def test_the_path_on_a_sphere_is_named() -> None:
-    assert {"path of down", "start"} <= legend_texts(gyrostat.solve("toy-top").plot())
+    assert {"path of down", "start"} <= legend_texts(figure_of("toy-top"))
 
 
 def test_components_have_one_naming() -> None:
-    names = set().union(*(legend_texts(gyrostat.solve(scene).plot()) for scene in SCENES))
+    names = set().union(*(legend_texts(figure_of(scene)) for scene in SCENES))
     assert {"ω1", "ω2", "ω3", "M1", "m1", "d1", "v3", "qw"} <= names
     assert not {name for name in names if len(name) == 2 and name[1] in "xyzw" and name[0] != "q"}
 

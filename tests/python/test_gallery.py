@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import at_length, drawn_by_command
 
 import gyrostat
 from gyrostat import _core
 from gyrostat import gallery as galleries
-from gyrostat.cli import main
 from gyrostat.families.deceleration import gallery
 
 
@@ -57,13 +57,10 @@ def test_the_start_lies_on_the_polhode_of_the_paper() -> None:
     assert (made.regime, made.modulus_squared) == ("A", pytest.approx(0.99))
 
 
-@pytest.mark.parametrize(("figure", "name"), [(4, "deceleration-figure-4.png"), (24, "deceleration-figures-23-25.png")])
+@pytest.mark.parametrize(("figure", "name"), [(6, "deceleration-figures-5-7.png"), (24, "deceleration-figures-23-25.png"), *at_length([], [(4, "deceleration-figure-4.png")])])
 def test_a_figure_is_drawn(figure: int, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("matplotlib")
-    assert main(["reproduce", "deceleration", str(figure), "-o", str(tmp_path / "figures")]) == 0
-    file = tmp_path / "figures" / name
-    assert file.read_bytes().startswith(b"\x89PNG")
-    assert str(file) in capsys.readouterr().out
+    drawn_by_command(str(figure), name, tmp_path, capsys, figure == 24)
 
 
 @pytest.mark.parametrize(("paper", "figure", "words"), [("comet", None, "paper = 'comet'"), ("deceleration", "2", "figure = '2'"),

@@ -7,6 +7,7 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
+from conftest import at_length
 from gyrostat import DomainError
 from gyrostat.rotation import matrix_from_quaternion
 
@@ -164,7 +165,7 @@ def test_the_turned_frame_tells_what_its_phase_loses() -> None:
 
 
 def test_a_table_of_many_times_is_no_burden() -> None:
-    times = np.linspace(0.0, 100.0, 100_001)
+    times = np.linspace(0.0, 100.0, at_length(20_001, 100_001))
     table = {"type": "table", "times": times.tolist(), "values": np.stack([0.01 * np.cos(times), 0 * times, 0 * times], 1).tolist()}
     made = gyrostat.solve(scene(torque=[table], solve={"times": [0.0, 0.5], "tolerance": 1e-6}))
     assert made.met and made.counts["steps"] < 2000

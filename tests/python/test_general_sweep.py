@@ -10,6 +10,7 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
+from conftest import at_length
 from gyrostat import DomainError, SceneError, sweep
 from gyrostat.cli import main
 from gyrostat.families import FAMILIES
@@ -116,6 +117,7 @@ def test_a_row_of_any_number_is_what_the_scene_with_that_number_comes_to(name: s
     inputs = inputs_of(FAMILIES["general"])
     found = [key for full, table, field in inputs for key in keys(full, field, scene.tables[table][field.name] if table else scene.top[field.name])]
     assert len(found) > 15
+    found = at_length(found[len(found) % 3::3], found)
     answered = 0
     for key in found:
         given = float(numbers_of(scene)[place_of(scene, key).numbers[0]])

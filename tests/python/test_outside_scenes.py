@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import at_length
 from gyrostat import _core
 from gyrostat.scenes import load, scene_from
 
@@ -29,7 +30,7 @@ def test_the_truth_is_that_of_the_long_double_integrator() -> None:
 
 
 def test_the_judge_sees_a_lie() -> None:
-    scene = scene_from(FREE)
+    scene = scene_from(FREE, ask=["angular_momentum"])
     answer, rows = outside_scenes.verdicts(scene)
     assert answer.met and all(right for *_, right in rows)
     assert not outside_scenes.honest(stated=1e-9, true=2e-9, met=False, tolerance=1e-6)
@@ -37,7 +38,12 @@ def test_the_judge_sees_a_lie() -> None:
     assert outside_scenes.honest(stated=1e-9, true=5e-10, met=True, tolerance=1e-6)
 
 
-@pytest.mark.parametrize("file", sorted(outside_scenes.SCENES.glob("*.toml")), ids=lambda file: file.stem)
+# Their truth takes a second or more; others are by day what they are: beside a separatrix, a tensor, an average.
+LONG = ("averaged-outside-2", "exact-axis-averaged", "separatrix-sticks", "tensor-rotor-total-law")
+FILES = [file for file in sorted(outside_scenes.SCENES.glob("*.toml")) if file.stem.removeprefix("deceleration-") not in at_length(LONG, ())]
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_no_error_is_greater_than_stated(file: Path) -> None:
     answer, rows = outside_scenes.verdicts(load(file))
     assert rows

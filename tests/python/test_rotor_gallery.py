@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import drawn_by_command
 
 import gyrostat
 from gyrostat import _core, gallery, rotor
-from gyrostat.cli import main
 from gyrostat.families.rotor import gallery as pictures
 
 
@@ -88,10 +88,7 @@ def test_the_linear_solution_of_the_gallery_is_of_first_order() -> None:
                                               ("rate-vs-slope", "rotor-rate-vs-slope.png"), ("circular-section", "rotor-circular-section.png")])
 def test_a_figure_is_drawn(figure: str, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("matplotlib")
-    assert main(["reproduce", "rotor", figure, "-o", str(tmp_path / "figures")]) == 0
-    file = tmp_path / "figures" / name
-    assert file.read_bytes().startswith(b"\x89PNG")
-    assert str(file) in capsys.readouterr().out
+    drawn_by_command(figure, name, tmp_path, capsys, figure == "spin-up")
 
 
 def test_an_unknown_reading_is_refused() -> None:

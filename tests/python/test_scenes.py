@@ -460,7 +460,7 @@ def test_mutated_texts(good: str, tmp_path: Path) -> None:
     pieces = [*string.printable, "[[", "]]", "= nan", "= -inf", "1e999", "true", '"""', "{}", "[]", "\\u0000", "é", "9" * 30,
               "[solve]", "[body]", "kind", "0x", "1979-05-27", "\0", '"1 kg m^2"', '"2 deg/s"', '{ value = [1, 2, 3], unit = "s" }', " rpm"]
     lines = good.splitlines(keepends=True)
-    for _ in range(1000):
+    for _ in range(at_length(250, 1000)):
         text = "".join(lines)
         for _ in range(draw.randint(1, 4)):
             i, j = sorted((draw.randrange(len(text) + 1), draw.randrange(len(text) + 1)))
@@ -497,7 +497,7 @@ keys = st.sampled_from(sorted({field.name for family in FAMILIES.values() for fi
 tables = st.dictionaries(keys | st.text(max_size=6), values, max_size=6)
 
 
-@settings(max_examples=at_length(100, 400), deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=at_length(40, 400), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(kind=st.sampled_from(sorted(FAMILIES)),
        data=st.dictionaries(st.sampled_from(["name", "source", *sorted({table for family in FAMILIES.values() for table in family.keys})])
                             | st.text(max_size=5), tables | values, max_size=7))
@@ -508,7 +508,7 @@ def test_random_dicts(kind: str, data: dict[str, object]) -> None:
         assert str(error)
 
 
-@settings(max_examples=at_length(100, 400), deadline=None)
+@settings(max_examples=at_length(40, 400), deadline=None)
 @given(data=st.sampled_from([GOOD, ROTOR, ASSEMBLED, SPINNING, HEAVY, PERIODIC]), key=keys, value=values,
        dotted=st.sampled_from(["", "solve.", "body.", "torque.", "initial.", "carrier.", "rotor.", "motor.", "field.", "x.y."]))
 def test_random_overrides(data: str, key: str, value: object, dotted: str) -> None:

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import drawn_by_command
 
 import gyrostat
 from gyrostat import _core, gallery, spinning
-from gyrostat.cli import main
 from gyrostat.families.spinning import gallery as pictures
 from gyrostat.families.spinning.gallery import SWEEPS, Case, run
 
@@ -120,10 +120,7 @@ def test_the_resonance_figure_keeps_all_digits_of_ours(resonance: pictures.Reson
                                               ("11", "spinning-figure-11.png"), ("21", "spinning-figure-21.png")])
 def test_a_figure_is_drawn(figure: str, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("matplotlib")
-    assert main(["reproduce", "spinning", figure, "-o", str(tmp_path / "figures")]) == 0
-    file = tmp_path / "figures" / name
-    assert file.read_bytes().startswith(b"\x89PNG")
-    assert str(file) in capsys.readouterr().out
+    drawn_by_command(figure, name, tmp_path, capsys, figure == "11")
 
 
 def test_every_figure_says_what_is_seen() -> None:

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import ASSEMBLED, GOOD, HEAVY, PERIODIC, ROTOR, SPINNING
+from conftest import ASSEMBLED, GOOD, HEAVY, PERIODIC, ROTOR, SPINNING, at_length
 from gyrostat.cli import main
 from gyrostat.errors import Refused, SceneError
 from gyrostat.families import FAMILIES
@@ -75,7 +75,7 @@ def test_the_pattern_is_what_is_read() -> None:
     draw = random.Random(12)
     pieces = ["1", "20", ".5", "3.", "-", "e5", " ", " ", "/", "*", ".", "·", "m", "kg", "s", "ms", "rad", "°", "^2", "^-1", "²", "⁻³", "2", "0", "x", "(", "**", "min", "N"]
     good = 0
-    for _ in range(30000):
+    for _ in range(at_length(15000, 30000)):
         text = draw.choice(["", "5 ", "1.5", "-2e3 "]) + "".join(draw.choice(pieces) for _ in range(draw.randrange(1, 6)))
         try:
             _, unit = split(text)
@@ -209,6 +209,7 @@ def test_every_bundled_scene_is_the_same_in_other_units_to_the_bit(as_table: boo
         assert all(other.to_dict()["body"][key] == value for key, value in told.get("body", {}).items())
 
 
+@pytest.mark.usefixtures("few_members")
 @pytest.mark.parametrize("name", ["near-separatrix", "intelsat-v-flat-spin", "spinning-paper", "toy-top", "tumbling-brick"])
 def test_a_scene_in_other_units_is_answered_drawn_exported_and_shown(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "scene.toml"
