@@ -206,9 +206,11 @@ class TaylorBatch {
       theta[b] = ((t[static_cast<std::size_t>(b)] - start_time_[b]) - start_time_low_[b]) / unit_[b];
     for (int first = 0; first < size; first += pack) {
       const Pack z = load_wide(&theta[first]), z2 = z * z;
+#pragma GCC unroll 8
       for (int i = 0; i < width; ++i)
         store(&states[i][first],
               load_wide(&x_[0][i][first]) + (load_wide(&start_low_[i][first]) + increment(i, first, z, z2)));
+#pragma GCC unroll 8
       for (int i = 0; i < carried; ++i) store(&states[width + i][first], load_wide(&start_carried_[i][first]));
     }
   }
@@ -232,6 +234,7 @@ class TaylorBatch {
     const Pack zero = wide(Scalar(0));
     for (int first = 0; first < size; first += pack) {
       Pack greatest = zero;
+#pragma GCC unroll 8
       for (int i = 0; i < width; ++i) {
         const Pack x = load_wide(&x_[k][i][first]) * load_wide(&weight_[i][first]);
         const Pack here = greater_of<Scalar>(x, zero - x);
@@ -344,10 +347,12 @@ GYROSTAT_INLINE int TaylorBatch<System, Order>::begin(const Ends& ends, Flags& r
     const auto take = [&](Scalar* to, const Scalar* from) {
       store(to, choose<Scalar>(yes, load_wide(from), load_wide(to)));
     };
+#pragma GCC unroll 8
     for (int i = 0; i < width; ++i) {
       take(&x_[0][i][first], &state_[i][first]);
       take(&start_low_[i][first], &low_[i][first]);
     }
+#pragma GCC unroll 8
     for (int i = 0; i < carried; ++i) take(&start_carried_[i][first], &carried_[i][first]);
   }
   return running;
@@ -428,6 +433,7 @@ GYROSTAT_INLINE void TaylorBatch<System, Order>::move_states(const Numbers& take
   for (int first = 0; first < size; first += pack) {
     const Pack z = load_wide(&taken[first]);
     const Pack z2 = z * z;
+#pragma GCC unroll 8
     for (int i = 0; i < width; ++i) {
       const Pack delta = increment(i, first, z, z2);
       const Pack high = load_wide(&x_[0][i][first]);
@@ -444,10 +450,12 @@ GYROSTAT_INLINE void TaylorBatch<System, Order>::move_states(const Numbers& take
   }
   for (int b = 0; b < size; ++b) {
     if (runs[b]) continue;  // else as it was
+#pragma GCC unroll 8
     for (int i = 0; i < width; ++i) {
       state_[i][b] = state[i][b];
       low_[i][b] = low[i][b];
     }
+#pragma GCC unroll 8
     for (int i = 0; i < carried; ++i) carried_[i][b] = held[i][b];
   }
 }

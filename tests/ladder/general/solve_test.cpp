@@ -85,6 +85,25 @@ TEST_CASE("a gradient that is not that of the orbit, and an orbit inside its pla
   CHECK(!solved(posed(p, question_at({1}))).warns("inside-planet"));
 }
 
+TEST_CASE("a body that is not small against its orbit", "[general]") {
+  auto p = brick();
+  p.orbit.emplace();
+  p.orbit->radius = 7e6, p.orbit->mu = 4e14;
+  p.mass = 2;
+  const auto warns = [&](double size) {
+    p.inertia *= p.mass * size * size / p.inertia.maxCoeff();
+    return solved(posed(p, question_at({1}))).warns("wide-in-orbit");
+  };
+  p.torques = {torque(TorqueType::gravity_gradient, {0, 0, 0})};
+  CHECK(warns(7001));
+  CHECK(!warns(6999));
+  p.mass = 1;  // not given
+  CHECK(!warns(7001));
+  p.mass = 2;
+  p.torques = {torque(TorqueType::constant, {1, 0, 0})};
+  CHECK(!warns(7001));
+}
+
 TEST_CASE("torques that come and go and leave the start a thousandth", "[general]") {
   auto p = brick();
   p.angular_velocity = {1e-3, 0, 0};

@@ -145,6 +145,7 @@ enum : std::size_t {
   rest,
   orbit_mismatch,
   inside_planet,
+  wide_in_orbit,
   torque_outruns,
   chaotic,
   with_rounding
@@ -173,6 +174,9 @@ inline constexpr WarningKind warning_kinds[] = {
     {"orbit-mismatch",
      "the gravity gradient that is given is none of the orbit, 3 mu/r^3: it is greater by a share of"},
     {"inside-planet", "the orbit goes below the surface of its planet: height of its lowest point, m"},
+    {"wide-in-orbit",
+     "the gravity gradient is that of a body that is small against its orbit: its torque errs by a share of about the "
+     "size of the body over the radius of the orbit, which is"},
     {"torque-outruns",
      "torques that come and go bring the body to more than a thousand times the rate that it starts with; times"},
     {"chaotic",

@@ -58,6 +58,13 @@ void warn_of_scene(const Answer& answer, const Scene& scene, const Track& track,
       if (torque.type == TorqueType::gravity_gradient && torque.gradient)
         if (const double beyond = beyond_orbit(*torque.gradient, *problem.orbit); beyond != 0)
           warn(warning::orbit_mismatch, beyond);
+    // a mass of one is that of a body whose mass is not given, and then nothing is known of its size
+    const bool feels = std::any_of(problem.torques.begin(), problem.torques.end(), [](const Torque<double>& torque) {
+      return torque.type == TorqueType::gravity_gradient;
+    });
+    const double size = std::sqrt(problem.inertia.diagonal().maxCoeff() / problem.mass);
+    if (const double share = size / apsides_of(*problem.orbit).lowest; feels && problem.mass != 1 && share > 1e-3)
+      warn(warning::wide_in_orbit, share);
     const double height = apsides_of(*problem.orbit).lowest - problem.orbit->surface;
     if (problem.orbit->surface > 0 && height < 0) warn(warning::inside_planet, height);
   }
