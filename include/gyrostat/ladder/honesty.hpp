@@ -40,12 +40,13 @@ inline constexpr double companion_pace = 0.7;
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;
 
-/// The runs are compared at the end of every step, and at so many of the asked times, or all where these are fewer; at the first of them in any
-/// case: what a first step errs on its way may be gone at its end.
-inline constexpr std::size_t looks = 64, first_looks = 16;
-/// Whether the runs are compared at the asked time `i` of so many.
+/// The runs are compared at the end of every step, and at so many of the asked times, or all where these are fewer.
+inline constexpr double looks = 64;
+/// At so many of the first asked times they are compared in any case: what a first step errs on its way may be gone at its end.
+inline constexpr double first_looks = 16;
+// Whether the runs are compared at the asked time `i` of so many.
 constexpr bool looked_at(std::size_t i, std::size_t times) noexcept {
-  return i < first_looks || i % (1 + times / looks) == 0;
+  return i < std::size_t(first_looks) || i % (1 + times / std::size_t(looks)) == 0;
 }
 
 /// Deceleration: errors sink with the motion, and a distance fades so many times as fast.
