@@ -242,8 +242,8 @@ bool Scenes::Made::true_motion(const Scene& scene, Answer& truth) const {
   options.tolerance = 1e-14L;
   options.step_cap = 2'000'000;
   options.attitude = wants_attitude;
-  options.converted =
-      true;  // long double finds the axes of moments that differ by roundings of double no better than to 1e-3 rad
+  // long double finds the axes of moments that differ by roundings of double no better than to 1e-3 rad
+  options.converted = true;
   const auto made = full_motion<Long>(*problem, from, asked, states, options);
   if (!made || made->status != ode::Status::reached) return false;
   // fill() turns by the matrix in double

@@ -202,9 +202,7 @@ Data integrate(const Data& scene, const Array& at, const std::string& method, in
     };
     const auto [course, seconds] = timed([&] {
       const Prepared<Scalar> of(problem, Scalar(task.times.back()));
-      // a reference has time: the large system holds what the small one does
-      if constexpr (std::is_same_v<Scalar, long double>) return by_pieces<true>(of, task, put);
-      else return of.is_large() ? by_pieces<true>(of, task, put) : by_pieces<false>(of, task, put);
+      return of.is_large() ? by_pieces<true>(of, task, put) : by_pieces<false>(of, task, put);
     });
     return std::move(table).data(course, seconds);
   };

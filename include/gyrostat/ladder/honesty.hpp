@@ -44,7 +44,7 @@ inline constexpr double fading_angle = 128;
 inline constexpr double looks = 64;
 /// At so many of the first asked times they are compared in any case: what a first step errs on its way may be gone at its end.
 inline constexpr double first_looks = 16;
-// Whether the runs are compared at the asked time `i` of so many.
+/// Whether the runs are compared at the asked time `i` of so many.
 constexpr bool looked_at(std::size_t i, std::size_t times) noexcept {
   return i < std::size_t(first_looks) || i % (1 + times / std::size_t(looks)) == 0;
 }

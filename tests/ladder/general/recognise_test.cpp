@@ -177,9 +177,9 @@ TEST_CASE("a scene is an instance to 8 roundings and none with 9, and the answer
          p.wheels = {wheel(WheelType::held, {0, 0, 1})};
          return p;
        }},
-      {Special::
-           heavy,  // weight and a dipole across it, as strong, in a field along the vertical: of what is off half is across both
+      {Special::heavy,  // weight and a dipole across it, as strong, in a field along the vertical
        [](double k) {
+         // half of what the field is off by is across both
          Problem<double> p = top();
          p.field.down = {0, 0, -1};
          p.field.magnetic = MagneticField::uniform, p.field.flux_density = {2 * 0.999 * k * eps, 0, -1};
