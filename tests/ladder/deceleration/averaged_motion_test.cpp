@@ -89,6 +89,11 @@ TEST_CASE("averaged motion: equal torques, drag alone, nothing", "[deceleration]
   REQUIRE(dragged.advance(5000, 0, nobody) == ode::Status::reached);
   CHECK(dragged.state().norm == Approx(R * std::exp(-1.5)).epsilon(1e-10));
   CHECK(dragged.state().polhode.modulus.k2 == Approx(k2).epsilon(1e-12));
+  REQUIRE(dragged.advance(4e5, 0, nobody) == ode::Status::reached);
+  CHECK(dragged.state().norm == Approx(R * std::exp(-120.)).epsilon(1e-9));
+  REQUIRE(dragged.advance(1e8, 0, nobody) == ode::Status::reached);
+  CHECK(dragged.state().norm > 0);  // below every double, but not at rest
+  CHECK(dragged.state().polhode.modulus.k2 == Approx(k2).epsilon(1e-12));
   auto nothing = standard(0);
   Motion free = motion_of(nothing);
   REQUIRE(free.advance(1e5, 0, nobody) == ode::Status::reached);

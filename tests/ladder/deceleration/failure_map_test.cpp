@@ -361,6 +361,13 @@ TEST_CASE("failure map: no control", "[deceleration]") {
   for (std::size_t i = 0; i < 6; ++i)
     CHECK(drag_only.find("angular_momentum_norm")->values[i] ==
           Approx(std::exp(-c.data.drag * c.data.times[i])).epsilon(1e-12));
+  for (const double end : {4e5, 1e8}) {  // after e-120, and far below every double: k2 stays
+    Case late = c.with(rung::averaged, 1e-2);
+    late.data.times = until(end, 3);
+    const Answer averaged = late.solve();
+    CHECK(averaged.find("regime")->values[2] == averaged.find("regime")->values[0]);
+    CHECK(averaged.find("modulus_squared")->values[2] == averaged.find("modulus_squared")->values[0]);
+  }
   c.data.drag = 0;
   const Answer free = check_everywhere(c);
   CHECK(warns(free, "no-control"));

@@ -124,6 +124,9 @@ TEST_CASE("orbit motion: no control, no drag", "[deceleration]") {
   CHECK(*dragged.stop_time(nobody) == infinity<double>);
   REQUIRE(dragged.advance(5000, 0, nobody) == ode::Status::reached);
   CHECK(dragged.sample().level.R == Approx(p.momentum.norm() * std::exp(-1.5)).epsilon(1e-9));
+  Motion late = motion_of(p, 1e-6);
+  REQUIRE(late.advance(4e5, 0, nobody) == ode::Status::reached);
+  CHECK_FALSE(late.sample().at_rest);
   p.drag = 0;
   Motion free = motion_of(p);
   REQUIRE(free.advance(1e4, 0, nobody) == ode::Status::reached);

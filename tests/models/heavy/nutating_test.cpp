@@ -129,6 +129,14 @@ TEST_CASE("nutating: without nutation, the forced motion", "[heavy]") {
   }
 }
 
+TEST_CASE("nutating: a steady spin on the resonance of the next order", "[heavy]") {
+  const auto made = Nutating<double>::make(unit_body<double>(2, 2, {0, 0, 0}, 0), State<double>{{0, 0, 50}, {0.6, 0, 0.8}, {}});
+  REQUIRE(made);
+  REQUIRE(made->scaled().nutation_squared() == 0.25);
+  CHECK(made->error(1).angular_velocity < 1e-11);
+  CHECK(made->error(1).angular_velocity > 0);
+}
+
 TEST_CASE("nutating: where the second family is, the frequencies have the ratio omega again", "[heavy]") {
   for (double G0 : {0.0, 0.1, 0.3}) {
     const auto body = unit_body(0.55, 0.8, {0.6, 0.48, 0.64}, 0.7);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/math/root.hpp"
@@ -76,7 +77,7 @@ class AveragedMotion {
     }
     const Polhode<Scalar> p = solver_.rhs().polhode(end);
     const Scalar M = solver_.rhs().norm(end), D = solver_.rhs().torque(p).deceleration;
-    return {std::max(Scalar(0), decayed(M, D, now_ - end[Equations::time])), p, end[Equations::phase]};
+    return {decayed(M, D, now_ - end[Equations::time]), p, end[Equations::phase]};
   }
 
   /// Time at which |M| vanishes, s; infinite where no control torque acts.
@@ -117,11 +118,11 @@ class AveragedMotion {
     return fall > 0 ? norm0_ / fall : infinity<Scalar>;
   }
 
-  /// |M| a time dt after M under the constant mean torque D.
+  /// |M| a time dt after M under the constant mean torque D; never 0 where none acts, since drag alone brings nothing to rest.
   Scalar decayed(Scalar M, Scalar D, Scalar dt) const noexcept {
-    const Scalar drag = problem_.drag;
-    const Scalar lost = -std::expm1(-drag * dt);
-    return drag > 0 ? M - lost * (M + D / drag) : M - D * dt;
+    const Scalar drag = problem_.drag, kept = M * std::exp(-drag * dt);
+    if (D == 0) return std::max(kept, std::numeric_limits<Scalar>::denorm_min());
+    return std::max(Scalar(0), kept - D * (drag > 0 ? -std::expm1(-drag * dt) / drag : dt));
   }
 
   ode::Status step() noexcept {

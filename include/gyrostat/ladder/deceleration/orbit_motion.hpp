@@ -166,13 +166,13 @@ class OrbitMotion {
       return {solver_.rhs().level(y), solver_.rhs().followed, y[Equations::phase], false};
     }
     return {solver_.rhs().level(end), component_, end[Equations::phase],
-            at_rest_ && now_ >= end[Equations::time] + remainder()};
+            at_rest_ && controlled() && now_ >= end[Equations::time] + remainder()};
   }
 
   /// Time at which the control reaches its goal, s; infinite where no control acts.
   template <class Visitor>
   Result<Scalar> stop_time(Visitor visit) noexcept {
-    if (!(solver_.rhs().problem.control.diagonal().maxCoeff() > 0)) return infinity<Scalar>;
+    if (!controlled()) return infinity<Scalar>;
     while (!at_rest_)
       if (step(visit) != ode::Status::reached) return failure();
     return solver_.state()[Equations::time] + remainder();
@@ -273,6 +273,9 @@ class OrbitMotion {
     solver_.rhs().failure = next ? Errc::undetermined : Errc::separatrix;
     return false;
   }
+
+  /// Whether a control acts: drag alone brings nothing to rest.
+  bool controlled() const noexcept { return solver_.rhs().problem.control.diagonal().maxCoeff() > 0; }
 
   /// Time from the end of the last step to the stop, with |U| falling at its present mean rate.
   Scalar remainder() const noexcept {
