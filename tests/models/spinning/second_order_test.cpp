@@ -29,6 +29,10 @@ State<Real80> true_end(const Problem<Real80>& p, Real80 t) {
   return states[0];
 }
 
+Real80 tilt_error(const State<Real80>& a, const State<Real80>& b) {
+  return std::hypot(a.angles.psi - b.angles.psi, a.angles.phi - b.angles.phi);
+}
+
 /// r, theta, transverse and axial momentum, velocity, position.
 std::array<Real80, 8> errors(const State<Real80>& a, const State<Real80>& b) {
   const auto across = [](const Vec3<Real80>& x, const Vec3<Real80>& y) { return (x - y).head<2>().norm(); };
@@ -120,6 +124,40 @@ TEST_CASE("orders in the tilt", "[spinning]") {
       CHECK(slope(second, 5) == Approx(4).margin(0.15));
       CHECK(slope(second, 7) == Approx(4).margin(0.15));
     }
+  }
+}
+
+TEST_CASE("the tilt of a symmetric body errs no more after many turns", "[spinning]") {
+  Spinners random(8);
+  int seen = 0;
+  for (int i = 0; seen < 5; ++i) {
+    CAPTURE(i);
+    auto p = random.spinner(0.002);
+    p.inertia[1] = p.inertia[0];
+    p.angular_velocity[0] = 0.001 * p.spin();
+    if (i % 2 == 0) p.angles.psi = 0.002, p.angles.phi = -0.001;
+    if (spinning::detail::third_order_swing(p, 1e9) > 10 / std::abs(p.spin())) continue;
+    ++seen;
+    Real80 linear[2], second[2], stated[2];
+    for (int k = 0; k < 2; ++k) {
+      const Real80 end = (k == 0 ? 60 : 1000) / std::abs(p.spin());
+      linear[k] = second[k] = 0;
+      const auto q = cast<Real80>(p);
+      const SecondOrder<Real80> motion(q, end);
+      REQUIRE(motion.applies());
+      for (int j = 0; j < 5; ++j) {
+        const Real80 t = end - 7 * j / std::abs(q.spin());
+        const auto right = true_end(q, t);
+        linear[k] = std::max(linear[k], tilt_error(Linear<Real80>(q).at(t), right));
+        second[k] = std::max(second[k], tilt_error(motion.at(t), right));
+      }
+      stated[k] = second_order_errors(q, end).tilt;
+      CHECK(second[k] < stated[k]);
+    }
+    CHECK(linear[1] > 6 * linear[0]);
+    CHECK(second[1] < 3 * second[0]);
+    CHECK(second[1] < linear[1] / 10);
+    CHECK(stated[1] < 100 * second[1]);
   }
 }
 

@@ -22,6 +22,8 @@ struct LinearErrors {
   Scalar rates;             ///< (p, q)
   Scalar spin;              ///< r
   Scalar tilt;              ///< (psi, phi)
+  Scalar of_rates;          ///< the part of it that the error of the rates makes
+  Scalar shift;             ///< of the frequency of nutation, rad/s
   Scalar theta;             ///< spin angle
   Scalar attitude;          ///< angle of the rotation between the two attitudes, rad
   Scalar momentum;          ///< (G1, G2)
@@ -68,39 +70,86 @@ struct SpinChange {
   }
 };
 
+/// The linear tilt as space sees it, e^(i r0 t) Gamma = still + sum tilt_j e^(i turning_j t), and the rates that belong to it, of a body whose
+/// nutation is stable: modes 0, nu and -nu of the rates. Infinite or NaN where one of them is at rest in space.
+template <Real Scalar>
+struct TiltModes {
+  bool stable;  ///< the nutation; else nothing below means anything
+  math::Complex<Scalar> still;
+  Scalar rate[3], tilt[3], turning[3];
+
+  TiltModes(const Problem<Scalar>& problem, const LinearStart<Scalar>& start) noexcept
+      : stable(problem.nutation_squared() > 0), still(start.Gamma) {
+    const Scalar r0 = problem.spin();
+    const RateModes<Scalar> modes(start, problem.nutation_squared());
+    const math::Complex<Scalar> rates[] = {modes.constant, modes.up, modes.down};
+    const Scalar relative[] = {0, modes.lambda.im, -modes.lambda.im};
+    for (int j = 0; j < 3; ++j) {
+      turning[j] = r0 + relative[j];
+      const auto of_tilt = rates[j] * math::inverse(math::Complex<Scalar>{0, turning[j]});
+      still = still - of_tilt;
+      rate[j] = magnitude(rates[j]);
+      tilt[j] = magnitude(of_tilt);
+    }
+  }
+};
+
 /// What nutation adds to the spin angle over [0, T], half the integral of Im(Pi Gamma~): its greatest value, and that of the same modes if
 /// none of their mean rates cancelled; from the modes where these are apart, else from g and P.
 template <Real Scalar>
 struct NutationPhase {
   Scalar net, gross;
 
-  NutationPhase(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, const Amplitudes<Scalar>& size,
-                Scalar T) noexcept {
+  NutationPhase(const TiltModes<Scalar>& m, const Amplitudes<Scalar>& size, Scalar T) noexcept {
     net = gross = size.tilt * size.rate * T / 2;
-    const Scalar nu2 = problem.nutation_squared(), r0 = problem.spin();
-    if (!(nu2 > 0)) return;
-    const RateModes<Scalar> modes(start, nu2);
-    const Scalar nu = modes.lambda.im;
-    const Scalar turning[] = {r0, r0 + nu, r0 - nu};
-    const math::Complex<Scalar> rates[] = {modes.constant, modes.up, modes.down};
-    math::Complex<Scalar> still = start.Gamma;
-    Scalar rate[3], tilt[3], steady = 0, all = 0, swings = 0;
-    for (int j = 0; j < 3; ++j) {
-      const auto of_tilt = rates[j] * math::inverse(math::Complex<Scalar>{0, turning[j]});
-      still = still - of_tilt;
-      rate[j] = magnitude(rates[j]);
-      tilt[j] = magnitude(of_tilt);
-      steady += rate[j] * rate[j] / turning[j];
-      all += rate[j] * tilt[j];
-    }
+    if (!m.stable) return;
+    Scalar steady = 0, all = 0, swings = 0;
     const auto swing = [T](Scalar w) noexcept { return std::min(T, 2 / std::abs(w)); };
     for (int j = 0; j < 3; ++j) {
-      swings += rate[j] * magnitude(still) * swing(turning[j]);
+      steady += m.rate[j] * m.rate[j] / m.turning[j];
+      all += m.rate[j] * m.tilt[j];
+      swings += m.rate[j] * magnitude(m.still) * swing(m.turning[j]);
       for (int k = 0; k < 3; ++k)
-        if (j != k) swings += rate[j] * tilt[k] * swing(turning[j] - turning[k]);
+        if (j != k) swings += m.rate[j] * m.tilt[k] * swing(m.turning[j] - m.turning[k]);
     }
     lower(net, (std::abs(steady) * T + swings) / 2);
     lower(gross, (all * T + swings) / 2);
+  }
+};
+
+/// What is left of the third order of the tilt over [0, T] where the part of it that stands still in space is turned back by what nutation adds
+/// to the spin angle, half the integral of |Gamma|^2 Pi but for that part: a bound, from the magnitudes of the modes, and infinite where
+/// these are not apart.
+template <Real Scalar>
+Scalar third_order_left(const TiltModes<Scalar>& modes, Scalar T) noexcept {
+  const Scalar size[] = {magnitude(modes.still), modes.tilt[0], modes.tilt[1], modes.tilt[2]};
+  const Scalar turning[] = {0, modes.turning[0], modes.turning[1], modes.turning[2]};
+  Scalar sum = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int k = 1; k < 4; ++k) {
+        if (i == 0 && j == k) continue;
+        const Scalar w = std::abs(turning[i] - turning[j] + turning[k]);
+        sum += size[i] * size[j] * modes.rate[k - 1] * std::min(T, 2 / w);
+      }
+  return sum <= infinity<Scalar> ? sum / 2 : infinity<Scalar>;
+}
+
+/// The part of the tilt that stands still in space, which second order turns back by what nutation and the change of the spin rate add to
+/// the spin angle; 0 where that leaves no less of the third order than what turning takes away.
+template <Real Scalar>
+struct StillTilt {
+  math::Complex<Scalar> still;
+  Scalar left = infinity<Scalar>;  ///< third_order_left, else infinite
+
+  StillTilt(const TiltModes<Scalar>& modes, const Amplitudes<Scalar>& size, Scalar T) noexcept {
+    if (!modes.stable) return;
+    for (const Scalar turning : modes.turning)
+      if (!(std::abs(turning) * T >= 1)) return;  // within T that mode cannot be told from what stands still
+    const Scalar rest = third_order_left(modes, T);
+    if (!(rest < size.tilt * NutationPhase<Scalar>(modes, size, T).gross)) return;
+    still = modes.still;
+    left = rest;
   }
 };
 
@@ -164,12 +213,19 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
 
   LinearErrors<Scalar> error;
   error.size = size;
-  const detail::NutationPhase<Scalar> nutation(problem, start, size, T);
+  // what an error of the rates makes of the tilt: where it is one of the phase of nutation, that of the modes
+  const detail::TiltModes<Scalar> modes(problem, start);
+  const Scalar nutating = modes.tilt[1] + modes.tilt[2], once = std::min(T, 1 / std::sqrt(steep * flat));
+  const detail::NutationPhase<Scalar> nutation(modes, size, T);
   Scalar g = size.tilt, P = size.rate, rate = rho.rate, angle = rho.angle, net = nutation.net, gross = nutation.gross;
   const Scalar grown = detail::grown_error(problem, start, zeta, T);
   const auto third_order = [&]() noexcept {
-    error.rates = skew * (P * zeta * rate * T + grown);
-    error.tilt = (g * (2 * gross + angle) + g * g * g) / 2 + error.rates * answer;
+    error.shift = skew * zeta * rate;
+    error.rates = P * error.shift * T + skew * grown;
+    error.of_rates = error.rates * answer;
+    const Scalar wider = size.rate > 0 ? P / size.rate : Scalar(1);
+    if (modes.stable) detail::lower(error.of_rates, error.shift * (T * nutating * wider + P * once * answer));
+    error.tilt = (g * (2 * gross + angle) + g * g * g) / 2 + error.of_rates;
   };
   third_order();
   if (!(g + error.tilt <= Scalar(small_tilt))) {
