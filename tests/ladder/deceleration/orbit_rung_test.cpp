@@ -135,3 +135,41 @@ TEST_CASE("orbit rung: refusals and the size of breakdown", "[deceleration]") {
   CHECK(far / near == Approx(100));
   CHECK(far < breakdown_momentum(p, 1e-3));
 }
+
+TEST_CASE("orbit rung: the second order does not lead along a separatrix", "[deceleration]") {
+  Case c;
+  c.moments = V(16.610303555072683, 4.7346610276233108, 18.867221396289999);
+  c.data.rotor_momentum = V(0.57153037983505539, -0.26308699404725783, 0.29143440786306024);
+  c.data.control = V(0.0050470743456133057, 0.006314824015251558, 0.013222392267056321);
+  c.data.drag = 0.00074254085486726289;
+  c.data.momentum = V(10.555683923885208, -6.185015883180891, 14.474505977412523);
+  c.data.times = until(50, 5);
+  for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+    CAPTURE(tolerance);
+    const Answer answer = c.with(rung::averaged_2, tolerance).solve();
+    CHECK(std::isnan(quantity(answer, "stop_time")));  // true: 1348.5 s, after a crossing at 710 s
+  }
+}
+
+TEST_CASE("orbit rung: near rest k2 is not known, also where only the error of |M| leads there", "[deceleration]") {
+  Mat3<double> J;  // of a body that is symmetric but for rounding
+  J << 141.39393709937585, 17.770318842467482, 33.059698994961749, 17.770318842467482, 119.10249986301159,
+      18.288972862658483, 33.059698994961749, 18.288972862658483, 143.29636979044415;
+  Asked data;
+  data.momentum = V(33.327518605942664, 85.5260335437858, -391.96301550253185);
+  data.control = V(1.6767130162836303, 0.4964069187184123, 4.4055269530166976);
+  data.drag = 0.014219061630927794;
+  data.times = until(78.29546054234514, 40);
+  data.rung = rung::averaged;
+  data.tolerance = 1e-6;
+  Refusal refusal;
+  const auto scene = make_scene(*Inertia<double>::from_tensor(J), data);
+  const Answer answer = deceleration::solve<>(*scene, refusal);
+  REQUIRE(refusal.code == Errc::ok);
+  CHECK_FALSE(answer.met);
+  data.rung = rung::full;
+  data.tolerance = 1e-10;
+  const Answer truth = deceleration::solve<>(*make_scene(*Inertia<double>::from_tensor(J), data), refusal);
+  CHECK(distance(answer, truth, "modulus_squared") > 1e-8);
+  CHECK(answer.find("modulus_squared")->error > distance(answer, truth, "modulus_squared"));
+}

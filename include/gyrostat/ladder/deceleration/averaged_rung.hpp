@@ -155,7 +155,7 @@ Track averaged_track(const Scene& scene) {
   error.norm += local * norm0 + problem.momentum_error();
   error.energy += local * energy0 + problem.energy_error(M0);
   error.k2 += local + doubt;
-  if (track.states.back().norm < low) {
+  if (scene.greatest_control() > 0 && track.states.back().norm < low + error.norm) {  // it is, or may be
     error.norm += std::min(low, norm0) * std::min(1.0, late * track.stop_time * scene.greatest_control() / low);
     error.k2 = 1;
   }

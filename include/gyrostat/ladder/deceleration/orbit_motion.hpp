@@ -83,6 +83,7 @@ template <class Elliptic, Real Scalar>
 struct SecondOrderRates {
   static constexpr Scalar longest_step = Scalar(.25);  // neighbouring orbits must resemble each other
   static constexpr std::uint64_t step_cap = 600;
+  static constexpr Scalar most_oscillation = Scalar(.5);  // of the phase, turns
 
   Orbit<Scalar, Elliptic> reference;
   bool phase_lost = false;  ///< the orbits of two steps differ too much to compare their phases
@@ -91,6 +92,8 @@ struct SecondOrderRates {
                                Component followed) const noexcept {
     const auto mean = second_order<Elliptic>(problem, level, followed, &reference);
     if (!mean) return mean.error();
+    // else it would lead along the separatrix, where the second order is as large as the first
+    if (!(mean->phase_oscillation < most_oscillation)) return Errc::separatrix;
     SlowRates<Scalar> rates = mean->first;
     rates.R += mean->second.R;
     rates.h += mean->second.h;

@@ -276,12 +276,15 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   detail::state_errors(track, {in_span.norm + norm, in_span.energy + energy, std::min(1.0, in_span.k2 + k2), 0});
 
   const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
+  const double carrier = (problem.momentum - problem.rotor_momentum).norm();
+  // near rest the body falls to the axis of the weakest control, the averaged one need not
+  const bool low = breakdown > 0 &&
+                   motion.opposed() < 3 * breakdown + detail::opposed_error(problem, error.first_order(), carrier);
   if (!Hold<double>(problem).holds) {
     track.stop_time = infinity<double>;
   } else if (const auto stop = motion.stop_time(visit)) {
     track.stop_time = *stop;
     const auto torque = final_torque(scene);
-    const double carrier = (problem.momentum - problem.rotor_momentum).norm();
     const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
     const double late = detail::opposed_error(problem, error.first_order(), carrier) / torque.least;
     // The law of the carrier ends where its averages are differences of large numbers; with a slow libration as well
@@ -294,7 +297,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   } else {
     track.warn(warning::stop_unknown);
   }
-  if (end >= track.stop_time || motion.changed_component()) track.error[column::modulus_squared] = 1;
+  if (low || end >= track.stop_time || motion.changed_component()) track.error[column::modulus_squared] = 1;
   if (motion.changed_component()) track.warn(warning::crosses_separatrix);
   if (!known || error.start_is_unclear() || motion.doubtful() || !(small_parameter(scene) < 0.1) ||
       !(breakdown <= scene.opposed().norm() / 3))
