@@ -26,8 +26,8 @@ inline double departure(const State<double>& start, const State<double>& forced)
                     (start.down - forced.down).norm());
 }
 
-/// What such a departure becomes up to t: a free nutation beside the forced motion, and what it does to the phases. Infinite where the
-/// forced motion may be unstable, and where the departure is not small.
+/// What such a departure becomes up to t: a free nutation beside the forced motion, which may grow as far as the errors of its exponent allow,
+/// and what it does to the phases. Infinite where that is not small.
 GYROSTAT_COMPILED_ONCE MotionError<double> departed(const Scaled<double>& s, double departure, double t) noexcept;
 
 /// The start of a fast periodic motion where it is known in closed form: spin about a horizontal or weightless axis 3 that no torque

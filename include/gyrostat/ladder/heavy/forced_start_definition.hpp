@@ -12,14 +12,23 @@ GYROSTAT_COMPILED_ONCE MotionError<double> departed(const Scaled<double>& s, dou
   if (departure == 0) return {};
   constexpr double open = infinity<double>;
   const Floquet<double> floquet(s);
-  if (floquet.verdict != FastStability::stable) return {open, open, pi<double>};
   const FirstOrder<double> first(s);
-  const double omega = std::sqrt(s.nutation_squared()), aspect = std::abs(omega / s.A1);
-  const double wide = std::max(aspect, 1 / aspect), nutation = 8 * departure * wide * (1 + s.a + s.b);
+  const double angle = std::abs(s.spin * t);
+  double wide = 0, turned = 0;
+  if (floquet.verdict == FastStability::stable) {
+    const double omega = std::sqrt(s.nutation_squared()), aspect = std::abs(omega / s.A1);
+    wide = std::max(aspect, 1 / aspect);
+    turned = 1 / (1 - omega);
+  } else {  // it may grow, and where it hardly turns one rate makes the other grow
+    const double growth = floquet.most_growth() * angle / (2 * pi<double>);
+    wide = std::cosh(growth) + angle * (growth > 0 ? std::sinh(growth) / growth : 1.0);
+    turned = 1 + angle;
+  }
+  const double nutation = 8 * departure * wide * (1 + s.a + s.b);
   const double forced = std::hypot(first.chi, first.kap) + std::hypot(first.X, first.Y) + s.torque();
-  const double angle = std::abs(s.spin * t), grown = nutation * (1 + 4 * (forced + nutation) * wide * angle);
+  const double grown = nutation * (1 + 4 * (forced + nutation) * wide * angle);
   if (!(grown < 0.1)) return {open, open, pi<double>};
-  return {std::abs(s.spin) * grown, grown, std::min(grown / (s.M3 * (1 - omega)), pi<double>)};
+  return {std::abs(s.spin) * grown, grown, std::min(grown / s.M3 * turned, pi<double>)};
 }
 
 GYROSTAT_COMPILED_ONCE Result<State<double>> plain_start(const Problem<double>& problem,

@@ -23,6 +23,7 @@ template <Real Scalar>
 struct Floquet {
   Scalar squared = 0;        ///< nu^2; negative: they are real and positive
   Scalar squared_error = 0;  ///< of nu^2
+  Scalar nu_error = 0;       ///< of nu
   Scalar tongue = 0;         ///< |kr| eps^2, over nu
   Scalar trace_minus_4 = 2;  ///< the sum of the two, 2 cos(2 pi nu) outside of the tongue
   Scalar growth = 0;         ///< ln of the larger one in size, 0 where they lie on the circle
@@ -38,6 +39,13 @@ struct Floquet {
   /// The square of the largest |p| of the second family of periodic motions, which a rational omega = m/n gives the n-th turn to,
   /// (rad/s)^2, to first order: negative where there is none. NaN or infinite where a = 1 or a + b = 2.
   Scalar second_family_squared() const noexcept { return second_family_; }
+
+  /// The most that a free nutation may grow in a period, ln, as far as the errors of the exponent and of its resonances allow; NaN or infinite
+  /// where they are not known.
+  Scalar most_growth() const noexcept {
+    const Scalar below = std::sqrt(std::fmax(squared_error - squared, Scalar(0)));
+    return 2 * pi<Scalar> * (below + tongue + nu_error);
+  }
 
   explicit Floquet(const Scaled<Scalar>& s) noexcept {
     const Scalar a = s.a, b = s.b, x = s.load[0], y = s.load[1], z = s.load[2], k = s.gradient;
@@ -55,7 +63,7 @@ struct Floquet {
     squared_error = 2 * size * (size + Scalar(0.3L) * divided);
 
     const Scalar nu = std::sqrt(std::fmax(squared, Scalar(0)));
-    const Scalar nu_error = squared_error / (nu + std::sqrt(squared_error));
+    nu_error = squared_error / (nu + std::sqrt(squared_error));
     const Scalar off = nu - Scalar(0.5L), detuned = std::abs(off);
     const Scalar circle = 2 * pi<Scalar>;
     if (squared <= 0) {

@@ -51,7 +51,7 @@ struct ForcedError {
   static ForcedError of(const Lindstedt<Scalar>& terms, int kept) noexcept {
     const Scaled<Scalar>& s = terms.scaled();
     const auto left = terms.remainder(kept);
-    Scalar amplified = s.torque() / s.flatness;
+    Scalar amplified = std::abs(detail::ratio_or_zero(s.torque(), s.flatness));
     if (s.load[0] != 0) amplified = std::fmax(amplified, s.torque() / std::abs(s.off_a));
     if (s.load[1] != 0) amplified = std::fmax(amplified, s.torque() / std::abs(s.off_b));
     const Scalar rounding = 8 * epsilon<Scalar> * (1 + amplified);
