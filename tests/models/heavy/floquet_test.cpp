@@ -75,6 +75,27 @@ TEST_CASE("floquet: the exponent is right to its stated error, and the verdict n
   CHECK(decided > tried * 3 / 4);
 }
 
+TEST_CASE("floquet: slim bodies without weight in a gradient, which resonates at nu = 1", "[heavy]") {
+  int decided = 0;
+  for (const double slim : {8., 32., 128.})
+    for (const double k : {1e-6, 1e-5, 1e-4, 5.568e-4})
+      for (const double G0 : {0., 0.4}) {
+        CAPTURE(slim, k, G0);
+        const auto body = unit_body<double>(slim, slim, {0, 0, 0}, k);
+        const auto found = floquet(body, 1, G0);
+        const auto orbit = Series<double>::make(body, 1, G0, 8);
+        if (!orbit) continue;
+        const double trace = monodromy(body, orbit->at(0), orbit->period());
+        const double nu2 = std::pow(std::acos(std::clamp(trace / 2, -1., 1.)) / (2 * pi<double>), 2);
+        if (found.verdict == FastStability::undecided) continue;
+        ++decided;
+        CHECK((found.verdict == FastStability::stable) == (trace < 2));
+        const double nu = std::sqrt(found.squared), folded = std::min(nu, std::abs(1 - nu));
+        CHECK(std::abs(folded - std::sqrt(nu2)) < found.nu_error + 1e-9);
+      }
+  CHECK(decided > 8);
+}
+
 TEST_CASE("floquet: the error of the exponent is of order 4 in eps", "[heavy]") {
   const auto body = unit_body(0.55, 0.8, {0.6, 0.48, 0.64}, 0.7);
   double last = 0;

@@ -60,7 +60,9 @@ struct Floquet {
     const Scalar size = std::abs(first.chi) + std::abs(first.kap) + std::abs(first.X) + std::abs(first.Y) + s.torque();
     // twice the largest of 13000 random bodies, off the tongue
     const Scalar divided = std::abs(detail::ratio_or_zero(x, s.off_a)) + std::abs(detail::ratio_or_zero(y, s.off_b));
-    squared_error = 2 * size * (size + Scalar(0.3L) * divided);
+    // of slim bodies the shift is many times the rest; and down sways the gradient's torque twice a turn, which resonates at nu = 1
+    const Scalar shift = squared - omega2, swayed = shift * shift * (1 + 1 / std::abs(1 - squared));
+    squared_error = std::fmax(2 * size * (size + Scalar(0.3L) * divided), 4 * swayed);
 
     const Scalar nu = std::sqrt(std::fmax(squared, Scalar(0)));
     nu_error = squared_error / (nu + std::sqrt(squared_error));
