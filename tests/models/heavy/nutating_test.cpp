@@ -130,7 +130,8 @@ TEST_CASE("nutating: without nutation, the forced motion", "[heavy]") {
 }
 
 TEST_CASE("nutating: a steady spin on the resonance of the next order", "[heavy]") {
-  const auto made = Nutating<double>::make(unit_body<double>(2, 2, {0, 0, 0}, 0), State<double>{{0, 0, 50}, {0.6, 0, 0.8}, {}});
+  const auto made =
+      Nutating<double>::make(unit_body<double>(2, 2, {0, 0, 0}, 0), State<double>{{0, 0, 50}, {0.6, 0, 0.8}, {}});
   REQUIRE(made);
   REQUIRE(made->scaled().nutation_squared() == 0.25);
   CHECK(made->error(1).angular_velocity < 1e-11);

@@ -278,8 +278,8 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
   const double carrier = (problem.momentum - problem.rotor_momentum).norm();
   // near rest the body falls to the axis of the weakest control, the averaged one need not
-  const bool low = breakdown > 0 &&
-                   motion.opposed() < 3 * breakdown + detail::opposed_error(problem, error.first_order(), carrier);
+  const bool low =
+      breakdown > 0 && motion.opposed() < 3 * breakdown + detail::opposed_error(problem, error.first_order(), carrier);
   if (!Hold<double>(problem).holds) {
     track.stop_time = infinity<double>;
   } else if (const auto stop = motion.stop_time(visit)) {

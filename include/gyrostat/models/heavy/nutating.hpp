@@ -50,7 +50,8 @@ class Nutating {
     const Scalar shape = 6 * small_ * small_ * (1 + small_ * angle / 4), down = shape + rounding;
     // half the spin rate is a resonance of the next order
     const Scalar near = 1 + Scalar(0.04L) / std::abs(1 - 2 * std::sqrt(s_.nutation_squared()));
-    const Scalar rates = small_ > 0 ? near * small_ * shape : Scalar(0);  // on the resonance itself nothing is left of a steady spin's
+    const Scalar rates =
+        small_ > 0 ? near * small_ * shape : Scalar(0);  // on the resonance itself nothing is left of a steady spin's
     return {std::abs(s_.spin) * (rates + rounding), down, std::fmin(down + shape / s_.M3, pi<Scalar>)};
   }
 
