@@ -22,8 +22,8 @@ struct LinearErrors {
   Scalar rates;             ///< (p, q)
   Scalar spin;              ///< r
   Scalar tilt;              ///< (psi, phi)
-  Scalar of_rates;          ///< the part of it that the error of the rates makes
-  Scalar shift;             ///< of the frequency of nutation, rad/s
+  Scalar of_rates = 0;      ///< the part of it that the error of the rates makes
+  Scalar shift = 0;         ///< of the frequency of nutation, rad/s
   Scalar theta;             ///< spin angle
   Scalar attitude;          ///< angle of the rotation between the two attitudes, rad
   Scalar momentum;          ///< (G1, G2)
@@ -75,8 +75,10 @@ struct SpinChange {
 template <Real Scalar>
 struct TiltModes {
   bool stable;  ///< the nutation; else nothing below means anything
-  math::Complex<Scalar> still;
-  Scalar rate[3], tilt[3], turning[3];
+  math::Complex<Scalar> still;     ///< rad
+  Scalar rate[3];                  ///< amplitudes of p + i q, rad/s
+  Scalar tilt[3];                  ///< amplitudes, rad
+  Scalar turning[3];               ///< r0, r0 + nu, r0 - nu, rad/s
 
   TiltModes(const Problem<Scalar>& problem, const LinearStart<Scalar>& start) noexcept
       : stable(problem.nutation_squared() > 0), still(start.Gamma) {
@@ -139,8 +141,8 @@ Scalar third_order_left(const TiltModes<Scalar>& modes, Scalar T) noexcept {
 /// the spin angle; 0 where that leaves no less of the third order than what turning takes away.
 template <Real Scalar>
 struct StillTilt {
-  math::Complex<Scalar> still;
-  Scalar left = infinity<Scalar>;  ///< third_order_left, else infinite
+  math::Complex<Scalar> still;     ///< rad
+  Scalar left = infinity<Scalar>;  ///< third_order_left, rad, else infinite
 
   StillTilt(const TiltModes<Scalar>& modes, const Amplitudes<Scalar>& size, Scalar T) noexcept {
     if (!modes.stable) return;
