@@ -19,7 +19,7 @@ GYROSTAT_COMPILED_ONCE MotionError<double> departed(const Scaled<double>& s, dou
     const double omega = std::sqrt(s.nutation_squared()), aspect = std::abs(omega / s.A1);
     wide = std::max(aspect, 1 / aspect);
     turned = 1 / std::abs(1 - omega);  // of a lamina omega is 1 but for rounding
-  } else {  // it may grow, and where it hardly turns one rate makes the other grow
+  } else {                             // it may grow, and where it hardly turns one rate makes the other grow
     const double growth = floquet.most_growth() * angle / (2 * pi<double>);
     wide = std::cosh(growth) + angle * (growth > 0 ? std::sinh(growth) / growth : 1.0);
     turned = 1 + angle;

@@ -74,11 +74,11 @@ struct SpinChange {
 /// nutation is stable: modes 0, nu and -nu of the rates. Infinite or NaN where one of them is at rest in space.
 template <Real Scalar>
 struct TiltModes {
-  bool stable;  ///< the nutation; else nothing below means anything
-  math::Complex<Scalar> still;     ///< rad
-  Scalar rate[3];                  ///< amplitudes of p + i q, rad/s
-  Scalar tilt[3];                  ///< amplitudes, rad
-  Scalar turning[3];               ///< r0, r0 + nu, r0 - nu, rad/s
+  bool stable;                  ///< the nutation; else nothing below means anything
+  math::Complex<Scalar> still;  ///< rad
+  Scalar rate[3];               ///< amplitudes of p + i q, rad/s
+  Scalar tilt[3];               ///< amplitudes, rad
+  Scalar turning[3];            ///< r0, r0 + nu, r0 - nu, rad/s
 
   TiltModes(const Problem<Scalar>& problem, const LinearStart<Scalar>& start) noexcept
       : stable(problem.nutation_squared() > 0), still(start.Gamma) {
