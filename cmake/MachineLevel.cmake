@@ -8,7 +8,25 @@ function(gyrostat_machine_level variable)
   set(found)
   if(compiles AND NOT CMAKE_CROSSCOMPILING AND level MATCHES "^[1-4]$")
     string(REPLACE "v2" "v1" found "v${level}")
-    message(STATUS "gyrostat: this machine runs the instructions of x86-64-v${level}; compiled for ${found}")
+    message(STATUS "gyrostat: this machine runs the instructions of x86-64-v${level}")
   endif()
   set(${variable} "${found}" PARENT_SCOPE)
+endfunction()
+
+# gyrostat_level_options(VARIABLE LEVEL): how the compiler is told to compile for v1, v3 or v4.
+function(gyrostat_level_options variable level)
+  string(REPLACE "x86-64-v1" "x86-64" architecture "x86-64-${level}")
+  set(options -march=${architecture})
+  if(level STREQUAL "v4")
+    # Registers of 256 bits are full with the four numbers that the integrators work on; wider ones made v4 slower than v3. And GCC copies
+    # objects through wide registers and leaves their upper halves in use (no vzeroupper), which slows down what libm has for SSE: the
+    # closed form of a free motion took half as long again.
+    list(APPEND options -mprefer-vector-width=256)
+    include(CheckCXXCompilerFlag)
+    check_cxx_compiler_flag("-mmove-max=128 -mstore-max=128" GYROSTAT_HAS_MOVE_MAX)
+    if(GYROSTAT_HAS_MOVE_MAX)
+      list(APPEND options -mmove-max=128 -mstore-max=128)
+    endif()
+  endif()
+  set(${variable} ${options} PARENT_SCOPE)
 endfunction()

@@ -6,7 +6,7 @@ endfunction()
 
 set(work "${BINARY_DIR}/packaging/${KIND}")
 file(REMOVE_RECURSE "${work}")
-set(options -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}" -DCMAKE_BUILD_TYPE=)
+set(options -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}" "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" -DCMAKE_BUILD_TYPE=)
 if(KIND STREQUAL "find_package")
   # installed, then moved: the package must not remember where it was built or first put
   run("${CMAKE_COMMAND}" --install "${BINARY_DIR}" --prefix "${work}/first")

@@ -31,8 +31,8 @@ namespace detail {
 template <Real Scalar>
 struct FourNumbers {
   Scalar value[4];
-  constexpr Scalar& operator[](int i) noexcept { return value[i]; }
-  constexpr const Scalar& operator[](int i) const noexcept { return value[i]; }
+  GYROSTAT_INLINE constexpr Scalar& operator[](int i) noexcept { return value[i]; }
+  GYROSTAT_INLINE constexpr const Scalar& operator[](int i) const noexcept { return value[i]; }
 };
 
 template <Real Scalar>
