@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/free/track.hpp"
 
+#include <random>
+
+#include "gyrostat/models/free/averages.hpp"
 #include "posed.hpp"
 
 using namespace free_scenes;
@@ -22,4 +25,33 @@ TEST_CASE("an answer about wheels has a number for each, and the start as it was
   CHECK((angle->values[0] == 0 && angle->values[1] == 0));
   CHECK((w[0] == 0.3 && w[1] == -0.5 && w[2] == 0.8));
   CHECK(solved(posed(body({3, 2, 1.5}, {0, 0, 0}, {1, 1, 1}), {1})).find("rotor_rate") == nullptr);
+}
+
+TEST_CASE("what a wheel has turned through errs less than is stated, also where little time has passed", "[free]") {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> moment(0.2, 1.2), logarithm(-2, 3), any(-1, 1);
+  int answers = 0, lies = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Vec3<double> J(moment(random), moment(random), moment(random));
+    if (2 * J.maxCoeff() >= J.sum() - 0.1) continue;  // room for the wheel
+    Assembly<double> assembly;
+    assembly.body.inertia = J.asDiagonal();
+    assembly.body.angular_velocity = Vec3<double>(any(random), any(random), any(random));
+    const Vec3<double> axis(any(random), any(random), any(random));
+    assembly.wheels.push_back({axis.normalized(), 0.02, i % 2 == 0 ? 0 : any(random), true});
+    const double t = std::pow(10, logarithm(random));
+    const Answer answer = solved(posed(assembly, {t}));
+    const auto exact = free::Reduced<long double>::taken(assembly.cast<long double>());
+    const auto motion = free::Motion<long double>::make<long double>(exact.problem);
+    if (!motion) continue;
+    const auto& wheel = exact.wheels[0];
+    const long double truth = wheel.rate * t - wheel.axis.dot(free::RateIntegral<long double>(*motion).at(t));
+    const Column* angle = answer.find("rotor_angle");
+    REQUIRE(angle);
+    const double off = double(std::abs(angle->values[0] - truth)) / std::max(1e-3, std::abs(angle->values[0]));
+    ++answers;
+    lies += !(off <= angle->error);
+  }
+  CHECK(answers > 300);
+  CHECK(lies == 0);
 }

@@ -77,17 +77,18 @@ GYROSTAT_COMPILED_ONCE void turn_wheels(Track& track, const Scene& scene, const 
   const double off = form.precise ? angles_apart<DoubleDouble>(track, scene, DoubleDouble(epsilon<double>))
                                   : 2 * angles_apart<double>(track, scene, 2 * epsilon<double>);
   const auto& wheels = scene.gyrostat().wheels;
-  double size = 1e-3, fastest = 0;
+  double size = 1e-3, through = integral.swing();
   for (std::size_t i = 0; i < times.size(); ++i) {
     double square = 0;
     for (const auto& wheel : wheels) {
       const double angle = rotor_angle(wheel, times[i], track.turned[i]);
       square += angle * angle;
-      fastest = std::max(fastest, std::abs(wheel.rate) * times[i]);
+      const double of_body = wheel.turns_freely ? track.turned[i].norm() : 0;
+      through = std::max(through, std::abs(wheel.rate) * times[i] + of_body);
     }
     size = std::max(size, std::sqrt(square));
   }
-  track.error[column::rotor_angle] = relative_to_truth((4 * off + 16 * epsilon<double> * fastest) / size);
+  track.error[column::rotor_angle] = relative_to_truth((4 * off + 8 * epsilon<double> * through) / size);
 }
 
 GYROSTAT_COMPILED_ONCE double rate_error(const Scene& scene, std::span<const State<double>> states,
