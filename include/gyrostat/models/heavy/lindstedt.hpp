@@ -117,20 +117,21 @@ class Lindstedt {
 
   /// What a sum of the terms 0..kept leaves out: the terms known beyond it, and a geometric tail from the largest of the last three
   /// with the ratio of fall(), with margins 1.1 and 4: the ratio may still grow. Infinite where the terms do not fall. Those of psi
-  /// have a ratio of their own: near the vertical they alone do not fall.
+  /// have a ratio of their own: near the vertical they alone do not fall. Those of Omega come great and small in turn, with margin 6: of
+  /// 470 000 remainders of random bodies 30 were too small with 4, 11 with 6.
   Size remainder(int kept) const noexcept {
     Size left;
     const Scalar moving = fall(), turning = std::fmax(moving, fall(&Size::drift, &Size::swing, 1));
-    const auto estimate = [&](Scalar Size::* part, Scalar ratio) noexcept {
+    const auto estimate = [&](Scalar Size::* part, Scalar ratio, Scalar margin = 4) noexcept {
       Scalar sum = 0, envelope = 0, power = 1;
       for (int n = kept + 1; n <= order_; ++n) sum += size(n).*part;
       for (int n = order_; n > std::max(order_ - 3, 0); --n, power *= ratio)
         envelope = std::fmax(envelope, size(n).*part * power);
-      left.*part = ratio < 1 ? Scalar(1.1L) * sum + 4 * envelope * ratio / (1 - ratio) : infinity<Scalar>;
+      left.*part = ratio < 1 ? Scalar(1.1L) * sum + margin * envelope * ratio / (1 - ratio) : infinity<Scalar>;
     };
     estimate(&Size::rates, moving);
     estimate(&Size::down, moving);
-    estimate(&Size::phase, moving);
+    estimate(&Size::phase, moving, 6);
     estimate(&Size::drift, turning);
     estimate(&Size::swing, turning);
     // means of p and q come with parity: two orders on they return by the torque over the divisors 1 - a, 1 - b, unseen in between
