@@ -75,6 +75,10 @@ inline constexpr double stop_margin = 2;
 /// Stops: to the error of their time so many step tolerances are added; it is one number, at which two runs may be near by chance.
 inline constexpr double stop_steps = 1;
 
+/// Driven rotors: where the rates of the runs have parted, as behind a saddle, a function of Lyapunov's that is off by more than this is not
+/// known: how far three runs have fallen by then may be near by chance.
+inline constexpr double parted_lyapunov = 0.01;
+
 /// General scenes: neighbours that part by so many times more than in proportion to the angle turned through are told as chaotic.
 inline constexpr double chaotic_growth = 1e4;
 

@@ -184,6 +184,7 @@ class FullLanes {
         if (column_kinds[i].measure == Measure::relative) error[i] = over(error[i], greater(sizes[i], row.scale[i]));
       }
       answer.error = relative_to_truth(error, column_kinds);
+      forget_parted(answer.error);
       const double excess = task.options.excess(answer.error);
       answer.met = excess <= 1;
       if (!answer.met && lane.trial < 2 && lane.step_tolerance > finest_step_tolerance<double> &&

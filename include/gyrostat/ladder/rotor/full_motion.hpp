@@ -193,6 +193,13 @@ struct Neighbour {
   }
 };
 
+/// What errors leave unknown where the runs have parted (honesty::parted_lyapunov).
+template <Real Scalar>
+void forget_parted(ColumnErrors<Scalar>& error) noexcept {
+  if (error[column::angular_velocity] >= 1 && error[column::lyapunov] > Scalar(honesty::parted_lyapunov))
+    error[column::lyapunov] = infinity<Scalar>;
+}
+
 /// What an evaluation of the columns loses, in their units, where the state is known to `relative`.
 template <Real Scalar>
 ColumnErrors<Scalar> rounding_of_columns(const Row<Scalar>& row, const State<Scalar>& start,
@@ -274,6 +281,8 @@ class FullMotion {
     };
     solve_beside(answer, row, Runs<Course<Scalar>>{course, companion, second ? &*second : nullptr}, start_, turning_,
                  times_, states_, nowhere(), options_, progress_from, progress_to, rounding, note);
+    forget_parted(answer.error);
+    answer.met = answer.met && options_.excess(answer.error) <= 1;
     return answer;
   }
 
