@@ -16,6 +16,7 @@ from conftest import SPINNING, drawn, of_kind
 from gyrostat import Answer, DomainError, Monitor, rotation, spinning
 from gyrostat.cli import main
 from gyrostat.facts import UNITS
+from gyrostat.families.spinning.figures import _finish_map
 from gyrostat.families.spinning.functions import SHAPES
 from gyrostat.scenes import load, scene_from
 
@@ -175,6 +176,17 @@ def test_a_figure_of_a_body_at_rest(tmp_path: Path) -> None:
                            **{"torque.body": [0.0, 0.0, 0.0], "force": [0.0, 0.0, 0.0]})
     assert still.met and np.ptp(still["attitude"], axis=0).max() < 1e-16
     still.plot(tmp_path / "answer.png")
+
+
+def test_a_path_that_is_a_point_but_for_rounding_gets_a_frame() -> None:
+    figures = pytest.importorskip("matplotlib.figure")
+    for place in (0.0, 0.3):
+        path = np.full((5, 3), place)
+        path[2, 1] = place * (1 + 2**-52)
+        axes = figures.Figure().add_subplot()
+        axes.plot(path[:, 0], path[:, 1], label="axis")
+        _finish_map(axes, "point", path)  # a warning is an error
+        assert np.ptp(axes.get_ylim()) == pytest.approx(2e-3)
 
 
 def test_the_report(spinning_file: Path, capsys: pytest.CaptureFixture[str]) -> None:

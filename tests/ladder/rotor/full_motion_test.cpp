@@ -433,3 +433,16 @@ TEST_CASE("work can be watched and stopped, and needs no memory", "[rotor]") {
     CHECK(full_motion<double>(body, start, times, states, options)->status == Status::cancelled);
   }
 }
+
+TEST_CASE("where the rates of the runs have parted V is known only where it hardly differs", "[rotor]") {
+  const auto lyapunov = [](double of_rates, double stated) {
+    ColumnErrors<double> error;
+    error[column::angular_velocity] = of_rates;
+    error[column::lyapunov] = stated;
+    rotor::detail::forget_parted(error);
+    return error[column::lyapunov];
+  };
+  CHECK(lyapunov(infinity<double>, 0.2) == infinity<double>);
+  CHECK(lyapunov(infinity<double>, 1e-6) == 1e-6);  // the phase alone is lost
+  CHECK(lyapunov(0.5, 0.2) == 0.2);
+}

@@ -67,7 +67,9 @@ def _mark(axes: "Axes", name: str, x: float, y: float) -> None:
 def _finish_map(axes: "Axes", title: str, path: NDArray[Any]) -> None:
     """The path is what shall be seen whole."""
     low, high = path[:, :2].min(axis=0), path[:, :2].max(axis=0)
-    half = 0.58 * float(np.max(high - low)) or 1e-3
+    half = 0.58 * float(np.max(high - low))
+    if half <= 1e-12 * float(np.max(np.abs(path[:, :2]))):  # a point, but for rounding
+        half = 1e-3
     x, y = (low + high) / 2
     axes.set_xlim(x - half, x + half)
     axes.set_ylim(y - half, y + half)
