@@ -18,16 +18,18 @@ namespace {
 
 using Real80 = long double;
 
-State<Real80> true_end(const Problem<Real80>& p, Real80 t) {
-  const std::array<Real80, 1> times{t};
-  std::array<State<Real80>, 1> states;
+template <std::size_t count>
+std::array<State<Real80>, count> true_states(const Problem<Real80>& p, const std::array<Real80, count>& times) {
+  std::array<State<Real80>, count> states;
   FullMotionOptions<Real80> options;
   options.tolerance = 1e-16L;
   const auto answer = full_motion<Real80>(p, times, states, options);
   REQUIRE(answer);
   REQUIRE(answer->status == ode::Status::reached);
-  return states[0];
+  return states;
 }
+
+State<Real80> true_end(const Problem<Real80>& p, Real80 t) { return true_states<1>(p, {t})[0]; }
 
 Real80 tilt_error(const State<Real80>& a, const State<Real80>& b) {
   return std::hypot(a.angles.psi - b.angles.psi, a.angles.phi - b.angles.phi);
@@ -145,11 +147,12 @@ TEST_CASE("the tilt of a symmetric body errs no more after many turns", "[spinni
       const auto q = cast<Real80>(p);
       const SecondOrder<Real80> motion(q, end);
       REQUIRE(motion.applies());
-      for (int j = 0; j < 5; ++j) {
-        const Real80 t = end - 7 * j / std::abs(q.spin());
-        const auto right = true_end(q, t);
-        linear[k] = std::max(linear[k], tilt_error(Linear<Real80>(q).at(t), right));
-        second[k] = std::max(second[k], tilt_error(motion.at(t), right));
+      std::array<Real80, 5> times;
+      for (int j = 0; j < 5; ++j) times[std::size_t(j)] = end - 7 * (4 - j) / std::abs(q.spin());
+      const auto right = true_states(q, times);
+      for (std::size_t j = 0; j < 5; ++j) {
+        linear[k] = std::max(linear[k], tilt_error(Linear<Real80>(q).at(times[j]), right[j]));
+        second[k] = std::max(second[k], tilt_error(motion.at(times[j]), right[j]));
       }
       stated[k] = second_order_errors(q, end).tilt;
       CHECK(second[k] < stated[k]);
