@@ -206,6 +206,7 @@ bool true_motion(const Made& made, Answer& answer) {
       if (run.step(last) != ode::Status::reached) return false;
     State<Long> state = run.at(t);
     const bool rest = state.momentum.isZero(0) || state.momentum == problem.rotor_momentum;
+    state.k2 = 0;
     if (!rest && problem.rotor_momentum.isZero(0)) {
       const auto p = polhode_through<Long>(problem.inverse_inertia, *problem.gaps, state.momentum);
       state.k2 = std::isfinite(p.modulus.k2) ? p.modulus.k2 : 0;

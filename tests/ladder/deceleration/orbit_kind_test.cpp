@@ -41,9 +41,22 @@ TEST_CASE("uncertainty of k2 covers what an error of M does to it", "[decelerati
           const V moved = M + d * off;
           const double norm = std::abs(moved.norm() - M.norm()), energy = std::abs(p.energy(moved) - p.energy(M));
           const double bound = k2_uncertainty(p, M, at, norm, energy);
-          CHECK(std::abs(orbit_kind(p, moved).k2 - at.k2) <= bound * 1.01 + 1e-14);
+          const double place = std::abs(orbit_place(p, moved) - orbit_place(p, M));
+          const double nearer = k2_uncertainty(p, M, at, norm, energy, place);
+          CHECK(std::abs(orbit_kind(p, moved).k2 - at.k2) <= nearer * 1.01 + 1e-14);
+          CHECK(nearer <= bound);
         }
     }
+}
+
+TEST_CASE("|M| and energy that err together say nothing of k2", "[deceleration]") {
+  Problem<double> p;
+  p.inverse_inertia = V(1, 1.5, 2);
+  const V M(.9, .3, .2), longer = (1 + 1e-6) * M;
+  const OrbitKind at = orbit_kind(p, M);
+  const double norm = longer.norm() - M.norm(), energy = p.energy(longer) - p.energy(M);
+  CHECK(k2_uncertainty(p, M, at, norm, energy) > 1e-6);
+  CHECK(k2_uncertainty(p, M, at, norm, energy, std::abs(orbit_place(p, longer) - orbit_place(p, M))) < 1e-13);
 }
 
 TEST_CASE("k2 of nearly equal moments, from their exact differences and with the error of rounded ones",

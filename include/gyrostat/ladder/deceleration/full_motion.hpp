@@ -19,6 +19,7 @@
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/deceleration/full.hpp"
+#include "gyrostat/models/deceleration/orbit.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
 #include "gyrostat/ode/status.hpp"
 #include "gyrostat/ode/taylor.hpp"
@@ -31,7 +32,8 @@ namespace gyrostat::deceleration {
 template <Real Scalar>
 struct FullMotionOptions : MotionOptions<Scalar> {
   bool find_stop = true;  ///< go on behind the last time until the stop, if there is one
-  /// Takes the errors, in units of the columns, at every stride-th time from the first; empty: not wanted.
+  /// Takes the errors, in units of the columns, at every stride-th time from the first, that of orbit_place in the place of the modulus; empty:
+  /// not wanted.
   std::span<ColumnErrors<Scalar>> errors{};
   std::size_t stride = 1;
 };
@@ -101,13 +103,14 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
 
 namespace detail {
 
-/// But for modulus and regime.
+/// But for the regime; and for the modulus, whose place has orbit_place.
 template <Real Scalar>
 State<Scalar> state_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M, const Quat<Scalar>& q) noexcept {
   State<Scalar> state;
   state.momentum = M;
   state.norm = M.norm();
   state.energy = problem.energy(M);
+  state.k2 = orbit_place(problem, M);
   state.attitude = q;
   return state;
 }
@@ -465,6 +468,8 @@ class FullMotion {
                    nowhere, options_, progress_from, progress_to, rounding, note);
       if (answer.status == ode::Status::reached) add_rounding(row, rounding, answer.counts.steps);
       if (!with_attitude) answer.error[column::attitude] = 0;
+      answer.error[column::modulus_squared] = 0;
+      for (State<Scalar>& state : states_) state.k2 = 0;
     }
     look_for_stop(answer, runs);
     answer.counts = runs.counts();

@@ -23,7 +23,8 @@ GYROSTAT_COMPILED_ONCE State<double> state_on_orbit(const Problem<double>& probl
   return state;
 }
 
-/// Error of the modulus, where |M| and the energy are known to the track's errors, or to these at every k2_stride-th point.
+/// Error of the modulus, where |M| and the energy are known to the track's errors, or to these at every k2_stride-th point, which tell of
+/// orbit_place, too.
 inline double k2_error(const Track& track, const Problem<double>& problem,
                        std::span<const ColumnErrors<double>> errors) noexcept {
   double most = 0;
@@ -31,8 +32,9 @@ inline double k2_error(const Track& track, const Problem<double>& problem,
   for (std::size_t i = 0; i < track.states.size(); i += stride) {
     const State<double>& at = track.states[i];
     const ColumnErrors<double>& error = errors.empty() ? track.error : errors[i / stride];
+    const double place = errors.empty() ? infinity<double> : error[column::modulus_squared];
     most = std::max(most, k2_uncertainty(problem, at.momentum, {at.regime, at.k2}, error[column::angular_momentum_norm],
-                                         error[column::energy]));
+                                         error[column::energy], place));
   }
   return most;
 }

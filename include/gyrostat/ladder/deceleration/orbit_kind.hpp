@@ -24,10 +24,10 @@ GYROSTAT_COMPILED_ONCE double k2_of_data(const Problem<double>& problem, const P
 GYROSTAT_COMPILED_ONCE double k2_of_level(const Problem<double>& problem, const Level<double>& level,
                                           const OrbitKind& at, double R, double eta) noexcept;
 
-/// How far the modulus at M can be off when |M| and the energy are off by the given errors, N m s and J: an error along
-/// the orbit does not count.
+/// How far the modulus at M can be off when |M| and the energy are off by the given errors, N m s and J, and orbit_place() by `place`: an error
+/// along the orbit does not count.
 GYROSTAT_COMPILED_ONCE double k2_uncertainty(const Problem<double>& problem, const Vec3<double>& M, const OrbitKind& at,
-                                             double norm, double energy) noexcept;
+                                             double norm, double energy, double place = infinity<double>) noexcept;
 
 }  // namespace gyrostat::deceleration
 

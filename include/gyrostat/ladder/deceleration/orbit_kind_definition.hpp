@@ -61,7 +61,7 @@ inline double k2_of_roundness(const Problem<double>& problem, const Revolution<d
 }
 
 GYROSTAT_COMPILED_ONCE double k2_uncertainty(const Problem<double>& problem, const Vec3<double>& M, const OrbitKind& at,
-                                             double norm, double energy) noexcept {
+                                             double norm, double energy, double place) noexcept {
   if (at.regime == Regime::rest) return 0;
   const auto& a = problem.inverse_inertia;
   if (at.regime == Regime::point && (problem.rotor_momentum.isZero(0) || a[2] - a[0] <= 8 * epsilon<double> * a[2]))
@@ -70,14 +70,16 @@ GYROSTAT_COMPILED_ONCE double k2_uncertainty(const Problem<double>& problem, con
   norm = std::max(norm, 2 * epsilon<double> * R);
   if (problem.rotor_momentum.isZero(0)) {
     const auto p = polhode_through<double>(problem.inverse_inertia, problem.inverse_gaps(), M);
-    const double ratio = (2 * energy / R + 2 * p.energy_ratio() * norm) / R;  // of 2H/M^2
+    const double ratio = std::min((2 * energy / R + 2 * p.energy_ratio() * norm) / R,  // of 2H/M^2
+                                  place + 8 * epsilon<double> * orbit_place(problem, M));
     const double tilt = ratio / p.axes.near_far;
     const double slope = p.axes.mid_far / (p.axes.near_mid * (1 - p.tilt) * (1 - p.tilt));
     const double k2 = slope * tilt + k2_of_data(problem, p, M);
     return k2 < 1 ? k2 : 1.0;
   }
   const auto level = level_of(problem, M);
-  const double eta = (energy + (std::abs(level.eta) + problem.angular_velocity(M).norm()) * norm) / R;
+  const double size = std::abs(level.eta) + problem.angular_velocity(M).norm();
+  const double eta = std::min((energy + size * norm) / R, place + 8 * epsilon<double> * size);
   double most = 4 * epsilon<double> + k2_of_level(problem, level, at, norm, eta);
   if (const auto about = revolution(problem); about.axis >= 0) {
     const double k2 = most + k2_of_roundness(problem, about, M);

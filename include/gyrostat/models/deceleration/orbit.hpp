@@ -34,6 +34,17 @@ Level<Scalar> level_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M) no
   return {R, R / 2 * n.dot(problem.inverse_inertia.cwiseProduct(n)) - problem.gyro_rate().dot(n)};
 }
 
+/// What sets the free orbit through M: without a rotor 2H/M^2 - 1/J1, 1/(kg m^2), told by differences of the moments, so that a change of all
+/// of them does not show; with one, beside |M|, the level eta, rad/s. 0 at M = 0.
+template <Real Scalar>
+Scalar orbit_place(const Problem<Scalar>& problem, const Vec3<Scalar>& M) noexcept {
+  if (!problem.rotor_momentum.isZero(0)) return level_of(problem, M).eta;
+  const Scalar R = M.norm();
+  if (!(R > 0)) return 0;
+  const Vec3<Scalar> gaps = problem.inverse_gaps();
+  return gaps[0] * (M[1] / R) * (M[1] / R) + gaps[2] * (M[2] / R) * (M[2] / R);
+}
+
 /// Carrier energy h on a level, J.
 template <Real Scalar>
 Scalar energy_of(const Problem<Scalar>& problem, const Level<Scalar>& level) noexcept {
