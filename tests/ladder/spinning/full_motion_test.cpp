@@ -438,3 +438,28 @@ TEST_CASE("spinning: the full motion does not touch the heap", "[spinning]") {
   CHECK(allocations() == before);
   CHECK(result);
 }
+
+TEST_CASE("where the spin axis points is known better than how far the body has turned about it", "[spinning]") {
+  Spinners random(21);
+  int sharper = 0;
+  for (int i = 0; i < 12; ++i) {
+    CAPTURE(i);
+    const auto problem = random.spinner(0.05);
+    const double end = 400 / std::abs(problem.spin());
+    const std::vector<double> times = grid(end, 9);
+    const auto right = solve<long double>(cast<long double>(problem), {times.begin(), times.end()}, 1e-15L, {}).states;
+    const auto found = solve<double>(problem, times, 1e-7);
+    REQUIRE(found.answer.status == Status::reached);
+    long double axis = 0;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const Vec3<long double> z(0, 0, 1);
+      axis = std::max(axis, (rotate<long double>(right[k].attitude, z) -
+                             rotate<long double>(to<long double>(found.states[k]).attitude, z))
+                                .norm());
+    }
+    CHECK(axis <= found.answer.tilt_error);
+    CHECK(found.answer.tilt_error <= 1.01 * found.answer.error[column::attitude]);
+    if (found.answer.tilt_error < found.answer.error[column::attitude] / 3) ++sharper;
+  }
+  CHECK(sharper >= 6);
+}

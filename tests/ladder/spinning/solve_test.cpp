@@ -55,7 +55,8 @@ TEST_CASE("the published data climb to the full equations", "[spinning]") {
   check_honest(scene, made.answer);
   CHECK(made.scalar("pointing_error").values[0] == Approx(3.411).epsilon(1e-3));
   CHECK(made.scalar("tilt_max").values[0] > 2.4);
-  CHECK(made.scalar("tilt_max").error == made.answer.find("attitude")->error);
+  CHECK(made.scalar("tilt_max").error > 0);
+  CHECK(made.scalar("tilt_max").error <= made.answer.find("attitude")->error);
   CHECK(made.scalar("nutation_frequency_squared").values[0] == Approx(0.19673 * 0.19673).epsilon(1e-4));
 
   const Solved linear = solved(posed(published(), 50, 1e-3, rung::linear));

@@ -35,6 +35,7 @@ struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
   Scalar least_cosine = 1;  ///< a lower bound of cos(psi) on the way
   /// false: phi or theta may be off by a turn, for cos(psi) = 0 is passed on a side that the error of the attitude does not decide
   bool turns_known = true;
+  Scalar tilt_error = 0;  ///< of the direction of body axis 3 alone, rad
 };
 
 /// The full motion at the given times (s from the start, increasing, the first >= 0). What lies behind a failure is NaN.
@@ -126,6 +127,32 @@ class Course {
   bool follows_;
 };
 
+/// The columns as the runs are compared in them: of the 3-1-2 angles, which the attitude judges, in place of them the direction of body axis 3,
+/// which does not know of the spin angle.
+inline constexpr ColumnKind watched_kinds[] = {
+    column_kinds[column::angular_velocity],
+    {"axis_3", 3, "1", Frame::inertial, Measure::absolute, "body axis 3, inertial axes"},
+    column_kinds[column::attitude],
+    column_kinds[column::angular_momentum_inertial],
+    column_kinds[column::velocity],
+    column_kinds[column::position],
+};
+
+template <Real S>
+struct WatchedRow {
+  using Scalar = S;
+  using State = spinning::State<S>;
+  static constexpr const auto& columns = watched_kinds;
+
+  ColumnErrors<S> scale{};
+
+  void operator()(const State& state, S* row) const noexcept {
+    Row<S>{}(state, row);
+    const Vec3<S> axis = rotate<S>(state.attitude, Vec3<S>(0, 0, 1));
+    std::copy_n(axis.data(), 3, row + columns[column::angular_velocity].width);
+  }
+};
+
 template <Real Scalar>
 class FullMotion {
  public:
@@ -147,8 +174,8 @@ class FullMotion {
     std::optional<Course<Scalar>> second;
     if (rounding_rules(step_tolerance)) second.emplace(two, span, tight, options_.step_cap, false);
     const Runs<Course<Scalar>> runs{course, companion, second ? &*second : nullptr};
-    const auto walk = walk_beside(Row<Scalar>{scales(problem_, span)}, runs, start_state(problem_), rate_, times_,
-                                  states_, nowhere(), options_, progress_from, progress_to, not_noted);
+    const auto walk = walk_beside(WatchedRow<Scalar>{scales(problem_, span)}, runs, start_state(problem_), rate_,
+                                  times_, states_, nowhere(), options_, progress_from, progress_to, not_noted);
     answer.status = walk.status;
     answer.counts = runs.counts();
     const std::uint64_t steps = course.counts().steps;
@@ -161,6 +188,7 @@ class FullMotion {
     const Scalar rounding_walk = eps * std::sqrt(static_cast<Scalar>(steps));
     const Scalar shared = 4 * (4 * eps + rounding_walk);
     ColumnErrors<Scalar> error = walk.error + shared * rounded_in(walk.asked.size());
+    answer.tilt_error = walk.error[column::euler_312] + shared;
     error[column::euler_312] = angles_error<Scalar>(error[column::attitude], states_);
     answer.least_cosine = course.least_cosine();
     answer.turns_known =

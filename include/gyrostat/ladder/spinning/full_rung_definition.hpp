@@ -22,6 +22,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   if (answer->status != ode::Status::reached)
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   track.error = answer->error;
+  track.tilt_error = answer->tilt_error;
   track.counts = answer->counts;
   if (!answer->turns_known) detail::warn_of_gimbal_lock(track, answer->least_cosine);
   return track;
