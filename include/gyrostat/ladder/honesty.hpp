@@ -72,8 +72,11 @@ inline constexpr double retry_steps = 3e6;
 
 /// Stops: the margin of their time over that of the columns.
 inline constexpr double stop_margin = 2;
-/// Stops: to the error of their time so many step tolerances are added; it is one number, at which two runs may be near by chance.
-inline constexpr double stop_steps = 1;
+/// Decelerations: to the error of the stop's time so many step tolerances are added, twice what a companion errs; it is one number, at which two
+/// runs may be near by chance.
+inline constexpr double stop_steps = 1.0 / 32;
+/// The same of the time when a brake stops the body.
+inline constexpr double brake_steps = 1;
 
 /// Driven rotors: where the rates of the runs have parted, as behind a saddle, a function of Lyapunov's that is off by more than this is not
 /// known: how far three runs have fallen by then may be near by chance.

@@ -803,7 +803,7 @@ class FullMotion {
       const Scalar last = two != nullptr ? two->rests()[i][0] : first;
       const Scalar apart = Scalar(how.margin) * std::max(abs(first - stop), abs(last - stop)) +
                            Scalar(how.margin_of_rounding) * abs(first - last);
-      const Scalar found = 2 * course.precision() + Scalar(honesty::stop_steps) * answer.step_tolerance;
+      const Scalar found = 2 * course.precision() + Scalar(honesty::brake_steps) * answer.step_tolerance;
       const Scalar off = Scalar(honesty::stop_margin) * apart + found * stop;
       if (i == 0) answer.stop_off = off;
       answer.rest_off = std::max(answer.rest_off, off);

@@ -44,14 +44,18 @@ class Nutating {
   Scalar precession_rate() const noexcept { return f_.precession() * s_.spin; }  ///< mean of psi', rad/s
   Scalar amplitude() const noexcept { return amplitude_ * std::abs(s_.spin); }   ///< of p in the free nutation, rad/s
 
-  /// The largest errors over |times| <= t: orders 2 and 3 of the small quantities, with twice the constants of some hundred bodies.
+  /// The largest errors over |times| <= t: orders 2 and 3 of the small quantities, with twice the constants of some hundred bodies, and
+  /// stiffening().
   MotionError<Scalar> error(Scalar t) const noexcept {
     const Scalar angle = std::abs(s_.spin * t), rounding = 4 * epsilon<Scalar> * (1 + angle);
-    const Scalar shape = 6 * small_ * small_ * (1 + small_ * angle / 4), down = shape + rounding;
+    const Scalar stiffened = stiffening(angle);
+    const Scalar shape = std::fmax(6 * small_ * small_ * (1 + small_ * angle / 4),
+                                   std::fmax(std::fmax(s_.a, s_.b), Scalar(1)) * stiffened);
+    const Scalar down = shape + rounding;
     // half the spin rate is a resonance of the next order
     const Scalar near = 1 + Scalar(0.04L) / std::abs(1 - 2 * std::sqrt(s_.nutation_squared()));
-    const Scalar rates =
-        small_ > 0 ? near * small_ * shape : Scalar(0);  // on the resonance itself nothing is left of a steady spin's
+    const Scalar rates = small_ > 0 ? std::fmax(near * small_ * shape, stiffened)
+                                    : Scalar(0);  // on the resonance itself nothing is left of a steady spin's
     return {std::abs(s_.spin) * (rates + rounding), down, std::fmin(down + shape / s_.M3, pi<Scalar>)};
   }
 
@@ -95,12 +99,22 @@ class Nutating {
     const Scalar N = -start_ - e2 / 2 * (a * B1 + kappa_ * kappa_ * s_.off_b) - G0 * (z / b - pull) +
                      k * (M2 / 2 * (a + b) - B1 * G0 * G0);
     nutation_ = omega - L / (2 * omega);
+    stiffer_ = std::abs(L) / omega2;
     rate_ = 1 - N / 2;
     const Scalar forced = std::abs(f_.chi) + std::abs(f_.kap) + std::abs(f_.X) + std::abs(f_.Y);
     // the tilts of the spin and of the momentum, which is the larger where axis 3 is that of the least moment
     const Scalar tilt = std::fmax(std::fmax(Scalar(1), a), std::fmax(Scalar(1), b) * std::abs(kappa_));
     small_ = std::sqrt(forced + s_.torque() + e2 * tilt * tilt);
     turned_ = start.attitude * conjugate(model(0).attitude);
+  }
+
+  /// What the free nutation errs by in p and q, over the spin, within an angle of the spin: weight and amplitude change the two differences of
+  /// moments A1 and B1 that hold it, of which the motion takes the change of the frequency alone. Where moment A or B is next to C that is
+  /// no small part of A1 or B1, which share p and q out.
+  Scalar stiffening(Scalar angle) const noexcept {
+    const Scalar swung = std::sqrt(s_.nutation_squared()) * angle;
+    return amplitude_ * std::fmax(std::abs(kappa_), Scalar(1)) * stiffer_ *
+           (std::fmin(swung, Scalar(1)) + stiffer_ * swung / 2);
   }
 
   /// With the attitude of psi = 0 at t = 0.
@@ -132,6 +146,7 @@ class Nutating {
   FirstOrder<Scalar> f_;
   Complex down_, nutating_;
   Scalar kappa_ = 1, nutation_ = 0, rate_ = 1, amplitude_ = 0, small_ = 0;
+  Scalar stiffer_ = 0;             ///< relative change of the square of the frequency of nutation
   Scalar start_ = 0, raised_ = 0;  // what r and the third of down hold at t = 0
   Quat<Scalar> turned_;
 };
