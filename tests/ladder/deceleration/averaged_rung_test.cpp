@@ -147,3 +147,36 @@ TEST_CASE("averaged-2 rung: on a separatrix but for the rounding of a tensor the
   CHECK_FALSE(answer.met);
   CHECK(answer.find("angular_momentum")->error > 7.5e-3);  // which its M is off by
 }
+
+TEST_CASE("averaged rungs: next to the unstable rotation the body stays for many turns: none answers",
+          "[deceleration]") {
+  for (const double off : {1e-17, 1e-13, 1e-9}) {
+    Case c(1e-3, 60);
+    c.data.momentum = V(off, 1, -off);
+    for (const int by : {rung::averaged, rung::averaged_2}) {
+      c.data.rung = by;
+      Refusal refusal;
+      c.solve(refusal);
+      CHECK(refusal.code == Errc::separatrix);
+    }
+    c.data.rung = any_rung;
+    CHECK(std::strcmp(c.solve().model, "full") == 0);
+  }
+}
+
+TEST_CASE("averaged-2 rung: the energy of a body that its rotors nearly hold is off by the rounding of theirs",
+          "[deceleration]") {
+  Case c(1e-6, .8);
+  c.data.rotor_momentum = V(-200, 310, 120);
+  c.data.momentum = c.data.rotor_momentum + 1e-3 * V(.8, .5, .33);
+  c.data.control = 1e-6 * V(1, .5, .7);
+  c.data.drag = 0;
+  c.data.rung = rung::averaged_2;
+  c.data.tolerance = 1e-9;
+  const double energy = (1e-6 * V(.8, .5, .33).cwiseAbs2().cwiseQuotient(c.moments)).sum() / 2;
+  const double held = c.data.rotor_momentum.cwiseAbs2().cwiseQuotient(c.moments).sum();
+  Refusal refusal;
+  const Answer answer = c.solve(refusal);
+  REQUIRE(refusal.code == Errc::ok);
+  CHECK(answer.find("energy")->error > 2 * epsilon<double> * held / energy);
+}

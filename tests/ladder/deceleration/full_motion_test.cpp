@@ -193,6 +193,27 @@ TEST_CASE("the stop time of unequal torques is right to 1e-12") {
   }
 }
 
+TEST_CASE("the last of the momentum goes on to the stop") {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> any(-1, 1);
+  int seen = 0;
+  for (int i = 0; i < 10; ++i) {
+    CAPTURE(i);
+    auto problem = simple(std::pow(10.0, -1 + any(random)));
+    problem.momentum = {any(random), any(random), any(random)};
+    const double stop = solve(problem, {1.0}, 1e-13).answer.stop_time;
+    const std::vector<double> times{stop * (1 - 1e-13), stop * (1 - 4e-14), stop * (1 - 2e-14)};
+    const auto found = solve(problem, times, 1e-13);
+    const auto right = solve(cast<long double>(problem), {times.begin(), times.end()}, 1e-17L);
+    const double size = problem.momentum.norm();
+    for (std::size_t k = 0; k < times.size(); ++k)
+      CHECK(double((found.momentum[k].cast<long double>() - right.momentum[k]).norm()) <=
+            found.answer.error[column::angular_momentum] * size);
+    if (found.momentum[1].norm() > 0) ++seen;
+  }
+  CHECK(seen > 5);
+}
+
 TEST_CASE("behind the stop the target is kept and the attitude goes on") {
   auto problem = simple(0.1);
   problem.rotor_momentum = {0.3, -0.1, 0.2};

@@ -93,3 +93,16 @@ TEST_CASE("a momentum that cancels to rounding is known to rounding of its parts
   CHECK(stated > 8 * epsilon<double>);
   CHECK(stated < 64 * epsilon<double>);
 }
+
+TEST_CASE("a momentum that nearly cancels is off by the rounding of its parts", "[rotor]") {
+  const auto body = reference_body(0.05, 30);
+  const Vec3<double> Omega = body.inverse_inertia() * (-0.35 * 7 * (1 - 1e-12) * body.axis());
+  const State<double> start = body.state({}, Omega, 7);
+  const double left = start.momentum.norm();
+  REQUIRE(left > 0);
+  const Row<double> row(body, start);
+  const double stated =
+      state_columns(row, std::vector<State<double>>{start}, Bound{0, 0, 0, 0})[column::angular_momentum];
+  CHECK(stated > 4 * epsilon<double> * 0.35 * 7 / left);
+  CHECK(stated < 64 * epsilon<double> * 0.35 * 7 / left);
+}

@@ -120,6 +120,8 @@ TEST_CASE("breakpoints are in order, once each, and inside the span", "[general]
   p.wheels.resize(1);
   p.wheels[0].table = {{7, 8.5}, {1, 2}, Between::step, true};
   CHECK(breakpoints(p, 10.) == std::vector<double>{3, 7, 8, 8.5, 9});
+  p.torques[0].factor.on = {{0, 5e-324}, {3, 7}};  // no step ends before that
+  CHECK(breakpoints(p, 4.) == std::vector<double>{3});
 }
 
 TEST_CASE("torques that cannot be are refused by name", "[general]") {

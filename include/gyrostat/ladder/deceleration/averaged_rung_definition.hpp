@@ -17,7 +17,9 @@ GYROSTAT_COMPILED_ONCE PolhodeStart start_of(const Scene& scene) {
   if (!std::isfinite(p.modulus.k2) || !std::isfinite(p.modulus.kp2))
     return {p, refused<Track>(Errc::not_applicable,
                               "M lies across an axis of symmetry: there is no polhode to average over")};
-  if (!(p.modulus.kp2 > 0)) return {p, refused<Track>(Errc::separatrix, "the motion starts on the separatrix")};
+  // 1e-8 of M beside the unstable rotation the body stays there for many turns, of which averaging knows nothing
+  if (!(p.modulus.kp2 > epsilon<double>))
+    return {p, refused<Track>(Errc::separatrix, "the motion starts on the separatrix, or next to it")};
   return {p, {}};
 }
 

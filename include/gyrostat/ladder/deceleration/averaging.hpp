@@ -79,7 +79,9 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   const SlowError<double> in_span = mean.second_order(), oscillating = mean.first_order();
   const double norm = problem.momentum.norm(), energy = problem.energy(problem.momentum);
   const double local = 10 * tolerance, lag = mean.lag(local);
-  const double own_energy = 2 * local * energy + problem.energy_error(problem.momentum);
+  // of a body that the rotors hold nearly alone the energy is a difference of numbers of the size of what they hold
+  const double own_energy =
+      2 * local * energy + problem.energy_error(problem.momentum) + 3 * epsilon<double> * problem.rotor_energy_scale();
   double own_k2 = 0;
   for (const auto& state : track.states)
     own_k2 =

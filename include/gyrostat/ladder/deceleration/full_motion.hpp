@@ -234,7 +234,11 @@ class Course {
 
   /// The state at t in the last step.
   State<Scalar> at(Scalar t) const noexcept {
-    if (rests_ && t > solver_.time()) return seen(state_of(problem_, f_.offset, at_rest(t)));
+    if (rests_ && t > solver_.time()) {
+      // the last of U goes as it began to
+      const Scalar left = t < stop_time_ ? (stop_time_ - t) / (stop_time_ - solver_.time()) : Scalar(0);
+      return seen(state_of(problem_, Vec3<Scalar>(left * opposed(solver_.state()) + f_.offset), at_rest(t)));
+    }
     alignas(32) Scalar x[width];
     solver_.at(t, x);
     return seen(state_of(problem_, Vec3<Scalar>(opposed(x) + f_.offset), quaternion(x)));

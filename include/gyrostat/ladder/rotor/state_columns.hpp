@@ -16,7 +16,7 @@ ColumnErrors<double> state_columns(const Row<double>& row, std::span<const State
                                    const Bound& bound) noexcept {
   const Gyrostat<double>& body = row.body;
   Comparison sizes(row);
-  double lyapunov = 0, rounding = 0, blur = 0;
+  double lyapunov = 0, rounding = 0, blur = 0, parts = 0;
   const double j = 1 / body.principal()[0], lambda = body.axial_inertia(), k = body.coupling();
   const double j_free = 1 / body.free_principal()[0];
   const double e_n = (body.inverse_inertia() * body.axis()).norm();
@@ -25,7 +25,8 @@ ColumnErrors<double> state_columns(const Row<double>& row, std::span<const State
     sizes.add(s);
     const double l = s.momentum.norm(), h = std::abs(body.target_momentum()), p = std::abs(s.axial_momentum);
     const Vec3<double> Omega = body.angular_velocity(s.momentum, s.axial_momentum);
-    const double x = body.rotor_rate(s.axial_momentum, Omega) - body.no_load_rate();
+    const double turning = body.rotor_rate(s.axial_momentum, Omega), x = turning - body.no_load_rate();
+    parts = greater(parts, (body.inertia() * Omega).norm() + lambda * std::abs(turning));
     const Vec3<double> gradient = body.inverse_inertia() * (s.momentum - body.target_momentum() * body.axis());
     const double dH = bound.momentum + ulps * (l + h + body.momentum_blur(Omega));
     const double dx = bound.rotor_rate + ulps * (p / lambda + j_free * (l + p) + std::abs(body.no_load_rate()));
@@ -39,8 +40,8 @@ ColumnErrors<double> state_columns(const Row<double>& row, std::span<const State
   ColumnErrors<double> errors;
   errors[column::attitude] = std::min(bound.attitude, pi<double>);
   errors[column::angular_momentum] = bound.momentum + 16 * epsilon<double> * row.scale[column::angular_momentum];
-  // a body that starts at rest has none, to the bit
-  if (sizes.unit(column::angular_momentum) > 0) errors[column::angular_momentum] += blur;
+  // a body that starts at rest has none, to the bit; else it is summed of what the carrier and the rotor have, which may cancel
+  if (sizes.unit(column::angular_momentum) > 0) errors[column::angular_momentum] += blur + 2 * epsilon<double> * parts;
   errors[column::angular_velocity] = j * bound.momentum + lambda * e_n * bound.rotor_rate + rounding;
   errors[column::rotor_rate] = bound.rotor_rate + e_n * blur;
   errors[column::rotor_angle] = bound.rotor_angle;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -128,12 +129,13 @@ struct Collected {
   bool is_steady() const noexcept { return records.size() == 1; }
 };
 
-/// The times in (0, span) at which a torque or a wheel of a problem changes its law, increasing.
+/// The times in (0, span) at which a torque or a wheel of a problem changes its law, increasing; those so small that no step ends before them
+/// are none.
 template <Real Scalar>
 std::vector<Scalar> breakpoints(const Problem<Scalar>& problem, Scalar span) noexcept {
   std::vector<Scalar> found;
   const auto take = [&](Scalar t) noexcept {
-    if (t > 0 && t < span) found.push_back(t);
+    if (t > std::numeric_limits<Scalar>::min() / epsilon<Scalar> && t < span) found.push_back(t);
   };
   for (const auto& torque : problem.torques) {
     for (const auto& [from, to] : torque.factor.on)
