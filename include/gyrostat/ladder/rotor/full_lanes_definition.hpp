@@ -131,8 +131,9 @@ class FullLanes {
     Lane& lane = lane_[b];
     const LaneTask& task = *lane.task;
     const Gyrostat<double>& body = *task.gyrostat;
-    const double change = data_change(lane.step_tolerance, body.condition());
-    lane.alone = !rounding_rules(lane.step_tolerance, body.condition());
+    const double condition = std::max(body.condition(), condition_of_start(body, task.start));
+    const double change = data_change(lane.step_tolerance, condition);
+    lane.alone = !rounding_rules(lane.step_tolerance, condition);
     put(answers_, b, body, task.start, body.free_axes(), lane.step_tolerance);
     const auto beside = [&](Batch& batch, int which) noexcept {
       const Neighbour<double> neighbour(body, task.start, change, which);

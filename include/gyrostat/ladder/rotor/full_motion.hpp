@@ -193,6 +193,15 @@ struct Neighbour {
   }
 };
 
+/// How many times over a change of the start counts where it is next to a steady rotation, which is not bound to be stable: the motion may stay
+/// long, and how far off it began sets when it leaves. 1 elsewhere.
+template <Real Scalar>
+Scalar condition_of_start(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept {
+  const Vec3<Scalar> Omega = gyrostat.angular_velocity(start.momentum, start.axial_momentum);
+  const Scalar whole = Omega.norm() * start.momentum.norm(), across = cross<Scalar>(Omega, start.momentum).norm();
+  return across < Scalar(1e-6L) * whole ? Scalar(1e6L) : Scalar(1);
+}
+
 /// What errors leave unknown where the runs have parted (honesty::parted_lyapunov).
 template <Real Scalar>
 void forget_parted(ColumnErrors<Scalar>& error) noexcept {
@@ -244,7 +253,8 @@ class FullMotion {
         times_(times),
         states_(states),
         options_(options),
-        turning_(turning_rate(gyrostat, start)) {
+        turning_(turning_rate(gyrostat, start)),
+        condition_(std::max(gyrostat.condition(), condition_of_start(gyrostat, start))) {
     const bool stiff = is_stiff(gyrostat, start);
     const bool collocates = options.integrator == Integrator::radau || (options.integrator == Integrator::any && stiff);
     // behind 40 relaxation times the motor has forgotten where it began
@@ -259,7 +269,7 @@ class FullMotion {
     answer.step_tolerance = step_tolerance;
     answer.used = layer_ < times_.back() ? Integrator::radau : Integrator::taylor;
     Course<Scalar> course(gyrostat_, start_, layer_, step_tolerance, inside, options_.step_cap, Scalar(1));
-    const Scalar change = data_change(step_tolerance, gyrostat_.condition());
+    const Scalar change = data_change(step_tolerance, condition_);
     const auto beside = [&](int which) noexcept {
       const Neighbour<Scalar> neighbour(gyrostat_, start_, change, which);
       return Course<Scalar>(neighbour.gyrostat, neighbour.start, layer_, companion_step(step_tolerance),
@@ -267,7 +277,7 @@ class FullMotion {
     };
     Course<Scalar> companion = beside(0);
     std::optional<Course<Scalar>> second;
-    if (rounding_rules(step_tolerance, gyrostat_.condition())) second = beside(1);
+    if (rounding_rules(step_tolerance, condition_)) second = beside(1);
     // rounding at the asked times, and between steps
     const Row<Scalar> row(gyrostat_, start_);
     ColumnErrors<Scalar> between;
@@ -301,6 +311,7 @@ class FullMotion {
   std::span<State<Scalar>> states_;
   const FullMotionOptions<Scalar>& options_;
   Scalar turning_, layer_;
+  Scalar condition_;  ///< how many times over a change of the data counts
 };
 
 }  // namespace detail
