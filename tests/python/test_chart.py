@@ -75,7 +75,7 @@ def test_what_is_left_out_is_said(chart: Chart) -> None:
 
 def test_a_method_that_takes_too_long_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(methods, "LONGEST", 5e-3)
-    made = gyrostat.chart("cubesat-wheel", duration=500.0, samples=3)
+    made = gyrostat.chart("tiangong-1", samples=3)
     assert all(point.seconds < 1e-2 for point in made.points)
     slow = {each.label: each for each in made.left_out if each.why == "takes over 0.005 s"}
     assert slow["SciPy DOP853 (Python right-hand side)"].settings[0] == "tolerance 0.0001"

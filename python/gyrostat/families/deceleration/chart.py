@@ -98,15 +98,23 @@ class Rival:
 
     def right(self) -> Callable[[float, Vectors], Vectors]:
         """dM/dt in Python."""
-        inverse, rotor, control, drag, total, total_drag = self.inverse, self.rotor, self.control, self.drag, self.total, self.total_drag
-        driven = bool(np.any(control))
+        (a, b, c), (d, e, f), (g, h, i) = self.inverse.tolist()
+        l1, l2, l3 = self.rotor.tolist()
+        b1, b2, b3 = self.control.tolist()
+        drag, total, total_drag = self.drag, self.total, self.total_drag
+        driven = any((b1, b2, b3))
 
         def right(_: float, momentum: Vectors) -> Vectors:
-            carrier = momentum - rotor
-            made: Vectors = np.cross(momentum, inverse @ carrier) - drag * (momentum if total_drag else carrier)
+            x, y, z = momentum.tolist()
+            u, v, w = x - l1, y - l2, z - l3
+            p, q, r = a * u + b * v + c * w, d * u + e * v + f * w, g * u + h * v + i * w
+            o1, o2, o3 = (x, y, z) if total_drag else (u, v, w)
+            m1, m2, m3 = y * r - z * q - drag * o1, z * p - x * r - drag * o2, x * q - y * p - drag * o3
             if driven:
-                opposed = momentum if total else carrier
-                made -= control * opposed / math.sqrt(opposed @ opposed)
+                o1, o2, o3 = (x, y, z) if total else (u, v, w)
+                size = math.sqrt(o1 * o1 + o2 * o2 + o3 * o3)
+                m1, m2, m3 = m1 - b1 * o1 / size, m2 - b2 * o2 / size, m3 - b3 * o3 / size
+            made: Vectors = np.array([m1, m2, m3])
             return made
 
         return right
