@@ -26,16 +26,19 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
 endif()
 
-# gyrostat_unite(SOURCE...): in targets of this folder with UNITY_BUILD_MODE GROUP the sources of one family are compiled as one unit, and what
-# belongs to none with general, which knows all families: they share headers and what these instantiate.
+# gyrostat_unite(SOURCE...): in targets of this folder with UNITY_BUILD_MODE GROUP the sources are compiled as three units: they share headers and
+# what these instantiate. What belongs to no family is with general, which knows all families.
 function(gyrostat_unite)
   foreach(source IN LISTS ARGN)
     get_filename_component(name "${source}" NAME)
-    string(REGEX MATCH "^(deceleration|spinning|heavy|rotor|free)" family "${name}")
-    if(NOT family)
-      set(family general)
+    if(name MATCHES "^(heavy|rotor)")
+      set(unit heavy_and_rotor)
+    elseif(name MATCHES "^(deceleration|spinning|free)")
+      set(unit deceleration_spinning_and_free)
+    else()
+      set(unit general)
     endif()
-    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "of_${family}")
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "of_${unit}")
   endforeach()
 endfunction()
 

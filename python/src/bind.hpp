@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One function a translation unit of bindings, called by module.cpp.
+// One function a source file of bindings, called by module.cpp. Several families are compiled as one unit: what is a family's alone is in a
+// namespace of_<family>.
 #pragma once
 
 #include <pybind11/pybind11.h>

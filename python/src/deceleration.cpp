@@ -29,6 +29,7 @@ gyrostat::python::by_cvode<gyrostat::deceleration::Scene>() noexcept {
 #endif
 }
 
+namespace of_deceleration {
 namespace {
 
 using namespace gyrostat;
@@ -161,8 +162,10 @@ py::typing::List<py::str> regime_symbols() {
 }
 
 }  // namespace
+}  // namespace of_deceleration
 
-void bind_deceleration(py::module_& module) {
+void bind_deceleration(pybind11::module_& module) {
+  using namespace of_deceleration;
   module.def("deceleration_solve", &solve_scene, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"),
              py::arg("control"), py::arg("drag"), py::arg("law"), py::arg("drag_law"), py::arg("angular_momentum"),
              py::arg("attitude"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),

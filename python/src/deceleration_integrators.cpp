@@ -9,6 +9,7 @@
 extern template class gyrostat::ode::Taylor<gyrostat::deceleration::FullSystem<double, true, false>>;
 extern template class gyrostat::ode::Taylor<gyrostat::deceleration::FullSystem<double, false, false>>;
 
+namespace of_deceleration {
 namespace {
 
 using namespace gyrostat;
@@ -102,8 +103,10 @@ Data integrate(const Array& inertia, const Array& rotor_momentum, const Array& c
 }
 
 }  // namespace
+}  // namespace of_deceleration
 
-void bind_deceleration_integrators(py::module_& module) {
+void bind_deceleration_integrators(pybind11::module_& module) {
+  using namespace of_deceleration;
   module.def("deceleration_integrate", &integrate, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"),
              py::arg("control"), py::arg("drag"), py::arg("law"), py::arg("drag_law"), py::arg("angular_momentum"),
              py::arg("times"), py::arg("method"), py::arg("order") = 20, py::arg("tolerance"),

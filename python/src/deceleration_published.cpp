@@ -14,6 +14,7 @@
 #include "gyrostat/ode/runge_kutta.hpp"
 #include "scene_arguments.hpp"
 
+namespace of_deceleration {
 namespace {
 
 using namespace gyrostat;
@@ -111,8 +112,10 @@ double printed_ratio(double kappa2, double modulus_squared) {
 }
 
 }  // namespace
+}  // namespace of_deceleration
 
-void bind_deceleration_published(py::module_& module) {
+void bind_deceleration_published(pybind11::module_& module) {
+  using namespace of_deceleration;
   using Data = pub::Data<double>;
   py::class_<Start>(module, "PolhodeStart", "A scene without rotor momentum in principal axes 1, 2, 3, A > B > C.")
       .def_readonly("moments", &Start::moments, "(3,) [kg m2]")

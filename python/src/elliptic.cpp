@@ -74,7 +74,7 @@ py::array_t<double> incomplete(const Array& phi, const Array& n, const Array& k2
 
 }  // namespace
 
-void bind_elliptic(py::module_& module) {
+void bind_elliptic(pybind11::module_& module) {
   module.def("elliptic_complete", &complete, py::arg("k2"), py::arg("kp2"), py::arg("backend"), "(n, 2): K, E.");
   module.def("elliptic_jacobi", &jacobi, py::arg("u"), py::arg("k2"), py::arg("kp2"), py::arg("backend"),
              "(n, 4): sn, cn, dn, am.");

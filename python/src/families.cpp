@@ -117,7 +117,7 @@ py::list families() {
 
 }  // namespace
 
-void bind_families(py::module_& module) {
+void bind_families(pybind11::module_& module) {
   module.def("families", &families,
              "What each family gives: columns, scalars, rungs (cheapest first), integrators and warnings; and the "
              "numbers of a "

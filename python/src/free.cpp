@@ -16,6 +16,7 @@
 #include "question_arguments.hpp"
 #include "scene_arguments.hpp"
 
+namespace of_free {
 namespace {
 
 using namespace gyrostat;
@@ -97,8 +98,10 @@ py::array_t<double> flips(const Array& inertia, const Array& rotor_momentum, con
 }
 
 }  // namespace
+}  // namespace of_free
 
-void bind_free(py::module_& module) {
+void bind_free(pybind11::module_& module) {
+  using namespace of_free;
   module.def("free_solve", &solve_scene, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"),
              py::arg("wheels"), py::arg("angular_velocity"), py::arg("angular_momentum"), py::arg("attitude"),
              py::arg("view"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),

@@ -9,6 +9,7 @@
 // the library has it
 extern template class gyrostat::ode::Taylor<gyrostat::free::FullSystem<double>>;
 
+namespace of_free {
 namespace {
 
 using namespace gyrostat;
@@ -95,8 +96,10 @@ Data integrate(const Array& inertia, const Array& rotor_momentum, const Wheels& 
 }
 
 }  // namespace
+}  // namespace of_free
 
-void bind_free_integrators(py::module_& module) {
+void bind_free_integrators(pybind11::module_& module) {
+  using namespace of_free;
   module.def("free_integrate", &integrate, py::kw_only(), py::arg("inertia"), py::arg("rotor_momentum"),
              py::arg("wheels"), py::arg("angular_velocity"), py::arg("angular_momentum"), py::arg("attitude"),
              py::arg("times"), py::arg("method"), py::arg("order") = 20, py::arg("tolerance"),

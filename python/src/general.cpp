@@ -30,6 +30,7 @@ decltype(gyrostat::general::Scene::full_equations) gyrostat::python::by_cvode<gy
 #endif
 }
 
+namespace of_general {
 namespace {
 
 using namespace gyrostat;
@@ -103,8 +104,10 @@ py::typing::List<py::typing::Tuple<double, double, py::typing::List<py::str>>> s
 }
 
 }  // namespace
+}  // namespace of_general
 
-void bind_general(py::module_& module) {
+void bind_general(pybind11::module_& module) {
+  using namespace of_general;
   module.def("general_solve", &solve_scene, py::kw_only(), py::arg("scene"), py::arg("times"), py::arg("tolerance"),
              py::arg("model"), py::arg("integrator"), py::arg("recognise"), py::arg("monitor"),
              py::arg("ask") = py::none(), py::arg("start_error") = std::map<std::string, double>{},

@@ -14,6 +14,7 @@
 extern template class gyrostat::ode::Taylor<gyrostat::general::FullSystem<double, true>>;
 extern template class gyrostat::ode::Taylor<gyrostat::general::FullSystem<double, false>>;
 
+namespace of_general {
 namespace {
 
 using namespace gyrostat;
@@ -210,8 +211,10 @@ Data integrate(const Data& scene, const Array& at, const std::string& method, in
 }
 
 }  // namespace
+}  // namespace of_general
 
-void bind_general_integrators(py::module_& module) {
+void bind_general_integrators(pybind11::module_& module) {
+  using namespace of_general;
   module.def("general_integrate", &integrate, py::kw_only(), py::arg("scene"), py::arg("times"), py::arg("method"),
              py::arg("order") = 20, py::arg("tolerance"), py::arg("precision") = "double",
              py::arg("patience") = infinity<double>, "The full equations under one integrator, timed.");

@@ -26,6 +26,7 @@ decltype(gyrostat::heavy::Scene::full_equations) gyrostat::python::by_cvode<gyro
 #endif
 }
 
+namespace of_heavy {
 namespace {
 
 using namespace gyrostat;
@@ -52,8 +53,10 @@ Data solve_scene(const Array& inertia, double mass, const Array& centre_of_mass,
 }
 
 }  // namespace
+}  // namespace of_heavy
 
-void bind_heavy(py::module_& module) {
+void bind_heavy(pybind11::module_& module) {
+  using namespace of_heavy;
   py::class_<HeavyBodies>(module, "HeavyBodies", "Rows of heavy bodies in principal axes, checked.")
       .def(py::init<const Array&, const Array&, const Array&, const Array&, const Array&>(), py::kw_only(),
            py::arg("inertia"), py::arg("mass"), py::arg("centre_of_mass"), py::arg("gravity"),

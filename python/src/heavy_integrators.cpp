@@ -14,6 +14,7 @@
 extern template class gyrostat::ode::Taylor<gyrostat::heavy::FullSystem<double, true>>;
 extern template class gyrostat::ode::Taylor<gyrostat::heavy::FullSystem<double, false>>;
 
+namespace of_heavy {
 namespace {
 
 using namespace gyrostat;
@@ -129,8 +130,10 @@ Data integrate(const Array& inertia, double mass, const Array& centre_of_mass, d
 }
 
 }  // namespace
+}  // namespace of_heavy
 
-void bind_heavy_integrators(py::module_& module) {
+void bind_heavy_integrators(pybind11::module_& module) {
+  using namespace of_heavy;
   module.def("heavy_integrate", &integrate, py::kw_only(), py::arg("inertia"), py::arg("mass"),
              py::arg("centre_of_mass"), py::arg("gravity"), py::arg("gravity_gradient"), py::arg("angular_velocity"),
              py::arg("down"), py::arg("attitude"), py::arg("times"), py::arg("method"), py::arg("order") = 20,

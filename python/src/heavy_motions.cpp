@@ -21,6 +21,7 @@
 #include "gyrostat/models/heavy/symmetric_top.hpp"
 #include "heavy_arguments.hpp"
 
+namespace of_heavy {
 namespace {
 
 using namespace gyrostat;
@@ -295,8 +296,10 @@ Data fast_stability_rows(const HeavyBodies& bodies, const Array& spin, const Arr
 }
 
 }  // namespace
+}  // namespace of_heavy
 
-void bind_heavy_motions(py::module_& module) {
+void bind_heavy_motions(pybind11::module_& module) {
+  using namespace of_heavy;
   module.def(
       "heavy_series", &series_rows, py::arg("bodies"), py::kw_only(), py::arg("spin"), py::arg("cos_inclination"),
       py::arg("t"), py::arg("order"), py::arg("tolerance"),

@@ -9,6 +9,7 @@
 #include "bind.hpp"
 #include "heavy_arguments.hpp"
 
+namespace of_heavy {
 namespace {
 
 using namespace gyrostat;
@@ -67,8 +68,10 @@ py::array_t<double> table(int number) {
 }
 
 }  // namespace
+}  // namespace of_heavy
 
-void bind_heavy_published(py::module_& module) {
+void bind_heavy_published(pybind11::module_& module) {
+  using namespace of_heavy;
   module.def("heavy_published_run", &run, py::arg("body"), py::kw_only(), py::arg("spin"), py::arg("cos_inclination"),
              py::arg("reading"), py::arg("t"),
              "The paper's formulas for one body, mu^-1 = spin/c (printed) or c/spin (reciprocal): rates and down (35), "

@@ -49,7 +49,7 @@ auto rows(Convert convert) {
 
 }  // namespace
 
-void bind_rotation(py::module_& module) {
+void bind_rotation(pybind11::module_& module) {
   module.def("matrix_from_quaternion", rows<4, 9>([](const double* p) { return to_matrix(normalised(quaternion(p))); }),
              py::arg("rows"));
   module.def("quaternion_from_matrix", rows<9, 4>([](const double* p) { return from_matrix(matrix(p)); }),

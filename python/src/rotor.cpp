@@ -26,6 +26,7 @@ decltype(gyrostat::rotor::Scene::full_equations) gyrostat::python::by_cvode<gyro
 #endif
 }
 
+namespace of_rotor {
 namespace {
 
 using namespace gyrostat;
@@ -71,8 +72,10 @@ py::array_t<double> assembled(const Array& carrier_inertia, double carrier_mass,
 }
 
 }  // namespace
+}  // namespace of_rotor
 
-void bind_rotor(py::module_& module) {
+void bind_rotor(pybind11::module_& module) {
+  using namespace of_rotor;
   module.def("rotor_solve", &solve_scene, py::kw_only(), py::arg("inertia"), py::arg("axis"), py::arg("axial_inertia"),
              py::arg("slope"), py::arg("no_load_rate"), py::arg("angular_velocity"), py::arg("rotor_rate"),
              py::arg("attitude"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),

@@ -10,6 +10,7 @@
 // the library has them
 extern template class gyrostat::ode::Taylor<gyrostat::rotor::FullSystem<double>>;
 
+namespace of_rotor {
 namespace {
 
 using namespace gyrostat;
@@ -130,8 +131,10 @@ Data integrate(const Array& inertia, const Array& axis, double axial_inertia, do
 }
 
 }  // namespace
+}  // namespace of_rotor
 
-void bind_rotor_integrators(py::module_& module) {
+void bind_rotor_integrators(pybind11::module_& module) {
+  using namespace of_rotor;
   module.def("rotor_integrate", &integrate, py::kw_only(), py::arg("inertia"), py::arg("axis"),
              py::arg("axial_inertia"), py::arg("slope"), py::arg("no_load_rate"), py::arg("angular_velocity"),
              py::arg("rotor_rate"), py::arg("attitude"), py::arg("times"), py::arg("method"), py::arg("order") = 20,

@@ -9,6 +9,7 @@
 #include "bind.hpp"
 #include "rotor_arguments.hpp"
 
+namespace of_rotor {
 namespace {
 
 using namespace gyrostat;
@@ -60,8 +61,10 @@ Data data(const std::string& reading) {
 }
 
 }  // namespace
+}  // namespace of_rotor
 
-void bind_rotor_published(py::module_& module) {
+void bind_rotor_published(pybind11::module_& module) {
+  using namespace of_rotor;
   module.def("rotor_published_run", &run, py::kw_only(), py::arg("reading"), py::arg("times"),
              "gamma1, gamma2, beta*' and gamma3 (n, 4) of the paper's linear "
              "equations, printed, corrected, repaired or realisable.");

@@ -17,6 +17,7 @@
 #include "gyrostat/models/rotor/steady_stability.hpp"
 #include "rotor_arguments.hpp"
 
+namespace of_rotor {
 namespace {
 
 using namespace gyrostat;
@@ -210,8 +211,10 @@ Data section(const Array& inertia, const Array& axis, double axial_inertia, doub
 }
 
 }  // namespace
+}  // namespace of_rotor
 
-void bind_rotor_steady(py::module_& module) {
+void bind_rotor_steady(pybind11::module_& module) {
+  using namespace of_rotor;
   module.def("rotor_steady", &steady_rows, py::kw_only(), py::arg("inertia"), py::arg("axis"), py::arg("axial_inertia"),
              py::arg("slope"), py::arg("no_load_rate"), py::arg("momentum"),
              "Steady rotations of rows of gyrostats, (n, 8), padded with -1 and NaN.");

@@ -32,6 +32,7 @@ decltype(gyrostat::spinning::Scene::full_equations) gyrostat::python::by_cvode<g
 #endif
 }
 
+namespace of_spinning {
 namespace {
 
 using namespace gyrostat;
@@ -147,8 +148,10 @@ py::array_t<double> pointing_rows(const SpinningProblems& problems) {
 }
 
 }  // namespace
+}  // namespace of_spinning
 
-void bind_spinning(py::module_& module) {
+void bind_spinning(pybind11::module_& module) {
+  using namespace of_spinning;
   py::class_<SpinningProblems>(module, "SpinningProblems", "Rows of spinning, thrusting bodies, checked.")
       .def(py::init<const Array&, const Array&, const Array&, const Array&, const Array&, const Array&, const Array&,
                     const Array&, const Array&, const Array&>(),

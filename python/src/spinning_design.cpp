@@ -8,6 +8,7 @@
 #include "gyrostat/models/spinning/design.hpp"
 #include "spinning_arguments.hpp"
 
+namespace of_spinning {
 namespace {
 
 using namespace gyrostat;
@@ -75,8 +76,10 @@ Data design_rows(const SpinningProblems& problems, const std::string& goal, cons
 }
 
 }  // namespace
+}  // namespace of_spinning
 
-void bind_spinning_design(py::module_& module) {
+void bind_spinning_design(pybind11::module_& module) {
+  using namespace of_spinning;
   module.def("spinning_design", &design_rows, py::arg("problems"), py::kw_only(), py::arg("goal"), py::arg("budget"),
              "Value, bound of the tilt, unstable, resonant, compliant, and why there is no design, a row each.");
 }

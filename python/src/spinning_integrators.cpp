@@ -10,6 +10,7 @@
 // the library has them
 extern template class gyrostat::ode::Taylor<gyrostat::spinning::FullSystem<double>>;
 
+namespace of_spinning {
 namespace {
 
 using namespace gyrostat;
@@ -120,8 +121,10 @@ Data integrate(const SpinningProblems& problems, const Array& at, const std::str
 }
 
 }  // namespace
+}  // namespace of_spinning
 
-void bind_spinning_integrators(py::module_& module) {
+void bind_spinning_integrators(pybind11::module_& module) {
+  using namespace of_spinning;
   module.def("spinning_integrate", &integrate, py::arg("problem"), py::kw_only(), py::arg("times"), py::arg("method"),
              py::arg("order") = 20, py::arg("tolerance"), py::arg("precision") = "double",
              py::arg("patience") = infinity<double>, "The full equations under one integrator, timed.");

@@ -8,6 +8,7 @@
 #include "bind.hpp"
 #include "spinning_arguments.hpp"
 
+namespace of_spinning {
 namespace {
 
 using namespace gyrostat;
@@ -60,8 +61,10 @@ Data run(const SpinningProblems& problems, const std::string& name, const Array&
 }
 
 }  // namespace
+}  // namespace of_spinning
 
-void bind_spinning_published(py::module_& module) {
+void bind_spinning_published(pybind11::module_& module) {
+  using namespace of_spinning;
   module.def(
       "spinning_published", &run, py::arg("problem"), py::kw_only(), py::arg("reading"), py::arg("t"),
       "The paper's closed forms for one body, printed, corrected or exact: rates p, q (22), tilt psi, phi (20), spin "

@@ -263,7 +263,7 @@ Data sweep_rows(const std::string& kind, const Array& numbers, const std::vector
 
 }  // namespace
 
-void bind_sweep(py::module_& module) {
+void bind_sweep(pybind11::module_& module) {
   module.def("sweep", &sweep_rows, py::kw_only(), py::arg("kind"), py::arg("numbers"), py::arg("places"),
              py::arg("values"), py::arg("times"), py::arg("tolerance"), py::arg("model"), py::arg("integrator"),
              py::arg("elliptic"), py::arg("ask"), py::arg("threads"), py::arg("monitor"), py::arg("scene") = py::none(),
