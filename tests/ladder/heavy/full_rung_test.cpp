@@ -88,7 +88,8 @@ TEST_CASE("rung full of a heavy body hands over to the integrator of the scene",
   CHECK(track.warnings[0].code() == "stand-in");
 }
 
-TEST_CASE("rung full of a periodic motion is honest where families come near and near the vertical", "[heavy][length]") {
+TEST_CASE("rung full of a periodic motion is honest where families come near and near the vertical",
+          "[heavy][length]") {
   // a slow top whose centre lies 1e-4 off its axis: two families pass each other
   const auto near_top = *Problem<double>::make(
       {0.77520005340819609, 0.7749767866487971, 1.0315288305282593}, 0.40390434700321659,
