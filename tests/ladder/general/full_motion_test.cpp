@@ -170,6 +170,33 @@ TEST_CASE("at a time where laws change the state is that by the new one", "[gene
   CHECK(made.states[5].rotor_angle[0] == Approx(10 + 20 + 30));
 }
 
+TEST_CASE("times of a table that are neighbours among the doubles", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
+  p.angular_velocity = {0.1, 0.2, 0.3};
+  p.wheels.resize(1);
+  p.wheels[0].axial_inertia = 0.1;
+  const std::vector<double> at{0, 0.5, 1.5, 4};
+  p.wheels[0].table = {{0, 1, 3}, {10, 30, 20}, Between::step, true};
+  const auto one_step = run(p, at, 1e-9);
+  for (const Between between : {Between::step, Between::linear}) {
+    // through 15, or straight, within a rounding of the time
+    const double now = 1, next = std::nextafter(now, 2.), last = std::nextafter(3., 4.);
+    if (between == Between::step) p.wheels[0].table = {{0, now, next, 3}, {10, 15, 30, 20}, between, true};
+    else p.wheels[0].table = {{0, now, next, 3, last}, {10, 10, 30, 30, 20}, between, true};
+    const auto made = run(p, at, 1e-9);
+    CAPTURE(int(between), made.answer.error[full_column::attitude]);
+    CHECK(made.answer.status == Status::reached);
+    CHECK(made.answer.met);
+    const Comparison<FullRow<double>> rows(FullRow<double>(Prepared<double>(p, at.back())));
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const auto off = rows.apart(rows.row(made.states[i]), rows.row(one_step.states[i]));
+      CHECK(off[full_column::angular_velocity] <= 1e-12);
+      CHECK(off[full_column::rotor_angle] <= 1e-12);
+    }
+  }
+}
+
 Problem<double> braked(double limit) {
   Problem<double> p;
   p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();

@@ -154,10 +154,12 @@ class CustomCourse {
   Scalar limit() noexcept {
     const Scalar t = time(), left = to_ - t, next = solver_.next_step();
     if (share_ == 1) return to_;
-    if (!(t > from_)) return from_ + share_ * left;
+    const Scalar part = t + share_ * left;
+    if (!(part > t)) return to_;
+    if (!(t > from_)) return part;
     if (t + next >= to_ && !parted_) {
       parted_ = true;
-      return t + share_ * left;
+      return part;
     }
     const bool grows = next > grown_ * (t - solver_.previous_time());
     return grows ? std::min(to_, t + share_ * next) : to_;

@@ -328,7 +328,8 @@ class FullCourse {
 
   ode::Status move(Scalar t_max) noexcept {
     Scalar until = std::min(t_max, piece_.to);
-    if (!(time_ > piece_.from)) until = std::min(until, piece_.from + share_ * (piece_.to - piece_.from));
+    if (const Scalar part = piece_.from + share_ * (piece_.to - piece_.from); !(time_ > piece_.from) && part > time_)
+      until = std::min(until, part);
     const Scalar before = system_->has_brake() ? system_->braked(time_, solver_->state()) : infinity<Scalar>;
     // a step must not jump over a stop: so far that no torque takes away more than half of what a brake opposes
     const Scalar sound =
