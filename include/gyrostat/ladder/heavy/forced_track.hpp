@@ -75,8 +75,10 @@ Track forced_track(const Scene& scene, const Motion& motion, int rung) {
   const double growth = std::max(floquet.growth, 2 * pi<double> * low);
   const double steep = growth > 700 ? infinity<double> : growth > 0 ? std::sinh(growth) / growth : 1.0;
   const double trace_error = 4 * 4 * pi<double> * pi<double> * (floquet.squared_error + 32 * epsilon<double>)*steep;
-  track.periodicity = {motion.period(), motion.period_error(),    floquet.trace_minus_4,
-                       trace_error,     motion.precession_rate(), motion.precession_error()};
+  // what the series leave out may be small in one number by chance
+  const double beyond = track.in_domain ? 0 : infinity<double>;
+  track.periodicity = {motion.period(),      motion.period_error() + beyond, floquet.trace_minus_4,
+                       trace_error + beyond, motion.precession_rate(),       motion.precession_error() + beyond};
   // next to nu = 1/2 the tongue decides, whose half width, though a small part of nu, may be many of its errors
   if (floquet.verdict != FastStability::undecided)
     track.periodicity.stable = floquet.verdict == FastStability::stable ? 1 : 0;

@@ -199,14 +199,16 @@ template <Real Scalar>
 Scalar condition_of_start(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept {
   const Vec3<Scalar> Omega = gyrostat.angular_velocity(start.momentum, start.axial_momentum);
   const Scalar whole = Omega.norm() * start.momentum.norm(), across = cross<Scalar>(Omega, start.momentum).norm();
-  return across < Scalar(1e-6L) * whole ? Scalar(1e6L) : Scalar(1);
+  return across < Scalar(honesty::next_to_steady) * whole ? Scalar(honesty::steady_condition) : Scalar(1);
 }
 
-/// What errors leave unknown where the runs have parted (honesty::parted_lyapunov).
+/// What errors leave unknown where the runs have parted (honesty::parted_lyapunov, parted_margin).
 template <Real Scalar>
 void forget_parted(ColumnErrors<Scalar>& error) noexcept {
-  if (error[column::angular_velocity] >= 1 && error[column::lyapunov] > Scalar(honesty::parted_lyapunov))
-    error[column::lyapunov] = infinity<Scalar>;
+  if (!(error[column::angular_velocity] >= 1)) return;
+  if (error[column::lyapunov] > Scalar(honesty::parted_lyapunov)) error[column::lyapunov] = infinity<Scalar>;
+  for (const auto c : {column::rotor_rate, column::rotor_angle, column::lyapunov})
+    error[c] *= Scalar(honesty::parted_margin);
 }
 
 /// What an evaluation of the columns loses, in their units, where the state is known to `relative`.
