@@ -748,7 +748,7 @@ class FullMotion {
       return error;
     };
     const Comparison<FullRow<Scalar>> rows(row);
-    const auto note = [&](std::size_t i, const auto&) noexcept {
+    const auto note = [&]([[maybe_unused]] std::size_t i, const auto&) noexcept {
       if constexpr (Method::integrator == Integrator::radau)
         between.raise(rows.apart(rows.row(companion->inside(times_[i])), rows.row(companion->beside(times_[i]))));
     };

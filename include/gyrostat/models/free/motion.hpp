@@ -651,7 +651,7 @@ template <Real Scalar>
 GYROSTAT_INLINE void Motion<Scalar>::forms(Block& b, int k, const Points (&zeta)[4],
                                            bool with_momentum) const noexcept {
   using Grid = detail::GridPoints<Scalar>;
-  const auto& [ar, ai, br, bi] = zeta;
+  const Points &ar = zeta[0], &ai = zeta[1], &br = zeta[2], &bi = zeta[3];
   const auto product = [](const Points& x, const Points& y, const Points& z, const Points& w)
                            GYROSTAT_INLINE_LAMBDA { return multiply_add(x, y, z * w); };
   const Points f[4] = {product(ar, ar, ai, ai), product(br, br, bi, bi), product(ar, br, ai, bi), ar * bi - ai * br};
