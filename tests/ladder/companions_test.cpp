@@ -150,7 +150,32 @@ TEST_CASE("of many times some are looked at, and steps' ends; each hears an erro
     CHECK(states == std::vector<double>(count, 1.0));
     CHECK(walk.error[0] == Approx(margin * 10 * 0x1p-20).epsilon(1e-9));
     for (std::size_t i = 0; i < count; ++i) CHECK(noted[i] >= margin * times[i] * 0x1p-20 * (1 - 1e-6));
-    CHECK(looks <= 65 + int(honesty::first_looks) + 21);
+    CHECK(looks <= 65 + int(honesty::first_looks) + 21 + 15);  // steps of the companion and of the answer
+  }
+}
+
+TEST_CASE("what is off at the end of a step and gone in the next is seen, of however many times", "[ladder]") {
+  struct Stepping {
+    Function state;
+    double length;
+    double now = 0;
+    ode::Status step(double t_max) {
+      now = std::min(now + length, t_max);
+      return ode::Status::reached;
+    }
+    double time() const { return now; }
+    double at(double t) const { return state(t); }
+    ode::Counts counts() const { return {0, 1, 0}; }
+  };
+  const Function swells = [](double t) { return 1 + (t > 4.19 && t < 4.2005 ? 0x1p-20 : 0); };  // six steps of 0.7
+  for (const std::size_t count : {100, 1000, 6400}) {
+    Stepping course{swells, 0.7}, companion{still, 0.5};
+    std::vector<double> times, states(count);
+    for (std::size_t i = 1; i <= count; ++i) times.push_back(10 * double(i) / double(count));
+    const auto walk = walk_beside(PairWriter{}, Runs<Stepping>{course, companion, nullptr}, 1.0, 0.0, times, states,
+                                  -1.0, MotionOptions<double>{}, 0, 1, not_noted);
+    CAPTURE(count);
+    CHECK(walk.error[0] == Approx(margin * 0x1p-20).epsilon(1e-9));
   }
 }
 

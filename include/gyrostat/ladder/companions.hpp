@@ -76,10 +76,18 @@ ode::Status reach(Course& course, Scalar t, Scalar t_max) noexcept {
   return status;
 }
 
+/// Whether times[i] is the last that is asked for in a step that ends at `end`: a series errs most there, and what it errs may be gone in the next
+/// step, where the motion is damped.
+template <Real Scalar>
+bool is_last_in_step(std::span<const Scalar> times, std::size_t i, Scalar end) noexcept {
+  return i + 1 >= times.size() || times[i + 1] > end;
+}
+
 /// Steps the answer, and beside it its companions, over the asked times, and keeps its states there. Companions take tighter steps: their
 /// distance to the answer is its truncation, and their own distance what rounding and the data's last digits do. A course has step(t_max),
 /// time(), at(t) within the last step, and counts(); one that GoesOnAlike is given up where its steps would overrun their budget by far.
-/// The first companion leads, and all are compared at the end of each of its steps and at the asked times, of many at some. Their first
+/// The first companion leads, and all are compared at the end of each of its steps and at the asked times, of many at some and at the last in each
+/// step of the answer. Their first
 /// steps end apart: from one start all would take the same polynomial, and err alike; one that runs alone is kicked at half the span. A
 /// distance that was seen fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which
 /// all are near by chance does not hide it. States
@@ -138,7 +146,7 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
       states[next] = runs.answer.at(times[next]);
       const auto row = walk.asked.row(states[next]);
       walk.asked.add(row);
-      if (!honesty::looked_at(next, times.size())) continue;
+      if (!honesty::looked_at(next, times.size()) && !is_last_in_step(times, next, runs.answer.time())) continue;
       look(row, times[next]);
       tell(next + 1);
     }

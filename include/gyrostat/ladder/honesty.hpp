@@ -40,7 +40,7 @@ inline constexpr double companion_pace = 0.7;
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;
 
-/// The runs are compared at the end of every step, and at so many of the asked times, or all where these are fewer.
+/// The runs are compared at the end of every step, at the last asked time in each, and at so many of the asked times, or all where these are fewer.
 inline constexpr double looks = 64;
 /// At so many of the first asked times they are compared in any case: what a first step errs on its way may be gone at its end.
 inline constexpr double first_looks = 16;

@@ -274,6 +274,12 @@ class FullLanes {
         store(&kept_.of[i][b], load_wide(&kept_.of[i][b]) * load_wide(&fades[b]));
   }
 
+  /// Whether the runs are compared at the lane's next asked time, where the step of its answer ends at `end`.
+  static bool is_asked(const Lane& lane, double end) noexcept {
+    const std::span<const double> times(lane.task->times);
+    return honesty::looked_at(lane.next, times.size()) || is_last_in_step(times, lane.next, end);
+  }
+
   /// Looks at the lanes whose runs have come to what is next, an asked time or the end of the first companion's step; false where there are none.
   bool look() noexcept {
     Ends t;
@@ -287,7 +293,7 @@ class FullLanes {
       t[b] = here[b] ? lane.event : answers_.time(int(b));
       asked[b] = here[b] && lane.next < lane.task->times.size() && lane.task->times[lane.next] == lane.event;
       const bool now = here[b] && lane.event == firsts_.time(int(b));
-      const bool compare = now || (asked[b] && honesty::looked_at(lane.next, lane.task->times.size()));
+      const bool compare = now || (asked[b] && is_asked(lane, answers_.time(int(b))));
       looks[b] = compare, adds[b] = asked[b], pairs[b] = compare && !lane.alone;
       any = any || here[b];
       compares = compares || compare;
