@@ -155,24 +155,12 @@ TEST_CASE("of many times some are looked at, and steps' ends; each hears an erro
 }
 
 TEST_CASE("what is off at the end of a step and gone in the next is seen, of however many times", "[ladder]") {
-  struct Stepping {
-    Function state;
-    double length;
-    double now = 0;
-    ode::Status step(double t_max) {
-      now = std::min(now + length, t_max);
-      return ode::Status::reached;
-    }
-    double time() const { return now; }
-    double at(double t) const { return state(t); }
-    ode::Counts counts() const { return {0, 1, 0}; }
-  };
   const Function swells = [](double t) { return 1 + (t > 4.19 && t < 4.2005 ? 0x1p-20 : 0); };  // six steps of 0.7
   for (const std::size_t count : {100, 1000, 6400}) {
-    Stepping course{swells, 0.7}, companion{still, 0.5};
+    Run course{swells, 0.7}, companion{still, 0.5};
     std::vector<double> times, states(count);
     for (std::size_t i = 1; i <= count; ++i) times.push_back(10 * double(i) / double(count));
-    const auto walk = walk_beside(PairWriter{}, Runs<Stepping>{course, companion, nullptr}, 1.0, 0.0, times, states,
+    const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states,
                                   -1.0, MotionOptions<double>{}, 0, 1, not_noted);
     CAPTURE(count);
     CHECK(walk.error[0] == Approx(margin * 0x1p-20).epsilon(1e-9));
@@ -180,23 +168,11 @@ TEST_CASE("what is off at the end of a step and gone in the next is seen, of how
 }
 
 TEST_CASE("what is off inside the first step and not at its end is seen, of however many times", "[ladder]") {
-  struct Stepping {
-    Function state;
-    double length;
-    double now = 0;
-    ode::Status step(double t_max) {
-      now = std::min(now + length, t_max);
-      return ode::Status::reached;
-    }
-    double time() const { return now; }
-    double at(double t) const { return state(t); }
-    ode::Counts counts() const { return {0, 1, 0}; }
-  };
   const Function bulges = [](double t) { return 1 + (t < 0.004 ? 0x1p-20 : 0); };
-  Stepping course{still, 0.7}, companion{bulges, 0.5};
+  Run course{still, 0.7}, companion{bulges, 0.5};
   std::vector<double> times, states(6400);
   for (int i = 1; i <= 6400; ++i) times.push_back(i / 640.0);
-  const auto walk = walk_beside(PairWriter{}, Runs<Stepping>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
+  const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
                                 MotionOptions<double>{}, 0, 1, not_noted);
   CHECK(walk.error[0] == Approx(margin * 0x1p-20).epsilon(1e-2));
 }

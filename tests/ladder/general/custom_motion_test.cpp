@@ -176,7 +176,8 @@ TEST_CASE("a step of a law, named and not", "[general]") {
   const auto right = truth(problem, times, law, {7.3});
   for (const double tolerance : tolerances) {
     const auto named = run(problem, law, {7.3}, times, tolerance), unnamed = run(problem, law, {}, times, tolerance);
-    for (const CustomRun* made : {&named, &unnamed}) {
+    const auto twice = run(problem, law, {7.3, std::nextafter(7.3, 8.)}, times, tolerance);
+    for (const CustomRun* made : {&named, &unnamed, &twice}) {
       REQUIRE(made->answer.status == Status::reached);
       const auto error = apart(problem, law, times, right, made->states);
       for (std::size_t k = 0; k < std::size(full_columns); ++k) {
@@ -185,6 +186,7 @@ TEST_CASE("a step of a law, named and not", "[general]") {
       }
     }
     CHECK(named.answer.met);
+    CHECK(twice.answer.met);
     CHECK(named.answer.counts.rejected < unnamed.answer.counts.rejected);
   }
 }

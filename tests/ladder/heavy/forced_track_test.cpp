@@ -116,7 +116,6 @@ TEST_CASE("series that do not hold say so", "[heavy]") {
   CHECK_FALSE(track.in_domain);
   REQUIRE(track.warnings.size() == 1);
   CHECK(track.warnings[0].code() == "beyond-validity");
-  // the precession of these comes out as of the first order, with what the next would add
   CHECK(track.periodicity.precession_error == infinity<double>);
   CHECK(track.periodicity.period_error == infinity<double>);
   for (const Errc why : {Errc::not_applicable, Errc::no_convergence, Errc::out_of_domain, Errc::not_finite})

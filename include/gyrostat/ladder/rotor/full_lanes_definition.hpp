@@ -275,7 +275,7 @@ class FullLanes {
   }
 
   /// Whether the runs are compared at the lane's next asked time, where the step of its answer ends at `end`.
-  static bool is_asked(const Lane& lane, double end) noexcept {
+  static bool compares_at(const Lane& lane, double end) noexcept {
     const std::span<const double> times(lane.task->times);
     return honesty::looked_at(lane.next, times.size()) || is_last_in_step(times, lane.next, end);
   }
@@ -293,7 +293,7 @@ class FullLanes {
       t[b] = here[b] ? lane.event : answers_.time(int(b));
       asked[b] = here[b] && lane.next < lane.task->times.size() && lane.task->times[lane.next] == lane.event;
       const bool now = here[b] && lane.event == firsts_.time(int(b));
-      const bool compare = now || (asked[b] && is_asked(lane, answers_.time(int(b))));
+      const bool compare = now || (asked[b] && compares_at(lane, answers_.time(int(b))));
       looks[b] = compare, adds[b] = asked[b], pairs[b] = compare && !lane.alone;
       any = any || here[b];
       compares = compares || compare;
