@@ -156,6 +156,15 @@ TEST_CASE("torques that cannot be are refused by name", "[general]") {
   CHECK(fault(TorqueType::table, [](auto&, auto& t) { t.factor.table = {{0}, {1}, Between::step, true}; }).code ==
         Errc::not_applicable);
   CHECK(fault(TorqueType::table, [](auto&, auto& t) { t.table.values.pop_back(); }).code == Errc::out_of_domain);
+  const std::vector<double> uneven{0, 10, 10 + 1e-5, 20};
+  const auto far = fault(TorqueType::table, [&](auto&, auto& t) {
+    t.table = {uneven, {0, 0, 1, 0, 0, 1, 1, 0, 1, 1, 0, 1}, Between::cubic, false};
+  });
+  CHECK(far.code == Errc::out_of_domain);
+  CHECK(far.place == 1);
+  CHECK(fault(TorqueType::constant, [&](auto&, auto& t) {
+          t.factor.table = {uneven, {0, 0, 1, 1}, Between::cubic, false};
+        }).code == Errc::out_of_domain);
   CHECK(fault(TorqueType::constant, [](auto& p, auto&) { p.mass = 0; }).code == Errc::not_positive);
   CHECK(fault(TorqueType::constant, [](auto& p, auto&) { p.orbit.emplace().eccentricity = 1; }).code ==
         Errc::out_of_domain);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/models/general/table.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "catch.hpp"
 
 namespace general_table_test {
@@ -52,6 +55,22 @@ TEST_CASE("columns of a table and a cubic about another time", "[general]") {
   for (std::size_t i = 0; i < 3; ++i) CHECK(piece(table, 3, i, 0.)(0.5) == double(i) + 2.5);
   const Cubic<double> cubic{1, {1, -2, 3, 0.5}};
   for (const double t : {-1., 0.3, 4.}) CHECK(cubic.about(2.5)(t) == Approx(cubic(t)));
+}
+
+TEST_CASE("how far a cubic goes between its times", "[general]") {
+  CHECK(swing(table_of(Between::linear), 1) == 1);
+  CHECK(swing(Table<double>{{0, 1, 2}, {0, 0, 0}, Between::cubic, false}, 1) == 1);
+  // a jump of 1 within h: its slope 1/h is that of the parabola there but for a part of h, and carries the cubic 10/(3 h) far
+  for (const double h : {1e-1, 1e-3, 1e-6}) {
+    const Table<double> jump{{0, 10, 10 + h, 20}, {0, 0, 1, 1}, Between::cubic, false};
+    CHECK(swing(jump, 1) == Approx(10 / (3 * h)).epsilon(0.3 * h + 1e-9));
+    double reached = 0;
+    for (double t = 0; t < 20; t += 0.01) reached = std::max(reached, std::abs(piece(jump, 1, 0, t)(t)));
+    CHECK(reached < swing(jump, 1));
+    CHECK(reached > 0.4 * swing(jump, 1));
+  }
+  const Table<double> three{{0, 10, 10.001, 20}, {5, 0, 0, 5, 0, 0, 5, 0, 1, 5, 0, 1}, Between::cubic, false};
+  CHECK(swing(three, 3) == Approx(10 / (3 * 0.001) / 5).epsilon(1e-3));
 }
 
 TEST_CASE("tables that are not are refused", "[general]") {

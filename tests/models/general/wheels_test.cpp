@@ -89,6 +89,15 @@ TEST_CASE("bodies and wheels that are none are refused by name", "[general]") {
   CHECK(fault([](auto& p) { p.wheels[1].axis *= 1.1; }).code == Errc::out_of_domain);
   CHECK(fault([](auto& p) { p.wheels[1].no_load_rate = gyrostat::nan<double>; }).code == Errc::not_finite);
   CHECK(fault([](auto& p) { p.wheels[1].table = {{0}, {1}, Between::step, true}; }).code == Errc::out_of_domain);
+  const auto held = [](Between between) {
+    return [between](auto& p) {
+      p.wheels[1] = wheel(WheelType::held);
+      p.wheels[1].table = {{0, 10, 10 + 1e-5, 20}, {1, 1, 2, 2}, between, true};
+    };
+  };
+  CHECK_FALSE(fault(held(Between::linear)));
+  CHECK(fault(held(Between::cubic)).code == Errc::out_of_domain);
+  CHECK(fault(held(Between::cubic)).place == 1);
   CHECK(fault([](auto& p) { p.inertia(0, 1) += 1e-3; }).code == Errc::not_symmetric);
   CHECK(fault([](auto& p) { p.inertia(2, 2) = 9; }).code == Errc::triangle_inequality);
   CHECK(fault([](auto& p) { p.rotor_momentum[1] = infinity<double>; }).code == Errc::not_finite);

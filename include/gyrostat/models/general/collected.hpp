@@ -250,9 +250,8 @@ Fault check_factor(const Factor<Scalar>& factor, int place) noexcept {
   for (std::size_t i = 1; i < factor.on.size(); ++i)
     if (!(factor.on[i - 1][1] <= factor.on[i][0]))
       return {Errc::not_increasing, place, "what it is on for must come one behind the other"};
-  if (const Errc wrong = check(factor.table, 1); wrong != Errc::ok)
-    return {wrong, place, "the table of its factor must have one finite value for each time, and times that increase"};
-  return {};
+  return check_table(factor.table, 1, place,
+                     "the table of its factor must have one finite value for each time, and times that increase");
 }
 
 /// What a torque needs of the problem.
@@ -263,8 +262,9 @@ Fault check_needs(const Problem<Scalar>& problem, const Torque<Scalar>& torque, 
   switch (torque.type) {
     case TorqueType::constant: break;
     case TorqueType::table:
-      if (const Errc wrong = check(torque.table, 3); wrong != Errc::ok)
-        return {wrong, place, "its table must have three finite values for each time, and times that increase"};
+      if (const Fault wrong = check_table(
+              torque.table, 3, place, "its table must have three finite values for each time, and times that increase"))
+        return wrong;
       if (!torque.factor.table.times.empty())
         return {Errc::not_applicable, place, "a table of torques has no table as its factor"};
       break;

@@ -66,6 +66,27 @@ Scalar table_slope(const Table<Scalar>& table, std::size_t width, std::size_t co
 
 }  // namespace detail
 
+/// How far a cubic may go beyond the greatest value of its table. The slope of a jump between two times that lie close carries it on into
+/// the long gaps beside them; what lies so far beyond nobody meant.
+inline constexpr double most_swing = 1000;
+
+/// How far the cubics of a table that check() finds right go, at most, over its greatest value: by the points that span each of them.
+template <Real Scalar>
+Scalar swing(const Table<Scalar>& table, std::size_t width) noexcept {
+  using std::abs, std::max;
+  if (table.between != Between::cubic) return 1;
+  Scalar values = 0, reached = 0;
+  for (const Scalar x : table.values) values = max<Scalar>(values, abs(x));
+  for (std::size_t i = 0; i + 1 < table.times.size(); ++i)
+    for (std::size_t column = 0; column < width; ++column) {
+      const Scalar third = (table.times[i + 1] - table.times[i]) / 3;
+      const Scalar first = table.values[i * width + column], second = table.values[(i + 1) * width + column];
+      reached = max<Scalar>(reached, abs(first + third * detail::table_slope(table, width, column, i)));
+      reached = max<Scalar>(reached, abs(second - third * detail::table_slope(table, width, column, i + 1)));
+    }
+  return reached > values ? reached / values : Scalar(1);
+}
+
 /// One column of a table from `from` on, up to its next time: a table of `width` values a time that check() finds right.
 template <Real Scalar>
 Cubic<Scalar> piece(const Table<Scalar>& table, std::size_t width, std::size_t column, Scalar from) noexcept {

@@ -84,6 +84,17 @@ Scalar greatest_entry(const Mat3<Scalar>& m) noexcept {
   return m.cwiseAbs().maxCoeff();
 }
 
+/// What of a table must hold; `shape` says in words how many values it wants.
+template <Real Scalar>
+Fault check_table(const Table<Scalar>& table, std::size_t width, int place, const char* shape) noexcept {
+  if (const Errc wrong = check(table, width); wrong != Errc::ok) return {wrong, place, shape};
+  if (!(swing(table, width) <= Scalar(most_swing)))
+    return {Errc::out_of_domain, place,
+            "the cubic of its table must not swing beyond 1000 times its values, as it does where some times lie much "
+            "closer than others: interpolate linearly, or space the times more evenly"};
+  return {};
+}
+
 template <Real Scalar>
 Fault check_wheel(const Wheel<Scalar>& wheel, int place) noexcept {
   using std::abs;
@@ -103,9 +114,8 @@ Fault check_wheel(const Wheel<Scalar>& wheel, int place) noexcept {
   const bool tables = wheel.type == WheelType::held || wheel.type == WheelType::torque;
   if (!tables && !wheel.table.times.empty())
     return {Errc::out_of_domain, place, "only a held or driven wheel goes by a table"};
-  if (const Errc wrong = check(wheel.table, 1); wrong != Errc::ok)
-    return {wrong, place, "its table must have one finite value for each time, and times that increase"};
-  return {};
+  return check_table(wheel.table, 1, place,
+                     "its table must have one finite value for each time, and times that increase");
 }
 
 template <Real Scalar>
