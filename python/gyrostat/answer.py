@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from gyrostat.view import View
 
-__all__ = ["Answer", "Attempt", "Warning_"]
+__all__ = ["Answer", "Attempt", "DataError", "Warning_"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +50,18 @@ class Attempt:
     spent: float
 
 
+@dataclass(frozen=True, slots=True)
+class DataError:
+    """What one rounding of each number of a scene changes in its answer, all to the worse: the part of an error that no method can take away.
+
+    effect : name of a column or scalar -> the change, measured as its stated error is; infinite where it is not in proportion.
+    mostly : name -> the key of the number that makes the most of it, such as "body.inertia[0]"; empty where nothing does.
+    """
+
+    effect: dict[str, float]
+    mostly: dict[str, str]
+
+
 @dataclass(frozen=True, eq=False)
 class Answer:
     """Answer to a scene: `answer["attitude"]` is a column, `list(answer)` are the names of all, `answer.t` their times.
@@ -61,6 +73,7 @@ class Answer:
     scalars : name -> number, vector, truth value, or None where it is not known.
     scalar_error : name -> estimated error, relative; NaN where the scalar has none, being a definition, infinite or not known.
     tolerances : name -> what the error of a column or scalar was held against; what was not asked for is not there.
+    data_error : what one rounding of each number of the scene changes; None unless it was asked for, as `solve(scene, data_error=True)` does.
     gyrostat.facts has units and meanings; `gyrostat info --columns` prints them.
     """
 
@@ -79,6 +92,7 @@ class Answer:
     counts: dict[str, int]
     seconds: float
     tried: tuple[Attempt, ...] = field(default=())
+    data_error: DataError | None = None
 
     @classmethod
     def of(cls, told: Callable[[], dict[str, Any]], times: NDArray[np.float64], tolerance: float, made: Mapping[str, Any]) -> "Answer":

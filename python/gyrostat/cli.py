@@ -27,6 +27,7 @@ from gyrostat.watching import watched
 
 if TYPE_CHECKING:
     from gyrostat._core import Monitor
+    from gyrostat.answer import Answer
 
 __all__ = ["main"]
 
@@ -92,6 +93,23 @@ def _add_printed(parser: argparse.ArgumentParser) -> None:
                         help=f"print what completes commands, options and scenes in a shell ({', '.join(SHELLS)}), and exit")
 
 
+def _add_solve(command: Command, takes_scene: Callable[[argparse.ArgumentParser], None]) -> None:
+    solve = command("solve", _solve, "answer a scene")
+    solve.formatter_class = argparse.RawDescriptionHelpFormatter
+    solve.epilog = _ladder()
+    takes_scene(solve)
+    form = solve.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
+    form.add_argument("--csv", action="store_const", const="csv", dest="form", help="print the columns as CSV")
+    form.add_argument("--netcdf", action="store_const", const="netcdf", dest="form", help="write a NetCDF file (needs -o)")
+    solve.add_argument("--ask", metavar="WHAT", help="columns and scalars wanted, with tolerances of their own where they need one: "
+                       "attitude=0.1deg,stop_time; or all")
+    solve.add_argument("--data-error", action="store_true", help="say what one rounding of each number of the scene changes, too: the part of the errors "
+                       "that no method can take away (the scene is solved once more for each number)")
+    solve.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of to the standard output, in the form of the ending")
+    solve.add_argument("--plot", type=Path, metavar="FILE", help="write a figure (PNG, SVG or PDF by its ending)")
+
+
 def _add_recognise(command: Command, takes_scene: Callable[[argparse.ArgumentParser], None]) -> None:
     recognise = command("recognise", _recognise, "say of which families a scene is exactly an instance, and why it is none of the others")
     takes_scene(recognise)
@@ -124,19 +142,7 @@ def _arguments() -> argparse.ArgumentParser:
         made.add_argument("--set", dest="overrides", action="append", default=[], metavar="KEY=VALUE",
                           help="change a key of the scene, such as tolerance=1e-9 or torque.drag=0 (repeatable)")
 
-    solve = command("solve", _solve, "answer a scene")
-    solve.formatter_class = argparse.RawDescriptionHelpFormatter
-    solve.epilog = _ladder()
-    takes_scene(solve)
-    form = solve.add_mutually_exclusive_group()
-    form.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
-    form.add_argument("--csv", action="store_const", const="csv", dest="form", help="print the columns as CSV")
-    form.add_argument("--netcdf", action="store_const", const="netcdf", dest="form", help="write a NetCDF file (needs -o)")
-    solve.add_argument("--ask", metavar="WHAT", help="columns and scalars wanted, with tolerances of their own where they need one: "
-                       "attitude=0.1deg,stop_time; or all")
-    solve.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of to the standard output, in the form of the ending")
-    solve.add_argument("--plot", type=Path, metavar="FILE", help="write a figure (PNG, SVG or PDF by its ending)")
-
+    _add_solve(command, takes_scene)
     _add_recognise(command, takes_scene)
     _add_view(command, takes_scene)
     add_commands(command, takes_scene, _scene)
@@ -226,8 +232,9 @@ def _scene(arguments: argparse.Namespace) -> Scene:
     return load(arguments.scene, **overrides)
 
 
-def _in_thread(work: "Callable[[Monitor], T]", title: str) -> T:
-    """Run `work(monitor)`, beside a progress bar where it takes long, so that Ctrl-C reaches us and cancels it."""
+def _in_thread(work: "Callable[[Monitor], T]", title: str, share: Callable[[], float] | None = None) -> T:
+    """Run `work(monitor)`, beside a progress bar where it takes long, so that Ctrl-C reaches us and cancels it; `share` is done of it, or what the monitor
+    says."""
     begun = time.monotonic()
     with contextlib.ExitStack() as stack:
         bars: list[Progress] = []
@@ -236,7 +243,7 @@ def _in_thread(work: "Callable[[Monitor], T]", title: str) -> T:
             if not bars and time.monotonic() - begun > 0.4:
                 bars.append(stack.enter_context(Progress(title)))
             for bar in bars:
-                bar.update(progress)
+                bar.update(progress if share is None else share())
 
         return watched(work, look)
 
@@ -261,6 +268,8 @@ def _solve(arguments: argparse.Namespace) -> int:
 
     scene, form = _scene(arguments), _form(arguments)
     answer = _in_thread(lambda monitor: solve(scene, monitor=monitor), scene.name)
+    if arguments.data_error:
+        answer = _with_data_error(scene, answer)
     match form:
         case "json":
             _write(answer.to_json() + "\n", arguments.output)
@@ -279,6 +288,14 @@ def _solve(arguments: argparse.Namespace) -> int:
         answer.plot(arguments.plot)
         say(f"wrote {arguments.plot}", sys.stderr)
     return MET if answer.met else NOT_MET
+
+
+def _with_data_error(scene: Scene, answer: "Answer") -> "Answer":
+    from gyrostat.rounding import data_error
+
+    done = [0.0]
+    made = _in_thread(lambda monitor: data_error(scene, answer, monitor=monitor, told=done.append), f"{scene.name}, its data moved", lambda: done[-1])
+    return dataclasses.replace(answer, data_error=made)
 
 
 def _view(arguments: argparse.Namespace) -> int:

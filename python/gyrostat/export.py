@@ -29,6 +29,7 @@ def _units(answer: Answer) -> dict[str, str]:
 
 def _parts(answer: Answer) -> dict[str, Any]:
     """The object of JSON, with arrays in it."""
+    data = answer.data_error
     return {
         "scene": answer.scene, "model": answer.model, "tolerance": answer.tolerance, "met": answer.met, "error": answer.error,
         "warnings": [{"code": w.code, "message": w.message} for w in answer.warnings],
@@ -37,6 +38,7 @@ def _parts(answer: Answer) -> dict[str, Any]:
         "tried": [{"model": a.model, "error": a.error, "accepted": a.accepted, "why": a.why, "predicted": a.predicted, "spent": a.spent}
                   for a in answer.tried],
         "units": _units(answer), "scale": answer.scale, "tolerances": answer.tolerances,
+        **({} if data is None else {"data_error": {name: {"effect": effect, "mostly": data.mostly[name]} for name, effect in data.effect.items()}}),
     }
 
 

@@ -3,6 +3,7 @@
 
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gyrostat._core import Monitor
@@ -10,6 +11,7 @@ from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
 from gyrostat.orientation import off_orthonormal
+from gyrostat.rounding import data_error as error_of_data
 from gyrostat.scenes import Scene, load, scene_from
 
 if TYPE_CHECKING:
@@ -29,13 +31,14 @@ def scene_of(scene: SceneLike, overrides: Mapping[str, Any]) -> Scene:
     return load(scene, **overrides)
 
 
-def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = None, breakpoints: Any = (), **overrides: Any) -> Answer:
+def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = None, breakpoints: Any = (), data_error: bool = False, **overrides: Any) -> Answer:
     """Answer a scene by the cheapest rung whose error estimate meets the tolerance.
 
     scene : a `Scene`, a dict in the layout of a scene file, a file, or the name of a bundled scene.
     monitor : reports the progress of long work and can cancel it from another thread.
     torque : a torque of your own on a scene of the kind general, and breakpoints : the times at which it jumps or has kinks [s], as `gyrostat.general.solve`
         takes them; the answer's `scene` does not hold them. Of other kinds, and where it is data, the key of that name in the scene file.
+    data_error : tell what one rounding of each number of the scene changes, too; the scene is solved once more for each number that it has.
     overrides : keys of the scene file to change, such as tolerance=1e-9, model="full", or ask=["stop_time"], ask={"attitude": "0.1 deg"}:
         the columns and scalars that are wanted (docs/scenes.md, "What is asked"). Numbers may be text with a unit: no_load_rate="3000 rpm".
 
@@ -49,7 +52,11 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = Non
     own = {} if torque is None and len(breakpoints) == 0 else {"torque": torque, "breakpoints": breakpoints}
     if own and family.name != "general":
         raise DomainError(f"torque: a torque of your own is for scenes of the kind general, and this one is of the kind {family.name}")
+    if own and data_error:
+        raise DomainError("data_error: with a torque of your own the numbers of the scene are not all of the data")
     answer = family.solve(**family.arguments(checked), **own, monitor=monitor)
+    if data_error:
+        answer = replace(answer, data_error=error_of_data(checked, answer, monitor=monitor))
     return answer.of_scene(checked.to_dict, off_orthonormal(checked.tables.get("initial", {})))
 
 

@@ -61,13 +61,22 @@ def tables(answer: Answer) -> Iterator[Table]:
     """What was tried, scalars and columns."""
     tried = [[a.model, small(a.error), "answered" if a.accepted else "passed over", a.why, _time(a.predicted), _time(a.spent)] for a in answer.tried]
     yield "What was tried", ["rung", "estimated error", "", "why", "predicted", "spent"], tried
-    scalars = [[name, _scalar(name, value), UNITS.get(name, ""), small(answer.scalar_error[name])] for name, value in answer.scalars.items()]
-    yield "Scalars", ["name", "value", "unit", "estimated error"], scalars
+    more = ["of one rounding of the data", "mostly of"] if answer.data_error else []
+    scalars = [[name, _scalar(name, value), UNITS.get(name, ""), small(answer.scalar_error[name]), *_of_data(answer, name)]
+               for name, value in answer.scalars.items()]
+    yield "Scalars", ["name", "value", "unit", "estimated error", *more], scalars
     columns = []
     for name, values in answer.columns.items():
         ends = [str(value) if values.dtype.kind == "U" else short(value) for value in (values[0], values[-1])]
-        columns.append([name, UNITS.get(name, ""), *ends, small(answer.error.get(name))])
-    yield (f"Columns, {len(answer.t)} times", ["name", "unit", f"t = {answer.t[0]:g} s", f"t = {answer.t[-1]:g} s", "estimated error"], columns)
+        columns.append([name, UNITS.get(name, ""), *ends, small(answer.error.get(name)), *_of_data(answer, name)])
+    heads = ["name", "unit", f"t = {answer.t[0]:g} s", f"t = {answer.t[-1]:g} s", "estimated error", *more]
+    yield f"Columns, {len(answer.t)} times", heads, columns
+
+
+def _of_data(answer: Answer, name: str) -> list[str]:
+    """What one rounding of the data changes, and the number that makes the most of it, where that was asked for."""
+    data = answer.data_error
+    return [] if data is None else [small(data.effect.get(name)), data.mostly.get(name, "")]
 
 
 def report(answer: Answer, out: TextIO) -> None:

@@ -114,7 +114,11 @@ class Scene:
         """The same scene with some keys changed: by name (`tolerance=1e-9`) or dotted (`**{"torque.drag": 0.0}`)."""
         if not overrides:
             return self
-        return self._changed(overrides) or _check(self.to_dict(), _Source(self._label(), path=self.path), overrides)
+        return self._changed(overrides) or self.with_data(self.to_dict(), overrides)
+
+    def with_data(self, data: Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> "Scene":
+        """The scene that plain data make in the place of this one, beside the same file."""
+        return _check(data, _Source(self._label(), path=self.path), overrides or {})
 
     def _changed(self, overrides: Mapping[str, Any]) -> "Scene | None":
         """The scene with keys changed that stand alone, where all is well; None: the whole is to be checked."""
