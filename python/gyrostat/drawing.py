@@ -52,6 +52,7 @@ def save(figure: "Figure", file: Path) -> None:
     known = figure.canvas.get_supported_filetypes()
     if file.suffix[1:].lower() not in known:
         raise DomainError(f"plot file {file}: unknown ending {file.suffix or '(none)'!r}; use one of {', '.join(sorted(known))}")
+    figure.draw_without_rendering()  # the layout of axes whose sides are equal, with legends beside them, takes a second pass
     figure.savefig(file, dpi=DENSITY)
 
 
@@ -141,7 +142,7 @@ def legend_row(axes: "Axes", *others: "Axes") -> None:
 
 def legend_beside(axes: "Axes") -> None:
     """The names to the right of the axes."""
-    made = axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, borderaxespad=0)
+    made = axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, borderaxespad=0, handlelength=1.2)
     for line in made.get_lines():
         line.set_linewidth(max(1.2, line.get_linewidth()))
 

@@ -104,6 +104,27 @@ TEST_CASE("no rung meets the tolerance: the most accurate answers and says so", 
   CHECK_FALSE(c.answer.tried[3].accepted);
 }
 
+TEST_CASE("where no rung knows its error the highest answers, whatever it costs", "[ladder]") {
+  constexpr double unknown = infinity<double>;
+  Scene scene{{unknown, unknown, unknown, unknown}};
+  CHECK(Climb(scene, 1e-3).is("fourth"));
+  scene.cost = {4, 3, 2, 1};
+  CHECK(Climb(scene, 1e-3).is("fourth"));
+  scene.error[1] = 0.5;
+  CHECK(Climb(scene, 1e-3).is("second"));
+}
+
+TEST_CASE("where no rung can answer the highest says why, in whatever order they are asked", "[ladder]") {
+  Scene scene{{}};
+  scene.failure.fill(Errc::step_limit);
+  for (const auto& cost : {std::array<double, 4>{1, 2, 3, 4}, {4, 3, 2, 1}, {2, 1, 4, 3}}) {
+    scene.cost = cost;
+    const Climb c(scene, 1e-3);
+    CHECK(c.looked_at == 4);
+    CHECK(std::strcmp(c.refusal.model, "fourth") == 0);
+  }
+}
+
 TEST_CASE("rungs are asked in the order of what they predict to cost", "[ladder]") {
   Scene scene{{1e-2, 1e-9, 1e-9, 1e-9}};
   scene.cost = {5, 2, 0.5, 0.9};

@@ -256,6 +256,7 @@ def test_the_figure_draws(changes: dict[str, Any], tmp_path: Path) -> None:
     figure = plot_stability(checked)
     titles = [axes.get_title() for axes in figure.axes]
     assert {"front: around the rotor axis e", "back: around −e"} <= set(titles)
+    assert {"path of the momentum", "start"} <= {text.get_text() for legend in figure.legends for text in legend.get_texts()}
     if not changes:
         file = tmp_path / "sphere.png"
         assert report_stability(checked, plot=file) == 0

@@ -81,18 +81,27 @@ inline constexpr double brake_steps = 1;
 /// Driven rotors: where the rates of the runs have parted, as behind a saddle, a function of Lyapunov's that is off by more than this is not
 /// known: how far three runs have fallen by then may be near by chance.
 inline constexpr double parted_lyapunov = 0.01;
-/// And what is integrated over the rates, or falls with them, is so many times less certain, for the same reason. Chosen: angles of the wheel had erred
-/// by 1.8 and V by 3 times the stated where a stranger looked, which was not repeated.
+/// And what is integrated over the rates, or falls with them, is so many times less certain, for the same reason. Chosen: in scenes of another
+/// generator angles of the wheel had erred by 1.8 and V by 3 times the stated; these were not run again.
 inline constexpr double parted_margin = 8;
 
-/// Driven rotors: a start is next to a steady rotation where its rate is along its momentum but for this share. From the scenes of one stranger, not a
-/// fit.
+/// Driven rotors: a start is next to a steady rotation where its rate is along its momentum but for this share. From 28 scenes of another generator, not
+/// a fit.
 inline constexpr double next_to_steady = 1e-6;
 /// It counts as so many times less well known: how far off it began sets when the motion leaves.
 inline constexpr double steady_condition = 1e6;
 
-/// General scenes: neighbours that part by so many times more than in proportion to the angle turned through are told as chaotic.
+/// General scenes: a motion whose neighbours part by so many times more than in proportion to the angle turned through has the warning `chaotic`.
 inline constexpr double chaotic_growth = 1e4;
+
+/// Heavy bodies by closed forms and series, where the start was converted (an attitude into down, a tensor into moments) or found by shooting: of the
+/// distance between two neighbours, of which both may lie near by chance. Chosen.
+inline constexpr double neighbours_margin = 4;
+
+/// Averaged decelerations: mean equations integrated with a local error err by so many times it in all. Chosen.
+inline constexpr double mean_steps = 10;
+/// To the error of the time at which they stop so many local errors are added. Chosen.
+inline constexpr double mean_stop = 100;
 
 /// CVODE is compared with itself at a tolerance so many times looser.
 inline constexpr double cvode_looser = 10;

@@ -195,7 +195,7 @@ Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, co
   Track best_track;
   std::vector<Attempt> tried;
   bool answered = false, best_in_domain = false;
-  std::size_t best_rung = 0;
+  std::size_t best_rung = 0, refused_rung = 0;
   // Asks one rung of the scene, or of the same scene with tighter tolerances; false: there is no need to go on.
   const auto ask = [&](const detail::Candidate& candidate, const Scene& tightened) {
     const std::size_t i = candidate.rung;
@@ -204,7 +204,11 @@ Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, co
     if (track.failure != Errc::ok) {
       tried.push_back(
           {kinds[i].name, track.known_error, false, track.refusal, nan<double>, candidate.cost, watch.seconds()});
-      refusal = {track.failure, kinds[i].name, track.refusal ? track.refusal : message(track.failure)};
+      if (track.failure == Errc::cancelled ||
+          i >= refused_rung) {  // the highest rung says why, in whatever order they are asked
+        refused_rung = i;
+        refusal = {track.failure, kinds[i].name, track.refusal ? track.refusal : message(track.failure)};
+      }
       return track.failure != Errc::cancelled;
     }
     Answer answer = detail::answer_of(family, kinds[i].name, scene, track, describes_all);
@@ -212,8 +216,10 @@ Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, co
                      track.in_domain ? nullptr : "the scene leaves its domain", answer.excess, candidate.cost,
                      watch.seconds()});
     const bool same_kind = track.in_domain == best_in_domain;
-    if (!answered || answer.met ||
-        (same_kind ? answer.excess < best.excess || best.excess != best.excess : track.in_domain)) {
+    // where neither knows its error the higher rung is the more accurate
+    const bool better = answer.excess < best.excess || best.excess != best.excess ||
+                        (answer.excess == infinity<double> && best.excess == infinity<double> && i > best_rung);
+    if (!answered || answer.met || (same_kind ? better : track.in_domain)) {
       best_in_domain = track.in_domain;
       best_rung = i;
       best = std::move(answer);

@@ -152,15 +152,17 @@ TEST_CASE("a body at rest that nothing acts on stays at rest", "[deceleration]")
   Case c(1e-3, 100);
   c.data.control.setZero();
   c.data.momentum.setZero();
-  for (const double drag : {0., .1}) {
-    c.data.drag = drag;
-    const Answer answer = c.solve();
-    CHECK(answer.met);
-    CHECK(answer.error == 0);
-    for (const Column& column : answer.columns)
-      if (column.kind->measure != Measure::none)
-        CHECK(*std::max_element(column.values.begin(), column.values.end()) == 0);
-  }
+  for (const auto& times : {std::vector<double>{100}, {0, 100}, {0, 50, 100}})
+    for (const Law law : {Law::total, Law::carrier})
+      for (const double drag : {0., .1}) {
+        c.data.times = times, c.data.law = law, c.data.drag = drag;
+        const Answer answer = c.solve();
+        CHECK(answer.met);
+        CHECK(answer.error == 0);
+        for (const Column& column : answer.columns)
+          if (column.kind->measure != Measure::none)
+            CHECK(*std::max_element(column.values.begin(), column.values.end()) == 0);
+      }
 }
 
 TEST_CASE("a carrier at rest beside its wheel is answered within the tolerance", "[deceleration]") {
@@ -168,10 +170,13 @@ TEST_CASE("a carrier at rest beside its wheel is answered within the tolerance",
   c.data.rotor_momentum = c.data.momentum = V(.1, .2, .3);
   c.data.law = c.data.drag_law = Law::carrier;
   c.data.asked = all_but_attitude();
-  const Answer answer = c.with(any_rung, 1e-9).solve();
-  CHECK(answer.met);
-  const auto& omega = answer.find("angular_velocity")->values;
-  CHECK(*std::max_element(omega.begin(), omega.end()) == 0);
+  for (const auto& times : {std::vector<double>{100}, {0, 100}}) {
+    c.data.times = times;
+    const Answer answer = c.with(any_rung, 1e-9).solve();
+    CHECK(answer.met);
+    const auto& omega = answer.find("angular_velocity")->values;
+    CHECK(*std::max_element(omega.begin(), omega.end()) == 0);
+  }
 }
 
 TEST_CASE("the attitude behind the stop is known as far as the rate at which it goes on", "[deceleration]") {

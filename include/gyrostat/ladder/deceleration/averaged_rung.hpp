@@ -96,7 +96,9 @@ struct SecondOrderPolhode {
   }
   SlowError<double> second_order() const noexcept { return run.error().second_order(); }
   double lag(double local) noexcept {
-    return 2 * (10 * phase_error + (local + doubt) * std::abs(run.motion().state().phase));
+    constexpr double quarter =
+        2;  // a quarter period is pi/2 rad of the amplitude, and some more where the motion lingers
+    return quarter * (honesty::mean_steps * phase_error + (local + doubt) * std::abs(run.motion().state().phase));
   }
   ode::Counts counts() const noexcept { return run.motion().counts(); }
   void warn(Track& track) const { warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck()); }
@@ -206,4 +208,5 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
 
 #ifndef GYROSTAT_COMPILED
 #include "gyrostat/ladder/deceleration/averaged_rung_definition.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #endif

@@ -78,7 +78,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
 
   const SlowError<double> in_span = mean.second_order(), oscillating = mean.first_order();
   const double norm = problem.momentum.norm(), energy = problem.energy(problem.momentum);
-  const double local = 10 * tolerance, lag = mean.lag(local);
+  const double local = honesty::mean_steps * tolerance, lag = mean.lag(local);
   // of a body that the rotors hold nearly alone the energy is a difference of numbers of the size of what they hold
   const double own_energy =
       2 * local * energy + problem.energy_error(problem.momentum) + 3 * epsilon<double> * problem.rotor_energy_scale();
@@ -108,7 +108,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
     const Errc failure = hand_over(track, scene, now->momentum, mean.time(), mean.second_order(), monitor);
     if (failure != Errc::ok)
       return gyrostat::refused<Track>(failure, "the full equations could not take over near rest");
-    track.stop_error += 100 * tolerance;
+    track.stop_error += honesty::mean_stop * tolerance;
     stops = true;
   }
   track.counts += mean.counts();
@@ -121,4 +121,5 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
 
 #ifndef GYROSTAT_COMPILED
 #include "gyrostat/ladder/deceleration/averaging_definition.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #endif

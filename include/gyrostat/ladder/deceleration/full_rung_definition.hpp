@@ -80,9 +80,10 @@ GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, s
   track.counts = answer->counts;
   track.stop_time = answer->stop_time;
   track.stop_error = answer->stop_error;
-  // so near to the stop that it may be behind it
+  // so near to the stop that it may be behind it; a body at rest is
   for (const double t : times)
-    if (std::abs(t - track.stop_time) <= track.stop_error * track.stop_time) track.error[column::modulus_squared] = 1;
+    if (track.stop_time > 0 && std::abs(t - track.stop_time) <= track.stop_error * track.stop_time)
+      track.error[column::modulus_squared] = 1;
   return track;
 }
 

@@ -220,7 +220,10 @@ class SecondOrderOrbit {
 
   SlowError<double> first_order() const noexcept { return error_.first_order(); }
   SlowError<double> second_order() const noexcept { return error_.second_order_error(); }
-  double lag(double local) noexcept { return 6 * (10 * phase_error_ + local * std::abs(motion_.sample().phase)); }
+  double lag(double local) noexcept {
+    return 2 * pi<double> *
+           (honesty::mean_steps * phase_error_ + local * std::abs(motion_.sample().phase));  // of turns
+  }
   ode::Counts counts() const noexcept { return motion_.counts(); }
   void warn(Track&) const noexcept {}
 
@@ -346,4 +349,5 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
 
 #ifndef GYROSTAT_COMPILED
 #include "gyrostat/ladder/deceleration/orbit_rung_definition.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #endif

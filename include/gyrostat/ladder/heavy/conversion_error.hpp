@@ -6,6 +6,7 @@
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/heavy/motion.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/models/heavy/exact.hpp"
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/models/heavy/symmetric_top.hpp"
@@ -51,7 +52,7 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
     for (int i = 0; i <= looks; ++i) apart.add(exact.at(end * i / looks), other.at(end * i / looks));
   }
   const auto& off = apart.difference();
-  constexpr double margin = 4;
+  constexpr double margin = honesty::neighbours_margin;
   worst += {margin * off[column::attitude], margin * off[column::down], margin * off[column::angular_velocity]};
   if (const auto* pendulum = exact.pendulum()) worst += pendulum->error(end, conversion);
   if (converted && exact.which() == ExactCase::lagrange) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "gyrostat/ladder/heavy/exact_periodicity.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 
 namespace gyrostat::heavy {
 
@@ -91,7 +92,7 @@ GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Scene& scene) {
   if (!scene.converts_start() || (std::isnan(known.period) && std::isnan(known.precession))) return known;
   const Exact<double> exact(problem, scene.start());
   const int plane = exact.pendulum() ? exact.pendulum()->axis() : -1;
-  constexpr double margin = 4;
+  constexpr double margin = honesty::neighbours_margin;
   for (const int which : {0, 1}) {
     const Problem<double> body = scene.converts_body() ? off_body(problem, which) : problem;
     const auto off = periodicity_from(body, off_start(scene.start(), which, plane));

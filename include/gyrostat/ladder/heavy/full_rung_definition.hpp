@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gyrostat/ladder/heavy/full_rung.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 
 namespace gyrostat::heavy {
 
@@ -62,8 +63,7 @@ GYROSTAT_COMPILED_ONCE Track periodic_full(const Scene& scene, Monitor* monitor)
   const auto found = periodic_orbit<double>(scene.problem(), spin, cosine);
   if (!found) return refused<Track>(found.error(), no_orbit(found.error(), scene));
   PeriodicOrbit<double> orbit = *found;
-  // of two neighbours both may lie near by chance
-  constexpr double margin = 4;
+  constexpr double margin = honesty::neighbours_margin;
   orbit.error = {margin * orbit.error.start, margin * orbit.error.period, margin * orbit.error.trace};
   const PeriodicMotion<double> motion(scene.problem(), orbit, scene.question().times);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gyrostat/ladder/heavy/series_2_rung.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 
 namespace gyrostat::heavy {
 
@@ -23,7 +24,7 @@ inline MotionError<double> nutating_error(const Scene& scene, const Nutating<dou
     if (!other) return {open, open, pi<double>};
     for (int i = 0; i <= looks; ++i) apart.add(motion.at(end * i / looks), other->at(end * i / looks));
   }
-  constexpr double margin = 4;
+  constexpr double margin = honesty::neighbours_margin;
   const auto& off = apart.difference();
   error.angular_velocity += margin * off[column::angular_velocity];
   error.down += margin * off[column::down];

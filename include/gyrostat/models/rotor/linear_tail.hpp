@@ -345,7 +345,7 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
   const Scalar rate_rounding = 2 * ulps *
                                (std::abs(gyrostat_.no_load_rate()) + fast + std::abs(start_.axial_momentum) / lambda +
                                 (l + std::abs(start_.axial_momentum)) / gyrostat_.free_principal()[0]);
-  constexpr Scalar safety = 2;
+  constexpr Scalar safety = 2;  // of what the series leaves out; chosen, docs/errors.md has what was measured with it
   const Scalar tilt_all = safety * most.tilt + aim + modal + data;
   error.momentum = l * tilt_all;
   error.rotor_rate = safety * most.rate + linear_.unit * modal + rate_rounding;

@@ -231,8 +231,9 @@ def plot_sphere(sphere: Sphere, steady: Sequence[Mapping[str, Any]], path: Path,
         handles.append(Line2D([], [], color=TYPES["saddle"][1], linewidth=1.6, label="level of a saddle"))
     handles.append(Line2D([], [], marker="*", color="#0072B2", markeredgecolor="white", linestyle="none", markersize=13, label="rotor axis; rings: angle of e to L"))
     handles.append(Line2D([], [], marker="+", color="black", linestyle="none", markersize=8, label="principal axes, I₁ < I₂ < I₃"))
+    handles.append(Line2D([], [], color=matplotlib.colormaps[PATHS](0.35), linewidth=1.6, label="path of the momentum"))
     handles.append(Line2D([], [], marker="s", color="white", markeredgecolor="black", linestyle="none", markersize=8, label="start"))
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8)
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=8, columnspacing=1.5)
     figure.suptitle(textwrap.fill(title, 185), fontsize=9)
     return figure
 

@@ -42,7 +42,7 @@ def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
 def remarks(answer: "Answer") -> list[str]:
     """For the title."""
     made = [f"greatest tilt {_degrees(answer.scalars['tilt_max'])}"]
-    if answer.scalars["pointing_error"] < TUMBLING:
+    if answer.scalars["pointing_error"] < TUMBLING and not answer.scalars["tilt_max"] > TUMBLING:
         made.append(f"mean pointing error {_degrees(answer.scalars['pointing_error'])}")
     if answer.scalars["nutation_frequency_squared"] <= 0:
         made.append("unstable spin")
