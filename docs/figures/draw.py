@@ -550,8 +550,35 @@ def heavy():
 
 # ---- free ----
 
+def free_body(axes):
+    """A body with two wheels, its momentum, and the angles of its axis 3 about it."""
+    view = View(axes, 20, 17)
+    psi, theta, phi = np.radians([48.0, 42.0, -30.0])
+    R = turned(3, psi) @ turned(1, theta) @ turned(3, phi)
+    node, up = turned(3, psi) @ np.array([1.0, 0, 0]), np.array([0.0, 0, 1])
+    view.box([0.34, 0.46, 0.62], R)
+    for k, (size, shift) in enumerate([(1.25, (0.02, -0.1)), (1.2, (0.1, 0.0)), (1.5, (0.08, 0.05))]):
+        view.arrow(np.zeros(3), size * R[:, k], str(k + 1), shift=shift, color=BLUE, width=1.5)
+    for centre, axis, name, shift in (((0.0, -0.2, -0.36), (0.0, -1.0, 0.0), "$u_1$", (-0.06, 0.09)), ((0.05, 0.24, -0.1), (0.0, 0.8, -0.6), "$u_2$", (0.07, -0.07))):
+        at, along = R @ np.array(centre), R @ np.array(axis)
+        view.wheel(at, along, 0.17, 0.08)
+        view.arrow(at, at + 0.5 * along, name, shift=shift, color=GREEN, width=1.5)
+    view.arrow(np.zeros(3), 1.62 * up, r"$M=J\omega+l$", shift=(0.42, 0.0), color=RED, width=2.0)
+    view.arrow(np.zeros(3), 1.3 * (0.55 * up + 0.5 * R[:, 2]), r"$\omega$", shift=(0.02, 0.1), color=SKY)
+    still = np.array([1.0, 0, 0])
+    view.line(np.array([np.zeros(3), 1.35 * still]), color="#888888", linewidth=0.9, linestyle=(0, (4, 2)))
+    view.text(1.35 * still, "$X_1$", shift=(-0.1, -0.04), color="#777777", size=10)
+    view.line(np.array([np.zeros(3), 1.3 * node]), color=AMBER, linewidth=1.1, linestyle=(0, (4, 2)))
+    view.arc(np.zeros(3), still, node, 1.05, r"$\psi$", at=0.78, out=1.0, shift=(0.02, -0.13), color=AMBER)
+    view.arc(np.zeros(3), up, R[:, 2], 0.95, r"$\vartheta$", at=0.8, out=1.12, color=PINK)
+    axes.set_xlim(-1.6, 1.6)
+    axes.set_ylim(-1.1, 1.85)
+    axes.set_title("Body, wheels, and axis 3 about $M$")
+
+
 def free():
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(13.2, 4.7), layout="constrained", width_ratios=[1.0, 1.05, 1.15])
+    figure, ((body, left), (middle, right)) = plt.subplots(2, 2, figsize=(10.4, 9.2), layout="constrained", height_ratios=[1.0, 0.95])
+    free_body(body)
     a, l = 1 / np.array([1.4, 1.0, 0.7]), np.array([0.05, 0.10, 0.09])  # of a gyrostat, |M| = 1
 
     # permanent rotations omega = sigma M: n = a l/(a - sigma) of unit length
@@ -667,8 +694,36 @@ def top(spin, wheel, t):
     return path[:, [2, 5]]
 
 
+def general_body(axes):
+    """A body on its orbit, with a wheel, a thruster and what turns it."""
+    view = View(axes, 35, 20)
+    R = turned(3, np.radians(18.0)) @ turned(1, np.radians(-16.0))
+    view.box([0.42, 0.42, 0.3], R)
+    for k, (size, shift) in enumerate([(1.15, (0.0, -0.1)), (1.15, (0.09, 0.03)), (1.0, (-0.09, 0.05))]):
+        view.arrow(np.zeros(3), size * R[:, k], str(k + 1), shift=shift, color=BLUE, width=1.5)
+    at, along = R @ np.array([-0.1, 0.12, 0.02]), R @ np.array([0.0, 0.707, 0.707])
+    view.wheel(at, along, 0.2, 0.09)
+    view.arrow(at, at + 0.62 * along, r"$u_k,\ \Omega_k$", shift=(0.17, 0.05), color=GREEN, width=1.5)
+    nozzle, push = R @ np.array([0.42, -0.3, -0.2]), R @ np.array([-0.05, 0.05, 0.75])
+    view.arrow(np.zeros(3), nozzle, "$r$", at=0.6, shift=(-0.02, 0.09), color="black", width=1.2)
+    view.arrow(nozzle - 0.95 * push, nozzle, "thrust $f$", at=0.0, shift=(-0.02, -0.1), color=PINK, width=1.8)
+    view.arrow(np.zeros(3), np.array([-0.55, 0.35, 0.9]), "$B$", shift=(-0.03, 0.1), color=SKY)
+    planet = np.array([0.25, 1.0, -1.35])
+    for vector, name, shift in ((-1.15 * np.array([0.25, 1.0, -1.35]) / np.linalg.norm(planet), "outward (radial)", (-0.3, 0.1)),
+                                (1.25 * np.cross([0.97, -0.2426, 0.0], planet) / np.linalg.norm(planet), "along", (0.2, 0.06)),
+                                (1.25 * np.array([0.97, -0.2426, 0.0]), "normal", (-0.05, -0.1))):
+        view.line(np.array([np.zeros(3), vector]), color="#888888", linewidth=0.9, linestyle=(0, (4, 2)))
+        view.text(vector, name, shift=shift, color="#777777", size=9.5)
+    view.arrow(np.zeros(3), 0.62 * planet, "to the planet, $d$", at=1.0, shift=(0.28, -0.08), color=RED, width=1.8)
+    view.disc(np.zeros(3), view.eye, 0.035, face="white", zorder=7)
+    axes.set_xlim(-1.5, 1.6)
+    axes.set_ylim(-1.4, 1.45)
+    axes.set_title("Body, wheel and torques; axes of the orbit")
+
+
 def general():
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(13.2, 4.3), layout="constrained", width_ratios=[1.1, 0.9, 1.1])
+    figure, ((body, left), (middle, right)) = plt.subplots(2, 2, figsize=(10.4, 8.6), layout="constrained")
+    general_body(body)
     t = np.linspace(0, 8 * 3600, 14401)
     for eccentricity, colour, name in ((0.007783884106636759, BLUE, "its orbit, $e$ = 0.0078"), (0.0, RED, "a circle")):
         left.plot(t / 3600, boom(eccentricity, t), color=colour, linewidth=1.4, label=name)

@@ -272,7 +272,7 @@ def _solve(arguments: argparse.Namespace) -> int:
         answer = _with_data_error(scene, answer)
     match form:
         case "json":
-            _write(answer.to_json() + "\n", arguments.output)
+            _write(answer.to_json(), arguments.output, "\n")
         case "csv":
             _write(answer.to_csv(), arguments.output)
         case "netcdf":
@@ -311,11 +311,15 @@ def _view(arguments: argparse.Namespace) -> int:
     return MET if made.answer.met else NOT_MET
 
 
-def _write(text: str, file: Path | None) -> None:
+def _write(text: str, file: Path | None, end: str = "") -> None:
+    """Writes text that may be long, so that it is not copied."""
     if file is None:
         sys.stdout.write(text)
-    else:
-        file.write_text(text)
+        sys.stdout.write(end)
+        return
+    with file.open("w") as stream:
+        stream.write(text)
+        stream.write(end)
 
 
 def _recognise(arguments: argparse.Namespace) -> int:

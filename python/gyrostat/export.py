@@ -27,6 +27,11 @@ def _units(answer: Answer) -> dict[str, str]:
     return {name: UNITS.get(name, "") for name in ("t", *answer.columns, *answer.scalars)}
 
 
+def _meanings(answer: Answer) -> dict[str, str]:
+    facts = FACTS[answer.scene["kind"]].quantities
+    return {"t": MEANINGS["t"], **{name: facts[name].meaning for name in (*answer.columns, *answer.scalars)}}
+
+
 def _parts(answer: Answer) -> dict[str, Any]:
     """The object of JSON, with arrays in it."""
     data = answer.data_error
@@ -37,7 +42,7 @@ def _parts(answer: Answer) -> dict[str, Any]:
         "counts": answer.counts, "seconds": answer.seconds,
         "tried": [{"model": a.model, "error": a.error, "accepted": a.accepted, "why": a.why, "predicted": a.predicted, "spent": a.spent}
                   for a in answer.tried],
-        "units": _units(answer), "scale": answer.scale, "tolerances": answer.tolerances,
+        "units": _units(answer), "meanings": _meanings(answer), "scale": answer.scale, "tolerances": answer.tolerances,
         **({} if data is None else {"data_error": {name: {"effect": effect, "mostly": data.mostly[name]} for name, effect in data.effect.items()}}),
     }
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "bind.hpp"
 #include "convert.hpp"
@@ -23,28 +24,46 @@ char* put(char* at, double value) noexcept {
   return fixed && value == std::trunc(value) && !std::isinf(value) ? std::copy_n(".0", 2, at) : at;
 }
 
+/// A text of Python that is written in place, as one of some hundred megabytes is not to be copied.
+class Text {
+ public:
+  explicit Text(std::size_t room) : object_(PyUnicode_New(py::ssize_t(room), 127)) {
+    if (object_ == nullptr) throw py::error_already_set();
+  }
+  char* begin() const noexcept { return static_cast<char*>(PyUnicode_DATA(object_)); }
+  /// What was written up to `end`.
+  py::str until(const char* end) && {
+    if (PyUnicode_Resize(&object_, end - begin()) != 0) throw py::error_already_set();
+    return py::reinterpret_steal<py::str>(object_);
+  }
+
+ private:
+  PyObject* object_;
+};
+
 /// (n,) as an array, (n, width) as an array of arrays; null for what is not finite.
-std::string json_numbers(const Array& values) {
+py::str json_numbers(const Array& values) {
   const bool nested = values.ndim() == 2;
   if (values.ndim() != 1 && !nested) raise("DomainError", "values: the shape is neither (n,) nor (n, width)");
   const py::ssize_t rows = values.shape(0), width = nested ? values.shape(1) : 1;
   const double* value = values.data();
-  const py::gil_scoped_release free;
-  std::string text(std::size_t(rows) * (std::size_t(width) * (longest + 2) + 4) + 2, '\0');
-  char* at = text.data();
-  *at++ = '[';
-  for (py::ssize_t row = 0; row < rows; ++row) {
-    if (row > 0) at = std::copy_n(", ", 2, at);
-    if (nested) *at++ = '[';
-    for (py::ssize_t i = 0; i < width; ++i, ++value) {
-      if (i > 0) at = std::copy_n(", ", 2, at);
-      at = std::isfinite(*value) ? put(at, *value) : std::copy_n("null", 4, at);
+  Text text(std::size_t(rows) * (std::size_t(width) * (longest + 2) + 4) + 2);
+  char* at = text.begin();
+  {
+    const py::gil_scoped_release free;
+    *at++ = '[';
+    for (py::ssize_t row = 0; row < rows; ++row) {
+      if (row > 0) at = std::copy_n(", ", 2, at);
+      if (nested) *at++ = '[';
+      for (py::ssize_t i = 0; i < width; ++i, ++value) {
+        if (i > 0) at = std::copy_n(", ", 2, at);
+        at = std::isfinite(*value) ? put(at, *value) : std::copy_n("null", 4, at);
+      }
+      if (nested) *at++ = ']';
     }
-    if (nested) *at++ = ']';
+    *at++ = ']';
   }
-  *at++ = ']';
-  text.resize(std::size_t(at - text.data()));
-  return text;
+  return std::move(text).until(at);
 }
 
 /// A column of a table: rows of `width` numbers, or of one word of at most `length` bytes.
@@ -82,7 +101,7 @@ struct CsvColumn {
 };
 
 /// The rows of a table, without its head.
-std::string csv_rows(const py::typing::List<py::array>& given) {
+py::str csv_rows(const py::typing::List<py::array>& given) {
   std::vector<CsvColumn> columns;
   for (const py::handle column : given) columns.emplace_back(column.cast<py::array>());
   const py::ssize_t rows = columns.empty() ? 0 : columns[0].rows;
@@ -91,16 +110,17 @@ std::string csv_rows(const py::typing::List<py::array>& given) {
     if (column.rows != rows) raise("DomainError", "columns: they have different numbers of rows");
     row_length += column.row_length();
   }
-  const py::gil_scoped_release free;
-  std::string text(std::size_t(rows) * row_length, '\0');
-  char* at = text.data();
-  for (py::ssize_t row = 0; row < rows; ++row)
-    for (const CsvColumn& column : columns) {
-      at = column.put_row(at, row);
-      *at++ = &column == &columns.back() ? '\n' : ',';
-    }
-  text.resize(std::size_t(at - text.data()));
-  return text;
+  Text text(std::size_t(rows) * row_length);
+  char* at = text.begin();
+  {
+    const py::gil_scoped_release free;
+    for (py::ssize_t row = 0; row < rows; ++row)
+      for (const CsvColumn& column : columns) {
+        at = column.put_row(at, row);
+        *at++ = &column == &columns.back() ? '\n' : ',';
+      }
+  }
+  return std::move(text).until(at);
 }
 
 }  // namespace

@@ -181,13 +181,14 @@ def test_axes_may_come_in_any_order() -> None:
 def test_json_reads_back_to_the_same_numbers(full: Answer) -> None:
     read = json.loads(full.to_json())
     assert list(read) == ["scene", "model", "tolerance", "met", "error", "warnings", "t", "columns", "scalars", "scalar_error", "counts",
-                          "seconds", "tried", "units", "scale", "tolerances"]
+                          "seconds", "tried", "units", "meanings", "scale", "tolerances"]
     assert read["t"] == full.t.tolist()
     for name, values in full.columns.items():
         assert read["columns"][name] == values.tolist()
     assert gyrostat.solve(read["scene"]).columns["energy"].tolist() == read["columns"]["energy"]
     assert full.to_json() == json.dumps(full.to_dict())
-    assert set(read["units"]) == {"t", *full.columns, *full.scalars} and read["units"]["energy"] == "J"
+    assert set(read["units"]) == set(read["meanings"]) == {"t", *full.columns, *full.scalars}
+    assert read["units"]["energy"] == "J" and read["meanings"]["energy"] == "rotational energy of the carrier"
 
 
 def test_json_has_the_error_of_every_scalar() -> None:
