@@ -6,7 +6,6 @@ import io
 import json
 import math
 import struct
-import threading
 import time
 from pathlib import Path
 
@@ -16,7 +15,6 @@ import pytest
 from conftest import scene_names
 from gyrostat._core import csv_rows, json_numbers
 from gyrostat.answer import Answer
-from gyrostat.deceleration import Monitor
 from gyrostat.facts import UNITS
 from gyrostat.families import FAMILIES
 from gyrostat.rotation import angle_between
@@ -305,23 +303,3 @@ def test_what_a_rung_cannot_compute_is_refused() -> None:
 def test_over_the_tolerance_it_answers_with_met_false() -> None:
     answer = gyrostat.solve(BRAKE, model="averaged", tolerance=1e-12)
     assert not answer.met and answer.model == "averaged" and answer.greatest_error > 1e-12
-
-
-def test_a_monitor_cancels_long_work() -> None:
-    monitor = Monitor()
-    long = {**BRAKE, "torque": {"control": [5e-13, 8e-13, 1e-12], "drag": 0.0}, "solve": {"times": [5e6], "model": "full", "tolerance": 1e-3}}
-    caught: list[BaseException] = []
-
-    def work() -> None:
-        try:
-            gyrostat.solve(long, monitor=monitor)
-        except gyrostat.Cancelled as error:
-            caught.append(error)
-
-    thread = threading.Thread(target=work)
-    thread.start()
-    time.sleep(0.3)
-    assert thread.is_alive() and 0 <= monitor.progress < 1
-    monitor.cancel()
-    thread.join(20)
-    assert not thread.is_alive() and monitor.cancelled and len(caught) == 1

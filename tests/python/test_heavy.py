@@ -3,8 +3,6 @@
 
 import json
 import math
-import threading
-import time
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -13,7 +11,7 @@ import gyrostat
 import numpy as np
 import pytest
 from conftest import HEAVY, PERIODIC, drawn, of_kind
-from gyrostat import Answer, ConvergenceError, DomainError, Monitor, heavy, rotation
+from gyrostat import Answer, ConvergenceError, DomainError, heavy, rotation
 from gyrostat.cli import main
 from gyrostat.facts import UNITS
 from gyrostat.scenes import scene_from
@@ -224,25 +222,6 @@ def test_the_report(heavy_file: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert "no such integrator" in capsys.readouterr().err
     assert main(["solve", str(heavy_file), "--set", "model=exact"]) == 2
     assert "exact" in capsys.readouterr().err
-
-
-def test_a_monitor_cancels_long_work() -> None:
-    monitor = Monitor()
-    caught: list[BaseException] = []
-
-    def work() -> None:
-        try:
-            gyrostat.solve(SCENE, times=[1e5], model="full", tolerance=0.1, monitor=monitor)
-        except gyrostat.Cancelled as error:
-            caught.append(error)
-
-    thread = threading.Thread(target=work)
-    thread.start()
-    time.sleep(0.3)
-    assert thread.is_alive() and 0 <= monitor.progress < 1
-    monitor.cancel()
-    thread.join(20)
-    assert not thread.is_alive() and len(caught) == 1
 
 
 # ---- functions over arrays ----

@@ -3,8 +3,6 @@
 
 import json
 import math
-import threading
-import time
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -13,7 +11,7 @@ import gyrostat
 import numpy as np
 import pytest
 from conftest import ASSEMBLED, ROTOR, drawn, of_kind
-from gyrostat import Answer, DomainError, Monitor, rotation, rotor
+from gyrostat import Answer, DomainError, rotation, rotor
 from gyrostat.cli import main
 from gyrostat.facts import UNITS
 from gyrostat.scenes import load, scene_from
@@ -198,25 +196,6 @@ def test_the_report_says_what_is_certified(rotor_file: Path, capsys: pytest.Capt
     assert "rotor.axial_inertia" in capsys.readouterr().err
     assert main(["solve", str(rotor_file), "--set", "model=closed-form"]) == 2
     assert "closed-form" in capsys.readouterr().err
-
-
-def test_a_monitor_cancels_long_work() -> None:
-    monitor = Monitor()
-    caught: list[BaseException] = []
-
-    def work() -> None:
-        try:
-            gyrostat.solve(SCENE, times=[5e7], slope=1e-12, model="full", tolerance=0.1, monitor=monitor)
-        except gyrostat.Cancelled as error:
-            caught.append(error)
-
-    thread = threading.Thread(target=work)
-    thread.start()
-    time.sleep(0.3)
-    assert thread.is_alive() and 0 <= monitor.progress < 1
-    monitor.cancel()
-    thread.join(20)
-    assert not thread.is_alive() and len(caught) == 1
 
 
 # ---- functions ----

@@ -3,8 +3,6 @@
 
 import json
 import math
-import threading
-import time
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -13,7 +11,7 @@ import gyrostat
 import numpy as np
 import pytest
 from conftest import SPINNING, drawn, of_kind
-from gyrostat import Answer, DomainError, Monitor, rotation, spinning
+from gyrostat import Answer, DomainError, rotation, spinning
 from gyrostat.cli import main
 from gyrostat.facts import UNITS
 from gyrostat.families.spinning.figures import _finish_map
@@ -195,25 +193,6 @@ def test_the_report(spinning_file: Path, capsys: pytest.CaptureFixture[str]) -> 
     assert "pointing_error" in out and "1/s2" in out and "angular_momentum_inertial" in out
     assert main(["solve", str(spinning_file), "--set", "integrator=radau"]) == 2
     assert "no such integrator" in capsys.readouterr().err
-
-
-def test_a_monitor_cancels_long_work() -> None:
-    monitor = Monitor()
-    caught: list[BaseException] = []
-
-    def work() -> None:
-        try:
-            gyrostat.solve(SCENE, times=[1e7], model="full", tolerance=0.1, monitor=monitor)
-        except gyrostat.Cancelled as error:
-            caught.append(error)
-
-    thread = threading.Thread(target=work)
-    thread.start()
-    time.sleep(0.3)
-    assert thread.is_alive() and 0 <= monitor.progress < 1
-    monitor.cancel()
-    thread.join(20)
-    assert not thread.is_alive() and len(caught) == 1
 
 
 # ---- functions over arrays ----
