@@ -10,7 +10,7 @@
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// Version of these headers, as "major.minor.patch".
-inline constexpr const char* header_version = "0.1.0";
+inline constexpr const char* header_version = "0.2.0";
 
 /// Version of the compiled library that is linked (gyrostat::gyrostat); equal to header_version in a sound build.
 const char* library_version() noexcept;
