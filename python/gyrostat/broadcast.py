@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Broadcasting over leading axes, for compiled functions that work on rows."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -30,14 +31,15 @@ def rows(named: Sequence[tuple[str, ArrayLike, tuple[int, ...]]]) -> tuple[tuple
         if len(core) > array.ndim or (core and array.shape[-len(core):] != core):
             raise DomainError(f"{name}: the shape is {array.shape}, not (..., {', '.join(map(str, core))})")
         arrays.append((name, array, core))
+    leads = {array.shape[: array.ndim - len(core)] for _, array, core in arrays}
     try:
-        lead = np.broadcast_shapes(*(array.shape[: array.ndim - len(core)] for _, array, core in arrays))
+        lead = leads.pop() if len(leads) == 1 else np.broadcast_shapes(*leads)
     except ValueError as error:
         shapes = ", ".join(f"{name} {array.shape}" for name, array, _ in arrays)
         raise DomainError(f"the leading axes do not broadcast: {shapes}") from error
-    count = int(np.prod(lead))
-    made = [np.ascontiguousarray(np.broadcast_to(array, (*lead, *core))).reshape(count, *core) for _, array, core in arrays]
-    return lead, made
+    count = math.prod(lead)
+    spread = (array if array.shape == (*lead, *core) else np.broadcast_to(array, (*lead, *core)) for _, array, core in arrays)
+    return lead, [np.ascontiguousarray(array).reshape(count, *core) for array, (_, _, core) in zip(spread, arrays, strict=True)]
 
 
 def shaped(values: Any, lead: tuple[int, ...], *core: int) -> Any:

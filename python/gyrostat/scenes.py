@@ -121,23 +121,26 @@ class Scene:
         return _check(data, _Source(self._label(), path=self.path), overrides or {})
 
     def _changed(self, overrides: Mapping[str, Any]) -> "Scene | None":
-        """The scene with keys changed that stand alone, where all is well; None: the whole is to be checked."""
+        """The scene with keys changed that stand alone, or were chosen among alternatives before, where all is well; None: the whole is to be checked."""
         family = FAMILIES[self.kind]
-        tables, written = dict(self.tables), dict(self.written)
+        tables, written, of_motion = dict(self.tables), dict(self.written), False
         for key, value in overrides.items():
-            found = family.single_keys.get(key)
+            found = family.single_keys.get(key) or family.chosen_keys.get(key)
             if found is None:
                 return None
             table, field = found
+            if key not in family.single_keys and (value is None or self.tables[table][field.name] is UNSET):
+                return None
             try:
                 read = _read(field, value := _plain(value))
             except Refused:
                 return None
             tables[table] = {**tables[table], field.name: read}
+            of_motion |= table != "solve" or field.name == "euler"
             written.pop(f"{table}.{field.name}", None)
             if _worded(field, value):
                 written[f"{table}.{field.name}"] = _told(field, value, read)
-        if any(family.mistakes({"": self.top, **tables})):
+        if of_motion and any(family.mistakes({"": self.top, **tables})):
             return None
         made = Scene(self.name, self.kind, self.source, tables, self.path, self.top, written, self.before)
         if tables["solve"] is self.tables["solve"]:

@@ -517,3 +517,23 @@ def test_random_overrides(data: str, key: str, value: object, dotted: str) -> No
         scene_from(tomllib.loads(data), **change)
     except SceneError as error:
         assert str(error)
+
+
+@pytest.mark.parametrize("name", ["tiangong-1", "toy-top", "t-handle", "iss-torque-pulse", "intelsat-v-flat-spin"])
+def test_a_key_that_was_chosen_among_alternatives_changes_as_in_a_scene_checked_anew(name: str) -> None:
+    scene = load(name)
+    rates = [0.01, -0.02, 0.3]
+    anew = scene.to_dict()
+    anew["initial"] = {**anew["initial"], "angular_velocity": rates}
+    made, wanted = scene.replace(angular_velocity=rates), scene.with_data(anew)
+    assert (made.tables, made.top, made.written) == (wanted.tables, wanted.top, wanted.written)
+    with pytest.raises(SceneError, match="angular_velocity"):
+        scene.replace(angular_velocity=[1.0, math.nan, 0.0])
+
+
+def test_another_of_the_alternatives_takes_the_place_of_the_one_before() -> None:
+    scene = load("t-handle")
+    other = scene.replace(angular_momentum=[1e-7, 8e-4, 0.0])
+    assert other.tables["initial"]["angular_velocity"] is None
+    assert other.replace(angular_momentum=[2e-7, 8e-4, 0.0]).tables["initial"]["angular_momentum"] == (2e-7, 8e-4, 0.0)
+    assert other.replace(angular_velocity=[0.1, 9.0, 0.2]).tables["initial"]["angular_momentum"] is None

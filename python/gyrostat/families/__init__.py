@@ -25,7 +25,7 @@ import numpy as np
 from gyrostat.answer import Answer
 from gyrostat.facts import FACTS, Facts
 from gyrostat.fields import TIMES, Choices, Field, Found, Table, Values, head_keys, needed, solve_keys
-from gyrostat.orientation import EXAMPLE, with_alternatives, with_forms
+from gyrostat.orientation import EXAMPLE, FORMS, with_alternatives, with_forms
 
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
@@ -80,12 +80,24 @@ class Family:
     def single_keys(self) -> dict[str, tuple[str, Field]]:
         """Table and field by full key, and by name where one table has it, of what stands alone: no alternative to anything, and not
         what is asked, which hangs on the rest."""
-        tied = {key for choices in self.alternatives for choice in choices for key in choice}
+        return self._fields(lambda table, field: f"{table}.{field.name}" not in self._tied and field.name not in ("ask", "attitude"))
+
+    @cached_property
+    def chosen_keys(self) -> dict[str, tuple[str, Field]]:
+        """The same of what is an alternative to something, and may change where it was the one that was given; times and the forms of an attitude may not."""
+        forms = {"attitude", *(field.name for field in FORMS)}
+        return self._fields(lambda table, field: f"{table}.{field.name}" in self._tied and table != "solve" and field.name not in forms)
+
+    @cached_property
+    def _tied(self) -> set[str]:
+        return {key for choices in self.alternatives for choice in choices for key in choice}
+
+    def _fields(self, wanted: Callable[[str, Field], bool]) -> dict[str, tuple[str, Field]]:
         fields = [(table, field) for table, own in self.keys.items() if table for field in own]
-        names = [field.name for table, own in self.keys.items() for field in own]
-        alone = [(table, field) for table, field in fields if f"{table}.{field.name}" not in tied and field.name not in ("ask", "attitude")]
-        return {**{f"{table}.{field.name}": (table, field) for table, field in alone},
-                **{field.name: (table, field) for table, field in alone if names.count(field.name) == 1}}
+        names = [field.name for _, own in self.keys.items() for field in own]
+        found = [(table, field) for table, field in fields if wanted(table, field)]
+        return {**{f"{table}.{field.name}": (table, field) for table, field in found},
+                **{field.name: (table, field) for table, field in found if names.count(field.name) == 1}}
 
     @cached_property
     def mistakes(self) -> Callable[[Values], Found]:

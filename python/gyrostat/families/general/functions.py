@@ -210,8 +210,9 @@ def _field(given: Record | None) -> dict[str, Any]:
     kind = next((name for name in ("uniform", "rotating", "dipole") if given.get(name) is not None), "none")
     part: Record = given[kind] if kind in ("rotating", "dipole") else {}
     flux = given["uniform"] if kind == "uniform" else part.get("vector", _ZERO)
-    return {"gravity": _or(given.get("gravity"), 0.0), "down": _unit(_or(given.get("down"), (0.0, 0.0, -1.0)), "field.down"), "magnetic": kind,
-            "flux_density": stacked(flux), "axis": _unit(part.get("axis", (0.0, 0.0, 1.0)), "field.axis"),
+    down, axis = given.get("down"), part.get("axis")
+    return {"gravity": _or(given.get("gravity"), 0.0), "down": np.array((0.0, 0.0, -1.0)) if down is None else _unit(down, "field.down"), "magnetic": kind,
+            "flux_density": stacked(flux), "axis": np.array((0.0, 0.0, 1.0)) if axis is None else _unit(axis, "field.axis"),
             "rate": part.get("rate", 0.0), "strength": part.get("strength", 0.0), "radius": part.get("radius", 1.0)}
 
 
@@ -252,6 +253,8 @@ def law_of(torque: Any) -> Any:
 
 def _own(torque: Law | None, breakpoints: ArrayLike, start_time: float) -> dict[str, Any]:
     """The arguments of the compiled ladder that are of a torque of the caller's own."""
+    if torque is None and isinstance(breakpoints, tuple) and not breakpoints:
+        return {}
     times = np.atleast_1d(np.asarray(breakpoints, dtype=float))
     if times.ndim != 1 or not np.all(np.isfinite(times)):
         raise DomainError("breakpoints: give finite times [s]")

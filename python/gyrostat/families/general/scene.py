@@ -331,8 +331,9 @@ def _whole(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]]) -> _Who
     all_centre = (_times(mass, centre) + sum(_times(m, r) for m, r in apart)) / np.asarray(all_mass)[..., None] if apart else centre
     reference = np.zeros(3) if body["fixed"] else all_centre
     given = np.zeros(3) if about == "origin" else centre
-    differs = np.any(given != reference, -1)[..., None, None]
-    inertia = np.where(differs, inertia - _moved(mass, centre - given) + _moved(mass, centre - reference), inertia)
+    differs = np.any(given != reference, -1)
+    if np.any(differs):
+        inertia = np.where(differs[..., None, None], inertia - _moved(mass, centre - given) + _moved(mass, centre - reference), inertia)
     for wheel, (m, r) in zip(wheels, apart, strict=False):
         across = wheel["equatorial_inertia"]
         inertia = inertia + _times(across, np.eye(3)) + _times(wheel["axial_inertia"] - across, _square(unit(stacked(wheel["axis"])))) + _moved(m, r - reference)
@@ -444,7 +445,6 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     axes, normal_rate = (np.eye(3), np.zeros(3)) if orbit is None else orbit_start(orbit, time)
     if start["relative_to"] == "orbit":
         attitude = _from_orbit(axes, attitude)
-    back = np.swapaxes(_rotation(attitude), -1, -2)
     given, momentum = start["angular_velocity"], start["angular_momentum"]
     kept = scene.top["from"]["keep"] if isinstance(scene.top["from"], Mapping) else "rates"
     if end and body["fixed"] and not end.fixed and given is UNSET and momentum is UNSET:
@@ -458,10 +458,10 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
         rates, error["angular_velocity"] = end.angular_velocity, end.error["angular_velocity"]
     elif not isinstance(given, Mapping):
         rates = stacked(given)
-    elif given["inertial"] is not UNSET:
-        rates = turned(back, stacked(given["inertial"]))
     else:
-        rates = stacked(given["relative_to_orbit"]) + turned(back, normal_rate)
+        back = np.swapaxes(_rotation(attitude), -1, -2)
+        rates = (turned(back, stacked(given["inertial"])) if given["inertial"] is not UNSET
+                 else stacked(given["relative_to_orbit"]) + turned(back, normal_rate))
     velocity, position = np.zeros(3), np.zeros(3)
     if end:
         error |= {name: end.error.get(name, 0.0) for name in ("rotor_rate", "rotor_angle") if wheels}
