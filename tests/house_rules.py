@@ -212,6 +212,12 @@ def check_version(root):
             found[name] = match[1]
     if len(set(found.values())) > 1:
         yield "the versions differ: " + ", ".join(f"{name} {version}" for name, version in found.items())
+    ours = found.get("CMakeLists.txt", "") + "."
+    for path in our_files(root):
+        if path.suffix in (".md", ".txt"):
+            for asked in re.findall(r"find_package\(gyrostat ([\d.]+)", path.read_text(encoding="utf-8")):
+                if not ours.startswith(asked + "."):
+                    yield f"{path.relative_to(root).as_posix()}: asks for version {asked}, and this is {ours[:-1]}"
 
 
 LONGEST = 80  # lines of a function, from its name to its closing brace
@@ -455,6 +461,7 @@ BREACHES = [
     ("no licence line", replace("src/cvode.cpp", SPDX, "none"), "src/cvode.cpp: the first line is not the licence line"),
     ("no licence line in a script", replace("dev", SPDX, ""), "dev: the first line is not the licence line"),
     ("version", replace("CITATION.cff", "1.2.3", "1.2.4"), "the versions differ"),
+    ("a version before this one is asked for", append("tests/CMakeLists.txt", "find_package(gyrostat 1.1 REQUIRED)\n"), "asks for version 1.1"),
     ("a long function", append("include/gyrostat/core/real.hpp", "namespace x {\ntemplate <class T>\nint f(T) {\n" + "  // more\n" * 79 + "}\n}\n"),
      "core/real.hpp:f (line 6) has 81 lines"),
     ("a long member", append("src/cvode.cpp", "struct S {\n  S() : a{1}, b(a) {" + "\n" * 80 + "  }\n  int a, b;\n};\n"), "src/cvode.cpp:S (line 4) has 81"),
