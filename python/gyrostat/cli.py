@@ -105,7 +105,7 @@ def _add_solve(command: Command, takes_scene: Callable[[argparse.ArgumentParser]
     solve.add_argument("--ask", metavar="WHAT", help="columns and scalars wanted, with tolerances of their own where they need one: "
                        "attitude=0.1deg,stop_time; or all")
     solve.add_argument("--data-error", action="store_true", help="say what one rounding of each number of the scene changes, too: the part of the errors "
-                       "that no method can take away (the scene is solved once more for each number)")
+                       "that no method can take away (the scene is solved twice more for each number)")
     solve.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of to the standard output, in the form of the ending")
     solve.add_argument("--plot", type=Path, metavar="FILE", help="write a figure (PNG, SVG or PDF by its ending)")
 

@@ -38,7 +38,7 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = Non
     monitor : reports the progress of long work and can cancel it from another thread.
     torque : a torque of your own on a scene of the kind general, and breakpoints : the times at which it jumps or has kinks [s], as `gyrostat.general.solve`
         takes them; the answer's `scene` does not hold them. Of other kinds, and where it is data, the key of that name in the scene file.
-    data_error : tell what one rounding of each number of the scene changes, too; the scene is solved once more for each number that it has.
+    data_error : tell what one rounding of each number of the scene changes, too; the scene is solved twice more for each number that it has.
     overrides : keys of the scene file to change, such as tolerance=1e-9, model="full", or ask=["stop_time"], ask={"attitude": "0.1 deg"}:
         the columns and scalars that are wanted (docs/scenes.md, "What is asked"). Numbers may be text with a unit: no_load_rate="3000 rpm".
 

@@ -24,6 +24,8 @@ __all__ = ["data_error"]
 # solution itself, and is in proportion unless the motion is chaotic.
 MOVED: Final = 2.0**-47
 ROUNDING: Final = 2.0**-53
+# Steps of loose tolerances may differ between neighbours; in those of this one or a tighter one what is left of that is below rounding's effect.
+STEADY: Final = 1e-10
 # A change beyond this is not in proportion.
 PROPORTIONAL: Final = 0.1
 # More numbers than these, as a table over time may have, are moved several at once, up and down by turns.
@@ -35,7 +37,7 @@ Move = dict[tuple[Any, ...], float]  # from the place of a number to its new val
 
 
 def data_error(scene: Scene, answer: Answer, *, monitor: Monitor | None = None, told: Callable[[float], None] | None = None) -> DataError:
-    """Solve a scene again by the rung of its answer, with one number after the other moved, and add up what changes.
+    """Solve a scene again by the rung of its answer, with one number after the other moved to both sides, and add up what changes.
 
     Numbers that are equal under one key, as the moments of a symmetric body or both halves of a tensor, move together, and zero stays; times do not move.
     A body that is symmetric in turned axes has a tensor whose rounding parts its moments, and that is told.
@@ -43,20 +45,29 @@ def data_error(scene: Scene, answer: Answer, *, monitor: Monitor | None = None, 
     monitor : can cancel the work. told : is called with the share that is done, from 0 to 1.
     """
     family = FAMILIES[scene.kind]
-    data = dataclasses.replace(scene, written={}).to_dict()
-    data["solve"] = {**data["solve"], "model": answer.model}
-
-    def solved(move: Move) -> Answer:
-        return family.solve(**family.arguments(scene.with_data(_put(data, move))), monitor=monitor)
-
     quantities = _judged(answer, family.facts.columns, family.facts.scalars)
+    data = dataclasses.replace(scene, written={}).to_dict()
+    solving = {**data["solve"], "model": answer.model, "ask": list(quantities)}
+
+    def solved(move: Move) -> Answer | None:
+        with contextlib.suppress(SceneError, DomainError, ConvergenceError):
+            return family.solve(**family.arguments(scene.with_data(_put(data, move))), monitor=monitor)
+        return None
+
     effect = dict.fromkeys(quantities, 0.0)
     greatest, mostly = dict(effect), dict.fromkeys(effect, "")
-    base, moves = solved({}), list(_moves(data))
+    base = None
+    for tolerance in (min(STEADY, scene.tolerance), scene.tolerance):
+        data["solve"] = {**solving, "tolerance": tolerance}
+        base = solved({})
+        if base is not None:
+            break
+    moves = list(_moves(data))
     for done, (key, move) in enumerate(moves):
-        other = _first(solved, move, {place: 2 * _at(data, place) - value for place, value in move.items()})
+        sides = [solved(move), solved({place: 2 * _at(data, place) - value for place, value in move.items()})]
+        others = [other for other in sides if other is not None]
         for name, quantity in quantities.items():
-            off = math.inf if other is None else _distance(quantity, base, other)
+            off = math.inf if base is None or not others else max(_distance(quantity, base, other) for other in others)
             change = off * (ROUNDING / MOVED) if off < PROPORTIONAL else math.inf
             effect[name] += change
             if change > greatest[name]:
@@ -64,14 +75,6 @@ def data_error(scene: Scene, answer: Answer, *, monitor: Monitor | None = None, 
         if told is not None:
             told((done + 1) / len(moves))
     return DataError(effect, mostly)
-
-
-def _first(solved: Callable[[Move], Answer], *moves: Move) -> Answer | None:
-    """The answer to the first of these that has one."""
-    for move in moves:
-        with contextlib.suppress(SceneError, DomainError, ConvergenceError):
-            return solved(move)
-    return None
 
 
 def _numbers(value: Any, place: tuple[Any, ...]) -> Iterator[tuple[tuple[Any, ...], float]]:

@@ -17,7 +17,7 @@ from gyrostat.families.general.clock import PI, orbit_since, phase
 from gyrostat.families.general.scene import arguments
 from gyrostat.rotation import angle_between, matrix_from_quaternion
 from gyrostat.scenes import load, scene_from
-from gyrostat.toml_text import toml_value
+from gyrostat.toml_text import toml_text, toml_value
 
 WAVE = {"mean": 1.0, "amplitude": 0.3, "rate": 0.4, "phase": 0.2}
 # Everything that knows the time.
@@ -342,3 +342,21 @@ def test_the_function_tells_its_scene_with_clock_and_error() -> None:
     again = gyrostat.solve(direct.scene)
     for name in answer:
         assert np.array_equal(again[name], answer[name]) and again.error[name] == answer.error[name]
+
+
+def test_a_wheel_that_keeps_its_absolute_rate_carries_what_the_bodys_rate_was_off(tmp_path: Path) -> None:
+    wheel = {"name": "w", "axis": [0.0, 0.0, 1.0], "axial_inertia": 0.01}
+    first = {"name": "held", "kind": "general", "solve": {"times": [10.0]}, "body": {"inertia": [1.0, 1.2, 1.5]},
+             "wheel": [{**wheel, "type": "held", "rate": 1.0}], "initial": {"angular_velocity": [0.0, 0.0, 1.0], "error": {"angular_velocity": 1e-3}}}
+
+    def caught(rate: float) -> gyrostat.Answer:
+        start = {"angular_velocity": [0.0, 0.0, rate], **({"error": {"angular_velocity": 1e-3}} if rate == 1 else {})}
+        file = tmp_path / f"first{rate}.toml"
+        file.write_text(toml_text({**first, "initial": start}))
+        return gyrostat.solve({"name": "free", "kind": "general", "from": {"file": str(file), "keep": "momentum"}, "solve": {"times": [11.0, 20.0], "ask": ["rotor_rate"]},
+                               "body": {"inertia": [100.0, 120.0, 150.0]}, "wheel": [{**wheel, "type": "free"}]})
+
+    stated, true = caught(1.0), caught(1.001)
+    off = np.max(np.abs(stated["rotor_rate"] - true["rotor_rate"])) / np.max(np.abs(true["rotor_rate"]))
+    assert off == pytest.approx(4.97e-4, rel=1e-2)
+    assert off <= stated.error["rotor_rate"] < 3 * off

@@ -173,3 +173,28 @@ TEST_CASE("orbit rung: near rest k2 is not known, also where only the error of |
   CHECK(distance(answer, truth, "modulus_squared") > 1e-8);
   CHECK(answer.find("modulus_squared")->error > distance(answer, truth, "modulus_squared"));
 }
+
+TEST_CASE("orbit rung: just before the stop it errs no more than it states", "[deceleration]") {
+  // equal torques and no drag: |M| = |M0| - b t, exactly
+  Case c(1e-4, 1);
+  const double b = 2e-4;
+  c.data.rotor_momentum = V(.2, .15, .3);
+  c.data.control = V(b, b, b);
+  c.data.drag = 0;
+  for (const double scale : {1., .3, 2.7}) {
+    c.data.momentum = scale * V(.9, .7, .8);
+    const double norm = c.data.momentum.norm(), stop = norm / b;
+    for (const double before : {1e-4, 1e-6, 1e-8, 3e-9, 1e-9, 1e-10, 1e-12, 1e-14})
+      for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+        c.data.times = {0, stop / 2, stop * (1 - before)};
+        c.data.asked = {{column::angular_momentum_norm, false, tolerance}};
+        Refusal refusal;
+        const Answer answer = c.with(rung::averaged, tolerance).solve(refusal);
+        if (refusal.code != Errc::ok) continue;
+        CAPTURE(scale, before, tolerance);
+        const Column& column = *answer.find("angular_momentum_norm");
+        CHECK(std::abs(column.values.back() - (norm - b * c.data.times.back())) <= column.error * norm);
+        CHECK(column.error < 1e-3);
+      }
+  }
+}

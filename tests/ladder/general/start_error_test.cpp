@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/general/start_error.hpp"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -91,6 +92,47 @@ TEST_CASE("a start beside an unstable rotation states an error that has grown") 
   const Answer answer = solved(posed(problem, question_at({0, 54}, 1e-8)).known_within(error));
   CHECK(answer.find("angular_velocity")->error > 3e-4);
   CHECK(answer.find("angular_velocity")->error < 1e-1);
+}
+
+TEST_CASE("a start that may be nearer to an unstable rotation, or farther, states what either side makes") {
+  Problem<double> problem;
+  problem.inertia = Vec3<double>(1, 2, 3).asDiagonal();
+  for (const auto& [off, share, time] :
+       {std::array{1e-2, 0.99, 20.}, {1e-3, 0.99, 20.}, {1e-4, 0.99, 30.}, {1e-2, 0.7, 40.}}) {
+    problem.angular_velocity = {off, 1, 0};
+    StartError error;
+    error.angular_velocity = share * off;
+    const Question question = all_at({time}, 0.3);
+    const Answer answer = solved(posed(problem, question).known_within(error));
+    for (const double side : {-1., 1.}) {
+      Problem<double> other = problem;
+      other.angular_velocity[0] += side * error.angular_velocity;
+      const Answer truth = true_answer(posed(other, question));
+      for (const char* name : {"angular_velocity", "attitude"}) {
+        CAPTURE(off, share, side, name);
+        const Column& column = *answer.find(name);
+        CHECK(column_error(column, *truth.find(name)) <= column.error);
+      }
+    }
+  }
+}
+
+TEST_CASE("wheels that may all turn faster add up") {
+  Problem<double> problem;
+  problem.inertia = Vec3<double>(1, 1.2, 1.5).asDiagonal();
+  problem.angular_velocity = {0, 0, 0.1};
+  for (int i = 0; i < 4; ++i)
+    problem.wheels.push_back({WheelType::free, Vec3<double>(0, 0, 1), 0.01, 100, 0, 0, 0, 0, 0, {}});
+  StartError error;
+  error.rotor_rate = 0.1;
+  const Question question = all_at({10}, 1e-2);
+  const Answer answer = solved(posed(problem, question).known_within(error));
+  for (auto& wheel : problem.wheels) wheel.rate += error.rotor_rate;
+  const Answer truth = true_answer(posed(problem, question));
+  const Column& column = *answer.find("angular_momentum");
+  const double off = column_error(column, *truth.find("angular_momentum"));
+  CHECK(off <= column.error * (1 + 1e-9));
+  CHECK(column.error < 1.1 * off);
 }
 
 TEST_CASE("errors of path and wheel angles go along") {

@@ -8,6 +8,7 @@
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/deceleration/averaged_motion.hpp"
 #include "gyrostat/ladder/deceleration/averaging.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/models/deceleration/averaging_error.hpp"
 
 /// Rungs `averaged` and `averaged-2` without rotor momentum.
@@ -208,5 +209,4 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
 
 #ifndef GYROSTAT_COMPILED
 #include "gyrostat/ladder/deceleration/averaged_rung_definition.hpp"
-#include "gyrostat/ladder/honesty.hpp"
 #endif

@@ -7,6 +7,7 @@
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/deceleration/hand_over.hpp"
 #include "gyrostat/ladder/deceleration/orbit_kind.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 
 /// What the averaged rungs share, over polhodes (averaged_rung.hpp) and over orbits with rotor momentum (orbit_rung.hpp).
 namespace gyrostat::deceleration {
@@ -121,5 +122,4 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
 
 #ifndef GYROSTAT_COMPILED
 #include "gyrostat/ladder/deceleration/averaging_definition.hpp"
-#include "gyrostat/ladder/honesty.hpp"
 #endif

@@ -501,6 +501,11 @@ class FullMotion {
       if (answer.status == ode::Status::reached) answer.status = go_to_rest(run, t_max, options_);
     };
     if (options_.find_stop && runs.answer.stops()) go(runs.answer, infinity<Scalar>);
+    if (answer.status == ode::Status::step_underflow && !times_.empty()) {  // the asked times are answered all the same
+      answer.status = ode::Status::reached;
+      answer.stop_error = infinity<Scalar>;
+      return;
+    }
     if (answer.status != ode::Status::reached) return;
     const Scalar stop = answer.stop_time = runs.answer.stop_time();
     if (!(stop > 0 && stop < infinity<Scalar>)) return;

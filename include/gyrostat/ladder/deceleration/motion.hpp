@@ -96,7 +96,7 @@ inline constexpr WarningKind warning_kinds[] = {
      "time"},
     {"stop-withheld",
      "the stop lies behind the times asked for and its time misses the tolerance; ask for times up to it"},
-    {"stop-unknown", "after the asked times the mean equations do not reach the stop"},
+    {"stop-unknown", "after the asked times the equations do not reach the stop"},
 };
 
 /// Columns that turn with the body: what is asked for without them needs no phase.

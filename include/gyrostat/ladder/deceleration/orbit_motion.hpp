@@ -160,6 +160,12 @@ class OrbitMotion {
   }
   bool floored() const noexcept { return floored_; }
 
+  /// The motion stands, between the end of its last step and the stop: what the control opposes sinks from opposed() to nothing there.
+  bool stands() const noexcept {
+    const Scalar end = solver_.state()[Equations::time];
+    return at_rest_ && controlled() && now_ > end && now_ < end + remainder();
+  }
+
   Scalar time() const noexcept { return now_; }
 
   Sample sample() noexcept {

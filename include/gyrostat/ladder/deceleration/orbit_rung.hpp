@@ -9,6 +9,7 @@
 #include "gyrostat/ladder/deceleration/averaging.hpp"
 #include "gyrostat/ladder/deceleration/orbit_kind.hpp"
 #include "gyrostat/ladder/deceleration/orbit_motion.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/models/deceleration/capture.hpp"
 
 /// Rungs `averaged` and `averaged-2` with rotor momentum, or with actuators off the principal axes.
@@ -254,12 +255,14 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   OrbitMotion<FirstOrderRates<Elliptic>, double> motion(problem, orbit->level(), orbit->component(), 0,
                                                         mean_tolerance(scene), infinity<double>);
   visit(orbit->level(), orbit->component(), 0);
+  double standing = 0;  // of |U|, where the motion is not followed into the stop
   for (const double t : scene.question().times) {
     if (motion.advance(t, 0, visit) != ode::Status::reached)
       return detail::refused(detail::not_followed(detail::impasse(problem, motion).code));
     const auto now = motion.sample();
     if (!std::isfinite(now.level.R)) return detail::refused(detail::not_followed(Errc::separatrix));
     track.states.push_back(detail::slow_state(problem, now.level, now.component, now.at_rest));
+    if (motion.stands()) standing = motion.opposed();
   }
   const double end = scene.question().times.back();
   auto in_span = error.first_order();
@@ -271,8 +274,9 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   // the energy is a difference of numbers of the size of what the rotors hold
   double energy = problem.rotor_energy_scale() / 2;
   for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
-  const double norm = local * problem.momentum.norm() + problem.momentum_error();
-  energy = local * energy + problem.energy_error(problem.momentum);
+  const double norm = local * problem.momentum.norm() + problem.momentum_error() + standing;
+  energy = local * energy + problem.energy_error(problem.momentum) +
+           standing * problem.inverse_inertia.maxCoeff() * (problem.rotor_momentum.norm() + standing);
   double k2 = local;
   for (const std::size_t i : {std::size_t(0), track.states.size() - 1})
     k2 = std::max(k2, detail::k2_beside(problem, track.states[i], norm, energy));
@@ -349,5 +353,4 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
 
 #ifndef GYROSTAT_COMPILED
 #include "gyrostat/ladder/deceleration/orbit_rung_definition.hpp"
-#include "gyrostat/ladder/honesty.hpp"
 #endif

@@ -67,8 +67,9 @@ struct Carried {
   double stop_time = 0;
 };
 
-/// Displaces the start in each way by itself, and gathers what comes of it, in squares over the directions of one error: to first order no
-/// error of the start within its bounds makes more.
+/// Displaces the start in each way by itself, to both sides, and gathers what comes of it, in squares over the directions of one error and as a sum
+/// over wheels, each of which may be off by as much: to first order no error of the start within its bounds makes more. Where the two sides
+/// differ the greater counts, and their difference once more.
 /// solve(scene) answers from another start: an optional Answer. A displacement that is larger than the error makes it stand out of
 /// the errors of the answers themselves; where it grows so far that nothing is proportional any more the error itself is taken.
 template <class Solve>
@@ -82,10 +83,10 @@ Carried carried_error(const Scene& scene, const Answer& answer, const Solve& sol
   squares.fill(made);
   for (const detail::Displacement& way : detail::displacements(scene)) {
     const double error = way.of(start);
-    std::vector<double> apart(answer.columns.size());
+    std::vector<double> apart(answer.columns.size()), least(apart.size(), infinity<double>);
     double stop_apart = 0;
     // false: nothing to be read from it
-    const auto displaced = [&](double by) {
+    const auto to_one_side = [&](double by) {
       const std::optional<Answer> other = solve(way.applied(scene.problem(), by));
       if (!other) return false;
       bool proportional = true;
@@ -93,21 +94,32 @@ Carried carried_error(const Scene& scene, const Answer& answer, const Solve& sol
         const Column& column = answer.columns[i];
         const Column* beside = other->find(column.name());
         if (!beside || beside->values.size() != column.values.size()) return false;
-        apart[i] = detail::apart(column, *beside);
+        const double off = detail::apart(column, *beside);
         proportional =
-            proportional && !(over(apart[i], column.kind->measure == Measure::angle ? 1.0 : size_of(column)) > small);
-        apart[i] *= error / by;
+            proportional && !(over(off, column.kind->measure == Measure::angle ? 1.0 : size_of(column)) > small);
+        apart[i] = std::max(apart[i], off * error / std::abs(by));
+        least[i] = std::min(least[i], off * error / std::abs(by));
       }
       if (const Quantity* its = other->quantity("stop_time"); stop && its)
-        stop_apart = std::abs(stop->values[0] - its->values[0]) * error / by;
-      return proportional || by == error;
+        stop_apart = std::max(stop_apart, std::abs(stop->values[0] - its->values[0]) * error / std::abs(by));
+      return proportional || std::abs(by) == error;
+    };
+    const auto displaced = [&](double by) {
+      std::fill(apart.begin(), apart.end(), 0), std::fill(least.begin(), least.end(), infinity<double>), stop_apart = 0;
+      if (!to_one_side(by) || !to_one_side(-by)) return false;
+      for (std::size_t i = 0; i < apart.size(); ++i) apart[i] += apart[i] - least[i];
+      return true;
     };
     const double by = std::max(error, way.least(scene));
     if (!displaced(by) && !(by > error && displaced(error)))
       std::fill(apart.begin(), apart.end(), infinity<double>), stop_apart = infinity<double>;
     Carried& sum = squares[std::size_t(way.what)];
-    for (std::size_t i = 0; i < apart.size(); ++i) sum.columns[i] += apart[i] * apart[i];
-    sum.stop_time += stop_apart * stop_apart;
+    const auto add = [&](double& square, double more) {
+      const double whole = std::sqrt(square) + more;
+      square = way.what == detail::Displacement::wheel ? whole * whole : square + more * more;
+    };
+    for (std::size_t i = 0; i < apart.size(); ++i) add(sum.columns[i], apart[i]);
+    add(sum.stop_time, stop_apart);
   }
   for (const Carried& sum : squares) {
     for (std::size_t i = 0; i < sum.columns.size(); ++i) made.columns[i] += std::sqrt(sum.columns[i]);

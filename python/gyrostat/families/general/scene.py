@@ -465,6 +465,8 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     velocity, position = np.zeros(3), np.zeros(3)
     if end:
         error |= {name: end.error.get(name, 0.0) for name in ("rotor_rate", "rotor_angle") if wheels}
+        if kept == "momentum" and given is UNSET and momentum is UNSET and any(wheels[place]["type"] != "held" for place in taken):  # they keep their absolute rates
+            error["rotor_rate"] += end.error["angular_velocity"] + error["angular_velocity"]
         # the clock is told to a rounding
         clock = EPS * time * float(np.linalg.norm(rates))
         error["attitude"] = (end.error["attitude"] if start["attitude"] is UNSET else 0.0) + clock
