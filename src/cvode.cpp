@@ -23,6 +23,7 @@ namespace gyrostat::ode {
 struct Cvode::Body {
   CvodeSystem system;
   std::uint64_t step_cap = 0;
+  double longest = 0;
   SUNContext context = nullptr;
   N_Vector y = nullptr;
   SUNMatrix matrix = nullptr;
@@ -111,6 +112,7 @@ Result<Cvode> Cvode::create(const CvodeSystem& system, double t, std::span<const
   Body& body = *made.body_;
   body.system = system;
   body.step_cap = options.step_cap;
+  body.longest = options.longest;
   body.time = t;
   if (!create_context(&body.context)) return Errc::unavailable;
   body.y = N_VNew_Serial(system.dimension, body.context);
@@ -124,7 +126,8 @@ Result<Cvode> Cvode::create(const CvodeSystem& system, double t, std::span<const
   bool ok = CVodeInit(body.memory, Call::rhs, t, body.y) == CV_SUCCESS &&
             CVodeSStolerances(body.memory, options.relative, options.absolute) == CV_SUCCESS &&
             CVodeSetUserData(body.memory, &body) == CV_SUCCESS && CVodeSetMaxNumSteps(body.memory, -1) == CV_SUCCESS &&
-            CVodeSetMaxHnilWarns(body.memory, -1) == CV_SUCCESS;
+            CVodeSetMaxHnilWarns(body.memory, -1) == CV_SUCCESS &&
+            CVodeSetMaxStep(body.memory, std::isfinite(options.longest) ? options.longest : 0.0) == CV_SUCCESS;
   if (ok && system.event != nullptr) ok = CVodeRootInit(body.memory, 1, Call::event) == CV_SUCCESS;
   if (ok && system.jacobian == nullptr && options.method == CvodeMethod::adams) {
     body.nonlinear = SUNNonlinSol_FixedPoint(body.y, 0, body.context);
@@ -148,7 +151,8 @@ Status Cvode::step(double t_max) noexcept {
     const double limit = body.system.step_limit(body.time, N_VGetArrayPointer(body.y), body.system.user);
     if (!(limit > 0)) return limit == 0 ? Status::step_underflow : Status::not_finite;
     // 0 stands for no limit
-    CVodeSetMaxStep(body.memory, std::isfinite(limit) ? limit : 0.0);
+    const double longest = std::min(limit, body.longest);
+    CVodeSetMaxStep(body.memory, std::isfinite(longest) ? longest : 0.0);
   }
   if (std::isfinite(t_max)) {
     CVodeSetStopTime(body.memory, t_max);

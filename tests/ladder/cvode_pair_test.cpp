@@ -50,7 +50,7 @@ TEST_CASE("one run gives the states at the asked times, the start as it stands",
 TEST_CASE("two runs at tolerances ten apart give an error that holds", "[ladder]") {
   const std::vector<double> times{0, 1, 2, 5};
   for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
-    const auto pair = cvode_pair(PairRow{}, tolerance, 1e-3, [&](double t) { return run(t, times); });
+    const auto pair = cvode_pair(PairRow{}, tolerance, 1e-3, [&](double t, double) { return run(t, times); });
     REQUIRE(pair.failure == Errc::ok);
     CHECK(pair.tolerance == Approx(std::max(1e-3 * tolerance, honesty::cvode_tightest)));
     const double stated = pair.margin * pair.both.difference()[0] + pair.tolerance;
@@ -61,12 +61,12 @@ TEST_CASE("two runs at tolerances ten apart give an error that holds", "[ladder]
     CHECK(error <= stated);
     CHECK(stated < tolerance);
   }
-  CHECK(cvode_pair(PairRow{}, 1e-12, 1e-3, [&](double t) { return run(t, times); }).margin ==
+  CHECK(cvode_pair(PairRow{}, 1e-12, 1e-3, [&](double t, double) { return run(t, times); }).margin ==
         honesty::cvode_margin_of_rounding);
 }
 
 TEST_CASE("a run that fails leaves no states", "[ladder]") {
-  const auto pair = cvode_pair(PairRow{}, 1e-6, 1, [](double) {
+  const auto pair = cvode_pair(PairRow{}, 1e-6, 1, [](double, double) {
     CvodeRun<double> none;
     none.failure = Errc::step_limit;
     return none;

@@ -57,16 +57,16 @@ struct CvodePair {
   Comparison<Writer> both;
 };
 
-/// run(tolerance) gives a CvodeRun. `share`: of the answer's tolerance, what the tighter run is asked for: what one step errs adds up over
+/// run(tolerance, longest), longest the share of the span that a step may take, gives a CvodeRun. `share`: of the answer's tolerance, what the tighter run is asked for: what one step errs adds up over
 /// many.
 template <class Writer, class Run>
 CvodePair<Writer> cvode_pair(const Writer& writer, double tolerance, double share, const Run& run) {
   tolerance = std::max(honesty::cvode_tightest, tolerance * share);
   const double margin = tolerance > honesty::cvode_tightest ? honesty::cvode_margin : honesty::cvode_margin_of_rounding;
   CvodePair<Writer> pair{{}, Errc::ok, {}, tolerance, margin, Comparison<Writer>(writer)};
-  auto tight = run(tolerance);
+  auto tight = run(tolerance, honesty::cvode_longest[0]);
   if (tight.failure != Errc::ok) return pair.failure = tight.failure, pair;
-  const auto looser = run(honesty::cvode_looser * tolerance);
+  const auto looser = run(honesty::cvode_looser * tolerance, honesty::cvode_longest[1]);
   if (looser.failure != Errc::ok) return pair.failure = looser.failure, pair;
   for (std::size_t i = 0; i < tight.states.size(); ++i) pair.both.add(tight.states[i], looser.states[i]);
   pair.states = std::move(tight.states);

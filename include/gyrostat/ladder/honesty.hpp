@@ -103,6 +103,8 @@ inline constexpr double mean_steps = 10;
 /// To the error of the time at which they stop so many local errors are added. Chosen.
 inline constexpr double mean_stop = 100;
 
+/// The longest steps of the two runs of CVODE, over the span: where a few steps would do both may err alike.
+inline constexpr double cvode_longest[2] = {1.0 / 64, 1.0 / 45};
 /// CVODE is compared with itself at a tolerance so many times looser.
 inline constexpr double cvode_looser = 10;
 /// The stated error of CVODE over the distance of its two runs.

@@ -6,6 +6,7 @@
 #include <span>
 #include <type_traits>
 
+#include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ode/status.hpp"
 
@@ -36,6 +37,7 @@ struct CvodeOptions {
   double relative = 1e-9;
   double absolute = 1e-12;  ///< in the units of the state, the same for all components
   std::uint64_t step_cap = 10'000'000;
+  double longest = infinity<double>;  ///< no step is longer
 };
 
 class Cvode {

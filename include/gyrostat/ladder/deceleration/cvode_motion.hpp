@@ -58,7 +58,7 @@ struct CvodeProblem {
 };
 
 /// To the stop and behind it.
-inline StoppedRun cvode_run(const Scene& scene, double tolerance, Monitor* monitor) {
+inline StoppedRun cvode_run(const Scene& scene, double tolerance, double longest, Monitor* monitor) {
   const auto& problem = scene.problem();
   const auto& times = scene.question().times;
   const bool turning = scene.question().wants_attitude;
@@ -87,8 +87,9 @@ inline StoppedRun cvode_run(const Scene& scene, double tolerance, Monitor* monit
   bool at_rest = user.opposed(y.data()) <= 0 && hold.holds;
   double stop = 0;
   if (!at_rest) {
-    auto solver =
-        ode::Cvode::create(system, 0, std::span(y).first(n), {ode::CvodeMethod::adams, tolerance, tolerance * scale});
+    auto solver = ode::Cvode::create(
+        system, 0, std::span(y).first(n),
+        {ode::CvodeMethod::adams, tolerance, tolerance * scale, ode::CvodeOptions{}.step_cap, longest * times.back()});
     if (!solver) return run.failure = solver.error(), run;
     auto cvode = std::move(solver).value();
     const auto keep_at = [&](double t) {
@@ -125,11 +126,12 @@ inline StoppedRun cvode_run(const Scene& scene, double tolerance, Monitor* monit
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   double stops[2];  // of the tighter run and of the looser one
   double* stop = stops;
-  const auto pair = cvode_pair(Row<double>{scene.problem()}, scene.goal().tightest, 1e-5, [&](double tolerance) {
-    auto run = detail::cvode_run(scene, tolerance, monitor);
-    *stop++ = run.stop_time;
-    return run;
-  });
+  const auto pair =
+      cvode_pair(Row<double>{scene.problem()}, scene.goal().tightest, 1e-5, [&](double tolerance, double longest) {
+        auto run = detail::cvode_run(scene, tolerance, longest, monitor);
+        *stop++ = run.stop_time;
+        return run;
+      });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
   const auto error =

@@ -137,8 +137,10 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto sizes = detail::number_sizes(of);
   const auto method = of.is_stiff() ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams;
   double lost = nan<double>;
-  auto pair = cvode_pair(row, scene.goal().tightest, 1e-5, [&](double tolerance) {
-    return detail::run_pieces(scene, CvodeEquations(scene, sizes), {method, tolerance, tolerance}, monitor, lost);
+  auto pair = cvode_pair(row, scene.goal().tightest, 1e-5, [&](double tolerance, double longest) {
+    return detail::run_pieces(scene, CvodeEquations(scene, sizes),
+                              {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * span}, monitor,
+                              lost);
   });
   if (lost == lost) {
     if (law.lost_at != nullptr) *law.lost_at = lost;

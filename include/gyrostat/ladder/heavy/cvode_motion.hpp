@@ -81,9 +81,10 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto& start = scene.start();
   const bool turning = scene.question().wants_attitude;
   const Row<double> row = row_of(scene);
-  auto pair = cvode_pair(row, scene.goal().tightest, 1e-6, [&](double tolerance) {
+  auto pair = cvode_pair(row, scene.goal().tightest, 1e-6, [&](double tolerance, double longest) {
     CvodeEquations equations(scene.problem(), start, turning);
-    return run_cvode(equations, start, times, {ode::CvodeMethod::adams, tolerance, tolerance, step_budget}, monitor);
+    return run_cvode(equations, start, times,
+                     {ode::CvodeMethod::adams, tolerance, tolerance, step_budget, longest * times.back()}, monitor);
   });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 

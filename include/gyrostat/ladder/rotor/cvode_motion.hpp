@@ -86,9 +86,10 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   const auto& times = scene.question().times;
   const auto& body = scene.gyrostat();
   const auto& start = scene.start();
-  auto pair = cvode_pair(Row<double>(body, start), scene.goal().tightest, 1e-5, [&](double tolerance) {
+  auto pair = cvode_pair(Row<double>(body, start), scene.goal().tightest, 1e-5, [&](double tolerance, double longest) {
     CvodeEquations equations(body, start, times.back());
-    return run_cvode(equations, start, times, {method, tolerance, tolerance}, monitor);
+    return run_cvode(equations, start, times,
+                     {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * times.back()}, monitor);
   });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 

@@ -84,7 +84,8 @@ class CvodeEquations {
 };
 
 /// One CVODE run. least_cosine: a lower bound of cos(psi) on the way.
-inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, double& least_cosine, Monitor* monitor) {
+inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, double longest, double& least_cosine,
+                                         Monitor* monitor) {
   const auto& times = scene.question().times;
   const double end = times.back();
   CvodeEquations equations(scene.problem(), end);
@@ -103,7 +104,8 @@ inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, d
   system.dimension = int(CvodeEquations::width);
   system.rhs = &CvodeEquations::rate;
   system.user = &equations;
-  auto made = ode::Cvode::create(system, 0, start, {ode::CvodeMethod::adams, tolerance, tolerance});
+  auto made = ode::Cvode::create(
+      system, 0, start, {ode::CvodeMethod::adams, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * end});
   if (!made) return run.failure = made.error(), run;
   auto cvode = std::move(made).value();
   CvodeEquations::Scaled y{};
@@ -135,8 +137,8 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const Row<double> row{scales(scene.problem(), scene.question().times.back())};
   double least_cosine[2] = {1, 1};
   int runs = 0;
-  auto pair = cvode_pair(row, scene.goal().tightest, 1e-6, [&](double tolerance) {
-    return detail::cvode_run(scene, tolerance, least_cosine[runs++], monitor);
+  auto pair = cvode_pair(row, scene.goal().tightest, 1e-6, [&](double tolerance, double longest) {
+    return detail::cvode_run(scene, tolerance, longest, least_cosine[runs++], monitor);
   });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
