@@ -134,8 +134,9 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
       });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
-  const auto error =
-      pair.both.relative(pair.margin * pair.both.difference()) + ColumnErrors<double>::all(pair.tolerance);
+  // what each step may err by itself adds up, and is shared by the runs where the longest step rules both
+  const double of_steps = (1 + double(pair.counts.steps) / 2) * pair.tolerance;
+  const auto error = pair.both.relative(pair.margin * pair.both.difference()) + ColumnErrors<double>::all(of_steps);
   Track track = detail::track_of(scene.problem(), pair.states, scene.question().wants_attitude, error);
   track.counts = pair.counts;
   if (std::isfinite(stops[0])) {
