@@ -97,8 +97,9 @@ Carried carried_error(const Scene& scene, const Answer& answer, const Solve& sol
         const double off = detail::apart(column, *beside);
         proportional =
             proportional && !(over(off, column.kind->measure == Measure::angle ? 1.0 : size_of(column)) > small);
-        apart[i] = std::max(apart[i], off * error / std::abs(by));
-        least[i] = std::min(least[i], off * error / std::abs(by));
+        const double made_of_it = std::isfinite(off) ? off * error / std::abs(by) : infinity<double>;
+        apart[i] = std::max(apart[i], made_of_it);
+        least[i] = std::min(least[i], made_of_it);
       }
       if (const Quantity* its = other->quantity("stop_time"); stop && its)
         stop_apart = std::max(stop_apart, std::abs(stop->values[0] - its->values[0]) * error / std::abs(by));
@@ -107,7 +108,8 @@ Carried carried_error(const Scene& scene, const Answer& answer, const Solve& sol
     const auto displaced = [&](double by) {
       std::fill(apart.begin(), apart.end(), 0), std::fill(least.begin(), least.end(), infinity<double>), stop_apart = 0;
       if (!to_one_side(by) || !to_one_side(-by)) return false;
-      for (std::size_t i = 0; i < apart.size(); ++i) apart[i] += apart[i] - least[i];
+      for (std::size_t i = 0; i < apart.size(); ++i)
+        if (apart[i] < infinity<double>) apart[i] += apart[i] - least[i];
       return true;
     };
     const double by = std::max(error, way.least(scene));
