@@ -138,7 +138,9 @@ def _distance(quantity: Quantity, first: Answer, second: Answer) -> float:
         scale = 0.0
     if b is None or np.shape(a) != np.shape(b):
         return math.inf
-    known = np.isfinite(_size(a)) & np.isfinite(_size(b))
+    known = np.isfinite(_size(a))
+    if np.any(known != np.isfinite(_size(b))):  # one has a value where the other has none
+        return math.inf
     if not np.any(known):
         return 0.0
     if quantity.measure == "angle":

@@ -102,6 +102,23 @@ TEST_CASE("CVODE and Taylor series agree") {
   }
 }
 
+TEST_CASE("CVODE takes no step that is longer than it may be") {
+  auto problem = scene();
+  for (const double longest : {0.5, 0.05}) {
+    auto made = Cvode::create(system_of(problem), 0, {problem.momentum.data(), 3},
+                              {CvodeMethod::adams, 1e-4, 1e-4, 1000000, longest});
+    REQUIRE(made);
+    Cvode solver = std::move(made).value();
+    double last = 0;
+    while (solver.time() < 10) {
+      REQUIRE(solver.step(10) == Status::reached);
+      CHECK(solver.time() - last <= longest * (1 + 1e-12));
+      last = solver.time();
+    }
+    CHECK(double(solver.counts().steps) >= 10 / longest);
+  }
+}
+
 TEST_CASE("CVODE stops at an event and reads its last step") {
   auto problem = scene();
   CvodeSystem system = system_of(problem);

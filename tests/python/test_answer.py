@@ -303,3 +303,18 @@ def test_what_a_rung_cannot_compute_is_refused() -> None:
 def test_over_the_tolerance_it_answers_with_met_false() -> None:
     answer = gyrostat.solve(BRAKE, model="averaged", tolerance=1e-12)
     assert not answer.met and answer.model == "averaged" and answer.greatest_error > 1e-12
+
+
+@pytest.mark.skipif(gyrostat.build_info()["cvode"] is None, reason="CVODE is not built in")
+def test_two_runs_of_cvode_that_take_few_steps_do_not_err_alike() -> None:
+    braked = {
+        "name": "braked", "kind": "deceleration", "body": {"inertia": [33474878.579353657, 22791510.39975971, 17838443.942656543]},
+        "torque": {"control": [3279030.006157543] * 3, "drag": 0.0, "law": "carrier"},
+        "initial": {"angular_velocity": [0.15289573771679002, -5.899442072838917e-10, -8.725488402725852e-17],
+                    "attitude": [-0.20172224072202782, 0.7445030553193919, -0.32333404093591006, 0.5481591340023716]},
+        "solve": {"times": [0.0, 0.78, 1.4, 1.545, 1.5593, 1.56087, 1.56243, 2.34], "ask": ["attitude"], "model": "full"}}
+    truth = gyrostat.solve(braked, tolerance=1e-11)
+    for tolerance in (1e-2, 7.7e-4, 1e-4, 1e-6):
+        answer = gyrostat.solve(braked, tolerance=tolerance, integrator="cvode")
+        off = np.max(angle_between(answer["attitude"], truth["attitude"]))
+        assert off <= answer.error["attitude"], tolerance

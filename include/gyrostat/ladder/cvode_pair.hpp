@@ -57,8 +57,8 @@ struct CvodePair {
   Comparison<Writer> both;
 };
 
-/// run(tolerance, longest), longest the share of the span that a step may take, gives a CvodeRun. `share`: of the answer's tolerance, what the tighter run is asked for: what one step errs adds up over
-/// many.
+/// run(tolerance, longest) gives a CvodeRun; longest: the share of the span that a step may take. `share`: of the answer's tolerance, what the
+/// tighter run is asked for: what one step errs adds up over many.
 template <class Writer, class Run>
 CvodePair<Writer> cvode_pair(const Writer& writer, double tolerance, double share, const Run& run) {
   tolerance = std::max(honesty::cvode_tightest, tolerance * share);

@@ -45,7 +45,8 @@ inline constexpr ColumnKind column_kinds[] = {
      "the energy at t = 0; where the carrier is at rest there, l . J^-1 l/2"},
     {"modulus_squared", 1, "1", Frame::none, Measure::absolute, "squared modulus of the orbit, k2"},
     {"regime", 1, "", Frame::none, Measure::none,
-     "A: about the axis of largest inertia, C: about the smallest, 1: one component, point, separatrix, rest", "", Kind::word, regime_words},
+     "A: about the axis of largest inertia, C: about the smallest, 1: one component, point, separatrix, rest", "",
+     Kind::word, regime_words},
     {"attitude", 4, "1", Frame::body_to_inertial, Measure::angle, "attitude, body to inertial, [x, y, z, w]"},
 };
 
