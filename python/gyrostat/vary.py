@@ -12,7 +12,7 @@ import re
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -183,29 +183,49 @@ def _deviation(spread: Spread, read: Reader, of: float) -> float:
     return made
 
 
+# Quantiles, as functions of this module: a study goes to other processes.
+
+def _normal_at(mean: float, deviation: float, share: Floats) -> Floats:
+    return mean + deviation * _standard_normal(share)
+
+
+def _lognormal_at(median: float, deviation: float, share: Floats) -> Floats:
+    made: Floats = median * np.exp(deviation * _standard_normal(share))
+    return made
+
+
+def _uniform_at(low: float, high: float, share: Floats) -> Floats:
+    return low + (high - low) * share
+
+
+def _choice_at(values: Floats, share: Floats) -> Floats:
+    made: Floats = values[(share * len(values)).astype(int)]
+    return made
+
+
 def _normal(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
     mean = read(spread.arguments[0])
     deviation = _deviation(spread, read, mean)
-    return lambda share: mean + deviation * _standard_normal(share)
+    return partial(_normal_at, mean, deviation)
 
 
 def _lognormal(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
     median, deviation = read(spread.arguments[0]), _deviation(spread, lambda value: number_in(value, "1"), 1.0)
     if not median > 0:
         raise DomainError(f"{spread}: give a median > 0")
-    return lambda share: median * np.exp(deviation * _standard_normal(share))
+    return partial(_lognormal_at, median, deviation)
 
 
 def _uniform(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
     low, high = map(read, spread.arguments)
     if not low < high:
         raise DomainError(f"{spread}: give the smaller end first")
-    return lambda share: low + (high - low) * share
+    return partial(_uniform_at, low, high)
 
 
 def _choice(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
     values = np.array([read(value) for value in spread.arguments])
-    return lambda share: values[(share * len(values)).astype(int)]
+    return partial(_choice_at, values)
 
 
 _QUANTILES: Final = {"normal": _normal, "lognormal": _lognormal, "uniform": _uniform, "choice": _choice}

@@ -104,3 +104,22 @@ TEST_CASE("neighbours lie in two directions, far apart along every axis", "[ladd
   CHECK(std::abs(a.dot(b)) < 0.1);
   CHECK((a - b).cwiseAbs().minCoeff() > 0.75);
 }
+
+TEST_CASE("a start counts more where it is next to an unstable steady rotation") {
+  const Vec3<double> moments{1, 2, 3};
+  const auto of = [](const Vec3<double>& inertia, const Vec3<double>& rate, const Vec3<double>& rotor) {
+    return condition_of_start<double>(inertia.cwiseProduct(rate) + rotor, rate, inertia.cwiseInverse().asDiagonal());
+  };
+  const Vec3<double> none{0, 0, 0};
+  const double more = honesty::unstable_condition;
+  CHECK(of(moments, {1e-5, 1, -1e-9}, none) == more);
+  CHECK(of(moments, {0, -1, 1e-4}, none) == more);
+  CHECK(of(moments, {0.1, 1, 0}, none) == 1);
+  CHECK(of(moments, {1, 1e-7, 0}, none) == 1);
+  CHECK(of(moments, {0, 1e-7, 1}, none) == 1);
+  CHECK(of(moments, none, none) == 1);
+  // a rotor holds the middle axis, and makes that of the greatest moment unstable from l = -(J3 - J2) w on
+  CHECK(of(moments, {1e-5, 1, 0}, {0, 1.5, 0}) == 1);
+  CHECK(of(moments, {0, 1e-5, 1}, {0, 0, -0.9}) == 1);
+  CHECK(of(moments, {0, 1e-5, 1}, {0, 0, -1.1}) == more);
+}

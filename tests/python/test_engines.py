@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sweeps whose chunks are done elsewhere, by Dask or by other processes, and functions over arrays that Dask calls."""
 
+import multiprocessing
 import os
 import signal
 import threading
 import warnings
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -134,3 +135,11 @@ def test_the_order_in_which_chunks_end_changes_nothing(tmp_path: Path) -> None:
         assert alike(despins(engine=pool, chunk=5, threads=2, shard="2/3"), despins(shard="2/3"))
     with pytest.raises(DomainError, match="threads = 0"):
         despins(engine=OtherWay(), threads=0)
+
+
+def test_every_kind_of_random_number_goes_to_other_processes() -> None:
+    study = {**STUDY, "torque.control[1]": "choice(0.05, 0.06)", "torque.control[2]": "uniform(0.03, 0.05)", "initial.angular_velocity[0]": "normal(0.012, 1e-3)"}
+    alone = sweep("tiangong-1", study, **ASKED)
+    # forks of a process with threads may hang
+    with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as pool:
+        assert alike(sweep("tiangong-1", study, **ASKED, engine=pool, chunk=40), alone)

@@ -34,6 +34,25 @@ constexpr Scalar data_change(Scalar step_tolerance, Scalar condition = 1) noexce
          Scalar(rounding_rules(step_tolerance, condition) ? honesty::side_by_side.data_change : honesty::alone_change);
 }
 
+/// How many times over a change of the start counts, by total momentum and rate, and by the inverse of the tensor, of one and the same frame: next to
+/// an unstable steady rotation the motion may stay long, and how far off it began sets when it leaves. 1 elsewhere.
+template <Real Scalar>
+Scalar condition_of_start(const Vec3<Scalar>& momentum, const Vec3<Scalar>& rate,
+                          const Mat3<Scalar>& inverse) noexcept {
+  const Scalar size = momentum.norm(), whole = size * rate.norm(), across = cross<Scalar>(rate, momentum).norm();
+  if (!(across < Scalar(honesty::next_to_unstable) * whole)) return 1;
+  // the energy over the sphere of the momentum has a saddle there
+  const Vec3<Scalar> along = momentum / size;
+  int least = 0;
+  along.cwiseAbs().minCoeff(&least);
+  const Vec3<Scalar> one = cross<Scalar>(along, Vec3<Scalar>::Unit(least)).normalized(),
+                     two = cross<Scalar>(along, one);
+  const Scalar lift = rate.dot(along) / size;
+  const Scalar first = one.dot(inverse * one) - lift, second = two.dot(inverse * two) - lift,
+               both = one.dot(inverse * two);
+  return first * second < both * both ? Scalar(honesty::unstable_condition) : Scalar(1);
+}
+
 /// The direction in which the vectors of a companion's data differ. which: 0 or 1.
 template <Real Scalar>
 Vec3<Scalar> neighbour_direction(int which) noexcept {

@@ -214,6 +214,40 @@ TEST_CASE("the last of the momentum goes on to the stop") {
   CHECK(seen > 5);
 }
 
+TEST_CASE("a control that is weak about one axis is followed for long in few steps") {
+  // the body comes to turn about that axis, and what is across it fades away in a moment: then nothing is fast any more
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1, 1);
+  int endless = 0, late = 0;
+  for (int i = 0; i < 24; ++i) {
+    const int weak = i % 3;
+    auto problem = simple(0.1);
+    problem.momentum = {any(random), any(random), any(random)};
+    problem.momentum[weak] *= 0.01;
+    problem.control(weak, weak) = i % 2 == 0 ? 0 : 1e-7;
+    problem.drag = i % 4 < 2 ? 0 : 1e-5;
+    const std::vector<double> times{1, 500, 20000};
+    const auto found = solve(problem, times, 1e-9);
+    CAPTURE(i, weak, found.answer.counts.steps, found.answer.stop_time);
+    REQUIRE(found.answer.status == Status::reached);
+    CHECK(found.answer.counts.steps < 40'000);
+    const auto right = true_until(cast<long double>(problem), {times.begin(), times.end()}, 1e-16L);
+    const double size = problem.momentum.norm();
+    for (std::size_t k = 0; k < times.size(); ++k)
+      CHECK(double((found.momentum[k].cast<long double>() - right.momentum[k]).norm()) <=
+            found.answer.error[column::angular_momentum] * size);
+    // about its axis the body slows down by the weak torque and the drag alone
+    const double b = problem.control(weak, weak), drag = problem.drag;
+    const double from = found.momentum[1].norm(), fade = std::exp(-drag * 19500);
+    const double left = drag > 0 ? (from + b / drag) * fade - b / drag : from - b * 19500;
+    if (left > 0 && found.momentum[1].norm() == std::abs(found.momentum[1][weak]))
+      CHECK(found.momentum[2].norm() == Approx(left).epsilon(1e-11));
+    (b == 0 ? endless : late) += b == 0 ? found.answer.stop_time == infinity<double> : found.answer.stop_time < 1e8;
+  }
+  CHECK(endless >= 11);
+  CHECK(late == 12);
+}
+
 TEST_CASE("behind the stop the target is kept and the attitude goes on") {
   auto problem = simple(0.1);
   problem.rotor_momentum = {0.3, -0.1, 0.2};

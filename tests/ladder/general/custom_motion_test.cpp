@@ -191,6 +191,22 @@ TEST_CASE("a step of a law, named and not", "[general]") {
   }
 }
 
+TEST_CASE("each of two times of a table that are neighbours among the doubles has its own value", "[general]") {
+  auto problem = brick();
+  auto& wheel = problem.wheels.emplace_back();
+  wheel.type = WheelType::held, wheel.axial_inertia = 0.1;
+  // at the later one, where the table ends, by what follows it
+  const double now = 1, next = std::nextafter(now, 2.);
+  wheel.table = {{0, now, next}, {10, -25, -4}, Between::linear, false};
+  const auto made = run(problem, NoTorque{}, {}, {0, 0.5, now, next, 2}, 1e-9);
+  CHECK(made.answer.status == Status::reached);
+  const auto rate = [&](std::size_t i) { return made.states[i].rotor_rate[0]; };
+  CHECK(rate(1) == Approx(-7.5));
+  CHECK(rate(2) == Approx(-25));
+  CHECK(rate(3) == 0);
+  CHECK(rate(4) == 0);
+}
+
 TEST_CASE("a law without a value ends the motion where it has none", "[general]") {
   const auto law = [](double t, const Seen<double>&) noexcept {
     return Vec3<double>(t < 5.5 ? 0.1 : gyrostat::nan<double>, 0, 0);

@@ -163,7 +163,8 @@ struct Neighbour {
     problem.inverse_inertia = J.cwiseInverse();
     problem.gaps = Vec3<Scalar>(axes.gaps[0] / J[0] / J[1], axes.gaps[1] / J[1] / J[2], axes.gaps[2] / J[0] / J[2]);
     problem.rotor_momentum = back * Vec3<Scalar>(l + l.norm() * v);
-    problem.control = back * problem.control * R;
+    // products of a control that has none would keep the motion beside a weak axis stiff for ever
+    if (!of.control.isDiagonal(0)) problem.control = back * problem.control * R;
     problem.momentum = back * Vec3<Scalar>(of.momentum + of.momentum_terms() * v);
   }
 
@@ -219,6 +220,7 @@ class Course {
     time_ = solver_.time();
     const Vec3<Scalar> U = opposed(solver_.state());
     const Scalar norm = U.norm();
+    if (may_stop_ && system_.never_stops(solver_.state())) may_stop_ = false, stop_time_ = infinity<Scalar>;
     if (may_stop_) {
       // the rest of the motion: |U| falls at least at the weakest rate, in the end at the rate of its direction
       const Scalar fall = falling(U, norm), slowest = hold_.weakest > 0 ? std::min(hold_.weakest, fall) : fall;
@@ -417,13 +419,15 @@ ColumnErrors<Scalar> rounding_of_columns(const Problem<Scalar>& problem, const C
   return error;
 }
 
-/// How many times over a rounding of the tensor counts in the motion: where a moment is slight, or two are so near that it turns their axes.
+/// How many times over a rounding of the tensor counts in the motion: where a moment is slight, or two are so near that it turns their axes; or one of
+/// the start.
 template <Real Scalar>
 Scalar condition_of(const Problem<Scalar>& problem) noexcept {
-  if (problem.exact_moments) return 1;
-  const Vec3<Scalar>& a = problem.inverse_inertia;
+  const Vec3<Scalar>&a = problem.inverse_inertia, &M = problem.momentum;
+  Scalar most = condition_of_start<Scalar>(M, a.cwiseProduct(M - problem.rotor_momentum), a.asDiagonal());
+  if (problem.exact_moments) return most;
   const Vec3<Scalar> gaps = problem.inverse_gaps();
-  Scalar most = a[2] / a[0];
+  most = std::max(most, a[2] / a[0]);
   if (gaps[0] > 0) most = std::max(most, a[1] / gaps[0]);
   if (gaps[1] > 0) most = std::max(most, a[1] * a[2] / a[0] / gaps[1]);
   return most;

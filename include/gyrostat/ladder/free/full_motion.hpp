@@ -141,11 +141,14 @@ class FullCourse {
   Solver solver_;
 };
 
-/// By how much the inverse of the tensor magnifies its rounding; 1 where it is diagonal.
+/// By how much the inverse of the tensor, of a diagonal one not at all, or the start magnifies rounding.
 template <Real Scalar>
 Scalar condition_of(const Problem<Scalar>& of) noexcept {
-  if (of.inertia.isDiagonal(0)) return 1;
-  return of.inertia.cwiseAbs().maxCoeff() * Mat3<Scalar>(of.inertia.inverse()).cwiseAbs().maxCoeff();
+  const Mat3<Scalar> inverse = of.inertia.inverse();
+  const Vec3<Scalar> M = of.momentum();
+  const Scalar of_start = condition_of_start<Scalar>(M, inverse * Vec3<Scalar>(M - of.rotor_momentum), inverse);
+  if (of.inertia.isDiagonal(0)) return of_start;
+  return std::max(of_start, of.inertia.cwiseAbs().maxCoeff() * inverse.cwiseAbs().maxCoeff());
 }
 
 /// Whether zeros of the data stay zero by a symmetry: rotation about one axis of a diagonal tensor, which the rotors turn about too.

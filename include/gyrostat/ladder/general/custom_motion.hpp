@@ -97,6 +97,23 @@ Scalar braked(const Problem<Scalar>& problem, const State<Scalar>& state, Scalar
   return least;
 }
 
+/// Watches a run by a method that does not go through the stop of a brake.
+template <Real Scalar>
+class BrakeWatch {
+ public:
+  /// Whether what a brake opposes is at rest, or all but; inside: a time in the piece that was integrated to this state.
+  bool stopped(const Problem<Scalar>& problem, const State<Scalar>& state, Scalar inside) noexcept {
+    const Scalar now = braked(problem, state, inside);
+    if (!(now < infinity<Scalar>)) return false;
+    greatest_ = std::max(greatest_, now);
+    return !(now > nearly_ * greatest_);
+  }
+
+ private:
+  static constexpr Scalar nearly_ = Scalar(1e-6L);
+  Scalar greatest_ = 0;
+};
+
 /// One run over all pieces, as FullCourse is by Taylor series. law, of (whose wheels are those of another problem) and cuts must outlive it.
 template <Real Scalar, TorqueLaw<Scalar> Law>
 class CustomCourse {
@@ -126,11 +143,9 @@ class CustomCourse {
     ode::Status status = solver_.step(std::min(t_max, limit()));
     if (status == ode::Status::step_underflow && hops_ < most_hops_) status = hop(t_max);
     if (status != ode::Status::reached) return status;
-    const Scalar now = braked(problem_, solver_.rhs().state(time(), solver_.state()), from_ + (to_ - from_) / 2);
-    if (now < infinity<Scalar>) {
-      greatest_ = std::max(greatest_, now);
-      if (!(now > nearly_ * greatest_)) return ode::Status::event;
-    }
+    const auto& equations = solver_.rhs();
+    if (brakes_.stopped(problem_, equations.state(time(), solver_.state()), equations.inside()))
+      return ode::Status::event;
     if (time() >= to_ && cut_ < cuts_.size()) {
       passes_ = true;
       next_.enter(to_, end_of(cut_ + 1));
@@ -192,7 +207,7 @@ class CustomCourse {
     passes_ = parted_ = false;
   }
 
-  static constexpr Scalar nearly_ = Scalar(1e-6L), grown_ = 5;
+  static constexpr Scalar grown_ = 5;
   static constexpr int most_hops_ = 1000;
   Problem<Scalar> problem_;
   Wheels<Scalar> wheels_;
@@ -205,7 +220,7 @@ class CustomCourse {
   bool parted_ = false;  ///< the way to the end of the piece
   Equations next_;       ///< of the next piece, where the last step ends this one
   Solver solver_;
-  Scalar greatest_ = 0;
+  BrakeWatch<Scalar> brakes_;
 };
 
 /// The tightest step tolerance of an answer by DOP853: what its companions take is 64 times as tight, and no step can be held to less.
@@ -240,7 +255,7 @@ class CustomMotion {
     std::unique_ptr<Course> second;
     // over a jump that is not named one companion may err as the answer does, by chance
     constexpr bool may_jump = !std::is_same_v<Law, NoTorque>;
-    if (may_jump || rounding_rules(tolerance, condition_of(of_.wheels))) second = neighbour(1, 3, tight);
+    if (may_jump || rounding_rules(tolerance, condition_of(of_.wheels, course->at(0)))) second = neighbour(1, 3, tight);
     const FullRow<Scalar> row(of_);
     // a step over a jump that is not named may err by its tolerance and show nothing of it
     const Scalar unseen = may_jump && !named_ ? tolerance / 4 : Scalar(0);

@@ -37,6 +37,7 @@ class CvodeEquations {
   void enter(double from, double to) noexcept { equations_.enter(from, to); }
   State<double> state(double t, const Numbers& y) const noexcept { return equations_.state(t, raw(y.data())); }
   double lost_at() const noexcept { return equations_.lost_at(); }
+  double inside() const noexcept { return equations_.inside(); }
 
   /// For ode::Cvode, with a pointer to this for `user`. It must stay where it is while the integrator lives.
   ode::CvodeSystem system() noexcept {
@@ -67,15 +68,27 @@ class CvodeEquations {
 
 namespace detail {
 
-/// One run over all pieces; lost: when the law had no value.
+/// What ended a run of CVODE that nothing failed.
+struct CvodeEnd {
+  double lost = nan<double>;  ///< when the law had no value, s
+  bool stopped = false;       ///< by a brake
+};
+
+/// One run over all pieces.
 inline CvodeRun<State<double>> run_pieces(const Scene& scene, CvodeEquations equations,
-                                          const ode::CvodeOptions& options, Monitor* monitor, double& lost) {
+                                          const ode::CvodeOptions& options, Monitor* monitor, CvodeEnd& end) {
   const auto& times = scene.question().times;
   const double span = times.back();
   auto cuts = breakpoints_with<double>(scene.problem(), scene.own_torque().breakpoints, span);
   cuts.push_back(span);
   CvodeRun<State<double>> run;
+  const auto numbers = [](const ode::Cvode& cvode) {
+    CvodeEquations::Numbers made;
+    std::copy_n(cvode.state().begin(), made.size(), made.begin());
+    return made;
+  };
   auto y = equations.start();
+  BrakeWatch<double> brakes;
   double from = 0;
   for (const double to : cuts) {
     equations.enter(from, to);
@@ -103,16 +116,19 @@ inline CvodeRun<State<double>> run_pieces(const Scene& scene, CvodeEquations equ
         if (!cvode.at(times[i], y)) return run.failure = Errc::no_convergence, run;
         run.states.push_back(equations.state(times[i], y));
       }
+      if (status == ode::Status::reached &&
+          brakes.stopped(scene.problem(), equations.state(cvode.time(), numbers(cvode)), equations.inside()))
+        return end.stopped = true, run.failure = Errc::not_applicable, run;
       if (monitor == nullptr) continue;
       if (monitor->cancelled()) status = ode::Status::cancelled;
       monitor->fraction.store(cvode.time() / span, std::memory_order_relaxed);
     }
     run.counts += cvode.counts();
     if (status != ode::Status::reached) {
-      if (status != ode::Status::cancelled && equations.lost_at() >= cvode.time()) lost = equations.lost_at();
+      if (status != ode::Status::cancelled && equations.lost_at() >= cvode.time()) end.lost = equations.lost_at();
       return run.failure = failure_of(status), run;
     }
-    std::copy_n(cvode.state().begin(), y.size(), y.begin());
+    y = numbers(cvode);
     from = to;
   }
   return run;
@@ -136,16 +152,17 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const FullRow<double> row(of);
   const auto sizes = detail::number_sizes(of);
   const auto method = of.is_stiff() ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams;
-  double lost = nan<double>;
+  detail::CvodeEnd end;
   auto pair = cvode_pair(row, scene.goal().tightest, 1e-5, [&](double tolerance, double longest) {
     return detail::run_pieces(scene, CvodeEquations(scene, sizes),
                               {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * span}, monitor,
-                              lost);
+                              end);
   });
-  if (lost == lost) {
-    if (law.lost_at != nullptr) *law.lost_at = lost;
+  if (end.lost == end.lost) {
+    if (law.lost_at != nullptr) *law.lost_at = end.lost;
     return refused<Track>(Errc::not_applicable, no_value_of_law);
   }
+  if (end.stopped) return refused<Track>(Errc::not_applicable, why_stopped_by_brake);
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
   track.states = std::move(pair.states);
   track.counts = pair.counts;

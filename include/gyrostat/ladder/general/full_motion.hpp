@@ -561,6 +561,13 @@ Scalar condition_of(const Wheels<Scalar>& wheels) noexcept {
   return wheels.whole.cwiseAbs().maxCoeff() * wheels.inverse.cwiseAbs().maxCoeff();
 }
 
+/// That, or by how much the start does.
+template <Real Scalar>
+Scalar condition_of(const Wheels<Scalar>& wheels, const State<Scalar>& start) noexcept {
+  return std::max(condition_of(wheels),
+                  condition_of_start<Scalar>(start.angular_momentum, start.angular_velocity, wheels.inverse));
+}
+
 /// Arbitrary numbers of about 1, the same at each call in turn.
 template <Real Scalar>
 class Shifts {
@@ -726,7 +733,7 @@ class FullMotion {
     };
     const auto course = begin(problem_, 1, tolerance);
     const auto& of = course->prepared();
-    const Scalar condition = condition_of(of.wheels), change = data_change(tolerance.end, condition);
+    const Scalar condition = condition_of(of.wheels, course->at(0)), change = data_change(tolerance.end, condition);
     // what the answer's brakes hold those of neighbours must hold, too
     spare += 8 * change;
     const auto one = beside(problem_, change, 0), two = beside(problem_, change, 1);

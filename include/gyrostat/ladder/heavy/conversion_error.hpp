@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/comparison.hpp"
@@ -37,8 +39,10 @@ template <class StartOf>
 ExactError<double> conversion_error(const Problem<double>& problem, bool converted, const Exact<double>& exact,
                                     double end, const StartOf& start_of) {
   constexpr double open = infinity<double>;
-  constexpr int looks = 32;
+  constexpr int looks = 8;
   ExactError<double> worst = exact.error(end);
+  std::array<State<double>, looks + 1> seen;
+  for (int i = 0; i <= looks; ++i) seen[std::size_t(i)] = exact.at(end * i / looks);
   Comparison apart(Row<double>{});
   for (const int which : {0, 1}) {
     const Problem<double> body = converted ? off_body(problem, which) : problem;
@@ -49,7 +53,7 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
     const auto own = other.error(end);
     worst = {std::max(worst.attitude, own.attitude), std::max(worst.down, own.down),
              std::max(worst.angular_velocity, own.angular_velocity)};
-    for (int i = 0; i <= looks; ++i) apart.add(exact.at(end * i / looks), other.at(end * i / looks));
+    for (int i = 0; i <= looks; ++i) apart.add(seen[std::size_t(i)], other.at(end * i / looks));
   }
   const auto& off = apart.difference();
   constexpr double margin = honesty::neighbours_margin;

@@ -166,10 +166,11 @@ class FullMotion {
     return answer;
   }
 
-  /// By how much the inverse of the tensor magnifies its rounding.
+  /// By how much the inverse of the tensor, or the start, magnifies rounding.
   Scalar condition() const noexcept {
-    const Vec3<Scalar>& I = problem_.inertia();
-    return options_.converted ? I.maxCoeff() / I.minCoeff() : Scalar(1);
+    const Vec3<Scalar>&I = problem_.inertia(), &w = start_.angular_velocity;
+    const Scalar of_start = condition_of_start<Scalar>(I.cwiseProduct(w), w, I.cwiseInverse().asDiagonal());
+    return std::max(of_start, options_.converted ? I.maxCoeff() / I.minCoeff() : Scalar(1));
   }
 
   /// The angle turned through up to the last time, to its order, rad.

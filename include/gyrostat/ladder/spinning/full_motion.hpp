@@ -168,11 +168,14 @@ class FullMotion {
     const Scalar span = times_.back();
     Course<Scalar> course(problem_, span, step_tolerance, options_.step_cap, true);
     const Scalar tight = companion_step(step_tolerance);
-    const Scalar change = data_change(step_tolerance);
+    const Vec3<Scalar>&D = problem_.inertia, &w = problem_.angular_velocity;
+    const Vec3<Scalar> stiff = D.cwiseProduct(w) + Vec3<Scalar>(0, 0, problem_.gyroscopic());
+    const Scalar condition = condition_of_start<Scalar>(stiff, w, D.cwiseInverse().asDiagonal());
+    const Scalar change = data_change(step_tolerance, condition);
     const Problem<Scalar> one = neighbour(problem_, rate_, change, 0), two = neighbour(problem_, rate_, change, 1);
     Course<Scalar> companion(one, span, tight, options_.step_cap, false);
     std::optional<Course<Scalar>> second;
-    if (rounding_rules(step_tolerance)) second.emplace(two, span, tight, options_.step_cap, false);
+    if (rounding_rules(step_tolerance, condition)) second.emplace(two, span, tight, options_.step_cap, false);
     const Runs<Course<Scalar>> runs{course, companion, second ? &*second : nullptr};
     const auto walk = walk_beside(WatchedRow<Scalar>{scales(problem_, span)}, runs, start_state(problem_), rate_,
                                   times_, states_, nowhere(), options_, progress_from, progress_to, not_noted);

@@ -134,12 +134,18 @@ class FullSystem {
   void expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept;
 
   /// reach |U| over the greatest rate at which |U| can shrink: short enough to never jump over U = 0. Infinite without control; on an
-  /// axis that the control leaves alone only the other torques count.
+  /// axis that the motion keeps only the control about that axis and the other torques count.
   Scalar step_limit(const Scalar* x) const noexcept;
 
   /// Moves a state onto the laws it obeys exactly: |q| = 1; |U| if the control torques are equal or absent; the energy if then
   /// l = 0, or if nothing acts on the body. Parts of U that nothing can see any more become zero. t counts from the start of the problem.
   void project(Scalar t, Scalar* x, Scalar* low) const noexcept;
+
+  /// Whether U lies on an axis where it stays and that the control leaves alone, so that it never comes to zero.
+  bool never_stops(const Scalar* x) const noexcept {
+    const int axis = axis_kept(x);
+    return axis >= 0 && own_[axis] == 0;
+  }
 
   /// |U| at t where it obeys its own law, dR/dt = -drag R - b: (R0 + b/drag) exp(-drag t) - b/drag, N m s.
   Scalar norm_at(Scalar t) const noexcept {
@@ -152,12 +158,19 @@ class FullSystem {
  private:
   using Row = Lanes<Scalar>;
 
-  /// U lies on an axis that the control leaves alone.
-  bool on_dead_axis(const Scalar* x) const noexcept {
+  /// The axis that U lies on, where it stays there; -1: none.
+  int axis_kept(const Scalar* x) const noexcept {
     int along = -1;
     for (int i = 0; i < 3; ++i)
       if (x[i] != 0) along = along < 0 ? i : 3;
-    return along >= 0 && along < 3 && control_[along][0] == 0 && control_[along][1] == 0 && control_[along][2] == 0;
+    return along >= 0 && along < 3 && keeps_[along] ? along : -1;
+  }
+
+  /// Whether all that U has across axis i fades beside what it has along it, `most`, from now on: the control about that axis is the weakest, and
+  /// damps the other two faster than they feed each other, which they do the less the slower the body turns.
+  bool settles_on(int i, Scalar most) const noexcept {
+    const Scalar square = most * most;
+    return damping_[i] > 0 && coupling_[i] * square * square < damping_[i];
   }
 
   static GYROSTAT_INLINE Row row(const Vec3<Scalar>& v, Scalar last = 0) noexcept {
@@ -175,6 +188,12 @@ class FullSystem {
   Row linear_[3];
   Row control_[3];
   Scalar reach_, control_bound_, constant_bound_, linear_bound_, drag_;
+  // of each axis
+  bool keeps_[3];     ///< a U along it stays there
+  Vec3<Scalar> own_;  ///< that control, N m
+  Vec3<Scalar>
+      damping_;  ///< product of what the controls about the other two have more, N^2 m^2; 0: it is not the weakest, or they are coupled otherwise
+  Vec3<Scalar> coupling_;  ///< product of the quadratic terms that couple the other two
   // exact laws
   Vec3<Scalar> rotor_momentum_, a_;
   Scalar norm_, energy_, equal_control_;
@@ -199,6 +218,16 @@ FullSystem<Real_, with_control, with_attitude>::FullSystem(const Problem<Scalar>
   drag_ = problem.drag;
 
   const Mat3<Scalar>& b = problem.control;
+  const bool plain = b.isDiagonal(0) && f.linear.isDiagonal(0) && f.constant.isZero(0);
+  own_ = b.diagonal();
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    keeps_[i] = true;
+    for (const int at : {j, k}) keeps_[i] = keeps_[i] && b(at, i) == 0 && f.linear(at, i) == 0 && f.constant[at] == 0;
+    const bool weakest = own_[j] > own_[i] && own_[k] > own_[i];
+    damping_[i] = plain && weakest ? (own_[j] - own_[i]) * (own_[k] - own_[i]) : Scalar(0);
+    coupling_[i] = f.quadratic[j] * f.quadratic[k];
+  }
   rotor_momentum_ = problem.rotor_momentum;
   a_ = problem.inverse_inertia;
   equal_control_ = b(0, 0);
@@ -336,18 +365,25 @@ Real_ FullSystem<Real_, with_control, with_attitude>::step_limit(const Scalar* x
     return infinity<Scalar>;
   } else {
     const Scalar norm = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-    return reach_ * norm / ((on_dead_axis(x) ? constant_bound_ : control_bound_) + linear_bound_ * norm);
+    const int axis = axis_kept(x);
+    return reach_ * norm / ((axis < 0 ? control_bound_ : own_[axis] + constant_bound_) + linear_bound_ * norm);
   }
 }
 
 template <Real Real_, bool with_control, bool with_attitude>
 void FullSystem<Real_, with_control, with_attitude>::project(Scalar t, Scalar* x, Scalar* low) const noexcept {
   if constexpr (with_control) {
-    // What fades beside a control torque that lets one axis alone ends as a denormal number, a hundred times as slow to add as zero.
+    // What fades beside a control torque that is weak about one axis ends as a denormal number, a hundred times as slow to add as zero; and as long
+    // as it is there, the strong ones set the length of a step.
     constexpr Scalar e2 = epsilon<Scalar> * epsilon<Scalar>, nothing = e2 * e2 * e2 * e2;
-    const Scalar most = std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
-    for (int i = 0; i < 3; ++i)
-      if (std::abs(x[i]) < nothing * most) x[i] = low[i] = 0;
+    const Scalar size[3] = {std::abs(x[0]), std::abs(x[1]), std::abs(x[2])};
+    const Scalar most = std::max({size[0], size[1], size[2]});
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const bool settled = size[j] < e2 * most && size[k] < e2 * most && settles_on(i, most);
+      for (const int at : {j, k})
+        if (settled || size[at] < nothing * most) x[at] = low[at] = 0;
+    }
   }
   if (norm_is_known_) {
     const Vec3<Scalar> U{x[0], x[1], x[2]};

@@ -93,7 +93,7 @@ class DrivenFlow {
   void enter(Scalar from, Scalar to) noexcept {
     from_ = from;
     last_ = std::nextafter(to, from);
-    flow_.inside = from + (to - from) / 2;
+    flow_.inside = std::min(from + (to - from) / 2, last_);  // between two times one rounding apart there is none
   }
 
   /// The law at t; NaN where the numbers are, without asking.
@@ -113,6 +113,8 @@ class DrivenFlow {
     for (std::size_t i = 0; i < 3; ++i) rate[Flow<Scalar>::momentum + i] += torque[int(i)];
   }
 
+  /// A time in the piece that is integrated.
+  Scalar inside() const noexcept { return flow_.inside; }
   Numbers start() const noexcept { return flow_.start(); }
   State<Scalar> state(Scalar t, const Numbers& y) const noexcept { return flow_.state(t, y); }
   /// When the law was last asked and had no finite value, s; NaN: it always had one.
