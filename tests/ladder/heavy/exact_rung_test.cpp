@@ -2,6 +2,8 @@
 #include "gyrostat/ladder/heavy/exact_rung.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 #include <vector>
 
 #include "catch.hpp"
@@ -17,13 +19,13 @@ namespace {
 using V = Vec3<double>;
 
 Scene scene_of(const V& inertia, const V& centre, double gradient, const State<double>& start, bool turning,
-               const Mat3<double>& R = Mat3<double>::Identity()) {
+               const Mat3<double>& R = Mat3<double>::Identity(), double tolerance = 1e-13) {
   const auto body = Body::make(R * inertia.asDiagonal() * R.transpose(), 0.5, R * centre, 9.80665, gradient);
   REQUIRE(body);
   Question question;
   question.times = {0.0, 0.2, 1.0, 3.0};
   question.wants_attitude = turning;
-  question.tolerance = 1e-13;
+  question.tolerance = tolerance;
   const auto made = Scene::make(*body, {start}, question);
   REQUIRE(made);
   return *made;
@@ -108,6 +110,52 @@ TEST_CASE("heavy exact rung: agrees with the full equations within both estimate
   CHECK(std::isnan(top.period));
   CHECK(std::abs(top.precession) > 0);
   CHECK(top.precession_error < 1e-11);
+}
+
+TEST_CASE("heavy exact rung: where the bound misses what is asked neighbours tell more sharply, and do not lie",
+          "[heavy]") {
+  using Long = long double;
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> any(-1, 1);
+  std::vector<double> ratios;
+  int sharper = 0;
+  for (int i = 0; i < 200; ++i) {
+    const bool top = i % 2 == 0;
+    const double A = 0.0016 + 0.0004 * any(random), C = 0.0015 + 0.0003 * any(random);
+    const V inertia = top ? V(A, A, C) : V(A, 0.0018, C), centre = top ? V(0, 0, 0.02) : V(0.01, 0.02, 0);
+    const double gradient = i % 4 < 2 ? 0 : 10 + 9 * any(random), angle = 3 * any(random);
+    State<double> from;
+    from.angular_velocity = top ? V(5 * any(random), 5 * any(random), 60 * any(random)) : V(0, 0, 40 * any(random));
+    from.down = top ? V(any(random), any(random), any(random)).normalized() : V(std::cos(angle), std::sin(angle), 0);
+    const auto told = [&](double tolerance) {
+      return exact_track(scene_of(inertia, centre, gradient, from, false, Mat3<double>::Identity(), tolerance),
+                         nullptr);
+    };
+    const auto wide = told(1e-2), fine = told(1e-16);
+    if (wide.failure != Errc::ok || !wide.in_domain) continue;
+    const auto body = Problem<Long>::make(inertia.cast<Long>(), 0.5L, centre.cast<Long>(), Long(9.80665), gradient);
+    REQUIRE(body);
+    const Exact<Long> truth(*body, {from.angular_velocity.cast<Long>(), from.down.cast<Long>(), {}});
+    const double times[] = {0.0, 0.2, 1.0, 3.0};
+    Comparison apart(Row<double>{});
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto right = truth.at(times[k]);
+      apart.add(fine.states[k],
+                {right.angular_velocity.cast<double>(), right.down.cast<double>(), fine.states[k].attitude});
+    }
+    const auto off = apart.relative(apart.difference());
+    for (const auto c : {column::angular_velocity, column::down}) {
+      CAPTURE(i, top, gradient, c);
+      CHECK(off[c] <= fine.error[c]);
+      CHECK(fine.error[c] <= wide.error[c]);
+      sharper += fine.error[c] < wide.error[c] / 10;
+      if (off[c] > 0) ratios.push_back(fine.error[c] / off[c]);
+    }
+  }
+  REQUIRE(ratios.size() >= 250);
+  std::sort(ratios.begin(), ratios.end());
+  CHECK(ratios[ratios.size() / 2] < 40);
+  CHECK(sharper > 200);
 }
 
 TEST_CASE("heavy exact rung: in the caller's axes", "[heavy]") {

@@ -30,7 +30,8 @@ inline constexpr const char* undecided_axes =
     "means nothing";
 
 /// A start off by as much, all components of it; of a pendulum about the axis k (k >= 0) in its plane.
-GYROSTAT_COMPILED_ONCE State<double> off_start(const State<double>& of, int which, int k) noexcept;
+GYROSTAT_COMPILED_ONCE State<double> off_start(const State<double>& of, int which, int k,
+                                               double by = conversion) noexcept;
 
 /// Error of an exact motion up to a time, s, with that of conversions: the distance to the exact motions of two bodies and starts that
 /// are off by what they err, these motions' own errors, and what keeps them from being exact: a top that is not quite symmetric, a pendulum
@@ -50,9 +51,7 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
     if (!start) return {open, open, open};
     const Exact<double> other(body, *start);
     if (other.which() != exact.which()) return {open, open, open};
-    const auto own = other.error(end);
-    worst = {std::max(worst.attitude, own.attitude), std::max(worst.down, own.down),
-             std::max(worst.angular_velocity, own.angular_velocity)};
+    worst = worst.most(other.error(end));
     for (int i = 0; i <= looks; ++i) apart.add(seen[std::size_t(i)], other.at(end * i / looks));
   }
   const auto& off = apart.difference();
@@ -68,6 +67,17 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
   }
   return worst;
 }
+
+/// A body and a start of which every number is off by about two roundings, zeros and equal moments kept; of a converted start (an attitude, into down) all
+/// components by as much of the greatest. which: 0 to 3.
+GYROSTAT_COMPILED_ONCE Exact<double> rounded_otherwise(const Problem<double>& problem, const State<double>& start,
+                                                       bool converted, int axis, int which) noexcept;
+
+/// What rounding of the data and of the arithmetic makes of an exact motion up to a time, s, by the motions of four such neighbours: sharper than its
+/// bound, which takes all roundings to add up. Of bodies that nothing converted. axis: that of a pendulum, else -1.
+GYROSTAT_COMPILED_ONCE ExactError<double> error_by_neighbours(const Problem<double>& problem,
+                                                              const State<double>& start, bool converted, int axis,
+                                                              const Exact<double>& exact, double end) noexcept;
 
 }  // namespace gyrostat::heavy
 

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 
 #include "gyrostat/ladder/heavy/conversion_error.hpp"
 
@@ -27,22 +30,67 @@ GYROSTAT_COMPILED_ONCE bool axes_undecided(const Problem<double>& of) noexcept {
   return gap < 1e6 * conversion * I.maxCoeff();
 }
 
-GYROSTAT_COMPILED_ONCE State<double> off_start(const State<double>& of, int which, int k) noexcept {
+GYROSTAT_COMPILED_ONCE State<double> off_start(const State<double>& of, int which, int k, double by) noexcept {
   const Vec3<double> direction = which == 0 ? Vec3<double>(0.6, -0.64, 0.48) : Vec3<double>(-0.48, 0.6, 0.64);
-  const double turn = which == 0 ? conversion : -conversion;
+  const double turn = which == 0 ? by : -by;
   State<double> made = of;
-  Vec3<double> by = conversion * direction;
+  Vec3<double> turned = by * direction;
   if (k >= 0) {
     made.angular_velocity[k] *= 1 + turn;
-    by = turn * Vec3<double>::Unit(k);
+    turned = turn * Vec3<double>::Unit(k);
   } else {
-    made.angular_velocity +=
-        conversion * of.angular_velocity.norm() * Vec3<double>(direction[1], direction[2], direction[0]);
+    made.angular_velocity += by * of.angular_velocity.norm() * Vec3<double>(direction[1], direction[2], direction[0]);
   }
-  made.attitude = normalised(of.attitude * Quat<double>{1, by[0] / 2, by[1] / 2, by[2] / 2});
-  made.down = (of.down - cross<double>(by, of.down)).normalized();
+  made.attitude = normalised(of.attitude * Quat<double>{1, turned[0] / 2, turned[1] / 2, turned[2] / 2});
+  made.down = (of.down - cross<double>(turned, of.down)).normalized();
   if (k >= 0) made.down[k] = of.down[k];
   return made;
+}
+
+GYROSTAT_COMPILED_ONCE Exact<double> rounded_otherwise(const Problem<double>& problem, const State<double>& start,
+                                                       bool converted, int axis, int which) noexcept {
+  constexpr double shares[] = {0.9, -0.6, 0.7, -0.8, 0.5, -0.7, 0.8, -0.9, 0.6, -0.5, 1.0};
+  int place = 3 * which;
+  const auto off = [&](double x) noexcept { return x * (1 + 2 * epsilon<double> * shares[place++ % 11]); };
+  const auto moved = [&](const Vec3<double>& v) noexcept { return Vec3<double>(off(v[0]), off(v[1]), off(v[2])); };
+  Vec3<double> inertia = moved(problem.inertia());
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < i; ++j)
+      if (problem.inertia()[i] == problem.inertia()[j]) inertia[i] = inertia[j];
+  const auto made = Problem<double>::make(inertia, off(problem.mass()), moved(problem.centre_of_mass()),
+                                          off(problem.gravity()), off(problem.gradient()));
+  State<double> from = start;
+  if (converted) {
+    from = off_start(start, which, axis, (which < 2 ? 2 : -2) * epsilon<double>);
+  } else {
+    from.angular_velocity = moved(start.angular_velocity);
+    from.down = moved(start.down).normalized();
+  }
+  return Exact<double>(made ? *made : problem, from);
+}
+
+GYROSTAT_COMPILED_ONCE ExactError<double> error_by_neighbours(const Problem<double>& problem,
+                                                              const State<double>& start, bool converted, int axis,
+                                                              const Exact<double>& exact, double end) noexcept {
+  constexpr double open = infinity<double>;
+  constexpr int looks = 8, neighbours = 4;
+  std::array<State<double>, looks + 1> seen;
+  for (int i = 0; i <= looks; ++i) seen[std::size_t(i)] = exact.at(end * i / looks);
+  Errors<std::size(column_kinds)> squares;
+  for (int which = 0; which < neighbours; ++which) {
+    const Exact<double> other = rounded_otherwise(problem, start, converted, axis, which);
+    if (other.which() != exact.which()) return {open, open, open};
+    Comparison apart(Row<double>{});
+    for (int i = 0; i <= looks; ++i) apart.add(seen[std::size_t(i)], other.at(end * i / looks));
+    const auto& off = apart.difference();
+    for (std::size_t k = 0; k < std::size(column_kinds); ++k) squares[k] += off[k] * off[k] / neighbours;
+  }
+  double fastest = 0;
+  for (const State<double>& each : seen) fastest = std::max(fastest, each.angular_velocity.norm());
+  const auto stated = [&](std::size_t k) noexcept { return honesty::exact_margin * std::sqrt(squares[k]); };
+  constexpr double shared = 8 * epsilon<double>;
+  return {stated(column::attitude) + shared, stated(column::down) + shared,
+          stated(column::angular_velocity) + shared * fastest};
 }
 
 }  // namespace gyrostat::heavy

@@ -75,17 +75,29 @@ GYROSTAT_COMPILED_ONCE Track exact_track(const Scene& scene, Monitor*) {
   if (!std::isfinite(sizes.size()[column::down]))
     return refused<Track>(Errc::no_convergence,
                           "the closed form is lost in rounding: axis 3 starts too near the vertical, next to at rest");
+  const int axis = exact.pendulum() ? exact.pendulum()->axis() : -1;
   const auto of_tensor = exact.euler() ? detail::follow_tensor(track.states, scene) : std::nullopt;
   auto bound = of_tensor ? *of_tensor : exact.error(question.times.back());
   if (!of_tensor && scene.converts_start() && bound.attitude < infinity<double>) {
-    const int k = exact.pendulum() ? exact.pendulum()->axis() : -1;
     const auto off = [&](const Problem<double>& body, int which) -> Result<State<double>> {
       if (scene.periodic()) return plain_start(body, *scene.periodic());
-      return off_start(start, which, k);
+      return off_start(start, which, axis);
     };
     bound = conversion_error(scene.problem(), scene.converts_body(), exact, question.times.back(), off);
   }
-  track.error = relative_to_truth(sizes.relative({bound.angular_velocity, bound.down, bound.attitude}), column_kinds);
+  const auto stated = [&] {
+    return relative_to_truth(sizes.relative({bound.angular_velocity, bound.down, bound.attitude}), column_kinds);
+  };
+  track.error = stated();
+  const Vec3<double>& I = scene.problem().inertia();
+  const bool slim = I.minCoeff() < honesty::exact_slim * I.maxCoeff();
+  if (!of_tensor && !scene.converts_body() && !scene.periodic() && !slim && bound.attitude < infinity<double> &&
+      !(scene.goal().excess(track.error) <= 1)) {
+    const auto finer =
+        error_by_neighbours(scene.problem(), start, scene.converts_start(), axis, exact, question.times.back());
+    bound = bound.least(finer.most(bound.over(honesty::exact_trust)));
+    track.error = stated();
+  }
   track.in_domain = bound.attitude < infinity<double>;
   if (!track.in_domain) track.warn(warning_kinds[warning::rounding_decides], question.times.back());
 

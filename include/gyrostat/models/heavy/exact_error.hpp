@@ -20,6 +20,16 @@ struct ExactError {
     attitude += by.attitude, down += by.down, angular_velocity += by.angular_velocity;
     return *this;
   }
+  /// The lesser and the greater of both, each by itself.
+  ExactError least(const ExactError& other) const noexcept {
+    return {std::min(attitude, other.attitude), std::min(down, other.down),
+            std::min(angular_velocity, other.angular_velocity)};
+  }
+  ExactError most(const ExactError& other) const noexcept {
+    return {std::max(attitude, other.attitude), std::max(down, other.down),
+            std::max(angular_velocity, other.angular_velocity)};
+  }
+  ExactError over(Scalar x) const noexcept { return {attitude / x, down / x, angular_velocity / x}; }
   /// Of a motion that is off by an angle, and its rates by so much, rad/s.
   static ExactError of(Scalar angle, Scalar rates) noexcept {
     if (!(angle < Scalar(0.05))) return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
