@@ -189,10 +189,9 @@ class FullSystem {
   Row control_[3];
   Scalar reach_, control_bound_, constant_bound_, linear_bound_, drag_;
   // of each axis
-  bool keeps_[3];     ///< a U along it stays there
-  Vec3<Scalar> own_;  ///< that control, N m
-  Vec3<Scalar>
-      damping_;  ///< product of what the controls about the other two have more, N^2 m^2; 0: it is not the weakest, or they are coupled otherwise
+  bool keeps_[3];          ///< a U along it stays there
+  Vec3<Scalar> own_;       ///< the control about it, N m
+  Vec3<Scalar> damping_;   ///< product of what the other two have more, N^2 m^2; 0: this is not the weakest
   Vec3<Scalar> coupling_;  ///< product of the quadratic terms that couple the other two
   // exact laws
   Vec3<Scalar> rotor_momentum_, a_;
