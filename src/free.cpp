@@ -23,6 +23,9 @@ template MotionError<double> MotionError<double>::of<DoubleDouble>(const Motion<
                                                                    double) noexcept;
 template std::optional<MotionError<double>> MotionError<double>::quick<math::many_pays>(
     const Motion<double>&, const Assembly<double, Unbounded>&, double) noexcept;
+template std::optional<MotionError<double>> MotionError<double>::of_precession(const Motion<double>&,
+                                                                               const Assembly<double, Unbounded>&,
+                                                                               double) noexcept;
 template MotionError<double>::Bound MotionError<double>::at(double) const noexcept;
 
 template Result<Reduced<double>> Reduced<double>::of<double>(const Assembly<double>&, UnsoundWheel<double>*) noexcept;

@@ -17,7 +17,7 @@ struct PairWriter {
   void operator()(double x, double* row) const noexcept { *row = x; }
 };
 
-constexpr double margin = honesty::side_by_side.margin, of_rounding = honesty::side_by_side.margin_of_rounding;
+constexpr double margin = honesty::side_by_side.margin;
 
 /// A course whose state is a function of time, in steps of one length.
 template <class F>
@@ -64,22 +64,30 @@ TEST_CASE("the answer's states are kept at the asked times, and the distance to 
   const auto found = walked({still, 0.4}, {off, 1.5}, {still, 1}, {0, 1, 2.5, 10});
   CHECK(found.states == std::vector<double>{1, 1, 1, 1});
   CHECK(found.walk.status == ode::Status::reached);
-  CHECK(found.walk.error[0] == (margin + of_rounding) * 0.25);
+  CHECK(found.walk.error[0] == margin * 0.25);
   CHECK(found.walk.asked.size()[0] == 1);
 }
 
 TEST_CASE("a distance between the asked times counts, and fades while the body turns", "[ladder]") {
   const auto kept = walked({still, 0.5}, {bump, 0.5}, {still, 1}, {10});
-  CHECK(kept.walk.error[0] == (margin + of_rounding) * 2);
+  CHECK(kept.walk.error[0] == margin * 2);
   const auto faded = walked({still, 0.5}, {bump, 0.5}, {still, 1}, {10}, 128);
   CHECK(faded.walk.error[0] < 0.01 * kept.walk.error[0]);
   CHECK(faded.walk.error[0] > 0);
 }
 
 TEST_CASE("either companion counts, and their own distance", "[ladder]") {
-  CHECK(walked({still, 1}, {still, 1}, {farther, 1}, {5}).walk.error[0] == (margin + of_rounding) * 0.5);
-  CHECK(walked({still, 1}, {farther, 1}, {still, 1}, {5}).walk.error[0] == (margin + of_rounding) * 0.5);
+  CHECK(walked({still, 1}, {still, 1}, {farther, 1}, {5}).walk.error[0] == margin * 0.5);
+  CHECK(walked({still, 1}, {farther, 1}, {still, 1}, {5}).walk.error[0] == margin * 0.5);
   CHECK(walked({still, 1}, {farther, 1}, {farther, 1}, {5}).walk.error[0] == margin * 0.5);
+  CHECK(walked({farther, 1}, {off, 1}, {still, 1}, {5}).walk.error[0] == margin * 0.75);
+}
+
+TEST_CASE("a distance that is no number, or infinite, is kept", "[ladder]") {
+  CHECK(std::isnan(error_of_distances(gyrostat::nan<double>, 1.)));
+  CHECK(std::isnan(error_of_distances(1., gyrostat::nan<double>)));
+  CHECK(error_of_distances(infinity<double>, 1.) == infinity<double>);
+  CHECK(error_of_distances(infinity<double>, infinity<double>) == infinity<double>);
 }
 
 TEST_CASE("one companion shows truncation alone", "[ladder]") {
@@ -160,8 +168,8 @@ TEST_CASE("what is off at the end of a step and gone in the next is seen, of how
     Run course{swells, 0.7}, companion{still, 0.5};
     std::vector<double> times, states(count);
     for (std::size_t i = 1; i <= count; ++i) times.push_back(10 * double(i) / double(count));
-    const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states,
-                                  -1.0, MotionOptions<double>{}, 0, 1, not_noted);
+    const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
+                                  MotionOptions<double>{}, 0, 1, not_noted);
     CAPTURE(count);
     CHECK(walk.error[0] == Approx(margin * 0x1p-20).epsilon(1e-9));
   }
@@ -279,7 +287,7 @@ TEST_CASE("the stated error is the distance times its margin and what rounding a
   std::vector<double> states(2);
   const auto solved = [&](Function beside) {
     Answer answer;
-    Run course{still, 1}, companion{beside, 1}, second{still, 1};
+    Run course{still, 1}, companion{beside, 1}, second{beside, 1};
     MotionOptions<double> options;
     options.tolerance = 1e-3;
     solve_beside(answer, PairWriter{}, Runs<Run>{course, companion, &second}, 1.0, 0.0, times, states, -1.0, options, 0,
@@ -288,7 +296,7 @@ TEST_CASE("the stated error is the distance times its margin and what rounding a
   };
   const double rounding = 10 * epsilon<double>;  // of 100 steps, of a column of size 1
   const auto near = [](double t) { return t > 4 ? 1 + 0x1p-20 : 1; };
-  const double truncated = (margin + of_rounding) * 0x1p-20 + rounding;
+  const double truncated = margin * 0x1p-20 + rounding;
   const Answer loose = solved(near);
   CHECK(loose.error[0] == Approx(truncated / (1 - truncated)).epsilon(1e-12));
   CHECK(loose.met);

@@ -65,6 +65,17 @@ class HalfwayKick {
   Scalar after_;
 };
 
+/// The error of an answer that is `away` from its companions, which are so far from each other; of one companion they are 0.
+template <Real Scalar>
+constexpr Scalar error_of_distances(Scalar away, Scalar between) noexcept {
+  return Scalar(honesty::side_by_side.margin) * greater(away, between);
+}
+template <std::size_t N, Real Scalar>
+constexpr Errors<N, Scalar> error_of_distances(Errors<N, Scalar> away, const Errors<N, Scalar>& between) noexcept {
+  away.raise(between);
+  return Scalar(honesty::side_by_side.margin) * away;
+}
+
 /// Hears what nobody wants to know.
 inline constexpr auto not_noted = [](std::size_t, const auto&) noexcept {};
 
@@ -104,13 +115,12 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   Walk<Writer> walk{Status::reached, Rows(writer), {}};
   typename Rows::ColumnErrors kept;
   const auto look = [&](const typename Rows::Row& answer, Scalar t) noexcept {
-    constexpr auto& how = honesty::side_by_side;
     const auto one = walk.asked.row(runs.companion.at(t));
     auto away = Rows::apart(answer, one);
-    if (runs.second == nullptr) return kept.raise(Scalar(how.margin) * away);
+    if (runs.second == nullptr) return kept.raise(error_of_distances(away, {}));
     const auto two = walk.asked.row(runs.second->at(t));
     away.raise(Rows::apart(answer, two));
-    kept.raise(Scalar(how.margin) * away + Scalar(how.margin_of_rounding) * Rows::apart(one, two));
+    kept.raise(error_of_distances(away, Rows::apart(one, two)));
   };
   const Scalar last = times.back();
   const auto all_reach = [&](Scalar t) noexcept {

@@ -11,14 +11,14 @@ namespace gyrostat::honesty {
 
 /// What the estimate of the full equations stands on, the same in every family.
 struct Companions {
-  double tighter;             ///< step tolerance of the answer over that of a companion
-  double data_change;         ///< by how much the data of a companion differ, roundings
-  double margin;              ///< of the distance from the answer to its companions, which is its truncation
-  double margin_of_rounding;  ///< of the distance between the companions, which may be near by chance
+  double tighter;      ///< step tolerance of the answer over that of a companion
+  double data_change;  ///< by how much the data of a companion differ, roundings
+  double margin;       ///< of the greatest distance of the answer and its companions from each other
 };
 
-/// All families, watched in every step, all components moved. Stated error: the two distances by their margins, added.
-inline constexpr Companions side_by_side{64, 2, 5, 3};
+/// All families, watched in every step, all components moved. The distance from the answer is its truncation, that of the companions from each other what
+/// rounding does, and either may be small by chance (error_of_distances).
+inline constexpr Companions side_by_side{64, 2, 5};
 /// The directions in which the vectors of the data of two companions differ: across each other, and as far apart along every axis as such
 /// can be (0.82). Where one number rules, as in a steady rotation, the truncation may cancel what one companion shows, not what both do.
 inline constexpr double directions[2][3] = {{0.90, -0.12, 0.42}, {0.12, -0.90, -0.42}};

@@ -93,6 +93,30 @@ TEST_CASE("steady precession has one rate and one period, whichever rung answers
     }
 }
 
+TEST_CASE("the trace of an unstable steady precession is not that of a slow nutation", "[heavy]") {
+  const auto made =
+      Body::make(Mat3<double>(Vec3<double>(1, 1, 0.001953125).asDiagonal()), 0.15, {0, 0, -2.1}, 0, 43.77);
+  REQUIRE(made);
+  Question question;
+  question.times = {0.2};
+  question.tolerance = 1e-9;
+  const auto trace = [&](int rung) {
+    question.rung = rung;
+    Start start;
+    start.periodic = Periodic{-59.67, -0.113};
+    const auto scene = Scene::make(*made, start, question);
+    REQUIRE(scene);
+    Refusal refusal;
+    const Answer answer = heavy::solve(*scene, refusal);
+    REQUIRE(refusal.code == Errc::ok);
+    const Quantity& found = *answer.quantity("floquet_trace");
+    CHECK(found.error < 1e-9);
+    return found.values[0];
+  };
+  CHECK(trace(rung::full) > 2.04);
+  CHECK(trace(rung::exact) == Approx(trace(rung::full)).epsilon(1e-9));
+}
+
 TEST_CASE("mean precession of a nutating top is given by every rung, of an upright one by none", "[heavy]") {
   const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, 0);
   const auto from = released({1, 2, 60}, {0.6, 0, 0.8});

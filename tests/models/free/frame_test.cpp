@@ -28,7 +28,7 @@ TEST_CASE("the frame of a free motion is orthogonal and its functions of the sta
   int forms[3] = {0, 0, 0};
   double frame_off = 0, circle = 0, modulus = 0;
   for (const Regime regime : regimes)
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 60 && regime != Regime::symmetric; ++i) {  // k2 = 0 has an infinite K'; such need no frame
       const auto pencil = pencil_of<Wide>(bodies.of(regime, i));
       const auto frame = SpinorFrame<Wide>::of(pencil);
       REQUIRE(frame);

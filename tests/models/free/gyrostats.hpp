@@ -27,15 +27,17 @@ enum class Regime {
   close_moments,    ///< two moments equal to 1..1e-15, l oblique
   equal_moments,    ///< two moments equal, l oblique
   unstable_axis,    ///< l along the middle axis, start 1 to 1e-15 off it
+  symmetric,        ///< two moments equal, l along the third axis or none, a quarter next to resonance
   bisected,         ///< l oblique, start between two kinds of motion, as near as halving brings it
 };
 inline constexpr Regime regimes[] = {Regime::generic,       Regime::middle_axis,     Regime::outer_axis,
                                      Regime::much_momentum, Regime::little_momentum, Regime::total_near_zero,
                                      Regime::close_moments, Regime::equal_moments,   Regime::unstable_axis,
-                                     Regime::bisected};
+                                     Regime::symmetric,     Regime::bisected};
 inline const char* name(Regime r) {
-  static const char* names[] = {"generic",         "middle axis",   "outer axis",    "much momentum", "little momentum",
-                                "total near zero", "close moments", "equal moments", "unstable axis", "bisected"};
+  static const char* names[] = {"generic",         "middle axis",     "outer axis",    "much momentum",
+                                "little momentum", "total near zero", "close moments", "equal moments",
+                                "unstable axis",   "symmetric",       "bisected"};
   return names[int(r)];
 }
 
@@ -106,6 +108,15 @@ struct Bodies {
         w[1] = uniform(1, 2);
         w[2] *= count % 2 ? 0 : e;
         break;
+      case Regime::symmetric: {
+        const int k = count % 2, third = k ? 0 : 2;
+        J[k + 1] = J[k];
+        if (count % 4 > 1) l[third] = size * normal();
+        if (count % 4 == 3) w[third] = l[third] / (J[1] - J[third]) * (1 + scale(-2, 0));
+        if (count % 3 == 0) w[third] *= scale(-2, 0);
+        if (count % 3 == 1) w[k] *= e, w[k + 1] *= e;
+        break;
+      }
       case Regime::bisected: return bisected(J, 0.2 * vector(), w, vector(), q);
     }
     return Problem<double>::from_moments(J, l, w, q);

@@ -7,6 +7,7 @@
 
 #include "at_length.hpp"
 #include "catch.hpp"
+#include "gyrostat/models/free/averages.hpp"
 #include "gyrostats.hpp"
 
 namespace free_error_test {
@@ -305,6 +306,39 @@ void quick_errors_bound() {
 TEST_CASE("the quick error of a free motion bounds a set-up in double, or is not there", "[free][length]") {
   SECTION("with the neighbours side by side") { quick_errors_bound<true>(); }
   SECTION("one by one") { quick_errors_bound<false>(); }
+}
+
+TEST_CASE("regular precessions need no neighbours, and their rate's integral is known too", "[free]") {
+  Bodies bodies(38);
+  int taken = 0, understated = 0;
+  std::vector<double> ratio;
+  for (int i = 0; i < 200; ++i) {
+    auto p = bodies.of(Regime::symmetric, i);
+    if (i % 3 == 2) p = turned(bodies, p);
+    const auto m = Motion<double>::make(p);
+    const auto truth = Motion<Wide>::make<Wide>(p.cast<Wide>());
+    REQUIRE(truth);
+    if (!m) continue;
+    const double t = bodies.scale(-2, 2) * (std::isfinite(m->period()) ? std::min(m->period(), 1e3) : 10);
+    const auto error = MotionError<double>::of_precession(*m, Assembly<double>{p, {}}, t);
+    if (!error) continue;
+    ++taken;
+    const auto bound = error->at(t);
+    const Off o = off(m->at(t), truth->at(t));
+    using Long = long double;
+    const gyrostat::free::RateIntegral<Long> integral(*Motion<Long>::make(p.cast<Long>()));
+    const auto turned = gyrostat::vector_cast<double>(integral.at(Long(t)));
+    const double lost = (m->precession_integral(t) - turned).norm() - 16 * epsilon<double> * turned.norm();
+    CAPTURE(i, t, lost, error->turned(t), o.attitude, bound.attitude);
+    understated += o.attitude > bound.attitude || lost > error->turned(t);
+    if (o.attitude > 0) ratio.push_back(bound.attitude / o.attitude);
+    CHECK(lost <= error->turned(t));
+  }
+  std::sort(ratio.begin(), ratio.end());
+  CHECK(taken > 150);
+  CHECK(understated == 0);
+  INFO("median stated/true " << ratio[ratio.size() / 2]);
+  CHECK(ratio[ratio.size() / 2] < 30);
 }
 
 TEST_CASE("neighbours side by side show what they show one by one", "[free]") {

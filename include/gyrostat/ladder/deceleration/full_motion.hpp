@@ -487,7 +487,6 @@ class FullMotion {
 
  private:
   using Run = Course<Scalar, with_control, with_attitude>;
-  static constexpr const auto& how = honesty::side_by_side;
 
   /// To the errors at single times, what no distance shows.
   template <class Rounding>
@@ -518,8 +517,7 @@ class FullMotion {
       return std::min(run.stop_time(), 2 * stop);
     };
     const Scalar one = stop_of(runs.companion), two = runs.second != nullptr ? stop_of(*runs.second) : one;
-    const Scalar apart = Scalar(how.margin) * std::max(std::abs(one - stop), std::abs(two - stop)) +
-                         Scalar(how.margin_of_rounding) * std::abs(one - two);
+    const Scalar apart = error_of_distances(std::max(std::abs(one - stop), std::abs(two - stop)), std::abs(one - two));
     answer.stop_error = Scalar(honesty::stop_margin) * apart / stop +
                         Scalar(honesty::stop_steps) * answer.step_tolerance +
                         Scalar(2e-13L) * std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));

@@ -42,7 +42,7 @@ GYROSTAT_COMPILED_ONCE void warn_of_form(Outcome& track, const ClosedForm& form,
 /// What the rung answers by a form.
 GYROSTAT_COMPILED_ONCE Track track_of(const Scene& scene, const ClosedForm& form);
 
-/// Whether states are all that is asked for, at times of which each is worked out by itself.
+/// Whether states are all that is asked for, at times of which each is worked out by itself, of a motion that needs theta functions.
 GYROSTAT_COMPILED_ONCE bool asks_for_states(const Scene& scene) noexcept;
 
 inline QuickLanes::Body lane_of(const Scene& scene) noexcept {

@@ -74,8 +74,10 @@ GYROSTAT_COMPILED_ONCE void turn_wheels(Track& track, const Scene& scene, const 
   const auto& times = scene.question().times;
   const RateIntegral<double> integral(form.motion);
   for (const double t : times) track.turned.push_back(integral.at(t));
-  const double off = form.precise ? angles_apart<DoubleDouble>(track, scene, DoubleDouble(epsilon<double>))
-                                  : 2 * angles_apart<double>(track, scene, 2 * epsilon<double>);
+  const bool quick_precession = !form.precise && form.motion.is_regular_precession();
+  const double off = quick_precession ? form.error.turned(times.back())
+                     : form.precise   ? angles_apart<DoubleDouble>(track, scene, DoubleDouble(epsilon<double>))
+                                      : 2 * angles_apart<double>(track, scene, 2 * epsilon<double>);
   const auto& wheels = scene.gyrostat().wheels;
   double size = 1e-3, through = integral.swing();
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -156,7 +158,7 @@ GYROSTAT_COMPILED_ONCE Track track_of(const Scene& scene, const ClosedForm& form
 
 GYROSTAT_COMPILED_ONCE bool asks_for_states(const Scene& scene) noexcept {
   return math::many_pays && !tells_scalars(scene.question()) && !scene.gives(column::rotor_angle) &&
-         !takes_grid(scene.question().times);
+         !takes_grid(scene.question().times) && scene.principal().axis_of_symmetry() < 0;
 }
 
 GYROSTAT_COMPILED_ONCE bool take_lane(Track& track, const Scene& scene, const QuickLanes& lanes, int b) {

@@ -15,11 +15,12 @@
 /// What the rungs of the family `free` cost, s.
 namespace gyrostat::free {
 
-/// Where a set-up in double does, where it does not, and beside a separatrix, where errors are looked at in many places.
-inline constexpr FormulaCost quick_form_cost{15e-6, 0.06e-6}, closed_form_cost{90e-6, 0.06e-6},
-    separatrix_form_cost{190e-6, 0.06e-6};
+/// Of a regular precession; where a set-up in double does, where it does not, and beside a separatrix, where errors are looked at in many places.
+inline constexpr FormulaCost precession_cost{2e-6, 0.05e-6}, quick_form_cost{15e-6, 0.06e-6},
+    closed_form_cost{90e-6, 0.06e-6}, separatrix_form_cost{190e-6, 0.06e-6};
 /// Where the angles of wheels are asked: the neighbours' integrals, and a series at each time.
-inline constexpr FormulaCost quick_angle_cost{200e-6, 0.5e-6}, rotor_angle_cost{500e-6, 0.5e-6};
+inline constexpr FormulaCost precession_angle_cost{1e-6, 0.1e-6}, quick_angle_cost{200e-6, 0.5e-6},
+    rotor_angle_cost{500e-6, 0.5e-6};
 inline constexpr SeriesCost series_cost{1e-6, 1.5e-6, 0.25e-6, 0.5};
 
 namespace detail {
@@ -34,22 +35,26 @@ inline bool suits_quick_form(const Scene& scene) noexcept {
   return epsilon<double> * (300 + 20 * turned_angle(scene)) < scene.goal().tightest;
 }
 /// How the closed form is set up.
-enum class SetUp : std::uint8_t { quick, precise, beside_separatrix };
+enum class SetUp : std::uint8_t { precession, quick, precise, beside_separatrix };
 
 /// Of a motion that QuickLanes takes `quick` where that suits, else `precise`.
 inline SetUp set_up_of(const Scene& scene) noexcept {
   const auto motion = Motion<double>::make(scene.gyrostat().problem);
   if (motion && motion->hyperbolic()) return SetUp::beside_separatrix;
-  const bool quick = suits_quick_form(scene) && motion && MotionError<double>::is_tame(*motion, scene.assembly());
-  return quick ? SetUp::quick : SetUp::precise;
+  const bool quick = suits_quick_form(scene) && motion;
+  if (quick && motion->is_regular_precession() && motion->kind() != Kind::spherical) return SetUp::precession;
+  return quick && MotionError<double>::is_tame(*motion, scene.assembly()) ? SetUp::quick : SetUp::precise;
 }
 
 inline FormulaCost cost_of_set_up(SetUp how) noexcept {
-  return how == SetUp::quick ? quick_form_cost : how == SetUp::precise ? closed_form_cost : separatrix_form_cost;
+  constexpr FormulaCost costs[] = {precession_cost, quick_form_cost, closed_form_cost, separatrix_form_cost};
+  return costs[int(how)];
 }
 inline double cost_of_form(const Scene& scene, SetUp how) noexcept {
   const std::size_t times = scene.question().times.size();
-  const FormulaCost& of_angles = how == SetUp::quick ? quick_angle_cost : rotor_angle_cost;
+  const FormulaCost& of_angles = how == SetUp::precession ? precession_angle_cost
+                                 : how == SetUp::quick    ? quick_angle_cost
+                                                          : rotor_angle_cost;
   return cost_of_set_up(how)(times) + (scene.gives(column::rotor_angle) ? of_angles(times) : 0);
 }
 

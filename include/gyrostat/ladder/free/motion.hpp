@@ -64,7 +64,8 @@ inline constexpr ScalarKind scalar_kinds[] = {
     {"angular_momentum_inertial", 3, "N m s", Frame::inertial, Measure::relative, "total angular momentum, constant"},
     {"mean_angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "mean over a period"},
     {"precession_rate", 1, "rad/s", Frame::none, Measure::relative,
-     "mean rate at which the axis that M surrounds goes round M; of a steady rotation and of one component None"},
+     "mean rate at which the axis that M surrounds, or that of symmetry, goes round M; of a steady rotation and of one "
+     "component without symmetry None"},
     {"spin_rate", 1, "rad/s", Frame::none, Measure::relative,
      "mean rate of the body about that axis, relative to the plane of axis and M; the axis as M points on the average"},
     {"flip_interval", 1, "s", Frame::none, Measure::relative,

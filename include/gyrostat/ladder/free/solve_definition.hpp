@@ -80,14 +80,15 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   const Vec3<double>& mean = means.angular_velocity;
   tell(scalar::mean_angular_velocity, {mean[0], mean[1], mean[2]},
        over((over_period.angular_velocity + error.period() + means.error) * error.fastest(), mean.norm()));
-  if (motion.kind() == Kind::about_largest || motion.kind() == Kind::about_smallest) {
-    const bool largest = motion.kind() == Kind::about_largest;
+  const Vec3<double>& J = motion.principal_moments();
+  const bool symmetric = motion.is_regular_precession() && motion.kind() != Kind::spherical;
+  if (symmetric || motion.kind() == Kind::about_largest || motion.kind() == Kind::about_smallest) {
+    const bool largest = symmetric ? J[1] == J[2] : motion.kind() == Kind::about_largest;
     const Vec3<double> one = motion.R_BP().col(largest ? 0 : 2);
     const Vec3<double> axis = one.dot(means.angular_momentum) < 0 ? Vec3<double>(-one) : one;
     const auto turning = precession(motion, axis);
     if (turning.converged) {
       // rounding turns the axes of equal moments, and an axis that M is across to on the average
-      const Vec3<double>& J = motion.principal_moments();
       constexpr double clear = 1e3 * epsilon<double>;
       const bool fixed = std::abs(J[largest ? 0 : 2] - J[1]) > clear * J[0] &&
                          axis.dot(means.angular_momentum) > clear * motion.angular_momentum_norm();

@@ -800,7 +800,6 @@ class FullMotion {
     }
     answer.rests = course.rests();
     if (answer.rests.empty() || answer.status != ode::Status::reached) return;
-    constexpr auto& how = honesty::side_by_side;
     const std::size_t count = answer.rests.size();
     const bool alike = one.rests().size() == count && (two == nullptr || two->rests().size() == count);
     answer.stop = answer.rests[0][0];
@@ -809,8 +808,7 @@ class FullMotion {
       using std::abs;
       const Scalar stop = answer.rests[i][0], first = one.rests()[i][0];
       const Scalar last = two != nullptr ? two->rests()[i][0] : first;
-      const Scalar apart = Scalar(how.margin) * std::max(abs(first - stop), abs(last - stop)) +
-                           Scalar(how.margin_of_rounding) * abs(first - last);
+      const Scalar apart = error_of_distances(std::max(abs(first - stop), abs(last - stop)), abs(first - last));
       const Scalar found = 2 * course.precision() + Scalar(honesty::brake_steps) * answer.step_tolerance;
       const Scalar off = Scalar(honesty::stop_margin) * apart + found * stop;
       if (i == 0) answer.stop_off = off;

@@ -7,6 +7,8 @@
 
 #include "gyrostat/ladder/heavy/exact_periodicity.hpp"
 #include "gyrostat/ladder/honesty.hpp"
+#include "gyrostat/models/heavy/aligned_attitude.hpp"
+#include "gyrostat/models/heavy/symmetric_top.hpp"
 
 namespace gyrostat::heavy {
 
@@ -31,12 +33,19 @@ GYROSTAT_COMPILED_ONCE Periodicity periodicity_of(const Scene& scene, const Stat
   const double turning = start.angular_velocity[2] - known.precession * cosine;
   known.period = 2 * pi<double> / std::abs(turning);
   known.period_error = rounding * (1 + std::abs(known.precession * cosine / turning));
-  const double nutation = exact.euler()        ? s.nutation_squared()
-                          : exact.period() > 0 ? std::pow(known.period / exact.period(), 2)
-                                               : nan<double>;
-  const double angle = 2 * pi<double> * std::sqrt(std::abs(nutation));
-  known.trace = nutation < 0 ? 2 * std::cosh(angle) : 2 * std::cos(angle);
-  known.trace_error = rounding * (1 + angle * (nutation < 0 ? std::sinh(angle) : 1.0));
+  // the square of the angle that a small nutation turns through in the period
+  constexpr double full = 2 * pi<double>;
+  double square = full * full * s.nutation_squared(), terms = std::abs(square);
+  if (!exact.euler()) {
+    const TopStart<double> from(*top, aligned(start).value());
+    const double turned = from.unit * known.period;
+    square = turned * turned * from.nutation_square(), terms = turned * turned * from.nutation_terms();
+  }
+  const double angle = std::sqrt(std::abs(square));
+  known.trace = square < 0 ? 2 * std::cosh(angle) : 2 * std::cos(angle);
+  known.trace_error = (rounding * terms + 2 * known.period_error * std::abs(square)) *
+                          (square < 0 ? std::sinh(angle) / angle : 1 / std::max(1.0, angle)) +
+                      rounding;
   return known;
 }
 

@@ -439,8 +439,10 @@ class FullLanes {
     for (std::size_t i = 0; i < columns; ++i) {
       Pack told = wide(how.margin) * away[i];
       if (two != nullptr) {
+        // error_of_distances
         const Pack greatest = greater_of<double>(away[i], multiply_add(wide(0.), away[i], further[i]));
-        const Pack paired = multiply_add(wide(how.margin), greatest, wide(how.margin_of_rounding) * between[i]);
+        const Pack paired =
+            wide(how.margin) * greater_of<double>(greatest, multiply_add(wide(0.), greatest, between[i]));
         told = choose<double>(both, paired, told);
       }
       raise_to(kept_, i, b, told, yes);

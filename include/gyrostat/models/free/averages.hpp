@@ -49,6 +49,17 @@ Averages<Scalar> averages(const Motion<Scalar>& motion) noexcept {
     mean.second_moment = s.angular_momentum * s.angular_momentum.transpose();
     return mean;
   }
+  if (motion.is_regular_precession()) {
+    const auto s = motion.at(Scalar(0));
+    const Vec3<Scalar> axis = motion.turning_of_momentum().normalized();
+    const Scalar along = axis.dot(s.angular_momentum), across = cross<Scalar>(axis, s.angular_momentum).squaredNorm();
+    const Mat3<Scalar> on_axis = axis * axis.transpose();
+    mean.angular_velocity = axis.dot(s.angular_velocity) * axis;
+    mean.angular_momentum = along * axis;
+    mean.second_moment = along * along * on_axis + across / 2 * (Mat3<Scalar>::Identity() - on_axis);
+    mean.error = 8 * epsilon<Scalar>;
+    return mean;
+  }
   const auto means = math::periodic_means<Scalar, 12>(
       [&](Scalar x) {
         const auto s = motion.at(x * T);
@@ -95,6 +106,12 @@ Precession<Scalar> precession(const Motion<Scalar>& motion, const Vec3<Scalar>& 
   if (!(T < infinity<Scalar>)) {
     const auto r = rates(Scalar(0));
     return {r[0], r[1], motion.kind() == Kind::steady};
+  }
+  if (motion.is_regular_precession()) {
+    const Vec3<Scalar> v = motion.turning_of_momentum();
+    const Scalar about = axis.dot(v);
+    if (v.squaredNorm() - about * about < Scalar(1e-12) * v.squaredNorm())
+      return {motion.precession_rate(), -about, true};
   }
   // M comes back in the body after a period: but for whole turns the axis has then gone round M by the turn in a period, and the body about the axis
   // not at all. A rough mean tells how many.
@@ -186,7 +203,8 @@ class RateIntegral {
  public:
   explicit RateIntegral(const Motion<Scalar>& motion) noexcept : motion_(motion), period_(motion.period()) {
     steady_ = motion.at(Scalar(0)).angular_velocity;
-    if (!(period_ < infinity<Scalar>)) return;
+    if (motion.is_regular_precession()) steady_ = averages(motion).angular_velocity;
+    if (motion.is_regular_precession() || !(period_ < infinity<Scalar>)) return;
     std::size_t n = 64;
     while (n < 8192 && n < std::size_t(4 * nodes_of(motion))) n *= 2;
     for (; n <= 16384; n *= 2) {
@@ -199,6 +217,7 @@ class RateIntegral {
 
   Vec3<Scalar> at(Scalar t) const noexcept {
     if (motion_.kind() == Kind::separatrix) return quadrature(t);
+    if (motion_.is_regular_precession()) return motion_.precession_integral(t);
     if (coefficients_.empty()) return steady_ * t;
     return mean_ * t + (periodic(t) - start_);
   }

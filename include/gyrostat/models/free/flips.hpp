@@ -15,7 +15,7 @@ namespace gyrostat::free {
 template <Real Scalar>
 int nodes_of(const Motion<Scalar>& motion) noexcept {
   using std::ceil, std::min;
-  if (motion.kind() == Kind::spherical || !(motion.quarter_period() < infinity<Scalar>)) return 32;
+  if (motion.is_regular_precession() || !(motion.quarter_period() < infinity<Scalar>)) return 32;
   const Scalar ratio = motion.quarter_period() / motion.quarter_period_conjugate();
   return 32 + 24 * static_cast<int>(ceil(min(ratio, Scalar(1000))));
 }

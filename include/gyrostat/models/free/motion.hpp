@@ -113,7 +113,7 @@ struct Winding;
 
 /// The motion of a free rigid body (Euler, Poinsot) or gyrostat (Zhukovskii, Volterra 1899), rates and attitude at any time: the spinor
 /// of the direction of M in the body is a pair of theta functions of one complex argument times exp(i kappa t), and the attitude is that
-/// spinor.
+/// spinor. Of a body that is symmetric about the axis of its rotors trigonometric functions do.
 template <Real Scalar>
 class Motion {
  public:
@@ -126,7 +126,7 @@ class Motion {
 
   State<Scalar> at(Scalar t) const noexcept {
     if (kind_ == Kind::steady) return steady_at(t);
-    if (kind_ == Kind::spherical) return sphere_at(t);
+    if (precesses_) return precession_at(t);
     const Place place = place_at(t);
     Value zeta = pair_.at(place.exponent, place.rest);
     if (place.odd) zeta = half_period(zeta);
@@ -141,7 +141,7 @@ class Motion {
   /// By how much rounding in at(t) grows since terms of opposite sign are added, 1 or more; near 1 but where the frame is boosted.
   Scalar cancellation(Scalar t) const noexcept {
     using std::abs;
-    if (kind_ == Kind::steady || kind_ == Kind::spherical) return 1;
+    if (kind_ == Kind::steady || precesses_) return 1;
     const Place place = place_at(t);
     const auto f = products(pair_.at(place.exponent, place.rest));
     Scalar parts = 0, sum = 0;
@@ -153,7 +153,7 @@ class Motion {
   /// part of M into much of omega.
   Scalar rate_terms(Scalar t) const noexcept {
     using std::abs, std::sqrt;
-    if (kind_ == Kind::steady || kind_ == Kind::spherical) return at(t).angular_velocity.norm();
+    if (kind_ == Kind::steady || precesses_) return at(t).angular_velocity.norm();
     const Place place = place_at(t);
     const auto f = products(pair_.at(place.exponent, place.rest));
     Scalar square = 0, size = 0;
@@ -167,10 +167,25 @@ class Motion {
   }
 
   /// By how much at(t) fails the equations dM/dt = M x omega, over |M| `fastest`, and dq/dt = q (0, omega)/2, over `fastest` [rad/s], and at(0) the
-  /// start: some roundings where the set-up is sound. In trigonometric form, else infinite.
+  /// start: some roundings where the set-up is sound. Of theta functions in trigonometric form, else infinite.
   Scalar defect(Scalar t, Scalar fastest) const noexcept;
 
   Kind kind() const noexcept { return kind_; }
+  /// The motion is a regular precession: M goes round an axis of the body at one rate, and the body turns about M at another. So are those of a
+  /// body that is symmetric about the axis of its rotors, and of a sphere.
+  bool is_regular_precession() const noexcept { return precesses_; }
+  /// Of a regular precession: the rate at which M goes round an axis of the body, body axes, and that of the body about M, rad/s.
+  Vec3<Scalar> turning_of_momentum() const noexcept { return 4 * pi<Scalar> * rate_.high * axis_; }
+  Scalar precession_rate() const noexcept { return 4 * pi<Scalar> * precession_.high; }
+  /// The integral of omega since t = 0 in a regular precession, body axes, rad.
+  Vec3<Scalar> precession_integral(Scalar t) const noexcept {
+    using std::cos, std::sin;
+    const Vec3<Scalar>& w = initial_.angular_velocity;
+    const auto x = detail::Fraction<Scalar>::of(rate_, t, {});
+    const Scalar half = 2 * pi<Scalar> * (x.high + x.low), pace = 4 * pi<Scalar> * rate_.high;
+    const Vec3<Scalar> along = axis_.dot(w) * axis_, across = w - along;
+    return t * along + 2 * sin(half) / pace * (cos(half) * across + sin(half) * cross<Scalar>(axis_, across));
+  }
   /// Of omega in the body, s; infinite on a separatrix, NaN in a permanent rotation.
   Scalar period() const noexcept { return period_; }
   /// Rotation about M after one period, rad, in (-pi, pi]; NaN where there is no period.
@@ -252,18 +267,38 @@ class Motion {
         static_cast<Scalar>(d[1] * d[2] * n[0] * n[0] + d[0] * d[2] * n[1] * n[1] + d[0] * d[1] * n[2] * n[2]);
   }
 
+  /// omega = a M - v, v constant: M goes round v in the body at its rate.
   template <Real Setup>
-  void set_sphere(const PrincipalProblem<Setup>& p, const Setup& R) noexcept {
-    (void)R;
-    kind_ = Kind::spherical;
-    const Setup a = p.inverse[1];
-    const Vec3<Setup> l = a * (p.R_BP * p.l), M = a * (p.R_BP * p.M);
-    rate_ = half_turns<Setup>(l, axis_);
-    precession_ = half_turns<Setup>(M, precession_axis_);
+  void set_precession(const PrincipalProblem<Setup>& p, const Setup& a, const Vec3<Setup>& v) noexcept {
+    precesses_ = true;
+    const Vec3<Setup> M = a * p.M;
+    rate_ = half_turns<Setup>(p.R_BP * v, axis_);
+    precession_ = half_turns<Setup>(p.R_BP * M, precession_axis_);
     precession_axis_ = rotate<Scalar>(initial_.attitude, precession_axis_);
-    const Setup size = magnitude(l), turns = magnitude(M) / size;
+    const Setup size = magnitude(v), turns = magnitude(M) / size;
     period_ = static_cast<Scalar>(2 * pi<Setup> / size);
     set_turn(turns);
+  }
+
+  template <Real Setup>
+  void set_sphere(const PrincipalProblem<Setup>& p) noexcept {
+    kind_ = Kind::spherical;
+    set_precession<Setup>(p, p.inverse[1], p.inverse[1] * p.l);
+  }
+
+  /// @param k the axis of symmetry, which carries the rotor momentum
+  template <Real Setup>
+  void set_symmetric(const PrincipalProblem<Setup>& p, const Setup& R, int k) noexcept {
+    using std::abs;
+    const Setup across = p.moments[1], along = p.moments[k];
+    Vec3<Setup> v(0, 0, 0);
+    v[k] = p.inverse[1] * (p.l[k] - (across - along) * p.omega[k]);
+    if (v[k] == 0) return set_steady(p, R);
+    set_precession<Setup>(p, p.inverse[1], v);
+    modulus_ = {Scalar(0), Scalar(1)};
+    // where M would have the same energy too
+    const Setup other = 2 * p.l[k] * across / (across - along) - p.M[k];
+    kind_ = abs(other) >= R ? Kind::one_component : k == 0 ? Kind::about_largest : Kind::about_smallest;
   }
 
   /// Turns about M in a period, brought into (-1/2, 1/2].
@@ -411,8 +446,8 @@ class Motion {
     return s;
   }
 
-  /// q = exp(a M_I t/2) q0 exp(-a l t/2).
-  State<Scalar> sphere_at(Scalar t) const noexcept {
+  /// q = exp(a M_I t/2) q0 exp(-v t/2).
+  State<Scalar> precession_at(Scalar t) const noexcept {
     const Quat<Scalar> turn = spun(rate_, axis_, t);
     return {rotate<Scalar>(turn, initial_.angular_velocity), rotate<Scalar>(turn, initial_.angular_momentum),
             spun(precession_, precession_axis_, t) * initial_.attitude * conjugate(turn)};
@@ -425,8 +460,10 @@ class Motion {
   using Points = typename detail::GridPoints<Scalar>::Type;
   void sums(const Block& b, int k, Points (&zeta)[4]) const noexcept;
   void forms(Block& b, int k, const Points (&zeta)[4], bool with_momentum) const noexcept;
+  void precess(Block& b, int n) const noexcept;
 
   Kind kind_ = Kind::steady;
+  bool precesses_ = false;
   State<Scalar> initial_;
   Vec3<Scalar> moments_{1, 1, 1}, l_B_{0, 0, 0}, M_I_{0, 0, 0};
   Mat3<Scalar> R_BP_ = Mat3<Scalar>::Identity();
@@ -434,7 +471,7 @@ class Motion {
   math::Modulus<Scalar> modulus_;
 
   // windows of u (periods, or half periods in hyperbolic form): their rate, the start, and the angle or exponent of E over one. In a
-  // steady rotation and on a sphere turns of a half angle about axis_, and about precession_axis_
+  // steady rotation and a regular precession turns of a half angle about axis_, and about precession_axis_
   detail::Turns<Scalar> rate_, start_, span_, phase_rate_, jump_, precession_;
   Vec3<Scalar> axis_{0, 0, 0}, precession_axis_{0, 0, 0};
   ThetaPair<Scalar> pair_;
@@ -462,7 +499,11 @@ Result<Motion<Scalar>> Motion<Scalar>::make(const Problem<Setup>& problem) noexc
     return motion;
   }
   if (p.spherical()) {
-    motion.set_sphere(p, R);
+    motion.set_sphere(p);
+    return motion;
+  }
+  if (const int k = p.axis_of_symmetry(); k >= 0) {
+    motion.set_symmetric(p, R, k);
     return motion;
   }
   const Pencil<Setup> pencil(p.inverse, p.gaps, p.G, p.l, p.M, R);
@@ -474,7 +515,7 @@ Result<Motion<Scalar>> Motion<Scalar>::make(const Problem<Setup>& problem) noexc
 template <Real Scalar>
 Scalar Motion<Scalar>::defect(Scalar t, Scalar fastest) const noexcept {
   using std::max;
-  if (pair_.hyperbolic || kind_ == Kind::steady || kind_ == Kind::spherical) return infinity<Scalar>;
+  if (pair_.hyperbolic || kind_ == Kind::steady || precesses_) return infinity<Scalar>;
   const Place place = place_at(t);
   const C E = math::unit(place.exponent);
   const Value zeta = pair_.trigonometric(E.re, E.im), slope = pair_.slope(E.re, E.im);
@@ -508,8 +549,8 @@ template <Real Scalar>
 struct Motion<Scalar>::Block {
   using Row = Scalar[block];
   using Wound = Scalar[block + 8];  // what is wound up eight at once
-  Wound up, down;                   // cos and sin of the angle of E, or E and 1/E
-  Wound cosine, sine;               // of the spinor's phase
+  Wound up, down;                   // cos and sin of the angle of E, or E and 1/E; of the half angle about axis_
+  Wound cosine, sine;               // of the spinor's phase; of the half angle about precession_axis_
   Row sign;                         // -1 an odd number of half periods on (hyperbolic form)
   Row rate[3], momentum[3], attitude[4];
 };
@@ -567,6 +608,13 @@ void Motion<Scalar>::fill(Block& b, Scalar first, Scalar step, const detail::Win
                           const detail::Winding<Scalar>& phase) const noexcept {
   using std::exp;
   const auto turned = [](Scalar turns) { return math::unit(2 * pi<Scalar> * turns); };
+  if (precesses_) {
+    const auto x = detail::Fraction<Scalar>::of(rate_, first, {}),
+               y = detail::Fraction<Scalar>::of(precession_, first, {});
+    angle.wind(turned(x.high + x.low), b.up, b.down, block);
+    phase.wind(turned(y.high + y.low), b.cosine, b.sine, block);
+    return;
+  }
   if (!pair_.hyperbolic) {
     const Place place = place_at(first);
     angle.wind(math::unit(place.exponent), b.up, b.down, block);
@@ -694,16 +742,48 @@ GYROSTAT_INLINE void Motion<Scalar>::forms(Block& b, int k, const Points (&zeta)
   row(3, l.w, -l.x, -l.y, -l.z);
 }
 
+/// precession_at() for n points, from the half angles.
+template <Real Scalar>
+void Motion<Scalar>::precess(Block& b, int n) const noexcept {
+  const auto turned = [&](const Vec3<Scalar>& v, Scalar(&to)[3][block]) noexcept {
+    const Vec3<Scalar> along = axis_.dot(v) * axis_, across = v - along, beside = cross<Scalar>(axis_, across);
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < n; ++k) {
+        const Scalar c = b.up[k], s = b.down[k];
+        to[i][k] = along[i] + ((c * c - s * s) * across[i] + 2 * c * s * beside[i]);
+      }
+  };
+  turned(initial_.angular_velocity, b.rate);
+  turned(initial_.angular_momentum, b.momentum);
+  const auto pure = [](const Vec3<Scalar>& v) noexcept { return Quat<Scalar>{Scalar(0), v[0], v[1], v[2]}; };
+  const Quat<Scalar>& q = initial_.attitude;
+  const Quat<Scalar> back = q * conjugate(pure(axis_)), round = pure(precession_axis_) * q,
+                     both = round * conjugate(pure(axis_));
+  const Scalar rows[4][4] = {{q.x, back.x, round.x, both.x},
+                             {q.y, back.y, round.y, both.y},
+                             {q.z, back.z, round.z, both.z},
+                             {q.w, back.w, round.w, both.w}};
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < n; ++k) {
+      const Scalar c = b.up[k], s = b.down[k];
+      b.attitude[i][k] =
+          b.cosine[k] * (c * rows[i][0] + s * rows[i][1]) + b.sine[k] * (c * rows[i][2] + s * rows[i][3]);
+    }
+}
+
 template <Real Scalar>
 void Motion<Scalar>::grid(Scalar first, Scalar step, std::size_t count, Scalar* angular_velocity, Scalar* attitude,
                           Scalar* angular_momentum) const noexcept {
-  const bool special = kind_ == Kind::steady || kind_ == Kind::spherical;
+  const bool special = kind_ == Kind::steady;
   const detail::Winding<Scalar> angle(detail::Fraction<Scalar>::of(rate_, step, {})),
-      phase(detail::Fraction<Scalar>::of(phase_rate_, step, {}));
+      phase(detail::Fraction<Scalar>::of(precesses_ ? precession_ : phase_rate_, step, {}));
   Block b{};
   for (std::size_t begin = 0; begin < count; begin += block) {
     const int n = static_cast<int>(std::min<std::size_t>(block, count - begin));
-    if (!special) {
+    if (precesses_) {
+      fill(b, first + step * Scalar(begin), step, angle, phase);
+      precess(b, n);
+    } else if (!special) {
       fill(b, first + step * Scalar(begin), step, angle, phase);
       for (int k = 0; k < n; k += detail::GridPoints<Scalar>::size) {
         Points zeta[4];

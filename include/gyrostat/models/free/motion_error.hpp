@@ -95,11 +95,17 @@ class MotionError {
   static std::optional<MotionError> quick(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
                                           Scalar horizon) noexcept;
 
+  /// The same of a regular precession of a symmetric body, by what each rounding does at most, and for the integral of omega, too; nothing of a sphere,
+  /// and where the axis is known to less than a tenth.
+  template <class Room>
+  static std::optional<MotionError> of_precession(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
+                                                  Scalar horizon) noexcept;
+
   /// Whether nothing that the set-up subtracts cancels as a matter of course: no separatrix is near, and no principal axes found in Scalar belong to
   /// moments that are nearly equal. Else there is no quick error.
   template <class Room>
   static bool is_tame(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly) noexcept {
-    if (motion.kind() == Kind::steady || motion.kind() == Kind::separatrix || motion.kind() == Kind::spherical ||
+    if (motion.kind() == Kind::steady || motion.kind() == Kind::separatrix || motion.is_regular_precession() ||
         motion.hyperbolic())
       return false;
     const auto& modulus = motion.modulus();
@@ -130,6 +136,11 @@ class MotionError {
   Scalar fastest() const noexcept { return fastest_; }
   /// The neighbours are motions of the same kind; else the data do not tell on which side of a separatrix the motion is.
   bool kinds_agree() const noexcept { return agree_; }
+  /// Of the integral of omega from 0 to t in a regular precession, rad.
+  Scalar turned(Scalar t) const noexcept {
+    const Scalar beyond = std::abs(t);
+    return turned_along_ * beyond + turned_across_ * (last_.angular_momentum + 2 * pi<Scalar> * hidden_share_ * beyond);
+  }
 
  private:
   friend class QuickLanes;
@@ -493,6 +504,8 @@ class MotionError {
   Scalar share_ = 0, turn_rate_ = 0, turn_ = 0;
   Scalar hidden_share_ = 0, hidden_turn_ = 0;  // what no neighbour shows
   Scalar modulus_ = 0, energy_ = 0, norm_ = 0, cancellation_ = 1, rate_terms_ = 0;
+  Scalar turned_along_ = 0,
+         turned_across_ = 0;  // of a regular precession: rad/s, and the swing of the integral of omega, rad
   Scalar drift_ = 0, unstable_ = 0, frequency_ = 0, shear_ = 0, gain_ = 0;  // of a steady rotation
   std::array<Bound, std::size_t(many + 1)> first_{};                        // up to the nodes of the first span
   Bound last_;                                                              // up to the horizon
@@ -512,6 +525,9 @@ template <Real Scalar>
 template <Real Setup, class Room>
 MotionError<Scalar> MotionError<Scalar>::of(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
                                             Data data, Scalar horizon) noexcept {
+  // neighbours in the same arithmetic are as symmetric as the motion
+  if constexpr (std::is_same_v<Setup, Scalar>)
+    if (const auto error = of_precession(motion, assembly, horizon)) return *error;
   MotionError error;
   error.horizon_ = horizon;
   error.nodes_ = motion.hyperbolic() ? many : some;
@@ -535,6 +551,7 @@ template <bool in_lanes, class Room>
 std::optional<MotionError<Scalar>> MotionError<Scalar>::quick(const Motion<Scalar>& motion,
                                                               const Assembly<Scalar, Room>& assembly,
                                                               Scalar horizon) noexcept {
+  if (motion.is_regular_precession()) return of_precession(motion, assembly, horizon);
   if (!is_tame(motion, assembly)) return std::nullopt;
   MotionError error;
   error.begin_quick(horizon);
@@ -545,6 +562,63 @@ std::optional<MotionError<Scalar>> MotionError<Scalar>::quick(const Motion<Scala
   const bool trusted = error.trust_quick(motion.principal_moments(), R_PB * motion.at(0).angular_momentum,
                                          R_PB * motion.rotor_momentum(), motion.phase_rate());
   return trusted ? std::optional(error) : std::nullopt;
+}
+
+template <Real Scalar>
+template <class Room>
+std::optional<MotionError<Scalar>> MotionError<Scalar>::of_precession(const Motion<Scalar>& motion,
+                                                                      const Assembly<Scalar, Room>& assembly,
+                                                                      Scalar horizon) noexcept {
+  using std::abs;
+  if (!motion.is_regular_precession() || motion.kind() == Kind::spherical) return std::nullopt;
+  const Vec3<Scalar>& J = motion.principal_moments();
+  const int k = J[1] == J[2] ? 0 : 2;
+  const Vec3<Scalar> axis = motion.R_BP().col(k);
+  const State<Scalar> start = motion.at(0);
+  const Vec3<Scalar>&w = start.angular_velocity, &M = start.angular_momentum;
+  const Scalar R = motion.angular_momentum_norm(), spin = abs(axis.dot(w)), along = abs(axis.dot(M)),
+               across = (M - axis.dot(M) * axis).norm(), speed = w.norm();
+  const Scalar gap = abs(J[1] - J[k]) / (J[1] * J[k]), pace = 2 * pi<Scalar> / motion.period();
+  // what is added up, term by term
+  Scalar carried = assembly.body.rotor_momentum.norm();
+  for (const auto& wheel : assembly.wheels)
+    carried += wheel.axial_inertia * (abs(wheel.rate) + (wheel.turns_freely ? speed : Scalar(0)));
+  const bool axes_given = assembly.body.inertia.isDiagonal(0);
+  const Scalar off = (axes_given ? 1 : 3) * epsilon<Scalar>;
+  const Scalar terms = J[0] * speed + carried;
+  // how far the axis may be off, and M along it: by that, and by what unequal moments make of it
+  const Scalar tilt = axes_given ? Scalar(0) : off * J[0] / abs(J[1] - J[k]);
+  const Scalar lopsided = off * across * across / (J[1] * pace * R);
+  const Scalar lifted = tilt + lopsided + (axes_given ? Scalar(0) : off * carried / (J[1] * pace));
+  if (!(lifted < Scalar(0.1))) return std::nullopt;
+  const Scalar of_spin = assembly.body.momentum_given ? (along + carried) / J[k] : spin;
+  const Scalar of_pace = off * ((J[1] + J[k]) * of_spin + carried) / J[1] + gap * R * lifted;
+  const Scalar of_momentum = off * terms / J[1];
+  MotionError error;
+  error.horizon_ = horizon;
+  error.kind_ = motion.kind();
+  error.nodes_ = few;
+  error.period_ = error.span_ = motion.period();
+  error.fastest_ = error.speed_ = speed;
+  // constant
+  const Scalar askew = 2 * off * terms / R + 2 * lifted, of_rates = askew * R / J[2] / speed;
+  error.last_ = {of_rates, askew, askew};
+  error.first_.fill(error.last_);
+  // growing
+  error.hidden_share_ = of_pace / (2 * pi<Scalar>);
+  error.hidden_turn_ = of_momentum;
+  error.rates_change_ = 2 * pi<Scalar> * across / J[1] / speed;
+  error.momentum_change_ = 2 * pi<Scalar> * across / R;
+  error.attitude_change_ = 2 * pi<Scalar>;
+  error.share_ = of_pace / (2 * pi<Scalar>);
+  error.turn_rate_ = of_momentum;
+  error.turn_ = motion.period() * (of_momentum + R / J[1] * of_pace / pace);
+  error.modulus_ = 2 * lopsided * R / across;
+  error.energy_ = 4 * off * (1 + (assembly.body.momentum_given ? terms / (J[2] * speed) : Scalar(0)));
+  error.norm_ = 2 * off * terms / R;
+  error.turned_along_ = 2 * off * of_spin + tilt * speed;
+  error.turned_across_ = across / J[1] / pace;
+  return error;
 }
 
 template <Real Scalar>
@@ -588,6 +662,8 @@ extern template MotionError<double> MotionError<double>::of<DoubleDouble>(const 
                                                                           const Assembly<double, Unbounded>&, Data,
                                                                           double) noexcept;
 extern template std::optional<MotionError<double>> MotionError<double>::quick<math::many_pays>(
+    const Motion<double>&, const Assembly<double, Unbounded>&, double) noexcept;
+extern template std::optional<MotionError<double>> MotionError<double>::of_precession(
     const Motion<double>&, const Assembly<double, Unbounded>&, double) noexcept;
 extern template MotionError<double>::Bound MotionError<double>::at(double) const noexcept;
 #endif

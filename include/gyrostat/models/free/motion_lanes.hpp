@@ -510,8 +510,7 @@ inline MotionLanes MotionLanes::spread(int b) const noexcept {
 
 inline std::optional<MotionLanes> MotionLanes::of(const Motion<double>& motion) noexcept {
   const auto& pair = motion.pair_;
-  if (pair.hyperbolic || pair.powers > powers || motion.kind_ == Kind::steady || motion.kind_ == Kind::spherical)
-    return std::nullopt;
+  if (pair.hyperbolic || pair.powers > powers || motion.kind_ == Kind::steady || motion.precesses_) return std::nullopt;
   MotionLanes lanes;
   const auto put = [](Row& row, double value) { std::fill_n(row, size, value); };
   put(lanes.rate_, motion.rate_.high);

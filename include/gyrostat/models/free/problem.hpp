@@ -128,6 +128,16 @@ struct PrincipalProblem {
     return true;
   }
 
+  /// The axis about which the body is symmetric, 0 or 2, where the rotor momentum lies along it to rounding; else -1.
+  int axis_of_symmetry() const noexcept {
+    using std::abs;
+    for (const int k : {0, 2}) {
+      const Scalar slight = 4 * epsilon<Scalar> * abs(l[k]);
+      if (moments[1] == moments[2 - k] && abs(l[1]) <= slight && abs(l[2 - k]) <= slight) return k;
+    }
+    return -1;
+  }
+
   /// J is a sphere to rounding.
   bool spherical() const noexcept { return gaps(0, 2) <= 8 * epsilon<Scalar> * inverse[2]; }
 

@@ -210,7 +210,7 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
   const Scalar u = o.u, x = o.swing;
   const Scalar pull = o.pull - 2 * o.gradient * u;  // slope of v^2
   const Scalar b = -2 * u * o.square + pull * o.ground + 2 * o.rho * o.d;
-  const Scalar a = o.square + 2 * u * pull + o.gradient * o.ground + o.rho * o.rho;
+  const Scalar a = o.nutation_square();
   const Scalar k = pull - 2 * u * o.gradient;
   to_above_ = o.above;
   to_below_ = -o.below;

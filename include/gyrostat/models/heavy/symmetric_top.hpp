@@ -103,6 +103,13 @@ struct TopStart {
     attitude = start.attitude * top.turn;
   }
 
+  /// What is half of -(u'^2)'' by u: in a steady precession the square of the frequency of small nutation, negative where it is unstable.
+  Scalar nutation_square() const noexcept {
+    return square + 2 * u * (pull - 2 * gradient * u) + gradient * ground + rho * rho;
+  }
+  /// The same, all terms by their sizes.
+  Scalar nutation_terms() const noexcept { return square + 2 * std::abs(pull) + 5 * std::abs(gradient) + rho * rho; }
+
   /// The axis stays in one vertical plane, to rounding: no spin and no momentum about the vertical.
   bool planar() const noexcept {
     constexpr Scalar rounding = 16 * epsilon<Scalar>;
