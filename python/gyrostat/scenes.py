@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from gyrostat.asking import AskError, asked, knows_attitude
 from gyrostat.errors import DomainError, Mistake, Refused, SceneError
 from gyrostat.families import FAMILIES, Family
-from gyrostat.fields import ARRAYS, GENERAL, LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, UNSET, Choices, Field, Table, Values, inertia_parts, parts_of, table_of
+from gyrostat.fields import ARRAYS, GENERAL, LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, TIMES, UNSET, Choices, Field, Table, Values, inertia_parts, parts_of, table_of
 from gyrostat.orientation import axes_of, form_of, require_rotation, settle
 from gyrostat.rows import SETTINGS, plan_of
 from gyrostat.units import PATTERN, split, to_si
@@ -121,30 +121,42 @@ class Scene:
         return _check(data, _Source(self._label(), path=self.path), overrides or {})
 
     def _changed(self, overrides: Mapping[str, Any]) -> "Scene | None":
-        """The scene with keys changed that stand alone, or were chosen among alternatives before, where all is well; None: the whole is to be checked."""
+        """The scene with keys changed that stand alone, or were chosen among alternatives before, or are times, where all is well; None: the whole is to be
+        checked."""
         family = FAMILIES[self.kind]
-        tables, written, of_motion = dict(self.tables), dict(self.written), False
+        tables, written, of_motion, new_times = dict(self.tables), dict(self.written), False, set()
         for key, value in overrides.items():
-            found = family.single_keys.get(key) or family.chosen_keys.get(key)
+            found = family.single_keys.get(key) or family.chosen_keys.get(key) or family.time_keys.get(key)
             if found is None:
                 return None
             table, field = found
-            if key not in family.single_keys and (value is None or self.tables[table][field.name] is UNSET):
+            if key in family.time_keys and value is not None:
+                new_times.add(f"{table}.{field.name}")
+            elif key not in family.single_keys and (value is None or self.tables[table][field.name] is UNSET):
                 return None
             try:
                 read = _read(field, value := _plain(value))
             except Refused:
                 return None
             tables[table] = {**tables[table], field.name: read}
-            of_motion |= table != "solve" or field.name == "euler"
+            of_motion |= table != "solve" or field.name in ("ask", "euler")
             written.pop(f"{table}.{field.name}", None)
             if _worded(field, value):
                 written[f"{table}.{field.name}"] = _told(field, value, read)
-        if of_motion and any(family.mistakes({"": self.top, **tables})):
+        if new_times and not _one_way(tables, written, new_times):
             return None
+        if of_motion:
+            try:
+                asked(self.kind, tables["solve"]["ask"], knows_attitude(self.kind, tables))
+            except AskError:
+                return None
+            if any(family.mistakes({"": self.top, **tables})):
+                return None
         made = Scene(self.name, self.kind, self.source, tables, self.path, self.top, written, self.before)
-        if tables["solve"] is self.tables["solve"]:
+        if not new_times:
             made.__dict__["_times"] = self._times
+        elif made._times[0] < made.start_time:
+            return None
         return made
 
     def _label(self) -> str:
@@ -154,6 +166,18 @@ class Scene:
         from gyrostat.notebook import scene_html
 
         return scene_html(self)
+
+
+def _one_way(tables: dict[str, Any], written: dict[str, Any], new: set[str]) -> bool:
+    """Leave of the alternative ways of telling times the one to which the new keys belong; False: they are none, or not whole."""
+    chosen = [choice for choice in TIMES if new <= set(choice)]
+    if not chosen:
+        return False
+    for key in (key for choice in TIMES if choice not in chosen for key in choice):
+        table, _, name = key.rpartition(".")
+        tables[table] = {**tables[table], name: UNSET}
+        written.pop(key, None)
+    return all(tables[table_of(key)][key.rpartition(".")[2]] is not UNSET for key in chosen[0])
 
 
 @dataclass

@@ -311,6 +311,39 @@ def test_rotor_scenes_are_read(text: str, tmp_path: Path) -> None:
     assert scene.replace(integrator="radau").tables["solve"]["integrator"] == "radau"
 
 
+@pytest.mark.parametrize("change", [
+    {"times": [1.0, 2.0]}, {"solve.times": ["1 min", 90.0]}, {"duration": 5.0}, {"samples": 7}, {"duration": "2 min", "samples": 3}, {"ask": ["attitude"]},
+    {"ask": {"attitude": "0.1 deg"}, "times": [3.0], "tolerance": 1e-3}, {"ask": "all"}, {"inertia": [36.0, 22.0, 16.0], "times": [3.0]},
+])
+@pytest.mark.parametrize("name", ["tumbling-brick", "tiangong-1", "pam-d-burn", "lab-gyroscope", "cubesat-wheel-spin-up", "gravity-gradient-boom", "dual-spinner"])
+def test_a_changed_scene_is_the_one_that_is_read_whole(name: str, change: dict[str, Any]) -> None:
+    for begin in ({}, {"times": [0.5, 4.0]}):
+        scene = load(name, **begin)
+        try:
+            whole = scene.with_data(scene.to_dict(), change)
+        except SceneError as error:
+            with pytest.raises(SceneError) as refused:
+                scene.replace(**change)
+            assert str(refused.value) == str(error)
+            continue
+        changed = scene.replace(**change)
+        assert changed.tables == whole.tables and changed.written == whole.written
+        assert changed.times.tolist() == whole.times.tolist()
+
+
+@pytest.mark.parametrize("change", [
+    {"times": []}, {"times": [2.0, 1.0]}, {"times": [1.0], "duration": 3.0}, {"samples": 1}, {"ask": ["no_such"]}, {"ask": []}, {"times": None, "samples": None},
+    {"duration": None},
+])
+def test_times_and_questions_that_make_no_sense_are_refused_with_the_words_of_a_file(change: dict[str, Any]) -> None:
+    scene = load("tumbling-brick")
+    with pytest.raises(SceneError) as whole:
+        scene.with_data(scene.to_dict(), change)
+    with pytest.raises(SceneError) as quick:
+        scene.replace(**change)
+    assert str(quick.value) == str(whole.value)
+
+
 def test_an_axis_within_rounding_of_a_unit_is_normalised(rotor_file: Path) -> None:
     axis = np.array([0.36, 0.48, 0.8]) * (1 + 5e-9)
     scene = load(rotor_file, axis=axis)

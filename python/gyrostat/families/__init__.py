@@ -78,15 +78,19 @@ class Family:
 
     @cached_property
     def single_keys(self) -> dict[str, tuple[str, Field]]:
-        """Table and field by full key, and by name where one table has it, of what stands alone: no alternative to anything, and not
-        what is asked, which hangs on the rest."""
-        return self._fields(lambda table, field: f"{table}.{field.name}" not in self._tied and field.name not in ("ask", "attitude"))
+        """Table and field by full key, and by name where one table has it, of what stands alone: no alternative to anything."""
+        return self._fields(lambda table, field: f"{table}.{field.name}" not in self._tied and field.name != "attitude")
 
     @cached_property
     def chosen_keys(self) -> dict[str, tuple[str, Field]]:
-        """The same of what is an alternative to something, and may change where it was the one that was given; times and the forms of an attitude may not."""
+        """The same of what is an alternative to something, and may change where it was the one that was given; the forms of an attitude may not."""
         forms = {"attitude", *(field.name for field in FORMS)}
         return self._fields(lambda table, field: f"{table}.{field.name}" in self._tied and table != "solve" and field.name not in forms)
+
+    @cached_property
+    def time_keys(self) -> dict[str, tuple[str, Field]]:
+        """The same of the times, in either way of telling them."""
+        return self._fields(lambda table, field: any(f"{table}.{field.name}" in choice for choice in TIMES))
 
     @cached_property
     def _tied(self) -> set[str]:
