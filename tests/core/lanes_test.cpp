@@ -3,7 +3,9 @@
 
 #include "catch.hpp"
 
+#include <cmath>
 #include <limits>
+#include <type_traits>
 
 using namespace gyrostat;
 
@@ -41,4 +43,35 @@ TEMPLATE_TEST_CASE("counting up and down", "", double, long double) {
   CHECK(digits == 321);
   count_down<TestType>(0, [&](int) { digits = 0; });
   CHECK(digits == 321);
+}
+
+TEST_CASE("the share of the next order rounds to either side") {
+  unsigned long long bits = 0x9e3779b97f4a7c15ULL;
+  const auto next = [&] {
+    bits = bits * 6364136223846793005ULL + 1442695040888963407ULL;
+    return 1 + double(bits >> 12) * 0x1p-52;
+  };
+  const auto bias = [&](auto k, bool in_turn) {
+    long double sum = 0;
+    constexpr int count = 20000;
+    for (int i = 0; i < count; ++i) {
+      const double v = next();
+      double to[4];
+      store(to, in_turn ? over_next(lanes(v), int(k)) : over_next(lanes(v), k));
+      sum += (to[0] * (k + 1.0L) - v) / v;
+    }
+    return double(sum / count) / gyrostat::epsilon<double>;
+  };
+  // the rounded reciprocals of 3, 5, 6 and 7 are off by a quarter of epsilon and more
+  count_up<double, 8>([&](auto k) {
+    CAPTURE(int(k));
+    CHECK(std::abs(bias(k, false)) < (k < 8 ? 0.01 : 0.3));
+    CHECK(std::abs(bias(k, true)) < 0.01);
+  });
+  float narrow[4];
+  store(narrow, over_next(lanes(3.0F), std::integral_constant<int, 2>{}));
+  CHECK(narrow[0] == 1.0F);
+  long double precise[4];
+  store(precise, over_next(lanes(3.0L), 2));
+  CHECK(precise[0] == 1.0L);
 }

@@ -26,6 +26,9 @@ struct TwoLanes {
   GYROSTAT_INLINE friend TwoLanes operator*(const TwoLanes& a, const TwoLanes& b) noexcept {
     return {a.first * b.first, a.second * b.second};
   }
+  GYROSTAT_INLINE friend TwoLanes operator/(const TwoLanes& a, const TwoLanes& b) noexcept {
+    return {a.first / b.first, a.second / b.second};
+  }
 };
 
 template <Real Scalar>
@@ -79,6 +82,12 @@ GYROSTAT_INLINE void store_pair(Scalar* to, const LanePair<Scalar>& a) noexcept 
     store(to, a.first);
     store(to + 4, a.second);
   }
+}
+
+template <Real Scalar, class Index>
+  requires(!std::is_same_v<LanePair<Scalar>, Lanes<Scalar>>)
+GYROSTAT_INLINE LanePair<Scalar> over_next(const LanePair<Scalar>& v, Index k) noexcept {
+  return over_next<Scalar>(v, k, [](Scalar x) GYROSTAT_INLINE_LAMBDA { return lane_pair(x); });
 }
 
 /// Lanes (i, j, k, l) of each half.

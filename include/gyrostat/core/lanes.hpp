@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -125,6 +127,15 @@ GYROSTAT_INLINE void store(Scalar* to, const Lanes<Scalar>& a) noexcept {
   std::memcpy(to, &a.v, 4 * sizeof(Scalar));
 }
 
+/// Whether multiply_add of Scalar is rounded once.
+#if defined(__GNUC__) && defined(__FMA__) && defined(__AVX__)
+template <Real Scalar>
+inline constexpr bool fuses = std::is_same_v<Scalar, double> || std::is_same_v<Scalar, float>;
+#else
+template <Real Scalar>
+inline constexpr bool fuses = false;
+#endif
+
 /// a b + c, rounded once where the machine has the instruction.
 template <Real Scalar>
 GYROSTAT_INLINE Lanes<Scalar> multiply_add(const Lanes<Scalar>& a, const Lanes<Scalar>& b,
@@ -183,6 +194,51 @@ GYROSTAT_INLINE Scalar greatest_magnitude(const Lanes<Scalar>& a) noexcept {
   const Scalar x = std::abs(a[0]), y = std::abs(a[1]), z = std::abs(a[2]), w = std::abs(a[3]);
   const Scalar greatest = std::max(std::max(x, y), std::max(z, w));
   return greatest + 0 * (x + y + z + w);
+}
+
+/// 1/n as a number and what its rounding leaves.
+template <Real Scalar>
+struct Reciprocal {
+  Scalar high = 0, low = 0;
+
+  static constexpr Reciprocal of(int n) noexcept {
+    const Scalar high = Scalar(1) / Scalar(n);
+    return {high, static_cast<Scalar>((1 - static_cast<long double>(high) * n) / n)};
+  }
+};
+
+namespace detail {
+
+template <Real Scalar>
+inline constexpr auto reciprocals = [] {
+  std::array<Reciprocal<Scalar>, 64> made{};
+  for (int n = 1; n < 64; ++n) made[std::size_t(n)] = Reciprocal<Scalar>::of(n);
+  return made;
+}();
+
+}  // namespace detail
+
+/// v/(k + 1), k < 63 a number or an index of count_up: what a Taylor recurrence ends in. A rounded reciprocal is off to one side in every step, for all
+/// runs alike, and over thousands of steps that outgrows the roundings that come and go; here it is in two words, or the quotient is taken. Beyond the
+/// eighth the coefficients of steps to rounding are too small for it. Row: Lanes or LanePair; all(x): a row of the number x.
+template <Real Scalar, class Row, class Index, class All>
+GYROSTAT_INLINE Row over_next(const Row& v, Index k, const All& all) noexcept {
+  const auto exactly = [&](int n, const Reciprocal<Scalar>& share) GYROSTAT_INLINE_LAMBDA {
+    if constexpr (fuses<Scalar>) return multiply_add(v, all(share.high), v * all(share.low));
+    else return v / all(Scalar(n));
+  };
+  if constexpr (std::is_integral_v<Index>) {
+    return exactly(int(k) + 1, detail::reciprocals<Scalar>[std::size_t(k + 1)]);
+  } else {
+    constexpr int n = Index::value + 1;
+    constexpr auto share = Reciprocal<Scalar>::of(n);
+    if constexpr (n > 8 || share.low == 0) return v * all(share.high);
+    else return exactly(n, share);
+  }
+}
+template <Real Scalar, class Index>
+GYROSTAT_INLINE Lanes<Scalar> over_next(const Lanes<Scalar>& v, Index k) noexcept {
+  return over_next<Scalar>(v, k, [](Scalar x) GYROSTAT_INLINE_LAMBDA { return lanes(x); });
 }
 
 /// term(from), ..., term(1): unrolled where lanes are registers and the number of turns is known to the compiler.

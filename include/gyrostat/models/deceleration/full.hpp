@@ -246,7 +246,6 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
     Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest, const Row (&jacobian)[3],
     const Row (&turn)[3], const Row (&quadratic)[2], const Row& along, const Row& inverse, const Row& half_inverse,
     Scalar half_unit) const noexcept {
-  const Scalar share = Scalar(1) / static_cast<Scalar>(k + 1);
   const Row u0 = shuffle<0, 0, 0, 0>(newest), u1 = shuffle<1, 1, 1, 1>(newest), u2 = shuffle<2, 2, 2, 2>(newest);
 
   // terms known since the last order, the youngest last
@@ -283,12 +282,12 @@ GYROSTAT_INLINE void FullSystem<Real_, with_control, with_attitude>::extend(
     }
   }
 
-  const Row next = lanes(share) *
-                   (multiply_add(jacobian[0], u0, multiply_add(jacobian[1], u1, multiply_add(jacobian[2], u2, known))));
+  const Row next =
+      over_next(multiply_add(jacobian[0], u0, multiply_add(jacobian[1], u1, multiply_add(jacobian[2], u2, known))), k);
 
   if constexpr (with_attitude) {
     const Row omega = inverse_inertia_ * newest * lanes(half_unit);
-    store(&x[k + 1][4], lanes(share) * work.turn.extend(k, x, 4, omega));
+    store(&x[k + 1][4], over_next(work.turn.extend(k, x, 4, omega), k));
   }
 
   newest = next;

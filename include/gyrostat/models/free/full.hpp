@@ -101,8 +101,8 @@ class FullSystem {
 
   /// Row k + 1 of the quaternion but for its newest terms, and of W, from omega unit/2 of order k.
   template <class Index, int Order>
-  GYROSTAT_INLINE void turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, const Row& motion,
-                            const Row& share) const noexcept;
+  GYROSTAT_INLINE void turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
+                            const Row& motion) const noexcept;
 
   /// Two functions of X that stay, in two words: M.M/2, and omega.J omega/2 less a2 times that, in which differences of a alone are left, so that
   /// beside the middle axis it is known relative to itself; and the sums of the magnitudes of their terms. Less constants.
@@ -186,16 +186,15 @@ FullState<Real_> FullSystem<Real_>::state(Scalar, const Scalar* x) const noexcep
 template <Real Real_>
 template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_>::turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
-                                             const Row& motion, const Row& share) const noexcept {
-  store(&x[k + 1][0], share * work.turn.extend(k, x, 0, motion));
-  store(&x[k + 1][8], share * (motion + motion));
+                                             const Row& motion) const noexcept {
+  store(&x[k + 1][0], over_next(work.turn.extend(k, x, 0, motion), k));
+  store(&x[k + 1][8], over_next(motion + motion, k));
 }
 
 template <Real Real_>
 template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
                                                const Constants& c) const noexcept {
-  const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
   const Row y0 = shuffle<0, 0, 0, 0>(newest), y1 = shuffle<1, 1, 1, 1>(newest), y2 = shuffle<2, 2, 2, 2>(newest);
 
   // terms known since the last order, the youngest last
@@ -207,9 +206,9 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   });
   const Row known = c.quadratic * (product + product_2);
   const Row next =
-      share * (multiply_add(c.jacobian[0], y0, multiply_add(c.jacobian[1], y1, known)) + c.jacobian[2] * y2);
+      over_next(multiply_add(c.jacobian[0], y0, multiply_add(c.jacobian[1], y1, known)) + c.jacobian[2] * y2, k);
 
-  turn(k, x, work, c.motion * newest, share);
+  turn(k, x, work, c.motion * newest);
   store(&x[k + 1][4], next);
   if (k + 1 < Order) {
     work.forward[k] = shuffle<1, 2, 0, 3>(newest);

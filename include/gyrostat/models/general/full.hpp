@@ -283,7 +283,7 @@ class FullSystem {
   GYROSTAT_INLINE Row fall(Index k, const Scalar (&x)[Order + 1][width], Work<Order>& work,
                            const Constants& c) const noexcept;
   template <class Index, int Order>
-  GYROSTAT_INLINE void turn_seen(Index k, int i, Work<Order>& work, const Row& share, Ahead& ahead) const noexcept;
+  GYROSTAT_INLINE void turn_seen(Index k, int i, Work<Order>& work, Ahead& ahead) const noexcept;
   /// All torque of order k, times unit, that bends or has a factor and depends on the motion; and order k + 1 of all vectors and numbers
   /// that are not in the core.
   template <int Order>
@@ -408,7 +408,7 @@ void FullSystem<Real_, large>::take_wheels() noexcept {
 
 template <Real Real_, bool large>
 template <class Index, int Order>
-GYROSTAT_INLINE void FullSystem<Real_, large>::turn_seen(Index k, int i, Work<Order>& work, const Row& share,
+GYROSTAT_INLINE void FullSystem<Real_, large>::turn_seen(Index k, int i, Work<Order>& work,
                                                          Ahead& ahead) const noexcept {
   const auto &o = work.rate.v, &o_turned = work.rate.turned;
   auto& seen = work.seen[i];
@@ -429,7 +429,7 @@ GYROSTAT_INLINE void FullSystem<Real_, large>::turn_seen(Index k, int i, Work<Or
     add(k, 0, first, second);
   }
   add(0, k, first, second);
-  seen.set(k + 1, share * shuffle<1, 2, 0, 3>(first - second));
+  seen.set(k + 1, over_next(shuffle<1, 2, 0, 3>(first - second), k));
 }
 
 template <Real Real_, bool large>
@@ -446,7 +446,6 @@ template <Real Real_, bool large>
 template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_, large>::extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work,
                                                       Row& newest, Ahead& ahead, const Constants& c) const noexcept {
-  const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
   const auto &o = work.rate.v, &o_turned = work.rate.turned;
   // M_j x w_(k-j) but for j = 0 and k
   Row known = lanes(Scalar(0)), known_2 = known;
@@ -479,15 +478,15 @@ GYROSTAT_INLINE void FullSystem<Real_, large>::extend(Index k, Scalar (&x)[Order
   work.momentum_turned[k] = shuffle<1, 2, 0, 3>(newest);
   for (int i = 0; i < directions_.count; ++i) {
     known = c.direction[i].times(work.seen[i].v[k], known);
-    turn_seen(k, i, work, share, ahead);
+    turn_seen(k, i, work, ahead);
   }
   if (sees_.orbit_gradient) known = known + fall(k, x, work, c);
-  store(&x[k + 1][0], share * lanes(Scalar(0.5L)) * work.turn.extend(k, x, 0, rate));
-  store(&x[k + 1][At::turned], share * rate);
+  store(&x[k + 1][0], over_next(lanes(Scalar(0.5L)) * work.turn.extend(k, x, 0, rate), k));
+  store(&x[k + 1][At::turned], over_next(rate, k));
   if (drives_) known = known + work.drive[k];
   if (has_rest_) known = known + rest(k, x, work, c);
   if constexpr (large) turn_wheels(k, x, work, c.unit);
-  newest = share * c.jacobian.times(newest, known);
+  newest = over_next(c.jacobian.times(newest, known), k);
   store(&x[k + 1][At::momentum], newest);
 }
 
@@ -692,7 +691,6 @@ void FullSystem<Real_, large>::see_field(int k, Work<Order>& work) const noexcep
 template <Real Real_, bool large>
 template <int Order>
 void FullSystem<Real_, large>::see(int k, Work<Order>& work, Scalar unit) const noexcept {
-  const Row share = lanes(one_over<Scalar>(k + 1));
   const auto pair = [&](int first, int second, const auto& turning) noexcept {
     auto &a = work.seen[first], &b = work.seen[second];
     const auto &o = work.rate.v, &o_turned = work.rate.turned;
@@ -704,7 +702,7 @@ void FullSystem<Real_, large>::see(int k, Work<Order>& work, Scalar unit) const 
     }
     const Row a_rate = shuffle<1, 2, 0, 3>(a_1 - a_2) + turning.times(b.v, k);
     const Row b_rate = shuffle<1, 2, 0, 3>(b_1 - b_2) - turning.times(a.v, k);
-    a.set(k + 1, share * a_rate), b.set(k + 1, share * b_rate);
+    a.set(k + 1, over_next(a_rate, k)), b.set(k + 1, over_next(b_rate, k));
   };
   if (sees_.orbit_axes) pair(radial, along, work.orbit.rate);
   const auto& field = of_.problem.field;
@@ -799,7 +797,7 @@ template <Real Real_, bool large>
 template <int Order>
 void FullSystem<Real_, large>::turn_wheels(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work,
                                            Scalar unit) const noexcept {
-  const Row share = lanes(one_over<Scalar>(k + 1)), rate = work.rate.v[k];
+  const Row rate = work.rate.v[k];
   for (int half = 0; half < halves_; ++half) {
     const std::size_t p = At::wheel(4 * std::size_t(half)), angle = At::angle(4 * std::size_t(half));
     const auto& u = axes_[half];
@@ -807,8 +805,8 @@ void FullSystem<Real_, large>::turn_wheels(int k, Scalar (&x)[Order + 1][width],
         multiply_add(u[0], shuffle<0, 0, 0, 0>(rate),
                      multiply_add(u[1], shuffle<1, 1, 1, 1>(rate), u[2] * shuffle<2, 2, 2, 2>(rate)));
     const Row turning = lanes(unit) * inverse_[half] * load(&x[k][p]) - along_axes, slowed = friction_[half] * turning;
-    store(&x[k + 1][p], share * (k < 4 ? work.push[half][k] - slowed : lanes(Scalar(0)) - slowed));
-    store(&x[k + 1][angle], share * turning);
+    store(&x[k + 1][p], over_next(k < 4 ? work.push[half][k] - slowed : lanes(Scalar(0)) - slowed, k));
+    store(&x[k + 1][angle], over_next(turning, k));
   }
 }
 
@@ -816,7 +814,6 @@ template <Real Real_, bool large>
 template <int Order>
 void FullSystem<Real_, large>::move_centre(int k, Scalar (&x)[Order + 1][width], const Work<Order>& work,
                                            Scalar unit) const noexcept {
-  const Row share = lanes(unit * one_over<Scalar>(k + 1));
   Row force = work.force_inertial[k];
   if (sees_.body_force) {
     Scalar component[3];
@@ -827,8 +824,8 @@ void FullSystem<Real_, large>::move_centre(int k, Scalar (&x)[Order + 1][width],
     }
     force = force + lanes(component[0], component[1], component[2], Scalar(0));
   }
-  store(&x[k + 1][At::velocity], share * lanes(1 / of_.problem.mass) * force);
-  store(&x[k + 1][At::position], share * load(&x[k][At::velocity]));
+  store(&x[k + 1][At::velocity], over_next(lanes(unit / of_.problem.mass) * force, k));
+  store(&x[k + 1][At::position], over_next(lanes(unit) * load(&x[k][At::velocity]), k));
 }
 
 template <Real Real_, bool large>

@@ -170,7 +170,6 @@ class EulerPoisson {
   GYROSTAT_INLINE void extend(Index k, Scalar (&x)[Order + 1][Width], Rows<Order>& rows,
                               const Constants& c) const noexcept {
     const auto &forward = rows.forward, &backward = rows.backward, &crossed = rows.crossed;
-    const Pair share = lane_pair(Scalar(1) / static_cast<Scalar>(k + 1));
     // pairs j, k - j, the youngest last
     Pair straight = lane_pair(Scalar(0)), straight_2 = straight, across = straight, across_2 = straight;
     if (k % 2 == 0) {
@@ -186,7 +185,7 @@ class EulerPoisson {
     });
     Pair known = joined(straight + straight_2, across + across_2, c);
     if (k >= 3) known = with(c.order_1, rows, k - 1, known);
-    const Pair next = share * with(c.order_0, rows, k, known);
+    const Pair next = over_next<Scalar>(with(c.order_0, rows, k, known), k);
     store_pair(&x[k + 1][0], next);
     rows.keep(k + 1, next);
   }
@@ -328,9 +327,8 @@ class FullSystem {
   /// Order k + 1 of the quaternion.
   template <class Index, int Order>
   GYROSTAT_INLINE void turn(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, const Row& half) const noexcept {
-    const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
     const Row motion = half * load(&x[k][0]);
-    store(&x[k + 1][8], share * work.turn.extend(k, x, 8, motion));
+    store(&x[k + 1][8], over_next(work.turn.extend(k, x, 8, motion), k));
   }
 
   detail::EulerPoisson<Scalar> equations_;
@@ -453,7 +451,6 @@ void VariationalSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1
   const auto& rows = work.rows;
   for (int k = 0; k < Order; ++k) {
     if (k > 0) equations_.extend(k, x, work.rows, c);
-    const Pair share = lane_pair(Scalar(1) / static_cast<Scalar>(k + 1));
     for (int column = 0; column < columns; ++column) {
       auto& change = work.change[column];
       change.keep(k, load_pair(&x[k][8 * (column + 1)]));
@@ -467,7 +464,7 @@ void VariationalSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1
       }
       const Pair pull = c.pull_forward * change.crossed[k] - c.pull_backward * exchanged<Scalar>(change.forward[k]);
       const Pair convolved = Equations::joined(straight + straight_2, across + across_2, c);
-      store_pair(&x[k + 1][8 * (column + 1)], share * (convolved + pull));
+      store_pair(&x[k + 1][8 * (column + 1)], over_next<Scalar>(convolved + pull, k));
     }
   }
 }

@@ -197,7 +197,6 @@ template <Real Real_>
 template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
                                                const Constants& c) const noexcept {
-  const Row share = lanes(Scalar(1) / static_cast<Scalar>(k + 1));
   const Row y0 = shuffle<0, 0, 0, 0>(newest), y1 = shuffle<1, 1, 1, 1>(newest), y2 = shuffle<2, 2, 2, 2>(newest),
             y3 = shuffle<3, 3, 3, 3>(newest);
 
@@ -212,16 +211,17 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
       k - 1, [&](int j) GYROSTAT_INLINE_LAMBDA { pull = multiply_add(lanes(x[j][7]), work.across[k - j], pull); });
   const Row square = product + product_2;
   const Row known = c.quadratic * square - pull;
-  const Row next = share * (multiply_add(c.jacobian[0], y0, multiply_add(c.jacobian[1], y1, known)) +
-                            multiply_add(c.jacobian[2], y2, c.jacobian[3] * y3));
+  const Row next = over_next(multiply_add(c.jacobian[0], y0, multiply_add(c.jacobian[1], y1, known)) +
+                                 multiply_add(c.jacobian[2], y2, c.jacobian[3] * y3),
+                             k);
 
   // (Omega unit/2, omega) of order k
   const Row motion = multiply_add(c.motion[0], y0, c.motion[1] * y1) + multiply_add(c.motion[2], y2, c.motion[3] * y3);
-  store(&x[k + 1][0], share * work.turn.extend(k, x, 0, motion));
+  store(&x[k + 1][0], over_next(work.turn.extend(k, x, 0, motion), k));
   store(&x[k + 1][4], next);
 
   const Row rate = shuffle<3, 3, 3, 3>(motion);
-  store(&x[k + 1][8], share * with_last(c.unit * rate, c.slope * multiply_add(c.first_x, motion, square)));
+  store(&x[k + 1][8], over_next(with_last(c.unit * rate, c.slope * multiply_add(c.first_x, motion, square)), k));
 
   if (k + 1 < Order) {
     work.forward[k] = with_last(shuffle<1, 2, 0, 3>(newest), motion);

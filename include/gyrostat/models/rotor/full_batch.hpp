@@ -249,7 +249,8 @@ GYROSTAT_INLINE void FullBatch<Real_>::finish(int k, int first, const Scalar (&u
   const Pack zero = wide(Scalar(0));
   const auto row = [&](int j, int i) GYROSTAT_INLINE_LAMBDA { return load_wide(&x[j][i][first]); };
   const Pack unit = load_wide(&units[first]);
-  const Pack share = unit * wide(Scalar(1) / static_cast<Scalar>(k + 1));
+  // a quotient, which rounds to either side with the unit, where a reciprocal of k + 1 rounds to one
+  const Pack share = unit / wide(static_cast<Scalar>(k + 1));
   const Pack H[3] = {row(k, 0), row(k, 1), row(k, 2)}, p = row(k, 3);
   Pack g[3];
 #pragma GCC unroll 3

@@ -215,7 +215,6 @@ template <Real Real_>
 template <class Index, int Order>
 GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][width], Work<Order>& work, Row& newest,
                                                const Constants& c) const noexcept {
-  const Scalar share = Scalar(1) / static_cast<Scalar>(k + 1);
   const Row y0 = shuffle<0, 0, 0, 0>(newest), y1 = shuffle<1, 1, 1, 1>(newest), y2 = shuffle<2, 2, 2, 2>(newest);
 
   // terms known since the last order, the youngest last
@@ -227,13 +226,12 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
     product_2 = multiply_add(work.forward[k - j], work.backward[j], product_2);
   });
   const Row known = c.quadratic * (product + product_2);
-  const Row next =
-      lanes(share) *
-      (multiply_add(c.jacobian[0], y0, multiply_add(c.jacobian[1], y1, multiply_add(c.jacobian[2], y2, known))));
+  const Row next = over_next(
+      multiply_add(c.jacobian[0], y0, multiply_add(c.jacobian[1], y1, multiply_add(c.jacobian[2], y2, known))), k);
 
   // the quaternion
   const Row motion = c.half * newest;
-  store(&x[k + 1][4], lanes(share) * work.turn.extend(k, x, 4, motion));
+  store(&x[k + 1][4], over_next(work.turn.extend(k, x, 4, motion), k));
 
   // the force's direction, power and quadratures
   const Row thrust = to_thrust(load(&x[k][4]));
@@ -250,9 +248,10 @@ GYROSTAT_INLINE void FullSystem<Real_>::extend(Index k, Scalar (&x)[Order + 1][w
   });
   square = multiply_add(work.thrust[0], thrust, square);
   const Scalar power = sum(c.power * newest)[0];
-  store(&x[k + 1][8], lanes(share) * (c.unit * third_axis(mixed, square + square, Scalar(0)) +
-                                      lanes(Scalar(0), Scalar(0), Scalar(0), power)));
-  store(&x[k + 1][12], lanes(share) * c.unit * with_last(load(&x[k][8]), zero));
+  store(&x[k + 1][8],
+        over_next(
+            c.unit * third_axis(mixed, square + square, Scalar(0)) + lanes(Scalar(0), Scalar(0), Scalar(0), power), k));
+  store(&x[k + 1][12], over_next(c.unit * with_last(load(&x[k][8]), zero), k));
 
   store(&x[k + 1][0], next);
   if (k + 1 < Order) {
