@@ -312,6 +312,24 @@ TEST_CASE("special free motions are named and exact", "[free]") {
     const double other1 = J[(i + 1) % 3], other2 = J[(i + 2) % 3];
     CHECK(m.steady_square() == Approx(4 * (J[i] - other1) * (J[i] - other2) / other1 / other2));
   }
+  // a symmetric body without rotors surrounds its axis however near to it or to the equator; with some, the kind is that of a body next to it
+  for (const double tilt : {1., 1e-9, 1e-300}) {
+    CHECK(quickly(Problem<double>::from_moments({2, 2, 3}, {0, 0, 0}, {tilt, 0, 1}, q0)).kind() == Kind::about_largest);
+    CHECK(quickly(Problem<double>::from_moments({2, 2, 1}, {0, 0, 0}, {tilt, 0, 1}, q0)).kind() ==
+          Kind::about_smallest);
+    CHECK(quickly(Problem<double>::from_moments({2, 2, 1}, {0, 0, 0}, {1, 0, tilt}, q0)).kind() ==
+          Kind::about_smallest);
+  }
+  for (const double smallest : {1., 3.})
+    for (const double rotor : {-2.5, -1., -.3, .2, .9, 2.})
+      for (const double along : {-1.2, -.4, .5, 1.7}) {
+        const auto of = [&](double second) {
+          return finely(Problem<double>::from_moments({2, second, smallest}, {0, 0, rotor}, {.6, .3, along}, q0))
+              .kind();
+        };
+        CAPTURE(smallest, rotor, along);
+        CHECK(of(2) == of(2 + 1e-9));
+      }
   {  // a symmetric body without rotors, and with one along its axis: regular precession
     for (const double rotor : {0., .7, -3.}) {
       const auto m = finely(Problem<double>::from_moments({3, 3, 2}, {0, 0, rotor}, {.4, -.1, .9}, q0));

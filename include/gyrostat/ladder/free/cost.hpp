@@ -41,9 +41,9 @@ enum class SetUp : std::uint8_t { precession, quick, precise, beside_separatrix 
 inline SetUp set_up_of(const Scene& scene) noexcept {
   const auto motion = Motion<double>::make(scene.gyrostat().problem);
   if (motion && motion->hyperbolic()) return SetUp::beside_separatrix;
-  const bool quick = suits_quick_form(scene) && motion;
-  if (quick && motion->is_regular_precession() && motion->kind() != Kind::spherical) return SetUp::precession;
-  return quick && MotionError<double>::is_tame(*motion, scene.assembly()) ? SetUp::quick : SetUp::precise;
+  if (motion && motion->is_regular_precession() && motion->kind() != Kind::spherical) return SetUp::precession;
+  const bool quick = suits_quick_form(scene) && motion && MotionError<double>::is_tame(*motion, scene.assembly());
+  return quick ? SetUp::quick : SetUp::precise;
 }
 
 inline FormulaCost cost_of_set_up(SetUp how) noexcept {

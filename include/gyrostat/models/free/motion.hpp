@@ -289,16 +289,16 @@ class Motion {
   /// @param k the axis of symmetry, which carries the rotor momentum
   template <Real Setup>
   void set_symmetric(const PrincipalProblem<Setup>& p, const Setup& R, int k) noexcept {
-    using std::abs;
     const Setup across = p.moments[1], along = p.moments[k];
     Vec3<Setup> v(0, 0, 0);
     v[k] = p.inverse[1] * (p.l[k] - (across - along) * p.omega[k]);
     if (v[k] == 0) return set_steady(p, R);
     set_precession<Setup>(p, p.inverse[1], v);
     modulus_ = {Scalar(0), Scalar(1)};
-    // where M would have the same energy too
-    const Setup other = 2 * p.l[k] * across / (across - along) - p.M[k];
-    kind_ = abs(other) >= R ? Kind::one_component : k == 0 ? Kind::about_largest : Kind::about_smallest;
+    // M along the axis at which the energy turns: the level has as much again on the other side of it, where |M| reaches so far
+    const Setup turn = p.l[k] * across / (across - along), one = p.M[1], other = p.M[2 - k];
+    const bool two = p.l[k] == 0 || 4 * turn * (turn - p.M[k]) < one * one + other * other;
+    kind_ = !two ? Kind::one_component : k == 0 ? Kind::about_largest : Kind::about_smallest;
   }
 
   /// Turns about M in a period, brought into (-1/2, 1/2].

@@ -592,7 +592,7 @@ std::optional<MotionError<Scalar>> MotionError<Scalar>::of_precession(const Moti
   const Scalar lifted = tilt + lopsided + (axes_given ? Scalar(0) : off * carried / (J[1] * pace));
   if (!(lifted < Scalar(0.1))) return std::nullopt;
   const Scalar of_spin = assembly.body.momentum_given ? (along + carried) / J[k] : spin;
-  const Scalar of_pace = off * ((J[1] + J[k]) * of_spin + carried) / J[1] + gap * R * lifted;
+  const Scalar of_pace = off * ((J[1] + J[k]) * of_spin + carried) / J[1] + gap * (R * lifted + J[k] * speed * tilt);
   const Scalar of_momentum = off * terms / J[1];
   MotionError error;
   error.horizon_ = horizon;
