@@ -107,7 +107,7 @@ struct Tally {
     over += answer.met && !within;
     if (!good) worst.push_back({most, which + " " + scene});
   }
-  /// `passed` is what a cheaper rung, which was passed over, answers by name: whether all of what the ladder's answer gives would have been
+  /// `passed` is what a rung that was passed over answers by name, for less: whether all of what the ladder's answer gives would have been
   /// within the tolerance.
   bool was_in_vain(const Answer& passed, const Answer& answer, const Answer& truth) {
     double most = 0;
@@ -200,6 +200,13 @@ inline std::vector<AskedQuantity> every_column(const Family& family) {
   return asked;
 }
 
+/// What the rung took that answers, s.
+inline double spent_by(const Answer& answer) {
+  for (const Attempt& attempt : answer.tried)
+    if (attempt.accepted) return attempt.spent;
+  return infinity<double>;
+}
+
 /// The run of a family: [SCENES] [SEED] [RUNG] on the command line; every other answer of the ladder is asked for every column by name; without a rung the ladder, and every fourth answer by the rungs in turn,
 /// by name. source.next() gives a scene of some kind; a `Made` has posed(question), a Result of the scene of the family under that question
 /// (its times left to it), and text(), all that is needed to make it anew; truth(scene, answer), or truth(made, scene, answer) where the
@@ -263,7 +270,9 @@ void run(int argc, char** argv, const Family& family, int count, Scenes source, 
         question.rung = place_of(family.rungs, attempt.model);
         const auto again = made.posed(question);
         const Answer passed = solve(*again, refusal);
-        if (refusal.code == Errc::ok && tallies[k].was_in_vain(passed, answer, right)) break;
+        if (refusal.code == Errc::ok && spent_by(passed) < spent_by(answer) &&
+            tallies[k].was_in_vain(passed, answer, right))
+          break;
       }
     }
     if ((i + 1) % 500 == 0) std::fprintf(stderr, "%d of %d scenes\n", i + 1, count);

@@ -61,7 +61,8 @@ def scalars(kind: str, _: str) -> str:
 
 
 def rungs(kind: str, _: str) -> str:
-    listed = table(["rung", "what it is"], [[f"`{each['name']}`", each["meaning"]] for each in COMPILED[kind]["rungs"]])
+    listed = table(["rung", "what it is", "columns that it never gives"], [
+        [f"`{each['name']}`", each["meaning"], ", ".join(f"`{name}`" for name in each["lacks"]) or "-"] for each in COMPILED[kind]["rungs"]])
     return f"{listed}\nIntegrators of the full equations: {', '.join(f'`{name}`' for name in COMPILED[kind]['integrators'])}.\n"
 
 

@@ -99,4 +99,7 @@ def parse_ask(text: str) -> Ask:
     if not any("=" in part for part in parts):
         return parts
     pairs = [part.partition("=") for part in parts]
+    names = [name.strip() for name, _, _ in pairs]
+    if twice := [name for name in names if names.count(name) > 1]:
+        raise AskError(f"{twice[0]} is there twice", "name it once")
     return {name.strip(): value.strip() for name, _, value in pairs}

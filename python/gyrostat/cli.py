@@ -11,6 +11,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
@@ -164,7 +165,7 @@ def _arguments() -> argparse.ArgumentParser:
             ("torque-for-direction", "RAD", "greatest transverse torque for the direction of the velocity, from axis 3"),
             ("burn-for-displacement", "M", "longest burn for a displacement across axis 3"),
             ("burn-for-velocity", "M/S", "longest burn for a change of velocity")):
-        goal.add_argument(f"--{name}", type=float, metavar=unit, help=text)
+        goal.add_argument(f"--{name}", type=partial(_amount, unit.lower()), metavar=unit, help=f"{text}; in this unit, or with another: '1 deg'")
     design.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
     design.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the scene with the value in it, as TOML")
 
@@ -223,6 +224,14 @@ def main(argv: Sequence[str] | None = None) -> int:
         text = (str(error).splitlines() or [""])[0][:300]
         say(f"gyrostat: internal failure: {type(error).__name__}: {text} (GYROSTAT_DEBUG=1 shows where)", sys.stderr)
         return INTERNAL
+
+
+def _amount(unit: str, text: str) -> float:
+    """A number on the command line, in SI units."""
+    try:
+        return quantity(text, unit)
+    except Refused as error:
+        raise argparse.ArgumentTypeError(f'"{text}": {error}') from None
 
 
 def _scene(arguments: argparse.Namespace) -> Scene:

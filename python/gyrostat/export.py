@@ -87,13 +87,20 @@ def to_json(answer: Answer) -> str:
     return "".join(_json(_parts(answer)))
 
 
+def _per_wheel(answer: Answer) -> set[str]:
+    """The columns that have a number for each wheel."""
+    facts = FACTS.get(answer.scene.get("kind", ""))
+    return {column.name for column in facts.columns.values() if column.width == 0} if facts else set()
+
+
 def _flat(answer: Answer) -> Iterator[tuple[str, NDArray[Any]]]:
     """Columns of one number each, without the time."""
+    per_wheel = _per_wheel(answer)
     for name, values in answer.columns.items():
         if values.ndim == 1:
             yield name, values
         else:
-            axes = _AXES if values.shape[1] <= len(_AXES) else tuple(str(i) for i in range(1, values.shape[1] + 1))
+            axes = tuple(str(i) for i in range(1, values.shape[1] + 1)) if name in per_wheel else _AXES
             for axis, part in zip(axes, values.T, strict=False):
                 yield f"{name}_{axis}", part
 
@@ -139,8 +146,7 @@ def to_xarray(answer: Answer) -> "xarray.Dataset":
     except ImportError as error:
         raise ImportError("xarray is not installed: pip install 'gyrostat[xarray]'") from error
     variables: dict[str, Any] = {}
-    facts = FACTS.get(answer.scene.get("kind", ""))
-    per_wheel = {column.name for column in facts.columns.values() if column.width == 0} if facts else set()
+    per_wheel = _per_wheel(answer)
     for name, values in answer.columns.items():
         axis = {1: (), 2: ("wheel" if name in per_wheel else "axis" if values.shape[-1] == 3 else "component",)}[values.ndim]
         attributes: dict[str, Any] = {"units": UNITS.get(name, ""), "long_name": MEANINGS.get(name, name)}

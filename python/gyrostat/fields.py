@@ -44,11 +44,6 @@ class Field:
     sorts: tuple[tuple["Field", ...], ...] = ()
     by: tuple[str, ...] = ()
 
-    @property
-    def all_parts(self) -> tuple["Field", ...]:
-        """The keys of a record of any sort, by name."""
-        return self.parts or tuple({part.name: part for sort in reversed(self.sorts) for part in sort}.values())
-
 
 Table = tuple[Field, ...]
 

@@ -57,7 +57,7 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = Non
     answer = family.solve(**family.arguments(checked), **own, monitor=monitor)
     if data_error:
         answer = replace(answer, data_error=error_of_data(checked, answer, monitor=monitor))
-    return answer.of_scene(checked.to_dict, off_orthonormal(checked.tables.get("initial", {})))
+    return answer.of_scene(checked.told, off_orthonormal(checked.tables.get("initial", {})))
 
 
 def chart(scene: SceneLike, **overrides: Any) -> "Chart":

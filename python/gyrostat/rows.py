@@ -138,6 +138,8 @@ class Place:
         """Which of the values (n,) the key does not allow; NaN among them."""
         if self._is_free:
             return ~np.isfinite(values)
+        if self.field.form == "choice":
+            return ~np.isin(values, np.arange(len(self.field.choices)))
         low, high = self.field.low, self.field.high
         above = values > low if self.field.open_low else values >= low
         below = values < high if self.field.open_high else values <= high
@@ -146,6 +148,8 @@ class Place:
     @property
     def remedy(self) -> str:
         """What would be allowed."""
+        if self.field.form == "choice":
+            return f"{self.key} is none of {', '.join(self.field.choices)}"
         return f"{self.key} is not {'finite' if self._is_free else interval(self.field) or 'finite'}"
 
     @property

@@ -110,6 +110,17 @@ class Scene:
                 made[table] = given
         return made
 
+    def told(self) -> dict[str, Any]:
+        """As to_dict(), for wherever it is read: the file that the motion goes on `from` by its full path, unless it is bundled."""
+        made = self.to_dict()
+        if self.before is not None and self.before.path is not None:
+            given = made["from"]
+            name = given if isinstance(given, str) else given["file"]
+            if name not in dict(bundled()):
+                full = str(self.before.path.resolve())
+                made["from"] = full if isinstance(given, str) else {**given, "file": full}
+        return made
+
     def replace(self, **overrides: Any) -> "Scene":
         """The same scene with some keys changed: by name (`tolerance=1e-9`) or dotted (`**{"torque.drag": 0.0}`)."""
         if not overrides:
@@ -334,7 +345,7 @@ def _count(field: Field, value: Any) -> int:
     return value
 
 
-def _list(field: Field, value: Any, length: int, example: str) -> list[Any]:
+def _list(value: Any, length: int, example: str) -> list[Any]:
     if not isinstance(value, list):
         raise Refused(f"this is {_kind_of(value)}, not an array", f"write {length} numbers, such as {example}")
     if len(value) != length:
@@ -343,7 +354,7 @@ def _list(field: Field, value: Any, length: int, example: str) -> list[Any]:
 
 
 def _vector(field: Field, value: Any) -> tuple[float, ...]:
-    items = _list(field, value, 3, "[0.1, 0.2, 0.3]")
+    items = _list(value, 3, "[0.1, 0.2, 0.3]")
     return tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
 
 
@@ -378,7 +389,7 @@ def _matrix(field: Field, value: Any) -> tuple[tuple[float, ...], ...]:
     if not isinstance(value, list):
         diagonal: tuple[float, ...] = (_number(field, value),) * 3
     elif any(isinstance(item, list) for item in value):
-        return tuple(map(tuple, _rows(field, _list(field, value, 3, "three rows of three"), "a matrix")))
+        return tuple(map(tuple, _rows(field, _list(value, 3, "three rows of three"), "a matrix")))
     else:
         diagonal = _vector(field, value)
     return tuple(tuple(diagonal[i] if i == j else 0.0 for j in range(3)) for i in range(3))
@@ -406,7 +417,7 @@ def _unit(numbers: tuple[float, ...], tolerance: float, what: str) -> tuple[floa
 
 def _quaternion(field: Field, value: Any) -> tuple[float, ...]:
     order, identity = ("w, x, y, z", "[1.0, 0.0, 0.0, 0.0]") if field.name == "quaternion_scalar_first" else ("x, y, z, w", "[0.0, 0.0, 0.0, 1.0]")
-    items = _list(field, value, 4, f"{identity} ({order})")
+    items = _list(value, 4, f"{identity} ({order})")
     q = tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
     if not any(q):
         raise Refused("a zero quaternion is no rotation", f"write a unit quaternion [{order}], such as {identity}")
@@ -415,7 +426,7 @@ def _quaternion(field: Field, value: Any) -> tuple[float, ...]:
 
 def _turn(field: Field, value: Any) -> tuple[float, ...]:
     """A quaternion of any length but 0."""
-    items = _list(field, value, 4, "[0.0, 0.0, 0.0, 1.0] (x, y, z, w)")
+    items = _list(value, 4, "[0.0, 0.0, 0.0, 1.0] (x, y, z, w)")
     q = tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
     if not any(q):
         raise Refused("a zero quaternion is no rotation", "write a quaternion [x, y, z, w], such as [0.0, 0.0, 0.0, 1.0]")
@@ -440,7 +451,7 @@ def _rows(field: Field, items: list[Any], what: str) -> list[list[float]]:
 
 
 def _rotation(field: Field, value: Any) -> tuple[tuple[float, ...], ...]:
-    items = _list(field, value, 3, "[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]")
+    items = _list(value, 3, "[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]")
     made = tuple(map(tuple, _rows(field, items, "direction cosines")))
     require_rotation(made)
     return made
@@ -475,7 +486,7 @@ def _tensor(field: Field, value: Mapping[str, Any]) -> list[Any]:
 
 def _inertia(field: Field, value: Any) -> tuple[Any, ...]:
     example = "[35.0, 22.0, 16.0]"
-    items = _tensor(field, value) if isinstance(value, dict) else _list(field, value, 3, f"{example}, or three rows of three")
+    items = _tensor(field, value) if isinstance(value, dict) else _list(value, 3, f"{example}, or three rows of three")
     if not any(isinstance(item, list) for item in items):
         moments = tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
         _triangle(moments)

@@ -132,6 +132,8 @@ class Study:
     def _coordinates(self, rows: range, variables: Mapping[str, Any]) -> dict[str, Any]:
         used = {name for dims, *_ in variables.values() if isinstance(dims, tuple) for name in dims}
         every = {"time": ("time", self.scene.times, {"units": "s", "long_name": MEANINGS["t"]}), "axis": list("xyz"), "component": list("xyzw")}
+        wheels = next((values.shape[dims.index("wheel")] for dims, values, *_ in variables.values() if "wheel" in dims), 0)
+        every["wheel"] = np.arange(1, wheels + 1)
         return {"row": np.arange(rows.start, rows.stop, dtype=np.int32), **{name: values for name, values in every.items() if name in used}}
 
 
@@ -148,7 +150,7 @@ def _variables(quantity: Quantity, column: bool, values: np.ndarray[Any, Any], e
     """A column or scalar and its error."""
     dims: tuple[str, ...] = ("row", "time") if column else ("row",)
     if values.ndim > len(dims):
-        dims = (*dims, {0: "rotor", 3: "axis", 4: "component"}.get(quantity.width, "part"))
+        dims = (*dims, {0: "wheel", 3: "axis", 4: "component"}.get(quantity.width, "part"))
     attributes: dict[str, Any] = {"units": quantity.unit, "long_name": quantity.meaning}
     if quantity.kind == "word":
         words = np.array([*quantity.words, ""], dtype=object)

@@ -224,6 +224,8 @@ def _uniform(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
 
 
 def _choice(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
+    if not spread.arguments:
+        raise DomainError(f"{spread}: give at least one value")
     values = np.array([read(value) for value in spread.arguments])
     return partial(_choice_at, values)
 

@@ -90,6 +90,10 @@ py::list families() {
       py::dict item;
       item["name"] = rung.name;
       item["meaning"] = rung.meaning;
+      py::list lacks;
+      for (std::size_t i = 0; i < family->columns.size(); ++i)
+        if (has(rung.lacks, i)) lacks.append(family->columns[i].name);
+      item["lacks"] = lacks;
       rungs.append(item);
     }
     const auto append = [&](const WarningKind& warning) {

@@ -191,6 +191,12 @@ TEST_CASE("cancelled work ends the climb", "[ladder]") {
   const Climb c(Scene{{0, 0, 0, 0}, {Errc::not_applicable, Errc::cancelled, Errc::ok, Errc::ok}}, 1e-5);
   CHECK(c.refusal.code == Errc::cancelled);
   CHECK(c.looked_at == 2);
+
+  // also where a rung before has answered, but not well enough
+  const Climb second(Scene{{1e-2, 0, 0, 0}, {Errc::ok, Errc::cancelled, Errc::ok, Errc::ok}}, 1e-5);
+  CHECK(second.refusal.code == Errc::cancelled);
+  CHECK(second.answer.columns.empty());
+  CHECK(second.answer.tried.size() == 2);
 }
 
 TEST_CASE("a NaN error never meets a tolerance and loses against any number", "[ladder]") {

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import gyrostat
-from gyrostat.asking import parse_ask
+from gyrostat.asking import AskError, parse_ask
 from gyrostat.errors import DomainError, SceneError
 from gyrostat.units import quantity
 
@@ -102,6 +102,11 @@ def test_a_wrong_question_says_what_would_be_right(ask: Any, text: str) -> None:
 def test_the_attitude_of_a_heavy_body_needs_that_of_the_start() -> None:
     with pytest.raises((DomainError, SceneError), match="attitude"):
         gyrostat.solve("toy-top", ask=["attitude"], **{"initial.down": [0.0, 0.6, 0.8]})
+
+
+def test_what_is_asked_twice_on_the_command_line_is_refused() -> None:
+    with pytest.raises(AskError, match="attitude is there twice"):
+        parse_ask("attitude=0.1deg, attitude=1deg")
 
 
 @pytest.mark.parametrize(("text", "ask"), [

@@ -122,7 +122,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert main(["solve", str(designed)]) == 0
     capsys.readouterr()
 
-    assert main(["design", str(file), "--spin-for-pointing", "0.005", "--json"]) == 0
+    assert main(["design", str(file), "--spin-for-pointing", "5 mrad", "--json"]) == 0
     made = json.loads(capsys.readouterr().out)
     assert made["value"] == spin and made["confirmed"] and made["scene"]["initial"]["angular_velocity"] == [0.0, 0.0, spin]
     assert gyrostat.solve(made["scene"]).met
@@ -134,7 +134,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert main(["design", str(file), "--torque-for-direction", "2.0"]) == 2
     assert main(["design", "tiangong-1", "--spin-for-pointing", "0.1"]) == 2
     assert "designs are known for the kind spinning" in capsys.readouterr().err
-    for wrong in ([], ["--spin-for-pointing", "0.5deg"], ["--spin-for-pointing", "1", "--burn-for-velocity", "1"]):
+    for wrong in ([], ["--spin-for-pointing", "0.5kg"], ["--spin-for-pointing", "1", "--burn-for-velocity", "1"]):
         with pytest.raises(SystemExit) as left:
             main(["design", str(file), *wrong])
         assert left.value.code == 2

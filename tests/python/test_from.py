@@ -96,6 +96,20 @@ def test_the_first_row_is_the_end(tmp_path: Path) -> None:
     assert row["rotor_rate"][0].tolist() == [rate for rate, _ in end.wheels.values()]
 
 
+def test_an_answer_tells_its_scene_for_wherever_it_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    write(tmp_path, "first", WHOLE)
+    for begin in ('"first.toml"', '{file = "first.toml", keep = "momentum"}'):
+        second = write(tmp_path, "second", going_on(WHOLE, "first.toml"))
+        second.write_text(second.read_text().replace('from = "first.toml"', f"from = {begin}"))
+        answer = gyrostat.solve(second)
+        monkeypatch.chdir(tmp_path / "elsewhere")
+        again = gyrostat.solve(answer.scene)
+        assert again["attitude"].tobytes() == answer["attitude"].tobytes()
+        assert answer.plot() and answer.view()
+        monkeypatch.chdir(tmp_path)
+
+
 def test_keys_of_the_start_override(tmp_path: Path) -> None:
     write(tmp_path, "first", WHOLE)
     own = going_on(WHOLE, "first.toml", initial={"angular_velocity": [0.1, 0.0, 0.0], "position": [1.0, 2.0, 3.0]})

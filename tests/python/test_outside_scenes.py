@@ -3,11 +3,13 @@
 
 import sys
 from pathlib import Path
+from typing import Any
 
+import gyrostat
 import numpy as np
 import pytest
 from conftest import at_length
-from gyrostat import _core
+from gyrostat import ConvergenceError, _core, deceleration
 from gyrostat.scenes import load, scene_from
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -48,3 +50,38 @@ def test_no_error_is_greater_than_stated(file: Path) -> None:
     answer, rows = outside_scenes.verdicts(load(file))
     assert rows
     assert not [row for row in rows if not row[-1]], answer
+
+
+def despin(**scene: Any) -> gyrostat.Answer:
+    return deceleration.solve(**{"inertia": [3.0, 4.0, 5.0], "law": "total", "drag_law": "carrier", "control": [0.01] * 3, "drag": 0.1, **scene})
+
+
+def test_a_motion_that_ends_on_the_way_is_no_answer_without_error() -> None:
+    # one control alone holds the carrier, which the equations do not follow into
+    with pytest.raises(ConvergenceError):
+        despin(control=[0.01, 0, 0], law="carrier", drag_law="total", drag=1e-4, rotor_momentum=[1.0, 0, 0], angular_momentum=[1.5, 0, 0],
+               times=np.linspace(0, 400, 5), ask=["angular_momentum", "energy"])
+
+
+@pytest.mark.parametrize("control", [0.0, 0.01])
+def test_wheels_start_a_body_whose_momentum_is_zero(control: float) -> None:
+    still, moving = (despin(control=[control] * 3, rotor_momentum=[1.0, 0.2, 0.0], angular_momentum=[start, 0, 0], times=[1.0, 10.0]) for start in (0.0, 1e-12))
+    assert still.met
+    assert np.abs(still["energy"] - moving["energy"]).max() < 1e-10 * moving["energy"].max()
+
+
+def test_a_stop_that_nobody_needs_does_not_keep_the_columns_from_an_answer() -> None:
+    slow: dict[str, Any] = {"control": [4.7e-5, 4.8e-5, 4.9e-5], "drag": 0.0, "angular_momentum": [1.2, 0.96, 1.28], "tolerance": 1e-3, "model": "full"}
+    assert despin(**slow, times=[0.0, 2100.0]).met
+    # what the stop would take is over any budget
+    far = slow | {"angular_momentum": [60.0, 48.0, 64.0], "control": [4.7e-5 / 20] * 3}
+    assert despin(**far, times=[0.0, 1e4]).met
+    with pytest.raises(ConvergenceError, match="budget"):
+        despin(**far, times=[0.0, 1e4], ask=["stop_time"])
+
+
+def test_what_fades_away_without_a_stop_is_followed_to_nothing() -> None:
+    answer = despin(control=[0.0048, 0.0037, 0.0], drag=10.0, drag_law="total", angular_momentum=[-1.4, 1.0, -0.36], times=[1.0, 10.0, 100.0], attitude=[0, 0, 0, 1])
+    assert answer.met
+    assert np.abs(answer["angular_momentum"][-1]).max() == 0
+    assert np.isfinite(answer["attitude"]).all()

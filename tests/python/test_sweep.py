@@ -144,7 +144,7 @@ def test_words_say_what_the_functions_say(text: str, meant: Varied) -> None:
     ({"torque.control": "normal(1, 2)"}, "torque.control[0]"), ({"torque.contrl[0]": "normal(1, 2)"}, "did you mean torque.control"),
     ({"solve.tolerance": "normal(1, 2)"}, "can vary"), ({"torque.drag": "normal(1 kg, 2)"}, "1/s"), ({"torque.drag": "uniform(2, 1)"}, "smaller"),
     ({"torque.drag": "normal(1, -2)"}, ">= 0"), ({"torque.drag": "lognormal(-1, 2)"}, "median"), ({"torque.drag": "2:1:5"}, "smaller first"),
-    ({"torque.law": "choice(total, all)"}, "carrier"), ({"initial.angular_momentum[0]": "normal(1, 2)"}, "no value"),
+    ({"torque.law": "choice(total, all)"}, "carrier"), ({"torque.law": choice()}, "at least one"), ({"initial.angular_momentum[0]": "normal(1, 2)"}, "no value"),
     ({"torque.drag": "[1, 2, 3]"}, "multiple of the 3"), ({"drag": "uniform(0, 1)", "torque.drag": "uniform(0, 1)"}, "twice"),
     ({"body.inertia[0,1]": "uniform(0, 1)", "body.inertia[1,0]": "uniform(0, 1)"}, "the number that"), ({}, "nothing varies")])
 def test_a_study_that_cannot_be_says_why(vary: dict[str, Any], told: str) -> None:
@@ -284,6 +284,18 @@ def test_a_row_without_an_answer_says_why_and_is_no_exception() -> None:
     assert found["met"].values.tolist() == [True, False, False, False, False]
     named = sweep("tiangong-1", VARY, n=3, model="equal-torque", **LIGHT)
     assert set(named["reason"].values) == {"equal-torque: the control torques are not equal"}
+    words = sweep("tiangong-1", {"torque.law": "normal(carrier, 300%)"}, n=20, **LIGHT)
+    assert set(words["reason"].values) == {"torque.law is none of total, carrier"}
+
+
+def test_wheels_are_counted_from_one_in_every_table(tmp_path: Path) -> None:
+    asked: dict[str, Any] = {"ask": ["rotor_rate"], "times": [0.0, 1.0]}
+    found = sweep("cubesat-three-wheels", {"initial.angular_velocity[0]": uniform(0, 0.01)}, n=2, **asked)
+    assert found["rotor_rate"].dims == ("row", "time", "wheel")
+    assert found["wheel"].values.tolist() == [1, 2, 3]
+    save(found, tmp_path / "out.csv")
+    assert "rotor_rate_3[1]" in (tmp_path / "out.csv").read_text().splitlines()[0].split(",")
+    assert gyrostat.solve("cubesat-three-wheels", **asked).to_csv().splitlines()[0] == "t,rotor_rate_1,rotor_rate_2,rotor_rate_3"
 
 
 # ---- the same bits however it is cut ----

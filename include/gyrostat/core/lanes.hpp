@@ -188,7 +188,7 @@ GYROSTAT_INLINE Lanes<Scalar> sum(const Lanes<Scalar>& a) noexcept {
   return pairs + shuffle<2, 3, 0, 1>(pairs);
 }
 
-/// The greatest magnitude in the four lanes; NaN if one of them is.
+/// The greatest magnitude in the four lanes; NaN if one of them is not finite.
 template <Real Scalar>
 GYROSTAT_INLINE Scalar greatest_magnitude(const Lanes<Scalar>& a) noexcept {
   const Scalar x = std::abs(a[0]), y = std::abs(a[1]), z = std::abs(a[2]), w = std::abs(a[3]);

@@ -101,7 +101,7 @@ GYROSTAT_INLINE Wide<double> refined_root(const Wide<double>& a, bool of_itself)
 }  // namespace detail
 #endif
 
-/// Of numbers that are not negative; to an eps. Zeros and what underflows in squares give zero.
+/// Of numbers from 1e-300 on and below infinity, to an eps; zeros give zero.
 template <Real Scalar>
 GYROSTAT_INLINE Wide<Scalar> square_root(const Wide<Scalar>& a) noexcept {
 #if defined(__GNUC__) && defined(__AVX512F__)

@@ -95,7 +95,7 @@ class Comparison {
   }
   /// The other way round; 0 where the unit is.
   ColumnErrors absolute(ColumnErrors errors) const noexcept {
-    for (std::size_t i = 0; i < count; ++i) errors[i] = unit(i) > 0 ? errors[i] * unit(i) : Scalar(0);
+    for (std::size_t i = 0; i < count; ++i) errors[i] = unit(i) == 0 ? Scalar(0) : errors[i] * unit(i);
     return errors;
   }
 

@@ -34,7 +34,7 @@ inline Column& renewed_column(Answer& answer, std::size_t i, const ColumnKind& k
 }
 
 /// Columns of the writer's table from states: those that are asked for, or of a rung that is named and asked for nothing those that it has.
-/// What it has not, `known` says; it is NaN, its error infinite.
+/// What it has not, `unknown` says; it is NaN, its error infinite.
 template <class Writer>
 void fill_columns(Answer& answer, const Writer& writer, std::span<const typename Writer::State> states,
                   const Errors<std::size(Writer::columns)>& error, const Question& question, const Family& family,

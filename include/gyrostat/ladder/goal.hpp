@@ -107,7 +107,8 @@ inline void judge(Answer& answer, const Question& question, const Family& family
     if (!aim || column.kind->measure == Measure::none) continue;
     const bool over_size = aim->absolute && column.kind->measure == Measure::relative;
     column.tolerance = over_size ? aim->tolerance / size_of(column) : aim->tolerance;
-    if (aim->needed || std::isfinite(column.error)) hold(column.error, column.tolerance);
+    const bool has_value = !column.values.empty() && !std::isnan(column.values.front());
+    if (aim->needed || has_value) hold(column.error, column.tolerance);
   }
   for (std::size_t place = 0; place < family.scalars.size(); ++place) {
     const auto aim = aim_of(question, family, true, place);

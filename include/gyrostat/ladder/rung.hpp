@@ -88,6 +88,30 @@ inline bool lacks_needed(const RungKind& kind, const Question& question, const F
   return false;
 }
 
+/// The rungs that a scene's question may be put to, in the order in which they are asked, and those that lack what is asked for.
+struct Order {
+  std::vector<Candidate> asked;
+  std::vector<std::size_t> lacking;
+
+  template <class Scene, class Track>
+  Order(const Family& family, std::span<const Rung<Scene, Track>> rungs, const Scene& scene) {
+    const Question& question = scene.question();
+    const bool named = question.rung >= 0;
+    const int alone = named ? question.rung : question.alone;
+    for (std::size_t i = 0; i < rungs.size(); ++i) {
+      if (alone >= 0 && i != std::size_t(alone)) continue;
+      const double cost = rungs[i].cost(scene);
+      if (!named && std::isnan(cost)) continue;
+      if (!named && lacks_needed(family.rungs[i], question, family)) lacking.push_back(i);
+      else enlist(asked, {i, cost});
+    }
+  }
+
+  const Candidate& highest() const noexcept {
+    return *std::max_element(asked.begin(), asked.end(), [](auto a, auto b) { return a.rung < b.rung; });
+  }
+};
+
 /// The question with its tolerances in units as relative ones, by the sizes that an answer found; nothing where none of them is in a unit.
 inline std::optional<Question> in_relative_terms(const Question& question, const Answer& answer, const Family& family) {
   Question made = question;
@@ -157,17 +181,8 @@ std::optional<Answer> met_by(const Family& family, const char* model, const Scen
 template <class Scene, class Track>
 std::optional<Answer> climb_to(const Family& family, std::span<const Rung<Scene, Track>> rungs, std::size_t last,
                                const Scene& scene, Monitor* monitor, bool& comes) {
-  const Question& question = scene.question();
-  const int only = question.rung, alone = only >= 0 ? only : question.alone;
   comes = false;
-  std::vector<detail::Candidate> order;
-  for (std::size_t i = 0; i < rungs.size(); ++i) {
-    if (alone >= 0 && i != std::size_t(alone)) continue;
-    const double cost = rungs[i].cost(scene);
-    if (only < 0 && (std::isnan(cost) || detail::lacks_needed(family.rungs[i], question, family))) continue;
-    detail::enlist(order, {i, cost});
-  }
-  for (const detail::Candidate& candidate : order) {
+  for (const detail::Candidate& candidate : detail::Order(family, rungs, scene).asked) {
     comes = candidate.rung == last;
     if (comes) break;
     const Track track = rungs[candidate.rung].answer(scene, monitor);
@@ -178,6 +193,95 @@ std::optional<Answer> climb_to(const Family& family, std::span<const Rung<Scene,
   return std::nullopt;
 }
 
+namespace detail {
+
+/// A climb on its way: what was tried, and the best answer so far.
+template <class Scene, class Track>
+class Ascent {
+ public:
+  Ascent(const Family& family, std::span<const Rung<Scene, Track>> rungs, const Scene& scene, Monitor* monitor,
+         Refusal& refusal) noexcept
+      : family_(family), rungs_(rungs), scene_(scene), monitor_(monitor), refusal_(refusal) {
+    refusal_ = {};
+  }
+
+  /// Asks one rung of the scene, or of the same scene with tighter tolerances; false: there is no need to go on.
+  bool ask(const Candidate& candidate, const Scene& scene) {
+    const Stopwatch watch;
+    Track track = rungs_[candidate.rung].answer(scene, monitor_);
+    if (track.failure != Errc::ok) return refused(candidate, track, watch);
+    const char* const model = family_.rungs[candidate.rung].name;
+    Answer answer = answer_of(family_, model, scene, track, describes_all_);
+    tried_.push_back({model, answer.error, answer.met || scene.question().rung >= 0,
+                      track.in_domain ? nullptr : "the scene leaves its domain", answer.excess, candidate.cost,
+                      watch.seconds()});
+    if (!answered_ || is_better(candidate.rung, answer, track)) {
+      rung_ = candidate.rung;
+      best_ = std::move(answer);
+      track_ = std::move(track);
+    }
+    answered_ = true;
+    return !best_.met;
+  }
+
+  /// A rung that is not asked, and why; not told where it stands behind the one that answers.
+  void leave_out(std::size_t rung, const char* why, double cost) {
+    if (!best_.met || rung < rung_)
+      tried_.insert(tried_.begin(), {family_.rungs[rung].name, nan<double>, false, why, nan<double>, cost});
+  }
+
+  bool answered() const noexcept { return answered_; }
+  const Answer& best() const noexcept { return best_; }
+
+  /// The best answer, with what was tried; nothing else of work that was cancelled.
+  Answer end() {
+    if (refusal_.code == Errc::cancelled) best_ = {}, answered_ = false;
+    best_.tried = std::move(tried_);
+    if (!answered_) return std::move(best_);
+    refusal_ = {};  // of rungs that others answer for
+    for (Attempt& attempt : best_.tried)
+      attempt.accepted = attempt.model == best_.model && !(attempt.error != best_.error);
+    if (!describes_all_) describe(best_, scene_, track_);
+    keep_asked(best_, scene_.question(), family_);
+    return std::move(best_);
+  }
+
+ private:
+  bool refused(const Candidate& candidate, const Track& track, const Stopwatch& watch) {
+    const char* const model = family_.rungs[candidate.rung].name;
+    tried_.push_back({model, track.known_error, false, track.refusal, nan<double>, candidate.cost, watch.seconds()});
+    // the highest rung says why, in whatever order they are asked
+    if (track.failure == Errc::cancelled || candidate.rung >= refused_rung_) {
+      refused_rung_ = candidate.rung;
+      refusal_ = {track.failure, model, track.refusal ? track.refusal : message(track.failure)};
+    }
+    return track.failure != Errc::cancelled;
+  }
+
+  /// Than the best so far: one in its domain than any outside, then the less error; where neither knows its error the higher rung is the more
+  /// accurate.
+  bool is_better(std::size_t rung, const Answer& answer, const Track& track) const noexcept {
+    if (answer.met) return true;
+    if (track.in_domain != track_.in_domain) return track.in_domain;
+    if (answer.excess == infinity<double> && best_.excess == infinity<double>) return rung > rung_;
+    return answer.excess < best_.excess || std::isnan(best_.excess);
+  }
+
+  const Family& family_;
+  std::span<const Rung<Scene, Track>> rungs_;
+  const Scene& scene_;
+  Monitor* monitor_;
+  Refusal& refusal_;
+  const bool describes_all_ = asks_for_scalars(scene_.question());
+  Answer best_;
+  Track track_;  ///< of the best answer
+  std::vector<Attempt> tried_;
+  bool answered_ = false;
+  std::size_t rung_ = 0, refused_rung_ = 0;
+};
+
+}  // namespace detail
+
 /// The answer of the first rung whose own error estimates meet what is asked, in the order of the family's table but for those that predict
 /// to be clearly cheaper for this scene; failing that of the rung that comes nearest to it, one in its domain before any outside, with met
 /// false. The rung that the question names answers alone, wherever it can. The answer's `tried` lists the rungs that were not asked for a
@@ -187,81 +291,20 @@ template <class Scene, class Track>
   requires RungResult<Track, Scene>
 Answer climb(const Family& family, std::span<const Rung<Scene, Track>> rungs, const Scene& scene, Monitor* monitor,
              Refusal& refusal) {
-  const Question& question = scene.question();
-  const auto& kinds = family.rungs;
-  const bool describes_all = asks_for_scalars(question);
-  const int only = question.rung, alone = only >= 0 ? only : question.alone;
-  Answer best;
-  Track best_track;
-  std::vector<Attempt> tried;
-  bool answered = false, best_in_domain = false;
-  std::size_t best_rung = 0, refused_rung = 0;
-  // Asks one rung of the scene, or of the same scene with tighter tolerances; false: there is no need to go on.
-  const auto ask = [&](const detail::Candidate& candidate, const Scene& tightened) {
-    const std::size_t i = candidate.rung;
-    const detail::Stopwatch watch;
-    Track track = rungs[i].answer(tightened, monitor);
-    if (track.failure != Errc::ok) {
-      tried.push_back(
-          {kinds[i].name, track.known_error, false, track.refusal, nan<double>, candidate.cost, watch.seconds()});
-      if (track.failure == Errc::cancelled ||
-          i >= refused_rung) {  // the highest rung says why, in whatever order they are asked
-        refused_rung = i;
-        refusal = {track.failure, kinds[i].name, track.refusal ? track.refusal : message(track.failure)};
-      }
-      return track.failure != Errc::cancelled;
-    }
-    Answer answer = detail::answer_of(family, kinds[i].name, scene, track, describes_all);
-    tried.push_back({kinds[i].name, answer.error, answer.met || only >= 0,
-                     track.in_domain ? nullptr : "the scene leaves its domain", answer.excess, candidate.cost,
-                     watch.seconds()});
-    const bool same_kind = track.in_domain == best_in_domain;
-    // where neither knows its error the higher rung is the more accurate
-    const bool better = answer.excess < best.excess || best.excess != best.excess ||
-                        (answer.excess == infinity<double> && best.excess == infinity<double> && i > best_rung);
-    if (!answered || answer.met || (same_kind ? better : track.in_domain)) {
-      best_in_domain = track.in_domain;
-      best_rung = i;
-      best = std::move(answer);
-      best_track = std::move(track);
-    }
-    answered = true;
-    return !best.met;
-  };
-  std::vector<detail::Candidate> order;
-  std::vector<std::size_t> lacking;
-  for (std::size_t i = 0; i < rungs.size(); ++i) {
-    if (alone >= 0 && i != std::size_t(alone)) continue;
-    const double cost = rungs[i].cost(scene);
-    if (only < 0 && std::isnan(cost)) continue;
-    if (only < 0 && detail::lacks_needed(kinds[i], question, family)) lacking.push_back(i);
-    else detail::enlist(order, {i, cost});
-  }
+  const detail::Order order(family, rungs, scene);
+  detail::Ascent<Scene, Track> ascent(family, rungs, scene, monitor, refusal);
   std::size_t next = 0;
   bool goes_on = true;
-  while (next < order.size() && goes_on) goes_on = ask(order[next++], scene);
+  while (next < order.asked.size() && goes_on) goes_on = ascent.ask(order.asked[next++], scene);
+  if (refusal.code == Errc::cancelled) return ascent.end();
   // Only now it is known what the tolerances in units come to.
-  if (goes_on && answered)
-    if (const auto tighter = detail::in_relative_terms(question, best, family)) {
-      const auto most = std::max_element(order.begin(), order.end(), [](auto a, auto b) { return a.rung < b.rung; });
-      ask(*most, scene.asked(*tighter));
-    }
-  const auto leave_out = [&](std::size_t i, const char* why, double cost) {
-    if (!best.met || i < best_rung)
-      tried.insert(tried.begin(), {kinds[i].name, nan<double>, false, why, nan<double>, cost});
-  };
-  for (const std::size_t i : lacking) leave_out(i, "it does not give all that is asked for", nan<double>);
-  for (; next < order.size() && order[next].cost < infinity<double>; ++next)
-    leave_out(order[next].rung, costs_more, order[next].cost);
-  best.tried = std::move(tried);
-  if (answered) {
-    refusal = {};
-    for (Attempt& attempt : best.tried)
-      attempt.accepted = attempt.model == best.model && !(attempt.error != best.error);
-    if (!describes_all) describe(best, scene, best_track);
-    detail::keep_asked(best, question, family);
-  }
-  return best;
+  if (goes_on && ascent.answered())
+    if (const auto tighter = detail::in_relative_terms(scene.question(), ascent.best(), family))
+      ascent.ask(order.highest(), scene.asked(*tighter));
+  for (const std::size_t i : order.lacking) ascent.leave_out(i, "it does not give all that is asked for", nan<double>);
+  for (; next < order.asked.size() && order.asked[next].cost < infinity<double>; ++next)
+    ascent.leave_out(order.asked[next].rung, costs_more, order.asked[next].cost);
+  return ascent.end();
 }
 
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

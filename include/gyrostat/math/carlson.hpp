@@ -14,7 +14,7 @@ namespace detail {
 /// spread that the exponent range allows, so 8 (double) to 20 (quadruple) are made.
 inline constexpr int carlson_steps = 40;
 
-/// Spread at which the series of degree 7 beyond it is below rounding: (3 eps)^(1/8), Carlson 1995 with degree 7.
+/// Spread at which the series of degree 7 beyond it is below rounding: (eps/4)^(1/8), Carlson 1995 with degree 7.
 template <Real Scalar>
 inline Scalar carlson_reach() noexcept {
   using std::sqrt;

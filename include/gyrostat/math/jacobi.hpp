@@ -100,7 +100,7 @@ class JacobiAt {
 
   Reduced reduce(Work u) const noexcept {
     const Work x = u * per_quarter_;
-    if (std::abs(x) <= Work(0.5)) return {0, u, 0};
+    if (!(std::abs(x) > Work(0.5))) return {0, u, 0};  // at kp2 = 0 however great u is
     const Work n = std::nearbyint(x);
     const int quadrant = std::abs(n) < Work(0x1p62) ? static_cast<int>(static_cast<std::int64_t>(n) & 3) : 0;
     return {n, std::fma(-n, quarter_, u) - n * quarter_low_, quadrant};

@@ -50,23 +50,19 @@ template <Real Scalar, class Take>
 [[nodiscard]] Errc halved_panels(Scalar first, Scalar last, int panels, int deepest, const Take& take) noexcept {
   const Scalar width = (last - first) / Scalar(panels);
   for (int panel = 0; panel < panels; ++panel) {
-    // the left part of a halved panel is done first; `left` of its depth and the right parts above it remain
-    Scalar left = first + Scalar(panel) * width;
-    const Scalar stop = left + width * (1 - 8 * epsilon<Scalar>);
-    int depth = 0;
-    while (left < stop) {
-      const Scalar half = width / Scalar(2 << depth);
-      const Result<bool> taken = take(left + half, half, depth < deepest);
+    // the left part of a halved panel is done first: `part` is the place of this one among all of its depth
+    long part = 0;
+    for (int depth = 0; part < 1L << depth;) {
+      const Scalar half = width / Scalar(2L << depth);
+      const Scalar middle = first + Scalar(panel) * width + Scalar(2 * part + 1) * half;
+      const Result<bool> taken = take(middle, half, depth < deepest);
       if (!taken) return taken.error();
       if (!*taken && depth < deepest) {
-        ++depth;
+        ++depth, part *= 2;
         continue;
       }
-      left += 2 * half;
       // a part that ends on a boundary of a coarser one is followed by a coarser one
-      while (depth > 0 &&
-             std::abs(std::remainder((left - first) / width * Scalar(1 << (depth - 1)), Scalar(1))) < Scalar(0.25L))
-        --depth;
+      for (++part; depth > 0 && part % 2 == 0; part /= 2) --depth;
     }
   }
   return Errc::ok;

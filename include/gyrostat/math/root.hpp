@@ -39,7 +39,7 @@ inline Scalar middle(Scalar a, Scalar b) noexcept {
 /// Root of f between low and high by Newton's method, halving the bracket where a step leaves it or gains too little.
 /// The signs at the ends are known and not evaluated (they may be poles): f(low) <= 0 <= f(high) if `rising`, else the
 /// opposite. `f(x)` gives Slope{f, df}. Stops at f = 0, at a step below 2 eps |x| + tolerance, or when the bracket is
-/// that small. Errors: not_increasing unless low < high; not_finite where f or df is NaN; no_convergence after
+/// that small. low = high is the root. Errors: not_increasing where low > high; not_finite where f or df is NaN; no_convergence after
 /// root_calls calls.
 template <Real Scalar, class Function>
 [[nodiscard]] inline Result<Scalar> newton_root(const Function& f, Scalar low, Scalar high, bool rising, Scalar start,

@@ -84,7 +84,7 @@ class RungeKutta {
     const Scalar length = std::abs(span);
     if (next_ == 0) next_ = control_.first_step > 0 ? control_.first_step : first_step(direction, length);
 
-    int blind = 0;  // trials in a row that met NaN
+    int blind = 0;  // trials that met NaN
     Scalar greatest = 6;
     for (;;) {
       if (counts_.steps + counts_.rejected >= control_.step_cap) return status_ = Status::step_limit;

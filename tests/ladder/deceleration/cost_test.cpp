@@ -26,3 +26,13 @@ TEST_CASE("a stop that is asked for counts in the cost", "[deceleration]") {
   c.data.asked.push_back({scalar::stop_time, true});
   CHECK(cost_of_full(c.scene()) > 5 * without);
 }
+
+TEST_CASE("a mean motion over an orbit takes no more steps than are worth it", "[deceleration]") {
+  Case c(.02, 100);
+  c.data.rotor_momentum = {0, .1, 0};
+  CHECK(steps_worth(c.scene(), averaged_orbit_step, 5000) < 100);
+  CHECK(steps_worth(c.with(rung::averaged, 1e-3).scene(), averaged_orbit_step, 5000) == 5000);
+  Case slow(1e-6, 1e6);
+  slow.data.rotor_momentum = {0, .1, 0};
+  CHECK(steps_worth(slow.scene(), averaged_orbit_step, 5000) == 5000);
+}

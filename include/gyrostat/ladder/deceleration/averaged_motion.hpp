@@ -8,6 +8,7 @@
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/math/root.hpp"
 #include "gyrostat/models/deceleration/averaged.hpp"
+#include "gyrostat/models/deceleration/equal_torque.hpp"
 #include "gyrostat/ode/runge_kutta.hpp"
 
 namespace gyrostat::deceleration {
@@ -90,8 +91,7 @@ class AveragedMotion {
     const Scalar M = solver_.rhs().norm(end);
     const Scalar D = solver_.rhs().torque(solver_.rhs().polhode(end)).deceleration;
     if (!(D > 0)) return infinity<Scalar>;
-    const Scalar drag = problem_.drag;
-    return end[Equations::time] + (drag > 0 ? std::log1p(drag * M / D) / drag : M / D);
+    return end[Equations::time] + EqualTorqueLaw(D, problem_.drag, M).stop_time();
   }
 
   bool crossed() const noexcept { return crossing_norm_ > 0; }      ///< has passed through the separatrix

@@ -152,9 +152,9 @@ Track averaged_track(const Scene& scene) {
   }
   if (const auto stop = run.motion().stop_time()) track.stop_time = *stop;
   if (late > 1) late = infinity<double>;  // not an estimate any more
-  track.stop_error = std::isfinite(track.stop_time) ? late + stop_gain * tolerance : 0;
+  track.stop_error = std::isfinite(track.stop_time) ? late + honesty::mean_stop * tolerance : 0;
 
-  const double local = mean_gain * tolerance, doubt = k2_of_data(problem, start, M0);
+  const double local = honesty::mean_steps * tolerance, doubt = k2_of_data(problem, start, M0);
   error.norm += local * norm0 + problem.momentum_error();
   error.energy += local * energy0 + problem.energy_error(M0);
   error.k2 += local + doubt;

@@ -21,8 +21,6 @@ inline double breakdown_momentum(const Problem<double>& problem, double greatest
 inline double mean_tolerance(const Scene& scene) noexcept {
   return std::max(1e-13, std::min(1e-5, scene.goal().tightest * 1e-3));
 }
-/// Their global error over the local one: of the slow columns, and of the stop time, which all steps add to.
-inline constexpr double mean_gain = 10, stop_gain = 100;
 
 namespace detail {
 
@@ -98,7 +96,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   if (in_time && !Hold<double>(problem).holds) {
     track.stop_time = infinity<double>;
   } else if (const auto halt = mean.advance(infinity<double>, floor); halt.code != Errc::ok) {
-    if (!in_time) return detail::refused(halt);
+    if (!in_time || halt.code == Errc::not_applicable) return detail::refused(halt);
     if (halt.code == Errc::separatrix || halt.code == Errc::undetermined)
       track.warn(warning::crosses_separatrix, nan<double>,
                  "after the asked times the kind of orbit changes: no stop time");

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "gyrostat/ladder/cost.hpp"
 #include "gyrostat/ladder/deceleration/equal_torque_rung.hpp"
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 #include "gyrostat/ladder/deceleration/scene.hpp"
+#include "gyrostat/models/deceleration/equal_torque.hpp"
 
 /// What the rungs of the family `deceleration` cost, s.
 namespace gyrostat::deceleration {
@@ -33,7 +35,7 @@ inline double cost_of_full(const Scene& scene) noexcept {
   const FullCoefficients<double> f(problem);
   const double size = (problem.momentum - f.offset).norm(), b = scene.least_control(), drag = problem.drag;
   const double last = scene.question().times.back();
-  const double stop = !(b > 0) ? infinity<double> : drag > 0 ? std::log1p(drag * size / b) / drag : size / b;
+  const double stop = EqualTorqueLaw(b, drag, size).stop_time();
   const double span = goes_to_stop(scene) && stop < infinity<double> ? stop : std::min(last, stop);
   const double mean = size / (1 + drag * span) * (stop <= span ? 0.5 : 1.0);
   // the polhode is no faster than the body turns at the start
@@ -42,6 +44,16 @@ inline double cost_of_full(const Scene& scene) noexcept {
                                                      : std::min(f.quadratic.cwiseAbs().maxCoeff(), turning);
   const double angle = span * (own * mean + f.linear.norm() + f.rate.norm() + problem.gyro_rate().norm());
   return series_cost(angle, 1e-9, scene.question().times.size()) + (stop <= span ? 100e-6 : 0);
+}
+
+/// What a step of the mean equations over an orbit takes, with what the error is made of, s.
+inline constexpr double averaged_orbit_step = 30e-6, averaged_2_orbit_step = 250e-6;
+
+/// So many steps of the mean equations as cost no more than the full equations, `most` at most; of a rung that is named all of these.
+inline std::uint64_t steps_worth(const Scene& scene, double step, std::uint64_t most) noexcept {
+  const Question& question = scene.question();
+  if (question.rung != any_rung || question.alone != any_rung) return most;
+  return static_cast<std::uint64_t>(std::clamp(cost_of_full(scene) / step, 1.0, static_cast<double>(most)));
 }
 
 }  // namespace gyrostat::deceleration

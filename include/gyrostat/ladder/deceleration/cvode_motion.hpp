@@ -65,7 +65,7 @@ inline StoppedRun cvode_run(const Scene& scene, double tolerance, double longest
   const bool total = problem.law == Law::total;
   CvodeProblem user{problem, total ? Vec3<double>::Zero().eval() : problem.rotor_momentum, scene.greatest_control()};
   const Hold<double> hold(problem);
-  const double scale = std::max(problem.momentum.norm(), user.offset.norm());
+  const double scale = std::max(problem.momentum.norm(), problem.rotor_momentum.norm());
 
   Quat<double> q = scene.attitude();
   std::array<double, 7> y{problem.momentum[0], problem.momentum[1], problem.momentum[2], q.w, q.x, q.y, q.z};

@@ -203,7 +203,8 @@ class Course {
         system_(problem_, reach),
         solver_(system_, start_.time, start_.numbers, options_of(step_tolerance, step_cap)),
         step_cap_(step_cap),
-        may_stop_(with_control && hold_.holds) {
+        may_stop_(with_control && hold_.holds),
+        faded_(without_digits * (problem_.momentum - f_.offset).norm()) {
     if (!may_stop_ && !(with_control && hold_.weakest > 0)) stop_time_ = infinity<Scalar>;
     if (start_.at_rest) come_to_rest(0, start_.numbers.data());
     time_ = start_.at_rest ? Scalar(0) : start_.time;
@@ -226,6 +227,8 @@ class Course {
       const Scalar fall = falling(U, norm), slowest = hold_.weakest > 0 ? std::min(hold_.weakest, fall) : fall;
       if (!(norm > 0) || norm <= Scalar(1e-13L) * precision_factor * time_ * slowest)
         come_to_rest(time_ + (norm > 0 ? norm / fall : Scalar(0)), solver_.state());
+    } else if (with_control && norm < faded_) {
+      come_to_rest(infinity<Scalar>, solver_.state());
     }
     if constexpr (with_control)
       if ((++trips_ & 255U) == 0 && fades(U, norm, t_max - time_)) return ode::Status::step_limit;
@@ -238,7 +241,8 @@ class Course {
   State<Scalar> at(Scalar t) const noexcept {
     if (rests_ && t > solver_.time()) {
       // the last of U goes as it began to
-      const Scalar left = t < stop_time_ ? (stop_time_ - t) / (stop_time_ - solver_.time()) : Scalar(0);
+      const bool ends = t < stop_time_ && stop_time_ < infinity<Scalar>;
+      const Scalar left = ends ? (stop_time_ - t) / (stop_time_ - solver_.time()) : Scalar(0);
       return seen(state_of(problem_, Vec3<Scalar>(left * opposed(solver_.state()) + f_.offset), at_rest(t)));
     }
     alignas(32) Scalar x[width];
@@ -264,6 +268,9 @@ class Course {
 
   /// 1 for double and wider; float cannot resolve 1e-13.
   static constexpr Scalar precision_factor = std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
+
+  /// What is left of |U| where 1/|U| comes near overflow: nothing, without a stop.
+  static constexpr Scalar without_digits = std::numeric_limits<Scalar>::min() / (epsilon<Scalar> * epsilon<Scalar>);
 
   static Vec3<Scalar> opposed(const Scalar* x) noexcept { return {x[0], x[1], x[2]}; }
 
@@ -291,8 +298,9 @@ class Course {
     // the carrier's share of the momentum sets the energy; where it is the small part of M it needs its own digits
     const Scalar whole = std::max(problem_.momentum.norm(), (problem_.momentum - f_.offset).norm());
     const Scalar share = (problem_.momentum - problem_.rotor_momentum).norm();
-    const Scalar size = share > Scalar(1e-4L) * whole ? std::min(share, whole) : whole;
-    for (std::size_t i = 0; i < 3; ++i) how.scale[i] = size > 0 ? size : std::numeric_limits<Scalar>::min();
+    Scalar size = share > Scalar(1e-4L) * whole ? std::min(share, whole) : whole;
+    if (!(size > 0)) size = share > 0 ? share : Scalar(1);
+    for (std::size_t i = 0; i < 3; ++i) how.scale[i] = size;
     for (std::size_t i = 4; i < width; ++i) how.scale[i] = 1;
     return how;
   }
@@ -379,6 +387,7 @@ class Course {
   std::uint64_t step_cap_;
   std::uint32_t trips_ = 0;
   bool may_stop_, rests_ = false;
+  Scalar faded_;  ///< |U| that counts as none, N m s
   Scalar time_ = 0, stop_time_ = nan<Scalar>, rest_begins_ = 0;
   Quat<Scalar> attitude_at_rest_{};
 };
@@ -500,16 +509,17 @@ class FullMotion {
   }
 
   void look_for_stop(FullMotionAnswer<Scalar>& answer, const Runs<Run>& runs) const noexcept {
+    if (answer.status != ode::Status::reached) return;
     const auto go = [&](Run& run, Scalar t_max) noexcept {
       if (answer.status == ode::Status::reached) answer.status = go_to_rest(run, t_max, options_);
     };
     if (options_.find_stop && runs.answer.stops()) go(runs.answer, infinity<Scalar>);
-    if (answer.status == ode::Status::step_underflow && !times_.empty()) {  // the asked times are answered all the same
-      answer.status = ode::Status::reached;
+    if (answer.status != ode::Status::reached) {
+      if (times_.empty() || answer.status == ode::Status::cancelled) return;
+      answer.status = ode::Status::reached;  // the asked times are answered all the same
       answer.stop_error = infinity<Scalar>;
       return;
     }
-    if (answer.status != ode::Status::reached) return;
     const Scalar stop = answer.stop_time = runs.answer.stop_time();
     if (!(stop > 0 && stop < infinity<Scalar>)) return;
     const auto stop_of = [&](Run& run) noexcept {

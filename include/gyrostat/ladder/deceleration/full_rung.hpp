@@ -33,11 +33,13 @@ GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, s
                                                double tolerance, std::span<const double> wanted, bool find_stop,
                                                const Quat<double>* attitude, Monitor* monitor);
 
-/// Whether the full equations are followed to the stop: not where it lies so far behind the last time that it is not worth its cost.
-GYROSTAT_COMPILED_ONCE bool goes_to_stop(const Scene& scene) noexcept;
+/// The angle that U and the axes turn through up to the last time, or up to the stop, where there is one, to its order, rad: the stop where
+/// that is nearer, or where it is to_stop.
+GYROSTAT_COMPILED_ONCE double turned_angle(const Scene& scene, bool to_stop) noexcept;
 
-/// The angle that U and the axes turn through up to the last time, or the stop where that is reached before or looked for, to its order, rad.
-GYROSTAT_COMPILED_ONCE double turned_angle(const Scene& scene) noexcept;
+/// Whether the full equations are followed to the stop: not where nobody needs it and it lies so far behind the last time that it is not worth its
+/// cost.
+GYROSTAT_COMPILED_ONCE bool goes_to_stop(const Scene& scene) noexcept;
 
 /// Why the full equations are not worth a try; nullptr: they are. Slow columns do not need the phase.
 GYROSTAT_COMPILED_ONCE const char* not_worth(const Scene& scene, const Goal<std::size(column_kinds)>& goal) noexcept;

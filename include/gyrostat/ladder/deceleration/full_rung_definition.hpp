@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
+#include "gyrostat/models/deceleration/equal_torque.hpp"
 
 namespace gyrostat::deceleration {
 
@@ -89,37 +90,36 @@ GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, s
   return track;
 }
 
-GYROSTAT_COMPILED_ONCE bool goes_to_stop(const Scene& scene) noexcept {
-  if (!scene.asks_for_stop()) return false;
-  const auto& problem = scene.problem();
-  const double longest = scene.opposed().norm() / scene.least_control();
-  return scene.needs_stop() || longest <= 20 * scene.question().times.back() ||
-         longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
-}
-
-GYROSTAT_COMPILED_ONCE double turned_angle(const Scene& scene) noexcept {
+GYROSTAT_COMPILED_ONCE double turned_angle(const Scene& scene, bool to_stop) noexcept {
   const auto& problem = scene.problem();
   const FullCoefficients<double> f(problem);
   const double size = (problem.momentum - f.offset).norm(), b = scene.greatest_control();
-  const double stop = !(b > 0)           ? infinity<double>
-                      : problem.drag > 0 ? std::log1p(problem.drag * size / b) / problem.drag
-                                         : size / b;
+  const double stop = EqualTorqueLaw(b, problem.drag, size).stop_time();
   const double last = scene.question().times.back();
-  const double span = goes_to_stop(scene) && stop < infinity<double> ? stop : std::min(last, stop);
+  const double span = to_stop && stop < infinity<double> ? stop : std::min(last, stop);
   const double mean = size / (1 + problem.drag * span);
   const double own = scene.question().wants_attitude ? problem.inverse_inertia[0] : f.quadratic.cwiseAbs().maxCoeff();
   return span * (own * mean + problem.gyro_rate().norm()) / 2;
 }
 
+GYROSTAT_COMPILED_ONCE bool goes_to_stop(const Scene& scene) noexcept {
+  if (!scene.asks_for_stop()) return false;
+  if (scene.needs_stop()) return true;
+  const auto& problem = scene.problem();
+  const double longest = scene.opposed().norm() / scene.least_control();
+  return (longest <= 20 * scene.question().times.back() && turned_angle(scene, true) <= unreachable_angle) ||
+         longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
+}
+
 GYROSTAT_COMPILED_ONCE const char* not_worth(const Scene& scene, const Goal<std::size(column_kinds)>& goal) noexcept {
-  const double angle = turned_angle(scene);
   double phase = infinity<double>;
   for (std::size_t i = 0; i < std::size(column_kinds); ++i)
     if (has(fast_columns, i)) phase = std::min(phase, goal.columns[i]);
-  if (phase < infinity<double> && phase_too_long(angle, phase)) return phase_lost;
-  return angle > unreachable_angle ? "the body turns so often that the budget of 10 million steps would end before the "
-                                     "last time: ask for a shorter span"
-                                   : nullptr;
+  if (phase < infinity<double> && phase_too_long(turned_angle(scene, false), phase)) return phase_lost;
+  return turned_angle(scene, goes_to_stop(scene)) > unreachable_angle
+             ? "the body turns so often that the budget of 10 million steps would end before the last time: ask for a "
+               "shorter span"
+             : nullptr;
 }
 
 GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {

@@ -43,6 +43,7 @@ GYROSTAT_COMPILED_ONCE Errc hand_over(Track& track, const Scene& scene, const Ve
   const Track near = solve();
   if (near.failure != Errc::ok) return near.failure;
 
+  if (std::isnan(full.stop_time)) track.warn(warning::stop_unknown);
   track.stop_time = begin + full.stop_time;
   if (std::isfinite(full.stop_time)) {
     track.stop_error =

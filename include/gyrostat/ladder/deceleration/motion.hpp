@@ -60,7 +60,8 @@ inline constexpr ScalarKind scalar_kinds[] = {
     {"final_angular_velocity", 3, "rad/s", Frame::body, Measure::none, "angular velocity at the stop"},
     {"small_parameter", 1, "1", Frame::none, Measure::none, "rate of damping over rate of rotation"},
     {"separatrix_distance", 1, "1", Frame::none, Measure::none,
-     "energy from the nearest separatrix at the start, over the range of energies at that |M|; infinite: there is "
+     "energy from the nearest separatrix at the start, over the range of energies at that |M|; without a value, or "
+     "infinite: there is "
      "none"},
 };
 

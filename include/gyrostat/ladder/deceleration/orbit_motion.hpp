@@ -121,8 +121,7 @@ Scalar energy_share(const Problem<Scalar>& problem, const Level<Scalar>& level) 
   return whole > 0 ? std::clamp(2 * energy_of(problem, level) / whole, Scalar(1e-3L), Scalar(1)) : Scalar(1);
 }
 
-/// Advances mean equations over free orbits forward in time. No heap, no throw, at most Rates::step_cap
-/// steps. A motion whose
+/// Advances mean equations over free orbits forward in time. No heap, no throw, at most step_cap steps. A motion whose
 /// further way the averages do not determine (capture from one component into one of two lobes) ends with
 /// failure() == undetermined.
 template <class Rates, Real Scalar>
@@ -141,10 +140,11 @@ class OrbitMotion {
   /// @param tolerance local error of ln R, of eta relative to its scale and of the time
   /// @param phase_error local error of the phase in turns; infinite where the phase is not wanted
   OrbitMotion(const Problem<Scalar>& problem, const Level<Scalar>& start, Component component, Scalar phase,
-              Scalar tolerance, Scalar phase_error, const Rates& rates = {}) noexcept
+              Scalar tolerance, Scalar phase_error, const Rates& rates = {},
+              std::uint64_t step_cap = Rates::step_cap) noexcept
       : start_opposed_(Equations{problem, start.R, component}.opposed(start)),
         solver_(Equations{problem, start.R, component, rates}, Scalar(0), State{0, start.eta, 0, phase},
-                control_of(problem, start, tolerance, phase_error)),
+                control_of(problem, start, tolerance, phase_error, step_cap)),
         component_(component) {}
 
   /// Moves on to time t, or to the step in which the control comes to oppose no more than `floor` [N m s] if that is
@@ -213,7 +213,7 @@ class OrbitMotion {
   static constexpr Scalar far_away = Scalar(1e9);
 
   static ode::StepControl<Scalar, 4> control_of(const Problem<Scalar>& problem, const Level<Scalar>& start,
-                                                Scalar tolerance, Scalar phase_error) noexcept {
+                                                Scalar tolerance, Scalar phase_error, std::uint64_t step_cap) noexcept {
     ode::StepControl<Scalar, 4> control;
     control.relative = 0;
     const Scalar swing = problem.inverse_inertia[2] * start.R + problem.gyro_rate().norm();
@@ -223,7 +223,7 @@ class OrbitMotion {
     control.absolute = {local, local * swing, fading > 0 ? tolerance / fading : infinity<Scalar>, phase_error};
     control.first_step = Scalar(.02);
     control.longest_step = Rates::longest_step;
-    control.step_cap = Rates::step_cap;
+    control.step_cap = step_cap;
     return control;
   }
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/deceleration/averaging.hpp"
+#include "gyrostat/ladder/deceleration/cost.hpp"
 #include "gyrostat/ladder/deceleration/orbit_kind.hpp"
 #include "gyrostat/ladder/deceleration/orbit_motion.hpp"
 #include "gyrostat/ladder/honesty.hpp"
@@ -180,6 +182,9 @@ Impasse impasse(const Problem<double>& problem, const Motion& motion) {
   return impasse(problem, motion.last_level(), motion.last_component(), motion.failure());
 }
 
+/// Why a mean motion of so many steps at most was left where it was given fewer than it could have.
+inline constexpr const char* steps_not_worth = "the full equations are cheaper: the mean equations take many steps";
+
 /// A mean motion of second order (second_order_track).
 template <class Elliptic>
 class SecondOrderOrbit {
@@ -192,8 +197,9 @@ class SecondOrderOrbit {
         last_(scene.question().times.back()),
         monitor_(monitor),
         phase_error_(std::max(1e-6, scene.goal().tightest * 1e-2)),
+        step_cap_(steps_worth(scene, averaged_2_orbit_step, Rates::step_cap)),
         error_(problem_),
-        motion_(problem_, start.level, start.component, start.phase, tolerance, phase_error_, Rates{orbit}) {
+        motion_(problem_, start.level, start.component, start.phase, tolerance, phase_error_, Rates{orbit}, step_cap_) {
     error_.visit(start.level, start.component, 0);
   }
 
@@ -204,7 +210,11 @@ class SecondOrderOrbit {
       error_.visit(level, component, now);
       if (monitor_) monitor_->fraction.store(std::min(1.0, now / last_), std::memory_order_relaxed);
     };
-    if (motion_.advance(t, floor, visit) != ode::Status::reached) return not_followed(impasse(problem_, motion_).code);
+    if (motion_.advance(t, floor, visit) != ode::Status::reached) {
+      const Errc failure = impasse(problem_, motion_).code;
+      if (failure == Errc::step_limit && step_cap_ < Rates::step_cap) return {Errc::not_applicable, steps_not_worth};
+      return not_followed(failure);
+    }
     if (motion_.rates().phase_lost || motion_.changed_component())
       return {Errc::separatrix, "the kind of orbit changes: the phase is lost, and M with it"};
     return error_.known() ? Halt{} : Halt{Errc::no_convergence, "the size of the second order is not known"};
@@ -233,6 +243,7 @@ class SecondOrderOrbit {
   double last_;
   Monitor* monitor_;
   double phase_error_;  // local, turns
+  std::uint64_t step_cap_;
   OrbitError<Elliptic> error_;
   OrbitMotion<Rates, double> motion_;
 };
@@ -252,13 +263,17 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   const auto visit = [&](const Level<double>& level, Component component, double t) {
     error.visit(level, component, t);
   };
-  OrbitMotion<FirstOrderRates<Elliptic>, double> motion(problem, orbit->level(), orbit->component(), 0,
-                                                        mean_tolerance(scene), infinity<double>);
+  using Rates = FirstOrderRates<Elliptic>;
+  const std::uint64_t step_cap = steps_worth(scene, averaged_orbit_step, Rates::step_cap);
+  OrbitMotion<Rates, double> motion(problem, orbit->level(), orbit->component(), 0, mean_tolerance(scene),
+                                    infinity<double>, {}, step_cap);
+  const auto not_worth = [&] { return motion.failure() == Errc::step_limit && step_cap < Rates::step_cap; };
   visit(orbit->level(), orbit->component(), 0);
   double standing = 0;  // of |U|, where the motion is not followed into the stop
   for (const double t : scene.question().times) {
     if (motion.advance(t, 0, visit) != ode::Status::reached)
-      return detail::refused(detail::not_followed(detail::impasse(problem, motion).code));
+      return not_worth() ? refused<Track>(Errc::not_applicable, detail::steps_not_worth)
+                         : detail::refused(detail::not_followed(detail::impasse(problem, motion).code));
     const auto now = motion.sample();
     if (!std::isfinite(now.level.R)) return detail::refused(detail::not_followed(Errc::separatrix));
     track.states.push_back(detail::slow_state(problem, now.level, now.component, now.at_rest));
@@ -270,7 +285,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   const double crossing = OrbitError<Elliptic>::crossing_factor * motion.crossing();
   in_span.energy += crossing;
   in_span.norm += crossing / (2 * scales(problem)[column::energy]) * problem.momentum.norm();
-  const double local = mean_gain * mean_tolerance(scene);
+  const double local = honesty::mean_steps * mean_tolerance(scene);
   // the energy is a difference of numbers of the size of what the rotors hold
   double energy = problem.rotor_energy_scale() / 2;
   for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
@@ -289,7 +304,9 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
       breakdown > 0 && motion.opposed() < 3 * breakdown + detail::opposed_error(problem, error.first_order(), carrier);
   if (!Hold<double>(problem).holds) {
     track.stop_time = infinity<double>;
-  } else if (const auto stop = motion.stop_time(visit)) {
+  } else if (const auto stop = motion.stop_time(visit); !stop && not_worth()) {
+    return refused<Track>(Errc::not_applicable, detail::steps_not_worth);
+  } else if (stop) {
     track.stop_time = *stop;
     const auto torque = final_torque(scene);
     const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
@@ -298,7 +315,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
     // they say nothing about the stop.
     const bool slow = detail::symmetry_gap(problem) < detail::narrow_gap;
     const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
-    track.stop_error = doubt * (tail + late) / *stop + stop_gain * mean_tolerance(scene);
+    track.stop_error = doubt * (tail + late) / *stop + honesty::mean_stop * mean_tolerance(scene);
   } else if (const auto why = detail::impasse(problem, motion); why.code == Errc::undetermined) {
     track.warn(warning::capture_undetermined, why.chance);
   } else {

@@ -10,7 +10,7 @@ namespace gyrostat::deceleration {
 GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Inertia<double>& body, const Setup& setup,
                                                  const Question& question) {
   if (!setup.rotor_momentum.allFinite() || !setup.control.allFinite() || !std::isfinite(setup.drag) ||
-      !setup.momentum.allFinite())
+      !setup.momentum.allFinite() || (setup.angular_velocity && !setup.angular_velocity->allFinite()))
     return Errc::not_finite;
   if (setup.control.minCoeff() < 0 || setup.drag < 0) return Errc::negative;
   if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;

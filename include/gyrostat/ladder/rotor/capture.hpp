@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "gyrostat/ladder/rotor/full_motion.hpp"
@@ -53,11 +54,11 @@ Capture<Scalar> capture(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& s
   std::array<State<Scalar>, samples> states;
   FullMotionOptions<Scalar> options;
   options.tolerance = tolerance;
-  // From t = 0 every time, so that the estimated error is that of the whole motion.
-  const auto first_certain = [&](Scalar from, Scalar to) noexcept -> std::size_t {
+  // From t = 0 every time, so that the estimated error is that of the whole motion. Nothing where that cannot be followed; samples: none of them.
+  const auto first_certain = [&](Scalar from, Scalar to) noexcept -> std::optional<std::size_t> {
     for (std::size_t i = 0; i < samples; ++i) times[i] = from + (to - from) * Scalar(i + 1) / Scalar(samples);
     const auto answer = full_motion<Scalar>(gyrostat, start, times, states, options);
-    if (!answer || answer->status != ode::Status::reached) return samples;
+    if (!answer || answer->status != ode::Status::reached) return std::nullopt;
     for (std::size_t i = 0; i < samples; ++i) {
       const auto found = certify(gyrostat, steady, states[i].momentum, states[i].axial_momentum);
       if (detail::certain(gyrostat, found, states[i].momentum, answer->error[column::angular_momentum],
@@ -71,19 +72,18 @@ Capture<Scalar> capture(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& s
   };
   const Scalar turn = 2 * pi<Scalar> / turning_rate(gyrostat, start);
   Scalar from = 0, to = std::min(longest, 16 * turn);
-  for (;;) {
-    const std::size_t i = first_certain(from, to);
-    if (i < samples) {
-      if (i > 0) from = times[i - 1];
+  while (const auto i = first_certain(from, to)) {
+    if (*i < samples) {
+      if (*i > 0) from = times[*i - 1];
       first_certain(from, made.time);
       return made;
     }
+    made.time = to;
+    made.attractor = certify(gyrostat, steady, states[samples - 1].momentum, states[samples - 1].axial_momentum);
     if (!(to < longest)) break;
     from = to;
     to = std::min(longest, 4 * to);
   }
-  made.time = longest;
-  made.attractor = certify(gyrostat, steady, states[samples - 1].momentum, states[samples - 1].axial_momentum);
   made.attractor.index = -1;
   made.attractor.certificate = Certificate::undecided;
   return made;

@@ -202,12 +202,11 @@ class FullLanes {
   }
 
   /// One step of the lanes that have an end; those that failed end.
-  bool step(Batch& batch, const Ends& ends, bool any) noexcept {
-    if (!any) return false;
+  void step(Batch& batch, const Ends& ends, bool any) noexcept {
+    if (!any) return;
     batch.step(ends);
     for (std::size_t b = 0; b < size; ++b)
       if (ends[b] > 0 && batch.status(int(b)) != ode::Status::reached) end(b, batch.status(int(b)));
-    return true;
   }
 
   void step_answers() noexcept {
