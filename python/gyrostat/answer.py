@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS
 from gyrostat.orientation import NOT_ORTHONORMAL, form_of
 
@@ -93,6 +94,7 @@ class Answer:
     seconds: float
     tried: tuple[Attempt, ...] = field(default=())
     data_error: DataError | None = None
+    own_torque: bool = False  # a function of the caller's acted, which the scene does not hold
 
     @classmethod
     def of(cls, told: Callable[[], dict[str, Any]], times: NDArray[np.float64], tolerance: float, made: Mapping[str, Any]) -> "Answer":
@@ -238,4 +240,6 @@ class Answer:
         from gyrostat.scenes import scene_from
         from gyrostat.view import view
 
+        if self.own_torque:
+            raise DomainError("a view solves the scene anew, which does not hold the torque of your own that acted here")
         return view(scene_from(self.scene), begin, end)

@@ -53,7 +53,10 @@ def _tolerance(of: Quantity, value: Any) -> tuple[float, bool]:
         except Refused as error:
             raise AskError(f'{of.name} = "{value}": {error.problem}', f"{error.remedy}; {example}") from None
     elif isinstance(value, int | float) and not isinstance(value, bool):
-        number, absolute = float(value), False
+        try:
+            number, absolute = float(value), False
+        except OverflowError:
+            number, absolute = math.inf, False
     else:
         raise AskError(f"the tolerance of {of.name} is neither a number nor a text", example)
     if not (number > 0 and math.isfinite(number)):

@@ -198,6 +198,9 @@ def _arguments() -> argparse.ArgumentParser:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
     arguments = _arguments().parse_args(argv)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a letter that the terminal has not is no reason to fail
+            stream.reconfigure(errors="replace")
     try:
         return int(arguments.run(arguments))
     except (SceneError, DomainError, ConvergenceError) as error:
@@ -287,7 +290,7 @@ def _solve(arguments: argparse.Namespace) -> int:
         case "netcdf":
             answer.to_netcdf(arguments.output)
         case _ if arguments.output is not None:
-            with arguments.output.open("w") as stream:
+            with arguments.output.open("w", encoding="utf-8") as stream:
                 report(answer, stream)
         case _:
             report(answer, sys.stdout)
@@ -312,6 +315,8 @@ def _view(arguments: argparse.Namespace) -> int:
     from gyrostat.view import view
 
     scene = _scene(arguments)
+    if arguments.output.suffix.lower() not in (".html", ".htm"):
+        raise DomainError(f"{arguments.output}: a view is written as .html")
     made = _in_thread(lambda monitor: view(scene, arguments.begin, arguments.end, monitor), scene.name)
     made.save(arguments.output)
     say(f"wrote {arguments.output}: {summary(made.answer)}", sys.stderr)
@@ -326,7 +331,7 @@ def _write(text: str, file: Path | None, end: str = "") -> None:
         sys.stdout.write(text)
         sys.stdout.write(end)
         return
-    with file.open("w") as stream:
+    with file.open("w", encoding="utf-8") as stream:
         stream.write(text)
         stream.write(end)
 
@@ -387,7 +392,7 @@ def _design(arguments: argparse.Namespace) -> int:
     made = _in_thread(lambda monitor: design_scene(scene, goal, budget, monitor=monitor), scene.name)
     text = toml_text(made.scene.to_dict())
     if arguments.output is not None:
-        arguments.output.write_text(text)
+        arguments.output.write_text(text, encoding="utf-8")
     if arguments.form == "json":
         say(json.dumps(made.to_dict(), allow_nan=False), sys.stdout)
     else:

@@ -29,7 +29,7 @@ def small(error: float | None) -> str:
 
 
 def _rich(out: TextIO) -> bool:
-    if not out.isatty():
+    if out is None or not out.isatty():
         return False
     try:
         import rich  # noqa: F401

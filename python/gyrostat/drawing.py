@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all figures share: the canvas, colours, units of time, curves with their legends, and the layout of a figure over time. Needs matplotlib."""
 
+import itertools
 import math
 import textwrap
 from collections.abc import Callable, Sequence
@@ -47,11 +48,21 @@ def new_figure(width: float, height: float) -> "Figure":
     return Figure(figsize=(width, height), layout="constrained")
 
 
+def as_written(figure: "Figure") -> "Figure":
+    """The figure, in whose text a dollar is a dollar: names of scenes are no formulas."""
+    from matplotlib.text import Text
+
+    for text in figure.findobj(Text):
+        text.set_parse_math(False)
+    return figure
+
+
 def save(figure: "Figure", file: Path) -> None:
     """Write a figure in the format of the file's ending."""
     known = figure.canvas.get_supported_filetypes()
     if file.suffix[1:].lower() not in known:
         raise DomainError(f"plot file {file}: unknown ending {file.suffix or '(none)'!r}; use one of {', '.join(sorted(known))}")
+    as_written(figure)
     figure.draw_without_rendering()  # the layout of axes whose sides are equal, with legends beside them, takes a second pass
     figure.savefig(file, dpi=DENSITY)
 
@@ -117,7 +128,7 @@ def curve(axes: "Axes", x: NDArray[Any], values: NDArray[Any], labels: Sequence[
     look: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 2} if coarse else {"linewidth": 1.0, **style}
     if len(x) < 4:
         look |= {"marker": "o", "markersize": 4}
-    for column, label, colour in zip(values.T, labels, colours, strict=False):
+    for column, label, colour in zip(values.T, labels, itertools.cycle(colours), strict=False):
         axes.plot(x, column, color=colour, label=label, **look)
 
 
@@ -147,9 +158,10 @@ def legend_beside(axes: "Axes") -> None:
         line.set_linewidth(max(1.2, line.get_linewidth()))
 
 
-def components(axes: "Axes", t: NDArray[Any], values: NDArray[Any], symbol: str, unit: str, title: str, *, coarse: bool | None = None) -> None:
-    """A vector as its components 1, 2, 3; a quaternion as x, y, z, w."""
-    names = "123" if values.shape[1] == 3 else "xyzw"
+def components(axes: "Axes", t: NDArray[Any], values: NDArray[Any], symbol: str, unit: str, title: str, *, coarse: bool | None = None,
+               per_wheel: bool = False) -> None:
+    """A vector as its components 1, 2, 3, what each wheel has by their numbers; a quaternion as x, y, z, w."""
+    names = "xyzw" if values.shape[1] == 4 and not per_wheel else [str(i) for i in range(1, values.shape[1] + 1)]
     curve(axes, t, values, [f"{symbol}{name}" for name in names], coarse=coarse)
     axes.set_ylabel(f"{symbol} [{unit}]" if unit else symbol)
     legend_row(axes)

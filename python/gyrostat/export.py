@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gyrostat._core import csv_rows, json_numbers
 from gyrostat.answer import Answer
-from gyrostat.facts import FACTS, MEANINGS, UNITS
+from gyrostat.facts import FACTS, TIME, UNITS
 
 if TYPE_CHECKING:
     import pandas
@@ -29,7 +29,7 @@ def _units(answer: Answer) -> dict[str, str]:
 
 def _meanings(answer: Answer) -> dict[str, str]:
     facts = FACTS[answer.scene["kind"]].quantities
-    return {"t": MEANINGS["t"], **{name: facts[name].meaning for name in (*answer.columns, *answer.scalars)}}
+    return {"t": TIME, **{name: facts[name].meaning for name in (*answer.columns, *answer.scalars)}}
 
 
 def _parts(answer: Answer) -> dict[str, Any]:
@@ -146,16 +146,16 @@ def to_xarray(answer: Answer) -> "xarray.Dataset":
     except ImportError as error:
         raise ImportError("xarray is not installed: pip install 'gyrostat[xarray]'") from error
     variables: dict[str, Any] = {}
-    per_wheel = _per_wheel(answer)
+    per_wheel, meanings = _per_wheel(answer), _meanings(answer)
     for name, values in answer.columns.items():
         axis = {1: (), 2: ("wheel" if name in per_wheel else "axis" if values.shape[-1] == 3 else "component",)}[values.ndim]
-        attributes: dict[str, Any] = {"units": UNITS.get(name, ""), "long_name": MEANINGS.get(name, name)}
+        attributes: dict[str, Any] = {"units": UNITS.get(name, ""), "long_name": meanings[name]}
         if name in answer.error and math.isfinite(answer.error[name]):
             attributes["estimated_error"] = answer.error[name]
         if name in answer.tolerances:
             attributes["tolerance"] = answer.tolerances[name]
         variables[name] = (("t", *axis), values, attributes)
-    coordinates: dict[str, Any] = {"t": ("t", answer.t, {"units": UNITS["t"], "long_name": MEANINGS["t"]})}
+    coordinates: dict[str, Any] = {"t": ("t", answer.t, {"units": UNITS["t"], "long_name": TIME})}
     if any("axis" in dims for dims, _, _ in variables.values()):
         coordinates["axis"] = list(_AXES[:3])
     if any("component" in dims for dims, _, _ in variables.values()):

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 from gyrostat import _core
 
-__all__ = ["FACTS", "MEANINGS", "UNITS", "Facts", "Quantity"]
+__all__ = ["FACTS", "TIME", "UNITS", "Facts", "Quantity"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +50,6 @@ def _facts(entry: dict[str, Any]) -> Facts:
 
 FACTS: Final[dict[str, Facts]] = {entry["name"]: _facts(entry) for entry in _core.families()}
 
-# Of the columns and scalars of all families, and of the time. A quantity of one name has one unit; the meaning may say more in one family.
+# Of the columns and scalars of all families, and of the time: a quantity of one name has one unit.
 UNITS: Final[dict[str, str]] = {"t": "s", **{q.name: q.unit for facts in FACTS.values() for q in facts.quantities.values()}}
-MEANINGS: Final[dict[str, str]] = {"t": "time", **{q.name: q.meaning for facts in FACTS.values() for q in facts.quantities.values()}}
+TIME: Final = "time"  # what t means

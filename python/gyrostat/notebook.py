@@ -47,14 +47,22 @@ def scene_html(scene: "Scene") -> str:
     from gyrostat.families import FAMILIES
     from gyrostat.toml_text import toml_value
 
-    fields = {f"{table}.{field.name}": field for table, keys in FAMILIES[scene.kind].keys.items() for field in keys}
+    fields = {f"{table}.{field.name}".lstrip("."): field for table, keys in FAMILIES[scene.kind].keys.items() for field in keys}
+
+    def line(key: str, value: object) -> list[str]:
+        field = fields.get(key)
+        return [key, shown(value), "" if field is None or key in scene.written else field.unit, "" if field is None else field.meaning]
+
     def shown(value: object) -> str:
         text = toml_value(value)
         return text if len(text) <= LONGEST else text[:LONGEST - 3] + "..."
 
-    rows = [[key, shown(value), "" if key in scene.written else fields[key].unit, fields[key].meaning]
-            for table, values in scene.to_dict().items() if isinstance(values, dict)
-            for key, value in ((f"{table}.{name}", value) for name, value in values.items())]
+    rows = []
+    for table, values in scene.to_dict().items():
+        if isinstance(values, dict) and table not in fields:
+            rows += [line(f"{table}.{name}", value) for name, value in values.items()]
+        elif table not in ("name", "kind", "source"):
+            rows += [line(table, each) for each in values] if isinstance(values, list) else [line(table, values)]
     return _title(f"{scene.name} ({scene.kind})") + _paragraphs([scene.source]) + _table("", ["key", "value", "unit", "meaning"], rows)
 
 

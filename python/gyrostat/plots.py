@@ -5,9 +5,9 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any, Final
 
-from gyrostat.drawing import COLOURS, Panel, components, curve, error_text, new_figure, note, save, stacked
+from gyrostat.drawing import COLOURS, Panel, as_written, components, curve, error_text, new_figure, note, save, stacked
 from gyrostat.errors import DomainError
-from gyrostat.facts import FACTS, MEANINGS, UNITS
+from gyrostat.facts import FACTS, UNITS
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import scene_from
 
@@ -33,7 +33,7 @@ def plot_answer(answer: "Answer") -> "Figure":
     title = f"{scene.name}: rung {answer.model}, estimated error {answer.greatest_error:.1e} (tolerance {answer.tolerance:g} {verdict})"
     remarks = figures.remarks(answer) if whole else []
     made.suptitle("\n".join([title, *remarks]), fontsize=11)
-    return made
+    return as_written(made)
 
 
 def _asked(answer: "Answer") -> "Figure":
@@ -47,14 +47,15 @@ def _asked(answer: "Answer") -> "Figure":
 
 def _column(name: str) -> Panel:
     def draw(axes: "Axes", answer: "Answer", t: "NDArray[Any]") -> None:
-        values, title = answer[name], f"{name}: {MEANINGS[name]}"
+        values, quantity = answer[name], FACTS[answer.scene["kind"]].quantities[name]
+        title = f"{name}: {quantity.meaning}"
         unit = "" if UNITS[name] == "1" else UNITS[name]
         if values.ndim == 1:
             curve(axes, t, values, [f"_{name}"])
             axes.set_ylabel(f"[{unit}]" if unit else "")
             axes.set_title(title, loc="left", fontsize=10)
         else:
-            components(axes, t, values, "", unit, title)
+            components(axes, t, values, "", unit, title, per_wheel=quantity.width == 0)
             axes.set_ylabel(f"[{unit}]" if unit else "")
         note(axes, error_text(answer, name))
 

@@ -8,6 +8,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
@@ -145,6 +146,10 @@ class Place:
         below = values < high if self.field.open_high else values <= high
         return ~(above & below)
 
+    def why(self, value: float) -> str:
+        """What would be allowed in the place of a value that is outside."""
+        return self.remedy if math.isfinite(value) or self.field.form == "choice" else f"{self.key} is not finite"
+
     @property
     def remedy(self) -> str:
         """What would be allowed."""
@@ -259,6 +264,7 @@ def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any
     table = own.get("cases") if cases is None else cases
     if isinstance(table, str | os.PathLike):
         table = read_cases(beside / table)
+    table = _columns({} if table is None else table)
     chosen = {name: own.get(name) if settings.get(name) is None else settings[name] for name in ("n", "seed", "design")}
     for name in ("n", "seed"):
         chosen[name] = None if chosen[name] is None else _integer(name, chosen[name])
@@ -273,7 +279,7 @@ def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any
             places[place.key], found[place.key] = place, value
         return found
 
-    listed = {key: tuple(value if isinstance(value, str) else float(value) for value in values) for key, values in in_full(table or {}).items()}
+    listed = {key: tuple(value if isinstance(value, str) else float(value) for value in values) for key, values in in_full(table).items()}
     from_scene = {key: value for key, value in in_full({key: own[key] for key in own if key not in SETTINGS}).items() if key not in listed}
     varied = {key: _varied(key, value) for key, value in {**from_scene, **in_full(vary or {})}.items()}
     _require_apart([places[key] for key in (*listed, *varied)])
@@ -281,6 +287,17 @@ def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any
         raise DomainError("initial.time: all rows have one clock, as they have the same times; make a study for each")
     plan = Plan.of(varied, listed, {key: place.read for key, place in places.items()}, chosen["n"], chosen["seed"] or 0, chosen["design"] or "random")
     return plan, {key: places[key] for key in (*listed, *varied)}
+
+
+def _columns(table: Any) -> dict[str, Any]:
+    """A table of cases by its keys. Raises DomainError."""
+    wanted = "cases: give a table, key -> as many values of each, or the name of a file in CSV"
+    if not hasattr(table, "items"):
+        raise DomainError(wanted)
+    found = {str(key): list(values) if isinstance(values, Iterable) and not isinstance(values, str) else None for key, values in table.items()}
+    if any(values is None or not all(isinstance(value, str | Real) for value in values) for values in found.values()):
+        raise DomainError(wanted)
+    return found
 
 
 def _integer(name: str, value: Any) -> int:

@@ -164,7 +164,7 @@ class Scene:
             if any(family.mistakes({"": self.top, **tables})):
                 return None
         made = Scene(self.name, self.kind, self.source, tables, self.path, self.top, written, self.before)
-        if not new_times:
+        if not new_times and made.start_time == self.start_time:
             made.__dict__["_times"] = self._times
         elif made._times[0] < made.start_time:
             return None
@@ -772,7 +772,8 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
     if (times := read["solve"]["times"]) is not UNSET and times[0] < made.start_time:
         raise SceneError(Mistake(source.where("solve.times"), "solve.times", _show(list(times)), f"the motion begins at {made.start_time!r} s",
                                  "give times from there, or duration and samples, which count from there"))
-    _check_varied(made, source)
+    if not overrides:  # what varies may hang on keys that were replaced; a sweep looks again
+        _check_varied(made, source)
     return made
 
 
@@ -935,7 +936,7 @@ def parse_override(text: str) -> tuple[str, Any]:
         if set(read) == {"value"}:
             return key, read["value"]
     except (tomllib.TOMLDecodeError, ValueError, RecursionError):
-        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*|[1-3]-[1-3]-[1-3]", value) or re.fullmatch(PATTERN, value):
+        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_:-]*|[1-3]-[1-3]-[1-3]", value) or re.fullmatch(PATTERN, value):
             return key, value
     raise fail(key, _show(value), "this is no TOML value", 'write a number, an array such as [1.0, 2.0, 3.0], or text in quotes')
 
@@ -964,6 +965,8 @@ def _load(path: str | os.PathLike[str], overrides: Mapping[str, Any], after: tup
             raise fail(f"the file is over {MOST_BYTES // 2**20} MiB", "a scene file is a few lines of TOML")
         with file.open("rb") as stream:
             raw = stream.read(MOST_BYTES + 1)
+    except SceneError:
+        raise
     except FileNotFoundError:
         known = [name for name, _ in bundled()]
         near = _near(str(path), known)
@@ -1015,7 +1018,7 @@ def find(path: str | os.PathLike[str]) -> Path:
     """The file that a path or the name of a bundled scene stands for; the path itself where there is no such scene."""
     file = Path(path)
     try:
-        if file.exists():
+        if file.is_file():
             return file
     except (OSError, ValueError):
         return file

@@ -44,7 +44,7 @@ def report_stability(scene: Scene, *, as_json: bool = False, plot: Path | None =
     """Print the stability of a scene and write its figure; the exit status."""
     report = stability_report(scene)
     if as_json:
-        say(json.dumps(report), sys.stdout)
+        say(json.dumps(report, allow_nan=False), sys.stdout)
     else:
         family = _part(report["kind"])
         for title, heads, rows in family.tables(report):

@@ -95,6 +95,8 @@ def _verdict(dataset: "xarray.Dataset") -> Iterator[str]:
 def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
     output: Path = arguments.output
     writer_of(output)
+    if arguments.cases is not None and output.resolve() == arguments.cases.resolve():
+        raise DomainError(f"{output}: the results would replace the table of cases")
     parts = output.with_name(output.name + ".parts")
     if parts.exists() and not arguments.resume:
         raise DomainError(f"{parts}: here is what an earlier run has left: go on from it with --resume, or remove it")

@@ -45,7 +45,11 @@ def _frame(dataset: "xarray.Dataset") -> Any:
         # components before times
         for place in np.ndindex(variable.shape[1:]):
             ends = [labels[axis][i] for axis, i in enumerate(place)]
-            flat[str(name) + "".join(reversed(ends))] = variable.values[(slice(None), *place)]
+            values = variable.values[(slice(None), *place)]
+            if "flag_values" in variable.attrs:  # numbers that stand for words
+                words = dict(enumerate(str(variable.attrs["flag_meanings"]).split()))
+                values = np.array([words.get(value, value) for value in values], dtype=object)
+            flat[str(name) + "".join(reversed(ends))] = values
     frame = pandas.DataFrame(flat, index=pandas.Index(dataset["row"].values, name="row"))
     frame.attrs.update({key: str(value) for key, value in dataset.attrs.items()})
     return frame
@@ -91,9 +95,9 @@ def open_results(file: str | os.PathLike[str]) -> "xarray.Dataset":
     if not path.exists():
         raise DomainError(f"{file}: there is no such file")
     try:
-        if path.suffix == ".zarr":
+        if path.suffix.lower() == ".zarr":
             found = reader.open_zarr(path).load()
-        elif path.suffix == ".nc":
+        elif path.suffix.lower() == ".nc":
             found = reader.load_dataset(path, engine="scipy")
         else:
             raise DomainError(f"{file}: results are read from .nc and .zarr")

@@ -21,7 +21,7 @@ from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.asking import asked, knows_attitude
 from gyrostat.errors import DomainError
-from gyrostat.facts import MEANINGS, Facts, Quantity
+from gyrostat.facts import TIME, Facts, Quantity
 from gyrostat.families import FAMILIES
 from gyrostat.ladder import SceneLike, scene_of
 from gyrostat.orientation import NOT_ORTHONORMAL, form_of
@@ -99,7 +99,8 @@ class Study:
         if turn is not None:
             wrong[:] = turn[0]
         for key, values in reversed(list(columns.items())):
-            wrong[self.places[key].outside(values)] = self.places[key].remedy
+            for row in np.flatnonzero(self.places[key].outside(values)):
+                wrong[row] = self.places[key].why(values[row])
         made = _core.sweep(**self._request, **request(self.scene, self.places.values(), columns.values(), wrong == ""), threads=threads, monitor=monitor)
         if turn is not None:
             made["warnings"] = made["warnings"] | (turn[1] & (made["rung"] >= 0)) * (1 << len(FAMILIES[self.scene.kind].facts.warnings))
@@ -113,8 +114,10 @@ class Study:
         reasons = np.where(wrong != "", wrong, reasons)
         variables: dict[str, Any] = {}
         for key, values in columns.items():
-            variables[key] = ("row", values, {"units": self.places[key].field.unit, "long_name": self.places[key].field.meaning, "role": "parameter",
-                                              "varied": str(self.plan.vary.get(key, "case"))})
+            field = self.places[key].field
+            words = {"flag_values": np.arange(len(field.choices), dtype=np.int32), "flag_meanings": " ".join(field.choices)} if field.form == "choice" else {}
+            variables[key] = ("row", values, {"units": field.unit, "long_name": field.meaning, "role": "parameter",
+                                              "varied": str(self.plan.vary.get(key, "case")), **words})
         for name, values in made["values"].items():
             variables |= _variables(facts.quantities[name], name in facts.columns, values, made["errors"][name])
         rungs = np.array([*facts.rungs, ""], dtype=object)
@@ -131,7 +134,7 @@ class Study:
 
     def _coordinates(self, rows: range, variables: Mapping[str, Any]) -> dict[str, Any]:
         used = {name for dims, *_ in variables.values() if isinstance(dims, tuple) for name in dims}
-        every = {"time": ("time", self.scene.times, {"units": "s", "long_name": MEANINGS["t"]}), "axis": list("xyz"), "component": list("xyzw")}
+        every = {"time": ("time", self.scene.times, {"units": "s", "long_name": TIME}), "axis": list("xyz"), "component": list("xyzw")}
         wheels = next((values.shape[dims.index("wheel")] for dims, values, *_ in variables.values() if "wheel" in dims), 0)
         every["wheel"] = np.arange(1, wheels + 1)
         return {"row": np.arange(rows.start, rows.stop, dtype=np.int32), **{name: values for name, values in every.items() if name in used}}
@@ -195,7 +198,10 @@ def _kept(folder: Path, study: Study, rows: range) -> "dict[range, xarray.Datase
     found: dict[range, xarray.Dataset] = {}
     at = rows.start
     for file in sorted(folder.glob("rows-*-*.nc")):
-        start, stop = (int(number) for number in file.stem.split("-")[1:])
+        named = re.fullmatch(r"rows-(\d+)-(\d+)", file.stem)
+        if named is None:
+            continue
+        start, stop = int(named[1]), int(named[2])
         part = open_results(file)
         if part.attrs["study"] != study.told:
             raise DomainError(f"{file}: this part belongs to another study: remove {folder}, or name another output")

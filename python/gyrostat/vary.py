@@ -69,11 +69,14 @@ class Axis:
             return np.array(numbers)
         if self.count < 2 or not numbers[0] < numbers[1] or (self.name == "log" and not numbers[0] > 0):
             raise DomainError(f"{self}: give two ends, the smaller first{' and positive' if self.name == 'log' else ''}, and at least 2 values")
+        if self.count > MOST_VALUES:
+            raise DomainError(f"{self}: give at most {MOST_VALUES} values")
         low, high = numbers
         return np.geomspace(low, high, self.count) if self.name == "log" else np.linspace(low, high, self.count)
 
 
 Varied = Spread | Axis
+MOST_VALUES: Final = 2**31 - 1  # of a grid of one key
 
 
 def _text(value: Number) -> str:
@@ -262,15 +265,19 @@ def read_cases(file: str | os.PathLike[str]) -> dict[str, tuple[Number, ...]]:
     """A table of cases from CSV: keys in the first line, below it a line a case. Raises DomainError."""
     try:
         with Path(file).open(newline="", encoding="utf-8-sig") as stream:
-            lines = [line for line in csv.reader(stream, skipinitialspace=True) if any(part.strip() for part in line)]
-    except (OSError, UnicodeDecodeError) as error:
+            reader = csv.reader(stream, skipinitialspace=True)
+            lines = [(reader.line_num, line) for line in reader if any(part.strip() for part in line)]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise DomainError(f"{file}: the table of cases cannot be read ({getattr(error, 'strerror', None) or error})") from None
     if len(lines) < 2:
         raise DomainError(f"{file}: write the keys into the first line, and below it a line a case")
-    for number, line in enumerate(lines[1:], 2):
-        if len(line) != len(lines[0]):
-            raise DomainError(f"{file}: line {number} has {len(line)} values, the first line {len(lines[0])} keys")
-    return {key.strip(): tuple(_number(line[i].strip()) for line in lines[1:]) for i, key in enumerate(lines[0])}
+    keys = [key.strip() for key in lines[0][1]]
+    if twice := next((key for key in keys if keys.count(key) > 1), None):
+        raise DomainError(f"{file}: {twice} is there twice")
+    for number, line in lines[1:]:
+        if len(line) != len(keys):
+            raise DomainError(f"{file}: line {number} has {len(line)} values, the first line {len(keys)} keys")
+    return {key: tuple(_number(line[i].strip()) for _, line in lines[1:]) for i, key in enumerate(keys)}
 
 
 @dataclass(frozen=True, eq=False)

@@ -71,7 +71,7 @@ def view(scene: Scene, begin: float | None = None, end: float | None = None, mon
     notes.insert(0, f"Solved for this view: {', '.join(columns)} at {len(times)} times.")
     data = {**_data(posed, answer), "notes": notes, "time_unit": time_unit(float(times[-1] - times[0]))}
     page = files("gyrostat").joinpath("view.html").read_text(encoding="utf-8")
-    return View(page.replace(PLACE, json.dumps(data, allow_nan=False).replace("</", "<\\/")), answer, tuple(notes))
+    return View(page.replace(PLACE, json.dumps(data, allow_nan=False).replace("<", "\\u003c")), answer, tuple(notes))
 
 
 def _ask(scene: Scene, times: Floats, columns: list[str], monitor: Monitor | None) -> Answer:

@@ -277,8 +277,8 @@ def test_a_row_without_an_answer_says_why_and_is_no_exception() -> None:
     found = sweep("tiangong-1", cases={"body.inertia[2]": [76000.0, 1e6, math.nan, 76000.0, 76000.0], "torque.control[0]": [0.06, 0.06, 0.06, -1.0, math.inf]},
                   **LIGHT)
     assert found["reason"].values.tolist() == [
-        "", "a principal moment exceeds the sum of the two others", "body.inertia[2] is not >= 1e-40", "torque.control[0] is not >= 0",
-        "torque.control[0] is not >= 0"]
+        "", "a principal moment exceeds the sum of the two others", "body.inertia[2] is not finite", "torque.control[0] is not >= 0",
+        "torque.control[0] is not finite"]
     assert found["model"].values.tolist()[1:] == [""] * 4
     assert np.isnan(found["stop_time"].values[1:]).all() and np.isnan(found["angular_momentum_norm"].values[1:]).all()
     assert found["met"].values.tolist() == [True, False, False, False, False]

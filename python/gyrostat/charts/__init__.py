@@ -110,7 +110,7 @@ class Chart:
         files = [folder / f"chart.{ending}" for ending in ("png", "svg", "csv")]
         for file in files[:2]:
             save(figure, file)
-        files[2].write_text(self.to_csv())
+        files[2].write_text(self.to_csv(), encoding="utf-8")
         return files
 
 

@@ -15,7 +15,7 @@ Columns, scalars, rungs and integrators are those of the compiled ladder (facts.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, Final
@@ -143,14 +143,25 @@ FAMILIES: Final[dict[str, Family]] = {name: Family(name) for name in FACTS}
 
 def answer_of(kind: str, made: Mapping[str, Any], arguments: Mapping[str, Any]) -> Answer:
     """What the compiled ladder `made` of the arguments of a family's `solve`, which stand in the answer as a scene."""
-    def told() -> dict[str, Any]:
-        places = FAMILIES[kind].places
-        scene: dict[str, Any] = {"name": f"gyrostat.{kind}.solve", "kind": kind}
-        for name, value in arguments.items():
-            if value is not None:
-                table, key = places[name]
-                home = scene.setdefault(table, {}) if table else scene
-                home[key] = value.tolist() if isinstance(value, np.ndarray) else value
-        return scene
+    return Answer.of(partial(_told, kind, dict(arguments)), np.array(arguments["times"], dtype=float), arguments["tolerance"], made)
 
-    return Answer.of(told, np.array(arguments["times"], dtype=float), arguments["tolerance"], made)
+
+def _listed(value: Any) -> Any:
+    """As a scene file would have it: lists and numbers."""
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    if isinstance(value, Mapping):
+        return {key: _listed(item) for key, item in value.items()}
+    return [_listed(item) for item in value] if isinstance(value, list | tuple | set | frozenset) else value
+
+
+def _told(kind: str, arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments of a family's `solve` in the layout of a scene file."""
+    places = FAMILIES[kind].places
+    scene: dict[str, Any] = {"name": f"gyrostat.{kind}.solve", "kind": kind}
+    for name, value in arguments.items():
+        if value is not None:
+            table, key = places[name]
+            home = scene.setdefault(table, {}) if table else scene
+            home[key] = _listed(value)
+    return scene

@@ -18,6 +18,7 @@ from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask, asked
+from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 
 __all__ = ["Monitor", "PermanentRotations", "flips", "integrate", "permanent_rotations", "solve"]
@@ -49,6 +50,11 @@ class PermanentRotations:
 
 def _body(inertia: ArrayLike, rotor_momentum: ArrayLike, wheels: Sequence[Wheel], angular_velocity: ArrayLike | None,
           angular_momentum: ArrayLike | None, attitude: ArrayLike) -> dict[str, Any]:
+    for i, wheel in enumerate(wheels, 1):
+        if lacking := {"axis", "axial_inertia", "rate"} - set(wheel):
+            raise DomainError(f"wheels: wheel {i} has no {', '.join(sorted(lacking))}")
+        if wheel.get("type", "held") not in ("held", "free"):
+            raise DomainError(f'wheels: the type of wheel {i} is "{wheel["type"]}": use held or free')
     listed = (np.array([wheel["axis"] for wheel in wheels], dtype=float).reshape(-1, 3),
               np.array([wheel["axial_inertia"] for wheel in wheels], dtype=float), np.array([wheel["rate"] for wheel in wheels], dtype=float),
               np.array([wheel.get("type", "held") == "free" for wheel in wheels], dtype=float))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gyrostat.drawing import new_figure
+from gyrostat.errors import DomainError
 from gyrostat.families.free.figures import sphere
 from gyrostat.families.free.functions import permanent_rotations, solve
 from gyrostat.families.free.scene import arguments
@@ -31,13 +32,22 @@ def report(scene: Scene) -> dict[str, Any]:
     Raises DomainError where the momentum is zero.
     """
     given = arguments(scene)
-    found = permanent_rotations(**_body(given))
+    try:
+        found = permanent_rotations(**_body(given))
+    except DomainError:
+        raise DomainError("initial: the body has no momentum, or turns about any axis alike: nothing tells one rotation from another; give it a momentum, "
+                          "or moments that differ") from None
     rotations = [
         {"angular_velocity": w.tolist(), "energy": float(e), "stable": bool(s > 0), "frequency": math.sqrt(s) if s > 0 else None,
          "growth_rate": math.sqrt(-s) if s < 0 else None}
         for w, e, s in zip(found.angular_velocity, found.energy, found.square, strict=True)]
     answer = solve(**{**given, "times": [0.0], "model": "closed-form", "ask": ["kind", "period", "modulus_squared", "energy"]})
-    return {"scene": scene.name, "rotations": rotations, "motion": {name: answer.scalars[name] for name in ("kind", "period", "modulus_squared", "energy")}}
+    return {"scene": scene.name, "rotations": rotations, "motion": {name: _finite(answer.scalars[name]) for name in ("kind", "period", "modulus_squared", "energy")}}
+
+
+def _finite(value: Any) -> Any:
+    """None for a number that is not finite."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _text(value: float | None) -> str:
