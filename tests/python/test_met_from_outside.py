@@ -11,7 +11,7 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat import DomainError, SceneError, deceleration, free, sweep, sweeps
+from gyrostat import DomainError, SceneError, deceleration, free, heavy, sweep, sweeps
 from gyrostat.cli import main
 from gyrostat.facts import FACTS
 from gyrostat.scenes import load, scene_from
@@ -142,3 +142,67 @@ def test_a_tolerance_beyond_all_numbers(value: str) -> None:
 
 def test_a_study_answers_with_a_start_of_another_kind() -> None:
     assert main(["solve", "stage-despin-study", "--set", "angular_momentum=[1000.0, 2000.0, 3000.0]"]) == 0
+
+
+# ---- bodies by themselves ----
+
+
+def test_a_top_that_passes_a_pole_within_rounding_has_no_certain_precession() -> None:
+    scene: dict[str, Any] = {"inertia": [1, 1, 0.5], "mass": 1, "centre_of_mass": [0, 0, 0.1], "gravity": 9.81, "down": [0.6, 0, 0.8], "times": [0, 1],
+                             "tolerance": 1e-10, "ask": {"precession_rate": 1e-9}}
+    near, apart = (heavy.solve(**scene, angular_velocity=[w, 0.3, 2]) for w in (1 / 3, 1 / 3 * (1 + 1e-9)))
+    assert not near.met and math.isinf(near.scalar_error["precession_rate"])
+    assert apart.met and apart.scalars["precession_rate"] == pytest.approx(1.630621, rel=1e-6)
+
+
+def test_the_full_equations_of_a_top_next_to_the_vertical_lose_no_digits() -> None:
+    top: dict[str, Any] = {"inertia": [1, 1, 1.5], "mass": 1, "centre_of_mass": [0, 0, 0.1], "gravity": 1, "angular_velocity": [7e-8, 0, 7], "down": [1e-8, 0, -1],
+                           "times": [5.0, 10.0, 20.0], "tolerance": 1e-10}
+    full, exact = (heavy.solve(**top, model=model) for model in ("full", "exact"))
+    assert full.met
+    assert np.abs(full["down"] - exact["down"]).max() <= full.error["down"] + exact.error["down"]
+    assert np.abs(full["down"] - exact["down"]).max() < 1e-11
+
+
+def test_flips_of_a_body_that_begins_in_the_plane() -> None:
+    times = free.flips(inertia=[3, 2, 1], angular_velocity=[0.3, 0, 1], axis=[0, 1, 0], begin=0, end=24)
+    assert times == pytest.approx(5.87770964 * np.arange(5), abs=1e-7)
+    random = np.random.default_rng(5)
+    for _ in range(100):
+        inertia, rate = np.array([3.0, 2.0, 1.5]) + random.uniform(-0.1, 0.1, 3), random.normal(size=3) * [1, 0, 1]
+        found = free.flips(inertia=inertia, angular_velocity=rate, axis=[0, 1, 0], begin=0, end=200)
+        assert len(found) > 1 and np.ptp(np.diff(found)) < 1e-6 * np.diff(found)[0]
+    for wrong in ({"axis": [0, 0, 0]}, {"end": math.inf}, {"begin": math.nan}):
+        with pytest.raises(DomainError):
+            free.flips(**{"inertia": [3, 2, 1], "angular_velocity": [0.3, 0, 1], "axis": [0, 1, 0], "begin": 0.0, "end": 24.0, **wrong})
+
+
+@pytest.mark.parametrize(("wheels", "rate"), [((0.6, 0.0, 0.8), 1e-60), ((1e150, 0.0, 0.0), 1.0), ((1e200, 1.0, 1.0), 1.0)])
+def test_wheels_beside_which_a_body_has_no_digits_are_not_met_by_the_closed_form(wheels: tuple[float, ...], rate: float) -> None:
+    scene: dict[str, Any] = {"inertia": [3, 2, 1.5], "rotor_momentum": wheels, "angular_velocity": rate * np.array([0.1, 1, 0.2]), "times": [3.0]}
+    try:
+        answer = free.solve(**scene)
+    except (DomainError, gyrostat.ConvergenceError):
+        return
+    if rate < 1:  # slow beside the wheels' precession: (-.434, .1, 1.001) by digits that suffice
+        assert not answer.met or answer["angular_velocity"][0] == pytest.approx(1e-60 * np.array([-0.434, 0.100, 1.001]), rel=1e-2)
+    else:
+        assert not answer.met
+
+
+@pytest.mark.parametrize(("inertia", "momentum"), [([4, 4, 2], [-0.00872958, 1, 1]), ([1.5, 1.5, 3], [0.14, 1.41, 0])])
+def test_a_body_whose_wheels_have_all_momentum_rests(inertia: list[float], momentum: list[float]) -> None:
+    answer = free.solve(inertia=inertia, rotor_momentum=momentum, angular_momentum=momentum, times=[0.0, 5.0])
+    assert answer.met
+    assert np.abs(answer["angular_velocity"]).max() == 0
+
+
+def test_a_body_that_hangs_by_a_gradient_alone_swings_about_no_vertical() -> None:
+    for inertia in ([2, 1, 1], [1, 2, 1], [1, 1, 2]):
+        found = heavy.hanging(inertia=inertia, mass=1, centre_of_mass=[0, 0, 0], gravity=9.81, gravity_gradient=1)
+        assert np.isfinite(found.swing).all() and np.abs(found.swing @ found.down).max() < 1e-12
+
+
+def test_permanent_rotations_are_listed_once() -> None:
+    found = free.permanent_rotations(inertia=[4, 6, 3], rotor_momentum=[0, 1, 0], angular_velocity=[0, 0, 0])
+    assert len(found.energy) == len({tuple(np.round(w, 9)) for w in found.angular_velocity}) == 2

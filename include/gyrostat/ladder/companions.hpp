@@ -76,6 +76,12 @@ constexpr Errors<N, Scalar> error_of_distances(Errors<N, Scalar> away, const Err
   return Scalar(honesty::side_by_side.margin) * away;
 }
 
+/// What all runs may lose alike, relative: rounding of the evaluation, and a part of what the roundings of the steps add up to, `walk`.
+template <Real Scalar>
+constexpr Scalar shared_rounding(Scalar walk) noexcept {
+  return epsilon<Scalar> + Scalar(honesty::shared_steps) * walk;
+}
+
 /// Hears what nobody wants to know.
 inline constexpr auto not_noted = [](std::size_t, const auto&) noexcept {};
 
@@ -183,8 +189,8 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   return walk;
 }
 
-/// The answer of a run beside its companions. `rounding(sizes, steps)` gives, in units of the columns, what
-/// the runs share and no distance shows: rounding of the columns, where `steps` roundings of the answer's steps have added up. note(i, error)
+/// The answer of a run beside its companions. `rounding(sizes, walk)` gives, in units of the columns, what
+/// the runs share and no distance shows: rounding of the columns, where the roundings of the answer's steps have added up to `walk`. note(i, error)
 /// hears what the distances tell at each asked time.
 template <class Answer, class Writer, class Course, class Rounding, class Note = decltype(not_noted)>
 void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs, const typename Writer::State& start,
@@ -198,12 +204,12 @@ void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs
       walk_beside(writer, runs, start, rate, times, states, nowhere, options, progress_from, progress_to, note);
   answer.status = walk.status;
   answer.counts = runs.counts();
-  const Scalar steps = eps * std::sqrt(static_cast<Scalar>(runs.answer.counts().steps));
+  const Scalar walk_of_steps = eps * std::sqrt(static_cast<Scalar>(runs.answer.counts().steps));
   if (answer.status != ode::Status::reached) {
     answer.error = decltype(answer.error)::all(nan<Scalar>);
     return;
   }
-  const auto error = walk.error + rounding(walk.asked.size(), steps);
+  const auto error = walk.error + rounding(walk.asked.size(), walk_of_steps);
   answer.error = relative_to_truth(walk.asked.relative(error), Writer::columns);
   answer.met = options.excess(answer.error) <= 1;
 }

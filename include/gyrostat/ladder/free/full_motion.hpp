@@ -204,7 +204,6 @@ class FullMotion {
 
   /// The answer's run and its neighbours' side by side, and their distance.
   FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
-    constexpr Scalar eps = epsilon<Scalar>;
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     FullCourse<Scalar> course(problem_, step_tolerance, options_.step_cap);
@@ -218,7 +217,7 @@ class FullMotion {
     const FullState<Scalar> start = system.state(0, system.start().data());
     // rounding at the asked times
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
-      const Scalar relative = 4 * eps + steps;
+      const Scalar relative = shared_rounding(steps);
       const auto lost = system.losses(2 * relative);
       FullErrors<Scalar> error;
       error[full_column::attitude] = 4 * relative;

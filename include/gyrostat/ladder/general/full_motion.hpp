@@ -720,7 +720,6 @@ class FullMotion {
   /// The answer's run and its neighbours' side by side, and their distance.
   FullMotionAnswer<Scalar> run(const StepTolerance<Scalar>& tolerance, double progress_from,
                                double progress_to) const noexcept {
-    constexpr Scalar eps = epsilon<Scalar>;
     FullMotionAnswer<Scalar> answer;
     answer.used = Method::integrator;
     answer.step_tolerance = tolerance.end;
@@ -744,7 +743,8 @@ class FullMotion {
     // rounding at the asked times, and between steps
     FullErrors<Scalar> between;
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
-      auto error = rounding_of_columns(of, row, size, 4 * eps + steps) + Scalar(honesty::margin_between) * between;
+      auto error =
+          rounding_of_columns(of, row, size, shared_rounding(steps)) + Scalar(honesty::margin_between) * between;
       add_slip(error, *course);
       if constexpr (Method::integrator == Integrator::radau) {
         // where the roundings of the steps leave the momentum off, which all runs may be alike, the body turns on

@@ -65,7 +65,7 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
     const double turned = skew * angle * (1 + angle);
     worst += ExactError<double>::of(turned, turned * rate);
   }
-  return worst;
+  return worst.or_infinite();
 }
 
 /// A body and a start of which every number is off by about two roundings, zeros and equal moments kept; of a converted start (an attitude, into down) all

@@ -88,6 +88,9 @@ GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Problem<double>& probl
       known.precession_error = 0;
     } else {
       known.sides = top.sides();
+      // whether down passes on this side of a pole or on the other hangs on the last digits
+      for (const double side : known.sides)
+        if (side != 0 && std::abs(side) <= 2 * conversion) known.precession_error = infinity<double>;
     }
   };
   if (const auto* top = exact.top()) of_top(*top);

@@ -144,7 +144,6 @@ class FullMotion {
 
   /// The answer's run and its neighbours' side by side, and their distance.
   FullMotionAnswer<Scalar> run(Scalar step_tolerance, double progress_from, double progress_to) const noexcept {
-    constexpr Scalar eps = epsilon<Scalar>;
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     Course course(problem_, start_, step_tolerance, options_.step_cap);
@@ -158,7 +157,7 @@ class FullMotion {
     if (rounding_rules(step_tolerance, condition())) second = beside(1);
     // rounding at the asked times
     const auto rounding = [&](const ColumnErrors<Scalar>&, Scalar steps) noexcept {
-      return 4 * (4 * eps + steps) * ColumnErrors<Scalar>{rate_, 1, Scalar(turning ? 1 : 0)};
+      return 4 * shared_rounding(steps) * ColumnErrors<Scalar>{rate_, 1, Scalar(turning ? 1 : 0)};
     };
     solve_beside(answer, Row<Scalar>{scales(problem_, start_.angular_velocity.norm())},
                  Runs<Course>{course, companion, second ? &*second : nullptr}, start_, rate_, times_, states_,

@@ -266,7 +266,6 @@ class FullMotion {
   /// The answer's run and its neighbours' side by side, and their distance. inside: what collocation may err between its steps.
   FullMotionAnswer<Scalar> run(Scalar step_tolerance, Scalar inside, double progress_from,
                                double progress_to) const noexcept {
-    constexpr Scalar eps = epsilon<Scalar>;
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     answer.used = layer_ < times_.back() ? Integrator::radau : Integrator::taylor;
@@ -284,7 +283,7 @@ class FullMotion {
     const Row<Scalar> row(gyrostat_, start_);
     ColumnErrors<Scalar> between;
     const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
-      return rounding_of_columns(row, start_, size, 4 * eps + steps) + Scalar(honesty::margin_between) * between;
+      return rounding_of_columns(row, start_, size, shared_rounding(steps)) + Scalar(honesty::margin_between) * between;
     };
     const Comparison<Row<Scalar>> rows(row);
     const auto note = [&](std::size_t i, const auto&) noexcept {

@@ -189,7 +189,7 @@ class FullMotion {
 
     // What the runs share: rounding at the asked times.
     const Scalar rounding_walk = eps * std::sqrt(static_cast<Scalar>(steps));
-    const Scalar shared = 4 * (4 * eps + rounding_walk);
+    const Scalar shared = 4 * shared_rounding(rounding_walk);
     ColumnErrors<Scalar> error = walk.error + shared * rounded_in(walk.asked.size());
     answer.tilt_error = walk.error[column::euler_312] + shared;
     error[column::euler_312] = angles_error<Scalar>(error[column::attitude], states_);

@@ -30,12 +30,19 @@ std::vector<Scalar> periodic_zeros(const Motion<Scalar>& motion, const Function&
   const Scalar T = motion.period();
   if (!(T < infinity<Scalar>) || !(begin <= end)) return times;
   const int nodes = nodes_of(motion);
-  Scalar last = value(Scalar(0));
+  const Scalar begins = value(Scalar(0)), near = 64 * epsilon<Scalar> * T;
+  Scalar last = begins;
   for (int i = 1; i <= nodes; ++i) {
-    const Scalar low = T * Scalar(i - 1) / Scalar(nodes), high = T * Scalar(i) / Scalar(nodes), next = value(high);
+    const Scalar low = T * Scalar(i - 1) / Scalar(nodes), high = T * Scalar(i) / Scalar(nodes);
+    const Scalar next = i == nodes ? begins : value(high);  // at the end of the period as at its begin, to the bit
     if (last == 0) first.push_back(low);
-    else if ((last < 0) != (next < 0) && next != 0)
-      if (const auto root = math::bracketed_root<Scalar>(value, low, high)) first.push_back(*root);
+    else if ((last < 0) != (next < 0) && next != 0) {
+      const auto root = math::bracketed_root<Scalar>(value, low, high);
+      // where both ends of the period are one zero but for rounding the sign may change in none of them: then it is at its begin
+      if (!root && i == nodes) first.insert(first.begin(), Scalar(0));
+      else if (root && *root > T - near) first.insert(first.begin(), Scalar(0));
+      else if (root) first.push_back(*root);
+    }
     last = next;
   }
   if (first.empty()) return times;

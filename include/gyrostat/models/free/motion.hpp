@@ -491,6 +491,10 @@ Result<Motion<Scalar>> Motion<Scalar>::make(const Problem<Setup>& problem) noexc
   const auto p = PrincipalProblem<Setup>::of(problem);
   const Setup R = magnitude(p.M);
   if (!(R - R == 0)) return Errc::not_finite;
+  // no digits are left of what turns the body, or of its square
+  const Setup G = magnitude(p.G), l = magnitude(p.l);
+  if (!std::is_same_v<Setup, Scalar> && G > 0 && G < Setup(1e4) * epsilon<Setup> * l) return Errc::no_convergence;
+  if (!(R < Setup(1e150))) return Errc::no_convergence;
   const Quat<Setup> q0 = as_unit(problem.attitude);
   motion.common(p, R, q0);
   const Setup floor = Setup(1e-140) * (p.l.cwiseAbs().maxCoeff() + p.G.cwiseAbs().maxCoeff());

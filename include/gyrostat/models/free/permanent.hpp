@@ -61,10 +61,9 @@ struct PermanentSearch {
     const SecularPoint<Scalar> at{i, Scalar(0)};
     Vec3<Scalar> n = q.vertex(at);
     const Scalar rest = 1 - n.squaredNorm();
-    if (!(rest >= 0)) return;
+    if (!(rest > 0)) return;  // at 0 it is one of those that turning() finds
     n[i] = sqrt(rest);
     add(at, n);
-    if (rest == 0) return;
     n[i] = -n[i];
     add(at, n);
   }

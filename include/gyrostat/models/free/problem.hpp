@@ -152,6 +152,8 @@ struct PrincipalProblem {
     if (problem.momentum_given) {
       M = R_BP.transpose() * problem.angular_momentum;
       G = M - l;
+      // wheels that have all of the momentum, but for the rounding of turned axes
+      if (G.cwiseAbs().maxCoeff() <= 4 * epsilon<Scalar> * M.cwiseAbs().maxCoeff()) M = l, G.setZero();
       omega = inverse.cwiseProduct(G);
     } else {
       omega = R_BP.transpose() * problem.angular_velocity;

@@ -26,8 +26,14 @@ struct ExactError {
             std::min(angular_velocity, other.angular_velocity)};
   }
   ExactError most(const ExactError& other) const noexcept {
-    return {std::max(attitude, other.attitude), std::max(down, other.down),
-            std::max(angular_velocity, other.angular_velocity)};
+    const auto greater = [](Scalar a, Scalar b) { return a > b || a != a ? a : b; };
+    return {greater(attitude, other.attitude), greater(down, other.down),
+            greater(angular_velocity, other.angular_velocity)};
+  }
+  /// Infinite in the place of what is no number.
+  ExactError or_infinite() const noexcept {
+    const auto one = [](Scalar x) { return x == x ? x : infinity<Scalar>; };
+    return {one(attitude), one(down), one(angular_velocity)};
   }
   ExactError over(Scalar x) const noexcept { return {attitude / x, down / x, angular_velocity / x}; }
   /// Of a motion that is off by an angle, and its rates by so much, rad/s.

@@ -245,10 +245,14 @@ void EulerPoisson<Scalar>::project(Scalar* x, Scalar* low) const noexcept {
                                  Scalar(1e-6L), Scalar(1));
   Scalar ee = give * Iw.dot(w_free) + per_whole_ * e.squaredNorm();
   const Scalar es = give * Iw.dot(d_free) + per_whole_ * e.dot(s),
-               ss = give * Id.dot(d_free) + per_whole_ * s.squaredNorm();
+               ss_of_all = give * Id.dot(d_free) + per_whole_ * s.squaredNorm();
   // rounding of a great energy must not move d: of so little only the part is corrected that moves d by a rounding
   const Scalar size = Iw.dot(w_free) / 2 + potential_;
   if (std::abs(lacking_energy) <= 64 * epsilon<Scalar> * size) ee += per_whole_ * size * size;
+  // nor that of the momentum, where the axis is so near the vertical that hardly anything changes it
+  const Scalar momentum = Iw.norm() * d.norm();
+  Scalar ss = ss_of_all;
+  if (std::abs(lacking_momentum) <= 64 * epsilon<Scalar> * momentum) ss += per_whole_ * momentum * momentum;
   const Scalar determinant = ee * ss - es * es;
   Scalar by_energy = 0, by_momentum = 0;
   if (64 * determinant > ee * ss) {

@@ -77,7 +77,10 @@ Result<Hanging<Scalar>> hanging(const Problem<Scalar>& problem) noexcept {
   const auto eigen = symmetric_eigen<Scalar>(turned.transpose() * bend.asDiagonal() * turned);
   for (int i = 0; i < 2; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const Vec3<Scalar> change = turned * eigen.axes.col(i + 1);
+    Vec3<Scalar> change = turned * eigen.axes.col(i + 1);
+    // where nothing resists a swing either, it shares its eigenvalue with the turn about the vertical
+    const Vec3<Scalar> other = turned * eigen.axes.col(0);
+    if (i == 0 && change.squaredNorm() < other.squaredNorm()) change = other;
     made.frequency[k] = std::sqrt(std::max(eigen.values[i + 1], Scalar(0)));
     made.swing[k] = change / change.norm();
   }

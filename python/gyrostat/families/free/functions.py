@@ -133,6 +133,10 @@ def flips(*, inertia: ArrayLike, axis: ArrayLike, begin: float, end: float, angu
 
     axis : (3,) unit, body axes: of a body spun about its middle axis that axis, and the times are those of its flips. Other arguments as of `solve`.
     """
+    if not np.any(np.asarray(axis, dtype=float)):
+        raise DomainError("axis: a direction has a length, give one that is not zero")
+    if not (math.isfinite(begin) and math.isfinite(end)):
+        raise DomainError(f"begin = {begin}, end = {end}: give finite times")
     made: Floats = _core.free_flips(**_body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, (0.0, 0.0, 0.0, 1.0)),
                                     axis=np.asarray(axis, dtype=float), begin=float(begin), end=float(end))
     return made
