@@ -11,7 +11,7 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat import DomainError, SceneError, deceleration, free, heavy, sweep, sweeps
+from gyrostat import DomainError, SceneError, deceleration, free, general, heavy, sweep, sweeps
 from gyrostat.cli import main
 from gyrostat.facts import FACTS
 from gyrostat.scenes import load, scene_from
@@ -206,3 +206,48 @@ def test_a_body_that_hangs_by_a_gradient_alone_swings_about_no_vertical() -> Non
 def test_permanent_rotations_are_listed_once() -> None:
     found = free.permanent_rotations(inertia=[4, 6, 3], rotor_momentum=[0, 1, 0], angular_velocity=[0, 0, 0])
     assert len(found.energy) == len({tuple(np.round(w, 9)) for w in found.angular_velocity}) == 2
+
+
+# ---- general scenes ----
+
+TABLE: dict[str, Any] = {"type": "torque", "axis": [0, 0, 1], "axial_inertia": 0.1, "rate": 5.0, "torque": {"times": [0.0, 10.0], "values": [0.01, 0.02]}}
+
+
+def test_the_error_of_a_start_holds_for_wheels_that_a_table_drives() -> None:
+    body: dict[str, Any] = {"inertia": [1, 2, 2.5], "angular_velocity": [0.1, 0.2, 0.3], "times": [5.0, 10.0]}
+    sure, off = general.solve(**body, wheels=[TABLE], start_error={"rotor_rate": 0.1}), general.solve(**body, wheels=[{**TABLE, "rate": 5.1}])
+    assert not sure.met
+    assert np.abs(sure["rotor_rate"] - off["rotor_rate"]).max() <= sure.error["rotor_rate"] * max(np.abs(sure["rotor_rate"]).max(), sure.scale["rotor_rate"])
+
+
+@pytest.mark.parametrize(("eccentricity", "anomaly"), [(0.0, 0.0), (0.3, 0.0), (0.3, math.pi)])
+def test_the_rate_of_an_orbit_is_that_at_the_start(eccentricity: float, anomaly: float) -> None:
+    orbit: dict[str, Any] = {"rate": 1e-3, "eccentricity": eccentricity, "true_anomaly": anomaly}
+    answer = general.solve(inertia=[1, 2, 2.5], angular_velocity=[0, 0, 0], times=[0.0, 1.0], orbit=orbit, ask=["attitude_orbit"], tolerance=1e-9)
+    first, last = answer["attitude_orbit"]
+    assert 2 * math.acos(min(1.0, abs(float(first @ last)))) == pytest.approx(1e-3, rel=1e-3)
+    if eccentricity:
+        with pytest.raises(DomainError, match="of a circle"):
+            general.solve(inertia=[1, 2, 2.5], angular_velocity=[0, 0, 0], times=[1.0], orbit={"period": 5400.0, "eccentricity": eccentricity})
+
+
+def test_a_held_wheel_whose_table_has_ended_stands_still_from_its_last_time() -> None:
+    wheel = {"type": "held", "axis": [0, 0, 1], "axial_inertia": 0.1, "rate": {"times": [0.0], "values": [5.0]}}
+    scene = {**BRICK, "wheel": [wheel], "initial": {"angular_momentum": [0.1, 0.2, 0.3]}}
+    assert gyrostat.solve(scene, ask=["angular_momentum"])["angular_momentum"][0] == pytest.approx([0.1, 0.2, 0.3], abs=1e-15)
+
+
+@pytest.mark.parametrize(("changes", "told"), [
+    ({"wheel": [{**TABLE, "name": "w"}] * 2}, "two wheels have the name"), ({"orbit": {"eccentricity": 0.3}}, "there is no orbit"),
+    ({"torque": [{"type": "constant", "torque": [1.0, 0, 0], "factor": {"mean": 2.0, "times": [0.0, 1.0], "values": [1.0, 2.0]}}]}, "mean nothing")])
+def test_what_would_have_been_ignored_is_a_mistake(changes: dict[str, Any], told: str) -> None:
+    with pytest.raises(SceneError, match=told):
+        scene_from({**BRICK, **changes})
+
+
+def test_an_attitude_that_is_handed_on_is_in_space(tmp_path: Path) -> None:
+    orbit = "[orbit]\naltitude = \"400 km\"\n"
+    head = "[solve]\ntimes = [%s]\ntolerance = 1e-9\n[body]\ninertia = [1.0, 2.0, 2.5]\n"
+    (tmp_path / "a.toml").write_text('name = "a"\n' + head % "10.0" + "[initial]\nangular_velocity = [0.0, 0.05, 0.0]\nattitude = [0.0, 0.0, 0.0, 1.0]\n" + orbit)
+    (tmp_path / "b.toml").write_text('name = "b"\nfrom = "a.toml"\n' + head % "10.0, 11.0" + '[initial]\nrelative_to = "orbit"\n' + orbit)
+    assert gyrostat.solve(tmp_path / "b.toml")["attitude"][0] == pytest.approx(gyrostat.solve(tmp_path / "a.toml")["attitude"][-1], abs=1e-9)

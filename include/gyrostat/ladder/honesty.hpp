@@ -18,7 +18,7 @@ struct Companions {
 
 /// All families, watched in every step, all components moved. The distance from the answer is its truncation, that of the companions from each other what
 /// rounding does, and either may be small by chance (error_of_distances).
-inline constexpr Companions side_by_side{64, 1, 5};
+inline constexpr Companions side_by_side{64, 2, 5};
 /// Of the roundings of the steps of an answer, which add up as the square root of their number, the part that the runs may share. Chosen: with all of it, and four
 /// times the roundings of an evaluation, general scenes stated twice as much at 1e-11, and no error came near.
 inline constexpr double shared_steps = 1.0 / 8;

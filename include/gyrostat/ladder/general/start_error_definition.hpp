@@ -49,7 +49,8 @@ GYROSTAT_COMPILED_ONCE std::vector<Displacement> displacements(const Scene& scen
   }
   if (error.rotor_rate > 0)
     for (std::size_t i = 0; i < scene.wheels().count; ++i)
-      if (const auto& law = scene.wheels().laws[i]; law.follows != Follows::body && !law.tabled)
+      if (const auto& law = scene.wheels().laws[i];
+          law.follows != Follows::body && !(law.follows == Follows::rate && law.tabled))
         made.push_back({Displacement::wheel, int(i)});
   return made;
 }

@@ -173,18 +173,23 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
     surface = planet[1] if given.get("altitude") is not None or (radius is not None and mu is None and rate is None) else 0.0
     if given.get("altitude") is not None:
         radius = planet[1] + given["altitude"]
+    # mu over that of a circle of the same size and rate
+    eccentricity = _or(given.get("eccentricity"), 0.0)
+    share = 1 + eccentricity * np.cos(_or(given.get("true_anomaly"), 0.0))
     if given.get("period") is not None:
+        if np.any(eccentricity != 0):
+            raise DomainError("orbit.period: this is of a circle; give an eccentric orbit by its radius or its rate at t = 0")
         rate = 2 * math.pi / given["period"]
     if rate is not None:
         # the size of an orbit of given rate matters to the field of a dipole alone
         mu = planet[0] if mu is None and radius is None else mu
-        radius = np.cbrt(mu / (rate * rate)) if radius is None else radius
-        mu = rate * rate * (radius * radius * radius)
+        radius = np.cbrt(mu * share / (rate * rate)) if radius is None else radius
+        mu = rate * rate * (radius * radius * radius) / share
     radial = _unit(_or(given.get("radial"), (1.0, 0.0, 0.0)), "orbit.radial")
     along = stacked(_or(given.get("along"), (0.0, 1.0, 0.0)))
     for _ in range(2):  # what is radial is dropped; of axes nearly along each other the first time leaves roundings of it
         along = _unit(along - radial * dot(radial, along)[..., None], "orbit.along")
-    return {"radius": radius, "mu": planet[0] if mu is None else mu, "eccentricity": _or(given.get("eccentricity"), 0.0),
+    return {"radius": radius, "mu": planet[0] if mu is None else mu, "eccentricity": eccentricity,
             "true_anomaly": _or(given.get("true_anomaly"), 0.0), "radial": radial,
             "along": along, "surface": surface}
 

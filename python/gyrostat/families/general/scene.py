@@ -218,6 +218,12 @@ def mistakes(tables: Values) -> Found:
         yield "initial.angular_velocity", start["angular_velocity"], "there is no orbit", remedy
     if field["dipole"] is not UNSET and not orbiting and any(torque["type"] in ("magnetic", "eddy-current") for torque in tables[""]["torque"]):
         yield "field.dipole", field["dipole"], "the field of a dipole is that along an orbit", remedy
+    for name in ("eccentricity", "mu"):
+        if not orbiting and orbit[name] not in (UNSET, 0.0):
+            yield f"orbit.{name}", orbit[name], "there is no orbit", remedy
+    names = [wheel["name"] for wheel in tables[""]["wheel"] if wheel["name"]]
+    if twice := next((name for name in names if names.count(name) > 1), None):
+        yield "wheel", "", f'two wheels have the name "{twice}"', "give each a name of its own, or none"
     if start["time"] is not UNSET and tables[""]["from"] is not UNSET:
         yield "initial.time", start["time"], "the clock goes on from the scene before", "leave it out"
     asked = tables["solve"]["ask"]
@@ -290,6 +296,8 @@ def _torque_mistakes(place: int, torque: Mapping[str, Any], orbiting: bool, fixe
         wave, table = factor["rate"] is not UNSET, factor["times"] is not UNSET
         if wave == table or (wave and factor["amplitude"] is UNSET):
             yield "torque", "", f"{what}: factor is neither a wave nor a table", "write { mean = 1.0, amplitude = 0.5, rate = 2.0 } or { times = [...], values = [...] }"
+        elif table and any(factor[name] is not UNSET for name in ("mean", "amplitude", "phase")):
+            yield "torque", "", f"{what}: factor is a table, beside which mean, amplitude and phase mean nothing", "leave them out, or give a wave by its rate"
         elif table and factor["values"] is UNSET:
             yield "torque", "", f"{what}: factor has times and no values", "give one value for each time"
         elif table:
@@ -363,7 +371,7 @@ def _rate_at(wheel: Mapping[str, Any], time: float) -> Any:
     if varies(times) or varies(values):
         rows = [each.tolist() for each in np.broadcast_arrays(*(np.atleast_2d(stacked(each)) for each in (times, values)))]
         return np.array([_rate_at({**wheel, "rate": {**rate, "times": tuple(t), "values": tuple(v)}}, time) for t, v in zip(*rows, strict=True)])
-    if time < times[0] or time > times[-1]:
+    if time < times[0] or time >= times[-1]:
         return float((values[0] if time < times[0] else values[-1]) if rate["extend"] == "hold" else 0.0)
     place = bisect.bisect_right(times, time) - 1
     if times[place] == time or rate["interpolation"] == "step":
@@ -410,7 +418,7 @@ def _handed_on(wheels: list[dict[str, Any]], end: End) -> tuple[list[dict[str, A
     return made, taken
 
 
-def _caught(end: End, whole: _Whole, body: Mapping[str, Any], wheels: list[dict[str, Any]], taken: list[int]) -> tuple[Floats, float]:
+def _caught(end: End, whole: _Whole, body: Mapping[str, Any], wheels: list[dict[str, Any]], taken: list[int], time: float) -> tuple[Floats, float]:
     """Angular velocity of a body that keeps its angular momentum while it changes, and by how much it may be off. No bearing gives a wheel that turns by
     itself a torque about its axis, so it keeps its absolute rate: its relative one is set anew."""
     inertia, rest = whole.inertia, end.angular_momentum - np.array(body["rotor_momentum"], dtype=float)
@@ -419,7 +427,7 @@ def _caught(end: End, whole: _Whole, body: Mapping[str, Any], wheels: list[dict[
         if wheel["type"] == "locked":
             continue
         axis, axial = np.array(wheel["axis"], dtype=float) / math.hypot(*wheel["axis"]), wheel["axial_inertia"]
-        rate = _rate_at(wheel, 0.0)
+        rate = _rate_at(wheel, time)
         if place in taken and wheel["type"] != "held":
             rate += float(axis @ end.angular_velocity)
             inertia = inertia - axial * np.outer(axis, axis)
@@ -443,7 +451,7 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     error = dict.fromkeys(("attitude", "angular_velocity", "rotor_rate", "rotor_angle", "velocity", "position"), 0.0)
     attitude = stacked(start["attitude"] if start["attitude"] is not UNSET else (0.0, 0.0, 0.0, 1.0) if end is None else end.attitude)
     axes, normal_rate = (np.eye(3), np.zeros(3)) if orbit is None else orbit_start(orbit, time)
-    if start["relative_to"] == "orbit":
+    if start["relative_to"] == "orbit" and (end is None or start["attitude"] is not UNSET):
         attitude = _from_orbit(axes, attitude)
     given, momentum = start["angular_velocity"], start["angular_momentum"]
     kept = scene.top["from"]["keep"] if isinstance(scene.top["from"], Mapping) else "rates"
@@ -453,7 +461,7 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     if momentum is not UNSET:
         rates = _rates_of(stacked(momentum), whole.inertia, body, wheels, time)
     elif end and given is UNSET and kept == "momentum":
-        rates, error["angular_velocity"] = _caught(end, whole, body, wheels, taken)
+        rates, error["angular_velocity"] = _caught(end, whole, body, wheels, taken, time)
     elif end and given is UNSET:
         rates, error["angular_velocity"] = end.angular_velocity, end.error["angular_velocity"]
     elif not isinstance(given, Mapping):
@@ -462,6 +470,9 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
         back = np.swapaxes(_rotation(attitude), -1, -2)
         rates = (turned(back, stacked(given["inertial"])) if given["inertial"] is not UNSET
                  else stacked(given["relative_to_orbit"]) + turned(back, normal_rate))
+        if end and start["attitude"] is UNSET:  # which axes of the body these rates are about is known as well as the attitude
+            about = stacked(given["inertial"]) if given["inertial"] is not UNSET else normal_rate
+            error["angular_velocity"] = float(np.linalg.norm(about)) * end.error["attitude"]
     velocity, position = np.zeros(3), np.zeros(3)
     if end:
         error |= {name: end.error.get(name, 0.0) for name in ("rotor_rate", "rotor_angle") if wheels}
