@@ -57,8 +57,6 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = Non
     answer = family.solve(**family.arguments(checked), **own, monitor=monitor)
     if data_error:
         answer = replace(answer, data_error=error_of_data(checked, answer, monitor=monitor))
-    if own:
-        answer = replace(answer, own_torque=True)
     return answer.of_scene(checked.told, off_orthonormal(checked.tables.get("initial", {})))
 
 

@@ -9,6 +9,7 @@ units where nothing else is said. Equations, torques and the families that are f
 import ctypes
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -310,7 +311,8 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     going_on = {"start_time": start_time or None, "start_error": dict(start_error) if start_error else None}
     records = {"wheels": [dict(each) for each in wheels] or None, "torques": [dict(each) for each in torques] or None,
                "orbit": None if orbit is None else dict(orbit), "field": None if field is None else dict(field)}
-    return answer_of("general", made, {**body, **asking, **records, "recognise": None if recognise else False, "ask": ask, "euler": euler, **going_on})
+    answer = answer_of("general", made, {**body, **asking, **records, "recognise": None if recognise else False, "ask": ask, "euler": euler, **going_on})
+    return answer if torque is None else replace(answer, own_torque=True)
 
 
 def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
