@@ -131,7 +131,11 @@ Outcome not_moved(gyrostat::Errc wrong) {
       return {GYROSTAT_BAD_ARGUMENT,
               "attitude is not a unit quaternion to 1e-6, a locked wheel has a rate, or dt holds more turns of a field "
               "than a double counts"};
-    case Errc::not_applicable: return {GYROSTAT_NO_ANSWER, gyrostat::general::why_stopped_by_brake};
+    case Errc::not_applicable:
+      return {
+          GYROSTAT_NO_ANSWER,
+          "a brake brings the momentum that it opposes to zero within dt, and a step does not follow what becomes of "
+          "the body then: ask gyrostat_solve for the span"};
     default: return {GYROSTAT_NO_ANSWER, std::string(message(wrong)) + ": give a shorter dt"};
   }
 }

@@ -439,6 +439,10 @@ Outcome complete(const gyrostat_scene& scene, bool with_question) {
 
 general::Problem<double> problem_of(const gyrostat_scene& scene) {
   general::Problem<double> made = scene.problem;
+  const GivenKeys mean = bit_of(*find<Key>(keys, "torque.factor.mean"));
+  const GivenKeys rate = bit_of(*find<Key>(keys, "torque.factor.rate"));
+  for (std::size_t i = 0; i < made.torques.size(); ++i)
+    if ((scene.given_torques[i] & (mean | rate)) == rate) made.torques[i].factor.mean = 0;
   if (!made.orbit) return made;
   const Vec3<double>& radial = made.orbit->radial;
   Vec3<double>& along = made.orbit->along;

@@ -46,7 +46,7 @@ Outcome ask(gyrostat_scene& scene, const char* name, double tolerance);
 /// Whether all that body, wheels, torques and surroundings need is there; with the question, start and times, too.
 Outcome complete(const gyrostat_scene& scene, bool with_question);
 
-/// The problem of a scene: what of the direction along the orbit is radial is dropped.
+/// The problem of a scene: what of the direction along the orbit is radial is dropped, and a wave without a mean has none.
 general::Problem<double> problem_of(const gyrostat_scene& scene);
 
 /// Why a problem is refused, in words that name the wheel or torque.

@@ -72,7 +72,8 @@ const char* gyrostat_message(void);
  *   initial.angular_velocity* 3   rad/s
  *   initial.velocity, initial.position  3  m/s, m  of a free body's mass centre, inertial axes; 0
  *   initial.error.attitude, .angular_velocity, .rotor_rate, .rotor_angle, .velocity, .position
- *                           1     rad ...  by how much the start may be off: carried into the stated errors; 0
+ *                           1     rad ...  by how much the start may be off (the length of the error, that of rates and angles
+ *                                          over the wheels): carried into the stated errors; 0
  *
  *   gyrostat_add(scene, "wheel", TYPE), TYPE one of locked, held, free, torque, motor, friction; then, of the wheel added last
  *   wheel.axis*             3              of any length but zero

@@ -6,6 +6,10 @@
 functions behind them, over arrays.
 """
 
+import importlib
+from types import ModuleType
+from typing import TYPE_CHECKING, Final
+
 from gyrostat import cpu
 
 if (_level := cpu.level()) is not None:  # gyrostat._core is found in the folder of the level
@@ -33,3 +37,23 @@ __all__ = [
     "solve",
     "sweep",
 ]
+
+if TYPE_CHECKING:
+    from gyrostat import deceleration as deceleration
+    from gyrostat import elliptic as elliptic
+    from gyrostat import free as free
+    from gyrostat import general as general
+    from gyrostat import heavy as heavy
+    from gyrostat import rotation as rotation
+    from gyrostat import rotor as rotor
+    from gyrostat import spinning as spinning
+else:
+    _FUNCTIONS: Final = ("deceleration", "elliptic", "free", "general", "heavy", "rotation", "rotor", "spinning")
+
+    def __getattr__(name: str) -> ModuleType:  # the modules of functions, where they are first named
+        if name in _FUNCTIONS:
+            return importlib.import_module(f"gyrostat.{name}")
+        raise AttributeError(f"module 'gyrostat' has no attribute {name!r}")
+
+    def __dir__() -> list[str]:
+        return sorted({*globals(), *_FUNCTIONS})

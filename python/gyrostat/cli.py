@@ -274,11 +274,20 @@ def _form(arguments: argparse.Namespace) -> str:
     return ENDINGS[ending]
 
 
+def _check_plot(arguments: argparse.Namespace) -> None:
+    """A figure that cannot be written is refused before its numbers are computed."""
+    if arguments.plot is not None:
+        from gyrostat.drawing import check_ending
+
+        check_ending(arguments.plot)
+
+
 def _solve(arguments: argparse.Namespace) -> int:
     from gyrostat.ladder import solve
     from gyrostat.report import report, summary
 
     scene, form = _scene(arguments), _form(arguments)
+    _check_plot(arguments)
     answer = _in_thread(lambda monitor: solve(scene, monitor=monitor), scene.name)
     if arguments.data_error:
         answer = _with_data_error(scene, answer)
@@ -380,6 +389,7 @@ def _chart(arguments: argparse.Namespace) -> int:
 def _stability(arguments: argparse.Namespace) -> int:
     from gyrostat.stability import report_stability
 
+    _check_plot(arguments)
     return report_stability(_scene(arguments), as_json=arguments.form == "json", plot=arguments.plot)
 
 

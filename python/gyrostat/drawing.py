@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all figures share: the canvas, colours, units of time, curves with their legends, and the layout of a figure over time. Needs matplotlib."""
 
+import importlib
 import itertools
 import math
 import textwrap
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     from gyrostat.answer import Answer
 
-__all__ = ["COLOURS", "MOMENT_NAMES", "Drawing", "Panel", "changes", "components", "curve", "error_text", "finish", "is_coarse", "laid_out",
+__all__ = ["COLOURS", "MOMENT_NAMES", "Drawing", "Panel", "changes", "check_ending", "components", "curve", "error_text", "finish", "is_coarse", "laid_out",
            "legend_beside", "legend_row", "map_frame", "map_legend", "new_figure", "note", "on_map", "principal_axes", "save", "span_text", "split",
            "stacked", "time_unit", "vector", "wheels_panel"]
 
@@ -39,13 +40,18 @@ Drawing = tuple[str, "Callable[[], Figure]"]
 Panel = Callable[["Axes", "Answer", NDArray[Any]], None]
 
 
-def new_figure(width: float, height: float) -> "Figure":
-    """An empty figure [inch]."""
+def _matplotlib(part: str) -> Any:
+    """A module of matplotlib."""
     try:
-        from matplotlib.figure import Figure
+        return importlib.import_module(f"matplotlib.{part}")
     except ImportError as error:
         raise ImportError("matplotlib is not installed: pip install 'gyrostat[cli]'") from error
-    return Figure(figsize=(width, height), layout="constrained")
+
+
+def new_figure(width: float, height: float) -> "Figure":
+    """An empty figure [inch]."""
+    made: Figure = _matplotlib("figure").Figure(figsize=(width, height), layout="constrained")
+    return made
 
 
 def as_written(figure: "Figure") -> "Figure":
@@ -57,11 +63,16 @@ def as_written(figure: "Figure") -> "Figure":
     return figure
 
 
-def save(figure: "Figure", file: Path) -> None:
-    """Write a figure in the format of the file's ending."""
-    known = figure.canvas.get_supported_filetypes()
+def check_ending(file: Path) -> None:
+    """Raise DomainError where the ending of a file is that of no format of figures: to be asked before long work."""
+    known = _matplotlib("backend_bases").FigureCanvasBase.get_supported_filetypes()
     if file.suffix[1:].lower() not in known:
         raise DomainError(f"plot file {file}: unknown ending {file.suffix or '(none)'!r}; use one of {', '.join(sorted(known))}")
+
+
+def save(figure: "Figure", file: Path) -> None:
+    """Write a figure in the format of the file's ending."""
+    check_ending(file)
     as_written(figure)
     figure.draw_without_rendering()  # the layout of axes whose sides are equal, with legends beside them, takes a second pass
     figure.savefig(file, dpi=DENSITY)

@@ -138,7 +138,7 @@ def test_a_single_time_is_charted_and_time_zero_refused(scene: str) -> None:
     ("two-attractors", {"initial.angular_velocity": [0.0, 0.0, 0.0], "rotor_rate": 0.0, "no_load_rate": 0.0}),
     ("spinning-paper", {"initial.angular_velocity": [0.0, 0.0, 0.0], "torque.body": [0.0, 0.0, 0.0], "force": [0.0, 0.0, 0.0]}),
     ("toy-top", {"initial.angular_velocity": [0.0, 0.0, 0.0], "gravity": 0.0}),
-    ("rolling-gyroscope", {"gravity": "0 m/s^2", "wheel": []})])
+    ("rolling-gyroscope", {"gravity": "0 m/s^2", "wheel": [], "ask": ["attitude", "angular_velocity", "down", "energy"]})])
 def test_a_body_that_stays_at_rest_is_charted(scene: str, still: dict[str, Any]) -> None:
     made = gyrostat.chart(scene, duration=2.0, samples=3, **still)
     assert all(error < 1e-12 for point in made.points for error in point.error.values())

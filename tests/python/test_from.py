@@ -144,6 +144,54 @@ def test_a_wheel_that_is_caught_is_one_of_very_strong_friction(tmp_path: Path) -
     assert np.linalg.norm(end.angular_velocity - got["angular_velocity"]) > 0.3
 
 
+def test_a_top_that_is_let_go_keeps_its_momentum_and_the_path_of_its_mass_centre(tmp_path: Path) -> None:
+    body = {"inertia": [0.5, 0.4, 0.3], "mass": 2.0, "centre_of_mass": [0.1, 0.05, 0.3], "fixed": True}
+    first = {"name": "first", "solve": {"times": [2.0], "tolerance": 1e-10}, "body": body, "initial": {"angular_velocity": [0.3, -0.5, 0.8]},
+             "field": {"gravity": 9.81}, "torque": [{"type": "weight"}]}
+    write(tmp_path, "first", first)
+    end, c = end_of(load(tmp_path / "first.toml")), np.array(body["centre_of_mass"])
+    about_centre = np.diag([0.5, 0.4, 0.3]) - 2.0 * (c @ c * np.eye(3) - np.outer(c, c))
+    # nothing but the pivot goes: the rates stay, whichever is kept
+    for keep in ("rates", "momentum"):
+        flying = {"name": "flying", "kind": "general", "from": {"file": str(tmp_path / "first.toml"), "keep": keep}, "solve": {"times": [2.0, 3.0]},
+                  "body": {"inertia": about_centre.tolist(), "mass": 2.0, "centre_of_mass": c.tolist()}}
+        got = arguments(scene_from(flying))
+        assert np.allclose(got["angular_velocity"], end.angular_velocity, rtol=1e-13)
+    # it unfolds as it leaves: the momentum about the mass centre stays, and so does where that is
+    flying["body"] = {"inertia": (2 * about_centre).tolist(), "mass": 2.0, "centre_of_mass": [0.0, 0.0, 0.0]}
+    got = arguments(scene_from(flying))
+    assert np.allclose(got["angular_velocity"], end.angular_velocity / 2, rtol=1e-13)
+    R = matrix_from_quaternion(end.attitude)
+    assert np.allclose(got["position"], R @ c, rtol=1e-13) and np.allclose(got["velocity"], R @ np.cross(end.angular_velocity, c), rtol=1e-13)
+
+
+@pytest.mark.parametrize("extend", ["hold", "zero"])
+@pytest.mark.parametrize("cut", [10.0, 20.0])
+def test_a_step_of_a_wheel_at_the_cut_is_made_once(tmp_path: Path, cut: float, extend: str) -> None:
+    """The motor that keeps a rate gives wheel and body opposite momenta, wherever the motion is cut."""
+    table = {"times": [0.0, 10.0, 20.0], "values": [1.0, 5.0, 7.0], "interpolation": "step", "extend": extend}
+    whole = {"name": "whole", "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": {"angular_velocity": [0.1, 0.2, -0.3]},
+             "wheel": [{"type": "held", "axis": [1.0, 1.0, 0.0], "axial_inertia": 0.1, "rate": table}, {"type": "free", "axis": [0.0, 1.0, 1.0], "axial_inertia": 0.2, "rate": 2.0}]}
+    write(tmp_path, "first", whole | {"solve": {"times": [0.0, cut], "tolerance": 1e-11}})
+    later = going_on(whole, "first.toml", solve={"times": [cut, 25.0], "tolerance": 1e-10})
+    later["wheel"][0]["rate"] = table
+    got, want = gyrostat.solve(write(tmp_path, "second", later), ask="all"), gyrostat.solve(whole, times=[0.0, cut, 25.0], tolerance=1e-11, ask="all")
+    for name in got:
+        if name != "torque":
+            assert np.allclose(got[name][-1], want[name][-1], atol=1e-8), name
+    assert np.linalg.norm(got["angular_velocity"][0] - end_of(load(tmp_path / "first.toml")).angular_velocity) > 1e-3
+
+
+def test_wheels_without_a_name_are_not_taken_for_one_that_is_called_by_a_number(tmp_path: Path) -> None:
+    wheels = [{"name": "2", "type": "free", "axis": [1.0, 0.0, 0.0], "axial_inertia": 0.1, "rate": 3.0}, {"type": "free", "axis": [0.0, 1.0, 0.0], "axial_inertia": 0.1, "rate": 5.0}]
+    first = {"name": "first", "solve": {"times": [1.0]}, "body": {"inertia": [3.0, 2.5, 2.0]}, "wheel": wheels, "initial": {"angular_velocity": [0.0, 0.0, 0.1]}}
+    write(tmp_path, "first", first)
+    end = end_of(load(tmp_path / "first.toml")).wheels
+    assert list(end) == ["2", 2]
+    later = arguments(load(write(tmp_path, "second", going_on(first, "first.toml", solve={"times": [2.0]}))))
+    assert [wheel["rate"] for wheel in later["wheels"]] == [end["2"][0], end[2][0]]
+
+
 def test_rates_are_kept_by_default(tmp_path: Path) -> None:
     write(tmp_path, "first", WHOLE)
     lighter = going_on(WHOLE, str(tmp_path / "first.toml"), body={"inertia": [2.0, 1.9, 1.0], "mass": 2.0, "centre_of_mass": [0.0, 0.2, 0.0]})
@@ -176,7 +224,7 @@ def test_the_scene_before_may_be_of_any_kind() -> None:
         answer = gyrostat.solve(later)
         assert answer.t[0] == scene.times[-1]
         if scene.kind == "rotor":
-            assert answer["rotor_rate"][0, 0] == end_of(later.before).wheels["1"][0]  # type: ignore[arg-type]
+            assert answer["rotor_rate"][0, 0] == end_of(later.before).wheels[1][0]  # type: ignore[arg-type]
 
 
 BAD = [
@@ -282,6 +330,14 @@ def test_a_sequence_asks_for_the_angles() -> None:
     assert met.met and list(met) == ["euler"] and met.tolerances["euler"] == pytest.approx(np.pi / 180)
     with pytest.raises(SceneError, match="the sequence of the angles is not said"):
         gyrostat.solve(WHOLE, ask=["euler"])
+    with pytest.raises(SceneError, match="nothing acts along field.down"):
+        gyrostat.solve(WHOLE, ask={"down": 1e-3})
+    alone = {"name": "alone", "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": {"angular_velocity": [0.1, 0.0, 0.2]}, "solve": {"times": [1.0]}}
+    for column, why in (("rotor_rate", "there is no wheel"), ("attitude_orbit", "there is no orbit")):
+        with pytest.raises(SceneError, match=why):
+            gyrostat.solve(alone, ask=[column])
+    with pytest.raises(SceneError, match="held at its origin"):
+        gyrostat.solve({**alone, "body": {"inertia": [3.0, 2.5, 2.0], "fixed": True}}, kind="general", ask=["position"])
     with pytest.raises(SceneError, match="neighbours different"):
         gyrostat.solve(WHOLE, **{"solve.euler": "3-3-1"})
 

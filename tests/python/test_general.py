@@ -606,3 +606,33 @@ def test_a_heavy_scene_that_names_no_kind_does_not_fall_silently() -> None:
         scene_from({key: value for key, value in data.items() if key != "kind"})
     falling = scene_from({**data, "kind": "general"})
     assert "free" in [family for family, why in recognised(falling).items() if not why]
+
+
+def test_wheels_that_are_locked_stand_still_by_every_rung_and_between_steps() -> None:
+    scene: dict[str, Any] = {"name": "locked", "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": {"angular_velocity": [0.1, 0.2, -0.3]}, "solve": {"times": [0.0, 10.0]},
+                             "wheel": [{"type": "locked", "axis": [1.0, 0.0, 0.0], "axial_inertia": 0.1}] * 2}
+    for more in ({}, {"torque": [{"type": "constant", "torque": [0.0, 0.0, 0.1], "on": [[2.0, 3.0]]}]}):
+        for model in ("auto", "free:closed-form" if not more else "segments", "full"):
+            answer = gyrostat.solve({**scene, **more}, model=model, ask="all")
+            assert np.all(answer["rotor_rate"] == 0) and np.all(answer["rotor_angle"] == 0)
+            assert answer.error["rotor_rate"] == 0 and answer.met
+
+
+def test_a_table_that_holds_over_the_whole_span_is_a_number() -> None:
+    scene: dict[str, Any] = {"name": "steady", "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": {"angular_velocity": [0.1, 0.2, -0.3]}, "solve": {"times": [0.0, 5.0, 10.0]},
+                             "wheel": [{"type": "held", "axis": [1.0, 1.0, 0.0], "axial_inertia": 0.1, "rate": 5.0}]}
+    table = {"times": [0.0, 10.0, 20.0], "values": [5.0, 7.0, 9.0], "interpolation": "step"}
+    tabled = {**scene, "wheel": [{**scene["wheel"][0], "rate": table}]}
+    one, other = gyrostat.solve(scene), gyrostat.solve(tabled)
+    assert one.model == other.model and one.model.startswith("free:")
+    assert all(np.array_equal(one[name], other[name]) for name in one)
+
+
+def test_the_attitude_beside_a_long_orbit_is_as_good_as_its_clock() -> None:
+    scene: dict[str, Any] = {"name": "long", "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": {"angular_velocity": [0.0, 0.0, 0.0]},
+                             "orbit": {"radius": 7e6, "eccentricity": 0.99}, "solve": {"times": [3e9], "ask": ["attitude_orbit"]}}
+    a, mu = 7e6 / 0.01, 3.986004418e14
+    perigee = math.sqrt(mu * 1.99 / 7e6) / 7e6
+    answer = gyrostat.solve(scene)
+    assert perigee * 3e9 * EPS < answer.error["attitude_orbit"] < 40 * perigee * 3e9 * EPS
+    assert math.sqrt(mu / a) / a * 3e9 < perigee * 3e9 / 1e3

@@ -67,6 +67,38 @@ TEST_CASE("what an error of the start makes of an answer is stated, and not far 
     }
 }
 
+TEST_CASE(
+    "angles of a sequence are off by what the start's attitude makes of them, though nothing feels how the body is "
+    "turned") {
+  StartError error;
+  error.attitude = 1e-5;
+  Question question = question_at({0, 3, 11}, 1e-8);
+  question.asked = {{column::euler}, {column::attitude}};
+  const auto told = [&](const Problem<double>& problem) { return posed(problem, question).told_by({2, 1, 0}); };
+  const Answer answer = solved(told(brick()).known_within(error));
+  double most = 0;
+  for (int which = 0; which < 12; ++which)
+    most =
+        std::max(most, column_error(*answer.find("euler"), *solved(told(within(brick(), error, which))).find("euler")));
+  CAPTURE(most, answer.find("euler")->error);
+  CHECK(most > 1e-6);
+  CHECK(most <= answer.find("euler")->error);
+  CHECK(answer.find("euler")->error <= 8 * most);
+}
+
+TEST_CASE("many wheels that go along do not make the error of their angles larger") {
+  Problem<double> problem = brick();
+  problem.torques.clear();
+  for (const Vec3<double>& axis : {Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0), Vec3<double>(0, 0, 1)})
+    problem.wheels.push_back({WheelType::held, axis, 0.01, 3, 0, 0, 0, 0, 0, {}});
+  StartError error;
+  error.rotor_angle = 1e-6;
+  const Answer answer = solved(posed(problem, all_at({0, 3}, 1e-8)).known_within(error));
+  const Column& angles = *answer.find("rotor_angle");
+  CHECK(angles.error * size_of(angles) >= 1e-6);
+  CHECK(angles.error * size_of(angles) <= 1.001e-6);
+}
+
 TEST_CASE("the tolerance holds for the start's error and the answer's own together") {
   const Question question = question_at({0, 20}, 1e-4);
   StartError error;
@@ -127,7 +159,7 @@ TEST_CASE("wheels that may all turn faster add up") {
   error.rotor_rate = 0.1;
   const Question question = all_at({10}, 1e-2);
   const Answer answer = solved(posed(problem, question).known_within(error));
-  for (auto& wheel : problem.wheels) wheel.rate += error.rotor_rate;
+  for (auto& wheel : problem.wheels) wheel.rate += error.rotor_rate / 2;  // four make the whole length
   const Answer truth = true_answer(posed(problem, question));
   const Column& column = *answer.find("angular_momentum");
   const double off = column_error(column, *truth.find("angular_momentum"));

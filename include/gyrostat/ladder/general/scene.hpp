@@ -32,12 +32,13 @@ GYROSTAT_COMPILED_ONCE double sum_of_torques(const Problem<double>& problem, con
 
 }  // namespace detail
 
-/// By how much the start may be off where it was not given but computed: absolute, each of any direction.
+/// By how much the start may be off where it was not given but computed: absolute, each the length of an error
+/// of any direction.
 struct StartError {
   double attitude = 0;          ///< rad
   double angular_velocity = 0;  ///< rad/s
-  double rotor_rate = 0;        ///< of each wheel, rad/s
-  double rotor_angle = 0;       ///< of each wheel, rad
+  double rotor_rate = 0;        ///< over the wheels, rad/s
+  double rotor_angle = 0;       ///< over the wheels, rad
   double velocity = 0;          ///< m/s
   double position = 0;          ///< m
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 #include "gyrostat/ladder/general/recognise.hpp"
 #include "gyrostat/ladder/general/scene.hpp"
@@ -35,6 +37,34 @@ GYROSTAT_COMPILED_ONCE double sum_of_torques(const Problem<double>& problem, con
   return sum;
 }
 
+/// What a table says from a time to its next one; nothing where it changes.
+inline std::optional<double> steady_value(const Table<double>& table, std::size_t width, std::size_t column,
+                                          double from) noexcept {
+  const auto law = piece(table, width, column, from);
+  return law.is_constant() ? std::optional(law.c[0]) : std::nullopt;
+}
+
+/// Puts a number for the table of a wheel's rate or torque where it is steady from a time to its next one; false: it is not.
+inline bool make_steady(Wheel<double>& wheel, double from) noexcept {
+  const auto value = steady_value(wheel.table, 1, 0, from);
+  if (!value) return false;
+  if (wheel.type == WheelType::held) wheel.rate = *value;
+  else wheel.torque += *value;
+  wheel.table = {};
+  return true;
+}
+
+/// Tables of wheels that are steady over the whole span are numbers, which families know.
+inline Problem<double> plainly(const Problem<double>& problem, double span) {
+  Problem<double> made = problem;
+  for (auto& wheel : made.wheels) {
+    const auto& times = wheel.table.times;
+    const bool breaks = std::any_of(times.begin(), times.end(), [&](double t) { return t > 0 && t < span; });
+    if (!times.empty() && !breaks) make_steady(wheel, span / 2);
+  }
+  return made;
+}
+
 }  // namespace detail
 
 GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Problem<double>& problem, const Question& question,
@@ -42,17 +72,17 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Problem<double>& problem,
   if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
   if (const Fault wrong = check(problem)) return wrong.code;
   Scene scene;
-  scene.problem_ = problem;
+  scene.problem_ = detail::plainly(problem, question.times.back());
   scene.question_ = question;
-  const Prepared<double> prepared(problem, question.times.back());
+  const Prepared<double> prepared(scene.problem_, question.times.back());
   scene.wheels_ = prepared.wheels;
   scene.sizes_ = prepared.sizes;
   scene.large_ = prepared.is_large();
   scene.stiff_ = prepared.is_stiff();
   scene.settling_rate_ = prepared.settling.fastest();
-  scene.breaks_ = breakpoints(problem, question.times.back()).size();
+  scene.breaks_ = breakpoints(scene.problem_, question.times.back()).size();
   scene.recognised_ = recognised;
-  if (recognised) scene.instances_ = recognise(problem, prepared.wheels, prepared.torques, question);
+  if (recognised) scene.instances_ = recognise(scene.problem_, prepared.wheels, prepared.torques, question);
   return scene;
 }
 

@@ -14,13 +14,6 @@ namespace gyrostat::general {
 
 namespace detail {
 
-/// What a table says from a time to its next one; nothing where it changes.
-inline std::optional<double> steady_value(const Table<double>& table, std::size_t width, std::size_t column,
-                                          double from) noexcept {
-  const auto law = piece(table, width, column, from);
-  return law.is_constant() ? std::optional(law.c[0]) : std::nullopt;
-}
-
 /// A torque on a segment that holds `inside`; one without type and size where it does not act, nothing where it is not steady there.
 inline std::optional<std::optional<Torque<double>>> steady_torque(const Problem<double>& of,
                                                                   const Torque<double>& torque, double inside) {
@@ -66,12 +59,7 @@ inline std::optional<Problem<double>> steady_problem(const Problem<double>& of, 
     if (*steady) made.torques.push_back(std::move(**steady));
   }
   for (auto& wheel : made.wheels) {
-    if (wheel.table.times.empty()) continue;
-    const auto value = steady_value(wheel.table, 1, 0, inside);
-    if (!value) return std::nullopt;
-    if (wheel.type == WheelType::held) wheel.rate = *value;
-    else wheel.torque += *value;
-    wheel.table = {};
+    if (!wheel.table.times.empty() && !make_steady(wheel, inside)) return std::nullopt;
   }
   return made;
 }

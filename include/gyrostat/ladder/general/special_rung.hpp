@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -92,6 +93,12 @@ GYROSTAT_COMPILED_ONCE void complete_momentum(const Scene& scene, Track& track);
 /// unknown. driven: the one that it knows, or -1.
 GYROSTAT_COMPILED_ONCE void complete_wheels(const Scene& scene, Track& track, int driven);
 
+/// Whether no wheel turns: a family that knows wheels then has none to tell of.
+inline bool all_locked(const Wheels<double>& wheels) noexcept {
+  return std::all_of(wheels.laws.begin(), wheels.laws.begin() + std::ptrdiff_t(wheels.count),
+                     [](const auto& law) { return law.follows == Follows::body; });
+}
+
 /// What gravity adds to the path of the mass centre of a free body.
 GYROSTAT_COMPILED_ONCE void fall(const Scene& scene, Track& track);
 
@@ -135,7 +142,7 @@ Track track_of(const Scene& scene, Special special, int rung, const std::optiona
   track.states.resize(scene.question().times.size());
   map_back(scene, *instance, Reader(family, sources[std::size_t(special)], answer, track), track);
   complete_momentum(scene, track);
-  if (special != Special::free)
+  if (special != Special::free || all_locked(scene.wheels()))
     complete_wheels(scene, track, special == Special::rotor ? Spinners::of(scene.wheels()).driven : -1);
   complete_path(scene, track);
   if (!scene.problem().fixed) fall(scene, track);

@@ -67,9 +67,9 @@ struct Carried {
   double stop_time = 0;
 };
 
-/// Displaces the start in each way by itself, to both sides, and gathers what comes of it, in squares over the directions of one error and as a sum
-/// over wheels, each of which may be off by as much: to first order no error of the start within its bounds makes more. Where the two sides
-/// differ the greater counts, and their difference once more.
+/// Displaces the start in each way by itself, to both sides, and gathers what comes of it, in squares over the directions of one error, or over
+/// the wheels: to first order no error of the start within its bounds makes more. Where the two sides differ the greater counts, and their
+/// difference once more.
 /// solve(scene) answers from another start: an optional Answer. A displacement that is larger than the error makes it stand out of
 /// the errors of the answers themselves; where it grows so far that nothing is proportional any more the error itself is taken.
 template <class Solve>
@@ -116,10 +116,7 @@ Carried carried_error(const Scene& scene, const Answer& answer, const Solve& sol
     if (!displaced(by) && !(by > error && displaced(error)))
       std::fill(apart.begin(), apart.end(), infinity<double>), stop_apart = infinity<double>;
     Carried& sum = squares[std::size_t(way.what)];
-    const auto add = [&](double& square, double more) {
-      const double whole = std::sqrt(square) + more;
-      square = way.what == detail::Displacement::wheel ? whole * whole : square + more * more;
-    };
+    const auto add = [&](double& square, double more) { square += more * more; };
     for (std::size_t i = 0; i < apart.size(); ++i) add(sum.columns[i], apart[i]);
     add(sum.stop_time, stop_apart);
   }
@@ -127,7 +124,7 @@ Carried carried_error(const Scene& scene, const Answer& answer, const Solve& sol
     for (std::size_t i = 0; i < sum.columns.size(); ++i) made.columns[i] += std::sqrt(sum.columns[i]);
     made.stop_time += std::sqrt(sum.stop_time);
   }
-  const bool turned = detail::turns_along(scene);
+  const bool turned = detail::turns_along(scene) && !scene.gives(column::euler);
   for (std::size_t i = 0; i < answer.columns.size(); ++i) {
     const auto place = std::size_t(answer.columns[i].kind - column_kinds);
     if (turned && answer.columns[i].kind->measure == Measure::angle) made.columns[i] += start.attitude;

@@ -42,7 +42,8 @@ GYROSTAT_COMPILED_ONCE bool turns_along(const Problem<double>& problem) noexcept
 GYROSTAT_COMPILED_ONCE std::vector<Displacement> displacements(const Scene& scene) {
   std::vector<Displacement> made;
   const auto& error = scene.start_error();
-  const bool turns = error.attitude > 0 && !turns_along(scene);
+  // what turns along does not show in the angles of a sequence as one turn
+  const bool turns = error.attitude > 0 && (!turns_along(scene) || scene.gives(column::euler));
   for (int i = 0; i < 3; ++i) {
     if (turns) made.push_back({Displacement::turn, i});
     if (error.angular_velocity > 0) made.push_back({Displacement::rate, i});

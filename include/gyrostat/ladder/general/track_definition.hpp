@@ -204,9 +204,12 @@ class Writer {
     }
     return sum;
   }
-  /// The angle that the orbit turns through, to its order, rad.
+  /// The angle that the orbit would turn through at the rate of its pericentre, rad: a relative rounding of the time is no more of it.
   double orbit_phase() const noexcept {
-    return orbit_at(*scene_.problem().orbit, 0.0).rate * scene_.question().times.back();
+    const auto& orbit = *scene_.problem().orbit;
+    const double e = orbit.eccentricity, beyond = 1 + e * std::cos(orbit.true_anomaly);
+    const double nearest = orbit.radius * (beyond / (1 + e));
+    return std::sqrt(orbit.mu * (1 + e) / nearest) / nearest * scene_.question().times.back();
   }
 
   const Scene& scene_;

@@ -28,12 +28,20 @@ class End:
     attitude: Floats  # (4,)
     angular_velocity: Floats  # (3,), body axes [rad/s]
     angular_momentum: Floats  # (3,), body axes [N m s]
-    wheels: Mapping[str, tuple[float, float]]  # name -> rate [rad/s] and angle [rad] relative to the body; those without a name by their place, "1", "2" ...
+    wheels: Mapping[str | int, tuple[float, float]]  # name -> rate [rad/s] and angle [rad] relative to the body; those without a name by their place, 1, 2 ...
     fixed: bool
+    mass: float
     centre_of_mass: Floats  # (3,) from the body's origin, body axes [m]
     velocity: Floats  # (3,) of the mass centre, or of the origin of a fixed body, inertial axes [m/s]
     position: Floats  # (3,) [m]
     error: Mapping[str, float]
+
+    def momentum(self, released: bool) -> tuple[Floats, float]:
+        """The angular momentum, body axes, of a body that is let go about its mass centre, and by how much it may be off."""
+        if not released:
+            return self.angular_momentum, self.error["angular_momentum"]
+        c, m = self.centre_of_mass, self.mass
+        return self.angular_momentum - m * np.cross(c, np.cross(self.angular_velocity, c)), self.error["angular_momentum"] + m * float(c @ c) * self.error["angular_velocity"]
 
     def moved(self, centre_of_mass: Floats) -> tuple[Floats, Floats]:
         """Velocity and position of the mass centre of a body that is free from now on."""
@@ -55,7 +63,7 @@ def end_of(scene: "Scene") -> End:
     from gyrostat.families.general.rewrite import as_general
 
     told = as_general(scene)
-    names = [wheel["name"] or str(place) for place, wheel in enumerate(told.top["wheel"], 1)]
+    names = [wheel["name"] or place for place, wheel in enumerate(told.top["wheel"], 1)]
     fixed = bool(told.tables["body"]["fixed"])
     ask = ["attitude", "angular_velocity", "angular_momentum", *(("rotor_rate", "rotor_angle") if names else ()), *(() if fixed else ("velocity", "position"))]
     last = float(scene.times[-1])
@@ -71,4 +79,4 @@ def end_of(scene: "Scene") -> End:
     still = np.zeros(3)
     turning = zip(row["rotor_rate"].tolist(), row["rotor_angle"].tolist(), strict=True) if names else ()
     return End(row["attitude"], row["angular_velocity"], row["angular_momentum"], dict(zip(names, turning, strict=True)), fixed,
-               given["centre_of_mass"], row.get("velocity", still), row.get("position", still), error)
+               float(given["mass"]), given["centre_of_mass"], row.get("velocity", still), row.get("position", still), error)

@@ -291,7 +291,7 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     start_time : where the clock of times, tables, waves and orbit stands at the start [s]: attitude, rates and path are given there, and the first
     of the times may not be before it.
     start_error : by how much the start may be off, absolute: attitude [rad], angular_velocity, rotor_rate [rad/s], rotor_angle [rad], velocity,
-    position; what comes of it is part of the errors of the answer.
+    position, each the length of its error (of rates and angles over the wheels); what comes of it is part of the errors of the answer.
     euler : sequence of the column `euler`, which is asked for with it, as "3-2-1" or "ZYX": R = R3(a1) R2(a2) R1(a3), body to inertial; None: there is no such column.
     torque : of your own, beside `torques` (docs/general.md, section 7): f(t, attitude (4,), angular_velocity (3,), angular_momentum (3,), rotor_rate (n,))
     -> (3,) about the reference point, body axes [N m], with t on the clock of times; or a compiled void(double t, const double *state, double *torque),

@@ -181,7 +181,8 @@ KEYS: Final[dict[str, Table]] = {
               "begins from", "s", UNSET),
         Field("error", "record", "by how much the start may be off, in any direction: what comes of it is part of the errors of the answer", "", UNSET, parts=(
             Field("attitude", "number", "angle", "rad", 0.0, low=0), Field("angular_velocity", "number", "length of its error", "rad/s", 0.0, low=0),
-            Field("rotor_rate", "number", "of each wheel", "rad/s", 0.0, low=0), Field("rotor_angle", "number", "of each wheel", "rad", 0.0, low=0),
+            Field("rotor_rate", "number", "length of its error over the wheels", "rad/s", 0.0, low=0),
+            Field("rotor_angle", "number", "length of its error over the wheels", "rad", 0.0, low=0),
             Field("velocity", "number", "length of its error", "m/s", 0.0, low=0), Field("position", "number", "length of its error", "m", 0.0, low=0))),
         Field("velocity", "vector", "velocity of the mass centre of a free body at the start, inertial axes; by default it is at rest", "m/s", UNSET),
         Field("position", "vector", "position of the mass centre of a free body at the start, inertial axes; by default the origin", "m", UNSET),
@@ -226,9 +227,7 @@ def mistakes(tables: Values) -> Found:
         yield "wheel", "", f'two wheels have the name "{twice}"', "give each a name of its own, or none"
     if start["time"] is not UNSET and tables[""]["from"] is not UNSET:
         yield "initial.time", start["time"], "the clock goes on from the scene before", "leave it out"
-    asked = tables["solve"]["ask"]
-    if tables["solve"]["euler"] is UNSET and isinstance(asked, tuple | Mapping) and "euler" in asked:
-        yield "solve.ask", "euler", "the sequence of the angles is not said", 'add solve.euler, such as "3-2-1" for yaw, pitch and roll'
+    yield from _asked_in_vain(tables, orbiting)
     for key in ("velocity", "position"):
         if not body["fixed"] or not any(start[key] or ()):
             continue
@@ -243,6 +242,20 @@ def mistakes(tables: Values) -> Found:
                "no body has", "check mass and centre_of_mass, or say what point the inertia is about by inertia_about")
     for place, torque in enumerate(tables[""]["torque"], 1):
         yield from _torque_mistakes(place, torque, orbiting, body["fixed"], any(field[name] is not UNSET for name in ("uniform", "rotating", "dipole")))
+
+
+def _asked_in_vain(tables: Values, orbiting: bool) -> Found:
+    """Columns that are asked for by name and that the scene does not have."""
+    asked, top, held = tables["solve"]["ask"], tables[""], tables["body"]["fixed"]
+    vertical = any(each["type"] == "weight" or (each["type"] == "gravity-gradient" and each["gradient"] is not UNSET) for each in top["torque"])
+    for columns, there, why, remedy in (
+            (("euler",), tables["solve"]["euler"] is not UNSET, "the sequence of the angles is not said", 'add solve.euler, such as "3-2-1" for yaw, pitch and roll'),
+            (("attitude_orbit",), orbiting, "there is no orbit", "add [orbit] with altitude, radius, rate or period"),
+            (("rotor_rate", "rotor_angle"), top["wheel"], "there is no wheel", "add [[wheel]], or do not ask for it"),
+            (("velocity", "position"), not held, "the body is held at its origin", "leave out body.fixed, or do not ask for it"),
+            (("down",), vertical, "nothing acts along field.down", "add a torque of the type weight, or do not ask for it")):
+        if isinstance(asked, tuple | Mapping) and not there:
+            yield from (("solve.ask", name, why, remedy) for name in columns if name in asked)
 
 
 def doubts(tables: Values) -> Found:
@@ -381,6 +394,37 @@ def _rate_at(wheel: Mapping[str, Any], time: float) -> Any:
     return float(np.interp(time, times, values))
 
 
+def _jump_at(wheel: Mapping[str, Any], time: float) -> Any:
+    """By how much the table of a wheel's rate steps at a time: a motor that keeps a rate needs none for it."""
+    rate = wheel["rate"]
+    if wheel["type"] != "held" or not isinstance(rate, Mapping):
+        return 0.0
+    times, values = rate["times"], rate["values"]
+    if time not in times:
+        return 0.0
+    place = times.index(time)
+    outside = values[0] if rate["extend"] == "hold" else 0.0
+    return _rate_at(wheel, time) - (outside if place == 0 else values[place - 1] if rate["interpolation"] == "step" else values[place])
+
+
+def _stepped(rates: Floats, whole: _Whole, wheels: list[dict[str, Any]], taken: list[int], time: float) -> Floats:
+    """Angular velocity behind the steps of tables at the start, which no momentum comes with; wheels that turn by themselves keep their absolute rates."""
+    jump, inertia = np.zeros(3), whole.inertia
+    turning = [wheels[place] for place in taken if wheels[place]["type"] != "held"]
+    for wheel in wheels:
+        if wheel["type"] == "held":
+            jump = jump + _times(wheel["axial_inertia"] * _jump_at(wheel, time), unit(stacked(wheel["axis"])))
+    if not np.any(jump):
+        return rates
+    for wheel in turning:
+        inertia = inertia - _times(wheel["axial_inertia"], _square(unit(stacked(wheel["axis"]))))
+    change: Floats = -np.linalg.solve(inertia, jump[..., None])[..., 0].astype(np.float64)
+    for wheel in turning:
+        wheel["rate"] = wheel["rate"] - dot(unit(stacked(wheel["axis"])), change)
+    made: Floats = rates + change
+    return made
+
+
 def _rates_of(momentum: Floats, inertia: Floats, body: Mapping[str, Any], wheels: list[dict[str, Any]], time: float) -> Floats:
     """The angular velocity with which body and wheels have a momentum; rates of wheels are relative to the body, so with them J is that of the whole."""
     held = stacked(body["rotor_momentum"])
@@ -408,7 +452,7 @@ def _handed_on(wheels: list[dict[str, Any]], end: End) -> tuple[list[dict[str, A
     have their own; and the places of those whose rate is handed on."""
     made, taken = [], []
     for place, wheel in enumerate(wheels):
-        found = end.wheels.get(wheel["name"] or str(place + 1)) if wheel["type"] != "locked" else None
+        found = end.wheels.get(wheel["name"] or place + 1) if wheel["type"] != "locked" else None
         if found and wheel["angle"] is UNSET:
             wheel = {**wheel, "angle": found[1]}
         if found and wheel["rate"] is UNSET and wheel["momentum"] is UNSET:
@@ -421,7 +465,8 @@ def _handed_on(wheels: list[dict[str, Any]], end: End) -> tuple[list[dict[str, A
 def _caught(end: End, whole: _Whole, body: Mapping[str, Any], wheels: list[dict[str, Any]], taken: list[int], time: float) -> tuple[Floats, float]:
     """Angular velocity of a body that keeps its angular momentum while it changes, and by how much it may be off. No bearing gives a wheel that turns by
     itself a torque about its axis, so it keeps its absolute rate: its relative one is set anew."""
-    inertia, rest = whole.inertia, end.angular_momentum - np.array(body["rotor_momentum"], dtype=float)
+    momentum, momentum_off = end.momentum(released=end.fixed and not body["fixed"])
+    inertia, rest = whole.inertia, momentum - np.array(body["rotor_momentum"], dtype=float)
     stored, turning = 0.0, []
     for place, wheel in enumerate(wheels):
         if wheel["type"] == "locked":
@@ -437,7 +482,7 @@ def _caught(end: End, whole: _Whole, body: Mapping[str, Any], wheels: list[dict[
     made: Floats = np.linalg.solve(inertia, rest)
     for wheel, axis, rate in turning:
         wheel["rate"] = rate - float(axis @ made)
-    off = end.error["angular_momentum"] + stored * (end.error.get("rotor_rate", 0.0) + end.error["angular_velocity"])
+    off = momentum_off + stored * (end.error.get("rotor_rate", 0.0) + end.error["angular_velocity"])
     return made, off / float(np.linalg.eigvalsh(inertia)[0])
 
 
@@ -463,7 +508,7 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     elif end and given is UNSET and kept == "momentum":
         rates, error["angular_velocity"] = _caught(end, whole, body, wheels, taken, time)
     elif end and given is UNSET:
-        rates, error["angular_velocity"] = end.angular_velocity, end.error["angular_velocity"]
+        rates, error["angular_velocity"] = _stepped(end.angular_velocity, whole, wheels, taken, time), end.error["angular_velocity"]
     elif not isinstance(given, Mapping):
         rates = stacked(given)
     else:
@@ -476,14 +521,17 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     velocity, position = np.zeros(3), np.zeros(3)
     if end:
         error |= {name: end.error.get(name, 0.0) for name in ("rotor_rate", "rotor_angle") if wheels}
-        if kept == "momentum" and given is UNSET and momentum is UNSET and any(wheels[place]["type"] != "held" for place in taken):  # they keep their absolute rates
-            error["rotor_rate"] += end.error["angular_velocity"] + error["angular_velocity"]
+        if kept == "momentum" and given is UNSET and momentum is UNSET:  # wheels that turn by themselves keep their absolute rates
+            freely = sum(wheels[place]["type"] != "held" for place in taken)
+            error["rotor_rate"] += math.sqrt(freely) * (end.error["angular_velocity"] + error["angular_velocity"])
         # the clock is told to a rounding
         clock = EPS * time * float(np.linalg.norm(rates))
         error["attitude"] = (end.error["attitude"] if start["attitude"] is UNSET else 0.0) + clock
         if not body["fixed"]:
-            velocity, position = end.moved(whole.centre_of_mass)
-            error |= end.off_path(whole.centre_of_mass)
+            # what is kept beside rates is a point of the body, and beside the momentum the path of the mass centre
+            centre = end.centre_of_mass if kept == "momentum" else whole.centre_of_mass
+            velocity, position = end.moved(centre)
+            error |= end.off_path(centre)
     for name, value in (("velocity", start["velocity"]), ("position", start["position"])):
         if value is not UNSET:
             error[name] = 0.0
