@@ -125,7 +125,8 @@ Outcome prepared(const gyrostat_scene& given, std::unique_ptr<gyrostat_propagato
 Outcome not_moved(gyrostat::Errc wrong) {
   using gyrostat::Errc;
   switch (wrong) {
-    case Errc::not_finite: return {GYROSTAT_BAD_ARGUMENT, "dt or a number of the state is NaN or infinite"};
+    case Errc::not_finite:
+      return {GYROSTAT_BAD_ARGUMENT, "dt or a number of the state is NaN, infinite, or so large that its square is"};
     case Errc::negative: return {GYROSTAT_BAD_ARGUMENT, "dt is negative: give a number >= 0"};
     case Errc::out_of_domain:
       return {GYROSTAT_BAD_ARGUMENT,
@@ -161,7 +162,12 @@ Outcome moved(const gyrostat_propagator& given, double dt, double* attitude, dou
   return {};
 }
 
+/// What is asked of an answer by a name that it has not, or has of the other kind.
 Outcome nothing_called(const gyrostat::Answer& answer, const char* name) {
+  if (answer.find(name) != nullptr)
+    return {GYROSTAT_BAD_ARGUMENT, std::string(name) + " is a column: have it by gyrostat_answer_column"};
+  if (answer.quantity(name) != nullptr)
+    return {GYROSTAT_BAD_ARGUMENT, std::string(name) + " is a scalar: have it by gyrostat_answer_scalar"};
   std::vector<std::string> names;
   for (const auto& column : answer.columns) names.emplace_back(column.name());
   for (const auto& quantity : answer.quantities) names.emplace_back(quantity.name());

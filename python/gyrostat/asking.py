@@ -91,7 +91,7 @@ def asked(kind: str, ask: Ask | None, knows_attitude: bool = True) -> list[Asked
 def knows_attitude(kind: str, tables: Mapping[str, Mapping[str, Any]]) -> bool:
     """The start of a checked scene has an attitude."""
     start = tables.get("initial", {})
-    return kind == GENERAL or "attitude" not in start or start["attitude"] is not None
+    return kind == GENERAL or "euler_312" in start or "attitude" not in start or start["attitude"] is not None
 
 
 def parse_ask(text: str) -> Ask:

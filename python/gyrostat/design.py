@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gyrostat import _core, spinning
 from gyrostat._core import Monitor
-from gyrostat.broadcast import Floats, rows, shaped
+from gyrostat.broadcast import Floats, finite_rows, rows, shaped
 from gyrostat.errors import DomainError
 from gyrostat.families.spinning.functions import ORIGIN, SHAPES
 from gyrostat.fields import MOST_SAMPLES
@@ -107,7 +107,7 @@ def spin_for_pointing(*, inertia: ArrayLike, torque: ArrayLike, budget: ArrayLik
     leaves a slow range of spins and a fast one; where stability ends a range before the budget does, the value is that limit and `unstable` is set.
     Raises DomainError for what is not physical and for a budget that is not positive, naming the row.
     """
-    lead, (sign,) = rows([("sense", sense, ())])
+    lead, (sign,) = finite_rows([("sense", sense, ())])
     spin = np.zeros((*lead, 3))
     spin[..., 2] = np.where(sign < 0, -1.0, 1.0).reshape(lead)
     return _design("spin-for-pointing", budget, _body(

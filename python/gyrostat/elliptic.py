@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gyrostat import _core
-from gyrostat.broadcast import Floats, rows, shaped
+from gyrostat.broadcast import Floats, array, rows, shaped
 
 __all__ = ["Complete", "Incomplete", "Jacobi", "complete", "incomplete", "jacobi", "zeta"]
 
@@ -42,7 +42,7 @@ class Incomplete(NamedTuple):
 
 
 def _complement(k2: ArrayLike, kp2: ArrayLike | None) -> ArrayLike:
-    return 1.0 - np.asarray(k2, dtype=np.float64) if kp2 is None else kp2
+    return 1.0 - array("k2", k2) if kp2 is None else kp2
 
 
 def complete(k2: ArrayLike, *, kp2: ArrayLike | None = None, elliptic: str = "auto") -> Complete:
@@ -53,7 +53,7 @@ def complete(k2: ArrayLike, *, kp2: ArrayLike | None = None, elliptic: str = "au
 
 
 def jacobi(u: ArrayLike, k2: ArrayLike, *, kp2: ArrayLike | None = None, elliptic: str = "auto") -> Jacobi:
-    """sn, cn, dn and am of the argument u, any size."""
+    """sn, cn, dn and am of the argument u, any size: those of an argument wrong by a rounding of itself."""
     lead, (x, a, b) = rows([("u", u, ()), ("k2", k2, ()), ("kp2", _complement(k2, kp2), ())])
     made = _core.elliptic_jacobi(x, a, b, elliptic)
     return Jacobi(*(shaped(made[:, i], lead) for i in range(4)))

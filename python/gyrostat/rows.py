@@ -25,7 +25,7 @@ from gyrostat.vary import Floats, Number, Plan, as_varied, number_in, read_cases
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["SETTINGS", "Place", "inputs_of", "numbers_of", "place_of", "plan_of", "refilled", "request", "turned"]
+__all__ = ["SETTINGS", "Place", "inputs_of", "integer", "numbers_of", "place_of", "plan_of", "refilled", "request", "turned"]
 
 # Words of a table [vary] beside its keys.
 SETTINGS: Final = ("n", "seed", "design", "cases")
@@ -140,7 +140,7 @@ class Place:
         if self._is_free:
             return ~np.isfinite(values)
         if self.field.form == "choice":
-            return ~np.isin(values, np.arange(len(self.field.choices)))
+            return np.zeros(values.shape, dtype=bool)
         low, high = self.field.low, self.field.high
         above = values > low if self.field.open_low else values >= low
         below = values < high if self.field.open_high else values <= high
@@ -148,14 +148,9 @@ class Place:
 
     def why(self, value: float) -> str:
         """What would be allowed in the place of a value that is outside."""
-        return self.remedy if math.isfinite(value) or self.field.form == "choice" else f"{self.key} is not finite"
-
-    @property
-    def remedy(self) -> str:
-        """What would be allowed."""
-        if self.field.form == "choice":
-            return f"{self.key} is none of {', '.join(self.field.choices)}"
-        return f"{self.key} is not {'finite' if self._is_free else interval(self.field) or 'finite'}"
+        if not math.isfinite(value):
+            return f"{self.key} is not finite"
+        return f"{self.key} is over {self.field.high:g}" if value > self.field.high else f"{self.key} is not {interval(self.field)}"
 
     @property
     def _is_free(self) -> bool:
@@ -203,6 +198,8 @@ def place_of(scene: "Scene", key: str) -> Place:
     """Where a number is: "torque.drag", "torque.control[0]" (counted from 0), "body.inertia[0,1]", "wheel[1].rate", "wheel[0].axis[2]",
     "torque[0].factor.mean", "wheel.pitch.rate" of the one named pitch; the table may be left out where one only has the key. Raises DomainError."""
     place = _located(scene, key)
+    if place.key.startswith("orbit.") and all(scene.tables["orbit"][name] is None for name in ("radius", "altitude", "rate", "period")):
+        raise DomainError(f"{key}: the scene has no orbit: give it one, from which the rows depart")
     if place.field.form == "choice" and not FAMILIES[scene.kind].facts.inputs:
         raise DomainError(f"{key}: this is a word; in scenes of the kind {scene.kind} numbers alone vary")
     return place
@@ -267,7 +264,7 @@ def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any
     table = _columns({} if table is None else table)
     chosen = {name: own.get(name) if settings.get(name) is None else settings[name] for name in ("n", "seed", "design")}
     for name in ("n", "seed"):
-        chosen[name] = None if chosen[name] is None else _integer(name, chosen[name])
+        chosen[name] = None if chosen[name] is None else integer(name, chosen[name])
     places: dict[str, Place] = {}
 
     def in_full(given: Mapping[str, T]) -> dict[str, T]:
@@ -281,7 +278,12 @@ def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any
 
     listed = {key: tuple(value if isinstance(value, str) else float(value) for value in values) for key, values in in_full(table).items()}
     from_scene = {key: value for key, value in in_full({key: own[key] for key in own if key not in SETTINGS}).items() if key not in listed}
+    if not isinstance(vary or {}, Mapping) or not all(isinstance(key, str) for key in vary or {}):
+        raise DomainError(f"vary = {str(vary)[:60]}: give a table, key -> how it varies")
     varied = {key: _varied(key, value) for key, value in {**from_scene, **in_full(vary or {})}.items()}
+    for key, each in varied.items():
+        if places[key].field.form == "choice" and each.name not in ("list", "choice"):
+            raise DomainError(f"{key}: this is a word: write choice(...), or a list of words")
     _require_apart([places[key] for key in (*listed, *varied)])
     if "initial.time" in places:
         raise DomainError("initial.time: all rows have one clock, as they have the same times; make a study for each")
@@ -295,16 +297,18 @@ def _columns(table: Any) -> dict[str, Any]:
     if not hasattr(table, "items"):
         raise DomainError(wanted)
     found = {str(key): list(values) if isinstance(values, Iterable) and not isinstance(values, str) else None for key, values in table.items()}
-    if any(values is None or not all(isinstance(value, str | Real) for value in values) for values in found.values()):
+    if any(values is None or not all(isinstance(value, str | Real) and not isinstance(value, bool) for value in values) for values in found.values()):
         raise DomainError(wanted)
     return found
 
 
-def _integer(name: str, value: Any) -> int:
+def integer(name: str, value: Any) -> int:
     try:
-        return operator.index(value)
+        if not isinstance(value, bool):
+            return operator.index(value)
     except TypeError:
-        raise DomainError(f"{name} = {value}: give an integer") from None
+        pass
+    raise DomainError(f"{name} = {value}: give an integer")
 
 
 def _require_apart(places: list[Place]) -> None:

@@ -95,7 +95,9 @@ def _verdict(dataset: "xarray.Dataset") -> Iterator[str]:
 def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
     output: Path = arguments.output
     writer_of(output)
-    if arguments.cases is not None and output.resolve() == arguments.cases.resolve():
+    own = scene.vary.get("cases")
+    cases = arguments.cases if arguments.cases is not None or not isinstance(own, str) else (scene.path.parent if scene.path else Path()) / own
+    if cases is not None and output.resolve() == cases.resolve():
         raise DomainError(f"{output}: the results would replace the table of cases")
     parts = output.with_name(output.name + ".parts")
     if parts.exists() and not arguments.resume:

@@ -156,7 +156,7 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
     for name, share in shares(dataset["model"]).items():
         of = dataset["model"].values.astype(str) == name
         excess = dataset["excess"].values[of]
-        worst = small(float(np.nanmax(excess))) if np.isfinite(excess).any() else "-"
+        worst = "-" if np.isnan(excess).all() else small(float(np.nanmax(excess)))
         rows.append([name or "no answer", _percent(share), str(int(of.sum())), _percent(float(met[of].mean())), worst])
     yield f"Rungs, {len(met)} rows, {_percent(float(met.mean()))} within the tolerance", [
         "rung", "share", "rows", "within the tolerance", "greatest error over its tolerance"], rows
@@ -164,7 +164,7 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
     for each in responses(dataset):
         known = np.isfinite(each.values)
         numbers = [short(float(value), 5) for value in np.percentile(each.values[known], PERCENTILES)]
-        errors = np.empty(0) if each.error is None else each.error[np.isfinite(each.error)]
+        errors = np.empty(0) if each.error is None else each.error[known.reshape(len(known), -1).any(axis=1) & ~np.isnan(each.error)]
         rows.append([each.label, each.unit, _percent(float(known.mean())), *numbers, small(float(np.max(errors))) if len(errors) else "-"])
     yield "Percentiles", ["", "unit", "finite", *(f"{p} %" for p in PERCENTILES), "greatest error"], rows
     keys = list(parameters(dataset))

@@ -25,7 +25,7 @@ from gyrostat.facts import TIME, Facts, Quantity
 from gyrostat.families import FAMILIES
 from gyrostat.ladder import SceneLike, scene_of
 from gyrostat.orientation import NOT_ORTHONORMAL, form_of
-from gyrostat.rows import Place, plan_of, request, turned
+from gyrostat.rows import Place, integer, plan_of, request, turned
 from gyrostat.scenes import Scene
 from gyrostat.sweep_files import import_xarray, open_results, save, to_netcdf, writer_of
 from gyrostat.vary import Plan
@@ -169,12 +169,13 @@ def _variables(quantity: Quantity, column: bool, values: np.ndarray[Any, Any], e
 
 def _shard(shard: tuple[int, int] | str | None, n: int) -> range:
     """The rows of part i of m, counted from 1."""
-    if isinstance(shard, str):
-        found = re.fullmatch(r"\s*(\d+)\s*/\s*(\d+)\s*", shard)
-        shard = (int(found[1]), int(found[2])) if found else (0, 0)
-    i, m = shard or (1, 1)
+    given: Any = (1, 1) if shard is None else re.split(r"\s*/\s*", shard.strip()) if isinstance(shard, str) else shard
+    try:
+        i, m = (int(part) if isinstance(part, str) else integer("shard", part) for part in given)
+    except (TypeError, ValueError):
+        i, m = 0, 0
     if not 1 <= i <= m <= n:
-        raise DomainError(f"shard = {i}/{m}: give the number of a part and how many there are, such as 1/8; there are {n} rows")
+        raise DomainError(f"shard = {shard}: give the number of a part and how many there are, such as 1/8; there are {n} rows")
     return range((i - 1) * n // m, i * n // m)
 
 
@@ -246,9 +247,11 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
     if len(rows) * study.row_bytes > MOST_BYTES:
         raise DomainError(f"{len(rows)} rows of {study.row_bytes} bytes: ask for less (ask = a few columns or scalars, times = a few), or take shards")
     for name, value in (("chunk", chunk), ("threads", threads)):
-        if value is not None and value < 1:
+        if value is not None and integer(name, value) < 1:
             raise DomainError(f"{name} = {value}: give a number > 0")
     folder = None if parts is None else Path(parts)
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
     made = {} if folder is None else _kept(folder, study, rows)
     gaps = list(_missing(rows, made))
     done = sum(map(len, made))
@@ -322,7 +325,6 @@ def _rows_of_call(call: str, study: Study, rows: range, threads: int) -> "xarray
 
 def _keep(dataset: "xarray.Dataset", folder: Path, rows: range) -> None:
     """Writes a part such that there is never half of one."""
-    folder.mkdir(parents=True, exist_ok=True)
     file = _part_file(folder, rows)
     beside = file.with_suffix(".tmp")
     to_netcdf(dataset, beside)

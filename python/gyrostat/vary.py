@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
+from numbers import Real
 from pathlib import Path
 from typing import Any, Final
 
@@ -40,6 +41,9 @@ class Spread:
     name: str
     arguments: tuple[Number, ...]
 
+    def __post_init__(self) -> None:
+        _require_numbers(self.name, self.arguments)
+
     def __str__(self) -> str:
         return f"{self.name}({', '.join(map(_text, self.arguments))})"
 
@@ -57,26 +61,52 @@ class Axis:
     arguments: tuple[Number, ...]  # the values; else the ends
     count: int = 0
 
+    def __post_init__(self) -> None:
+        _require_numbers("a grid", self.arguments)
+        if isinstance(self.count, bool) or not isinstance(self.count, int):
+            raise DomainError(f"a grid: {self.count!r} is no whole number of values")
+        if not self.arguments:
+            raise DomainError("a grid: give at least one value")
+
     def __str__(self) -> str:
         if self.name == "list":
             return f"[{', '.join(map(_text, self.arguments))}]"
         return f"{':'.join(map(_text, self.arguments))}:{self.count}{'log' if self.name == 'log' else ''}"
 
-    def values(self, read: Reader) -> Floats:
-        """All of them. Raises DomainError."""
-        numbers = [read(value) for value in self.arguments]
+    def __len__(self) -> int:
+        return len(self.arguments) if self.name == "list" else self.count
+
+    def ends(self, read: Reader) -> Floats:
+        """The numbers that stand for it: those of a list, else the first and the last. Raises DomainError."""
+        numbers = np.array([read(value) for value in self.arguments])
         if self.name == "list":
-            return np.array(numbers)
-        if self.count < 2 or not numbers[0] < numbers[1] or (self.name == "log" and not numbers[0] > 0):
+            return numbers
+        if self.count < 2 or not -math.inf < numbers[0] < numbers[1] < math.inf or (self.name == "log" and not numbers[0] > 0):
             raise DomainError(f"{self}: give two ends, the smaller first{' and positive' if self.name == 'log' else ''}, and at least 2 values")
         if self.count > MOST_VALUES:
             raise DomainError(f"{self}: give at most {MOST_VALUES} values")
-        low, high = numbers
-        return np.geomspace(low, high, self.count) if self.name == "log" else np.linspace(low, high, self.count)
+        return numbers
+
+    def at(self, places: NDArray[np.int64], ends: Floats) -> Floats:
+        """The values at some places, counted from 0."""
+        made: Floats
+        if self.name == "list":
+            made = ends[places]
+            return made
+        last, (low, high) = self.count - 1, np.log10(ends) if self.name == "log" else ends
+        inside = low + places * ((high - low) / last)
+        made = np.where(places == 0, ends[0], np.where(places == last, ends[1], 10.0**inside if self.name == "log" else inside))
+        return made
 
 
 Varied = Spread | Axis
 MOST_VALUES: Final = 2**31 - 1  # of a grid of one key
+
+
+def _require_numbers(what: str, arguments: Iterable[Any]) -> None:
+    for value in arguments:
+        if isinstance(value, bool | np.bool_) or not isinstance(value, str | Real):
+            raise DomainError(f"{what}: {value!r} is neither a number nor a text with a unit")
 
 
 def _text(value: Number) -> str:
@@ -108,7 +138,9 @@ def choice(*values: Number) -> Spread:
 
 def grid(values: Iterable[Number]) -> Axis:
     """All of the values, each with all of every other grid."""
-    return Axis("list", tuple(value if isinstance(value, str) else float(value) for value in values))
+    listed = tuple(values)
+    _require_numbers("a grid", listed)
+    return Axis("list", tuple(value if isinstance(value, str) else float(value) for value in listed))
 
 
 def linspace(low: Number, high: Number, count: int) -> Axis:
@@ -141,8 +173,8 @@ def read_words(text: str) -> Varied:
         if word is not None and all(argument != "" for argument in arguments) and (word is choice or len(arguments) == 2):
             return word(*arguments)
     elif found := re.fullmatch(r"\[(.*)\]", text, re.DOTALL):
-        values = [part.strip().strip("\"'") for part in found[1].split(",") if part.strip()]
-        if values:
+        values = [part.strip().strip("\"'") for part in found[1].split(",")]
+        if all(values):
             return grid([_number(value) for value in values])
     elif found := re.fullmatch(r"([^:]+):([^:]+):\s*(\d+)\s*(log)?", text):
         return (logspace if found[4] else linspace)(_number(found[1].strip()), _number(found[2].strip()), int(found[3]))
@@ -156,7 +188,7 @@ def as_varied(value: Any) -> Varied:
     if isinstance(value, str):
         return read_words(value)
     try:
-        values = [item if isinstance(item, str) else float(item) for item in np.asarray(value).ravel().tolist()] if np.ndim(value) == 1 else []
+        values = list(value) if isinstance(value, list | tuple) else np.asarray(value).ravel().tolist() if np.ndim(value) == 1 else []
     except (TypeError, ValueError):
         values = []
     if not values:
@@ -306,6 +338,11 @@ class Plan:
             raise DomainError(f"cases: the columns have {', '.join(map(str, sorted(lengths)))} values; give as many of each")
         if both := next((key for key in vary if key in cases), None):
             raise DomainError(f"{both}: it stands in the table of cases, and is to vary beside it")
+        for key, each in vary.items():
+            try:
+                each.quantiles(readers[key]) if isinstance(each, Spread) else each.ends(readers[key])
+            except DomainError as error:
+                raise DomainError(f"{key}: {error}") from None
         every = math.prod(cls(vary, cases, readers, 1, seed, design)._shape)
         if n is None:
             n = every if cases or any(isinstance(each, Axis) for each in vary.values()) else 0
@@ -318,17 +355,11 @@ class Plan:
         if design == "saltelli" and n // every % made.block:
             raise DomainError(f"n = {n}: for the design saltelli give a multiple of {every * made.block}, {made.block} rows for each of its points, which are "
                               "best as many as a power of two")
-        for key, each in vary.items():
-            if isinstance(each, Spread):
-                try:
-                    each.quantiles(readers[key])
-                except DomainError as error:
-                    raise DomainError(f"{key}: {error}") from None
         return made
 
     @cached_property
-    def _axes(self) -> dict[str, Floats]:
-        return {key: each.values(self.readers[key]) for key, each in self.vary.items() if isinstance(each, Axis)}
+    def _axes(self) -> dict[str, tuple[Axis, Floats]]:
+        return {key: (each, each.ends(self.readers[key])) for key, each in self.vary.items() if isinstance(each, Axis)}
 
     @cached_property
     def _cases(self) -> dict[str, Floats]:
@@ -341,7 +372,7 @@ class Plan:
     @property
     def _shape(self) -> tuple[int, ...]:
         """Lengths of the table of cases, where there is one, and of the axes of the grid; the last runs fastest."""
-        return (*{len(values) for values in self.cases.values()}, *(len(values) for values in self._axes.values()))
+        return (*{len(values) for values in self.cases.values()}, *(len(each) for each, _ in self._axes.values()))
 
     @property
     def block(self) -> int:
@@ -356,7 +387,8 @@ class Plan:
         if shape:
             places = np.unravel_index(np.arange(rows.start, rows.stop) % math.prod(shape), shape)
             made |= {key: values[places[0]] for key, values in self._cases.items()}
-            made |= {key: values[place] for (key, values), place in zip(self._axes.items(), places[len(places) - len(self._axes):], strict=True)}
+            of_axes = zip(self._axes.items(), places[len(places) - len(self._axes):], strict=True)
+            made |= {key: axis.at(place, ends) for (key, (axis, ends)), place in of_axes}
         shares = self._shares(rows)
         made |= {key: np.ascontiguousarray(quantile(shares[key])) for key, quantile in self._quantiles.items()}
         return {key: made[key] for key in (*self.cases, *self.vary)}

@@ -36,7 +36,7 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Wheels
     seen = {vector("view.axis", axis), vector("view.direction", direction), half_angle};
   }
   free::UnsoundWheel<double> unsound;
-  const auto scene = sound(free::Scene::make(assembly, question, &unsound), assembly, unsound).viewed(seen);
+  const auto scene = checked(sound(free::Scene::make(assembly, question, &unsound), assembly, unsound).viewed(seen));
   Refusal why;
   auto [answer, seconds] = watched(monitor, [&](Monitor* by) { return free::solve(scene, why, by); });
   require_answer(why);
@@ -92,7 +92,10 @@ py::array_t<double> flips(const Array& inertia, const Array& rotor_momentum, con
   sound(sound_one, assembly, unsound);
   const auto motion =
       checked(free::Motion<double>::make<DoubleDouble>(free::Reduced<DoubleDouble>::taken(assembly).problem));
-  auto times = free::flips(motion, vector("axis", axis), begin, end);
+  constexpr std::size_t most = 1000000;
+  auto times = free::flips(motion, vector("axis", axis), begin, end, most + 1);
+  if (times.size() > most)
+    raise("DomainError", "there are more than a million flips until end: ask for a shorter span");
   const auto n = py::ssize_t(times.size());
   return array(std::move(times), {n});
 }

@@ -29,6 +29,9 @@ inline free::Assembly<double> assembly_of(const Array& inertia, const Array& rot
   made.body.momentum_given = angular_momentum.has_value();
   made.body.attitude = quaternion("attitude", attitude);
   const auto& [axes, inertias, rates, turn_freely] = wheels;
+  require_shape("wheels: axis", axes, {rates.size(), 3});
+  require_shape("wheels: axial_inertia", inertias, {rates.size()});
+  require_shape("wheels: type", turn_freely, {rates.size()});
   for (py::ssize_t i = 0; i < rates.size(); ++i) {
     const double* axis = axes.data() + 3 * i;
     made.wheels.push_back(

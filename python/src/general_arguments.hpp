@@ -29,8 +29,16 @@ class Entries {
     return entries_[key];
   }
   bool has(const char* key) const { return entries_.contains(key) && !entries_[key].is_none(); }
-  double number(const char* key) const { return (*this)[key].cast<double>(); }
-  Array array(const char* key) const { return (*this)[key].cast<Array>(); }
+  double number(const char* key) const {
+    const double made = PyFloat_AsDouble((*this)[key].ptr());
+    if (PyErr_Occurred() != nullptr) PyErr_Clear(), raise("DomainError", name_ + "." + key + ": not a number");
+    return made;
+  }
+  Array array(const char* key) const {
+    const auto made = Array::ensure((*this)[key]);
+    if (!made) PyErr_Clear(), raise("DomainError", name_ + "." + key + ": not an array of numbers");
+    return made;
+  }
   Vec3<double> vector(const char* key) const { return python::vector((name_ + "." + key).c_str(), array(key)); }
   Mat3<double> matrix(const char* key) const {
     const Array values = array(key);
@@ -48,6 +56,7 @@ class Entries {
       if (value == words[i]) return static_cast<Enum>(i);
     raise("DomainError", name_ + "." + key + " = '" + value + "': unknown");
   }
+  std::string name(const char* key) const { return name_ + "." + key; }
   Entries part(const char* key) const { return {name_ + "." + key, (*this)[key].cast<py::dict>()}; }
 
  private:
@@ -64,12 +73,14 @@ inline constexpr const char* opposed_words[] = {"angular-velocity", "momentum", 
 inline constexpr const char* between_words[] = {"step", "linear", "cubic"};
 inline constexpr const char* field_words[] = {"none", "uniform", "rotating", "dipole"};
 
-/// times (n,), values (n,) or (n, 3), interpolation, extend; None: no table.
-inline general::Table<double> table_of(const Entries& of, const char* key) {
+/// times (n,), values (n, width), interpolation, extend; None: no table.
+inline general::Table<double> table_of(const Entries& of, const char* key, py::ssize_t width) {
   general::Table<double> made;
   if (!of.has(key)) return made;
   const Entries given = of.part(key);
   const Array times = given.array("times"), values = given.array("values");
+  require_shape(given.name("times").c_str(), times, {-1});
+  require_shape(given.name("values").c_str(), values, {times.size(), width});
   made.times.assign(times.data(), times.data() + times.size());
   made.values.assign(values.data(), values.data() + values.size());
   made.between = given.word<general::Between>("interpolation", between_words);
@@ -88,7 +99,7 @@ inline general::Wheel<double> wheel_of(const Entries& given) {
   made.friction = given.number("friction");
   made.slope = given.number("slope");
   made.no_load_rate = given.number("no_load_rate");
-  made.table = table_of(given, "table");
+  made.table = table_of(given, "table", 1);
   return made;
 }
 
@@ -101,13 +112,14 @@ inline general::Torque<double> torque_of(const Entries& given) {
   made.point = given.vector("point");
   made.matrix = given.matrix("matrix");
   if (given.has("gradient")) made.gradient = given.number("gradient");
-  made.table = table_of(given, "table");
-  made.factor.table = table_of(given, "factor_table");
+  made.table = table_of(given, "table", 3);
+  made.factor.table = table_of(given, "factor_table", 1);
   made.factor.mean = given.number("mean");
   made.factor.amplitude = given.number("amplitude");
   made.factor.rate = given.number("rate");
   made.factor.phase = given.number("phase");
   const Array on = given.array("on");
+  require_shape(given.name("on").c_str(), on, {-1, 2});
   for (py::ssize_t i = 0; i + 1 < on.size(); i += 2) made.factor.on.push_back({on.data()[i], on.data()[i + 1]});
   return made;
 }

@@ -130,9 +130,12 @@ py::array_t<double> pointing_rows(const SpinningProblems& problems) {
     const py::gil_scoped_release free;
     for (std::size_t row = 0; row < problems.rows().size(); ++row) {
       const auto& problem = problems.rows()[row];
-      const auto ratio = secular_velocity_ratio(problem), tilt = mean_tilt(problem);
       const SpinFlags flags = spin_flags(problem);
-      const double numbers[width] = {pointing_error(problem),
+      // what grows has no mean; a spinner that nothing drives has, however it stands
+      const bool has_mean = !flags.unstable;
+      const math::Complex<double> none{gyrostat::nan<double>, gyrostat::nan<double>};
+      const auto ratio = has_mean ? secular_velocity_ratio(problem) : none, tilt = has_mean ? mean_tilt(problem) : none;
+      const double numbers[width] = {has_mean ? pointing_error(problem) : gyrostat::infinity<double>,
                                      ratio.re,
                                      ratio.im,
                                      tilt.re,

@@ -187,3 +187,9 @@ def test_empty_arrays_give_empty_arrays() -> None:
     assert rotation.matrix_from_vector(np.empty((0, 3))).shape == (0, 3, 3)
     made = deceleration.averaged(inertia=np.empty((0, 3)), control=B, drag=1e-5, angular_momentum=M0, t=[1.0])
     assert made.momentum_norm.shape == (0, 1)
+
+
+def test_integrals_behind_the_quarter_period_of_the_limit_are_infinite() -> None:
+    for n in (-1.0, 0.0, 0.3, 1.0):
+        beyond = elliptic.incomplete([2.0, -2.0], 1.0, n=n)
+        assert beyond.F.tolist() == [math.inf, -math.inf] == beyond.Pi.tolist()

@@ -114,7 +114,8 @@ def with_number(scene: Scene, key: str, number: float) -> dict[str, Any]:
 @pytest.mark.parametrize("name", SCENES)
 def test_a_row_of_any_number_is_what_the_scene_with_that_number_comes_to(name: str) -> None:
     scene = SCENES[name]
-    inputs = inputs_of(FAMILIES["general"])
+    orbits = any(scene.tables["orbit"][name] is not None for name in ("radius", "altitude", "rate", "period"))
+    inputs = [given for given in inputs_of(FAMILIES["general"]) if orbits or given[1] != "orbit"]
     found = [key for full, table, field in inputs for key in keys(full, field, scene.tables[table][field.name] if table else scene.top[field.name])]
     assert len(found) > 15
     found = at_length(found[len(found) % 3::3], found)

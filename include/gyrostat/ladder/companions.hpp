@@ -85,26 +85,37 @@ constexpr Scalar shared_rounding(Scalar walk) noexcept {
 /// Hears what nobody wants to know.
 inline constexpr auto not_noted = [](std::size_t, const auto&) noexcept {};
 
-/// Steps a course until its last step holds t or ends at t_max.
+/// Steps a course until its last step holds t or ends at t_max. stride: the length of the last step that was made.
 template <class Course, Real Scalar>
-ode::Status reach(Course& course, Scalar t, Scalar t_max) noexcept {
+ode::Status reach(Course& course, Scalar t, Scalar t_max, Scalar& stride) noexcept {
   ode::Status status = ode::Status::reached;
-  while (status == ode::Status::reached && course.time() < t && course.time() < t_max) status = course.step(t_max);
+  while (status == ode::Status::reached && course.time() < t && course.time() < t_max) {
+    const Scalar before = course.time();
+    status = course.step(t_max);
+    stride = course.time() - before;
+  }
   return status;
 }
 
-/// Whether times[i] is the last that is asked for in a step that ends at `end`: a series errs most there, and what it errs may be gone in the next
-/// step, where the motion is damped.
+/// Where a step of the first companion from `now` ends at the latest, beside steps of the answer of this length.
 template <Real Scalar>
-bool is_last_in_step(std::span<const Scalar> times, std::size_t i, Scalar end) noexcept {
-  return i + 1 >= times.size() || times[i + 1] > end;
+constexpr Scalar companion_reaches(Scalar now, Scalar stride, Scalar last) noexcept {
+  const Scalar end = now + Scalar(honesty::companion_stride) * stride;
+  return end > now && end < last ? end : last;
+}
+
+/// Whether times[i] is the last that is asked for in a step that ends at `end`, or the first behind the end of the one before: a series errs most
+/// there, and what it errs may soon be gone, where the motion is damped.
+template <Real Scalar>
+bool is_next_to_end(std::span<const Scalar> times, std::size_t i, Scalar begin, Scalar end) noexcept {
+  return i + 1 >= times.size() || times[i + 1] > end || i == 0 || times[i - 1] <= begin;
 }
 
 /// Steps the answer, and beside it its companions, over the asked times, and keeps its states there. Companions take tighter steps: their
 /// distance to the answer is its truncation, and their own distance what rounding and the data's last digits do. A course has step(t_max),
 /// time(), at(t) within the last step, and counts(); one that GoesOnAlike is given up where its steps would overrun their budget by far.
-/// The first companion leads, and all are compared at the end of each of its steps and at the asked times, of many at some and at the last in each
-/// step of the answer. Their first
+/// The first companion leads, and all are compared at the end of each of its steps and at the asked times, of many at some and at the first and the last
+/// in each step of the answer. Their first
 /// steps end apart: from one start all would take the same polynomial, and err alike; one that runs alone is kicked at half the span. A
 /// distance that was seen fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which
 /// all are near by chance does not hide it. States
@@ -129,9 +140,10 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     kept.raise(error_of_distances(away, Rows::apart(one, two)));
   };
   const Scalar last = times.back();
+  Scalar stride = 0, of_second = 0;
   const auto all_reach = [&](Scalar t) noexcept {
-    walk.status = reach(runs.answer, t, last);
-    if (walk.status == Status::reached && runs.second != nullptr) walk.status = reach(*runs.second, t, last);
+    walk.status = reach(runs.answer, t, last, stride);
+    if (walk.status == Status::reached && runs.second != nullptr) walk.status = reach(*runs.second, t, last, of_second);
     return walk.status == Status::reached;
   };
 
@@ -147,6 +159,7 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   }
   if (next < times.size()) walk.status = runs.answer.step(last);
   const Scalar first = runs.answer.time();
+  stride = first;
   if (next < times.size() && walk.status == Status::reached && runs.second != nullptr)
     walk.status = runs.second->step(first / 3);
   Pace<Scalar> pace;
@@ -154,7 +167,7 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   HalfwayKick<Course, Scalar> kick(runs, last);
   while (next < times.size() && walk.status == Status::reached) {
     const Scalar before = runs.companion.time();
-    walk.status = runs.companion.step(trips == 0 ? first / 2 : last);
+    walk.status = runs.companion.step(trips == 0 ? first / 2 : companion_reaches(before, stride, last));
     if (walk.status != Status::reached) break;
     const Scalar now = runs.companion.time();
     kept *= 1 / (1 + (now - before) * rate / Scalar(honesty::fading_angle));
@@ -162,7 +175,8 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
       states[next] = runs.answer.at(times[next]);
       const auto row = walk.asked.row(states[next]);
       walk.asked.add(row);
-      if (!honesty::looked_at(next, times.size()) && !is_last_in_step(times, next, runs.answer.time())) continue;
+      const Scalar end = runs.answer.time();
+      if (!honesty::looked_at(next, times.size()) && !is_next_to_end(times, next, end - stride, end)) continue;
       look(row, times[next]);
       tell(next + 1);
     }
@@ -171,18 +185,11 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     if (told < next) tell(next);
     if (next == times.size()) break;
     kick(now);
-    if constexpr (GoesOnAlike<Course>) {
-      if (pace.is_hopeless(trips, now, last, options.step_cap)) {
-        walk.status = Status::step_limit;
-        break;
-      }
-    }
-    if ((trips++ & 255U) == 0) {
+    if (GoesOnAlike<Course> && pace.is_hopeless(trips, now, last, options.step_cap)) {
+      walk.status = Status::step_limit;
+    } else if ((trips++ & 255U) == 0) {
       options.report(progress_from + static_cast<double>(now / last) * (progress_to - progress_from));
-      if (options.cancelled()) {
-        walk.status = Status::cancelled;
-        break;
-      }
+      if (options.cancelled()) walk.status = Status::cancelled;
     }
   }
   for (; next < times.size(); ++next) states[next] = nowhere;

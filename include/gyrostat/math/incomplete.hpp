@@ -83,6 +83,7 @@ inline Scalar incomplete_Pi(Scalar phi, Scalar n, Modulus<Scalar> m) noexcept {
   const Scalar inside = part(at.s, at.c, at.c2, at.delta2);
   if (at.n == 0) return inside;
   if (n > 1) return nan<Scalar>;
+  if (m.kp2 == 0) return at.n > 0 ? infinity<Scalar> : -infinity<Scalar>;
   return 2 * at.n * part(1, 0, 0, m.kp2) + inside;
 }
 

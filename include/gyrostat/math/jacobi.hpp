@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -103,7 +104,10 @@ class JacobiAt {
     if (!(std::abs(x) > Work(0.5))) return {0, u, 0};  // at kp2 = 0 however great u is
     const Work n = std::nearbyint(x);
     const int quadrant = std::abs(n) < Work(0x1p62) ? static_cast<int>(static_cast<std::int64_t>(n) & 3) : 0;
-    return {n, std::fma(-n, quarter_, u) - n * quarter_low_, quadrant};
+    const Work r = std::fma(-n, quarter_, u) - n * quarter_low_;
+    // so far out an eps of u is more than a quarter period, and any point of one is as good
+    if (std::abs(n) > Work(0.125) / epsilon<Work>) return {n, std::clamp(r, -quarter_ / 2, quarter_ / 2), quadrant};
+    return {n, r, quadrant};
   }
 
   Jacobi<Work> real_argument(Work r, bool odd) const noexcept {

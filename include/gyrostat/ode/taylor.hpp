@@ -266,6 +266,8 @@ Status Taylor<System, Order>::step(Scalar t_max) noexcept {
   if (lands) {
     h = left;
     theta = h / row_unit_;
+    if (flat_)
+      next_unit_ = std::min(next_unit_, 64 * h);  // one that lands again and again would grow beyond all numbers
   } else if (!(h > std::abs(time_.high) * (epsilon<Scalar> / 1024))) {
     return Status::step_underflow;
   }

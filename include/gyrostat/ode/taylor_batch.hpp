@@ -405,6 +405,7 @@ GYROSTAT_INLINE void TaylorBatch<System, Order>::move_times(const Ends& ends, co
     next_unit_[b] = std::min(h, 64 * next_unit_[b]);
     if (lands) {
       h = left;
+      if (flat_[b]) next_unit_[b] = std::min(next_unit_[b], 64 * h);
       time_[b] = ends[static_cast<std::size_t>(b)];
       time_low_[b] = 0;
     } else if (!(h > std::abs(time_[b]) * (epsilon<Scalar> / 1024))) {

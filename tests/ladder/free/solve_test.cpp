@@ -38,7 +38,7 @@ TEST_CASE("the scalars of a free motion: Toutatis as Hudson and Ostro (1995) saw
   question.times = {30 * day};
   question.rung = free::rung::closed_form;
   const auto scene = Scene::make(assembly, question);
-  const Answer answer = solved(scene->viewed(free::ViewRequest{{0, 0, 1}, {1, 0, 0}, pi<double> / 6}));
+  const Answer answer = solved(*scene->viewed(free::ViewRequest{{0, 0, 1}, {1, 0, 0}, pi<double> / 6}));
   const auto value = [&](const char* name) { return answer.quantity(name)->values[0]; };
   CHECK(free::kind_words[std::size_t(value("kind"))] == std::string_view("about-smallest"));
   CHECK(2 * pi<double> / value("spin_rate") / day == Approx(5.367).epsilon(1e-3));
@@ -84,7 +84,7 @@ TEST_CASE("a view of a motion that closes is stated within one over its periods"
   question.times = {100};
   question.rung = free::rung::closed_form;
   const auto scene = Scene::make(body({1, 1, 1.5}, {0, 0, 0}, {4, 0, 2}), question);
-  const Answer answer = solved(scene->viewed(free::ViewRequest{{1, 0, 0}, {0, .6, .8}, .4}));
+  const Answer answer = solved(*scene->viewed(free::ViewRequest{{1, 0, 0}, {0, .6, .8}, .4}));
   const Quantity& seen = *answer.quantity("view_fraction");
   CHECK(std::abs(seen.values[0] - 0.0661) <= seen.error);
   CHECK(seen.error == Approx(1));
@@ -110,7 +110,7 @@ TEST_CASE("the means, rates and views of a free motion state what a rounding of 
       if (!scene) continue;
       const free::ViewRequest view{bodies.vector().normalized(), bodies.vector().normalized(), bodies.uniform(0.1, 2)};
       Refusal refusal;
-      const Answer answer = free::solve(scene->viewed(view), refusal);
+      const Answer answer = free::solve(*scene->viewed(view), refusal);
       // the motion of data a rounding away, set up to twice the digits
       auto moved = given;
       const auto move = [&](double& x) { x *= 1 + epsilon<double> * bodies.uniform(-1, 1); };
@@ -219,4 +219,17 @@ TEST_CASE("answers to free bodies side by side are those of the ladder, to the b
   }
   CHECK(together > (math::many_pays ? all / 8 : -1));
   CHECK(free::SweepSolver{}.together({}, answers) == 0);
+}
+
+TEST_CASE("a view along no direction of unit length, or by an angle that none has, is refused", "[free]") {
+  Question question;
+  question.times = {1};
+  const auto scene = *Scene::make(body({1, 2, 2.5}, {0, 0, 0}, {0.01, 1, 0.01}), question);
+  const auto refused = [&](const free::ViewRequest& view) { return scene.viewed(view).error(); };
+  CHECK(refused({{0, 0, 1}, {1, 0, 0}, 0.4}) == Errc::ok);
+  CHECK(refused({{0, 0, 2}, {1, 0, 0}, 0.4}) == Errc::out_of_domain);
+  CHECK(refused({{0, 0, 1}, {0, 0, 0}, 0.4}) == Errc::zero_vector);
+  CHECK(refused({{0, 0, 1}, {1, 0, 0}, 4}) == Errc::out_of_domain);
+  CHECK(refused({{0, 0, 1}, {1, 0, 0}, -0.1}) == Errc::out_of_domain);
+  CHECK(refused({{0, 0, 1}, {1, 0, 0}, gyrostat::nan<double>}) == Errc::not_finite);
 }

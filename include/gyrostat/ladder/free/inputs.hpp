@@ -49,7 +49,7 @@ inline Result<Scene> scene_of(std::span<const double> numbers, const Question& q
     assembly.wheels.push_back(wheel);
   }
   const auto made = Scene::make(assembly, question);
-  return made && is_given(view.axis) ? Result<Scene>(made->viewed(view)) : made;
+  return made && is_given(view.axis) ? made->viewed(view) : made;
 }
 
 }  // namespace gyrostat::free

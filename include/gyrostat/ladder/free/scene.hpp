@@ -38,8 +38,17 @@ class Scene {
     return other;
   }
 
-  /// The same scene, with what a view asks for; nothing: without.
-  Scene viewed(const std::optional<ViewRequest>& view) const {
+  /// The same scene, with what a view asks for; nothing: without. Errors: not_finite, zero_vector, and out_of_domain where a direction is not of unit length
+  /// within 1e-8 or the angle leaves [0, pi].
+  Result<Scene> viewed(const std::optional<ViewRequest>& view) const {
+    if (view) {
+      const double lengths[] = {view->axis.norm(), view->direction.norm()};
+      if (!std::isfinite(lengths[0] + lengths[1] + view->half_angle)) return Errc::not_finite;
+      for (const double length : lengths)
+        if (length == 0) return Errc::zero_vector;
+        else if (std::abs(length - 1) > 1e-8 + 4 * epsilon<double>) return Errc::out_of_domain;
+      if (!(view->half_angle >= 0 && view->half_angle <= pi<double>)) return Errc::out_of_domain;
+    }
     Scene other = *this;
     other.view_ = view;
     return other;

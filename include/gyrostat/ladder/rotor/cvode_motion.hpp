@@ -105,7 +105,7 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   parts[column::angular_velocity] = momentum / body.free_principal()[0];
   parts[column::angular_momentum] = momentum;
   parts[column::rotor_rate] = rate;
-  parts[column::rotor_angle] = size[column::rotor_angle];
+  parts[column::rotor_angle] = size[column::rotor_angle] + rate * scene.question().times.back();
   parts[column::lyapunov] = size[column::lyapunov] + momentum * rate;
   const double floor = honesty::cvode_looser * pair.tolerance;
   track.error = pair.both.relative(pair.margin * pair.both.difference() + floor * parts);

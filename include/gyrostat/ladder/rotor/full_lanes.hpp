@@ -33,14 +33,14 @@ struct LaneTask {
   FullMotionAnswer<double> answer{};
 };
 
-/// Whether a motion can be found in lanes: one with a momentum, that is no work for collocation, and no longer than some ten thousand
-/// turns.
+/// Whether a motion can be found in lanes: one with a momentum, that is no work for collocation, no longer than some ten thousand turns, and of a
+/// rotor that leaves the body some inertia about its axis.
 inline bool suits_lanes(const Gyrostat<double>& gyrostat, const State<double>& start, double last,
                         Integrator integrator) noexcept {
-  constexpr double longest = 1e5, least = 1e-140;
+  constexpr double longest = 1e5, least = 1e-140, left = 0.1;
   const double l = start.momentum.norm();
   return (integrator == Integrator::any || integrator == Integrator::taylor) && l > least && l < 1 / least &&
-         turning_rate(gyrostat, start) * last < longest &&
+         gyrostat.coupling() > left && turning_rate(gyrostat, start) * last < longest &&
          (integrator == Integrator::taylor || !is_stiff(gyrostat, start));
 }
 

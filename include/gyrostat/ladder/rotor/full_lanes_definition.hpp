@@ -61,6 +61,7 @@ class FullLanes {
   struct Lane {
     LaneTask* task = nullptr;
     double step_tolerance, first, last, event, kick_after;
+    double stride;  ///< of the answer's last step
     std::size_t next, told;
     int trial;
     bool fresh;  ///< the companions have made no step
@@ -211,13 +212,17 @@ class FullLanes {
 
   void step_answers() noexcept {
     Ends ends;
+    std::array<double, size> before;
     bool any = false;
     for (std::size_t b = 0; b < size; ++b) {
-      const bool goes = lane_[b].task && answers_.time(int(b)) < lane_[b].event;
+      before[b] = answers_.time(int(b));
+      const bool goes = lane_[b].task && before[b] < lane_[b].event;
       ends[b] = goes ? lane_[b].last : -infinity<double>;
       any = any || goes;
     }
     step(answers_, ends, any);
+    for (std::size_t b = 0; b < size; ++b)
+      if (ends[b] > 0) lane_[b].stride = answers_.time(int(b)) - before[b];
   }
 
   void step_seconds() noexcept {
@@ -248,7 +253,7 @@ class FullLanes {
       if (lane.task == nullptr) continue;
       const double first = answers_.time(int(b));
       if (lane.fresh ? first > 0 && (lane.alone || seconds_.time(int(b)) > 0) : lane.seen) {
-        ends[b] = lane.fresh ? first / 2 : lane.last;
+        ends[b] = lane.fresh ? first / 2 : companion_reaches(before[b], lane.stride, lane.last);
         any = true;
       }
     }
@@ -276,7 +281,7 @@ class FullLanes {
   /// Whether the runs are compared at the lane's next asked time, where the step of its answer ends at `end`.
   static bool compares_at(const Lane& lane, double end) noexcept {
     const std::span<const double> times(lane.task->times);
-    return honesty::looked_at(lane.next, times.size()) || is_last_in_step(times, lane.next, end);
+    return honesty::looked_at(lane.next, times.size()) || is_next_to_end(times, lane.next, end - lane.stride, end);
   }
 
   /// Looks at the lanes whose runs have come to what is next, an asked time or the end of the first companion's step; false where there are none.

@@ -87,11 +87,12 @@ Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, s
     answer.status = solver.step(end);
     if (answer.status != ode::Status::reached) break;
     // the tilt may be greatest between the ends of a step
-    const Scalar quarter = (solver.time() - solver.previous_time()) / 4;
-    for (int i = 1; i <= 4; ++i) {
-      const Scalar t = i < 4 ? solver.previous_time() + Scalar(i) * quarter : solver.time();
+    constexpr int looks = 8;
+    const Scalar part = (solver.time() - solver.previous_time()) / looks;
+    for (int i = 1; i <= looks; ++i) {
+      const Scalar t = i < looks ? solver.previous_time() + Scalar(i) * part : solver.time();
       solver.at(t, x);
-      look(x, quarter, t);
+      look(x, part, t);
     }
     if (answer.seen.size.tilt > Scalar(senseless_tilt)) {
       answer.status = ode::Status::event;

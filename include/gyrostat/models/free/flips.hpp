@@ -53,10 +53,11 @@ std::vector<Scalar> periodic_zeros(const Motion<Scalar>& motion, const Function&
 }
 
 /// Times of [begin, end], s, at which M crosses the plane across a body axis: of a rigid body spun about its middle axis, and that axis,
-/// the flips that Dzhanibekov saw in 1985; they are half a period apart. Each is as uncertain as the motion's phase.
+/// the flips that Dzhanibekov saw in 1985; they are half a period apart. Each is as uncertain as the motion's phase. The first `most` of them.
 template <Real Scalar>
-std::vector<Scalar> flips(const Motion<Scalar>& motion, const Vec3<Scalar>& axis, Scalar begin, Scalar end) noexcept {
-  return periodic_zeros(motion, [&](Scalar t) { return axis.dot(motion.at(t).angular_momentum); }, begin, end);
+std::vector<Scalar> flips(const Motion<Scalar>& motion, const Vec3<Scalar>& axis, Scalar begin, Scalar end,
+                          std::size_t most = 1000000) noexcept {
+  return periodic_zeros(motion, [&](Scalar t) { return axis.dot(motion.at(t).angular_momentum); }, begin, end, most);
 }
 
 /// Time between flips about the middle principal axis, s: half a period where M surrounds another axis and the body has no rotor

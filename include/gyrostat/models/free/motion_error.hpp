@@ -499,6 +499,7 @@ class MotionError {
   int nodes_ = many;
   Scalar horizon_ = infinity<Scalar>, period_ = 1, span_ = 1;
   Scalar fastest_ = 0, speed_ = 0, defect_ = 0;
+  Scalar known_ = epsilon<Scalar>;                                       // to which the data are
   Scalar rates_change_ = 0, momentum_change_ = 0, attitude_change_ = 0;  // by a phase late by a period
   // sums of squares until they are settled: periods late a second; rad/s about M; rad a period
   Scalar share_ = 0, turn_rate_ = 0, turn_ = 0;
@@ -533,6 +534,7 @@ MotionError<Scalar> MotionError<Scalar>::of(const Motion<Scalar>& motion, const 
   error.nodes_ = motion.hyperbolic() ? many : some;
   error.start(motion);
   const Setup by = data == Data::exact ? epsilon<Setup> : Setup(epsilon<Scalar>);
+  error.known_ = static_cast<Scalar>(by);
   constexpr bool wide = !std::is_same_v<Setup, Scalar>;
   if (!(wide && data == Data::rounded && error.see_from_afar(assembly))) {
     const auto given = assembly.template cast<Setup>();
@@ -649,7 +651,9 @@ auto MotionError<Scalar>::at(Scalar t) const noexcept -> Bound {
   // of 40 000 random evaluations one in 2000 is off by more than 4.3 in rates and momentum, 7 in the attitude
   const Scalar rounding = 6 * cancellation_ * epsilon<Scalar>, turned_by_rounding = 8 * cancellation_ * epsilon<Scalar>;
   const Scalar most = Scalar(0.2);  // four times 0.05
-  if (!(b.attitude <= most && b.angular_velocity <= most))
+  // so many turns that a clock tells none of a neighbour from those of the motion
+  const bool lost = kind_ != Kind::steady && !(known_ * speed_ * beyond <= most);
+  if (lost || !(b.attitude <= most && b.angular_velocity <= most))
     return {infinity<Scalar>, infinity<Scalar>, infinity<Scalar>};
   // M may be all rounding and the body's motion not
   if (!(b.angular_momentum <= most)) b.angular_momentum = infinity<Scalar>;

@@ -33,7 +33,7 @@ Result<Hanging<Scalar>> hanging(const Problem<Scalar>& problem) noexcept {
   // grad V = N I d - m = -mu d: (N (I_i - I_min) + shift) d_i = m_i, and the least energy has shift >= 0
   const Scalar least = I.minCoeff();
   const Vec3<Scalar> stiffness = problem.gradient() * (I - Vec3<Scalar>::Constant(least));
-  const Scalar weight = m.norm();
+  const Scalar weight = std::hypot(m[0], m[1], m[2]);
   if (weight == 0 && stiffness.maxCoeff() == 0) return Errc::not_applicable;
 
   Scalar soft = 0;  // of m, on the axes of least inertia

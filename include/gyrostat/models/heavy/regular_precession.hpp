@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -22,11 +23,15 @@ struct RegularPrecession {
 /// @param u down along the axis of symmetry, in [-1, 1]   @param spin r, rad/s
 template <Real Scalar>
 RegularPrecession<Scalar> regular_precession(const SymmetricTop<Scalar>& top, Scalar u, Scalar spin) noexcept {
-  const Scalar a = top.across * u, b = top.along * spin;
-  const Scalar c = -top.weight + top.gradient * (top.along - top.across) * u;
+  Scalar a = top.across * u, b = top.along * spin;
+  Scalar c = -top.weight + top.gradient * (top.along - top.across) * u;
+  const Scalar size = std::max({std::abs(a), std::abs(b), std::abs(c)});
+  if (size > 0 && size < infinity<Scalar>)
+    for (Scalar* each : {&a, &b, &c}) *each = std::scalbn(*each, -std::ilogb(size));
   const Scalar discriminant = b * b - 4 * a * c;
   if (!(discriminant >= 0)) return {false, nan<Scalar>, nan<Scalar>};
   const Scalar q = (b + std::copysign(std::sqrt(discriminant), b)) / 2;
+  if (q == 0 && c != 0) return {false, nan<Scalar>, nan<Scalar>};  // a level axis without spin
   // q = 0 where nothing drives nor spins
   const Scalar slow = q == 0 ? Scalar(0) : c / q;
   const bool level = std::abs(u) <= 8 * epsilon<Scalar>;

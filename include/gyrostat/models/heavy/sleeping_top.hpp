@@ -23,8 +23,9 @@ struct SleepingTop {
 
   Scalar growth_rate() const noexcept { return std::sqrt(std::max(-frequency_square, Scalar(0))); }  ///< of a tilt, 1/s
   /// By how much a stable top enlarges a tilt at rest: 1/sqrt(1 - (threshold/r)^2); infinite at the threshold and
-  /// below.
+  /// below. One that is stable at any spin swings no farther.
   Scalar amplification(Scalar spin) const noexcept {
+    if (threshold == 0 && frequency_square > 0) return 1;
     const Scalar room = (std::abs(spin) - threshold) * (std::abs(spin) + threshold);
     return room > 0 ? std::max(std::abs(spin) / std::sqrt(room), Scalar(1)) : infinity<Scalar>;
   }

@@ -78,6 +78,11 @@ class ClosedForm {
     Scalar fast;       // pace of the motion
     Scalar data;       // of H, as the start is known
   };
+  /// What H and p are put together from, which may cancel, N m s.
+  struct Parts {
+    Scalar momentum, axial;
+  };
+  Parts parts() const noexcept;
   Sizes sizes() const noexcept;
   /// By how far the motion departs from the kind's formulas by t, to first order in the defect.
   ClosedFormError<Scalar> departure(Scalar t) const noexcept;
@@ -311,13 +316,22 @@ State<Scalar> ClosedForm<Scalar>::at(Scalar t) const noexcept {
 }
 
 template <Real Scalar>
+auto ClosedForm<Scalar>::parts() const noexcept -> Parts {
+  const Vec3<Scalar> Omega = gyrostat_.angular_velocity(start_.momentum, start_.axial_momentum);
+  const Scalar lambda = gyrostat_.axial_inertia();
+  return {std::max(norm_, (gyrostat_.inertia() * Omega).norm() + lambda * std::abs(rate_)),
+          lambda * (std::abs(rate_) + std::abs(gyrostat_.axis().dot(Omega)))};
+}
+
+template <Real Scalar>
 auto ClosedForm<Scalar>::sizes() const noexcept -> Sizes {
   const Scalar j = 1 / gyrostat_.principal()[0];
   const Scalar lambda = gyrostat_.axial_inertia(), k = gyrostat_.coupling();
   const Scalar l = norm_, e_n = (gyrostat_.inverse_inertia() * gyrostat_.axis()).norm();
   const Scalar h = lambda * std::max(std::abs(rate_), std::abs(final_rate_));
   const Scalar blur = gyrostat_.momentum_blur(gyrostat_.angular_velocity(start_.momentum, start_.axial_momentum));
-  return {j, lambda, k, l, e_n, h, j * (l + h), 4 * epsilon<Scalar> * (l + 2 * h + blur)};
+  const Scalar whole = std::max(l + 2 * h, parts().momentum + h);
+  return {j, lambda, k, l, e_n, h, j * (l + h), 4 * epsilon<Scalar> * (whole + blur)};
 }
 
 template <Real Scalar>
@@ -439,12 +453,12 @@ ClosedFormError<Scalar> ClosedForm<Scalar>::error(Scalar t) const noexcept {
   const Scalar j = 1 / gyrostat_.principal()[0];
   const Scalar omega = std::max(std::abs(rate_), std::abs(final_rate_));
   const Scalar fast = j * (norm_ + gyrostat_.axial_inertia() * omega);
-  const Scalar p = std::abs(start_.axial_momentum);
+  const auto [momentum, p] = parts();
   const Scalar ulps = 8 * epsilon<Scalar>;
   const Scalar rate =
       ulps *
       (gyrostat_.condition() * omega + fast + p / gyrostat_.axial_inertia() +
-       (norm_ + p + gyrostat_.momentum_blur(gyrostat_.angular_velocity(start_.momentum, start_.axial_momentum))) /
+       (momentum + p + gyrostat_.momentum_blur(gyrostat_.angular_velocity(start_.momentum, start_.axial_momentum))) /
            gyrostat_.free_principal()[0]);
   const Scalar angle = rate * (decay_ * t > 1 ? 1 / decay_ : t);
   // the turn that a turn of the rotor makes comes from the inverse of the tensor

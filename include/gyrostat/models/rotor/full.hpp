@@ -257,10 +257,9 @@ void FullSystem<Real_>::expand(Scalar, Scalar unit, Scalar (&x)[Order + 1][width
       lanes(H[2] * g[1] - H[1] * g[2], H[0] * g[2] - H[2] * g[0], H[1] * g[0] - H[0] * g[1], -unit * relaxation_rate_);
 
   const Row start = load(H);
-  Row motion = c.motion[3] * lanes(p);
-  motion = multiply_add(c.motion[0], lanes(H[0]), motion);
-  motion = multiply_add(c.motion[1], lanes(H[1]), motion);
-  motion = multiply_add(c.motion[2], lanes(H[2]), motion);
+  // H and p e may nearly cancel, of a rotor that has nearly all of the inertia: both rates are of the one rounded difference
+  const Vec3<Scalar> Omega = a_.cwiseProduct(Vec3<Scalar>(H[0], H[1], H[2]) - p * e_);
+  const Row motion = lanes(half * Omega[0], half * Omega[1], half * Omega[2], p / lambda_ - e_.dot(Omega));
   const Scalar excess = motion[3] - no_load_rate_;
   c.first_x = lanes(Scalar(0), Scalar(0), Scalar(0), 2 * excess);
 

@@ -340,7 +340,9 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
   const Scalar fast = j * (l + h), ulps = 4 * epsilon<Scalar>;
   const Scalar data = ulps * (l + 2 * h + std::abs(start_.axial_momentum)) / l;  // of m and l
   const Scalar aim = (data + ulps) * (1 + fast / stiffness_);                    // of m0
-  const Scalar modal = (ulps * reach + 32 * separation_) * distance_ * (2 + fastest / slowest);
+  // the coupling is known to a rounding of the inertia, which it may be a small part of
+  const Scalar blur = ulps * (reach + (1 - gyrostat_.coupling()) / gyrostat_.coupling());
+  const Scalar modal = (blur + 32 * separation_) * distance_ * (2 + fastest / slowest);
   const Scalar spin = data * l * std::abs(spin_by_norm_) + ulps * fast;
   const Scalar rate_rounding = 2 * ulps *
                                (std::abs(gyrostat_.no_load_rate()) + fast + std::abs(start_.axial_momentum) / lambda +
@@ -353,8 +355,9 @@ TailError<Scalar> LinearTail<Scalar>::error(Scalar t) const noexcept {
                       linear_.unit / linear_.relaxation * (modal + ulps * (distance_ + aim)) +
                       2 * ulps * (std::abs(gyrostat_.no_load_rate()) * t + std::abs(start_.rotor_angle)) +
                       rate_rounding * std::min(t, 1 / slowest);
+  const Scalar turned = turn_.cwiseAbs().dot(y0_.cwiseAbs() + Vec3<Scalar>::Constant(data));
   error.attitude = safety * most.phase + 2 * tilt_all + t * (spin + ulps * std::abs(linear_.spin_rate)) + 4 * ulps +
-                   4 * ulps * reach * reach * distance_ * distance_ * fast / slowest;
+                   blur * turned + 4 * ulps * reach * reach * distance_ * distance_ * fast / slowest;
   return error;
 }
 

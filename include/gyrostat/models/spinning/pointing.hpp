@@ -61,7 +61,8 @@ SpinFlags spin_flags(const Problem<Scalar>& problem) noexcept {
           std::abs(problem.effective_momentum()) <= Scalar(0.01L) * size};
 }
 
-/// How far the torque pushes the mean direction of the spin axis, rad: |M|/|r0 X|. Infinite where r0 X = 0.
+/// How far the torque pushes the mean direction of the spin axis, rad: |M|/|r0 X|. Infinite where r0 X = 0. A spin that is not stable
+/// (spin_flags) has no mean direction, and this is but the number.
 template <Real Scalar>
 Scalar pointing_error(const Problem<Scalar>& problem) noexcept {
   const Scalar torque = std::hypot(problem.torque[0], problem.torque[1]);

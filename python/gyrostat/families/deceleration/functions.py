@@ -17,7 +17,7 @@ from gyrostat import _core
 from gyrostat._core import Monitor, build_info
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask, asked
-from gyrostat.broadcast import Floats, rows, shaped
+from gyrostat.broadcast import Floats, array, arrays, numbers, rows, shaped, whole
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 
@@ -49,13 +49,11 @@ def solve(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_moment
     a computation hits its cap, Cancelled where the monitor stopped it.
     """
     given: dict[str, Any] = {
-        "inertia": np.asarray(inertia, dtype=float), "rotor_momentum": np.asarray(rotor_momentum, dtype=float),
-        "control": np.asarray(control, dtype=float), "drag": float(drag), "law": law, "drag_law": drag_law,
-        "angular_momentum": np.asarray(angular_momentum, dtype=float),
-        "attitude": None if attitude is None else np.asarray(attitude, dtype=float), "times": np.asarray(times, dtype=float),
-        "tolerance": float(tolerance), "model": model, "integrator": integrator, "elliptic": elliptic,
+        **arrays(inertia=inertia, rotor_momentum=rotor_momentum, control=control, angular_momentum=angular_momentum, times=times),
+        **numbers(drag=drag, tolerance=tolerance), "attitude": None if attitude is None else array("attitude", attitude),
+        "law": law, "drag_law": drag_law, "model": model, "integrator": integrator, "elliptic": elliptic,
     }
-    omega = None if angular_velocity is None else np.asarray(angular_velocity, dtype=float)
+    omega = None if angular_velocity is None else array("angular_velocity", angular_velocity)
     made = _core.deceleration_solve(**given, monitor=monitor, angular_velocity=omega,
                                     ask=asked("deceleration", ask, attitude is not None))
     # a scene has one of the two
@@ -75,16 +73,16 @@ def integrate(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_mo
     Raises DomainError for an argument outside its domain and for a method that the build lacks.
     """
     made: dict[str, Any] = _core.deceleration_integrate(
-        inertia=np.asarray(inertia, dtype=float), rotor_momentum=np.asarray(rotor_momentum, dtype=float),
-        control=np.asarray(control, dtype=float), drag=float(drag), law=law, drag_law=drag_law,
-        angular_momentum=np.asarray(angular_momentum, dtype=float), times=np.asarray(times, dtype=float), method=method,
-        order=int(order), tolerance=float(tolerance), precision=precision, patience=float(patience))
+        **arrays(inertia=inertia, rotor_momentum=rotor_momentum, control=control, angular_momentum=angular_momentum, times=times),
+        **numbers(drag=drag, tolerance=tolerance, patience=patience), law=law, drag_law=drag_law, method=method, order=whole("order", order),
+        precision=precision)
     return made
 
 
 @dataclass(frozen=True, eq=False)
 class Averaged:
-    """Averaged motions as arrays; `error` holds the estimated greatest error of each column of the same name."""
+    """Averaged motions as arrays; `error` holds the estimated greatest error of each column of the same name: of momentum_norm and energy relative
+    to their greatest value, of modulus_squared absolute, of stop_time in s."""
 
     momentum_norm: Floats  # (..., n) N m s
     energy: Floats  # (..., n) of the carrier, J
@@ -108,7 +106,7 @@ def averaged(*, inertia: ArrayLike, control: ArrayLike, drag: ArrayLike, angular
                                   ("angular_momentum", angular_momentum, (3,)), ("rotor_momentum", rotor_momentum, (3,))])
     made: dict[str, Any] = _core.deceleration_averaged(
         inertia=J, rotor_momentum=l, control=b, drag=d, angular_momentum=M, law=law, drag_law=drag_law,
-        times=np.asarray(t, dtype=float), tolerance=tolerance, elliptic=elliptic)
+        times=array("t", t), **numbers(tolerance=tolerance), elliptic=elliptic)
     n = made["momentum_norm"].shape[1]
     symbols = np.array(_core.deceleration_regimes())
     names = ("momentum_norm", "energy", "modulus_squared")

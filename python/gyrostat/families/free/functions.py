@@ -18,12 +18,12 @@ from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask, asked
+from gyrostat.broadcast import Floats, array, arrays, number, numbers, record, whole
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 
 __all__ = ["Monitor", "PermanentRotations", "flips", "integrate", "permanent_rotations", "solve"]
 
-Floats = NDArray[np.float64]
 # One wheel: axis (3,), axial_inertia, rate and type ("held" or "free"), the keys of the table [[wheel]] of a scene file.
 Wheel = Mapping[str, Any]
 
@@ -50,20 +50,31 @@ class PermanentRotations:
 
 def _body(inertia: ArrayLike, rotor_momentum: ArrayLike, wheels: Sequence[Wheel], angular_velocity: ArrayLike | None,
           angular_momentum: ArrayLike | None, attitude: ArrayLike) -> dict[str, Any]:
-    for i, wheel in enumerate(wheels, 1):
-        if lacking := {"axis", "axial_inertia", "rate"} - set(wheel):
-            raise DomainError(f"wheels: wheel {i} has no {', '.join(sorted(lacking))}")
-        if wheel.get("type", "held") not in ("held", "free"):
-            raise DomainError(f'wheels: the type of wheel {i} is "{wheel["type"]}": use held or free')
-    listed = (np.array([wheel["axis"] for wheel in wheels], dtype=float).reshape(-1, 3),
-              np.array([wheel["axial_inertia"] for wheel in wheels], dtype=float), np.array([wheel["rate"] for wheel in wheels], dtype=float),
-              np.array([wheel.get("type", "held") == "free" for wheel in wheels], dtype=float))
+    if not isinstance(wheels, Sequence):
+        raise DomainError(f"wheels = {wheels}: give a list of records")
+    start = {"angular_velocity": angular_velocity, "angular_momentum": angular_momentum}
     return {
-        "inertia": np.asarray(inertia, dtype=float), "rotor_momentum": np.asarray(rotor_momentum, dtype=float), "wheels": listed,
-        "angular_velocity": None if angular_velocity is None else np.asarray(angular_velocity, dtype=float),
-        "angular_momentum": None if angular_momentum is None else np.asarray(angular_momentum, dtype=float),
-        "attitude": np.asarray(attitude, dtype=float),
+        **arrays(inertia=inertia, rotor_momentum=rotor_momentum, attitude=attitude), "wheels": _wheels(wheels),
+        **{name: None if value is None else array(name, value) for name, value in start.items()},
     }
+
+
+def _wheels(wheels: Sequence[Wheel]) -> tuple[Floats, Floats, Floats, Floats]:
+    """Axes (n, 3), axial inertias, rates, and 1 for those that turn freely."""
+    axes, turn_freely = np.empty((len(wheels), 3)), np.zeros(len(wheels))
+    of_each = {"axial_inertia": np.empty(len(wheels)), "rate": np.empty(len(wheels))}
+    for i, wheel in enumerate(wheels):
+        what = f"wheels: wheel {i + 1}"
+        record(what, wheel, ("axis", "axial_inertia", "rate"), ("type", "name"))
+        if wheel.get("type", "held") not in ("held", "free"):
+            raise DomainError(f'wheels: the type of wheel {i + 1} is "{wheel["type"]}": use held or free')
+        axis = array(f"{what}: axis", wheel["axis"])
+        if axis.shape != (3,):
+            raise DomainError(f"{what}: axis has the shape {axis.shape}, not (3,)")
+        axes[i], turn_freely[i] = axis, wheel.get("type", "held") == "free"
+        for name, values in of_each.items():
+            values[i] = number(f"{what}: {name}", wheel[name])
+    return axes, of_each["axial_inertia"], of_each["rate"], turn_freely
 
 
 def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike | None = None, angular_momentum: ArrayLike | None = None,
@@ -83,8 +94,11 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike |
     motion; ConvergenceError where a computation hits its cap; Cancelled where the monitor stopped it.
     """
     given = _body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude)
-    asking: dict[str, Any] = {"times": np.asarray(times, dtype=float), "tolerance": float(tolerance), "model": model, "integrator": integrator}
-    seen = None if view is None else (np.asarray(view["axis"], dtype=float), np.asarray(view["direction"], dtype=float), float(view["half_angle"]))
+    asking: dict[str, Any] = {**arrays(times=times), **numbers(tolerance=tolerance), "model": model, "integrator": integrator}
+    seen = None
+    if view is not None:
+        record("view", view, ("axis", "direction", "half_angle"))
+        seen = (array("view.axis", view["axis"]), array("view.direction", view["direction"]), number("view.half_angle", view["half_angle"]))
     made = _core.free_solve(**given, **asking, view=seen, monitor=monitor, ask=asked("free", ask))
     return answer_of("free", made, {**given, **asking, "wheels": [dict(wheel) for wheel in wheels] or None, "view": view, "ask": ask})
 
@@ -101,8 +115,8 @@ def integrate(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLi
     all went well, "cancelled" out of patience). Raises DomainError for an argument outside its domain and for a method that the build lacks.
     """
     made: dict[str, Any] = _core.free_integrate(
-        **_body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude), times=np.asarray(times, dtype=float),
-        method=method, order=int(order), tolerance=float(tolerance), precision=precision, patience=float(patience))
+        **_body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, attitude), **arrays(times=times),
+        method=method, order=whole("order", order), **numbers(tolerance=tolerance, patience=patience), precision=precision)
     return made
 
 
@@ -118,7 +132,8 @@ def reduced(given: Mapping[str, Any]) -> tuple[Floats, Floats, Floats]:
 
 def permanent_rotations(*, inertia: ArrayLike, angular_velocity: ArrayLike | None = None, angular_momentum: ArrayLike | None = None,
                         rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), wheels: Sequence[Wheel] = ()) -> PermanentRotations:
-    """The rotations with constant angular velocity that have the angular momentum of the start: two, four or six (Volterra 1899).
+    """The rotations with constant angular velocity that have the angular momentum of the start: two, four or six (Volterra 1899); where two moments
+    are equal some stand for a circle of them, and have square = 0.
 
     Arguments as of `solve`. Raises DomainError as `solve` does, and where the momentum is zero.
     """
@@ -131,12 +146,14 @@ def flips(*, inertia: ArrayLike, axis: ArrayLike, begin: float, end: float, angu
           angular_momentum: ArrayLike | None = None, rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), wheels: Sequence[Wheel] = ()) -> Floats:
     """Times (n,) of [begin, end] [s] at which the angular momentum crosses the plane across a body axis.
 
-    axis : (3,) unit, body axes: of a body spun about its middle axis that axis, and the times are those of its flips. Other arguments as of `solve`.
+    axis : (3,), body axes: of a body spun about its middle axis that axis, and the times are those of its flips. Other arguments as of `solve`.
+    Raises DomainError as `solve` does, and where there are more than a million.
     """
-    if not np.any(np.asarray(axis, dtype=float)):
+    along, first, last = array("axis", axis), number("begin", begin), number("end", end)
+    if not np.any(along):
         raise DomainError("axis: a direction has a length, give one that is not zero")
-    if not (math.isfinite(begin) and math.isfinite(end)):
-        raise DomainError(f"begin = {begin}, end = {end}: give finite times")
+    if not (math.isfinite(first) and math.isfinite(last) and first <= last):
+        raise DomainError(f"begin = {begin}, end = {end}: give finite times, the end not before the begin")
     made: Floats = _core.free_flips(**_body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, (0.0, 0.0, 0.0, 1.0)),
-                                    axis=np.asarray(axis, dtype=float), begin=float(begin), end=float(end))
+                                    axis=along, begin=first, end=last)
     return made

@@ -10,6 +10,7 @@ import ctypes
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from typing import Any, Final
 
 import numpy as np
@@ -19,7 +20,7 @@ from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask, asked
-from gyrostat.broadcast import Floats
+from gyrostat.broadcast import Floats, array, arrays, number, numbers, record, whole
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 from gyrostat.families.general.clock import orbit_since, since
@@ -45,6 +46,10 @@ _ZERO: Final = (0.0, 0.0, 0.0)
 QUESTION: Final = ("times", "tolerance", "model", "integrator", "recognise", "monitor", "ask", "euler")
 
 
+# What the start may be off in, in the order of the compiled structure.
+START_ERRORS: Final = ("attitude", "angular_velocity", "rotor_rate", "rotor_angle", "velocity", "position")
+
+
 # What is made of a scene with numbers that vary over rows has the rows in front. Each row comes out as it would alone, to the last bit: nothing here
 # is left to a library whose order of operations could hang on how many rows there are.
 
@@ -58,11 +63,10 @@ def varies(value: Any) -> bool:
     return isinstance(value, OverRows) or (isinstance(value, tuple) and any(map(varies, value)))
 
 
-def stacked(value: Any) -> Floats:
+def stacked(value: Any, name: str = "a number of the scene") -> Floats:
     """A number, or nested sequences of numbers, as one array (..., shape)."""
     if isinstance(value, OverRows) or not varies(value):
-        made: Floats = np.asarray(value, dtype=float)
-        return made
+        return array(name, value)
     depth, inner = 1, value[0]
     while isinstance(inner, tuple):
         depth, inner = depth + 1, inner[0]
@@ -96,17 +100,21 @@ def unit(vector: Floats) -> Floats:
 
 
 def _unit(axis: Any, what: str) -> Floats:
-    given = stacked(axis)
+    given = stacked(axis, what)
+    if given.shape[-1:] != (3,):
+        raise DomainError(f"{what} has the shape {given.shape}, not (3,)")
     made = unit(given)
     if made.ndim == 1 and not np.all(np.isfinite(made)):
         raise DomainError(f"{what} = {given.tolist()}: give a vector of finite length that is not 0")
     return made
 
 
-def _matrix(value: Any) -> Floats:
+def _matrix(value: Any, what: str) -> Floats:
     """A number, three of them along the diagonal, or all nine."""
-    given = stacked(value)
+    given = stacked(value, what)
     of_moments = isinstance(value, tuple) and not isinstance(value[0], tuple)
+    if given.shape and given.shape[-1] != 3:
+        raise DomainError(f"{what} has the shape {given.shape}: give one number, (3,) or (3, 3)")
     if given.ndim >= 2 and not of_moments:
         return given
     return diagonal(given) if given.ndim else float(given) * np.eye(3)
@@ -122,15 +130,49 @@ def _ratio(above: Any, below: Any) -> Any:
         return np.divide(above, below)
 
 
-def _table(given: Record | None, width: int) -> dict[str, Any] | None:
+@cache
+def _known(what: str, kind: str = "") -> frozenset[str]:
+    """The keys of a table of a scene file; of a wheel or a torque those of its types."""
+    from gyrostat.families.general import scene
+
+    sorts = {"wheel": scene.WHEELS, "torque": scene.TORQUES}.get(what)
+    if sorts is None:
+        return frozenset(field.name for field in scene.KEYS[what])
+    return frozenset(field.name for table in sorts if kind in table[0].choices for field in table)
+
+
+def _record(given: Any, what: str, place: str, default: str | None) -> Record:
+    """A wheel or a torque whose keys are those of its type."""
+    if not isinstance(given, Mapping):
+        raise DomainError(f"{place} = {str(given)[:60]}: give a mapping, with the keys of [[{what}]] of a scene file")
+    kind = given.get("type") or default
+    known = _known(what, kind) if isinstance(kind, str) else frozenset[str]()
+    if not known:
+        raise DomainError(f"{place} has no type" if kind is None else f"{place}: there is no type {kind!r}")
+    if not given.keys() <= known:
+        record(place, given, (), sorted(known))
+    return given
+
+
+def _of(given: Record, key: str, place: str) -> Any:
+    """What a record must have."""
+    if given.get(key) is None:
+        raise DomainError(f"{place} has no {key}")
+    return given[key]
+
+
+def _table(given: Record | None, width: int, place: str) -> dict[str, Any] | None:
     if given is None:
         return None
-    values = stacked(given["values"])
-    return {"times": stacked(given["times"]), "values": values if width > 1 else values[..., None],
+    if width == 1:
+        record(place, given, ("times", "values"), ("interpolation", "extend", "mean", "amplitude", "rate", "phase"))
+    values = stacked(_of(given, "values", place), f"{place}: values")
+    return {"times": stacked(_of(given, "times", place), f"{place}: times"), "values": values if width > 1 else values[..., None],
             "interpolation": given.get("interpolation") or "linear", "extend": given.get("extend") or "zero"}
 
 
-def _wheel(given: Record) -> dict[str, Any]:
+def _wheel(given: Record, place: str) -> dict[str, Any]:
+    _record(given, "wheel", place, "held")
     kind, inertia = given.get("type") or "held", _or(given.get("axial_inertia"), 0.0)
     rate, torque, no_load = given.get("rate"), given.get("torque"), _or(given.get("no_load_rate"), 0.0)
     driven = torque if isinstance(torque, Mapping) else None
@@ -140,35 +182,58 @@ def _wheel(given: Record) -> dict[str, Any]:
     slope = given.get("slope")
     if given.get("stall_torque") is not None:
         slope = _ratio(given["stall_torque"], no_load)
-    return {"type": kind, "axis": _unit(given["axis"], "wheel.axis"), "axial_inertia": inertia, "rate": 0.0 if tabled or rate is None else rate,
+    return {"type": kind, "axis": _unit(_of(given, "axis", place), f"{place}.axis"), "axial_inertia": inertia, "rate": 0.0 if tabled or rate is None else rate,
             "angle": _or(given.get("angle"), 0.0), "torque": 0.0 if driven or torque is None else torque, "friction": _or(given.get("friction"), 0.0),
-            "slope": _or(slope, 0.0), "no_load_rate": no_load, "table": _table(tabled or driven, 1)}
+            "slope": _or(slope, 0.0), "no_load_rate": no_load, "table": _table(tabled or driven, 1, f"{place}: its table")}
 
 
 # The key that holds the vector of a torque.
 _VECTOR: Final = {"constant": "torque", "thrust": "force", "magnetic": "dipole", "charge": "momentum", "brake": "limit"}
 _LAWS: Final = {"total": "momentum", "carrier": "carrier-momentum"}
+_FACTOR: Final = ("mean", "amplitude", "rate", "phase", "times", "values", "interpolation", "extend")
 
 
-def _torque(given: Record) -> dict[str, Any]:
+def _torque(given: Record, place: str) -> dict[str, Any]:
+    _record(given, "torque", place, None)
     kind, factor = given["type"], given.get("factor") or {}
-    opposed = _LAWS[given.get("law") or "total"] if kind == "brake" else given.get("against") or "angular-velocity"
+    if factor:
+        record(f"{place}: factor", factor, (), _FACTOR)
+    law = given.get("law") or "total"
+    if law not in _LAWS:
+        raise DomainError(f"{place}: law = {law!r}: use total or carrier")
+    opposed = _LAWS[law] if kind == "brake" else given.get("against") or "angular-velocity"
     matrix = given.get("matrix") if given.get("matrix") is not None else given.get("coefficient")
-    vector = given[_VECTOR[kind]] if kind in _VECTOR else _ZERO
-    on = np.empty((0, 2)) if given.get("on") is None else stacked(given["on"])
+    vector = _of(given, _VECTOR[kind], place) if kind in _VECTOR else _ZERO
+    on = np.empty((0, 2)) if given.get("on") is None else stacked(given["on"], f"{place}: on")
     wave = factor if "rate" in factor and factor["rate"] is not None else {}
     return {"type": kind, "axes": given.get("frame") or "body", "opposed": opposed,
             "vector": stacked(vector if isinstance(vector, Sequence | np.ndarray) else [vector] * 3),
-            "point": stacked(_or(given.get("point"), _ZERO)), "matrix": _matrix(0.0 if matrix is None else matrix),
-            "gradient": given.get("gradient"), "table": _table(given, 3) if kind == "table" else None,
-            "factor_table": _table(factor, 1) if factor.get("times") is not None else None, "mean": _or(wave.get("mean"), 0.0) if wave else 1.0,
+            "point": stacked(_or(given.get("point"), _ZERO)), "matrix": _matrix(0.0 if matrix is None else matrix, f"{place}: matrix"),
+            "gradient": given.get("gradient"), "table": _table(given, 3, place) if kind == "table" else None,
+            "factor_table": _table(factor, 1, f"{place}: factor") if factor.get("times") is not None else None, "mean": _or(wave.get("mean"), 0.0) if wave else 1.0,
             "amplitude": _or(wave.get("amplitude"), 0.0), "rate": _or(wave.get("rate"), 0.0), "phase": _or(wave.get("phase"), 0.0), "on": on}
 
 
 def _orbit(given: Record | None) -> dict[str, Any] | None:
     if given is None:
         return None
-    mu, planet = given.get("mu"), PLANETS[given.get("planet") or "earth"]
+    if not isinstance(given, Mapping) or not given.keys() <= _known("orbit"):
+        record("orbit", given, (), sorted(_known("orbit")))
+    if (name := given.get("planet") or "earth") not in PLANETS:
+        raise DomainError(f"orbit.planet = {name!r}: use one of {', '.join(PLANETS)}")
+    sizes = [key for key in ("radius", "altitude", "rate", "period") if given.get(key) is not None]
+    if not sizes:
+        raise DomainError("orbit: give its radius, altitude, rate or period")
+    if "altitude" in sizes and len(sizes) > 1 or {"rate", "period"} <= set(sizes):
+        raise DomainError(f"orbit: {' and '.join(sizes)} say the same: give one of them")
+    for key in (*sizes, "mu"):
+        value = given.get(key)
+        # a row of many with a wrong number has its reason
+        if value is None or key == "altitude" or varies(value):
+            continue
+        if not 0 < number(f"orbit.{key}", value) < math.inf:
+            raise DomainError(f"orbit.{key} = {value}: give a finite number > 0")
+    mu, planet = given.get("mu"), PLANETS[name]
     radius, rate = given.get("radius"), given.get("rate")
     # of an orbit that is given by numbers of its own the planet is not known
     surface = planet[1] if given.get("altitude") is not None or (radius is not None and mu is None and rate is None) else 0.0
@@ -176,6 +241,8 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
         radius = planet[1] + given["altitude"]
     # mu over that of a circle of the same size and rate
     eccentricity = _or(given.get("eccentricity"), 0.0)
+    if not varies(eccentricity) and not 0 <= number("orbit.eccentricity", eccentricity) < 1:
+        raise DomainError(f"orbit.eccentricity = {eccentricity}: give a number in [0, 1)")
     share = 1 + eccentricity * np.cos(_or(given.get("true_anomaly"), 0.0))
     if given.get("period") is not None:
         if np.any(eccentricity != 0):
@@ -202,8 +269,9 @@ def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
     orbit : the keys of the table [orbit] of a scene file, in SI units.
     """
     at_zero = _orbit(orbit)
-    assert at_zero is not None
-    made = orbit_since(time, at_zero)
+    if at_zero is None:
+        raise DomainError("orbit: give the keys of [orbit]")
+    made = orbit_since(number("time", time), at_zero)
     radial, along = np.broadcast_arrays(made["radial"], made["along"])
     radius, normal = np.asarray(made["radius"]), np.cross(radial, along)
     cosine = np.reshape([math.cos(each) for each in np.ravel(made["true_anomaly"]).tolist()], np.shape(made["true_anomaly"]))
@@ -211,10 +279,18 @@ def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
     return np.stack([along, -normal, -radial], -1), (speed / radius)[..., None] * normal
 
 
+# The keys of a field that turns, and of that of a dipole.
+_FIELDS: Final = {"rotating": ("axis", "rate", "vector"), "dipole": ("axis", "strength", "radius")}
+
+
 def _field(given: Record | None) -> dict[str, Any]:
     given = given or {}
+    if given and (not isinstance(given, Mapping) or not given.keys() <= _known("field")):
+        record("field", given, (), sorted(_known("field")))
     kind = next((name for name in ("uniform", "rotating", "dipole") if given.get(name) is not None), "none")
     part: Record = given[kind] if kind in ("rotating", "dipole") else {}
+    if part:
+        record(f"field.{kind}", part, _FIELDS[kind])
     flux = given["uniform"] if kind == "uniform" else part.get("vector", _ZERO)
     down, axis = given.get("down"), part.get("axis")
     return {"gravity": _or(given.get("gravity"), 0.0), "down": np.array((0.0, 0.0, -1.0)) if down is None else _unit(down, "field.down"), "magnetic": kind,
@@ -227,9 +303,10 @@ def posed(*, inertia: Any, angular_velocity: Any = _ZERO, attitude: Any = (0.0, 
           orbit: Record | None = None, field: Record | None = None, velocity: Any = _ZERO, position: Any = _ZERO) -> dict[str, Any]:
     """The physics of `solve` as the compiled ladder takes it."""
     return {
-        "body": {"inertia": _matrix(inertia), "mass": stacked(mass)[()], "centre_of_mass": stacked(centre_of_mass), "fixed": bool(fixed),
+        "body": {"inertia": _matrix(inertia, "inertia"), "mass": stacked(mass)[()], "centre_of_mass": stacked(centre_of_mass), "fixed": bool(fixed),
                  "rotor_momentum": stacked(rotor_momentum)},
-        "wheels": [_wheel(each) for each in wheels], "torques": [_torque(each) for each in torques], "orbit": _orbit(orbit), "field": _field(field),
+        "wheels": [_wheel(each, f"wheel {place}") for place, each in enumerate(wheels, 1)],
+        "torques": [_torque(each, f"torque {place}") for place, each in enumerate(torques, 1)], "orbit": _orbit(orbit), "field": _field(field),
         "initial": {"attitude": stacked(attitude), "angular_velocity": stacked(angular_velocity), "velocity": stacked(velocity),
                     "position": stacked(position)},
     }
@@ -242,6 +319,10 @@ def _with_angles(ask: Ask | None, euler: str | None) -> Ask | None:
     return {**ask, "euler": "default"} if isinstance(ask, Mapping) else (*ask, "euler")
 
 
+# No system maps memory below.
+_PAGES: Final = 65536
+
+
 def law_of(torque: Any) -> Any:
     """A torque of the caller's own as the compiled ladder takes it: a callable, or an address."""
     compiled: type[Any] = ctypes.CFUNCTYPE(None).__mro__[1]
@@ -249,8 +330,8 @@ def law_of(torque: Any) -> Any:
         torque = ctypes.cast(torque, ctypes.c_void_p).value or 0
     address = getattr(torque, "address", torque)
     if isinstance(address, int) and not isinstance(address, bool):
-        if address <= 0:
-            raise DomainError("torque: there is no function at this address")
+        if address < _PAGES:
+            raise DomainError(f"torque = {address}: there is no function at this address; a torque that is constant stands in `torques`")
         return address
     if not callable(torque):
         raise DomainError(f"torque = {torque!r}: give a function of t, attitude, angular_velocity, angular_momentum and rotor_rate, or a compiled one")
@@ -261,7 +342,7 @@ def _own(torque: Law | None, breakpoints: ArrayLike, start_time: float) -> dict[
     """The arguments of the compiled ladder that are of a torque of the caller's own."""
     if torque is None and isinstance(breakpoints, tuple) and not breakpoints:
         return {}
-    times = np.atleast_1d(np.asarray(breakpoints, dtype=float))
+    times = np.atleast_1d(array("breakpoints", breakpoints))
     if times.ndim != 1 or not np.all(np.isfinite(times)):
         raise DomainError("breakpoints: give finite times [s]")
     if torque is None:
@@ -302,8 +383,10 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     """
     scene = posed(inertia=inertia, angular_velocity=angular_velocity, attitude=attitude, wheels=wheels, torques=torques, mass=mass,
                   centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
-    at = np.asarray(times, dtype=float)
-    asking: dict[str, Any] = {"times": at, "tolerance": float(tolerance), "model": model, "integrator": integrator}
+    at = array("times", times)
+    if unknown := set(start_error or {}) - set(START_ERRORS):
+        raise DomainError(f"start_error: there is no {sorted(unknown)[0]}; use {', '.join(START_ERRORS)}")
+    asking: dict[str, Any] = {"times": at, **numbers(tolerance=tolerance), "model": model, "integrator": integrator}
     made = _core.general_solve(scene=since(start_time, scene), **{**asking, "times": at - start_time}, recognise=recognise, monitor=monitor,
                                ask=asked("general", _with_angles(ask, euler)), start_error=dict(start_error or {}),
                                euler=None if euler is None else axes_of(euler), **_own(torque, breakpoints, start_time))
@@ -325,7 +408,7 @@ def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLi
     """
     scene = posed(inertia=inertia, angular_velocity=angular_velocity, attitude=attitude, wheels=wheels, torques=torques, mass=mass,
                   centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
-    found = _core.general_recognise(scene=since(start_time, scene), times=np.asarray(times, dtype=float) - start_time)
+    found = _core.general_recognise(scene=since(start_time, scene), times=array("times", times) - start_time)
     return {name: why or "" for name, why in found}
 
 
@@ -336,7 +419,7 @@ def segments(*, times: ArrayLike, start_time: float = 0.0, **physics: Any) -> li
     physics : arguments of `solve` that are no question.
     """
     scene = since(start_time, posed(**physics))
-    found = _core.general_segments(scene=scene, times=np.asarray(times, dtype=float) - start_time)
+    found = _core.general_segments(scene=scene, times=array("times", times) - start_time)
     return [(begin + start_time, end + start_time, tuple(families)) for begin, end, families in found]
 
 
@@ -348,6 +431,6 @@ def integrate(*, times: ArrayLike, method: str, tolerance: float, order: int = 2
     the build has them cvode-adams and cvode-bdf; patience : CPU time after which it gives up [s].
     Returns columns attitude and angular_velocity, seconds, rhs, steps and status. Raises DomainError.
     """
-    made: dict[str, Any] = _core.general_integrate(scene=since(start_time, posed(**physics)), times=np.asarray(times, dtype=float) - start_time,
-                                                   method=method, order=order, tolerance=tolerance, precision=precision, patience=patience)
+    made: dict[str, Any] = _core.general_integrate(scene=since(start_time, posed(**physics)), times=array("times", times) - start_time,
+                                                   method=method, order=whole("order", order), precision=precision, **numbers(tolerance=tolerance, patience=patience))
     return made

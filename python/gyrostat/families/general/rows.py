@@ -5,7 +5,7 @@ import contextlib
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from gyrostat.broadcast import Floats
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
 from gyrostat.families.general.clock import since
-from gyrostat.families.general.functions import QUESTION, OverRows, posed, stacked, varies
+from gyrostat.families.general.functions import QUESTION, START_ERRORS, OverRows, posed, stacked, varies
 from gyrostat.families.general.scene import arguments
 from gyrostat.fields import ROUNDING
 from gyrostat.orientation import axes_of, form_of, quaternions
@@ -25,9 +25,6 @@ if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
 __all__ = ["request"]
-
-# In the order of the compiled core.
-START_ERRORS: Final = ("attitude", "angular_velocity", "rotor_rate", "rotor_angle", "velocity", "position")
 
 
 def request(scene: "Scene", places: Iterable[Place], columns: Iterable[Floats], sound: NDArray[np.bool_]) -> dict[str, Any]:

@@ -23,7 +23,7 @@ from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask, asked
-from gyrostat.broadcast import Floats, rows, shaped
+from gyrostat.broadcast import Floats, array, arrays, complexes, finite_rows, number, numbers, rows, shaped, whole
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 
@@ -39,10 +39,11 @@ SHAPES: Final[dict[str, tuple[int, ...]]] = {"inertia": (3,), "mass": (), "centr
 
 def gravity_gradient(*, gravity: ArrayLike, distance: ArrayLike) -> Floats:
     """N = 3 g/R [1/s2], over arrays. gravity : g at the fixed point [m/s2]; distance : R of the attracting centre [m], > 0."""
-    lead, (g, R) = rows([("gravity", gravity, ()), ("distance", distance, ())])
+    lead, (g, R) = finite_rows([("gravity", gravity, ()), ("distance", distance, ())])
     if not np.all(R > 0):
         raise DomainError(f"distance = {np.min(R):g}: give numbers > 0")
-    made: Floats = shaped(3 * g / R, lead)
+    with np.errstate(over="ignore"):
+        made: Floats = shaped(3 * (g / R), lead)
     return made
 
 
@@ -52,7 +53,7 @@ def principal_axes(inertia: ArrayLike) -> tuple[Floats, Floats]:
 
     Raises DomainError for another shape, a number that is not finite and a tensor that is not symmetric (within 8 roundings).
     """
-    tensor = np.asarray(inertia, dtype=float)
+    tensor = array("inertia", inertia)
     if tensor.ndim < 2 or tensor.shape[-2:] != (3, 3) or not np.all(np.isfinite(tensor)):
         raise DomainError(f"inertia of shape {tensor.shape}: give (..., 3, 3) finite numbers")
     flipped = np.swapaxes(tensor, -1, -2)
@@ -80,8 +81,9 @@ def bodies(given: Mapping[str, ArrayLike], *more: tuple[str, ArrayLike, tuple[in
     return lead, _core.HeavyBodies(**dict(zip(SHAPES, made, strict=False))), made[len(SHAPES):]
 
 
-def _floats(value: ArrayLike | None) -> Floats | None:
-    return None if value is None else np.asarray(value, dtype=float)
+def _start(**named: ArrayLike | None) -> dict[str, Any]:
+    """Arguments of a start, each of which may be left out."""
+    return {name: None if value is None else array(name, value) for name, value in named.items()}
 
 
 def solve(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gravity: float, times: ArrayLike, gravity_gradient: float = 0.0,
@@ -99,12 +101,12 @@ def solve(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gravity
     Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError where
     a computation hits its cap, Cancelled where the monitor stopped it.
     """
-    wanted = None if periodic is None else (float(periodic["spin"]), float(periodic["cos_inclination"]))
+    if periodic is not None and not (isinstance(periodic, Mapping) and periodic.keys() == {"spin", "cos_inclination"}):
+        raise DomainError(f"periodic = {periodic}: give {{\"spin\": ..., \"cos_inclination\": ...}}")
+    wanted = None if periodic is None else (number("periodic.spin", periodic["spin"]), number("periodic.cos_inclination", periodic["cos_inclination"]))
     given: dict[str, Any] = {
-        "inertia": np.asarray(inertia, dtype=float), "mass": float(mass), "centre_of_mass": np.asarray(centre_of_mass, dtype=float),
-        "gravity": float(gravity), "gravity_gradient": float(gravity_gradient), "angular_velocity": _floats(angular_velocity),
-        "down": _floats(down), "attitude": _floats(attitude), "times": np.asarray(times, dtype=float), "tolerance": float(tolerance),
-        "model": model, "integrator": integrator,
+        **arrays(inertia=inertia, centre_of_mass=centre_of_mass, times=times), **_start(angular_velocity=angular_velocity, down=down, attitude=attitude),
+        **numbers(mass=mass, gravity=gravity, gravity_gradient=gravity_gradient, tolerance=tolerance), "model": model, "integrator": integrator,
     }
     made = _core.heavy_solve(**given, periodic=wanted, monitor=monitor, ask=asked("heavy", ask, attitude is not None))
     return answer_of("heavy", made, {**given, "ask": ask, "periodic": periodic if periodic is None else dict(periodic)})
@@ -122,10 +124,9 @@ def integrate(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gra
     went well, "cancelled" out of patience). Raises DomainError for an argument outside its domain and for a method that the build lacks.
     """
     made: dict[str, Any] = _core.heavy_integrate(
-        inertia=np.asarray(inertia, dtype=float), mass=float(mass), centre_of_mass=np.asarray(centre_of_mass, dtype=float),
-        gravity=float(gravity), gravity_gradient=float(gravity_gradient), angular_velocity=_floats(angular_velocity), down=_floats(down),
-        attitude=_floats(attitude), times=np.asarray(times, dtype=float), method=method, order=int(order), tolerance=float(tolerance),
-        precision=precision, patience=float(patience))
+        **arrays(inertia=inertia, centre_of_mass=centre_of_mass, times=times), **_start(angular_velocity=angular_velocity, down=down, attitude=attitude),
+        **numbers(mass=mass, gravity=gravity, gravity_gradient=gravity_gradient, tolerance=tolerance, patience=patience), method=method,
+        order=whole("order", order), precision=precision)
     return made
 
 
@@ -152,12 +153,14 @@ def series(*, inertia: ArrayLike, mass: ArrayLike, centre_of_mass: ArrayLike, gr
     of either sign [s]; order : even, from 2 to 30, or None: what the tolerance wants at the farthest time, or else the one of least error.
     Leading axes broadcast. Raises DomainError where a divisor vanishes, ConvergenceError where the terms do not fall, naming the row.
     """
-    if order is not None and order < 2:
+    terms = 0 if order is None else whole("order", order)
+    if order is not None and (terms % 2 or not 2 <= terms <= 30):
         raise DomainError(f"order = {order}: give an even number from 2 to 30")
+    if not (aim := number("tolerance", tolerance)) > 0:
+        raise DomainError(f"tolerance = {tolerance}: give a number > 0")
     lead, many, (r0, G0) = bodies({"inertia": inertia, "mass": mass, "centre_of_mass": centre_of_mass, "gravity": gravity,
                                    "gravity_gradient": gravity_gradient}, ("spin", spin, ()), ("cos_inclination", cos_inclination, ()))
-    made = _core.heavy_series(many, spin=r0, cos_inclination=G0, t=np.atleast_1d(np.asarray(t, dtype=float)), order=order or 0,
-                              tolerance=float(tolerance))
+    made = _core.heavy_series(many, spin=r0, cos_inclination=G0, t=np.atleast_1d(array("t", t)), order=terms, tolerance=aim)
     n, numbers = made["down"].shape[1], made["numbers"]
     return Series(**{name: shaped(made[name], lead, n, width) for name, width in (("angular_velocity", 3), ("down", 3), ("attitude", 4))},
                   order=shaped(numbers[:, 0].astype(np.int64), lead),
@@ -192,7 +195,7 @@ def exact(*, inertia: ArrayLike, mass: ArrayLike, centre_of_mass: ArrayLike, gra
                                      "gravity_gradient": gravity_gradient}, ("angular_velocity", angular_velocity, (3,)), (name, value, (width,)))
     q = given if down is None else np.tile([0.0, 0.0, 0.0, 1.0], (len(given), 1))
     d = given if down is not None else _down_of(given)
-    made = _core.heavy_exact(many, angular_velocity=w, down=d, attitude=q, t=np.atleast_1d(np.asarray(t, dtype=float)))
+    made = _core.heavy_exact(many, angular_velocity=w, down=d, attitude=q, t=np.atleast_1d(array("t", t)))
     n, numbers = made["down"].shape[1], made["numbers"]
     return Exact(case=_words(made["case"], lead), period=shaped(numbers[:, 0], lead),
                  **{name: shaped(made[name], lead, n, width) for name, width in (("angular_velocity", 3), ("down", 3), ("attitude", 4))},
@@ -232,7 +235,7 @@ def _orbits(made: Mapping[str, Any], lead: tuple[int, ...]) -> PeriodicOrbit:
     return PeriodicOrbit(
         angular_velocity=shaped(x[:, 0:3], lead, 3), down=shaped(x[:, 3:6], lead, 3),
         **{name: shaped(x[:, 6 + i], lead) for i, name in enumerate(("period", "period_error", "closure", "trace", "trace_error"))},
-        multipliers=shaped(x[:, 11:15:2] + 1j * x[:, 12:15:2], lead, 2),
+        multipliers=shaped(complexes(x[:, 11:15:2], x[:, 12:15:2]), lead, 2),
         verdict=_words(made["verdict"], lead), method=_words(made["method"], lead), why=_words(made["why"], lead))
 
 
@@ -266,8 +269,10 @@ def periodic_family(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLik
                            "gravity_gradient": gravity_gradient})
     if lead:
         raise DomainError(f"one body at a time: the arguments have the leading axes {lead}")
-    made = _core.heavy_periodic_family(one, first_spin=float(first_spin), cos_inclination=float(cos_inclination), last_spin=float(last_spin),
-                                       most_members=int(most_members))
+    if (members := whole("most_members", most_members)) < 1:
+        raise DomainError(f"most_members = {most_members}: give a whole number from 1 on")
+    made = _core.heavy_periodic_family(one, **numbers(first_spin=first_spin, cos_inclination=cos_inclination, last_spin=last_spin),
+                                       most_members=min(members, 2**31 - 1))
     return PeriodicFamily(_orbits(made, (len(made["verdict"]),)), np.array(made["folds"], dtype=np.int64), str(made["end"]))
 
 

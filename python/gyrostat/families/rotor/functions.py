@@ -19,7 +19,8 @@ from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask, asked
-from gyrostat.broadcast import Floats, rows, shaped
+from gyrostat.broadcast import Floats, array, arrays, complexes, numbers, rows, shaped, whole
+from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 
 __all__ = ["Monitor", "SteadyRotations", "assembled_inertia", "integrate", "solve", "steady_rotations"]
@@ -40,9 +41,10 @@ def assembled_inertia(*, carrier_inertia: ArrayLike, carrier_mass: float, rotor_
     Raises DomainError for what is not positive, and for axial_inertia > 2 equatorial_inertia, which no rotor has.
     """
     made: Floats = _core.rotor_assembly(
-        carrier_inertia=np.asarray(carrier_inertia, dtype=float), carrier_mass=float(carrier_mass), rotor_mass=float(rotor_mass),
-        axis=np.asarray(axis, dtype=float), axial_inertia=float(axial_inertia), equatorial_inertia=float(equatorial_inertia),
-        offset=np.asarray(offset, dtype=float))
+        **arrays(carrier_inertia=carrier_inertia, axis=axis, offset=offset),
+        **numbers(carrier_mass=carrier_mass, rotor_mass=rotor_mass, axial_inertia=axial_inertia, equatorial_inertia=equatorial_inertia))
+    if not np.all(np.isfinite(made)):
+        raise DomainError("the inertia of the whole is larger than a double: give smaller masses or a smaller offset")
     return made
 
 
@@ -61,10 +63,9 @@ def solve(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slope: f
     a computation hits its cap, Cancelled where the monitor stopped it.
     """
     given: dict[str, Any] = {
-        "inertia": np.asarray(inertia, dtype=float), "axis": np.asarray(axis, dtype=float), "axial_inertia": float(axial_inertia),
-        "slope": float(slope), "no_load_rate": float(no_load_rate), "angular_velocity": np.asarray(angular_velocity, dtype=float),
-        "rotor_rate": float(rotor_rate), "attitude": np.asarray(attitude, dtype=float), "times": np.asarray(times, dtype=float),
-        "tolerance": float(tolerance), "model": model, "integrator": integrator,
+        **arrays(inertia=inertia, axis=axis, angular_velocity=angular_velocity, attitude=attitude, times=times),
+        **numbers(axial_inertia=axial_inertia, slope=slope, no_load_rate=no_load_rate, rotor_rate=rotor_rate, tolerance=tolerance),
+        "model": model, "integrator": integrator,
     }
     return answer_of("rotor", _core.rotor_solve(**given, monitor=monitor, ask=asked("rotor", ask)), {**given, "ask": ask})
 
@@ -82,10 +83,9 @@ def integrate(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slop
     Raises DomainError for an argument outside its domain and for a method that the build lacks.
     """
     made: dict[str, Any] = _core.rotor_integrate(
-        inertia=np.asarray(inertia, dtype=float), axis=np.asarray(axis, dtype=float), axial_inertia=float(axial_inertia),
-        slope=float(slope), no_load_rate=float(no_load_rate), angular_velocity=np.asarray(angular_velocity, dtype=float),
-        rotor_rate=float(rotor_rate), attitude=np.asarray(attitude, dtype=float), times=np.asarray(times, dtype=float),
-        method=method, order=int(order), tolerance=float(tolerance), precision=precision, patience=float(patience))
+        **arrays(inertia=inertia, axis=axis, angular_velocity=angular_velocity, attitude=attitude, times=times),
+        **numbers(axial_inertia=axial_inertia, slope=slope, no_load_rate=no_load_rate, rotor_rate=rotor_rate, tolerance=tolerance, patience=patience),
+        method=method, order=whole("order", order), precision=precision)
     return made
 
 
@@ -119,8 +119,9 @@ def steady_rotations(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: Arra
     1e-8; axial_inertia : (...) lambda [kg m^2]; slope : (...) S >= 0 [N m s/rad]; no_load_rate : (...) omega* [rad/s]; momentum : (...) |H| >= 0 [N m s].
     Leading axes broadcast. Raises DomainError for what is not physical, naming the row.
     """
-    if np.ndim(inertia) == 1:
-        inertia = np.diag(np.asarray(inertia, dtype=float))
+    inertia = array("inertia", inertia)
+    if inertia.ndim == 1:
+        inertia = np.diag(inertia)
     lead, (theta, e, lam, S, rate, l) = rows([("inertia", inertia, (3, 3)), ("axis", axis, (3,)), ("axial_inertia", axial_inertia, ()),
                                               ("slope", slope, ()), ("no_load_rate", no_load_rate, ()), ("momentum", momentum, ())])
     made = _core.rotor_steady(inertia=theta, axis=e, axial_inertia=lam, slope=S, no_load_rate=rate, momentum=l)
@@ -132,7 +133,7 @@ def steady_rotations(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: Arra
         count=shaped(made["count"].astype(int), lead), continuum=words(CONTINUA, made["continuum"]), family=words(FAMILIES, made["family"]),
         direction=shaped(made["direction"], lead, 8, 3), type=words(TYPES, made["type"], 8), verdict=words(VERDICTS, made["verdict"], 8),
         isolated=shaped(made["isolated"] == 1, lead, 8),
-        eigenvalues=shaped(made["eigenvalues_real"] + 1j * made["eigenvalues_imaginary"], lead, 8, 3),
+        eigenvalues=shaped(complexes(made["eigenvalues_real"], made["eigenvalues_imaginary"]), lead, 8, 3),
         cubic=shaped(made["cubic"], lead, 8, 4),
         **{name: shaped(made[name], lead, 8) for name in ("spin_rate", "level", "decay_rate", "determinant", "best_slope", "best_rate",
                                                           "algebraic_rate")})

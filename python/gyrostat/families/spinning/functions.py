@@ -21,7 +21,7 @@ from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask, asked
-from gyrostat.broadcast import Floats, rows, shaped
+from gyrostat.broadcast import Floats, array, arrays, complexes, finite_rows, number, numbers, rows, shaped, whole
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 
@@ -44,8 +44,9 @@ def charge_momentum(*, charge: ArrayLike, flux_density: ArrayLike, arm: ArrayLik
     charge : e [C]; flux_density : H [T]; arm : l, from the mass centre along axis 3 [m]; angle : sigma, between axis 3 and the field,
     taken as constant [rad]. The Lorentz force on the moving charge is left out.
     """
-    lead, (e, H, l, sigma) = rows([("charge", charge, ()), ("flux_density", flux_density, ()), ("arm", arm, ()), ("angle", angle, ())])
-    made: Floats = shaped(e * H * l**2 * np.cos(sigma), lead)
+    lead, (e, H, l, sigma) = finite_rows([("charge", charge, ()), ("flux_density", flux_density, ()), ("arm", arm, ()), ("angle", angle, ())])
+    with np.errstate(over="ignore"):
+        made: Floats = shaped(e * H * l**2 * np.cos(sigma), lead)
     return made
 
 
@@ -82,9 +83,9 @@ def solve(*, inertia: ArrayLike, mass: float, torque: ArrayLike, force: ArrayLik
     """
     physics = {"inertia": inertia, "mass": mass, "rotor_momentum": rotor_momentum, "charge_momentum": charge_momentum, "torque": torque,
                "force": force, "angular_velocity": angular_velocity, "euler_312": euler_312, "velocity": velocity, "position": position}
-    solving: dict[str, Any] = {"times": np.asarray(times, dtype=float), "tolerance": float(tolerance), "model": model, "integrator": integrator}
+    solving: dict[str, Any] = {"times": array("times", times), **numbers(tolerance=tolerance), "model": model, "integrator": integrator}
     made = _core.spinning_solve(_single(physics), **solving, monitor=monitor, ask=asked("spinning", ask))
-    return answer_of("spinning", made, {**{name: np.asarray(value, dtype=float) for name, value in physics.items()}, **solving, "ask": ask})
+    return answer_of("spinning", made, {**arrays(**physics), **solving, "ask": ask})
 
 
 def integrate(*, inertia: ArrayLike, mass: float, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike, times: ArrayLike,
@@ -103,8 +104,8 @@ def integrate(*, inertia: ArrayLike, mass: float, torque: ArrayLike, force: Arra
     problem = _single({"inertia": inertia, "mass": mass, "rotor_momentum": rotor_momentum, "charge_momentum": charge_momentum,
                        "torque": torque, "force": force, "angular_velocity": angular_velocity, "euler_312": euler_312,
                        "velocity": velocity, "position": position})
-    made: dict[str, Any] = _core.spinning_integrate(problem, times=np.asarray(times, dtype=float), method=method, order=int(order),
-                                                    tolerance=float(tolerance), precision=precision, patience=float(patience))
+    made: dict[str, Any] = _core.spinning_integrate(problem, times=array("times", times), method=method, order=whole("order", order),
+                                                    **numbers(tolerance=tolerance, patience=patience), precision=precision)
     return made
 
 
@@ -138,7 +139,7 @@ def linear(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_v
     lead, many = problems({"inertia": inertia, "mass": mass, "rotor_momentum": rotor_momentum, "charge_momentum": charge_momentum,
                            "torque": torque, "force": force, "angular_velocity": angular_velocity, "euler_312": euler_312,
                            "velocity": velocity, "position": position})
-    made = _core.spinning_linear(many, np.atleast_1d(np.asarray(t, dtype=float)))
+    made = _core.spinning_linear(many, np.atleast_1d(array("t", t)))
     n = made["attitude"].shape[1]
     errors = made["error"]
     return Linear(attitude=shaped(made["attitude"], lead, n, 4),
@@ -176,26 +177,27 @@ def linear_grid(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angu
 
     step [s] of either sign, not 0; samples >= 1; the others as in `linear`. Good to rounding of the greatest value of each quantity.
     """
-    if not (np.isfinite(start) and np.isfinite(step) and step != 0):
+    first, by, n = number("start", start), number("step", step), whole("samples", samples)
+    if not (math.isfinite(first) and math.isfinite(by) and by != 0):
         raise DomainError(f"start = {start}, step = {step}: give finite numbers, and a step that is not 0")
-    if int(samples) != samples or not 1 <= samples <= 2**31:
+    if not 1 <= n <= 2**31:
         raise DomainError(f"samples = {samples}: give a whole number from 1 on")
     lead, many = problems({"inertia": inertia, "mass": mass, "rotor_momentum": rotor_momentum, "charge_momentum": charge_momentum,
                            "torque": torque, "force": force, "angular_velocity": angular_velocity, "euler_312": euler_312,
                            "velocity": velocity, "position": position})
-    made = _core.spinning_linear_grid(many, float(start), float(step), int(samples))
+    made = _core.spinning_linear_grid(many, first, by, n)
     names = ("p", "q", "psi", "phi", "theta", "G1", "G2", "G3", "v1", "v2", "v3", "x1", "x2", "x3")
-    t = start + step * np.arange(samples, dtype=np.float64)
-    return LinearGrid(t=t, **{name: shaped(made[i], lead, samples) for i, name in enumerate(names)})
+    t = first + by * np.arange(n, dtype=np.float64)
+    return LinearGrid(t=t, **{name: shaped(made[i], lead, n) for i, name in enumerate(names)})
 
 
 @dataclass(frozen=True, eq=False)
 class Pointing:
     """Where thrusting spinners point in the mean; arrays over the leading axes."""
 
-    error: Floats  # (...) |M|/|r0 X|, rad; infinite where r0 X = 0
-    secular_velocity_ratio: Floats  # (..., 2) limit of (v1, v2)/v3; NaN without force
-    mean_tilt: NDArray[np.complex128]  # (...) mean of e^(i theta) (psi + i phi), rad; axis 3 points to -i times it
+    error: Floats  # (...) |M|/|r0 X|, rad; infinite where r0 X = 0 and where there is no mean
+    secular_velocity_ratio: Floats  # (..., 2) limit of (v1, v2)/v3; NaN without force or mean
+    mean_tilt: NDArray[np.complex128]  # (...) mean of e^(i theta) (psi + i phi), rad; axis 3 points to -i times it; NaN where there is none
     nutation_frequency_squared: Floats  # (...) nu^2, 1/s^2
     unstable: NDArray[np.bool_]  # (...) nu^2 <= 0: there is no mean
     resonant: NDArray[np.bool_]  # (...) |r0| and nu are so near that the tilt grows over many turns
@@ -214,7 +216,7 @@ def pointing(*, inertia: ArrayLike, torque: ArrayLike, angular_velocity: ArrayLi
                            "velocity": ORIGIN, "position": ORIGIN})
     made = _core.spinning_pointing(many)
     return Pointing(error=shaped(made[:, 0], lead), secular_velocity_ratio=shaped(made[:, 1:3], lead, 2),
-                    mean_tilt=shaped(made[:, 3] + 1j * made[:, 4], lead), nutation_frequency_squared=shaped(made[:, 5], lead),
+                    mean_tilt=shaped(complexes(made[:, 3], made[:, 4]), lead), nutation_frequency_squared=shaped(made[:, 5], lead),
                     **{name: shaped(made[:, i] == 1, lead) for i, name in ((6, "unstable"), (7, "resonant"), (8, "compliant"))})
 
 
@@ -228,7 +230,8 @@ def _spin(spin_rate: ArrayLike) -> Floats:
 
 def pointing_error(*, inertia: ArrayLike, torque: ArrayLike, spin_rate: ArrayLike, rotor_momentum: ArrayLike = 0.0,
                    charge_momentum: ArrayLike = 0.0) -> Floats:
-    """(...) mean lean of the spin axis under the torque, |M|/|r0 X| [rad], X = D3 r0 + lambda3 - e_H; infinite where r0 X = 0.
+    """(...) mean lean of the spin axis under the torque, |M|/|r0 X| [rad], X = D3 r0 + lambda3 - e_H; infinite where r0 X = 0 and where the spin is
+    unstable (nu^2 <= 0), which has no mean.
 
     inertia, torque : (..., 3); spin_rate : (...) r0 [rad/s]; rotor_momentum, charge_momentum : (...). Leading axes broadcast.
     """
@@ -245,6 +248,6 @@ def nutation_frequency_squared(*, inertia: ArrayLike, spin_rate: ArrayLike, roto
 
 def secular_velocity_ratio(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_velocity: ArrayLike,
                            rotor_momentum: ArrayLike = 0.0, charge_momentum: ArrayLike = 0.0, euler_312: ArrayLike = ORIGIN) -> Floats:
-    """(..., 2) limit of (v1, v2)/v3 over many turns where the spin is stable; NaN without force. Arguments as in `pointing`."""
+    """(..., 2) limit of (v1, v2)/v3 over many turns where the spin is stable; NaN where it is not, and without force. Arguments as in `pointing`."""
     return pointing(inertia=inertia, torque=torque, force=force, angular_velocity=angular_velocity, rotor_momentum=rotor_momentum,
                     charge_momentum=charge_momentum, euler_312=euler_312).secular_velocity_ratio
