@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenes that once were answered with too small an error, and the truth that judges them (tests/outside_scenes.py)."""
 
+import math
 import sys
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +12,7 @@ import numpy as np
 import pytest
 from conftest import at_length
 from gyrostat import ConvergenceError, _core, deceleration
+from gyrostat.rotation import angle_between
 from gyrostat.scenes import load, scene_from
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -85,3 +88,52 @@ def test_what_fades_away_without_a_stop_is_followed_to_nothing() -> None:
     assert answer.met
     assert np.abs(answer["angular_momentum"][-1]).max() == 0
     assert np.isfinite(answer["attitude"]).all()
+
+
+@pytest.mark.parametrize("late", [1e-3, 1e-4, 1e-5, 1e-6])
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-7, 1e-9])
+def test_the_modulus_just_before_the_stop_is_not_passed_over_among_many_times(late: float, tolerance: float) -> None:
+    stop = 54.314118595490186
+    scene: dict[str, Any] = {
+        "name": "k", "kind": "deceleration", "body": {"inertia": [0.615446838173956, 0.6154468381421558, 0.5002065248352159]},
+        "torque": {"control": [0.03971640885118654, 0.007663537711882768, 0.018308738059524373], "drag": 0.0},
+        "initial": {"angular_velocity": [0.8507398871058677, 0.4823269831552629, 1.6341567343818035]}, "solve": {"times": [1.0], "ask": ["modulus_squared"]}}
+    before = stop * (1 - late)
+    many = gyrostat.solve(scene, times=[*np.linspace(0, 0.8 * stop, 130).tolist(), before, 1.5 * stop], tolerance=tolerance)
+    alone = gyrostat.solve(scene, times=[before], tolerance=1e-12)
+    assert abs(many["modulus_squared"][130] - alone["modulus_squared"][0]) <= many.error["modulus_squared"] + alone.error["modulus_squared"]
+
+
+def test_the_modulus_at_a_time_that_rounds_to_the_stop_is_not_known() -> None:
+    scene: dict[str, Any] = {
+        "name": "k", "kind": "deceleration", "body": {"inertia": [1.48122426957337, 1.479171308885466, 1.9502088860348656]}, "torque": {"control": [3.702786561639652] * 3, "drag": 0.0},
+        "initial": {"angular_velocity": [0.23330600220435588, -0.36752350008817214, -1.5923004403838803]}, "solve": {"times": [1.0], "ask": ["modulus_squared", "stop_time"]}}
+    stop = gyrostat.solve(scene).scalars["stop_time"]
+    for time in (stop, math.nextafter(stop, 0), math.nextafter(stop, 1)):
+        answer = gyrostat.solve(scene, times=[0.1, time], tolerance=1e-11)
+        assert answer.error["modulus_squared"] == 1 and not answer.met
+    assert gyrostat.solve(scene, times=[0.1, 2 * stop], tolerance=1e-11).error["modulus_squared"] < 1e-11
+
+
+def test_a_free_wheel_that_stands_askew_in_a_slim_body_is_as_a_tensor() -> None:
+    scene: dict[str, Any] = {
+        "name": "x", "kind": "free", "solve": {"times": [0.005150646220990405], "tolerance": 1e-11, "ask": ["attitude", "angular_velocity"]},
+        "body": {"inertia": [0.9561180327858178, 0.001099394786839237, 0.9561675335598919], "rotor_momentum": [-1.2769374008667869, -3.933165173651459, -0.1323063674700308]},
+        "initial": {"angular_velocity": [-440.8824253749065, -166.51551813665947, 404.6583914709524]},
+        "wheel": [{"axis": [0.6962528303381051, 0.047284534140958845, 0.7162375088455297], "axial_inertia": 2.868226515045867e-08, "rate": 1932335970.6397872, "type": "free"}]}
+    for change in np.linspace(0.99, 1.01, 21):
+        scene["wheel"][0]["rate"] = 1932335970.6397872 * change
+        quick, truth = gyrostat.solve(scene, model="closed-form"), gyrostat.solve(scene, model="full", tolerance=1e-14)
+        assert float(np.max(angle_between(quick["attitude"], truth["attitude"]))) <= quick.error["attitude"] + truth.error["attitude"]
+
+
+@pytest.mark.parametrize("size", [1e4, 1e6, 1e8])
+def test_wheels_whose_momenta_cancel_are_summed_up_to_their_last_digit(size: float) -> None:
+    scene: dict[str, Any] = {
+        "name": "C", "kind": "free", "solve": {"times": [20.0], "tolerance": 1e-11, "ask": ["attitude", "angular_velocity"]}, "body": {"inertia": [1.2, 1.1, 0.7], "rotor_momentum": [-0.3 * size, 0.0, 0.0]},
+        "initial": {"angular_velocity": [0.3, -0.2, 0.4]}, "wheel": [{"axis": [1.0, 0.0, 0.0], "axial_inertia": 0.001, "rate": 300.1 * size, "type": "held"}]}
+    full = gyrostat.solve(scene, model="full")
+    # exactly: the sum of the two momenta, of numbers that are doubles
+    momentum = float(Fraction(0.001) * Fraction(300.1 * size) - Fraction(0.3 * size))
+    alone = gyrostat.solve(scene, **{"wheel": [], "body.rotor_momentum": [momentum, 0.0, 0.0]}, model="closed-form", tolerance=1e-13)
+    assert np.linalg.norm(full["angular_velocity"] - alone["angular_velocity"]) / np.linalg.norm(alone["angular_velocity"]) <= full.error["angular_velocity"] + alone.error["angular_velocity"]

@@ -475,8 +475,7 @@ class FullMotion {
         return rounding_of_columns(problem_, size, 4 * eps + (1 + 6 * swell) * steps, rest * gyro);
       };
       const auto note = [&](std::size_t i, const ColumnErrors<Scalar>& error) noexcept {
-        if (i % options_.stride == 0 && i / options_.stride < options_.errors.size())
-          options_.errors[i / options_.stride] = error;
+        if (i / options_.stride < options_.errors.size()) options_.errors[i / options_.stride].raise(error);
       };
       const State<Scalar> start = state_of(problem_, problem_.momentum, attitude_);
       const State<Scalar> nowhere = state_of(problem_, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)),

@@ -17,7 +17,7 @@ namespace detail {
 /// The state of M, all but its attitude.
 GYROSTAT_COMPILED_ONCE State<double> state_on_orbit(const Problem<double>& problem, const Vec3<double>& M) noexcept;
 
-/// The modulus varies slowly: its error is looked at in about so many of the points.
+/// The modulus varies slowly: its error is looked at in about so many parts of the points, at the ends of each.
 inline constexpr std::size_t k2_looks = 64;
 constexpr std::size_t k2_stride(std::size_t points) noexcept { return 1 + points / k2_looks; }
 

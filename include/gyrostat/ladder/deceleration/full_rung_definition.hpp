@@ -24,18 +24,26 @@ GYROSTAT_COMPILED_ONCE State<double> state_on_orbit(const Problem<double>& probl
   return state;
 }
 
-/// Error of the modulus, where |M| and the energy are known to the track's errors, or to these at every k2_stride-th point, which tell of
-/// orbit_place, too.
+/// Error of the modulus, where |M| and the energy are known to the track's errors, or to these in each part of k2_stride points, which tell of
+/// orbit_place, too. It is greatest where |M| is least: at the begin of a part, if it grows, at its end, or just before the stop.
 inline double k2_error(const Track& track, const Problem<double>& problem,
                        std::span<const ColumnErrors<double>> errors) noexcept {
   double most = 0;
-  const std::size_t stride = k2_stride(track.states.size());
-  for (std::size_t i = 0; i < track.states.size(); i += stride) {
-    const State<double>& at = track.states[i];
+  const auto& states = track.states;
+  const std::size_t n = states.size(), stride = k2_stride(n);
+  std::size_t moving = n;  // states behind it are that of rest
+  while (moving > 1 && states[moving - 1].momentum == states[n - 1].momentum) --moving;
+  const auto look = [&](std::size_t i) noexcept {
     const ColumnErrors<double>& error = errors.empty() ? track.error : errors[i / stride];
     const double place = errors.empty() ? infinity<double> : error[column::modulus_squared];
-    most = std::max(most, k2_uncertainty(problem, at.momentum, {at.regime, at.k2}, error[column::angular_momentum_norm],
-                                         error[column::energy], place));
+    most = std::max(most, k2_uncertainty(problem, states[i].momentum, {states[i].regime, states[i].k2},
+                                         error[column::angular_momentum_norm], error[column::energy], place));
+  };
+  for (std::size_t first = 0; first < n; first += stride) {
+    const std::size_t last = std::min(first + stride, n) - 1;
+    look(first);
+    if (last > first) look(last);
+    if (moving > first && moving - 1 < last && moving - 1 > first) look(moving - 1);
   }
   return most;
 }
@@ -107,6 +115,10 @@ GYROSTAT_COMPILED_ONCE bool goes_to_stop(const Scene& scene) noexcept {
   if (scene.needs_stop()) return true;
   const auto& problem = scene.problem();
   const double longest = scene.opposed().norm() / scene.least_control();
+  // what the greatest control holds still is stiff to the end, where the least alone brakes, but in the plainest case
+  constexpr double stiff = 1e3;
+  if (scene.greatest_control() > stiff * scene.least_control() && (scene.has_rotor() || !problem.control.isDiagonal(0)))
+    return false;
   return (longest <= 20 * scene.question().times.back() && turned_angle(scene, true) <= unreachable_angle) ||
          longest * problem.inverse_inertia[2] * problem.momentum.norm() < 1e4;
 }

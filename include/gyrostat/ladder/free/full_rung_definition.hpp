@@ -13,7 +13,9 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   const Question& question = scene.question();
   const auto& times = question.times;
   const auto goal = scene.goal();
-  const Problem<double>& problem = scene.gyrostat().problem;
+  // the momenta of wheels may nearly cancel: their sum is rounded once
+  const Problem<double> problem =
+      scene.wheels() > 0 ? scene.precise().problem.cast<double>() : scene.gyrostat().problem;
   const double phase = turning_rate(scene.principal()) * times.back();
   if (phase_too_long(phase, goal.tightest)) return refused<Track>(Errc::step_limit, phase_lost);
   if (phase > (question.rung == any_rung ? vain_angle : unreachable_angle))

@@ -111,7 +111,7 @@ class MotionError {
     const auto& modulus = motion.modulus();
     const Vec3<Scalar>& J = motion.principal_moments();
     return modulus.kp2 > quick_modulus && !(motion.kind() == Kind::one_component && modulus.k2 < quick_least) &&
-           (assembly.body.inertia.isDiagonal(0) || std::min(J[0] - J[1], J[1] - J[2]) > quick_gap * J[0]);
+           (assembly.has_axes() || std::min(J[0] - J[1], J[1] - J[2]) > quick_gap * J[0]);
   }
 
   /// Of every time from 0 to t. Infinite where the data fix the phase to less than 0.05 rad only, and beyond the horizon.
@@ -239,7 +239,7 @@ class MotionError {
       const auto centre = MotionLanes::of(motion);
       if (!centre) return false;
       MotionLanes others;
-      const bool axes_given = assembly.body.inertia.isDiagonal(0);
+      const bool axes_given = assembly.has_axes();
       for (int k = 0; k <= detail::neighbours; ++k) {
         const bool is_given = k == detail::neighbours;
         const auto problem =
@@ -558,7 +558,7 @@ std::optional<MotionError<Scalar>> MotionError<Scalar>::quick(const Motion<Scala
   MotionError error;
   error.begin_quick(horizon);
   // principal axes found in Scalar are off by more than a rounding
-  const Scalar by = (assembly.body.inertia.isDiagonal(0) ? 1 : 2) * epsilon<Scalar>;
+  const Scalar by = (assembly.has_axes() ? 1 : 2) * epsilon<Scalar>;
   if (!in_lanes || !error.see_side_by_side(motion, assembly, by)) error.see_one_by_one(motion, assembly, by);
   const Mat3<Scalar> R_PB = motion.R_BP().transpose() / motion.angular_momentum_norm();
   const bool trusted = error.trust_quick(motion.principal_moments(), R_PB * motion.at(0).angular_momentum,
@@ -585,7 +585,7 @@ std::optional<MotionError<Scalar>> MotionError<Scalar>::of_precession(const Moti
   Scalar carried = assembly.body.rotor_momentum.norm();
   for (const auto& wheel : assembly.wheels)
     carried += wheel.axial_inertia * (abs(wheel.rate) + (wheel.turns_freely ? speed : Scalar(0)));
-  const bool axes_given = assembly.body.inertia.isDiagonal(0);
+  const bool axes_given = assembly.has_axes();
   const Scalar off = (axes_given ? 1 : 3) * epsilon<Scalar>;
   const Scalar terms = J[0] * speed + carried;
   // how far the axis may be off, and M along it: by that, and by what unequal moments make of it

@@ -101,7 +101,7 @@ class QuickLanes {
   bool judge(const Body& body, int b, const std::array<double, 3>& squares) noexcept;
 
   /// The axes of the data are principal.
-  static bool has_axes(const Body& body) noexcept { return body.assembly->body.inertia.isDiagonal(0); }
+  static bool has_axes(const Body& body) noexcept { return body.assembly->has_axes(); }
   Error::Figures figures(int k, int b) const noexcept {
     const MotionLanes& lanes = lanes_[group_of(k, b)];
     const int at = lane_of(k, b);

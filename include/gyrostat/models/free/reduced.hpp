@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -43,6 +44,15 @@ template <Real Scalar, class Room = Unbounded>
 struct Assembly {
   Problem<Scalar> body;
   typename Room::template List<Wheel<Scalar>> wheels;
+
+  /// Whether body axes are principal axes: no product of inertia, nor one that an oblique free wheel leaves.
+  bool has_axes() const noexcept {
+    const auto oblique = [](const Wheel<Scalar>& wheel) noexcept {
+      const auto& u = wheel.axis;
+      return wheel.turns_freely && (u[0] == Scalar(0)) + (u[1] == Scalar(0)) + (u[2] == Scalar(0)) < 2;
+    };
+    return body.inertia.isDiagonal(0) && std::none_of(wheels.begin(), wheels.end(), oblique);
+  }
 
   template <Real To>
   Assembly<To, Room> cast() const {
