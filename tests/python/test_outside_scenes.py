@@ -137,3 +137,33 @@ def test_wheels_whose_momenta_cancel_are_summed_up_to_their_last_digit(size: flo
     momentum = float(Fraction(0.001) * Fraction(300.1 * size) - Fraction(0.3 * size))
     alone = gyrostat.solve(scene, **{"wheel": [], "body.rotor_momentum": [momentum, 0.0, 0.0]}, model="closed-form", tolerance=1e-13)
     assert np.linalg.norm(full["angular_velocity"] - alone["angular_velocity"]) / np.linalg.norm(alone["angular_velocity"]) <= full.error["angular_velocity"] + alone.error["angular_velocity"]
+
+
+def test_general_scenes_whose_wheels_nearly_cancel_state_what_that_costs() -> None:
+    J, span = [0.041, 0.039, 0.02], 2e5
+    wheels = [{"type": "held", "axis": [0.0, 0.0, 1.0], "axial_inertia": 1e-5, "rate": 600.1}, {"type": "held", "axis": [0.0, 0.0, 1.0], "axial_inertia": 1.3e-5, "rate": -461.6}]
+    scene: dict[str, Any] = {"name": "x", "kind": "general", "body": {"inertia": J}, "initial": {"angular_velocity": [1e-5, 3e-5, -2e-5]}, "wheel": wheels,
+                             "solve": {"times": [span], "tolerance": 1e-12, "ask": ["attitude", "angular_velocity"]}}
+    momentum = float(Fraction(1e-5) * Fraction(600.1) - Fraction(1.3e-5) * Fraction(461.6))
+    truth = gyrostat.solve({**scene, "wheel": [], "body": {"inertia": J, "rotor_momentum": [0.0, 0.0, momentum]}}, model="free:closed-form", tolerance=1e-13)
+    for model in ("auto", "free:full", "free:closed-form", "full"):
+        answer = gyrostat.solve(scene, model=model)
+        assert float(angle_between(answer["attitude"], truth["attitude"])[0]) <= answer.error["attitude"]
+        assert np.linalg.norm(answer["angular_velocity"] - truth["angular_velocity"]) <= answer.error["angular_velocity"] * np.linalg.norm(truth["angular_velocity"])
+
+
+def test_a_body_that_turns_slowly_along_a_fast_wheel_states_what_rounding_turns_it_by() -> None:
+    scene: dict[str, Any] = {"name": "x", "kind": "general", "body": {"inertia": [0.041, 0.039, 0.02]}, "initial": {"angular_velocity": [0.0, -7.1e-5, 0.0]},
+                             "wheel": [{"type": "free", "axis": [0.0, 1.0, 0.0], "axial_inertia": 2e-5, "rate": 640.3}], "solve": {"times": [3e5], "tolerance": 1e-11, "ask": ["attitude"]}}
+    answer, half = gyrostat.solve(scene, model="full"), -7.1e-5 * 3e5 / 2
+    assert float(angle_between(answer["attitude"], [[0.0, math.sin(half), 0.0, math.cos(half)]])[0]) <= answer.error["attitude"]
+
+
+def test_a_held_wheel_that_steps_leaves_the_bodys_rate_a_difference_of_momenta() -> None:
+    table = {"times": [0.0, 100.0, 300.0], "values": [700.0, 700.001, 700.0], "interpolation": "step", "extend": "hold"}
+    scene: dict[str, Any] = {"name": "x", "kind": "general", "body": {"inertia": [0.041, 0.039, 0.02]}, "initial": {"angular_velocity": [0.0, -1e-6, 0.0]},
+                             "wheel": [{"type": "held", "axis": [0.0, 1.0, 0.0], "axial_inertia": 2e-5, "rate": table}], "solve": {"times": [50.0, 200.0, 1000.0], "tolerance": 1e-11, "ask": ["angular_velocity"]}}
+    answer = gyrostat.solve(scene, model="segments")
+    stepped = float(Fraction(-1e-6) - Fraction(2e-5) * (Fraction(700.001) - Fraction(700)) / Fraction(0.039))
+    off = np.abs(answer["angular_velocity"][:, 1] - [-1e-6, stepped, -1e-6]).max()
+    assert 0 < off <= answer.error["angular_velocity"] * max(answer.scale["angular_velocity"], 1.52e-6)

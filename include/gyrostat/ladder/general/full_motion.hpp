@@ -669,13 +669,16 @@ FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow
   // of w = J*^-1 (M - ...), from the start on
   const Scalar blur = epsilon<Scalar> * condition_of(wheels) * size[full_column::angular_velocity];
   FullErrors<Scalar> error;
-  error[full_column::attitude] = 4 * relative + blur * of.span;
+  // where w is a small difference of momenta, its rounding may stay the same for long
+  const Scalar drift =
+      fastest > 16 * size[full_column::angular_velocity] ? epsilon<Scalar> * fastest * of.span : Scalar(0);
+  error[full_column::attitude] = 4 * relative + blur * of.span + drift;
   error[full_column::angular_momentum] = 4 * relative * momenta;
   error[full_column::angular_velocity] = 2 * relative * fastest + 4 * blur;
   if (wheels.count > 0) {
     error[full_column::rotor_rate] = 4 * relative * size[full_column::rotor_rate];
     if (lightest < infinity<Scalar>) error[full_column::rotor_rate] += error[full_column::angular_velocity];
-    error[full_column::rotor_angle] = 4 * relative * size[full_column::rotor_angle];
+    error[full_column::rotor_angle] = 4 * relative * size[full_column::rotor_angle] + drift;
     // of the polynomial of one step, too
     if (of.sizes.turning > 0) error[full_column::rotor_angle] += error[full_column::rotor_rate] / of.sizes.turning;
   }

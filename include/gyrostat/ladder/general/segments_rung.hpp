@@ -40,8 +40,9 @@ using gyrostat::detail::enlist;
 /// The segments of a motion up to `span`; none where a law is not steady within one, or nothing changes, or too often.
 GYROSTAT_COMPILED_ONCE std::vector<Segment> segments_of(const Problem<double>& problem, double span);
 
-/// Sets the start of a segment to the end of the one before: the momentum stays, also where the rate at which a wheel is held has stepped.
-GYROSTAT_COMPILED_ONCE void begin_at(const State<double>& end, const Segment& before, Segment& next) noexcept;
+/// Sets the start of a segment to the end of the one before: the momentum stays, also where the rate at which a wheel is held has stepped. By how
+/// much the rate of the body may be off by that, rad/s: it is a difference of momenta then.
+GYROSTAT_COMPILED_ONCE double begin_at(const State<double>& end, const Segment& before, Segment& next) noexcept;
 
 /// The asked times in a segment, from `next` on, and its end, by its clock; the last of the whole is in the last one.
 GYROSTAT_COMPILED_ONCE std::vector<double> times_in(const Segment& segment, const std::vector<double>& asked,
@@ -84,7 +85,7 @@ class SegmentedMotion {
   /// Errc::ok, or why there is no motion.
   Errc run(Monitor* monitor, const char*& why) {
     for (std::size_t k = 0; k < segments_.size(); ++k) {
-      if (k > 0) begin_at(end_, segments_[k - 1], segments_[k]);
+      if (k > 0) error_.angular_velocity += begin_at(end_, segments_[k - 1], segments_[k]);
       if (const Errc wrong = solve_one(k, monitor, why); wrong != Errc::ok) return wrong;
     }
     return Errc::ok;

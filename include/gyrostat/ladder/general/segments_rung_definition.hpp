@@ -78,7 +78,7 @@ GYROSTAT_COMPILED_ONCE std::vector<Segment> segments_of(const Problem<double>& p
   return made;
 }
 
-GYROSTAT_COMPILED_ONCE void begin_at(const State<double>& end, const Segment& before, Segment& next) noexcept {
+GYROSTAT_COMPILED_ONCE double begin_at(const State<double>& end, const Segment& before, Segment& next) noexcept {
   auto& problem = next.problem;
   problem.attitude = end.attitude;
   problem.angular_velocity = end.angular_velocity;
@@ -90,12 +90,13 @@ GYROSTAT_COMPILED_ONCE void begin_at(const State<double>& end, const Segment& be
     if (turns_by_itself(wheel)) wheel.rate = end.rotor_rate[i];
     else stepped = stepped || wheel.rate != before.problem.wheels[i].rate;
   }
-  if (!stepped) return;
+  if (!stepped) return 0;
   const auto wheels = Wheels<double>::of(problem);
   problem.angular_velocity = wheels.inverse * (end.angular_momentum - wheels.momentum_of_wheels());
   for (std::size_t i = 0; i < problem.wheels.size(); ++i)
     if (auto& wheel = problem.wheels[i]; turns_by_itself(wheel))
       wheel.rate = wheels.laws[i].momentum / wheel.axial_inertia - wheel.axis.dot(problem.angular_velocity);
+  return 4 * epsilon<double> * (end.angular_momentum.norm() + momenta_of_wheels(problem)) * wheels.inverse.norm();
 }
 
 GYROSTAT_COMPILED_ONCE std::vector<double> times_in(const Segment& segment, const std::vector<double>& asked,

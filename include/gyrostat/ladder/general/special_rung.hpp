@@ -99,6 +99,9 @@ inline bool all_locked(const Wheels<double>& wheels) noexcept {
                      [](const auto& law) { return law.follows == Follows::body; });
 }
 
+/// What rounding of the momenta of wheels that nearly cancel does, whose sum alone the family has.
+GYROSTAT_COMPILED_ONCE void add_lost_digits(const Scene& scene, Track& track) noexcept;
+
 /// What gravity adds to the path of the mass centre of a free body.
 GYROSTAT_COMPILED_ONCE void fall(const Scene& scene, Track& track);
 
@@ -146,6 +149,7 @@ Track track_of(const Scene& scene, Special special, int rung, const std::optiona
     complete_wheels(scene, track, special == Special::rotor ? Spinners::of(scene.wheels()).driven : -1);
   complete_path(scene, track);
   if (!scene.problem().fixed) fall(scene, track);
+  if (special != Special::free) add_lost_digits(scene, track);
   for (const Warning& warning : answer.warnings)
     if (warning.kind != &no_value) track.warnings.push_back(warning);
   if (const Quantity* stop = answer.quantity("stop_time"))

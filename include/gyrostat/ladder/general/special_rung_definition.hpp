@@ -95,6 +95,27 @@ GYROSTAT_COMPILED_ONCE void complete_wheels(const Scene& scene, Track& track, in
   angle += freely > 0 ? nan<double> : rounding * times.back();
 }
 
+GYROSTAT_COMPILED_ONCE void add_lost_digits(const Scene& scene, Track& track) noexcept {
+  constexpr double much = 4;
+  const auto& wheels = scene.wheels();
+  const double whole = momenta_of_wheels(scene.problem());
+  if (!(whole > much * Spinners::of(wheels).kept.norm())) return;
+  double w = 0, M = 0, v = 0, x = 0;
+  for (const auto& s : track.states) {
+    w = std::max(w, s.angular_velocity.norm()), M = std::max(M, s.angular_momentum.norm());
+    v = std::max(v, s.velocity.norm()), x = std::max(x, s.position.norm());
+  }
+  const double off = 4 * epsilon<double> * whole, rate = off * wheels.inverse.norm();
+  const double turned = rate * scene.question().times.back();
+  track.off[primitive::attitude] += turned;
+  track.off[primitive::angular_velocity] += rate + turned * w;
+  track.off[primitive::angular_momentum] += off + turned * M;
+  track.off[primitive::rotor_rate] += std::sqrt(double(wheels.count)) * (rate + turned * w);
+  track.off[primitive::rotor_angle] += std::sqrt(double(wheels.count)) * turned;
+  track.off[primitive::velocity] += turned * v;
+  track.off[primitive::position] += turned * x;
+}
+
 GYROSTAT_COMPILED_ONCE void fall(const Scene& scene, Track& track) {
   const auto& times = scene.question().times;
   const Vec3<double> g = scene.problem().field.gravity * scene.problem().field.down;

@@ -83,7 +83,8 @@ class Writer {
       case column::velocity: return off[primitive::velocity];
       case column::position: return off[primitive::position];
       case column::down: return turning + 4 * epsilon<double>;
-      case column::attitude_orbit: return turning + 8 * epsilon<double> * (1 + orbit_phase());
+      case column::attitude_orbit:
+        return turning + 8 * epsilon<double> * (1 / (1 - scene_.problem().orbit->eccentricity) + orbit_phase());
       case column::euler: return euler_off(turning + 4 * epsilon<double>);
       default: return torque_off();
     }
@@ -143,7 +144,8 @@ class Writer {
     const auto& times = scene_.question().times;
     // what turns over, as a brake where what it opposes nearly vanishes, or acts for a while would not show at some of the times
     const auto& torques = scene_.problem().torques;
-    const bool changes = scene_.breaks() > 0 || scene_.own_torque().any() ||
+    const auto& orbit = scene_.problem().orbit;  // far out what falls with distance is small
+    const bool changes = scene_.breaks() > 0 || scene_.own_torque().any() || (orbit && orbit->eccentricity > 0) ||
                          std::any_of(torques.begin(), torques.end(), [](const auto& torque) {
                            return torque.type == TorqueType::brake || torque.factor.amplitude != 0;
                          });

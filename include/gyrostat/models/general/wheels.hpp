@@ -190,6 +190,16 @@ Scalar realisability(const Problem<Scalar>& problem) noexcept {
   return gyrostat::realisability<Scalar>(problem.inertia, known);
 }
 
+/// What the momenta of wheels would be together if none cancelled another at t = 0, N m s.
+template <Real Scalar>
+Scalar momenta_of_wheels(const Problem<Scalar>& problem) noexcept {
+  Scalar sum = problem.rotor_momentum.norm();
+  for (const Wheel<Scalar>& wheel : problem.wheels)
+    if (wheel.type != WheelType::locked)
+      sum += wheel.axial_inertia * (std::abs(wheel.rate) + std::abs(wheel.axis.dot(problem.angular_velocity)));
+  return sum;
+}
+
 template <Real Scalar>
 Wheels<Scalar> Wheels<Scalar>::of(const Problem<Scalar>& problem) noexcept {
   Wheels made;
