@@ -150,7 +150,7 @@ class Place:
         """What would be allowed in the place of a value that is outside."""
         if not math.isfinite(value):
             return f"{self.key} is not finite"
-        return f"{self.key} is over {self.field.high:g}" if value > self.field.high else f"{self.key} is not {interval(self.field)}"
+        return f"{self.key} is over {self.field.high:g}" if value > self.field.high else f"{self.key} is not {interval(self.field) or f'>= {self.field.low:g}'}"
 
     @property
     def _is_free(self) -> bool:

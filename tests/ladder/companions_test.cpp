@@ -175,6 +175,38 @@ TEST_CASE("what is off at the end of a step and gone in the next is seen, of how
   }
 }
 
+TEST_CASE("what is off just behind the end of a step and gone soon after is seen", "[ladder]") {
+  const Function swells = [](double t) { return 1 + (t > 4.2005 && t < 4.2025 ? 0x1p-20 : 0); };  // six steps of 0.7
+  Run course{swells, 0.7}, companion{still, 0.5};
+  std::vector<double> times, states(6400);
+  for (int i = 1; i <= 6400; ++i) times.push_back(i / 640.0);
+  const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
+                                MotionOptions<double>{}, 0, 1, not_noted);
+  CHECK(walk.error[0] == Approx(margin * 0x1p-20).epsilon(1e-9));
+}
+
+TEST_CASE("a companion steps shorter than the answer, whatever its own tolerance would let it", "[ladder]") {
+  for (const double own : {0.3, 0.7, 5.0}) {
+    double longest = 0;
+    struct Measured : Run {
+      double* longest;
+      ode::Status step(double t_max) {
+        const double before = now;
+        const auto status = Run::step(t_max);
+        *longest = std::max(*longest, now - before);
+        return status;
+      }
+    };
+    double of_answer = 0;
+    Measured course{{still, 0.7}, &of_answer}, companion{{still, own}, &longest};
+    std::vector<double> times{70}, states(1);
+    (void)walk_beside(PairWriter{}, Runs<Measured>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
+                      MotionOptions<double>{}, 0, 1, not_noted);
+    CHECK(of_answer == Approx(0.7));
+    CHECK(longest == Approx(std::min(own, honesty::companion_stride * 0.7)));
+  }
+}
+
 TEST_CASE("what is off inside the first step and not at its end is seen, of however many times", "[ladder]") {
   const Function bulges = [](double t) { return 1 + (t < 0.004 ? 0x1p-20 : 0); };
   Run course{still, 0.7}, companion{bulges, 0.5};

@@ -240,6 +240,8 @@ def test_a_study_that_is_none_is_refused(study: Callable[[], Any], why: str) -> 
 def test_a_value_over_the_bound_is_told_so() -> None:
     rows = sweep("tiangong-1", {"torque.drag": [1e70, -1.0]}, times=[0.0, 10.0], threads=1)
     assert rows.reason.values.tolist() == ["torque.drag is over 1e+60", "torque.drag is not >= 0"]
+    rows = sweep("two-attractors", {"motor.no_load_rate": [-1e70]}, times=[0.0, 10.0], threads=1)
+    assert rows.reason.values.tolist() == ["motor.no_load_rate is not >= -1e+60"]
 
 
 def test_a_shard_of_a_huge_grid_is_made_of_its_own_values() -> None:

@@ -167,3 +167,13 @@ def test_a_held_wheel_that_steps_leaves_the_bodys_rate_a_difference_of_momenta()
     stepped = float(Fraction(-1e-6) - Fraction(2e-5) * (Fraction(700.001) - Fraction(700)) / Fraction(0.039))
     off = np.abs(answer["angular_velocity"][:, 1] - [-1e-6, stepped, -1e-6]).max()
     assert 0 < off <= answer.error["angular_velocity"] * max(answer.scale["angular_velocity"], 1.52e-6)
+
+
+def test_a_wheel_that_a_motor_drives_costs_no_digits_where_nothing_cancels() -> None:
+    """The same scene of its family and as a general one states the same."""
+    scene: dict[str, Any] = {"name": "r", "body": {"inertia": [5.0, 6.0, 7.0]}, "solve": {"times": [1000.0], "tolerance": 1e-11, "ask": ["attitude", "angular_velocity"]}}
+    rotor = gyrostat.solve({**scene, "kind": "rotor", "rotor": {"axis": [0.0, 0.0, 1.0], "axial_inertia": 0.1}, "motor": {"slope": 0.001, "no_load_rate": 80.0},
+                            "initial": {"angular_velocity": [0.1, 0.2, -0.3], "rotor_rate": 50.0}}, model="full")
+    wheel = {"type": "motor", "axis": [0.0, 0.0, 1.0], "axial_inertia": 0.1, "rate": 50.0, "slope": 0.001, "no_load_rate": 80.0}
+    general = gyrostat.solve({**scene, "kind": "general", "initial": {"angular_velocity": [0.1, 0.2, -0.3]}, "wheel": [wheel]}, model="rotor:full")
+    assert rotor.met and general.met and general.error["attitude"] == rotor.error["attitude"]

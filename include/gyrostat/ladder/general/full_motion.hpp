@@ -669,9 +669,10 @@ FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow
   // of w = J*^-1 (M - ...), from the start on
   const Scalar blur = epsilon<Scalar> * condition_of(wheels) * size[full_column::angular_velocity];
   FullErrors<Scalar> error;
+  constexpr Scalar small = 1 / Scalar(16);
   // where w is a small difference of momenta, its rounding may stay the same for long
   const Scalar drift =
-      fastest > 16 * size[full_column::angular_velocity] ? epsilon<Scalar> * fastest * of.span : Scalar(0);
+      size[full_column::angular_velocity] < small * fastest ? epsilon<Scalar> * fastest * of.span : Scalar(0);
   error[full_column::attitude] = 4 * relative + blur * of.span + drift;
   error[full_column::angular_momentum] = 4 * relative * momenta;
   error[full_column::angular_velocity] = 2 * relative * fastest + 4 * blur;

@@ -96,10 +96,10 @@ GYROSTAT_COMPILED_ONCE void complete_wheels(const Scene& scene, Track& track, in
 }
 
 GYROSTAT_COMPILED_ONCE void add_lost_digits(const Scene& scene, Track& track) noexcept {
-  constexpr double much = 4;
+  constexpr double much = 4;  // less than that the family's own errors hold
   const auto& wheels = scene.wheels();
   const double whole = momenta_of_wheels(scene.problem());
-  if (!(whole > much * Spinners::of(wheels).kept.norm())) return;
+  if (!(whole > much * wheels.momentum_of_wheels().norm())) return;
   double w = 0, M = 0, v = 0, x = 0;
   for (const auto& s : track.states) {
     w = std::max(w, s.angular_velocity.norm()), M = std::max(M, s.angular_momentum.norm());

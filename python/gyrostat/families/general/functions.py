@@ -20,7 +20,7 @@ from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask, asked
-from gyrostat.broadcast import Floats, array, arrays, number, numbers, record, whole
+from gyrostat.broadcast import Floats, array, number, numbers, record, whole
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 from gyrostat.families.general.clock import orbit_since, since
