@@ -110,6 +110,7 @@ GYROSTAT_COMPILED_ONCE void add_lost_digits(const Scene& scene, Track& track) no
   track.off[primitive::attitude] += turned;
   track.off[primitive::angular_velocity] += rate + turned * w;
   track.off[primitive::angular_momentum] += off + turned * M;
+  track.norm.off += off, track.energy.off += w * off;
   track.off[primitive::rotor_rate] += std::sqrt(double(wheels.count)) * (rate + turned * w);
   track.off[primitive::rotor_angle] += std::sqrt(double(wheels.count)) * turned;
   track.off[primitive::velocity] += turned * v;
