@@ -55,11 +55,17 @@ def new_figure(width: float, height: float) -> "Figure":
 
 
 def as_written(figure: "Figure") -> "Figure":
-    """The figure, in whose text a dollar is a dollar: names of scenes are no formulas."""
+    """The figure, in whose text a dollar is a dollar: names of scenes are no formulas, powers of ten beside an axis are."""
     from matplotlib.text import Text
+    from matplotlib.ticker import LogFormatter, ScalarFormatter
 
+    numbers: set[Text] = set()
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            if isinstance(axis.get_major_formatter(), (LogFormatter, ScalarFormatter)):
+                numbers.update((*axis.get_ticklabels(which="both"), axis.get_offset_text()))
     for text in figure.findobj(Text):
-        text.set_parse_math(False)
+        text.set_parse_math(text in numbers)
     return figure
 
 

@@ -158,6 +158,40 @@ TEST_CASE("heavy exact rung: where the bound misses what is asked neighbours tel
   CHECK(sharper > 200);
 }
 
+TEST_CASE(
+    "heavy exact rung: neighbours of a pendulum are compared where it passes its lowest place, not where it all but "
+    "rests",
+    "[heavy]") {
+  using Long = long double;
+  const V inertia(0.45355331273386273, 0.4, 0.45355331273386273), centre(0, 1.0065992989507713, 0.298398628204535);
+  const double mass = 0.14716373210160236;
+  const auto body = Body::make(inertia.asDiagonal(), mass, centre, 9.80665, 0);
+  REQUIRE(body);
+  State<double> from;
+  from.angular_velocity = {-0.0003587512102505113, 0, 0};
+  from.down = {0, -0.9588157398272741, -0.28402883138772567};
+  Question question;
+  question.tolerance = 1e-7;
+  for (int i = 0; i <= 37; ++i) question.times.push_back(29.474334205841032 * i);
+  const auto scene = Scene::make(*body, {from}, question);
+  REQUIRE(scene);
+  const auto told = exact_track(*scene, nullptr);
+  REQUIRE(told.failure == Errc::ok);
+  const auto longer = Problem<Long>::make(inertia.cast<Long>(), Long(mass), centre.cast<Long>(), Long(9.80665), 0);
+  REQUIRE(longer);
+  const Exact<Long> truth(*longer, {from.angular_velocity.cast<Long>(), from.down.cast<Long>(), {}});
+  Comparison apart(Row<double>{});
+  for (std::size_t i = 0; i < question.times.size(); ++i) {
+    const auto right = truth.at(Long(question.times[i]));
+    apart.add(told.states[i],
+              {right.angular_velocity.cast<double>(), right.down.cast<double>(), told.states[i].attitude});
+  }
+  const auto off = apart.relative(apart.difference());
+  CHECK(off[column::down] > 1e-7);
+  CHECK(off[column::down] <= told.error[column::down]);
+  CHECK(off[column::angular_velocity] <= told.error[column::angular_velocity]);
+}
+
 TEST_CASE("heavy exact rung: in the caller's axes", "[heavy]") {
   const Mat3<double> R = to_matrix(normalised(Quat<double>{0.9, 0.2, -0.1, 0.05}));
   const auto from = start({1, 2, 30}, {0.5, 0.1, -0.7, 0.3});

@@ -138,6 +138,45 @@ TEST_CASE("heavy: the estimate follows the growth of errors next to an unstable 
   }
 }
 
+TEST_CASE("heavy: next to a steady rotation that the weight makes unstable no companion lies near by chance",
+          "[heavy]") {
+  struct Case {
+    Vec3<double> inertia, centre, rate, down;
+    double end;
+  };
+  const Case cases[] = {{{0.4723347891518149, 0.7336284533058418, 0.8703335112571293},
+                         {0, 0, -0.28966779731294234},
+                         {5.291582598977839e-9, 3.057052192679298e-8, -1.714281507131344},
+                         {0, 0, 1},
+                         35.61},
+                        {{0.43943612903003065, 0.6974870124461867, 0.8973235966165313},
+                         {0, 0, 0.24474453255368445},
+                         {-8.243996216252782e-8, -8.049137596095607e-8, 1.964183754368513},
+                         {0, 0, -1},
+                         177.12},
+                        {{0.5287348293411975, 0.7651353459977667, 1.0698717513192018},
+                         {0.0480002820146792, 0.056191647205059765, 0.23399983660614934},
+                         {-0.17857050577432254, -0.1951500050506159, -0.748534183455418},
+                         {-0.2249287159048317, -0.24581237451654736, -0.9428591354470403},
+                         8.88},
+                        {{0.46903442290131114, 0.626692809351128, 0.954802802803002},
+                         {-0.019514834958424137, 0.00799487837284808, -0.18754083515626496},
+                         {-0.8669716098736369, 0.15260652685281992, -1.636872411093925},
+                         {0.4664725533080872, -0.08210969745867455, 0.8807163871493926},
+                         18.54350541174087}};
+  for (const auto& c : cases) {
+    const auto p = Problem<double>::make(c.inertia, 1, c.centre, 9.80665, 0).value();
+    State<double> s;
+    s.angular_velocity = c.rate, s.down = c.down.normalized();
+    for (const double tolerance : {1e-2, 1e-4, 1e-5, 1e-6, 1e-7}) {
+      CAPTURE(c.end, tolerance);
+      const std::vector<double> times{c.end};
+      const auto solved = solve(p, s, times, tolerance);
+      check_within(true_errors(p, s, times, solved, false), solved.answer.error);
+    }
+  }
+}
+
 TEST_CASE("heavy: down and attitude belong together", "[heavy]") {
   Tops random(5);
   for (int i = 0; i < 8; ++i) {

@@ -183,6 +183,33 @@ TEST_CASE("lagrange top: next to the separatrix the bound grows as the motion do
     }
 }
 
+TEST_CASE(
+    "lagrange top: kicked from the vertical with what all but takes it to the other pole, it stays in the plane of the "
+    "kick",
+    "[heavy]") {
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> any(0, 1);
+  for (int i = 0; i < 120; ++i) {
+    const double z0 = (i % 2 == 0 ? 1 : -1) * (0.02 + 0.03 * any(random));
+    const auto body = top_body(0.002, 0.001 + 0.0005 * any(random), z0);
+    const double off = i % 3 == 0 ? 0 : (i % 3 == 1 ? 1 : -1) * std::pow(10, -4 - 12 * any(random));
+    const double rate = 2 * std::sqrt(body.moment().norm() / 0.002) * (1 + off), way = 6 * any(random);
+    const V kick(std::cos(way), std::sin(way), 0);
+    const auto start = start_at(rate * kick, leaning(z0 > 0 ? pi<double> : 0));
+    const auto motion = top(body, start);
+    CAPTURE(i, z0, off, way);
+    for (const double t : {0.01, 0.1, 0.4}) {
+      const auto now = motion.at(t);
+      const V& w = now.angular_velocity;
+      CHECK(V(w - w.dot(kick) * kick).norm() <= motion.error(t).angular_velocity + 1e-13 * rate);
+      CHECK(w.dot(kick) > 0);
+    }
+    const auto d = worst(body, start, {0.005, 0.05});
+    CHECK(d.angular_velocity <= motion.error(0.05).angular_velocity);
+    CHECK(d.down <= motion.error(0.05).down);
+  }
+}
+
 TEST_CASE("lagrange top: what it does", "[heavy]") {
   const auto body = top_body(0.002, 0.001, 0.04);
   CHECK(top(body, start_at({0, 0, 150}, {1, 0, 0, 0})).motion() == AxisMotion::sleeping);

@@ -119,6 +119,27 @@ TEST_CASE("heavy pendulum: separatrix, rest and small swings", "[heavy]") {
   CHECK(standing->motion() == PendulumMotion::rest);
 }
 
+TEST_CASE("heavy pendulum: what swings the other way is the mirror image, to the bit", "[heavy]") {
+  const auto problem = lined(2, 9.8, 0, 0);
+  const double c = problem.pendulum_rate();
+  for (const double share : {0.3, 1 - 1e-9, 1.0, 1 + 1e-9, 1.7}) {
+    State<double> one;
+    one.down = problem.moment().normalized();
+    State<double> other = one;
+    one.angular_velocity = {0, 0, 2 * c * share}, other.angular_velocity = {0, 0, -2 * c * share};
+    const auto forth = Pendulum<double>::make(problem, one), back = Pendulum<double>::make(problem, other);
+    REQUIRE(forth);
+    REQUIRE(back);
+    const auto across = Vec3<double>(0, 0, 1).cross(one.down);
+    for (const double t : {0.05, 0.7, 3.0, 20.0}) {
+      CAPTURE(share, t);
+      const auto a = forth->at(t), b = back->at(t);
+      CHECK(a.angular_velocity[2] == -b.angular_velocity[2]);
+      CHECK(std::abs(a.down.dot(across) + b.down.dot(across)) < 1e-15);
+    }
+  }
+}
+
 TEST_CASE("heavy pendulum: nudged or tilted from upright by less than a rounding, it falls when it does", "[heavy]") {
   const auto made = Problem<double>::make({0.6, 1.0, 1.2}, 1, {0, 0, 0.3}, 9.8, 0);
   REQUIRE(made);

@@ -198,6 +198,31 @@ TEST_CASE("a body or a start a little off the family: the bound grows with the d
   CHECK(finite > 120);
 }
 
+TEST_CASE("a start a little off a steady rotation: the bound knows in which direction", "[rotor]") {
+  Bodies bodies(12);
+  std::vector<double> attitude, rate;
+  for (int i = 0; i < 120; ++i) {
+    Start start = member(Kind::steady, bodies);
+    const double size = bodies.scale(1e-10, 1e-7);
+    start.Omega += size * bodies.direction();
+    start.omega += size * bodies.uniform(-1, 1);
+    if (ClosedForm<double>(start.body, start.state()).kind() != Kind::steady) continue;
+    CAPTURE(i, size);
+    const auto m = measure(start, times(bodies.scale(1, 100)));
+    check_honest(m);
+    if (!(m.bound.attitude < infinity<double>)) continue;
+    attitude.push_back(m.bound.attitude / m.error.attitude);
+    rate.push_back(m.bound.rotor_rate / m.error.rotor_rate);
+  }
+  CHECK(attitude.size() > 60);
+  const auto median = [](std::vector<double>& of) {
+    std::nth_element(of.begin(), of.begin() + std::ptrdiff_t(of.size() / 2), of.end());
+    return of[of.size() / 2];
+  };
+  CHECK(median(attitude) < 12);
+  CHECK(median(rate) < 12);
+}
+
 TEST_CASE("circular section: through, into, and on the border between the two", "[rotor]") {
   // j = (0.5, 0.35, 0.25): n.J v/|n| = sqrt(0.15 0.1)
   const double j1 = 0.5, j2 = 0.35, j3 = 0.25, b = std::sqrt((j1 - j2) * (j2 - j3));

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/comparison.hpp"
@@ -33,17 +34,28 @@ inline constexpr const char* undecided_axes =
 GYROSTAT_COMPILED_ONCE State<double> off_start(const State<double>& of, int which, int k,
                                                double by = conversion) noexcept;
 
-/// Error of an exact motion up to a time, s, with that of conversions: the distance to the exact motions of two bodies and starts that
+/// Times, s, increasing, at which motions that should agree up to the last of the asked ones are compared: evenly, and of the asked ones in each of 32 parts of
+/// them that at which the body turns fastest: what is late shows there. states: those at the asked times.
+GYROSTAT_COMPILED_ONCE std::vector<double> times_to_compare(std::span<const double> times,
+                                                            std::span<const State<double>> states);
+
+inline std::vector<State<double>> states_at(const Exact<double>& exact, std::span<const double> times) {
+  std::vector<State<double>> made;
+  made.reserve(times.size());
+  for (const double t : times) made.push_back(exact.at(t));
+  return made;
+}
+
+/// Error of an exact motion up to the last of these times, s, with that of conversions: the distance to the exact motions of two bodies and starts that
 /// are off by what they err, these motions' own errors, and what keeps them from being exact: a top that is not quite symmetric, a pendulum
 /// off its plane. start_of(body) is the start for such a body.
 template <class StartOf>
 ExactError<double> conversion_error(const Problem<double>& problem, bool converted, const Exact<double>& exact,
-                                    double end, const StartOf& start_of) {
+                                    std::span<const double> times, const StartOf& start_of) {
   constexpr double open = infinity<double>;
-  constexpr int looks = 8;
+  const double end = times.back();
   ExactError<double> worst = exact.error(end);
-  std::array<State<double>, looks + 1> seen;
-  for (int i = 0; i <= looks; ++i) seen[std::size_t(i)] = exact.at(end * i / looks);
+  const std::vector<State<double>> seen = states_at(exact, times);
   Comparison apart(Row<double>{});
   for (const int which : {0, 1}) {
     const Problem<double> body = converted ? off_body(problem, which) : problem;
@@ -52,7 +64,7 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
     const Exact<double> other(body, *start);
     if (other.which() != exact.which()) return {open, open, open};
     worst = worst.most(other.error(end));
-    for (int i = 0; i <= looks; ++i) apart.add(seen[std::size_t(i)], other.at(end * i / looks));
+    for (std::size_t i = 0; i < times.size(); ++i) apart.add(seen[i], other.at(times[i]));
   }
   const auto& off = apart.difference();
   constexpr double margin = honesty::neighbours_margin;
@@ -73,11 +85,12 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
 GYROSTAT_COMPILED_ONCE Exact<double> rounded_otherwise(const Problem<double>& problem, const State<double>& start,
                                                        bool converted, int axis, int which) noexcept;
 
-/// What rounding of the data and of the arithmetic makes of an exact motion up to a time, s, by the motions of four such neighbours: sharper than its
+/// What rounding of the data and of the arithmetic makes of an exact motion at these times, s, by the motions of four such neighbours: sharper than its
 /// bound, which takes all roundings to add up. Of bodies that nothing converted. axis: that of a pendulum, else -1.
 GYROSTAT_COMPILED_ONCE ExactError<double> error_by_neighbours(const Problem<double>& problem,
                                                               const State<double>& start, bool converted, int axis,
-                                                              const Exact<double>& exact, double end) noexcept;
+                                                              const Exact<double>& exact,
+                                                              std::span<const double> times) noexcept;
 
 }  // namespace gyrostat::heavy
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -47,6 +46,23 @@ GYROSTAT_COMPILED_ONCE State<double> off_start(const State<double>& of, int whic
   return made;
 }
 
+GYROSTAT_COMPILED_ONCE std::vector<double> times_to_compare(std::span<const double> times,
+                                                            std::span<const State<double>> states) {
+  constexpr std::size_t evenly = 8, parts = 32;
+  std::vector<double> made;
+  for (std::size_t i = 0; i <= evenly; ++i) made.push_back(times.back() * double(i) / double(evenly));
+  const std::size_t n = times.size(), count = std::min(n, parts);
+  const auto rate = [&](std::size_t i) noexcept { return states[i].angular_velocity.squaredNorm(); };
+  for (std::size_t part = 0; part < count; ++part) {
+    std::size_t fastest = part * n / count;
+    for (std::size_t i = fastest; i < (part + 1) * n / count; ++i)
+      if (rate(i) > rate(fastest)) fastest = i;
+    made.push_back(times[fastest]);
+  }
+  std::sort(made.begin(), made.end());
+  return made;
+}
+
 GYROSTAT_COMPILED_ONCE Exact<double> rounded_otherwise(const Problem<double>& problem, const State<double>& start,
                                                        bool converted, int axis, int which) noexcept {
   constexpr double shares[] = {0.9, -0.6, 0.7, -0.8, 0.5, -0.7, 0.8, -0.9, 0.6, -0.5, 1.0};
@@ -71,17 +87,17 @@ GYROSTAT_COMPILED_ONCE Exact<double> rounded_otherwise(const Problem<double>& pr
 
 GYROSTAT_COMPILED_ONCE ExactError<double> error_by_neighbours(const Problem<double>& problem,
                                                               const State<double>& start, bool converted, int axis,
-                                                              const Exact<double>& exact, double end) noexcept {
+                                                              const Exact<double>& exact,
+                                                              std::span<const double> times) noexcept {
   constexpr double open = infinity<double>;
-  constexpr int looks = 8, neighbours = 4;
-  std::array<State<double>, looks + 1> seen;
-  for (int i = 0; i <= looks; ++i) seen[std::size_t(i)] = exact.at(end * i / looks);
+  constexpr int neighbours = 4;
+  const std::vector<State<double>> seen = states_at(exact, times);
   Errors<std::size(column_kinds)> squares;
   for (int which = 0; which < neighbours; ++which) {
     const Exact<double> other = rounded_otherwise(problem, start, converted, axis, which);
     if (other.which() != exact.which()) return {open, open, open};
     Comparison apart(Row<double>{});
-    for (int i = 0; i <= looks; ++i) apart.add(seen[std::size_t(i)], other.at(end * i / looks));
+    for (std::size_t i = 0; i < times.size(); ++i) apart.add(seen[i], other.at(times[i]));
     const auto& off = apart.difference();
     for (std::size_t k = 0; k < std::size(column_kinds); ++k) squares[k] += off[k] * off[k] / neighbours;
   }

@@ -78,12 +78,13 @@ GYROSTAT_COMPILED_ONCE Track exact_track(const Scene& scene, Monitor*) {
   const int axis = exact.pendulum() ? exact.pendulum()->axis() : -1;
   const auto of_tensor = exact.euler() ? detail::follow_tensor(track.states, scene) : std::nullopt;
   auto bound = of_tensor ? *of_tensor : exact.error(question.times.back());
+  const auto looks = [&] { return times_to_compare(question.times, track.states); };
   if (!of_tensor && scene.converts_start() && bound.attitude < infinity<double>) {
     const auto off = [&](const Problem<double>& body, int which) -> Result<State<double>> {
       if (scene.periodic()) return plain_start(body, *scene.periodic());
       return off_start(start, which, axis);
     };
-    bound = conversion_error(scene.problem(), scene.converts_body(), exact, question.times.back(), off);
+    bound = conversion_error(scene.problem(), scene.converts_body(), exact, looks(), off);
   }
   const auto stated = [&] {
     return relative_to_truth(sizes.relative({bound.angular_velocity, bound.down, bound.attitude}), column_kinds);
@@ -93,8 +94,7 @@ GYROSTAT_COMPILED_ONCE Track exact_track(const Scene& scene, Monitor*) {
   const bool slim = I.minCoeff() < honesty::exact_slim * I.maxCoeff();
   if (!of_tensor && !scene.converts_body() && !scene.periodic() && !slim && bound.attitude < infinity<double> &&
       !(scene.goal().excess(track.error) <= 1)) {
-    const auto finer =
-        error_by_neighbours(scene.problem(), start, scene.converts_start(), axis, exact, question.times.back());
+    const auto finer = error_by_neighbours(scene.problem(), start, scene.converts_start(), axis, exact, looks());
     bound = bound.least(finer.most(bound.over(honesty::exact_trust)));
     track.error = stated();
   }

@@ -270,7 +270,8 @@ OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scal
     error.trace *= open / error.start;
     error.start = open;
   }
-  error.period = std::max(error.period, std::sqrt(late));
+  // the corrections are linear: what the start is off by counts squared, twice as far where it is hardly held
+  error.period = std::max(error.period, std::sqrt(late)) + 4 * error.start * error.start;
   return error;
 }
 

@@ -95,9 +95,7 @@ void Piece<Scalar>::take_torques(const Collected<Scalar>& torques) noexcept {
 template <Real Scalar>
 void Piece<Scalar>::take_record(const Record<Scalar>& record) noexcept {
   const auto& factor = record.factor;
-  bool is_on = factor.on.empty();
-  for (const auto& [begin, end] : factor.on) is_on = is_on || (begin <= from && from < end);
-  if (!is_on) return;
+  if (!factor.is_on(from)) return;
   Cubic<Scalar> cubic{from, {1}};
   if (!factor.table.times.empty()) cubic = piece(factor.table, 1, 0, from).about(from);
   for (std::size_t i = 0; i < 4; ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,10 +40,17 @@ struct Table {
 /// What a torque is multiplied with over time: 1 while it is on, times the table, times mean + amplitude sin(rate t + phase).
 template <Real Scalar>
 struct Factor {
-  std::vector<std::array<Scalar, 2>> on;  ///< s, from, to; empty: always
+  std::vector<std::array<Scalar, 2>> on;  ///< s, from, to, one behind the other; empty: always
   Table<Scalar> table;                    ///< of single numbers
   Scalar mean = 1, amplitude = 0;
   Scalar rate = 0, phase = 0;  ///< rad/s, rad
+
+  /// By the law of what begins at t.
+  bool is_on(Scalar t) const noexcept {
+    const auto later =
+        std::upper_bound(on.begin(), on.end(), t, [](Scalar at, const auto& one) { return at < one[0]; });
+    return on.empty() || (later != on.begin() && t < later[-1][1]);
+  }
 };
 
 /// What makes a wheel turn.

@@ -40,9 +40,7 @@ namespace detail {
 /// A factor at t, in the piece between two breakpoints that holds `inside`.
 template <Real Scalar>
 Scalar factor_at(const Factor<Scalar>& factor, Scalar t, Scalar inside) noexcept {
-  bool is_on = factor.on.empty();
-  for (const auto& [from, to] : factor.on) is_on = is_on || (from <= inside && inside < to);
-  if (!is_on) return 0;
+  if (!factor.is_on(inside)) return 0;
   Scalar made = factor.mean;
   if (factor.amplitude != 0) made += factor.amplitude * clock_angle(factor.rate, t, factor.phase).sine;
   if (!factor.table.times.empty()) made *= piece(factor.table, 1, 0, inside)(t);

@@ -227,7 +227,7 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
           (from_upper_ ? math::jacobi_argument(-cn / dn, kp * sn / dn, kp / dn) : math::jacobi_argument(sn, cn, dn));
     plus_ = math::ThirdKind<Scalar>(modulus_, modulus_.kp2 * below1_ / below2_);
     minus_ = math::ThirdKind<Scalar>(modulus_, above2_ / above1_);
-    plus_factor_ = width_ * h2_ / (h1_ * below2_ * lam_);
+    plus_factor_ = width_ * modulus_.kp2 / (below2_ * lam_);
     minus_factor_ = width_ / (above1_ * lam_);
   }
   const auto consistent = [](Scalar c, Scalar square) { return std::copysign(std::sqrt(square), c); };

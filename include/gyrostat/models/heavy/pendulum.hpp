@@ -121,7 +121,7 @@ class Pendulum {
       return {std::atan2(u.sn, u.cn) * direction_ + direction_ * pi<Scalar> * u.turns,
               2 * direction_ * rate_ * u.dn / fold_};
     const Scalar k = std::sqrt(modulus_.k2);
-    return {std::atan2(sign * k * u.sn, u.dn), 2 * sign * rate_ * k * u.cn / fold_};
+    return {direction_ * std::atan2(sign * k * u.sn, u.dn), 2 * direction_ * sign * rate_ * k * u.cn / fold_};
   }
 
   State<Scalar> start_;
@@ -169,13 +169,13 @@ void Pendulum<Scalar>::set_phase(Scalar v, Scalar s, Scalar c, Scalar doubt) noe
   if (v == 0 && c == 0) upright_ = doubt;
   if (total == 0 || (v == 0 && c == 0)) return;
   rotates_ = short_of < 0;
+  direction_ = v < 0 ? -1 : 1;
   shift_ = (inside * inside + p + frequency_ * std::abs(inside) * (2 * doubt / rounding)) / std::abs(short_of);
   Scalar sn, cn, dn;
   if (rotates_) {
     motion_ = PendulumMotion::rotation;
     rate_ = std::sqrt(total);
     modulus_ = {std::min(frequency_ * frequency_ / total, Scalar(1)), std::clamp(-short_of / total, floor, Scalar(1))};
-    direction_ = v < 0 ? -1 : 1;
     sn = direction_ * s;
     cn = c;
     dn = std::abs(v) / rate_;
@@ -184,7 +184,7 @@ void Pendulum<Scalar>::set_phase(Scalar v, Scalar s, Scalar c, Scalar doubt) noe
     rate_ = frequency_;
     modulus_ = {std::min(total / (rate_ * rate_), Scalar(1)), std::clamp(short_of / (rate_ * rate_), floor, Scalar(1))};
     const Scalar amplitude = std::sqrt(total);
-    sn = up / amplitude;
+    sn = direction_ * up / amplitude;
     cn = std::abs(v) / amplitude;
     dn = c;
   }
@@ -193,8 +193,7 @@ void Pendulum<Scalar>::set_phase(Scalar v, Scalar s, Scalar c, Scalar doubt) noe
   K_ = functions_.quarter_period();
   const Scalar kp = std::sqrt(modulus_.kp2);
   dn = std::max(dn, kp);
-  const Scalar u = math::jacobi_argument(sn, cn, dn);
-  v0_ = !rotates_ && v < 0 ? std::copysign(2 * K_, sn) - u : u;
+  v0_ = math::jacobi_argument(sn, cn, dn);
   half_ = point(0).half;
 }
 

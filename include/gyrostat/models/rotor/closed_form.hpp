@@ -404,21 +404,47 @@ template <Real Scalar>
 ClosedFormError<Scalar> ClosedForm<Scalar>::from_steady(Scalar t, const Sizes& x) const noexcept {
   const Linearisation<Scalar> linear(gyrostat_, x.l, start_.momentum / x.l, final_rate_);
   const Modes<Scalar> modes(linear.matrix, linear.exponents());
-  const Scalar push = (off_ + 4 * epsilon<Scalar>)*x.fast +
-                      linear.relaxation / linear.unit * (excess_ + 4 * epsilon<Scalar>)*(x.l + x.h) / x.lambda;
-  Scalar moved = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const math::Complex<Scalar> d = modes.exponent[i];
-    moved += detail::complex_length<Scalar>(modes.left[i]) *
-             (push * std::min(t, 2 / math::magnitude(d)) + x.data / x.l) * std::exp(std::max(Scalar(0), d.re * t));
-  }
+  // dy/dt = A y + off + relaxing exp(-St t) from y = 0, y what the tangential momentum and xi - xi_0 exp(-St t) depart by
+  const Vec3<Scalar> Omega =
+      gyrostat_.inverse_inertia() * Vec3<Scalar>(start_.momentum - x.lambda * final_rate_ * gyrostat_.axis());
+  const Scalar xi = (rate_ - final_rate_) / linear.unit, decay = linear.relaxation;
+  const Vec3<Scalar> off(-Omega.dot(linear.v), Omega.dot(linear.u), 0);
+  const Vec3<Scalar> relaxing = xi * Vec3<Scalar>(linear.v.dot(linear.g), -linear.u.dot(linear.g), 0);
+  const Scalar blur = 4 * epsilon<Scalar> * (x.fast + decay / linear.unit * (x.l + x.h) / x.lambda);
+  // of y: the turn about L, and the rate of the rotor
+  const Vec3<Scalar> Gm = linear.G * linear.m;
+  const Vec3<Scalar> of_turn(Gm.dot(linear.u), Gm.dot(linear.v), -linear.g.dot(linear.m));
+  const Vec3<Scalar> of_rate(-linear.rate_of_tilt * linear.n.dot(linear.u),
+                             -linear.rate_of_tilt * linear.n.dot(linear.v), linear.unit);
+  struct Moved {
+    Scalar tilt = 0, any = 0, rate = 0, turn = 0;
+  } moved;
+  // by a push that is known, and one of which only the size is, and how far off the start is
+  const auto move = [&](bool known, Scalar push, Scalar start) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const math::Complex<Scalar> d = modes.exponent[i];
+      const Scalar growth = std::exp(std::max(Scalar(0), d.re * t)), swing = std::min(t, 2 / math::magnitude(d));
+      Scalar by = detail::complex_length<Scalar>(modes.left[i]) * (push * swing + start);
+      if (known)
+        by += math::magnitude(detail::complex_dot<Scalar>(off, modes.left[i])) * swing +
+              math::magnitude(detail::complex_dot<Scalar>(relaxing, modes.left[i])) *
+                  std::min(t, 2 / math::magnitude(d + math::Complex<Scalar>{decay}));
+      by *= growth;
+      const auto& right = modes.right[i];
+      moved.tilt += by * std::hypot(math::magnitude(right[0]), math::magnitude(right[1]));
+      moved.any += by;
+      moved.rate += by * math::magnitude(detail::complex_dot<Scalar>(of_rate, right));
+      moved.turn += by * math::magnitude(detail::complex_dot<Scalar>(of_turn, right));
+    }
+  };
+  move(true, blur, x.data / x.l);
+  const Scalar square = moved.any * moved.any;
+  move(false, (x.fast + linear.feed * x.e_n) * square, 0);
   ClosedFormError<Scalar> error;
-  error.momentum = x.l * moved;
-  error.rotor_rate = (linear.unit + linear.rate_of_tilt * x.e_n) * moved;
-  // the turn about L follows the energy, which is stationary here but for what the rotor's momentum adds
-  const Scalar p = std::abs(start_.axial_momentum), by_rotor = x.e_n * moved * (p + x.lambda * x.e_n * x.l);
-  error.attitude =
-      2 * moved + t * (by_rotor + x.lambda * x.e_n * error.rotor_rate + x.fast * moved * moved + x.data * x.j);
+  error.momentum = x.l * moved.tilt;
+  error.rotor_rate = moved.rate;
+  const Scalar relaxed = std::abs(linear.g.dot(linear.m) * xi) * -std::expm1(-decay * t);
+  error.attitude = moved.tilt + t * (moved.turn + relaxed + x.fast * square + x.data * x.j);
   error.rotor_angle = t * error.rotor_rate;
   return error;
 }
