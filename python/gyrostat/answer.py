@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gyrostat.console import small
 from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS
 from gyrostat.orientation import NOT_ORTHONORMAL, form_of
@@ -130,10 +131,31 @@ class Answer:
 
     @property
     def least_certain(self) -> str:
-        """The column or scalar whose error is the greatest share of its tolerance; empty where none is known."""
+        """The column or scalar that was asked for and has no value, or else whose error is the greatest share of its tolerance; empty where none is known."""
         errors = {**self.error, **self.scalar_error}
-        shares = {name: errors[name] / tolerance for name, tolerance in self.tolerances.items() if errors[name] > 0}
+        shares = {name: math.inf if name in self.without_value else errors[name] / tolerance for name, tolerance in self.tolerances.items()
+                  if name in self.without_value or errors[name] > 0}
         return max(shares, key=lambda name: shares[name], default="")
+
+    @property
+    def without_value(self) -> tuple[str, ...]:
+        """What was asked for to a tolerance and has no value, where that keeps the answer from being met."""
+        if self.met:
+            return ()
+        columns = {name: values for name, values in self.columns.items() if values.dtype.kind == "f"}
+        return tuple(name for name in self.tolerances
+                     if (name in columns and np.isnan(columns[name]).any()) or (name in self.scalars and self.scalars[name] is None))
+
+    @property
+    def verdict(self) -> str:
+        """How good the answer is, by what is least certain of what was asked for, and whether that meets its tolerance."""
+        met, name = "met" if self.met else "NOT met", self.least_certain
+        if not self.tolerances:
+            return "nothing that was asked for has an error of its own"
+        if name in self.without_value:
+            return f"{name} has no value, tolerance {self.tolerances[name]:.3g} {met}"
+        error = {**self.error, **self.scalar_error}.get(name, self.greatest_error)
+        return f"estimated error {small(error)}{f' ({name})' if name else ''}, tolerance {self.tolerances.get(name, self.tolerance):.3g} {met}"
 
     def keys(self) -> KeysView[str]:
         """Names of the columns."""
@@ -174,11 +196,10 @@ class Answer:
         return text
 
     def __repr__(self) -> str:
-        met = "met" if self.met else "not met"
         scalars = [f"{name} {value:.6g} (error {self.scalar_error[name]:.2g})" for name, value in self.scalars.items()
                    if isinstance(value, float) and not math.isnan(self.scalar_error[name])]
-        return (f"<Answer of {self.scene.get('name', 'a scene')} by {self.model}: error {self.greatest_error:.2g}, "
-                f"tolerance {self.tolerance:g} {met}, {len(self.t)} times, {', '.join([*self.columns, *scalars])}>")
+        return (f"<Answer of {self.scene.get('name', 'a scene')} by {self.model}: {self.verdict}, {len(self.t)} times, "
+                f"{', '.join([*self.columns, *scalars])}>")
 
     def _repr_html_(self) -> str:
         from gyrostat.notebook import answer_html

@@ -29,8 +29,7 @@ def plot_answer(answer: "Answer") -> "Figure":
     figures = family.part("figures")
     whole = getattr(figures, "OF_ANY_COLUMNS", False) or scene.tables["solve"]["ask"] in (None, "default", "all")
     made: Figure = figures.figure(answer, family.arguments(scene)) if whole else _asked(answer)
-    verdict = "met" if answer.met else "NOT met"
-    title = f"{scene.name}: rung {answer.model}, estimated error {answer.greatest_error:.1e} (tolerance {answer.tolerance:g} {verdict})"
+    title = f"{scene.name}: rung {answer.model}, {answer.verdict}"
     remarks = figures.remarks(answer) if whole else []
     made.suptitle("\n".join([title, *remarks]), fontsize=11)
     return as_written(made)

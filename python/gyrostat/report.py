@@ -17,16 +17,13 @@ Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
 
 def summary(answer: Answer) -> str:
     """How the answer was found and how good it is, in a line."""
-    name, met = answer.least_certain, "met" if answer.met else "NOT met"
-    error = {**answer.error, **answer.scalar_error}.get(name, answer.greatest_error)
-    of = f" ({name})" if name else ""
-    return (f"answered by {answer.model}: estimated error {small(error)}{of}, "
-            f"tolerance {answer.tolerances.get(name, answer.tolerance):.3g} {met}")
+    return f"answered by {answer.model}: {answer.verdict}"
 
 
 def head(answer: Answer) -> list[str]:
     """The lines above the tables."""
-    warnings = [f"warning, {warning.code}: {warning.message}" for warning in answer.warnings]
+    lacking = f" ({', '.join(answer.without_value)})" if answer.without_value else ""
+    warnings = [f"warning, {w.code}: {w.message}{lacking if w.code == 'no-value' else ''}" for w in answer.warnings]
     return [f"{answer.scene.get('name', '')} ({answer.scene.get('kind', '')})", summary(answer), *warnings]
 
 

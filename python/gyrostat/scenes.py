@@ -6,7 +6,7 @@ import math
 import os
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from dataclasses import field as member
 from functools import cached_property
@@ -201,19 +201,21 @@ class _Source:
     after: tuple[Path, ...] = ()  # the files of scenes that go on from this one
     overridden: frozenset[str] = frozenset()
 
-    def where(self, key: str) -> str:
+    def where(self, key: str, element: int = 1) -> str:
+        """element: which of the tables of an array of tables, counted from 1."""
         if key in self.overridden:
             return f"{self.label} (key set from outside)"
-        line = self._line(key)
+        line = self._line(key, element)
         return f"{self.label}:{line}" if line else self.label
 
-    def _line(self, key: str) -> int:
+    def _line(self, key: str, element: int) -> int:
         table, _, name = key.rpartition(".")
-        inside = ""
+        inside, seen = "", 0
         for number, line in enumerate(self.text.splitlines(), 1):
             if header := re.match(r"\s*\[+\s*([\w.-]+)\s*\]+", line):
                 inside = header[1]
-                if inside == key:
+                seen += inside == key
+                if seen == element:
                     return number
             elif (found := re.match(r"\s*([\w-]+)\s*=", line)) and found[1] == name and inside == table:
                 return number
@@ -704,7 +706,8 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
     mistakes: list[Mistake] = []
 
     def wrong(key: str, value: Any, problem: str, remedy: str, shown: bool = True) -> None:
-        mistakes.append(Mistake(source.where(key), key, _show(value) if shown else "", problem, remedy))
+        element = re.match(rf"{re.escape(key)} (\d+)\b", problem)
+        mistakes.append(Mistake(source.where(key, int(element[1]) if element else 1), key, _show(value) if shown else "", problem, remedy))
 
     kind = tree.get("kind", GENERAL)
     if not isinstance(kind, str) or kind not in FAMILIES:
@@ -760,9 +763,9 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
         except AskError as error:
             wrong("solve.ask", read["solve"]["ask"], error.problem, error.remedy)
         for key, value, problem, remedy in (*family.mistakes(read), *(() if "kind" in tree else family.doubts(read))):
-            wrong(key, _plain(value), problem, remedy)
+            wrong(key, _plain(value), problem, remedy, value != "")
     if mistakes:
-        if "kind" not in tree and any(mistake.problem.startswith(("unknown", "the table", "this is a table, not")) for mistake in mistakes):
+        if "kind" not in tree and _may_be_another(tree, mistakes):
             mistakes.insert(0, Mistake(source.label, "kind", "", f"the key is missing, and what is there is no scene of the kind {GENERAL}",
                                        "write " + " or ".join(f'kind = "{name}"' for name in FAMILIES if name != GENERAL) + " where it is one of these"))
         raise SceneError(*mistakes)
@@ -775,6 +778,14 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
     if not overrides:  # what varies may hang on keys that were replaced; a sweep looks again
         _check_varied(made, source)
     return made
+
+
+def _may_be_another(tree: Mapping[str, Any], mistakes: Sequence[Mistake]) -> bool:
+    """Whether a scene of no kind may be one of another kind than general: something is unknown that others have, and nothing stands that they lack."""
+    if any(isinstance(tree.get(name), list) for name in ("wheel", "torque")) or "orbit" in tree:
+        return False
+    keys = [mistake.key for mistake in mistakes if mistake.problem.startswith(("unknown", "the table", "this is a table, not"))]
+    return any(key in family.keys or _kinds_with(key.rpartition(".")[2], table_of(key)) for key in keys for family in FAMILIES.values())
 
 
 def _before(given: Any, source: _Source) -> Scene:
@@ -890,12 +901,13 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
     for key, value in overrides.items():
         table, _, name = key.rpartition(".")
         if not table:
-            homes = [home for home, fields in layout.items() if any(field.name == name for field in fields)]
+            bare = _without_places(name)
+            homes = [home for home, fields in layout.items() if any(field.name == bare for field in fields)]
             if not homes and name not in ("kind", "name", "source"):
                 raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)), "unknown key",
                                          _advice_anywhere(name, layout)))
             if len(homes) > 1:
-                given = [home for home in homes if isinstance(there := tree.get(home), dict) and name in there]
+                given = [home for home in homes if isinstance(there := tree.get(home), dict) and bare in there]
                 if len(given) != 1:
                     full_keys = " or ".join(f"{home}.{name}" for home in homes)
                     raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)),
@@ -905,22 +917,74 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
         full[f"{table}.{name}" if table else name] = _plain(value)
     for key, value in full.items():
         table, _, name = key.rpartition(".")
-        home = tree
-        for part in table.split(".") if table else ():
-            home = home.setdefault(part, {})
-            if not isinstance(home, dict):
-                raise SceneError(Mistake(source.label, table, _show(home), "this is not a table", f"write [{table}] and its keys"))
+        home = _home(tree, table, source)
+        plain = _without_places(key)
         for choices in family.alternatives if family else ():
-            for rival in (rival for choice in choices if key not in choice and any(key in other for other in choices) for rival in choice):
+            for rival in (rival for choice in choices if plain not in choice and any(plain in other for other in choices) for rival in choice):
                 beside = tree.get(table_of(rival))
                 if rival not in full and isinstance(beside, dict):
                     beside.pop(rival.rpartition(".")[2], None)
+        _put(home, name, value, key, source)
+        yield plain
+
+
+def _without_places(key: str) -> str:
+    return re.sub(r"\[[\d,]+\]", "", key)
+
+
+def _home(tree: dict[str, Any], table: str, source: _Source) -> dict[str, Any]:
+    """The table of this dotted name, made where there is none: of arrays of tables by its place, `wheel[1]`, or by its name, `wheel.pitch`, or the only one."""
+
+    def fail(problem: str, remedy: str) -> SceneError:
+        return SceneError(Mistake(f"{source.label} (key set from outside)", table, "", problem, remedy))
+
+    home: Any = tree
+    for part in table.split(".") if table else ():
+        name, _, place = part.rstrip("]").partition("[")
+        if isinstance(home, list):
+            named = [item for item in home if isinstance(item, dict) and item.get("name") == name]
+            if len(named) != 1:
+                raise fail(f"there is no one table named {name} here", f"write its place, such as {table.partition('.')[0]}[0], counted from 0")
+            home = named[0]
+        else:
+            home = home.setdefault(name, {})
+        if place:
+            if not (isinstance(home, list) and int(place) < len(home)):
+                raise fail(f"there is no {part}", f"there are {len(home)}, counted from 0" if isinstance(home, list) else f"leave out [{place}]")
+            home = home[int(place)]
+        if not isinstance(home, dict | list):
+            raise SceneError(Mistake(source.label, table, _show(home), "this is not a table", f"write [{table}] and its keys"))
+    if isinstance(home, list):
+        if len(home) != 1 or not isinstance(home[0], dict):
+            raise fail(f"there are {len(home)} of these tables", f"write which, such as {table}[0].KEY, counted from 0, or {table}.NAME.KEY of the one with this name")
+        home = home[0]
+    found: dict[str, Any] = home
+    return found
+
+
+def _put(home: dict[str, Any], name: str, value: Any, key: str, source: _Source) -> None:
+    """Set a key, or one number of it: `control[0]`, `axis[2]`, `inertia[0,1]`, and of an inertia the same of the other side."""
+    name, _, places = name.rstrip("]").partition("[")
+    if not places:
         home[name] = value
-        yield key
+        return
+    indices = [int(place) for place in places.split(",")]
+    for each in [indices, indices[::-1]] if name == "inertia" and len(indices) == 2 else [indices]:
+        row = home.get(name)
+        for place in each[:-1]:
+            row = row[place] if isinstance(row, list) and place < len(row) else None
+        if not isinstance(row, list) or each[-1] >= len(row) or isinstance(row[each[-1]], list | dict):
+            raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(value), "there is no such number",
+                                     f"places are counted from 0, as {name}[0] of a vector and {name}[0,1] of a matrix, where the scene gives one"))
+        row[each[-1]] = value
+
+
+_PART: Final = r"[A-Za-z0-9_-]+(\[\d+(,\d+)?\])?"  # of a dotted key
 
 
 def parse_override(text: str) -> tuple[str, Any]:
-    """`key=value` of the command line: a dotted key, or the bare name of one, and a TOML value, a bare word or a number with a unit."""
+    """`key=value` of the command line: a dotted key, with the places of tables and numbers in lists, or the bare name of one, and a TOML value, a bare
+    word or a number with a unit."""
 
     def fail(key: str, value: str, problem: str, remedy: str) -> SceneError:
         return SceneError(Mistake("--set", _show(key)[1:-1], value, problem, remedy))
@@ -929,8 +993,9 @@ def parse_override(text: str) -> tuple[str, Any]:
     key, value = key.strip(), value.strip()
     if not equals:
         raise fail(key, "", "there is no value", "write --set key=value, such as --set tolerance=1e-9")
-    if not re.fullmatch(r"[A-Za-z0-9_-]+(\.[A-Za-z0-9_-]+)*", key):
-        raise fail(key, _show(value), "this is no key", "write a key such as torque.drag")
+    key = re.sub(r"\s*([\[\],])\s*", r"\1", key).replace("][", ",")
+    if not re.fullmatch(rf"{_PART}(\.{_PART})*", key):
+        raise fail(key, _show(value), "this is no key", "write a key such as torque.drag, torque.control[0] or wheel[1].rate")
     try:
         read = tomllib.loads(f"value = {value}\n")
         if set(read) == {"value"}:

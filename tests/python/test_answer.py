@@ -15,8 +15,10 @@ import pytest
 from conftest import scene_names
 from gyrostat._core import csv_rows, json_numbers
 from gyrostat.answer import Answer
+from gyrostat.console import small
 from gyrostat.facts import UNITS
 from gyrostat.families import FAMILIES
+from gyrostat.report import report
 from gyrostat.rotation import angle_between
 
 BRAKE = {
@@ -78,6 +80,20 @@ def test_the_error_that_is_shown_is_the_one_that_was_judged() -> None:
     fine = gyrostat.solve("tiangong-1", model="full", tolerance=1e-10, duration=60000.0)
     assert abs(fine.scalars["stop_time"] / answer.scalars["stop_time"] - 1) <= answer.scalar_error["stop_time"]
     assert not gyrostat.solve("tiangong-1", model="averaged", tolerance=answer.greatest_error * 0.99).met
+
+
+def test_the_verdict_pairs_an_error_with_its_own_tolerance_and_names_what_has_no_value() -> None:
+    asked = gyrostat.solve("tiangong-1", ask={"stop_time": "1 h", "energy": 1e-9}, tolerance=1e-6)
+    name = asked.least_certain
+    assert asked.verdict == f"estimated error {small({**asked.error, **asked.scalar_error}[name])} ({name}), tolerance {asked.tolerances[name]:.3g} met"
+    assert asked.verdict in repr(asked) and asked.verdict in asked.plot().get_suptitle()
+    early = gyrostat.solve("tiangong-1", model="averaged", ask=["stop_time", "angular_velocity"])
+    assert not early.met and early.least_certain == "angular_velocity" and early.verdict.startswith("angular_velocity has no value")
+    stream = io.StringIO()
+    report(early, stream)
+    assert "left without a value (angular_velocity)" in " ".join(stream.getvalue().split())
+    pointing = gyrostat.solve("pam-d-burn", ask=["pointing_error"])
+    assert pointing.verdict == "nothing that was asked for has an error of its own"
 
 
 @pytest.mark.parametrize("name", scene_names())

@@ -10,7 +10,7 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat.drawing import changes, curve, new_figure, time_unit
+from gyrostat.drawing import changes, curve, new_figure, save, time_unit
 
 pytest.importorskip("matplotlib")
 
@@ -88,6 +88,16 @@ def test_a_tumbler_that_no_torque_turns_has_no_mean_pointing_to_speak_of() -> No
     assert answer.scalars["pointing_error"] == 0 and answer.scalars["tilt_max"] > 1
     title = answer.plot().get_suptitle()
     assert "greatest tilt" in title and "pointing" not in title
+
+
+def test_powers_of_ten_are_set_as_such_and_dollars_as_dollars(tmp_path: Path) -> None:
+    figure = gyrostat.solve("intelsat-v-flat-spin", name="costs $5 and $6").plot()
+    ticks = [text for axes in figure.axes for axis in (axes.xaxis, axes.yaxis) for text in axis.get_ticklabels(which="both")]
+    assert any("mathdefault" in text.get_text() for text in ticks)
+    assert all(text.get_parse_math() for text in ticks if "mathdefault" in text.get_text())
+    assert "costs $5 and $6" in figure.get_suptitle() and not any(text.get_parse_math() for text in figure.texts)
+    save(figure, tmp_path / "figure.png")
+    assert all(text.get_parse_math() for text in ticks if "mathdefault" in text.get_text())
 
 
 def test_a_stop_beyond_the_axis_is_marked() -> None:

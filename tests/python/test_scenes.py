@@ -451,10 +451,68 @@ def test_overrides_are_checked_and_take_the_place_of_their_alternative(scene_fil
             scene.replace(**wrong)
 
 
+GENERAL_SCENE: dict[str, Any] = {
+    "name": "two wheels", "body": {"inertia": [[4.0, 0.1, 0.0], [0.1, 5.0, 0.0], [0.0, 0.0, 6.0]]}, "initial": {"angular_velocity": [0.1, 0.2, 0.3]},
+    "solve": {"times": [1.0]},
+    "wheel": [{"name": "roll", "type": "held", "axis": [1.0, 0.0, 0.0], "axial_inertia": 0.01, "rate": 5.0},
+              {"name": "pitch", "type": "held", "axis": [0.0, 1.0, 0.0], "axial_inertia": 0.01, "rate": 6.0}]}
+
+
+def test_overrides_reach_into_lists_by_place_and_by_name() -> None:
+    scene = scene_from(GENERAL_SCENE)
+    changed = scene.replace(**{"wheel[0].rate": 7.0, "wheel.pitch.rate": "60 rpm", "body.inertia[0,1]": 0.2, "angular_velocity[2]": 0.5})
+    roll, pitch = changed.top["wheel"]
+    assert roll["rate"] == 7.0 and pitch["rate"] == pytest.approx(2 * np.pi)
+    assert np.array_equal(changed.tables["body"]["inertia"], [[4.0, 0.2, 0.0], [0.2, 5.0, 0.0], [0.0, 0.0, 6.0]])
+    assert tuple(changed.tables["initial"]["angular_velocity"]) == (0.1, 0.2, 0.5)
+    assert GENERAL_SCENE["wheel"][0]["rate"] == 5.0
+    one = scene_from({**GENERAL_SCENE, "wheel": GENERAL_SCENE["wheel"][:1]})
+    assert one.replace(**{"wheel.rate": 8.0}).top["wheel"][0]["rate"] == 8.0
+    for key, words in (("wheel.rate", "there are 2 of these tables; write which, such as wheel[0].KEY"), ("wheel[2].rate", "there are 2, counted from 0"),
+                       ("wheel.yaw.rate", "no one table named yaw"), ("angular_velocity[3]", "there is no such number"), ("body.mass[0]", "there is no such number")):
+        with pytest.raises(SceneError, match=re.escape(words)):
+            scene.replace(**{key: 1.0})
+
+
+def test_a_mistake_in_a_list_names_the_line_of_its_table(tmp_path: Path) -> None:
+    file = tmp_path / "wheels.toml"
+    file.write_text("""name = "w"
+[body]
+inertia = [1.0, 2.0, 2.5]
+[initial]
+angular_velocity = [0.1, 0.2, 0.3]
+[solve]
+times = [1.0]
+[[wheel]]
+type = "held"
+axis = [1, 0, 0]
+axial_inertia = 0.01
+rate = 1.0
+[[wheel]]
+type = "motor"
+axis = [0, 1, 0]
+axial_inertia = 0.01
+no_load_rate = 10.0
+""")
+    with pytest.raises(SceneError) as caught:
+        load(file)
+    assert f"{file}:13: wheel: wheel 2: of slope and stall_torque one is wanted" in str(caught.value)
+
+
+def test_a_scene_that_can_only_be_general_is_not_asked_for_its_kind() -> None:
+    for wrong in ({"step": 10}, {"wheels": []}):
+        with pytest.raises(SceneError) as caught:
+            scene_from({**GENERAL_SCENE, **wrong})
+        assert "kind" not in [mistake.key for mistake in caught.value.mistakes]
+    with pytest.raises(SceneError, match="kind: the key is missing"):
+        scene_from({"name": "r", "rotor": {"axis": [1, 0, 0]}, "body": {"inertia": [1.0, 1.0, 1.0]}, "solve": {"times": [1.0]}})
+
+
 @pytest.mark.parametrize(("text", "key", "value"), [
     ("tolerance=1e-9", "tolerance", 1e-9), ("torque.control=[1, 2, 3]", "torque.control", [1, 2, 3]),
     ("model=full", "model", "full"), ('model = "averaged-2"', "model", "averaged-2"), ("model=averaged-2", "model", "averaged-2"),
-    ("samples=5", "samples", 5),
+    ("samples=5", "samples", 5), ("torque.control[0]=1", "torque.control[0]", 1), ("body.inertia[0][1] = 2", "body.inertia[0,1]", 2),
+    ("wheel[1].axis[ 2 ]=0.5", "wheel[1].axis[2]", 0.5), ('wheel.pitch.rate="3 rpm"', "wheel.pitch.rate", "3 rpm"),
 ])
 def test_overrides_of_the_command_line(text: str, key: str, value: object) -> None:
     assert parse_override(text) == (key, value)

@@ -366,3 +366,13 @@ def test_a_bad_setting_is_named(change: dict[str, Any], text: str) -> None:
 def test_a_bad_grid_is_named(change: dict[str, Any], text: str) -> None:
     with pytest.raises(DomainError, match=text):
         spinning.linear_grid(**{**GOOD, "step": 1.0, "samples": 3, **change})
+
+
+def test_a_mean_that_is_too_great_for_its_formula_is_told() -> None:
+    stage = {"name": "kick", "kind": "spinning", "body": {"inertia": [400.0, 380.0, 150.0], "mass": 1000.0}, "torque": {"body": [5.0, 0.0, 0.0],
+             "force": [0.0, 0.0, 1e4]}, "initial": {"angular_velocity": [0.0, 0.0, 0.5]}, "solve": {"duration": 100.0, "samples": 11, "tolerance": 1e-4}}
+    wide = gyrostat.solve(stage, ask=["pointing_error"])
+    assert wide.scalars["pointing_error"] == pytest.approx(5 / (0.5 * 0.5 * 150))
+    assert [warning.code for warning in wide.warnings].count("mean-of-small-tilt") == 1
+    fast = gyrostat.solve(stage, angular_velocity=[0.0, 0.0, 1.0])
+    assert fast.scalars["pointing_error"] < 0.05 and "mean-of-small-tilt" not in [warning.code for warning in fast.warnings]

@@ -53,7 +53,16 @@ inline constexpr ScalarKind scalar_kinds[] = {
 
 /// Places in warning_kinds.
 namespace warning {
-enum : std::size_t { beyond_validity, gimbal_lock, no_spin, no_stiffness, resonance, unstable_spin, spin_reversal };
+enum : std::size_t {
+  beyond_validity,
+  gimbal_lock,
+  no_spin,
+  no_stiffness,
+  resonance,
+  unstable_spin,
+  spin_reversal,
+  mean_of_small_tilt
+};
 }
 
 inline constexpr WarningKind warning_kinds[] = {
@@ -66,6 +75,9 @@ inline constexpr WarningKind warning_kinds[] = {
     {"resonance", "spin and nutation are near resonance: the tilt grows over many turns; they differ by, 1/s"},
     {"unstable-spin", "nu^2 <= 0: the transverse rates grow; nu^2, 1/s^2"},
     {"spin-reversal", "the axial torque takes the spin through zero at about, s"},
+    {"mean-of-small-tilt",
+     "pointing_error and secular_velocity_ratio are formulas for small tilt, and are off by some times the square of "
+     "it; the mean tilt is, by the first, rad"},
 };
 
 /// Places in rung_kinds, cheapest first.

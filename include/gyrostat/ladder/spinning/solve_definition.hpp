@@ -41,6 +41,9 @@ inline void put_start(Answer& answer, const Problem<double>& problem) {
   put(column::position, problem.position);
 }
 
+/// Mean tilt, rad, from which on its formula errs by one percent or more: some four times its square, by the full equations of three spins.
+inline constexpr double sound_mean = 0.05;
+
 inline void tell_scalars(Answer& answer, const Problem<double>& problem, const Track& track) {
   const double nu2 = problem.nutation_squared();
   double mean = nan<double>;
@@ -56,6 +59,8 @@ inline void tell_scalars(Answer& answer, const Problem<double>& problem, const T
   give(scalar::secular_velocity_ratio, {ratio.re, ratio.im});
   give(scalar::tilt_max, {greatest_tilt(track.states)}, std::fmin(track.tilt_error, track.error[column::attitude]));
   give(scalar::nutation_frequency_squared, {nu2});
+  const auto& kind = warning_kinds[warning::mean_of_small_tilt];
+  if (mean > sound_mean) answer.warnings.push_back({&kind, kind.text, mean});
 }
 
 }  // namespace detail

@@ -21,7 +21,7 @@ __all__ = ["plot", "report", "sentence", "tables"]
 
 Tables = list[tuple[str, list[str], list[list[str]]]]
 
-# The family begins at so many times the slow rate, or at the scene's spin where that is faster.
+# The family begins at so many times the rate of the torque, or at the scene's spin where that is faster.
 FIRST: Final = 6.0
 # What the conversion of an attitude leaves of a cosine that is 0 or 1.
 ROUNDING: Final = 4 * np.finfo(float).eps
@@ -39,7 +39,8 @@ def report(scene: Scene) -> dict[str, Any]:
 
     SI units, vectors in body axes; spin and inclination are those of principal axis 3 (heavy.principal_axes).
     pendulum_rate : c = sqrt(M g l/C); slow_rate : max(c, sqrt N).
-    rest : down of least potential energy, frequencies and directions of its two swings, or None without torque.
+    rest : down of least potential energy, frequencies and directions of its two swings, and start_angle, how far down is from there at the start
+    (None where a periodic motion is asked for) [rad], or None without torque.
     top : None, or for a body with an axis of symmetry through its mass centre: spin, and for both ends of the axis (up, down) threshold,
     frequency_squared, verdict and amplification; precession : cos_inclination, and slow and fast rate about down.
     periodic : the motion with the spin and inclination of the start: spin, cos_inclination, angular_velocity, down, period, closure, trace (sum of the
@@ -55,7 +56,7 @@ def report(scene: Scene) -> dict[str, Any]:
     spin, cosine = _start(given, axes)
     c = math.sqrt(body["mass"] * body["gravity"] * float(np.linalg.norm(body["centre_of_mass"])) / float(inertia[2]))
     slow = max(c, math.sqrt(body["gravity_gradient"]))
-    return {"scene": scene.name, "pendulum_rate": c, "slow_rate": slow, "rest": _rest(body, axes), "top": _top(body, spin, cosine, given),
+    return {"scene": scene.name, "pendulum_rate": c, "slow_rate": slow, "rest": _rest(body, axes, given), "top": _top(body, spin, cosine, given),
             "periodic": _periodic(body, spin, cosine, axes), "family": _family(body, spin, cosine, slow)}
 
 
@@ -63,24 +64,31 @@ def _start(given: Mapping[str, Any], axes: Any) -> tuple[float, float]:
     """Spin about principal axis 3 and cosine of its inclination at t = 0."""
     if given["periodic"] is not None:
         return given["periodic"]["spin"], given["periodic"]["cos_inclination"]
-    down = given["down"]
-    if down is None:
-        down = -_core.matrix_from_quaternion(given["attitude"][None, :])[0].reshape(3, 3)[2]
-    cosine = float(axes[:, 2] @ down)
+    cosine = float(axes[:, 2] @ _down(given))
     exact = next((c for c in (-1.0, 0.0, 1.0) if abs(cosine - c) < ROUNDING), cosine)  # level and upright are what was meant
     return float(axes[:, 2] @ given["angular_velocity"]), exact
+
+
+def _down(given: Mapping[str, Any]) -> Any:
+    """Down at the start, in the given axes."""
+    down = given["down"]
+    return -_core.matrix_from_quaternion(given["attitude"][None, :])[0].reshape(3, 3)[2] if down is None else np.asarray(down)
 
 
 def _number(value: Any) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def _rest(body: Mapping[str, Any], axes: Any) -> dict[str, Any] | None:
+def _rest(body: Mapping[str, Any], axes: Any, given: Mapping[str, Any]) -> dict[str, Any] | None:
     try:
         made = heavy.hanging(**body)
     except DomainError:
         return None
-    return {"down": (axes @ made.down).tolist(), "frequency": made.frequency.tolist(), "swing": (made.swing @ axes.T).tolist()}
+    down, angle = axes @ made.down, None
+    if given["periodic"] is None:
+        start = _down(given)
+        angle = float(math.atan2(np.linalg.norm(np.cross(start, down)), start @ down))
+    return {"down": down.tolist(), "frequency": made.frequency.tolist(), "swing": (made.swing @ axes.T).tolist(), "start_angle": angle}
 
 
 def _top(body: Mapping[str, Any], spin: float, cosine: float, given: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -199,14 +207,16 @@ def tables(report: Mapping[str, Any]) -> Tables:
             rows.append([verdict, f"{r[begin]:.5g} to {r[end]:.5g}", f"{r[begin] / slow:.4g} to {r[end] / slow:.4g}",
                          f"{T[begin]:.5g} to {T[end]:.5g}", f"{trace[begin]:.4g} to {trace[end]:.4g}"])
         made.append(("Periodic motions of this inclination, from fast spins down",
-                     ["verdict", "spin [rad/s]", "over the slow rate", "period [s]", "sum of multipliers"], rows))
+                     ["verdict", "spin [rad/s]", "over the rate of the torque", "period [s]", "sum of multipliers"], rows))
     return made
 
 
 def sentence(report: Mapping[str, Any]) -> str:
     """What the tables come to."""
-    top, orbit, family, slow = (report[name] for name in ("top", "periodic", "family", "slow_rate"))
-    words = [f"Slow rate {slow:.6g} rad/s; the start spins {abs(orbit['spin']) / slow:.4g} times as fast." if slow > 0 else "There is no torque."]
+    rest, top, orbit, family, slow = (report[name] for name in ("rest", "top", "periodic", "family", "slow_rate"))
+    words = [f"The torque sets the rate {slow:.6g} rad/s; the start spins {abs(orbit['spin']) / slow:.4g} times as fast." if slow > 0 else "There is no torque."]
+    if rest is not None and (rest["start_angle"] or 0) > math.pi / 2:
+        words.append(f"The start is {math.degrees(rest['start_angle']):.4g} degrees from hanging, about which the swings above are; without spin it falls.")
     if top is not None:
         verdict = top["up"]["verdict"]
         words.append(f"Upright the top would be {verdict}; the least spin that holds it is {top['up']['threshold']:.6g} rad/s.")
@@ -239,7 +249,7 @@ def plot(scene: Scene, report: Mapping[str, Any]) -> "Figure":
         for axes, y in ((above, orbit["period"] * slow), (below, math.asinh(orbit["trace"] / 2))):
             axes.plot([abs(orbit["spin"]) / slow], [y], marker="s", markersize=8, color="white", markeredgecolor="black", linestyle="none",
                       label="the scene's spin")
-    above.set_ylabel("period x slow rate [rad]")
+    above.set_ylabel("period x rate of the torque [rad]")
     above.set_title("Period", loc="left", fontsize=10)
     above.legend(loc="best", fontsize=8)
     below.axhspan(-math.asinh(1), math.asinh(1), color="#009E73", alpha=0.1)
@@ -250,7 +260,7 @@ def plot(scene: Scene, report: Mapping[str, Any]) -> "Figure":
     below.set_yticks([math.asinh(m / 2) for m in shown], [f"{m:g}" for m in shown])
     below.set_ylabel("sum of the multipliers")
     below.set_title("Stable between -2 and 2", loc="left", fontsize=10)
-    below.set_xlabel(f"spin over the slow rate {slow:.5g} rad/s")
+    below.set_xlabel(f"spin over the rate of the torque, {slow:.5g} rad/s")
     for axes in (above, below):
         axes.set_xscale("log")
         axes.grid(alpha=0.3, which="both")
