@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from gyrostat.answer import Answer
 
 __all__ = ["COLOURS", "MOMENT_NAMES", "Drawing", "Panel", "changes", "check_ending", "components", "curve", "error_text", "finish", "is_coarse", "laid_out",
-           "legend_beside", "legend_row", "map_frame", "map_legend", "new_figure", "note", "on_map", "principal_axes", "save", "span_text", "split",
+           "legend_beside", "legend_row", "map_frame", "map_legend", "mark_stop", "new_figure", "note", "on_map", "principal_axes", "save", "span_text", "split",
            "stacked", "time_unit", "vector", "wheels_panel"]
 
 COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31")
@@ -254,8 +254,9 @@ def map_frame(axes: "Axes", title: str, reach: float = 180.0) -> None:
     for angle in angles:
         radius = 2 * math.sin(math.radians(angle) / 2)
         axes.plot(radius * np.cos(turn), radius * np.sin(turn), color="#999999", linewidth=0.8, linestyle="-" if angle == 180 else ":", label="_")
-        if step:
-            axes.annotate(f"{angle:.3g}°", (0, radius), ha="center", va="center", fontsize=7, color="#555555", zorder=1,
+        if step or angle < 180:
+            at = (0, radius) if step else (radius / math.sqrt(2), radius / math.sqrt(2))  # upwards may be an axis
+            axes.annotate(f"{angle:.3g}°", at, ha="center", va="center", fontsize=7, color="#555555", zorder=1,
                           bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
     axes.set_aspect("equal")
     axes.set_axis_off()
@@ -274,6 +275,20 @@ def _over_time(answer: "Answer") -> tuple[NDArray[Any], str]:
     """The times in a fitting unit, and its name."""
     scale, unit = time_unit(float(answer.t[-1]))
     return answer.t / scale, unit
+
+
+def mark_stop(figure: "Figure", answer: "Answer", panels: int) -> None:
+    """A dotted line in the first panels where the body stops, or below the last of them that it does so later; nothing where that is not known."""
+    stop, first, last = answer.scalars.get("stop_time"), answer.t[0], answer.t[-1]
+    if stop is None or not math.isfinite(stop):
+        return
+    scale, _ = time_unit(last)
+    if stop > last:
+        figure.axes[panels - 1].annotate(f"stops at {span_text(stop)} →", (1.0, 0.0), xytext=(0, -28), xycoords="axes fraction",
+                                         textcoords="offset points", fontsize=8, color="#555555", ha="right")
+    elif stop >= first:
+        for axes in figure.axes[:panels]:
+            axes.axvline(stop / scale, color="#555555", linestyle=":", linewidth=1)
 
 
 def stacked(answer: "Answer", panels: Sequence[Panel]) -> "Figure":

@@ -5,7 +5,7 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any, Final
 
-from gyrostat.drawing import COLOURS, Panel, as_written, components, curve, error_text, new_figure, note, save, stacked
+from gyrostat.drawing import COLOURS, Panel, as_written, components, curve, error_text, mark_stop, new_figure, note, save, stacked
 from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS, UNITS
 from gyrostat.families import FAMILIES
@@ -41,7 +41,9 @@ def _asked(answer: "Answer") -> "Figure":
     if not panels:
         raise DomainError("nothing that varies over time was asked for: ask for a column, such as "
                           f"{next(iter(FACTS[answer.scene['kind']].columns))}, to have a figure")
-    return stacked(answer, panels)
+    figure = stacked(answer, panels)
+    mark_stop(figure, answer, len(panels))
+    return figure
 
 
 def _column(name: str) -> Panel:

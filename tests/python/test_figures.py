@@ -108,6 +108,11 @@ def test_a_stop_beyond_the_axis_is_marked() -> None:
     assert any(line.get_linestyle() == ":" for line in inside.axes[0].lines)
 
 
+def test_a_stop_is_marked_where_columns_are_asked_for_by_name() -> None:
+    figure = gyrostat.solve("tiangong-1", ask=["stop_time", "angular_momentum_norm"], duration=60000.0).plot()
+    assert [line.get_linestyle() for line in figure.axes[0].lines].count(":") == 1
+
+
 def test_the_path_on_a_sphere_is_named() -> None:
     assert {"path of down", "start"} <= legend_texts(figure_of("toy-top"))
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.drawing import COLOURS, Panel, curve, error_text, legend_row, note, span_text, stacked, time_unit, vector
+from gyrostat.drawing import COLOURS, Panel, curve, error_text, legend_row, mark_stop, note, span_text, stacked, time_unit, vector
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,9 +40,7 @@ def figure(answer: "Answer", _: Mapping[str, Any]) -> "Figure":
         panels.append(_modulus)
     panels += [vector(*each) for each in VECTORS if each[0] in answer.columns]
     made = stacked(answer, panels)
-    stop = answer.scalars.get("stop_time")
-    if stop is not None and math.isfinite(stop):
-        _mark_stop(made, stop, float(answer.t[0]), float(answer.t[-1]), len(panels))
+    mark_stop(made, answer, len(panels))
     return made
 
 
@@ -52,16 +50,6 @@ def remarks(answer: "Answer") -> list[str]:
     if stop is None or not math.isfinite(stop):
         return []
     return [f"stops at {stop:.6g} s" + (f" ({span_text(stop)})" if time_unit(stop)[1] != "s" else "")]
-
-
-def _mark_stop(figure: "Figure", stop: float, first: float, last: float, panels: int) -> None:
-    scale, _ = time_unit(last)
-    if stop > last:
-        figure.axes[panels - 1].annotate(f"stops at {span_text(stop)} →", (1.0, 0.0), xytext=(0, -28), xycoords="axes fraction",
-                                         textcoords="offset points", fontsize=8, color="#555555", ha="right")
-    elif stop >= first:
-        for axes in figure.axes[:panels]:
-            axes.axvline(stop / scale, color="#555555", linestyle=":", linewidth=1)
 
 
 def _size_and_energy(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:

@@ -71,9 +71,21 @@ def sphere(body: Mapping[str, Any]) -> Any:
         points = on_map(n, centre)
         axes.plot(points[:, 0], points[:, 1], ".", color=COLOURS[0], markersize=2, label="M")
         axes.plot(*points[0], "o", color=COLOURS[0], markersize=5, label="start")
+        _body_axes(axes, centre)
+        axes.set(xlim=(-2.06, 2.06), ylim=(-2.06, 2.06))  # the contours of the separatrix cut the rim
         map_legend(axes)
 
     return draw
+
+
+def _body_axes(axes: "Axes", centre: Vectors) -> None:
+    """Crosses where the body's own axes are, but for what lies on the rim, opposite the centre."""
+    for sign, before in ((1.0, "+"), (-1.0, "\u2212")):
+        for axis, name in zip(sign * np.eye(3), "xyz", strict=True):
+            if axis @ centre > -0.99:
+                (at,) = on_map(axis[None, :], centre)
+                axes.plot(*at, "+", color="#000000", markersize=6, label="_")
+                axes.annotate(f"{before}{name}", at, xytext=(4, 4), textcoords="offset points", fontsize=8)
 
 
 def _separatrix(axes: "Axes", body: Mapping[str, Any], found: Any, R: float, centre: Vectors) -> None:

@@ -48,11 +48,12 @@ def _wheel(kind: str, *own: Field, meaning: str, default: Any = REQUIRED) -> Tab
     )
 
 
-_RATE: Final = (Field("rate", "number", "rate of the wheel at t = 0, relative to the body", "rad/s", UNSET),
+_RATE: Final = (Field("rate", "number", "rate of the wheel at t = 0, relative to the body; left out it is 0, or goes on in a scene that has from", "rad/s", UNSET),
                 Field("momentum", "number", "axial inertia times that rate, instead of it", "N m s", UNSET))
 _FRICTION: Final = Field("friction", "number", "viscous friction of the bearing", "N m s/rad", 0.0, low=0)
 WHEELS: Final[tuple[Table, ...]] = (
-    _wheel("held", Field("rate", "number or record", "rate relative to the body, which a motor keeps, or a table of it over time", "rad/s", UNSET,
+    _wheel("held", Field("rate", "number or record", "rate relative to the body, which a motor keeps, or a table of it over time; left out it is 0, or goes on in a scene that has from",
+                         "rad/s", UNSET,
                          parts=_law("rates", "rad/s")),
            _RATE[1], meaning="a motor keeps the rate", default="held"),
     _wheel("free", *_RATE, meaning="the wheel turns without friction"),
