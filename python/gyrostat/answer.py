@@ -132,9 +132,10 @@ class Answer:
     @property
     def least_certain(self) -> str:
         """The column or scalar that was asked for and has no value, or else whose error is the greatest share of its tolerance; empty where none is known."""
+        if lacking := self.without_value:
+            return lacking[0]
         errors = {**self.error, **self.scalar_error}
-        shares = {name: math.inf if name in self.without_value else errors[name] / tolerance for name, tolerance in self.tolerances.items()
-                  if name in self.without_value or errors[name] > 0}
+        shares = {name: errors[name] / tolerance for name, tolerance in self.tolerances.items() if errors[name] > 0}
         return max(shares, key=lambda name: shares[name], default="")
 
     @property
@@ -142,18 +143,17 @@ class Answer:
         """What was asked for to a tolerance and has no value, where that keeps the answer from being met."""
         if self.met:
             return ()
-        columns = {name: values for name, values in self.columns.items() if values.dtype.kind == "f"}
-        return tuple(name for name in self.tolerances
-                     if (name in columns and np.isnan(columns[name]).any()) or (name in self.scalars and self.scalars[name] is None))
+        first = {name: values.flat[0] for name, values in self.columns.items() if values.size} | self.scalars
+        return tuple(name for name in self.tolerances if (value := first.get(name)) is None or (isinstance(value, float) and math.isnan(value)))
 
     @property
     def verdict(self) -> str:
         """How good the answer is, by what is least certain of what was asked for, and whether that meets its tolerance."""
         met, name = "met" if self.met else "NOT met", self.least_certain
-        if not self.tolerances:
-            return "nothing that was asked for has an error of its own"
         if name in self.without_value:
             return f"{name} has no value, tolerance {self.tolerances[name]:.3g} {met}"
+        if not self.tolerances:
+            return "nothing that was asked for has an error of its own"
         error = {**self.error, **self.scalar_error}.get(name, self.greatest_error)
         return f"estimated error {small(error)}{f' ({name})' if name else ''}, tolerance {self.tolerances.get(name, self.tolerance):.3g} {met}"
 

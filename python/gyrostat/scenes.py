@@ -304,7 +304,8 @@ def _with_unit(field: Field, text: str, element: str) -> float:
     if field.unit:
         raise Refused(f"{what}this is a text without a unit", f'give a number ({field.unit}) without quotes, or a text with its unit: '
                       f'"{text.strip()} {field.unit}"')
-    raise Refused(f"{what}this is text, and what is wanted has no unit", "give the bare number without quotes")
+    of_one = '; a tolerance with a unit is that of one column or scalar, as in ask = { attitude = "0.1 deg" }' if field.name == "tolerance" and unit else ""
+    raise Refused(f"{what}this is text, and what is wanted has no unit", f"give the bare number without quotes{of_one}")
 
 
 def _number(field: Field, value: Any, element: str = "") -> float:
@@ -898,7 +899,10 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
     family = FAMILIES.get(kind) if isinstance(kind, str) else None
     layout: Mapping[str, Table] = family.keys if family else {}
     full: dict[str, Any] = {}
-    for key, value in overrides.items():
+    for given, value in overrides.items():
+        key = _dotted(given)
+        if key is None:
+            raise SceneError(Mistake(f"{source.label} (key set from outside)", _show(given)[1:-1], _show(_plain(value)), *_NO_KEY))
         table, _, name = key.rpartition(".")
         if not table:
             bare = _without_places(name)
@@ -907,14 +911,15 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
                 raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)), "unknown key",
                                          _advice_anywhere(name, layout)))
             if len(homes) > 1:
-                given = [home for home in homes if isinstance(there := tree.get(home), dict) and bare in there]
-                if len(given) != 1:
+                there = [home for home in homes if isinstance(table_there := tree.get(home), dict) and bare in table_there]
+                if len(there) != 1:
                     full_keys = " or ".join(f"{home}.{name}" for home in homes)
                     raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)),
                                              f"several tables have a key {name}", f"write {full_keys}"))
-                homes = given
+                homes = there
             table = homes[0] if homes else ""
         full[f"{table}.{name}" if table else name] = _plain(value)
+    plains = set(map(_without_places, full))
     for key, value in full.items():
         table, _, name = key.rpartition(".")
         home = _home(tree, table, source)
@@ -922,10 +927,12 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
         for choices in family.alternatives if family else ():
             for rival in (rival for choice in choices if plain not in choice and any(plain in other for other in choices) for rival in choice):
                 beside = tree.get(table_of(rival))
-                if rival not in full and isinstance(beside, dict):
+                if rival not in plains and isinstance(beside, dict):
                     beside.pop(rival.rpartition(".")[2], None)
         _put(home, name, value, key, source)
         yield plain
+        if isinstance(tree.get(head := plain.partition(".")[0]), list):
+            yield head  # of which mistakes in one of its tables are told
 
 
 def _without_places(key: str) -> str:
@@ -979,7 +986,15 @@ def _put(home: dict[str, Any], name: str, value: Any, key: str, source: _Source)
         row[each[-1]] = value
 
 
-_PART: Final = r"[A-Za-z0-9_-]+(\[\d+(,\d+)?\])?"  # of a dotted key
+# A dotted key: tables have one place at most, the number at its end two.
+_KEY: Final = re.compile(r"([A-Za-z0-9_-]+(\[[0-9]{1,6}\])?\.)*[A-Za-z0-9_-]+(\[[0-9]{1,6}(,[0-9]{1,6})?\])?")
+_NO_KEY: Final = ("this is no key", "write a key such as torque.drag, torque.control[0] or wheel[1].rate, places counted from 0")
+
+
+def _dotted(key: str) -> str | None:
+    """The key as it is looked up, without blanks about its places, `[i][j]` as `[i,j]`; None where it is none."""
+    made = re.sub(r"\s*([\[\],])\s*", r"\1", key).replace("][", ",")
+    return made if _KEY.fullmatch(made) else None
 
 
 def parse_override(text: str) -> tuple[str, Any]:
@@ -993,9 +1008,10 @@ def parse_override(text: str) -> tuple[str, Any]:
     key, value = key.strip(), value.strip()
     if not equals:
         raise fail(key, "", "there is no value", "write --set key=value, such as --set tolerance=1e-9")
-    key = re.sub(r"\s*([\[\],])\s*", r"\1", key).replace("][", ",")
-    if not re.fullmatch(rf"{_PART}(\.{_PART})*", key):
-        raise fail(key, _show(value), "this is no key", "write a key such as torque.drag, torque.control[0] or wheel[1].rate")
+    dotted = _dotted(key)
+    if dotted is None:
+        raise fail(key, _show(value), *_NO_KEY)
+    key = dotted
     try:
         read = tomllib.loads(f"value = {value}\n")
         if set(read) == {"value"}:

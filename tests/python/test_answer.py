@@ -92,6 +92,9 @@ def test_the_verdict_pairs_an_error_with_its_own_tolerance_and_names_what_has_no
     stream = io.StringIO()
     report(early, stream)
     assert "left without a value (angular_velocity)" in " ".join(stream.getvalue().split())
+    for ask in (["stable", "down"], ["stable"]):
+        top = gyrostat.solve("toy-top", ask=ask)
+        assert not top.met and top.verdict == f"stable has no value, tolerance {top.tolerance:.3g} NOT met"
     pointing = gyrostat.solve("pam-d-burn", ask=["pointing_error"])
     assert pointing.verdict == "nothing that was asked for has an error of its own"
 

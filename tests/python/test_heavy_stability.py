@@ -140,3 +140,14 @@ def test_what_cannot_be_told() -> None:
     assert stability_report(diagonal)["rest"]["frequency"] == heavy.hanging(**BODY).frequency.tolist()
     with pytest.raises(DomainError, match="no family"):
         plot_stability(scene_from(tomllib.loads(HEAVY), down=[0, 0, 1]))
+
+
+def test_how_far_from_hanging_the_start_is() -> None:
+    heavy_scene = tomllib.loads(HEAVY)
+    made = stability_report(heavy_scene)
+    down = np.asarray(made["rest"]["down"])
+    start = -rotation.matrix_from_quaternion(heavy_scene["initial"]["attitude"])[2] if "attitude" in heavy_scene["initial"] else np.asarray(heavy_scene["initial"]["down"])
+    assert made["rest"]["start_angle"] == pytest.approx(math.acos(float(start @ down / np.linalg.norm(start))), rel=1e-9)
+    told = words.sentence(made)
+    assert ("degrees from hanging" in told) == (made["rest"]["start_angle"] > math.pi / 2)
+    assert stability_report(ORBIT)["rest"]["start_angle"] is None

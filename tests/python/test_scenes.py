@@ -474,6 +474,44 @@ def test_overrides_reach_into_lists_by_place_and_by_name() -> None:
             scene.replace(**{key: 1.0})
 
 
+@pytest.mark.parametrize("key", ["wheel[x].rate", "wheel[0,1].rate", "wheel[1][0].rate", "angular_velocity[0,]", "wheel[-1].rate", "wheel[1]].rate",
+                                 "wheel[" + "9" * 5000 + "].rate", "angular_velocity[1.5]", "torque[0,1]x.", "wheel[\u0661].rate", "", "."])
+def test_keys_that_are_none_are_refused(key: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        scene_from(GENERAL_SCENE).replace(**{key: 1.0})
+    assert len(str(caught.value)) < 600
+    if key:
+        with pytest.raises(SceneError):
+            parse_override(f"{key}=1")
+
+
+def test_two_places_may_be_written_either_way_and_rivals_are_seen_without_them() -> None:
+    scene = scene_from(GENERAL_SCENE)
+    assert scene.replace(**{"inertia[0][1]": 0.3}).tables["body"]["inertia"][1][0] == 0.3
+    with pytest.raises(SceneError, match="there is no such number"):
+        scene.replace(**{"wheel[0].axis[0,1]": 0.3})
+
+
+def test_a_mistake_set_from_outside_is_not_told_of_a_line_of_the_file(tmp_path: Path) -> None:
+    file = tmp_path / "wheels.toml"
+    file.write_text("""name = "w"
+[body]
+inertia = [1.0, 2.0, 2.5]
+[initial]
+angular_velocity = [0.1, 0.2, 0.3]
+[solve]
+times = [1.0]
+[[wheel]]
+type = "held"
+axis = [1, 0, 0]
+axial_inertia = 0.01
+rate = 1.0
+""")
+    with pytest.raises(SceneError) as caught:
+        load(file, **{"wheel[0].rate": "foo"})
+    assert "key set from outside" in str(caught.value) and f"{file}:" not in str(caught.value)
+
+
 def test_a_mistake_in_a_list_names_the_line_of_its_table(tmp_path: Path) -> None:
     file = tmp_path / "wheels.toml"
     file.write_text("""name = "w"

@@ -113,7 +113,7 @@ bool is_next_to_end(std::span<const Scalar> times, std::size_t i, Scalar begin, 
 
 /// Steps the answer, and beside it its companions, over the asked times, and keeps its states there. Companions take tighter steps: their
 /// distance to the answer is its truncation, and their own distance what rounding and the data's last digits do. A course has step(t_max),
-/// time(), at(t) within the last step, and counts(); one that GoesOnAlike is given up where its steps would overrun their budget by far.
+/// time(), at(t) within the last step, and counts(); one that GoesOnAlike is given up where its steps would overrun their budget (Pace).
 /// The first companion leads, and all are compared at the end of each of its steps and at the asked times, of many at some and at the first and the last
 /// in each step of the answer. Their first
 /// steps end apart: from one start all would take the same polynomial, and err alike; one that runs alone is kicked at half the span. A

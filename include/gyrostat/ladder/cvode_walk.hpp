@@ -15,7 +15,7 @@ namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// Steps CVODE from its time over times[next] and all behind it. keep(t) takes the state at an asked time inside the last step and says
 /// whether CVODE gave it; moved() looks at the end of each step and says whether to go on. Returns why it failed, or ok; next is
-/// the first time not kept, counts the work. Steps that only grow shorter, as beside a jump that holds the motion, are given up early.
+/// the first time not kept, counts the work. Steps that would overrun their budget, as beside a jump that holds the motion, are given up early (Pace).
 template <class Keep, class Moved>
 Errc walk(ode::Cvode& cvode, std::span<const double> times, std::size_t& next, ode::Counts& counts, Monitor* monitor,
           const Keep& keep, const Moved& moved) {

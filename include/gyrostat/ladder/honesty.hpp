@@ -98,7 +98,7 @@ inline constexpr double parted_margin = 8;
 inline constexpr double next_to_steady = 1e-6;
 /// It counts as so many times less well known: how far off it began sets when the motion leaves.
 inline constexpr double steady_condition = 1e6;
-/// The same of all other families, where the steady rotation is unstable. From four scenes of 15 000 (seeds 61001 to 161030); not a fit.
+/// The same of all other families, where the steady rotation is unstable; of heavy bodies next to any, or to a rest. From four scenes of 15 000 (seeds 61001 to 161030); not a fit.
 inline constexpr double next_to_unstable = 1e-3;
 /// As steady_condition.
 inline constexpr double unstable_condition = 1e6;

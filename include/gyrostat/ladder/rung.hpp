@@ -156,7 +156,9 @@ inline void keep_asked(Answer& answer, const Question& question, const Family& f
       if (!each.scalar) continue;
       const Quantity* found = answer.quantity(family.scalars[each.place].name);
       kept.push_back(found ? *found : Quantity{&family.scalars[each.place], {nan<double>, nan<double>, nan<double>}});
-      lacking = lacking || (each.needed && std::isnan(kept.back().values[0]));
+      if (!each.needed || !std::isnan(kept.back().values[0])) continue;
+      lacking = true;
+      kept.back().tolerance = each.tolerance == each.tolerance ? each.tolerance : question.tolerance;
     }
     answer.quantities = std::move(kept);
   }

@@ -25,6 +25,22 @@ TEST_CASE("equal-torque rung: the cheapest answer, exact at any tolerance", "[de
   }
 }
 
+TEST_CASE("equal-torque rung: drag alone never stops the body, and leaves no doubt of the modulus", "[deceleration]") {
+  for (const double drag : {0., .3}) {
+    Case c(1e-3, 100);
+    c.data.control.setZero();
+    c.data.drag = drag;
+    c.data.tolerance = 1e-9;
+    const Answer answer = c.solve();
+    CAPTURE(drag);
+    CHECK(std::strcmp(answer.model, "equal-torque") == 0);
+    CHECK(answer.met);
+    CHECK(answer.find("modulus_squared")->error < 1e-12);
+    const Answer full = c.with(rung::full, 1e-9).solve();
+    CHECK(full.find("modulus_squared")->error < 1e-7);
+  }
+}
+
 TEST_CASE("equal-torque rung: says why it does not apply", "[deceleration]") {
   const auto why = [](const Case& c) {
     const Track track = equal_torque_track(c.scene(), nullptr);

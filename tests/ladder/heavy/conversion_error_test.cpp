@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/heavy/conversion_error.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -233,4 +234,24 @@ TEST_CASE("a start that is given in principal axes is known to its last bit", "[
   // from an attitude it is not known to stay
   question.wants_attitude = true;
   CHECK_FALSE(heavy::solve(*Scene::make(body, start, question), refusal).met);
+}
+
+TEST_CASE("motions are compared evenly, and where the body turns fastest", "[heavy]") {
+  std::vector<double> times;
+  std::vector<State<double>> states(100);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    times.push_back(0.5 * double(i));
+    states[i].angular_velocity = {0, 0, i % 10 == 7 ? 5.0 : 1.0};
+  }
+  const auto looks = times_to_compare(times, states);
+  CHECK(std::is_sorted(looks.begin(), looks.end()));
+  CHECK(looks.front() == 0);
+  CHECK(looks.back() == times.back());
+  CHECK(looks.size() == 9 + 32);
+  for (std::size_t i = 7; i < states.size(); i += 10) CHECK(std::count(looks.begin(), looks.end(), times[i]) > 0);
+  const std::vector<double> once{3};
+  CHECK(times_to_compare(once, std::vector<State<double>>(1)).back() == 3);
+  const std::vector<double> at_start{0};
+  const auto at_once = times_to_compare(at_start, std::vector<State<double>>(1));
+  CHECK(std::count(at_once.begin(), at_once.end(), 0.0) == std::ptrdiff_t(at_once.size()));
 }

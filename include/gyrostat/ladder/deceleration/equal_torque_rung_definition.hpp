@@ -153,10 +153,8 @@ inline Track follow_norm(const Scene& scene) {
   track.error[column::energy] = 16 * epsilon<double> * energy + problem.energy_error(problem.momentum);
   track.error[column::modulus_squared] =
       kind.regime == Regime::point ? 0 : 2 * k2_of_data(problem, p, problem.momentum);
-  // so near to the stop that it may be on its other side
   for (const double t : scene.question().times)
-    if (track.stop_time > 0 && std::abs(t - track.stop_time) <= track.stop_error * track.stop_time)
-      track.error[column::modulus_squared] = 1;
+    if (track.may_be_at_stop(t)) track.error[column::modulus_squared] = 1;
   return track;
 }
 

@@ -91,10 +91,8 @@ GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, s
   track.stop_error = answer->stop_error;
   if (std::isnan(track.stop_error) && std::isfinite(track.stop_time)) track.stop_error = infinity<double>;
   if (find_stop && std::isnan(track.stop_time)) track.warn(warning::stop_unknown);
-  // so near to the stop that it may be behind it; a body at rest is
   for (const double t : times)
-    if (track.stop_time > 0 && std::abs(t - track.stop_time) <= track.stop_error * track.stop_time)
-      track.error[column::modulus_squared] = 1;
+    if (track.may_be_at_stop(t)) track.error[column::modulus_squared] = 1;
   return track;
 }
 

@@ -38,6 +38,11 @@ struct Track : Outcome {
                                          problem.angular_velocity(problem.momentum).norm();
   }
 
+  /// So near to the stop that it may be behind it.
+  bool may_be_at_stop(double t) const noexcept {
+    return stop_time > 0 && stop_time < infinity<double> && std::abs(t - stop_time) <= stop_error * stop_time;
+  }
+
   /// Computed where its rung has no meaning: no error is known.
   void leave_domain() {
     in_domain = false;

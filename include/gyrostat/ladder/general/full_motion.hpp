@@ -523,7 +523,7 @@ class FullCourse {
     const Scalar gone = std::max(precision_ * time_ * fall, 16 * epsilon<Scalar> * blur);
     return fall > 0 && now <= gone ? time_ + now / fall : infinity<Scalar>;
   }
-  /// Whether steps that do not lengthen would overrun the budget by far, where no law changes any more.
+  /// Whether steps would overrun the budget (Pace), where no law changes any more.
   bool is_hopeless() noexcept {
     if (next_ || cut_ < cuts_.size()) return false;
     return pace_.is_hopeless(solver_->counts().steps, time(), last_, options_.step_cap);

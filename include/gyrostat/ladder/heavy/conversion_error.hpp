@@ -34,11 +34,12 @@ inline constexpr const char* undecided_axes =
 GYROSTAT_COMPILED_ONCE State<double> off_start(const State<double>& of, int which, int k,
                                                double by = conversion) noexcept;
 
-/// Times, s, increasing, at which motions that should agree up to the last of the asked ones are compared: evenly, and of the asked ones in each of 32 parts of
-/// them that at which the body turns fastest: what is late shows there. states: those at the asked times.
+/// Times, s, in order, some twice, at which motions that should agree up to the last of the asked ones are compared: evenly, and of the asked ones in each of 32 parts of
+/// them that at which the body turns fastest: what is late shows there. states: those at the asked times, of which there is one at least.
 GYROSTAT_COMPILED_ONCE std::vector<double> times_to_compare(std::span<const double> times,
                                                             std::span<const State<double>> states);
 
+/// The states at these times, s.
 inline std::vector<State<double>> states_at(const Exact<double>& exact, std::span<const double> times) {
   std::vector<State<double>> made;
   made.reserve(times.size());
@@ -90,7 +91,7 @@ GYROSTAT_COMPILED_ONCE Exact<double> rounded_otherwise(const Problem<double>& pr
 GYROSTAT_COMPILED_ONCE ExactError<double> error_by_neighbours(const Problem<double>& problem,
                                                               const State<double>& start, bool converted, int axis,
                                                               const Exact<double>& exact,
-                                                              std::span<const double> times) noexcept;
+                                                              std::span<const double> times);
 
 }  // namespace gyrostat::heavy
 

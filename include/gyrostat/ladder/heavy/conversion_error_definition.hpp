@@ -88,7 +88,7 @@ GYROSTAT_COMPILED_ONCE Exact<double> rounded_otherwise(const Problem<double>& pr
 GYROSTAT_COMPILED_ONCE ExactError<double> error_by_neighbours(const Problem<double>& problem,
                                                               const State<double>& start, bool converted, int axis,
                                                               const Exact<double>& exact,
-                                                              std::span<const double> times) noexcept {
+                                                              std::span<const double> times) {
   constexpr double open = infinity<double>;
   constexpr int neighbours = 4;
   const std::vector<State<double>> seen = states_at(exact, times);

@@ -173,13 +173,14 @@ class FullMotion {
     return std::max(of_start, options_.converted ? I.maxCoeff() / I.minCoeff() : Scalar(1));
   }
   /// The body turns about the vertical, or not at all, and the torques all but balance: stable or not, how far off it began may rule for long.
+  /// whole: the sizes of the torques that balance.
   bool is_next_to_steady() const noexcept {
     const Vec3<Scalar>&I = problem_.inertia(), &w = start_.angular_velocity, &d = start_.down;
     const Scalar off = problem_.torque(w, d).norm();
     const Scalar whole = I.cwiseProduct(w).norm() * w.norm() + problem_.moment().norm() +
                          std::abs(problem_.gradient()) * I.cwiseProduct(d).norm();
     constexpr Scalar near = Scalar(honesty::next_to_unstable);
-    return off <= near * whole && cross<Scalar>(w, d).norm() <= near * w.norm() * d.norm();
+    return whole > 0 && off <= near * whole && cross<Scalar>(w, d).norm() <= near * w.norm() * d.norm();
   }
 
   /// The angle turned through up to the last time, to its order, rad.

@@ -45,7 +45,7 @@ struct Factor {
   Scalar mean = 1, amplitude = 0;
   Scalar rate = 0, phase = 0;  ///< rad/s, rad
 
-  /// By the law of what begins at t.
+  /// By the law of what begins at t; of intervals in the order that check() wants.
   bool is_on(Scalar t) const noexcept {
     const auto later =
         std::upper_bound(on.begin(), on.end(), t, [](Scalar at, const auto& one) { return at < one[0]; });

@@ -439,10 +439,11 @@ ClosedFormError<Scalar> ClosedForm<Scalar>::from_steady(Scalar t, const Sizes& x
   };
   move(true, blur, x.data / x.l);
   const Scalar square = moved.any * moved.any;
-  move(false, (x.fast + linear.feed * x.e_n) * square, 0);
+  // what the linear equations leave out: of second order in y, and its products with what pushes
+  move(false, (x.fast + linear.feed * x.e_n) * square + (std::abs(xi) * linear.g.norm() + off.norm()) * moved.any, 0);
   ClosedFormError<Scalar> error;
   error.momentum = x.l * moved.tilt;
-  error.rotor_rate = moved.rate;
+  error.rotor_rate = moved.rate + linear.rate_of_tilt * std::abs(linear.n.dot(linear.m)) * moved.tilt * moved.tilt / 2;
   const Scalar relaxed = std::abs(linear.g.dot(linear.m) * xi) * -std::expm1(-decay * t);
   error.attitude = moved.tilt + t * (moved.turn + relaxed + x.fast * square + x.data * x.j);
   error.rotor_angle = t * error.rotor_rate;

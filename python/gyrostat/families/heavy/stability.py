@@ -38,7 +38,7 @@ def report(scene: Scene) -> dict[str, Any]:
     """Equilibria and periodic motions of a heavy body and their stability, as plain data (docs/heavy.md, sections 3, 4, 6, 7).
 
     SI units, vectors in body axes; spin and inclination are those of principal axis 3 (heavy.principal_axes).
-    pendulum_rate : c = sqrt(M g l/C); slow_rate : max(c, sqrt N).
+    pendulum_rate : c = sqrt(M g l/C); slow_rate : max(c, sqrt N), in words the rate that the torque sets.
     rest : down of least potential energy, frequencies and directions of its two swings, and start_angle, how far down is from there at the start
     (None where a periodic motion is asked for) [rad], or None without torque.
     top : None, or for a body with an axis of symmetry through its mass centre: spin, and for both ends of the axis (up, down) threshold,
@@ -216,7 +216,7 @@ def sentence(report: Mapping[str, Any]) -> str:
     rest, top, orbit, family, slow = (report[name] for name in ("rest", "top", "periodic", "family", "slow_rate"))
     words = [f"The torque sets the rate {slow:.6g} rad/s; the start spins {abs(orbit['spin']) / slow:.4g} times as fast." if slow > 0 else "There is no torque."]
     if rest is not None and (rest["start_angle"] or 0) > math.pi / 2:
-        words.append(f"The start is {math.degrees(rest['start_angle']):.4g} degrees from hanging, about which the swings above are; without spin it falls.")
+        words.append(f"The start is {math.degrees(rest['start_angle']):.4g} degrees from hanging, about which the swings above are.")
     if top is not None:
         verdict = top["up"]["verdict"]
         words.append(f"Upright the top would be {verdict}; the least spin that holds it is {top['up']['threshold']:.6g} rad/s.")
