@@ -124,12 +124,18 @@ def narrowed(name, runs):
     return text
 
 
+def by_program(text):
+    """The tables of each bench."""
+    parts = re.split(r"(?m)^(?=`\w+`, seeds )", text)
+    return {part.split("`")[1]: part for part in parts if part.startswith("`")}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("seeds", nargs="+", type=int)
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build" / "release" / "bench")
     parser.add_argument("--scenes", type=int, help="of each family, in place of some hundred")
-    parser.add_argument("--only", help="benches, by comma")
+    parser.add_argument("--only", help="benches, by comma; with --write the tables of the others stay")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--fit", action="store_true")
     parser.add_argument("--write", action="store_true")
@@ -151,7 +157,9 @@ def main():
     if given.write:
         page = PAGE.read_text()
         head, rest = page.split(BEGIN)
-        PAGE.write_text(head + BEGIN + text + END + rest.split(END)[1])
+        old, rest = rest.split(END)
+        made = {**by_program(old), **by_program(text)}
+        PAGE.write_text(head + BEGIN + "".join(made[name] for name in PROGRAMS if name in made) + END + rest)
     else:
         print(text, end="")
 

@@ -451,6 +451,20 @@ def test_overrides_are_checked_and_take_the_place_of_their_alternative(scene_fil
             scene.replace(**wrong)
 
 
+ONE_WHEEL = """\
+name = "w"
+[body]
+inertia = [1.0, 2.0, 2.5]
+[initial]
+angular_velocity = [0.1, 0.2, 0.3]
+[solve]
+times = [1.0]
+[[wheel]]
+type = "held"
+axis = [1, 0, 0]
+axial_inertia = 0.01
+rate = 1.0
+"""
 GENERAL_SCENE: dict[str, Any] = {
     "name": "two wheels", "body": {"inertia": [[4.0, 0.1, 0.0], [0.1, 5.0, 0.0], [0.0, 0.0, 6.0]]}, "initial": {"angular_velocity": [0.1, 0.2, 0.3]},
     "solve": {"times": [1.0]},
@@ -494,19 +508,7 @@ def test_two_places_may_be_written_either_way_and_rivals_are_seen_without_them()
 
 def test_a_mistake_set_from_outside_is_not_told_of_a_line_of_the_file(tmp_path: Path) -> None:
     file = tmp_path / "wheels.toml"
-    file.write_text("""name = "w"
-[body]
-inertia = [1.0, 2.0, 2.5]
-[initial]
-angular_velocity = [0.1, 0.2, 0.3]
-[solve]
-times = [1.0]
-[[wheel]]
-type = "held"
-axis = [1, 0, 0]
-axial_inertia = 0.01
-rate = 1.0
-""")
+    file.write_text(ONE_WHEEL)
     with pytest.raises(SceneError) as caught:
         load(file, **{"wheel[0].rate": "foo"})
     assert "key set from outside" in str(caught.value) and f"{file}:" not in str(caught.value)
@@ -514,19 +516,7 @@ rate = 1.0
 
 def test_a_mistake_in_a_list_names_the_line_of_its_table(tmp_path: Path) -> None:
     file = tmp_path / "wheels.toml"
-    file.write_text("""name = "w"
-[body]
-inertia = [1.0, 2.0, 2.5]
-[initial]
-angular_velocity = [0.1, 0.2, 0.3]
-[solve]
-times = [1.0]
-[[wheel]]
-type = "held"
-axis = [1, 0, 0]
-axial_inertia = 0.01
-rate = 1.0
-[[wheel]]
+    file.write_text(ONE_WHEEL + """[[wheel]]
 type = "motor"
 axis = [0, 1, 0]
 axial_inertia = 0.01
