@@ -786,7 +786,7 @@ def _may_be_another(tree: Mapping[str, Any], mistakes: Sequence[Mistake]) -> boo
     if any(isinstance(tree.get(name), list) for name in ("wheel", "torque")) or "orbit" in tree:
         return False
     keys = [mistake.key for mistake in mistakes if mistake.problem.startswith(("unknown", "the table", "this is a table, not"))]
-    return any(key in family.keys or _kinds_with(key.rpartition(".")[2], table_of(key)) for key in keys for family in FAMILIES.values())
+    return any(any(key in family.keys for family in FAMILIES.values()) or _kinds_with(key.rpartition(".")[2], table_of(key)) for key in keys)
 
 
 def _before(given: Any, source: _Source) -> Scene:

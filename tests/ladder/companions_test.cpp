@@ -175,14 +175,22 @@ TEST_CASE("what is off at the end of a step and gone in the next is seen, of how
   }
 }
 
-TEST_CASE("what is off just behind the end of a step and gone soon after is seen", "[ladder]") {
-  const Function swells = [](double t) { return 1 + (t > 4.2005 && t < 4.2025 ? 0x1p-20 : 0); };  // six steps of 0.7
-  Run course{swells, 0.7}, companion{still, 0.5};
+namespace {
+
+/// What a walk to 10 s sees of its error, asked for 6400 times.
+double error_seen(Run course, Run companion) {
   std::vector<double> times, states(6400);
   for (int i = 1; i <= 6400; ++i) times.push_back(i / 640.0);
-  const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
-                                MotionOptions<double>{}, 0, 1, not_noted);
-  CHECK(walk.error[0] == Approx(margin * 0x1p-20).epsilon(1e-9));
+  return walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
+                     MotionOptions<double>{}, 0, 1, not_noted)
+      .error[0];
+}
+
+}  // namespace
+
+TEST_CASE("what is off just behind the end of a step and gone soon after is seen", "[ladder]") {
+  const Function swells = [](double t) { return 1 + (t > 4.2005 && t < 4.2025 ? 0x1p-20 : 0); };  // six steps of 0.7
+  CHECK(error_seen({swells, 0.7}, {still, 0.5}) == Approx(margin * 0x1p-20).epsilon(1e-9));
 }
 
 TEST_CASE("a companion steps shorter than the answer, whatever its own tolerance would let it", "[ladder]") {
@@ -209,12 +217,7 @@ TEST_CASE("a companion steps shorter than the answer, whatever its own tolerance
 
 TEST_CASE("what is off inside the first step and not at its end is seen, of however many times", "[ladder]") {
   const Function bulges = [](double t) { return 1 + (t < 0.004 ? 0x1p-20 : 0); };
-  Run course{still, 0.7}, companion{bulges, 0.5};
-  std::vector<double> times, states(6400);
-  for (int i = 1; i <= 6400; ++i) times.push_back(i / 640.0);
-  const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
-                                MotionOptions<double>{}, 0, 1, not_noted);
-  CHECK(walk.error[0] == Approx(margin * 0x1p-20).epsilon(1e-2));
+  CHECK(error_seen({still, 0.7}, {bulges, 0.5}) == Approx(margin * 0x1p-20).epsilon(1e-2));
 }
 
 TEST_CASE("what lies behind a failure is nowhere, whichever run fails", "[ladder]") {
