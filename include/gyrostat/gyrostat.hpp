@@ -258,6 +258,7 @@
 #include "gyrostat/models/spinning/published.hpp"
 #include "gyrostat/models/spinning/second_order.hpp"
 #include "gyrostat/models/spinning/spin_angle.hpp"
+#include "gyrostat/models/spinning/tilt_orders.hpp"
 #include "gyrostat/ode/dop853.hpp"
 #include "gyrostat/ode/fixed_step.hpp"
 #include "gyrostat/ode/radau.hpp"

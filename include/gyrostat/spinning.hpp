@@ -14,3 +14,4 @@
 #include "gyrostat/models/spinning/pointing.hpp"
 #include "gyrostat/models/spinning/second_order.hpp"
 #include "gyrostat/models/spinning/spin_angle.hpp"
+#include "gyrostat/models/spinning/tilt_orders.hpp"

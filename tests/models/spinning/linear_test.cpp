@@ -13,7 +13,7 @@
 
 using namespace gyrostat;
 using namespace gyrostat::spinning;
-using detail::problem_cast;
+using gyrostat::spinning::detail::problem_cast;
 using linear_table::outputs;
 
 namespace {

@@ -23,6 +23,7 @@ struct LinearErrors {
   Scalar spin;              ///< r
   Scalar tilt;              ///< (psi, phi)
   Scalar of_rates = 0;      ///< the part of it that the error of the rates makes
+  Scalar of_spin_rate = 0;  ///< the part of it that the change of the spin rate makes: of the second order alone
   Scalar shift = 0;         ///< of the frequency of nutation, rad/s
   Scalar theta;             ///< spin angle
   Scalar attitude;          ///< angle of the rotation between the two attitudes, rad
@@ -32,6 +33,8 @@ struct LinearErrors {
   Scalar axial_velocity;    ///< v3
   Scalar position;          ///< (x1, x2)
   Scalar axial_position;    ///< x3
+  Scalar in_space = 0;      ///< greatest integral of the tilt's error as space sees it, rad s
+  Scalar in_body = 0;       ///< and as the body sees it
   Amplitudes<Scalar> size;  ///< g and P, of which the estimates are made
 };
 
@@ -74,24 +77,28 @@ struct SpinChange {
 /// nutation is stable: modes 0, nu and -nu of the rates. Infinite or NaN where one of them is at rest in space.
 template <Real Scalar>
 struct TiltModes {
-  bool stable;                  ///< the nutation; else nothing below means anything
-  math::Complex<Scalar> still;  ///< rad
-  Scalar rate[3];               ///< amplitudes of p + i q, rad/s
-  Scalar tilt[3];               ///< amplitudes, rad
-  Scalar turning[3];            ///< r0, r0 + nu, r0 - nu, rad/s
+  bool stable;                     ///< the nutation; else nothing below means anything
+  math::Complex<Scalar> still;     ///< rad
+  math::Complex<Scalar> rates[3];  ///< of p + i q at t = 0, rad/s
+  math::Complex<Scalar> tilts[3];  ///< at t = 0, rad
+  Scalar rate[3];                  ///< their amplitudes, rad/s
+  Scalar tilt[3];                  ///< rad
+  Scalar turning[3];               ///< r0, r0 + nu, r0 - nu, rad/s
 
   TiltModes(const Problem<Scalar>& problem, const LinearStart<Scalar>& start) noexcept
       : stable(problem.nutation_squared() > 0), still(start.Gamma) {
     const Scalar r0 = problem.spin();
     const RateModes<Scalar> modes(start, problem.nutation_squared());
-    const math::Complex<Scalar> rates[] = {modes.constant, modes.up, modes.down};
+    rates[0] = modes.constant;
+    rates[1] = modes.up;
+    rates[2] = modes.down;
     const Scalar relative[] = {0, modes.lambda.im, -modes.lambda.im};
     for (int j = 0; j < 3; ++j) {
       turning[j] = r0 + relative[j];
-      const auto of_tilt = rates[j] * math::inverse(math::Complex<Scalar>{0, turning[j]});
-      still = still - of_tilt;
+      tilts[j] = rates[j] * math::inverse(math::Complex<Scalar>{0, turning[j]});
+      still = still - tilts[j];
       rate[j] = magnitude(rates[j]);
-      tilt[j] = magnitude(of_tilt);
+      tilt[j] = magnitude(tilts[j]);
     }
   }
 };
@@ -195,6 +202,61 @@ Scalar third_order_swing(const Problem<Scalar>& problem, Scalar T) noexcept {
   return std::min(T, 2 / least);
 }
 
+/// Greatest integrals over [0, T] of what the linear motion leaves out of the tilt to third order, rad s: of the direction of axis 3 in space, where
+/// the part of the tilt that stands still does so to all orders, and of that of space in the body, where this part lags by what is added to the
+/// spin angle. From the modes; infinite without them. `shift`: of the frequency of nutation, rad/s; `g`: greatest tilt, with its error, where it is `linear.tilt` without.
+template <Real Scalar>
+struct TiltLeftOut {
+  Scalar space = infinity<Scalar>, body = infinity<Scalar>;
+
+  TiltLeftOut(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, const TiltModes<Scalar>& modes,
+              const SpinChange<Scalar>& rho, const Amplitudes<Scalar>& linear, Scalar net, Scalar shift, Scalar g,
+              Scalar T) noexcept {
+    if (!modes.stable) return;
+    const auto single = [T](Scalar w) noexcept { return std::min(T, 2 / std::abs(w)); };
+    const Scalar r0 = problem.spin(), nu = std::sqrt(problem.nutation_squared()), once = single(r0);
+    const Scalar wider = g / linear.tilt, swing = third_order_swing(problem, T);
+    Scalar size[] = {magnitude(modes.still), modes.tilt[0], modes.tilt[1], modes.tilt[2]};
+    Scalar rate[] = {modes.rate[0], modes.rate[1], modes.rate[2]};
+    for (Scalar& x : size) x *= wider;
+    for (Scalar& x : rate) x *= wider;
+    const Scalar turning[] = {0, modes.turning[0], modes.turning[1], modes.turning[2]};
+
+    // half the integral of |Gamma|^2 Pi: each product of modes is (e^(i w t) - 1)/(i w)
+    Scalar in_space = 0, in_body = 0;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        for (int k = 1; k < 4; ++k) {
+          if (i == 0 && j == k) continue;
+          const Scalar w = turning[i] - turning[j] + turning[k], product = size[i] * size[j] * rate[k - 1] / 2;
+          in_space += product * std::min(T * T / 2, (T + single(w)) / std::abs(w));
+          in_body += product * std::min(T * T / 2, (single(w - r0) + once) / std::abs(w));
+        }
+    // the angles at the start less the direction, and in the body arcs less sines, of which what the lean shares does not swing
+    const Scalar psi = start.Gamma.re, phi = start.Gamma.im;
+    const Scalar bent = std::hypot(psi * psi * psi / 6, phi * (psi * psi / 2 + phi * phi / 6));
+    in_space = Scalar(1.25L) * (in_space + bent * T);
+    in_body = Scalar(1.25L) * (in_body + bent * once + g * g * (size[1] * T + g * swing) / 4);
+
+    // nutation late by the change of its frequency, and a lean that follows the change of the spin rate
+    const Scalar late = rho.rate > 0 ? std::min(shift * T, shift / rho.rate * rho.angle * wider * wider) : Scalar(0);
+    const Scalar soon = std::min(T, 1 / nu), answer = std::min(T, 2 / divisors(problem).least());
+    const Scalar unlike = shift * (rate[0] + rate[1] + rate[2]) * soon * answer;
+    in_space += late * (size[2] * single(turning[2]) + size[3] * single(turning[3])) + unlike * swing;
+    in_body += late * (size[2] + size[3]) * single(nu) + shift * rate[0] * soon * once * T +
+               unlike * std::max(single(nu), once);
+    // what is added to the spin angle turns all modes but the one that stands still; the change of the spin rate makes that one from others
+    const Scalar added = (net + rho.angle) * wider * wider;
+    for (int j = 1; j < 4; ++j) {
+      const Scalar made = size[j] * rho.rate * std::min(T, 1 / std::abs(turning[j]));
+      in_space += size[j] * added * single(turning[j]) + made * T / 2;
+      in_body += made * once;
+    }
+    space = in_space;
+    body = in_body + size[0] * added * once;
+  }
+};
+
 }  // namespace detail
 
 /// At the cost of a few dozen operations; no bounds, but wide (docs/spinning.md, section 5.1a). T > 0.
@@ -252,11 +314,15 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
   error.spin = Scalar(1.25L) * rate;
   error.theta = Scalar(1.25L) * (net + angle) + g * g / 2 + g * g * gross;
   error.attitude = std::hypot(error.theta, error.tilt);
+  const detail::TiltLeftOut<Scalar> tilt(problem, start, modes, rho, size, nutation.net, error.shift, g, T);
+  const Scalar roughly = swing * error.tilt + T * g * g * g / 2;
+  error.in_space = std::min(roughly, tilt.space);
+  error.in_body = std::min(roughly, tilt.body);
   error.momentum =
       M * turned + e * (error.tilt + g * phase + g * g * g) + Scalar(1.25L) * detail::momentum_left_out(problem);
-  error.axial_momentum = M * (swing * error.tilt + T * g * g * g / 2) + e * g * error.tilt;
-  error.velocity = f * turned + f3 * (swing * error.tilt + T * g * g * g / 2);
-  error.axial_velocity = f3 * g * g * T / 2 + f * (swing * error.tilt + T * g * g * g / 2);
+  error.axial_momentum = M * error.in_body + e * g * error.tilt;
+  error.velocity = f * turned + f3 * error.in_space;
+  error.axial_velocity = f3 * g * g * T / 2 + f * error.in_body;
   error.position = T * error.velocity / 2;
   error.axial_position = T * error.axial_velocity / 2;
   return error;

@@ -535,6 +535,7 @@ LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar 
   const detail::StillTilt<Scalar> turned_back(modes, first.size, T);
   const Scalar wider = g / first.size.tilt;
   const Scalar apart = Scalar(1.25L) * turned_back.left * wider * wider * wider + g * rho.rate * swing;
+  error.of_spin_rate = first.of_rates + g * rho.rate * swing;
   detail::lower(error.tilt, apart + first.of_rates);
   const Scalar skewness = std::abs(D[0] - D[1]) / D[2];
   error.spin = skewness * P * first.rates * T;
@@ -558,9 +559,8 @@ LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar 
   const Scalar f = magnitude(start.acceleration), f3 = std::abs(start.axial_acceleration);
   const Scalar M = magnitude(start.torque), e = std::abs(start.charge_momentum);
   error.momentum = M * turned + e * (error.tilt + g * error.theta);
-  error.velocity = f * turned + f3 * (swing * first.tilt + T * g * g * g / 2);
-  error.axial_velocity =
-      f3 * (swing * g * first.tilt + T * g * g * g * g) / 4 + f * (swing * first.tilt + T * g * g * g / 2);
+  error.velocity = f * turned + f3 * first.in_space;
+  error.axial_velocity = f3 * (swing * g * first.tilt + T * g * g * g * g) / 4 + f * first.in_body;
   error.position = T * error.velocity / 2;
   error.axial_position = T * error.axial_velocity / 2;
   return error;
