@@ -4,6 +4,7 @@
 import csv
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import gyrostat
 import numpy as np
 import pytest
 from conftest import drawn, of_kind
-from gyrostat import DomainError, SceneError, _core
+from gyrostat import DomainError, SceneError, _core, general
 from gyrostat.cli import main
 from gyrostat.families import FAMILIES
 from gyrostat.families.general.rewrite import as_general, recognised
@@ -21,7 +22,7 @@ from gyrostat.scenes import Scene, bundled, load, scene_from
 ROOT = Path(__file__).resolve().parents[2]
 CASES = json.loads((ROOT / "tests" / "data" / "reference" / "general.json").read_text())["cases"]
 EPS = 2.0**-52
-BODY: dict[str, Any] = {"inertia": [3.0, 2.5, 2.0]}
+BODY: dict[str, Any] = {"inertia": [3.0, 2.5, 2.0], "mass": 1.0}
 START: dict[str, Any] = {"angular_velocity": [0.3, -0.5, 0.8]}
 FULL = ("attitude", "angular_velocity", "angular_momentum")
 
@@ -636,3 +637,36 @@ def test_the_attitude_beside_a_long_orbit_is_as_good_as_its_clock() -> None:
     answer = gyrostat.solve(scene)
     assert perigee * 3e9 * EPS < answer.error["attitude_orbit"] < 40 * perigee * 3e9 * EPS
     assert math.sqrt(mu / a) / a * 3e9 < perigee * 3e9 / 1e3
+
+
+def test_no_mass_and_no_gravity_are_made_up_where_they_count() -> None:
+    held = {"inertia": [3.0, 2.5, 2.0], "fixed": True, "centre_of_mass": [0.0, 0.0, 0.1]}
+    weight, thrust = {"type": "weight"}, {"type": "thrust", "force": [0.0, 0.0, 1.0], "point": [0.1, 0.0, 0.0]}
+    gravity = {"gravity": 9.8}
+    for changes, key, why in (
+            ({"body": held, "field": gravity, "torque": [weight]}, "body.mass", "torque 1 (weight) is mass times gravity"),
+            ({"body": {**held, "mass": 2.0}, "torque": [weight]}, "field.gravity", "torque 1 (weight) is mass times gravity"),
+            ({"body": {"inertia": [3.0, 2.5, 2.0]}, "torque": [CONSTANT, thrust]}, "body.mass", "torque 2 (thrust) moves the mass centre"),
+            ({"body": {**held, "inertia_about": "mass-centre"}}, "body.mass", "by it the inertia is moved"),
+            ({"body": {"inertia": [3.0, 2.5, 2.0], "wheels_in_inertia": False},
+              "wheel": [wheel("free", mass=0.1, position=[0, 0, 0], equatorial_inertia=0.02)]}, "body.mass", "the wheels are added to the body")):
+        with pytest.raises(SceneError, match=re.escape(f"{key}: the key is missing, and {why}")):
+            scene_from(scene(**changes))
+    # gravity that is said to be 0, a force on a body that is held, an inertia that stays where it is: nothing is made up
+    for changes in ({"body": {**held, "mass": 2.0}, "torque": [weight], "field": {"gravity": 0.0}}, {"body": held, "torque": [thrust]},
+                    {"body": {"inertia": [3.0, 2.5, 2.0], "inertia_about": "origin"}}):
+        scene_from(scene(**changes))
+
+
+def test_the_period_of_an_eccentric_orbit() -> None:
+    mu, e, period = 3.986004415e14, 0.3, 12000.0
+    size = (mu * (period / (2 * math.pi)) ** 2) ** (1 / 3)
+    for anomaly in (0.0, 1.1, 3.0):
+        shape = {"eccentricity": e, "true_anomaly": anomaly, "mu": mu}
+        by_period = general.orbit_start({"period": period, **shape})
+        by_radius = general.orbit_start({"radius": size * (1 - e * e) / (1 + e * math.cos(anomaly)), **shape})
+        for one, other in zip(by_period, by_radius, strict=True):
+            np.testing.assert_allclose(one, other, rtol=1e-14, atol=1e-18)
+        # a period later it is where it was
+        for one, later in zip(by_period, general.orbit_start({"period": period, **shape}, period), strict=True):
+            np.testing.assert_allclose(one, later, rtol=1e-12, atol=1e-13)

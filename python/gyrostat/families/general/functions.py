@@ -244,10 +244,9 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
     if not varies(eccentricity) and not 0 <= number("orbit.eccentricity", eccentricity) < 1:
         raise DomainError(f"orbit.eccentricity = {eccentricity}: give a number in [0, 1)")
     share = 1 + eccentricity * np.cos(_or(given.get("true_anomaly"), 0.0))
-    if given.get("period") is not None:
-        if np.any(eccentricity != 0):
-            raise DomainError("orbit.period: this is of a circle; give an eccentric orbit by its radius or its rate at t = 0")
-        rate = 2 * math.pi / given["period"]
+    if given.get("period") is not None:  # the mean rate: at t = 0 it is that times share^2/(1 - e^2)^(3/2)
+        flat = 1 - eccentricity * eccentricity
+        rate = 2 * math.pi / given["period"] * (share * share / (flat * np.sqrt(flat)))
     if rate is not None:
         # the size of an orbit of given rate matters to the field of a dipole alone
         mu = planet[0] if mu is None and radius is None else mu

@@ -139,7 +139,8 @@ KEYS: Final[dict[str, Table]] = {
               "or the origin of its axes", default="reference", choices=("reference", "mass-centre", "origin")),
         Field("wheels_in_inertia", "flag", "the wheels are part of inertia, mass and centre_of_mass; false: these are of the body without them, and each "
               "wheel has mass, position and equatorial_inertia", default=True),
-        Field("mass", "number", "mass", "kg", 1.0, low=0, open_low=True),
+        Field("mass", "number", "mass; may be left out where no force acts and no inertia is moved from one point to another, and counts as 1 then", "kg", UNSET, low=0,
+              open_low=True),
         Field("centre_of_mass", "vector", "mass centre from the body's origin, body axes", "m", (0.0, 0.0, 0.0)),
         Field("fixed", "flag", "the body's origin is held in space", default=False),
         Field("rotor_momentum", "vector", "angular momentum, relative to the body and constant, of wheels that are not listed", "N m s",
@@ -149,7 +150,7 @@ KEYS: Final[dict[str, Table]] = {
         Field("radius", "number", "distance of the mass centre from the centre of attraction at t = 0", "m", UNSET, low=0, open_low=True),
         Field("altitude", "number", "height above the equatorial radius of the planet at t = 0", "m", UNSET),
         Field("rate", "number", "angular rate at t = 0", "rad/s", UNSET, low=0, open_low=True),
-        Field("period", "number", "period of a circular orbit", "s", UNSET, low=0, open_low=True),
+        Field("period", "number", "period", "s", UNSET, low=0, open_low=True),
         Field("mu", "number", "gravitational parameter; by default that of the planet", "m^3/s^2", UNSET, low=0, open_low=True),
         Field("planet", "choice", "central body", default="earth", choices=tuple(PLANETS)),
         Field("eccentricity", "number", "eccentricity", "", 0.0, low=0, high=1, open_high=True),
@@ -158,7 +159,7 @@ KEYS: Final[dict[str, Table]] = {
         Field("along", "axis", f"direction of motion at t = 0, inertial axes, {_DIRECTION}; what of it is radial is dropped", "", (0.0, 1.0, 0.0)),
     ),
     "field": (
-        Field("gravity", "number", "gravity", "m/s^2", 0.0, low=0),
+        Field("gravity", "number", "gravity; left out there is none", "m/s^2", UNSET, low=0),
         Field("down", "axis", f"direction of gravity, inertial axes, {_DIRECTION}", "", (0.0, 0.0, -1.0)),
         Field("uniform", "vector", "magnetic flux density, constant, inertial axes", "T", UNSET),
         Field("rotating", "record", "magnetic flux density that turns", "", UNSET, parts=(
@@ -197,7 +198,7 @@ ALTERNATIVES: Final[tuple[Choices, ...]] = (
 # The argument of `solve` that a table is.
 ARGUMENTS: Final = {"start_time": ("initial", "time"), "start_error": ("initial", "error"), "wheels": ("", "wheel"), "torques": ("", "torque"), "orbit": ("", "orbit"), "field": ("", "field")}
 EXAMPLE: Final[dict[str, Any]] = {
-    "solve.duration": "90 min", "solve.euler": "3-2-1", "solve.samples": 541, "body.inertia": (90.0, 120.0, 60.0), "initial.angular_velocity": (0.0, -0.00113, 0.0002),
+    "solve.duration": "90 min", "solve.euler": "3-2-1", "solve.samples": 541, "body.inertia": (90.0, 120.0, 60.0), "body.mass": "45 kg", "field.gravity": 9.80665, "initial.angular_velocity": (0.0, -0.00113, 0.0002),
     "initial.angular_momentum": (0.0, -0.135, 0.012), "initial.attitude": (0.0, 0.0, 0.0, 1.0), "initial.velocity": (0.0, 0.0, 0.0),
     "initial.position": (0.0, 0.0, 0.0), "initial.time": 0.0,
     "initial.error": {"attitude": "0.1 deg", "angular_velocity": "0.01 deg/s"}, "from": "iss-drift", "orbit.radius": 6778137.0, "orbit.altitude": "400 km", "orbit.rate": 0.00113,
@@ -237,12 +238,14 @@ def mistakes(tables: Values) -> Found:
         yield from _wheel_mistakes(place, wheel, body["wheels_in_inertia"])
     if not body["wheels_in_inertia"] and any(wheel[name] is UNSET for wheel in tables[""]["wheel"] for name in APART):
         return
+    yield from _mass_mistakes(body, tables[""]["wheel"])
     moments = np.linalg.eigvalsh(_whole(body, tables[""]["wheel"]).inertia)
     if body["inertia_about"] == "origin" and not body["fixed"] and (moments[0] <= 0 or moments[0] + moments[1] < moments[2] * (1 - 1e-9)):
         yield ("body.inertia", body["inertia"], f"moved from the origin to the mass centre it has the moments {', '.join(f'{m:.6g}' for m in moments)}, which "
                "no body has", "check mass and centre_of_mass, or say what point the inertia is about by inertia_about")
     for place, torque in enumerate(tables[""]["torque"], 1):
         yield from _torque_mistakes(place, torque, orbiting, body["fixed"], any(field[name] is not UNSET for name in ("uniform", "rotating", "dipole")))
+        yield from _force_mistakes(place, torque, body, field["gravity"])
 
 
 def _asked_in_vain(tables: Values, orbiting: bool) -> Found:
@@ -318,6 +321,28 @@ def _torque_mistakes(place: int, torque: Mapping[str, Any], orbiting: bool, fixe
             yield from _lengths(f"{what}: factor", "torque", factor)
 
 
+def _mass_mistakes(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]]) -> Found:
+    """What needs the mass of the body where that is not given."""
+    if body["mass"] is not UNSET:
+        return
+    if wheels and not body["wheels_in_inertia"]:
+        yield "body.mass", "", "the key is missing, and the wheels are added to the body", "give it, or set body.wheels_in_inertia = true"
+    elif np.any(np.subtract(*_points(body, stacked(body["centre_of_mass"])))):
+        yield ("body.mass", "", "the key is missing, and by it the inertia is moved between the origin and the mass centre",
+               'give it, or say by body.inertia_about = "reference" that the inertia is about the point where the body is held, or its mass centre')
+
+
+def _force_mistakes(place: int, torque: Mapping[str, Any], body: Mapping[str, Any], gravity: Any) -> Found:
+    """What a force needs: what it does without a mass or gravity that were given would be what nobody meant."""
+    kind, what = torque["type"], f"torque {place} ({torque['type']})"
+    if kind == "weight" and body["fixed"] and body["mass"] is UNSET:
+        yield "body.mass", "", f"the key is missing, and {what} is mass times gravity", "give it"
+    if kind == "weight" and body["fixed"] and gravity is UNSET:
+        yield "field.gravity", "", f"the key is missing, and {what} is mass times gravity", "give it, such as 9.80665"
+    if kind == "thrust" and not body["fixed"] and body["mass"] is UNSET:
+        yield "body.mass", "", f"the key is missing, and {what} moves the mass centre", 'give it, or give the torque alone, as a torque of the type "constant"'
+
+
 def _times(factor: Any, of: Floats) -> Floats:
     """A number times a vector or a tensor."""
     made: Floats = np.reshape(np.asarray(factor, dtype=float), (*np.shape(factor), *[1] * (2 if of.shape[-2:] == (3, 3) else 1))) * of
@@ -344,15 +369,19 @@ class _Whole:
     centre_of_mass: Floats
 
 
-def _whole(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]]) -> _Whole:
-    mass, centre, inertia = body["mass"], stacked(body["centre_of_mass"]), stacked(body["inertia"])
-    inertia = inertia if isinstance(body["inertia"][0], tuple) else diagonal(inertia)
+def _points(body: Mapping[str, Any], all_centre: Floats) -> tuple[Floats, Floats]:
+    """From the body's origin: the point that the inertia is given about, and the one that it is wanted about."""
     about = body["inertia_about"] if body["inertia_about"] != "reference" else "origin" if body["fixed"] else "mass-centre"
+    return np.zeros(3) if about == "origin" else stacked(body["centre_of_mass"]), np.zeros(3) if body["fixed"] else all_centre
+
+
+def _whole(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]]) -> _Whole:
+    mass, centre, inertia = 1.0 if body["mass"] is UNSET else body["mass"], stacked(body["centre_of_mass"]), stacked(body["inertia"])
+    inertia = inertia if isinstance(body["inertia"][0], tuple) else diagonal(inertia)
     apart = [] if body["wheels_in_inertia"] else [(each["mass"], stacked(each["position"])) for each in wheels]
     all_mass = mass + sum(m for m, _ in apart)
     all_centre = (_times(mass, centre) + sum(_times(m, r) for m, r in apart)) / np.asarray(all_mass)[..., None] if apart else centre
-    reference = np.zeros(3) if body["fixed"] else all_centre
-    given = np.zeros(3) if about == "origin" else centre
+    given, reference = _points(body, all_centre)
     differs = np.any(given != reference, -1)
     if np.any(differs):
         inertia = np.where(differs[..., None, None], inertia - _moved(mass, centre - given) + _moved(mass, centre - reference), inertia)
