@@ -73,32 +73,33 @@ struct SpinChange {
   }
 };
 
-/// The linear tilt as space sees it, e^(i r0 t) Gamma = still + sum tilt_j e^(i turning_j t), and the rates that belong to it, of a body whose
-/// nutation is stable: modes 0, nu and -nu of the rates. Infinite or NaN where one of them is at rest in space.
+/// The linear tilt as space sees it, e^(i r0 t) Gamma = still + sum tilt_j e^(pace_j t), and the rates that belong to it: modes 0, lambda and
+/// -lambda of the rates, lambda = i nu, or |nu| where the nutation is unstable. Infinite or NaN where nu = 0, or one of them is at rest in space.
 template <Real Scalar>
 struct TiltModes {
-  bool stable;                     ///< the nutation; else nothing below means anything
+  bool stable;                     ///< the nutation; else `turning` means nothing
   math::Complex<Scalar> still;     ///< rad
   math::Complex<Scalar> rates[3];  ///< of p + i q at t = 0, rad/s
   math::Complex<Scalar> tilts[3];  ///< at t = 0, rad
-  Scalar rate[3];                  ///< their amplitudes, rad/s
-  Scalar tilt[3];                  ///< rad
+  math::Complex<Scalar> pace[3];   ///< i r0, i r0 + lambda, i r0 - lambda, 1/s
+  Scalar rate[3];                  ///< sizes of `rates`
+  Scalar tilt[3];                  ///< sizes of `tilts`
   Scalar turning[3];               ///< r0, r0 + nu, r0 - nu, rad/s
 
   TiltModes(const Problem<Scalar>& problem, const LinearStart<Scalar>& start) noexcept
       : stable(problem.nutation_squared() > 0), still(start.Gamma) {
-    const Scalar r0 = problem.spin();
+    const math::Complex<Scalar> spin{0, problem.spin()};
     const RateModes<Scalar> modes(start, problem.nutation_squared());
-    rates[0] = modes.constant;
-    rates[1] = modes.up;
-    rates[2] = modes.down;
-    const Scalar relative[] = {0, modes.lambda.im, -modes.lambda.im};
+    const math::Complex<Scalar> paces[] = {spin, spin + modes.lambda, spin - modes.lambda};
+    const math::Complex<Scalar> amplitudes[] = {modes.constant, modes.up, modes.down};
     for (int j = 0; j < 3; ++j) {
-      turning[j] = r0 + relative[j];
-      tilts[j] = rates[j] * math::inverse(math::Complex<Scalar>{0, turning[j]});
+      rates[j] = amplitudes[j];
+      pace[j] = paces[j];
+      tilts[j] = rates[j] * math::inverse(pace[j]);
       still = still - tilts[j];
       rate[j] = magnitude(rates[j]);
       tilt[j] = magnitude(tilts[j]);
+      turning[j] = pace[j].im;
     }
   }
 };
@@ -111,15 +112,17 @@ struct NutationPhase {
 
   NutationPhase(const TiltModes<Scalar>& m, const Amplitudes<Scalar>& size, Scalar T) noexcept {
     net = gross = size.tilt * size.rate * T / 2;
-    if (!m.stable) return;
     Scalar steady = 0, all = 0, swings = 0;
-    const auto swing = [T](Scalar w) noexcept { return std::min(T, 2 / std::abs(w)); };
     for (int j = 0; j < 3; ++j) {
-      steady += m.rate[j] * m.rate[j] / m.turning[j];
-      all += m.rate[j] * m.tilt[j];
-      swings += m.rate[j] * magnitude(m.still) * swing(m.turning[j]);
+      swings += m.rate[j] * magnitude(m.still) * greatest_integral(m.pace[j], T);
+      const int partner = m.stable || j == 0 ? j : 3 - j;  // whose product with it is steady: of growth, decay
       for (int k = 0; k < 3; ++k)
-        if (j != k) swings += m.rate[j] * m.tilt[k] * swing(m.turning[j] - m.turning[k]);
+        if (k == partner) {
+          steady += (m.rates[j] * conjugate(m.tilts[k])).im;
+          all += m.rate[j] * m.tilt[k];
+        } else {
+          swings += m.rate[j] * m.tilt[k] * greatest_integral(m.pace[j] + conjugate(m.pace[k]), T);
+        }
     }
     lower(net, (std::abs(steady) * T + swings) / 2);
     lower(gross, (all * T + swings) / 2);
@@ -285,7 +288,9 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
   const Scalar grown = detail::grown_error(problem, start, zeta, T);
   const auto third_order = [&]() noexcept {
     error.shift = skew * zeta * rate;
-    error.rates = P * error.shift * T + skew * grown;
+    // what grows changes the spin rate late
+    const Scalar late = modes.stable ? infinity<Scalar> : 2 * skew * zeta * angle;
+    error.rates = P * std::min(error.shift * T, late) + skew * grown;
     error.of_rates = error.rates * answer;
     const Scalar wider = size.rate > 0 ? P / size.rate : Scalar(1);
     if (modes.stable) detail::lower(error.of_rates, error.shift * (T * nutating * wider + P * once * answer));
