@@ -294,7 +294,7 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
     error.of_rates = error.rates * answer;
     const Scalar wider = size.rate > 0 ? P / size.rate : Scalar(1);
     if (modes.stable) detail::lower(error.of_rates, error.shift * (T * nutating * wider + P * once * answer));
-    error.tilt = (g * (2 * gross + angle) + g * g * g) / 2 + error.of_rates;
+    error.tilt = g * (gross + angle) + g * g * g / 2 + error.of_rates;
   };
   third_order();
   if (!(g + error.tilt <= Scalar(small_tilt))) {

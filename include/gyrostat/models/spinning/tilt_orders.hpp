@@ -33,8 +33,8 @@ class TiltOrders {
     return nutation(now) + change_of_spin(now) - (Gamma.re * Gamma.im - start_.re * start_.im) / 2;
   }
 
-  /// What SecondOrder leaves out of the tilt to third order, rad, but for what the change of the spin rate makes of it: |half the integral of
-  /// |A|^2 A' less the turn of the part that stands still|.
+  /// What SecondOrder leaves out of the tilt to third order, rad, but for what the change of the spin rate makes of the nutation: half the integral of
+  /// |A|^2 A' less the turn of the part that stands still.
   Scalar tilt(Scalar t) const noexcept {
     const Turned now(*this, t);
     Complex sum{};
@@ -45,7 +45,8 @@ class TiltOrders {
           sum = sum + rate_[k] * (tilt_[i] * conjugate(tilt_[j])) *
                           integral(turning_[i] - turning_[j] + turning_[k], now.time, turned);
         }
-    return magnitude(sum / Scalar(2) - nutation(now) * math::turned(turned_back_));
+    const Complex turned = nutation(now) * turned_back_ - change_of_spin(now) * (tilt_[0] - turned_back_);
+    return magnitude(sum / Scalar(2) - math::turned(turned));
   }
 
  private:
