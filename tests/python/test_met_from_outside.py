@@ -232,9 +232,6 @@ def test_the_rate_of_an_orbit_is_that_at_the_start(eccentricity: float, anomaly:
     answer = general.solve(inertia=[1, 2, 2.5], angular_velocity=[0, 0, 0], times=[0.0, 1.0], orbit=orbit, ask=["attitude_orbit"], tolerance=1e-9)
     first, last = answer["attitude_orbit"]
     assert 2 * math.acos(min(1.0, abs(float(first @ last)))) == pytest.approx(1e-3, rel=1e-3)
-    if eccentricity:
-        with pytest.raises(DomainError, match="of a circle"):
-            general.solve(inertia=[1, 2, 2.5], angular_velocity=[0, 0, 0], times=[1.0], orbit={"period": 5400.0, "eccentricity": eccentricity})
 
 
 def test_a_held_wheel_whose_table_has_ended_stands_still_from_its_last_time() -> None:
