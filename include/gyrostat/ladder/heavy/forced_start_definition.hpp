@@ -14,19 +14,21 @@ GYROSTAT_COMPILED_ONCE MotionError<double> departed(const Scaled<double>& s, dou
   const Floquet<double> floquet(s);
   const FirstOrder<double> first(s);
   const double angle = std::abs(s.spin * t);
-  double wide = 0, turned = 0;
+  const double forced = std::hypot(first.chi, first.kap) + std::hypot(first.X, first.Y) + s.torque();
+  double grown = 0, turned = 0;
   if (floquet.verdict == FastStability::stable) {
     const double omega = std::sqrt(s.nutation_squared()), aspect = std::abs(omega / s.A1);
-    wide = std::max(aspect, 1 / aspect);
+    const double wide = std::max(aspect, 1 / aspect), nutation = departure * wide * (1 + s.a + s.b);
+    // of 1763 starts (seeds 5, 6, 7) the greatest error was 0.45 of this, the median a sixth
+    grown = nutation * (2 + (forced + 2 * nutation) * wide * angle);
     turned = 1 / std::abs(1 - omega);  // of a lamina omega is 1 but for rounding
   } else {                             // it may grow, and where it hardly turns one rate makes the other grow
     const double growth = floquet.most_growth() * angle / (2 * pi<double>);
-    wide = std::cosh(growth) + angle * (growth > 0 ? std::sinh(growth) / growth : 1.0);
+    const double wide = std::cosh(growth) + angle * (growth > 0 ? std::sinh(growth) / growth : 1.0);
+    const double nutation = 8 * departure * wide * (1 + s.a + s.b);
+    grown = nutation * (1 + 4 * (forced + nutation) * wide * angle);
     turned = 1 + angle;
   }
-  const double nutation = 8 * departure * wide * (1 + s.a + s.b);
-  const double forced = std::hypot(first.chi, first.kap) + std::hypot(first.X, first.Y) + s.torque();
-  const double grown = nutation * (1 + 4 * (forced + nutation) * wide * angle);
   if (!(grown < 0.1)) return {open, open, pi<double>};
   return {std::abs(s.spin) * grown, grown, std::min(grown / s.M3 * turned, pi<double>)};
 }
