@@ -45,6 +45,7 @@ namespace detail {
 template <Real Scalar>
 struct SpinChange {
   Scalar rate, angle;
+  Scalar at_nu = 0;  ///< of the rate what swings with nu, where the nutation is stable
 
   SpinChange(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, Scalar P, Scalar T) noexcept {
     const Scalar factor = std::abs(problem.inertia[0] - problem.inertia[1]) / (2 * problem.inertia[2]);
@@ -65,11 +66,13 @@ struct SpinChange {
       const Scalar twice = magnitude(m.up * m.up - conjugate(m.down * m.down));
       const auto single = [T](Scalar w) noexcept { return std::min(T, 2 / w); };
       const auto both = [T, single](Scalar w) noexcept { return std::min(T * T / 2, (T + single(w)) / w); };
+      at_nu = once * single(nu);
       lower(rate, steady * T + once * single(nu) + twice * single(2 * nu));
       lower(angle, steady * T * T / 2 + once * both(nu) + twice * both(2 * nu));
     }
     rate *= factor;
     angle *= factor;
+    at_nu *= factor;
   }
 };
 
@@ -205,6 +208,16 @@ Scalar third_order_swing(const Problem<Scalar>& problem, Scalar T) noexcept {
   return std::min(T, 2 / least);
 }
 
+/// The tilt, rad, of the nutation that the constant mode of the rates forces: the spin rate swings with nu, and with it the torque of the gyroscopic
+/// terms on that mode, so that it grows all the time. `per_rate`: what a change of the spin rate changes of the frequency of nutation.
+template <Real Scalar>
+Scalar forced_nutation(const TiltModes<Scalar>& modes, const SpinChange<Scalar>& rho, Scalar per_rate,
+                       Scalar T) noexcept {
+  if (!(modes.stable && rho.at_nu > 0)) return 0;
+  const Scalar slowest = std::min(std::abs(modes.turning[1]), std::abs(modes.turning[2]));
+  return per_rate * rho.at_nu * modes.rate[0] * T / 2 * std::min(T, 1 / slowest);
+}
+
 /// Greatest integrals over [0, T] of what the linear motion leaves out of the tilt to third order, rad s: of the direction of axis 3 in space, where
 /// the part of the tilt that stands still does so to all orders, and of that of space in the body, where this part lags by what is added to the
 /// spin angle. From the modes; infinite without them. `shift`: of the frequency of nutation, rad/s; `g`: greatest tilt, with its error, where it is `linear.tilt` without.
@@ -248,6 +261,10 @@ struct TiltLeftOut {
     in_space += late * (size[2] * single(turning[2]) + size[3] * single(turning[3])) + unlike * swing;
     in_body += late * (size[2] + size[3]) * single(nu) + shift * rate[0] * soon * once * T +
                unlike * std::max(single(nu), once);
+    const Scalar forced =
+        rho.rate > 0 ? wider * wider * wider * forced_nutation(modes, rho, shift / rho.rate, T) : Scalar(0);
+    in_space += forced * swing;
+    in_body += forced * single(nu);
     // what is added to the spin angle turns all modes but the one that stands still; the change of the spin rate makes that one from others
     const Scalar added = (net + rho.angle) * wider * wider;
     for (int j = 1; j < 4; ++j) {
@@ -293,7 +310,9 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
     error.rates = P * std::min(error.shift * T, late) + skew * grown;
     error.of_rates = error.rates * answer;
     const Scalar wider = size.rate > 0 ? P / size.rate : Scalar(1);
-    if (modes.stable) detail::lower(error.of_rates, error.shift * (T * nutating * wider + P * once * answer));
+    if (modes.stable)
+      detail::lower(error.of_rates, error.shift * (T * nutating * wider + P * once * answer) +
+                                        wider * wider * wider * detail::forced_nutation(modes, rho, skew * zeta, T));
     error.tilt = g * (gross + angle) + g * g * g / 2 + error.of_rates;
   };
   third_order();

@@ -23,7 +23,7 @@ class TiltOrders {
   TiltOrders(const Problem<Scalar>& problem, Scalar T) noexcept
       : TiltOrders(problem, LinearStart<Scalar>(problem), amplitudes(problem, T), T) {}
 
-  /// The modes are apart: their sizes are so near to that of the tilt that what cancels in sums does not count.
+  /// The modes are apart: at most a hundred times as large as the tilt, and of an asymmetric body all turn through a radian.
   bool known() const noexcept { return known_; }
 
   /// What the linear motion leaves out of the spin angle to second order, rad: of SecondOrder nothing is left of it.
@@ -67,7 +67,8 @@ class TiltOrders {
       rate_[j] = found.rates[j - 1];
       tilt_[j] = found.tilts[j - 1];
       turning_[j] = found.turning[j - 1];
-      known_ = known_ && found.tilt[j - 1] <= apart * size.tilt;
+      // where the spin rate changes, it turns what stands still and a mode that all but does, and these cancel
+      known_ = known_ && found.tilt[j - 1] <= apart * size.tilt && (skew_ == 0 || std::abs(turning_[j]) * T >= 1);
     }
     turned_back_ = detail::StillTilt<Scalar>(found, size, T).still;
   }
