@@ -360,7 +360,8 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor of the whole, wheels locked, about the mass centre, or where the body is fixed about its origin
-    [kg m^2]; mass [kg]; centre_of_mass : (3,) from the origin [m]; fixed : the origin is held in space; rotor_momentum : (3,) of wheels that
+    [kg m^2]; mass [kg] : give it where a weight or a thrust acts, for which a scene file has to name it, and field.gravity;
+    centre_of_mass : (3,) from the origin [m]; fixed : the origin is held in space; rotor_momentum : (3,) of wheels that
     are not listed, constant [N m s]; wheels, torques : each with the keys of [[wheel]] and [[torque]] of a scene file, in SI units; orbit,
     field : the keys of those tables; attitude : (4,) [x, y, z, w] at t = 0, body to inertial; angular_velocity : (3,) at t = 0, body axes [rad/s];
     velocity, position : (3,) of the mass centre of a free body at t = 0, inertial axes [m/s], [m]; times : (n,) increasing, first >= 0 [s];
