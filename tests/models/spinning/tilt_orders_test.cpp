@@ -101,8 +101,8 @@ TEST_CASE("the errors at few times are sharp, and no smaller than the truth", "[
     if (!(left.size.tilt + left.tilt < small_tilt && left.theta < small_tilt)) continue;
     const double first = off(Linear<double>(p).at(T)), second = off(SecondOrder<double>(p, T).at(T));
     const double rounding = 1e-14 * (1 + std::abs(p.spin()) * T);
-    const double of_first = attitude_error<double>(linear_errors(p, T), left, orders, times);
-    const double of_second = attitude_error<double>(left, orders, times);
+    const double of_first = linear_attitude_error<double>(linear_errors(p, T), left, orders, times);
+    const double of_second = second_order_attitude_error<double>(left, orders, times);
     CHECK(first <= of_first + rounding);
     CHECK(second <= of_second + rounding);
     sharp.push_back(of_first / first);
@@ -129,8 +129,8 @@ TEST_CASE("modes that are not apart tell nothing", "[spinning]") {
     CHECK_FALSE(orders.known());
     const std::vector<double> times{10, 100};
     const auto first = linear_errors(q, 100.0), second = second_order_errors(q, 100.0);
-    CHECK(attitude_error<double>(first, second, orders, times) == first.attitude);
-    CHECK(attitude_error<double>(second, orders, times) == second.attitude);
+    CHECK(linear_attitude_error<double>(first, second, orders, times) == first.attitude);
+    CHECK(second_order_attitude_error<double>(second, orders, times) == second.attitude);
   }
 }
 
@@ -142,7 +142,7 @@ TEST_CASE("the orders of the tilt do not touch the heap", "[spinning]") {
   const std::array<double, 3> times{1, 10, 100};
   const auto before = allocations();
   const TiltOrders<double> orders(p, 100);
-  const double error = attitude_error<double>(second_order_errors(p, 100.0), orders, times);
+  const double error = second_order_attitude_error<double>(second_order_errors(p, 100.0), orders, times);
   CHECK(allocations() == before);
   CHECK(error > 0);
 }
@@ -199,6 +199,6 @@ TEST_CASE("what cancels, and what a constant mode forces, is not taken for small
     const auto error = second_order_errors(p, scene.end);
     const double truly = 2 * double(std::hypot(off.x, off.y, off.z));
     CHECK(truly < error.attitude);
-    CHECK(truly < attitude_error<double>(error, TiltOrders<double>(p, scene.end), times));
+    CHECK(truly < second_order_attitude_error<double>(error, TiltOrders<double>(p, scene.end), times));
   }
 }

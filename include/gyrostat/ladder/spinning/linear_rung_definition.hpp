@@ -161,8 +161,8 @@ GYROSTAT_COMPILED_ONCE Track linear_track(const Scene& scene, Monitor* monitor) 
   const auto& times = scene.question().times;
   auto error = linear_errors(problem, times.back());
   if (detail::worth_a_closer_look(scene, rung::linear, error) && times.back() > 0)
-    error.attitude = attitude_error<double>(error, second_order_errors(problem, times.back()),
-                                            TiltOrders<double>(problem, times.back()), times);
+    error.attitude = linear_attitude_error<double>(error, second_order_errors(problem, times.back()),
+                                                   TiltOrders<double>(problem, times.back()), times);
   if (detail::gives_up(scene, rung::linear, error)) return detail::given_up(error);
   Track track;
   track.states.resize(times.size());

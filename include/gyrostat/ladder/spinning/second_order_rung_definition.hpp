@@ -17,7 +17,7 @@ GYROSTAT_COMPILED_ONCE Track second_order_track(const Scene& scene, Monitor*) {
   const double end = times.back();
   auto error = second_order_errors(problem, end);
   if (detail::worth_a_closer_look(scene, rung::second_order, error) && end > 0)
-    error.attitude = attitude_error<double>(error, TiltOrders<double>(problem, end), times);
+    error.attitude = second_order_attitude_error<double>(error, TiltOrders<double>(problem, end), times);
   if (detail::gives_up(scene, rung::second_order, error)) return detail::given_up(error);
   const SecondOrder<double> motion(problem, end > 0 ? end : 1e-6);  // of the start alone any span will do
   if (!motion.applies())

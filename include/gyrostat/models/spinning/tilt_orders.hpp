@@ -142,8 +142,8 @@ class TiltOrders {
 /// The error of the attitude of the linear motion at the times, rad, where the modes tell it: the second order of the spin angle, times 1.1, and what
 /// is left of higher orders. Never above error.attitude. `left`: second_order_errors of the same span.
 template <Real Scalar>
-Scalar attitude_error(const LinearErrors<Scalar>& error, const LinearErrors<Scalar>& left,
-                      const TiltOrders<Scalar>& orders, std::span<const Scalar> times) noexcept {
+Scalar linear_attitude_error(const LinearErrors<Scalar>& error, const LinearErrors<Scalar>& left,
+                             const TiltOrders<Scalar>& orders, std::span<const Scalar> times) noexcept {
   if (!orders.known()) return error.attitude;
   Scalar most = 0;
   for (const Scalar t : times) most = std::max(most, std::abs(orders.spin_angle(t)));
@@ -152,8 +152,8 @@ Scalar attitude_error(const LinearErrors<Scalar>& error, const LinearErrors<Scal
 
 /// The same of SecondOrder, whose errors are `error`: the third order of the tilt, times 1.25, and what the change of the spin rate makes of it.
 template <Real Scalar>
-Scalar attitude_error(const LinearErrors<Scalar>& error, const TiltOrders<Scalar>& orders,
-                      std::span<const Scalar> times) noexcept {
+Scalar second_order_attitude_error(const LinearErrors<Scalar>& error, const TiltOrders<Scalar>& orders,
+                                   std::span<const Scalar> times) noexcept {
   if (!orders.known()) return error.attitude;
   Scalar most = 0;
   for (const Scalar t : times) most = std::max(most, orders.tilt(t));

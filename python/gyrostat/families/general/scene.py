@@ -329,7 +329,7 @@ def _mass_mistakes(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]])
         yield "body.mass", "", "the key is missing, and the wheels are added to the body", "give it, or set body.wheels_in_inertia = true"
     elif np.any(np.subtract(*_points(body, stacked(body["centre_of_mass"])))):
         yield ("body.mass", "", "the key is missing, and by it the inertia is moved between the origin and the mass centre",
-               'give it, or say by body.inertia_about = "reference" that the inertia is about the point where the body is held, or its mass centre')
+               "give it")
 
 
 def _force_mistakes(place: int, torque: Mapping[str, Any], body: Mapping[str, Any], gravity: Any) -> Found:
