@@ -205,6 +205,7 @@
 #include "gyrostat/models/general/wheels.hpp"
 #include "gyrostat/models/heavy/aligned_attitude.hpp"
 #include "gyrostat/models/heavy/attitude.hpp"
+#include "gyrostat/models/heavy/balance.hpp"
 #include "gyrostat/models/heavy/collocation.hpp"
 #include "gyrostat/models/heavy/euler_case.hpp"
 #include "gyrostat/models/heavy/exact.hpp"

@@ -28,6 +28,7 @@ const char* word(Frame frame) {
     case Frame::body: return "body";
     case Frame::inertial: return "inertial";
     case Frame::body_to_inertial: return "body to inertial";
+    case Frame::body_to_orbit: return "body to orbit";
     case Frame::none: break;
   }
   return "";

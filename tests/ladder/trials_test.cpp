@@ -114,7 +114,7 @@ TEST_CASE("a start counts more where it is next to an unstable steady rotation")
   const double more = honesty::unstable_condition;
   CHECK(of(moments, {1e-5, 1, -1e-9}, none) == more);
   CHECK(of(moments, {0, -1, 1e-4}, none) == more);
-  CHECK(of(moments, {0.1, 1, 0}, none) == 1);
+  CHECK(of(moments, {0.3, 1, 0}, none) == 1);
   CHECK(of(moments, {1, 1e-7, 0}, none) == 1);
   CHECK(of(moments, {0, 1e-7, 1}, none) == 1);
   CHECK(of(moments, none, none) == 1);

@@ -254,3 +254,56 @@ def test_an_attitude_that_is_handed_on_is_in_space(tmp_path: Path) -> None:
     (tmp_path / "a.toml").write_text('name = "a"\n' + head % "10.0" + "[initial]\nangular_velocity = [0.0, 0.05, 0.0]\nattitude = [0.0, 0.0, 0.0, 1.0]\n" + orbit)
     (tmp_path / "b.toml").write_text('name = "b"\nfrom = "a.toml"\n' + head % "10.0, 11.0" + '[initial]\nrelative_to = "orbit"\n' + orbit)
     assert gyrostat.solve(tmp_path / "b.toml")["attitude"][0] == pytest.approx(gyrostat.solve(tmp_path / "a.toml")["attitude"][-1], abs=1e-9)
+
+
+STANDING: dict[str, Any] = {"kind": "heavy", "name": "standing", "body": {"inertia": [0.1, 0.12, 0.15], "mass": 1.9, "centre_of_mass": [0, 0, 0.1]},
+                            "field": {"gravity": 9.81}, "initial": {"angular_velocity": [0, 0, 0], "down": [0, 0, -1]}, "solve": {"duration": 5.0, "samples": 6}}
+
+
+@pytest.mark.parametrize("spin", [0.0, 3.0])
+def test_a_body_that_the_weight_makes_unstable_says_so_whichever_kind_it_is(spin: float) -> None:
+    scene = {**STANDING, "initial": {"angular_velocity": [0, 0, spin], "down": [0, 0, -1]}}
+    answer = gyrostat.solve(scene)
+    assert answer.scalars["period"] is None
+    (warning,) = [each for each in answer.warnings if each.code == "unstable-balance"]
+    assert spin or "4.317" in warning.message  # sqrt(M g l/A)
+    general_scene = {**{key: STANDING[key] for key in ("name", "field", "solve")}, "body": {**STANDING["body"], "fixed": True}, "torque": [{"type": "weight"}],
+                     "initial": {"angular_velocity": [0, 0, spin], "attitude": [0, 0, 0, 1]}}
+    told = gyrostat.solve(general_scene)
+    assert told.model == "full" or "unstable-balance" in {each.code for each in told.warnings}
+
+
+def test_a_body_that_hangs_at_rest_has_no_such_warning() -> None:
+    answer = gyrostat.solve({**STANDING, "initial": {"angular_velocity": [0, 0, 0], "down": [0, 0, 1]}})
+    assert not answer.warnings
+    assert answer.scalars["period"] == pytest.approx(2 * math.pi * math.sqrt(0.1 / (1.9 * 9.81 * 0.1)))
+
+
+def test_the_middle_axis_is_unstable_in_a_general_scene_too() -> None:
+    scene = {"name": "middle", "body": {"inertia": [1, 2, 3]}, "initial": {"angular_velocity": [0, 1, 0]}, "solve": {"duration": 100.0, "samples": 11}}
+    assert "unstable-rotation" in {each.code for each in gyrostat.solve(scene).warnings}
+    free = [each.code for each in gyrostat.solve({**scene, "kind": "free"}).warnings]
+    assert free.count("unstable-rotation") == 1
+
+
+def test_a_heavy_body_whose_motion_rounding_decides_says_so() -> None:
+    scene = {**STANDING, "body": {"inertia": [0.1, 0.12, 0.15], "mass": 1.9, "centre_of_mass": [0.1, 0.05, 0.02]},
+             "initial": {"angular_velocity": [1, 2, 3], "down": [-0.6, 0.8, 0]}, "solve": {"duration": 1000.0, "samples": 3}}
+    answer = gyrostat.solve(scene)
+    assert not answer.met
+    assert "rounding-decides" in {each.code for each in answer.warnings}
+
+
+def test_a_wheel_that_no_body_can_hold_is_told_of_by_the_free_family_too() -> None:
+    wheel = {"type": "held", "axis": [0, 0, 1], "axial_inertia": 6, "rate": 10}
+    scene = {"name": "wheel", "body": {"inertia": [3, 4, 5]}, "wheel": [wheel], "initial": {"angular_velocity": [0.1, 0.2, 0.3]}, "solve": {"duration": 1.0, "samples": 2}}
+    for kind in ("free", "general"):
+        assert "not-realisable" in {each.code for each in gyrostat.solve({**scene, "kind": kind}).warnings}
+
+
+@pytest.mark.parametrize("eccentricity", [0.0, 0.4])
+def test_the_attitude_to_the_orbit_does_not_change_its_sign(eccentricity: float) -> None:
+    orbit = {"rate": 1e-3, "eccentricity": eccentricity}
+    answer = general.solve(inertia=[1, 2, 2.5], angular_velocity=[1e-4, -1e-3, 2e-4], times=np.linspace(0, 4e4, 801), orbit=orbit, ask=["attitude_orbit"])
+    q = answer["attitude_orbit"]
+    assert (q[1:] * q[:-1]).sum(axis=1).min() > 0.9

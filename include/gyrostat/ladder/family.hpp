@@ -19,6 +19,7 @@ enum class Frame : std::uint8_t {
   body,              ///< components along the body axes
   inertial,          ///< components along the inertial axes
   body_to_inertial,  ///< a rotation that takes body components to inertial ones
+  body_to_orbit,     ///< to those along the axes of the orbit
 };
 
 /// How the error of a column or scalar is measured.

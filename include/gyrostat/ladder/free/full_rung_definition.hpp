@@ -59,6 +59,10 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
     track.error[column::rotor_angle] =
         relative_to_truth((std::sqrt(double(n)) * answer->error[3] * turned + rates) / angle);
   }
+  auto form = quick_form_of(scene);
+  if (!form)
+    if (const auto made = closed_form_of(scene)) form = *made;
+  if (form) detail::warn_of_form(track, *form, times.back(), true);
   return track;
 }
 

@@ -69,7 +69,8 @@ inline constexpr ScalarKind scalar_kinds[] = {
     {"spin_rate", 1, "rad/s", Frame::none, Measure::relative,
      "mean rate of the body about that axis, relative to the plane of axis and M; the axis as M points on the average"},
     {"flip_interval", 1, "s", Frame::none, Measure::relative,
-     "time between two flips of the middle axis, half a period; None with wheels or without flips"},
+     "time between two flips of the middle axis, half a period; None with wheels or rotor momentum, and in steady "
+     "rotations"},
     {"view_fraction", 1, "1", Frame::none, Measure::absolute,
      "share of a long time in which view.axis is within view.half_angle of view.direction"},
     {"view_cosine", 1, "1", Frame::none, Measure::absolute,
@@ -78,7 +79,7 @@ inline constexpr ScalarKind scalar_kinds[] = {
 
 /// Places in warning_kinds.
 namespace warning {
-enum : std::size_t { phase_unknown, near_separatrix, unstable_rotation };
+enum : std::size_t { phase_unknown, near_separatrix, unstable_rotation, not_realisable };
 }
 
 inline constexpr WarningKind warning_kinds[] = {
@@ -90,6 +91,8 @@ inline constexpr WarningKind warning_kinds[] = {
      "the motion passes close by an unstable rotation: a rounding of the data moves the time of each passage; 1 - k2"},
     {"unstable-rotation",
      "the body stands on an unstable steady rotation: it leaves it by whatever disturbs it; growth rate, 1/s"},
+    {"not-realisable",
+     "no body with this inertia can hold these wheels: the equations are solved as they stand; kg m^2"},
 };
 
 /// Places in rung_kinds, cheapest first.

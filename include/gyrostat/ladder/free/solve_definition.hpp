@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "gyrostat/body/realisability.hpp"
 #include "gyrostat/ladder/free/closed_form_rung.hpp"
 #include "gyrostat/ladder/free/cost.hpp"
 #include "gyrostat/ladder/free/full_rung.hpp"
@@ -46,10 +47,24 @@ inline View<double> view_of(const ViewRequest& view, const Motion<double>& motio
   return made;
 }
 
+/// Room that the body's second moments leave beside its wheels, kg m^2: negative where no body has that inertia and holds them.
+inline double room_beside_wheels(const Assembly<double>& assembly) noexcept {
+  Mat3<double> known = Mat3<double>::Zero();
+  for (const auto& wheel : assembly.wheels)
+    known += wheel.axial_inertia / 2 * (Mat3<double>::Identity() - wheel.axis * wheel.axis.transpose());
+  return realisability<double>(assembly.body.inertia, known);
+}
+
 }  // namespace detail
 
 /// What is known of the whole motion, whichever rung answers.
 inline void describe(Answer& answer, const Scene& scene, const Track& track) {
+  if (scene.wheels() > 0) {
+    const double room = detail::room_beside_wheels(scene.assembly());
+    const WarningKind& kind = warning_kinds[warning::not_realisable];
+    if (room < -8 * epsilon<double> * scene.assembly().body.inertia.trace())
+      answer.warnings.push_back({&kind, kind.text, room});
+  }
   if (!tells_scalars(scene.question())) return;
   auto form = track.form ? track.form : quick_form_of(scene);
   if (!form) {
@@ -58,11 +73,6 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
     form = *made;
   }
   const auto& [motion, error, precise] = *form;
-  if (!track.form) {
-    Outcome known;
-    detail::warn_of_form(known, *form, scene.question().times.back(), true);
-    answer.warnings.insert(answer.warnings.end(), known.warnings.begin(), known.warnings.end());
-  }
   const auto tell = [&](std::size_t which, std::array<double, 3> values, double its_error = nan<double>) {
     answer.quantities.push_back({&scalar_kinds[which], values, its_error});
   };

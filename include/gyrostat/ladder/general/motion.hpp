@@ -63,7 +63,7 @@ inline constexpr ColumnKind column_kinds[] = {
      "the position at t = 0, and the way at the velocity of t = 0 and under gravity"},
     {"down", 3, "1", Frame::body, Measure::relative,
      "unit vector along gravity, body axes; of scenes with a weight or a gradient that stands still", "1"},
-    {"attitude_orbit", 4, "1", Frame::body_to_inertial, Measure::angle,
+    {"attitude_orbit", 4, "1", Frame::body_to_orbit, Measure::angle,
      "attitude, body to the axes of the orbit: x along it, y against its normal, z to the centre; of scenes with an "
      "orbit"},
     {"torque", 3, "N m", Frame::body, Measure::relative, "external torque, body axes",

@@ -95,7 +95,9 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   if (!std::isnan(track.energy_balance)) tell(scalar::energy_balance, track.energy_balance);
   if (!std::isnan(track.momentum_balance)) tell(scalar::momentum_balance, track.momentum_balance);
   const auto& problem = scene.problem();
-  if (const double room = realisability(problem); room < -8 * epsilon<double> * problem.inertia.trace())
+  const double room = realisability(problem);
+  if (room < -8 * epsilon<double> * problem.inertia.trace() &&
+      !answer.warns(warning_kinds[warning::not_realisable].code))  // which a family may have told
     warn(warning::not_realisable, room);
   const auto drives = [](const Mat3<double>& m) { return symmetric_eigen<double>((m + m.transpose()) / 2).values[0]; };
   for (const auto& torque : problem.torques) {

@@ -47,8 +47,8 @@ struct Track : Outcome {
 
 namespace detail {
 
-/// The axes of the orbit, x along it, y against its normal, z to the centre, to inertial ones.
-GYROSTAT_COMPILED_ONCE Quat<double> orbit_axes(const OrbitPoint<double>& at) noexcept;
+/// The axes of the orbit at t, x along it, y against its normal, z to the centre, to inertial ones; its sign does not jump.
+GYROSTAT_COMPILED_ONCE Quat<double> orbit_axes(const Orbit<double>& orbit, double t) noexcept;
 
 /// Whether a rung that gives these primitives, norm and energy apart, gives the column.
 GYROSTAT_COMPILED_ONCE bool known(const Track& track, std::size_t place) noexcept;

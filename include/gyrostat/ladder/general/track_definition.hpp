@@ -12,13 +12,15 @@ namespace gyrostat::general {
 
 namespace detail {
 
-GYROSTAT_COMPILED_ONCE Quat<double> orbit_axes(const OrbitPoint<double>& at) noexcept {
-  const Vec3<double> normal = cross<double>(at.radial, at.along);
+GYROSTAT_COMPILED_ONCE Quat<double> orbit_axes(const Orbit<double>& orbit, double t) noexcept {
+  const Vec3<double> normal = cross<double>(orbit.radial, orbit.along);
   Mat3<double> R;
-  R.col(0) = at.along;
+  R.col(0) = orbit.along;
   R.col(1) = -normal;
-  R.col(2) = -at.radial;
-  return from_matrix<double>(R);
+  R.col(2) = -orbit.radial;
+  const double half = orbit_angle(orbit, t) / 2;
+  const Vec3<double> turn = std::sin(half) * normal;
+  return Quat<double>{std::cos(half), turn[0], turn[1], turn[2]} * from_matrix<double>(R);
 }
 
 GYROSTAT_COMPILED_ONCE bool known(const Track& track, std::size_t place) noexcept {
@@ -55,8 +57,7 @@ class Writer {
       case column::velocity: return put(s.velocity);
       case column::position: return put(s.position);
       case column::down: return put(rotate<double>(conjugate(s.attitude), scene_.problem().field.down));
-      case column::attitude_orbit:
-        return turn(conjugate(orbit_axes(orbit_at(*scene_.problem().orbit, t))) * s.attitude);
+      case column::attitude_orbit: return turn(conjugate(orbit_axes(*scene_.problem().orbit, t)) * s.attitude);
       case column::euler: return put(euler_angles(*scene_.euler(), s.attitude).angles);
       default: put(scene_.torque(t, seen_of(s)));
     }

@@ -8,6 +8,7 @@
 #include "gyrostat/ladder/heavy/exact_periodicity.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/models/heavy/aligned_attitude.hpp"
+#include "gyrostat/models/heavy/balance.hpp"
 #include "gyrostat/models/heavy/symmetric_top.hpp"
 
 namespace gyrostat::heavy {
@@ -58,6 +59,8 @@ GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Problem<double>& probl
   };
   if (const auto* pendulum = exact.pendulum()) {
     if (pendulum->motion() == PendulumMotion::separatrix) return known;
+    const bool rests = pendulum->motion() == PendulumMotion::rest;
+    if (rests && growth_rate<double>(problem, {0, 0, 0}, start.down) > 0) return known;  // it stands
     // with the gradient alone half a round repeats the rates, not down
     const bool half = pendulum->motion() == PendulumMotion::rotation && problem.moment().isZero(0);
     repeats(pendulum->period() * (half ? 2 : 1));

@@ -102,6 +102,7 @@ GYROSTAT_COMPILED_ONCE Track exact_track(const Scene& scene, Monitor*) {
   if (!track.in_domain) track.warn(warning_kinds[warning::rounding_decides], question.times.back());
 
   if (scene.periodic()) track.periodicity = periodicity_of(scene, start, exact);
+  else warn_of_balance(track, scene);
   return track;
 }
 

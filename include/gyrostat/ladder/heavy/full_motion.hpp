@@ -16,6 +16,7 @@
 #include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/trials.hpp"
+#include "gyrostat/models/heavy/balance.hpp"
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/ode/status.hpp"
@@ -169,20 +170,11 @@ class FullMotion {
   Scalar condition() const noexcept {
     const Vec3<Scalar>&I = problem_.inertia(), &w = start_.angular_velocity;
     Scalar of_start = condition_of_start<Scalar>(I.cwiseProduct(w), w, I.cwiseInverse().asDiagonal());
-    if (is_next_to_steady()) of_start = std::max(of_start, Scalar(honesty::unstable_condition));
+    // stable or not, how far off it began may rule for long
+    if (is_steady(problem_, w, start_.down, Scalar(honesty::next_to_balance)))
+      of_start = std::max(of_start, Scalar(honesty::unstable_condition));
     return std::max(of_start, options_.converted ? I.maxCoeff() / I.minCoeff() : Scalar(1));
   }
-  /// The body turns about the vertical, or not at all, and the torques all but balance: stable or not, how far off it began may rule for long.
-  /// whole: the sizes of the torques that balance.
-  bool is_next_to_steady() const noexcept {
-    const Vec3<Scalar>&I = problem_.inertia(), &w = start_.angular_velocity, &d = start_.down;
-    const Scalar off = problem_.torque(w, d).norm();
-    const Scalar whole = I.cwiseProduct(w).norm() * w.norm() + problem_.moment().norm() +
-                         std::abs(problem_.gradient()) * I.cwiseProduct(d).norm();
-    constexpr Scalar near = Scalar(honesty::next_to_unstable);
-    return whole > 0 && off <= near * whole && cross<Scalar>(w, d).norm() <= near * w.norm() * d.norm();
-  }
-
   /// The angle turned through up to the last time, to its order, rad.
   Scalar phase() const noexcept { return rate_ * times_.back(); }
 

@@ -22,8 +22,13 @@ GYROSTAT_COMPILED_ONCE Track periodic_full(const Scene& scene, Monitor* monitor)
 
 /// Rung `full`: the full equations, by Taylor series or by those that the scene brings; of a periodic motion from the start that shooting finds.
 inline Track full_track(const Scene& scene, Monitor* monitor) {
-  return scene.periodic() ? detail::periodic_full(scene, monitor)
-                          : detail::full_from_start(scene, scene.converts_start(), monitor);
+  if (scene.periodic()) return detail::periodic_full(scene, monitor);
+  Track track = detail::full_from_start(scene, scene.converts_start(), monitor);
+  if (track.failure != Errc::ok) return track;
+  warn_of_balance(track, scene);
+  if (!(track.error[column::angular_velocity] < 1 && track.error[column::down] < 1))
+    track.warn(warning_kinds[warning::rounding_decides], scene.question().times.back());
+  return track;
 }
 
 }  // namespace gyrostat::heavy

@@ -55,6 +55,7 @@ enum : std::size_t {
   resonance,
   unstable,
   unstable_sleep,
+  unstable_balance,
   gradient,
   not_unique,
 };
@@ -63,8 +64,7 @@ enum : std::size_t {
 inline constexpr WarningKind warning_kinds[] = {
     {"rounding-decides",
      "before the last time rounding of the data has grown to the size of the motion (a separatrix, a start off the "
-     "plane "
-     "of a pendulum, or a very long time)"},
+     "plane of a pendulum, chaos, or a very long time)"},
     {"beyond-validity", "the series for a fast spin do not hold: their error estimate means little; it is"},
     {"slow-spin",
      "the spin is below three times sqrt(M g l/C): series are poor, and below 0.6 to 2 times there is no such motion; "
@@ -81,6 +81,9 @@ inline constexpr WarningKind warning_kinds[] = {
      "the spin, by"},
     {"unstable", "a free nutation beside this motion grows over a period by the factor"},
     {"unstable-sleep", "the top spins too slowly to stay upright: its tilt grows; the least spin that holds it, rad/s"},
+    {"unstable-balance",
+     "the body rests, or turns steadily about the vertical, where the weight makes that unstable: whatever disturbs it "
+     "grows; growth rate, 1/s"},
     {"gradient",
      "gravity and gravity gradient belong to a centre at 3 g/N, which is not far beside the body's size: give them on "
      "purpose only; m"},

@@ -11,7 +11,6 @@
 #include "gyrostat/ladder/heavy/series_2_rung.hpp"
 #include "gyrostat/ladder/heavy/series_rung.hpp"
 #include "gyrostat/ladder/heavy/solve.hpp"
-#include "gyrostat/models/heavy/sleeping_top.hpp"
 
 namespace gyrostat::heavy {
 
@@ -50,12 +49,6 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
       if (!floquet.alone && answer.model != rung_kinds[rung::exact].name) warn(warning::not_unique, floquet.squared);
     }
     if (stability(track.periodicity) == 0) warn(warning::unstable, multipliers(track.periodicity.trace).first.re);
-  } else if (const auto top = SymmetricTop<double>::of(problem)) {
-    const Vec3<double> down = top->axes.transpose() * scene.start().down;
-    const double spin = top->axes.col(2).dot(scene.start().angular_velocity);
-    const auto sleep = sleeping_top(*top, down[2] > 0, spin);
-    if (std::hypot(down[0], down[1]) < 0.1 && sleep.verdict == SleepVerdict::unstable)
-      warn(warning::unstable_sleep, sleep.threshold);
   }
   if (problem.gradient() > 0) {
     const double distance = 3 * problem.gravity() / problem.gradient();

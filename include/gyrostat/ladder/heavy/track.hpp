@@ -48,6 +48,9 @@ struct CallersRow : Row<double> {
   }
 };
 
+/// Of a motion that began steadily, or at rest, where the weight makes that unstable.
+GYROSTAT_COMPILED_ONCE void warn_of_balance(Track& track, const Scene& scene);
+
 GYROSTAT_COMPILED_ONCE void fill(Answer& answer, const Scene& scene, const Track& track);
 
 /// The scalars that are known.

@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "gyrostat/ladder/heavy/track.hpp"
+#include "gyrostat/models/heavy/balance.hpp"
+#include "gyrostat/models/heavy/sleeping_top.hpp"
+#include "gyrostat/models/heavy/symmetric_top.hpp"
 
 namespace gyrostat::heavy {
 
@@ -11,6 +14,22 @@ GYROSTAT_COMPILED_ONCE double stability(const Periodicity& known) noexcept {
   const OrbitStability verdict = orbit_stability(known.trace, known.trace_error);
   if (verdict == OrbitStability::undecided) return known.stable;
   return verdict == OrbitStability::stable ? 1 : 0;
+}
+
+GYROSTAT_COMPILED_ONCE void warn_of_balance(Track& track, const Scene& scene) {
+  const Problem<double>& problem = scene.problem();
+  const State<double>& start = scene.start();
+  if (const auto top = SymmetricTop<double>::of(problem)) {
+    const Vec3<double> down = top->axes.transpose() * start.down;
+    const double spin = top->axes.col(2).dot(start.angular_velocity);
+    const auto sleep = sleeping_top(*top, down[2] > 0, spin);
+    if (std::hypot(down[0], down[1]) < 0.1 && sleep.verdict == SleepVerdict::unstable)
+      return track.warn(warning_kinds[warning::unstable_sleep], sleep.threshold);
+  }
+  constexpr double rounding = 64 * epsilon<double>;
+  if (!is_steady(problem, start.angular_velocity, start.down, rounding)) return;
+  const double growth = growth_rate(problem, start.angular_velocity, start.down);
+  if (growth > 0) track.warn(warning_kinds[warning::unstable_balance], growth);
 }
 
 GYROSTAT_COMPILED_ONCE void fill(Answer& answer, const Scene& scene, const Track& track) {

@@ -55,6 +55,26 @@ Scalar eccentric_anomaly(Scalar M, Scalar e) noexcept {
   return E;
 }
 
+/// The anomalies on an ellipse.
+template <Real Scalar>
+struct Anomalies {
+  Scalar flat;   ///< sqrt(1 - e^2)
+  Scalar axis;   ///< greater half axis, m
+  Scalar mean;   ///< mean motion, rad/s
+  Scalar begin;  ///< eccentric anomaly at t = 0
+  Scalar now;    ///< and at t, whole turns counted
+
+  Anomalies(const Orbit<Scalar>& orbit, Scalar t) noexcept {
+    using std::atan2, std::cos, std::sin, std::sqrt;
+    const Scalar e = orbit.eccentricity, c = cos(orbit.true_anomaly), s = sin(orbit.true_anomaly);
+    flat = sqrt((1 - e) * (1 + e));
+    axis = orbit.radius * (1 + e * c) / (flat * flat);
+    mean = sqrt(orbit.mu / axis) / axis;
+    begin = atan2(flat * s, e + c);
+    now = eccentric_anomaly(begin - e * sin(begin) + mean * t, e);
+  }
+};
+
 }  // namespace detail
 
 /// Where on the orbit it is at t, s. The eccentric anomaly takes up to 100 steps; a circle needs none.
@@ -70,10 +90,7 @@ OrbitPoint<Scalar> orbit_at(const Orbit<Scalar>& orbit, Scalar t) noexcept {
     c = cos(made.rate * t), s = sin(made.rate * t);
   } else {
     const Scalar c0 = cos(orbit.true_anomaly), s0 = sin(orbit.true_anomaly);
-    const Scalar flat = sqrt((1 - e) * (1 + e)), parameter = r0 * (1 + e * c0), axis = parameter / (flat * flat);
-    const Scalar mean = sqrt(orbit.mu / axis) / axis;
-    const Scalar E0 = atan2(flat * s0, e + c0);
-    const Scalar E = detail::eccentric_anomaly(E0 - e * sin(E0) + mean * t, e);
+    const auto [flat, axis, mean, E0, E] = detail::Anomalies<Scalar>(orbit, t);
     const Scalar near = 1 - e * cos(E);
     const Scalar x = (cos(E) - e) / near, y = flat * sin(E) / near;  // from the pericentre
     c = x * c0 + y * s0, s = y * c0 - x * s0;
@@ -85,6 +102,18 @@ OrbitPoint<Scalar> orbit_at(const Orbit<Scalar>& orbit, Scalar t) noexcept {
   made.along = c * orbit.along - s * orbit.radial;
   made.gradient = 3 * (orbit.mu / made.radius) / (made.radius * made.radius);
   return made;
+}
+
+/// The angle from the radius at t = 0 to that at t, whole turns counted, rad.
+template <Real Scalar>
+Scalar orbit_angle(const Orbit<Scalar>& orbit, Scalar t) noexcept {
+  using std::atan2, std::cos, std::sin, std::sqrt;
+  const Scalar e = orbit.eccentricity;
+  if (e == 0) return sqrt(orbit.mu / orbit.radius) / orbit.radius * t;
+  const detail::Anomalies<Scalar> of(orbit, t);
+  const Scalar share = e / (1 + of.flat);
+  const auto ahead = [share](Scalar E) noexcept { return 2 * atan2(share * sin(E), 1 - share * cos(E)); };
+  return of.now - of.begin + (ahead(of.now) - ahead(of.begin));
 }
 
 /// The magnetic field in one place, inertial axes.
