@@ -64,6 +64,11 @@ class DataError:
     mostly: dict[str, str]
 
 
+def _known(value: Any) -> Any:
+    """None for a number that has no value."""
+    return None if isinstance(value, float) and math.isnan(value) else value
+
+
 @dataclass(frozen=True, eq=False)
 class Answer:
     """Answer to a scene: `answer["attitude"]` is a column, `list(answer)` are the names of all, `answer.t` their times.
@@ -72,7 +77,7 @@ class Answer:
     error : name -> estimated greatest error over the span, relative to the greatest norm of that column or to its scale, whichever is
         greater (attitude: rotation angle [rad]; modulus_squared: absolute). met : the greatest error is within `tolerance`.
     scale : name -> what the scene makes of a column's scale, in its unit, so that no error is relative to a column that vanishes.
-    scalars : name -> number, vector, truth value, or None where it is not known.
+    scalars : name -> number, vector, truth value, words, or None where it has no value; a vector whose components have none is NaN.
     scalar_error : name -> estimated error, relative; NaN where the scalar has none, being a definition, infinite or not known.
     tolerances : name -> what the error of a column or scalar was held against; what was not asked for is not there.
     data_error : what one rounding of each number of the scene changes; None unless it was asked for, as `solve(scene, data_error=True)` does.
@@ -104,7 +109,7 @@ class Answer:
             told=told, model=made["model"], tolerance=tolerance, met=made["met"], error=dict(made["error"]),
             warnings=tuple(Warning_(w["code"], w["message"]) for w in made["warnings"]), t=times,
             columns={name: np.asarray(values) for name, values in made["columns"].items()},
-            scalars=dict(made["scalars"]), scalar_error={name: made["scalar_error"].get(name, math.nan) for name in made["scalars"]},
+            scalars={name: _known(value) for name, value in made["scalars"].items()}, scalar_error={name: made["scalar_error"].get(name, math.nan) for name in made["scalars"]},
             scale=dict(made["scale"]), tolerances=dict(made["tolerances"]), counts=dict(made["counts"]), seconds=made["seconds"],
             tried=tuple(Attempt(a["model"], a["error"], a["accepted"], a["why"], a["predicted"], a["spent"]) for a in made["tried"]),
         )
@@ -212,17 +217,17 @@ class Answer:
 
         return to_dict(self)
 
-    def to_json(self) -> str:
-        """One JSON object; every number reads back as the same double."""
+    def to_json(self, file: str | os.PathLike[str] | None = None) -> str:
+        """One JSON object; every number reads back as the same double. Written to `file`, too, where one is named."""
         from gyrostat.export import to_json
 
-        return to_json(self)
+        return to_json(self, file)
 
-    def to_csv(self) -> str:
-        """Comma-separated columns under one header line (vectors as _x, _y, _z, quaternions also _w)."""
+    def to_csv(self, file: str | os.PathLike[str] | None = None) -> str:
+        """Comma-separated columns under one header line (vectors as _x, _y, _z, quaternions also _w). Written to `file`, too, where one is named."""
         from gyrostat.export import to_csv
 
-        return to_csv(self)
+        return to_csv(self, file)
 
     def to_dataframe(self) -> "pandas.DataFrame":
         """A pandas.DataFrame over t, with the column names of CSV; units, errors and scalars in its `attrs`. Needs pandas."""

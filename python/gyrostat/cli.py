@@ -161,7 +161,7 @@ def _arguments() -> argparse.ArgumentParser:
     takes_scene(design)
     goal = design.add_mutually_exclusive_group(required=True)
     for name, unit, text in (
-            ("spin-for-pointing", "RAD", "least stable spin rate for a mean pointing error"),
+            ("spin-for-pointing", "RAD", "least stable spin rate for a lean of axis 3 under the torque"),
             ("torque-for-direction", "RAD", "greatest transverse torque for the direction of the velocity, from axis 3"),
             ("burn-for-displacement", "M", "longest burn for a displacement across axis 3"),
             ("burn-for-velocity", "M/S", "longest burn for a change of velocity")):

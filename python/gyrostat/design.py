@@ -17,7 +17,7 @@ from gyrostat import _core, spinning
 from gyrostat._core import Monitor
 from gyrostat.broadcast import Floats, finite_rows, rows, shaped
 from gyrostat.errors import DomainError
-from gyrostat.families.spinning.functions import ORIGIN, SHAPES
+from gyrostat.families.spinning.functions import ORIGIN, SHAPES, start_lean
 from gyrostat.fields import MOST_SAMPLES
 from gyrostat.ladder import solve
 from gyrostat.rotation import matrix_from_quaternion
@@ -54,20 +54,14 @@ class Goal:
 
 
 GOALS: Final[dict[str, Goal]] = {
-    "spin-for-pointing": Goal("least spin rate", "rad/s", "mean pointing error", "rad"),
+    "spin-for-pointing": Goal("least spin rate", "rad/s", "lean under the torque", "rad"),
     "torque-for-direction": Goal("greatest transverse torque", "N m", "direction of the velocity from axis 3", "rad"),
     "burn-for-displacement": Goal("longest burn", "s", "displacement across axis 3", "m"),
     "burn-for-velocity": Goal("longest burn", "s", "change of velocity", "m/s"),
 }
-WHY: Final[dict[str, dict[str, str]]] = {
-    "no-torque": {"": "no torque acts across axis 3: there is nothing to design against"},
-    "never-reached": {"": "the motion does not reach the budget, or grows beyond all numbers before"},
-    "not-covered": {
-        "spin-for-pointing": "no stable spin of this sense meets the budget, or a torque acts about axis 3",
-        "torque-for-direction": "the spin is unstable or has no stiffness, no force acts along axis 3, a torque acts about it, or the start alone is "
-                                "over the budget",
-        "": "a torque acts about axis 3: the spin is not constant",
-    },
+WHY: Final = {
+    "no-torque": "no torque acts across axis 3: there is nothing to design against",
+    "never-reached": "the motion does not reach the budget, or grows beyond all numbers before",
 }
 
 
@@ -102,7 +96,7 @@ def spin_for_pointing(*, inertia: ArrayLike, torque: ArrayLike, budget: ArrayLik
                       charge_momentum: ArrayLike = 0.0) -> Design:
     """Least stable spin rate [rad/s], signed, at which the torque turns the mean direction of axis 3 by at most the budget.
 
-    |M|/|r (D3 r + lambda3 - e_H)| <= budget. inertia, torque : (..., 3), none about axis 3 [kg m^2, N m]; budget : (...) > 0 [rad]; sense : (...)
+    What a start with tilt or rates across the axis leans it by is not in the budget. |M|/|r (D3 r + lambda3 - e_H)| <= budget. inertia, torque : (..., 3), none about axis 3 [kg m^2, N m]; budget : (...) > 0 [rad]; sense : (...)
     negative for a negative spin; rotor_momentum, charge_momentum : (...) [N m s]. Leading axes broadcast. A rotor against the spin
     leaves a slow range of spins and a fast one; where stability ends a range before the budget does, the value is that limit and `unstable` is set.
     Raises DomainError for what is not physical and for a budget that is not positive, naming the row.
@@ -209,7 +203,7 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
     found = _design(goal, budget, {name: given[name] for name in SHAPES})
     value, why = float(found.value), str(found.why)
     if why:
-        raise DomainError(f"{scene.name}: {WHY[why].get(goal, WHY[why].get('', ''))}")
+        raise DomainError(f"{scene.name}: {WHY.get(why) or _not_covered(goal, given)}")
     if not math.isfinite(value):
         raise DomainError(f"{scene.name}: " + ("every torque of this direction meets the budget in the linear motion"
                                                if goal == "torque-for-direction" else "no force acts: the budget is never reached"))
@@ -228,9 +222,30 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
         much = f"the tilt may reach {tilt:.3g} rad" if math.isfinite(tilt) else "the tilt grows for ever"
         warnings.insert(0, f"beyond-small-tilt: {much}, and the design is by the linear motion, which holds for small tilt")
     checked = spinning.arguments(designed)
+    if goal == "spin-for-pointing" and (start := start_lean(checked)) > budget:
+        warnings.append(f"start-leans-more: tilt and rates of the start alone put the mean direction of axis 3 {start:.3g} rad off inertial axis 3, which is not in "
+                        "the budget")
     measured, span = _found(checked, goal, monitor)
     return SceneDesign(goal=goal, budget=float(budget), value=value, tilt_bound=tilt, scene=designed, found=measured, span=span,
                        model=answer.model, error=answer.greatest_error, tolerance=answer.tolerance, met=answer.met, warnings=tuple(warnings))
+
+
+def _not_covered(goal: str, given: Mapping[str, Any]) -> str:
+    """Why a scene has no design of the linear motion."""
+    if given["torque"][2] != 0:
+        return "a torque acts about axis 3: the spin is not constant"
+    if goal == "spin-for-pointing":
+        return "no stable spin of this sense meets the budget"
+    if given["force"][2] == 0:
+        return "no force acts along axis 3"
+    if given["angular_velocity"][2] == 0:
+        return "it does not spin about axis 3"
+    start = start_lean(given)
+    if math.isfinite(start):
+        return f"tilt and rates of the start alone lean the mean direction of axis 3 by {start:.3g} rad, which is over the budget"
+    body = {name: given[name] for name in ("inertia", "rotor_momentum", "charge_momentum")}
+    stable = spinning.nutation_frequency_squared(spin_rate=given["angular_velocity"][2], **body) > 0
+    return "the spin has no gyroscopic stiffness" if stable else "the spin is unstable"
 
 
 def _designed(scene: Scene, given: Mapping[str, Any], goal: str, value: float) -> Scene:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from gyrostat.answer import Answer
 
-__all__ = ["COLOURS", "MOMENT_NAMES", "Drawing", "Panel", "changes", "check_ending", "components", "curve", "error_text", "finish", "is_coarse", "laid_out",
+__all__ = ["COLOURS", "MOMENT_NAMES", "Drawing", "Panel", "changes", "check_ending", "components", "curve", "error_text", "finish", "goes_on", "is_coarse", "laid_out",
            "legend_beside", "legend_row", "map_frame", "map_legend", "mark_stop", "new_figure", "note", "on_map", "principal_axes", "save", "span_text", "split",
            "stacked", "time_unit", "vector", "wheels_panel"]
 
@@ -277,14 +277,20 @@ def _over_time(answer: "Answer") -> tuple[NDArray[Any], str]:
     return answer.t / scale, unit
 
 
+def goes_on(answer: "Answer") -> bool:
+    """At the stop the momentum is gone, but the body turns on: that of its rotors turns it."""
+    return any(warning.code == "does-not-stop" for warning in answer.warnings)
+
+
 def mark_stop(figure: "Figure", answer: "Answer", panels: int) -> None:
-    """A dotted line in the first panels where the body stops, or below the last of them that it does so later; nothing where that is not known."""
+    """A dotted line in the first panels where the body stops, or its momentum vanishes, or below the last of them that it does so later; nothing where
+    that is not known."""
     stop, first, last = answer.scalars.get("stop_time"), answer.t[0], answer.t[-1]
     if stop is None or not math.isfinite(stop):
         return
     scale, _ = time_unit(last)
     if stop > last:
-        figure.axes[panels - 1].annotate(f"stops at {span_text(stop)} →", (1.0, 0.0), xytext=(0, -28), xycoords="axes fraction",
+        figure.axes[panels - 1].annotate(f"{'|M| is 0' if goes_on(answer) else 'stops'} at {span_text(stop)} →", (1.0, 0.0), xytext=(0, -28), xycoords="axes fraction",
                                          textcoords="offset points", fontsize=8, color="#555555", ha="right")
     elif stop >= first:
         for axes in figure.axes[:panels]:

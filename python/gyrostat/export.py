@@ -5,6 +5,7 @@ import json
 import math
 import os
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -82,9 +83,16 @@ def _json(value: Any) -> Iterator[str]:
             yield json.dumps(_plain(value))
 
 
-def to_json(answer: Answer) -> str:
+def _written(text: str, file: str | os.PathLike[str] | None, end: str = "") -> str:
+    """The text, which goes into the file, too, where one is named."""
+    if file is not None:
+        Path(file).write_text(text + end, encoding="utf-8", newline="\n")
+    return text
+
+
+def to_json(answer: Answer, file: str | os.PathLike[str] | None = None) -> str:
     """See Answer.to_json."""
-    return "".join(_json(_parts(answer)))
+    return _written("".join(_json(_parts(answer))), file, "\n")
 
 
 def _per_wheel(answer: Answer) -> set[str]:
@@ -105,11 +113,11 @@ def _flat(answer: Answer) -> Iterator[tuple[str, NDArray[Any]]]:
                 yield f"{name}_{axis}", part
 
 
-def to_csv(answer: Answer) -> str:
+def to_csv(answer: Answer, file: str | os.PathLike[str] | None = None) -> str:
     """See Answer.to_csv."""
     head = ",".join(["t", *(name for name, _ in _flat(answer))])
     columns = [answer.t, *(values.astype("S") if values.dtype.kind == "U" else values for values in answer.columns.values())]
-    return f"{head}\n{csv_rows(columns)}"
+    return _written(f"{head}\n{csv_rows(columns)}", file)
 
 
 def to_dataframe(answer: Answer) -> "pandas.DataFrame":

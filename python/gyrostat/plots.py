@@ -28,9 +28,10 @@ def plot_answer(answer: "Answer") -> "Figure":
     family = FAMILIES[scene.kind]
     figures = family.part("figures")
     whole = getattr(figures, "OF_ANY_COLUMNS", False) or scene.tables["solve"]["ask"] in (None, "default", "all")
-    made: Figure = figures.figure(answer, family.arguments(scene)) if whole else _asked(answer)
+    given = family.arguments(scene) if whole else {}
+    made: Figure = figures.figure(answer, given) if whole else _asked(answer)
     title = f"{scene.name}: rung {answer.model}, {answer.verdict}"
-    remarks = figures.remarks(answer) if whole else []
+    remarks = figures.remarks(answer, given) if whole else []
     made.suptitle("\n".join([title, *remarks]), fontsize=11)
     return as_written(made)
 

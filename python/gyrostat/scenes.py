@@ -22,7 +22,7 @@ from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import ARRAYS, GENERAL, LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, TIMES, UNSET, Choices, Field, Table, Values, inertia_parts, parts_of, table_of
 from gyrostat.orientation import axes_of, form_of, require_rotation, settle
 from gyrostat.rows import SETTINGS, plan_of
-from gyrostat.units import PATTERN, split, to_si
+from gyrostat.units import PATTERN, SHARE_PATTERN, spelled, split, to_si
 
 __all__ = ["Scene", "bundled", "find", "load", "parse_override", "scene_from"]
 
@@ -297,7 +297,7 @@ def _with_unit(field: Field, text: str, element: str) -> float:
     what = f"{element} = {_show(text)}: " if element else ""
     try:
         number, unit = split(text)
-        if field.unit and unit:
+        if unit and (field.unit or (field.name == "tolerance" and re.fullmatch(SHARE_PATTERN, text))):
             return to_si(number, unit, field.unit)
     except Refused as error:
         raise Refused(what + error.problem, error.remedy) from None
@@ -907,6 +907,10 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
         if not table:
             bare = _without_places(name)
             homes = [home for home, fields in layout.items() if any(field.name == bare for field in fields)]
+            if not homes and name in layout:
+                first = next(iter(value)) if isinstance(value, Mapping) and value else layout[name][0].name
+                raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)), "a table is not replaced as a whole",
+                                         f'set its keys one by one, as {name}.{first}, in Python replace(**{{"{name}.{first}": ...}}); keys that are not named stay'))
             if not homes and name not in ("kind", "name", "source"):
                 raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)), "unknown key",
                                          _advice_anywhere(name, layout)))
@@ -969,6 +973,9 @@ def _home(tree: dict[str, Any], table: str, source: _Source) -> dict[str, Any]:
     return found
 
 
+_INERTIA: Final = Field("inertia", "inertia", "inertia", "kg m^2")
+
+
 def _put(home: dict[str, Any], name: str, value: Any, key: str, source: _Source) -> None:
     """Set a key, or one number of it: `control[0]`, `axis[2]`, `inertia[0,1]`, and of an inertia the same of the other side."""
     name, _, places = name.rstrip("]").partition("[")
@@ -977,7 +984,11 @@ def _put(home: dict[str, Any], name: str, value: Any, key: str, source: _Source)
         return
     indices = [int(place) for place in places.split(",")]
     for each in [indices, indices[::-1]] if name == "inertia" and len(indices) == 2 else [indices]:
-        row = home.get(name)
+        if isinstance(row := home.get(name), dict):
+            try:
+                home[name] = row = _spread(Field(name, "numbers", name), row) if "value" in row or name != "inertia" else _tensor(_INERTIA, row)
+            except Refused:
+                pass  # it holds no such number, or what is wrong with it is told of the scene
         for place in each[:-1]:
             row = row[place] if isinstance(row, list) and place < len(row) else None
         if not isinstance(row, list) or each[-1] >= len(row) or isinstance(row[each[-1]], list | dict):
@@ -1017,8 +1028,13 @@ def parse_override(text: str) -> tuple[str, Any]:
         if set(read) == {"value"}:
             return key, read["value"]
     except (tomllib.TOMLDecodeError, ValueError, RecursionError):
-        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_:-]*|[1-3]-[1-3]-[1-3]", value) or re.fullmatch(PATTERN, value):
+        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_:-]*|[1-3]-[1-3]-[1-3]", value) or re.fullmatch(f"{PATTERN}|{SHARE_PATTERN}", value):
             return key, value
+        if found := re.fullmatch(r"([-+.0-9eE]*[0-9.]) *([A-Za-z°/].*)", value):
+            meant = f"{found[1]} {spelled(found[2])}"
+            shown = meant if re.fullmatch(PATTERN, meant) else "3 h"
+            raise fail(key, _show(value), f"this is neither a TOML value nor a number with a unit, as {found[2]} is none",
+                       f"put a value with a unit in quotes: --set '{key}=\"{shown}\"'")
     raise fail(key, _show(value), "this is no TOML value", 'write a number, an array such as [1.0, 2.0, 3.0], or text in quotes')
 
 

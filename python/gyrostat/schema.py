@@ -9,20 +9,22 @@ from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import LIMIT, REQUIRED, UNSET, Choice, Choices, Field, inertia_parts, table_of
 from gyrostat.orientation import SEQUENCES
 from gyrostat.toml_text import toml_value
-from gyrostat.units import PATTERN, UNIT_PATTERN
+from gyrostat.units import PATTERN, SHARE_PATTERN, UNIT_PATTERN
 from gyrostat.vary import DESIGNS
 
 __all__ = ["interval", "key_tables", "schema", "ways"]
 
 # Numbers with units, and units.
-DEFINITIONS: Final = {"quantity": {"type": "string", "pattern": PATTERN}, "unit": {"type": "string", "pattern": UNIT_PATTERN}}
+DEFINITIONS: Final = {"quantity": {"type": "string", "pattern": PATTERN}, "share": {"type": "string", "pattern": SHARE_PATTERN},
+                      "unit": {"type": "string", "pattern": UNIT_PATTERN}}
 
 
 def _number(field: Field) -> dict[str, Any]:
-    """A number; of a key with a unit, one with a unit, too."""
+    """A number; of a key with a unit, one with a unit, too, and of the tolerance a share."""
     number = {"type": "number", ("exclusiveMinimum" if field.open_low else "minimum"): field.low,
               ("exclusiveMaximum" if field.open_high else "maximum"): field.high}
-    return {"oneOf": [number, {"$ref": "#/$defs/quantity"}]} if field.unit else number
+    text = "share" if field.name == "tolerance" else "quantity" if field.unit else ""
+    return {"oneOf": [number, {"$ref": f"#/$defs/{text}"}]} if text else number
 
 
 def _array(items: dict[str, Any], length: int | None = None) -> dict[str, Any]:

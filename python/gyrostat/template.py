@@ -3,6 +3,7 @@
 
 import textwrap
 from collections.abc import Iterator
+from typing import Final
 
 from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import REQUIRED, UNSET, Choice, Field, table_of
@@ -11,6 +12,12 @@ from gyrostat.schema import interval
 from gyrostat.toml_text import toml_value
 
 __all__ = ["template"]
+
+# What is asked for by default, by kind.
+ASKED: Final = {
+    "deceleration": "the slow columns, with an attitude at the start all",
+    "general": "attitude, angular_velocity, of wheels rotor_rate and rotor_angle, with solve.euler euler",
+}
 
 
 def _listed(keys: Choice, table: str) -> str:
@@ -30,8 +37,10 @@ def _wanted(family: Family) -> set[str]:
 
 
 def _remarks(family: Family, key: str) -> Iterator[str]:
-    """With and instead of what a key that the template leaves out is given; the forms of an attitude stand for themselves."""
+    """With and instead of what a key that the template leaves out is given, and what its default stands for; the forms of an attitude stand for themselves."""
     table = table_of(key)
+    if key == "solve.ask":
+        yield f"\"default\": {ASKED.get(family.name, 'every column')}"
     forms = {(f"initial.{field.name}",) for field in FORMS}
     for choices in family.alternatives:
         for choice in choices:
@@ -55,7 +64,7 @@ def template(kind: str) -> str:
     family = FAMILIES[kind]
     wanted = _wanted(family)
     lines = [f"# A scene of the kind {kind}: SI units, radians, seconds; other units as \"90 min\". The numbers are an example's.",
-             "# Optional keys and alternatives stand behind a #: take it away to use them. An optional key shows its default."]
+             "# Optional keys and alternatives stand behind a #: take it away to use them. They show the default if there is one."]
     for table, fields in family.keys.items():
         used = any(_full(table, field) in wanted for field in fields)
         lines += ["", f"{'' if used else '#'}[{table}]"] if table else []

@@ -15,7 +15,7 @@ from typing import Final
 
 from gyrostat.errors import Refused
 
-__all__ = ["PATTERN", "QUANTITIES", "UNIT_PATTERN", "UNITS", "quantity", "split", "to_si"]
+__all__ = ["PATTERN", "QUANTITIES", "SHARE_PATTERN", "UNIT_PATTERN", "UNITS", "quantity", "spelled", "split", "to_si"]
 
 # Powers of metre, kilogram, second, ampere and radian.
 Dimension = tuple[int, int, int, int, int]
@@ -47,6 +47,11 @@ _SIZES: Final[tuple[tuple[str, Dimension, dict[str, int | str | Fraction]], ...]
 QUANTITIES: Final = {what: (dimension, {name: Fraction(str(size)) for name, size in sizes.items()}) for what, dimension, sizes in _SIZES}
 UNITS: Final[dict[str, tuple[Fraction, Dimension]]] = {
     name: (size, dimension) for dimension, sizes in QUANTITIES.values() for name, size in sizes.items()}
+# Units by the words for them.
+_WORDS: Final = {word: name for name, words in {
+    "s": "sec second", "min": "minute", "h": "hr hour", "d": "day", "yr": "year", "deg": "degree", "rad": "radian", "rev": "revolution turn", "m": "meter metre",
+    "km": "kilometer kilometre", "in": "inch inche", "ft": "foot feet", "mi": "mile", "kg": "kilogram", "g": "gram", "N": "newton", "J": "joule", "W": "watt",
+    "T": "tesla", "G": "gauss", "A": "amp ampere", "C": "coulomb", "V": "volt", "S": "siemen siemens"}.items() for word in words.split()}
 # They stand alone.
 _SHARES: Final = {"%": Fraction(1, 100), "ppm": Fraction(1, 1_000_000)}
 # What is weighed and what pulls, by the same name but for an f.
@@ -61,6 +66,7 @@ _PRODUCT: Final = rf"{_FACTOR}(?:{_JOIN}{_FACTOR})*"
 _UNIT: Final = rf" *(?:{_PRODUCT}(?: */ *{_PRODUCT})?|1? */ *{_PRODUCT}) *"
 UNIT_PATTERN: Final = f"^{_UNIT}$"
 PATTERN: Final = f"^ *{_NUMBER}{_UNIT}$"
+SHARE_PATTERN: Final = f"^ *{_NUMBER} *(?:{'|'.join(_SHARES)}) *$"
 
 _SUPERSCRIPTS: Final = str.maketrans("⁻¹²³⁴⁵⁶⁷⁸⁹", "-123456789")
 _LONGEST: Final = 200  # letters of a quantity
@@ -85,11 +91,22 @@ def _factors(product: str, unit: str) -> Iterator[tuple[str, int]]:
             yield found[1], int((found[2] or "1").lstrip("^").translate(_SUPERSCRIPTS))
         elif not token:
             raise Refused(f"a factor is missing in the unit {unit}", "write names of units with one *, . or · or blanks between two of them")
-        elif "^" in token:
+        elif "^" in token and not found and not re.search("[A-Za-z]-[A-Za-z]", token):
             raise Refused(f"{token} is no power", "write an integer from 1 to 9 behind ^, with - or without, such as m^2 or s^-1")
         else:
             name = found[1] if found else token
-            raise Refused(f"there is no unit {name}", _meant(name))
+            raise Refused(f"there is no unit {name}", _meant(name, found[2] or "" if found else "", unit))
+
+
+def _by_word(word: str) -> str:
+    """The unit that a word stands for, such as h for Hours; empty where it is none."""
+    small, one = word.lower(), word.removesuffix("s")
+    return _WORDS.get(small) or _WORDS.get(small.removesuffix("s")) or (one if one != word and one in UNITS else "")
+
+
+def spelled(unit: str) -> str:
+    """A unit with names in place of the words in it: deg/s for degrees/sec."""
+    return re.sub("[A-Za-z]+", lambda found: found[0] if found[0] in UNITS else _by_word(found[0]) or found[0], unit)
 
 
 def _apart(word: str) -> str:
@@ -99,14 +116,16 @@ def _apart(word: str) -> str:
     return next((f"{word[:i]} {rest}" for i in range(len(word) - 1, 0, -1) if word[:i] in UNITS and (rest := _apart(word[i:]))), "")
 
 
-def _meant(word: str) -> str:
-    """What to do about a name that is none."""
+def _meant(word: str, power: str, unit: str) -> str:
+    """What to do about a name that is none, which has this power in the unit."""
     if word.lower().endswith("hz"):
         return "it may mean turns or radians: write rev/s or rad/s, for rates without an angle 1/s"
-    if word.endswith("s") and word[:-1] in UNITS:
-        return f"write {word[:-1]}"
-    if len(word) <= 12 and (names := _apart(word)):
-        return f"write {names.replace('N ms', 'N m s')}, with blanks between"
+    if _by_word(word):
+        return f"write {spelled(unit)}"
+    if len(word) <= 12 and (names := _apart(word.replace("-", ""))):
+        return f"write {names.replace('N ms', 'N m s').replace('kg ms', 'kg m s')}{power}, with blanks between"
+    if re.search("[A-Za-z]-[A-Za-z]", word):
+        return f"write {word.replace('-', ' ')}{power}, with blanks between"
     lower = {name.lower(): name for name in UNITS}
     if near := lower.get(re.sub("[µμ]", "u", word).lower()) or next(iter(difflib.get_close_matches(word, UNITS, 1, 0.6)), None):
         return f"did you mean {near}?"

@@ -254,6 +254,12 @@ def test_text_of_many_times_costs_less_than_that_of_their_lists() -> None:
         assert time.process_time() - began < lists
 
 
+def test_text_goes_into_a_file_where_one_is_named(tmp_path: Path) -> None:
+    answer = gyrostat.solve(BRAKE)
+    assert answer.to_json(tmp_path / "a.json") + "\n" == (tmp_path / "a.json").read_text() and answer.to_json() == answer.to_json(None)
+    assert answer.to_csv(str(tmp_path / "a.csv")) == (tmp_path / "a.csv").read_text() == answer.to_csv()
+
+
 def test_numbers_that_are_not_finite_become_null() -> None:
     answer = gyrostat.solve(BRAKE, control=[0.0, 0.0, 0.0])
     assert math.isinf(answer.scalars["stop_time"])

@@ -78,6 +78,14 @@ def test_the_full_motion_of_the_designed_scene_finds_the_budget(goal: str, budge
         assert before == after
 
 
+def test_a_start_that_leans_by_more_than_the_budget_is_told() -> None:
+    nutating = scene(**{"initial.angular_velocity": [0.01, 0.0, 0.33]})
+    made = design_scene(nutating, "spin-for-pointing", 0.005)
+    alone = 0.01 * BODY["inertia"][0] / (BODY["inertia"][2] * made.value)
+    assert made.confirmed and [text for text in made.warnings if text.startswith("start-leans-more: ") and f" {alone:.3g} rad " in text]
+    assert not [text for text in design_scene(scene(), "spin-for-pointing", 0.005).warnings if "start" in text]
+
+
 def test_a_goal_that_the_linear_motion_cannot_tell_is_not_confirmed() -> None:
     made = design_scene(scene(), "torque-for-direction", 0.6)
     assert not made.confirmed and any("beyond-small-tilt" in text for text in made.warnings)
@@ -89,6 +97,12 @@ def test_a_goal_that_the_linear_motion_cannot_tell_is_not_confirmed() -> None:
     ({"body.inertia": [4183.0, 2729.0, 2985.0]}, "spin-for-pointing", 0.01, "no stable spin"),
     ({"body.inertia": [4183.0, 2729.0, 2985.0]}, "torque-for-direction", 0.01, "the spin is unstable"),
     ({"torque.body": [1.0, 0.0, 1.0]}, "burn-for-velocity", 1.0, "torque acts about axis 3"),
+    ({"torque.body": [1.0, 0.0, 1.0]}, "torque-for-direction", 0.01, "torque acts about axis 3: the spin is not constant$"),
+    ({"torque.body": [1.0, 0.0, 1.0]}, "spin-for-pointing", 0.01, "torque acts about axis 3: the spin is not constant$"),
+    ({"torque.force": [1.0, 0.0, 0.0]}, "torque-for-direction", 0.01, "no force acts along axis 3$"),
+    ({"initial.angular_velocity": [0.01, 0.0, 0.0]}, "torque-for-direction", 0.01, "it does not spin about axis 3$"),
+    ({"initial.euler_312": [0.02, 0.0, 0.0]}, "torque-for-direction", 0.01, "start alone lean the mean direction of axis 3 by 0.02 rad, which is over"),
+    ({"body.rotor_momentum": -2091.5, "initial.angular_velocity": [0.0, 0.0, 0.5]}, "torque-for-direction", 0.01, "no gyroscopic stiffness$"),
     ({"torque.force": [0.0, 0.0, 0.0]}, "burn-for-displacement", 1.0, "no force acts"),
     ({"body.rotor_momentum": -600.0}, "spin-for-pointing", 0.007, "stability, not pointing"),
     ({}, "spin-for-pointing", 0.0, "budget = 0"),

@@ -87,7 +87,15 @@ def test_a_tumbler_that_no_torque_turns_has_no_mean_pointing_to_speak_of() -> No
     answer = gyrostat.solve("spinning-paper", duration=60.0, samples=200, **{"torque.body": [0.0, 0.0, 0.0], "initial.angular_velocity": [0.3, 0.5, 0.1]})
     assert answer.scalars["pointing_error"] == 0 and answer.scalars["tilt_max"] > 1
     title = answer.plot().get_suptitle()
-    assert "greatest tilt" in title and "pointing" not in title
+    assert "greatest tilt" in title and "lean" not in title
+
+
+def test_the_lean_under_the_torque_is_told_apart_from_that_of_the_start() -> None:
+    stage = {"inertia": [760.0, 760.0, 340.0], "torque.body": [12.0, -4.0, 0.0], "duration": 10.0, "samples": 400}
+    still = gyrostat.solve("pam-d-burn", **stage, **{"initial.angular_velocity": [0.0, 0.0, 6.283]}).plot().get_suptitle()
+    assert "lean under the torque 0.054 deg" in still and "of the start" not in still
+    nutating = gyrostat.solve("pam-d-burn", **stage, **{"initial.angular_velocity": [0.01, 0.0, 6.283]}).plot().get_suptitle()
+    assert "lean under the torque 0.054 deg (without that of the start, 0.204 deg)" in nutating
 
 
 def test_powers_of_ten_are_set_as_such_and_dollars_as_dollars(tmp_path: Path) -> None:
@@ -106,6 +114,17 @@ def test_a_stop_beyond_the_axis_is_marked() -> None:
     inside = figure_of("cubesat-wheel")
     assert not [text for axes in inside.axes for text in axes.texts]
     assert any(line.get_linestyle() == ":" for line in inside.axes[0].lines)
+
+
+def test_a_body_that_its_rotors_keep_turning_is_not_drawn_at_rest() -> None:
+    changes: dict[str, Any] = {"rotor_momentum": [0.02, 0.01, 0.0], "control": [0.01, 0.01, 0.01], "drag": 0.0, "law": "total", "inertia": [35.0, 22.0, 16.0],
+                               "initial.angular_velocity": [0.5, 0.6, 0.7], "tolerance": 1e-4}
+    gone = gyrostat.solve("tiangong-1", duration=4000.0, samples=101, **changes)
+    assert "does-not-stop" in [warning.code for warning in gone.warnings] and "rest" in gone["regime"]
+    figure = gone.plot()
+    assert "momentum is 0 at" in figure.get_suptitle() and "stops" not in figure.get_suptitle() and "at rest" not in legend_texts(figure)
+    later = gyrostat.solve("tiangong-1", duration=500.0, samples=51, **changes).plot()
+    assert [text.get_text()[:8] for axes in later.axes for text in axes.texts] == ["|M| is 0"]
 
 
 def test_a_stop_is_marked_where_columns_are_asked_for_by_name() -> None:

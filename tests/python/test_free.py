@@ -135,3 +135,10 @@ def test_chart() -> None:
     chart = gyrostat.chart("tumbling-brick")
     labels = {point.group for point in chart.points}
     assert {"rung", "taylor"} <= labels
+
+
+def test_a_number_without_a_value_is_none() -> None:
+    given: dict[str, Any] = {"inertia": [1.0, 2.0, 2.5], "angular_velocity": [0.0, 0.0, 1.0], "times": [0.0, 1.0]}
+    for ask in (None, ["period", "turn_per_period", "flip_interval"]):
+        told = free.solve(**given, ask=ask).scalars
+        assert told["period"] is None and told["turn_per_period"] is None and told["flip_interval"] is None

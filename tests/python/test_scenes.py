@@ -536,6 +536,34 @@ def test_a_scene_that_can_only_be_general_is_not_asked_for_its_kind() -> None:
         scene_from({"name": "r", "rotor": {"axis": [1, 0, 0]}, "body": {"inertia": [1.0, 1.0, 1.0]}, "solve": {"times": [1.0]}})
 
 
+def test_places_are_reached_in_numbers_beside_a_unit_and_in_moments_and_products() -> None:
+    scene = load("tiangong-1", inertia={"value": [35.0, 22.0, 16.0], "unit": "slug ft^2"})
+    before = scene.tables["body"]["inertia"]
+    for value, wanted in ((20.0, 20.0), ("15 slug ft^2", 15 / 16 * before[2])):
+        changed = scene.replace(**{"body.inertia[2]": value})
+        assert changed.tables["body"]["inertia"] == (*before[:2], pytest.approx(wanted, rel=1e-15))
+        assert scene_from(changed.to_dict()).tables["body"]["inertia"] == changed.tables["body"]["inertia"]
+    parts = load("tiangong-1", inertia={"moments": [35.0, 22.0, 16.0], "products": ["1 kg m^2", 0.0, 0.0], "sign": "integral"})
+    assert parts.replace(**{"body.inertia[2,2]": 20.0}).tables["body"]["inertia"] == ((35.0, -1.0, 0.0), (-1.0, 22.0, 0.0), (0.0, 0.0, 20.0))
+    with pytest.raises(SceneError, match="there is no such number"):
+        parts.replace(**{"body.inertia[2]": 20.0})
+
+
+@pytest.mark.parametrize("value", [{"control": [1.0, 1.0, 1.0]}, {}, 5.0])
+def test_a_table_is_changed_key_by_key(value: object) -> None:
+    with pytest.raises(SceneError, match=r"torque = .*: a table is not replaced as a whole; set its keys one by one, as torque\.control, in Python replace"):
+        load("tiangong-1").replace(torque=value)
+    assert load("tiangong-1").replace(control=[1.0, 1.0, 1.0]).tables["torque"]["control"] == (1.0, 1.0, 1.0)
+
+
+@pytest.mark.parametrize(("text", "shown"), [
+    ("duration=3hours", '\'duration="3 h"\''), ("torque.drag=2 /minutes", "\'torque.drag=\"2 /min\"\'"), ("duration=5e1 days", '"5e1 d"'), ("duration=5 stone", '"3 h"')])
+def test_a_value_with_a_unit_stands_in_quotes(text: str, shown: str) -> None:
+    with pytest.raises(SceneError, match="put a value with a unit in quotes: --set ") as told:
+        parse_override(text)
+    assert shown in str(told.value)
+
+
 @pytest.mark.parametrize(("text", "key", "value"), [
     ("tolerance=1e-9", "tolerance", 1e-9), ("torque.control=[1, 2, 3]", "torque.control", [1, 2, 3]),
     ("model=full", "model", "full"), ('model = "averaged-2"', "model", "averaged-2"), ("model=averaged-2", "model", "averaged-2"),

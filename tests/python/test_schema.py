@@ -169,6 +169,20 @@ def test_a_template_has_every_key_with_its_unit_and_every_alternative(kind: str)
             assert solve(scene, tolerance=0.1, times=[0.0, 1.0]).met
 
 
+@pytest.mark.parametrize("kind", list(FAMILIES))
+def test_what_a_template_asks_for_is_the_default(kind: str) -> None:
+    text = template(kind)
+    assert '#ask = "default"' in text
+    scene = scene_from(tomllib.loads(text))
+    left_out, said = solve(scene, tolerance=0.1), solve(scene_from(tomllib.loads(text.replace('#ask = "default"', 'ask = "default"'))), tolerance=0.1)
+    assert list(left_out.columns) == list(said.columns) and left_out.tolerances == said.tolerances
+    if kind == "general":
+        named = text[text.index('"default":'):text.index('#ask = "default"')]
+        assert all(name in named for name in left_out.columns) and "energy" not in named and "energy" not in left_out.columns
+    elif kind != "deceleration":
+        assert list(left_out.columns) == list(solve(scene, tolerance=0.1, ask="all").columns)
+
+
 def loads(data: dict[str, Any]) -> bool:
     try:
         scene_from(data)

@@ -19,7 +19,7 @@ from gyrostat.cli import main
 from gyrostat.errors import Refused, SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.fields import Field
-from gyrostat.scenes import bundled, load, scene_from
+from gyrostat.scenes import bundled, load, parse_override, scene_from
 from gyrostat.schema import schema
 from gyrostat.toml_text import toml_text
 from gyrostat.units import PATTERN, UNITS, quantity, split, to_si
@@ -114,6 +114,13 @@ MISTAKES: dict[str, tuple[str, str, Any, list[str]]] = {
     "force for a mass": ("spinning", "body.mass", "22 lbf", ["lbf is a force: write lb"]),
     "names run together": ("deceleration", "torque.control", ["1 mNm", 0, 0], ["no unit mNm", "write mN m"]),
     "three run together": ("deceleration", "body.rotor_momentum", ["1 Nms", 0, 0], ["no unit Nms", "write N m s"]),
+    "run together with a power": ("deceleration", "body.inertia", ["35 kgm^2", 22, 16], ["no unit kgm", "write kg m^2, with blanks"]),
+    "joined by hyphens": ("deceleration", "torque.control", ["1 N-m", 0, 0], ["no unit N-m", "write N m, with blanks"]),
+    "seconds by another name": ("rotor", "motor.no_load_rate", "2 deg/sec", ["no unit sec", "write deg/s"]),
+    "both by words": ("rotor", "motor.no_load_rate", "2 Degrees/second", ["no unit Degrees", "write deg/s"]),
+    "days": ("deceleration", "solve.duration", "2 days", ["no unit days", "write d"]),
+    "an hour": ("deceleration", "solve.duration", "1 hour", ["no unit hour", "write h"]),
+    "minutes": ("deceleration", "solve.duration", "5 minutes", ["no unit minutes", "write min"]),
     "two slashes": ("rotor", "motor.slope", "1 N m/rad/s", ["second /", "N m s/rad"]),
     "brackets": ("rotor", "motor.slope", "1 N m/(rad/s)", ["brackets", "N m s/rad"]),
     "stars": ("assembled", "carrier.inertia", ["2 kg m**2", 2, 2], ["element 1", "**", "m^2"]),
@@ -125,7 +132,9 @@ MISTAKES: dict[str, tuple[str, str, Any, list[str]]] = {
     "unit of a quaternion": ("deceleration", "initial.attitude", [0, 0, 0, "1 rad"], ["element 4", "has no unit"]),
     "unit of a cosine": ("heavy", "initial.periodic", {"spin": "9 rpm", "cos_inclination": "1 rad"}, ["cos_inclination", "has no unit"]),
     "unit of a count": ("deceleration", "solve.samples", "11", ["text, not an integer"]),
-    "unit of a tolerance": ("deceleration", "solve.tolerance", "1 %", ["has no unit"]),
+    "unit of a tolerance": ("deceleration", "solve.tolerance", "1 deg", ["has no unit"]),
+    "a tolerance that is no share": ("deceleration", "solve.tolerance", "1 %%", ["has no unit"]),
+    "share over the greatest tolerance": ("deceleration", "solve.tolerance", "60 %", ["out of range"]),
     "times that fall": ("deceleration", "solve.times", ["1 min", 59.0], ["element 2 = 59.0", "increasing"]),
     "table without a unit": ("deceleration", "torque.control", {"value": [1, 2, 3]}, ["keys value and unit, not value", 'unit = "N m"']),
     "table with an unknown key": ("deceleration", "torque.control", {"value": [1, 2, 3], "units": "N m"}, ["not value, units", 'unit = "N m"']),
@@ -301,3 +310,12 @@ def test_the_schema_refuses_what_no_unit_looks_like() -> None:
         assert accepts(schema(), {**data, "torque": {**data["torque"], "drag": drag}}) == right
     for start, right in ({"down": ["1 m", 0, 0]}, False), ({"attitude": [0, 0, 0, "1 rad"]}, False), ({"mrp": [0, 0, "1 rad"]}, False):
         assert accepts(schema(), {**tomllib.loads(HEAVY), "initial": {"angular_velocity": ["1 rpm", 0, 0], **start}}) == right
+
+
+def test_a_tolerance_may_be_a_share() -> None:
+    scene = load("tiangong-1", tolerance="0.1 %")
+    assert scene.tolerance == 1e-3 and scene.to_dict()["solve"]["tolerance"] == "0.1 %"
+    assert load("tiangong-1", tolerance="10 ppm").tolerance == 1e-5
+    answer = gyrostat.solve(scene)
+    assert answer.tolerance == 1e-3 and answer.model == gyrostat.solve("tiangong-1", tolerance=1e-3).model
+    assert parse_override("tolerance=0.1%") == ("tolerance", "0.1%") and scene.replace(tolerance="0.1%").tolerance == 1e-3

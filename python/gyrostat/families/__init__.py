@@ -70,7 +70,7 @@ class Family:
         """A value of every key without default, by full key: a body to start from."""
         own: dict[str, Any] = self._module("scene").EXAMPLE
         vary = {"n": 1000, "body.inertia[0]": f"normal({own['body.inertia'][0]}, 1%)"}
-        return {"name": f"my-{self.name}", "kind": self.name, "vary": vary, "solve.times": (0.0, 10.0, 25.0), "solve.ask": "all", **EXAMPLE, **own}
+        return {"name": f"my-{self.name}", "kind": self.name, "vary": vary, "solve.times": (0.0, 10.0, 25.0), "solve.ask": "default", **EXAMPLE, **own}
 
     def needs(self, table: str) -> bool:
         """No scene can do without the table."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.drawing import COLOURS, Panel, curve, error_text, legend_row, mark_stop, note, span_text, stacked, time_unit, vector
+from gyrostat.drawing import COLOURS, Panel, curve, error_text, goes_on, legend_row, mark_stop, note, span_text, stacked, time_unit, vector
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,12 +44,13 @@ def figure(answer: "Answer", _: Mapping[str, Any]) -> "Figure":
     return made
 
 
-def remarks(answer: "Answer") -> list[str]:
+def remarks(answer: "Answer", _: Mapping[str, Any]) -> list[str]:
     """For the title."""
     stop = answer.scalars.get("stop_time")
     if stop is None or not math.isfinite(stop):
         return []
-    return [f"stops at {stop:.6g} s" + (f" ({span_text(stop)})" if time_unit(stop)[1] != "s" else "")]
+    when = f"{stop:.6g} s" + (f" ({span_text(stop)})" if time_unit(stop)[1] != "s" else "")
+    return [f"total momentum is 0 at {when}, and the rotors keep the body turning" if goes_on(answer) else f"stops at {when}"]
 
 
 def _size_and_energy(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
@@ -81,12 +82,14 @@ def _modulus(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
     if "modulus_squared" in answer.columns:
         k2 = np.array(answer["modulus_squared"], dtype=float)
         if "regime" in answer.columns:
-            k2[answer["regime"] == "rest"] = np.nan  # a body at rest is on no orbit
+            k2[answer["regime"] == "rest"] = np.nan  # without momentum it is on no orbit
         curve(axes, t, k2, ["_k2"], ["black"], coarse=False)
         note(axes, error_text(answer, "modulus_squared"))
     if "regime" in answer.columns:
         named = set()
         for name, first, last in _runs(answer["regime"]):
+            if name == "rest" and goes_on(answer):
+                continue
             colour, meaning = REGIMES.get(name, ("#CCCCCC", name))
             end = t[min(last + 1, len(t) - 1)]
             axes.axvspan(t[first], end, color=colour, alpha=0.25, linewidth=0, label=None if name in named else meaning)

@@ -38,7 +38,7 @@ def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
     return laid_out(answer, maps, panels)
 
 
-def remarks(answer: "Answer") -> list[str]:
+def remarks(answer: "Answer", _: Mapping[str, Any]) -> list[str]:
     """For the title."""
     kind, period = answer.scalars.get("kind"), answer.scalars.get("period")
     if kind is None:

@@ -44,7 +44,7 @@ def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
     return laid_out(answer, maps, [_marked(panel, marks) for panel in _panels(answer, given)])
 
 
-def remarks(answer: "Answer") -> list[str]:
+def remarks(answer: "Answer", _: Mapping[str, Any]) -> list[str]:
     """For the title."""
     found, stop = answer.scalars.get("recognised"), answer.scalars.get("stop_time")
     made = [f"an instance of {', '.join(found)}"] if found else []

@@ -368,7 +368,7 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     tolerance : greatest relative error wanted in what is asked; recognise : whether the rungs of the families are asked of which the scene is
     exactly an instance.
     ask : columns and scalars wanted: names, "all", or name -> tolerance, relative or with a unit ("0.1 deg"); None: attitude, angular
-    velocity, and rates and angles of the wheels.
+    velocity, rates and angles of the wheels, and the angles of `euler`.
     start_time : where the clock of times, tables, waves and orbit stands at the start [s]: attitude, rates and path are given there, and the first
     of the times may not be before it.
     start_error : by how much the start may be off, absolute: attitude [rad], angular_velocity, rotor_rate [rad/s], rotor_angle [rad], velocity,

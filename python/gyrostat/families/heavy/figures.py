@@ -33,7 +33,7 @@ def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
     return laid_out(answer, maps, [panel for shown, panel in panels if shown])
 
 
-def remarks(answer: "Answer") -> list[str]:
+def remarks(answer: "Answer", _: Mapping[str, Any]) -> list[str]:
     """For the title."""
     period = answer.scalars.get("period")
     if period is None:

@@ -28,12 +28,12 @@ def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
                             _lyapunov(given)])
 
 
-def remarks(answer: "Answer") -> list[str]:
+def remarks(answer: "Answer", _: Mapping[str, Any]) -> list[str]:
     """For the title."""
     attractor, rate = answer.scalars["attractor"], answer.scalars["decay_rate"]
     if attractor is None:
         return ["no attractor certified"]
-    return [f"tends to steady rotation {attractor}" + (f", in the end as exp(-t / {span_text(1 / rate)})" if rate > 0 else "")]
+    return [f"tends to steady rotation {attractor}" + (f", in the end as exp(-t / {span_text(1 / rate)})" if rate is not None and rate > 0 else "")]
 
 
 def _rotor_rate(given: Mapping[str, Any]) -> Panel:

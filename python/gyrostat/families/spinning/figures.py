@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.drawing import COLOURS, Panel, changes, curve, error_text, laid_out, legend_beside, legend_row, note, split
-from gyrostat.families.spinning.functions import pointing
+from gyrostat.families.spinning.functions import pointing, start_lean
 from gyrostat.rotation import matrix_from_quaternion
 
 if TYPE_CHECKING:
@@ -39,11 +39,14 @@ def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
     return laid_out(answer, maps, [panel for shown, panel in panels if shown])
 
 
-def remarks(answer: "Answer") -> list[str]:
+def remarks(answer: "Answer", given: Mapping[str, Any]) -> list[str]:
     """For the title."""
     made = [f"greatest tilt {_degrees(answer.scalars['tilt_max'])}"]
-    if answer.scalars["pointing_error"] < TUMBLING and not answer.scalars["tilt_max"] > TUMBLING:
-        made.append(f"mean pointing error {_degrees(answer.scalars['pointing_error'])}")
+    lean = answer.scalars["pointing_error"]
+    if lean is not None and lean < TUMBLING and not answer.scalars["tilt_max"] > TUMBLING:
+        made.append(f"lean under the torque {_degrees(lean)}")
+        if (start := start_lean(given)) > lean:
+            made[-1] += f" (without that of the start, {_degrees(start)})"
     if answer.scalars["nutation_frequency_squared"] <= 0:
         made.append("unstable spin")
     return [", ".join(made)]
@@ -89,7 +92,7 @@ def _axis_map(axes: "Axes", answer: "Answer", given: Mapping[str, Any]) -> None:
     _map(axes, "body axis 3", R[:, :, 2], COLOURS[0])
     if np.all(size > 0):
         _map(axes, "angular\nmomentum", G / size, COLOURS[4])
-    if math.isfinite(answer.scalars["pointing_error"]):
+    if answer.scalars["pointing_error"] is not None and math.isfinite(answer.scalars["pointing_error"]):
         mean = -1j * pointing(**{name: given[name] for name in (
             "inertia", "torque", "angular_velocity", "rotor_momentum", "charge_momentum", "euler_312")}).mean_tilt
         if abs(mean) < 1:

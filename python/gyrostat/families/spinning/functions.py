@@ -195,7 +195,7 @@ def linear_grid(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angu
 class Pointing:
     """Where thrusting spinners point in the mean; arrays over the leading axes."""
 
-    error: Floats  # (...) |M|/|r0 X|, rad; infinite where r0 X = 0 and where there is no mean
+    error: Floats  # (...) |M|/|r0 X|, rad, of the torque alone: the lean that the start has without it is in mean_tilt; infinite where r0 X = 0 and where there is no mean
     secular_velocity_ratio: Floats  # (..., 2) limit of (v1, v2)/v3; NaN without force or mean
     mean_tilt: NDArray[np.complex128]  # (...) mean of e^(i theta) (psi + i phi), rad; axis 3 points to -i times it; NaN where there is none
     nutation_frequency_squared: Floats  # (...) nu^2, 1/s^2
@@ -220,6 +220,13 @@ def pointing(*, inertia: ArrayLike, torque: ArrayLike, angular_velocity: ArrayLi
                     **{name: shaped(made[:, i] == 1, lead) for i, name in ((6, "unstable"), (7, "resonant"), (8, "compliant"))})
 
 
+def start_lean(given: Mapping[str, ArrayLike]) -> float:
+    """How far tilt and rates of the start alone put the mean direction of axis 3 off inertial axis 3 [rad], of the arguments of `solve`; NaN where there
+    is no mean."""
+    still = {name: given[name] for name in ("inertia", "angular_velocity", "rotor_momentum", "charge_momentum", "euler_312")}
+    return float(abs(pointing(torque=ORIGIN, **still).mean_tilt))
+
+
 def _spin(spin_rate: ArrayLike) -> Floats:
     """(...) -> (..., 3): about axis 3 alone."""
     lead, (r,) = rows([("spin_rate", spin_rate, ())])
@@ -231,7 +238,7 @@ def _spin(spin_rate: ArrayLike) -> Floats:
 def pointing_error(*, inertia: ArrayLike, torque: ArrayLike, spin_rate: ArrayLike, rotor_momentum: ArrayLike = 0.0,
                    charge_momentum: ArrayLike = 0.0) -> Floats:
     """(...) mean lean of the spin axis under the torque, |M|/|r0 X| [rad], X = D3 r0 + lambda3 - e_H; infinite where r0 X = 0 and where the spin is
-    unstable (nu^2 <= 0), which has no mean.
+    unstable (nu^2 <= 0), which has no mean. A start with tilt or rates across the axis leans it besides, which is not in it: `pointing` has all.
 
     inertia, torque : (..., 3); spin_rate : (...) r0 [rad/s]; rotor_momentum, charge_momentum : (...). Leading axes broadcast.
     """
