@@ -307,3 +307,18 @@ def test_the_attitude_to_the_orbit_does_not_change_its_sign(eccentricity: float)
     answer = general.solve(inertia=[1, 2, 2.5], angular_velocity=[1e-4, -1e-3, 2e-4], times=np.linspace(0, 4e4, 801), orbit=orbit, ask=["attitude_orbit"])
     q = answer["attitude_orbit"]
     assert (q[1:] * q[:-1]).sum(axis=1).min() > 0.9
+
+
+@pytest.mark.parametrize(("inertia", "control", "drag", "rate", "stop"), [
+    # a float128 Taylor series of the full equations
+    ([50393.4400762439, 50393.44006786135, 44099.47371275436], [6.612600185041184, 6.612600185041184, 0.0037773964573702794], 1.4282346938158754e-05,
+     [-0.15669909208221275, -0.07585912797942061, 0.0009066829419141673], 10971.193305479743),
+    ([1.0, 0.5711646489834393, 0.5707309462718985], [1.0218292582186366e-09, 6.7978161903387675e-06, 6.7978161903387675e-06], 0.0,
+     [0.018519995688846252, 0.869060406710172, 0.49435920063091315], 21234930.75918501)])
+@pytest.mark.parametrize("tolerance", [2e-5, 5e-5, 1e-4, 1e-3, 1e-2])
+def test_the_stop_that_a_weak_control_makes_is_known_as_well_as_what_is_left_for_it(
+        inertia: list[float], control: list[float], drag: float, rate: list[float], stop: float, tolerance: float) -> None:
+    scene = {"kind": "deceleration", "name": "tail", "body": {"inertia": inertia}, "torque": {"control": control, "drag": drag},
+             "initial": {"angular_velocity": rate}, "solve": {"times": [1.0], "tolerance": tolerance, "ask": ["stop_time"]}}
+    answer = gyrostat.solve(scene)
+    assert abs(answer.scalars["stop_time"] / stop - 1) <= answer.scalar_error["stop_time"]

@@ -151,8 +151,13 @@ Track averaged_track(const Scene& scene) {
     late = (tail + drift) / *stop;
   }
   if (const auto stop = run.motion().stop_time()) track.stop_time = *stop;
+  const double weight = detail::weight_of_rest(scene, track.stop_time);
+  if (weight > 1) {
+    const auto whole = run.error().first_order(norm0, energy0);
+    late += (weight - 1) * (whole.norm / norm0 + whole.energy / energy0);
+  }
   if (late > 1) late = infinity<double>;  // not an estimate any more
-  track.stop_error = std::isfinite(track.stop_time) ? late + honesty::mean_stop * tolerance : 0;
+  track.stop_error = std::isfinite(track.stop_time) ? late + detail::stop_of_steps(weight, tolerance) : 0;
 
   const double local = honesty::mean_steps * tolerance, doubt = k2_of_data(problem, start, M0);
   error.norm += local * norm0 + problem.momentum_error();

@@ -48,6 +48,20 @@ struct Halt {
 
 GYROSTAT_COMPILED_ONCE Halt not_followed(Errc failure) noexcept;
 
+/// How many times over errors of the start's size count in what the weakest control is left to stop, where it stops the body last: its time is that of the
+/// momentum that the others leave. 1 where that is all of it.
+inline double weight_of_rest(const Scene& scene, double stop) noexcept {
+  const auto& problem = scene.problem();
+  const double drag = problem.drag, braked = drag > 0 ? std::expm1(drag * stop) / drag : stop;
+  const double left = scene.least_control() * braked, norm = problem.momentum.norm();
+  return left > 0 && left < norm ? norm / left : 1.0;
+}
+
+/// What local errors of the mean equations make of the time of the stop, relative.
+inline double stop_of_steps(double weight, double tolerance) noexcept {
+  return std::max(honesty::mean_stop, 2 * honesty::mean_steps * weight) * tolerance;
+}
+
 inline Track refused(const Halt& halt) { return gyrostat::refused<Track>(halt.code, halt.why); }
 
 }  // namespace detail
@@ -107,7 +121,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
     const Errc failure = hand_over(track, scene, now->momentum, mean.time(), mean.second_order(), monitor);
     if (failure != Errc::ok)
       return gyrostat::refused<Track>(failure, "the full equations could not take over near rest");
-    track.stop_error += honesty::mean_stop * tolerance;
+    track.stop_error += detail::stop_of_steps(detail::weight_of_rest(scene, track.stop_time), tolerance);
     stops = true;
   }
   track.counts += mean.counts();
