@@ -6,6 +6,7 @@
 #include "gyrostat/ladder/heavy/inputs.hpp"
 #include "gyrostat/ladder/heavy/periodic_orbit.hpp"
 #include "gyrostat/ladder/heavy/solve.hpp"
+#include "gyrostat/models/heavy/balance.hpp"
 #include "gyrostat/models/heavy/collocation.hpp"
 #include "gyrostat/models/heavy/euler_case.hpp"
 #include "gyrostat/models/heavy/full.hpp"

@@ -98,7 +98,7 @@ inline constexpr double parted_margin = 8;
 inline constexpr double next_to_steady = 1e-6;
 /// It counts as so many times less well known: how far off it began sets when the motion leaves.
 inline constexpr double steady_condition = 1e6;
-/// The same of all other families, where the steady rotation is unstable. From 12 of 310 000 answers of bodies turned about their middle axis, 3 of which
+/// The same of all other families, where the steady rotation is unstable. From 11 of 309 000 answers of bodies turned about their middle axis, 3 of which
 /// are left at this share; not a fit.
 inline constexpr double next_to_unstable = 0.1;
 /// The same of heavy bodies next to any steady rotation, or to a rest. From 9 of 146 000 answers of tops and pendulums, 1 of which is left; not a fit.
