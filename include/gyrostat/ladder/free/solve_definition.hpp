@@ -5,6 +5,7 @@
 #include <array>
 
 #include "gyrostat/body/realisability.hpp"
+#include "gyrostat/body/rotor.hpp"
 #include "gyrostat/ladder/free/closed_form_rung.hpp"
 #include "gyrostat/ladder/free/cost.hpp"
 #include "gyrostat/ladder/free/full_rung.hpp"
@@ -51,7 +52,7 @@ inline View<double> view_of(const ViewRequest& view, const Motion<double>& motio
 inline double room_beside_wheels(const Assembly<double>& assembly) noexcept {
   Mat3<double> known = Mat3<double>::Zero();
   for (const auto& wheel : assembly.wheels)
-    known += wheel.axial_inertia / 2 * (Mat3<double>::Identity() - wheel.axis * wheel.axis.transpose());
+    known += Rotor<double>::from_axis(wheel.axis, wheel.axial_inertia)->least_second_moments();
   return realisability<double>(assembly.body.inertia, known);
 }
 
