@@ -26,17 +26,15 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
 endif()
 
-# gyrostat_unite(SOURCE...): in targets of this folder with UNITY_BUILD_MODE GROUP the sources are compiled as three units: they share headers and
+# gyrostat_unite(SOURCE...): in targets of this folder with UNITY_BUILD_MODE GROUP the sources are compiled as two units: they share headers and
 # what these instantiate. What belongs to no family is with general, which knows all families.
 function(gyrostat_unite)
   foreach(source IN LISTS ARGN)
     get_filename_component(name "${source}" NAME)
-    if(name MATCHES "^(heavy|rotor)")
-      set(unit heavy_and_rotor)
-    elseif(name MATCHES "^(deceleration|spinning|free)")
-      set(unit deceleration_spinning_and_free)
+    if(name MATCHES "^(spinning|heavy|rotor)")
+      set(unit spinning_heavy_and_rotor)
     else()
-      set(unit general)
+      set(unit deceleration_free_and_general)
     endif()
     set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "of_${unit}")
   endforeach()

@@ -71,7 +71,7 @@ FULL: Final = ("*", 14, "#000000", "-")
 RUNGS: Final = (("P", 11, "#0072B2", "-"), ("^", 11, "#D55E00", "-"), ("X", 11, "#009E73", "-"), ("p", 11, "#CC79A7", "-"))
 METHODS: Final = {
     "series, by order (from Python)": ("d", 6, "#7F7F7F", "-"),
-    "Taylor, order 8": ("o", 5, "#56B4E9", "-"), "Taylor, order 12": ("o", 5, "#2F7FC1", "-"), "Taylor, order 20": ("o", 5, "#08306B", "-"),
+    "Taylor, order 20": ("o", 5, "#08306B", "-"),
     "Radau IIA": ("h", 7, "#6A3D9A", "-"), "Runge-Kutta DOP853": ("v", 6, "#E69F00", "-"),
     "CVODE Adams": ("s", 5, "#33A02C", "--"), "CVODE BDF": ("s", 5, "#8C6D31", "--"),
     "SciPy DOP853 (Python right-hand side)": ("D", 5, "#E31A1C", ":"), "heyoka (compile time left out)": ("D", 5, "#FB6FB1", ":"),

@@ -7,7 +7,6 @@
 // operator()(t, y, rate), absolute(tolerance), start(), state(t, y) and, where it is known, jacobian(y, columns).
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>
@@ -42,8 +41,8 @@ struct Task {
   double begin = 0;  ///< s, of the start
 };
 
-inline constexpr std::array taylor_orders{8, 12, 20};
-inline constexpr int long_order = 30;
+inline constexpr int taylor_order = 20;
+inline constexpr int long_order = 30;  ///< in long double
 
 /// The checked task; `radau`: the family knows that method as well.
 inline Task task_of(std::vector<double> times, const std::string& method, int order, double tolerance,
@@ -58,8 +57,9 @@ inline Task task_of(std::vector<double> times, const std::string& method, int or
   if (longer && !by_radau && !(taylor && order == long_order))
     raise("DomainError", std::string("precision = 'long double': only method taylor of order 30") +
                              (radau ? ", and radau, have it" : " has it"));
-  if (taylor && !longer && std::find(taylor_orders.begin(), taylor_orders.end(), order) == taylor_orders.end())
-    raise("DomainError", "order = " + std::to_string(order) + ": use 8, 12 or 20");
+  if (taylor && !longer && order != taylor_order)
+    raise("DomainError", "order = " + std::to_string(order) +
+                             ": Taylor series are of order 20, in precision = 'long double' of order 30");
   bool known = taylor || by_radau || method == "dop853";
 #ifdef GYROSTAT_HAVE_CVODE
   known = known || method == "cvode-adams" || method == "cvode-bdf";
@@ -196,9 +196,7 @@ Course by_name(const Motion& motion, const Plain& plain, const Task& task, Put&&
   if (task.method == "cvode-bdf") return by_cvode(plain, task, ode::CvodeMethod::bdf, put);
 #endif
   if (task.method == "dop853") return by_dop853(plain, task, put);
-  if (task.order == 8) return by_taylor<8>(motion, task, put);
-  if (task.order == 12) return by_taylor<12>(motion, task, put);
-  return by_taylor<20>(motion, task, put);
+  return by_taylor<taylor_order>(motion, task, put);
 }
 
 }  // namespace gyrostat::python

@@ -135,12 +135,11 @@ def test_integrators_agree() -> None:
     given: dict[str, Any] = {"inertia": J, "control": B, "drag": 2e-5, "angular_momentum": M0, "times": [0.0, 10.0, 200.0]}
     truth = deceleration.integrate(**given, method="taylor", order=30, tolerance=1e-18, precision="long double")
     assert truth["status"] == "reached"
-    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 20)]
-    methods.append({"method": "dop853"})
+    methods = ["taylor", "dop853"]
     if deceleration.has_cvode():
-        methods += [{"method": "cvode-adams"}, {"method": "cvode-bdf"}]
+        methods += ["cvode-adams", "cvode-bdf"]
     for method in methods:
-        made = deceleration.integrate(**given, **method, tolerance=1e-12)
+        made = deceleration.integrate(**given, method=method, tolerance=1e-12)
         assert made["status"] == "reached" and made["rhs"] > 0 and made["seconds"] > 0
         assert np.array_equal(made["angular_momentum"][0], M0)
         assert np.max(np.abs(made["angular_momentum"] - truth["angular_momentum"])) < (1e-5 if "cvode" in str(method) else 1e-8)

@@ -236,13 +236,12 @@ def test_integrators_agree(method: str, turning: bool, answer: Answer) -> None:
     assert max(distance(made, answer.columns).values()) < 1e-6
 
 
-def test_long_double_and_orders(answer: Answer) -> None:
+def test_long_double_and_order(answer: Answer) -> None:
     given = {**BODY, "attitude": ATTITUDE, "angular_velocity": SCENE["initial"]["angular_velocity"], "times": answer.t}
     want = heavy.integrate(**given, order=30, precision="long double", tolerance=1e-18)
     assert max(distance(answer.columns, want).values()) < 1e-11
-    for order in (8, 12, 20):
-        assert max(distance(heavy.integrate(**given, order=order, tolerance=1e-12), want).values()) < 1e-8
-    for wrong in ({"order": 9}, {"method": "euler"}, {"precision": "half"}, {"precision": "long double", "order": 20}, {"tolerance": 0.0},
+    assert max(distance(heavy.integrate(**given, order=20, tolerance=1e-12), want).values()) < 1e-8
+    for wrong in ({"order": 12}, {"method": "euler"}, {"precision": "half"}, {"precision": "long double", "order": 20}, {"tolerance": 0.0},
                   {"down": [0, 0, 1]}, {"attitude": [0, 0, 0, 2]}, {"times": [1.0, 0.5]}, {"attitude": None}):
         with pytest.raises(DomainError):
             heavy.integrate(**{**given, **wrong})

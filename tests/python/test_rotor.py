@@ -210,14 +210,13 @@ def test_integrators_agree() -> None:
     truth = rotor.integrate(**GOOD, method="taylor", order=30, tolerance=1e-19, precision="long double")
     other = rotor.integrate(**GOOD, method="radau", tolerance=1e-19, precision="long double")
     assert truth["status"] == other["status"] == "reached" and turn_between(truth["attitude"], other["attitude"]) < 1e-14
-    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 20)]
-    methods += [{"method": "radau"}, {"method": "dop853"}]
+    methods = ["taylor", "radau", "dop853"]
     if HAS_CVODE:
-        methods += [{"method": "cvode-adams"}, {"method": "cvode-bdf"}]
+        methods += ["cvode-adams", "cvode-bdf"]
     for method in methods:
-        made = rotor.integrate(**GOOD, **method, tolerance=1e-12)
+        made = rotor.integrate(**GOOD, method=method, tolerance=1e-12)
         assert made["status"] == "reached" and made["rhs"] > 0 and made["seconds"] > 0
-        allowed = 1e-4 if "cvode" in method["method"] else 1e-8
+        allowed = 1e-4 if "cvode" in method else 1e-8
         assert turn_between(made["attitude"], truth["attitude"]) < allowed, method
         for name in ("angular_velocity", "angular_momentum", "rotor_rate", "rotor_angle", "lyapunov"):
             assert np.max(np.abs(made[name] - truth[name])) < allowed * np.max(np.abs(truth[name])), (method, name)

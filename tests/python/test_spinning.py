@@ -286,13 +286,13 @@ def test_angles_of_many_attitudes() -> None:
 
 def test_integrators_agree() -> None:
     truth = spinning.integrate(**GOOD, times=TIMES, method="taylor", order=30, tolerance=1e-18, precision="long double")
-    methods: list[dict[str, Any]] = [{"method": "taylor", "order": order} for order in (8, 12, 20)] + [{"method": "dop853"}]
+    methods = ["taylor", "dop853"]
     if HAS_CVODE:
-        methods += [{"method": "cvode-adams"}, {"method": "cvode-bdf"}]
+        methods += ["cvode-adams", "cvode-bdf"]
     for method in methods:
-        made = spinning.integrate(**GOOD, times=TIMES, **method, tolerance=1e-12)
+        made = spinning.integrate(**GOOD, times=TIMES, method=method, tolerance=1e-12)
         assert made["status"] == "reached" and made["rhs"] > 0 and made["seconds"] > 0
-        allowed = 1e-5 if "cvode" in method["method"] else 1e-9
+        allowed = 1e-5 if "cvode" in method else 1e-9
         assert np.max(rotation.angle_between(made["attitude"], truth["attitude"])) < allowed, method
         for name in ("angular_velocity", "angular_momentum_inertial", "velocity", "position"):
             assert np.max(np.abs(made[name] - truth[name])) < allowed * np.max(np.abs(truth[name])), (method, name)

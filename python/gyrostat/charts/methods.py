@@ -16,9 +16,8 @@ from gyrostat._core import Monitor, build_info
 from gyrostat.charts.problem import Line, Problem, Run, Unanswered, Vectors
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError
 
-__all__ = ["LONGEST", "TAYLOR_ORDERS", "TOLERANCES", "TooLong", "lines", "timed"]
+__all__ = ["LONGEST", "TOLERANCES", "TooLong", "lines", "timed"]
 
-TAYLOR_ORDERS: Final = (8, 12, 20)
 TOLERANCES: Final = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 # No solution may take longer [s of CPU time].
 LONGEST: Final = 3.0
@@ -99,17 +98,16 @@ def _rung(problem: Problem, model: str) -> Line:
 
 def _integrators(problem: Problem) -> Iterator[Line]:
 
-    def run(method: str, order: int, tolerance: float) -> Run:
-        made = problem.integrate(**problem.physics, method=method, order=order, tolerance=tolerance, patience=LONGEST)
+    def run(method: str, tolerance: float) -> Run:
+        made = problem.integrate(**problem.physics, method=method, tolerance=tolerance, patience=LONGEST)
         if made["status"] != "reached":
             raise TooLong if made["status"] == "cancelled" else Unanswered(f"ended with {made['status']}")
         return Run(float(made["seconds"]), made, made["rhs"])
 
     cvode = (("cvode", "CVODE Adams", "cvode-adams"), ("cvode", "CVODE BDF", "cvode-bdf")) if build_info()["cvode"] else ()
-    settings = [("taylor", f"Taylor, order {order}", "taylor", order) for order in TAYLOR_ORDERS]
-    settings += [(*method, 0) for method in (*problem.methods, ("dop853", "Runge-Kutta DOP853", "dop853"), *cvode)]
-    for group, label, method, order in settings:
-        yield Line(group, label, tuple((f"tolerance {tolerance:g}", partial(run, method, order, tolerance)) for tolerance in TOLERANCES))
+    settings = [("taylor", "Taylor, order 20", "taylor"), *problem.methods, ("dop853", "Runge-Kutta DOP853", "dop853"), *cvode]
+    for group, label, method in settings:
+        yield Line(group, label, tuple((f"tolerance {tolerance:g}", partial(run, method, tolerance)) for tolerance in TOLERANCES))
 
 
 # ---- rivals ----

@@ -67,7 +67,7 @@ def integrate(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_mo
               patience: float = math.inf) -> dict[str, Any]:
     """The full equations under one integrator at one setting, timed: no error estimate, no stop.
 
-    Arguments as in `solve`. method : "taylor" (order 8, 12 or 20; 30 in precision "long double"), "dop853",
+    Arguments as in `solve`. method : "taylor" (order 20; 30 in precision "long double"), "dop853",
     "cvode-adams", "cvode-bdf". tolerance : local, relative to |M(0)|; patience : CPU time after which it gives up [s].
     Returns angular_momentum (n, 3) [N m s], seconds, rhs, steps, status ("reached" where all went well, "cancelled" out of patience).
     Raises DomainError for an argument outside its domain and for a method that the build lacks.

@@ -427,7 +427,7 @@ def integrate(*, times: ArrayLike, method: str, tolerance: float, order: int = 2
               start_time: float = 0.0, **physics: Any) -> dict[str, Any]:
     """The full equations under one integrator, timed, anew from each time at which a torque or a wheel changes its law.
 
-    physics : arguments of `solve` that are no question; times and start_time as there; method : taylor (of order 8, 12 or 20; in long double 30), dop853, and where
+    physics : arguments of `solve` that are no question; times and start_time as there; method : taylor (of order 20; in long double 30), dop853, and where
     the build has them cvode-adams and cvode-bdf; patience : CPU time after which it gives up [s].
     Returns columns attitude and angular_velocity, seconds, rhs, steps and status. Raises DomainError.
     """

@@ -76,7 +76,7 @@ def integrate(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: float, slop
               patience: float = math.inf) -> dict[str, Any]:
     """The full equations under one integrator at one setting, timed: no error estimate.
 
-    Arguments as in `solve`. method : "taylor" (order 8, 12 or 20; 30 in precision "long double"), "radau" (in both precisions),
+    Arguments as in `solve`. method : "taylor" (order 20; 30 in precision "long double"), "radau" (in both precisions),
     "dop853", "cvode-adams", "cvode-bdf". tolerance : local, relative to the sizes of the state; patience : CPU time after which it gives up [s].
     Returns attitude (n, 4), angular_velocity (n, 3) [rad/s], angular_momentum (n, 3) [N m s], rotor_rate (n,) [rad/s],
     rotor_angle (n,) [rad], lyapunov (n,) [J], seconds, rhs, steps, status ("reached" where all went well, "cancelled" out of patience).

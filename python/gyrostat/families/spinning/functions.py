@@ -95,7 +95,7 @@ def integrate(*, inertia: ArrayLike, mass: float, torque: ArrayLike, force: Arra
               patience: float = math.inf) -> dict[str, Any]:
     """The full equations under one integrator at one setting, timed: no error estimate.
 
-    Arguments as in `solve`. method : "taylor" (order 8, 12 or 20; 30 in precision "long double"), "dop853", "cvode-adams",
+    Arguments as in `solve`. method : "taylor" (order 20; 30 in precision "long double"), "dop853", "cvode-adams",
     "cvode-bdf". tolerance : local, relative to the sizes of the state; patience : CPU time after which it gives up [s].
     Returns angular_velocity (n, 3) [rad/s], attitude (n, 4), angular_momentum_inertial (n, 3) [N m s], velocity (n, 3) [m/s],
     position (n, 3) [m], seconds, rhs, steps, status ("reached" where all went well, "cancelled" out of patience).
