@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/ladder/errors.hpp"
@@ -32,7 +33,6 @@ class Comparison {
   using Scalar = typename Writer::Scalar;
   using State = typename Writer::State;
   static constexpr std::size_t count = std::size(Writer::columns);
-  static constexpr int widest = 8;  ///< a column that is no attitude
   using ColumnErrors = Errors<count, Scalar>;
 
   explicit Comparison(const Writer& writer) noexcept : writer_(writer) {
@@ -50,19 +50,17 @@ class Comparison {
   }
   /// The difference of two rows, column by column, in units of the columns.
   static ColumnErrors apart(const Row& first, const Row& second) noexcept {
-    ColumnErrors difference;
-    const Scalar *x = first.data(), *y = second.data();
-    for (std::size_t i = 0; i < count; x += Writer::columns[i].width, y += Writer::columns[i].width, ++i) {
-      const ColumnKind& column = Writer::columns[i];
-      if (column.measure == Measure::angle) {
-        difference[i] = angle_between(attitude(x, column), attitude(y, column));
-        continue;
+    return each_column([&]<std::size_t i>() noexcept {
+      constexpr int width = Writer::columns[i].width;
+      const Scalar *x = first.data() + begins[i], *y = second.data() + begins[i];
+      if constexpr (Writer::columns[i].measure == Measure::angle) {
+        return angle_between(attitude<width>(x), attitude<width>(y));
+      } else {
+        Scalar between[width];
+        for (int j = 0; j < width; ++j) between[j] = x[j] - y[j];
+        return norm<width>(between);
       }
-      Scalar between[widest];
-      for (int j = 0; j < column.width; ++j) between[j] = x[j] - y[j];
-      difference[i] = norm(between, column);
-    }
-    return difference;
+    });
   }
 
   void add(const State& first, const State& second) noexcept {
@@ -73,9 +71,10 @@ class Comparison {
   /// One motion alone: its sizes.
   void add(const State& state) noexcept { add(row(state)); }
   void add(const Row& row) noexcept {
-    const Scalar* x = row.data();
-    for (std::size_t i = 0; i < count; x += Writer::columns[i++].width)
-      if (Writer::columns[i].measure != Measure::angle) size_[i] = greater(norm(x, Writer::columns[i]), size_[i]);
+    size_.raise(each_column([&]<std::size_t i>() noexcept {
+      if constexpr (Writer::columns[i].measure == Measure::angle) return Scalar(1);
+      else return norm<Writer::columns[i].width>(row.data() + begins[i]);
+    }));
   }
 
   /// In units of the columns.
@@ -100,17 +99,33 @@ class Comparison {
   }
 
  private:
-  static Scalar norm(const Scalar* x, const ColumnKind& column) noexcept {
-    if (column.width == 3) return Vec3<Scalar>(x[0], x[1], x[2]).norm();
-    if (column.width == 1) return std::abs(x[0]);
+  /// What `of.template operator()<i>()` gives for each column i: nothing about a column is looked up when a motion is compared.
+  template <class Of>
+  static ColumnErrors each_column(const Of& of) noexcept {
+    return [&]<std::size_t... i>(std::index_sequence<i...>) noexcept {
+      return ColumnErrors { {of.template operator()<i>()...} };
+    }(std::make_index_sequence<count>{});
+  }
+
+  template <int width>
+  static Scalar norm(const Scalar* x) noexcept {
+    if constexpr (width == 1) return std::abs(x[0]);
     Scalar square = 0;
-    for (int j = 0; j < column.width; ++j) square += x[j] * x[j];
+    for (int j = 0; j < width; ++j) square += x[j] * x[j];
     return std::sqrt(square);
   }
   /// From [x, y, z, w], as a row holds a quaternion, or from 3-1-2 angles.
-  static Quat<Scalar> attitude(const Scalar* x, const ColumnKind& column) noexcept {
-    return column.width == 4 ? Quat<Scalar>{x[3], x[0], x[1], x[2]} : quaternion_from_312(x[0], x[1], x[2]);
+  template <int width>
+  static Quat<Scalar> attitude(const Scalar* x) noexcept {
+    if constexpr (width == 4) return {x[3], x[0], x[1], x[2]};
+    else return quaternion_from_312(x[0], x[1], x[2]);
   }
+
+  static constexpr auto begins = [] {
+    std::array<std::size_t, count> begin{};
+    for (std::size_t i = 1; i < count; ++i) begin[i] = begin[i - 1] + std::size_t(Writer::columns[i - 1].width);
+    return begin;
+  }();
 
   Writer writer_;
   ColumnErrors difference_{}, size_{}, scale_{};
