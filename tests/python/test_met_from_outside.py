@@ -11,7 +11,7 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat import DomainError, SceneError, deceleration, free, general, heavy, sweep, sweeps
+from gyrostat import ConvergenceError, DomainError, SceneError, deceleration, free, general, heavy, sweep, sweeps
 from gyrostat.cli import main
 from gyrostat.facts import FACTS
 from gyrostat.scenes import load, scene_from
@@ -323,3 +323,11 @@ def test_the_stop_that_a_weak_control_makes_is_known_as_well_as_what_is_left_for
              "initial": {"angular_velocity": rate}, "solve": {"times": [1.0], "tolerance": tolerance, "ask": ["stop_time"]}}
     answer = gyrostat.solve(scene)
     assert abs(answer.scalars["stop_time"] / stop - 1) <= answer.scalar_error["stop_time"]
+
+
+def test_a_momentum_that_passes_through_zero_is_refused_with_what_to_do() -> None:
+    scene = {"inertia": [2.0, 2.0, 2.1], "rotor_momentum": [0.0, 0.0, -0.7], "control": [1e-3, 1e-3, 0.0], "drag": 4e-3, "law": "carrier",
+             "angular_momentum": [0.0, 0.0, -1.4], "model": "full"}
+    assert deceleration.solve(**scene, times=[150.0]).met
+    with pytest.raises(ConvergenceError, match="passes through zero: ask for times before that"):
+        deceleration.solve(**scene, times=[200.0])

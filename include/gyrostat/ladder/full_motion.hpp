@@ -26,6 +26,9 @@ constexpr const char* why_stopped(ode::Status status) noexcept {
     case ode::Status::step_limit:
       return "the budget of 10 million steps does not reach the last time: ask for a shorter span or a looser "
              "tolerance";
+    case ode::Status::step_underflow:
+      return "the steps became too short for the digits of the time, as where a momentum that a torque opposes passes "
+             "through zero: ask for times before that";
     case ode::Status::cancelled: return "the caller stopped the work";
     default: return ode::message(status);
   }
