@@ -209,6 +209,15 @@ def test_an_orbit_that_is_none_is_refused(orbit: Any, why: str) -> None:
         general.solve(**FREE, orbit=orbit)
 
 
+@pytest.mark.parametrize(("torque", "given", "why"), [
+    ({"type": "weight"}, {"fixed": True, "field": {"gravity": 9.8}}, "mass: it is missing"),
+    ({"type": "weight"}, {"fixed": True, "mass": 2.0}, "field.gravity: it is missing"),
+    ({"type": "thrust", "force": [0, 0, 1.0], "point": [0.1, 0, 0]}, {}, "mass: it is missing")])
+def test_a_force_without_what_it_needs_is_refused(torque: Any, given: dict[str, Any], why: str) -> None:
+    with pytest.raises(DomainError, match=why):
+        general.solve(**FREE | given, torques=[torque])
+
+
 def test_other_records_of_general_scenes_are_refused() -> None:
     for given, why in (({"torque": 3}, "there is no function at this address"), ({"start_error": {"x": 1.0}}, "start_error: there is no x"), ({"inertia": [1, 2]}, "inertia has the shape"),
                        ({"field": {"rotating": 3}}, "field.rotating = 3"), ({"field": {"magnetc": 3}}, "there is no key magnetc")):

@@ -297,15 +297,31 @@ def _field(given: Record | None) -> dict[str, Any]:
             "rate": part.get("rate", 0.0), "strength": part.get("strength", 0.0), "radius": part.get("radius", 1.0)}
 
 
+def _check_forces(torques: Sequence[Record], mass: Any, gravity: Any, fixed: bool) -> None:
+    """What a force does without the mass or the gravity that it needs would be what nobody meant."""
+    for place, torque in enumerate(torques, 1):
+        kind = torque.get("type")
+        if kind == "weight" and fixed:
+            for name, given, unit in (("mass", mass, "kg"), ("field.gravity", gravity, "m/s^2")):
+                if given is None:
+                    raise DomainError(f"{name}: it is missing, and torque {place} (weight) is mass times gravity: give it, in {unit}")
+        elif kind == "thrust" and not fixed and mass is None:
+            raise DomainError(f"mass: it is missing, and torque {place} (thrust) moves the mass centre: give it, in kg, or the torque alone, as a "
+                              'torque of the type "constant"')
+
+
 def posed(*, inertia: Any, angular_velocity: Any = _ZERO, attitude: Any = (0.0, 0.0, 0.0, 1.0), wheels: Sequence[Record] = (),
-          torques: Sequence[Record] = (), mass: Any = 1.0, centre_of_mass: Any = _ZERO, fixed: bool = False, rotor_momentum: Any = _ZERO,
+          torques: Sequence[Record] = (), mass: Any = None, centre_of_mass: Any = _ZERO, fixed: bool = False, rotor_momentum: Any = _ZERO,
           orbit: Record | None = None, field: Record | None = None, velocity: Any = _ZERO, position: Any = _ZERO) -> dict[str, Any]:
     """The physics of `solve` as the compiled ladder takes it."""
+    acting = [_torque(each, f"torque {place}") for place, each in enumerate(torques, 1)]
+    around = _field(field)
+    _check_forces(torques, mass, (field or {}).get("gravity"), bool(fixed))
     return {
-        "body": {"inertia": _matrix(inertia, "inertia"), "mass": stacked(mass)[()], "centre_of_mass": stacked(centre_of_mass), "fixed": bool(fixed),
+        "body": {"inertia": _matrix(inertia, "inertia"), "mass": stacked(1.0 if mass is None else mass)[()], "centre_of_mass": stacked(centre_of_mass), "fixed": bool(fixed),
                  "rotor_momentum": stacked(rotor_momentum)},
         "wheels": [_wheel(each, f"wheel {place}") for place, each in enumerate(wheels, 1)],
-        "torques": [_torque(each, f"torque {place}") for place, each in enumerate(torques, 1)], "orbit": _orbit(orbit), "field": _field(field),
+        "torques": acting, "orbit": _orbit(orbit), "field": around,
         "initial": {"attitude": stacked(attitude), "angular_velocity": stacked(angular_velocity), "velocity": stacked(velocity),
                     "position": stacked(position)},
     }
@@ -352,7 +368,7 @@ def _own(torque: Law | None, breakpoints: ArrayLike, start_time: float) -> dict[
 
 
 def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
-          wheels: Sequence[Record] = (), torques: Sequence[Record] = (), mass: float = 1.0, centre_of_mass: ArrayLike = _ZERO, fixed: bool = False,
+          wheels: Sequence[Record] = (), torques: Sequence[Record] = (), mass: float | None = None, centre_of_mass: ArrayLike = _ZERO, fixed: bool = False,
           rotor_momentum: ArrayLike = _ZERO, orbit: Record | None = None, field: Record | None = None, velocity: ArrayLike = _ZERO,
           position: ArrayLike = _ZERO, tolerance: float = 1e-6, model: str = "auto", integrator: str = "auto", recognise: bool = True,
           monitor: Monitor | None = None, ask: Ask | None = None, start_time: float = 0.0, start_error: Mapping[str, float] | None = None,
@@ -360,7 +376,7 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     """Answer of the ladder, as `gyrostat.solve` gives it for scenes.
 
     inertia : (3,) principal moments or (3, 3) tensor of the whole, wheels locked, about the mass centre, or where the body is fixed about its origin
-    [kg m^2]; mass [kg] : give it where a weight or a thrust acts, for which a scene file has to name it, and field.gravity;
+    [kg m^2]; mass [kg] : needed where a weight acts, as is field.gravity, and where a thrust acts on a free body;
     centre_of_mass : (3,) from the origin [m]; fixed : the origin is held in space; rotor_momentum : (3,) of wheels that
     are not listed, constant [N m s]; wheels, torques : each with the keys of [[wheel]] and [[torque]] of a scene file, in SI units; orbit,
     field : the keys of those tables; attitude : (4,) [x, y, z, w] at t = 0, body to inertial; angular_velocity : (3,) at t = 0, body axes [rad/s];
@@ -399,7 +415,7 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
 
 
 def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
-              wheels: Sequence[Record] = (), torques: Sequence[Record] = (), mass: float = 1.0, centre_of_mass: ArrayLike = _ZERO,
+              wheels: Sequence[Record] = (), torques: Sequence[Record] = (), mass: float | None = None, centre_of_mass: ArrayLike = _ZERO,
               fixed: bool = False, rotor_momentum: ArrayLike = _ZERO, orbit: Record | None = None, field: Record | None = None,
               velocity: ArrayLike = _ZERO, position: ArrayLike = _ZERO, start_time: float = 0.0) -> dict[str, str]:
     """Name of each family, and why the scene is not exactly an instance of it; empty where it is.
