@@ -183,6 +183,15 @@ def test_a_torque_that_is_no_function_is_refused() -> None:
         general.solve(**BODY, torque=lambda *_: random.normal(size=3))
 
 
+def test_a_switch_that_holds_the_body_at_its_own_jump_is_given_up() -> None:
+    def bang(t: float, attitude: Floats, w: Floats, *_: Floats) -> Floats:
+        return -0.01 * np.sign(w)
+
+    for integrator in ("auto", *(["cvode"] if gyrostat.build_info()["cvode"] else [])):
+        with pytest.raises(gyrostat.ConvergenceError, match="give the jump a width"):
+            general.solve(inertia=[1.0, 2.0, 2.5], angular_velocity=[0.1, 0.0, 0.2], times=[10.0, 50.0], torque=bang, integrator=integrator)
+
+
 @pytest.mark.parametrize(("given", "why"), [({"torque": 5.5}, "give a function"), ({"torque": True}, "give a function"), ({"torque": 0}, "no function at"),
                                             ({"torque": damping, "integrator": "taylor"}, "no Taylor series"),
                                             ({"torque": damping, "breakpoints": [math.nan]}, "finite times"), ({"breakpoints": [1.0]}, "there is none"),

@@ -8,16 +8,15 @@
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
-/// Watches whether steps would overrun their budget; looks once in 65536 steps. Where they do not lengthen and would by far, at the second look; else behind
+/// Watches whether steps would overrun their budget; looks once in `some` steps. Where they do not lengthen and would by far, at the second look; else behind
 /// seven, if they go on to lengthen as they did: by half of the budget, or, where they did not, at all.
-template <Real Scalar>
+template <Real Scalar, std::uint64_t some = 65536>
 class Pace {
  public:
   /// The motion begins anew at t, as where a law changes.
   void restart(Scalar t) noexcept { mark_ = t, stretch_ = first_ = 0, looks_ = 0; }
   /// After so many steps, now, where they go on to `last` and `budget` is theirs.
   bool is_hopeless(std::uint64_t steps, Scalar now, Scalar last, std::uint64_t budget) noexcept {
-    constexpr std::uint64_t some = 1 << 16;
     if (steps == 0 || steps % some != 0) return false;
     const Scalar before = stretch_;
     stretch_ = now - mark_, mark_ = now;

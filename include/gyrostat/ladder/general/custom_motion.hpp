@@ -17,6 +17,7 @@
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/general/full_motion.hpp"
 #include "gyrostat/ladder/honesty.hpp"
+#include "gyrostat/ladder/pace.hpp"
 #include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/full.hpp"
@@ -131,6 +132,7 @@ class CustomCourse {
         cuts_(cuts),
         last_(span),
         share_(share),
+        step_cap_(step_cap),
         to_(end_of(0)),
         next_(problem_, wheels_, law, law_share),
         solver_(entered(next_, 0, to_), 0, next_.start(), control(sizes, tolerance, step_cap)) {}
@@ -143,6 +145,7 @@ class CustomCourse {
     ode::Status status = solver_.step(std::min(t_max, limit()));
     if (status == ode::Status::step_underflow && hops_ < most_hops_) status = hop(t_max);
     if (status != ode::Status::reached) return status;
+    if (pace_.is_hopeless(counts().steps, time(), to_, step_cap_)) return ode::Status::step_limit;
     const auto& equations = solver_.rhs();
     if (brakes_.stopped(problem_, equations.state(time(), solver_.state()), equations.inside()))
       return ode::Status::event;
@@ -204,6 +207,7 @@ class CustomCourse {
     from_ = to_, to_ = end_of(++cut_);
     solver_.rhs().enter(from_, to_);
     solver_.restart(time(), typename Equations::Numbers(solver_.state()));
+    pace_.restart(time());
     passes_ = parted_ = false;
   }
 
@@ -213,6 +217,7 @@ class CustomCourse {
   Wheels<Scalar> wheels_;
   std::span<const Scalar> cuts_;
   Scalar last_, share_;
+  std::uint64_t step_cap_;
   std::size_t cut_ = 0;
   int hops_ = 0;
   Scalar from_ = 0, to_;
@@ -221,6 +226,7 @@ class CustomCourse {
   Equations next_;       ///< of the next piece, where the last step ends this one
   Solver solver_;
   BrakeWatch<Scalar> brakes_;
+  Pace<Scalar, 4096> pace_;  ///< a law costs what its owner makes it cost: a function in Python some microseconds
 };
 
 /// The tightest step tolerance of an answer by DOP853: what its companions take is 64 times as tight, and no step can be held to less.

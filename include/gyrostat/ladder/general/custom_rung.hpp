@@ -16,6 +16,11 @@ inline constexpr const char* no_series =
 inline constexpr const char* no_value_of_law = "the torque of your own has no finite value";
 inline constexpr const char* not_repeatable =
     "the torque of your own is not a function of time and state: asked twice at the start, it gave two values";
+inline constexpr const char* steps_of_law =
+    "the torque of your own makes the steps so short that the budget of 10 million does not reach the last time: where "
+    "it "
+    "jumps with the state, as a switch does at zero, give the jump a width; else ask for a shorter span or a looser "
+    "tolerance";
 inline constexpr const char* too_fast_for_dop853 =
     "wheels settle so fast that DOP853 would take too many steps: ask for a shorter span, or give the torque as tables "
     "and damping";

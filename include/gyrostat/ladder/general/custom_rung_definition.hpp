@@ -46,6 +46,7 @@ GYROSTAT_COMPILED_ONCE Track full_by_dop853(const Scene& scene, Monitor* monitor
   if (answer->fault != LawFault::none)
     return refused<Track>(Errc::not_applicable, detail::why_law_failed(answer->fault));
   if (answer->status == ode::Status::event) return refused<Track>(Errc::not_applicable, why_stopped_by_brake);
+  if (answer->status == ode::Status::step_limit && law.any()) return refused<Track>(Errc::step_limit, steps_of_law);
   if (answer->status != ode::Status::reached)
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   track.counts = answer->counts;

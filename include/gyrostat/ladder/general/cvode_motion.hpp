@@ -101,7 +101,7 @@ inline CvodeRun<State<double>> run_pieces(const Scene& scene, CvodeEquations equ
     if (!made) return run.failure = made.error(), run;
     auto cvode = std::move(made).value();
     ode::Status status = ode::Status::reached;
-    Pace<double> pace;
+    Pace<double, 4096> pace;
     pace.restart(from);
     while (cvode.time() < to && status == ode::Status::reached) {
       const double before = cvode.time();
@@ -163,6 +163,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
     return refused<Track>(Errc::not_applicable, no_value_of_law);
   }
   if (end.stopped) return refused<Track>(Errc::not_applicable, why_stopped_by_brake);
+  if (pair.failure == Errc::step_limit && law.any()) return refused<Track>(Errc::step_limit, steps_of_law);
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
   track.states = std::move(pair.states);
   track.counts = pair.counts;

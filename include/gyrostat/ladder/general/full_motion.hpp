@@ -101,6 +101,7 @@ struct FullRow {
     S rate = of.problem.angular_velocity.norm();
     for (std::size_t i = 0; i < of.wheels.count; ++i) rate = std::max(rate, abs(of.wheels.laws[i].rate));
     const S M = sizes.momentum();
+    if (rate == 0) rate = M / sizes.greatest;
     scale[full_column::angular_velocity] = M / sizes.greatest;
     scale[full_column::angular_momentum] = M;
     scale[full_column::rotor_rate] = share * rate;

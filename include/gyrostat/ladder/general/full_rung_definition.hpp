@@ -34,6 +34,9 @@ GYROSTAT_COMPILED_ONCE std::array<double, primitive::count> off_of(const Track& 
   }
   for (std::size_t p = 0; p < primitive::count; ++p)
     off[p] = p == primitive::attitude || error[p] == 0 ? error[p] : error[p] * std::max(size[p], row.scale[p]);
+  // where nothing has acted yet
+  for (const auto p : {primitive::velocity, primitive::position})
+    if (size[p] == 0 && error[p] < infinity<double>) off[p] = 0;
   if (scene.wheels().count == 0) off[primitive::rotor_rate] = off[primitive::rotor_angle] = nan<double>;
   return off;
 }

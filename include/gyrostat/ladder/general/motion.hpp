@@ -173,7 +173,8 @@ inline constexpr WarningKind warning_kinds[] = {
     {"rest", "a brake has stopped the body and holds it against all other torques; first so long after the start, s"},
     {"orbit-mismatch",
      "the gravity gradient that is given is none of the orbit, 3 mu/r^3: it is greater by a share of"},
-    {"inside-planet", "the orbit goes below the surface of its planet: height of its lowest point, m"},
+    {"inside-planet",
+     "the orbit goes below a hundredth of its planet's radius above the surface: height of its lowest point, m"},
     {"wide-in-orbit",
      "the gravity gradient is that of a body that is small against its orbit: its torque errs by a share of about the "
      "size of the body over the radius of the orbit, which is"},

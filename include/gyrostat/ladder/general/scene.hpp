@@ -26,9 +26,12 @@ namespace gyrostat::general {
 
 namespace detail {
 
-/// Of all torques at t: what the rounding of their sum is relative to, N m.
+/// The sum of the sizes of all torques at t, N m.
 GYROSTAT_COMPILED_ONCE double sum_of_torques(const Problem<double>& problem, const Pose<double>& pose,
                                              double t) noexcept;
+/// The same with the sizes of what their factors and tables are sums of: what the rounding of the torques is relative to, N m.
+GYROSTAT_COMPILED_ONCE double terms_of_torques(const Problem<double>& problem, const Pose<double>& pose,
+                                               double t) noexcept;
 
 }  // namespace detail
 

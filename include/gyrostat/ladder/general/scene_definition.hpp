@@ -37,6 +37,26 @@ GYROSTAT_COMPILED_ONCE double sum_of_torques(const Problem<double>& problem, con
   return sum;
 }
 
+/// What is added up to a factor at t.
+inline double terms_of_factor(const Factor<double>& factor, double t) noexcept {
+  if (!factor.is_on(t)) return 0;
+  const double wave = std::abs(factor.mean) + std::abs(factor.amplitude);
+  return factor.table.times.empty() ? wave : wave * piece(factor.table, 1, 0, t).terms(t);
+}
+
+GYROSTAT_COMPILED_ONCE double terms_of_torques(const Problem<double>& problem, const Pose<double>& pose,
+                                               double t) noexcept {
+  double sum = 0;
+  for (const auto& torque : problem.torques) {
+    double size = size_of_torque(problem, torque, pose, t);
+    if (torque.type == TorqueType::table)
+      for (std::size_t column = 0; column < 3; ++column)
+        size = std::max(size, piece(torque.table, 3, column, t).terms(t));
+    sum += terms_of_factor(torque.factor, t) * size;
+  }
+  return sum;
+}
+
 /// What a table says from a time to its next one; nothing where it changes.
 inline std::optional<double> steady_value(const Table<double>& table, std::size_t width, std::size_t column,
                                           double from) noexcept {
@@ -108,7 +128,7 @@ GYROSTAT_COMPILED_ONCE ColumnErrors Scene::scales() const noexcept {
   scale[column::angular_momentum] = scale[column::angular_momentum_inertial] = scale[column::angular_momentum_norm] =
       share * momenta;
   scale[column::energy] = share * momenta / most * momenta / 2;
-  scale[column::rotor_rate] = share * fastest;
+  scale[column::rotor_rate] = share * (fastest > 0 ? fastest : momenta / most);
   scale[column::rotor_angle] = share;
   scale[column::velocity] = p.velocity.norm() + g.norm() * T;
   scale[column::position] = p.position.norm() + (p.velocity.norm() + g.norm() * T) * T;

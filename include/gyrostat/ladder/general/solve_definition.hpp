@@ -66,7 +66,7 @@ void warn_of_scene(const Answer& answer, const Scene& scene, const Track& track,
     if (const double share = size / apsides_of(*problem.orbit).lowest; feels && problem.mass != 1 && share > 1e-3)
       warn(warning::wide_in_orbit, share);
     const double height = apsides_of(*problem.orbit).lowest - problem.orbit->surface;
-    if (problem.orbit->surface > 0 && height < 0) warn(warning::inside_planet, height);
+    if (height < 0.01 * problem.orbit->surface) warn(warning::inside_planet, height);
   }
   if (const double times = outrun(scene, track); times > 1e3) warn(warning::torque_outruns, times);
   if (!track.rests.empty()) warn(warning::rest, track.rests.front()[0]);

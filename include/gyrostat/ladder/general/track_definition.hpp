@@ -67,18 +67,19 @@ class Writer {
   double off(std::size_t place) const noexcept {
     const auto& off = track_.off;
     const double turning = off[primitive::attitude], rate = off[primitive::angular_velocity];
-    const double momentum = off[primitive::angular_momentum];
+    const double of_start = rounding_of_start(), momentum = off[primitive::angular_momentum] + of_start;
     const double M = greatest([](const State<double>& s) { return s.angular_momentum.norm(); });
     switch (place) {
       case column::attitude: return turning;
       case column::angular_velocity: return rate;
       case column::angular_momentum: return momentum;
       case column::angular_momentum_inertial:
-        return least(momentum + M * (turning + 4 * epsilon<double>), track_.compared.inertial);
+        return least(momentum + M * (turning + 4 * epsilon<double>), track_.compared.inertial + of_start);
       case column::angular_momentum_norm:
-        return track_.norm.values.empty() ? least(momentum, track_.compared.norm) : track_.norm.off;
+        return track_.norm.values.empty() ? least(momentum, track_.compared.norm + of_start) : track_.norm.off;
       case column::energy:
-        return track_.energy.values.empty() ? least(energy_off(rate), track_.compared.energy) : track_.energy.off;
+        return track_.energy.values.empty() ? least(energy_off(rate), track_.compared.energy) + rounding_of_energy()
+                                            : track_.energy.off;
       case column::rotor_rate: return off[primitive::rotor_rate];
       case column::rotor_angle: return off[primitive::rotor_angle];
       case column::velocity: return off[primitive::velocity];
@@ -97,6 +98,20 @@ class Writer {
     double most = 0;
     for (const auto& s : track_.states) most = greater(size(s), most);
     return most;
+  }
+  /// Of J w and the momenta of the wheels at the start, which may all but cancel, as of a slim body that spins about its slim axis.
+  double rounding_of_start() const noexcept {
+    const auto& p = scene_.problem();
+    const Vec3<double> sizes = p.inertia.cwiseAbs() * p.angular_velocity.cwiseAbs();
+    return 2 * epsilon<double> * (sizes.norm() + momenta_of_wheels(p));
+  }
+  /// Of w . J w, whose products may all but cancel.
+  double rounding_of_energy() const noexcept {
+    const Mat3<double> J = scene_.problem().inertia.cwiseAbs();
+    return 2 * epsilon<double> * greatest([&](const State<double>& s) {
+             const Vec3<double> w = s.angular_velocity.cwiseAbs();
+             return w.dot(J * w);
+           });
   }
   /// The lesser of two bounds; the second need not be known.
   static double least(double one, double two) noexcept { return two < one ? two : one; }
@@ -158,7 +173,7 @@ class Writer {
       const auto torque = [&](const Seen<double>& at) { return scene_.torque(times[i], at); };
       const Vec3<double> now = torque(here);
       const double sizes =
-          sum_of_torques(scene_.problem(), here, times[i]) + scene_.own_torque()(times[i], here).norm();
+          terms_of_torques(scene_.problem(), here, times[i]) + scene_.own_torque()(times[i], here).norm();
       double sum = 8 * epsilon<double> * sizes;
       const bool rests = std::any_of(track_.rests.begin(), track_.rests.end(), [&](const auto& rest) {
         return times[i] >= rest[0] + track_.rest_off && times[i] <= rest[1];

@@ -254,6 +254,14 @@ Fault check_factor(const Factor<Scalar>& factor, int place) noexcept {
                      "the table of its factor must have one finite value for each time, and times that increase");
 }
 
+/// Whether a factor may be below zero at some time: its wave, or a value of its table.
+template <Real Scalar>
+bool goes_negative(const Factor<Scalar>& factor) noexcept {
+  using std::abs;
+  return factor.mean - abs(factor.amplitude) < 0 ||
+         std::any_of(factor.table.values.begin(), factor.table.values.end(), [](Scalar value) { return value < 0; });
+}
+
 /// What a torque needs of the problem.
 template <Real Scalar>
 Fault check_needs(const Problem<Scalar>& problem, const Torque<Scalar>& torque, int place) noexcept {
@@ -272,6 +280,8 @@ Fault check_needs(const Problem<Scalar>& problem, const Torque<Scalar>& torque, 
       if (torque.opposed == Opposed::angular_velocity)
         return {Errc::not_applicable, place, "a brake opposes the momentum of the whole or of the carrier"};
       if (torque.vector.minCoeff() < 0) return {Errc::negative, place, "the limits of a brake must not be negative"};
+      if (goes_negative(torque.factor))
+        return {Errc::negative, place, "the factor of a brake must not be negative: it would drive the body"};
       break;
     case TorqueType::weight:
       if (!problem.fixed) return {Errc::not_applicable, place, "the weight of a free body has no moment"};

@@ -24,6 +24,12 @@ struct Cubic {
     const Scalar s = t - origin;
     return c[0] + s * (c[1] + s * (c[2] + s * c[3]));
   }
+  /// The sum of the sizes of its terms, which may cancel.
+  Scalar terms(Scalar t) const noexcept {
+    using std::abs;
+    const Scalar s = abs(t - origin);
+    return abs(c[0]) + s * (abs(c[1]) + s * (abs(c[2]) + s * abs(c[3])));
+  }
   /// The same polynomial about another time.
   Cubic about(Scalar t) const noexcept {
     const Scalar s = t - origin;
