@@ -331,3 +331,68 @@ def test_a_momentum_that_passes_through_zero_is_refused_with_what_to_do() -> Non
     assert deceleration.solve(**scene, times=[150.0]).met
     with pytest.raises(ConvergenceError, match="passes through zero: ask for times before that"):
         deceleration.solve(**scene, times=[200.0])
+
+
+def test_averages_do_not_hold_a_carrier_that_the_drag_drives_through_rest() -> None:
+    given: dict[str, Any] = {"name": "driven", "kind": "deceleration", "body": {"inertia": [1.0, 2.0, 3.0], "rotor_momentum": [0.0, 0.0, 0.2]},
+                             "torque": {"control": [1e-7] * 3, "drag": 4e-6, "law": "carrier", "drag_law": "total"},
+                             "initial": {"angular_velocity": [0.0, 0.0, 0.02]}, "solve": {"times": [250000.0], "tolerance": 1e-3}}
+    for model in ("averaged", "auto"):  # along the axis: 0.26 is left at first, and 0.10655 at last, on the other side of rest
+        for ask in ("angular_momentum_norm", "energy"):
+            try:
+                answer = gyrostat.solve(given, model=model, ask=[ask])
+            except (gyrostat.DomainError, gyrostat.ConvergenceError):
+                continue
+            assert ask == "angular_momentum_norm" and abs(float(answer[ask][0]) - 0.10655) < 1e-4
+    before = gyrostat.solve(given, times=[50000.0], ask=["angular_momentum_norm"])
+    assert before.met
+
+
+def test_averages_do_not_hang_on_the_units() -> None:
+    inertia = np.array([[1.939015279293395, 1.1020626473686583, 0.25286240309585596], [1.1020626473686583, 3.325745355260041, 0.21979326947870683],
+                        [0.25286240309585596, 0.21979326947870683, 2.7684371228971988]])
+    rotor, start = np.array([-0.10956191830966651, -0.012832424384238704, 0.13506885522607032]), np.array([-0.11634097584930703, -0.02789032803943004, 0.11466243566811714])
+    control = np.array([3.052137122358184e-06, 3.7027164580499765e-06, 3.7027164580499765e-06])
+
+    def energies(unit: float) -> Any:
+        """Where inertia is told in units that are so many times as great, and time in those that leave momenta as they are."""
+        given = {"name": "units", "kind": "deceleration", "body": {"inertia": (inertia * unit).tolist(), "rotor_momentum": rotor.tolist()},
+                 "torque": {"law": "carrier", "drag_law": "carrier", "drag": 0.0, "control": (control / unit).tolist()},
+                 "initial": {"angular_momentum": start.tolist()}, "solve": {"times": [0.0, 2126.9026322159474 * unit], "tolerance": 0.01}}
+        answer = gyrostat.solve(given, model="averaged-2", ask=["energy", "stop_time"])
+        full = gyrostat.solve(given, model="full", ask=["energy"], tolerance=1e-8)
+        assert np.max(np.abs(answer["energy"] / full["energy"] - 1)) <= answer.error["energy"]
+        return answer["energy"] * unit
+
+    as_it_is = energies(1.0)
+    for unit in (1e-20, 1e-13, 1e12, 1e14, 1e20):
+        assert energies(unit) == pytest.approx(as_it_is, rel=1e-9)
+
+
+def test_a_sphere_to_rounding_has_no_modulus() -> None:
+    given: dict[str, Any] = {"name": "all but a sphere", "kind": "deceleration", "body": {"inertia": [[1.0, 0, 1e-17], [0, 1.0000000000000002, 0], [1e-17, 0, 1.0]]},
+                             "torque": {"control": [1e-5, 2e-5, 1e-5], "drag": 0.0}, "initial": {"angular_velocity": [0.02, -0.007, -0.05]},
+                             "solve": {"times": [100.0], "tolerance": 1e-6, "ask": ["modulus_squared"]}}
+    assert gyrostat.solve(given).error["modulus_squared"] == 1
+    assert gyrostat.solve(given, control=[1e-5] * 3).error["modulus_squared"] == 1
+    assert gyrostat.solve(given, inertia=[1.0, 1.0, 1.0]).error["modulus_squared"] < 1e-12
+
+
+def test_what_turns_without_control_does_not_stop() -> None:
+    given: dict[str, Any] = {"name": "turns on", "kind": "deceleration", "body": {"inertia": [35.0, 22.0, 16.0], "rotor_momentum": [200.0, 0.0, 0.0]},
+                             "torque": {"control": [0, 0, 0], "drag": 0.0, "law": "carrier"}, "initial": {"angular_momentum": [0, 0, 0]},
+                             "solve": {"times": [100.0], "tolerance": 1e-6, "ask": "all"}}
+    for drag in (0.0, 1e-3):
+        answer = gyrostat.solve(given, drag=drag)
+        assert answer.scalars["stop_time"] == math.inf and any(warning.code == "no-control" for warning in answer.warnings)
+
+
+@pytest.mark.skipif(not gyrostat.build_info()["cvode"], reason="built without CVODE")
+def test_cvode_turns_on_from_where_the_rest_was_seen() -> None:
+    given: dict[str, Any] = {"name": "turns on its rotor", "kind": "deceleration", "body": {"inertia": [3.0, 2.0, 1.5], "rotor_momentum": [0.0, 30.0, 8.0]},
+                             "torque": {"control": [0.02, 0.03, 0.025], "drag": 0.0, "law": "total"},
+                             "initial": {"angular_velocity": [0.1, 1.0, -0.5], "attitude": [0, 0, 0, 1]},
+                             "solve": {"times": [4000.0], "tolerance": 1e-9, "ask": ["attitude"], "model": "full"}}
+    right, other = gyrostat.solve(given), gyrostat.solve(given, integrator="cvode")
+    away = 2 * math.asin(min(1.0, float(np.linalg.norm(right["attitude"][0] - math.copysign(1, float(right["attitude"][0] @ other["attitude"][0])) * other["attitude"][0])) / 2))
+    assert away <= other.error["attitude"] + right.error["attitude"]

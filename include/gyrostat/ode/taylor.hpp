@@ -252,6 +252,7 @@ Status Taylor<System, Order>::step(Scalar t_max) noexcept {
   if (const Status status = expand(theta); status != Status::reached) return status;
 
   Scalar h = theta * row_unit_;
+  const Scalar own = h;  // in whose unit the next coefficients are of one size, where the system allows less
   if constexpr (LimitsStep<System>) {
     const Scalar limit = system_.step_limit(x_[0]);
     if (!(h < limit)) {
@@ -260,7 +261,7 @@ Status Taylor<System, Order>::step(Scalar t_max) noexcept {
     }
   }
   if (!(h < infinity<Scalar>)) return Status::not_finite;
-  next_unit_ = std::min(h, 64 * next_unit_);
+  next_unit_ = std::min(own, 64 * next_unit_);
   const Scalar left = (t_max - time_.high) - time_.low;
   const bool lands = h >= left;
   if (lands) {

@@ -85,7 +85,7 @@ inline StoppedRun cvode_run(const Scene& scene, double tolerance, double longest
   std::size_t next = 0;
   while (next < times.size() && times[next] <= 0) keep_numbers(y.data()), ++next;
   bool at_rest = user.opposed(y.data()) <= 0 && hold.holds;
-  double stop = 0;
+  double stop = 0, seen = 0;  // when U is at rest, and when it was seen to be all but so, with the attitude of then
   if (!at_rest) {
     auto solver = ode::Cvode::create(
         system, 0, std::span(y).first(n),
@@ -104,7 +104,8 @@ inline StoppedRun cvode_run(const Scene& scene, double tolerance, double longest
       if (hold.holds && U <= std::max(1e-9, 30 * tolerance) * scale) {
         at_rest = true;
         const Vec3<double> toward = (CvodeProblem::momentum(y.data()) - user.offset) / U;
-        stop = cvode.time() + U / toward.dot(problem.control * toward);
+        seen = cvode.time();
+        stop = seen + U / toward.dot(problem.control * toward);
       }
       return !at_rest;
     };
@@ -115,7 +116,7 @@ inline StoppedRun cvode_run(const Scene& scene, double tolerance, double longest
   const Vec3<double> rate = problem.angular_velocity(user.offset);
   const Quat<double> turned{y[3], y[4], y[5], y[6]};
   for (; next < times.size(); ++next)
-    keep(user.offset, turned * quaternion_from_vector<double>(rate * (times[next] - stop)));
+    keep(user.offset, turned * quaternion_from_vector<double>(rate * (times[next] - seen)));
   return run;
 }
 

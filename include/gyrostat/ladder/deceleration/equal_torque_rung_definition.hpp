@@ -152,7 +152,7 @@ inline Track follow_norm(const Scene& scene) {
   track.error[column::angular_momentum_norm] = track.stop_error * norm;
   track.error[column::energy] = 16 * epsilon<double> * energy + problem.energy_error(problem.momentum);
   track.error[column::modulus_squared] =
-      kind.regime == Regime::point ? 0 : 2 * k2_of_data(problem, p, problem.momentum);
+      kind.regime == Regime::point ? (problem.exact_moments ? 0 : 1) : 2 * k2_of_data(problem, p, problem.momentum);
   for (const double t : scene.question().times)
     if (track.may_be_at_stop(t)) track.error[column::modulus_squared] = 1;
   return track;

@@ -49,13 +49,15 @@ struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
 /// How the control acts at U = 0, where its torque can be any -control n with |n| <= 1 (Filippov).
 template <Real Scalar>
 struct Hold {
-  bool holds = false;  ///< U = 0 is kept once reached
-  Scalar weakest = 0;  ///< lower bound of the rate at which |U| shrinks near U = 0, N m; 0 if there is none
+  bool holds = false;   ///< U = 0 is kept once reached
+  bool driven = false;  ///< at U = 0 the drag of the other law pushes on
+  Scalar weakest = 0;   ///< lower bound of the rate at which |U| shrinks near U = 0, N m; 0 if there is none
 
   explicit Hold(const Problem<Scalar>& problem) noexcept {
     const Mat3<Scalar>& b = problem.control;
-    if (b.isZero(0)) return;
     const Vec3<Scalar> c = FullCoefficients<Scalar>(problem).constant;
+    driven = !c.isZero(0);
+    if (b.isZero(0)) return;
     const Mat3<Scalar> cofactor = cofactors(b);
     const Scalar determinant = b.row(0).dot(cofactor.row(0));
     const Scalar trace = b.trace();
@@ -278,7 +280,9 @@ class Course {
     Start start;
     Vec3<Scalar> U = problem_.momentum - f_.offset;
     if (U.isZero(0)) {
-      start.at_rest = hold_.holds || (!with_control && f_.constant.isZero(0));
+      // without a control what it would oppose tells a body at rest
+      const bool still = problem_.law == Law::total || problem_.momentum == problem_.rotor_momentum;
+      start.at_rest = hold_.holds || (!with_control && f_.constant.isZero(0) && still);
       if (with_control && !start.at_rest) start.time = leave(U);
     }
     for (int i = 0; i < 3; ++i) start.numbers[static_cast<std::size_t>(i)] = U[i];

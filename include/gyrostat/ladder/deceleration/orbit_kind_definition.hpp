@@ -64,8 +64,10 @@ GYROSTAT_COMPILED_ONCE double k2_uncertainty(const Problem<double>& problem, con
                                              double norm, double energy, double place) noexcept {
   if (at.regime == Regime::rest) return 0;
   const auto& a = problem.inverse_inertia;
-  if (at.regime == Regime::point && (problem.rotor_momentum.isZero(0) || a[2] - a[0] <= 8 * epsilon<double> * a[2]))
-    return 4 * epsilon<double>;
+  // without rotors a point is a sphere: one to rounding alone has orbits, of which nobody knows
+  if (at.regime == Regime::point && problem.rotor_momentum.isZero(0))
+    return problem.exact_moments ? 4 * epsilon<double> : 1.0;
+  if (at.regime == Regime::point && a[2] - a[0] <= 8 * epsilon<double> * a[2]) return 4 * epsilon<double>;
   const double R = M.norm();
   norm = std::max(norm, 2 * epsilon<double> * R);
   if (problem.rotor_momentum.isZero(0)) {

@@ -160,6 +160,9 @@ class OrbitMotion {
   }
   bool floored() const noexcept { return floored_; }
 
+  /// What the control opposes has come to nothing, or all but.
+  bool ended() const noexcept { return at_rest_; }
+
   /// The motion stands, between the end of its last step and the stop: what the control opposes sinks from opposed() to nothing there.
   bool stands() const noexcept {
     const Scalar end = solver_.state()[Equations::time];

@@ -248,6 +248,28 @@ class SecondOrderOrbit {
   OrbitMotion<Rates, double> motion_;
 };
 
+/// crossed: what the turns beside separatrices have changed of the energy, J; standing: |U| that is not followed into the stop, N m s.
+template <class Elliptic>
+void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Elliptic>& error, double crossed,
+                        double standing) {
+  const auto& problem = scene.problem();
+  auto in_span = error.first_order();
+  const double crossing = OrbitError<Elliptic>::crossing_factor * crossed;
+  in_span.energy += crossing;
+  in_span.norm += crossing / (2 * scales(problem)[column::energy]) * problem.momentum.norm();
+  const double local = honesty::mean_steps * mean_tolerance(scene);
+  // the energy is a difference of numbers of the size of what the rotors hold
+  double energy = problem.rotor_energy_scale() / 2;
+  for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
+  const double norm = local * problem.momentum.norm() + problem.momentum_error() + standing;
+  energy = local * energy + problem.energy_error(problem.momentum) +
+           standing * problem.inverse_inertia.maxCoeff() * (problem.rotor_momentum.norm() + standing);
+  double k2 = local;
+  for (const std::size_t i : {std::size_t(0), track.states.size() - 1})
+    k2 = std::max(k2, k2_beside(problem, track.states[i], norm, energy));
+  state_errors(track, {in_span.norm + norm, in_span.energy + energy, std::min(1.0, in_span.k2 + k2), 0});
+}
+
 }  // namespace detail
 
 /// First order over the free gyrostat orbit.
@@ -269,40 +291,33 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
                                     infinity<double>, {}, step_cap);
   const auto not_worth = [&] { return motion.failure() == Errc::step_limit && step_cap < Rates::step_cap; };
   visit(orbit->level(), orbit->component(), 0);
+  const Hold<double> hold(problem);
+  const bool passes = hold.driven && !hold.holds;
   double standing = 0;  // of |U|, where the motion is not followed into the stop
   for (const double t : scene.question().times) {
     if (motion.advance(t, 0, visit) != ode::Status::reached)
       return not_worth() ? refused<Track>(Errc::not_applicable, detail::steps_not_worth)
                          : detail::refused(detail::not_followed(detail::impasse(problem, motion).code));
     const auto now = motion.sample();
+    if (motion.ended() && passes)
+      return refused<Track>(
+          Errc::not_applicable,
+          "what the control opposes passes through zero, and the drag of the rotors' momentum drives the "
+          "carrier on: there the averages end");
     if (!std::isfinite(now.level.R)) return detail::refused(detail::not_followed(Errc::separatrix));
     track.states.push_back(detail::slow_state(problem, now.level, now.component, now.at_rest));
     if (motion.stands()) standing = motion.opposed();
   }
   const double end = scene.question().times.back();
-  auto in_span = error.first_order();
   const bool known = error.known();
-  const double crossing = OrbitError<Elliptic>::crossing_factor * motion.crossing();
-  in_span.energy += crossing;
-  in_span.norm += crossing / (2 * scales(problem)[column::energy]) * problem.momentum.norm();
-  const double local = honesty::mean_steps * mean_tolerance(scene);
-  // the energy is a difference of numbers of the size of what the rotors hold
-  double energy = problem.rotor_energy_scale() / 2;
-  for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
-  const double norm = local * problem.momentum.norm() + problem.momentum_error() + standing;
-  energy = local * energy + problem.energy_error(problem.momentum) +
-           standing * problem.inverse_inertia.maxCoeff() * (problem.rotor_momentum.norm() + standing);
-  double k2 = local;
-  for (const std::size_t i : {std::size_t(0), track.states.size() - 1})
-    k2 = std::max(k2, detail::k2_beside(problem, track.states[i], norm, energy));
-  detail::state_errors(track, {in_span.norm + norm, in_span.energy + energy, std::min(1.0, in_span.k2 + k2), 0});
+  detail::errors_of_averages(track, scene, error, motion.crossing(), standing);
 
   const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
   const double carrier = (problem.momentum - problem.rotor_momentum).norm();
   // near rest the body falls to the axis of the weakest control, the averaged one need not
   const bool low =
       breakdown > 0 && motion.opposed() < 3 * breakdown + detail::opposed_error(problem, error.first_order(), carrier);
-  if (!Hold<double>(problem).holds) {
+  if (!hold.holds) {
     track.stop_time = infinity<double>;
   } else if (const auto stop = motion.stop_time(visit); !stop && not_worth()) {
     return refused<Track>(Errc::not_applicable, detail::steps_not_worth);

@@ -34,20 +34,27 @@ class PeriodicPair {
   PeriodicPair() = default;  ///< zero
 
   PeriodicPair(const Roots& roots, const Scalar* first, const Scalar* second) noexcept : n_(roots.n) {
+    Scalar greatest[2] = {0, 0};
+    for (int i = 0; i < n_; ++i) {
+      greatest[0] = std::max(greatest[0], std::abs(first[i]));
+      greatest[1] = std::max(greatest[1], std::abs(second[i]));
+    }
+    if (greatest[0] > 0 && greatest[1] > 0 && greatest[0] < infinity<Scalar> && greatest[1] < infinity<Scalar>)
+      unit_ = std::ldexp(Scalar(1), std::ilogb(greatest[1]) - std::ilogb(greatest[0]));
     for (int i = 0; i < n_; ++i) {
       re_[i] = first[i] / Scalar(n_);
-      im_[i] = second[i] / Scalar(n_);
+      im_[i] = second[i] / unit_ / Scalar(n_);
     }
     transform(roots, -1);
     re_[n_ / 2] = im_[n_ / 2] = 0;
   }
 
-  Value mean() const noexcept { return n_ > 1 ? Value{re_[0], im_[0]} : Value{0, 0}; }
+  Value mean() const noexcept { return n_ > 1 ? Value{re_[0], im_[0] * unit_} : Value{0, 0}; }
 
   /// Antiderivative of the function less its mean, itself of zero mean.
   PeriodicPair integral() const noexcept {
     PeriodicPair r;
-    r.n_ = n_;
+    r.n_ = n_, r.unit_ = unit_;
     r.re_[0] = r.im_[0] = r.re_[n_ / 2] = r.im_[n_ / 2] = 0;
     for (int k = 1; k < n_ / 2; ++k) {
       const Scalar w = 1 / (2 * pi<Scalar> * Scalar(k));
@@ -69,12 +76,13 @@ class PeriodicPair {
   void sample(const Roots& roots, Scalar* first, Scalar* second) const noexcept {
     PeriodicPair r = *this;
     r.transform(roots, 1);
-    for (int i = 0; i < n_; ++i) first[i] = r.re_[i], second[i] = r.im_[i];
+    for (int i = 0; i < n_; ++i) first[i] = r.re_[i], second[i] = r.im_[i] * unit_;
   }
 
   Value at(Scalar phase) const noexcept {
     const Scalar c = std::cos(2 * pi<Scalar> * phase), s = std::sin(2 * pi<Scalar> * phase);
     Value v = mean();
+    v.second /= unit_;
     Scalar ck = c, sk = s;
     for (int k = 1; k < n_ / 2; ++k) {
       const Scalar ap = re_[k], bp = im_[k], am = re_[n_ - k], bm = im_[n_ - k];
@@ -84,6 +92,7 @@ class PeriodicPair {
       sk = ck * s + sk * c;
       ck = next;
     }
+    v.second *= unit_;
     return v;
   }
 
@@ -114,6 +123,7 @@ class PeriodicPair {
   }
 
   int n_ = 1;
+  Scalar unit_ = 1;  ///< of the second function, a power of two: both go through the transform as numbers of one size
   Scalar re_[capacity], im_[capacity];  // the first n_ count
 };
 
