@@ -20,6 +20,13 @@ Ask = str | Iterable[str] | Mapping[str, float | str]
 Asked = tuple[str, float, bool, bool]
 
 
+# What columns are called elsewhere.
+_CALLED = {"rates": ["angular_velocity"], "rate": ["angular_velocity"], "omega": ["angular_velocity"], "body_rates": ["angular_velocity"],
+           "wheel_rate": ["rotor_rate"], "wheel_rates": ["rotor_rate"], "rotor_speed": ["rotor_rate"], "wheel_speed": ["rotor_rate"],
+           "wheel_angle": ["rotor_angle"], "quaternion": ["attitude"], "orientation": ["attitude"], "momentum": ["angular_momentum"],
+           "kinetic_energy": ["energy"], "euler_angles": ["euler", "euler_312"], "angles": ["euler", "euler_312"]}
+
+
 class AskError(Refused):
     """What is wrong with it, and what would be right."""
 
@@ -30,7 +37,7 @@ class AskError(Refused):
 def _known(facts: Facts, name: Any) -> Quantity:
     found = facts.quantities.get(name) if isinstance(name, str) else None
     if found is None:
-        near = difflib.get_close_matches(str(name), facts.quantities, 1, 0.6)
+        near = [each for each in _CALLED.get(str(name), ()) if each in facts.quantities] or difflib.get_close_matches(str(name), facts.quantities, 1, 0.6)
         raise AskError(f"there is no column or scalar {name}",
                        f"did you mean {near[0]}?" if near else f"use {', '.join(facts.quantities)}, or \"all\"")
     return found

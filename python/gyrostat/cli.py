@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 import gyrostat
 from gyrostat.asking import parse_ask
 from gyrostat.completion import SHELLS, PrintCompletion
-from gyrostat.console import Progress, say, short, show_table, small
+from gyrostat.console import Progress, check_folder, say, short, show_table, small
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, Refused, SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, bundled, load, parse_override
@@ -279,6 +279,7 @@ def _check_plot(arguments: argparse.Namespace) -> None:
     if arguments.plot is not None:
         from gyrostat.drawing import check_ending
 
+        check_folder(arguments.plot)
         check_ending(arguments.plot)
 
 
@@ -287,6 +288,7 @@ def _solve(arguments: argparse.Namespace) -> int:
     from gyrostat.report import report, summary
 
     scene, form = _scene(arguments), _form(arguments)
+    check_folder(arguments.output)
     _check_plot(arguments)
     answer = _in_thread(lambda monitor: solve(scene, monitor=monitor), scene.name)
     if arguments.data_error:
@@ -326,6 +328,7 @@ def _view(arguments: argparse.Namespace) -> int:
     scene = _scene(arguments)
     if arguments.output.suffix.lower() not in (".html", ".htm"):
         raise DomainError(f"{arguments.output}: a view is written as .html")
+    check_folder(arguments.output)
     made = _in_thread(lambda monitor: view(scene, arguments.begin, arguments.end, monitor), scene.name)
     made.save(arguments.output)
     say(f"wrote {arguments.output}: {summary(made.answer)}", sys.stderr)

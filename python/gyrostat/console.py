@@ -6,10 +6,19 @@ import shutil
 import sys
 import textwrap
 from collections.abc import Sequence
+from pathlib import Path
 from types import TracebackType
 from typing import Any, TextIO
 
-__all__ = ["Progress", "say", "short", "show_table", "small"]
+from gyrostat.errors import DomainError
+
+__all__ = ["Progress", "check_folder", "say", "short", "show_table", "small"]
+
+
+def check_folder(file: Path | None) -> None:
+    """Raise DomainError where a file cannot be written because its folder is not there: to be asked before long work."""
+    if file is not None and not file.parent.is_dir():
+        raise DomainError(f"{file}: there is no folder {file.parent}; make it, or name another")
 
 
 def short(value: Any, digits: int = 9) -> str:

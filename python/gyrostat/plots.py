@@ -119,7 +119,8 @@ def plot_chart(chart: "Chart") -> "Figure":
         axes.grid(alpha=0.15, which="minor", linewidth=0.4)
     if handles.pop(STATED, None):
         handles[STATED], = key.plot([], [], marker="_", color="black", linestyle="none", markersize=9)
-    key.legend(handles.values(), handles.keys(), loc="upper left", fontsize=8, borderaxespad=0)
+    key.legend(handles.values(), handles.keys(), loc="upper left", fontsize=8, borderaxespad=0, title="the time of a rung holds\nits error estimate",
+               title_fontsize=8, alignment="left")
     figure.suptitle(f"{chart.name}: {chart.title}", fontsize=11)
     if chart.left_out:
         figure.supxlabel("Left out: " + "\n".join(textwrap.fill(str(each), 190) for each in chart.left_out), fontsize=8, x=0.01, ha="left")

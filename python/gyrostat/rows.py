@@ -182,6 +182,8 @@ def _indices(key: str, text: str | None, field: Field, value: Any) -> tuple[int,
     if width and len(found) == 2 and found[1] < width and width * found[0] < components:
         return (width * found[0] + found[1],)
     if field.form == "inertia" or width or len(found) != 1 or found[0] >= components:
+        if len(found) == 1 and found[0] >= components and not tensor and not width:
+            raise DomainError(f"{key}[{text}]: there is no such component; they count from 0 to {components - 1}")
         example = f"{key}[0,1]" if tensor or width else f"{key}[0]"
         raise DomainError(f"{key}{f'[{text}]' if text else ''}: one component varies at a time; name it, such as {example}, counting from 0")
     return (found[0],)
@@ -189,7 +191,7 @@ def _indices(key: str, text: str | None, field: Field, value: Any) -> tuple[int,
 
 def _unknown(family: Family, key: str) -> DomainError:
     known = [name for name, _, _ in inputs_of(family)]
-    near = difflib.get_close_matches(key, known, 1, 0.5)
+    near = difflib.get_close_matches(key, known, 1, 0.6)
     return DomainError(f"{key}: no key of this name can vary; " + (f"did you mean {near[0]}? " if near else "")
                        + f"in scenes of the kind {family.name} these can: {', '.join(known)}")
 

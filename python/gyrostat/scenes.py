@@ -204,7 +204,7 @@ class _Source:
     def where(self, key: str, element: int = 1) -> str:
         """element: which of the tables of an array of tables, counted from 1."""
         if key in self.overridden:
-            return f"{self.label} (key set from outside)"
+            return f"{self.label} (set on the command line or by keyword)"
         line = self._line(key, element)
         return f"{self.label}:{line}" if line else self.label
 
@@ -241,7 +241,7 @@ def _show(value: Any) -> str:
         text = f"an integer of {value.bit_length()} bits"
     elif isinstance(value, str):
         text = '"' + (value if len(value) < 60 else value[:57] + "...") + '"'
-    elif isinstance(value, list):
+    elif isinstance(value, list | tuple):
         shown = []
         for item in value[:9]:
             shown.append(_show(item))
@@ -571,7 +571,7 @@ def _records(field: Field, value: Any) -> tuple[dict[str, Any], ...]:
     for i, item in enumerate(value, 1):
         if not isinstance(item, dict):
             raise Refused(f"element {i} is {_kind_of(item)}, not a table", f"write [[{field.name}]] above the keys of each")
-        made.append(_parts(field, item, f"{field.name} {i}: ", f"[[{field.name}]] with {', '.join(part.name for part in field.parts)}"))
+        made.append(_parts(field, item, f"{field.name} {i}: ", f"write {{}} under [[{field.name}]]"))
     return tuple(made)
 
 
@@ -588,7 +588,7 @@ def _parts(field: Field, value: Mapping[str, Any], where: str, example: str) -> 
     made: dict[str, Any] = {}
     for part in parts:
         if part.name not in value and part.default is REQUIRED:
-            raise Refused(f"{where}the key {part.name} is missing", f"give the {_meaning(part)}: {example}")
+            raise Refused(f"{where}the key {part.name} is missing", f"give the {_meaning(part)}: {example.replace('{}', f'{part.name} = ...')}")
         if part.name not in value:
             made[part.name] = part.default
             continue
@@ -699,6 +699,13 @@ def _told(field: Field, value: Any, read: Any) -> Any:
 # ---- the whole scene ----
 
 
+def _ways_of_kind(tree: Mapping[str, Any]) -> str:
+    """What to write where the kind is missing: one of those that know all tables that are there."""
+    others = [name for name in FAMILIES if name != GENERAL]
+    fitting = [name for name in others if all(key in FAMILIES[name].keys or not isinstance(tree[key], dict) for key in tree)] or others
+    return "write " + " or ".join(f'kind = "{name}"' for name in fitting) + (" where it is one of these" if len(fitting) > 1 else "")
+
+
 def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any] | None = None) -> Scene:
     """The scene that `data` describes, or SceneError with every mistake found."""
     tree: dict[str, Any] = {str(key): _plain(value) for key, value in data.items()}
@@ -767,8 +774,7 @@ def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any
             wrong(key, _plain(value), problem, remedy, value != "")
     if mistakes:
         if "kind" not in tree and _may_be_another(tree, mistakes):
-            mistakes.insert(0, Mistake(source.label, "kind", "", f"the key is missing, and what is there is no scene of the kind {GENERAL}",
-                                       "write " + " or ".join(f'kind = "{name}"' for name in FAMILIES if name != GENERAL) + " where it is one of these"))
+            mistakes.insert(0, Mistake(source.label, "kind", "", f"the key is missing, and what is there is no scene of the kind {GENERAL}", _ways_of_kind(tree)))
         raise SceneError(*mistakes)
     head = read.pop("")
     top = {key: value for key, value in head.items() if key not in ("name", "kind", "source")}
@@ -869,6 +875,8 @@ def _advice(key: str, table: str, family: Family) -> str:
         return f"{key} belongs in {' or '.join(f'[{home}]' for home in homes)}"
     if near := _near(key, here):
         return f"did you mean {near}?"
+    if not table and (kinds := [family.name for family in FAMILIES.values() if key in family.keys]):
+        return f"only scenes of the kind {' or '.join(kinds)} have it"
     for name, fields in layout.items():
         if near := _near(key, [field.name for field in fields]):
             return f"did you mean {name + '.' if name else ''}{near}?"
@@ -902,23 +910,23 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
     for given, value in overrides.items():
         key = _dotted(given)
         if key is None:
-            raise SceneError(Mistake(f"{source.label} (key set from outside)", _show(given)[1:-1], _show(_plain(value)), *_NO_KEY))
+            raise SceneError(Mistake(f"{source.label} (set on the command line or by keyword)", _show(given)[1:-1], _show(_plain(value)), *_NO_KEY))
         table, _, name = key.rpartition(".")
         if not table:
             bare = _without_places(name)
             homes = [home for home, fields in layout.items() if any(field.name == bare for field in fields)]
             if not homes and name in layout:
                 first = next(iter(value)) if isinstance(value, Mapping) and value else layout[name][0].name
-                raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)), "a table is not replaced as a whole",
+                raise SceneError(Mistake(f"{source.label} (set on the command line or by keyword)", key, _show(_plain(value)), "a table is not replaced as a whole",
                                          f'set its keys one by one, as {name}.{first}, in Python replace(**{{"{name}.{first}": ...}}); keys that are not named stay'))
             if not homes and name not in ("kind", "name", "source"):
-                raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)), "unknown key",
+                raise SceneError(Mistake(f"{source.label} (set on the command line or by keyword)", key, _show(_plain(value)), "unknown key",
                                          _advice_anywhere(name, layout)))
             if len(homes) > 1:
                 there = [home for home in homes if isinstance(table_there := tree.get(home), dict) and bare in table_there]
                 if len(there) != 1:
                     full_keys = " or ".join(f"{home}.{name}" for home in homes)
-                    raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(_plain(value)),
+                    raise SceneError(Mistake(f"{source.label} (set on the command line or by keyword)", key, _show(_plain(value)),
                                              f"several tables have a key {name}", f"write {full_keys}"))
                 homes = there
             table = homes[0] if homes else ""
@@ -947,7 +955,7 @@ def _home(tree: dict[str, Any], table: str, source: _Source) -> dict[str, Any]:
     """The table of this dotted name, made where there is none: of arrays of tables by its place, `wheel[1]`, or by its name, `wheel.pitch`, or the only one."""
 
     def fail(problem: str, remedy: str) -> SceneError:
-        return SceneError(Mistake(f"{source.label} (key set from outside)", table, "", problem, remedy))
+        return SceneError(Mistake(f"{source.label} (set on the command line or by keyword)", table, "", problem, remedy))
 
     home: Any = tree
     for part in table.split(".") if table else ():
@@ -992,7 +1000,7 @@ def _put(home: dict[str, Any], name: str, value: Any, key: str, source: _Source)
         for place in each[:-1]:
             row = row[place] if isinstance(row, list) and place < len(row) else None
         if not isinstance(row, list) or each[-1] >= len(row) or isinstance(row[each[-1]], list | dict):
-            raise SceneError(Mistake(f"{source.label} (key set from outside)", key, _show(value), "there is no such number",
+            raise SceneError(Mistake(f"{source.label} (set on the command line or by keyword)", key, _show(value), "there is no such number",
                                      f"places are counted from 0, as {name}[0] of a vector and {name}[0,1] of a matrix, where the scene gives one"))
         row[each[-1]] = value
 

@@ -24,19 +24,41 @@ def _part(kind: str) -> Any:
     return part
 
 
+def _judged(scene: Scene | Mapping[str, Any]) -> Scene:
+    """The scene; of a general one that is exactly an instance of a family, that of the family."""
+    checked = scene if isinstance(scene, Scene) else scene_from(scene)
+    if checked.kind != "general":
+        return checked
+    from gyrostat.families.general.instance import as_instance
+    from gyrostat.families.general.rewrite import recognised
+
+    made = as_instance(checked)
+    if made is None:
+        known = [name for name, family in FAMILIES.items() if family.part("stability")]
+        reasons: dict[str, list[str]] = {}
+        for name, reason in recognised(checked).items():
+            if name in known and reason:
+                reasons.setdefault(reason, []).append(name)
+        why = "; ".join(f"{', '.join(names)}: {reason}" for reason, names in reasons.items())
+        raise DomainError(f"{checked.name}: a stability table is known for scenes of the kinds {', '.join(known)}, and for general ones that are exactly "
+                          f"an instance of these; of this one not ({why or 'it is one, but not in the words of the family'})")
+    return made
+
+
 def stability_report(scene: Scene | Mapping[str, Any]) -> dict[str, Any]:
-    """The stability of a scene as plain data; see `report` of families/KIND/stability.py.
+    """The stability of a scene as plain data; see `report` of families/KIND/stability.py. A general scene that is exactly an instance of a family
+    is judged as one of that family, whose name is `kind`.
 
     Raises DomainError where the question has no meaning for the scene.
     """
-    checked = scene if isinstance(scene, Scene) else scene_from(scene)
+    checked = _judged(scene)
     made: dict[str, Any] = {"kind": checked.kind, **_part(checked.kind).report(checked)}
     return made
 
 
 def plot_stability(scene: Scene | Mapping[str, Any], report: Mapping[str, Any] | None = None) -> Any:
     """The figure of a scene, from its report where there is one already. Needs matplotlib."""
-    checked = scene if isinstance(scene, Scene) else scene_from(scene)
+    checked = _judged(scene)
     return _part(checked.kind).plot(checked, report or stability_report(checked))
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from gyrostat.console import Progress, say, show_table
+from gyrostat.console import Progress, check_folder, say, show_table
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene
 from gyrostat.sweep_files import open_results, save, writer_of
@@ -94,6 +94,7 @@ def _verdict(dataset: "xarray.Dataset") -> Iterator[str]:
 
 def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
     output: Path = arguments.output
+    check_folder(output)
     writer_of(output)
     own = scene.vary.get("cases")
     cases = arguments.cases if arguments.cases is not None or not isinstance(own, str) else (scene.path.parent if scene.path else Path()) / own

@@ -21,12 +21,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Index", "Response", "drawings", "rank_correlations", "responses", "save_figures", "shares", "sobol_indices", "tables"]
+__all__ = ["Index", "Response", "drawings", "rank_correlations", "responses", "save_figures", "shares", "sobol_indices", "tables", "variance_shares"]
 
 PERCENTILES: Final = (1, 5, 25, 50, 75, 95, 99)
 ROUNDINGS: Final = 1e-12  # a spread this small beside the values cannot be cut into bins
 MOST_DOTS: Final = 20000  # of a scatter plot
 MOST_PANELS: Final = 12
+CHECKS: Final = ("energy_balance", "momentum_balance")
+MOST_CLASSES: Final = 32  # of rows alike in a parameter
+FEW_TIMES: Final = 12  # between so few a curve would be guessed
 RESAMPLED: Final = 200  # times, for a standard error
 
 Floats = NDArray[np.float64]
@@ -62,18 +65,21 @@ def parameters(dataset: "xarray.Dataset") -> "dict[str, xarray.DataArray]":
 
 
 def responses(dataset: "xarray.Dataset") -> list[Response]:
-    """The scalars, component by component; where none was asked for the columns at the last time."""
+    """The scalars, component by component, but for checks of the computation; where none has a value the columns at the last time."""
     found = []
     for over_time in (False, True):
         for name, variable in _quantities(dataset, over_time):
+            if name in CHECKS:
+                continue
             values = variable.isel(time=-1) if over_time else variable
             error = dataset[f"{name}_error"].values if f"{name}_error" in dataset else None
             parts = values.values.reshape(values.shape[0], -1).T
             labels = _labels(dataset, name, [str(dim) for dim in values.dims[1:]])
-            found += [Response(label, values.attrs.get("units", ""), part, error) for label, part in zip(labels, parts, strict=True)]
+            made = [Response(label, values.attrs.get("units", ""), part, error) for label, part in zip(labels, parts, strict=True)]
+            found += [each for each in made if np.isfinite(each.values).any()]
         if found:
             break
-    return [each for each in found if np.isfinite(each.values).any()]
+    return found
 
 
 def _ranks(values: Floats) -> Floats:
@@ -94,6 +100,33 @@ def rank_correlations(dataset: "xarray.Dataset", response: Response) -> dict[str
         size = math.sqrt(float(x @ x) * float(y @ y))
         made[key] = float(x @ y) / size if size > 0 else math.nan
     return made
+
+
+def variance_shares(dataset: "xarray.Dataset", response: Response) -> dict[str, float]:
+    """Share of the response's variance that each parameter explains by itself, of any shape, rising or not: of the means over classes of rows alike in
+    the parameter, less what chance makes of them, at least 0; NaN where one of them is constant. Of random rows it is the first Sobol index."""
+    made = {}
+    for key, values in parameters(dataset).items():
+        known = np.isfinite(response.values) & np.isfinite(values.values)
+        x, y = values.values[known], response.values[known]
+        classes = max(2, min(MOST_CLASSES, round(math.sqrt(len(y) / 4))))
+        _, place = np.unique(np.floor(_ranks(x) * classes / max(len(y), 1)), return_inverse=True)
+        counts = np.bincount(place)
+        whole, between = float(np.sum((y - np.mean(y)) ** 2)) if len(y) else 0.0, len(counts) - 1
+        if not whole > 0 or between < 1 or len(y) <= len(counts):
+            made[key] = math.nan
+            continue
+        means = np.bincount(place, y - np.mean(y)) / counts
+        explained = float(np.sum(counts * means**2))
+        made[key] = max(0.0, (explained - between * (whole - explained) / (len(y) - len(counts))) / whole)
+    return made
+
+
+def _strength(dataset: "xarray.Dataset", response: Response) -> dict[str, float]:
+    """How much a response hangs on each parameter: the greater of the size of its rank correlation and its share of the variance; known ones alone."""
+    ranked, explained = rank_correlations(dataset, response), variance_shares(dataset, response)
+    made = {key: max((size for size in (abs(ranked[key]), explained[key]) if math.isfinite(size)), default=math.nan) for key in ranked}
+    return {key: size for key, size in made.items() if math.isfinite(size)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,7 +203,10 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
     keys = list(parameters(dataset))
     rows = [[each.label, *(f"{value:+.3f}" if math.isfinite(value) else "-" for value in rank_correlations(dataset, each).values())]
             for each in responses(dataset)]
-    yield "Rank correlations", ["", *keys], rows
+    yield "Rank correlations (which way it goes; blind to what rises and falls again)", ["", *keys], rows
+    rows = [[each.label, *(_percent(round(value, 3)) if math.isfinite(value) else "-" for value in variance_shares(dataset, each).values())]
+            for each in responses(dataset)]
+    yield "Share of the variance that each explains by itself, of any shape", ["", *keys], rows
     found = {each.label: sobol_indices(dataset, each) for each in responses(dataset)}
     yield "Sobol indices: share of the variance by itself / with all others, each with its standard error", ["", *sorted(keys)], [
         [label, *(f"{index.first:.3f}({index.first_error:.3f}) / {index.total:.3f}({index.total_error:.3f})" for index in indices.values())]
@@ -242,7 +278,8 @@ def bands(dataset: "xarray.Dataset", columns: Sequence[tuple[str, Any]]) -> "Fig
         levels = np.percentile(known, (5, 25, 50, 75, 95), axis=0)
         place.fill_between(times / scale, levels[0], levels[4], color=COLOURS[0], alpha=0.2, linewidth=0, label="5 to 95 %")
         place.fill_between(times / scale, levels[1], levels[3], color=COLOURS[0], alpha=0.4, linewidth=0, label="25 to 75 %")
-        place.plot(times / scale, levels[2], color=COLOURS[0], linewidth=1.2, label="median")
+        few = len(times) <= FEW_TIMES
+        place.plot(times / scale, levels[2], "o:" if few else "-", markersize=4, color=COLOURS[0], linewidth=1.2, label="median" + few * " (nothing is known between the marks)")
         place.set_ylabel(_axis_text(label, its_unit))
         place.set_xlabel(f"time [{unit}]")
         place.ticklabel_format(axis="y", scilimits=(-3, 6))
@@ -253,17 +290,18 @@ def bands(dataset: "xarray.Dataset", columns: Sequence[tuple[str, Any]]) -> "Fig
 
 
 def tornado(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
-    """Rank correlation of each response with each parameter, the strongest on top."""
+    """Rank correlation of each response with each parameter, and its share of the variance, the strongest on top."""
     keys = list(parameters(dataset))
     figure, axes = _panels(len(shown), 11, 1.2 + 0.3 * len(keys), 2)
     for place, each in zip(axes, shown, strict=True):
-        found = sorted(((value, key) for key, value in rank_correlations(dataset, each).items() if math.isfinite(value)), key=lambda pair: abs(pair[0]))
-        numbers, names = [value for value, _ in found], [key for _, key in found]
-        place.barh(names, numbers, color=[COLOURS[0] if value > 0 else COLOURS[1] for value in numbers])
+        ranked, explained, strength = rank_correlations(dataset, each), variance_shares(dataset, each), _strength(dataset, each)
+        names = sorted(strength, key=lambda key: strength[key])
+        place.barh(names, [ranked[key] for key in names], color=[COLOURS[0] if ranked[key] > 0 else COLOURS[1] for key in names])
+        place.plot([explained[key] for key in names], names, "kD", markersize=4)
         place.set_xlim(-1, 1)
         place.set_xticks((-1, -0.5, 0, 0.5, 1))
         place.axvline(0, color="black", linewidth=0.8)
-        place.set_xlabel("rank correlation")
+        place.set_xlabel("bar: rank correlation; mark: share of the variance")
         place.set_title(each.label, loc="left", fontsize=10)
         place.grid(alpha=0.3, axis="x")
     figure.suptitle(_title(dataset), fontsize=11)
@@ -277,8 +315,8 @@ def scatter(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
     figure, axes = _panels(len(shown), 11, 3.4, 2)
     few = np.arange(0, len(models), -(-len(models) // MOST_DOTS))
     for place, each in zip(axes, shown, strict=True):
-        found = {key: value for key, value in rank_correlations(dataset, each).items() if math.isfinite(value)}
-        key = max(found, key=lambda name: abs(found[name])) if found else next(iter(parameters(dataset)))
+        found = _strength(dataset, each)
+        key = max(found, key=lambda name: found[name]) if found else next(iter(parameters(dataset)))
         values = parameters(dataset)[key]
         answered = few[models[few] != ""]
         colours = [COLOURS[rungs.index(name) % len(COLOURS)] for name in models[answered]]

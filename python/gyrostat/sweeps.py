@@ -67,7 +67,7 @@ class Study:
         """The study of a scene, of what its own table [vary] says and of what is given here, which goes first. Raises DomainError."""
         plan, places = plan_of(scene, vary, n=n, cases=cases, seed=seed, design=design)
         if plan.n == 0:
-            raise DomainError("n: say how many rows there are to be")
+            raise DomainError("n: say how many rows there are to be: -n 1000 on the command line, n=1000 in Python, n = 1000 under [vary]")
         return cls(scene, plan, places)
 
     @cached_property

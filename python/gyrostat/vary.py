@@ -5,6 +5,7 @@ A value is a function of the seed, the number of its row and the name of its key
 """
 
 import csv
+import difflib
 import hashlib
 import math
 import os
@@ -154,6 +155,9 @@ def logspace(low: Number, high: Number, count: int) -> Axis:
 
 
 _WORDS: Final[dict[str, Callable[..., Varied]]] = {"normal": normal, "uniform": uniform, "lognormal": lognormal, "choice": choice}
+_WANTS: Final = {"normal": "two numbers, mean and standard deviation, as normal(0.005, 5%)", "uniform": "two numbers, least and greatest, as uniform(15, 17)",
+                 "lognormal": "two numbers, median and standard deviation of the logarithm, as lognormal(1e-4, 20%)", "choice": "values, as choice(1, 2, 5)"}
+_ALIASES: Final = {"gauss": "normal", "gaussian": "normal", "unif": "uniform", "range": "uniform"}
 _FORMS: Final = "normal(0.005, 5%), uniform(15, 17), lognormal(1e-4, 20%), choice(1, 2, 5), [1, 2, 5], 0:10:11 or 1e-5:1e-3:50log"
 
 
@@ -172,6 +176,10 @@ def read_words(text: str) -> Varied:
         arguments = [_number(part.strip()) for part in found[2].split(",")]
         if word is not None and all(argument != "" for argument in arguments) and (word is choice or len(arguments) == 2):
             return word(*arguments)
+        if word is not None:
+            raise DomainError(f'"{text}": {found[1]} wants {_WANTS[found[1]]}')
+        if near := difflib.get_close_matches(found[1], [*_WORDS, *_ALIASES], 1, 0.5):
+            raise DomainError(f'"{text}": there is no {found[1]}; did you mean {_ALIASES.get(near[0], near[0])}? Write {_FORMS}')
     elif found := re.fullmatch(r"\[(.*)\]", text, re.DOTALL):
         values = [part.strip().strip("\"'") for part in found[1].split(",")]
         if all(values):

@@ -109,7 +109,7 @@ def _times(scene: Scene, begin: float, end: float | None, notes: list[str], moni
     last = float(scene.times[-1]) if end is None else end
     if not scene.start_time <= begin < last < math.inf:
         of_scene = f"; the scene ends at {last:g} s" if end is None else ""
-        raise DomainError(f"{scene.name}: there is nothing to see from {begin:g} s to {last:g} s: the end comes after the begin, which is at least "
+        raise DomainError(f"{scene.name}: there is nothing to see from {begin:g} s to {last:g} s: give an end after the begin, and a begin of at least "
                           f"{scene.start_time:g}{of_scene}")
 
     def turned(until: float) -> tuple[Floats, Floats, Floats]:

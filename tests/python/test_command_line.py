@@ -30,6 +30,14 @@ def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, 
     return status, out.out, out.err
 
 
+def test_a_folder_that_is_not_there_is_told_before_the_work(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    nowhere = tmp_path / "nowhere"
+    for command in (["solve", "toy-top", "-o", f"{nowhere}/a.csv"], ["solve", "toy-top", "--plot", f"{nowhere}/a.png"], ["view", "toy-top", "-o", f"{nowhere}/a.html"],
+                    ["sweep", "tiangong-1", "--vary", "torque.drag=uniform(1e-6, 2e-6)", "-n", "3", "-o", f"{nowhere}/a.csv"]):
+        assert main(command) == 2
+        assert "there is no folder" in capsys.readouterr().err and not nowhere.exists()
+
+
 def test_solve_prints_an_answer_for_people(scene_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(capsys, "solve", str(scene_file))
     assert status == 0 and err == ""
@@ -118,7 +126,7 @@ def test_exit_status_3_over_the_tolerance(capsys: pytest.CaptureFixture[str]) ->
     (["solve", "tiangong-1", "--ask", "atitude"], "did you mean attitude"),
     (["solve", "tiangong-1", "--set", "model=equal-torque"], "the control torques are not equal"),
     (["solve", "tiangong-1", "--plot", "x.xyz"], "unknown ending"),
-    (["solve", "tiangong-1", "-o", "/no/such/folder/x"], "No such file"),
+    (["solve", "tiangong-1", "-o", "/no/such/folder/x"], "there is no folder /no/such/folder"),
     (["chart", "tiangong-1", "--set", "samples=1"], "solve.samples"),
     (["stability", "cubesat-wheel"], "rotor_momentum"),
     (["reproduce", "no-such-paper"], "no-such-paper"),

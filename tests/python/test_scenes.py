@@ -511,7 +511,7 @@ def test_a_mistake_set_from_outside_is_not_told_of_a_line_of_the_file(tmp_path: 
     file.write_text(ONE_WHEEL)
     with pytest.raises(SceneError) as caught:
         load(file, **{"wheel[0].rate": "foo"})
-    assert "key set from outside" in str(caught.value) and f"{file}:" not in str(caught.value)
+    assert "set on the command line or by keyword" in str(caught.value) and f"{file}:" not in str(caught.value)
 
 
 def test_a_mistake_in_a_list_names_the_line_of_its_table(tmp_path: Path) -> None:

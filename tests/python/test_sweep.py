@@ -21,7 +21,7 @@ from gyrostat.families import FAMILIES
 from gyrostat.rotation import angle_between
 from gyrostat.rows import numbers_of, place_of, plan_of
 from gyrostat.scenes import bundled, load, scene_from
-from gyrostat.sweep_report import drawings, rank_correlations, responses, sobol_indices, tables
+from gyrostat.sweep_report import drawings, rank_correlations, responses, sobol_indices, tables, variance_shares
 from gyrostat.sweeps import merge, open_results, save
 from gyrostat.toml_text import toml_text
 from gyrostat.vary import DESIGNS, Plan, Varied, choice, grid, linspace, lognormal, logspace, normal, number_in, read_words, uniform
@@ -431,7 +431,7 @@ def test_a_study_is_one_file(good: str, tmp_path: Path) -> None:
     scene = load(file)
     assert gyrostat.solve(scene).met
     assert scene_from(tomllib.loads(toml_text(scene.to_dict()))).to_dict() == scene.to_dict()
-    for told_wrong, wrong in {"did you mean": STUDY.replace("torque.drag", "torque.darg"), "not how": STUDY.replace("uniform", "unform"),
+    for told_wrong, wrong in {"did you mean": STUDY.replace("torque.drag", "torque.darg"), "did you mean uniform": STUDY.replace("uniform", "unform"),
                               "integer": STUDY.replace("n = 40", 'n = "many"'), "multiple": STUDY.replace("n = 40", "n = 41")}.items():
         file.write_text(good + wrong)
         with pytest.raises(SceneError, match=told_wrong):
@@ -491,6 +491,24 @@ def ishigami(n: int) -> xarray.Dataset:
     answer = np.sin(drawn["a"]) * (1 + 0.1 * drawn["c"] ** 4) + 7 * np.sin(drawn["b"]) ** 2
     return xarray.Dataset({key: ("row", values, {"role": "parameter"}) for key, values in drawn.items()} | {"stop_time": ("row", answer)},
                           {"row": np.arange(n)}, {"kind": "deceleration", "study": json.dumps(made.told())})
+
+
+def test_a_share_of_the_variance_sees_what_rises_and_falls() -> None:
+    drawn = plan({key: uniform(-math.pi, math.pi) for key in ("c", "a", "b")}, 20000, seed=4).columns(range(20000))
+    answer = np.sin(drawn["a"]) * (1 + 0.1 * drawn["c"] ** 4) + 7 * np.sin(drawn["b"]) ** 2  # Ishigami and Homma (1990)
+    found = xarray.Dataset({key: ("row", values, {"role": "parameter"}) for key, values in drawn.items()} | {"stop_time": ("row", answer)},
+                           {"row": np.arange(20000)}, {"kind": "deceleration"})
+    response, = responses(found)
+    shares, ranked = variance_shares(found, response), rank_correlations(found, response)
+    assert shares == pytest.approx({"a": 0.3139, "b": 0.4424, "c": 0.0}, abs=0.02)
+    assert abs(ranked["b"]) < 0.02  # blind to it
+    constant = found.assign(stop_time=("row", np.ones(20000)))
+    assert all(math.isnan(share) for share in variance_shares(constant, responses(constant)[0]).values())
+
+
+def test_of_general_scenes_a_report_shows_the_columns_where_no_scalar_has_a_value() -> None:
+    found = sweep("momentum-dump", {"body.inertia[0]": uniform(850.0, 950.0)}, n=3)
+    assert "angular_velocity_x" in [each.label for each in responses(found)]
 
 
 def test_sobol_indices_are_those_of_a_function_whose_are_known() -> None:

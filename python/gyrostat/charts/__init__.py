@@ -54,7 +54,7 @@ class LeftOut:
         return f"{self.label}, {word} {settings}: {self.why}" if word else f"{self.label}: {self.why}"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Chart:
     """Error against cost on one scene.
 
@@ -88,6 +88,10 @@ class Chart:
         for each in self.left_out:
             writer.writerows([each.group, each.label, setting, *[""] * (len(self.measures) + 2), f"left out: {each.why}", *[""] * len(self.measures)] for setting in each.settings)
         return text.getvalue()
+
+    def __repr__(self) -> str:
+        methods = len(self.by_label())
+        return f"<Chart of {self.name}: {len(self.points)} points of {methods} methods, {len(self.left_out)} left out; plot(), to_csv(), save(folder)>"
 
     def _repr_html_(self) -> str:
         from gyrostat.notebook import chart_html

@@ -254,6 +254,8 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
         mu = rate * rate * (radius * radius * radius) / share
     radial = _unit(_or(given.get("radial"), (1.0, 0.0, 0.0)), "orbit.radial")
     along = stacked(_or(given.get("along"), (0.0, 1.0, 0.0)))
+    if along.shape == radial.shape == (3,) and np.any(along) and not np.any(along - radial * dot(radial, along)[..., None]):
+        raise DomainError(f"orbit.along = {along.tolist()} has the direction of orbit.radial: give the direction of flight, across it")
     for _ in range(2):  # what is radial is dropped; of axes nearly along each other the first time leaves roundings of it
         along = _unit(along - radial * dot(radial, along)[..., None], "orbit.along")
     return {"radius": radius, "mu": planet[0] if mu is None else mu, "eccentricity": eccentricity,

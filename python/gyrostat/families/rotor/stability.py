@@ -31,6 +31,9 @@ SETTLED: Final = math.radians(5)
 MOTOR_TIMES: Final = 20.0
 NUTATION_TIMES: Final = 12.0
 FOLLOWED_TIMES: Final = 8001
+# Where swings of the nutation are looked at one by one: how many at most, and at how many times each, so that a peak is seen to a part in 2000.
+MOST_SWINGS: Final = 4000
+TIMES_A_SWING: Final = 50
 # A time by the mean over the nutation is given where its relative error is less than this.
 ROUGH: Final = 0.5
 # Flat spin: the rotor's axis is further from L than FLAT, that of greatest inertia nearer than ABOUT; and out of it again [rad].
@@ -43,8 +46,8 @@ COARSE: Final = 0.15
 PIECES: Final = 40
 TURNS_A_PIECE: Final = 1.5
 FAMILIES: Final = {
-    "at-rest": "L = 0: H has no direction, and nothing rotates steadily about it",
-    "axisymmetric": "the body is symmetric about the rotor axis: the nutation does not turn the motor, and H precesses about e for ever",
+    "at-rest": "the momentum is zero: it has no direction, and nothing rotates steadily about it",
+    "axisymmetric": "the body is symmetric about the rotor axis: the nutation does not turn the motor, and the momentum precesses about e for ever",
     "circular-section": "n = J e is normal to a circular section of the inertia ellipsoid: the great circle n.m = 0 is invariant",
     "principal-axis": "the rotor axis is a principal axis: about it the nutation dies like 1/sqrt(t), not exponentially",
 }
@@ -157,6 +160,13 @@ def _expected(made: Mapping[str, Any], given: Mapping[str, Any], body: Mapping[s
     return float(followed + time) if error < ROUGH else None
 
 
+def _last_outside(answer: Answer, l: float, m: Vectors) -> int | None:
+    """Place of the last time at which H is more than SETTLED off m."""
+    H = answer["angular_momentum"]
+    outside = np.flatnonzero((np.linalg.norm(np.cross(H / l, m), axis=1) > math.sin(SETTLED)) | (H @ m < 0))
+    return int(outside[-1]) if len(outside) else None
+
+
 def _settling(made: Mapping[str, Any], given: Mapping[str, Any], body: Mapping[str, Any], theta: Vectors, index: int,
               longest: float) -> tuple[float | None, str | None]:
     """Time until H stays within SETTLED of the attractor, and how it was found.
@@ -169,16 +179,24 @@ def _settling(made: Mapping[str, Any], given: Mapping[str, Any], body: Mapping[s
     motor = MOTOR_TIMES / made["relaxation_rate"]
     nutation = NUTATION_TIMES * (attractor["e_fold_time"] or math.inf)
     followed = min(max(motor, nutation) if max(motor, nutation) <= longest else motor, longest)
+    how = {**given, "tolerance": 1e-6, "model": "full", "integrator": "auto"}
     t = np.linspace(0.0, followed, FOLLOWED_TIMES)
-    answer = rotor.solve(**{**given, "times": t, "tolerance": 1e-6, "model": "full", "integrator": "auto"})
-    H, V = answer["angular_momentum"], float(answer["lyapunov"][-1])
-    outside = np.flatnonzero((np.linalg.norm(np.cross(H / l, m), axis=1) > math.sin(SETTLED)) | (H @ m < 0))
+    answer = rotor.solve(**{**how, "times": t})
+    V = float(answer["lyapunov"][-1])
     # The level of F that keeps H within the angle, by its curvature across m.
     B = l * np.linalg.inv(theta) - attractor["spin_rate"] * np.eye(3)
     across = np.linalg.svd(m[None, :])[2][1:]
     end = attractor["level"] + 0.5 * l * float(np.linalg.eigvalsh(across @ B @ across.T)[0]) * SETTLED**2
     if V <= end:
-        return (0.0 if len(outside) == 0 else float(t[outside[-1] + 1])), "followed"
+        # V never grows: from its first time below the level on no swing leads out again, and before it the swings are looked at one by one
+        sure, last = int(np.argmax(answer["lyapunov"] <= end)), _last_outside(answer, l, m)
+        begin = 0.0 if last is None else float(t[last])
+        swings = (t[sure] - begin) * max(im for _, im in attractor["eigenvalues"]) / (2 * math.pi)
+        if not 0 < swings < MOST_SWINGS:
+            return float(t[sure]), "followed"
+        fine = np.linspace(begin, float(t[sure]), math.ceil(swings * TIMES_A_SWING) + 2)
+        last = _last_outside(rotor.solve(**{**how, "times": fine}), l, m)
+        return (begin if last is None else float(fine[min(last + 1, len(fine) - 1)])), "followed"
     x = float(answer["rotor_rate"][-1]) - given["no_load_rate"]
     in_motor = 0.5 * given["axial_inertia"] * made["coupling"] * x * x
     if in_motor > 0.1 * (V - attractor["level"]):
@@ -226,8 +244,8 @@ def tables(report: Mapping[str, Any]) -> Tables:
         best_time = "-" if r["best_rate"] is None else _duration(1 / r["best_rate"])
         second.append([str(r["index"]), "-" if r["decay_rate"] is None else f"{r['decay_rate']:.4g}", decays, best, best_time,
                        _eigenvalues(r["eigenvalues"])])
-    return [(f"{report['scene']}: steady rotations, L = {report['momentum']:.6g} N m s, h = {report['target_momentum']:.6g} N m s",
-             ["", "direction of L, body axes", "spin rate [rad/s]", "e to L", "type", "F [J]", "verdict"], first),
+    return [(f"{report['scene']}: steady rotations, momentum {report['momentum']:.6g} N m s, h = {report['target_momentum']:.6g} N m s",
+             ["", "direction of the momentum, body axes", "spin rate [rad/s]", "e to it", "type", "F [J]", "verdict"], first),
             ("Small disturbances", ["", "decay rate [1/s]", "e-fold", "best slope [N m s/rad]", "e-fold there", "eigenvalues [1/s]"], second)]
 
 
@@ -239,7 +257,7 @@ def sentence(report: Mapping[str, Any]) -> str:
         words.append(f"Exceptional: {FAMILIES[family]}.")
         section = report.get("circular_section")
         if section:
-            words.append("On it H runs round for ever, and starts of an open set end there." if section["tumbles"] else
+            words.append("On it the momentum runs round for ever, and starts of an open set end there." if section["tumbles"] else
                          "It holds two steady rotations.")
     if report["continuum"] is not None:
         words.append(f"A whole {report['continuum']} of steady rotations: what is listed stands for it.")
@@ -247,7 +265,7 @@ def sentence(report: Mapping[str, Any]) -> str:
         return " ".join([*words, "The carrier ends turning at -h n."])
     tilt = _degrees(start["rotor_axis_angle"])
     if verdict["index"] is None:
-        where = f"At the start e is {tilt} from L{', in flat spin' if start['flat_spin'] else ''}."
+        where = f"At the start e is {tilt} from the momentum{', in flat spin' if start['flat_spin'] else ''}."
         if verdict["certificate"] == "none":
             why = "the motor has no slope" if report["relaxation_rate"] == 0 else "no steady rotation attracts"
             return " ".join([*words, where, f"There is no attractor: {why}."])
@@ -262,13 +280,13 @@ def sentence(report: Mapping[str, Any]) -> str:
             "stays": "Does not recover from flat spin: a", None: "A"}[verdict["flat_spin"]]
     how = {"by level": "V is below the lowest saddle", "by uniqueness": "it is the only minimum", "undecided": "V falls below the lowest saddle"}
     when = "from the start" if verdict["time"] == 0 else f"after {_duration(verdict['time'])}"
-    words.append(f"{spin}ttractor {verdict['index']} is certified {when} ({how[verdict['certificate']]}). The rotor axis is {tilt} from L "
+    words.append(f"{spin}ttractor {verdict['index']} is certified {when} ({how[verdict['certificate']]}). The rotor axis is {tilt} from the momentum "
                  f"at the start and {_degrees(end['rotor_axis_angle'])} at the attractor.")
     if verdict["settling_time"] == 0:
         words.append("H is within 5° of it from the start.")
     elif verdict["settling_time"] is not None:
         about = "about " if verdict["settling"] == "averaged" else ""
-        words.append(f"H stays within 5° of it after {about}{_duration(verdict['settling_time'])}.")
+        words.append(f"The momentum stays within 5° of it after {about}{_duration(verdict['settling_time'])}.")
     if end["e_fold_time"] is not None:
         words.append(f"The slowest mode has an e-fold of {_duration(end['e_fold_time'])}; with the slope of fastest damping, "
                      f"{end['best_slope']:.4g} N m s/rad, it would be {_duration(1 / end['best_rate'])}.")
@@ -284,7 +302,7 @@ def sentence(report: Mapping[str, Any]) -> str:
 def plot(scene: Scene, report: Mapping[str, Any]) -> "Figure":
     """The momentum sphere with levels of F, steady rotations and the path of the start. Raises DomainError where L = 0."""
     if report["momentum"] == 0:
-        raise DomainError("L = 0: H has no direction, and there is no momentum sphere to draw")
+        raise DomainError("the momentum is zero: it has no direction, and there is no momentum sphere to draw")
     given = rotor.arguments(scene)
     theta = np.asarray(given["inertia"], dtype=float)
     theta = np.diag(theta) if theta.ndim == 1 else theta
