@@ -68,10 +68,15 @@ class Scenes {
       if (!body) continue;
       made.body = *body;
       Setup& d = made.setup;
-      const double size = J.maxCoeff() * std::pow(10, -3 + 4 * unit());  // |M|, and so |omega| 1e-3 to 10 rad/s
+      const double clock = unit() < 0.15 ? std::pow(10, -20 + 40 * unit()) : 1;
+      const double size = J.maxCoeff() * std::pow(10, -3 + 4 * unit()) * clock;  // |M|: |omega| mostly 1e-3 to 10 rad/s
       torques(d, size * size / J.maxCoeff(), size);
       if (unit() < 0.4) rotors(d, size);
       start(d, *body, R, size);
+      if (unit() < 0.03) {  // all along one axis, where the momentum may pass through zero
+        const Vec3<double> axis = R.col(int(3 * unit()));
+        d.momentum = size * axis, d.rotor_momentum = (unit() < 0.5 ? 1 : -1) * d.rotor_momentum.norm() * axis;
+      }
       made.wants_attitude = unit() < 0.5;
       if (made.wants_attitude) {
         const Vec3<double> v = direction() * pi<double> * unit();
@@ -112,7 +117,7 @@ class Scenes {
       const double off = std::pow(10, -1 - 5 * unit());
       J = Vec3<double>(1 + off * unit(), 1 + off * unit(), 1);
     }
-    J *= std::pow(10, -4 + 8 * unit());
+    J *= std::pow(10, unit() < 0.15 ? -20 + 40 * unit() : -4 + 8 * unit());
     for (int i = 2; i > 0; --i) std::swap(J[i], J[int((i + 1) * unit())]);
     return J;
   }
@@ -211,6 +216,9 @@ bool true_motion(const Made& made, Answer& answer) {
       const auto p = polhode_through<Long>(problem.inverse_inertia, *problem.gaps, state.momentum);
       state.k2 = std::isfinite(p.modulus.k2) ? p.modulus.k2 : 0;
     } else if (!rest) {
+      // beside an equilibrium the roots that it is made of part by the root of a rounding
+      auto& own = answer.columns[column::modulus_squared].error;
+      own = std::max(own, double(std::sqrt(epsilon<Long>)));
       const auto orbit = Orbit<Long>::through(problem, state.momentum);
       state.k2 = orbit ? orbit->modulus().k2 : orbit.error() == Errc::separatrix ? 1 : 0;
     }
