@@ -401,6 +401,7 @@ def _design(arguments: argparse.Namespace) -> int:
     from gyrostat.toml_text import toml_text
 
     scene = _scene(arguments)
+    check_folder(arguments.output)
     goal, budget = next((name, value) for name in GOALS if (value := getattr(arguments, name.replace("-", "_"))) is not None)
     made = _in_thread(lambda monitor: design_scene(scene, goal, budget, monitor=monitor), scene.name)
     text = toml_text(made.scene.to_dict())

@@ -17,6 +17,8 @@ __all__ = ["Progress", "check_folder", "say", "short", "show_table", "small"]
 
 def check_folder(file: Path | None) -> None:
     """Raise DomainError where a file cannot be written because its folder is not there: to be asked before long work."""
+    if file is not None and file.parent.exists() and not file.parent.is_dir():
+        raise DomainError(f"{file}: {file.parent} is a file, not a folder; name another")
     if file is not None and not file.parent.is_dir():
         raise DomainError(f"{file}: there is no folder {file.parent}; make it, or name another")
 

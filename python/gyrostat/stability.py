@@ -40,8 +40,11 @@ def _judged(scene: Scene | Mapping[str, Any]) -> Scene:
             if name in known and reason:
                 reasons.setdefault(reason, []).append(name)
         why = "; ".join(f"{', '.join(names)}: {reason}" for reason, names in reasons.items())
+        told = [name for name, reason in recognised(checked).items() if name in known and not reason]
+        if told:
+            why = f"within its times it is one of the kind {told[0]}, but not in the words of that kind: write it so, with all that it does at all times"
         raise DomainError(f"{checked.name}: a stability table is known for scenes of the kinds {', '.join(known)}, and for general ones that are exactly "
-                          f"an instance of these; of this one not ({why or 'it is one, but not in the words of the family'})")
+                          f"an instance of these; of this one not ({why})")
     return made
 
 

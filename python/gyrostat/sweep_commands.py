@@ -122,6 +122,7 @@ def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
 
 
 def _merge(arguments: argparse.Namespace) -> int:
+    check_folder(arguments.output)
     writer_of(arguments.output)
     dataset = merge(arguments.files)
     save(dataset, arguments.output)

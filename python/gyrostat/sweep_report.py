@@ -28,6 +28,7 @@ ROUNDINGS: Final = 1e-12  # a spread this small beside the values cannot be cut 
 MOST_DOTS: Final = 20000  # of a scatter plot
 MOST_PANELS: Final = 12
 CHECKS: Final = ("energy_balance", "momentum_balance")
+ENOUGH: Final = 100  # rows, to tell a share of the variance
 MOST_CLASSES: Final = 32  # of rows alike in a parameter
 FEW_TIMES: Final = 12  # between so few a curve would be guessed
 RESAMPLED: Final = 200  # times, for a standard error
@@ -104,16 +105,18 @@ def rank_correlations(dataset: "xarray.Dataset", response: Response) -> dict[str
 
 def variance_shares(dataset: "xarray.Dataset", response: Response) -> dict[str, float]:
     """Share of the response's variance that each parameter explains by itself, of any shape, rising or not: of the means over classes of rows alike in
-    the parameter, less what chance makes of them, at least 0; NaN where one of them is constant. Of random rows it is the first Sobol index."""
+    the parameter, less what chance makes of them, at least 0; NaN where one of them is constant, and of fewer than ENOUGH rows. Of thousands of random
+    rows it is the first Sobol index."""
     made = {}
     for key, values in parameters(dataset).items():
         known = np.isfinite(response.values) & np.isfinite(values.values)
         x, y = values.values[known], response.values[known]
-        classes = max(2, min(MOST_CLASSES, round(math.sqrt(len(y) / 4))))
-        _, place = np.unique(np.floor(_ranks(x) * classes / max(len(y), 1)), return_inverse=True)
+        y = y / np.max(np.abs(y), initial=1e-300)  # whose squares are numbers
+        classes = min(MOST_CLASSES, round(math.sqrt(len(y) / 4)))
+        _, place = np.unique(np.floor(_ranks(x) * max(classes, 1) / max(len(y), 1)), return_inverse=True)
         counts = np.bincount(place)
         whole, between = float(np.sum((y - np.mean(y)) ** 2)) if len(y) else 0.0, len(counts) - 1
-        if not whole > 0 or between < 1 or len(y) <= len(counts):
+        if not whole > 0 or between < 1 or len(y) < ENOUGH:
             made[key] = math.nan
             continue
         means = np.bincount(place, y - np.mean(y)) / counts
@@ -206,7 +209,7 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
     yield "Rank correlations (which way it goes; blind to what rises and falls again)", ["", *keys], rows
     rows = [[each.label, *(_percent(round(value, 3)) if math.isfinite(value) else "-" for value in variance_shares(dataset, each).values())]
             for each in responses(dataset)]
-    yield "Share of the variance that each explains by itself, of any shape", ["", *keys], rows
+    yield f"Share of the variance that each explains by itself, of any shape ({ENOUGH} rows or more)", ["", *keys], rows
     found = {each.label: sobol_indices(dataset, each) for each in responses(dataset)}
     yield "Sobol indices: share of the variance by itself / with all others, each with its standard error", ["", *sorted(keys)], [
         [label, *(f"{index.first:.3f}({index.first_error:.3f}) / {index.total:.3f}({index.total_error:.3f})" for index in indices.values())]
@@ -297,7 +300,7 @@ def tornado(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
         ranked, explained, strength = rank_correlations(dataset, each), variance_shares(dataset, each), _strength(dataset, each)
         names = sorted(strength, key=lambda key: strength[key])
         place.barh(names, [ranked[key] for key in names], color=[COLOURS[0] if ranked[key] > 0 else COLOURS[1] for key in names])
-        place.plot([explained[key] for key in names], names, "kD", markersize=4)
+        place.plot([explained[key] for key in names], names, "kD", markersize=4, label="_")
         place.set_xlim(-1, 1)
         place.set_xticks((-1, -0.5, 0, 0.5, 1))
         place.axvline(0, color="black", linewidth=0.8)

@@ -178,7 +178,7 @@ def read_words(text: str) -> Varied:
             return word(*arguments)
         if word is not None:
             raise DomainError(f'"{text}": {found[1]} wants {_WANTS[found[1]]}')
-        if near := difflib.get_close_matches(found[1], [*_WORDS, *_ALIASES], 1, 0.5):
+        if near := difflib.get_close_matches(found[1], [*_WORDS, *_ALIASES], 1, 0.6):
             raise DomainError(f'"{text}": there is no {found[1]}; did you mean {_ALIASES.get(near[0], near[0])}? Write {_FORMS}')
     elif found := re.fullmatch(r"\[(.*)\]", text, re.DOTALL):
         values = [part.strip().strip("\"'") for part in found[1].split(",")]
@@ -186,7 +186,7 @@ def read_words(text: str) -> Varied:
             return grid([_number(value) for value in values])
     elif found := re.fullmatch(r"([^:]+):([^:]+):\s*(\d+)\s*(log)?", text):
         return (logspace if found[4] else linspace)(_number(found[1].strip()), _number(found[2].strip()), int(found[3]))
-    raise DomainError(f'"{text}" says not how the number varies; write {_FORMS}')
+    raise DomainError(f'"{text}" does not say how the number varies; write {_FORMS}')
 
 
 def as_varied(value: Any) -> Varied:
@@ -200,7 +200,7 @@ def as_varied(value: Any) -> Varied:
     except (TypeError, ValueError):
         values = []
     if not values:
-        raise DomainError(f"{str(value)[:60]} says not how the number varies; write {_FORMS}, or give a list of numbers")
+        raise DomainError(f"{str(value)[:60]} does not say how the number varies; write {_FORMS}, or give a list of numbers")
     return grid(values)
 
 

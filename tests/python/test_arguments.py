@@ -233,7 +233,7 @@ def test_other_records_of_general_scenes_are_refused() -> None:
 @pytest.mark.parametrize(("study", "why"), [
     (lambda: vary.grid([]), "at least one value"), (lambda: vary.linspace(1, 2, 2.5), "no whole number"),  # type: ignore[arg-type]
     (lambda: vary.uniform(None, 2), "None is neither a number"), (lambda: vary.grid([True, False]), "True is neither a number"),  # type: ignore[arg-type]
-    (lambda: vary.read_words("[1e-4,,2e-4]"), "says not how"), (lambda: sweep("tiangong-1", {"torque.drag": [True, False]}), "neither a number"),
+    (lambda: vary.read_words("[1e-4,,2e-4]"), "does not say how"), (lambda: sweep("tiangong-1", {"torque.drag": [True, False]}), "neither a number"),
     (lambda: sweep("tiangong-1", [1]), "vary = "), (lambda: sweep("tiangong-1", {3: [1.0]}), "vary = "),  # type: ignore[arg-type,dict-item]
     (lambda: sweep("tiangong-1", {"torque.drag": [1e-4]}, n=True), "n = True"), (lambda: sweep("tiangong-1", {"torque.drag": [1e-4]}, threads=1.5), "threads = 1.5"),  # type: ignore[arg-type]
     (lambda: sweep("tiangong-1", {"torque.drag": [1e-4]}, shard=(1,)), "shard = "), (lambda: sweep("tiangong-1", {"torque.drag": [1e-4]}, shard=(1.0, 1)), "shard = "),  # type: ignore[arg-type]

@@ -98,7 +98,10 @@ def test_a_wheel_at_rest_in_a_body_at_rest(wheel: dict[str, Any]) -> None:
 
 
 def test_a_brake_that_would_drive_is_refused() -> None:
-    for factor in ({"mean": -1.0, "amplitude": 0.0, "rate": 1.0, "phase": 0.0}, {"mean": 0.5, "amplitude": 0.6, "rate": 1.0, "phase": 0.0},
+    pulse = scene([0.0, 1.0], body=BODY, initial=TURNING, torque=[{"type": "brake", "limit": [0.02] * 3, "factor": {"mean": 0.0, "amplitude": 1.0, "rate": 1.0},
+                                                                   "on": [[0.0, 3.0]]}])
+    assert gyrostat.solve(pulse).met  # half a wave, while it is above zero
+    for factor in ({"times": [0.0, 1.0, 2.0, 3.0], "values": [1.0, 0.0, 0.0, 1.0], "interpolation": "cubic"}, {"mean": -1.0, "amplitude": 0.0, "rate": 1.0, "phase": 0.0}, {"mean": 0.5, "amplitude": 0.6, "rate": 1.0, "phase": 0.0},
                    {"times": [0.0, 1.0], "values": [1.0, -1.0], "interpolation": "linear"}):
         given = scene([0.0, 1.0], body=BODY, initial=TURNING, torque=[{"type": "brake", "limit": [0.2] * 3, "factor": factor}])
         with pytest.raises((gyrostat.DomainError, gyrostat.SceneError), match="factor of a brake must not be negative"):

@@ -12,6 +12,7 @@ import pytest
 import gyrostat
 from gyrostat import rotor
 from gyrostat.cli import main
+from gyrostat.families.general.instance import as_instance
 from gyrostat.families.general.rewrite import as_general
 from gyrostat.families.rotor import stability as family
 from gyrostat.families.rotor.sphere import Sphere, from_disc, onto_disc
@@ -143,6 +144,30 @@ def test_a_general_scene_that_is_exactly_that_of_a_family_is_judged_as_one() -> 
     assert plot_stability(as_general(load("toy-top"))) is not None
     with pytest.raises(gyrostat.DomainError, match="momentum-dump: a stability table is known .*: a torque changes with time"):
         stability_report(load("momentum-dump"))
+
+
+MOTOR: dict[str, Any] = {"type": "motor", "axis": [0, 3, 4], "axial_inertia": 0.1, "slope": 0.01, "no_load_rate": 50.0, "rate": 1.0}
+BRAKE: dict[str, Any] = {"type": "brake", "limit": [0.1, 0.1, 0.2]}
+
+
+@pytest.mark.parametrize(("tables", "kind"), [
+    ({"wheel": [MOTOR]}, "rotor"), ({"wheel": [MOTOR, {"type": "locked", "axis": [1, 0, 0], "axial_inertia": 0.1}]}, "rotor"), ({"torque": [BRAKE]}, "deceleration"),
+    ({"wheel": [MOTOR], "body": {"rotor_momentum": [0, 0.6, 0.8]}}, None), ({"wheel": [{**MOTOR, "friction": 0.01}]}, None),
+    ({"torque": [{"type": "charge", "momentum": [0, 0, 1.0]}]}, None), ({"torque": [{**BRAKE, "factor": {"mean": 5.0, "amplitude": 0.0, "rate": 1.0}}]}, None),
+    ({"torque": [{**BRAKE, "on": [[10, 100]]}]}, None),
+    ({"torque": [{"type": "weight"}], "body": {"fixed": True, "mass": 1.0, "centre_of_mass": [0, 0, 0.1]}, "field": {"gravity": 9.8, "down": [0, 0.6, 0.8]}}, "heavy"),
+    ({"torque": [{"type": "weight"}] * 2, "body": {"fixed": True, "mass": 1.0, "centre_of_mass": [0, 0, 0.1]}, "field": {"gravity": 9.8}}, None)])
+def test_of_a_general_scene_all_or_nothing_is_judged(tables: dict[str, Any], kind: str | None) -> None:
+    given = {"name": "told otherwise", "solve": {"times": [1.0, 3.0]}, "initial": {"angular_velocity": [0.3, 0.2, -0.4]}, **tables,
+             "body": {"inertia": [3.0, 2.5, 2.0], **tables.get("body", {})}}
+    if kind is None:
+        with pytest.raises(gyrostat.DomainError, match="not in the words of that kind"):
+            stability_report(given)
+        return
+    instance = as_instance(scene_from(given))
+    assert instance is not None and instance.kind == kind == stability_report(given)["kind"]
+    whole, alone = gyrostat.solve(given, model="full", ask=["angular_velocity"]), gyrostat.solve(instance, model="full", ask=["angular_velocity"])
+    assert np.allclose(whole["angular_velocity"], alone["angular_velocity"], rtol=0, atol=1e-6)
 
 
 def test_flat_spin_of_a_real_satellite() -> None:

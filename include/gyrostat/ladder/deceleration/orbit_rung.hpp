@@ -248,6 +248,13 @@ class SecondOrderOrbit {
   OrbitMotion<Rates, double> motion_;
 };
 
+/// Whether M stands in the body but for roundings, which an orbit made of differences of the energy may take for a turn.
+inline bool starts_at_rest_in_body(const Problem<double>& problem) noexcept {
+  const Vec3<double>& M = problem.momentum;
+  const double rate = (problem.inverse_inertia.cwiseProduct(M)).norm() + problem.gyro_rate().norm();
+  return M.cross(problem.angular_velocity(M)).norm() <= 32 * epsilon<double> * M.norm() * rate;
+}
+
 /// crossed: what the turns beside separatrices have changed of the energy, J; standing: |U| that is not followed into the stop, N m s.
 template <class Elliptic>
 void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Elliptic>& error, double crossed,
@@ -356,7 +363,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   Orbit<double, Elliptic> orbit;
   const auto mean = mean_of<Elliptic>(problem, problem.momentum, &orbit);
   if (!mean) return detail::refused(detail::not_followed(mean.error()));
-  if (orbit.regime() == Regime::point)
+  if (orbit.regime() == Regime::point || detail::starts_at_rest_in_body(problem))
     return refused<Track>(Errc::not_applicable,
                           "the motion starts on an equilibrium: there is nothing to average over");
 

@@ -146,6 +146,9 @@ class CustomCourse {
     if (status == ode::Status::step_underflow && hops_ < most_hops_) status = hop(t_max);
     if (status != ode::Status::reached) return status;
     if (pace_.is_hopeless(counts().steps, time(), to_, step_cap_)) return ode::Status::step_limit;
+    // a law that jumps with the state holds the motion at its jump in steps of which many are rejected: soon seen, as a law may cost much
+    if (quick_.is_hopeless(counts().steps, time(), to_, step_cap_) && 4 * counts().rejected > counts().steps)
+      return ode::Status::step_limit;
     const auto& equations = solver_.rhs();
     if (brakes_.stopped(problem_, equations.state(time(), solver_.state()), equations.inside()))
       return ode::Status::event;
@@ -207,7 +210,7 @@ class CustomCourse {
     from_ = to_, to_ = end_of(++cut_);
     solver_.rhs().enter(from_, to_);
     solver_.restart(time(), typename Equations::Numbers(solver_.state()));
-    pace_.restart(time());
+    pace_.restart(time()), quick_.restart(time());
     passes_ = parted_ = false;
   }
 
@@ -226,7 +229,8 @@ class CustomCourse {
   Equations next_;       ///< of the next piece, where the last step ends this one
   Solver solver_;
   BrakeWatch<Scalar> brakes_;
-  Pace<Scalar, 4096> pace_;  ///< a law costs what its owner makes it cost: a function in Python some microseconds
+  Pace<Scalar> pace_;
+  Pace<Scalar, 4096> quick_;
 };
 
 /// The tightest step tolerance of an answer by DOP853: what its companions take is 64 times as tight, and no step can be held to less.

@@ -17,10 +17,9 @@ inline constexpr const char* no_value_of_law = "the torque of your own has no fi
 inline constexpr const char* not_repeatable =
     "the torque of your own is not a function of time and state: asked twice at the start, it gave two values";
 inline constexpr const char* steps_of_law =
-    "the torque of your own makes the steps so short that the budget of 10 million does not reach the last time: where "
-    "it "
-    "jumps with the state, as a switch does at zero, give the jump a width; else ask for a shorter span or a looser "
-    "tolerance";
+    "the torque of your own makes the steps so short that their budget, 10 million, does not reach the last "
+    "time: give a jump with the state, as that of a switch at zero, a width, name in breakpoints where a fast "
+    "phase ends, or ask for a shorter span or a looser tolerance";
 inline constexpr const char* too_fast_for_dop853 =
     "wheels settle so fast that DOP853 would take too many steps: ask for a shorter span, or give the torque as tables "
     "and damping";

@@ -101,7 +101,7 @@ inline CvodeRun<State<double>> run_pieces(const Scene& scene, CvodeEquations equ
     if (!made) return run.failure = made.error(), run;
     auto cvode = std::move(made).value();
     ode::Status status = ode::Status::reached;
-    Pace<double, 4096> pace;
+    Pace<double> pace;
     pace.restart(from);
     while (cvode.time() < to && status == ode::Status::reached) {
       const double before = cvode.time();

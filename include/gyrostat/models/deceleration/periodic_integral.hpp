@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gyrostat/core/real.hpp"
 
@@ -39,8 +41,10 @@ class PeriodicPair {
       greatest[0] = std::max(greatest[0], std::abs(first[i]));
       greatest[1] = std::max(greatest[1], std::abs(second[i]));
     }
-    if (greatest[0] > 0 && greatest[1] > 0 && greatest[0] < infinity<Scalar> && greatest[1] < infinity<Scalar>)
-      unit_ = std::ldexp(Scalar(1), std::ilogb(greatest[1]) - std::ilogb(greatest[0]));
+    if (greatest[0] > 0 && greatest[1] > 0 && greatest[0] < infinity<Scalar> && greatest[1] < infinity<Scalar>) {
+      constexpr int most = std::numeric_limits<Scalar>::max_exponent / 2;  // beyond it neither matters to the other
+      unit_ = std::ldexp(Scalar(1), std::clamp(std::ilogb(greatest[1]) - std::ilogb(greatest[0]), -most, most));
+    }
     for (int i = 0; i < n_; ++i) {
       re_[i] = first[i] / Scalar(n_);
       im_[i] = second[i] / unit_ / Scalar(n_);

@@ -254,12 +254,48 @@ Fault check_factor(const Factor<Scalar>& factor, int place) noexcept {
                      "the table of its factor must have one finite value for each time, and times that increase");
 }
 
-/// Whether a factor may be below zero at some time: its wave, or a value of its table.
+/// The least value of a table of single numbers, between its times, too, but for roundings; 0 of none.
+template <Real Scalar>
+Scalar least_of(const Table<Scalar>& table) noexcept {
+  if (table.values.empty()) return 0;
+  const auto [low, high] = std::minmax_element(table.values.begin(), table.values.end());
+  Scalar least = *low;
+  for (std::size_t i = 0; table.between == Between::cubic && i + 1 < table.times.size(); ++i) {
+    const auto law = piece(table, 1, 0, table.times[i]);
+    const Scalar a = 3 * law.c[3], b = law.c[2], disc = b * b - a * law.c[1],
+                 root = std::sqrt(std::max(disc, Scalar(0)));
+    const Scalar q = -(b + std::copysign(root, b));  // where the slope c1 + 2 b s + a s^2 vanishes: q/a and c1/q
+    for (const Scalar s : {q / a, law.c[1] / q})
+      if (disc > 0 && s > 0 && s < table.times[i + 1] - table.times[i]) least = std::min(least, law(law.origin + s));
+  }
+  const Scalar rounding = 64 * epsilon<Scalar> * std::max(std::abs(*low), std::abs(*high));
+  return least < -rounding ? least : std::max(least, Scalar(0));
+}
+
+/// Whether a factor is below zero, by more than roundings, at some time from 0 on: its wave while it is on, or a value of its table.
 template <Real Scalar>
 bool goes_negative(const Factor<Scalar>& factor) noexcept {
   using std::abs;
-  return factor.mean - abs(factor.amplitude) < 0 ||
-         std::any_of(factor.table.values.begin(), factor.table.values.end(), [](Scalar value) { return value < 0; });
+  const Scalar rounding = 8 * epsilon<Scalar> * (abs(factor.mean) + abs(factor.amplitude));
+  const auto wave_dips = [&](Scalar from, Scalar to) noexcept {
+    const auto at = [&](Scalar t) noexcept {
+      return factor.mean + factor.amplitude * std::sin(factor.rate * t + factor.phase);
+    };
+    // the lowest point, where the sine is -1 or, of a negative amplitude, 1
+    const Scalar lowest = (factor.amplitude > 0 ? -1 : 1) * pi<Scalar> / 2, turn = 2 * pi<Scalar>;
+    const Scalar first = factor.rate * from + factor.phase, last = factor.rate * to + factor.phase;
+    const Scalar low = std::min(first, last), high = std::max(first, last);
+    const bool bottoms = lowest + turn * std::ceil((low - lowest) / turn) <= high;
+    const Scalar least = bottoms ? factor.mean - abs(factor.amplitude) : std::min(at(from), at(to));
+    return least < -rounding;
+  };
+  const bool dips =
+      factor.on.empty()
+          ? factor.mean - abs(factor.amplitude) < -rounding
+          : std::any_of(
+                factor.on.begin(), factor.on.end(),
+                [&](const auto& one) noexcept { return one[1] > 0 && wave_dips(std::max(one[0], Scalar(0)), one[1]); });
+  return dips || least_of(factor.table) < 0;
 }
 
 /// What a torque needs of the problem.

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""General scenes that are exactly an instance of a family, as scenes of that family: what is known of it alone, such as where a motion ends."""
+"""General scenes that are an instance of a family in so many words, as scenes of that family: what is known of it alone, such as where a motion ends."""
 
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from gyrostat.broadcast import Floats
+from gyrostat.errors import DomainError, SceneError
 from gyrostat.rotation import matrix_from_quaternion
 
 if TYPE_CHECKING:
@@ -13,86 +15,97 @@ if TYPE_CHECKING:
 
 __all__ = ["as_instance"]
 
-Given = Mapping[str, Any]
+# What `posed` makes of a scene.
+Posed = Mapping[str, Any]
 Tables = dict[str, Any]
 
 
-def _listed(value: Any) -> Any:
-    return np.asarray(value, dtype=float).tolist()
+def _down(given: Posed) -> Floats:
+    """The vertical as the body sees it at the start."""
+    made: Floats = matrix_from_quaternion(given["initial"]["attitude"]).T @ given["field"]["down"]
+    return made
 
 
-def _start(given: Given) -> Tables:
-    return {"attitude": _listed(given["attitude"]), "angular_velocity": _listed(given["angular_velocity"])}
+def _start(given: Posed) -> Tables:
+    return {name: given["initial"][name].tolist() for name in ("attitude", "angular_velocity")}
 
 
-def _free(given: Given) -> Tables | None:
-    turning = [each for each in given["wheels"] if each["type"] != "locked"]
-    if not all(each["type"] in ("held", "free") and isinstance(each["rate"], float) for each in turning):
-        return None
-    wheels = [{"axis": _unit(each["axis"]), **{key: each[key] for key in ("axial_inertia", "rate", "type")}} for each in turning]
-    return {"body": {"rotor_momentum": _listed(given["rotor_momentum"])}, "wheel": wheels, "initial": _start(given)}
+def _free(given: Posed) -> Tables:
+    wheels = [{"type": each["type"], "axis": each["axis"].tolist(), "axial_inertia": each["axial_inertia"], "rate": each["rate"]} for each in given["wheels"]]
+    return {"body": {"rotor_momentum": given["body"]["rotor_momentum"].tolist()}, "wheel": wheels, "initial": _start(given)}
 
 
-def _deceleration(given: Given) -> Tables | None:
-    brakes = [each for each in given["torques"] if each["type"] == "brake"]
-    drags = [each for each in given["torques"] if each["type"] == "damping"]
-    if len(brakes) > 1 or len(drags) > 1 or given["wheels"]:
-        return None
+def _deceleration(given: Posed) -> Tables:
     torque: Tables = {"control": [0.0, 0.0, 0.0], "drag": 0.0}
-    for brake in brakes:
-        torque.update(control=_listed(brake["limit"]), law=brake["law"])
-    for drag in drags:
-        law = {"momentum": "total", "carrier-momentum": "carrier"}.get(drag["against"])
-        if law is None:
-            return None
-        torque.update(drag=float(np.asarray(drag["coefficient"]).flat[0]), drag_law=law)
-    return {"body": {"rotor_momentum": _listed(given["rotor_momentum"])}, "torque": torque, "initial": _start(given)}
+    laws = {"momentum": "total", "carrier-momentum": "carrier"}
+    for each in given["torques"]:
+        law = laws.get(each["opposed"], "total")
+        torque |= {"control": each["vector"].tolist(), "law": law} if each["type"] == "brake" else {"drag": float(each["matrix"][0, 0]), "drag_law": law}
+    return {"body": {"rotor_momentum": given["body"]["rotor_momentum"].tolist()}, "torque": torque, "initial": _start(given)}
 
 
-def _rotor(given: Given) -> Tables | None:
-    if len(given["wheels"]) != 1:
-        return None
-    wheel = given["wheels"][0]
-    motor = {"motor": ("slope", "no_load_rate"), "friction": ("friction", None)}.get(wheel["type"])
-    if motor is None or (wheel["type"] == "motor" and wheel["friction"]) or wheel[motor[0]] is None:
-        return None
-    return {"rotor": {"axis": _unit(wheel["axis"]), "axial_inertia": wheel["axial_inertia"]},
-            "motor": {"slope": wheel[motor[0]], "no_load_rate": 0.0 if motor[1] is None else wheel[motor[1]]},
-            "initial": {**_start(given), "rotor_rate": wheel["rate"]}}
+def _rotor(given: Posed) -> Tables:
+    wheel, = given["wheels"]
+    return {"rotor": {"axis": wheel["axis"].tolist(), "axial_inertia": wheel["axial_inertia"]},
+            "motor": {name: wheel[name] for name in ("slope", "no_load_rate")}, "initial": {**_start(given), "rotor_rate": wheel["rate"]}}
 
 
-def _heavy(given: Given) -> Tables | None:
-    if any(each["type"] not in ("weight", "gravity-gradient") for each in given["torques"]) or given["wheels"] or given["orbit"] is not None:
-        return None
-    weighs = any(each["type"] == "weight" for each in given["torques"])
-    gradients = [each.get("gradient") for each in given["torques"] if each["type"] == "gravity-gradient"]
-    if None in gradients:
-        return None
-    down = matrix_from_quaternion(given["attitude"]).T @ np.asarray(given["field"]["down"], dtype=float)
-    return {"body": {"mass": float(given["mass"]), "centre_of_mass": _listed(given["centre_of_mass"])},
-            "field": {"gravity": float(given["field"]["gravity"]) if weighs else 0.0, "gravity_gradient": float(sum(gradients))},
-            "initial": {"angular_velocity": _listed(given["angular_velocity"]), "down": _listed(down)}}
+def _heavy(given: Posed) -> Tables:
+    gradient = sum(each["gradient"] or 0.0 for each in given["torques"])
+    return {"body": {"mass": float(given["body"]["mass"]), "centre_of_mass": given["body"]["centre_of_mass"].tolist()},
+            "field": {"gravity": float(given["field"]["gravity"]), "gravity_gradient": float(gradient)},
+            "initial": {"angular_velocity": given["initial"]["angular_velocity"].tolist(), "down": _down(given).tolist()}}
 
 
-def _unit(axis: Any) -> Any:
-    of = np.asarray(axis, dtype=float)
-    return (of / np.linalg.norm(of)).tolist()
+_INSTANCES: Final[dict[str, Callable[[Posed], Tables]]] = {"free": _free, "deceleration": _deceleration, "rotor": _rotor, "heavy": _heavy}
 
 
-_INSTANCES: Final[dict[str, Callable[[Given], Tables | None]]] = {"free": _free, "deceleration": _deceleration, "rotor": _rotor, "heavy": _heavy}
+def _without_locked(given: Posed) -> Posed:
+    """Locked wheels are part of the body, and the angles of the others, from which they are counted on, turn nothing."""
+    return {**given, "wheels": [{**each, "angle": 0.0} for each in given["wheels"] if each["type"] != "locked"]}
+
+
+def _physics(given: Posed) -> dict[str, Any]:
+    """What the motion hangs on; of weight and mass where something weighs."""
+    made = {"inertia": given["body"]["inertia"], "rotor_momentum": given["body"]["rotor_momentum"], "wheels": given["wheels"], "torques": given["torques"],
+            "orbit": given["orbit"], "angular_velocity": given["initial"]["angular_velocity"]}
+    if given["torques"]:
+        made |= {"fixed": given["body"]["fixed"], "down": _down(given)}
+    if any(each["type"] == "weight" for each in given["torques"]):
+        made |= {"mass": given["body"]["mass"], "centre_of_mass": given["body"]["centre_of_mass"], "gravity": given["field"]["gravity"]}
+    return made
+
+
+def _same(one: Any, other: Any) -> bool:
+    """The same data, but for some roundings of numbers."""
+    if isinstance(one, Mapping):
+        return isinstance(other, Mapping) and one.keys() == other.keys() and all(_same(one[key], other[key]) for key in one)
+    if isinstance(one, list | tuple):
+        return isinstance(other, list | tuple) and len(one) == len(other) and all(map(_same, one, other))
+    if one is None or isinstance(one, str | bool):
+        return bool(one == other)
+    a, b = np.asarray(one), np.asarray(other)
+    return a.shape == b.shape and bool(np.all(np.abs(a - b) <= 4e-15 * np.max(np.abs(a), initial=0.0)))
 
 
 def as_instance(scene: "Scene") -> "Scene | None":
-    """A general scene as one of the first of free, deceleration, rotor and heavy that it is exactly an instance of; None where it is none."""
-    from gyrostat.families.general.rewrite import recognised
-    from gyrostat.families.general.scene import arguments
+    """A general scene as one of the first of free, deceleration, rotor and heavy in whose words all of it can be told; None where it is none: what
+    begins or ends, for one, even behind the last time."""
+    from gyrostat.families.general.rewrite import as_general, recognised
+    from gyrostat.families.general.rows import posed_of
     from gyrostat.scenes import scene_from
 
-    given, why = arguments(scene), recognised(scene)
+    why, given = recognised(scene), _without_locked(posed_of(scene))
     for kind, told in _INSTANCES.items():
-        made = told(given) if not why[kind] else None
-        if made is not None:
-            body = {"inertia": _listed(given["inertia"]), **made.pop("body", {})}
-            solving = {"times": scene.times.tolist(), "tolerance": scene.tolerance}
-            return scene_from({"name": scene.name, "kind": kind, "source": scene.source, "solve": solving, "body": body, **made})
+        if why[kind]:
+            continue
+        try:
+            made = told(given)
+            body = {"inertia": given["body"]["inertia"].tolist(), **made.pop("body", {})}
+            solving = {"times": (scene.times - scene.start_time).tolist(), "tolerance": scene.tolerance}
+            found = scene_from({"name": scene.name, "kind": kind, "source": scene.source, "solve": solving, "body": body, **made})
+        except (SceneError, DomainError, ValueError):
+            continue
+        if _same(_physics(given), _physics(posed_of(as_general(found)))):
+            return found
     return None

@@ -24,7 +24,7 @@ from gyrostat.rows import Place, inputs_of, numbers_of, refilled
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["request"]
+__all__ = ["posed_of", "request"]
 
 
 def request(scene: "Scene", places: Iterable[Place], columns: Iterable[Floats], sound: NDArray[np.bool_]) -> dict[str, Any]:
@@ -39,7 +39,7 @@ def _of_plain(scene: "Scene", varied: list[tuple[Place, Floats]], sound: NDArray
     for place, column in varied:
         for number in place.numbers:
             numbers[number] = np.where(sound, column, numbers[number]).view(OverRows)
-    alone, together = _posed(scene), _posed(_with_numbers(scene, iter(numbers)))
+    alone, together = posed_of(scene), posed_of(_with_numbers(scene, iter(numbers)))
     given, names = _core.general_numbers(alone)
     at: list[int] = []
     values: list[Floats] = []
@@ -73,7 +73,7 @@ def _of_going_on(scene: "Scene", varied: list[tuple[Place, Floats]], sound: NDAr
 def _going_on(scene: "Scene") -> tuple[dict[str, Any], Floats]:
     """The scene as the compiled core takes it, and its numbers with those of the error of its start behind them."""
     error = arguments(scene).get("start_error", {})
-    made = since(scene.start_time, _posed(scene))
+    made = since(scene.start_time, posed_of(scene))
     return made, np.concatenate([_core.general_numbers(made)[0], [error.get(name, 0.0) for name in START_ERRORS]])
 
 
@@ -82,7 +82,8 @@ def _asking(scene: "Scene") -> dict[str, Any]:
     return {"recognise": solve["recognise"], "euler": axes_of(solve["euler"]) if solve["euler"] else None}
 
 
-def _posed(scene: "Scene") -> dict[str, Any]:
+def posed_of(scene: "Scene") -> dict[str, Any]:
+    """The physics of a scene as the compiled ladder takes it."""
     return posed(**{name: value for name, value in arguments(scene).items() if name not in (*QUESTION, "start_time", "start_error")})
 
 

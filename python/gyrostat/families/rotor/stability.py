@@ -31,6 +31,7 @@ SETTLED: Final = math.radians(5)
 MOTOR_TIMES: Final = 20.0
 NUTATION_TIMES: Final = 12.0
 FOLLOWED_TIMES: Final = 8001
+CIRCLE: Final = 3600  # directions at that angle
 # Where swings of the nutation are looked at one by one: how many at most, and at how many times each, so that a peak is seen to a part in 2000.
 MOST_SWINGS: Final = 4000
 TIMES_A_SWING: Final = 50
@@ -183,20 +184,21 @@ def _settling(made: Mapping[str, Any], given: Mapping[str, Any], body: Mapping[s
     t = np.linspace(0.0, followed, FOLLOWED_TIMES)
     answer = rotor.solve(**{**how, "times": t})
     V = float(answer["lyapunov"][-1])
-    # The level of F that keeps H within the angle, by its curvature across m.
-    B = l * np.linalg.inv(theta) - attractor["spin_rate"] * np.eye(3)
-    across = np.linalg.svd(m[None, :])[2][1:]
-    end = attractor["level"] + 0.5 * l * float(np.linalg.eigvalsh(across @ B @ across.T)[0]) * SETTLED**2
+    # The least F at that angle: what has come nearer with less of V stays nearer.
+    across, turn = np.linalg.svd(m[None, :])[2][1:], np.linspace(0.0, 2 * math.pi, CIRCLE, endpoint=False)[:, None]
+    circle = math.cos(SETTLED) * m + math.sin(SETTLED) * (np.cos(turn) * across[0] + np.sin(turn) * across[1])
+    end = float(np.min(Sphere(theta, np.asarray(given["axis"], dtype=float), l, made["target_momentum"]).level(circle)))
     if V <= end:
         # V never grows: from its first time below the level on no swing leads out again, and before it the swings are looked at one by one
         sure, last = int(np.argmax(answer["lyapunov"] <= end)), _last_outside(answer, l, m)
         begin = 0.0 if last is None else float(t[last])
         swings = (t[sure] - begin) * max(im for _, im in attractor["eigenvalues"]) / (2 * math.pi)
-        if not 0 < swings < MOST_SWINGS:
+        if swings > MOST_SWINGS:
             return float(t[sure]), "followed"
-        fine = np.linspace(begin, float(t[sure]), math.ceil(swings * TIMES_A_SWING) + 2)
-        last = _last_outside(rotor.solve(**{**how, "times": fine}), l, m)
-        return (begin if last is None else float(fine[min(last + 1, len(fine) - 1)])), "followed"
+        if swings > 0:
+            t = np.linspace(begin, float(t[sure]), math.ceil(swings * TIMES_A_SWING) + 2)
+            last = _last_outside(rotor.solve(**{**how, "times": t}), l, m)
+        return (begin if last is None else float(t[min(last + 1, len(t) - 1)])), "followed"
     x = float(answer["rotor_rate"][-1]) - given["no_load_rate"]
     in_motor = 0.5 * given["axial_inertia"] * made["coupling"] * x * x
     if in_motor > 0.1 * (V - attractor["level"]):
