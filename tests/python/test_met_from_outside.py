@@ -416,3 +416,47 @@ def test_a_momentum_that_stands_in_the_body_is_not_averaged() -> None:
                      "torque": {"control": [0.0] * 3, "drag": 0.0}, "initial": {"angular_momentum": momentum}, "solve": {"times": [25424.2], "tolerance": 1e-2}}
             with pytest.raises((gyrostat.DomainError, gyrostat.ConvergenceError)):
                 gyrostat.solve(given, model="averaged-2", ask=["angular_momentum"])
+
+
+def test_a_slim_body_of_revolution_in_turned_axes_from_its_momentum() -> None:
+    axis, cycle = np.array([1.0, 2.0, 2.0]) / 3, np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
+    momentum = np.array([0.1, 0.3, -0.2])
+    for slight in (1e-2, 1e-3, 1e-4, 1e-6):
+        tensor = np.eye(3) - (1 - slight) * np.outer(axis, axis)
+        tensor = (tensor + tensor.T) / 2
+
+        def moved(turn: Any, tensor: Any = tensor) -> gyrostat.Answer:
+            return gyrostat.solve({"name": "rod", "kind": "free", "body": {"inertia": (turn @ tensor @ turn.T).tolist()},
+                                   "initial": {"angular_momentum": (turn @ momentum).tolist()}, "solve": {"times": [1000.0]}}, ask="all")
+
+        one, other = moved(np.eye(3)), moved(cycle)
+        for name in ("angular_momentum", "angular_velocity"):
+            away = np.linalg.norm(cycle @ one[name][0] - other[name][0]) / np.linalg.norm(one[name][0])
+            assert away <= one.error[name] + other.error[name]
+        assert abs(one.scalars["period"] / other.scalars["period"] - 1) <= one.scalar_error["period"] + other.scalar_error["period"]  # type: ignore[operator]
+
+
+def test_the_turn_of_what_is_nearly_a_sphere_is_not_known() -> None:
+    tensor = [[.3430126536408835, 5.802410690864266e-10, 9.370189196342121e-10], [5.802410690864266e-10, .3430126565620416, 4.897013986644098e-09],
+              [9.370189196342121e-10, 4.897013986644098e-09, .3430126614370947]]
+    given = {"name": "sphere", "kind": "free", "body": {"inertia": tensor}, "initial": {"angular_velocity": [.3721424312042908, .07521966505504553, 1.1327914370351315]},
+             "solve": {"times": [1.0]}}
+    assert gyrostat.solve(given, ask=["turn_per_period"]).scalar_error["turn_per_period"] > 1
+
+
+def test_a_body_in_balance_under_a_gradient_has_no_period() -> None:
+    for order in ([0, 1, 2], [1, 2, 0]):
+        given = {"name": "balance", "kind": "heavy", "body": {"inertia": np.array([3.0, 2.0, 1.5])[order].tolist(), "mass": 1.0, "centre_of_mass": [0, 0, 0]},
+                 "field": {"gravity": 9.8, "gravity_gradient": 0.0177}, "solve": {"times": [1.0]},
+                 "initial": {"angular_velocity": [0, 0, 0], "down": np.array([0, 0, -1.0])[order].tolist()}}
+        assert gyrostat.solve(given).scalars["period"] is None
+
+
+@pytest.mark.skipif(not gyrostat.build_info()["cvode"], reason="built without CVODE")
+def test_cvode_does_not_hang_on_the_unit_of_inertia() -> None:
+    def attitude(unit: float) -> Any:
+        return deceleration.solve(inertia=np.array([4.0, 7.0, 9.0]) * unit, control=np.array([0.1, 0.5, 0.6]) * unit, drag=1e-3, law="carrier",
+                                  angular_momentum=np.array([10.0, -13.3, 36.9]) * unit, attitude=[0, 0, 0, 1], times=[40.0], tolerance=1e-6, model="full", integrator="cvode",
+                                  ask=["attitude"])
+    for unit in (1.0, 2.0**26, 2.0**-26):
+        assert attitude(unit).error["attitude"] < 1e-4

@@ -61,6 +61,8 @@ GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Problem<double>& probl
     if (pendulum->motion() == PendulumMotion::separatrix) return known;
     const bool rests = pendulum->motion() == PendulumMotion::rest;
     if (rests && growth_rate<double>(problem, {0, 0, 0}, start.down) > 0) return known;  // it stands
+    // at rest under the gradient alone the plane of the swing that does not come would be that of a rounding
+    if (rests && problem.moment().isZero(0)) return known;
     // with the gradient alone half a round repeats the rates, not down
     const bool half = pendulum->motion() == PendulumMotion::rotation && problem.moment().isZero(0);
     repeats(pendulum->period() * (half ? 2 : 1));

@@ -456,7 +456,10 @@ class MotionError {
     if (kind_ != Kind::spherical && other.kind != kind_) agree_ = false;
     add(share_, relative(own.period, other.period) / period_);
     const Scalar raw = other.turn - own.turn;
-    const Scalar turned = raw - 2 * pi<Scalar> * std::nearbyint(raw / (2 * pi<Scalar>));
+    Scalar turned = raw - 2 * pi<Scalar> * std::nearbyint(raw / (2 * pi<Scalar>));
+    // a period so much longer turns the body by whole turns more, as of one that is nearly a sphere
+    const Scalar further = std::abs(other.period - period_) * speed_;
+    if (further > 1 && !(std::abs(turned) > further)) turned = further;
     add(turn_, turned);
     add(turn_rate_, (turned - own.turn * (other.period - period_) / period_) / other.period);
   }
@@ -593,7 +596,9 @@ std::optional<MotionError<Scalar>> MotionError<Scalar>::of_precession(const Moti
   const Scalar lopsided = off * across * across / (J[1] * pace * R);
   const Scalar lifted = tilt + lopsided + (axes_given ? Scalar(0) : off * carried / (J[1] * pace));
   if (!(lifted < Scalar(0.1))) return std::nullopt;
-  const Scalar of_spin = assembly.body.momentum_given ? (along + carried) / J[k] : spin;
+  // the slight moment of a tensor is off by what the greatest is
+  const Scalar slim = axes_given ? Scalar(1) : J[0] / J[k];
+  const Scalar of_spin = assembly.body.momentum_given ? slim * (along + carried) / J[k] : spin;
   const Scalar of_pace = off * ((J[1] + J[k]) * of_spin + carried) / J[1] + gap * (R * lifted + J[k] * speed * tilt);
   const Scalar of_momentum = off * terms / J[1];
   MotionError error;
