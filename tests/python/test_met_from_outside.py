@@ -460,3 +460,13 @@ def test_cvode_does_not_hang_on_the_unit_of_inertia() -> None:
                                   ask=["attitude"])
     for unit in (1.0, 2.0**26, 2.0**-26):
         assert attitude(unit).error["attitude"] < 1e-4
+
+
+def test_on_which_side_of_a_separatrix_a_body_leaves_may_not_be_known() -> None:
+    given: dict[str, Any] = {"name": "drawn onto a separatrix", "kind": "deceleration", "body": {"inertia": [1.0, 0.9511979822664802, 0.07432108518322243]},
+                             "torque": {"control": [0.0008611436831064023, 8.611436831064023e-05, 0.0008611436831064023], "drag": 0.0},
+                             "initial": {"angular_velocity": [1.7257898874990543, 1.5954462917307988, 1.493418317770587]},
+                             "solve": {"times": [242.5564485250307], "tolerance": 1e-3, "ask": ["angular_momentum"]}}
+    answer = gyrostat.solve(given)  # the true one is -M, or M, by two units in the last place of a moment
+    assert not answer.met and answer.error["angular_momentum"] > 1
+    assert gyrostat.solve(given, ask=["angular_momentum_norm"]).met

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,6 +25,13 @@ concept GoesOnAlike = Course::goes_on_alike;
 /// A course whose state can be moved by about an amount of itself.
 template <class Course>
 concept Kicked = requires(Course course) { course.kick(course.time()); };
+
+/// A writer that tells of two rows whether their motions have parted for good, in the columns for which that lasts: `has_parted(a, b)`, `lasts(column)`.
+template <class Writer, class Row>
+concept TellsParted = requires(const Writer writer, const Row& row) {
+  { writer.has_parted(row, row) } -> std::same_as<bool>;
+  { writer.lasts(std::size_t()) } -> std::same_as<bool>;
+};
 
 /// What the walk found, over the asked times: the error that the distances of the runs tell, in units of the columns, and the sizes of these.
 template <class Writer>
@@ -111,6 +119,30 @@ bool is_next_to_end(std::span<const Scalar> times, std::size_t i, Scalar begin, 
   return i + 1 >= times.size() || times[i + 1] > end || i == 0 || times[i - 1] <= begin;
 }
 
+/// Lets distances fade, but for those of motions that have parted for good.
+template <class Writer>
+class Parting {
+  using Row = typename Comparison<Writer>::Row;
+  using Kept = typename Comparison<Writer>::ColumnErrors;
+
+ public:
+  explicit Parting(const Writer& writer) noexcept : writer_(writer) {}
+  void see(const Row& a, const Row& b) noexcept {
+    if constexpr (TellsParted<Writer, Row>) parted_ = parted_ || writer_.has_parted(a, b);
+  }
+  void fade(Kept& kept, typename Writer::Scalar share) const noexcept {
+    const Kept before = kept;
+    kept *= share;
+    if constexpr (TellsParted<Writer, Row>)
+      for (std::size_t i = 0; parted_ && i < std::size(Writer::columns); ++i)
+        if (writer_.lasts(i)) kept[i] = before[i];
+  }
+
+ private:
+  const Writer& writer_;
+  bool parted_ = false;
+};
+
 /// Steps the answer, and beside it its companions, over the asked times, and keeps its states there. Companions take tighter steps: their
 /// distance to the answer is its truncation, and their own distance what rounding and the data's last digits do. A course has step(t_max),
 /// time(), at(t) within the last step, and counts(); one that GoesOnAlike is given up where its steps would overrun their budget (Pace).
@@ -131,11 +163,14 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   using Rows = Comparison<Writer>;
   Walk<Writer> walk{Status::reached, Rows(writer), {}};
   typename Rows::ColumnErrors kept;
+  Parting<Writer> parting(writer);
   const auto look = [&](const typename Rows::Row& answer, Scalar t) noexcept {
     const auto one = walk.asked.row(runs.companion.at(t));
     auto away = Rows::apart(answer, one);
+    parting.see(answer, one);
     if (runs.second == nullptr) return kept.raise(error_of_distances(away, {}));
     const auto two = walk.asked.row(runs.second->at(t));
+    parting.see(answer, two);
     away.raise(Rows::apart(answer, two));
     kept.raise(error_of_distances(away, Rows::apart(one, two)));
   };
@@ -170,7 +205,7 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     walk.status = runs.companion.step(trips == 0 ? first / 2 : companion_reaches(before, stride, last));
     if (walk.status != Status::reached) break;
     const Scalar now = runs.companion.time();
-    kept *= 1 / (1 + (now - before) * rate / Scalar(honesty::fading_angle));
+    parting.fade(kept, 1 / (1 + (now - before) * rate / Scalar(honesty::fading_angle)));
     for (; next < times.size() && times[next] <= now && all_reach(times[next]); ++next) {
       states[next] = runs.answer.at(times[next]);
       const auto row = walk.asked.row(states[next]);

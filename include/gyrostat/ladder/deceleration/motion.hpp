@@ -176,6 +176,18 @@ struct Row {
                           S(static_cast<int>(state.regime)), q.x, q.y, q.z, q.w})
       *row++ = value;
   }
+
+  /// Momenta more than 120 degrees apart: beside a separatrix one has turned over, and the other may yet go the other way. At one late time both may
+  /// be near again by chance.
+  template <class Numbers>
+  bool has_parted(const Numbers& a, const Numbers& b) const noexcept {
+    const S along = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    return along < 0 &&
+           4 * along * along > (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+  }
+  static bool lasts(std::size_t place) noexcept {
+    return place == column::angular_momentum || place == column::angular_velocity || place == column::attitude;
+  }
 };
 
 }  // namespace gyrostat::deceleration
