@@ -111,16 +111,18 @@ def variance_shares(dataset: "xarray.Dataset", response: Response) -> dict[str, 
     for key, values in parameters(dataset).items():
         known = np.isfinite(response.values) & np.isfinite(values.values)
         x, y = values.values[known], response.values[known]
-        y = y / np.max(np.abs(y), initial=1e-300)  # whose squares are numbers
-        classes = min(MOST_CLASSES, round(math.sqrt(len(y) / 4)))
-        _, place = np.unique(np.floor(_ranks(x) * max(classes, 1) / max(len(y), 1)), return_inverse=True)
-        counts = np.bincount(place)
-        whole, between = float(np.sum((y - np.mean(y)) ** 2)) if len(y) else 0.0, len(counts) - 1
-        if not whole > 0 or between < 1 or len(y) < ENOUGH:
-            made[key] = math.nan
+        made[key] = math.nan
+        if len(y) < ENOUGH:
             continue
-        means = np.bincount(place, y - np.mean(y)) / counts
-        explained = float(np.sum(counts * means**2))
+        y = y / np.max(np.abs(y), initial=1e-300)  # whose squares are numbers
+        y = y - np.mean(y)
+        classes = min(MOST_CLASSES, round(math.sqrt(len(y) / 4)))
+        _, place = np.unique(np.floor(_ranks(x) * classes / len(y)), return_inverse=True)
+        counts = np.bincount(place)
+        whole, between = float(y @ y), len(counts) - 1
+        if not whole > 0 or between < 1:
+            continue
+        explained = float(np.sum(np.bincount(place, y) ** 2 / counts))
         made[key] = max(0.0, (explained - between * (whole - explained) / (len(y) - len(counts))) / whole)
     return made
 
@@ -300,7 +302,7 @@ def tornado(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
         ranked, explained, strength = rank_correlations(dataset, each), variance_shares(dataset, each), _strength(dataset, each)
         names = sorted(strength, key=lambda key: strength[key])
         place.barh(names, [ranked[key] for key in names], color=[COLOURS[0] if ranked[key] > 0 else COLOURS[1] for key in names])
-        place.plot([explained[key] for key in names], names, "kD", markersize=4, label="_")
+        place.plot([explained[key] for key in names], names, "kD", markersize=4)
         place.set_xlim(-1, 1)
         place.set_xticks((-1, -0.5, 0, 0.5, 1))
         place.axvline(0, color="black", linewidth=0.8)

@@ -278,14 +278,14 @@ def sentence(report: Mapping[str, Any]) -> str:
         return " ".join([*words, where, f"Undecided: {why}.",
                          *([f"By the mean over the nutation it should be after about {_duration(expected)}."] if expected else [])])
     end = report["steady_rotations"][verdict["index"]]
-    spin = {"recovers": "Recovers from flat spin: a", "inverted": "Leaves flat spin upside down (rotor momentum along -L): a",
+    spin = {"recovers": "Recovers from flat spin: a", "inverted": "Leaves flat spin upside down (rotor momentum against the whole): a",
             "stays": "Does not recover from flat spin: a", None: "A"}[verdict["flat_spin"]]
     how = {"by level": "V is below the lowest saddle", "by uniqueness": "it is the only minimum", "undecided": "V falls below the lowest saddle"}
     when = "from the start" if verdict["time"] == 0 else f"after {_duration(verdict['time'])}"
     words.append(f"{spin}ttractor {verdict['index']} is certified {when} ({how[verdict['certificate']]}). The rotor axis is {tilt} from the momentum "
                  f"at the start and {_degrees(end['rotor_axis_angle'])} at the attractor.")
     if verdict["settling_time"] == 0:
-        words.append("H is within 5° of it from the start.")
+        words.append("The momentum is within 5° of it from the start.")
     elif verdict["settling_time"] is not None:
         about = "about " if verdict["settling"] == "averaged" else ""
         words.append(f"The momentum stays within 5° of it after {about}{_duration(verdict['settling_time'])}.")
