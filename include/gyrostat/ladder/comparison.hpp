@@ -15,15 +15,6 @@
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
-/// The angle of the rotation between two attitudes, rad; the signs of the quaternions do not matter.
-template <Real Scalar>
-Scalar angle_between(const Quat<Scalar>& p, const Quat<Scalar>& q) noexcept {
-  const Quat<Scalar> d = conjugate(p) * q;
-  const Scalar square = d.x * d.x + d.y * d.y + d.z * d.z, sine = std::sqrt(square);
-  if (square < Scalar(1e-6L)) return 2 * sine * (1 + square / 6);  // of the arc sine, to 1e-13 of it
-  return 2 * std::atan2(sine, std::abs(d.w));
-}
-
 /// The distance of two motions, gathered time by time: greatest difference of each column, and its greatest norm in the first
 /// motion. Writer: `Writer::columns` is the table of the columns, `writer(state, row)` writes a state's row, and `writer.scale`, where
 /// it has one, holds the scales that the scene sets.

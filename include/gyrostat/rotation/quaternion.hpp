@@ -86,4 +86,13 @@ Quat<Scalar> from_matrix(const Mat3<Scalar>& R) noexcept {
   return {q.w / n, q.x / n, q.y / n, q.z / n};
 }
 
+/// The angle of the rotation between two attitudes, rad; the signs of the quaternions do not matter.
+template <Real Scalar>
+Scalar angle_between(const Quat<Scalar>& p, const Quat<Scalar>& q) noexcept {
+  const Quat<Scalar> d = conjugate(p) * q;
+  const Scalar square = d.x * d.x + d.y * d.y + d.z * d.z, sine = std::sqrt(square);
+  if (square < Scalar(1e-6L)) return 2 * sine * (1 + square / 6);  // of the arc sine, to 1e-13 of it
+  return 2 * std::atan2(sine, std::abs(d.w));
+}
+
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

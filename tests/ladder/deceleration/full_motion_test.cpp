@@ -32,7 +32,7 @@ struct StoredCase {
   std::vector<Vec3<double>> momentum;
 };
 
-std::vector<StoredCase> reference_cases() {
+std::vector<StoredCase> stored_cases() {
   std::ifstream file(GYROSTAT_TEST_DATA "/deceleration_full_motion.txt");
   REQUIRE(file);
   std::vector<StoredCase> cases;
@@ -86,16 +86,16 @@ Problem<S> cast(const Problem<double>& p) {
 }
 
 template <Real S>
-struct Solved {
+struct SolvedMotion {
   FullMotionAnswer<S> answer;
   std::vector<Vec3<S>> momentum;
   std::vector<Quat<S>> attitude;
 };
 
 template <Real S>
-Solved<S> solve(const Problem<S>& problem, const std::vector<S>& times, S tolerance, bool with_attitude = false,
-                FullMotionOptions<S> options = {}) {
-  Solved<S> solved;
+SolvedMotion<S> solve(const Problem<S>& problem, const std::vector<S>& times, S tolerance, bool with_attitude = false,
+                      FullMotionOptions<S> options = {}) {
+  SolvedMotion<S> solved;
   solved.momentum.resize(times.size());
   solved.attitude.resize(times.size());
   options.tolerance = tolerance;
@@ -112,8 +112,8 @@ Solved<S> solve(const Problem<S>& problem, const std::vector<S>& times, S tolera
 }
 
 /// Long double up to the last time: to a stop far behind it, which is not asked for, it would have most of its way.
-Solved<long double> true_until(const Problem<long double>& problem, const std::vector<long double>& times,
-                               long double tolerance) {
+SolvedMotion<long double> true_until(const Problem<long double>& problem, const std::vector<long double>& times,
+                                     long double tolerance) {
   FullMotionOptions<long double> options;
   options.find_stop = false;
   return solve(problem, times, tolerance, false, options);
@@ -138,7 +138,7 @@ Problem<double> simple(double control = 1e-2) {
 }  // namespace
 
 TEST_CASE("the full motion of the reference cases") {
-  const auto cases = reference_cases();
+  const auto cases = stored_cases();
   REQUIRE(cases.size() == 12);
   for (const StoredCase& c : cases) {
     CAPTURE(c.id);

@@ -11,12 +11,12 @@ using V = Vec3<double>;
 
 namespace {
 
-using Rates = FirstOrderRates<math::Native>;
-using Motion = OrbitMotion<Rates, double>;
+using Averages = FirstOrderRates<math::Native>;
+using OrbitRun = OrbitMotion<Averages, double>;
 
-constexpr auto nobody = [](const Level<double>&, Component, double) {};
+constexpr auto no_one = [](const Level<double>&, Component, double) {};
 
-Motion motion_of(const Problem<double>& p, double tolerance = 1e-12) {
+OrbitRun orbit_run_of(const Problem<double>& p, double tolerance = 1e-12) {
   const auto orbit = Orbit<double>::through(p, p.momentum);
   REQUIRE(orbit);
   return {p, orbit->level(), orbit->component(), 0, tolerance, infinity<double>};
@@ -41,9 +41,9 @@ TEST_CASE("orbit motion: the reference cases, with rotor and without", "[deceler
     CAPTURE(c.id);
     if (c.id == "P05") continue;  // through the separatrix between the two regimes without rotor: another file
     const Problem<double> p = c.scene().problem();
-    Motion motion = motion_of(p);
+    OrbitRun motion = orbit_run_of(p);
     for (std::size_t i = 0; i < c.data.times.size(); ++i) {
-      REQUIRE(motion.advance(c.data.times[i], 0, nobody) == ode::Status::reached);
+      REQUIRE(motion.advance(c.data.times[i], 0, no_one) == ode::Status::reached);
       const auto now = motion.sample();
       CHECK(now.level.R == Approx(c.norm[i]).epsilon(1e-9));
       CHECK(energy_of(p, now.level) == Approx(c.energy[i]).epsilon(1e-8));
@@ -59,58 +59,58 @@ TEST_CASE("orbit motion: without rotor it is the averaged motion", "[deceleratio
     auto p = gyrostat_of(V(0, 0, 0));
     p.momentum = M;
     p.control = 1e-3 * (M[0] > .5 ? V(.6, .9, 1) : V(1, .9, .6)).asDiagonal().toDenseMatrix();
-    Motion orbits = motion_of(p);
+    OrbitRun orbits = orbit_run_of(p);
     AveragedMotion<math::Native, double> polhodes(p, polhode_through<double>(p.inverse_inertia, M), M.norm(), 0, 1e-12,
                                                   infinity<double>);
     for (const double t : {200., 600., 900.}) {
-      REQUIRE(orbits.advance(t, 0, nobody) == ode::Status::reached);
+      REQUIRE(orbits.advance(t, 0, no_one) == ode::Status::reached);
       REQUIRE(polhodes.advance(t, 0, [](const auto&, double) {}) == ode::Status::reached);
       const auto s = polhodes.state();
       CHECK(orbits.sample().level.R == Approx(s.norm).epsilon(1e-10));
       CHECK(energy_of(p, orbits.sample().level) ==
             Approx(s.norm * s.norm * s.polhode.energy_ratio() / 2).epsilon(1e-9));
     }
-    CHECK(*orbits.stop_time(nobody) == Approx(*polhodes.stop_time()).epsilon(1e-6));
+    CHECK(*orbits.stop_time(no_one) == Approx(*polhodes.stop_time()).epsilon(1e-6));
   }
 }
 
 TEST_CASE("orbit motion: equal torques have a closed |M| with any rotor", "[deceleration]") {
   auto p = gyrostat_of(V(.2, .15, .3));
   p.control = 1e-3 * Mat3<double>::Identity();
-  Motion motion = motion_of(p);
+  OrbitRun motion = orbit_run_of(p);
   const double R = p.momentum.norm(), b = 1e-3, drag = p.drag;
   for (const double t : {100., 500.}) {
-    REQUIRE(motion.advance(t, 0, nobody) == ode::Status::reached);
+    REQUIRE(motion.advance(t, 0, no_one) == ode::Status::reached);
     CHECK(motion.sample().level.R == Approx((R + b / drag) * std::exp(-drag * t) - b / drag).epsilon(1e-11));
   }
-  const auto stop = motion.stop_time(nobody);
+  const auto stop = motion.stop_time(no_one);
   REQUIRE(stop);
   CHECK(*stop == Approx(std::log1p(drag * R / b) / drag).epsilon(1e-6));
-  REQUIRE(motion.advance(2 * *stop, 0, nobody) == ode::Status::reached);
+  REQUIRE(motion.advance(2 * *stop, 0, no_one) == ode::Status::reached);
   CHECK(motion.sample().at_rest);
 }
 
 TEST_CASE("orbit motion: the carrier's laws drain the carrier's energy to zero", "[deceleration]") {
   const auto p = gyrostat_of(V(.2, .15, .3), Law::carrier);
-  Motion motion = motion_of(p);
+  OrbitRun motion = orbit_run_of(p);
   double before = infinity<double>;
   for (const double t : {100., 300., 500.}) {
-    REQUIRE(motion.advance(t, 0, nobody) == ode::Status::reached);
+    REQUIRE(motion.advance(t, 0, no_one) == ode::Status::reached);
     const double h = energy_of(p, motion.sample().level);
     CHECK(h < before);
     CHECK(h > 0);
     before = h;
   }
-  const auto stop = motion.stop_time(nobody);
+  const auto stop = motion.stop_time(no_one);
   REQUIRE(stop);
-  REQUIRE(motion.advance(*stop * .999, 0, nobody) == ode::Status::reached);
+  REQUIRE(motion.advance(*stop * .999, 0, no_one) == ode::Status::reached);
   CHECK(motion.sample().level.R == Approx(p.rotor_momentum.norm()).epsilon(2e-3));
 }
 
 TEST_CASE("orbit motion: a floor ends it", "[deceleration]") {
   const auto p = gyrostat_of(V(.2, .15, .3));
-  Motion motion = motion_of(p);
-  REQUIRE(motion.advance(infinity<double>, .3, nobody) == ode::Status::reached);
+  OrbitRun motion = orbit_run_of(p);
+  REQUIRE(motion.advance(infinity<double>, .3, no_one) == ode::Status::reached);
   CHECK(motion.floored());
   CHECK(motion.opposed() <= .3);
   CHECK(motion.sample().level.R == Approx(motion.opposed()));
@@ -120,16 +120,16 @@ TEST_CASE("orbit motion: a floor ends it", "[deceleration]") {
 TEST_CASE("orbit motion: no control, no drag", "[deceleration]") {
   auto p = gyrostat_of(V(.2, .15, .3));
   p.control.setZero();
-  Motion dragged = motion_of(p);
-  CHECK(*dragged.stop_time(nobody) == infinity<double>);
-  REQUIRE(dragged.advance(5000, 0, nobody) == ode::Status::reached);
+  OrbitRun dragged = orbit_run_of(p);
+  CHECK(*dragged.stop_time(no_one) == infinity<double>);
+  REQUIRE(dragged.advance(5000, 0, no_one) == ode::Status::reached);
   CHECK(dragged.sample().level.R == Approx(p.momentum.norm() * std::exp(-1.5)).epsilon(1e-9));
-  Motion late = motion_of(p, 1e-6);
-  REQUIRE(late.advance(4e5, 0, nobody) == ode::Status::reached);
+  OrbitRun late = orbit_run_of(p, 1e-6);
+  REQUIRE(late.advance(4e5, 0, no_one) == ode::Status::reached);
   CHECK_FALSE(late.sample().at_rest);
   p.drag = 0;
-  Motion free = motion_of(p);
-  REQUIRE(free.advance(1e4, 0, nobody) == ode::Status::reached);
+  OrbitRun free = orbit_run_of(p);
+  REQUIRE(free.advance(1e4, 0, no_one) == ode::Status::reached);
   CHECK(free.sample().level.R == p.momentum.norm());
   CHECK(energy_of(p, free.sample().level) == Approx(p.energy(p.momentum)).epsilon(1e-13));
 }
@@ -141,10 +141,10 @@ TEST_CASE("orbit motion: units scale out", "[deceleration]") {
   q.rotor_momentum *= 2;
   q.control *= 4;
   q.drag *= 2;
-  Motion a = motion_of(p), b = motion_of(q);
+  OrbitRun a = orbit_run_of(p), b = orbit_run_of(q);
   for (const double t : {100., 500.}) {
-    REQUIRE(a.advance(t, 0, nobody) == ode::Status::reached);
-    REQUIRE(b.advance(t / 2, 0, nobody) == ode::Status::reached);
+    REQUIRE(a.advance(t, 0, no_one) == ode::Status::reached);
+    REQUIRE(b.advance(t / 2, 0, no_one) == ode::Status::reached);
     CHECK(b.sample().level.R == Approx(2 * a.sample().level.R).epsilon(1e-10));
     CHECK(b.sample().level.eta == Approx(2 * a.sample().level.eta).epsilon(1e-10).margin(1e-12));
   }
@@ -159,11 +159,11 @@ TEST_CASE("orbit motion: no heap, in either order", "[deceleration]") {
     const auto mean = mean_of<math::Native>(p, p.momentum, &start);
     REQUIRE(mean);
     const std::size_t before = allocations();
-    Motion first(p, orbit->level(), orbit->component(), 0, 1e-8, infinity<double>);
-    const auto one = first.advance(400, 0, nobody);
+    OrbitRun first(p, orbit->level(), orbit->component(), 0, 1e-8, infinity<double>);
+    const auto one = first.advance(400, 0, no_one);
     using Second = SecondOrderRates<math::Native, double>;
     OrbitMotion<Second, double> second(p, mean->level, mean->component, mean->phase, 1e-8, 1e-6, Second{start});
-    const auto two = second.advance(100, 0, nobody);
+    const auto two = second.advance(100, 0, no_one);
     const auto sample = second.sample();
     CHECK(allocations() == before);
     CHECK(one == ode::Status::reached);

@@ -8,7 +8,7 @@ using namespace scenes;
 
 namespace {
 
-struct Seen {
+struct WithRotors {
   double norm, energy, vector;
 };
 
@@ -21,7 +21,7 @@ Case gyrostat_case(double eps, Law law, double end = .35) {
   return c;
 }
 
-Seen errors_of(int model, double eps, Law law) {
+WithRotors errors_of(int model, double eps, Law law) {
   const Case c = gyrostat_case(eps, law);
   const Answer truth = c.truth(1e-11), answer = c.with(model, 1e-5).solve();
   check_honest(answer, truth);
@@ -29,20 +29,20 @@ Seen errors_of(int model, double eps, Law law) {
           model == rung::averaged_2 ? distance(answer, truth, "angular_momentum") : 0};
 }
 
-double slope(double coarse, double fine) { return std::log(coarse / fine) / std::log(4); }
+double slope_by_4(double coarse, double fine) { return std::log(coarse / fine) / std::log(4); }
 
 }  // namespace
 
 TEST_CASE("orbit rung: orders with rotor momentum, under both laws", "[deceleration]") {
   for (const Law law : {Law::total, Law::carrier}) {
     CAPTURE(int(law));
-    const Seen a = errors_of(rung::averaged, 4e-4, law), b = errors_of(rung::averaged, 1e-4, law);
-    CHECK(slope(a.norm, b.norm) == Approx(1).margin(.15));
-    CHECK(slope(a.energy, b.energy) == Approx(1).margin(.15));
-    const Seen c = errors_of(rung::averaged_2, 4e-4, law), d = errors_of(rung::averaged_2, 1e-4, law);
-    CHECK(slope(c.norm, d.norm) == Approx(2).margin(.15));
-    CHECK(slope(c.energy, d.energy) == Approx(2).margin(.15));
-    CHECK(slope(c.vector, d.vector) == Approx(1).margin(.15));
+    const WithRotors a = errors_of(rung::averaged, 4e-4, law), b = errors_of(rung::averaged, 1e-4, law);
+    CHECK(slope_by_4(a.norm, b.norm) == Approx(1).margin(.15));
+    CHECK(slope_by_4(a.energy, b.energy) == Approx(1).margin(.15));
+    const WithRotors c = errors_of(rung::averaged_2, 4e-4, law), d = errors_of(rung::averaged_2, 1e-4, law);
+    CHECK(slope_by_4(c.norm, d.norm) == Approx(2).margin(.15));
+    CHECK(slope_by_4(c.energy, d.energy) == Approx(2).margin(.15));
+    CHECK(slope_by_4(c.vector, d.vector) == Approx(1).margin(.15));
     CHECK(d.norm < b.norm / 50);
   }
 }

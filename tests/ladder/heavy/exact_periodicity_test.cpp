@@ -23,7 +23,7 @@ Problem<double> body(double A, double B, double C, const Vec3<double>& centre, d
 
 State<double> released(const Vec3<double>& rate, const Vec3<double>& down) { return {rate, down.normalized(), {}}; }
 
-const Vec3<double> hanging{0, 0, 0.03};
+const Vec3<double> centre_below{0, 0, 0.03};
 
 }  // namespace
 
@@ -33,13 +33,13 @@ TEST_CASE("a planar swing has a period and a plane that stands still, symmetric 
       CAPTURE(gradient, rate);
       // about axis 1; with a gradient the symmetric body has a closed form, the uneven one only without weight
       const auto from = released({rate, 0, 0}, {0, 0.5, 1});
-      const auto even = periodicity_from(body(0.002, 0.002, 0.001, hanging, 9.80665, gradient), from);
+      const auto even = periodicity_from(body(0.002, 0.002, 0.001, centre_below, 9.80665, gradient), from);
       CHECK(even.precession == 0);
       CHECK(even.period_error < 1e-11);
-      CHECK(gap(body(0.002, 0.002, 0.001, hanging, 9.80665, gradient), from, even.period) < 1e-11);
-      CHECK(gap(body(0.002, 0.002, 0.001, hanging, 9.80665, gradient), from, even.period / 2) > 1e-3);
+      CHECK(gap(body(0.002, 0.002, 0.001, centre_below, 9.80665, gradient), from, even.period) < 1e-11);
+      CHECK(gap(body(0.002, 0.002, 0.001, centre_below, 9.80665, gradient), from, even.period / 2) > 1e-3);
       if (gradient > 0) continue;
-      const auto uneven = periodicity_from(body(0.002, 0.0025, 0.001, hanging, 9.80665, 0), from);
+      const auto uneven = periodicity_from(body(0.002, 0.0025, 0.001, centre_below, 9.80665, 0), from);
       CHECK(uneven.precession == 0);
       CHECK(uneven.period == Approx(even.period).epsilon(1e-13));
     }
@@ -57,7 +57,7 @@ TEST_CASE("a planar swing has a period and a plane that stands still, symmetric 
 TEST_CASE("steady precession has one rate and one period, whichever rung answers", "[heavy]") {
   for (const double gradient : {0.0, 20.0})
     for (const bool fast : {false, true}) {
-      const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, gradient);
+      const auto p = body(0.002, 0.002, 0.001, centre_below, 9.80665, gradient);
       const double u = 0.8, spin = 300;
       const auto rates = regular_precession(*SymmetricTop<double>::of(p), u, spin);
       State<double> from;
@@ -118,7 +118,7 @@ TEST_CASE("the trace of an unstable steady precession is not that of a slow nuta
 }
 
 TEST_CASE("mean precession of a nutating top is given by every rung, of an upright one by none", "[heavy]") {
-  const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, 0);
+  const auto p = body(0.002, 0.002, 0.001, centre_below, 9.80665, 0);
   const auto from = released({1, 2, 60}, {0.6, 0, 0.8});
   const auto known = periodicity_from(p, from);
   CHECK(std::isnan(known.period));
@@ -170,7 +170,7 @@ TEST_CASE("what a conversion errs is in the errors of period and precession", "[
     Quat<double> attitude;
   };
   for (const Case& given : {Case{{1, 2, 60}, {0.6, 0.3, -0.2, 0.7}}, Case{{0.3, -0.1, 9}, {0.1, 0.9, 0.3, 0.2}}}) {
-    const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, 0);
+    const auto p = body(0.002, 0.002, 0.001, centre_below, 9.80665, 0);
     State<double> from;
     from.attitude = normalised(given.attitude);
     from.angular_velocity = given.rate;
@@ -192,7 +192,7 @@ TEST_CASE("what a conversion errs is in the errors of period and precession", "[
     CHECK(known.precession_error > periodicity_from(p, scene.start()).precession_error);
   }
   // a swing that may as well go over the top is known by neither
-  const auto p = body(0.002, 0.002, 0.001, hanging, 9.80665, 0);
+  const auto p = body(0.002, 0.002, 0.001, centre_below, 9.80665, 0);
   State<double> upright;
   upright.attitude = normalised(Quat<double>{1e-17, 1, 0, 0});
   Question question;

@@ -10,7 +10,7 @@ using namespace gyrostat::heavy;
 
 namespace {
 
-Problem<double> body(const Vec3<double>& inertia, const Vec3<double>& centre, double gradient = 0) {
+Problem<double> stone_about(const Vec3<double>& inertia, const Vec3<double>& centre, double gradient = 0) {
   const auto made = Problem<double>::make(inertia, 0.8, centre, 9.80665, gradient);
   REQUIRE(made);
   return *made;
@@ -31,23 +31,23 @@ TEST_CASE("plain starts of fast periodic motions close", "[heavy]") {
     CHECK((start->down - orbit->start.down).norm() < 1e-15);
     CHECK(std::abs((start->attitude * conjugate(orbit->start.attitude)).w) == Approx(1).epsilon(1e-14));
   };
-  check(body(uneven, {0, 0, 0}), {40, 0.3});
-  check(body(uneven, {0.01, 0.004, 0}), {-40, 0});
-  check(body(uneven, {0, 0, 0}, 3), {40, 0});
-  check(body({0.0016, 0.0016, 0.002}, {0, 0, 0.01}), {40, 0.3});
-  check(body({0.0016, 0.0016, 0.002}, {0, 0, -0.01}, 5), {-40, -0.6});
+  check(stone_about(uneven, {0, 0, 0}), {40, 0.3});
+  check(stone_about(uneven, {0.01, 0.004, 0}), {-40, 0});
+  check(stone_about(uneven, {0, 0, 0}, 3), {40, 0});
+  check(stone_about({0.0016, 0.0016, 0.002}, {0, 0, 0.01}), {40, 0.3});
+  check(stone_about({0.0016, 0.0016, 0.002}, {0, 0, -0.01}, 5), {-40, -0.6});
 }
 
 TEST_CASE("periodic motions without a plain start", "[heavy]") {
-  CHECK(plain_start(body(uneven, {0.01, 0, 0}), {40, 0.3}).error() == Errc::not_applicable);
-  CHECK(plain_start(body(uneven, {0.01, 0, 0.001}), {40, 0}).error() == Errc::not_applicable);
-  CHECK(plain_start(body(uneven, {0, 0, 0}, 1), {40, 0.3}).error() == Errc::not_applicable);
-  CHECK(plain_start(body({0.0016, 0.0016, 0.002}, {0, 0, -0.01}), {1, 0.3}).error() == Errc::no_convergence);
-  CHECK(plain_start(body(uneven, {0, 0, 0}), {0, 0.3}).error() == Errc::out_of_domain);
+  CHECK(plain_start(stone_about(uneven, {0.01, 0, 0}), {40, 0.3}).error() == Errc::not_applicable);
+  CHECK(plain_start(stone_about(uneven, {0.01, 0, 0.001}), {40, 0}).error() == Errc::not_applicable);
+  CHECK(plain_start(stone_about(uneven, {0, 0, 0}, 1), {40, 0.3}).error() == Errc::not_applicable);
+  CHECK(plain_start(stone_about({0.0016, 0.0016, 0.002}, {0, 0, -0.01}), {1, 0.3}).error() == Errc::no_convergence);
+  CHECK(plain_start(stone_about(uneven, {0, 0, 0}), {0, 0.3}).error() == Errc::out_of_domain);
 }
 
 TEST_CASE("a departure from the forced motion grows no faster than stated", "[heavy]") {
-  const auto p = body({0.0011, 0.0014, 0.002}, {0.012, 0.009, 0.01});
+  const auto p = stone_about({0.0011, 0.0014, 0.002}, {0.012, 0.009, 0.01});
   const double spin = 80, span = 2;
   const auto orbit = periodic_orbit<double>(p, spin, 0.1);
   REQUIRE(orbit);
@@ -74,7 +74,7 @@ TEST_CASE("a departure from the forced motion grows no faster than stated", "[he
 TEST_CASE("a departure grows about an unstable axis no faster than stated", "[heavy]") {
   const double spin = 80;
   for (const Vec3<double>& moments : {Vec3<double>(0.0011, 0.0024, 0.002), Vec3<double>(0.0019, 0.0024, 0.002)}) {
-    const auto p = body(moments, {0.01, 0, 0});
+    const auto p = stone_about(moments, {0.01, 0, 0});
     const auto scaled = *Scaled<double>::make(p, spin, 0.1);
     REQUIRE(Floquet<double>(scaled).verdict == FastStability::unstable);
     const auto orbit = periodic_orbit<double>(p, spin, 0.1);

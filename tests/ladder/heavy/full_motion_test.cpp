@@ -20,15 +20,15 @@ using ode::Status;
 namespace {
 
 template <Real S>
-struct Solved {
+struct SolvedMotion {
   FullMotionAnswer<S> answer;
   std::vector<State<S>> states;
 };
 
 template <Real S>
-Solved<S> solve(const Problem<S>& problem, const State<S>& start, const std::vector<S>& times, S tolerance,
-                bool attitude = false, FullMotionOptions<S> options = {}) {
-  Solved<S> solved;
+SolvedMotion<S> solve(const Problem<S>& problem, const State<S>& start, const std::vector<S>& times, S tolerance,
+                      bool attitude = false, FullMotionOptions<S> options = {}) {
+  SolvedMotion<S> solved;
   solved.states.resize(times.size());
   options.tolerance = tolerance;
   options.attitude = attitude;
@@ -56,7 +56,7 @@ State<long double> wide(const State<double>& s) {
 
 /// True errors of an answer, by the same equations in long double.
 ColumnErrors<double> true_errors(const Problem<double>& problem, const State<double>& start,
-                                 const std::vector<double>& times, const Solved<double>& solved, bool attitude) {
+                                 const std::vector<double>& times, const SolvedMotion<double>& solved, bool attitude) {
   const auto truth = solve<long double>(cast<long double>(problem), cast<long double>(start),
                                         {times.begin(), times.end()}, 1e-16L, attitude);
   REQUIRE(truth.answer.status == Status::reached);

@@ -15,11 +15,10 @@ using namespace gyrostat::heavy;
 
 namespace {
 
-const Vec3<double> moments{1, 1.5, 2}, centre{0.01, -0.02, 0.015};
-
 /// In axes turned by R.
 Scene scene(const Mat3<double>& R, const State<double>& start, std::vector<double> times, bool attitude = false,
             double tolerance = 1e-8) {
+  const Vec3<double> moments{1, 1.5, 2}, centre{0.01, -0.02, 0.015};
   const auto body = Body::make(R * moments.asDiagonal() * R.transpose(), 1, R * centre, 98, 0.3);
   REQUIRE(body);
   Question question;

@@ -12,12 +12,12 @@ using namespace gyrostat::heavy;
 namespace {
 
 /// omega = 2/5.
-Problem<double> resonant(double k = .7) { return unit_body(.55, .45 / .538, {.6, .48, .64}, k); }
+Problem<double> nutating_body(double k = .7) { return unit_body(.55, .45 / .538, {.6, .48, .64}, k); }
 
 }  // namespace
 
 TEST_CASE("heavy nutating orbits: close after five turns, and after no fewer", "[heavy]") {
-  const auto p = resonant();
+  const auto p = nutating_body();
   for (const int which : {0, 1}) {
     const auto found = nutating_orbit(p, 10., .1, 2, 5, which);
     REQUIRE(found);
@@ -37,7 +37,7 @@ TEST_CASE("heavy nutating orbits: close after five turns, and after no fewer", "
 TEST_CASE("heavy nutating orbits: the amplitude is the predicted one but for the first order", "[heavy]") {
   double off[2];
   for (const int i : {0, 1}) {
-    const auto found = nutating_orbit(resonant(), i == 0 ? 10. : 20., .1, 2, 5);
+    const auto found = nutating_orbit(nutating_body(), i == 0 ? 10. : 20., .1, 2, 5);
     REQUIRE(found);
     CHECK(found->predicted_amplitude == Approx(0.854084).epsilon(1e-5));
     off[i] = found->amplitude - found->predicted_amplitude;
@@ -46,11 +46,11 @@ TEST_CASE("heavy nutating orbits: the amplitude is the predicted one but for the
 }
 
 TEST_CASE("heavy nutating orbits: refusals", "[heavy]") {
-  CHECK(nutating_orbit(resonant(), 10., .1, 2, 4).error() == Errc::out_of_domain);
-  CHECK(nutating_orbit(resonant(), 10., .1, 0, 5).error() == Errc::out_of_domain);
-  CHECK(nutating_orbit(resonant(), 10., .1, 2, 5, 2).error() == Errc::out_of_domain);
+  CHECK(nutating_orbit(nutating_body(), 10., .1, 2, 4).error() == Errc::out_of_domain);
+  CHECK(nutating_orbit(nutating_body(), 10., .1, 0, 5).error() == Errc::out_of_domain);
+  CHECK(nutating_orbit(nutating_body(), 10., .1, 2, 5, 2).error() == Errc::out_of_domain);
   // far from the resonance, on the side without and on the side with a large amplitude
-  CHECK(nutating_orbit(resonant(), 10., .1, 1, 2).error() == Errc::not_applicable);
-  CHECK(nutating_orbit(resonant(), 10., .1, 1, 5).error() == Errc::not_applicable);
+  CHECK(nutating_orbit(nutating_body(), 10., .1, 1, 2).error() == Errc::not_applicable);
+  CHECK(nutating_orbit(nutating_body(), 10., .1, 1, 5).error() == Errc::not_applicable);
   CHECK(nutating_orbit(unit_body(.7, 1.3, {.6, .48, .64}, .7), 20., .1, 2, 5).error() == Errc::not_applicable);
 }

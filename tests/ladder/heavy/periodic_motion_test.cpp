@@ -15,7 +15,7 @@ using namespace gyrostat::heavy;
 namespace {
 
 template <Real S>
-Problem<S> stone(S b = S(1.6L)) {
+Problem<S> flat_stone(S b = S(1.6L)) {
   const auto made = Problem<S>::make(Vec3<S>(S(1.1L), b, 2) / 1000, S(0.8L), Vec3<S>(12, 9, 10) / 1000, S(9.80665L), 0);
   REQUIRE(made);
   return *made;
@@ -49,7 +49,7 @@ Followed<S> follow(const Problem<S>& problem, const PeriodicOrbit<S>& orbit, con
 
 TEST_CASE("a periodic motion carried on is that of the full equations", "[heavy]") {
   using Long = long double;
-  const auto problem = stone<Long>();
+  const auto problem = flat_stone<Long>();
   const auto orbit = periodic_orbit<Long>(problem, 30, 0.1L);
   REQUIRE(orbit);
   std::vector<Long> times;
@@ -67,7 +67,7 @@ TEST_CASE("a periodic motion carried on is that of the full equations", "[heavy]
 }
 
 TEST_CASE("an unstable periodic motion goes on as it began", "[heavy]") {
-  const auto problem = stone<double>(2.4);
+  const auto problem = flat_stone<double>(2.4);
   const auto orbit = periodic_orbit<double>(problem, 40, 0.2);
   REQUIRE(orbit);
   CHECK(orbit->trace_minus_4 > 5);
@@ -126,7 +126,7 @@ TEST_CASE("mean precession where the axis passes near the vertical has the right
 }
 
 TEST_CASE("times at the ends of periods", "[heavy]") {
-  const auto problem = stone<double>();
+  const auto problem = flat_stone<double>();
   const auto orbit = periodic_orbit<double>(problem, 40, 0.2);
   REQUIRE(orbit);
   const double T = orbit->period;

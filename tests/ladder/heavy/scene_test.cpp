@@ -9,10 +9,10 @@ using namespace gyrostat::heavy;
 
 namespace {
 
-const Vec3<double> moments{1, 1.5, 2}, centre{0.01, -0.02, 0.015};
+const Vec3<double> body_moments{1, 1.5, 2}, centre{0.01, -0.02, 0.015};
 
-Body body(const Mat3<double>& inertia, const Vec3<double>& at = centre) {
-  const auto made = Body::make(inertia, 1, at, 98, 0.3);
+Body body_of(const Mat3<double>& inertia, const Vec3<double>& offset = centre) {
+  const auto made = Body::make(inertia, 1, offset, 98, 0.3);
   REQUIRE(made);
   return *made;
 }
@@ -21,7 +21,7 @@ Body body(const Mat3<double>& inertia, const Vec3<double>& at = centre) {
 
 TEST_CASE("a heavy body keeps the caller's axes where they are principal", "[heavy]") {
   for (const Vec3<double>& order : {Vec3<double>(1, 1.5, 2), Vec3<double>(2, 1, 1.5), Vec3<double>(1.5, 2, 1)}) {
-    const Body b = body(order.asDiagonal());
+    const Body b = body_of(order.asDiagonal());
     CHECK(b.R_BP == Mat3<double>::Identity());
     CHECK(b.problem.inertia() == order);
     CHECK(b.problem.centre_of_mass() == centre);
@@ -31,7 +31,7 @@ TEST_CASE("a heavy body keeps the caller's axes where they are principal", "[hea
 TEST_CASE("a heavy body with a full tensor takes the principal axes nearest to its own", "[heavy]") {
   const Mat3<double> R = to_matrix(quaternion_from_vector<double>({0.2, -0.3, 0.1}));
   for (const Vec3<double>& order : {Vec3<double>(1, 1.5, 2), Vec3<double>(2, 1, 1.5), Vec3<double>(1.5, 1, 2)}) {
-    const Body b = body(R * order.asDiagonal() * R.transpose(), R * centre);
+    const Body b = body_of(R * order.asDiagonal() * R.transpose(), R * centre);
     CHECK((b.problem.inertia() - order).norm() < 1e-14);
     CHECK((b.R_BP - R).norm() < 1e-14);
     CHECK((b.problem.centre_of_mass() - centre).norm() < 1e-16);
@@ -40,7 +40,7 @@ TEST_CASE("a heavy body with a full tensor takes the principal axes nearest to i
 }
 
 TEST_CASE("heavy bodies that are none", "[heavy]") {
-  Mat3<double> J = moments.asDiagonal();
+  Mat3<double> J = body_moments.asDiagonal();
   const auto error = [&](const Mat3<double>& inertia, double mass = 1) {
     return Body::make(inertia, mass, centre, 98, 0.3).error();
   };
@@ -50,11 +50,11 @@ TEST_CASE("heavy bodies that are none", "[heavy]") {
   J(1, 0) = gyrostat::nan<double>;
   CHECK(error(J) == Errc::not_finite);
   CHECK(error(Vec3<double>(1, 1, 3).asDiagonal()) == Errc::triangle_inequality);
-  CHECK(error(moments.asDiagonal(), 0) == Errc::not_positive);
+  CHECK(error(body_moments.asDiagonal(), 0) == Errc::not_positive);
 }
 
 TEST_CASE("a heavy scene checks what it is given", "[heavy]") {
-  const Body b = body(moments.asDiagonal());
+  const Body b = body_of(body_moments.asDiagonal());
   Question question;
   question.times = {0, 1};
   State<double> start;
@@ -89,7 +89,7 @@ TEST_CASE("a heavy scene checks what it is given", "[heavy]") {
 
 TEST_CASE("a heavy scene stands in principal axes, down and attitude together", "[heavy]") {
   const Mat3<double> R = to_matrix(quaternion_from_vector<double>({0.2, -0.3, 0.1}));
-  const Body b = body(R * moments.asDiagonal() * R.transpose());
+  const Body b = body_of(R * body_moments.asDiagonal() * R.transpose());
   Question question;
   question.times = {0, 1};
   question.wants_attitude = true;

@@ -31,7 +31,7 @@ Solved solved(const Scene& scene, Monitor* monitor = nullptr) {
 const Vec3<double> stone_centre{0.012, 0.009, 0.01};
 const Problem<double> stone =
     *Problem<double>::make({0.0011, 0.0016, 0.002}, 0.8, stone_centre, 9.80665, 4.617791555485795e-06);
-const Problem<double> top = *Problem<double>::make({0.0016, 0.0016, 0.002}, 0.8, {0, 0, 0.01}, 9.80665, 0);
+const Problem<double> even_top = *Problem<double>::make({0.0016, 0.0016, 0.002}, 0.8, {0, 0, 0.01}, 9.80665, 0);
 
 }  // namespace
 
@@ -86,12 +86,12 @@ TEST_CASE("what is known exactly is answered exactly", "[heavy]") {
   start.down = {0.6, 0, 0.8};
   Question question;
   question.tolerance = 1e-9;
-  const auto scene = posed(top, start, 2, question);
+  const auto scene = posed(even_top, start, 2, question);
   const Solved made = solved(scene);
   CHECK(made.by("exact"));
   CHECK(made.answer.tried.size() == 1);
   check_honest(scene, made.answer);
-  const auto asked = periodic(top, 60, 0.3, 20, 1e-9);
+  const auto asked = periodic(even_top, 60, 0.3, 20, 1e-9);
   const Solved precessing = solved(asked);
   CHECK(precessing.by("exact"));
   check_honest(asked, precessing.answer);
@@ -114,7 +114,7 @@ TEST_CASE("the first row of a heavy answer is the start to the bit, in the calle
   const Mat3<double> R = to_matrix(normalised(Quat<double>{0.9, 0.1, -0.2, 0.15}));
   const auto body = Body::make(R * stone.inertia().asDiagonal() * R.transpose(), 0.8, R * stone_centre, 9.80665, 0);
   const auto sleeper =
-      Body::make(R * top.inertia().asDiagonal() * R.transpose(), 0.8, R * top.centre_of_mass(), 9.80665, 0);
+      Body::make(R * even_top.inertia().asDiagonal() * R.transpose(), 0.8, R * even_top.centre_of_mass(), 9.80665, 0);
   REQUIRE(body);
   REQUIRE(sleeper);
   Start start;

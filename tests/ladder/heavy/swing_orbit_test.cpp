@@ -20,7 +20,7 @@ TEST_CASE("heavy swings: small ones have the period of their mode, with a defect
   Tops random(51);
   for (int i = 0; i < 10; ++i) {
     const auto p = random.body(1, i % 2 == 0 ? 0 : 0.5);
-    const auto rest = hanging(p);
+    const auto rest = heavy::hanging(p);
     REQUIRE(rest);
     for (const int mode : {0, 1}) {
       const double T = 2 * pi<double> / rest->frequency[std::size_t(mode)];
@@ -50,7 +50,7 @@ TEST_CASE("heavy swings: close, rest twice, without vertical momentum, without h
       CHECK(orbit->start.angular_velocity.norm() == 0);
       CHECK(gap(p, orbit->start, orbit->period) < 1e-11);
       CHECK(later(p, orbit->start, orbit->period / 2).angular_velocity.norm() < 1e-10);
-      CHECK(orbit->start.down.dot(hanging(p)->down) == Approx(std::cos(0.8)).epsilon(1e-14));
+      CHECK(orbit->start.down.dot(heavy::hanging(p)->down) == Approx(std::cos(0.8)).epsilon(1e-14));
     }
   }
   CHECK(all >= 20);

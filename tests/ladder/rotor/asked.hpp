@@ -18,4 +18,18 @@ inline Result<Scene> make_scene(const Gyrostat<double>& body, const Asked& asked
   return made;
 }
 
+/// Nothing but nine times over the span.
+inline Asked asked(double span, double tolerance) {
+  Asked data;
+  for (int i = 0; i <= 8; ++i) data.times.push_back(span * i / 8);
+  data.tolerance = tolerance;
+  return data;
+}
+
+/// Makes it start with momentum H and rotor rate omega.
+inline void start(Asked& data, const Gyrostat<double>& body, const Vec3<double>& H, double omega) {
+  data.angular_velocity = body.inverse_inertia() * (H - body.axial_inertia() * omega * body.axis());
+  data.rotor_rate = omega;
+}
+
 }  // namespace gyrostat::rotor

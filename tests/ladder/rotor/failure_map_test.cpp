@@ -49,18 +49,6 @@ Answer honest(const Gyrostat<double>& body, const Asked& data, Integrator truth_
   return answer;
 }
 
-Asked asked(double span, double tolerance = 1e-8) {
-  Asked data;
-  for (int i = 0; i <= 6; ++i) data.times.push_back(span * i / 6);
-  data.tolerance = tolerance;
-  return data;
-}
-
-void start(Asked& data, const Gyrostat<double>& body, const Vec3<double>& H, double omega) {
-  data.angular_velocity = body.inverse_inertia() * (H - body.axial_inertia() * omega * body.axis());
-  data.rotor_rate = omega;
-}
-
 /// Principal axes are body axes, the rotor on one of them.
 Gyrostat<double> on_axis(int axis, double slope, double no_load_rate) {
   const Mat3<double> theta = Vec3<double>(3, 4, 5).asDiagonal();
@@ -80,7 +68,7 @@ TEST_CASE("failure map: bodies that cannot be are refused, one that no matter ha
 
   const auto body = Gyrostat<double>::make(theta, e, 2, 4, 1);
   REQUIRE(body);
-  Asked data = asked(5);
+  Asked data = asked(5, 1e-8);
   data.angular_velocity = {0.1, 0.2, 1};
   CHECK(warns(honest(*body, data), "not-realisable"));
   CHECK_FALSE(warns(honest(reference_body(0.2, 3), data), "not-realisable"));
@@ -90,7 +78,7 @@ TEST_CASE("failure map: momentum far smaller than the wheel's keeps all digits",
   const auto body = reference_body(0.05, 30);
   const double wheel = 0.35 * 20;
   for (const double ratio : {1e-4, 1e-8, 1e-12, 1e-15, 0.0}) {
-    Asked data = asked(60);
+    Asked data = asked(60, 1e-8);
     start(data, body, ratio * wheel * Vec3<double>(0.6, -0.48, 0.64), 20);
     const Answer answer = honest(body, data);
     CAPTURE(ratio, answer.model);
@@ -122,7 +110,7 @@ TEST_CASE("failure map: a motor of any stiffness is followed at the same price",
 TEST_CASE("failure map: on a principal axis the nutation dies out at no exponential rate", "[rotor]") {
   for (int axis = 0; axis < 3; ++axis) {
     const auto body = on_axis(axis, 0.3, 4);
-    Asked data = asked(40);
+    Asked data = asked(40, 1e-8);
     start(data, body, 8 * (Vec3<double>::Unit(axis) + Vec3<double>(0.2, 0.15, -0.1)).normalized(), 4);
     const Answer answer = honest(body, data);
     const auto steady = steady_rotations(body, 8.0);
@@ -143,7 +131,7 @@ TEST_CASE("failure map: on a principal axis the nutation dies out at no exponent
 TEST_CASE("failure map: a body symmetric about the rotor has no attractor", "[rotor]") {
   const Mat3<double> theta = Vec3<double>(4, 4, 5).asDiagonal();
   const auto body = Gyrostat<double>::make(theta, Vec3<double>::UnitZ(), 0.5, 0.2, 6).value();
-  Asked data = asked(100);
+  Asked data = asked(100, 1e-8);
   data.angular_velocity = {0.4, 0.3, 1};
   const Answer answer = honest(body, data);
   CHECK(std::strcmp(answer.model, "closed-form") == 0);
@@ -157,7 +145,7 @@ TEST_CASE("failure map: a start on a saddle is not certified, and its error grow
   for (const auto& rotation : steady) {
     if (rotation.type == SteadyType::minimum) continue;
     for (const double span : {5.0, 400.0}) {
-      Asked data = asked(span);
+      Asked data = asked(span, 1e-8);
       start(data, body, 8 * rotation.direction, 3);
       const auto scene = make_scene(body, data);
       Refusal refusal;
@@ -178,7 +166,7 @@ TEST_CASE("failure map: a start on a saddle is not certified, and its error grow
 
 TEST_CASE("failure map: between two attractors the margin is reported", "[rotor]") {
   const auto body = reference_body(2e-4, 3);
-  Asked data = asked(30);
+  Asked data = asked(30, 1e-8);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 3);
   const Answer answer = honest(body, data);
   CHECK(std::isnan(value_of(answer, "attractor")));
@@ -193,7 +181,7 @@ TEST_CASE("failure map: between two attractors the margin is reported", "[rotor]
 
 TEST_CASE("failure map: without a slope nothing is dissipated and nothing attracts", "[rotor]") {
   const auto body = reference_body(0, 3);
-  Asked data = asked(40);
+  Asked data = asked(40, 1e-8);
   data.angular_velocity = {0.4, -1.1, 0.7};
   data.rotor_rate = 5;
   const Answer answer = honest(body, data);
@@ -231,7 +219,7 @@ TEST_CASE("failure map: a rotor angle that runs away does not spoil the attitude
 TEST_CASE("failure map: numbers that are none, times that do not grow and endless work are refused", "[rotor]") {
   const auto body = reference_body(0.2, 3);
   const auto failure = [&](auto change) {
-    Asked data = asked(10);
+    Asked data = asked(10, 1e-8);
     change(data);
     return make_scene(body, data).error();
   };

@@ -50,15 +50,15 @@ struct Motion {
 };
 
 template <Real S>
-struct Solved {
+struct SolvedMotion {
   FullMotionAnswer<S> answer;
   std::vector<State<S>> states;
 };
 
 template <Real S>
-Solved<S> solve(const Gyrostat<S>& body, const State<S>& start, const std::vector<S>& times, S tolerance,
-                Integrator integrator = Integrator::any) {
-  Solved<S> solved;
+SolvedMotion<S> solve(const Gyrostat<S>& body, const State<S>& start, const std::vector<S>& times, S tolerance,
+                      Integrator integrator = Integrator::any) {
+  SolvedMotion<S> solved;
   solved.states.resize(times.size());
   FullMotionOptions<S> options;
   options.tolerance = tolerance;
@@ -79,7 +79,7 @@ List list(const ColumnErrors<S>& e) {
 }
 
 /// True errors of an answer to the motion, column by column; sets `known` to how well the truth is known.
-List true_errors(const Motion<double>& motion, const std::vector<double>& times, const Solved<double>& solved,
+List true_errors(const Motion<double>& motion, const std::vector<double>& times, const SolvedMotion<double>& solved,
                  List& known) {
   const auto wide = motion.widened();
   State<long double> start = wide.start();
@@ -235,7 +235,7 @@ TEST_CASE("a start next to an unstable rotation has two companions", "[rotor]") 
   FullMotionOptions<double> options;
   options.tolerance = 2.9666499646195915e-05;
   options.wanted = wanted;
-  Solved<double> solved;
+  SolvedMotion<double> solved;
   solved.states.resize(times.size());
   const auto made = full_motion<double>(motion.body, motion.start(), times, solved.states, options);
   REQUIRE(made);

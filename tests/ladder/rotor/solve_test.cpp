@@ -53,19 +53,6 @@ void check_honest(const Gyrostat<double>& body, const Asked& data, const Answer&
   }
 }
 
-Asked asked(double span, double tolerance = 1e-6) {
-  Asked data;
-  for (int i = 0; i <= 8; ++i) data.times.push_back(span * i / 8);
-  data.tolerance = tolerance;
-  return data;
-}
-
-/// The start with momentum H and rotor rate omega.
-void start(Asked& data, const Gyrostat<double>& body, const Vec3<double>& H, double omega) {
-  data.angular_velocity = body.inverse_inertia() * (H - body.axial_inertia() * omega * body.axis());
-  data.rotor_rate = omega;
-}
-
 }  // namespace
 
 TEST_CASE("a whole gyrostat at rest is answered in closed form", "[rotor]") {
@@ -105,7 +92,7 @@ TEST_CASE("near a steady rotation the linear tail answers a loose scene and more
 
 TEST_CASE("a tumbling start climbs to the full equations; V shows when the attractor is certain", "[rotor]") {
   const auto body = reference_body(0.2, 3);
-  Asked data = asked(400);
+  Asked data = asked(400, 1e-6);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);
   const Solved late = solved(body, data);
   CHECK(late.by("full"));
@@ -118,7 +105,7 @@ TEST_CASE("a tumbling start climbs to the full equations; V shows when the attra
   CHECK_FALSE(late.warns("attractor-undecided"));
   check_honest(body, data, late.answer);
 
-  data = asked(0.5);
+  data = asked(0.5, 1e-6);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);
   const Solved early = solved(body, data);
   CHECK(std::isnan(early.scalar("attractor")));
@@ -142,7 +129,7 @@ TEST_CASE("random scenes are honest", "[rotor]") {
 
 TEST_CASE("a rung asked for by name answers where it can, and says what it is worth", "[rotor]") {
   const auto body = reference_body(0.2, 3);
-  Asked data = asked(10);
+  Asked data = asked(10, 1e-6);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);
   data.rung = rung::closed_form;
   const Solved closed = solved(body, data);
@@ -186,12 +173,12 @@ TEST_CASE("the answer does not depend on the body axes", "[rotor]") {
 
 TEST_CASE("long work reports its progress and can be stopped", "[rotor]") {
   const auto body = reference_body(0.2, 3);
-  Asked data = asked(20);
+  Asked data = asked(20, 1e-6);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);
   Monitor monitor;
   CHECK(solved(body, data, &monitor).refusal.code == Errc::ok);
   CHECK(monitor.fraction.load() == 1);
-  data = asked(1e5);
+  data = asked(1e5, 1e-6);
   start(data, body, 8 * Vec3<double>(0.5, -0.7, 0.45).normalized(), 0);
   data.rung = rung::full;
   Monitor stopped;

@@ -23,7 +23,7 @@ using namespace gyrostat::spinning;
 namespace {
 
 template <Real S>
-std::vector<State<S>> solved(const Problem<S>& p, const std::vector<S>& times) {
+std::vector<State<S>> states_at(const Problem<S>& p, const std::vector<S>& times) {
   std::vector<State<S>> states(times.size());
   const auto answer = axial_motion<S>(p, times, states);
   REQUIRE(answer);
@@ -59,7 +59,7 @@ TEST_CASE("the linear motion of the reference cases with an axial torque", "[spi
     p.angles = {double(n[15]), double(n[16]), double(n[17])};
     p.velocity = at(18);
     p.position = at(21);
-    const auto s = solved(p, {double(n[24])})[0];
+    const auto s = states_at(p, {double(n[24])})[0];
     CAPTURE(name, double(n[24]));
     const auto near = [&](const std::vector<double>& found, std::size_t from) {
       long double size = 0, apart = 0;
@@ -88,7 +88,7 @@ TEST_CASE("without axial torque it is the linear motion", "[spinning]") {
     const auto p = random.spinner(0.01);
     const double end = 30 / (std::abs(p.spin()) + std::abs(p.kappa1(p.spin())) + std::abs(p.kappa2(p.spin())));
     const std::vector<double> times{0, end / 7, end};
-    const auto found = solved(p, times);
+    const auto found = states_at(p, times);
     const Linear<double> linear(p);
     for (std::size_t k = 0; k < times.size(); ++k) {
       const auto wanted = linear.at(times[k]);
@@ -121,7 +121,7 @@ TEST_CASE("orders through a change of spin, through r = 0 and resonances", "[spi
       p.torque[0] *= s, p.torque[1] *= s;
       p.angles.psi *= s, p.angles.phi *= s;
       const std::vector<S> times{end};
-      const auto found = solved(p, times)[0];
+      const auto found = states_at(p, times)[0];
       std::vector<State<S>> right(1);
       FullMotionOptions<S> options;
       options.tolerance = 1e-16L;

@@ -12,7 +12,7 @@ using namespace gyrostat::spinning;
 namespace {
 
 /// The published body and data.
-Problem<double> published() {
+Problem<double> paper_scene() {
   Problem<double> p;
   p.inertia = {8.7, 8.6, 11.1};
   p.mass = 10;
@@ -45,7 +45,7 @@ Solved solved(const Scene& scene, Monitor* monitor = nullptr) {
 }  // namespace
 
 TEST_CASE("the published data climb to the full equations", "[spinning]") {
-  const auto scene = posed(published(), 50, 1e-6, any_rung, 100);
+  const auto scene = posed(paper_scene(), 50, 1e-6, any_rung, 100);
   const Solved made = solved(scene);
   CHECK(made.refusal.code == Errc::ok);
   CHECK(made.by("full"));
@@ -59,21 +59,21 @@ TEST_CASE("the published data climb to the full equations", "[spinning]") {
   CHECK(made.scalar("tilt_max").error <= made.answer.find("attitude")->error);
   CHECK(made.scalar("nutation_frequency_squared").values[0] == Approx(0.19673 * 0.19673).epsilon(1e-4));
 
-  const Solved linear = solved(posed(published(), 50, 1e-3, rung::linear));
+  const Solved linear = solved(posed(paper_scene(), 50, 1e-3, rung::linear));
   CHECK(linear.by("linear"));
   CHECK_FALSE(linear.answer.met);
   CHECK(linear.warns("beyond-validity"));
   CHECK(linear.answer.find("attitude")->error == Approx(pi<double>));
 
-  const Solved swept = solved(posed(published(), 50, 1e-3, rung::picard));
+  const Solved swept = solved(posed(paper_scene(), 50, 1e-3, rung::picard));
   CHECK(swept.refusal.code == Errc::no_convergence);
-  const Solved corrected = solved(posed(published(), 50, 1e-3, rung::second_order));
+  const Solved corrected = solved(posed(paper_scene(), 50, 1e-3, rung::second_order));
   CHECK(corrected.refusal.code == Errc::not_applicable);
   CHECK(corrected.answer.tried.size() == 1);
 }
 
 TEST_CASE("a spinning ladder climbs as the tolerance tightens", "[spinning]") {
-  auto p = published();
+  auto p = paper_scene();
   p.angular_velocity[2] = 6;
   p.torque = {0.3, 0, 0};
   const struct {
@@ -100,7 +100,7 @@ TEST_CASE("a spinning ladder climbs as the tolerance tightens", "[spinning]") {
 }
 
 TEST_CASE("a body that only spins and thrusts is linear at any tolerance", "[spinning]") {
-  auto p = published();
+  auto p = paper_scene();
   p.torque.setZero();
   p.angles.theta = 0.3;
   p.force = {1, 2, 3};
@@ -118,7 +118,7 @@ TEST_CASE("a body that only spins and thrusts is linear at any tolerance", "[spi
 }
 
 TEST_CASE("a good attitude is met where the angles pass cos(psi) = 0", "[spinning]") {
-  auto p = published();
+  auto p = paper_scene();
   p.torque.setZero();
   p.rotor_momentum = p.charge_momentum = 0;
   p.angular_velocity = {1, 0, 0};
@@ -132,7 +132,7 @@ TEST_CASE("a good attitude is met where the angles pass cos(psi) = 0", "[spinnin
 }
 
 TEST_CASE("the first row of a spinning motion is the start as given, to the bit", "[spinning]") {
-  auto p = published();
+  auto p = paper_scene();
   p.angular_velocity = {0.1, -0.2, 6};
   p.torque = {0.003, 0, 0};
   p.velocity = {1.1, 2.2, 3.3};
@@ -210,7 +210,7 @@ TEST_CASE("a position that comes back to zero is judged by its scale", "[spinnin
 }
 
 TEST_CASE("a spinning scene can be cancelled and watched", "[spinning]") {
-  auto p = published();
+  auto p = paper_scene();
   Monitor monitor;
   const Solved watched = solved(posed(p, 50), &monitor);
   CHECK(monitor.fraction == 1);

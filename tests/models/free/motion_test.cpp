@@ -37,7 +37,6 @@ Motion<double> quickly(const Problem<double>& p) {
   REQUIRE(m);
   return *m;
 }
-double angle(const Q& p, const Q& q) { return vector_from_quaternion(conjugate(p) * q).norm(); }
 
 TEST_CASE("free motions meet the reference cases", "[free]") {
   for (const auto& c : free_reference::read()) {
@@ -295,12 +294,12 @@ TEST_CASE("special free motions are named and exact", "[free]") {
     CHECK(m.kind() == Kind::steady);
     CHECK(m.angular_momentum_norm() == 0);
     CHECK(std::isnan(m.period()));
-    CHECK(angle(m.at(2).attitude, q0 * quaternion_from_vector<double>(V(1, 2, .5))) < 1e-15);
+    CHECK(angle_between(m.at(2).attitude, q0 * quaternion_from_vector<double>(V(1, 2, .5))) < 1e-15);
   }
   {  // at rest beside turning rotors
     const auto m = quickly(Problem<double>::from_moments({4, 3, 2}, l, {0, 0, 0}, q0));
     CHECK(m.kind() == Kind::steady);
-    CHECK(angle(m.at(1e6).attitude, q0) < 3e-16);
+    CHECK(angle_between(m.at(1e6).attitude, q0) < 3e-16);
   }
   // stable about the largest and the smallest moment, unstable about the middle one; with the frequencies of Euler
   const V J(4, 3, 2);
@@ -361,7 +360,7 @@ TEST_CASE("a grid of a free motion gives the numbers of single calls", "[free]")
             worst = std::max(worst, std::abs(w[3 * k + c] - s.angular_velocity[int(c)]) / s.angular_velocity.norm());
             worst = std::max(worst, std::abs(M[3 * k + c] - s.angular_momentum[int(c)]) / m.angular_momentum_norm());
           }
-          worst = std::max(worst, angle({q[4 * k + 3], q[4 * k], q[4 * k + 1], q[4 * k + 2]}, s.attitude));
+          worst = std::max(worst, angle_between({q[4 * k + 3], q[4 * k], q[4 * k + 1], q[4 * k + 2]}, s.attitude));
         }
         CAPTURE(free_bodies::name(regime), i, step / T, m.modulus().kp2);
         // k steps are rounded as often as a time: the phase of the body and that of its attitude

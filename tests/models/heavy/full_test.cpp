@@ -53,7 +53,7 @@ State<double> end_of(const Problem<double>& p, const State<double>& start, doubl
   return Motion<FullSystem<double>>(p, start).at(t);
 }
 
-double distance(const State<double>& a, const State<double>& b) {
+double norm_of_difference(const State<double>& a, const State<double>& b) {
   return std::max((a.angular_velocity - b.angular_velocity).norm(), (a.down - b.down).norm());
 }
 
@@ -260,7 +260,7 @@ TEST_CASE("heavy: time reversal, relabelled axes, scaled units", "[heavy]") {
     back.angular_velocity *= -1;
     auto home = end_of(p, back, t);
     home.angular_velocity *= -1;
-    CHECK(distance(home, s) < 1e-10);
+    CHECK(norm_of_difference(home, s) < 1e-10);
 
     // axes (1, 2, 3) called (2, 3, 1); and (2, 1, 3) with all rates reversed in sign, which turns the hand
     const auto cyclic = [](const Vec3<double>& v) { return Vec3<double>(v[2], v[0], v[1]); };
@@ -268,7 +268,7 @@ TEST_CASE("heavy: time reversal, relabelled axes, scaled units", "[heavy]") {
         Problem<double>::make(cyclic(p.inertia()), p.mass(), cyclic(p.centre_of_mass()), p.gravity(), p.gradient());
     REQUIRE(other);
     auto turned = end_of(*other, {cyclic(s.angular_velocity), cyclic(s.down), {}}, t);
-    CHECK(distance(turned, {cyclic(end.angular_velocity), cyclic(end.down), {}}) < 1e-11);
+    CHECK(norm_of_difference(turned, {cyclic(end.angular_velocity), cyclic(end.down), {}}) < 1e-11);
     const auto swapped = [](const Vec3<double>& v, double sign) {
       return Vec3<double>(sign * Vec3<double>(v[1], v[0], v[2]));
     };
@@ -276,14 +276,14 @@ TEST_CASE("heavy: time reversal, relabelled axes, scaled units", "[heavy]") {
                                               p.gravity(), p.gradient());
     REQUIRE(mirror);
     turned = end_of(*mirror, {swapped(s.angular_velocity, -1), swapped(s.down, 1), {}}, t);
-    CHECK(distance(turned, {swapped(end.angular_velocity, -1), swapped(end.down, 1), {}}) < 1e-11);
+    CHECK(norm_of_difference(turned, {swapped(end.angular_velocity, -1), swapped(end.down, 1), {}}) < 1e-11);
 
     // twice as fast under fourfold torques
     const auto fast =
         Problem<double>::make(p.inertia(), p.mass(), p.centre_of_mass(), 4 * p.gravity(), 4 * p.gradient());
     REQUIRE(fast);
     turned = end_of(*fast, {2 * s.angular_velocity, s.down, {}}, t / 2);
-    CHECK(distance(turned, {2 * end.angular_velocity, end.down, {}}) < 1e-11);
+    CHECK(norm_of_difference(turned, {2 * end.angular_velocity, end.down, {}}) < 1e-11);
   }
 }
 

@@ -35,14 +35,14 @@ Vec3<double> shift(const Vec3<double>& v, int times) {
   return made;
 }
 
-struct Case {
+struct Integrable {
   FourthCase kind;
   Vec3<double> inertia, centre;
   double gradient, size;
   bool level = false;  ///< sigma = 0
 };
 
-const Case cases[] = {
+const Integrable cases[] = {
     {FourthCase::euler, {1, 1.2, 1.5}, {0, 0, 0}, 0, 4},
     {FourthCase::lagrange, {1.3, 1.3, 0.7}, {0, 0, -0.8}, 0.6, 1},
     {FourthCase::lagrange, {1.1, 1.1, 1.1}, {0.3, -0.4, 0.5}, 0.6, 1},
@@ -57,7 +57,7 @@ const Case cases[] = {
 
 TEST_CASE("heavy: the fourth integrals are found and kept, whatever the axes are called", "[heavy]") {
   Tops random(1);
-  for (const Case& c : cases)
+  for (const Integrable& c : cases)
     for (int turn = 0; turn < 3; ++turn) {
       CAPTURE(int(c.kind), turn);
       const auto p = inertial_body(shift(c.inertia, turn), shift(c.centre, turn), 9.8, c.gradient);

@@ -46,7 +46,7 @@ Distance worst(const Problem<double>& problem, const State<double>& start, const
   return d;
 }
 
-const std::vector<double> grid{0.0, 0.01, 0.033, 0.07, 0.13, 0.2, 0.31, 0.47, 0.6};
+const std::vector<double> top_times{0.0, 0.01, 0.033, 0.07, 0.13, 0.2, 0.31, 0.47, 0.6};
 
 }  // namespace
 
@@ -62,8 +62,8 @@ TEST_CASE("lagrange top: the full equations from any start", "[heavy]") {
     omega[axis] = fast * unit(random);
     const auto start = start_at(omega, {unit(random), unit(random), unit(random), unit(random)});
     CAPTURE(n, C, omega.transpose(), start.down.transpose());
-    const auto d = worst(body, start, grid);
-    const auto bound = top(body, start).error(grid.back());
+    const auto d = worst(body, start, top_times);
+    const auto bound = top(body, start).error(top_times.back());
     CHECK(d.attitude < 1e-12);
     CHECK(d.down < 1e-12);
     CHECK(d.angular_velocity < 1e-12 * (20 + fast));
@@ -105,8 +105,8 @@ TEST_CASE("lagrange top: special starts", "[heavy]") {
   for (const auto& c : cases) {
     const auto body = top_body(0.002, c.C, c.z0);
     const auto start = start_at(c.omega, c.q);
-    const auto d = worst(body, start, grid);
-    const auto e = top(body, start).error(grid.back());
+    const auto d = worst(body, start, top_times);
+    const auto e = top(body, start).error(top_times.back());
     CAPTURE(c.name);
     CHECK(d.attitude < 1e-13);
     CHECK(d.angular_velocity < 1e-12);

@@ -10,7 +10,6 @@
 
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/ode/runge_kutta.hpp"
-#include "gyrostat/rotation/exp_log.hpp"
 #include "gyrostat/rotation/kinematics.hpp"
 
 namespace gyrostat::heavy {
@@ -87,7 +86,7 @@ struct Distance {
 template <Real A, Real B>
 Distance distance(const State<A>& a, const State<B>& b) {
   const auto p = state_cast<long double>(a), q = state_cast<long double>(b);
-  return {double(vector_from_quaternion(conjugate(p.attitude) * q.attitude).norm()), double((p.down - q.down).norm()),
+  return {double(angle_between(p.attitude, q.attitude)), double((p.down - q.down).norm()),
           double((p.angular_velocity - q.angular_velocity).norm())};
 }
 

@@ -18,11 +18,11 @@ using namespace gyrostat::heavy;
 
 namespace {
 
-using Wide = Series<long double>;
+using LongSeries = Series<long double>;
 
 /// The largest errors over n times of one span, the last of them at its end.
 template <Real Scalar>
-MotionError<double> errors(const Series<Scalar>& series, const Wide& truth, double from, double to, int n = 41) {
+MotionError<double> errors(const Series<Scalar>& series, const LongSeries& truth, double from, double to, int n = 41) {
   MotionError<double> worst;
   for (int i = 0; i < n; ++i) {
     const double t = from + (to - from) * i / (n - 1);
@@ -114,9 +114,9 @@ TEST_CASE("series: what each order reaches at r0 = 5 c", "[heavy]") {
   const Row generic{0.55, 0.8, 0.7, {0.6, 0.48, 0.64}}, least_axis{1.6, 1.3, 0.5, {0.36, -0.48, 0.8}};
   const auto reached = [](const Row& row, int order) {
     const auto truth =
-        Wide::make(unit_body<long double>(static_cast<long double>(row.a), static_cast<long double>(row.b),
-                                          row.at.cast<long double>(), static_cast<long double>(row.k)),
-                   5, 0.1L, 30);
+        LongSeries::make(unit_body<long double>(static_cast<long double>(row.a), static_cast<long double>(row.b),
+                                                row.at.cast<long double>(), static_cast<long double>(row.k)),
+                         5, 0.1L, 30);
     REQUIRE(truth);
     const auto s = series(unit_body(row.a, row.b, row.at, row.k), 5, 0.1, order);
     const auto error = errors(s, *truth, 0, s.period());
@@ -146,7 +146,7 @@ TEST_CASE("series: the error falls with the order in eps", "[heavy]") {
     for (int order : {2, 4, 6}) {
       MotionError<double> last;
       for (double eps : {0.04, 0.02}) {
-        const auto truth = Wide::make(d.body<long double>(), 1 / eps, d.G0, 24);
+        const auto truth = LongSeries::make(d.body<long double>(), 1 / eps, d.G0, 24);
         const auto s = Series<long double>::make(d.body<long double>(), 1 / eps, d.G0, order);
         REQUIRE(truth);
         REQUIRE(s);
@@ -169,7 +169,7 @@ TEST_CASE("series: estimates are never too small, and not idle", "[heavy]") {
   for (int body = 0; body < 150; ++body) {
     const Draw d = draw(random, 0.05);
     const double spin = std::array{50.0, 10.0, 5.0, 3.0}[static_cast<std::size_t>(body % 4)];
-    const auto truth = Wide::make(d.body<long double>(), spin, d.G0, 30);
+    const auto truth = LongSeries::make(d.body<long double>(), spin, d.G0, 30);
     if (!truth) continue;
     for (double turns : {1.0, 300.0}) {
       const double to = 2 * pi<double> / spin * turns;
@@ -281,7 +281,7 @@ TEST_CASE("series: grids as single times, without memory", "[heavy]") {
 }
 
 TEMPLATE_TEST_CASE("series: float and long double", "[heavy]", float, long double) {
-  const auto truth = Wide::make(
+  const auto truth = LongSeries::make(
       unit_body<long double>(0.55L, 0.8L, Vec3<double>(0.6, 0.48, 0.64).cast<long double>(), 0.3L), 20, 0.1L, 24);
   const auto s =
       Series<TestType>::make(unit_body<TestType>(TestType(0.55L), TestType(0.8L),

@@ -19,8 +19,6 @@ using M = Mat3<double>;
 using Q = Quat<double>;
 using Kind = ClosedFormKind;
 
-double turned(const Q& p, const Q& q) { return vector_from_quaternion(conjugate(p) * q).norm(); }
-
 struct Start {
   Gyrostat<double> body;
   Q attitude{};
@@ -49,7 +47,7 @@ Measured measure(const Start& start, const std::vector<double>& times) {
     const auto rate = [&](const State<double>& s) {
       return start.body.rotor_rate(s.axial_momentum, start.body.angular_velocity(s.momentum, s.axial_momentum));
     };
-    m.error.attitude = std::max(m.error.attitude, turned(here.attitude, truth[i].attitude));
+    m.error.attitude = std::max(m.error.attitude, angle_between(here.attitude, truth[i].attitude));
     m.error.momentum = std::max(m.error.momentum, (here.momentum - truth[i].momentum).norm());
     m.error.rotor_rate = std::max(m.error.rotor_rate, std::abs(rate(here) - rate(truth[i])));
     m.error.rotor_angle = std::max(m.error.rotor_angle, std::abs(here.rotor_angle - truth[i].rotor_angle));
@@ -138,7 +136,7 @@ TEST_CASE("closed forms meet the reference cases", "[rotor]") {
       const V Omega = body.angular_velocity(s.momentum, s.axial_momentum);
       const auto bound = form.error(truth.t);
       const double angle =
-          turned(s.attitude, Q{truth.attitude[0], truth.attitude[1], truth.attitude[2], truth.attitude[3]});
+          angle_between(s.attitude, Q{truth.attitude[0], truth.attitude[1], truth.attitude[2], truth.attitude[3]});
       CHECK(angle < 2e-13 * (1 + truth.t));
       CHECK(angle <= bound.attitude);
       CHECK((Omega - V(truth.Omega[0], truth.Omega[1], truth.Omega[2])).norm() < 1e-13 * (1 + truth.t));

@@ -36,10 +36,10 @@ State<S> tumbling(const Gyrostat<S>& gyrostat) {
 }
 
 template <Real S, int Order = 20>
-class Motion {
+class Follower {
  public:
   using System = FullSystem<S>;
-  Motion(const Gyrostat<S>& gyrostat, const State<S>& start, S tolerance, bool projected = true)
+  Follower(const Gyrostat<S>& gyrostat, const State<S>& start, S tolerance, bool projected = true)
       : system_(gyrostat, start), solver_(system_, 0, system_.start(), options(system_, tolerance, projected)) {}
 
   State<S> at(S t) {
@@ -260,7 +260,7 @@ TEST_CASE("the motion is that of two bodies with a joint") {
   control.relative = 1e-13;
   control.absolute = ode::uniform<double, 21>(1e-14);
   ode::RungeKutta<double, 21, TwoBodies> joint(two, 0.0, y, control);
-  Motion<double> motion(g, start, 1e-16);
+  Follower<double> motion(g, start, 1e-16);
   for (const double t : {1.0, 5.0, 12.0, 20.0}) {
     REQUIRE(joint.advance(t) == Status::reached);
     const auto& z = joint.state();
@@ -283,7 +283,7 @@ TEST_CASE("V falls by what the motor takes, and L stays") {
     const auto s = bodies.start(g);
     const double V0 = g.lyapunov(s.momentum, s.axial_momentum);
     const Vec3<double> L = inertial(s);
-    Motion<double> plain(g, s, 1e-16, false), motion(g, s, 1e-16);
+    Follower<double> plain(g, s, 1e-16, false), motion(g, s, 1e-16);
     double last = V0;
     for (int k = 1; k <= 40; ++k) {
       const double t = 0.5 * k;
@@ -307,14 +307,14 @@ TEST_CASE("V falls by what the motor takes, and L stays") {
 TEST_CASE("a motion without motor runs back") {
   const auto g = body<double>(0.0);
   const State<double> start = tumbling(g);
-  Motion<double> forth(g, start, 1e-16);
+  Follower<double> forth(g, start, 1e-16);
   State<double> end = forth.at(300);
   CHECK(distance(end, start) > 0.1);
   const double turned = end.rotor_angle;
   end.momentum *= -1;
   end.axial_momentum *= -1;
   end.rotor_angle = 0;
-  Motion<double> back(g, end, 1e-16);
+  Follower<double> back(g, end, 1e-16);
   State<double> again = back.at(300);
   again.momentum *= -1;
   again.axial_momentum *= -1;
@@ -344,7 +344,7 @@ TEST_CASE("a vanishing rotor leaves the rigid body") {
     control.absolute = ode::uniform<double, 7>(1e-13);
     ode::RungeKutta<double, 7, decltype(rigid)> euler(rigid, 0.0, {q.w, q.x, q.y, q.z, H[0], H[1], H[2]}, control);
     REQUIRE(euler.advance(10) == Status::reached);
-    Motion<double> motion(g, start, 1e-16);
+    Follower<double> motion(g, start, 1e-16);
     const auto& y = euler.state();
     errors[i] = angle_between(motion.at(10).attitude, normalised(Quat<double>{y[0], y[1], y[2], y[3]}));
   }
@@ -364,8 +364,8 @@ TEST_CASE("the choice of body axes does not matter") {
     const auto turned = Gyrostat<double>::make((theta + theta.transpose()) / 2, Q * g.axis(), g.axial_inertia(),
                                                g.slope(), g.no_load_rate())
                             .value();
-    Motion<double> a(g, s, 1e-16);
-    Motion<double> b(turned, {s.attitude * conjugate(q), Q * s.momentum, s.axial_momentum, 0}, 1e-16);
+    Follower<double> a(g, s, 1e-16);
+    Follower<double> b(turned, {s.attitude * conjugate(q), Q * s.momentum, s.axial_momentum, 0}, 1e-16);
     const State<double> x = a.at(10), y = b.at(10);
     CHECK(distance(x, {y.attitude * q, Q.transpose() * y.momentum, y.axial_momentum, y.rotor_angle}) < 2e-11);
   }
@@ -373,12 +373,12 @@ TEST_CASE("the choice of body axes does not matter") {
 
 TEST_CASE("at rest, without momentum, and without numbers") {
   auto g = body<double>(0.2, 0);
-  Motion<double> rest(g, g.state({}, {0, 0, 0}, 0), 1e-16);
+  Follower<double> rest(g, g.state({}, {0, 0, 0}, 0), 1e-16);
   CHECK(distance(rest.at(1e6), {}) < 4e-16);
 
   // L = 0: omega relaxes exponentially and the body turns about J e
   g = body<double>(0.05, 30);
-  Motion<double> from_rest(g, g.state({}, {0, 0, 0}, 0), 1e-16);
+  Follower<double> from_rest(g, g.state({}, {0, 0, 0}, 0), 1e-16);
   const double t = 20;
   const State<double> s = from_rest.at(t);
   CHECK(s.momentum.isZero(0));
@@ -402,7 +402,7 @@ TEST_CASE("at rest, without momentum, and without numbers") {
 
 TEST_CASE("steps need no memory") {
   const auto g = body<double>();
-  Motion<double> motion(g, tumbling(g), 1e-16);
+  Follower<double> motion(g, tumbling(g), 1e-16);
   const auto before = allocations();
   const Status status = motion.solver().advance(100);
   CHECK(allocations() == before);
@@ -420,7 +420,7 @@ void check_turns(double end, const Quat<double>& truth, double bound) {
   State<double> start;
   start.momentum = 8 * Vec3<double>(0.3, -0.5, 0.8).normalized();
   start.axial_momentum = lambda * e.dot(g.inverse_inertia() * start.momentum);
-  Motion<double> motion(g, start, 1e-16);
+  Follower<double> motion(g, start, 1e-16);
   const Vec3<double> L = inertial(start);
   double last = g.lyapunov(start.momentum, start.axial_momentum), worst_norm = 0, worst_L = 0, rise = 0;
   State<double> s;
@@ -456,7 +456,7 @@ TEST_CASE("a rotor that was far from no load leaves the body its energy") {
     const Vec3<S> e = Vec3<S>(S(-0.1485L), S(-0.9456L), S(0.2894L)).normalized();
     const auto g = Gyrostat<S>::make(theta, e, S(0.001936L), S(0.00035L), 49842).value();
     const auto start = g.state({1, 0, 0, 0}, {S(1.69L), S(3.07L), S(2.74L)}, 0);
-    Motion<S, std::is_same_v<S, double> ? 20 : 28> motion(g, start, tolerance);
+    Follower<S, std::is_same_v<S, double> ? 20 : 28> motion(g, start, tolerance);
     const auto s = motion.at(144);
     return Quat<double>{double(s.attitude.w), double(s.attitude.x), double(s.attitude.y), double(s.attitude.z)};
   };

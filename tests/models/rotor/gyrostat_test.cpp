@@ -10,7 +10,7 @@ using namespace gyrostat::rotor;
 namespace {
 
 const Mat3<double> inertia = Vec3<double>(3, 5, 7).asDiagonal();
-const Vec3<double> axis(0.5, 0.5, std::sqrt(0.5));
+const Vec3<double> slanted(0.5, 0.5, std::sqrt(0.5));
 
 Errc failure(const Mat3<double>& theta, const Vec3<double>& e, double lambda, double slope, double rate) {
   return Gyrostat<double>::make(theta, e, lambda, slope, rate).error();
@@ -19,29 +19,29 @@ Errc failure(const Mat3<double>& theta, const Vec3<double>& e, double lambda, do
 }  // namespace
 
 TEST_CASE("what is no gyrostat is refused with its reason", "[rotor]") {
-  CHECK(failure(inertia, axis, 2, 4, 1) == Errc::ok);
-  CHECK(failure(inertia, axis, 2, 0, 1) == Errc::ok);
-  CHECK(failure(inertia, axis, 2, -1e-300, 1) == Errc::negative);
-  CHECK(failure(inertia, axis, 0, 4, 1) == Errc::not_positive);
-  CHECK(failure(inertia, axis, -1, 4, 1) == Errc::not_positive);
+  CHECK(failure(inertia, slanted, 2, 4, 1) == Errc::ok);
+  CHECK(failure(inertia, slanted, 2, 0, 1) == Errc::ok);
+  CHECK(failure(inertia, slanted, 2, -1e-300, 1) == Errc::negative);
+  CHECK(failure(inertia, slanted, 0, 4, 1) == Errc::not_positive);
+  CHECK(failure(inertia, slanted, -1, 4, 1) == Errc::not_positive);
   CHECK(failure(inertia, Vec3<double>(0, 0, 0), 2, 4, 1) == Errc::zero_vector);
-  CHECK(failure(inertia, axis * (1 + 1e-7), 2, 4, 1) == Errc::out_of_domain);
-  CHECK(failure(inertia, axis * (1 + 1e-9), 2, 4, 1) == Errc::ok);
+  CHECK(failure(inertia, slanted * (1 + 1e-7), 2, 4, 1) == Errc::out_of_domain);
+  CHECK(failure(inertia, slanted * (1 + 1e-9), 2, 4, 1) == Errc::ok);
   Mat3<double> theta = inertia;
   theta(0, 1) = 1e-3;
-  CHECK(failure(theta, axis, 2, 4, 1) == Errc::not_symmetric);
+  CHECK(failure(theta, slanted, 2, 4, 1) == Errc::not_symmetric);
   theta = Vec3<double>(3, 5, -7).asDiagonal();
-  CHECK(failure(theta, axis, 2, 4, 1) == Errc::not_positive);
+  CHECK(failure(theta, slanted, 2, 4, 1) == Errc::not_positive);
   theta = Vec3<double>(3, 5, 0).asDiagonal();
-  CHECK(failure(theta, axis, 2, 4, 1) == Errc::not_positive);
+  CHECK(failure(theta, slanted, 2, 4, 1) == Errc::not_positive);
   for (const double bad : {gyrostat::nan<double>, infinity<double>, -infinity<double>}) {
     CHECK(failure(inertia, Vec3<double>(bad, 0, 1), 2, 4, 1) == Errc::not_finite);
-    CHECK(failure(inertia, axis, bad, 4, 1) == Errc::not_finite);
-    CHECK(failure(inertia, axis, 2, bad, 1) == Errc::not_finite);
-    CHECK(failure(inertia, axis, 2, 4, bad) == Errc::not_finite);
+    CHECK(failure(inertia, slanted, bad, 4, 1) == Errc::not_finite);
+    CHECK(failure(inertia, slanted, 2, bad, 1) == Errc::not_finite);
+    CHECK(failure(inertia, slanted, 2, 4, bad) == Errc::not_finite);
     theta = inertia;
     theta(2, 2) = bad;
-    CHECK(failure(theta, axis, 2, 4, 1) == Errc::not_finite);
+    CHECK(failure(theta, slanted, 2, 4, 1) == Errc::not_finite);
   }
 }
 
@@ -72,7 +72,9 @@ TEST_CASE("k by the free-wheel inertia is 1 - lambda e.J e without its cancellat
 }
 
 TEST_CASE("the printed example is not realisable; its greatest rotor has an axial inertia of 1.7238", "[rotor]") {
-  const auto least = [](double lambda) { return Gyrostat<double>::make(inertia, axis, lambda, 4, 0)->realisability(); };
+  const auto least = [](double lambda) {
+    return Gyrostat<double>::make(inertia, slanted, lambda, 4, 0)->realisability();
+  };
   CHECK(least(2) == Approx(-0.092366).epsilon(1e-4));
   CHECK(least(1.7237) > 0);
   CHECK(least(1.7239) < 0);
@@ -122,7 +124,7 @@ TEST_CASE("rotating the body axes changes no scalar", "[rotor]") {
 }
 
 TEMPLATE_TEST_CASE("every scalar type works", "[rotor]", float, double, long double) {
-  const auto body = Gyrostat<TestType>::make(inertia.cast<TestType>(), axis.cast<TestType>(), 2, 4, 1);
+  const auto body = Gyrostat<TestType>::make(inertia.cast<TestType>(), slanted.cast<TestType>(), 2, 4, 1);
   REQUIRE(body);
   CHECK(double(body->coupling()) == Approx(0.59047619).epsilon(1e-6));
   CHECK(double(body->relaxation_rate()) == Approx(4 / 2 / 0.59047619).epsilon(1e-6));

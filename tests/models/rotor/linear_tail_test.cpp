@@ -4,7 +4,6 @@
 #include "allocations.hpp"
 #include "bodies.hpp"
 #include "catch.hpp"
-#include "gyrostat/rotation/exp_log.hpp"
 #include "long_motion.hpp"
 
 using namespace gyrostat;
@@ -14,8 +13,6 @@ namespace {
 
 using V = Vec3<double>;
 using Q = Quat<double>;
-
-double turned(const Q& p, const Q& q) { return vector_from_quaternion(conjugate(p) * q).norm(); }
 
 /// A steady rotation and a start `eps` beside it, in the direction (a, b, xi).
 struct Beside {
@@ -53,7 +50,7 @@ Beside beside(Bodies& bodies, double eps) {
   }
 }
 
-std::vector<double> times(double last) {
+std::vector<double> squared_times(double last) {
   std::vector<double> t;
   for (int i = 1; i <= 8; ++i) t.push_back(last * i * i / 64);
   return t;
@@ -67,7 +64,7 @@ Off far_apart(const Gyrostat<double>& body, const State<double>& a, const State<
   const auto rate = [&](const State<double>& s) {
     return body.rotor_rate(s.axial_momentum, body.angular_velocity(s.momentum, s.axial_momentum));
   };
-  return {turned(a.attitude, b.attitude), (a.momentum - b.momentum).norm(), std::abs(rate(a) - rate(b)),
+  return {angle_between(a.attitude, b.attitude), (a.momentum - b.momentum).norm(), std::abs(rate(a) - rate(b)),
           std::abs(a.rotor_angle - b.rotor_angle)};
 }
 
@@ -98,7 +95,7 @@ TEST_CASE("linear tail: errors of the third order, in the attitude too", "[rotor
     const double small = 1e-3 * std::cbrt(std::min(1., 100 / (last * s.fast())));
     for (const double eps : {4 * small, 2 * small, small}) {
       s.set_off(eps * y, q);
-      off.push_back(measure(s, times(last)));
+      off.push_back(measure(s, squared_times(last)));
     }
     CAPTURE(i, s.stability.decay_rate, s.fast());
     for (std::size_t k = 0; k < 2; ++k) {
@@ -119,7 +116,7 @@ TEST_CASE("linear tail: never further off than it says", "[rotor]") {
     const auto bound = s.tail().error(last);
     if (!(bound.attitude < infinity<double>)) continue;
     ++told;
-    const Off off = measure(s, times(last));
+    const Off off = measure(s, squared_times(last));
     CAPTURE(i);
     CHECK(off.attitude <= bound.attitude);
     CHECK(off.momentum <= bound.momentum);
@@ -136,7 +133,7 @@ TEST_CASE("linear tail: the laws of the motion hold at any time", "[rotor]") {
     const auto tail = s.tail();
     const V L = rotate(s.start.attitude, s.start.momentum);
     const auto start = tail.at(0);
-    CHECK(turned(start.attitude, s.start.attitude) < 1e-14);
+    CHECK(angle_between(start.attitude, s.start.attitude) < 1e-14);
     CHECK((start.momentum - s.start.momentum).norm() < 1e-14 * s.l);
     CHECK(std::abs(start.axial_momentum - s.start.axial_momentum) < 1e-13 * (std::abs(s.start.axial_momentum) + s.l));
     for (const double share : {0.1, 1., 10., 1e4}) {
@@ -179,7 +176,7 @@ TEST_CASE("linear tail: near a double exponent nothing breaks", "[rotor]") {
     s.set_off(V(1e-4, -2e-4, 1e-4), Q{});
     const auto bound = s.tail().error(200);
     CAPTURE(S - low);
-    const Off off = measure(s, times(200));
+    const Off off = measure(s, squared_times(200));
     CHECK(off.attitude < 1e-10);
     CHECK(off.attitude <= bound.attitude);
     CHECK(off.momentum <= bound.momentum);

@@ -161,7 +161,7 @@ TEST_CASE("the corrected equations are the derivative of the motion", "[rotor]")
       const auto found = system.at(t, start);
       const auto told =
           quaternion_from_vector<double>(data.spin_rate * t * m) * quaternion_from_vector<double>(gamma(found));
-      off.push_back(vector_from_quaternion(conjugate(truth.attitude) * told).norm());
+      off.push_back(angle_between(truth.attitude, told));
     }
     CHECK(off[0] < 1e-5);
     CHECK(std::log10(off[0] / off[1]) == Approx(2).margin(0.1));

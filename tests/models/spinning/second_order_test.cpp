@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "allocations.hpp"
+#include "at_length.hpp"
 #include "gyrostat/ladder/spinning/full_motion.hpp"
 #include "spinners.hpp"
 
@@ -129,10 +130,10 @@ TEST_CASE("orders in the tilt", "[spinning]") {
   }
 }
 
-TEST_CASE("the tilt of a symmetric body errs no more after many turns", "[spinning]") {
+TEST_CASE("the tilt of a symmetric body errs no more after many turns", "[spinning][length]") {
   Spinners random(8);
   int seen = 0;
-  for (int i = 0; seen < 5; ++i) {
+  for (int i = 0; seen < at_length(2, 5); ++i) {
     CAPTURE(i);
     auto p = random.spinner(0.002);
     p.inertia[1] = p.inertia[0];
