@@ -470,3 +470,16 @@ def test_on_which_side_of_a_separatrix_a_body_leaves_may_not_be_known() -> None:
     answer = gyrostat.solve(given)  # the true one is -M, or M, by two units in the last place of a moment
     assert not answer.met and answer.error["angular_momentum"] > 1
     assert gyrostat.solve(given, ask=["angular_momentum_norm"]).met
+
+
+def test_the_energy_errs_with_the_momentum_where_the_rotors_rule_it() -> None:
+    given: dict[str, Any] = {"name": "slim body, strong rotors", "kind": "deceleration",
+                             "body": {"inertia": [1.0, 0.9996689162938185, 0.002073874299171309], "rotor_momentum": [-0.16740318673922366, -0.025396195420937868, -0.08234884370920877]},
+                             "torque": {"control": [1.0408722981791452e-05, 3.6654371863458e-05, 3.422045955212735e-05], "drag": 0.0001585277984943742},
+                             "initial": {"angular_velocity": [-0.0007311730702474812, -0.007148206578123956, -0.014884899821238128]},
+                             "solve": {"times": [3671.447636108894], "tolerance": 1e-3, "ask": ["energy", "angular_momentum_norm"]}}
+    answer, truth = gyrostat.solve(given, model="averaged"), gyrostat.solve(given, model="full", tolerance=1e-9)
+    for name in given["solve"]["ask"]:
+        size = max(abs(truth[name]).max(), answer.scale[name])
+        assert abs(answer[name] - truth[name]).max() <= answer.error[name] * size
+    assert truth.met and answer.error["energy"] < 0.01

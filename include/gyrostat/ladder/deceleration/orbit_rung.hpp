@@ -44,8 +44,8 @@ class OrbitError {
     // What second order leaves out: its own oscillation, or that of first order times the change during it.
     const double shift = 2 * pi<double> * s->phase_oscillation + s->orbit.period() * std::abs(s->first.R) / level.R;
     drift_R_ += std::abs(s->second.R) * span;
-    // and what the oscillation of |M|, part of which the mean motion begins with, changes of the rate
-    drift_h_ += (std::abs(s->second.h) + std::abs(s->first.h) * s->oscillation.R / level.R) * span;
+    // and what the error of |M| changes of the rate: its oscillation, part of which the mean motion begins with, and its own drift
+    drift_h_ += (std::abs(s->second.h) + std::abs(s->first.h) * (s->oscillation.R + drift_R_) / level.R) * span;
     keep(first_.norm, s->oscillation.R);
     keep(first_.energy, s->oscillation.h);
     keep(second_.norm, std::max(s->second_oscillation.R, s->oscillation.R * shift));
