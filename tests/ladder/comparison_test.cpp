@@ -2,7 +2,6 @@
 #include "gyrostat/ladder/comparison.hpp"
 
 #include <cmath>
-#include <random>
 
 #include "catch.hpp"
 #include "gyrostat/rotation/exp_log.hpp"
@@ -27,19 +26,6 @@ struct FreeRow {
 };
 
 }  // namespace
-
-TEST_CASE("the angle between attitudes keeps its digits and ignores the signs of quaternions", "[ladder]") {
-  std::mt19937 random(5);
-  std::normal_distribution<double> normal;
-  for (double angle = 3.1; angle > 1e-15; angle /= 7) {
-    const Quat<double> q = normalised(Quat<double>{normal(random), normal(random), normal(random), normal(random)});
-    const Vec3<double> axis = Vec3<double>(normal(random), normal(random), normal(random)).normalized();
-    const Quat<double> turned = q * quaternion_from_vector<double>(axis * angle);
-    CHECK(angle_between(q, turned) == Approx(angle).epsilon(1e-9).margin(4e-16));
-    CHECK(angle_between(q, Quat<double>{-turned.w, -turned.x, -turned.y, -turned.z}) ==
-          Approx(angle).epsilon(1e-9).margin(4e-16));
-  }
-}
 
 TEST_CASE("a comparison measures vectors by their norm, numbers by their size, attitudes by the angle", "[ladder]") {
   Comparison comparison{FreeRow{}};

@@ -2,6 +2,7 @@
 #include "gyrostat/rotation/quaternion.hpp"
 
 #include <cmath>
+#include <random>
 
 #include "catch.hpp"
 #include "gyrostat/rotation/exp_log.hpp"
@@ -87,4 +88,17 @@ TEST_CASE("a quaternion of unit norm to rounding is left as it stands", "[rotati
   CHECK(as_unit(unit) == unit);
   const Quat<double> longer{unit.w * (1 + 1e-9), unit.x, unit.y, unit.z};
   CHECK(as_unit(longer) == normalised(longer));
+}
+
+TEST_CASE("the angle between attitudes keeps its digits and ignores the signs of quaternions", "[rotation]") {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (double angle = 3.1; angle > 1e-15; angle /= 7) {
+    const Quat<double> q = normalised(Quat<double>{normal(random), normal(random), normal(random), normal(random)});
+    const Vec3<double> axis = Vec3<double>(normal(random), normal(random), normal(random)).normalized();
+    const Quat<double> turned = q * quaternion_from_vector<double>(axis * angle);
+    CHECK(angle_between(q, turned) == Approx(angle).epsilon(1e-9).margin(4e-16));
+    CHECK(angle_between(q, Quat<double>{-turned.w, -turned.x, -turned.y, -turned.z}) ==
+          Approx(angle).epsilon(1e-9).margin(4e-16));
+  }
 }
