@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "catch.hpp"
@@ -31,29 +32,36 @@ struct Decay {
   }
 };
 
-CvodeRun<double> run(double tolerance, std::vector<double> times) {
+CvodeRun<double> run(double tolerance, std::span<const double> times) {
   Decay equations;
   return run_cvode(equations, 1.0, times, {ode::CvodeMethod::adams, tolerance, tolerance}, nullptr);
+}
+
+CvodePair<PairRow> pair_at(double tolerance, const std::vector<double>& asked) {
+  return cvode_pair(PairRow{}, asked, tolerance, 1e-3,
+                    [](std::span<const double> times, double t, double, double) { return run(t, times); });
 }
 
 }  // namespace
 
 TEST_CASE("one run gives the states at the asked times, the start as it stands", "[ladder]") {
-  const auto made = run(1e-10, {0, 1, 2});
+  const double times[] = {0, 1, 2};
+  const auto made = run(1e-10, times);
   REQUIRE(made.failure == Errc::ok);
   REQUIRE(made.states.size() == 3);
   CHECK(made.states[0] == 1);
   CHECK(made.states[2] == Approx(std::exp(-2.0)).epsilon(1e-8));
-  CHECK(run(1e-10, {0}).states == std::vector<double>{1});
+  CHECK(run(1e-10, std::span(times).first(1)).states == std::vector<double>{1});
 }
 
 TEST_CASE("two runs at tolerances ten apart give an error that holds", "[ladder]") {
   const std::vector<double> times{0, 1, 2, 5};
   for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
-    const auto pair = cvode_pair(PairRow{}, tolerance, 1e-3, [&](double t, double) { return run(t, times); });
+    const auto pair = pair_at(tolerance, times);
     REQUIRE(pair.failure == Errc::ok);
+    REQUIRE(pair.states.size() == times.size());
     CHECK(pair.tolerance == Approx(std::max(1e-3 * tolerance, honesty::cvode_tightest)));
-    const double stated = pair.margin * pair.both.difference()[0] + pair.tolerance;
+    const double stated = pair.margin * pair.distance[0] + pair.tolerance;
     double error = 0;
     for (std::size_t i = 0; i < times.size(); ++i)
       error = std::max(error, std::abs(pair.states[i] - std::exp(-times[i])));
@@ -61,16 +69,28 @@ TEST_CASE("two runs at tolerances ten apart give an error that holds", "[ladder]
     CHECK(error <= stated);
     CHECK(stated < tolerance);
   }
-  CHECK(cvode_pair(PairRow{}, 1e-12, 1e-3, [&](double t, double) { return run(t, times); }).margin ==
-        honesty::cvode_margin_of_rounding);
+  CHECK(pair_at(1e-12, times).margin == honesty::cvode_margin_of_rounding);
 }
 
 TEST_CASE("a run that fails leaves no states", "[ladder]") {
-  const auto pair = cvode_pair(PairRow{}, 1e-6, 1, [](double, double) {
+  const auto pair = cvode_pair(PairRow{}, std::vector<double>{1.0}, 1e-6, 1, [](auto, double, double, double) {
     CvodeRun<double> none;
     none.failure = Errc::step_limit;
     return none;
   });
   CHECK(pair.failure == Errc::step_limit);
   CHECK(pair.states.empty());
+}
+
+TEST_CASE("what runs differ by is not hidden where they meet at the one time that is asked for", "[ladder]") {
+  const std::vector<double> asked{10};
+  const auto swinging = [](std::span<const double> times, double, double, double change) {
+    CvodeRun<double> made;
+    for (const double t : times) made.states.push_back(change > 0 ? 1e-6 * std::sin(pi<double> * t) : 0);
+    return made;
+  };
+  const auto pair = cvode_pair(PairRow{}, asked, 1e-3, 1e-3, swinging);
+  CHECK(pair.states == std::vector<double>{0});
+  CHECK(pair.distance[0] > 5e-7);
+  CHECK(pair.asked.size()[0] == 0);
 }

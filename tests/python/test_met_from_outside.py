@@ -5,6 +5,7 @@ import copy
 import json
 import math
 import pickle
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -483,3 +484,36 @@ def test_the_energy_errs_with_the_momentum_where_the_rotors_rule_it() -> None:
         size = max(abs(truth[name]).max(), answer.scale[name])
         assert abs(answer[name] - truth[name]).max() <= answer.error[name] * size
     assert truth.met and answer.error["energy"] < 0.01
+
+
+@pytest.mark.parametrize("kind", ["deceleration", "free", "general"])
+def test_the_momentum_at_the_start_errs_as_its_product_with_a_slim_tensor_does(kind: str) -> None:
+    tensor = [[0.75001, -0.375, 0.2165063509461097], [-0.375, 0.43751, 0.32475952641916445], [0.2165063509461097, 0.32475952641916445, 0.81251]]
+    omega = [0.5001, 0.7498, -0.4328]  # all but about the slim axis
+    given: dict[str, Any] = {"name": "needle", "kind": kind, "body": {"inertia": tensor}, "initial": {"angular_velocity": omega},
+                             "solve": {"times": [0.0], "model": "full", "ask": "all"}}
+    if kind == "deceleration":
+        given["torque"] = {"control": [0, 0, 0], "drag": 1e-3}
+    for unit in (1.0, 0.3, 1 / 7):
+        for push in range(4):
+            given["initial"]["angular_velocity"] = [w * unit + push * 1e-9 for w in omega]
+            answer = gyrostat.solve(given)
+            exact = [float(sum(Fraction(j) * Fraction(w) for j, w in zip(row, given["initial"]["angular_velocity"]))) for row in tensor]
+            away = np.linalg.norm(answer["angular_momentum"][0] - exact)
+            assert away <= answer.error["angular_momentum"] * max(np.linalg.norm(exact), answer.scale["angular_momentum"])
+
+
+@pytest.mark.skipif(not gyrostat.build_info()["cvode"], reason="built without CVODE")
+def test_cvode_errs_with_what_its_steps_do_to_a_slim_tensor_asked_at_one_time() -> None:
+    given: dict[str, Any] = {
+        "name": "slim rotor", "kind": "rotor",
+        "body": {"inertia": [[0.6187920308215266, -0.40750684852564617, -0.264234057715646], [-0.40750684852564617, 0.564371907031708, -0.28246642369650904],
+                             [-0.264234057715646, -0.28246642369650904, 0.8168449687264229]]},
+        "rotor": {"axis": [0.4099937684431799, 0.8893308122886985, 0.20247423577256404], "axial_inertia": 5.302529941875798e-06},
+        "motor": {"slope": 1.145838288707188e-07, "no_load_rate": 2.3139515023871327},
+        "initial": {"angular_velocity": [-0.2932210083862352, -1.0223926858872647, 0.3065388941759594], "rotor_rate": 0.7176809513700894},
+        "solve": {"times": [3.8185655674427217], "tolerance": 1e-6, "model": "full", "integrator": "cvode"}}
+    answer, truth = gyrostat.solve(given), gyrostat.solve(given, integrator="taylor", tolerance=1e-9)
+    for name in ("attitude", "angular_momentum", "angular_velocity"):
+        away = np.linalg.norm(answer[name] - truth[name]) * (2 if name == "attitude" else 1)
+        assert away <= answer.error[name] * (1 if name == "attitude" else np.linalg.norm(truth[name])) + truth.error[name]

@@ -189,7 +189,9 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   };
   for (; next < times.size() && !(times[next] > 0); ++next) {
     states[next] = start;
-    walk.asked.add(start);
+    const auto row = walk.asked.row(start);
+    walk.asked.add(row);
+    if (!(last > 0)) look(row, last);  // what conversions lose, which later times would show
     tell(next + 1);
   }
   if (next < times.size()) walk.status = runs.answer.step(last);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gyrostat/ladder/cvode_pair.hpp"
+#include "gyrostat/ladder/deceleration/full_motion.hpp"
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 #include "gyrostat/ode/cvode.hpp"
 #include "gyrostat/rotation/exp_log.hpp"
@@ -57,18 +58,17 @@ struct CvodeProblem {
   }
 };
 
-/// To the stop and behind it.
-inline StoppedRun cvode_run(const Scene& scene, double tolerance, double longest, Monitor* monitor) {
-  const auto& problem = scene.problem();
-  const auto& times = scene.question().times;
+/// To the stop and behind it, of the scene's problem or one of the same law near it.
+inline StoppedRun cvode_run(const Scene& scene, const Problem<double>& problem, const Quat<double>& attitude,
+                            std::span<const double> times, double tolerance, double longest, Monitor* monitor) {
   const bool turning = scene.question().wants_attitude;
   const bool total = problem.law == Law::total;
   CvodeProblem user{problem, total ? Vec3<double>::Zero().eval() : problem.rotor_momentum, scene.greatest_control()};
   const Hold<double> hold(problem);
   const double scale = std::max(problem.momentum.norm(), problem.rotor_momentum.norm());
 
-  Quat<double> q = scene.attitude();
-  std::array<double, 7> y{problem.momentum[0], problem.momentum[1], problem.momentum[2], q.w, q.x, q.y, q.z};
+  std::array<double, 7> y{problem.momentum[0], problem.momentum[1], problem.momentum[2], attitude.w,
+                          attitude.x,          attitude.y,          attitude.z};
   const std::size_t n = turning ? 7 : 3;
   ode::CvodeSystem system;
   system.dimension = int(n);
@@ -79,7 +79,7 @@ inline StoppedRun cvode_run(const Scene& scene, double tolerance, double longest
 
   StoppedRun run;
   const auto keep = [&](const Vec3<double>& M, const Quat<double>& turned) {
-    run.states.push_back(state_of(problem, M, turning ? normalised(turned) : q));
+    run.states.push_back(state_of(problem, M, turning ? normalised(turned) : attitude));
   };
   const auto keep_numbers = [&](const double* at) { keep(CvodeProblem::momentum(at), {at[3], at[4], at[5], at[6]}); };
   std::size_t next = 0;
@@ -127,17 +127,29 @@ inline StoppedRun cvode_run(const Scene& scene, double tolerance, double longest
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   double stops[2];  // of the tighter run and of the looser one
   double* stop = stops;
-  const auto pair =
-      cvode_pair(Row<double>{scene.problem()}, scene.goal().tightest, 1e-5, [&](double tolerance, double longest) {
-        auto run = detail::cvode_run(scene, tolerance, longest, monitor);
-        *stop++ = run.stop_time;
-        return run;
-      });
+  const auto pair = cvode_pair(Row<double>{scene.problem()}, scene.question().times, scene.goal().tightest, 1e-5,
+                               [&](std::span<const double> watched, double tolerance, double longest, double change) {
+                                 using Near = detail::Neighbour<double>;
+                                 const auto& problem = scene.problem();
+                                 const Near near = change > 0 ? Near(problem, change, 0) : Near(problem);
+                                 const Quat<double> turn = from_matrix(near.R);
+                                 const bool turned = !near.R.isIdentity(0);
+                                 auto run = detail::cvode_run(scene, near.problem,
+                                                              turned ? scene.attitude() * turn : scene.attitude(),
+                                                              watched, tolerance, longest, monitor);
+                                 for (auto& state : run.states) {
+                                   if (!turned) break;
+                                   state.momentum = near.R * state.momentum;
+                                   state.attitude = state.attitude * conjugate(turn);
+                                 }
+                                 *stop++ = run.stop_time;
+                                 return run;
+                               });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
   // what each step may err by itself adds up, and is shared by the runs where the longest step rules both
   const double of_steps = (1 + double(pair.counts.steps) / 2) * pair.tolerance;
-  const auto error = pair.both.relative(pair.margin * pair.both.difference()) + ColumnErrors<double>::all(of_steps);
+  const auto error = pair.asked.relative(pair.margin * pair.distance) + ColumnErrors<double>::all(of_steps);
   Track track = detail::track_of(scene.problem(), pair.states, scene.question().wants_attitude, error);
   track.counts = pair.counts;
   if (std::isfinite(stops[0])) {

@@ -75,9 +75,8 @@ struct CvodeEnd {
 };
 
 /// One run over all pieces.
-inline CvodeRun<State<double>> run_pieces(const Scene& scene, CvodeEquations equations,
+inline CvodeRun<State<double>> run_pieces(const Scene& scene, std::span<const double> times, CvodeEquations equations,
                                           const ode::CvodeOptions& options, Monitor* monitor, CvodeEnd& end) {
-  const auto& times = scene.question().times;
   const double span = times.back();
   auto cuts = breakpoints_with<double>(scene.problem(), scene.own_torque().breakpoints, span);
   cuts.push_back(span);
@@ -137,7 +136,7 @@ inline CvodeRun<State<double>> run_pieces(const Scene& scene, CvodeEquations equ
 }  // namespace detail
 
 /// Rung `full` by CVODE: Adams, or BDF where wheels settle fast. The error is four times the distance to a second run at a tolerance ten
-/// times looser, ten times where the tighter one is the tightest that CVODE is asked for.
+/// times looser, ten times where the tighter one is next to rounding.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const double span = scene.question().times.back();
   Track track = detail::unless_lost(scene);
@@ -153,11 +152,13 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto sizes = detail::number_sizes(of);
   const auto method = of.is_stiff() ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams;
   detail::CvodeEnd end;
-  auto pair = cvode_pair(row, scene.goal().tightest, 1e-5, [&](double tolerance, double longest) {
-    return detail::run_pieces(scene, CvodeEquations(scene, sizes),
-                              {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * span}, monitor,
-                              end);
-  });
+  auto pair =
+      cvode_pair(row, scene.question().times, scene.goal().tightest, 1e-5,
+                 [&](std::span<const double> watched, double tolerance, double longest, double) {
+                   return detail::run_pieces(
+                       scene, watched, CvodeEquations(scene, sizes),
+                       {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * span}, monitor, end);
+                 });
   if (end.lost == end.lost) {
     if (law.lost_at != nullptr) *law.lost_at = end.lost;
     return refused<Track>(Errc::not_applicable, no_value_of_law);
@@ -168,8 +169,8 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   track.states = std::move(pair.states);
   track.counts = pair.counts;
   // of what columns are made of, some of which may cancel
-  const auto rounding = detail::rounding_of_columns(of, row, pair.both.size(), honesty::cvode_looser * pair.tolerance);
-  const auto error = pair.both.relative(pair.margin * pair.both.difference() + rounding);
+  const auto rounding = detail::rounding_of_columns(of, row, pair.asked.size(), honesty::cvode_looser * pair.tolerance);
+  const auto error = pair.asked.relative(pair.margin * pair.distance + rounding);
   const auto to_truth = relative_to_truth(error, full_columns);
   track.off = detail::off_of(track, to_truth, row, scene);
   track.compared = detail::compared_of(track, to_truth, row, scene);

@@ -5,11 +5,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "gyrostat/ladder/cvode_pair.hpp"
 #include "gyrostat/ladder/full_motion.hpp"
+#include "gyrostat/ladder/heavy/full_motion.hpp"
 #include "gyrostat/ladder/heavy/track.hpp"
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/ode/cvode.hpp"
@@ -75,17 +78,26 @@ class CvodeEquations {
 };
 
 /// Rung `full` by CVODE, from the scene's start. The error is four times the distance to a second run at a tolerance ten times looser,
-/// ten times where the tighter one is the tightest that CVODE is asked for.
+/// ten times where the tighter one is next to rounding.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto& times = scene.question().times;
   const auto& start = scene.start();
   const bool turning = scene.question().wants_attitude;
   const Row<double> row = row_of(scene);
-  auto pair = cvode_pair(row, scene.goal().tightest, 1e-6, [&](double tolerance, double longest) {
-    CvodeEquations equations(scene.problem(), start, turning);
-    return run_cvode(equations, start, times,
-                     {ode::CvodeMethod::adams, tolerance, tolerance, step_budget, longest * times.back()}, monitor);
-  });
+  auto pair = cvode_pair(row, times, scene.goal().tightest, 1e-6,
+                         [&](std::span<const double> watched, double tolerance, double longest, double change) {
+                           const ode::CvodeOptions options{ode::CvodeMethod::adams, tolerance, tolerance, step_budget,
+                                                           longest * times.back()};
+                           using Near = detail::Neighbour<double>;
+                           std::optional<Near> near;
+                           if (change > 0) near.emplace(scene.problem(), start, change, 0, scene.converts_start());
+                           CvodeEquations equations(near ? near->problem : scene.problem(), near ? near->start : start,
+                                                    turning);
+                           auto run = run_cvode(equations, near ? near->start : start, watched, options, monitor);
+                           if (near)
+                             for (auto& state : run.states) state = Near::in_turned_axes(near->turn.transpose(), state);
+                           return run;
+                         });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
   Track track;
@@ -94,7 +106,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const double floor = honesty::cvode_looser * pair.tolerance;
   const double rate = std::max(rate_size(scene.problem(), start), row.scale[column::angular_velocity]);
   const ColumnErrors<double> parts{rate, 1, turning ? 1.0 : 0.0};
-  track.error = pair.both.relative(pair.margin * pair.both.difference() + floor * parts);
+  track.error = pair.asked.relative(pair.margin * pair.distance + floor * parts);
   return track;
 }
 

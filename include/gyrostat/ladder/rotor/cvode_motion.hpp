@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "gyrostat/ladder/cvode_pair.hpp"
+#include "gyrostat/ladder/rotor/full_motion.hpp"
 #include "gyrostat/ladder/rotor/full_rung.hpp"
 #include "gyrostat/models/rotor/full.hpp"
 #include "gyrostat/ode/cvode.hpp"
@@ -86,11 +89,16 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   const auto& times = scene.question().times;
   const auto& body = scene.gyrostat();
   const auto& start = scene.start();
-  auto pair = cvode_pair(Row<double>(body, start), scene.goal().tightest, 1e-5, [&](double tolerance, double longest) {
-    CvodeEquations equations(body, start, times.back());
-    return run_cvode(equations, start, times,
-                     {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * times.back()}, monitor);
-  });
+  auto pair = cvode_pair(
+      Row<double>(body, start), times, scene.goal().tightest, 1e-5,
+      [&](std::span<const double> watched, double tolerance, double longest, double change) {
+        std::optional<Neighbour<double>> near;
+        if (change > 0) near.emplace(body, start, change, 0);
+        const auto& from = near ? near->start : start;
+        CvodeEquations equations(near ? near->gyrostat : body, from, times.back());
+        return run_cvode(equations, from, watched,
+                         {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * times.back()}, monitor);
+      });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
   Track track;
@@ -99,7 +107,7 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   // of the greatest numbers that a column is made of, some of which may cancel
   const double momentum = start.momentum.norm() + std::abs(start.axial_momentum) + std::abs(body.target_momentum());
   const double rate = momentum / body.free_principal()[0] + momentum / body.axial_inertia();
-  const auto& size = pair.both.size();
+  const auto& size = pair.asked.size();
   ColumnErrors<double> parts;
   parts[column::attitude] = 1;
   parts[column::angular_velocity] = momentum / body.free_principal()[0];
@@ -108,14 +116,14 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   parts[column::rotor_angle] = size[column::rotor_angle] + rate * scene.question().times.back();
   parts[column::lyapunov] = size[column::lyapunov] + momentum * rate;
   const double floor = honesty::cvode_looser * pair.tolerance;
-  track.error = pair.both.relative(pair.margin * pair.both.difference() + floor * parts);
+  track.error = pair.asked.relative(pair.margin * pair.distance + floor * parts);
   return track;
 }
 
 }  // namespace detail
 
 /// Rung `full` by CVODE: Adams, or BDF where the motor is stiff. The error is four times the distance to a second run at a tolerance
-/// ten times looser, ten times where the tighter one is the tightest that CVODE is asked for.
+/// ten times looser, ten times where the tighter one is next to rounding.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const bool stiff = is_stiff(scene.gyrostat(), scene.start());
   return detail::by_cvode(scene, stiff ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams, monitor);

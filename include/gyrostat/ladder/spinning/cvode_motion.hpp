@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "gyrostat/ladder/cvode_pair.hpp"
 #include "gyrostat/ladder/cvode_walk.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/spinning/full_rung.hpp"
+#include "gyrostat/ladder/spinning/neighbour.hpp"
 #include "gyrostat/models/spinning/full.hpp"
 #include "gyrostat/models/spinning/spin_angle.hpp"
 #include "gyrostat/ode/cvode.hpp"
@@ -83,14 +85,13 @@ class CvodeEquations {
   Vec3<double> direction_;
 };
 
-/// One CVODE run. least_cosine: a lower bound of cos(psi) on the way.
-inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, double longest, double& least_cosine,
-                                         Monitor* monitor) {
-  const auto& times = scene.question().times;
+/// One CVODE run over these times. least_cosine: a lower bound of cos(psi) on the way.
+inline CvodeRun<State<double>> cvode_run(const Problem<double>& problem, std::span<const double> times,
+                                         double tolerance, double longest, double& least_cosine, Monitor* monitor) {
   const double end = times.back();
-  CvodeEquations equations(scene.problem(), end);
+  CvodeEquations equations(problem, end);
   const auto start = equations.start();
-  SpinAngle<double> angle(scene.problem());
+  SpinAngle<double> angle(problem);
   CvodeRun<State<double>> run;
   run.states.reserve(times.size());
   const auto keep = [&](double t, const double* y) {
@@ -132,24 +133,29 @@ inline CvodeRun<State<double>> cvode_run(const Scene& scene, double tolerance, d
 }  // namespace detail
 
 /// Rung `full` by CVODE. The error is four times the distance to a second run at a tolerance ten times looser, ten times
-/// where the tighter one is the tightest that CVODE is asked for.
+/// where the tighter one is next to rounding.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
-  const Row<double> row{scales(scene.problem(), scene.question().times.back())};
+  const auto& problem = scene.problem();
+  const auto& times = scene.question().times;
+  const Row<double> row{scales(problem, times.back())};
+  const double rate = problem.rate_size(times.back());
   double least_cosine[2] = {1, 1};
   int runs = 0;
-  auto pair = cvode_pair(row, scene.goal().tightest, 1e-6, [&](double tolerance, double longest) {
-    return detail::cvode_run(scene, tolerance, longest, least_cosine[runs++], monitor);
-  });
+  auto pair = cvode_pair(row, times, scene.goal().tightest, 1e-6,
+                         [&](std::span<const double> watched, double tolerance, double longest, double change) {
+                           const auto of = change > 0 ? neighbour(problem, rate, change, 0) : problem;
+                           return detail::cvode_run(of, watched, tolerance, longest, least_cosine[runs++], monitor);
+                         });
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
   Track track;
   track.states = std::move(pair.states);
   track.counts = pair.counts;
-  auto error = pair.margin * pair.both.difference() + honesty::cvode_looser * pair.tolerance * pair.both.size();
+  auto error = pair.margin * pair.distance + honesty::cvode_looser * pair.tolerance * pair.asked.size();
   const double attitude = error[column::attitude];
   error[column::euler_312] = angles_error<double>(attitude, track.states);
-  track.error = pair.both.relative(error);
-  if (loses_turns<double>(track.states, scene.problem().angles.phi, least_cosine[0], attitude))
+  track.error = pair.asked.relative(error);
+  if (loses_turns<double>(track.states, problem.angles.phi, least_cosine[0], attitude))
     detail::warn_of_gimbal_lock(track, least_cosine[0]);
   return track;
 }
