@@ -877,6 +877,9 @@ def _advice(key: str, table: str, family: Family) -> str:
         return f"did you mean {near}?"
     if not table and (kinds := [family.name for family in FAMILIES.values() if key in family.keys]):
         return f"only scenes of the kind {' or '.join(kinds)} have it"
+    if not table and (near := _near(key, {name for family in FAMILIES.values() for name in family.keys if name})):
+        kinds = [family.name for family in FAMILIES.values() if near in family.keys]
+        return f"did you mean {near}, which scenes of the kind {' or '.join(kinds)} have?"
     for name, fields in layout.items():
         if near := _near(key, [field.name for field in fields]):
             return f"did you mean {name + '.' if name else ''}{near}?"

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gyrostat.asking import asked
 from gyrostat.console import short, small
 from gyrostat.drawing import COLOURS, Drawing, new_figure, note, save, time_unit
 from gyrostat.facts import FACTS
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Index", "Response", "drawings", "rank_correlations", "responses", "save_figures", "shares", "sobol_indices", "tables", "variance_shares"]
+__all__ = ["Index", "Response", "drawings", "missed_by", "rank_correlations", "responses", "save_figures", "shares", "sobol_indices", "tables", "variance_shares"]
 
 PERCENTILES: Final = (1, 5, 25, 50, 75, 95, 99)
 ROUNDINGS: Final = 1e-12  # a spread this small beside the values cannot be cut into bins
@@ -180,6 +181,23 @@ def shares(values: "xarray.DataArray") -> dict[str, float]:
     return {str(words[i]): float(counts[i] / every) for i in np.argsort(-counts, kind="stable")}
 
 
+def missed_by(dataset: "xarray.Dataset") -> dict[str, float]:
+    """Column or scalar -> share of the rows that are over the tolerance by its error, more than by any other; the greatest first."""
+    solve = json.loads(dataset.attrs["study"])["scene"]["solve"]
+    own = {name: tolerance for name, tolerance, absolute, *_ in asked(dataset.attrs["kind"], solve.get("ask")) or () if not absolute}
+    excess = dataset["excess"].values
+    found = np.full(len(excess), "", dtype=object)
+    for name, error in dataset.data_vars.items():
+        of = str(name).removesuffix("_error")
+        tolerance = own.get(of, math.nan)
+        limit = excess * (tolerance if tolerance > 0 else solve["tolerance"])
+        if of != name:
+            found[np.isclose(error.values, limit, rtol=1e-9, atol=0)] = of
+    found[dataset["met"].values | (dataset["reason"].values.astype(str) != "")] = ""
+    names, counts = np.unique(found.astype(str), return_counts=True)
+    return {str(names[i]): float(counts[i] / len(found)) for i in np.argsort(-counts, kind="stable") if names[i]}
+
+
 # ---- for reading ----
 
 
@@ -198,6 +216,8 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
         rows.append([name or "no answer", _percent(share), str(int(of.sum())), _percent(float(met[of].mean())), worst])
     yield f"Rungs, {len(met)} rows, {_percent(float(met.mean()))} within the tolerance", [
         "rung", "share", "rows", "within the tolerance", "greatest error over its tolerance"], rows
+    yield "Over the tolerance by what errs most", ["", "share", "rows"], [
+        [name, _percent(share), str(round(share * len(met)))] for name, share in missed_by(dataset).items()]
     rows = []
     for each in responses(dataset):
         known = np.isfinite(each.values)

@@ -15,6 +15,7 @@ import pytest
 from gyrostat import ConvergenceError, DomainError, SceneError, deceleration, free, general, heavy, sweep, sweeps
 from gyrostat.cli import main
 from gyrostat.facts import FACTS
+from gyrostat.families.general.scene import _at_centre, arguments
 from gyrostat.scenes import load, scene_from
 from gyrostat.vary import read_cases
 
@@ -517,3 +518,44 @@ def test_cvode_errs_with_what_its_steps_do_to_a_slim_tensor_asked_at_one_time() 
     for name in ("attitude", "angular_momentum", "angular_velocity"):
         away = np.linalg.norm(answer[name] - truth[name]) * (2 if name == "attitude" else 1)
         assert away <= answer.error[name] * (1 if name == "attitude" else np.linalg.norm(truth[name])) + truth.error[name]
+
+
+def fractions(values: Any) -> Any:
+    return [fractions(each) for each in values] if isinstance(values, list | tuple | np.ndarray) else Fraction(float(values))
+
+
+def test_what_general_scenes_convert_is_rounded_once() -> None:
+    def given(**tables: Any) -> Any:
+        return arguments(scene_from({"name": "x", "kind": "general", "solve": {"times": [1.0]}, **tables}))
+
+    # a momentum, about all but the slim axis of a body
+    tensor = [[0.3317587, 0.19531407, 0.42834619], [0.19531407, 0.94291346, -0.12519735], [0.42834619, -0.12519735, 0.72542784]]
+    momentum = [-0.077, -0.036, -0.035]
+    rates = given(body={"inertia": tensor}, initial={"angular_momentum": momentum})["angular_velocity"]
+    for row, wanted in zip(fractions(tensor), fractions(momentum), strict=True):
+        off = float(sum(j * w for j, w in zip(row, fractions(rates), strict=True)) - wanted)
+        assert abs(off) <= 2.3e-16 * max(np.abs(tensor) @ np.abs(rates))
+
+    # an inertia about a point far off
+    c, m = fractions([205.3, -31.0, 14.1]), Fraction(100)
+    J = fractions([[2e5, 6.36e5, -2.89e5], [6.36e5, 4.24e6, 4.3e4], [-2.89e5, 4.3e4, 4.32e6]])
+    square = sum(x * x for x in c)
+    exact = [[J[i][j] - m * ((square if i == j else 0) - c[i] * c[j]) for j in range(3)] for i in range(3)]
+    made = _at_centre(np.array(J, dtype=float), 100.0, np.array(c, dtype=float))
+    np.testing.assert_allclose(made, np.array(exact, dtype=float), rtol=1e-14)
+    body = {"inertia": [11.0, 4214822.0, 4214818.0], "mass": 100.0, "centre_of_mass": [205.3, 0, 0], "inertia_about": "origin"}
+    left = 100 * Fraction(205.3) ** 2
+    whole = given(body=body, initial={"angular_velocity": [0.1, 0.03, 0.07]})["inertia"]
+    np.testing.assert_allclose(np.diag(whole), [11.0, float(4214822 - left), float(4214818 - left)], rtol=3e-16)
+
+    # rates along inertial axes, all but about one axis of the body: R = 1 + 2 (w [v] + v v^T - |v|^2)/|q|^2
+    inertial = [0.4421052631578947, -0.06315789473684212, 0.8947368421052632]
+    start = given(body={"inertia": [1.0, 1.0, 0.01]}, initial={"attitude": [0.1, 0.2, 0.3, 0.9], "angular_velocity": {"inertial": inertial}})
+    x, y, z, w = fractions(start["attitude"])
+    n = x * x + y * y + z * z + w * w
+    R = [[1 - 2 * (y * y + z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n],
+         [2 * (x * y + w * z) / n, 1 - 2 * (x * x + z * z) / n, 2 * (y * z - w * x) / n],
+         [2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, 1 - 2 * (x * x + y * y) / n]]
+    about = [float(sum(R[i][k] * v for i, v in enumerate(fractions(inertial)))) for k in range(3)]
+    off = np.abs(start["angular_velocity"] - about)
+    assert off[2] <= 2e-16 and max(off[:2]) < 2e-19

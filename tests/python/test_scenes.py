@@ -58,6 +58,7 @@ MISTAKES: dict[str, tuple[str, list[str]]] = {
     "unknown key": (swap("drag = 2", "dragg = 2"), ["torque.dragg", "did you mean drag?"]),
     "unknown key at the top": (swap("[solve]", "colour = 1\n[solve]"), [":5", "colour = 1", "unknown key"]),
     "unknown table": (GOOD + "\n[motor]\nslope = 1\n", ["motor", "unknown table"]),
+    "misspelt table of another kind": (GOOD + "\n[motr]\nslope = 1\n", ["motr", "did you mean motor"]),
     "misspelt table": (swap("[torque]", "[torques]"), ["torques", "did you mean torque?", "[torque] is missing"]),
     "key in the wrong table": (swap("[torque]", "[torque]\ninertia = [1, 1, 1]"), ["torque.inertia", "belongs in [body]"]),
     "table missing": (GOOD.split("[initial]")[0], ["[initial] is missing", "angular_velocity or angular_momentum"]),

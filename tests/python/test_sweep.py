@@ -21,7 +21,7 @@ from gyrostat.families import FAMILIES
 from gyrostat.rotation import angle_between
 from gyrostat.rows import numbers_of, place_of, plan_of
 from gyrostat.scenes import bundled, load, scene_from
-from gyrostat.sweep_report import drawings, rank_correlations, responses, sobol_indices, tables, variance_shares
+from gyrostat.sweep_report import drawings, missed_by, rank_correlations, responses, sobol_indices, tables, variance_shares
 from gyrostat.sweeps import merge, open_results, save
 from gyrostat.toml_text import toml_text
 from gyrostat.vary import DESIGNS, Plan, Varied, choice, grid, linspace, lognormal, logspace, normal, number_in, read_words, uniform
@@ -482,6 +482,14 @@ def test_a_report_ranks_what_matters() -> None:
     assert float(titles["Percentiles"][0][6]) == pytest.approx(float(np.median(found["stop_time"])), rel=1e-4)
     assert not titles["No answer"]
     assert [name for name, _ in drawings(found)] == ["histograms", "bands", "tornado", "scatter"]
+
+
+def test_a_report_names_what_misses_the_tolerance() -> None:
+    varied = {"torque.drag": uniform(1e-4, 2e-4)}
+    scene = gyrostat.load("tiangong-1").replace(model="averaged", tolerance=1e-9)
+    assert missed_by(gyrostat.sweep(scene, varied, n=3, ask=["stop_time", "energy"])) == {"stop_time": 1.0}
+    assert missed_by(gyrostat.sweep(scene, varied, n=3, ask={"stop_time": 0.5, "energy": "1e-9 %"})) == {"energy": 1.0}
+    assert not missed_by(gyrostat.sweep(scene, varied, n=3, ask={"stop_time": 0.5}))
 
 
 def ishigami(n: int) -> xarray.Dataset:

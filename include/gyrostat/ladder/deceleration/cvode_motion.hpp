@@ -127,24 +127,23 @@ inline StoppedRun cvode_run(const Scene& scene, const Problem<double>& problem, 
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   double stops[2];  // of the tighter run and of the looser one
   double* stop = stops;
-  const auto pair = cvode_pair(Row<double>{scene.problem()}, scene.question().times, scene.goal().tightest, 1e-5,
-                               [&](std::span<const double> watched, double tolerance, double longest, double change) {
-                                 using Near = detail::Neighbour<double>;
-                                 const auto& problem = scene.problem();
-                                 const Near near = change > 0 ? Near(problem, change, 0) : Near(problem);
-                                 const Quat<double> turn = from_matrix(near.R);
-                                 const bool turned = !near.R.isIdentity(0);
-                                 auto run = detail::cvode_run(scene, near.problem,
-                                                              turned ? scene.attitude() * turn : scene.attitude(),
-                                                              watched, tolerance, longest, monitor);
-                                 for (auto& state : run.states) {
-                                   if (!turned) break;
-                                   state.momentum = near.R * state.momentum;
-                                   state.attitude = state.attitude * conjugate(turn);
-                                 }
-                                 *stop++ = run.stop_time;
-                                 return run;
-                               });
+  const auto run = [&](std::span<const double> watched, double tolerance, double longest, double change) {
+    using Near = detail::Neighbour<double>;
+    const auto& problem = scene.problem();
+    const Near near = change > 0 ? Near(problem, change, 0) : Near(problem);
+    const Quat<double> turn = from_matrix(near.R);
+    const bool turned = !near.R.isIdentity(0);
+    auto made = detail::cvode_run(scene, near.problem, turned ? scene.attitude() * turn : scene.attitude(), watched,
+                                  tolerance, longest, monitor);
+    for (auto& state : made.states) {
+      if (!turned) break;
+      state.momentum = near.R * state.momentum;
+      state.attitude = state.attitude * conjugate(turn);
+    }
+    *stop++ = made.stop_time;
+    return made;
+  };
+  const auto pair = cvode_pair(Row<double>{scene.problem()}, scene.question().times, scene.goal().tightest, 1e-5, run);
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
   // what each step may err by itself adds up, and is shared by the runs where the longest step rules both

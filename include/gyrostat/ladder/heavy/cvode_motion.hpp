@@ -84,20 +84,25 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto& start = scene.start();
   const bool turning = scene.question().wants_attitude;
   const Row<double> row = row_of(scene);
-  auto pair = cvode_pair(row, times, scene.goal().tightest, 1e-6,
-                         [&](std::span<const double> watched, double tolerance, double longest, double change) {
-                           const ode::CvodeOptions options{ode::CvodeMethod::adams, tolerance, tolerance, step_budget,
-                                                           longest * times.back()};
-                           using Near = detail::Neighbour<double>;
-                           std::optional<Near> near;
-                           if (change > 0) near.emplace(scene.problem(), start, change, 0, scene.converts_start());
-                           CvodeEquations equations(near ? near->problem : scene.problem(), near ? near->start : start,
-                                                    turning);
-                           auto run = run_cvode(equations, near ? near->start : start, watched, options, monitor);
-                           if (near)
-                             for (auto& state : run.states) state = Near::in_turned_axes(near->turn.transpose(), state);
-                           return run;
-                         });
+  const auto run = [&](std::span<const double> watched, double tolerance, double longest, double change) {
+    const ode::CvodeOptions options{ode::CvodeMethod::adams, tolerance, tolerance, step_budget, longest * times.back()};
+    using Near = detail::Neighbour<double>;
+    std::optional<Near> near;
+    if (change > 0) {
+      near.emplace(scene.problem(), start, change, 0, scene.converts_start());
+      if (!turning) near->start.attitude = start.attitude;
+    }
+    CvodeEquations equations(near ? near->problem : scene.problem(), near ? near->start : start, turning);
+    auto made = run_cvode(equations, near ? near->start : start, watched, options, monitor);
+    if (!near) return made;
+    for (auto& state : made.states) {
+      const auto attitude = state.attitude;
+      state = Near::in_turned_axes(near->turn.transpose(), state);
+      if (!turning) state.attitude = attitude;
+    }
+    return made;
+  };
+  auto pair = cvode_pair(row, times, scene.goal().tightest, 1e-6, run);
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
   Track track;

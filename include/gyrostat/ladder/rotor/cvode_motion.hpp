@@ -89,16 +89,15 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   const auto& times = scene.question().times;
   const auto& body = scene.gyrostat();
   const auto& start = scene.start();
-  auto pair = cvode_pair(
-      Row<double>(body, start), times, scene.goal().tightest, 1e-5,
-      [&](std::span<const double> watched, double tolerance, double longest, double change) {
-        std::optional<Neighbour<double>> near;
-        if (change > 0) near.emplace(body, start, change, 0);
-        const auto& from = near ? near->start : start;
-        CvodeEquations equations(near ? near->gyrostat : body, from, times.back());
-        return run_cvode(equations, from, watched,
-                         {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * times.back()}, monitor);
-      });
+  const auto run = [&](std::span<const double> watched, double tolerance, double longest, double change) {
+    std::optional<Neighbour<double>> near;
+    if (change > 0) near.emplace(body, start, change, 0);
+    const auto& from = near ? near->start : start;
+    CvodeEquations equations(near ? near->gyrostat : body, from, times.back());
+    return run_cvode(equations, from, watched,
+                     {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * times.back()}, monitor);
+  };
+  auto pair = cvode_pair(Row<double>(body, start), times, scene.goal().tightest, 1e-5, run);
   if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
 
   Track track;

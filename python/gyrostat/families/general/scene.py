@@ -343,19 +343,77 @@ def _force_mistakes(place: int, torque: Mapping[str, Any], body: Mapping[str, An
         yield "body.mass", "", f"the key is missing, and {what} moves the mass centre", 'give it, or give the torque alone, as a torque of the type "constant"'
 
 
-def _times(factor: Any, of: Floats) -> Floats:
+# What is converted may cancel, and a slim body makes much of little: it is rounded once, at the end, so that it is as good as what was given.
+
+
+def _wide(value: Any) -> Any:
+    """With more digits, for what is on the way."""
+    return np.asarray(value, dtype=np.longdouble)
+
+
+def _rounded(value: Any) -> Floats:
+    made: Floats = np.asarray(value, dtype=np.float64)
+    return made
+
+
+def _times(factor: Any, of: Any) -> Any:
     """A number times a vector or a tensor."""
-    made: Floats = np.reshape(np.asarray(factor, dtype=float), (*np.shape(factor), *[1] * (2 if of.shape[-2:] == (3, 3) else 1))) * of
-    return made
+    return np.reshape(_wide(factor), (*np.shape(factor), *[1] * (2 if of.shape[-2:] == (3, 3) else 1))) * of
 
 
-def _square(v: Floats) -> Floats:
+def _product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """The product and what its rounding loses (Dekker 1971); nothing of that where a factor is too large to be split."""
+    def split(x: Floats) -> tuple[Floats, Floats]:
+        high = 134217729.0 * x - (134217729.0 * x - x)
+        return high, x - high
+    with np.errstate(over="ignore", invalid="ignore"):
+        made, (a1, a2), (b1, b2) = a * b, split(a), split(b)
+        lost = ((a1 * b1 - made) + a1 * b2 + a2 * b1) + a2 * b2
+    return made, np.where(np.isfinite(lost), lost, 0.0)
+
+
+def _sum(terms: Sequence[Floats]) -> Floats:
+    """As if in twice the digits (Ogita, Rump and Oishi 2005, Sum2)."""
+    total, lost = terms[0], np.zeros(())
+    for term in terms[1:]:
+        both = total + term
+        part = both - total
+        total, lost = both, lost + ((total - (both - part)) + (term - part))
+    return total + lost
+
+
+def _at_centre(inertia: Floats, mass: Any, arm: Floats) -> Floats:
+    """An inertia about a point, moved to the mass centre: all digits of a small difference."""
+    masses = _rounded(mass)
+
+    def product(i: int, j: int) -> list[Floats]:  # m a_i a_j
+        square, lost = _product(arm[..., i], arm[..., j])
+        return [*_product(masses, square), masses * lost]
+
+    def entry(i: int, j: int) -> Floats:
+        if i != j:
+            return _sum([inertia[..., i, j], *product(i, j)])
+        return _sum([inertia[..., i, i], *(-term for k in {0, 1, 2} - {i} for term in product(k, k))])
+
+    entries = np.stack(np.broadcast_arrays(*(entry(i, j) for i in range(3) for j in range(3))), -1)
+    return entries.reshape(*entries.shape[:-1], 3, 3)
+
+
+def _solved(inertia: Floats, momentum: Any) -> Any:
+    """The angular velocity of a momentum, with the digits of the momentum."""
+    rates = _wide(np.zeros(3))
+    for _ in range(3):
+        left = _rounded(momentum - turned(_wide(inertia), rates))
+        rates = rates + np.linalg.solve(inertia, left[..., None])[..., 0]
+    return rates
+
+
+def _square(v: Any) -> Any:
     """v v^T"""
-    made: Floats = v[..., :, None] * v[..., None, :]
-    return made
+    return v[..., :, None] * v[..., None, :]
 
 
-def _moved(mass: Any, arm: Floats) -> Floats:
+def _moved(mass: Any, arm: Any) -> Any:
     """What an inertia about the mass centre gains at a point that far from it."""
     return _times(mass, dot(arm, arm)[..., None, None] * np.eye(3) - _square(arm))
 
@@ -369,26 +427,27 @@ class _Whole:
     centre_of_mass: Floats
 
 
-def _points(body: Mapping[str, Any], all_centre: Floats) -> tuple[Floats, Floats]:
+def _points(body: Mapping[str, Any], all_centre: Any) -> tuple[Any, Any]:
     """From the body's origin: the point that the inertia is given about, and the one that it is wanted about."""
     about = body["inertia_about"] if body["inertia_about"] != "reference" else "origin" if body["fixed"] else "mass-centre"
-    return np.zeros(3) if about == "origin" else stacked(body["centre_of_mass"]), np.zeros(3) if body["fixed"] else all_centre
+    return np.zeros(3) if about == "origin" else _wide(stacked(body["centre_of_mass"])), np.zeros(3) if body["fixed"] else all_centre
 
 
 def _whole(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]]) -> _Whole:
-    mass, centre, inertia = 1.0 if body["mass"] is UNSET else body["mass"], stacked(body["centre_of_mass"]), stacked(body["inertia"])
+    mass, centre, inertia = 1.0 if body["mass"] is UNSET else body["mass"], _wide(stacked(body["centre_of_mass"])), stacked(body["inertia"])
     inertia = inertia if isinstance(body["inertia"][0], tuple) else diagonal(inertia)
     apart = [] if body["wheels_in_inertia"] else [(each["mass"], stacked(each["position"])) for each in wheels]
     all_mass = mass + sum(m for m, _ in apart)
-    all_centre = (_times(mass, centre) + sum(_times(m, r) for m, r in apart)) / np.asarray(all_mass)[..., None] if apart else centre
+    all_centre = (_times(mass, centre) + sum(_times(m, r) for m, r in apart)) / _wide(all_mass)[..., None] if apart else centre
     given, reference = _points(body, all_centre)
     differs = np.any(given != reference, -1)
     if np.any(differs):
-        inertia = np.where(differs[..., None, None], inertia - _moved(mass, centre - given) + _moved(mass, centre - reference), inertia)
+        at_centre = _at_centre(inertia, mass, _rounded(centre - given))
+        inertia = np.where(differs[..., None, None], at_centre + _moved(mass, centre - reference), inertia)
     for wheel, (m, r) in zip(wheels, apart, strict=False):
         across = wheel["equatorial_inertia"]
         inertia = inertia + _times(across, np.eye(3)) + _times(wheel["axial_inertia"] - across, _square(unit(stacked(wheel["axis"])))) + _moved(m, r - reference)
-    return _Whole(inertia, all_mass, all_centre)
+    return _Whole(_rounded(inertia), all_mass, _rounded(all_centre))
 
 
 @dataclass(frozen=True, slots=True)
@@ -448,7 +507,7 @@ def _stepped(rates: Floats, whole: _Whole, wheels: list[dict[str, Any]], taken: 
         return rates
     for wheel in turning:
         inertia = inertia - _times(wheel["axial_inertia"], _square(unit(stacked(wheel["axis"]))))
-    change: Floats = -np.linalg.solve(inertia, jump[..., None])[..., 0].astype(np.float64)
+    change = -_rounded(_solved(_rounded(inertia), jump))
     for wheel in turning:
         wheel["rate"] = wheel["rate"] - dot(unit(stacked(wheel["axis"])), change)
     made: Floats = rates + change
@@ -457,16 +516,28 @@ def _stepped(rates: Floats, whole: _Whole, wheels: list[dict[str, Any]], taken: 
 
 def _rates_of(momentum: Floats, inertia: Floats, body: Mapping[str, Any], wheels: list[dict[str, Any]], time: float) -> Floats:
     """The angular velocity with which body and wheels have a momentum; rates of wheels are relative to the body, so with them J is that of the whole."""
-    held = stacked(body["rotor_momentum"])
+    held = _wide(stacked(body["rotor_momentum"]))
     for wheel in wheels:
-        held = held + _times(wheel["axial_inertia"] * _rate_at(wheel, time), unit(stacked(wheel["axis"])))
-    return np.linalg.solve(inertia, (momentum - held)[..., None])[..., 0].astype(np.float64)
+        held = held + _times(_wide(wheel["axial_inertia"]) * _rate_at(wheel, time), unit(stacked(wheel["axis"])))
+    return _rounded(_solved(inertia, momentum - held))
 
 
 def _rotation(attitude: Floats) -> Floats:
     """That of an attitude; none where it is not known."""
     known = np.all(np.isfinite(attitude), -1, keepdims=True)
     return matrix_from_quaternion(np.where(known, attitude, (0.0, 0.0, 0.0, 1.0)))
+
+
+def _wide_rotation(attitude: Floats) -> Any:
+    """The same with more digits."""
+    known = np.all(np.isfinite(attitude), -1, keepdims=True)
+    q = _wide(np.where(known, attitude, (0.0, 0.0, 0.0, 1.0)))
+    q = q / np.sqrt(np.sum(q * q, -1, keepdims=True))
+    v, w = q[..., :3], q[..., 3, None, None]
+    x, y, z = (v[..., i] for i in range(3))
+    none = 0 * x
+    cross = np.stack([np.stack(row, -1) for row in ((none, -z, y), (z, none, -x), (-y, x, none))], -2)
+    return np.eye(3) + 2 * (w * cross + _square(v) - dot(v, v)[..., None, None] * np.eye(3))
 
 
 def _from_orbit(axes: Floats, attitude: Floats) -> Floats:
@@ -509,7 +580,7 @@ def _caught(end: End, whole: _Whole, body: Mapping[str, Any], wheels: list[dict[
             turning.append((wheel, axis, rate))
         rest = rest - axial * rate * axis
         stored += axial
-    made: Floats = np.linalg.solve(inertia, rest)
+    made = _rounded(_solved(inertia, rest))
     for wheel, axis, rate in turning:
         wheel["rate"] = rate - float(axis @ made)
     off = momentum_off + stored * (end.error.get("rotor_rate", 0.0) + end.error["angular_velocity"])
@@ -542,8 +613,8 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     elif not isinstance(given, Mapping):
         rates = stacked(given)
     else:
-        back = np.swapaxes(_rotation(attitude), -1, -2)
-        rates = (turned(back, stacked(given["inertial"])) if given["inertial"] is not UNSET
+        back = np.swapaxes(_wide_rotation(attitude), -1, -2)
+        rates = _rounded(turned(back, stacked(given["inertial"])) if given["inertial"] is not UNSET
                  else stacked(given["relative_to_orbit"]) + turned(back, normal_rate))
         if end and start["attitude"] is UNSET:  # which axes of the body these rates are about is known as well as the attitude
             about = stacked(given["inertial"]) if given["inertial"] is not UNSET else normal_rate
