@@ -183,12 +183,9 @@ class TiltIntegrals {
 
   static Row form(const Level& level, const Vector& y) noexcept {
     const Monomials m = monomials(y);
-    Row sum{};
-    for (std::size_t k = 0; k < 15; ++k) {
-#pragma GCC unroll 16
-      for (std::size_t c = 0; c < columns; ++c) sum[c] += m[k] * level.row[k][c];  // unrolled: it stays in registers
-    }
-    return sum;
+    RowSum sum;
+    for (std::size_t k = 0; k < 15; ++k) sum.add(m[k], level.row[k]);
+    return sum.row();
   }
 
   static Vector moved(const Level& level, const Vector& y) noexcept {
