@@ -179,6 +179,24 @@ TEST_CASE("heavy pendulum: nudged or tilted from upright by less than a rounding
   }
 }
 
+TEST_CASE("heavy pendulum: slow at the top, where a rounding of the place is one of the time", "[heavy]") {
+  const auto from = [](const V& I, double mass, const V& centre, double gravity, const V& down, const V& rate,
+                       double t) {
+    const auto made = Problem<double>::make(I, mass, centre, gravity, 0);
+    REQUIRE(made);
+    State<double> start;
+    start.down = down;
+    start.angular_velocity = rate;
+    worst_swing(*made, *aligned(start), {t / 2, t});
+  };
+  from({33.77965597104993, 20.740633460969025, 41.27992423422752}, 0.3672953422745925,
+       {0, 0.0070190321121635585, 0.017800295447560382}, 1.62, {0, -0.36683187996701555, -0.9302872523257885},
+       {7.346519185365767e-08, 0, 0}, 750.3865208227086);
+  from({27.024539456490118, 43.77759626562278, 17.621996710737662}, 0.6762543131355201,
+       {0.011198466333342028, 0, 0.006438340303496544}, 9.81, {-0.8669323216213088, 0, -0.49842587184885134},
+       {0, -1.948398561237342e-06, 0}, 245.71479375238556);
+}
+
 TEST_CASE("heavy pendulum: the reference motions and their periods", "[heavy]") {
   int seen = 0;
   for (const auto& row : reference_rows("motion")) {

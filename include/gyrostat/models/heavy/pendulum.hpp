@@ -170,7 +170,9 @@ void Pendulum<Scalar>::set_phase(Scalar v, Scalar s, Scalar c, Scalar doubt) noe
   if (total == 0 || (v == 0 && c == 0)) return;
   rotates_ = short_of < 0;
   direction_ = v < 0 ? -1 : 1;
-  shift_ = (inside * inside + p + frequency_ * std::abs(inside) * (2 * doubt / rounding)) / std::abs(short_of);
+  // a doubt of the place counts in the energy, and where the pendulum passes or leaves the top slowly in the argument
+  const Scalar place = frequency_ * (std::abs(inside) + std::abs(v)) * (2 * doubt / rounding);
+  shift_ = (inside * inside + p + place) / std::abs(short_of);
   Scalar sn, cn, dn;
   if (rotates_) {
     motion_ = PendulumMotion::rotation;
