@@ -3,29 +3,15 @@
 // time costs. `allocations` counts those of one solution. Beside them the bare models, without error, at two times.
 #include <benchmark/benchmark.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <string>
 
+#include "../tests/allocations.hpp"
 #include "gyrostat/ladder/deceleration/averaged_motion.hpp"
 #include "gyrostat/models/free/motion.hpp"
 #include "gyrostat/models/spinning/linear.hpp"
 #include "gyrostat/ode/taylor.hpp"
 #include "studies.hpp"
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -43,9 +29,9 @@ void solved(benchmark::State& state, Study<Scene> (*made)(), const char* rung) {
   study.question.rung = place_of(study.family.rungs, rung);  // any_rung where there is none of this name
   const auto scene = study.scene_of(study.numbers, study.question);
   Refusal refusal;
-  const std::size_t before = allocations;
+  const std::size_t before = allocations();
   const Answer answer = study.solve(*scene, refusal, nullptr);
-  state.counters["allocations"] = double(allocations - before);
+  state.counters["allocations"] = double(allocations() - before);
   state.SetLabel(refusal.code == Errc::ok ? answer.model : refusal.why);
   for (auto _ : state) benchmark::DoNotOptimize(study.solve(*scene, refusal, nullptr));
 }
