@@ -48,13 +48,20 @@ def test_every_panel_shows_something_and_nothing_lies_on_the_frame(scene: str) -
         assert low <= values.min() and values.max() < high - room, axes.get_title(loc="left")
 
 
-@pytest.mark.parametrize("scene", ["spinning-paper", "flat-sail", "toy-top"])
+@pytest.mark.parametrize("scene", ["spinning-paper", "flat-sail", "no-stiffness", "toy-top"])
 def test_what_is_written_has_room(scene: str, tmp_path: Path) -> None:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.image import imread
+    from matplotlib.text import Text
 
     figure = gyrostat.solve(scene).plot(tmp_path / "answer.png")
     seen = imread(tmp_path / "answer.png")[..., :3]
     assert all(np.all(edge == 1) for edge in (seen[0], seen[-1], seen[:, 0], seen[:, -1]))  # nothing is cut
+    FigureCanvasAgg(figure).draw()
+    for axes in figure.axes:
+        title, remark = (next((text for text in axes.findobj(Text) if text.get_text() == axes.get_title(loc=side)), None) for side in ("left", "right"))
+        if axes.get_title(loc="left") and axes.get_title(loc="right"):
+            assert title.get_window_extent().x1 + 4 < remark.get_window_extent().x0, title
     boxes = [axes.get_tightbbox() for axes in figure.axes]
     for (one, its), (other, of_other) in itertools.combinations(zip(boxes, figure.axes, strict=True), 2):
         assert its.get_position().bounds == of_other.get_position().bounds or not one.overlaps(other)

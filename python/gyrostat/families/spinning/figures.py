@@ -31,7 +31,7 @@ def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
     panels: list[tuple[bool, Panel]] = [
         (True, split("angular_velocity", "ω", "rad/s", "Angular velocity, body axes")),
         (changes(answer["euler_312"][:, :2]), _angles),
-        (changes(answer["angular_momentum_inertial"]), split("angular_momentum_inertial", "G", "N m s", "Angular momentum, inertial axes")),
+        (changes(answer["angular_momentum_inertial"]), split("angular_momentum_inertial", "G", "N m s", "Momentum, inertial axes")),
         (moved and changes(answer["velocity"]), split("velocity", "v", "m/s", "Velocity, inertial axes")),
         (changes(answer["euler_312"][:, 2]), _spin_angle),
         (bool(np.any(answer["velocity"])) and changes(answer["position"]), split("position", "x", "m", "Position, inertial axes"))]
@@ -97,7 +97,7 @@ def _axis_map(axes: "Axes", answer: "Answer", given: Mapping[str, Any]) -> None:
             "inertia", "torque", "angular_velocity", "rotor_momentum", "charge_momentum", "euler_312")}).mean_tilt
         if abs(mean) < 1:
             _mark(axes, "mean of the\nlinear motion", float(np.real(mean)), float(np.imag(mean)))
-    _finish_map(axes, "Axis 3 and momentum", R[:, :, 2])
+    _finish_map(axes, "Axis 3, momentum", R[:, :, 2])
     note(axes, error_text(answer, "attitude", "angular_momentum_inertial"))
 
 
