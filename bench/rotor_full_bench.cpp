@@ -169,7 +169,7 @@ void cvode(benchmark::State& state) {
     CvodeEquations equations(gyrostat, from, end_time);
     auto system = equations.system();
     if (!newton) system.jacobian = nullptr;
-    const auto y = equations.numbers(from);
+    const auto y = equations.start();
     auto made = ode::Cvode::create(system, 0, y, {method, tolerance, tolerance, 10'000'000});
     ode::Cvode run = std::move(made).value();
     run.advance(end_time);
