@@ -290,7 +290,12 @@ def _solve(arguments: argparse.Namespace) -> int:
     scene, form = _scene(arguments), _form(arguments)
     check_folder(arguments.output)
     _check_plot(arguments)
-    answer = _in_thread(lambda monitor: solve(scene, monitor=monitor), scene.name)
+    try:
+        answer = _in_thread(lambda monitor: solve(scene, monitor=monitor), scene.name)
+    except (DomainError, ConvergenceError) as error:
+        model = scene.tables["solve"].get("model", "auto")
+        others = " (model = 'auto' asks the other rungs)" if str(error).startswith(f"model {model}: ") else ""
+        raise type(error)(f"{error}{others}") from None
     if arguments.data_error:
         answer = _with_data_error(scene, answer)
     match form:

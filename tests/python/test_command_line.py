@@ -124,7 +124,7 @@ def test_exit_status_3_over_the_tolerance(capsys: pytest.CaptureFixture[str]) ->
     (["solve", "tiangong-1", "--set", "model=full", "--set", "control=[1e-13, 2e-13, 3e-13]", "--set", "drag=0", "--set", "times=[1e12]"],
      "10 million steps"),
     (["solve", "tiangong-1", "--ask", "atitude"], "did you mean attitude"),
-    (["solve", "tiangong-1", "--set", "model=equal-torque"], "the control torques are not equal"),
+    (["solve", "tiangong-1", "--set", "model=equal-torque"], "the control torques are not equal (model = 'auto' asks the other rungs)"),
     (["solve", "tiangong-1", "--plot", "x.xyz"], "unknown ending"),
     (["solve", "tiangong-1", "-o", "/no/such/folder/x"], "there is no folder /no/such/folder"),
     (["chart", "tiangong-1", "--set", "samples=1"], "solve.samples"),
