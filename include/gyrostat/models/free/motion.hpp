@@ -150,17 +150,18 @@ class Motion {
   }
 
   /// What omega is summed of in at(t), all terms by their sizes, rad/s: more than |omega| where the body is slim, whose slight moment turns a small
-  /// part of M into much of omega.
+  /// part of M, which products of the pair nearly cancel to, into much of omega.
   Scalar rate_terms(Scalar t) const noexcept {
     using std::abs, std::sqrt;
     if (kind_ == Kind::steady || precesses_) return at(t).angular_velocity.norm();
     const Place place = place_at(t);
     const auto f = products(pair_.at(place.exponent, place.rest));
+    const Scalar product = sqrt(f[0] * f[1]), terms[4] = {f[0], f[1], product, product};
     Scalar square = 0, size = 0;
     for (int j = 0; j < 4; ++j) size += size_[j] * f[std::size_t(j)];
     for (int i = 0; i < 3; ++i) {
       Scalar sum = 0;
-      for (int j = 0; j < 4; ++j) sum += abs(W_(i, j) * f[std::size_t(j)]);
+      for (int j = 0; j < 4; ++j) sum += abs(W_(i, j)) * terms[j];
       square += sum * sum;
     }
     return sqrt(square) / abs(size);

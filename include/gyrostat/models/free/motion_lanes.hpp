@@ -431,11 +431,12 @@ void MotionLanes::look(int first, const Many& t, Looks& to) const noexcept {
   }
   const Many inverse = 1 / whole, pace = 2 * pi<double> * row(rate_);
   (parts * math::abs(inverse)).to(to.cancellation + first);
+  const Many product = math::sqrt(f[0] * f[1]), sizes[4] = {f[0], f[1], product, product};
   Many omega[3], M[3], change[3], terms = 0;
   for (int i = 0; i < 3; ++i) {
     omega[i] = row(to.states.angular_velocity[i]), M[i] = row(to.states.angular_momentum[i]);
     Many sum = 0, slope = 0;
-    for (int j = 0; j < 4; ++j) sum += math::abs(row(forms_[j][1 + i]) * f[j]), slope += row(forms_[j][4 + i]) * df[j];
+    for (int j = 0; j < 4; ++j) sum += math::abs(row(forms_[j][1 + i])) * sizes[j], slope += row(forms_[j][4 + i]) * df[j];
     terms += sum * sum;
     change[i] = slope;
   }
