@@ -430,3 +430,20 @@ def test_a_wheel_that_keeps_its_absolute_rate_carries_what_the_bodys_rate_was_of
     off = np.max(np.abs(stated["rotor_rate"] - true["rotor_rate"])) / np.max(np.abs(true["rotor_rate"]))
     assert off == pytest.approx(4.97e-4, rel=1e-2)
     assert off <= stated.error["rotor_rate"] < 3 * off
+
+
+def test_a_given_momentum_leaves_to_the_body_what_the_wheels_may_be_off(tmp_path: Path) -> None:
+    wheel = {"type": "motor", "axis": [0.0, 0.0, 1.0], "axial_inertia": 0.5, "slope": 0.05, "no_load_rate": 20.0}
+
+    def second(rate: float) -> gyrostat.Answer:
+        file = tmp_path / f"first{rate}.toml"
+        file.write_text(toml_text({"name": "first", "kind": "general", "solve": {"times": [10.0], "tolerance": 0.1}, "body": {"inertia": [1.0, 2.0, 2.5]},
+                                   "wheel": [{**wheel, "rate": rate}], "initial": {"angular_velocity": [0.1, 1.0, 0.2], "error": {"rotor_rate": 0.2}}}))
+        return gyrostat.solve({"name": "second", "from": str(file), "solve": {"times": [10.0], "tolerance": 0.1, "ask": ["angular_velocity", "rotor_rate"]},
+                               "body": {"inertia": [1.0, 2.0, 2.5]}, "wheel": [wheel], "initial": {"angular_momentum": [1.0, 0.5, 0.3]}})
+
+    stated = second(3.0)
+    for rate in (2.8, 3.2):
+        true = second(rate)["angular_velocity"]
+        off = np.linalg.norm(stated["angular_velocity"] - true) / np.linalg.norm(true)
+        assert 1e-3 < off <= stated.error["angular_velocity"] < 10 * off

@@ -192,3 +192,52 @@ TEST_CASE("a torque of the caller's own may see how the body is turned") {
   CHECK(alone.find("angular_velocity")->error < 1e-6);
   CHECK(answer.find("angular_velocity")->error > 1e-4);
 }
+
+TEST_CASE("motions that have parted are told so where they are near again at the asked time") {
+  Problem<double> problem;
+  problem.inertia = Vec3<double>(0.3707108262898389, 0.8612564649290942, 1).asDiagonal();
+  problem.angular_velocity = {0, 1, 0};
+  StartError error;
+  error.angular_velocity = 0.005617898550954795;
+  const Answer answer = solved(posed(problem, question_at({58.944893596808846}, 0.3)).known_within(error));
+  CHECK(!answer.met);
+  CHECK(answer.find("angular_velocity")->error > 1);
+}
+
+TEST_CASE("what two errors of the start do together, and none by itself, is stated") {
+  Problem<double> problem;
+  problem.inertia = Vec3<double>(1, 2, 2.5).asDiagonal();
+  problem.angular_velocity = {0, 0, 1};
+  problem.wheels.push_back({WheelType::free, Vec3<double>(0, 0, 1), 0.01, 0.1, 0, 0, 0, 0, 0, {}});
+  StartError error;
+  error.angular_velocity = 0.05;
+  for (const double t : {0.02, 5.}) {
+    const Question question = all_at({t}, 1e-2);
+    const Answer answer = solved(posed(problem, question).known_within(error));
+    for (const double side : {-1., 1.}) {
+      Problem<double> other = problem;
+      other.angular_velocity += error.angular_velocity * std::sqrt(0.5) * Vec3<double>(1, side, 0);
+      const Answer truth = true_answer(posed(other, question));
+      for (const char* name : {"rotor_rate", "rotor_angle"}) {
+        CAPTURE(t, side, name);
+        CHECK(column_error(*answer.find(name), *truth.find(name)) <= answer.find(name)->error);
+      }
+    }
+  }
+}
+
+TEST_CASE("what a start may be off is taken over the least that the true column may be") {
+  Problem<double> problem;
+  problem.inertia = Mat3<double>::Identity();
+  problem.angular_velocity = {0, 0, 1};
+  problem.wheels.push_back({WheelType::motor, Vec3<double>(0, 0, 1), 0.1, 1, 0, 0, 0, 0, 0, {}});
+  StartError error;
+  error.rotor_rate = 0.4;
+  const Question question = all_at({0.1}, 0.5);
+  const Answer answer = solved(posed(problem, question).known_within(error));
+  problem.wheels[0].rate = 0.6;
+  const double off =
+      column_error(*answer.find("rotor_rate"), *true_answer(posed(problem, question)).find("rotor_rate"));
+  CHECK(off > 0.66);
+  CHECK(off <= answer.find("rotor_rate")->error * (1 + 1e-12));
+}

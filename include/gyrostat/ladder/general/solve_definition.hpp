@@ -142,16 +142,17 @@ inline Answer climbed(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 
-/// The answer from another start, if possible by the same rung, so that what it leaves out cancels.
-inline std::optional<Answer> answer_beside(const Scene& scene, const Problem<double>& start, int rung,
-                                           Monitor* monitor) {
+/// The answer from another start at these times, which end with the asked ones, if possible by the same rung, so that what it leaves out cancels.
+inline std::optional<Answer> answer_beside(const Scene& scene, const Problem<double>& start,
+                                           const std::vector<double>& times, int rung, Monitor* monitor) {
   const auto beside = scene.with(start);
   if (!beside) return std::nullopt;
   Refusal refusal;
   Question question = scene.question();
+  question.times = times;
   if (question.rung == any_rung) question.alone = rung;
   Answer made = climbed(beside->asked(question), refusal, monitor);
-  if (refusal.code != Errc::ok) refusal = {}, made = climbed(*beside, refusal, monitor);
+  if (refusal.code != Errc::ok) refusal = {}, question.alone = any_rung, made = climbed(beside->asked(question), refusal, monitor);
   return refusal.code == Errc::ok ? std::optional(std::move(made)) : std::nullopt;
 }
 
@@ -166,8 +167,8 @@ inline Question shared(Question question, double share) {
 inline Answer solve_uncertain(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   Answer answer = climbed(scene, refusal, monitor);
   if (refusal.code != Errc::ok) return answer;
-  const Carried carried = carried_error(scene, answer, [&](const Problem<double>& start) {
-    return answer_beside(scene, start, place_of(tables.rungs, answer.model), monitor);
+  const Carried carried = carried_error(scene, answer, [&](const Problem<double>& start, const std::vector<double>& times) {
+    return answer_beside(scene, start, times, place_of(tables.rungs, answer.model), monitor);
   });
   Answer exact = answer;
   for (Column& column : exact.columns) column.error = 0;

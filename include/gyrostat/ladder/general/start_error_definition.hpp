@@ -7,23 +7,27 @@
 #include <vector>
 
 #include "gyrostat/ladder/general/start_error.hpp"
+#include "gyrostat/rotation/exp_log.hpp"
 
 namespace gyrostat::general {
 
 namespace detail {
 
-GYROSTAT_COMPILED_ONCE double apart(const Column& one, const Column& other) noexcept {
+GYROSTAT_COMPILED_ONCE Apart Apart::of(const Column& one, const Column& other) {
   const auto width = std::size_t(one.row_width());
-  double most = 0;
+  const bool turns = one.kind->measure == Measure::angle && width == 4;
+  Apart made{turns ? 3 : width, {}};
   for (std::size_t at = 0; at + width <= one.values.size(); at += width) {
     const double *x = &one.values[at], *y = &other.values[at];
-    double square = 0;
-    for (std::size_t i = 0; i < width; ++i) square += (x[i] - y[i]) * (x[i] - y[i]);
-    const bool turns = one.kind->measure == Measure::angle && width == 4;
-    most = greater(
-        turns ? angle_between<double>({x[3], x[0], x[1], x[2]}, {y[3], y[0], y[1], y[2]}) : std::sqrt(square), most);
+    if (turns) {
+      const Vec3<double> turn = vector_from_quaternion<double>(conjugate(Quat<double>{x[3], x[0], x[1], x[2]}) *
+                                                               Quat<double>{y[3], y[0], y[1], y[2]});
+      made.values.insert(made.values.end(), turn.begin(), turn.end());
+    } else {
+      for (std::size_t i = 0; i < width; ++i) made.values.push_back(y[i] - x[i]);
+    }
   }
-  return most;
+  return made;
 }
 
 GYROSTAT_COMPILED_ONCE bool turns_along(const Problem<double>& problem) noexcept {
@@ -61,8 +65,14 @@ GYROSTAT_COMPILED_ONCE std::vector<Displacement> displacements(const Scene& scen
 GYROSTAT_COMPILED_ONCE void add_carried(Answer& answer, const Carried& carried) noexcept {
   for (std::size_t i = 0; i < answer.columns.size(); ++i) {
     Column& column = answer.columns[i];
-    const bool relative = column.kind->measure == Measure::relative;
-    column.error += relative ? over(carried.columns[i], size_of(column)) : carried.columns[i];
+    if (column.kind->measure != Measure::relative) {
+      column.error += carried.columns[i];
+      continue;
+    }
+    // over the least that the true column may be, less both errors, or over its scale where that is more
+    const double size = size_of(column), own = column.error < infinity<double> ? column.error / (1 + column.error) : 1;
+    const double all = own * size + carried.columns[i];
+    column.error = all < infinity<double> ? over(all, std::max(column.scale, size - all)) : infinity<double>;
   }
   for (Quantity& quantity : answer.quantities)
     if (quantity.kind == &scalar_kinds[scalar::stop_time])
