@@ -125,9 +125,16 @@ def test_the_motion_ends_where_the_report_says() -> None:
             assert caught["lyapunov"][-1] < saddle
 
 
-def test_no_swing_is_outside_after_the_settling_time() -> None:
-    given = scene(body__inertia=[86.0, 118.0, 141.0], initial__angular_velocity=[0.0, 0.01, 0.1], motor__slope=2e-5, motor__no_load_rate=50.26548245743669,
-                  rotor__axis=[0.997956956338743, 0.0498993477973318, 0.0398994784992693], rotor__axial_inertia=0.28)
+@pytest.mark.parametrize("changes", [
+    {"body__inertia": [86.0, 118.0, 141.0], "initial__angular_velocity": [0.0, 0.01, 0.1], "motor__slope": 2e-5, "motor__no_load_rate": 50.26548245743669,
+     "rotor__axis": [0.997956956338743, 0.0498993477973318, 0.0398994784992693], "rotor__axial_inertia": 0.28},
+    {"body__inertia": [0.63021861, 0.88441121, 0.82263986], "initial__angular_velocity": [1.37617854, 0.51633818, -1.29647439], "motor__slope": 0.06237923617998079,
+     "initial__rotor_rate": -4.224938815645678, "motor__no_load_rate": -4.342475588348988, "rotor__axis": [-0.8742404216, -0.10677229164, 0.47360677146],
+     "rotor__axial_inertia": 0.22835899023173065},
+])
+def test_no_swing_is_outside_after_the_settling_time(changes: dict[str, Any]) -> None:
+    axis = np.array(changes["rotor__axis"])
+    given = scene(**{**changes, "rotor__axis": (axis / np.linalg.norm(axis)).tolist()})
     report = stability_report(given)
     at, m = report["attractor"]["settling_time"], np.array(report["steady_rotations"][report["attractor"]["index"]]["direction"])
     answer = gyrostat.solve(given, duration=1.3 * at, samples=60001)  # thirty times a swing

@@ -388,6 +388,26 @@ TEST_CASE("what has no exponential rate is said") {
   CHECK(std::isnan(s.decay_rate));
 }
 
+TEST_CASE("a slim body whose great moments are nearly equal decays as long double says") {
+  const Vec3<double> moments(1, 0.999997, 4e-5), e(0.6, 0.8, 0);
+  const auto g = Gyrostat<double>::make(moments.asDiagonal(), e, 1e-5, 1e-5, -0.1).value();
+  const auto precise =
+      Gyrostat<long double>::make(moments.cast<long double>().asDiagonal(), e.cast<long double>(), 1e-5L, 1e-5L, -0.1L)
+          .value();
+  const auto set = steady_rotations(g, 1.0);
+  const auto same = steady_rotations(precise, 1.0L);
+  REQUIRE(set.count == 6);
+  REQUIRE(same.count == 6);
+  for (int i = 0; i < set.count; ++i) {
+    const auto s = stability_of(g, 1.0, set[i]);
+    const auto truth = stability_of(precise, 1.0L, same[i]);
+    CAPTURE(i, s.decay_rate);
+    CHECK(s.verdict == (i < 2 ? Verdict::asymptotically_stable : Verdict::unstable));
+    CHECK(s.verdict == truth.verdict);
+    CHECK(std::abs(s.decay_rate - double(truth.decay_rate)) < 1e-6);
+  }
+}
+
 TEST_CASE("towards a fold one real rate vanishes as S D/(lambda (k D + lambda l q))") {
   double six = 3.5572, four = 3.5573;
   for (int i = 0; i < 45; ++i) {

@@ -130,9 +130,9 @@ FastestDamping<Scalar> fastest_damping(Scalar D, Scalar kappa) noexcept {
   return {root * a * (1 + c / (1 + square)), root * a};
 }
 
-/// momentum_norm, N m s: that of steady_rotations. n and m count as parallel where the angle between them is rounding:
-/// 16 eps theta_3/theta_1 from n = theta^-1 e, and from m, which rounding of l m - h e moves the more, the smaller B is on the
-/// tangent plane. q, of second order in that angle, is then rounding alone, and is set to 0.
+/// momentum_norm, N m s: that of steady_rotations. n and m count as parallel where n x m is rounding: 16 eps/theta_1 from n = theta^-1 e, and
+/// from m, which rounding of l m - h e moves along each principal direction of B on the tangent plane by what theta^-1 makes of it there, the more the
+/// smaller B is. q, of second order in that, is then rounding alone, and is set to 0.
 template <Real Scalar>
 SteadyStability<Scalar> stability_of(const Gyrostat<Scalar>& gyrostat, Scalar momentum_norm,
                                      const SteadyRotation<Scalar>& rotation) noexcept {
@@ -148,10 +148,17 @@ SteadyStability<Scalar> stability_of(const Gyrostat<Scalar>& gyrostat, Scalar mo
   const Scalar sine = std::sqrt(along_u * along_u + along_v * along_v);
   SteadyStability<Scalar> r;
   r.determinant = uu * vv - uv * uv;
-  const Scalar smallest_moment = gyrostat.principal()[0];
-  Scalar rounding = 16 * epsilon<Scalar> / smallest_moment;
-  if (rotation.type != SteadyType::degenerate)
-    rounding *= 1 + l / smallest_moment * std::sqrt(uu * uu + vv * vv + 2 * uv * uv) / std::abs(r.determinant);
+  const auto& moments = gyrostat.principal();
+  constexpr Scalar some = 16 * epsilon<Scalar>;
+  Scalar rounding = some / moments[0];
+  if (rotation.type != SteadyType::degenerate) {
+    const Scalar half = (uu - vv) / 2, turn = std::atan2(uv, half) / 2, size = l + std::abs(psi) * moments[2];
+    for (const Scalar angle : {turn, turn + pi<Scalar> / 2}) {
+      const Scalar c = std::cos(angle), d = std::sin(angle);
+      const Scalar along = uu * c * c + 2 * uv * c * d + vv * d * d;
+      rounding += some * n.norm() * size * Vec3<Scalar>(c * Ju + d * Jv).norm() / std::abs(along);
+    }
+  }
   const bool felt = sine > rounding;
   r.feeling = felt ? along_u * along_u * uu + 2 * along_u * along_v * uv + along_v * along_v * vv : Scalar(0);
   if (rotation.type == SteadyType::degenerate) r.determinant = 0;

@@ -35,6 +35,7 @@ CIRCLE: Final = 3600  # directions at that angle
 # Where swings of the nutation are looked at one by one: how many at most, and at how many times each, so that a peak is seen to a part in 2000.
 MOST_SWINGS: Final = 4000
 TIMES_A_SWING: Final = 50
+ZOOM: Final = 65  # times between the last one outside and the next
 # A time by the mean over the nutation is given where its relative error is less than this.
 ROUGH: Final = 0.5
 # Flat spin: the rotor's axis is further from L than FLAT, that of greatest inertia nearer than ABOUT; and out of it again [rad].
@@ -161,11 +162,11 @@ def _expected(made: Mapping[str, Any], given: Mapping[str, Any], body: Mapping[s
     return float(followed + time) if error < ROUGH else None
 
 
-def _last_outside(answer: Answer, l: float, m: Vectors) -> int | None:
-    """Place of the last time at which H is more than SETTLED off m."""
+def _last_outside(answer: Answer, l: float, m: Vectors) -> int:
+    """Place of the last time at which H is more than SETTLED off m; -1 where there is none."""
     H = answer["angular_momentum"]
     outside = np.flatnonzero((np.linalg.norm(np.cross(H / l, m), axis=1) > math.sin(SETTLED)) | (H @ m < 0))
-    return int(outside[-1]) if len(outside) else None
+    return int(outside[-1]) if len(outside) else -1
 
 
 def _settling(made: Mapping[str, Any], given: Mapping[str, Any], body: Mapping[str, Any], theta: Vectors, index: int,
@@ -190,15 +191,23 @@ def _settling(made: Mapping[str, Any], given: Mapping[str, Any], body: Mapping[s
     end = float(np.min(Sphere(theta, np.asarray(given["axis"], dtype=float), l, made["target_momentum"]).level(circle)))
     if V <= end:
         # V never grows: from its first time below the level on no swing leads out again, and before it the swings are looked at one by one
-        sure, last = int(np.argmax(answer["lyapunov"] <= end)), _last_outside(answer, l, m)
-        begin = 0.0 if last is None else float(t[last])
-        swings = (t[sure] - begin) * max(im for _, im in attractor["eigenvalues"]) / (2 * math.pi)
+        sure = int(np.argmax(answer["lyapunov"] <= end))
+        last = _last_outside(answer, l, m)
+        begin = max(last, 0)
+        swings = (t[sure] - t[begin]) * max(im for _, im in attractor["eigenvalues"]) / (2 * math.pi)
         if swings > MOST_SWINGS:
             return float(t[sure]), "followed"
-        if swings > 0:
-            t = np.linspace(begin, float(t[sure]), math.ceil(swings * TIMES_A_SWING) + 2)
-            last = _last_outside(rotor.solve(**{**how, "times": t}), l, m)
-        return (begin if last is None else float(t[min(last + 1, len(t) - 1)])), "followed"
+
+        def closer(first: float, after: float, times: int) -> tuple[Vectors, int]:
+            """The motion between two times, and where it is outside last."""
+            t = np.linspace(first, after, times)
+            return t, _last_outside(rotor.solve(**{**how, "times": t}), l, m)
+
+        if begin < sure:
+            t, last = closer(float(t[begin]), float(t[sure]), max(math.ceil(swings * TIMES_A_SWING), sure - begin) + 2)
+        if 0 <= last < len(t) - 1:
+            t, last = closer(float(t[last]), float(t[last + 1]), ZOOM)
+        return float(t[min(last + 1, len(t) - 1)]), "followed"
     x = float(answer["rotor_rate"][-1]) - given["no_load_rate"]
     in_motor = 0.5 * given["axial_inertia"] * made["coupling"] * x * x
     if in_motor > 0.1 * (V - attractor["level"]):
