@@ -222,9 +222,10 @@ size_t gyrostat_propagator_wheels(const gyrostat_propagator* propagator);
  * the heap, but where rounding hides on which side of a separatrix the motion runs; 0: it integrates the full equations, and takes some. */
 int gyrostat_propagator_is_closed_form(const gyrostat_propagator* propagator);
 
-/* Moves a state on by dt >= 0, s; GYROSTAT_NO_ANSWER where the full equations would need more than 100000 steps for it. Read and
- * written: attitude[4], unit to 1e-6 and made so; angular_velocity[3], rad/s; rotor_rate[], rad/s relative to the body, one for
- * each wheel, NULL where there are none. A refused call leaves them as they are.
+/* Moves a state on by dt >= 0, s; GYROSTAT_NO_ANSWER where the full equations would need more than 100000 steps for it, and
+ * where the body turns so often that no double knows its phase. Read and written: attitude[4], unit to 1e-6 and made so;
+ * angular_velocity[3], rad/s; rotor_rate[], rad/s relative to the body, one for each wheel, NULL where there are none. A refused
+ * call leaves them as they are.
  *
  * error[3]: how far the new state may be from that to which the given one moves, the given one taken to be right to a rounding:
  * attitude, rad; angular velocity, rad/s, and rates of the wheels, rad/s, as lengths. NULL: not asked for, and a closed

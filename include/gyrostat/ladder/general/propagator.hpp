@@ -54,7 +54,7 @@ class Propagator {
   /// Moves a state on by dt >= 0, s. error: how far it may be then from that to which the given state moves, where that is right to
   /// a rounding; nullptr saves most of the time of a closed form. Errors, which leave the state as it is: not_finite; negative (dt); out_of_domain: an attitude that is not of
   /// unit length to 1e-6, or a locked wheel that turns; not_applicable: a brake stops the body, and what becomes of it then is not
-  /// followed; step_limit and no_convergence.
+  /// followed; undetermined: the body turns so often that no double knows its phase; step_limit and no_convergence.
   GYROSTAT_COMPILED_ONCE Errc advance(double dt, Moving& state, MovedError* error = nullptr) const noexcept;
 
  private:

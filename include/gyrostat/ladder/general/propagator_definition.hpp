@@ -54,6 +54,8 @@ GYROSTAT_COMPILED_ONCE Errc Propagator::advance(double dt, Moving& state, MovedE
     if (error != nullptr) *error = {4 * epsilon<double>, 0, 0};
     return Errc::ok;
   }
+  constexpr double lost = 0.05;  // rad
+  if (epsilon<double> * state.angular_velocity.norm() * dt > lost) return Errc::undetermined;
   if (closed_ && advance_freely(dt, begin, state, error)) return Errc::ok;
   return advance_fully(dt, begin, state, error);
 }

@@ -152,7 +152,8 @@ inline std::optional<Answer> answer_beside(const Scene& scene, const Problem<dou
   question.times = times;
   if (question.rung == any_rung) question.alone = rung;
   Answer made = climbed(beside->asked(question), refusal, monitor);
-  if (refusal.code != Errc::ok) refusal = {}, question.alone = any_rung, made = climbed(beside->asked(question), refusal, monitor);
+  if (refusal.code != Errc::ok)
+    refusal = {}, question.alone = any_rung, made = climbed(beside->asked(question), refusal, monitor);
   return refusal.code == Errc::ok ? std::optional(std::move(made)) : std::nullopt;
 }
 
@@ -167,9 +168,10 @@ inline Question shared(Question question, double share) {
 inline Answer solve_uncertain(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   Answer answer = climbed(scene, refusal, monitor);
   if (refusal.code != Errc::ok) return answer;
-  const Carried carried = carried_error(scene, answer, [&](const Problem<double>& start, const std::vector<double>& times) {
-    return answer_beside(scene, start, times, place_of(tables.rungs, answer.model), monitor);
-  });
+  const Carried carried =
+      carried_error(scene, answer, [&](const Problem<double>& start, const std::vector<double>& times) {
+        return answer_beside(scene, start, times, place_of(tables.rungs, answer.model), monitor);
+      });
   Answer exact = answer;
   for (Column& column : exact.columns) column.error = 0;
   for (Quantity& quantity : exact.quantities)

@@ -19,6 +19,12 @@
 /// What an error of the start makes of an answer.
 namespace gyrostat::general {
 
+/// By how much the columns of an answer, and its stop time, may be off because its start is, in their units.
+struct Carried {
+  std::vector<double> columns;
+  double stop_time = 0;
+};
+
 namespace detail {
 
 /// By how much two answers to one question are apart in a column: row after row, differences in its unit, or of a quaternion the turn from the one to the
@@ -72,12 +78,6 @@ GYROSTAT_COMPILED_ONCE std::vector<Displacement> displacements(const Scene& scen
 
 }  // namespace detail
 
-/// By how much the columns of an answer, and its stop time, may be off because its start is, in their units.
-struct Carried {
-  std::vector<double> columns;
-  double stop_time = 0;
-};
-
 namespace detail {
 
 /// The times at which displaced motions are compared: the asked ones, of very many of these a part, and of a few some on the way as well.
@@ -105,6 +105,7 @@ struct Watch {
 /// the part that is the same to both sides.
 struct Response {
   std::vector<Apart> odd, even;
+  double by = 0;         ///< the displacement
   double stop_time = 0;  ///< the greater change
 
   /// The greatest change of column i to each side, at the asked times, or at all: the greater and the lesser.
@@ -124,12 +125,128 @@ struct Response {
   }
 };
 
-/// Signs of the k-th of the joint displacements.
-constexpr double joint_sign(std::size_t k, std::size_t way) noexcept {
-  constexpr unsigned signs[] = {0b0000'0000'0000, 0b0110'1001'0110, 0b0101'0011'1010, 0b0011'1100'0101};
-  return signs[k % 4] >> (way % 12) & 1 ? -1 : 1;
-}
+/// A displaced answer against the one of the start as it is.
+struct Off {
+  std::vector<Apart> columns;
+  double stop_time = 0;
+};
+
+/// Answers from displaced starts. solve(start, times): an optional Answer.
+template <class Solve>
+class Displaced {
+ public:
+  Displaced(const Scene& scene, const Answer& answer, const Solve& solve)
+      : scene_(scene),
+        answer_(answer),
+        solve_(solve),
+        watch_(scene.question().times),
+        middle_(solve(scene.problem(), watch_.times)) {
+    for (const Column& column : answer.columns) {
+      const Column* whole = middle_ ? middle_->find(column.name()) : nullptr;
+      if (whole == nullptr) {
+        middle_.reset();
+        return;
+      }
+      sizes_.push_back(whole->kind->measure == Measure::angle ? 1.0 : size_of(*whole));
+    }
+  }
+  /// Whether there is an answer of the start as it is.
+  bool known() const noexcept { return middle_.has_value(); }
+  const std::vector<bool>& asked() const noexcept { return watch_.asked; }
+
+  std::optional<Off> off(const Problem<double>& from) const {
+    const std::optional<Answer> other = solve_(from, watch_.times);
+    if (!other) return std::nullopt;
+    Off apart;
+    for (const Column& column : answer_.columns) {
+      const Column *one = middle_->find(column.name()), *beside = other->find(column.name());
+      if (!beside || beside->values.size() != one->values.size()) return std::nullopt;
+      apart.columns.push_back(Apart::of(*one, *beside));
+    }
+    const Quantity *stop = middle_->quantity("stop_time"), *its = other->quantity("stop_time");
+    if (stop && its) apart.stop_time = std::abs(stop->values[0] - its->values[0]);
+    return apart;
+  }
+  std::optional<Response> response(const Displacement& way, double by) const {
+    auto more = off(way.applied(scene_.problem(), by));
+    const auto less = off(way.applied(scene_.problem(), -by));
+    if (!more || !less) return std::nullopt;
+    Response of{std::move(more->columns), {}, by, std::max(more->stop_time, less->stop_time)};
+    of.even = of.odd;
+    for (std::size_t i = 0; i < of.odd.size(); ++i)
+      for (std::size_t k = 0; k < of.odd[i].values.size(); ++k) {
+        const double a = of.odd[i].values[k], b = less->columns[i].values[k];
+        of.odd[i].values[k] = (a - b) / 2, of.even[i].values[k] = (a + b) / 2;
+      }
+    return of;
+  }
+  /// Whether all changes are small, on the way too, so that they are in proportion to the error and asked times tell all.
+  bool is_small(const Response& of) const noexcept {
+    constexpr double small = 0.05;  // of an angle, rad, or of a column
+    for (std::size_t i = 0; i < sizes_.size(); ++i)
+      if (over(of.most(i, watch_.asked, true)[0], sizes_[i]) > small) return false;
+    return true;
+  }
+  /// By the error itself, or by more where that stands out of the errors of the answers and is small still.
+  std::optional<Response> response(const Displacement& way) const {
+    const double error = way.of(scene_.start_error()), more = way.least(scene_);
+    if (more > error) {
+      auto of = response(way, more);
+      if (of && is_small(*of)) return of;
+    }
+    return response(way, error);
+  }
+
+ private:
+  const Scene& scene_;
+  const Answer& answer_;
+  const Solve& solve_;
+  Watch watch_;
+  std::optional<Answer> middle_;
+  std::vector<double> sizes_;
+};
+
+/// Of a displacement in all ways at once, the k-th of some, by what part of that of one way it goes along this one: two of the directions of one error
+/// stay within it.
 inline constexpr std::size_t joint_displacements = 4;
+inline double joint_part(std::size_t k, const Displacement& way, std::size_t place) noexcept {
+  constexpr unsigned signs[joint_displacements] = {0b0000'0000'0000, 0b0110'1001'0110, 0b0101'0011'1010,
+                                                   0b0011'1100'0101};
+  const double part = way.what == Displacement::wheel ? 1 : std::sqrt(0.5);
+  return signs[k] >> (place % 12) & 1 ? -part : part;
+}
+
+/// What displacements in all ways at once do to column after column beyond what each does: the root of the mean square, in their units, of displacements
+/// as they were made. Nothing where one has no answer.
+template <class Solve>
+std::optional<std::vector<double>> done_together(const Scene& scene, const Displaced<Solve>& displaced,
+                                                 const std::vector<Displacement>& ways,
+                                                 const std::vector<Response>& alone, bool on_the_way) {
+  std::vector<double> made(alone[0].odd.size());
+  for (std::size_t k = 0; k < joint_displacements; ++k) {
+    Problem<double> from = scene.problem();
+    for (std::size_t w = 0; w < ways.size(); ++w) from = ways[w].applied(from, joint_part(k, ways[w], w) * alone[w].by);
+    auto left = displaced.off(from);
+    if (!left) return std::nullopt;
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      Apart& rest = left->columns[i];
+      for (std::size_t w = 0; w < ways.size(); ++w) {
+        const double part = joint_part(k, ways[w], w);
+        for (std::size_t n = 0; n < rest.values.size(); ++n)
+          rest.values[n] -= part * (alone[w].odd[i].values[n] + part * alone[w].even[i].values[n]);
+      }
+      double most = 0;
+      for (std::size_t row = 0; row < displaced.asked().size(); ++row)
+        if (on_the_way || displaced.asked()[row]) most = greater(rest.length(row), most);
+      made[i] += most * most / double(joint_displacements);
+    }
+  }
+  for (double& square : made) square = std::sqrt(square);
+  return made;
+}
+
+/// What of a start's errors only goes along.
+GYROSTAT_COMPILED_ONCE void add_what_goes_along(Carried& carried, const Scene& scene, const Answer& answer) noexcept;
 
 }  // namespace detail
 
@@ -141,128 +258,47 @@ inline constexpr std::size_t joint_displacements = 4;
 /// itself is taken, and what it makes on the way counts too: motions that part may be near again at an asked time.
 template <class Solve>
 Carried carried_error(const Scene& scene, const Answer& answer, const Solve& solve) {
-  constexpr double small = 0.05;  // of an angle, rad, or of a column
   const std::size_t columns = answer.columns.size();
-  const StartError& start = scene.start_error();
-  Carried made;
-  made.columns.assign(columns, 0);
-  const auto lost = [&] {
-    std::fill(made.columns.begin(), made.columns.end(), infinity<double>), made.stop_time = infinity<double>;
-    return made;
-  };
+  Carried made{std::vector<double>(columns, 0.0), 0};
+  const Carried lost{std::vector<double>(columns, infinity<double>), infinity<double>};
   const std::vector<detail::Displacement> ways = detail::displacements(scene);
-  const detail::Watch watch(scene.question().times);
-  const std::optional<Answer> middle = ways.empty() ? answer : solve(scene.problem(), watch.times);
-  if (!middle) return lost();
-  const Quantity* stop = middle->quantity("stop_time");
-  std::vector<double> sizes;
-  for (const Column& column : answer.columns) {
-    const Column* whole = middle->find(column.name());
-    if (!whole) return lost();
-    sizes.push_back(whole->kind->measure == Measure::angle ? 1.0 : size_of(*whole));
-  }
-  struct Off {
-    std::vector<detail::Apart> columns;
-    double stop_time = 0;
-  };
-  const auto off = [&](const Problem<double>& from) -> std::optional<Off> {
-    const std::optional<Answer> other = solve(from, watch.times);
-    if (!other) return std::nullopt;
-    Off apart;
-    for (const Column& column : answer.columns) {
-      const Column *one = middle->find(column.name()), *beside = other->find(column.name());
-      if (!beside || !one || beside->values.size() != one->values.size()) return std::nullopt;
-      apart.columns.push_back(detail::Apart::of(*one, *beside));
+  if (!ways.empty()) {
+    const detail::Displaced displaced(scene, answer, solve);
+    if (!displaced.known()) return lost;
+    std::vector<detail::Response> alone;
+    bool on_the_way = false;
+    for (const auto& way : ways) {
+      auto of = displaced.response(way);
+      if (!of) return lost;
+      on_the_way = on_the_way || !displaced.is_small(*of);
+      alone.push_back(std::move(*of));
     }
-    if (const Quantity* its = other->quantity("stop_time"); stop && its)
-      apart.stop_time = std::abs(stop->values[0] - its->values[0]);
-    return apart;
-  };
-  bool straight = true;  // all is in proportion to the error, and asked times tell all
-  const auto response = [&](const detail::Displacement& way, double by) -> std::optional<detail::Response> {
-    const auto more = off(way.applied(scene.problem(), by)), less = off(way.applied(scene.problem(), -by));
-    if (!more || !less) return std::nullopt;
-    detail::Response of;
-    of.stop_time = std::max(more->stop_time, less->stop_time);
-    for (std::size_t i = 0; i < columns; ++i) {
-      detail::Apart odd = more->columns[i], even = odd;
-      for (std::size_t k = 0; k < odd.values.size(); ++k) {
-        const double a = odd.values[k], b = less->columns[i].values[k];
-        odd.values[k] = (a - b) / 2, even.values[k] = (a + b) / 2;
+    std::array<Carried, 3> squares;
+    squares.fill(made);
+    double share = 0;
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+      const double part = ways[w].of(scene.start_error()) / alone[w].by;
+      share = std::max(share, part);
+      Carried& sum = squares[std::size_t(ways[w].what)];
+      const auto add = [&](double& square, double more) { square += more * more; };
+      for (std::size_t i = 0; i < columns; ++i) {
+        const auto [most, least] = alone[w].most(i, displaced.asked(), on_the_way);
+        add(sum.columns[i], std::isfinite(most) ? part * (2 * most - least) : infinity<double>);
       }
-      of.odd.push_back(std::move(odd)), of.even.push_back(std::move(even));
+      add(sum.stop_time, part * alone[w].stop_time);
     }
-    return of;
-  };
-  const auto is_small = [&](const detail::Response& of) noexcept {
-    bool all = true;
-    for (std::size_t i = 0; i < columns; ++i) all = all && !(over(of.most(i, watch.asked, true)[0], sizes[i]) > small);
-    return all;
-  };
-
-  std::vector<detail::Response> seen;
-  std::vector<double> taken;
-  for (const detail::Displacement& way : ways) {
-    const double error = way.of(start);
-    double by = std::max(error, way.least(scene));
-    auto of = response(way, by);
-    if (by > error && !(of && is_small(*of))) by = error, of = response(way, by);
-    if (!of) return lost();
-    straight = straight && is_small(*of);
-    seen.push_back(std::move(*of)), taken.push_back(by);
-  }
-  std::array<Carried, 3> squares;
-  squares.fill(made);
-  double share = 0;
-  for (std::size_t w = 0; w < ways.size(); ++w) {
-    const double part = ways[w].of(start) / taken[w];
-    share = std::max(share, part);
-    Carried& sum = squares[std::size_t(ways[w].what)];
-    const auto add = [&](double& square, double more) { square += more * more; };
-    for (std::size_t i = 0; i < columns; ++i) {
-      const auto [most, least] = seen[w].most(i, watch.asked, !straight);
-      add(sum.columns[i], std::isfinite(most) ? part * (2 * most - least) : infinity<double>);
+    for (const Carried& sum : squares) {
+      for (std::size_t i = 0; i < columns; ++i) made.columns[i] += std::sqrt(sum.columns[i]);
+      made.stop_time += std::sqrt(sum.stop_time);
     }
-    add(sum.stop_time, part * seen[w].stop_time);
-  }
-  for (const Carried& sum : squares) {
-    for (std::size_t i = 0; i < columns; ++i) made.columns[i] += std::sqrt(sum.columns[i]);
-    made.stop_time += std::sqrt(sum.stop_time);
-  }
-  // all ways at once, each of the directions of one error by a part, so that two of them stay within it
-  std::vector<double> together(columns);
-  for (std::size_t k = 0; ways.size() > 1 && k < detail::joint_displacements; ++k) {
-    const auto part = [&](std::size_t w) {
-      return (ways[w].what == detail::Displacement::wheel ? 1 : std::sqrt(0.5)) * detail::joint_sign(k, w);
-    };
-    Problem<double> from = scene.problem();
-    for (std::size_t w = 0; w < ways.size(); ++w) from = ways[w].applied(from, part(w) * taken[w]);
-    auto left = off(from);
-    if (!left) return lost();
-    for (std::size_t i = 0; i < columns; ++i) {
-      detail::Apart& rest = left->columns[i];
-      for (std::size_t w = 0; w < ways.size(); ++w)
-        for (std::size_t n = 0; n < rest.values.size(); ++n)
-          rest.values[n] -= part(w) * (seen[w].odd[i].values[n] + part(w) * seen[w].even[i].values[n]);
-      double most = 0;
-      for (std::size_t row = 0; row < watch.asked.size(); ++row)
-        if (!straight || watch.asked[row]) most = greater(rest.length(row), most);
-      together[i] += most * most / double(detail::joint_displacements);
+    if (ways.size() > 1) {
+      const auto together = detail::done_together(scene, displaced, ways, alone, on_the_way);
+      if (!together) return lost;
+      constexpr double margin = 2;  // several pairs may add up as these displacements do not show
+      for (std::size_t i = 0; i < columns; ++i) made.columns[i] += margin * share * share * (*together)[i];
     }
   }
-  constexpr double margin = 2;  // several pairs may add up as the four displacements do not show
-  for (std::size_t i = 0; i < columns; ++i) made.columns[i] += margin * share * share * std::sqrt(together[i]);
-
-  const bool turned = detail::turns_along(scene) && !scene.gives(column::euler);
-  for (std::size_t i = 0; i < columns; ++i) {
-    const auto place = std::size_t(answer.columns[i].kind - column_kinds);
-    if (turned && answer.columns[i].kind->measure == Measure::angle) made.columns[i] += start.attitude;
-    if (turned && place == column::angular_momentum_inertial)
-      made.columns[i] += start.attitude * size_of(answer.columns[i]);
-    if (place == column::rotor_angle) made.columns[i] += start.rotor_angle;
-    if (place == column::velocity) made.columns[i] += start.velocity;
-    if (place == column::position) made.columns[i] += start.position + start.velocity * scene.question().times.back();
-  }
+  detail::add_what_goes_along(made, scene, answer);
   return made;
 }
 

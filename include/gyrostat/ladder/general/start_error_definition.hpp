@@ -60,6 +60,20 @@ GYROSTAT_COMPILED_ONCE std::vector<Displacement> displacements(const Scene& scen
   return made;
 }
 
+GYROSTAT_COMPILED_ONCE void add_what_goes_along(Carried& carried, const Scene& scene, const Answer& answer) noexcept {
+  const StartError& start = scene.start_error();
+  const bool turned = turns_along(scene) && !scene.gives(column::euler);
+  for (std::size_t i = 0; i < answer.columns.size(); ++i) {
+    const auto place = std::size_t(answer.columns[i].kind - column_kinds);
+    double& sum = carried.columns[i];
+    if (turned && answer.columns[i].kind->measure == Measure::angle) sum += start.attitude;
+    if (turned && place == column::angular_momentum_inertial) sum += start.attitude * size_of(answer.columns[i]);
+    if (place == column::rotor_angle) sum += start.rotor_angle;
+    if (place == column::velocity) sum += start.velocity;
+    if (place == column::position) sum += start.position + start.velocity * scene.question().times.back();
+  }
+}
+
 }  // namespace detail
 
 GYROSTAT_COMPILED_ONCE void add_carried(Answer& answer, const Carried& carried) noexcept {
