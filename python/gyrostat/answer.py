@@ -196,8 +196,10 @@ class Answer:
             start = self.scene.get("initial", {})
             if column == "attitude" and "attitude" not in start and not form_of(start):
                 text += ", where initial.attitude is given"
-            elif self.model != "full":
+            elif self.scene.get("solve", {}).get("model", "auto") != "auto" and self.model != "full":
                 text += ': a higher rung gives it, as model = "full" does'
+            else:
+                text += f': ask for it, as ask = ["{column}"]'
         return text
 
     def __repr__(self) -> str:

@@ -323,7 +323,8 @@ def _number(field: Field, value: Any, element: str = "") -> float:
     if not math.isfinite(number):
         raise Refused(f"{what} is not finite", f"give a finite number{unit}")
     if not field.low <= number <= field.high or (field.open_low and number == field.low) or (field.open_high and number == field.high):
-        raise Refused(f"{what} is out of range", f"give a number {_interval(field)}{unit}")
+        most = f" and <= {LIMIT:g}" if number > LIMIT else ""
+        raise Refused(f"{what} is out of range", f"give a number {_interval(field)}{most}{unit}")
     return number
 
 

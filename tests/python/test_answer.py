@@ -67,6 +67,8 @@ def test_a_column_that_is_not_there_is_told_with_those_that_are(full: Answer) ->
         averaged["angular_momentum"]
     with pytest.raises(KeyError, match="where initial.attitude is given"):
         averaged["attitude"]
+    with pytest.raises(KeyError, match=r'ask for it, as ask = \["angular_momentum"\]'):
+        gyrostat.solve(BRAKE)["angular_momentum"]
     with pytest.raises(KeyError, match="stop_time is a scalar"):
         averaged["stop_time"]
 
