@@ -225,6 +225,9 @@ def test_other_records_of_general_scenes_are_refused() -> None:
             general.solve(**FREE | given)
     with pytest.raises(DomainError, match="give the keys of"):
         general.orbit_start(None)  # type: ignore[arg-type]
+    for late in (math.nan, 1e300):
+        with pytest.raises(DomainError, match="size at most"):
+            general.orbit_start(LEO, late)
 
 
 # ---- studies ----

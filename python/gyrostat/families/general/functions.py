@@ -24,6 +24,7 @@ from gyrostat.broadcast import Floats, array, number, numbers, record, whole
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 from gyrostat.families.general.clock import orbit_since, since
+from gyrostat.fields import LIMIT
 from gyrostat.orientation import axes_of
 
 __all__ = ["PLANETS", "Monitor", "integrate", "orbit_start", "recognise", "segments", "solve"]
@@ -272,7 +273,9 @@ def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
     at_zero = _orbit(orbit)
     if at_zero is None:
         raise DomainError("orbit: give the keys of [orbit]")
-    made = orbit_since(number("time", time), at_zero)
+    if not abs(at := number("time", time)) <= LIMIT:
+        raise DomainError(f"time = {at!r}: give a number of size at most {LIMIT:g} (s)")
+    made = orbit_since(at, at_zero)
     radial, along = np.broadcast_arrays(made["radial"], made["along"])
     radius, normal = np.asarray(made["radius"]), np.cross(radial, along)
     cosine = np.reshape([math.cos(each) for each in np.ravel(made["true_anomaly"]).tolist()], np.shape(made["true_anomaly"]))
