@@ -138,7 +138,8 @@ Outcome not_moved(gyrostat::Errc wrong) {
           "a brake brings the momentum that it opposes to zero within dt, and a step does not follow what becomes of "
           "the body then: ask gyrostat_solve for the span"};
     case Errc::undetermined:
-      return {GYROSTAT_NO_ANSWER, "the body turns so often within dt that no double knows its phase: give a shorter dt"};
+      return {GYROSTAT_NO_ANSWER,
+              "the body turns so often within dt that no double knows its phase: give a shorter dt"};
     default: return {GYROSTAT_NO_ANSWER, std::string(message(wrong)) + ": give a shorter dt"};
   }
 }

@@ -436,7 +436,8 @@ void MotionLanes::look(int first, const Many& t, Looks& to) const noexcept {
   for (int i = 0; i < 3; ++i) {
     omega[i] = row(to.states.angular_velocity[i]), M[i] = row(to.states.angular_momentum[i]);
     Many sum = 0, slope = 0;
-    for (int j = 0; j < 4; ++j) sum += math::abs(row(forms_[j][1 + i])) * sizes[j], slope += row(forms_[j][4 + i]) * df[j];
+    for (int j = 0; j < 4; ++j)
+      sum += math::abs(row(forms_[j][1 + i])) * sizes[j], slope += row(forms_[j][4 + i]) * df[j];
     terms += sum * sum;
     change[i] = slope;
   }
