@@ -606,10 +606,11 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
                           "give initial.angular_velocity")
     if momentum is not UNSET:
         rates = _rates_of(stacked(momentum), whole.inertia, body, wheels, time)
-        for place in taken if end else ():  # what the momentum leaves to the body hangs on what the wheels have
-            faster = [each | {"rate": each["rate"] + 1.0} if index == place else each for index, each in enumerate(wheels)]
-            change = _rates_of(stacked(momentum), whole.inertia, body, faster, time) - rates
-            error["angular_velocity"] += float(np.linalg.norm(change)) * end.error.get("rotor_rate", 0.0)
+        if end:  # what the momentum leaves to the body hangs on what the wheels have
+            for place in taken:
+                faster = [each | {"rate": each["rate"] + 1.0} if index == place else each for index, each in enumerate(wheels)]
+                change = _rates_of(stacked(momentum), whole.inertia, body, faster, time) - rates
+                error["angular_velocity"] += float(np.linalg.norm(change)) * end.error.get("rotor_rate", 0.0)
     elif end and given is UNSET and kept == "momentum":
         rates, error["angular_velocity"] = _caught(end, whole, body, wheels, taken, time)
     elif end and given is UNSET:
