@@ -559,3 +559,9 @@ def test_what_general_scenes_convert_is_rounded_once() -> None:
     about = [float(sum(R[i][k] * v for i, v in enumerate(fractions(inertial)))) for k in range(3)]
     off = np.abs(start["angular_velocity"] - about)
     assert off[2] <= 2e-16 and max(off[:2]) < 2e-19
+
+
+@pytest.mark.parametrize("integrator", ["taylor", pytest.param("cvode", marks=pytest.mark.skipif(not gyrostat.build_info()["cvode"], reason="built without CVODE"))])
+def test_a_body_at_rest_that_nothing_drives_stays_there(integrator: str) -> None:
+    answer = gyrostat.solve("tiangong-1", control=[0.0, 0.0, 0.0], angular_velocity=[0.0, 0.0, 0.0], integrator=integrator, model="full")
+    assert answer.met and np.all(answer["angular_velocity"] == 0) and set(answer["regime"]) == {"rest"}

@@ -87,9 +87,10 @@ inline StoppedRun cvode_run(const Scene& scene, const Problem<double>& problem, 
   bool at_rest = user.opposed(y.data()) <= 0 && hold.holds;
   double stop = 0, seen = 0;  // when U is at rest, and when it was seen to be all but so, with the attitude of then
   if (!at_rest) {
-    auto solver = ode::Cvode::create(system, 0, std::span(y).first(n),
-                                     {ode::CvodeMethod::adams, tolerance, tolerance * std::min(scale, 1.0),
-                                      ode::CvodeOptions{}.step_cap, longest * times.back()});
+    auto solver =
+        ode::Cvode::create(system, 0, std::span(y).first(n),
+                           {ode::CvodeMethod::adams, tolerance, tolerance * (scale > 0 ? std::min(scale, 1.0) : 1.0),
+                            ode::CvodeOptions{}.step_cap, longest * times.back()});
     if (!solver) return run.failure = solver.error(), run;
     auto cvode = std::move(solver).value();
     const auto keep_at = [&](double t) {
