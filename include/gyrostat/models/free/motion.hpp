@@ -155,8 +155,11 @@ class Motion {
     using std::abs, std::sqrt;
     if (kind_ == Kind::steady || precesses_) return at(t).angular_velocity.norm();
     const Place place = place_at(t);
-    const auto f = products(pair_.at(place.exponent, place.rest));
-    const Scalar product = sqrt(f[0] * f[1]), terms[4] = {f[0], f[1], product, product};
+    const Value zeta = pair_.at(place.exponent, place.rest);
+    const auto f = products(zeta);
+    const auto [a, b] = pair_.terms(place.exponent, zeta);
+    const Scalar one = sqrt(f[0]), two = sqrt(f[1]), product = (one * b + two * a) / 2,
+                 terms[4] = {one * a, two * b, product, product};
     Scalar square = 0, size = 0;
     for (int j = 0; j < 4; ++j) size += size_[j] * f[std::size_t(j)];
     for (int i = 0; i < 3; ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -52,6 +53,23 @@ struct ThetaPair {
     if (!hyperbolic) return trigonometric(cos(exponent), sin(exponent));
     const Scalar E = exp(exponent), up = E + E * rest;
     return hyperbolic_at(up, 1 / up);
+  }
+
+  /// What zeta_1 and zeta_2 are summed of, all terms by their sizes: more than these where terms that grow and fall nearly cancel.
+  std::array<Scalar, 2> terms(Scalar exponent, const Value& value) const noexcept {
+    using std::abs, std::exp, std::sqrt;
+    std::array<Scalar, 2> sizes{sqrt(value.one.re * value.one.re + value.one.im * value.one.im),
+                                sqrt(value.two.re * value.two.re + value.two.im * value.two.im)};
+    if (!hyperbolic) return sizes;
+    const Scalar up = exp(exponent), down = 1 / up;
+    Scalar rise = 1, fall = 1, sums[2] = {0, single ? abs(x[0]) : Scalar(0)};
+    for (int m = 1; m <= powers; ++m) {
+      rise *= up, fall *= down;
+      const Scalar size = abs(x[m]) + abs(y[m]), turned = single || m % 4 == 1 ? rise : fall;
+      if (single) sums[m % 2 == 0] += size * (rise + fall);
+      else if (m & 1) sums[0] += size * turned, sums[1] += size * (rise + fall - turned);
+    }
+    return {std::max(sizes[0], sums[0]), std::max(sizes[1], sums[1])};
   }
 
   /// Even powers of E = c + i s belong to one function, odd ones to the other.
