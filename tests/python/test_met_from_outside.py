@@ -565,3 +565,16 @@ def test_what_general_scenes_convert_is_rounded_once() -> None:
 def test_a_body_at_rest_that_nothing_drives_stays_there(integrator: str) -> None:
     answer = gyrostat.solve("tiangong-1", control=[0.0, 0.0, 0.0], angular_velocity=[0.0, 0.0, 0.0], integrator=integrator, model="full")
     assert answer.met and np.all(answer["angular_velocity"] == 0) and set(answer["regime"]) == {"rest"}
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-4])
+def test_averages_go_up_to_where_motions_part(tolerance: float) -> None:
+    """Behind a separatrix, met at about 582 s, this motion goes one of two ways; a step of a loose tolerance leads there from the start."""
+    given = {"name": "parting", "kind": "deceleration", "solve": {"times": [0.0, 560.0], "tolerance": tolerance, "model": "averaged", "ask": ["angular_momentum_norm"]},
+             "body": {"inertia": [2.9, 2.7, 1.7], "rotor_momentum": [0.22, -0.015, -0.19]}, "torque": {"control": [1.3e-5, 2.6e-5, 1.5e-5], "drag": 0.0, "law": "total", "drag_law": "carrier"},
+             "initial": {"angular_momentum": [-1.2, 0.33, -0.71]}}
+    answer, right = gyrostat.solve(given), gyrostat.solve(given, model="full", tolerance=1e-9)
+    off = abs(answer["angular_momentum_norm"][-1] / right["angular_momentum_norm"][-1] - 1)
+    assert off < answer.error["angular_momentum_norm"] < 1e-3
+    with pytest.raises(gyrostat.DomainError, match="one of two ways"):
+        gyrostat.solve(given, times=[0.0, 700.0])

@@ -29,7 +29,7 @@ GYROSTAT_COMPILED_ONCE void state_errors(Track& track, const SlowError<double>& 
 
 GYROSTAT_COMPILED_ONCE Halt not_followed(Errc failure) noexcept {
   if (failure == Errc::undetermined)
-    return {failure, "the motion is captured into one of two lobes, and averaging does not tell which"};
+    return {failure, "the motion goes one of two ways behind a separatrix, and averaging does not tell which"};
   if (failure == Errc::separatrix) return {failure, "the motion comes to a separatrix"};
   if (failure == Errc::step_limit) return {failure, "the mean equations need too many steps"};
   return {failure, "the mean equations could not be integrated"};

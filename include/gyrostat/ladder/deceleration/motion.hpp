@@ -94,8 +94,8 @@ inline constexpr WarningKind warning_kinds[] = {
     {"crosses-separatrix", "the motion passes from one kind of orbit to another"},
     {"sticks-to-separatrix", "the separatrix attracts from both sides and holds the mean motion"},
     {"capture-undetermined",
-     "after the asked times the motion is captured into one of two lobes, the likelier one with this chance: no stop "
-     "time"},
+     "after the asked times the motion goes one of two ways behind a separatrix, under a small torque the likelier one "
+     "with this chance: no stop time"},
     {"stop-withheld",
      "the stop lies behind the times asked for and its time misses the tolerance; ask for times up to it"},
     {"stop-unknown", "after the asked times the equations do not reach the stop"},

@@ -152,8 +152,9 @@ class OrbitMotion {
   template <class Visitor>
   ode::Status advance(Scalar t, Scalar floor, Visitor visit) noexcept {
     const auto& y = solver_.state();
-    while (!at_rest_ && y[Equations::time] < t && opposed() > floor)
-      if (const auto status = step(visit); status != ode::Status::reached) return status;
+    while (!at_rest_ && !parted_ && y[Equations::time] < t && opposed() > floor)
+      if (const auto status = step(visit); status != ode::Status::reached && !parted_) return status;
+    if (parted_) return comes_before_parting(t, visit) ? ode::Status::reached : ode::Status::event;
     floored_ = opposed() <= floor && y[Equations::time] < t;
     now_ = floored_ ? y[Equations::time] : t;
     return ode::Status::reached;
@@ -185,6 +186,7 @@ class OrbitMotion {
   template <class Visitor>
   Result<Scalar> stop_time(Visitor visit) noexcept {
     if (!controlled()) return infinity<Scalar>;
+    if (parted_) return failure();
     while (!at_rest_)
       if (step(visit) != ode::Status::reached) return failure();
     return solver_.state()[Equations::time] + remainder();
@@ -203,6 +205,8 @@ class OrbitMotion {
   Component last_component() const noexcept { return component_; }
   const Rates& rates() const noexcept { return solver_.rhs().rates; }
   bool changed_component() const noexcept { return changed_; }
+  /// Whether it may have by this time.
+  bool changed_by(Scalar t) const noexcept { return changed_ && unchanged_until_ < t; }
   /// Whether the motion has gone to a curve where it does not belong: its energy is not known from there on.
   bool doubtful() const noexcept { return doubtful_; }
   /// What the turns beside separatrices that were crossed have changed of the energy against theirs, J: nobody knows in which of them it was.
@@ -235,6 +239,7 @@ class OrbitMotion {
     if (!(solver_.time() < far_away)) return ode::Status::step_limit;
     solver_.rhs().followed = component_;  // and no sooner: the dense output of the last step still needs the old one
     const Level<Scalar> from = solver_.rhs().level(solver_.state());
+    const Scalar begin = solver_.state()[Equations::time];
     if (const auto status = solver_.step(far_away); status != ode::Status::reached) return status;
     const Level<Scalar> at = solver_.rhs().level(solver_.state());
     const auto orbit = Orbit<Scalar>::at(solver_.rhs().problem, at, component_);
@@ -243,8 +248,12 @@ class OrbitMotion {
       if (now.regime != Regime::point) {
         const bool known = around_.regime != Regime::point;
         if (known && (now.regime != around_.regime || now.branch != around_.branch)) {
+          if (!changed_) unchanged_until_ = begin;
           changed_ = true;
-          if (!cross(from, at, now)) return ode::Status::event;
+          if (!cross(from, at, now)) {
+            parted_ = true;
+            return ode::Status::event;
+          }
         }
         around_ = now;
       }
@@ -259,6 +268,19 @@ class OrbitMotion {
                              : Scalar(0);
     at_rest_ = opposed() <= std::max(Scalar(1e-8) * start_opposed_, floor);
     return ode::Status::reached;
+  }
+
+  /// Whether t lies in the step in which motions part, on the curve that they come from: then goes there.
+  template <class Visitor>
+  bool comes_before_parting(Scalar t, Visitor visit) noexcept {
+    if (!(t <= solver_.state()[Equations::time])) return false;
+    const Level<Scalar> there = solver_.rhs().level(solver_.at(locate(t)));
+    const auto orbit = Orbit<Scalar>::at(solver_.rhs().problem, there, component_);
+    if (!orbit || orbit->regime() != around_.regime || orbit->component().branch != around_.branch) return false;
+    visit(there, component_, t);
+    now_ = unchanged_until_ = t;
+    floored_ = false;
+    return true;
   }
 
   /// Takes the motion over a separatrix between two levels, where it was found on `now` behind it: into the lobe, or outside, where all motions
@@ -312,6 +334,8 @@ class OrbitMotion {
   ode::RungeKutta<Scalar, 4, Equations> solver_;
   Component component_, around_ = component_;  ///< the curve; the last one that is not a point
   Scalar now_ = 0, chance_ = nan<Scalar>, crossing_ = 0;
+  Scalar unchanged_until_ = infinity<Scalar>;
+  bool parted_ = false;  ///< within the last step motions go different ways
   bool at_rest_ = false, changed_ = false, doubtful_ = false, floored_ = false;
 };
 

@@ -215,7 +215,7 @@ class SecondOrderOrbit {
       if (failure == Errc::step_limit && step_cap_ < Rates::step_cap) return {Errc::not_applicable, steps_not_worth};
       return not_followed(failure);
     }
-    if (motion_.rates().phase_lost || motion_.changed_component())
+    if (motion_.rates().phase_lost || motion_.changed_by(motion_.time()))
       return {Errc::separatrix, "the kind of orbit changes: the phase is lost, and M with it"};
     return error_.known() ? Halt{} : Halt{Errc::no_convergence, "the size of the second order is not known"};
   }
@@ -343,7 +343,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   } else {
     track.warn(warning::stop_unknown);
   }
-  if (low || end >= track.stop_time || motion.changed_component()) track.error[column::modulus_squared] = 1;
+  if (low || end >= track.stop_time || motion.changed_by(end)) track.error[column::modulus_squared] = 1;
   if (motion.changed_component()) track.warn(warning::crosses_separatrix);
   if (!known || error.start_is_unclear() || motion.doubtful() || !(small_parameter(scene) < 0.1) ||
       !(breakdown <= scene.opposed().norm() / 3))

@@ -127,7 +127,7 @@ Fault check_inertia(const Mat3<Scalar>& J) noexcept {
   const Vec3<Scalar> moments = symmetric_eigen<Scalar>((J + J.transpose()) / 2).values;
   if (!(moments[0] > 0)) return {Errc::not_positive, -1, "the moments of inertia must be positive"};
   if (moments[2] - moments[1] - moments[0] > slack)
-    return {Errc::triangle_inequality, -1, "no moment of inertia may exceed the sum of the two others"};
+    return {Errc::triangle_inequality, -1, "a moment of inertia exceeds the sum of the two others"};
   return {};
 }
 
