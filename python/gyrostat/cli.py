@@ -139,7 +139,7 @@ def _arguments() -> argparse.ArgumentParser:
         return made
 
     def takes_scene(made: argparse.ArgumentParser) -> None:
-        made.add_argument("scene", metavar="SCENE", help="scene file (TOML), or the name of a bundled scene")
+        made.add_argument("scene", metavar="SCENE", help="scene file (TOML), - for the standard input, or the name of a bundled scene")
         made.add_argument("--set", dest="overrides", action="append", default=[], metavar="KEY=VALUE",
                           help="change a key of the scene, such as tolerance=1e-9 or torque.drag=0 (repeatable)")
 
@@ -241,7 +241,7 @@ def _scene(arguments: argparse.Namespace) -> Scene:
     overrides = dict(parse_override(text) for text in arguments.overrides)
     if getattr(arguments, "ask", None) is not None:
         overrides["solve.ask"] = parse_ask(arguments.ask)
-    return load(arguments.scene, **overrides)
+    return load("/dev/stdin" if arguments.scene == "-" else arguments.scene, **overrides)
 
 
 def _in_thread(work: "Callable[[Monitor], T]", title: str, share: Callable[[], float] | None = None) -> T:

@@ -245,3 +245,9 @@ def test_ctrl_c_stops_long_work(tmp_path: Path) -> None:
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=20)
     assert process.returncode == 130 and err == "gyrostat: interrupted\n"
+
+
+def test_a_scene_comes_from_the_standard_input() -> None:
+    shown = subprocess.run([sys.executable, "-m", "gyrostat", "show", "t-handle"], capture_output=True, check=True, text=True).stdout
+    made = subprocess.run([sys.executable, "-m", "gyrostat", "solve", "-"], input=shown, capture_output=True, check=True, text=True)
+    assert made.stdout.startswith("t-handle (free)")
