@@ -241,7 +241,7 @@ std::optional<std::vector<double>> done_together(const Scene& scene, const Displ
       made[i] += most * most / double(joint_displacements);
     }
   }
-  for (double& square : made) square = std::sqrt(square);
+  for (double& square : made) square = std::isfinite(square) ? std::sqrt(square) : infinity<double>;
   return made;
 }
 
