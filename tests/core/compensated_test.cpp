@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "gyrostat/core/double_double.hpp"
 
 using namespace gyrostat;
 
@@ -23,6 +24,20 @@ TEMPLATE_TEST_CASE("a compensated sum of many small terms keeps their digits", "
   CHECK(x == sum.high);
   CHECK(low == sum.low);
   CHECK(plain == 1);  // every term is lost
+}
+
+TEST_CASE("a sum of products that all but cancel keeps the digits of what is left", "[core]") {
+  const double a[] = {3e-6, 0.1, -0.3, 1e8, -1e8, 0.1}, b[] = {1, 3, 1, 1.1, 1.1, -1e-9};
+  double x = 0, low = 0;
+  DoubleDouble right = 0;
+  for (int i = 0; i < 6; ++i) {
+    add_product_to(x, low, a[i], b[i]);
+    right += DoubleDouble::product(a[i], b[i]);
+  }
+  CHECK(std::abs(x + low - right.high) <= 4e-22);
+  CHECK(std::abs(x - right.high) > 1e-10);
+  for (const double huge : {1e308, 1e308}) add_product_to(x, low, huge, 1.);
+  CHECK(std::isinf(x + low));
 }
 
 TEST_CASE("NaN goes through a compensated sum", "[core]") {

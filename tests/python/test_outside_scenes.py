@@ -3,6 +3,7 @@
 
 import math
 import sys
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -137,6 +138,33 @@ def test_wheels_whose_momenta_cancel_are_summed_up_to_their_last_digit(size: flo
     momentum = float(Fraction(0.001) * Fraction(300.1 * size) - Fraction(0.3 * size))
     alone = gyrostat.solve(scene, **{"wheel": [], "body.rotor_momentum": [momentum, 0.0, 0.0]}, model="closed-form", tolerance=1e-13)
     assert np.linalg.norm(full["angular_velocity"] - alone["angular_velocity"]) / np.linalg.norm(alone["angular_velocity"]) <= full.error["angular_velocity"] + alone.error["angular_velocity"]
+
+
+@pytest.mark.parametrize("torques", [[("constant", [1.0, 2.0, 3.0]), ("constant", [-1.0, -2.0, -3.0])], [("thrust", [0.0, 0.0, 22.0]), ("thrust", [0.0, 0.0, -22.0])]])
+def test_torques_that_cancel_leave_the_rest_as_it_is(torques: list[tuple[str, list[float]]]) -> None:
+    rest = {"type": "constant", "torque": [3e-06, 1e-06, 2e-06]}
+    other = [{"type": type_, **({"torque": vector} if type_ == "constant" else {"force": vector, "point": [0.6, 0.1, 0.0]})} for type_, vector in torques]
+    scene: dict[str, Any] = {"name": "x", "kind": "general", "body": {"inertia": [2.0, 1.8, 1.5], "mass": 100.0}, "initial": {"angular_velocity": [0.001, 0.0002, 0.02]},
+                             "solve": {"times": [2000.0], "tolerance": 1e-8, "ask": ["attitude", "angular_velocity"]}}
+    alone = gyrostat.solve({**scene, "torque": [rest]})
+    for all_ in ([rest, *other], [*other, rest]):
+        answer = gyrostat.solve({**scene, "torque": all_})
+        assert answer.model == alone.model == "spinning:full"
+        assert np.array_equal(answer["attitude"], alone["attitude"]) and np.array_equal(answer["angular_velocity"], alone["angular_velocity"])
+
+
+@pytest.mark.parametrize("begin", [0.0, 0.3])
+def test_a_torque_with_a_fast_wave_states_what_the_clock_rounds(begin: float) -> None:
+    rate, span = 25.474809, 4572.6
+    scene: dict[str, Any] = {"name": "x", "kind": "general", "body": {"inertia": [3.0, 2.0, 1.5]}, "initial": {"angular_velocity": [0.01, 0.02, -0.01], "time": begin},
+                             "torque": [{"type": "constant", "torque": [1e-3, 0.0, 0.0], "factor": {"mean": 0.0, "amplitude": 1.0, "rate": rate}}],
+                             "solve": {"times": [span], "tolerance": 1e-6, "ask": ["torque"]}}
+    answer = gyrostat.solve(scene)
+    whole = Fraction(rate) * Fraction(span)  # rad; less whole turns, of which pi has to have more digits than a double
+    turn = 2 * Fraction(Decimal("3.14159265358979323846264338327950288419716939937510"))
+    true = 1e-3 * math.sin(float(whole - turn * math.floor(whole / turn)))
+    assert abs(answer["torque"][0, 0] - true) <= answer.error["torque"] * abs(true)
+    assert answer.error["torque"] < 1e-10
 
 
 def test_general_scenes_whose_wheels_nearly_cancel_state_what_that_costs() -> None:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 
@@ -27,6 +29,17 @@ GYROSTAT_INLINE void add_to(Scalar& x, Scalar& low, Scalar term) noexcept {
   const Sum<Scalar> sum = add(Sum<Scalar>{x, low}, term);
   x = sum.high;
   low = sum.low;
+}
+
+/// x + low becomes x + low + a b, of whatever sizes these are, exactly but for the rounding of low (Knuth 1969).
+template <Real Scalar>
+void add_product_to(Scalar& x, Scalar& low, Scalar a, Scalar b) noexcept {
+  using std::fma;
+  const Scalar product = a * b, lost = fma(a, b, -product);
+  const Scalar sum = x + product, part = sum - x;
+  const Scalar rest = (x - (sum - part)) + (product - part) + lost;
+  x = sum;
+  if (rest - rest == 0) low += rest;  // else the sum has overflown
 }
 
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

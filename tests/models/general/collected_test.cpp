@@ -92,6 +92,37 @@ TEST_CASE("torques with one factor are one record, and what always acts is the f
   CHECK(Collected<double>::of(p, 10.).is_steady());
 }
 
+TEST_CASE("torques that all but cancel are summed to the digits of what is left", "[general]") {
+  Problem<double> p;
+  Torque<double> torque;
+  for (const Vec3<double>& c : {Vec3<double>(3e-6, 1e-6, 2e-6), Vec3<double>(1, 2, 3), Vec3<double>(-1, -2, -3)}) {
+    torque.vector = c;
+    p.torques.push_back(torque);
+  }
+  CHECK(Collected<double>::of(p, 1.).steady().sum.body == p.torques[0].vector);
+
+  // two engines whose moments about the mass centre differ by what it is off their middle, the last digits of their arms included
+  p.torques.clear();
+  p.centre_of_mass = {0.1, 1e-9, 0.3};
+  torque.type = TorqueType::thrust;
+  torque.vector = {0, 0, 22}, torque.point = {0.6, 0.1, 0};
+  for (int i = 0; i < 2; ++i, torque.point[0] = -0.4, torque.vector[2] = 22.000001) p.torques.push_back(torque);
+  for (const bool turned : {false, true}) {
+    for (auto& each : p.torques) each.axes = turned ? Axes::inertial : Axes::body;
+    Vec3<long double> right(0, 0, 0);
+    for (const auto& each : p.torques)
+      right +=
+          cross<long double>(Vec3<long double>(each.point.cast<long double>() - p.centre_of_mass.cast<long double>()),
+                             Vec3<long double>(each.vector.cast<long double>()));
+    const auto sum = Collected<double>::of(p, 1.).steady().sum;
+    Vec3<double> found = sum.body;
+    for (std::size_t j = 0; j < 3; ++j) found += sum.inertial[j] * Vec3<double>::Unit(int(j));
+    CAPTURE(turned);
+    CHECK((found - right.cast<double>()).norm() <= 2 * epsilon<double> * std::abs(found[1]));
+    CHECK(std::abs(found[1]) < 2e-5);
+  }
+}
+
 TEST_CASE("damping of the carrier and charge are matrices on the angular velocity", "[general]") {
   Problem<double> p;
   p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();

@@ -175,6 +175,10 @@ class Writer {
       const double sizes =
           terms_of_torques(scene_.problem(), here, times[i]) + scene_.own_torque()(times[i], here).norm();
       double sum = 8 * epsilon<double> * sizes;
+      if (const double late = clock_off(times[i]); late > 0)
+        sum += (load_at(scene_.problem(), here, times[i] + late, times[i]).torque -
+                load_at(scene_.problem(), here, times[i], times[i]).torque)
+                   .norm();
       const bool rests = std::any_of(track_.rests.begin(), track_.rests.end(), [&](const auto& rest) {
         return times[i] >= rest[0] + track_.rest_off && times[i] <= rest[1];
       });
@@ -210,6 +214,8 @@ class Writer {
     }
     return most;
   }
+  /// By how much a time may be off that was told by another clock, s; at least so much as shows.
+  double clock_off(double t) const noexcept { return scene_.problem().clock != 0 ? epsilon<double> * t : 0; }
   /// By how much a torque of the caller's own changes where the rates of the wheels change by their error.
   double off_by_wheels(const Seen<double>& here, const Vec3<double>& now, double t) const noexcept {
     double sum = 0;

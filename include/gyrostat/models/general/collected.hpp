@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "gyrostat/core/compensated.hpp"
+#include "gyrostat/core/double_double.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/models/general/problem.hpp"
@@ -41,38 +43,52 @@ struct Terms {
   Mat3<Scalar> eddy = Mat3<Scalar>::Zero();                           ///< S m^4
   Vec3<Scalar> force_body{0, 0, 0}, force_inertial{0, 0, 0};          ///< that moves the mass centre of a free body, N
 
-  /// action(one, its) for each coefficient of two sums.
-  template <class One, class Action>
-  static void beside(One& one, const Terms& other, const Action& action) noexcept {
-    action(one.body, other.body), action(one.by_rate, other.by_rate), action(one.by_carrier, other.by_carrier);
-    action(one.by_momentum, other.by_momentum);
-    action(one.brake_total, other.brake_total), action(one.brake_carrier, other.brake_carrier);
-    for (std::size_t j = 0; j < 3; ++j)
-      action(one.inertial[j], other.inertial[j]), action(one.orbital[j], other.orbital[j]);
-    action(one.gradient, other.gradient), action(one.orbit_gradient, other.orbit_gradient);
-    action(one.dipole, other.dipole), action(one.eddy, other.eddy);
-    action(one.force_body, other.force_body), action(one.force_inertial, other.force_inertial);
+  /// action(coefficient of each...) for each coefficient of some sums.
+  template <class Action, class... Sums>
+  static void each(const Action& action, Sums&... of) noexcept {
+    action(of.body...), action(of.by_rate...), action(of.by_carrier...), action(of.by_momentum...);
+    action(of.brake_total...), action(of.brake_carrier...);
+    for (std::size_t j = 0; j < 3; ++j) action(of.inertial[j]...), action(of.orbital[j]...);
+    action(of.gradient...), action(of.orbit_gradient...);
+    action(of.dipole...), action(of.eddy...);
+    action(of.force_body...), action(of.force_inertial...);
   }
   /// Adds a multiple of another sum.
   void add(Scalar times, const Terms& other) noexcept {
-    beside(*this, other, [times](auto& mine, const auto& its) noexcept { mine += times * its; });
+    each([times](auto& mine, const auto& its) noexcept { mine += times * its; }, *this, other);
+  }
+  /// The same, with what rounding leaves over of it added to `low`: terms may all but cancel.
+  void add(Scalar times, const Terms& other, Terms& low) noexcept {
+    each(
+        [times](auto& mine, const auto& its, auto& rest) noexcept {
+          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(mine)>, Scalar>)
+            add_product_to(mine, rest, times, its);
+          else
+            for (Eigen::Index i = 0; i < mine.size(); ++i)
+              add_product_to(mine.data()[i], rest.data()[i], times, its.data()[i]);
+        },
+        *this, other, low);
   }
   /// Adds a multiple of the magnitudes of another sum.
   void add_sizes(Scalar times, const Terms& other) noexcept {
     using std::abs;
-    beside(*this, other, [size = abs(times)](auto& mine, const auto& its) noexcept {
-      using std::abs;
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(mine)>, Scalar>) mine += size * abs(its);
-      else mine += size * its.cwiseAbs();
-    });
+    each(
+        [size = abs(times)](auto& mine, const auto& its) noexcept {
+          using std::abs;
+          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(mine)>, Scalar>) mine += size * abs(its);
+          else mine += size * its.cwiseAbs();
+        },
+        *this, other);
   }
   /// Whether a torque or force is left.
   bool any() const noexcept {
     bool found = false;
-    beside(*this, *this, [&](const auto& mine, const auto&) noexcept {
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(mine)>, Scalar>) found = found || mine != 0;
-      else found = found || !mine.isZero(0);
-    });
+    each(
+        [&](const auto& mine) noexcept {
+          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(mine)>, Scalar>) found = found || mine != 0;
+          else found = found || !mine.isZero(0);
+        },
+        *this);
     return found;
   }
   /// Whether a torque is left that depends on the motion.
@@ -188,13 +204,24 @@ Scalar take_constant(Factor<Scalar>& factor, Scalar span) noexcept {
   return taken;
 }
 
-/// A torque as coefficients, without its factor; of a table the unit torque along axis `column`.
+/// A torque as coefficients, without its factor; of a table the unit torque along axis `column`. low: what rounding leaves over of it.
 template <Real Scalar>
-Terms<Scalar> terms_of(const Problem<Scalar>& problem, const Torque<Scalar>& torque, int column) noexcept {
+Terms<Scalar> terms_of(const Problem<Scalar>& problem, const Torque<Scalar>& torque, int column,
+                       Terms<Scalar>& low) noexcept {
   Terms<Scalar> made;
   const Mat3<Scalar> unit = Mat3<Scalar>::Identity();
-  const auto inertially = [&](const Mat3<Scalar>& by, const Vec3<Scalar>& v_I) noexcept {
-    for (std::size_t j = 0; j < 3; ++j) made.inertial[j] += v_I[int(j)] * by;
+  // the moments of forces that balance each other cancel, and what they leave turns the body
+  using Wide = std::conditional_t<std::is_same_v<Scalar, double>, DoubleDouble, Scalar>;
+  const auto wide = [](const Vec3<Scalar>& v) noexcept { return Vec3<Wide>(v[0], v[1], v[2]); };
+  const auto split = [](const Wide& x, Scalar& high, Scalar& rest) noexcept {
+    high = static_cast<Scalar>(x);
+    rest = static_cast<Scalar>(x - high);
+  };
+  // lever x v_I
+  const auto inertially = [&](const Vec3<Wide>& lever, const Vec3<Scalar>& v_I) noexcept {
+    const Mat3<Wide> by = cross_matrix<Wide>(lever);
+    for (std::size_t j = 0; j < 3; ++j)
+      for (int i = 0; i < 9; ++i) split(v_I[int(j)] * by(i), made.inertial[j](i), low.inertial[j](i));
   };
   const auto& field = problem.field;
   switch (torque.type) {
@@ -202,9 +229,9 @@ Terms<Scalar> terms_of(const Problem<Scalar>& problem, const Torque<Scalar>& tor
     case TorqueType::table: {
       const Vec3<Scalar> c = torque.type == TorqueType::constant ? torque.vector : Vec3<Scalar>(unit.col(column));
       if (torque.axes == Axes::body) made.body = c;
-      else if (torque.axes == Axes::inertial) inertially(unit, c);
       else
-        for (std::size_t j = 0; j < 3; ++j) made.orbital[j] = c[int(j)] * unit;
+        for (std::size_t j = 0; j < 3; ++j)
+          (torque.axes == Axes::inertial ? made.inertial : made.orbital)[j] = c[int(j)] * unit;
       break;
     }
     case TorqueType::damping:
@@ -216,21 +243,26 @@ Terms<Scalar> terms_of(const Problem<Scalar>& problem, const Torque<Scalar>& tor
       (torque.opposed == Opposed::momentum ? made.brake_total : made.brake_carrier) = torque.vector;
       break;
     case TorqueType::weight:
-      inertially(cross_matrix<Scalar>(problem.mass * field.gravity * problem.centre_of_mass), field.down);
+      inertially(Vec3<Wide>(Wide(problem.mass) * field.gravity * wide(problem.centre_of_mass)), field.down);
       break;
     case TorqueType::gravity_gradient:
       if (torque.gradient) made.gradient = *torque.gradient;
       else made.orbit_gradient = 1;
       break;
     case TorqueType::magnetic:
-      if (field.magnetic == MagneticField::uniform) inertially(cross_matrix<Scalar>(torque.vector), field.flux_density);
+      if (field.magnetic == MagneticField::uniform) inertially(wide(torque.vector), field.flux_density);
       else made.dipole = torque.vector;
       break;
     case TorqueType::eddy_current: made.eddy = torque.matrix; break;
     case TorqueType::thrust: {
-      const Vec3<Scalar> arm = problem.fixed ? torque.point : Vec3<Scalar>(torque.point - problem.centre_of_mass);
-      if (torque.axes == Axes::body) made.body = cross<Scalar>(arm, torque.vector);
-      else inertially(cross_matrix<Scalar>(arm), torque.vector);
+      const Vec3<Wide> origin = wide(problem.fixed ? Vec3<Scalar>::Zero() : problem.centre_of_mass);
+      const Vec3<Wide> lever = wide(torque.point) - origin;
+      if (torque.axes == Axes::body) {
+        const Vec3<Wide> moment = cross<Wide>(lever, wide(torque.vector));
+        for (int i = 0; i < 3; ++i) split(moment[i], made.body[i], low.body[i]);
+      } else {
+        inertially(lever, torque.vector);
+      }
       if (!problem.fixed) (torque.axes == Axes::body ? made.force_body : made.force_inertial) = torque.vector;
       break;
     }
@@ -381,21 +413,27 @@ template <Real Scalar>
 Collected<Scalar> Collected<Scalar>::of(const Problem<Scalar>& problem, Scalar span) noexcept {
   Collected made;
   made.records.emplace_back();
-  const auto put = [&](Factor<Scalar> factor, const Terms<Scalar>& terms) noexcept {
+  std::vector<Terms<Scalar>> low(1);  // what rounding leaves over of the sum of each
+  const auto put = [&](Factor<Scalar> factor, const Torque<Scalar>& torque, int column) noexcept {
+    Terms<Scalar> rest;
+    const Terms<Scalar> terms = detail::terms_of(problem, torque, column, rest);
     const Scalar times = detail::take_constant(factor, span);
     if (times == 0 || !terms.any()) return;
     auto place = std::find_if(made.records.begin(), made.records.end(),
                               [&](const auto& record) noexcept { return detail::same_factor(record.factor, factor); });
     if (place == made.records.end()) {
       made.records.push_back({std::move(factor), {}, {}});
+      low.emplace_back();
       place = made.records.end() - 1;
     }
-    place->sum.add(times, terms);
+    Terms<Scalar>& left = low[std::size_t(place - made.records.begin())];
+    place->sum.add(times, terms, left);
+    left.add(times, rest);
     place->size.add_sizes(times, terms);
   };
   for (const Torque<Scalar>& torque : problem.torques) {
     if (torque.type != TorqueType::table) {
-      put(torque.factor, detail::terms_of(problem, torque, 0));
+      put(torque.factor, torque, 0);
       continue;
     }
     for (int column = 0; column < 3; ++column) {
@@ -404,9 +442,10 @@ Collected<Scalar> Collected<Scalar>::of(const Problem<Scalar>& problem, Scalar s
       factor.table.values.clear();
       for (std::size_t i = 0; i < torque.table.times.size(); ++i)
         factor.table.values.push_back(torque.table.values[3 * i + std::size_t(column)]);
-      put(std::move(factor), detail::terms_of(problem, torque, column));
+      put(std::move(factor), torque, column);
     }
   }
+  for (std::size_t i = 0; i < low.size(); ++i) made.records[i].sum.add(1, low[i]);
   return made;
 }
 

@@ -165,6 +165,8 @@ struct Problem {
   Vec3<Scalar> angular_velocity{0, 0, 0};  ///< w, rad/s
   Vec3<Scalar> velocity{0, 0, 0};          ///< of the mass centre, inertial axes, m/s
   Vec3<Scalar> position{0, 0, 0};          ///< of the mass centre, inertial axes, m
+  /// Where another clock stands at t = 0, by which the times were told that are asked for, s: what is left of them is rounded.
+  Scalar clock = 0;
 };
 
 /// A motion at one time.

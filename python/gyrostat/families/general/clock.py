@@ -23,7 +23,7 @@ def since(start: float, scene: Data) -> Data:
         return scene
     return {**scene, "wheels": [{**each, "table": _table(start, each["table"])} for each in scene["wheels"]],
             "torques": [_torque(start, each) for each in scene["torques"]], "orbit": None if scene["orbit"] is None else orbit_since(start, scene["orbit"]),
-            "field": _field(start, scene["field"])}
+            "field": _field(start, scene["field"]), "clock": start}
 
 
 def _table(start: float, table: Data | None) -> Data | None:
