@@ -39,6 +39,8 @@ def test_elliptic_values(backend: str) -> None:
 
 def test_elliptic_outside_the_domain() -> None:
     assert math.isnan(elliptic.complete(1.5, kp2=-0.5).K)
+    assert np.isnan(elliptic.complete([0.3, 0.3], kp2=[0.9, 0.7]).K).tolist() == [True, False]
+    assert math.isnan(elliptic.jacobi(0.5, 1.0, kp2=1e-3).sn) and math.isnan(elliptic.incomplete(0.5, 0.2, kp2=0.2).F)
     assert math.isnan(elliptic.complete(math.nan).E)
     with pytest.raises(DomainError, match="elliptic = 'boost'"):
         elliptic.complete(0.5, elliptic="boost")
