@@ -6,10 +6,8 @@
 #include <cstdio>
 #include <memory>
 #include <new>
-#include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "c_scene.hpp"

@@ -434,11 +434,19 @@ Outcome complete(const gyrostat_scene& scene, bool with_question) {
           return missing(key, std::string(other.name) + " is set and ");
     }
   }
+  const auto given = [&](const char* name) { return !lacks(scene.given, *find<Key>(keys, name)); };
+  for (std::size_t i = 0; i < scene.problem.torques.size(); ++i)
+    if (scene.problem.torques[i].type == T::weight && scene.problem.fixed && !given("field.gravity"))
+      return missing(*find<Key>(keys, "field.gravity"), "torque " + std::to_string(i + 1) + " is a weight, and ");
+  for (std::size_t i = 0; i < scene.problem.wheels.size(); ++i)
+    if (scene.problem.wheels[i].type == W::friction && lacks(scene.given_wheels[i], *find<Key>(keys, "wheel.friction")))
+      return missing(*find<Key>(keys, "wheel.friction"), "of wheel " + std::to_string(i + 1) + " ");
   return {};
 }
 
 general::Problem<double> problem_of(const gyrostat_scene& scene) {
   general::Problem<double> made = scene.problem;
+  made.mass_given = (scene.given & bit_of(*find<Key>(keys, "body.mass"))) != 0;
   const GivenKeys mean = bit_of(*find<Key>(keys, "torque.factor.mean"));
   const GivenKeys rate = bit_of(*find<Key>(keys, "torque.factor.rate"));
   for (std::size_t i = 0; i < made.torques.size(); ++i)

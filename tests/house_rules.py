@@ -212,6 +212,10 @@ def check_version(root):
             found[name] = match[1]
     if len(set(found.values())) > 1:
         yield "the versions differ: " + ", ".join(f"{name} {version}" for name, version in found.items())
+    macros = re.findall(r"#define GYROSTAT_VERSION_\w+ (\d+)", (root / "include/gyrostat/version.hpp").read_text(encoding="utf-8")) \
+        if "include/gyrostat/version.hpp" in found else []
+    if macros and ".".join(macros) != found["include/gyrostat/version.hpp"]:
+        yield f"include/gyrostat/version.hpp: its macros say {'.'.join(macros)}"
     ours = found.get("CMakeLists.txt", "") + "."
     for path in our_files(root):
         if path.suffix in (".md", ".txt"):

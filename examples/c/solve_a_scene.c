@@ -33,7 +33,7 @@ static int loop(const gyrostat_propagator* propagator) {
   double attitude[] = {0, 0, 0, 1}, rate[] = {0, 0.01, 0.1}, wheel[] = {0}, error[3];
   for (int i = 0; i < 10; ++i)
     if (gyrostat_propagate(propagator, 0.1, attitude, rate, wheel, error)) return 1;
-  printf("after ten steps: wheel at %.9f rad/s, each step within %.0e rad/s\n", wheel[0], error[2]);
+  printf("after ten steps: wheel at %.9f rad/s, the last step within %.0e rad/s\n", wheel[0], error[2]);
   return 0;
 }
 

@@ -134,6 +134,6 @@ fn main() -> Result<(), String> {
             gyrostat_propagate(propagator.0, 0.1, attitude.as_mut_ptr(), rate.as_mut_ptr(), wheel.as_mut_ptr(), error.as_mut_ptr())
         })?;
     }
-    println!("after ten steps: wheel at {:.9} rad/s, each step within {} rad/s", wheel[0], scientific(error[2], 0));
+    println!("after ten steps: wheel at {:.9} rad/s, the last step within {} rad/s", wheel[0], scientific(error[2], 0));
     Ok(())
 }

@@ -63,7 +63,7 @@ const char* gyrostat_message(void);
  *
  *   body.inertia*           3, 9  kg m^2   of the whole, wheels locked in it, about the mass centre, or the point where it is held:
  *                                          three moments along the body axes, or a symmetric matrix
- *   body.mass               1     kg       1
+ *   body.mass               1     kg       wanted by a weight where the body is fixed, and by a thrust where it is not
  *   body.centre_of_mass     3     m        from the body's origin; 0
  *   body.fixed              1              1: the origin is held in space; 0
  *   body.rotor_momentum     3     N m s    constant, of wheels that are not listed; 0
@@ -99,7 +99,8 @@ const char* gyrostat_message(void);
  *   torque.momentum*        3     N m s    charge
  *   torque.frame                           word: body (default), inertial, orbit; constant, table; a thrust: not orbit
  *   torque.on               2n    s        it acts from each begin to each end; always where this is not said
- *   torque.factor.mean, .amplitude, .rate, .phase  1  -, -, rad/s, rad  times mean + amplitude sin(rate t + phase)
+ *   torque.factor.mean, .amplitude, .rate, .phase  1  -, -, rad/s, rad  times mean + amplitude sin(rate t + phase);
+ *                                          mean: 1, but 0 where a rate is set; the others 0
  *   torque.factor.times, .values  n  s, -  or times a table; torque.factor.interpolation, .extend: words
  *     (each type but table takes a factor; `weight` has no key of its own)
  *
@@ -108,7 +109,7 @@ const char* gyrostat_message(void);
  *   orbit.radial, orbit.along  3           outward and ahead at t = 0, inertial axes, of any length; what of the second is radial
  *                                          is dropped; [1, 0, 0], [0, 1, 0]
  *
- *   field.gravity           1     m/s^2    0
+ *   field.gravity           1     m/s^2    0; wanted by a weight
  *   field.down              3              inertial axes, of any length but zero; [0, 0, -1]
  *   field.uniform           3     T        inertial axes
  *   field.rotating.axis, .rate, .vector  3, 1, 3  -, rad/s, T   a field that turns

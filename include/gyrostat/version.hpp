@@ -4,7 +4,7 @@
 #include "gyrostat/core/level.hpp"
 
 #define GYROSTAT_VERSION_MAJOR 0
-#define GYROSTAT_VERSION_MINOR 1
+#define GYROSTAT_VERSION_MINOR 2
 #define GYROSTAT_VERSION_PATCH 0
 
 namespace gyrostat::inline GYROSTAT_LEVEL {

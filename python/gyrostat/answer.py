@@ -195,7 +195,7 @@ class Answer:
             text += f"; {column} belongs to scenes of this kind"
             start = self.scene.get("initial", {})
             if column == "attitude" and "attitude" not in start and not form_of(start):
-                text += ", where initial.attitude is given"
+                text += ", where initial.attitude is given or it is asked for by name"
             elif self.scene.get("solve", {}).get("model", "auto") != "auto" and self.model != "full":
                 text += ': a higher rung gives it, as model = "full" does'
             else:

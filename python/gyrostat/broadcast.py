@@ -70,7 +70,7 @@ def finite_rows(named: Sequence[tuple[str, ArrayLike, tuple[int, ...]]]) -> tupl
 def record(what: str, given: Mapping[str, Any], wanted: Iterable[str], optional: Iterable[str] = ()) -> None:
     """Raises DomainError for what is no mapping, for a key that is missing, and for one that is not known."""
     if not isinstance(given, Mapping):
-        raise DomainError(f"{what} = {str(given)[:60]}: give a mapping of {', '.join(wanted)}")
+        raise DomainError(f"{what} = {str(given)[:60]}: give a mapping of {', '.join((*wanted, *optional))}")
     if lacking := [name for name in wanted if given.get(name) is None]:
         raise DomainError(f"{what} has no {', '.join(lacking)}")
     known = (*wanted, *optional)

@@ -96,9 +96,11 @@ def spin_for_pointing(*, inertia: ArrayLike, torque: ArrayLike, budget: ArrayLik
                       charge_momentum: ArrayLike = 0.0) -> Design:
     """Least stable spin rate [rad/s], signed, at which the torque turns the mean direction of axis 3 by at most the budget.
 
-    What a start with tilt or rates across the axis leans it by is not in the budget. |M|/|r (D3 r + lambda3 - e_H)| <= budget. inertia, torque : (..., 3), none about axis 3 [kg m^2, N m]; budget : (...) > 0 [rad]; sense : (...)
-    negative for a negative spin; rotor_momentum, charge_momentum : (...) [N m s]. Leading axes broadcast. A rotor against the spin
+    |M|/|r (D3 r + lambda3 - e_H)| <= budget; what a start with tilt or rates across the axis leans it by is not in it. A rotor against the spin
     leaves a slow range of spins and a fast one; where stability ends a range before the budget does, the value is that limit and `unstable` is set.
+
+    inertia, torque : (..., 3), none about axis 3 [kg m^2, N m]; budget : (...) > 0 [rad]; sense : (...) negative for a negative spin;
+    rotor_momentum, charge_momentum : (...) [N m s]. Leading axes broadcast.
     Raises DomainError for what is not physical and for a budget that is not positive, naming the row.
     """
     lead, (sign,) = finite_rows([("sense", sense, ())])

@@ -89,9 +89,9 @@ def head_keys(kind: str) -> Table:
 def solve_keys(rungs: Iterable[str], integrators: Iterable[str]) -> Table:
     """The keys of the table [solve] that all kinds have."""
     return (
-        Field("duration", "number", "end of an even grid of times from 0", "s", UNSET, low=0, open_low=True),
+        Field("duration", "number", "length of an even grid of times that begins with the motion", "s", UNSET, low=0, open_low=True),
         Field("samples", "count", "number of times of the even grid", "", UNSET, low=2, high=MOST_SAMPLES),
-        Field("times", "times", "times of the answer, increasing, first >= 0", "s", UNSET, low=0),
+        Field("times", "times", "times of the answer, increasing, the first not before the start", "s", UNSET, low=0),
         Field("tolerance", "number", "greatest relative error wanted in what is asked", "", 1e-6, low=1e-15, high=0.5),
         Field("ask", "ask", "columns and scalars wanted: names, \"all\", or a table of name = tolerance, relative or with a unit", "", UNSET),
         Field("model", "choice", "rung of the ladder, or auto", "", "auto", ("auto", *rungs)),

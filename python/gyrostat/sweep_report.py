@@ -184,15 +184,19 @@ def shares(values: "xarray.DataArray") -> dict[str, float]:
 def missed_by(dataset: "xarray.Dataset") -> dict[str, float]:
     """Column or scalar -> share of the rows that are over the tolerance by its error, more than by any other; the greatest first."""
     solve = json.loads(dataset.attrs["study"])["scene"]["solve"]
-    own = {name: tolerance for name, tolerance, absolute, *_ in asked(dataset.attrs["kind"], solve.get("ask")) or () if not absolute}
+    own = {name: (tolerance, absolute) for name, tolerance, absolute, *_ in asked(dataset.attrs["kind"], solve.get("ask")) or ()}
     excess = dataset["excess"].values
     found = np.full(len(excess), "", dtype=object)
     for name, error in dataset.data_vars.items():
         of = str(name).removesuffix("_error")
-        tolerance = own.get(of, math.nan)
+        if of == name:
+            continue
+        tolerance, absolute = own.get(of, (math.nan, False))
         limit = excess * (tolerance if tolerance > 0 else solve["tolerance"])
-        if of != name:
-            found[np.isclose(error.values, limit, rtol=1e-9, atol=0)] = of
+        found[np.isclose(error.values, limit, rtol=1e-9, atol=0)] = of
+        if absolute:  # an error that is relative to the size
+            size = np.abs(dataset[of].values).reshape(len(excess), -1).max(axis=1)
+            found[np.isclose(error.values * size, limit, rtol=1e-9, atol=0)] = of
     found[dataset["met"].values | (dataset["reason"].values.astype(str) != "")] = ""
     names, counts = np.unique(found.astype(str), return_counts=True)
     return {str(names[i]): float(counts[i] / len(found)) for i in np.argsort(-counts, kind="stable") if names[i]}

@@ -171,16 +171,21 @@ def _data(scene: Scene, answer: Answer) -> dict[str, Any]:
         "begin": float(answer.t[0]), "end": float(answer.t[-1]), "turns": float(np.mean(np.linalg.norm(omega, axis=1)) * np.ptp(answer.t) / (2 * math.pi)),
         "attitude": _rounded(attitude), "angular_velocity": _rounded(omega), "angular_momentum": _rounded(momentum),
         "axis": _rounded(axis), "axis_name": f"axis of the {MOMENT_NAMES[which]} moment", "moments": _rounded(moments), "principal": _rounded(axes.T),
-        "box": _box(scene, inertia), "wheels": _wheels(scene), "up": _up(scene),
+        "box": _box(scene, given, inertia), "wheels": _wheels(scene), "up": _up(scene),
     }
 
 
-def _box(scene: Scene, inertia: Floats) -> dict[str, Any]:
+def _box(scene: Scene, given: Mapping[str, Any], inertia: Floats) -> dict[str, Any]:
     """The even box with these moments about its centre: half its edges, their directions and the centre, in body axes; its farthest corner
     is one from the origin."""
     centre, mass = np.zeros(3), 1.0
     if scene.kind == "heavy" or scene.kind == "general" and scene.tables["body"]["fixed"]:  # about the fixed point, which is the origin
-        centre, mass = np.asarray(scene.tables["body"]["centre_of_mass"], dtype=float), float(scene.tables["body"]["mass"])
+        centre = np.asarray(given["centre_of_mass"], dtype=float)
+        room = float(centre @ centre)
+        if given["mass"] is not None:
+            mass = float(given["mass"])
+        elif room > 0:  # as nothing needs it: such that half of the least moment is left about the mass centre
+            mass = 0.5 * float(np.linalg.eigvalsh(inertia)[0]) / room
         inertia = inertia - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
     moments, axes = np.linalg.eigh(inertia)
     half = np.sqrt(np.maximum(1.5 * (moments.sum() - 2 * moments) / mass, 0.0))

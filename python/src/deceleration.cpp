@@ -56,7 +56,10 @@ Data solve_scene(const Array& inertia, const Array& rotor_momentum, const Array&
   question.wants_attitude = attitude.has_value();
   const bool cvode = takes_cvode(tables, integrator, question);
   const EllipticBackend& functions = elliptic_backend(elliptic);
-  Scene scene = checked(Scene::make(body(inertia), setup, question));
+  const auto made = Scene::make(body(inertia), setup, question);
+  if (!made && made.error() == Errc::out_of_domain)
+    raise("DomainError", "angular_momentum: it is not J omega + l of angular_velocity: give one of the two");
+  Scene scene = checked(made);
   if (cvode) scene.full_equations = by_cvode<Scene>();
 
   Refusal refusal;

@@ -5,10 +5,8 @@
 
 #include <pybind11/stl.h>
 
-#include <array>
 #include <cstddef>
 #include <iterator>
-#include <optional>
 #include <string>
 
 #include "gyrostat/models/general/collected.hpp"
@@ -156,6 +154,7 @@ inline general::Problem<double> general_problem(const py::dict& given) {
   general::Problem<double> made;
   made.inertia = body.matrix("inertia");
   made.mass = body.number("mass");
+  made.mass_given = body["mass_given"].cast<bool>();
   made.centre_of_mass = body.vector("centre_of_mass");
   made.fixed = body["fixed"].cast<bool>();
   made.rotor_momentum = body.vector("rotor_momentum");

@@ -216,8 +216,11 @@ static void surroundings(void) {
   const double* w;
   OK(gyrostat_set_number(scene, "body.fixed", 1));
   OK(gyrostat_set(scene, "body.centre_of_mass", high, 3));
-  OK(gyrostat_set_number(scene, "field.gravity", 9.81));
   OK(gyrostat_add(scene, "torque", "weight"));
+  REFUSED(gyrostat_solve(scene, &answer), GYROSTAT_BAD_SCENE, "torque 1 is a weight, and field.gravity is not set");
+  OK(gyrostat_set_number(scene, "field.gravity", 9.81));
+  REFUSED(gyrostat_solve(scene, &answer), GYROSTAT_BAD_SCENE, "torque 1: it needs the mass");
+  OK(gyrostat_set_number(scene, "body.mass", 1));
   OK(gyrostat_ask(scene, "angular_velocity", 0));
   OK(gyrostat_set_word(scene, "solve.model", "heavy:exact"));
   answer = solved(scene, "heavy:exact");

@@ -180,7 +180,9 @@ TORQUES: list[tuple[Any, str]] = [
     (PUSH | {"on": [0.1, 0.2, 0.5]}, "on"), (PUSH | {"on": 5}, "on"), (PUSH | {"on": [[0.1], [0.5]]}, "on"),
     ({"type": "damping", "coeficient": 5}, "did you mean coefficient"), (PUSH | {"factor": {"amplitud": 1.0, "rate": 1.0}}, "did you mean amplitude"),
     ({"type": "constant"}, "torque 1 has no torque"), ({}, "torque 1 has no type"), ({"type": "pull"}, "there is no type 'pull'"), (5, "torque 1 = 5"),
-    ({"type": "brake", "limit": [1, 1, 1], "law": "x"}, "law = 'x'"), (PUSH | {"torque": ["a", 0, 0]}, "not an array of numbers"),
+    ({"type": "brake", "limit": [1, 1, 1], "law": "x"}, "law = 'x'"), (PUSH | {"torque": ["a", 0, 0]}, "not an array of numbers"), (PUSH | {"torque": 0.1}, "torque = 0.1: give three numbers"),
+    (PUSH | {"factor": {"mean": 0.5}}, "neither a wave nor a table"), (PUSH | {"factor": {"amplitude": 0.5, "phase": 1.0}}, "neither a wave nor a table"),
+    ({"type": "damping"}, "no matrix or coefficient"), ({"type": "damping", "coefficient": 1.0, "matrix": np.eye(3)}, "both given"),
 ]
 
 
@@ -192,7 +194,9 @@ def test_a_torque_of_another_form_is_refused(torque: Any, why: str) -> None:
 
 @pytest.mark.parametrize(("wheel", "why"), [
     (WHEEL | {"tpye": "free"}, "did you mean type"), ({}, "wheel 1 has no axis"), (5, "wheel 1 = 5"), (WHEEL | {"type": "x"}, "there is no type 'x'"),
-    (WHEEL | {"axis": [0, 1]}, "shape"), (WHEEL | {"axial_inertia": "a"}, "not an? "), (WHEEL | {"rate": {"times": [0, 1]}}, "no values")])
+    (WHEEL | {"axis": [0, 1]}, "shape"), (WHEEL | {"axial_inertia": "a"}, "not an? "), (WHEEL | {"rate": {"times": [0, 1]}}, "no values"), (WHEEL | {"momentum": 1.0}, "rate and momentum are both given"), (WHEEL | {"mass": 1.0}, "leave it out"),
+    (WHEEL | {"type": "motor", "no_load_rate": 1.0}, "no slope or stall_torque"), ({"type": "torque", "axis": [0, 0, 1], "axial_inertia": 0.01}, "wheel 1 has no torque"),
+    (WHEEL | {"type": "motor", "no_load_rate": 1.0, "slope": 1.0, "stall_torque": 1.0}, "both given")])
 def test_a_wheel_of_another_form_is_refused(wheel: Any, why: str) -> None:
     with pytest.raises(DomainError, match=why):
         general.solve(**FREE, wheels=[wheel])
@@ -218,8 +222,18 @@ def test_a_force_without_what_it_needs_is_refused(torque: Any, given: dict[str, 
         general.solve(**FREE | given, torques=[torque])
 
 
+def test_a_deceleration_starts_in_one_way() -> None:
+    given: dict[str, Any] = {"inertia": [3.0, 2.0, 1.0], "control": [0.1] * 3, "drag": 0.0, "times": [0.0, 1.0]}
+    assert deceleration.solve(**given, angular_momentum=[3.0, 2.0, 1.0], angular_velocity=[1.0, 1.0, 1.0]).met
+    with pytest.raises(DomainError, match="give one of the two"):
+        deceleration.solve(**given, angular_momentum=[1.0, 2.0, 3.0], angular_velocity=[9.0, 9.0, 9.0])
+
+
 def test_other_records_of_general_scenes_are_refused() -> None:
-    for given, why in (({"torque": 3}, "there is no function at this address"), ({"start_error": {"x": 1.0}}, "start_error: there is no x"), ({"inertia": [1, 2]}, "inertia has the shape"),
+    for given, why in (({"torque": 3}, "there is no function at this address"), ({"start_error": {"x": 1.0}}, "start_error: there is no key x"), ({"start_error": 3}, "start_error = 3"),
+                       ({"start_error": {"attitude": "a"}}, "attitude = a"), ({"start_time": "a"}, "start_time"), ({"start_time": 2e5}, "is before start_time"), ({"start_time": math.nan}, "start_time"),
+                       ({"wheels": 1j}, "wheels"), ({"torques": {}}, "torques"), ({"euler": {}}, "euler"), ({"fixed": "no"}, "fixed"), ({"field": np.ones((2, 0, 3))}, "field"),
+                       ({"field": {"uniform": [0, 0, 1e-5], "dipole": {}}}, "both given"), ({"orbit": {"radius": 7e6, "rate": 1e-3, "mu": 4e14}}, "say the same"), ({"inertia": [1, 2]}, "inertia has the shape"),
                        ({"field": {"rotating": 3}}, "field.rotating = 3"), ({"field": {"magnetc": 3}}, "there is no key magnetc")):
         with pytest.raises(DomainError, match=why):
             general.solve(**FREE | given)

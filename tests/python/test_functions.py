@@ -120,6 +120,15 @@ def test_averaged_with_equal_torques_is_the_exponential_law() -> None:
     assert float(made.stop_time) == pytest.approx(math.log1p(2e-5 * float(start) / 7e-4) / 2e-5, rel=1e-7)
 
 
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-9, 1e-12])
+def test_averaged_states_what_its_integration_loses(tolerance: float) -> None:
+    J, M, control, drag, t = [0.8081527620785081, 0.6559124908585063, 1.0088779805841743], [-1.1301008868754392, -0.7503960019574306, -0.4468597903930816], 0.008586703562489329, 0.000322413707639318, 59.56863861563033
+    norm = math.hypot(*M)
+    found = deceleration.averaged(inertia=J, control=[control] * 3, drag=drag, angular_momentum=M, t=[0.0, t], tolerance=tolerance)
+    true = norm * math.exp(-drag * t) + control / drag * math.expm1(-drag * t)
+    assert abs(found.momentum_norm[1] - true) <= found.error["momentum_norm"] * norm
+
+
 def test_quasi_stationary_modulus_solves_its_equation() -> None:
     star = deceleration.quasi_stationary_modulus(control=[[0.95, 0.8, 1.0], [2.0, 1.0, 1.0]])
     assert 0 < star[0] < 1 and math.isnan(star[1])

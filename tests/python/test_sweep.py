@@ -490,6 +490,8 @@ def test_a_report_names_what_misses_the_tolerance() -> None:
     assert missed_by(gyrostat.sweep(scene, varied, n=3, ask=["stop_time", "energy"])) == {"stop_time": 1.0}
     assert missed_by(gyrostat.sweep(scene, varied, n=3, ask={"stop_time": 0.5, "energy": "1e-9 %"})) == {"energy": 1.0}
     assert not missed_by(gyrostat.sweep(scene, varied, n=3, ask={"stop_time": 0.5}))
+    for ask in ({"stop_time": "1e-9 s"}, {"angular_momentum_norm": "1e-9 N m s", "stop_time": 0.5}):
+        assert missed_by(gyrostat.sweep(scene, varied, n=3, ask=ask)) == {next(iter(ask)): 1.0}
 
 
 def ishigami(n: int) -> xarray.Dataset:

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from gyrostat.cli import main
 from gyrostat.rotation import matrix_from_quaternion
+from gyrostat.scenes import scene_from
 from gyrostat.view import TURNS, View, view
 
 # One of each family; the tops with and without an attitude.
@@ -67,6 +68,15 @@ def test_the_box_has_the_moments_of_the_body(name: str) -> None:
     moments = np.linalg.eigvalsh(inertia)
     assert moments / moments[2] == pytest.approx(np.array(data["moments"]) / data["moments"][2], rel=2e-3)
     np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-6)
+
+
+def test_a_fixed_body_without_a_mass_can_be_seen_and_so_can_one_with_wheels_apart() -> None:
+    body = {"inertia": [3.0, 2.5, 1.5], "fixed": True, "centre_of_mass": [0.0, 0.0, 0.2]}
+    scene: dict[str, Any] = {"name": "x", "kind": "general", "body": body, "initial": {"angular_velocity": [0.1, 0.2, 0.3]}, "solve": {"times": [0.0, 5.0]}}
+    assert shown(view(scene_from(scene)).html)["box"]["centre"][2] > 0
+    wheel = {"axis": [0.0, 0.0, 1.0], "axial_inertia": 0.1, "equatorial_inertia": 0.06, "mass": 50.0, "position": [0.0, 0.0, -0.2]}
+    apart = {**scene, "body": {**body, "mass": 1.0, "wheels_in_inertia": False}, "wheel": [wheel]}
+    assert shown(view(scene_from(apart)).html)["box"]["centre"][2] < 0
 
 
 def test_the_window_is_some_tens_of_turns() -> None:

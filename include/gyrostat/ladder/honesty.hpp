@@ -123,6 +123,9 @@ inline constexpr double exact_slim = 1e-3;
 
 /// Averaged decelerations: mean equations integrated with a local error err by so many times it in all. Chosen.
 inline constexpr double mean_steps = 10;
+/// The same of `averaged` without rotors where the local error is below `mean_fine`: so many times the number of its steps. Of 10 000 bodies under equal torques and drag, whose
+/// |M| has a closed form, the greatest was 0.9 times; at looser local errors 5 in all.
+inline constexpr double mean_steps_share = 1.5, mean_fine = 1e-10;
 /// To the error of the time at which they stop so many local errors are added. Chosen.
 inline constexpr double mean_stop = 100;
 

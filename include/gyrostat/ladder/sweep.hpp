@@ -60,6 +60,7 @@ inline constexpr const char* not_reached = "the sweep was stopped before this ro
 /// left out. Returns when all threads have ended.
 template <class MakeWorker>
 void for_blocks(std::size_t rows, unsigned threads, std::size_t most, Monitor* monitor, const MakeWorker& make_worker) {
+  if (rows == 0) return;
   constexpr std::chrono::milliseconds pause{20};
   const unsigned pool_size = unsigned(std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(rows, 1)));
   // few rows, so that no thread waits long for the last to end

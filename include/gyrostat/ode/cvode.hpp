@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <type_traits>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"

@@ -39,7 +39,6 @@ namespace detail {
 /// at the zeros of P_8(2c - 1) - P_7(2c - 1). Tables over stages i are contiguous.
 template <Real Scalar>
 struct RadauTable {
-  static constexpr int stages = 8;
   Scalar node[8];               ///< c_i, ascending; c_7 = 1
   Scalar matrix[8][8];          ///< [j][i]: integral of l_j from 0 to c_i, l_j the Lagrange polynomials
   Scalar weight[8];             ///< b_j, the last row of the matrix

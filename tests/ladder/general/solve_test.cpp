@@ -78,7 +78,7 @@ TEST_CASE("a gradient that is not that of the orbit, and an orbit inside its pla
   p.torques[0].gradient.reset();
   CHECK(!solved(posed(p, question_at({1}))).warns("orbit-mismatch"));
 
-  p.orbit->true_anomaly = pi<double> / 2;  // the lowest point is at 1/1.1 of the distance here
+  p.orbit->true_anomaly = pi<double> / 2;     // the lowest point is at 1/1.1 of the distance here
   p.orbit->surface = (7e6 / 1.1 + 1) / 1.01;  // a hundredth of it is too low
   CHECK(solved(posed(p, question_at({1}))).warns("inside-planet"));
   p.orbit->surface -= 2;
@@ -97,7 +97,7 @@ TEST_CASE("a body that is not small against its orbit", "[general]") {
   p.torques = {torque(TorqueType::gravity_gradient, {0, 0, 0})};
   CHECK(warns(7001));
   CHECK(!warns(6999));
-  p.mass = 1;  // not given
+  p.mass = 1, p.mass_given = false;
   CHECK(!warns(7001));
   p.mass = 2;
   p.torques = {torque(TorqueType::constant, {1, 0, 0})};

@@ -45,6 +45,38 @@ Problem<double> within(const Problem<double>& of, const StartError& error, int w
 
 }  // namespace
 
+namespace {
+
+/// How often a monitor is asked before it stops the work.
+int asked_before_stop = 0;
+
+}  // namespace
+
+TEST_CASE("a work that is cancelled while the start is displaced has no answer") {
+  StartError error;
+  error.attitude = 1e-3, error.angular_velocity = 1e-4;
+  const auto scene = posed(driven(), all_at({0, 3, 11, 40}, 1e-9)).known_within(error);
+  int stopped = 0, answered = 0;
+  for (int times = 0; times < 200 && answered == 0; times += 1 + times / 4) {
+    asked_before_stop = times;
+    Monitor monitor;
+    monitor.stop = []() noexcept { return asked_before_stop-- <= 0; };
+    Refusal refusal;
+    const Answer answer = solve(scene, refusal, &monitor);
+    CAPTURE(times);
+    if (refusal.code == Errc::cancelled) {
+      CHECK(answer.columns.empty());
+      ++stopped;
+    } else {
+      REQUIRE(refusal.code == Errc::ok);
+      CHECK(answer.error < 1);
+      ++answered;
+    }
+  }
+  CHECK(stopped > 2);
+  CHECK(answered == 1);
+}
+
 TEST_CASE("what an error of the start makes of an answer is stated, and not far too large") {
   for (const double size : {1e-3, 1e-6, 1e-10})
     for (const auto& problem : {brick(), driven()}) {

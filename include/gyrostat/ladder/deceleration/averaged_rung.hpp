@@ -159,7 +159,9 @@ Track averaged_track(const Scene& scene) {
   if (late > 1) late = infinity<double>;  // not an estimate any more
   track.stop_error = std::isfinite(track.stop_time) ? late + detail::stop_of_steps(weight, tolerance) : 0;
 
-  const double local = honesty::mean_steps * tolerance, doubt = k2_of_data(problem, start, M0);
+  const double share = tolerance < honesty::mean_fine ? honesty::mean_steps_share : 0;
+  const double steps = share * static_cast<double>(run.motion().counts().steps);
+  const double local = std::max(honesty::mean_steps, steps) * tolerance, doubt = k2_of_data(problem, start, M0);
   error.norm += local * norm0 + problem.momentum_error();
   error.energy += local * energy0 + problem.energy_error(M0);
   error.k2 += local + doubt;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <vector>
 
 #include "gyrostat/ladder/cvode_pair.hpp"
 #include "gyrostat/ladder/deceleration/full_motion.hpp"

@@ -35,7 +35,8 @@ class Scene {
  public:
   Scene() = default;
 
-  /// not_finite, negative (control, drag), zero_vector (an attitude without length), and what check_times finds.
+  /// not_finite, negative (control, drag), zero_vector (an attitude without length), out_of_domain (a momentum that is not that of the given
+  /// angular velocity), and what check_times finds.
   GYROSTAT_COMPILED_ONCE static Result<Scene> make(const Inertia<double>& body, const Setup& setup,
                                                    const Question& question);
 

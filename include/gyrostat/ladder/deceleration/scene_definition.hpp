@@ -14,6 +14,12 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Inertia<double>& body, co
     return Errc::not_finite;
   if (setup.control.minCoeff() < 0 || setup.drag < 0) return Errc::negative;
   if (const Errc wrong = check_times(question.times, question.tolerance); wrong != Errc::ok) return wrong;
+  if (setup.angular_velocity) {
+    const Vec3<double>&w = *setup.angular_velocity, &l = setup.rotor_momentum;
+    const Vec3<double> off = setup.momentum - (body.tensor() * w + l);
+    const Vec3<double> size = body.tensor().cwiseAbs() * w.cwiseAbs() + l.cwiseAbs();
+    if (off.cwiseAbs().maxCoeff() > 1e-9 * size.maxCoeff()) return Errc::out_of_domain;
+  }
   const double length = norm(setup.attitude);
   if (!std::isfinite(length)) return Errc::not_finite;
   if (!(length > 0)) return Errc::zero_vector;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include "gyrostat/ladder/free/track.hpp"
 #include "gyrostat/ladder/question.hpp"

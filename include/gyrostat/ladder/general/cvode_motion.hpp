@@ -2,12 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "gyrostat/ladder/cvode_pair.hpp"
 #include "gyrostat/ladder/general/custom_rung.hpp"

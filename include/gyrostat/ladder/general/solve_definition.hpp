@@ -58,12 +58,11 @@ void warn_of_scene(const Answer& answer, const Scene& scene, const Track& track,
       if (torque.type == TorqueType::gravity_gradient && torque.gradient)
         if (const double beyond = beyond_orbit(*torque.gradient, *problem.orbit); beyond != 0)
           warn(warning::orbit_mismatch, beyond);
-    // a mass of one is that of a body whose mass is not given, and then nothing is known of its size
     const bool feels = std::any_of(problem.torques.begin(), problem.torques.end(), [](const Torque<double>& torque) {
       return torque.type == TorqueType::gravity_gradient;
     });
     const double size = std::sqrt(problem.inertia.diagonal().maxCoeff() / problem.mass);
-    if (const double share = size / apsides_of(*problem.orbit).lowest; feels && problem.mass != 1 && share > 1e-3)
+    if (const double share = size / apsides_of(*problem.orbit).lowest; feels && problem.mass_given && share > 1e-3)
       warn(warning::wide_in_orbit, share);
     const double height = apsides_of(*problem.orbit).lowest - problem.orbit->surface;
     if (height < 0.01 * problem.orbit->surface) warn(warning::inside_planet, height);
@@ -172,6 +171,10 @@ inline Answer solve_uncertain(const Scene& scene, Refusal& refusal, Monitor* mon
       carried_error(scene, answer, [&](const Problem<double>& start, const std::vector<double>& times) {
         return answer_beside(scene, start, times, place_of(tables.rungs, answer.model), monitor);
       });
+  if (monitor != nullptr && monitor->cancelled()) {
+    refusal = {Errc::cancelled, message(Errc::cancelled)};
+    return {};
+  }
   Answer exact = answer;
   for (Column& column : exact.columns) column.error = 0;
   for (Quantity& quantity : exact.quantities)

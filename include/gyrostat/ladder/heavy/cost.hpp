@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
 #include "gyrostat/ladder/cost.hpp"
 #include "gyrostat/ladder/heavy/scene.hpp"
 #include "gyrostat/ladder/honesty.hpp"

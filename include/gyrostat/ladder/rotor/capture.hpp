@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 
 #include "gyrostat/ladder/rotor/full_motion.hpp"
 #include "gyrostat/models/rotor/attractor.hpp"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "gyrostat/ladder/cost.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/spinning/scene.hpp"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/math/modulus.hpp"

@@ -221,8 +221,6 @@ class RateIntegral {
     if (coefficients_.empty()) return steady_ * t;
     return mean_ * t + (periodic(t) - start_);
   }
-  /// <omega>.
-  const Vec3<Scalar>& mean_rate() const noexcept { return steady_; }
   /// The size of what the series sums, rad, of which its rounding is, also where little time has passed.
   Scalar swing() const noexcept { return coefficients_.empty() ? Scalar(0) : size_ * period_ / (2 * pi<Scalar>); }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -208,8 +207,6 @@ class Motion {
   /// kappa of the attitude's phase by either component of the spinor, rad/s: equal but for rounding.
   Scalar kappa(int component) const noexcept { return kappa_[component]; }
   Scalar phase_rate() const noexcept { return 2 * pi<Scalar> * phase_rate_.high; }  ///< the kappa that is used, rad/s
-  /// Phase at time 0, in periods from a point of symmetry of the path (in half periods where hyperbolic()).
-  Scalar start_phase() const noexcept { return start_.high; }
   bool hyperbolic() const noexcept { return pair_.hyperbolic; }
   Scalar jacobi_rate() const noexcept { return u_rate_; }                ///< du/dt, rad/s
   Scalar jacobi_start() const noexcept { return u_start_; }              ///< u at time 0

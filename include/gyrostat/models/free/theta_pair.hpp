@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/math/complete.hpp"

@@ -374,6 +374,8 @@ Fault check_needs(const Problem<Scalar>& problem, const Torque<Scalar>& torque, 
   const bool turned =
       torque.type == TorqueType::constant || torque.type == TorqueType::table || torque.type == TorqueType::thrust;
   if (inertial && !turned) return {Errc::not_applicable, place, "it is given in body axes"};
+  if (torque.type == (problem.fixed ? TorqueType::weight : TorqueType::thrust) && !problem.mass_given)
+    return {Errc::not_applicable, place, "it needs the mass of the body, which is not given"};
   if (orbital && !problem.orbit) return {Errc::not_applicable, place, "axes of an orbit need an orbit"};
   return {};
 }

@@ -153,6 +153,7 @@ template <Real Scalar>
 struct Problem {
   Mat3<Scalar> inertia = Mat3<Scalar>::Identity();  ///< J, about the reference point, all wheels in it, kg m^2
   Scalar mass = 1;                                  ///< kg
+  bool mass_given = true;                           ///< else it is 1, and nothing may ask for it
   Vec3<Scalar> centre_of_mass{0, 0, 0};             ///< from the body's origin, m
   bool fixed = false;                               ///< the origin is held in space and is the reference point
   Vec3<Scalar> rotor_momentum{0, 0, 0};             ///< l0, constant, of wheels that are not listed, N m s

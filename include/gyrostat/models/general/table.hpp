@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/heavy/symmetric_top.hpp"

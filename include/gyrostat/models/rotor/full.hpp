@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 
 #include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/lanes.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/math/complex.hpp"

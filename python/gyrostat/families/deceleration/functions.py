@@ -43,7 +43,7 @@ def solve(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_moment
     inertia : (3,) principal moments or (3, 3) tensor [kg m^2]; control : (3,) >= 0 [N m]; drag : >= 0 [1/s];
     angular_momentum : (3,) total M at t = 0 [N m s]; rotor_momentum : (3,) [N m s]; attitude : (4,) [x, y, z, w], if wanted;
     times : (n,) increasing, first >= 0 [s]; tolerance : greatest relative error wanted in any column;
-    angular_velocity : (3,) at t = 0 [rad/s], where angular_momentum was made of it: the row at t = 0 then has it to the bit.
+    angular_velocity : (3,) at t = 0 [rad/s], where angular_momentum was made of it, J omega + l: the row at t = 0 then has it to the bit.
     ask : columns and scalars wanted: names, "all", or name -> tolerance, relative or with a unit ("0.1 deg"); None: the default set.
     Raises DomainError for an argument outside its domain and for a rung that cannot compute the motion, ConvergenceError where
     a computation hits its cap, Cancelled where the monitor stopped it.
@@ -82,7 +82,7 @@ def integrate(*, inertia: ArrayLike, control: ArrayLike, drag: float, angular_mo
 @dataclass(frozen=True, eq=False)
 class Averaged:
     """Averaged motions as arrays; `error` holds the estimated greatest error of each column of the same name: of momentum_norm and energy relative
-    to their greatest value, of modulus_squared absolute, of stop_time in s."""
+    to their greatest value, of modulus_squared absolute."""
 
     momentum_norm: Floats  # (..., n) N m s
     energy: Floats  # (..., n) of the carrier, J

@@ -79,4 +79,4 @@ def end_of(scene: "Scene") -> End:
     still = np.zeros(3)
     turning = zip(row["rotor_rate"].tolist(), row["rotor_angle"].tolist(), strict=True) if names else ()
     return End(row["attitude"], row["angular_velocity"], row["angular_momentum"], dict(zip(names, turning, strict=True)), fixed,
-               float(given["mass"]), given["centre_of_mass"], row.get("velocity", still), row.get("position", still), error)
+               1.0 if given["mass"] is None else float(given["mass"]), given["centre_of_mass"], row.get("velocity", still), row.get("position", still), error)

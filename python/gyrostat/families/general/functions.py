@@ -172,8 +172,24 @@ def _table(given: Record | None, width: int, place: str) -> dict[str, Any] | Non
             "interpolation": given.get("interpolation") or "linear", "extend": given.get("extend") or "zero"}
 
 
+def _one_of(given: Record, keys: tuple[str, ...], place: str, wanted: bool) -> None:
+    """Of keys that say the same one may be given, or is wanted."""
+    there = [key for key in keys if given.get(key) is not None]
+    if len(there) > 1:
+        raise DomainError(f"{place}: {' and '.join(there)} are both given: give one of them")
+    if wanted and not there:
+        raise DomainError(f"{place} has no {' or '.join(keys)}")
+
+
 def _wheel(given: Record, place: str) -> dict[str, Any]:
     _record(given, "wheel", place, "held")
+    _one_of(given, ("rate", "momentum"), place, False)
+    _one_of(given, ("slope", "stall_torque"), place, given.get("type") == "motor")
+    if given.get("type") == "torque":
+        _of(given, "torque", place)
+    for key in ("mass", "position", "equatorial_inertia"):
+        if given.get(key) is not None:
+            raise DomainError(f"{place}: {key} is given, but its inertia is part of `inertia`, that of the whole: leave it out")
     kind, inertia = given.get("type") or "held", _or(given.get("axial_inertia"), 0.0)
     rate, torque, no_load = given.get("rate"), given.get("torque"), _or(given.get("no_load_rate"), 0.0)
     driven = torque if isinstance(torque, Mapping) else None
@@ -199,16 +215,24 @@ def _torque(given: Record, place: str) -> dict[str, Any]:
     kind, factor = given["type"], given.get("factor") or {}
     if factor:
         record(f"{place}: factor", factor, (), _FACTOR)
+        if (factor.get("rate") is None) == (factor.get("times") is None) or (factor.get("times") is None and factor.get("amplitude") is None):
+            raise DomainError(f"{place}: factor is neither a wave nor a table: give mean, amplitude, rate and phase, or times and values")
+    if kind in ("damping", "eddy-current"):
+        _one_of(given, ("matrix", "coefficient"), place, True)
     law = given.get("law") or "total"
     if law not in _LAWS:
         raise DomainError(f"{place}: law = {law!r}: use total or carrier")
     opposed = _LAWS[law] if kind == "brake" else given.get("against") or "angular-velocity"
     matrix = given.get("matrix") if given.get("matrix") is not None else given.get("coefficient")
     vector = _of(given, _VECTOR[kind], place) if kind in _VECTOR else _ZERO
+    if not isinstance(vector, Sequence | np.ndarray):
+        if kind != "brake":
+            raise DomainError(f"{place}: {_VECTOR[kind]} = {vector!r}: give three numbers")
+        vector = [vector] * 3  # the same about all axes
     on = np.empty((0, 2)) if given.get("on") is None else stacked(given["on"], f"{place}: on")
     wave = factor if "rate" in factor and factor["rate"] is not None else {}
     return {"type": kind, "axes": given.get("frame") or "body", "opposed": opposed,
-            "vector": stacked(vector if isinstance(vector, Sequence | np.ndarray) else [vector] * 3),
+            "vector": stacked(vector),
             "point": stacked(_or(given.get("point"), _ZERO)), "matrix": _matrix(0.0 if matrix is None else matrix, f"{place}: matrix"),
             "gradient": given.get("gradient"), "table": _table(given, 3, place) if kind == "table" else None,
             "factor_table": _table(factor, 1, f"{place}: factor") if factor.get("times") is not None else None, "mean": _or(wave.get("mean"), 0.0) if wave else 1.0,
@@ -225,7 +249,8 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
     sizes = [key for key in ("radius", "altitude", "rate", "period") if given.get(key) is not None]
     if not sizes:
         raise DomainError("orbit: give its radius, altitude, rate or period")
-    if "altitude" in sizes and len(sizes) > 1 or {"rate", "period"} <= set(sizes):
+    if "altitude" in sizes and len(sizes) > 1 or {"rate", "period"} <= set(sizes) or (len(sizes) > 1 and given.get("mu") is not None):
+        sizes += ["mu"] if given.get("mu") is not None else []
         raise DomainError(f"orbit: {' and '.join(sizes)} say the same: give one of them")
     for key in (*sizes, "mu"):
         value = given.get(key)
@@ -288,9 +313,10 @@ _FIELDS: Final = {"rotating": ("axis", "rate", "vector"), "dipole": ("axis", "st
 
 
 def _field(given: Record | None) -> dict[str, Any]:
-    given = given or {}
-    if given and (not isinstance(given, Mapping) or not given.keys() <= _known("field")):
+    given = {} if given is None else given
+    if given is not None and (not isinstance(given, Mapping) or not given.keys() <= _known("field")):
         record("field", given, (), sorted(_known("field")))
+    _one_of(given, ("uniform", "rotating", "dipole"), "field", False)
     kind = next((name for name in ("uniform", "rotating", "dipole") if given.get(name) is not None), "none")
     part: Record = given[kind] if kind in ("rotating", "dipole") else {}
     if part:
@@ -319,11 +345,16 @@ def posed(*, inertia: Any, angular_velocity: Any = _ZERO, attitude: Any = (0.0, 
           torques: Sequence[Record] = (), mass: Any = None, centre_of_mass: Any = _ZERO, fixed: bool = False, rotor_momentum: Any = _ZERO,
           orbit: Record | None = None, field: Record | None = None, velocity: Any = _ZERO, position: Any = _ZERO) -> dict[str, Any]:
     """The physics of `solve` as the compiled ladder takes it."""
+    if not isinstance(fixed, bool | np.bool_):
+        raise DomainError(f"fixed = {fixed!r}: give True or False")
+    for name, given in (("wheels", wheels), ("torques", torques)):
+        if not isinstance(given, Sequence) or isinstance(given, str):
+            raise DomainError(f"{name} = {given!r}: give a list of records")
     acting = [_torque(each, f"torque {place}") for place, each in enumerate(torques, 1)]
     around = _field(field)
-    _check_forces(torques, mass, (field or {}).get("gravity"), bool(fixed))
+    _check_forces(torques, mass, (field or {}).get("gravity"), fixed)
     return {
-        "body": {"inertia": _matrix(inertia, "inertia"), "mass": stacked(1.0 if mass is None else mass)[()], "centre_of_mass": stacked(centre_of_mass), "fixed": bool(fixed),
+        "body": {"inertia": _matrix(inertia, "inertia"), "mass": stacked(1.0 if mass is None else mass)[()], "mass_given": mass is not None, "centre_of_mass": stacked(centre_of_mass), "fixed": fixed,
                  "rotor_momentum": stacked(rotor_momentum)},
         "wheels": [_wheel(each, f"wheel {place}") for place, each in enumerate(wheels, 1)],
         "torques": acting, "orbit": _orbit(orbit), "field": around,
@@ -356,6 +387,16 @@ def law_of(torque: Any) -> Any:
     if not callable(torque):
         raise DomainError(f"torque = {torque!r}: give a function of t, attitude, angular_velocity, angular_momentum and rotor_rate, or a compiled one")
     return torque
+
+
+def _by_clock(start_time: Any, times: ArrayLike) -> tuple[float, Floats, Floats]:
+    """The clock's time at the start, the asked times by it, and those since the start."""
+    start, at = number("start_time", start_time), array("times", times)
+    if not abs(start) <= LIMIT:
+        raise DomainError(f"start_time = {start!r}: give a number of size at most {LIMIT:g} (s)")
+    if at.size and at.flat[0] < start:
+        raise DomainError(f"times: the first, {at.flat[0]:g} s, is before start_time = {start:g} s")
+    return start, at, at - start
 
 
 def _own(torque: Law | None, breakpoints: ArrayLike, start_time: float) -> dict[str, Any]:
@@ -404,14 +445,19 @@ def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike =
     """
     scene = posed(inertia=inertia, angular_velocity=angular_velocity, attitude=attitude, wheels=wheels, torques=torques, mass=mass,
                   centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
-    at = array("times", times)
-    if unknown := set(start_error or {}) - set(START_ERRORS):
-        raise DomainError(f"start_error: there is no {sorted(unknown)[0]}; use {', '.join(START_ERRORS)}")
+    start_time, at, since_start = _by_clock(start_time, times)
+    if euler is not None and not isinstance(euler, str):
+        raise DomainError(f'euler = {euler!r}: give a sequence of axes, as "3-2-1"')
+    if start_error:
+        record("start_error", start_error, (), START_ERRORS)
+        start_error = numbers(**{name: value for name, value in start_error.items() if value is not None})
     asking: dict[str, Any] = {"times": at, **numbers(tolerance=tolerance), "model": model, "integrator": integrator}
-    made = _core.general_solve(scene=since(start_time, scene), **{**asking, "times": at - start_time}, recognise=recognise, monitor=monitor,
+    made = _core.general_solve(scene=since(start_time, scene), **{**asking, "times": since_start}, recognise=recognise, monitor=monitor,
                                ask=asked("general", _with_angles(ask, euler)), start_error=dict(start_error or {}),
                                euler=None if euler is None else axes_of(euler), **_own(torque, breakpoints, start_time))
     body = {**scene["body"], **scene["initial"]}
+    if not body.pop("mass_given"):
+        body["mass"] = None
     going_on = {"start_time": start_time or None, "start_error": dict(start_error) if start_error else None}
     records = {"wheels": [dict(each) for each in wheels] or None, "torques": [dict(each) for each in torques] or None,
                "orbit": None if orbit is None else dict(orbit), "field": None if field is None else dict(field)}
@@ -429,7 +475,8 @@ def recognise(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLi
     """
     scene = posed(inertia=inertia, angular_velocity=angular_velocity, attitude=attitude, wheels=wheels, torques=torques, mass=mass,
                   centre_of_mass=centre_of_mass, fixed=fixed, rotor_momentum=rotor_momentum, orbit=orbit, field=field, velocity=velocity, position=position)
-    found = _core.general_recognise(scene=since(start_time, scene), times=array("times", times) - start_time)
+    start_time, _, since_start = _by_clock(start_time, times)
+    found = _core.general_recognise(scene=since(start_time, scene), times=since_start)
     return {name: why or "" for name, why in found}
 
 
@@ -439,8 +486,8 @@ def segments(*, times: ArrayLike, start_time: float = 0.0, **physics: Any) -> li
 
     physics : arguments of `solve` that are no question.
     """
-    scene = since(start_time, posed(**physics))
-    found = _core.general_segments(scene=scene, times=array("times", times) - start_time)
+    start_time, _, since_start = _by_clock(start_time, times)
+    found = _core.general_segments(scene=since(start_time, posed(**physics)), times=since_start)
     return [(begin + start_time, end + start_time, tuple(families)) for begin, end, families in found]
 
 
@@ -452,6 +499,7 @@ def integrate(*, times: ArrayLike, method: str, tolerance: float, order: int = 2
     the build has them cvode-adams and cvode-bdf; patience : CPU time after which it gives up [s].
     Returns columns attitude and angular_velocity, seconds, rhs, steps and status. Raises DomainError.
     """
-    made: dict[str, Any] = _core.general_integrate(scene=since(start_time, posed(**physics)), times=array("times", times) - start_time,
+    start_time, _, since_start = _by_clock(start_time, times)
+    made: dict[str, Any] = _core.general_integrate(scene=since(start_time, posed(**physics)), times=since_start,
                                                    method=method, order=whole("order", order), precision=precision, **numbers(tolerance=tolerance, patience=patience))
     return made

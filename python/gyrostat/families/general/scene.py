@@ -166,7 +166,7 @@ KEYS: Final[dict[str, Table]] = {
             Field("axis", "axis", f"axis of the turn, inertial axes, {_DIRECTION}"), Field("rate", "number", "rate of the turn", "rad/s"),
             Field("vector", "vector", "flux density at t = 0, inertial axes", "T"))),
         Field("dipole", "record", "magnetic field of the central body of the orbit", "", UNSET, parts=(
-            Field("axis", "axis", f"axis of the dipole, inertial axes, {_DIRECTION}"), Field("strength", "number", "flux density on its equator", "T"),
+            Field("axis", "axis", f"direction of its field on the equator (of the Earth northward, against the magnetic moment), inertial axes, {_DIRECTION}"), Field("strength", "number", "flux density on its equator", "T"),
             Field("radius", "number", "distance at which it has that strength", "m", low=0, open_low=True))),
     ),
     "initial": (
@@ -658,8 +658,8 @@ def arguments(scene: "Scene") -> dict[str, Any]:
     start = _start(scene, whole, orbit)
     going_on = {**({"start_time": scene.start_time} if scene.start_time else {}), **({"start_error": start.error} if any(start.error.values()) else {})}
     return {
-        "inertia": whole.inertia, "mass": whole.mass, "centre_of_mass": whole.centre_of_mass, "fixed": body["fixed"],
-        "rotor_momentum": stacked(body["rotor_momentum"]), "wheels": start.wheels,
+        "inertia": whole.inertia, "mass": None if body["mass"] is UNSET else whole.mass, "centre_of_mass": whole.centre_of_mass, "fixed": body["fixed"],
+        "rotor_momentum": stacked(body["rotor_momentum"]), "wheels": [{key: value for key, value in each.items() if key not in APART} for each in start.wheels],
         "torques": [dict(each) for each in scene.top["torque"]], "orbit": None if orbit is None else dict(orbit), "field": field,
         "attitude": start.attitude, "angular_velocity": start.angular_velocity, "velocity": start.velocity, "position": start.position,
         "times": scene.times, "tolerance": solving["tolerance"], "model": solving["model"],
