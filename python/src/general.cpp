@@ -58,12 +58,12 @@ Data solve_scene(const Data& given, const Array& at, double tolerance, const std
                  const std::string& integrator, bool recognise, const std::optional<std::shared_ptr<Monitor>>& monitor,
                  const Ask& ask, const std::map<std::string, double>& start_error,
                  const std::optional<EulerAxes>& euler, const py::object& torque,
-                 const std::vector<double>& breakpoints, double clock) {
+                 const std::vector<double>& breakpoints) {
   Question question = question_of(general::tables, at, tolerance, model, ask);
   const bool cvode = takes_cvode(general::tables, integrator, question);
   general::Scene scene = scene_of(given, question, recognise).known_within(start_error_of(start_error));
   if (euler) scene = scene.told_by(*euler);
-  CallerTorque own(torque, scene.wheels().count, clock);
+  CallerTorque own(torque, scene.wheels().count, scene.problem().clock);
   scene = scene.driven_by(own.law(breakpoints));
   if (integrator == "dop853") scene.full_equations = &general::full_by_dop853;
   if (cvode) scene.full_equations = by_cvode<general::Scene>();
@@ -112,7 +112,7 @@ void bind_general(pybind11::module_& module) {
              py::arg("model"), py::arg("integrator"), py::arg("recognise"), py::arg("monitor"),
              py::arg("ask") = py::none(), py::arg("start_error") = std::map<std::string, double>{},
              py::arg("euler") = py::none(), py::arg("torque") = py::none(),
-             py::arg("breakpoints") = std::vector<double>{}, py::arg("clock") = 0.0,
+             py::arg("breakpoints") = std::vector<double>{},
              "Answer of the ladder as plain data. torque: a callable, or the address of a compiled function.");
   module.def("general_segments", &segments_of_scene, py::kw_only(), py::arg("scene"), py::arg("times"),
              "Begin, end and families of each segment that the motion can be answered in.");

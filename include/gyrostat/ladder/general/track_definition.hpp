@@ -214,7 +214,7 @@ class Writer {
     }
     return most;
   }
-  /// By how much a time may be off that was told by another clock, s; at least so much as shows.
+  /// By how much a time may be off that was told by another clock, s: a rounding of what is left of it.
   double clock_off(double t) const noexcept { return scene_.problem().clock != 0 ? epsilon<double> * t : 0; }
   /// By how much a torque of the caller's own changes where the rates of the wheels change by their error.
   double off_by_wheels(const Seen<double>& here, const Vec3<double>& now, double t) const noexcept {

@@ -410,7 +410,7 @@ def _own(torque: Law | None, breakpoints: ArrayLike, start_time: float) -> dict[
         if times.size:
             raise DomainError("breakpoints: they are of a torque of your own, and there is none")
         return {}
-    return {"torque": law_of(torque), "breakpoints": (times - start_time).tolist(), "clock": start_time}
+    return {"torque": law_of(torque), "breakpoints": (times - start_time).tolist()}
 
 
 def solve(*, inertia: ArrayLike, times: ArrayLike, angular_velocity: ArrayLike = _ZERO, attitude: ArrayLike = (0.0, 0.0, 0.0, 1.0),
