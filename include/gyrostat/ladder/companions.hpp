@@ -217,7 +217,7 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
       tell(next + 1);
     }
     if (walk.status != Status::reached || told == times.size() || !all_reach(now)) break;
-    look(walk.asked.row(runs.answer.at(now)), now);
+    if (told < next || honesty::looked_at_end(trips)) look(walk.asked.row(runs.answer.at(now)), now);
     if (told < next) tell(next);
     if (next == times.size()) break;
     kick(now);

@@ -836,7 +836,7 @@ TEST_CASE("a brake on a body that wheels push off from rest keeps up with its tu
   brake.type = TorqueType::brake, brake.opposed = Opposed::carrier_momentum, brake.vector = {7e-6, 2.5e-5, 1.4e-5};
   std::vector<State<double>> states(2);
   FullMotionOptions<double> options;
-  options.tolerance = 1e-10, options.integrator = Integrator::radau;
+  options.tolerance = 1e-12, options.integrator = Integrator::radau;
   const std::vector<double> times{3, 8};
   const auto answer = full_motion<double>(p, times, states, options);
   REQUIRE(answer);

@@ -265,10 +265,10 @@ void check_integrals(double revolutions, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("heavy: all integrals to rounding over two hundred revolutions", "[heavy]") { check_integrals(200, 1e-11); }
+TEST_CASE("heavy: all integrals to rounding over two hundred revolutions", "[heavy]") { check_integrals(200, 1e-13); }
 TEST_CASE("heavy: all integrals to rounding over a thousand and ten thousand revolutions", "[heavy][.long]") {
-  check_integrals(1e3, 1e-11);
-  check_integrals(1e4, 1e-10);
+  check_integrals(1e3, 1e-13);
+  check_integrals(1e4, 1e-12);
 }
 
 TEST_CASE("heavy: the exact motion of a top and the full equations agree to 1e-13", "[heavy]") {
@@ -300,10 +300,10 @@ TEST_CASE("heavy: time reversed, the full motion returns", "[heavy]") {
     const auto p = random.body();
     const auto start = random.start(random.log_any(0.5, 8));
     const double end = 10 * 2 * pi<double> / rate_size(p, start);
-    const auto there = solve(p, start, {end}, 1e-12, true);
+    const auto there = solve(p, start, {end}, 1e-13, true);
     State<double> turned = there.states[0];
     turned.angular_velocity *= -1;
-    const auto back = solve(p, turned, {end}, 1e-12, true);
+    const auto back = solve(p, turned, {end}, 1e-13, true);
     State<double> home = back.states[0];
     home.angular_velocity *= -1;
     Comparison both(Row<double>{});

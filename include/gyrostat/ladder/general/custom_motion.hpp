@@ -81,7 +81,7 @@ std::array<Scalar, Flow<Scalar>::width> number_sizes(const Prepared<Scalar>& of)
   const auto path = [&](std::size_t place, Scalar size) noexcept {
     if (size > 0) std::fill_n(made.begin() + std::ptrdiff_t(place), 3, size);
   };
-  path(At::velocity, row.scale[full_column::velocity]), path(At::position, row.scale[full_column::position]);
+  path(At::velocity, row.foreseen[full_column::velocity]), path(At::position, row.foreseen[full_column::position]);
   return made;
 }
 
@@ -266,7 +266,7 @@ class CustomMotion {
     // over a jump that is not named one companion may err as the answer does, by chance
     constexpr bool may_jump = !std::is_same_v<Law, NoTorque>;
     if (may_jump || rounding_rules(tolerance, condition_of(of_.wheels, course->at(0)))) second = neighbour(1, 3, tight);
-    const FullRow<Scalar> row(of_);
+    const FullRow<Scalar> row(of_, !options_.wanted.empty());
     // a step over a jump that is not named may err by its tolerance and show nothing of it
     const Scalar unseen = may_jump && !named_ ? tolerance / 4 : Scalar(0);
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
@@ -368,7 +368,8 @@ Result<CustomMotionAnswer<Scalar>> custom_motion(const Problem<Scalar>& problem,
   if (!(of.sizes.forcing * times.back() <= Scalar(most_forcing))) return Errc::out_of_domain;
   const detail::CustomMotion<Scalar, Law> motion(from, of, law, named, times, states, options);
   const Scalar phase = of.sizes.turning * times.back();
-  const Scalar first = first_step_tolerance<Scalar>(options.tolerance, phase, Scalar(honesty::loosest_step));
+  const Scalar first = first_step_tolerance<Scalar>(Scalar(honesty::dop853_share) * options.tolerance, phase,
+                                                    Scalar(honesty::loosest_step));
   return tightened<Scalar>(options, first, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
     return motion.run(tolerance, begin, end);
   });

@@ -15,11 +15,11 @@ inline bool settles_too_fast(const Scene& scene) noexcept {
   return rate * scene.question().times.back() / 6 > double(step_budget);
 }
 
-/// The row by which custom_motion() compares.
+/// The row by which custom_motion() compares what is asked.
 inline FullRow<double> driven_row(const Scene& scene) noexcept {
   const Flow<double> flow(scene.problem(), scene.wheels());
   const auto sized = pushed_by(scene.problem(), scene.own_torque()(0, seen_of(flow.state(0, flow.start()))));
-  return FullRow<double>(Prepared<double>(sized, scene.question().times.back()));
+  return FullRow<double>(Prepared<double>(sized, scene.question().times.back()), true);
 }
 
 }  // namespace detail

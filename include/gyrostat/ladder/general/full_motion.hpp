@@ -93,9 +93,11 @@ struct FullRow {
   static constexpr const auto& columns = full_columns;
 
   FullErrors<S> scale{};
+  FullErrors<S> foreseen{};  ///< how large a column may become
 
-  /// The scales that a problem sets for the times up to its span.
-  explicit FullRow(const Prepared<S>& of) noexcept {
+  /// The scales that a problem sets for the times up to its span. asked: of columns that a scene is asked for, which may be small beside what is
+  /// foreseen; a thousandth of it is their scale.
+  explicit FullRow(const Prepared<S>& of, bool asked = false) noexcept {
     using std::abs;
     const auto& sizes = of.sizes;
     S rate = of.problem.angular_velocity.norm();
@@ -113,6 +115,10 @@ struct FullRow {
     scale[full_column::position] = of.problem.position.norm() + v * of.span + gain * time;
     scale[full_column::impulse] = scale[full_column::gain] = M;
     scale[full_column::work] = M / sizes.least * M;
+    foreseen = scale;
+    if (!asked) return;
+    for (const auto column : {full_column::angular_momentum, full_column::velocity, full_column::position})
+      scale[column] *= share;
   }
 
   void operator()(const State& state, S* row) const noexcept {
@@ -665,7 +671,7 @@ FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow
     if (law.turns_by_itself()) lightest = std::min(lightest, law.axial_inertia);
   }
   const Scalar momenta =
-      size[full_column::angular_momentum] + std::max(row.scale[full_column::angular_momentum], carried);
+      size[full_column::angular_momentum] + std::max(row.foreseen[full_column::angular_momentum], carried);
   const Scalar fastest = momenta / of.sizes.least;
   // of w = J*^-1 (M - ...), from the start on
   const Scalar blur = epsilon<Scalar> * condition_of(wheels) * size[full_column::angular_velocity];
@@ -685,7 +691,7 @@ FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow
     if (of.sizes.turning > 0) error[full_column::rotor_angle] += error[full_column::rotor_rate] / of.sizes.turning;
   }
   for (const auto column : {full_column::velocity, full_column::position})
-    error[column] = 4 * relative * (size[column] + row.scale[column]);
+    error[column] = 4 * relative * (size[column] + row.foreseen[column]);
   error[full_column::impulse] = error[full_column::gain] = 4 * relative * momenta;
   const Scalar rate = size[full_column::angular_velocity];
   Scalar& work = error[full_column::work];
@@ -744,7 +750,7 @@ class FullMotion {
     const auto companion = begin(one, 2, tight);
     std::unique_ptr<Course> second;
     if (rounding_rules(tolerance.end, condition)) second = begin(two, 3, tight);
-    const FullRow<Scalar> row(of);
+    const FullRow<Scalar> row(of, !options_.wanted.empty());
     // rounding at the asked times, and between steps
     FullErrors<Scalar> between;
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {

@@ -35,7 +35,11 @@ static_assert(std::size_t{primitive::attitude} == std::size_t{full_column::attit
 /// What is asked of the primitives so that the columns made of them are as asked.
 inline FullErrors<double> wanted_of(const Scene& scene, const Goal<std::size(column_kinds)>& goal,
                                     const FullRow<double>& row) noexcept {
-  const auto scale = scene.scales();
+  // rates are held to those of the start, if it turns
+  constexpr auto rate = primitive::angular_velocity;
+  const double least = scene.problem().angular_velocity.norm() > 0 ? 1e-3 : 0.1;
+  const double finer =
+      row.scale[rate] > 0 ? std::clamp(scene.scales()[column::angular_velocity] / row.scale[rate], least, 1.0) : 1.0;
   auto wanted = FullErrors<double>::all(infinity<double>);
   constexpr std::size_t own[] = {column::attitude,   column::angular_velocity, column::angular_momentum,
                                  column::rotor_rate, column::rotor_angle,      column::velocity,
@@ -44,10 +48,9 @@ inline FullErrors<double> wanted_of(const Scene& scene, const Goal<std::size(col
     if (!(goal.columns[c] < infinity<double>) || !scene.has_column(c)) continue;
     for (std::size_t p = 0; p < primitive::count; ++p) {
       if (!has(made_of[c], p) || (p == primitive::rotor_rate && scene.wheels().count == 0)) continue;
-      // what is made of others shares its tolerance among them; one scale may be below the other
-      const double share = own[p] == c ? 1.0 : 0.5;
-      const double finer = row.scale[p] > 0 && scale[own[p]] < row.scale[p] ? scale[own[p]] / row.scale[p] : 1.0;
-      wanted[p] = std::min(wanted[p], goal.columns[c] * share * std::max(finer, 1e-3));
+      // what is made of others shares its tolerance among them; a torque may change much where they change little
+      const double share = own[p] == c ? 1.0 : c == column::torque ? 1.0 / 64 : 0.5;
+      wanted[p] = std::min(wanted[p], goal.columns[c] * share * (p == primitive::angular_velocity ? finer : 1.0));
     }
   }
   return wanted;

@@ -97,7 +97,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   Track track = detail::unless_lost(scene);
   if (track.failure != Errc::ok) return track;
   if (detail::settling_steps(scene) > double(step_budget)) return refused<Track>(Errc::step_limit, too_stiff);
-  const FullRow<double> row(Prepared<double>(scene.problem(), times.back()));
+  const FullRow<double> row(Prepared<double>(scene.problem(), times.back()), true);
   const auto wanted = detail::wanted_of(scene, goal, row);
   track.states.resize(times.size());
   FullMotionOptions<double> options;
@@ -122,7 +122,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   track.counts = answer->counts;
   track.off = detail::off_of(track, answer->error, row, scene);
   track.compared = detail::compared_of(track, answer->error, row, scene);
-  detail::balance(track, scene, answer->step_tolerance);
+  detail::balance(track, scene, companion_step(answer->step_tolerance));
   return track;
 }
 
