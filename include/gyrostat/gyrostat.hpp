@@ -275,6 +275,7 @@
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/quaternion_lanes.hpp"
 #include "gyrostat/rotation/quaternion_series.hpp"
+#include "gyrostat/rotation/rotate_once.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
 #include "gyrostat/rotation/vector_double_double.hpp"

@@ -22,7 +22,7 @@ struct Options {
   double tolerance = 1e-9;
   std::atomic<double>* progress = nullptr;
   void report(double done) const { progress->store(done); }
-  double excess(double error) const { return error / tolerance; }
+  double excess(const Trial& trial) const { return trial.error / tolerance; }
 };
 
 /// Errors are `gain` step tolerances.

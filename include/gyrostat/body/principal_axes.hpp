@@ -34,6 +34,7 @@ struct PrincipalAxes {
 
   /// The same of one with more digits.
   static PrincipalAxes nearest_of(const Mat3<Wider<Scalar>>& J) noexcept {
+    using std::abs;
     using Wide = Wider<Scalar>;
     PrincipalAxes made;
     if (J(0, 1) == 0 && J(0, 2) == 0 && J(1, 2) == 0) {
@@ -45,11 +46,11 @@ struct PrincipalAxes {
     int order[3] = {0, 1, 2}, best[3] = {0, 1, 2};
     Scalar most = -1;
     for (int i = 0; i < 6; ++i) {
-      const Scalar near = std::abs(axes(0, order[0])) + std::abs(axes(1, order[1])) + std::abs(axes(2, order[2]));
+      const Scalar near = abs(axes(0, order[0])) + abs(axes(1, order[1])) + abs(axes(2, order[2]));
       if (near > most) most = near, std::copy(order, order + 3, best);
       std::next_permutation(order, order + 3);
     }
-    for (int i = 0; i < 3; ++i) made.R_BP.col(i) = std::copysign(Scalar(1), axes(i, best[i])) * axes.col(best[i]);
+    for (int i = 0; i < 3; ++i) made.R_BP.col(i) = Scalar(axes(i, best[i]) < 0 ? -1 : 1) * axes.col(best[i]);
     made.take({eigen.values[best[0]], eigen.values[best[1]], eigen.values[best[2]]});
     const Vec3<Scalar> first = made.R_BP.col(0), second = made.R_BP.col(1);
     if (cross<Scalar>(first, second).dot(made.R_BP.col(2)) < 0) made.R_BP.col(1) *= -1;

@@ -254,7 +254,7 @@ void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs
   }
   const auto error = walk.error + rounding(walk.asked.size(), walk_of_steps);
   answer.error = relative_to_truth(walk.asked.relative(error), Writer::columns);
-  answer.met = options.excess(answer.error) <= 1;
+  answer.met = options.excess(answer) <= 1;
 }
 
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -49,6 +49,17 @@ inline constexpr const char* phase_lost =
     "the body turns so often that rounding of its phase alone, 2e-16 of the angle turned through, is over the "
     "tolerance: ask for a shorter span or a looser tolerance";
 
+/// What a run of the full equations hands back beside the states.
+template <std::size_t columns, Real Scalar>
+struct MotionOutcome {
+  ode::Status status = ode::Status::reached;
+  bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
+  /// Estimated greatest errors over the times, each as its column measures it.
+  Errors<columns, Scalar> error;
+  ode::Counts counts;         ///< of all runs, the companions' included
+  Scalar step_tolerance = 0;  ///< of the steps that gave the answer
+};
+
 /// How the full equations are to be solved.
 template <Real Scalar>
 struct MotionOptions {
@@ -62,7 +73,8 @@ struct MotionOptions {
 
   /// The greatest error over its tolerance; NaN if one is.
   template <std::size_t columns>
-  Scalar excess(const Errors<columns, Scalar>& error) const noexcept {
+  Scalar excess(const MotionOutcome<columns, Scalar>& outcome) const noexcept {
+    const auto& error = outcome.error;
     if (wanted.empty()) return error.greatest() / tolerance;
     Scalar most = 0;
     for (std::size_t i = 0; i < columns; ++i)
@@ -82,17 +94,6 @@ struct MotionOptions {
     cancel = &monitor->cancel;
     stop = monitor->stop;
   }
-};
-
-/// What a run of the full equations hands back beside the states.
-template <std::size_t columns, Real Scalar>
-struct MotionOutcome {
-  ode::Status status = ode::Status::reached;
-  bool met = false;  ///< status is reached and no estimated error exceeds the tolerance
-  /// Estimated greatest errors over the times, each as its column measures it.
-  Errors<columns, Scalar> error;
-  ode::Counts counts;         ///< of all runs, the companions' included
-  Scalar step_tolerance = 0;  ///< of the steps that gave the answer
 };
 
 /// Errc::not_finite, or not_increasing (a time before the start, or before the one ahead of it).

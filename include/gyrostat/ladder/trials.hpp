@@ -87,7 +87,7 @@ auto tightened(const Options& options, Scalar step_tolerance, const Run& run) no
       options.report(1);
       return answer;
     }
-    const Scalar excess = options.excess(answer.error);
+    const Scalar excess = options.excess(answer);
     by = excess > 1 ? Scalar(honesty::retry) * excess : infinity<Scalar>;
     step_tolerance = std::max(finest, step_tolerance / by);
   }

@@ -69,8 +69,8 @@ std::vector<State<double>> truth(const Problem<double>& problem, const std::vect
 TEST_CASE("the reference motions of general scenes", "[general]") {
   for (const auto& one : general_cases::cases<double>()) {
     const auto made = run(one.problem, one.times, 1e-11);
-    REQUIRE(made.answer.status == Status::reached);
     CAPTURE(one.id);
+    REQUIRE(made.answer.status == Status::reached);
     CHECK(made.answer.met);
     const auto error = apart(one.problem, one.times, one.truth, made.states);
     for (std::size_t i = 0; i < (one.has_path ? 7U : 5U); ++i) {
@@ -98,6 +98,7 @@ TEST_CASE("stated errors of the full general equations bound the true ones", "[g
     if (right.empty()) continue;
     const auto of = run(made.problem, times, tolerances[i % 4]);
     if (of.answer.status == Status::event) continue;
+    CAPTURE(i, made.span, of.answer.outgrown, of.answer.counts.steps);
     REQUIRE(of.answer.status == Status::reached);
     const auto error = apart(made.problem, times, right, of.states);
     ++all, met += of.answer.met;

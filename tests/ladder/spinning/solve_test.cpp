@@ -199,7 +199,7 @@ TEST_CASE("a position that comes back to zero is judged by its scale", "[spinnin
   p.angular_velocity = {0, 0, 3};
   Question question;
   question.times = {2 * pi<double> / 3};
-  question.tolerance = 1e-9;
+  question.tolerance = 1e-11;
   question.rung = rung::full;
   const auto scene = *Scene::make(p, question);
   const Solved made = solved(scene);

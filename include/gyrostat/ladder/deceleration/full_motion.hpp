@@ -493,7 +493,7 @@ class FullMotion {
     }
     look_for_stop(answer, runs);
     answer.counts = runs.counts();
-    answer.met = answer.status == ode::Status::reached && options_.excess(answer.error) <= 1;
+    answer.met = answer.status == ode::Status::reached && options_.excess(answer) <= 1;
     return answer;
   }
 

@@ -142,11 +142,6 @@ struct FullRow {
 };
 
 template <Real Scalar>
-struct FullMotionOptions : MotionOptions<Scalar> {
-  Integrator integrator = Integrator::any;
-};
-
-template <Real Scalar>
 struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
   Integrator used = Integrator::taylor;
   /// How far apart attitudes of neighbours are at the last time, over what errors of their data and steps come to in proportion to the angle that the body turns
@@ -160,6 +155,20 @@ struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
   Scalar rest_off = 0;                       ///< to which each of their begins is known, s
   /// Status::step_limit: the body turns far faster than foreseen, and would go on through an angle that no run reaches.
   bool outgrown = false;
+  Scalar excess_beyond = 0;  ///< as FullMotionOptions::beyond says
+};
+
+template <Real Scalar>
+struct FullMotionOptions : MotionOptions<Scalar> {
+  Integrator integrator = Integrator::any;
+  /// By how many times what the caller makes of the states, which are in place, misses what is asked of it; nullptr: it makes nothing.
+  Scalar (*beyond)(void* caller, const FullMotionAnswer<Scalar>&) noexcept = nullptr;
+  void* caller = nullptr;
+
+  /// The greatest error over its tolerance; NaN if one is.
+  Scalar excess(const FullMotionAnswer<Scalar>& answer) const noexcept {
+    return greater(MotionOptions<Scalar>::excess(answer), answer.excess_beyond);
+  }
 };
 
 inline constexpr const char* why_stopped_by_brake =
@@ -844,7 +853,12 @@ FullMotionAnswer<Scalar> full_motion_of(const Prepared<Scalar>& of, std::span<co
   Scalar inside = options.tolerance / 512;
   return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar by, double begin, double end) noexcept {
     inside = std::max(step_tolerance, inside / by);
-    return motion.run({step_tolerance, inside}, begin, end);
+    auto answer = motion.run({step_tolerance, inside}, begin, end);
+    if (answer.met && options.beyond != nullptr) {
+      answer.excess_beyond = options.beyond(options.caller, answer);
+      answer.met = answer.excess_beyond <= 1;
+    }
+    return answer;
   });
 }
 

@@ -32,9 +32,14 @@ namespace detail {
 static_assert(std::size_t{primitive::attitude} == std::size_t{full_column::attitude} &&
               std::size_t{primitive::position} == std::size_t{full_column::position});
 
+/// The part of its tolerance that a column made of several primitives leaves to each.
+inline constexpr double shared_share = 0.5;
+/// The same of the torque where its own error is not looked at: a torque may change much where they change little.
+inline constexpr double shared_of_torque = 1.0 / 64;
+
 /// What is asked of the primitives so that the columns made of them are as asked.
 inline FullErrors<double> wanted_of(const Scene& scene, const Goal<std::size(column_kinds)>& goal,
-                                    const FullRow<double>& row) noexcept {
+                                    const FullRow<double>& row, double of_torque) noexcept {
   // rates are held to those of the start, if it turns
   constexpr auto rate = primitive::angular_velocity;
   const double least = scene.problem().angular_velocity.norm() > 0 ? 1e-3 : 0.1;
@@ -48,8 +53,7 @@ inline FullErrors<double> wanted_of(const Scene& scene, const Goal<std::size(col
     if (!(goal.columns[c] < infinity<double>) || !scene.has_column(c)) continue;
     for (std::size_t p = 0; p < primitive::count; ++p) {
       if (!has(made_of[c], p) || (p == primitive::rotor_rate && scene.wheels().count == 0)) continue;
-      // what is made of others shares its tolerance among them; a torque may change much where they change little
-      const double share = own[p] == c ? 1.0 : c == column::torque ? 1.0 / 64 : 0.5;
+      const double share = own[p] == c ? 1.0 : c == column::torque ? of_torque : shared_share;
       wanted[p] = std::min(wanted[p], goal.columns[c] * share * (p == primitive::angular_velocity ? finer : 1.0));
     }
   }

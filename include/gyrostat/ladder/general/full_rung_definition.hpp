@@ -50,6 +50,28 @@ GYROSTAT_COMPILED_ONCE Track::Compared compared_of(const Track& track, const Ful
   return {off[full_column::impulse], off[full_column::gain], off[full_column::work] + 8 * epsilon<double> * most};
 }
 
+/// Takes what a run says about its errors into the track that has its states.
+struct TorqueReader {
+  const Scene& scene;
+  const FullRow<double>& row;
+  double torque;  ///< the error wanted in the torque, relative
+  Track& track;
+  double torque_off = nan<double>;  ///< as it was judged last, N m
+
+  void operator()(const FullMotionAnswer<double>& answer) noexcept {
+    track.rests = answer.rests, track.rest_off = answer.rest_off;
+    track.off = off_of(track, answer.error, row, scene);
+    track.compared = compared_of(track, answer.error, row, scene);
+  }
+  /// FullMotionOptions::beyond of a TorqueReader.
+  static double excess_of_torque(void* caller, const FullMotionAnswer<double>& answer) noexcept {
+    TorqueReader& reader = *static_cast<TorqueReader*>(caller);
+    reader(answer);
+    reader.torque_off = detail::torque_off(reader.track, reader.scene);
+    return torque_error(reader.track, reader.scene, reader.torque_off) / reader.torque;
+  }
+};
+
 GYROSTAT_COMPILED_ONCE void balance(Track& track, const Scene& scene, double step_tolerance) noexcept {
   const Question& question = scene.question();
   if (!aim_of(question, tables, true, scalar::energy_balance) &&
@@ -98,13 +120,16 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   if (track.failure != Errc::ok) return track;
   if (detail::settling_steps(scene) > double(step_budget)) return refused<Track>(Errc::step_limit, too_stiff);
   const FullRow<double> row(Prepared<double>(scene.problem(), times.back()), true);
-  const auto wanted = detail::wanted_of(scene, goal, row);
+  const auto wanted = detail::wanted_of(scene, goal, row, detail::shared_share);
   track.states.resize(times.size());
   FullMotionOptions<double> options;
   options.integrator = question.integrator;
   options.tolerance = goal.tightest;
   options.wanted = wanted.of;
   options.watched_by(monitor);
+  detail::TorqueReader reader{scene, row, goal.columns[column::torque], track};
+  if (reader.torque < infinity<double> && scene.has_column(column::torque))
+    options.beyond = &detail::TorqueReader::excess_of_torque, options.caller = &reader;
   const auto answer = full_motion<double>(scene.problem(), times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status == ode::Status::event)
@@ -114,14 +139,13 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   if (answer->growth > honesty::chaotic_growth) track.warn(warning_kinds[warning::chaotic], answer->growth);
   if (answer->used == Integrator::radau) track.warn(warning_kinds[warning::stiff], scene.settling_rate());
-  track.rests = answer->rests, track.rest_off = answer->rest_off;
+  reader(*answer);
+  if (answer->met || answer->excess_beyond > 0) track.compared.torque = reader.torque_off;
   if (answer->stop_off < infinity<double>) {
     track.stop_time = answer->stop;
     track.stop_error = answer->stop > 0 ? relative_to_truth(answer->stop_off / answer->stop) : 0;
   }
   track.counts = answer->counts;
-  track.off = detail::off_of(track, answer->error, row, scene);
-  track.compared = detail::compared_of(track, answer->error, row, scene);
   detail::balance(track, scene, companion_step(answer->step_tolerance));
   return track;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/core/real.hpp"
@@ -66,9 +67,11 @@ class Propagator {
   GYROSTAT_COMPILED_ONCE bool find_closed_form() const noexcept;
   GYROSTAT_COMPILED_ONCE Errc check_state(double dt, const Moving& state) const noexcept;
   GYROSTAT_COMPILED_ONCE Assembly<double> assembly_of(const Moving& state) const noexcept;
-  /// False where the closed form does not know the motion.
-  GYROSTAT_COMPILED_ONCE bool advance_freely(double dt, const Moving& begin, Moving& state,
-                                             MovedError* error) const noexcept;
+  /// The momenta of the wheels at these rates and the fixed one, summed without their directions, N m s.
+  GYROSTAT_COMPILED_ONCE double momenta_of(const Moving& state) const noexcept;
+  /// Nothing where the closed form does not know the motion.
+  GYROSTAT_COMPILED_ONCE std::optional<Errc> advance_freely(double dt, const Moving& begin, Moving& state,
+                                                            MovedError* error) const noexcept;
   GYROSTAT_COMPILED_ONCE Errc advance_fully(double dt, const Moving& begin, Moving& state,
                                             MovedError* error) const noexcept;
 

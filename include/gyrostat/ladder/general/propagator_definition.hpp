@@ -56,7 +56,8 @@ GYROSTAT_COMPILED_ONCE Errc Propagator::advance(double dt, Moving& state, MovedE
   }
   constexpr double lost = 0.05;  // rad
   if (epsilon<double> * state.angular_velocity.norm() * dt > lost) return Errc::undetermined;
-  if (closed_ && advance_freely(dt, begin, state, error)) return Errc::ok;
+  if (closed_)
+    if (const auto done = advance_freely(dt, begin, state, error)) return *done;
   return advance_fully(dt, begin, state, error);
 }
 
@@ -73,10 +74,17 @@ GYROSTAT_COMPILED_ONCE Errc Propagator::check_state(double dt, const Moving& sta
   if (dt < 0) return Errc::negative;
   if (!(std::abs(length - 1) <= 1e-6)) return Errc::out_of_domain;
   for (std::size_t i = 0; i < wheels_.count; ++i) {
-    if (!std::isfinite(state.rotor_rate[i])) return Errc::not_finite;
+    const double rate = state.rotor_rate[i];
+    if (!std::isfinite(rate * rate)) return Errc::not_finite;
     if (wheels_.laws[i].follows == Follows::body && state.rotor_rate[i] != 0) return Errc::out_of_domain;
   }
   return Errc::ok;
+}
+
+GYROSTAT_COMPILED_ONCE double Propagator::momenta_of(const Moving& state) const noexcept {
+  double sum = problem_.rotor_momentum.norm();
+  for (std::size_t i = 0; i < wheels_.count; ++i) sum += wheels_.laws[i].axial_inertia * std::abs(state.rotor_rate[i]);
+  return sum;
 }
 
 GYROSTAT_COMPILED_ONCE Propagator::Assembly<double> Propagator::assembly_of(const Moving& state) const noexcept {
@@ -93,15 +101,23 @@ GYROSTAT_COMPILED_ONCE Propagator::Assembly<double> Propagator::assembly_of(cons
   return made;
 }
 
-GYROSTAT_COMPILED_ONCE bool Propagator::advance_freely(double dt, const Moving& begin, Moving& state,
-                                                       MovedError* error) const noexcept {
+GYROSTAT_COMPILED_ONCE std::optional<Errc> Propagator::advance_freely(double dt, const Moving& begin, Moving& state,
+                                                                      MovedError* error) const noexcept {
   const auto assembly = assembly_of(begin);
   auto motion = free::Motion<double>::make(free::Reduced<double, Room>::taken(assembly).problem);
   const auto quick = motion ? free::MotionError<double>::quick(*motion, assembly, dt) : std::nullopt;
   const bool suffices = quick && quick->at(dt).attitude < quick_share * tolerance_;
   if (!suffices)
     motion = free::Motion<double>::make<DoubleDouble>(free::Reduced<DoubleDouble, Room>::taken(assembly).problem);
-  if (!motion) return false;
+  if (!motion) return {};
+  using free::MotionError;
+  const auto known = [&] {
+    return suffices ? *quick : MotionError<double>::of<DoubleDouble>(*motion, assembly, free::Data::rounded, dt);
+  };
+  // wheels may turn the body far faster than it starts, and a slim one turns faster than its momentum tells
+  const double whole = assembly.body.inertia.norm() * begin.angular_velocity.norm() + momenta_of(begin);
+  const bool doubtful = epsilon<double> * whole * wheels_.inverse.norm() * dt > 1e-6;
+  if (doubtful && !(known().at(dt).attitude < 1)) return Errc::undetermined;
   const auto there = motion->at(dt);
   state = {there.attitude, there.angular_velocity, begin.rotor_rate};
   double freely = 0, fastest = there.angular_velocity.norm();
@@ -113,16 +129,14 @@ GYROSTAT_COMPILED_ONCE bool Propagator::advance_freely(double dt, const Moving& 
     state.rotor_rate[i] = begin.rotor_rate[i] + law.axis.dot(change);
     freely += 1;
   }
-  if (error == nullptr) return true;
-  using free::MotionError;
-  const auto known =
-      suffices ? *quick : MotionError<double>::of<DoubleDouble>(*motion, assembly, free::Data::rounded, dt);
-  const auto bound = known.at(dt);
+  if (error == nullptr) return Errc::ok;
+  const auto estimate = known();
+  const auto bound = estimate.at(dt);
   error->attitude = bound.attitude;
-  error->angular_velocity = bound.angular_velocity * known.fastest();
+  error->angular_velocity = bound.angular_velocity * estimate.fastest();
   const double off = error->angular_velocity + 8 * epsilon<double> * fastest;
   error->rotor_rate = freely > 0 ? std::sqrt(freely) * off : 0.0;
-  return true;
+  return Errc::ok;
 }
 
 GYROSTAT_COMPILED_ONCE Errc Propagator::advance_fully(double dt, const Moving& begin, Moving& state,

@@ -30,10 +30,10 @@ struct Track : Outcome {
     double off = nan<double>;
   };
   Slow norm, energy;
-  /// By how much momentum in space, its size and the energy are off, where a rung has compared them, too: absolute. NaN: what the primitives make
-  /// of them is all that is known.
+  /// By how much momentum in space, its size, the energy and the torque are off, where a rung has looked at them itself: absolute. NaN: what the
+  /// primitives make of them is all that is known.
   struct Compared {
-    double inertial = nan<double>, norm = nan<double>, energy = nan<double>;
+    double inertial = nan<double>, norm = nan<double>, energy = nan<double>, torque = nan<double>;
   };
   Compared compared;
   double stop_time = nan<double>, stop_error = nan<double>;
@@ -52,6 +52,10 @@ GYROSTAT_COMPILED_ONCE Quat<double> orbit_axes(const Orbit<double>& orbit, doubl
 
 /// Whether a rung that gives these primitives, norm and energy apart, gives the column.
 GYROSTAT_COMPILED_ONCE bool known(const Track& track, std::size_t place) noexcept;
+
+/// The error of the torque that those of the primitives make: absolute, and relative to its size, as its column has it.
+GYROSTAT_COMPILED_ONCE double torque_off(const Track& track, const Scene& scene) noexcept;
+GYROSTAT_COMPILED_ONCE double torque_error(const Track& track, const Scene& scene, double off) noexcept;
 
 }  // namespace detail
 

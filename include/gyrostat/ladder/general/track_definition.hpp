@@ -88,8 +88,70 @@ class Writer {
       case column::attitude_orbit:
         return turning + 8 * epsilon<double> * (1 / (1 - scene_.problem().orbit->eccentricity) + orbit_phase());
       case column::euler: return euler_off(turning + 4 * epsilon<double>);
-      default: return torque_off();
+      default: return std::isnan(track_.compared.torque) ? torque_off() : track_.compared.torque;
     }
+  }
+
+  /// By how much the torques change where attitude, rates and momentum change by their errors, by differences at some of the times, or at all.
+  double torque_off() const noexcept {
+    for (const std::size_t p : {primitive::attitude, primitive::angular_velocity, primitive::angular_momentum})
+      if (!(track_.off[p] < infinity<double>)) return infinity<double>;
+    const auto& times = scene_.question().times;
+    // what turns over, as a brake where what it opposes nearly vanishes, or acts for a while would not show at some of the times
+    const auto& torques = scene_.problem().torques;
+    const auto& orbit = scene_.problem().orbit;  // far out what falls with distance is small
+    const bool changes = scene_.breaks() > 0 || scene_.own_torque().any() || (orbit && orbit->eccentricity > 0) ||
+                         std::any_of(torques.begin(), torques.end(), [](const auto& torque) {
+                           return torque.type == TorqueType::brake || torque.factor.amplitude != 0;
+                         });
+    const std::size_t n = track_.states.size(), stride = changes ? 1 : 1 + n / 16;
+    double most = 0;
+    for (std::size_t back = 0; back < n; back += stride) {
+      const std::size_t i = n - 1 - back;
+      const Seen<double> here = seen_of(track_.states[i]);
+      const auto torque = [&](const Seen<double>& at) { return scene_.torque(times[i], at); };
+      const Vec3<double> now = torque(here);
+      const double sizes =
+          terms_of_torques(scene_.problem(), here, times[i]) + scene_.own_torque()(times[i], here).norm();
+      double sum = 8 * epsilon<double> * sizes;
+      if (const double late = clock_off(times[i]); late > 0)
+        sum += (load_at(scene_.problem(), here, times[i] + late, times[i]).torque -
+                load_at(scene_.problem(), here, times[i], times[i]).torque)
+                   .norm();
+      const bool rests = std::any_of(track_.rests.begin(), track_.rests.end(), [&](const auto& rest) {
+        return times[i] >= rest[0] + track_.rest_off && times[i] <= rest[1];
+      });
+      if (rests) {
+        most = greater(sum, most);
+        continue;
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vec3<double> e = Vec3<double>::Unit(axis);
+        // by at least the root of a rounding, so that the difference means something
+        const auto moved = [&](std::size_t p, double size, auto&& move) {
+          const double off = track_.off[p], by = std::max(off, 1e-8 * size);
+          if (by > 0) sum += (torque(move(by)) - now).norm() * (off / by);
+        };
+        moved(primitive::attitude, 1, [&](double by) {
+          Seen<double> at = here;
+          at.attitude = normalised(at.attitude * Quat<double>{1, by / 2 * e[0], by / 2 * e[1], by / 2 * e[2]});
+          return at;
+        });
+        moved(primitive::angular_velocity, here.angular_velocity.norm(), [&](double by) {
+          Seen<double> at = here;
+          at.angular_velocity += by * e;
+          return at;
+        });
+        moved(primitive::angular_momentum, here.angular_momentum.norm(), [&](double by) {
+          Seen<double> at = here;
+          at.angular_momentum += by * e;
+          return at;
+        });
+      }
+      if (scene_.own_torque().any()) sum += off_by_wheels(here, now, times[i]);
+      most = greater(sum, most);
+    }
+    return most;
   }
 
  private:
@@ -153,67 +215,6 @@ class Writer {
     }
     return most;
   }
-  /// By how much the torques change where attitude, rates and momentum change by their errors, by differences at some of the times, or at all.
-  double torque_off() const noexcept {
-    for (const std::size_t p : {primitive::attitude, primitive::angular_velocity, primitive::angular_momentum})
-      if (!(track_.off[p] < infinity<double>)) return infinity<double>;
-    const auto& times = scene_.question().times;
-    // what turns over, as a brake where what it opposes nearly vanishes, or acts for a while would not show at some of the times
-    const auto& torques = scene_.problem().torques;
-    const auto& orbit = scene_.problem().orbit;  // far out what falls with distance is small
-    const bool changes = scene_.breaks() > 0 || scene_.own_torque().any() || (orbit && orbit->eccentricity > 0) ||
-                         std::any_of(torques.begin(), torques.end(), [](const auto& torque) {
-                           return torque.type == TorqueType::brake || torque.factor.amplitude != 0;
-                         });
-    const std::size_t n = track_.states.size(), stride = changes ? 1 : 1 + n / 16;
-    double most = 0;
-    for (std::size_t back = 0; back < n; back += stride) {
-      const std::size_t i = n - 1 - back;
-      const Seen<double> here = seen_of(track_.states[i]);
-      const auto torque = [&](const Seen<double>& at) { return scene_.torque(times[i], at); };
-      const Vec3<double> now = torque(here);
-      const double sizes =
-          terms_of_torques(scene_.problem(), here, times[i]) + scene_.own_torque()(times[i], here).norm();
-      double sum = 8 * epsilon<double> * sizes;
-      if (const double late = clock_off(times[i]); late > 0)
-        sum += (load_at(scene_.problem(), here, times[i] + late, times[i]).torque -
-                load_at(scene_.problem(), here, times[i], times[i]).torque)
-                   .norm();
-      const bool rests = std::any_of(track_.rests.begin(), track_.rests.end(), [&](const auto& rest) {
-        return times[i] >= rest[0] + track_.rest_off && times[i] <= rest[1];
-      });
-      if (rests) {
-        most = greater(sum, most);
-        continue;
-      }
-      for (int axis = 0; axis < 3; ++axis) {
-        const Vec3<double> e = Vec3<double>::Unit(axis);
-        // by at least the root of a rounding, so that the difference means something
-        const auto moved = [&](std::size_t p, double size, auto&& move) {
-          const double off = track_.off[p], by = std::max(off, 1e-8 * size);
-          if (by > 0) sum += (torque(move(by)) - now).norm() * (off / by);
-        };
-        moved(primitive::attitude, 1, [&](double by) {
-          Seen<double> at = here;
-          at.attitude = normalised(at.attitude * Quat<double>{1, by / 2 * e[0], by / 2 * e[1], by / 2 * e[2]});
-          return at;
-        });
-        moved(primitive::angular_velocity, here.angular_velocity.norm(), [&](double by) {
-          Seen<double> at = here;
-          at.angular_velocity += by * e;
-          return at;
-        });
-        moved(primitive::angular_momentum, here.angular_momentum.norm(), [&](double by) {
-          Seen<double> at = here;
-          at.angular_momentum += by * e;
-          return at;
-        });
-      }
-      if (scene_.own_torque().any()) sum += off_by_wheels(here, now, times[i]);
-      most = greater(sum, most);
-    }
-    return most;
-  }
   /// By how much a time may be off that was told by another clock, s: a rounding of what is left of it.
   double clock_off(double t) const noexcept { return scene_.problem().clock != 0 ? epsilon<double> * t : 0; }
   /// By how much a torque of the caller's own changes where the rates of the wheels change by their error.
@@ -239,6 +240,17 @@ class Writer {
   const Scene& scene_;
   const Track& track_;
 };
+
+GYROSTAT_COMPILED_ONCE double torque_off(const Track& track, const Scene& scene) noexcept {
+  return Writer(scene, track).torque_off();
+}
+
+GYROSTAT_COMPILED_ONCE double torque_error(const Track& track, const Scene& scene, double off) noexcept {
+  double size = scene.scales()[column::torque];
+  for (std::size_t i = 0; i < track.states.size(); ++i)
+    size = std::max(size, scene.torque(scene.question().times[i], seen_of(track.states[i])).norm());
+  return relative_to_truth(over(off, size));
+}
 
 }  // namespace detail
 

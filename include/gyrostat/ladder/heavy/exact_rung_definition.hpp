@@ -34,8 +34,8 @@ inline std::optional<ExactError<double>> follow_tensor(std::vector<State<double>
   for (const double t : times) {
     const auto now = motion->at(t);
     states.push_back(
-        in_axes(scene.R_BP().transpose(),
-                {now.angular_velocity, rotate<double>(conjugate(now.attitude), {0, 0, -1}), now.attitude}));
+        in_axes<double>(scene.R_BP().transpose(),
+                        {now.angular_velocity, rotate<double>(conjugate(now.attitude), {0, 0, -1}), now.attitude}));
   }
   const auto error = free::MotionError<double>::of<DoubleDouble>(*motion, given, free::Data::rounded, times.back());
   const auto bound = error.at(times.back());

@@ -11,6 +11,7 @@
 #include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 namespace gyrostat::heavy {
 
@@ -30,15 +31,17 @@ struct Start {
 };
 
 /// A state in other axes: v_new = R v for the body vectors.
-inline State<double> in_axes(const Mat3<double>& R, const State<double>& state) noexcept {
+template <Real Scalar>
+State<Scalar> in_axes(const Mat3<Scalar>& R, const State<Scalar>& state) noexcept {
   return {R * state.angular_velocity, R * state.down, state.attitude * conjugate(from_matrix(R))};
 }
 
 /// The problem in principal axes, and the way back to the caller's body axes.
 struct Body {
   Problem<double> problem;
-  Mat3<double> R_BP = Mat3<double>::Identity();  ///< principal axes to body axes
-  Mat3<double> inertia = Mat3<double>::Zero();   ///< as it was given, in body axes, where R_BP is not the identity
+  Mat3<double> R_BP = Mat3<double>::Identity();                   ///< principal axes to body axes
+  Mat3<DoubleDouble> wide_R_BP = Mat3<DoubleDouble>::Identity();  ///< the same with more digits
+  Mat3<double> inertia = Mat3<double>::Zero();  ///< as it was given, in body axes, where R_BP is not the identity
 
   /// In the principal axes nearest to the caller's. Errors: not_symmetric (beyond 8 eps of the largest entry), and those of
   /// Problem::make.

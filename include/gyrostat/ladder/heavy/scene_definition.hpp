@@ -13,11 +13,13 @@ GYROSTAT_COMPILED_ONCE Result<Body> Body::make(const Mat3<double>& inertia, doub
                                                double gradient) noexcept {
   const auto symmetric = symmetric_part<double>(inertia);
   if (!symmetric) return symmetric.error();
-  const auto axes = PrincipalAxes<double>::nearest(inertia);
+  // what goes to principal axes is rounded once
+  const auto axes = PrincipalAxes<DoubleDouble>::nearest(matrix_cast<DoubleDouble>(inertia));
+  const Vec3<DoubleDouble> centre = axes.R_BP.transpose() * vector_cast<DoubleDouble>(centre_of_mass);
   const auto made =
-      Problem<double>::make(axes.moments, mass, axes.R_BP.transpose() * centre_of_mass, gravity, gradient);
+      Problem<double>::make(vector_cast<double>(axes.moments), mass, vector_cast<double>(centre), gravity, gradient);
   if (!made) return made.error();
-  return Body{*made, axes.R_BP, inertia};
+  return Body{*made, matrix_cast<double>(axes.R_BP), axes.R_BP, inertia};
 }
 
 GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Body& body, const Start& start, const Question& question) {
@@ -37,7 +39,6 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Body& body, const Start& 
     if (!std::isfinite(length)) return Errc::not_finite;
     if (!(length > 0)) return Errc::zero_vector;
     from.attitude = scene.given().attitude;
-    from.down = rotate<double>(conjugate(from.attitude), {0, 0, -1});
   } else {
     from.attitude = {};
     if (!(std::abs(from.down.norm() - 1) <= 1e-8)) return Errc::out_of_domain;
@@ -47,8 +48,16 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Body& body, const Start& 
     if (!std::isfinite(spin) || !std::isfinite(cosine)) return Errc::not_finite;
     if (!(std::abs(cosine) < 1)) return Errc::out_of_domain;
   }
-  scene.start_ = in_axes(body.R_BP.transpose(), from);
-  scene.start_.down.normalize();
+  using Wide = DoubleDouble;
+  const auto& q = from.attitude;
+  State<Wide> wide{vector_cast<Wide>(from.angular_velocity), vector_cast<Wide>(from.down),
+                   normalised(Quat<Wide>{q.w, q.x, q.y, q.z})};
+  if (scene.given_.oriented) wide.down = rotate<Wide>(conjugate(wide.attitude), {0, 0, -1});
+  wide = in_axes<Wide>(body.wide_R_BP.transpose(), wide);
+  const auto& turned = wide.attitude;
+  scene.start_ = {vector_cast<double>(wide.angular_velocity),
+                  vector_cast<double>(wide.down.normalized()),
+                  {double(turned.w), double(turned.x), double(turned.y), double(turned.z)}};
   return scene;
 }
 

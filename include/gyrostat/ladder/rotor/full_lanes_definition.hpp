@@ -187,7 +187,7 @@ class FullLanes {
       }
       answer.error = relative_to_truth(error, column_kinds);
       forget_parted(answer.error);
-      const double excess = task.options.excess(answer.error);
+      const double excess = task.options.excess(answer);
       answer.met = excess <= 1;
       if (!answer.met && lane.trial < 2 && lane.step_tolerance > finest_step_tolerance<double> &&
           double(lane.counts.steps) <= honesty::retry_steps) {

@@ -292,7 +292,7 @@ class FullMotion {
     solve_beside(answer, row, Runs<Course<Scalar>>{course, companion, second ? &*second : nullptr}, start_, turning_,
                  times_, states_, nowhere(), options_, progress_from, progress_to, rounding, note);
     forget_parted(answer.error);
-    answer.met = answer.met && options_.excess(answer.error) <= 1;
+    answer.met = answer.met && options_.excess(answer) <= 1;
     return answer;
   }
 

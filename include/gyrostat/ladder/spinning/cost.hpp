@@ -20,7 +20,8 @@ namespace detail {
 inline double cost_of_series(const SeriesCost& cost, const Scene& scene) noexcept {
   const auto& times = scene.question().times;
   const double phase = scene.problem().phase(times.back());
-  return cost(phase, first_step_tolerance(scene.goal().tightest, phase, honesty::loosest_step), times.size());
+  const double asked = honesty::spinning_share * scene.goal().tightest;
+  return cost(phase, first_step_tolerance(asked, phase, honesty::loosest_step), times.size());
 }
 
 }  // namespace detail

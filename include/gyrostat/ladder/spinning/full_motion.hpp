@@ -196,7 +196,7 @@ class FullMotion {
     answer.turns_known =
         !loses_turns<Scalar>(states_, problem_.angles.phi, answer.least_cosine, error[column::attitude]);
     answer.error = relative_to_truth(walk.asked.relative(error), column_kinds);
-    answer.met = options_.excess(answer.error) <= 1;
+    answer.met = options_.excess(answer) <= 1;
     return answer;
   }
 
@@ -248,8 +248,8 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   if (times.empty()) return answer;
 
   const detail::FullMotion<Scalar> motion(problem, times, states, options);
-  const Scalar first =
-      first_step_tolerance<Scalar>(options.tolerance, problem.phase(times.back()), Scalar(honesty::loosest_step));
+  const Scalar first = first_step_tolerance<Scalar>(Scalar(honesty::spinning_share) * options.tolerance,
+                                                    problem.phase(times.back()), Scalar(honesty::loosest_step));
   return tightened<Scalar>(options, first, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
     return motion.run(tolerance, begin, end);
   });

@@ -12,6 +12,7 @@
 #include "gyrostat/models/free/problem.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/quaternion_series.hpp"
+#include "gyrostat/rotation/rotate_once.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 /// The full equations of a free gyrostat as Taylor recurrences:
@@ -167,7 +168,7 @@ FullSystem<Real_>::FullSystem(const Problem<Scalar>& problem) noexcept {
   R_BP_ = p.R_BP;
   q_BP_ = from_matrix<Scalar>(p.R_BP);
   const Quat<Scalar> q = as_unit(problem.attitude) * q_BP_;
-  L_I_ = rotate<Scalar>(q, p.M);
+  L_I_ = rotate_once(q, p.M);
   const Vec3<Scalar> X = steps_momentum ? p.M : p.G;
   level_ = levels(X, Vec3<Scalar>(0, 0, 0));
   // J omega lies on an ellipsoid of constant energy

@@ -8,6 +8,7 @@
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/piece.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/rotate_once.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
 namespace gyrostat::general {
@@ -21,7 +22,7 @@ class KnownMomentum {
   KnownMomentum(const Piece<Scalar>& piece, const Scalar* x) noexcept
       : from_(piece.from), is_known_(piece.waves.empty()), is_free_(piece.waves.empty()) {
     by_time_.fill({0, 0, 0});
-    by_time_[0] = rotate<Scalar>(normalised(Quat<Scalar>{x[0], x[1], x[2], x[3]}), Vec3<Scalar>(x[4], x[5], x[6]));
+    by_time_[0] = rotate_once(Quat<Scalar>{x[0], x[1], x[2], x[3]}, Vec3<Scalar>(x[4], x[5], x[6]));
     for (std::size_t i = 0; i < 4; ++i) {
       Terms<Scalar> left = piece.power[i];
       is_free_ = is_free_ && !left.any_torque();

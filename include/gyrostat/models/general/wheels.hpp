@@ -14,6 +14,7 @@
 #include "gyrostat/models/general/table.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 /// A body with its wheels (docs/general.md, section 1): every wheel is one of five kinds of time law, and those that turn by the equations
 /// of motion are taken out of the inertia.
@@ -65,7 +66,7 @@ struct Wheels {
   /// What check() finds right.
   static Wheels of(const Problem<Scalar>& problem) noexcept;
 
-  /// p u of all wheels that turn by themselves, and l, at t = 0.
+  /// p u of all wheels that turn by themselves, and l, at t = 0: in the digits of the equations, so that in a body at rest M is all theirs.
   Vec3<Scalar> momentum_of_wheels() const noexcept {
     Vec3<Scalar> sum = rotor_momentum;
     for (std::size_t i = 0; i < count; ++i) {
@@ -203,8 +204,10 @@ Scalar momenta_of_wheels(const Problem<Scalar>& problem) noexcept {
 template <Real Scalar>
 Wheels<Scalar> Wheels<Scalar>::of(const Problem<Scalar>& problem) noexcept {
   Wheels made;
+  using Wide = Wider<Scalar>;  // so that each number is rounded once
   made.whole = (problem.inertia + problem.inertia.transpose()) / 2;
-  made.reduced = made.whole;
+  Mat3<Wide> reduced = matrix_cast<Wide>(made.whole);
+  const Vec3<Wide> rate = vector_cast<Wide>(problem.angular_velocity);
   made.rotor_momentum = problem.rotor_momentum;
   made.count = problem.wheels.size();
   for (std::size_t i = 0; i < made.count; ++i) {
@@ -223,12 +226,14 @@ Wheels<Scalar> Wheels<Scalar>::of(const Problem<Scalar>& problem) noexcept {
     const auto [torque, friction] = detail::drive(wheel);
     law.torque = torque, law.friction = friction;
     law.follows = friction > 0 ? Follows::state : torque != 0 || law.tabled ? Follows::integral : Follows::constant;
-    law.momentum = law.axial_inertia * (law.rate + law.axis.dot(problem.angular_velocity));
-    made.reduced -= law.axial_inertia * law.axis * law.axis.transpose();
+    const Vec3<Wide> axis = vector_cast<Wide>(law.axis);
+    law.momentum = static_cast<Scalar>(law.axial_inertia * (law.rate + axis.dot(rate)));
+    reduced -= Wide(law.axial_inertia) * axis * axis.transpose();
   }
+  made.reduced = matrix_cast<Scalar>(reduced);
   // of a diagonal tensor entry by entry, so that zeros stay
   made.inverse = made.reduced.isDiagonal(0) ? Mat3<Scalar>(made.reduced.diagonal().cwiseInverse().asDiagonal())
-                                            : Mat3<Scalar>(made.reduced.inverse());
+                                            : matrix_cast<Scalar>(Mat3<Wide>(reduced.inverse()));
   made.inverse = ((made.inverse + made.inverse.transpose()) / 2).eval();
   return made;
 }

@@ -15,6 +15,7 @@
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/quaternion_series.hpp"
 #include "gyrostat/rotation/vector.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 /// The full equations (docs/heavy.md, section 2): right-hand side, Jacobian, Taylor recurrences, and those of the variational
 /// equations. They are quadratic in (w, d).
@@ -107,11 +108,7 @@ class EulerPoisson {
 
   EulerPoisson() = default;
   EulerPoisson(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept
-      : inertia_(problem.inertia()),
-        moment_(problem.moment()),
-        gradient_(problem.gradient()),
-        square_(start.down.squaredNorm()),
-        momentum_(problem.vertical_momentum(start)) {
+      : inertia_(problem.inertia()), moment_(problem.moment()), gradient_(problem.gradient()) {
     const Vec3<Scalar>& I = inertia_;
     quadratic_ = {(I[1] - I[2]) / I[0], (I[2] - I[0]) / I[1], (I[0] - I[1]) / I[2]};
     pull_forward_ = {moment_[1] / I[0], moment_[2] / I[1], moment_[0] / I[2]};
@@ -126,10 +123,15 @@ class EulerPoisson {
     const Scalar outer_torque = moment_.norm() + gradient_ * (I.maxCoeff() - I.minCoeff());
     outer_square_ = outer_torque * outer_torque;
     potential_ = moment_.norm() + gradient_ * I.maxCoeff();
+    using Wide = Wider<Scalar>;
+    const auto wide = [](const Vec3<Scalar>& v) noexcept { return vector_cast<Wide>(v); };
+    const Vec3<Wide> w = wide(start.angular_velocity), d = wide(start.down);
+    const Vec3<Wide> Iw = wide(I).cwiseProduct(w), Id = wide(I).cwiseProduct(d);
+    square_ = static_cast<Scalar>(d.squaredNorm());
     per_square_ = 1 / square_;
-    const Vec3<Scalar>&w = start.angular_velocity, &d = start.down;
+    momentum_ = static_cast<Scalar>(Iw.dot(d));
     energy_ =
-        (I.cwiseProduct(w).dot(loose_.cwiseProduct(w)) + gradient_ * d.dot(I.cwiseProduct(d))) / 2 - moment_.dot(d);
+        static_cast<Scalar>((Iw.dot(wide(loose_).cwiseProduct(w)) + gradient_ * d.dot(Id)) / 2 - wide(moment_).dot(d));
   }
 
   /// |d|, which stays.

@@ -12,7 +12,9 @@
 #include "gyrostat/rotation/kinematics.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/quaternion_series.hpp"
+#include "gyrostat/rotation/rotate_once.hpp"
 #include "gyrostat/rotation/vector.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 /// The full equations (docs/rotor.md, section 2, form C): right-hand side, Jacobian and Taylor recurrences of
 ///     dq/dt = q (0, Omega)/2,  dH/dt = H x Omega,  dp/dt = -S (omega - omega*),  dbeta/dt = omega,
@@ -133,13 +135,16 @@ class FullSystem {
                               const Constants& c) const noexcept;
 
   /// The kinetic energy of the carrier and that of the rotor's departure from no load, J: their sum is V.
+  template <Real Number>
   struct Levels {
-    Scalar carrier, rotor;
+    Number carrier, rotor;
+    Number whole() const noexcept { return carrier + rotor; }
   };
-  Levels levels(const Vec3<Scalar>& H, Scalar p) const noexcept {
-    const Vec3<Scalar> G = H - p * e_;
-    const Scalar y = p * (1 / lambda_) - no_load_rate_;
-    return {G.dot(a_.cwiseProduct(G)) / 2, lambda_ * y * y / 2};
+  template <Real Number>
+  Levels<Number> levels(const Vec3<Number>& H, Number p) const noexcept {
+    const Vec3<Number> G = H - p * vector_cast<Number>(e_);
+    const Number y = p * (1 / Number(lambda_)) - no_load_rate_;
+    return {G.dot(vector_cast<Number>(a_).cwiseProduct(G)) / 2, lambda_ * y * y / 2};
   }
 
   Vec3<Scalar> a_, e_, g_;    ///< 1/R, e and R^-1 e in principal axes of R
@@ -157,7 +162,6 @@ FullSystem<Real_>::FullSystem(const Gyrostat<Scalar>& gyrostat, const State<Scal
     : lambda_(gyrostat.axial_inertia()),
       slope_(gyrostat.slope()),
       no_load_rate_(gyrostat.no_load_rate()),
-      L_I_(rotate<Scalar>(normalised(start.attitude), start.momentum)),
       angle_(start.rotor_angle) {
   const PrincipalAxes<Scalar> free = gyrostat.free_axes();
   a_ = free.moments.cwiseInverse();
@@ -168,10 +172,11 @@ FullSystem<Real_>::FullSystem(const Gyrostat<Scalar>& gyrostat, const State<Scal
   rotor_inverse_ = 1 / lambda_ + e_.dot(g_);
   relaxation_rate_ = slope_ * rotor_inverse_;
   const Quat<Scalar> q = normalised(start.attitude) * q_BF_;
-  const Vec3<Scalar> H = rotate<Scalar>(conjugate(q_BF_), start.momentum);
+  const Vec3<Scalar> H = rotate_once(conjugate(q_BF_), start.momentum);
   start_ = {q.w, q.x, q.y, q.z, H[0], H[1], H[2], start.axial_momentum, 0, 0, 0, 0};
-  const Levels at = levels({start_[4], start_[5], start_[6]}, start_[7]);
-  level_ = at.carrier + at.rotor;
+  L_I_ = rotate_once(q, H);
+  using Wide = Wider<Scalar>;
+  level_ = static_cast<Scalar>(levels(vector_cast<Wide>(H), Wide(start.axial_momentum)).whole());
 }
 
 template <Real Real_>
@@ -289,10 +294,10 @@ void FullSystem<Real_>::project(Scalar, Scalar* x, Scalar* low) const noexcept {
   // slope^2/(slope^2 + most^2) of what is missing is corrected, so that the rounding turns the body by eps/2 at most, and V is kept in the
   // course of the steps; where the rotor brought far more energy than the body has, nothing is. What is more than rounding explains comes
   // of the truncation of H or of W: then W gives way, for to turn the body by it would hide it from a comparison of runs.
-  const Levels at = levels(H, x[7]);
+  const Levels<Scalar> at = levels(H, x[7]);
   const Vec3<Scalar> Omega = a_.cwiseProduct(H) - x[7] * g_;
   const Vec3<Scalar> slope = cross<Scalar>(Omega, H);
-  const Scalar size = at.carrier + at.rotor, most = std::max(size, level_);
+  const Scalar size = at.whole(), most = std::max(size, level_);
   const Scalar lacking = ((level_ - x[11]) - low[11]) - size;  // the great ones first: V may have sunk far below V0
   const Scalar square = slope.squaredNorm() + most * most;
   if (!(std::abs(lacking) <= slack_ * size)) {

@@ -12,6 +12,7 @@
 #include "gyrostat/math/sine_wide.hpp"
 #include "gyrostat/models/rotor/gyrostat.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/rotate_once.hpp"
 
 namespace gyrostat::rotor {
 
@@ -70,9 +71,9 @@ class FullBatch {
     q_BF_[at] = from_matrix<Scalar>(free.R_BP);
     angle_[at] = start.rotor_angle;
     const Quat<Scalar> q = normalised(start.attitude) * q_BF_[at];
-    const Vec3<Scalar> H = rotate<Scalar>(conjugate(q_BF_[at]), start.momentum);
+    const Vec3<Scalar> H = rotate_once(conjugate(q_BF_[at]), start.momentum);
     const Scalar l = H.norm();
-    const Vec3<Scalar> n = H / l, L = rotate<Scalar>(q, n);
+    const Vec3<Scalar> n = H / l, L = rotate_once(q, n);
     for (int i = 0; i < 3; ++i) {
       inverse_[i][b] = a[i];
       gap_[i][b] = gaps[i];

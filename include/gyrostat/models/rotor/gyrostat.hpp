@@ -9,6 +9,7 @@
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
 #include "gyrostat/rotation/vector.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 /// A free gyrostat whose rotor is driven by a motor of limited power (docs/rotor.md, section 2). A carrier turns with Omega; a
 /// rotor symmetric about the axis e, fixed in the carrier, turns with the rate omega relative to it; the motor acts on the rotor with
@@ -108,11 +109,14 @@ class Gyrostat {
   /// The state in which the carrier turns with Omega and the rotor with the rate omega relative to it. Where the two parts of H
   /// cancel to rounding, H = 0 exactly.
   State<Scalar> state(const Quat<Scalar>& attitude, const Vec3<Scalar>& Omega, Scalar omega) const noexcept {
-    const Vec3<Scalar> carrier = inertia_ * Omega;
-    Vec3<Scalar> H = carrier + rotor_.relative_momentum(omega);
-    const Scalar lost = 8 * epsilon<Scalar> * (carrier.norm() + axial_inertia() * std::abs(omega));
+    using Wide = Wider<Scalar>;  // so that a number of the state has one rounding
+    const Vec3<Wide> turn = vector_cast<Wide>(Omega), e = vector_cast<Wide>(axis());
+    const Vec3<Wide> carrier = matrix_cast<Wide>(inertia_) * turn;
+    const Wide spin = Wide(axial_inertia()) * Wide(omega);
+    Vec3<Scalar> H = vector_cast<Scalar>(Vec3<Wide>(carrier + spin * e));
+    const Scalar lost = 8 * epsilon<Scalar> * (vector_cast<Scalar>(carrier).norm() + axial_inertia() * std::abs(omega));
     if (H.norm() <= lost) H.setZero();
-    return {attitude, H, rotor_.absolute_momentum(omega, Omega), 0};
+    return {attitude, H, static_cast<Scalar>(spin + Wide(axial_inertia()) * e.dot(turn)), 0};
   }
 
   /// Rotational energy about the mass centre, J.

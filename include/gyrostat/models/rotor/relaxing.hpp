@@ -8,6 +8,7 @@
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/models/rotor/gyrostat.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/rotate_once.hpp"
 
 namespace gyrostat::rotor {
 
@@ -25,7 +26,7 @@ class RelaxingRotor {
 
   /// start: gives the angular momentum in inertial axes, which stays.
   RelaxingRotor(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept
-      : momentum_I_(rotate(normalised(start.attitude), start.momentum)),
+      : momentum_I_(rotate_once(start.attitude, start.momentum)),
         rate_(gyrostat.relaxation_rate()),
         drive_(gyrostat.slope() * gyrostat.no_load_rate()),
         per_axial_inertia_(1 / gyrostat.axial_inertia()) {

@@ -12,7 +12,9 @@
 #include "gyrostat/rotation/euler_312.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/quaternion_series.hpp"
+#include "gyrostat/rotation/rotate_once.hpp"
 #include "gyrostat/rotation/vector.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 /// The full equations (docs/spinning.md, section 2): right-hand side, Jacobian and Taylor recurrences.
 namespace gyrostat::spinning {
@@ -158,6 +160,7 @@ class FullSystem {
   Vec3<Scalar> velocity_, position_;
   // exact laws
   Vec3<Scalar> kept_I_;              ///< R (D1 p, D2 q, D3 r + Lambda) without torque, N m s
+  Scalar kept_square_;               ///< of its norm
   Scalar energy_, transverse_, r0_;  ///< twice the kinetic energy; |Pi|^2
   bool symmetric_, transverse_is_known_, free_;
   Numbers start_;
@@ -188,11 +191,14 @@ FullSystem<Real_>::FullSystem(const Problem<Scalar>& problem) noexcept
   const auto& a = problem.angles;
   const Quat<Scalar> q_IB = quaternion_from_312(a.psi, a.phi, a.theta);
   const Vec3<Scalar>& omega = problem.angular_velocity;
-  Vec3<Scalar> kept = inertia_.cwiseProduct(omega);
-  energy_ = omega.dot(kept);
+  using Wide = Wider<Scalar>;
+  const Vec3<Wide> rate = vector_cast<Wide>(omega);
+  Vec3<Wide> kept = vector_cast<Wide>(inertia_).cwiseProduct(rate);
+  energy_ = static_cast<Scalar>(rate.dot(kept));
   kept[2] += gyroscopic_;
-  kept_I_ = rotate<Scalar>(q_IB, kept);
-  transverse_ = omega[0] * omega[0] + omega[1] * omega[1];
+  kept_square_ = static_cast<Scalar>(kept.squaredNorm());
+  kept_I_ = rotate_once(q_IB, vector_cast<Scalar>(kept));
+  transverse_ = static_cast<Scalar>(rate[0] * rate[0] + rate[1] * rate[1]);
   symmetric_ = inertia_[0] == inertia_[1];
   transverse_is_known_ = symmetric_ && torque_[0] == 0 && torque_[1] == 0;
   free_ = torque_.isZero(0);
@@ -319,7 +325,7 @@ void FullSystem<Real_>::project_rates(Scalar t, Scalar* x, Scalar* low) const no
     const Vec3<Scalar> G = inertia_.cwiseProduct(omega);
     const Vec3<Scalar> H(G[0], G[1], G[2] + gyroscopic_);
     const Vec3<Scalar> along = inertia_.cwiseProduct(H);  // gradients of |H|^2/2 and of the energy
-    const Scalar missing_norm = (kept_I_.squaredNorm() - H.squaredNorm()) / 2 - along.dot(rest);
+    const Scalar missing_norm = (kept_square_ - H.squaredNorm()) / 2 - along.dot(rest);
     const Scalar missing_energy = (energy_ - omega.dot(G)) / 2 - G.dot(rest);
     // the least change of omega, in the metric of the inertia, that corrects both: a combination of H and omega
     const Scalar hh = along.dot(H), hw = along.dot(omega), ww = G.dot(omega);

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gyrostat/rotation/quaternion.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
+
+namespace gyrostat::inline GYROSTAT_LEVEL {
+
+/// R(q) v, with one rounding at the end: for what a motion keeps from its start, which all its steps would take over the roundings of. q need not have
+/// unit norm.
+template <Real Scalar>
+Vec3<Scalar> rotate_once(const Quat<Scalar>& q, const Vec3<Scalar>& v) noexcept {
+  using Wide = Wider<Scalar>;
+  const Quat<Wide> wide{Wide(q.w), Wide(q.x), Wide(q.y), Wide(q.z)};
+  return vector_cast<Scalar>(rotate<Wide>(normalised(wide), vector_cast<Wide>(v)));
+}
+
+}  // namespace gyrostat::inline GYROSTAT_LEVEL
