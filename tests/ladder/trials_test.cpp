@@ -97,6 +97,18 @@ TEST_CASE("a companion takes tighter steps down to the finest, and rounding rule
   CHECK(rounding_rules(1e-9, 1e6));
 }
 
+TEST_CASE("steps of spinners are looser where two companions judge them", "[ladder]") {
+  const auto plain = [](double tolerance, double phase) {
+    return first_step_tolerance(tolerance, phase, honesty::loosest_step);
+  };
+  const auto made = [](double tolerance, double phase) { return first_step_tolerance_of_spinner(tolerance, phase); };
+  CHECK(made(1e-3, 100) == plain(1e-3, 100));
+  CHECK(made(1e-8, 10) == plain(1e-8, 10));
+  CHECK(made(1e-9, 1000) > plain(1e-9, 1000));
+  CHECK(rounding_rules(made(1e-9, 1000)));
+  CHECK(made(1e-12, 1000) == Approx(honesty::spinning_share * plain(1e-12, 1000)));
+}
+
 TEST_CASE("neighbours lie in two directions, far apart along every axis", "[ladder]") {
   const auto a = neighbour_direction<double>(0), b = neighbour_direction<double>(1);
   CHECK(std::abs(a.norm() - 1) < 1e-2);

@@ -68,6 +68,14 @@ Scalar first_step_tolerance(Scalar tolerance, Scalar phase, Scalar loosest) noex
   return std::max(finest_step_tolerance<Scalar>, std::min(share, loosest));
 }
 
+/// The same of a spinner (honesty::spinning_share): looser where two companions judge it all the same.
+template <Real Scalar>
+Scalar first_step_tolerance_of_spinner(Scalar tolerance, Scalar phase) noexcept {
+  const Scalar of_two = Scalar(honesty::rounding_below) * epsilon<Scalar> / 2;
+  return std::max(first_step_tolerance(tolerance, phase, Scalar(honesty::loosest_step)),
+                  first_step_tolerance(Scalar(honesty::spinning_share) * tolerance, phase, of_two));
+}
+
 /// Runs with a step tolerance, and up to twice more with a tighter one while the estimated error exceeds options.tolerance and a
 /// tighter one may help and the steps so far are not too many. run(step_tolerance, tightened, progress_from, progress_to) gives an
 /// answer with status, met, error and counts; `tightened` is by how much more was wanted than in the run before, infinite for the finest. The last answer is returned, with the

@@ -263,6 +263,30 @@ TEST_CASE("a step in which the phase is lost is refused, and one that is too lon
   CHECK(made->advance(1e7, state, &error) == Errc::step_limit);
 }
 
+TEST_CASE("a step whose end nobody knows is refused, whether or not its error is asked for", "[general]") {
+  Random random(10);
+  Problem<double> problem;
+  problem.inertia = Vec3<double>(3, 4, 5).asDiagonal();
+  add_wheel(problem, random, WheelType::free, 0.1);
+  const auto made = Propagator::make(problem, 1e-9);
+  REQUIRE(made);
+  MovedError error;
+  for (MovedError* told : {&error, static_cast<MovedError*>(nullptr)}) {
+    Moving state;
+    state.angular_velocity = {0.1, 0.2, -0.3};
+    for (const double rate :
+         {1e18, 1e20, 1e50, 1e150, 1e200}) {  // its momentum turns the body through 1e15 rad and more
+      CAPTURE(rate);
+      state.rotor_rate[0] = rate;
+      CHECK(made->advance(0.1, state, told) == (rate < 1e155 ? Errc::undetermined : Errc::not_finite));
+      CHECK(state.angular_velocity == Vec3<double>(0.1, 0.2, -0.3));
+    }
+    state.rotor_rate[0] = 1e6;
+    CHECK(made->advance(0.1, state, told) == Errc::ok);
+  }
+  CHECK(error.attitude < 1e-6);
+}
+
 TEST_CASE("a problem that knows the time is refused, with the reason", "[general]") {
   Random random(8);
   const auto plain = body(random);

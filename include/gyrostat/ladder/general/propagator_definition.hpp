@@ -56,6 +56,8 @@ GYROSTAT_COMPILED_ONCE Errc Propagator::advance(double dt, Moving& state, MovedE
   }
   constexpr double lost = 0.05;  // rad
   if (epsilon<double> * state.angular_velocity.norm() * dt > lost) return Errc::undetermined;
+  // nor does anyone know a rate that is below a rounding of what wheels turn the body with
+  if (epsilon<double> * momenta_of(state) * dt > wheels_.whole.norm()) return Errc::undetermined;
   if (closed_)
     if (const auto done = advance_freely(dt, begin, state, error)) return *done;
   return advance_fully(dt, begin, state, error);
@@ -115,7 +117,8 @@ GYROSTAT_COMPILED_ONCE std::optional<Errc> Propagator::advance_freely(double dt,
     return suffices ? *quick : MotionError<double>::of<DoubleDouble>(*motion, assembly, free::Data::rounded, dt);
   };
   // wheels may turn the body far faster than it starts, and a slim one turns faster than its momentum tells
-  const double whole = assembly.body.inertia.norm() * begin.angular_velocity.norm() + momenta_of(begin);
+  const double wheels = momenta_of(begin), inertia = assembly.body.inertia.norm();
+  const double whole = inertia * begin.angular_velocity.norm() + wheels;
   const bool doubtful = epsilon<double> * whole * wheels_.inverse.norm() * dt > 1e-6;
   if (doubtful && !(known().at(dt).attitude < 1)) return Errc::undetermined;
   const auto there = motion->at(dt);

@@ -20,8 +20,7 @@ namespace detail {
 inline double cost_of_series(const SeriesCost& cost, const Scene& scene) noexcept {
   const auto& times = scene.question().times;
   const double phase = scene.problem().phase(times.back());
-  const double asked = honesty::spinning_share * scene.goal().tightest;
-  return cost(phase, first_step_tolerance(asked, phase, honesty::loosest_step), times.size());
+  return cost(phase, first_step_tolerance_of_spinner(scene.goal().tightest, phase), times.size());
 }
 
 }  // namespace detail

@@ -57,9 +57,8 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
 
 namespace detail {
 
-/// One run. That of the answer follows the angles, and its steps are moved onto the laws that the motion obeys exactly. Companions leave
-/// the angles at zero, for their attitude says all, and do without the laws: kept by all runs alike, they would hide what rounding
-/// makes of energy and momentum, which decides when a body flips that turns about its middle axis.
+/// One run. That of the answer follows the angles; companions leave them at zero, for their attitude says all. The steps of all are moved onto the
+/// laws that the motion obeys exactly: without them a companion, for all its finer steps, may err as much as the answer, and as it does.
 template <Real Scalar>
 class Course {
  public:
@@ -68,7 +67,7 @@ class Course {
   Course(const Problem<Scalar>& problem, Scalar span, Scalar tolerance, std::uint64_t step_cap, bool follows) noexcept
       : problem_(problem),
         system_(problem),
-        solver_(system_, 0, system_.start(), options(system_, span, tolerance, step_cap, follows)),
+        solver_(system_, 0, system_.start(), options(system_, span, tolerance, step_cap)),
         angle_(problem),
         follows_(follows) {}
 
@@ -101,13 +100,11 @@ class Course {
   using Solver = ode::Taylor<System>;
   using Sample = typename SpinAngle<Scalar>::Sample;
 
-  static auto options(const System& system, Scalar span, Scalar tolerance, std::uint64_t step_cap,
-                      bool projected) noexcept {
+  static auto options(const System& system, Scalar span, Scalar tolerance, std::uint64_t step_cap) noexcept {
     typename Solver::Options options;
     options.tolerance = tolerance;
     options.scale = system.scale(span);
     options.step_cap = step_cap;
-    options.projected = projected;
     return options;
   }
   Sample sample(const Scalar* x) const noexcept { return {system_.angular_velocity(x), system_.attitude(x), x[3]}; }
@@ -248,8 +245,7 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   if (times.empty()) return answer;
 
   const detail::FullMotion<Scalar> motion(problem, times, states, options);
-  const Scalar first = first_step_tolerance<Scalar>(Scalar(honesty::spinning_share) * options.tolerance,
-                                                    problem.phase(times.back()), Scalar(honesty::loosest_step));
+  const Scalar first = first_step_tolerance_of_spinner<Scalar>(options.tolerance, problem.phase(times.back()));
   return tightened<Scalar>(options, first, [&](Scalar tolerance, Scalar, double begin, double end) noexcept {
     return motion.run(tolerance, begin, end);
   });

@@ -159,9 +159,9 @@ class FullSystem {
   Scalar thrust_;                                         ///< |f|/m, m/s^2
   Vec3<Scalar> velocity_, position_;
   // exact laws
-  Vec3<Scalar> kept_I_;              ///< R (D1 p, D2 q, D3 r + Lambda) without torque, N m s
-  Scalar kept_square_;               ///< of its norm
-  Scalar energy_, transverse_, r0_;  ///< twice the kinetic energy; |Pi|^2
+  Vec3<Scalar> kept_I_;                 ///< R (D1 p, D2 q, D3 r + Lambda) without torque, N m s
+  Wider<Scalar> kept_square_, energy_;  ///< the square of its norm, and twice the kinetic energy
+  Scalar transverse_, r0_;              ///< |Pi|^2
   bool symmetric_, transverse_is_known_, free_;
   Numbers start_;
 };
@@ -194,9 +194,9 @@ FullSystem<Real_>::FullSystem(const Problem<Scalar>& problem) noexcept
   using Wide = Wider<Scalar>;
   const Vec3<Wide> rate = vector_cast<Wide>(omega);
   Vec3<Wide> kept = vector_cast<Wide>(inertia_).cwiseProduct(rate);
-  energy_ = static_cast<Scalar>(rate.dot(kept));
+  energy_ = rate.dot(kept);
   kept[2] += gyroscopic_;
-  kept_square_ = static_cast<Scalar>(kept.squaredNorm());
+  kept_square_ = kept.squaredNorm();
   kept_I_ = rotate_once(q_IB, vector_cast<Scalar>(kept));
   transverse_ = static_cast<Scalar>(rate[0] * rate[0] + rate[1] * rate[1]);
   symmetric_ = inertia_[0] == inertia_[1];
@@ -321,12 +321,19 @@ void FullSystem<Real_>::project_rates(Scalar t, Scalar* x, Scalar* low) const no
       add_to(x[1], low[1], stretch * x[1]);
     }
   } else if (free_) {
-    const Vec3<Scalar> omega{x[0], x[1], x[2]}, rest{low[0], low[1], low[2]};
+    const Vec3<Scalar> omega{x[0], x[1], x[2]};
     const Vec3<Scalar> G = inertia_.cwiseProduct(omega);
     const Vec3<Scalar> H(G[0], G[1], G[2] + gyroscopic_);
     const Vec3<Scalar> along = inertia_.cwiseProduct(H);  // gradients of |H|^2/2 and of the energy
-    const Scalar missing_norm = (kept_square_ - H.squaredNorm()) / 2 - along.dot(rest);
-    const Scalar missing_energy = (energy_ - omega.dot(G)) / 2 - G.dot(rest);
+    // in more digits: a spin that hardly changes would be moved by the same rounding in each step
+    Wider<Scalar> norm = kept_square_, energy = energy_;
+    for (int i = 0; i < 3; ++i) {
+      const Wider<Scalar> rate = Wider<Scalar>(x[i]) + low[i], its = inertia_[i] * rate;
+      const Wider<Scalar> whole = i == 2 ? its + gyroscopic_ : its;
+      norm -= whole * whole;
+      energy -= rate * its;
+    }
+    const Scalar missing_norm = static_cast<Scalar>(norm) / 2, missing_energy = static_cast<Scalar>(energy) / 2;
     // the least change of omega, in the metric of the inertia, that corrects both: a combination of H and omega
     const Scalar hh = along.dot(H), hw = along.dot(omega), ww = G.dot(omega);
     const Scalar determinant = hh * ww - hw * hw;
