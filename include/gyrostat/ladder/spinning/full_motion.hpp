@@ -57,17 +57,19 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
 
 namespace detail {
 
-/// One run. That of the answer follows the angles; companions leave them at zero, for their attitude says all. The steps of all are moved onto the
-/// laws that the motion obeys exactly: without them a companion, for all its finer steps, may err as much as the answer, and as it does.
+/// One run. That of the answer follows the angles; companions leave them at zero, for their attitude says all. The steps are moved onto the laws that
+/// the motion obeys exactly: without them a companion, for all its finer steps, may err as much as the answer, and as it does. One that runs alone does
+/// without: they would take back its kick.
 template <Real Scalar>
 class Course {
  public:
   static constexpr bool goes_on_alike = true;
 
-  Course(const Problem<Scalar>& problem, Scalar span, Scalar tolerance, std::uint64_t step_cap, bool follows) noexcept
+  Course(const Problem<Scalar>& problem, Scalar span, Scalar tolerance, std::uint64_t step_cap, bool follows,
+         bool projected) noexcept
       : problem_(problem),
         system_(problem),
-        solver_(system_, 0, system_.start(), options(system_, span, tolerance, step_cap)),
+        solver_(system_, 0, system_.start(), options(system_, span, tolerance, step_cap, projected)),
         angle_(problem),
         follows_(follows) {}
 
@@ -100,11 +102,13 @@ class Course {
   using Solver = ode::Taylor<System>;
   using Sample = typename SpinAngle<Scalar>::Sample;
 
-  static auto options(const System& system, Scalar span, Scalar tolerance, std::uint64_t step_cap) noexcept {
+  static auto options(const System& system, Scalar span, Scalar tolerance, std::uint64_t step_cap,
+                      bool projected) noexcept {
     typename Solver::Options options;
     options.tolerance = tolerance;
     options.scale = system.scale(span);
     options.step_cap = step_cap;
+    options.projected = projected;
     return options;
   }
   Sample sample(const Scalar* x) const noexcept { return {system_.angular_velocity(x), system_.attitude(x), x[3]}; }
@@ -162,16 +166,17 @@ class FullMotion {
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     const Scalar span = times_.back();
-    Course<Scalar> course(problem_, span, step_tolerance, options_.step_cap, true);
+    Course<Scalar> course(problem_, span, step_tolerance, options_.step_cap, true, true);
     const Scalar tight = companion_step(step_tolerance);
     const Vec3<Scalar>&D = problem_.inertia, &w = problem_.angular_velocity;
     const Vec3<Scalar> stiff = D.cwiseProduct(w) + Vec3<Scalar>(0, 0, problem_.gyroscopic());
     const Scalar condition = condition_of_start<Scalar>(stiff, w, D.cwiseInverse().asDiagonal());
     const Scalar change = data_change(step_tolerance, condition);
     const Problem<Scalar> one = neighbour(problem_, rate_, change, 0), two = neighbour(problem_, rate_, change, 1);
-    Course<Scalar> companion(one, span, tight, options_.step_cap, false);
+    const bool both = rounding_rules(step_tolerance, condition);
+    Course<Scalar> companion(one, span, tight, options_.step_cap, false, both);
     std::optional<Course<Scalar>> second;
-    if (rounding_rules(step_tolerance, condition)) second.emplace(two, span, tight, options_.step_cap, false);
+    if (both) second.emplace(two, span, tight, options_.step_cap, false, true);
     const Runs<Course<Scalar>> runs{course, companion, second ? &*second : nullptr};
     const auto walk = walk_beside(WatchedRow<Scalar>{scales(problem_, span)}, runs, start_state(problem_), rate_,
                                   times_, states_, nowhere(), options_, progress_from, progress_to, not_noted);
