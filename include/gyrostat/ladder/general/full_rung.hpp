@@ -33,9 +33,9 @@ static_assert(std::size_t{primitive::attitude} == std::size_t{full_column::attit
               std::size_t{primitive::position} == std::size_t{full_column::position});
 
 /// The part of its tolerance that a column made of several primitives leaves to each.
-inline constexpr double shared_share = 0.5;
+inline constexpr double share_of_each = 0.5;
 /// The same of the torque where its own error is not looked at: a torque may change much where they change little.
-inline constexpr double shared_of_torque = 1.0 / 64;
+inline constexpr double share_of_unjudged_torque = 1.0 / 64;
 
 /// What is asked of the primitives so that the columns made of them are as asked.
 inline FullErrors<double> wanted_of(const Scene& scene, const Goal<std::size(column_kinds)>& goal,
@@ -53,7 +53,7 @@ inline FullErrors<double> wanted_of(const Scene& scene, const Goal<std::size(col
     if (!(goal.columns[c] < infinity<double>) || !scene.has_column(c)) continue;
     for (std::size_t p = 0; p < primitive::count; ++p) {
       if (!has(made_of[c], p) || (p == primitive::rotor_rate && scene.wheels().count == 0)) continue;
-      const double share = own[p] == c ? 1.0 : c == column::torque ? of_torque : shared_share;
+      const double share = own[p] == c ? 1.0 : c == column::torque ? of_torque : share_of_each;
       wanted[p] = std::min(wanted[p], goal.columns[c] * share * (p == primitive::angular_velocity ? finer : 1.0));
     }
   }

@@ -120,7 +120,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   if (track.failure != Errc::ok) return track;
   if (detail::settling_steps(scene) > double(step_budget)) return refused<Track>(Errc::step_limit, too_stiff);
   const FullRow<double> row(Prepared<double>(scene.problem(), times.back()), true);
-  const auto wanted = detail::wanted_of(scene, goal, row, detail::shared_share);
+  const auto wanted = detail::wanted_of(scene, goal, row, detail::share_of_each);
   track.states.resize(times.size());
   FullMotionOptions<double> options;
   options.integrator = question.integrator;
