@@ -26,17 +26,17 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
 endif()
 
-# gyrostat_unite(SOURCE...): in targets of this folder with UNITY_BUILD_MODE GROUP the sources are compiled as two units that take equally
-# long: they share headers and what these instantiate. What belongs to no family is with general, which knows all families.
+# gyrostat_unite(SOURCE...): in targets of this folder with UNITY_BUILD_MODE GROUP the sources of a family are compiled as one unit: they share
+# headers and what these instantiate. What belongs to no family is with general, which knows all families.
 function(gyrostat_unite)
   foreach(source IN LISTS ARGN)
     get_filename_component(name "${source}" NAME)
-    if(name MATCHES "^(free|spinning|heavy|rotor)")
-      set(unit free_spinning_heavy_and_rotor)
+    if(name MATCHES "^(free|spinning|heavy|rotor|deceleration)")
+      set(family "${CMAKE_MATCH_1}")
     else()
-      set(unit deceleration_and_general)
+      set(family general)
     endif()
-    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "of_${unit}")
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "of_${family}")
   endforeach()
 endfunction()
 
