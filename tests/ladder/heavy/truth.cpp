@@ -48,6 +48,7 @@ bool true_motion(const Scene& scene, Answer& truth) {
     const auto& q = s.attitude;
     State<Long> start{s.angular_velocity.cast<Long>(), s.down.cast<Long>().normalized(),
                       normalised(Quat<Long>{q.w, q.x, q.y, q.z})};
+    if (options.attitude) start.down = rotate<Long>(conjugate(start.attitude), {0, 0, -1});  // which alone was given
     const auto made = full_motion<Long>(*problem, start, times, states, options);
     if (!made || made->status != ode::Status::reached) return false;
     error = made->error;
