@@ -367,11 +367,30 @@ def test_a_clock_loses_no_phase_however_late(start: float) -> None:
     whole = turns / (2 * Fraction(PI))
     assert abs(late) <= math.pi and abs(whole - round(whole)) < 1e-16
     # mean motion 1 to the bit: half an axis of 1, mu 1
-    orbit = {"radius": 0.5, "mu": 1.0, "eccentricity": 0.5, "true_anomaly": 0.0, "radial": np.array([1.0, 0, 0]), "along": np.array([0, 1.0, 0])}
+    orbit = {"radius": 0.5, "mu": 1.0, "eccentricity": 0.5, "true_anomaly": 0.0, "radial": np.array([1.0, 0, 0]), "along": np.array([0, 1.0, 0]),
+             "told": {"lengths": (0.5,)}}
     there = orbit_since(start, orbit)
     E = 2 * math.atan2(math.sqrt(0.5) * math.sin(there["true_anomaly"] / 2), math.sqrt(1.5) * math.cos(there["true_anomaly"] / 2))
     assert math.remainder(E - 0.5 * math.sin(E) - phase(1.0, start), 2 * math.pi) == pytest.approx(0, abs=4e-15)
     assert there["radius"] == pytest.approx(1 - 0.5 * math.cos(E), rel=4e-15)
+
+
+@pytest.mark.parametrize(("eccentricity", "anomaly", "rest"), [(0.99, 0.0, 490000.0), (0.999, 0.0, 499000.0), (0.3, 2.5, 1234.5), (0.0, 0.0, 250000.0)])
+def test_an_orbit_is_the_same_many_periods_later(eccentricity: float, anomaly: float, rest: float) -> None:
+    period = 500000.0
+
+    def solved(turns: int) -> Any:
+        begin = turns * period + rest
+        return gyrostat.solve({"name": "late", "kind": "general", "body": {"inertia": [1.0, 2.0, 2.5]}, "torque": [{"type": "gravity-gradient"}],
+                               "orbit": {"eccentricity": eccentricity, "true_anomaly": anomaly, "period": period},
+                               "initial": {"time": begin, "attitude": [0.1, 0.2, 0.3, 0.9], "angular_velocity": [0.0, 0.0, 0.018]},
+                               "solve": {"times": [begin + 12500.0], "tolerance": 1e-9, "ask": "all"}})
+
+    first, late = solved(0), solved(299)
+    for column in ("attitude", "angular_velocity", "attitude_orbit"):
+        # the same to the digits of one answer, and what a rounding of the period does in as many turns is stated
+        assert off(late, first, column) <= first.error[column], column
+        assert late.error[column] > 20 * first.error[column] or eccentricity < 0.9
 
 
 def test_a_wave_that_began_long_ago_acts_as_one_that_begins_now() -> None:
@@ -380,13 +399,14 @@ def test_a_wave_that_began_long_ago_acts_as_one_that_begins_now() -> None:
 
     def solved(begin: float, first: float) -> Any:
         wave = {"mean": 0.0, "amplitude": 1.0, "rate": 1.3, "phase": first}
-        return gyrostat.solve({"name": "late", "kind": "general", "solve": {"times": (begin + times).tolist(), "tolerance": 1e-11, "ask": "all"},
+        return gyrostat.solve({"name": "late", "kind": "general", "solve": {"times": (begin + times).tolist(), "tolerance": 1e-6, "ask": "all"},
                                "body": {"inertia": [30.0, 20.0, 15.0]}, "torque": [{"type": "constant", "torque": [0.1, 0.2, -0.1], "factor": wave}],
                                "initial": {"angular_velocity": [0.01, 0.02, 0.03], "time": begin}})
 
     late, now = solved(start, 0.3), solved(0.0, phase(1.3, start, 0.3))
     for column in ("attitude", "angular_velocity", "torque"):
         assert np.array_equal(late[column], now[column])
+        assert late.error[column] > now.error[column]  # what a rounding of the rate has done in so many turns
 
 
 def test_an_error_of_the_start_is_part_of_the_answer() -> None:

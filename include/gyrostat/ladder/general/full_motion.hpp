@@ -664,7 +664,19 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noex
   scale_vector(near.centre_of_mass), scale_vector(near.field.flux_density);
   scale(near.field.gravity), scale(near.field.rate), scale(near.field.strength), scale(near.mass);
   scale_vector(near.velocity), scale_vector(near.position);
-  if (near.orbit) scale(near.orbit->radius), scale(near.orbit->mu);
+  if (near.orbit) {
+    scale(near.orbit->radius), scale(near.orbit->mu), scale(near.orbit->true_anomaly);
+    if (Scalar e = of.orbit->eccentricity; scale(e), e < 1) near.orbit->eccentricity = e;
+  }
+  if (of.clock != 0) {
+    // what went on before by rates that are known to rounding
+    const auto late = [&]() noexcept { return amount / 2 * shift() * of.clock; };
+    if (near.orbit) near.orbit = orbit_from(*near.orbit, late());
+    for (auto& torque : near.torques)
+      if (torque.factor.amplitude != 0) torque.factor.phase += torque.factor.rate * late();
+    if (near.field.magnetic == MagneticField::rotating)
+      near.field.flux_density = field_at<Scalar>(near, late()).flux_density;
+  }
   return near;
 }
 

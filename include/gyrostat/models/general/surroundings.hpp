@@ -116,6 +116,16 @@ Scalar orbit_angle(const Orbit<Scalar>& orbit, Scalar t) noexcept {
   return of.now - of.begin + (ahead(of.now) - ahead(of.begin));
 }
 
+/// The same orbit by a clock that begins at t.
+template <Real Scalar>
+Orbit<Scalar> orbit_from(const Orbit<Scalar>& orbit, Scalar t) noexcept {
+  const OrbitPoint<Scalar> then = orbit_at(orbit, t);
+  Orbit<Scalar> made = orbit;
+  made.radius = then.radius, made.radial = then.radial, made.along = then.along;
+  made.true_anomaly += orbit_angle(orbit, t);
+  return made;
+}
+
 /// The magnetic field in one place, inertial axes.
 template <Real Scalar>
 struct MagneticPoint {

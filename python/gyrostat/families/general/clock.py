@@ -40,20 +40,25 @@ def phase(rate: float | Decimal, time: float, first: float = 0.0) -> float:
         return math.remainder(float(_less_turns(Decimal(rate) * Decimal(time) + Decimal(first))), 2 * math.pi)
 
 
-def _cosine(angle: float) -> Decimal:
-    square, sum_, term = _less_turns(Decimal(angle)) ** 2, Decimal(1), Decimal(1)
-    for k in range(1, 2 * DIGITS, 2):
-        term *= -square / (k * (k + 1))
-        sum_ += term
-    return sum_
+def _sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
+    x = _less_turns(angle)
+    sums, term = [Decimal(0), Decimal(1)], Decimal(1)
+    for k in range(1, 2 * DIGITS):
+        term *= x / k if k % 2 else -x / k  # of the sine, x - x^3/3! + ..., and of the cosine by turns
+        sums[1 - k % 2] += term
+    return sums[0], sums[1]
 
 
 def _mean_motion(orbit: Data) -> Decimal:
-    """sqrt(mu/a^3), rad/s, a the semi-major axis."""
-    with localcontext(prec=DIGITS):
-        e = Decimal(orbit["eccentricity"])
-        axis = Decimal(orbit["radius"]) * (1 + e * _cosine(orbit["true_anomaly"])) / (1 - e * e)
-        return (Decimal(orbit["mu"]) / axis**3).sqrt()
+    """sqrt(mu/a^3), rad/s, a the semi-major axis: of what was given of the orbit, not of what was made of it."""
+    told, e = orbit["told"], Decimal(orbit["eccentricity"])
+    share, flat = 1 + e * _sine_and_cosine(Decimal(orbit["true_anomaly"]))[1], 1 - e * e
+    if "period" in told:
+        return 2 * PI / Decimal(told["period"])
+    if "rate" in told:
+        return Decimal(told["rate"]) * flat * flat.sqrt() / (share * share)
+    radius = sum((Decimal(length) for length in told["lengths"]), Decimal(0))
+    return (Decimal(orbit["mu"]) / (radius * share / flat) ** 3).sqrt()
 
 
 def _torque(start: float, torque: Data) -> Data:
@@ -71,25 +76,41 @@ def _field(start: float, field: Data) -> Data:
     return {**field, "flux_density": _turned(field["flux_density"], field["axis"], phase(field["rate"], start))} if field["rate"] else field
 
 
-def _true_anomaly(mean: float, e: float) -> float:
+def _eccentric_anomaly(mean: Decimal, e: Decimal) -> Decimal:
     """By Kepler's equation, mean = E - e sin E, which Newton's method solves from pi without fail for e < 1."""
-    E = math.copysign(math.pi, mean)
-    for _ in range(100):
-        step = (E - e * math.sin(E) - mean) / (1 - e * math.cos(E))
+    E = PI.copy_sign(mean)
+    for _ in range(200):
+        sine, cosine = _sine_and_cosine(E)
+        step = (E - e * sine - mean) / (1 - e * cosine)
         E -= step
-        if abs(step) <= 1e-15 * (1 + abs(E)):
+        if abs(step) <= abs(E) * Decimal("1e-40"):
             break
-    return 2 * math.atan2(math.sqrt(1 + e) * math.sin(E / 2), math.sqrt(1 - e) * math.cos(E / 2))
+    return E
+
+
+def _direction(sine: Decimal, cosine: Decimal) -> float:
+    return math.atan2(float(sine), float(cosine))
 
 
 def orbit_since(start: float, orbit: Data) -> Data:
-    """An orbit told by the time since `start` [s]."""
+    """An orbit told by the time since `start` [s], to one rounding of each number however many turns that are."""
     if start == 0:
         return orbit
-    e, first, radius = orbit["eccentricity"], orbit["true_anomaly"], orbit["radius"]
-    parameter = radius * (1 + e * math.cos(first))
-    E = 2 * math.atan2(math.sqrt(1 - e) * math.sin(first / 2), math.sqrt(1 + e) * math.cos(first / 2))
-    anomaly = _true_anomaly(phase(_mean_motion(orbit), start, E - e * math.sin(E)), e)
-    normal = np.cross(orbit["radial"], orbit["along"])
-    return {**orbit, "radius": parameter / (1 + e * math.cos(anomaly)), "true_anomaly": anomaly,
-            "radial": _turned(orbit["radial"], normal, anomaly - first), "along": _turned(orbit["along"], normal, anomaly - first)}
+    with localcontext(prec=DIGITS):
+        e = Decimal(orbit["eccentricity"])
+        flat = ((1 - e) * (1 + e)).sqrt()
+        sine, cosine = first = _sine_and_cosine(Decimal(orbit["true_anomaly"]))
+        axis = Decimal(orbit["radius"]) * (1 + e * cosine) / (flat * flat)
+        near = 1 + e * cosine
+        # the eccentric anomaly, whose sine and cosine are known: a rounded one and the sine of what it lacks
+        rounded = Decimal(_direction(flat * sine, e + cosine))
+        of_rounded = _sine_and_cosine(rounded)
+        E = rounded + (flat * sine / near) * of_rounded[1] - ((e + cosine) / near) * of_rounded[0]
+        mean = _less_turns(E - e * flat * sine / near + _mean_motion(orbit) * Decimal(start))
+        sine, cosine = _sine_and_cosine(_eccentric_anomaly(mean, e))
+        near = 1 - e * cosine
+        now = flat * sine / near, (cosine - e) / near
+        along, across = float(now[1] * first[1] + now[0] * first[0]), float(now[0] * first[1] - now[1] * first[0])
+        radial, forward = orbit["radial"], orbit["along"]
+        return {**orbit, "radius": float(axis * near), "true_anomaly": _direction(*now),
+                "radial": along * radial + across * forward, "along": along * forward - across * radial}

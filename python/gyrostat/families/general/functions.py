@@ -278,6 +278,8 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
         mu = planet[0] if mu is None and radius is None else mu
         radius = np.cbrt(mu * share / (rate * rate)) if radius is None else radius
         mu = rate * rate * (radius * radius * radius) / share
+    told = {key: given[key] for key in ("rate", "period") if given.get(key) is not None}
+    told["lengths"] = (planet[1], given["altitude"]) if given.get("altitude") is not None else (radius,)
     radial = _unit(_or(given.get("radial"), (1.0, 0.0, 0.0)), "orbit.radial")
     along = stacked(_or(given.get("along"), (0.0, 1.0, 0.0)))
     if along.shape == radial.shape == (3,) and np.any(along) and not np.any(along - radial * dot(radial, along)[..., None]):
@@ -286,7 +288,7 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
         along = _unit(along - radial * dot(radial, along)[..., None], "orbit.along")
     return {"radius": radius, "mu": planet[0] if mu is None else mu, "eccentricity": eccentricity,
             "true_anomaly": _or(given.get("true_anomaly"), 0.0), "radial": radial,
-            "along": along, "surface": surface}
+            "along": along, "surface": surface, "told": told}
 
 
 def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:

@@ -12,7 +12,7 @@ import numpy as np
 from gyrostat.broadcast import Floats
 from gyrostat.errors import DomainError
 from gyrostat.families.general.before import EPS, End, end_of
-from gyrostat.families.general.functions import PLANETS, diagonal, dot, orbit_start, stacked, turned, unit, varies
+from gyrostat.families.general.functions import PLANETS, diagonal, dot, orbit_start, stacked, turned, varies
 from gyrostat.fields import REQUIRED, ROUNDING, UNSET, Choices, Field, Found, Table, Values
 from gyrostat.rotation import matrix_from_quaternion, quaternion_from_matrix
 
@@ -408,6 +408,13 @@ def _solved(inertia: Floats, momentum: Any) -> Any:
     return rates
 
 
+def _axis(wheel: Mapping[str, Any]) -> Any:
+    """Unit, with more digits: wheels may hold a hundred times the momentum of the body. NaN where it has no length."""
+    axis = _wide(stacked(wheel["axis"]))
+    with np.errstate(invalid="ignore"):
+        return axis / np.sqrt(dot(axis, axis))[..., None]
+
+
 def _square(v: Any) -> Any:
     """v v^T"""
     return v[..., :, None] * v[..., None, :]
@@ -446,7 +453,7 @@ def _whole(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]]) -> _Who
         inertia = np.where(differs[..., None, None], at_centre + _moved(mass, centre - reference), inertia)
     for wheel, (m, r) in zip(wheels, apart, strict=False):
         across = wheel["equatorial_inertia"]
-        inertia = inertia + _times(across, np.eye(3)) + _times(wheel["axial_inertia"] - across, _square(unit(stacked(wheel["axis"])))) + _moved(m, r - reference)
+        inertia = inertia + _times(across, np.eye(3)) + _times(wheel["axial_inertia"] - across, _square(_axis(wheel))) + _moved(m, r - reference)
     return _Whole(_rounded(inertia), all_mass, _rounded(all_centre))
 
 
@@ -502,14 +509,14 @@ def _stepped(rates: Floats, whole: _Whole, wheels: list[dict[str, Any]], taken: 
     turning = [wheels[place] for place in taken if wheels[place]["type"] != "held"]
     for wheel in wheels:
         if wheel["type"] == "held":
-            jump = jump + _times(wheel["axial_inertia"] * _jump_at(wheel, time), unit(stacked(wheel["axis"])))
+            jump = jump + _times(wheel["axial_inertia"] * _jump_at(wheel, time), _axis(wheel))
     if not np.any(jump):
         return rates
     for wheel in turning:
-        inertia = inertia - _times(wheel["axial_inertia"], _square(unit(stacked(wheel["axis"]))))
+        inertia = inertia - _times(wheel["axial_inertia"], _square(_axis(wheel)))
     change = -_rounded(_solved(_rounded(inertia), jump))
     for wheel in turning:
-        wheel["rate"] = wheel["rate"] - dot(unit(stacked(wheel["axis"])), change)
+        wheel["rate"] = wheel["rate"] - _rounded(dot(_axis(wheel), change))
     made: Floats = rates + change
     return made
 
@@ -518,7 +525,7 @@ def _rates_of(momentum: Floats, inertia: Floats, body: Mapping[str, Any], wheels
     """The angular velocity with which body and wheels have a momentum; rates of wheels are relative to the body, so with them J is that of the whole."""
     held = _wide(stacked(body["rotor_momentum"]))
     for wheel in wheels:
-        held = held + _times(_wide(wheel["axial_inertia"]) * _rate_at(wheel, time), unit(stacked(wheel["axis"])))
+        held = held + _times(_wide(wheel["axial_inertia"]) * _rate_at(wheel, time), _axis(wheel))
     return _rounded(_solved(inertia, momentum - held))
 
 
