@@ -516,6 +516,41 @@ def test_a_share_of_the_variance_sees_what_rises_and_falls() -> None:
     assert all(math.isnan(share) for share in variance_shares(constant, responses(constant)[0]).values())
 
 
+def shares_of(answer: Callable[..., Any], vary: Mapping[str, Varied], n: int, seed: int = 4) -> dict[str, float]:
+    """Shares of the variance of a function of random numbers, as if it were the answer of a sweep."""
+    drawn = plan(vary, n, seed=seed).columns(range(n))
+    found = xarray.Dataset({key: ("row", values, {"role": "parameter"}) for key, values in drawn.items()} | {"stop_time": ("row", answer(**drawn))},
+                           {"row": np.arange(n)}, {"kind": "deceleration"})
+    return variance_shares(found, responses(found)[0])
+
+
+@pytest.mark.parametrize("n", [200, 2000])
+@pytest.mark.parametrize("alone", [uniform(0, 1), normal(3, "10%"), normal(0, 3), lognormal(9, "50%"), lognormal(9, "100%"), grid([0.0, 1.0, 5.0, 100.0])], ids=str)
+def test_a_number_that_alone_sets_the_answer_explains_all_of_it(alone: Varied, n: int) -> None:
+    for answer in (lambda x: x, lambda x: x**2, lambda x: 1e200 * np.abs(x) ** 0.5):
+        assert 0.985 < shares_of(answer, {"x": alone}, n)["x"] <= 1.0
+
+
+def test_the_shares_of_a_sum_are_those_of_its_parts() -> None:
+    inertia = np.array([1.0, 1.6274, 2.4791])  # whose squares are as 0.1021 : 0.2704 : 0.6275
+    exact = inertia**2 / np.sum(inertia**2)
+    vary = {"a": normal(0, 3), "b": normal(0, 3), "c": normal(0, 3)}
+
+    def energy(a: Any, b: Any, c: Any) -> Any:
+        return (inertia[0] * a**2 + inertia[1] * b**2 + inertia[2] * c**2) / 2
+
+    many = shares_of(energy, vary, 20000)
+    assert [many[key] for key in "abc"] == pytest.approx(exact.tolist(), abs=0.025)
+    several = np.mean([[shares_of(energy, vary, 2000, seed)[key] for key in "abc"] for seed in range(24)], axis=0)
+    assert several.tolist() == pytest.approx(exact.tolist(), abs=0.02)
+
+
+@pytest.mark.parametrize("idle", [uniform(0, 1), lognormal(1, "100%"), choice(1, 2, 5)], ids=str)
+def test_a_number_that_does_nothing_explains_nothing(idle: Varied) -> None:
+    shares = [shares_of(lambda idle, works: works, {"idle": idle, "works": lognormal(1, "50%")}, 400, seed)["idle"] for seed in range(30)]
+    assert np.median(shares) < 0.01 and np.mean(shares) < 0.02
+
+
 def test_of_general_scenes_a_report_shows_the_columns_where_no_scalar_has_a_value() -> None:
     found = sweep("momentum-dump", {"body.inertia[0]": uniform(850.0, 950.0)}, n=3)
     assert "angular_velocity_x" in [each.label for each in responses(found)]
