@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 import gyrostat
 from gyrostat.asking import parse_ask
 from gyrostat.completion import SHELLS, PrintCompletion
-from gyrostat.console import Progress, check_folder, say, short, show_table, small
+from gyrostat.console import Progress, check_output, say, short, show_table, small
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, Refused, SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, bundled, load, parse_override
@@ -279,7 +279,7 @@ def _check_plot(arguments: argparse.Namespace) -> None:
     if arguments.plot is not None:
         from gyrostat.drawing import check_ending
 
-        check_folder(arguments.plot)
+        check_output(arguments.plot)
         check_ending(arguments.plot)
 
 
@@ -288,7 +288,7 @@ def _solve(arguments: argparse.Namespace) -> int:
     from gyrostat.report import report, summary
 
     scene, form = _scene(arguments), _form(arguments)
-    check_folder(arguments.output)
+    check_output(arguments.output)
     _check_plot(arguments)
     try:
         answer = _in_thread(lambda monitor: solve(scene, monitor=monitor), scene.name)
@@ -333,7 +333,7 @@ def _view(arguments: argparse.Namespace) -> int:
     scene = _scene(arguments)
     if arguments.output.suffix.lower() not in (".html", ".htm"):
         raise DomainError(f"{arguments.output}: a view is written as .html")
-    check_folder(arguments.output)
+    check_output(arguments.output)
     made = _in_thread(lambda monitor: view(scene, arguments.begin, arguments.end, monitor), scene.name)
     made.save(arguments.output)
     say(f"wrote {arguments.output}: {summary(made.answer)}", sys.stderr)
@@ -406,7 +406,7 @@ def _design(arguments: argparse.Namespace) -> int:
     from gyrostat.toml_text import toml_text
 
     scene = _scene(arguments)
-    check_folder(arguments.output)
+    check_output(arguments.output)
     goal, budget = next((name, value) for name in GOALS if (value := getattr(arguments, name.replace("-", "_"))) is not None)
     made = _in_thread(lambda monitor: design_scene(scene, goal, budget, monitor=monitor), scene.name)
     text = toml_text(made.scene.to_dict())

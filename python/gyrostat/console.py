@@ -12,15 +12,21 @@ from typing import Any, TextIO
 
 from gyrostat.errors import DomainError
 
-__all__ = ["Progress", "check_folder", "say", "short", "show_table", "small"]
+__all__ = ["Progress", "check_output", "say", "short", "show_table", "small"]
 
 
-def check_folder(file: Path | None) -> None:
-    """Raise DomainError where a file cannot be written because its folder is not there: to be asked before long work."""
-    if file is not None and file.parent.exists() and not file.parent.is_dir():
+def check_output(file: Path | None) -> None:
+    """Raise DomainError where a file cannot be written, for its folder is not there or a folder has its name: to be asked before long work."""
+    if file is None:
+        return
+    if file.parent.exists() and not file.parent.is_dir():
         raise DomainError(f"{file}: {file.parent} is a file, not a folder; name another")
-    if file is not None and not file.parent.is_dir():
+    if not file.parent.is_dir():
         raise DomainError(f"{file}: there is no folder {file.parent}; make it, or name another")
+    if file.suffix.lower() == ".zarr" and file.is_file():
+        raise DomainError(f"{file}: this is a file, and results in .zarr are a folder; remove it, or name another")
+    if file.suffix.lower() != ".zarr" and file.is_dir():
+        raise DomainError(f"{file}: this is a folder; name a file, such as {file.with_name(f'{file.stem}-1{file.suffix}')}")
 
 
 def short(value: Any, digits: int = 9) -> str:

@@ -9,12 +9,12 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from gyrostat.console import Progress, check_folder, say, show_table
+from gyrostat.console import Progress, check_output, say, show_table
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene
 from gyrostat.sweep_files import open_results, save, writer_of
 from gyrostat.sweep_report import save_figures, shares, tables
-from gyrostat.sweeps import merge, sweep
+from gyrostat.sweeps import Study, answered, merge
 
 if TYPE_CHECKING:
     import xarray
@@ -94,23 +94,23 @@ def _verdict(dataset: "xarray.Dataset") -> Iterator[str]:
 
 def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
     output: Path = arguments.output
-    check_folder(output)
+    check_output(output)
     writer_of(output)
     own = scene.vary.get("cases")
     cases = arguments.cases if arguments.cases is not None or not isinstance(own, str) else (scene.path.parent if scene.path else Path()) / own
     if cases is not None and output.resolve() == cases.resolve():
         raise DomainError(f"{output}: the results would replace the table of cases")
     parts = output.with_name(output.name + ".parts")
-    if parts.exists() and not arguments.resume:
+    if parts.exists() and not arguments.resume and not (parts.is_dir() and not any(parts.iterdir())):
         raise DomainError(f"{parts}: here is what an earlier run has left: go on from it with --resume, or remove it")
+    study = Study.of(scene, _varied(arguments.vary), n=arguments.n, cases=arguments.cases, seed=arguments.seed, design=arguments.design)
     began = time.monotonic()
     with Progress(scene.name) as progress:
 
         def told(done: int, rows: int) -> None:
             progress.update(done / rows, f"{done} of {rows} rows")
 
-        dataset = sweep(scene, _varied(arguments.vary), n=arguments.n, cases=arguments.cases, seed=arguments.seed, design=arguments.design,
-                        threads=arguments.threads, chunk=arguments.chunk, shard=arguments.shard, parts=parts, progress=told)
+        dataset = answered(study, threads=arguments.threads, chunk=arguments.chunk, shard=arguments.shard, parts=parts, progress=told, output=output)
     took = time.monotonic() - began
     save(dataset, output)
     shutil.rmtree(parts, ignore_errors=True)
@@ -122,7 +122,7 @@ def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
 
 
 def _merge(arguments: argparse.Namespace) -> int:
-    check_folder(arguments.output)
+    check_output(arguments.output)
     writer_of(arguments.output)
     dataset = merge(arguments.files)
     save(dataset, arguments.output)

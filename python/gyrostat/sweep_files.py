@@ -3,7 +3,7 @@
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -16,7 +16,7 @@ from gyrostat.facts import FACTS
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["import_xarray", "open_results", "save", "to_netcdf", "writer_of"]
+__all__ = ["check_size", "import_xarray", "open_results", "save", "to_netcdf", "writer_of"]
 
 
 def import_xarray() -> Any:
@@ -28,10 +28,26 @@ def import_xarray() -> Any:
     return xarray
 
 
+MOST_BYTES: Final = 2**31  # of a variable of NetCDF 3
+LESS: Final = "write .zarr, ask for less (a few columns or scalars, a few times), or take shards and merge them into .zarr"
+
+
+def _bytes(values: Any) -> int:
+    """What a variable takes in a file; words are as long as the longest."""
+    return int(values.size * max(map(len, map(str, values.values.flat)), default=0) if values.dtype.kind == "O" else values.nbytes)
+
+
+def check_size(file: Path, sizes: Mapping[str, int], remedy: str = LESS) -> None:
+    """Raise DomainError where variables of these sizes [bytes] are too large for the form of the file's ending: to be asked before long work."""
+    if file.suffix.lower() in (".zarr", ".csv", ".parquet"):
+        return
+    if large := next((name for name, size in sizes.items() if size >= MOST_BYTES), None):
+        raise DomainError(f"{file}: {large} would be over 2 GiB, more than a variable of this format holds: {remedy}")
+
+
 def to_netcdf(dataset: "xarray.Dataset", file: Path) -> None:
     """Write NetCDF 3, whatever the ending."""
-    if large := next((str(name) for name, values in dataset.variables.items() if values.nbytes >= 2**31), None):
-        raise DomainError(f"{file}: {large} is over 2 GiB, more than a variable of this format holds: write .zarr, or take shards")
+    check_size(file, {str(name): _bytes(values) for name, values in dataset.variables.items()})
     dataset.to_netcdf(file, engine="scipy", format="NETCDF3_64BIT")
 
 

@@ -27,14 +27,14 @@ from gyrostat.ladder import SceneLike, scene_of
 from gyrostat.orientation import NOT_ORTHONORMAL, form_of
 from gyrostat.rows import Place, integer, plan_of, request, turned
 from gyrostat.scenes import Scene
-from gyrostat.sweep_files import import_xarray, open_results, save, to_netcdf, writer_of
+from gyrostat.sweep_files import check_size, import_xarray, open_results, save, to_netcdf, writer_of
 from gyrostat.vary import Plan
 from gyrostat.watching import watched
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Study", "merge", "open_results", "save", "sweep"]
+__all__ = ["Study", "answered", "merge", "open_results", "save", "sweep"]
 
 MOST_BYTES: Final = 2**33  # of one Dataset
 CHUNK_BYTES: Final = 2**27
@@ -85,11 +85,22 @@ class Study:
                 "ask": asked(self.scene.kind, solve["ask"], knows_attitude(self.scene.kind, self.scene.tables))}
 
     @cached_property
+    def _no_rows(self) -> dict[str, Any]:
+        """The answers to none, which have the shapes of those to any."""
+        return self._answered(range(0), 1, None)[1]
+
+    @cached_property
     def row_bytes(self) -> int:
         """What the answer to a row takes."""
-        none = self._answered(range(0), 1, None)[1]
+        none = self._no_rows
         numbers = sum(math.prod(values.shape[1:]) for values in (*none["values"].values(), *none["errors"].values()))
         return int(8 * (numbers + len(self.places) + 4))
+
+    def sizes(self, rows: int) -> dict[str, int]:
+        """Column or scalar -> what so many rows of it take in a file [bytes]."""
+        words = FAMILIES[self.scene.kind].facts.quantities
+        return {name: rows * math.prod(values.shape[1:]) * (max(map(len, words[name].words)) if words[name].kind == "word" else 8)
+                for name, values in self._no_rows["values"].items()}
 
     def _answered(self, rows: range, threads: int, monitor: Monitor | None) -> tuple[dict[str, Any], dict[str, Any], np.ndarray[Any, Any]]:
         """Parameters, answers, and for each row what is wrong with its numbers, else empty."""
@@ -239,18 +250,28 @@ def sweep(scene: SceneLike, vary: Mapping[str, Any] | None = None, *, n: int | N
     estimated error NAME_error; `model`, the rung that answered; `met`; `excess`, greatest error over its tolerance; `warnings`, a bit each; and
     `reason`, why a row has no answer, else empty. Raises SceneError and DomainError for a study that cannot be, ImportError without xarray and scipy.
     """
+    return answered(Study.of(scene_of(scene, overrides), vary, n=n, cases=cases, seed=seed, design=design), threads=threads, chunk=chunk, shard=shard,
+                    parts=parts, progress=progress, engine=engine)
+
+
+def answered(study: Study, *, threads: int | None = None, chunk: int | None = None, shard: tuple[int, int] | str | None = None,
+             parts: str | os.PathLike[str] | None = None, progress: Progress | None = None, engine: Engine | None = None,
+             output: Path | None = None) -> "xarray.Dataset":
+    """The answers to the rows of a study, as `sweep` has them. output : the file that they are for; what it cannot hold is refused before the work."""
     import_xarray()  # before the work
     if parts is not None:
         writer_of(Path("part.nc"))
-    study = Study.of(scene_of(scene, overrides), vary, n=n, cases=cases, seed=seed, design=design)
     rows = _shard(shard, study.plan.n)
     if len(rows) * study.row_bytes > MOST_BYTES:
         raise DomainError(f"{len(rows)} rows of {study.row_bytes} bytes: ask for less (ask = a few columns or scalars, times = a few), or take shards")
+    if output is not None:
+        check_size(output, study.sizes(len(rows)))
     for name, value in (("chunk", chunk), ("threads", threads)):
         if value is not None and integer(name, value) < 1:
             raise DomainError(f"{name} = {value}: give a number > 0")
     folder = None if parts is None else Path(parts)
     if folder is not None:
+        check_size(folder, study.sizes(min(chunk or 1, len(rows))), f"give a chunk of less than {chunk} rows")
         folder.mkdir(parents=True, exist_ok=True)
     made = {} if folder is None else _kept(folder, study, rows)
     gaps = list(_missing(rows, made))

@@ -38,6 +38,14 @@ def test_a_folder_that_is_not_there_is_told_before_the_work(tmp_path: Path, caps
         assert "there is no folder" in capsys.readouterr().err and not nowhere.exists()
 
 
+def test_a_folder_in_the_place_of_the_file_is_told_before_the_work(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gyrostat.ladder.solve", lambda *_, **__: pytest.fail("solved"))
+    for option, name in (("-o", "a.csv"), ("-o", "answers"), ("--plot", "a.png")):
+        (tmp_path / name).mkdir()
+        status, _, err = run(capsys, "solve", "toy-top", option, str(tmp_path / name))
+        assert status == 2 and f"{tmp_path / name}: this is a folder; name a file" in err
+
+
 def test_solve_prints_an_answer_for_people(scene_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(capsys, "solve", str(scene_file))
     assert status == 0 and err == ""

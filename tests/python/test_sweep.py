@@ -5,6 +5,7 @@ import csv
 import itertools
 import json
 import math
+import re
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -464,12 +465,31 @@ def test_the_commands_sweep_merge_and_report(tmp_path: Path, capsys: pytest.Capt
     told = capsys.readouterr().out
     assert "Rank correlations" in told and "averaged" in told
     assert {file.name for file in (tmp_path / "figures").iterdir()} == {"histograms.png", "bands.png", "tornado.png", "scatter.png"}
+    (tmp_path / "out.nc.parts").mkdir()  # as Ctrl-C before the first chunk leaves it
+    assert main([*common, "-o", str(tmp_path / "out.nc")]) == 0
     (tmp_path / "out.nc.parts").mkdir()
+    (tmp_path / "out.nc.parts" / "rows-0000000000-0000000010.tmp").touch()
     assert main([*common, "-o", str(tmp_path / "out.nc")]) == 2
     assert "--resume" in capsys.readouterr().err
     assert main([*common, "--resume", "-o", str(tmp_path / "out.nc")]) == 0
     assert main(["sweep", "tiangong-1", "--vary", "torque.drag=[-1, 1e-6]", "--ask", "stop_time", "-o", str(tmp_path / "bad.csv")]) == 3
     assert "torque.drag is not >= 0" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("name", "settings", "told"), [
+    ("folder.nc", ["-n", "10"], "this is a folder; name a file"), ("file.zarr", ["-n", "10"], "results in .zarr are a folder"),
+    ("large.nc", ["-n", "1200", "--set", "samples=300000", "--ask", "angular_momentum_norm"], "over 2 GiB.*write .zarr, ask for less"),
+    ("large.csv", ["-n", "1200", "--chunk", "1100", "--set", "samples=300000", "--ask", "angular_momentum_norm"], "less than 1100 rows")])
+def test_an_output_that_cannot_hold_the_results_is_refused_before_the_work(name: str, settings: list[str], told: str, tmp_path: Path,
+                                                                           capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "folder.nc").mkdir()
+    (tmp_path / "file.zarr").touch()
+    monkeypatch.setattr(sweep_files, "find_spec", lambda name: True)
+    monkeypatch.setattr("gyrostat.sweeps.Study.rows", lambda *_: pytest.fail("worked"))
+    command = ["sweep", "tiangong-1", "--vary", "torque.drag=uniform(1e-6, 2e-6)", *settings]
+    assert main([*command, "-o", str(tmp_path / name)]) == 2
+    assert re.search(told, capsys.readouterr().err)
+    assert not (tmp_path / f"{name}.parts").exists()
 
 
 def test_a_report_ranks_what_matters() -> None:
