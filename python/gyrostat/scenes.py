@@ -1104,7 +1104,8 @@ def _load(path: str | os.PathLike[str], overrides: Mapping[str, Any], after: tup
         raise fail("arrays or tables are nested too deep", "a scene file is a few lines of TOML") from None
     except ValueError as error:
         raise fail(f"a value cannot be read ({_printable(str(error))[:80]})", "write ordinary numbers") from None
-    return _check(data, _Source(label, text, file, after), overrides)
+    beside = None if file.is_relative_to("/dev") else file  # what comes through a pipe stands in no folder
+    return _check(data, _Source(label, text, beside, after), overrides)
 
 
 def _printable(text: str) -> str:

@@ -102,6 +102,8 @@ class Axis:
 
 Varied = Spread | Axis
 MOST_VALUES: Final = 2**31 - 1  # of a grid of one key
+MOST_SOBOL: Final = 2**30  # points of a sequence, as scipy makes it
+MOST_LATIN: Final = 2**27  # numbers of a hypercube, 1 GiB
 
 
 def _require_numbers(what: str, arguments: Iterable[Any]) -> None:
@@ -220,7 +222,10 @@ def number_in(value: Number, unit: str) -> float:
 def _deviation(spread: Spread, read: Reader, of: float) -> float:
     """The second argument, of which a share is one of `of`."""
     value = spread.arguments[1]
-    made = number_in(value, "1") * abs(of) if isinstance(value, str) and value.strip().endswith("%") else read(value)
+    share = isinstance(value, str) and value.strip().endswith("%")
+    if share and of == 0:
+        raise DomainError(f"{spread}: a share of a mean of 0 is 0, and nothing would vary; give the standard deviation as a number, such as normal(0, 0.05)")
+    made = number_in(value, "1") * abs(of) if share else read(value)
     if not (made >= 0 and math.isfinite(made)):
         raise DomainError(f"{spread}: give a standard deviation >= 0")
     return made
@@ -363,6 +368,10 @@ class Plan:
         if design == "saltelli" and n // every % made.block:
             raise DomainError(f"n = {n}: for the design saltelli give a multiple of {every * made.block}, {made.block} rows for each of its points, which are "
                               "best as many as a power of two")
+        if made.block and design == "sobol" and n > (most := MOST_SOBOL * every):
+            raise DomainError(f'n = {n}: a Sobol sequence has 2^30 points; give at most {most} rows, or design = "random"')
+        if made.block and design == "latin-hypercube" and n > (most := MOST_LATIN // (made.block - 2) * every):
+            raise DomainError(f'n = {n}: a Latin hypercube is made as a whole, whatever the shard; give at most {most} rows, or design = "sobol" or "random"')
         return made
 
     @cached_property

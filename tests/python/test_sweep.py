@@ -6,6 +6,8 @@ import itertools
 import json
 import math
 import re
+import subprocess
+import sys
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -145,7 +147,7 @@ def test_words_say_what_the_functions_say(text: str, meant: Varied) -> None:
     ({"torque.control[0]": "norml(1, 2)"}, "norml"), ({"torque.control[0]": "normal(1)"}, "normal(0.005"), ({"torque.control[0]": 3.0}, "how"),
     ({"torque.control": "normal(1, 2)"}, "torque.control[0]"), ({"torque.contrl[0]": "normal(1, 2)"}, "did you mean torque.control"),
     ({"solve.tolerance": "normal(1, 2)"}, "can vary"), ({"torque.drag": "normal(1 kg, 2)"}, "1/s"), ({"torque.drag": "uniform(2, 1)"}, "smaller"),
-    ({"torque.drag": "normal(1, -2)"}, ">= 0"), ({"torque.drag": "lognormal(-1, 2)"}, "median"), ({"torque.drag": "2:1:5"}, "smaller first"),
+    ({"torque.drag": "normal(1, -2)"}, ">= 0"), ({"torque.drag": "normal(0, 5%)"}, "nothing would vary"), ({"torque.drag": "lognormal(-1, 2)"}, "median"), ({"torque.drag": "2:1:5"}, "smaller first"),
     ({"torque.law": "choice(total, all)"}, "carrier"), ({"torque.law": choice()}, "at least one"), ({"initial.angular_momentum[0]": "normal(1, 2)"}, "no value"),
     ({"torque.drag": "[1, 2, 3]"}, "multiple of the 3"), ({"drag": "uniform(0, 1)", "torque.drag": "uniform(0, 1)"}, "twice"),
     ({"body.inertia[0,1]": "uniform(0, 1)", "body.inertia[1,0]": "uniform(0, 1)"}, "the number that"), ({}, "nothing varies")])
@@ -162,6 +164,14 @@ def test_other_settings_that_cannot_be_say_why() -> None:
     for told, settings in wrong.items():
         with pytest.raises(DomainError, match=told):
             sweep("tiangong-1", {"drag": "uniform(0, 1)"}, **settings)
+
+
+@pytest.mark.parametrize(("design", "n", "most"), [("sobol", 2**30 + 1, 2**30), ("latin-hypercube", 2**27, 2**26)])
+@pytest.mark.parametrize("shard", [None, "1/1000000"])
+def test_a_design_of_too_many_points_is_refused_before_any_are_made(design: str, n: int, most: int, shard: str | None) -> None:
+    with pytest.raises(DomainError, match=f"give at most {most} rows"):
+        sweep("tiangong-1", {"torque.drag": "uniform(0, 1)", "torque.control[0]": "uniform(0, 1)"}, n=n, design=design, shard=shard)
+    assert plan({"a": uniform(0, 1)}, 2**31 - 1).n == 2**31 - 1
 
 
 # ---- what comes back ----
@@ -448,6 +458,15 @@ def test_cases_come_from_a_table(good: str, tmp_path: Path) -> None:
     (tmp_path / "cases.csv").write_text("torque.drag\n")
     with pytest.raises(DomainError, match="first line"):
         sweep(file)
+
+
+def test_cases_of_a_scene_from_the_standard_input_stand_in_the_working_folder(tmp_path: Path) -> None:
+    (tmp_path / "cc.csv").write_text("torque.drag\n1e-6\n2e-6\n")
+    study = gyrostat.load("tiangong-1").to_dict() | {"vary": {"cases": "cc.csv"}}
+    for scene in (["-"], ["/dev/stdin"]):
+        made = subprocess.run([sys.executable, "-m", "gyrostat", "sweep", *scene, "--ask", "stop_time", "-o", "rows.csv"], cwd=tmp_path, input=toml_text(study),
+                              capture_output=True, text=True)
+        assert made.returncode == 0 and "2 rows" in made.stderr, made.stderr
 
 
 def test_the_commands_sweep_merge_and_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
