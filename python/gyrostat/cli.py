@@ -195,14 +195,29 @@ def _arguments() -> argparse.ArgumentParser:
     return parser
 
 
+def _prepare_streams() -> None:
+    """Neither a stream that is closed, as by `>&-`, nor a letter that the terminal has not is a reason to fail."""
+    sys.stdout = sys.stdout or Path(os.devnull).open("w", encoding="utf-8")
+    sys.stderr = sys.stderr or Path(os.devnull).open("w", encoding="utf-8")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+
+
+def _run(argv: Sequence[str] | None) -> int:
+    """Run one command and hand on all that it printed."""
+    try:
+        arguments = _arguments().parse_args(argv)
+        return int(arguments.run(arguments))
+    finally:
+        sys.stdout.flush()
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
-    arguments = _arguments().parse_args(argv)
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # a letter that the terminal has not is no reason to fail
-            stream.reconfigure(errors="replace")
+    _prepare_streams()
     try:
-        return int(arguments.run(arguments))
+        return _run(argv)
     except (SceneError, DomainError, ConvergenceError) as error:
         say(f"gyrostat: {error}", sys.stderr)
         return REFUSED

@@ -235,6 +235,26 @@ def test_a_closed_pipe_is_no_failure() -> None:
     assert b"Traceback" not in process.stderr and process.returncode in (0, 3)
 
 
+@pytest.mark.parametrize("command", ["--print-completion bash", "--version", "scenes", "show t-handle"])
+def test_a_reader_that_goes_away_is_no_failure(command: str) -> None:
+    if "completion" in command:
+        pytest.importorskip("shtab")
+    reader, writer = os.pipe()
+    os.close(reader)
+    made = subprocess.run([*GYROSTAT, *command.split()], stdout=writer, stderr=subprocess.PIPE, text=True, timeout=60)
+    os.close(writer)
+    assert made.returncode == 0 and made.stderr in ("", f"file: {dict(bundled())['t-handle']}\n")
+
+
+@pytest.mark.parametrize(("command", "status"), [("show t-handle", 0), ("new free", 0), ("solve t-handle --json", 0), ("solve t-handle --csv", 0),
+                                                 ("solve nothere", 2)])
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-"])
+def test_closed_streams_are_no_failure(command: str, status: int, closed: str) -> None:
+    made = subprocess.run(["sh", "-c", f'"$0" -m gyrostat {command} {closed}', sys.executable], capture_output=True, text=True, timeout=60)
+    assert made.returncode == status
+    assert "failure" not in made.stderr and ("2>" not in closed or "nothere" not in made.stdout)
+
+
 def test_ctrl_c_stops_long_work(tmp_path: Path) -> None:
     process = subprocess.Popen(
         [*GYROSTAT, "solve", "tiangong-1", "--set", "model=full", "--set", "control=[1e-13, 2e-13, 3e-13]", "--set", "drag=0", "--set",
