@@ -36,6 +36,8 @@ class AskError(Refused):
 
 def _known(facts: Facts, name: Any) -> Quantity:
     found = facts.quantities.get(name) if isinstance(name, str) else None
+    if name in ("all", "default"):
+        raise AskError(f'"{name}" stands beside names', f'write "{name}" alone, or names alone')
     if found is None:
         near = [each for each in _CALLED.get(str(name), ()) if each in facts.quantities] or difflib.get_close_matches(str(name), facts.quantities, 1, 0.6)
         raise AskError(f"there is no column or scalar {name}",

@@ -208,6 +208,9 @@ def _run(argv: Sequence[str] | None) -> int:
     """Run one command and hand on all that it printed."""
     try:
         arguments = _arguments().parse_args(argv)
+        if getattr(arguments, "output", None) == Path("-"):
+            raise DomainError("-o -: this would be a file or folder named -; name another" +
+                              (", or leave -o out for the standard output" if arguments.command in ("solve", "design", "new") else ""))
         return int(arguments.run(arguments))
     finally:
         sys.stdout.flush()

@@ -20,7 +20,7 @@ from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import Field, parts_of
 from gyrostat.orientation import FORMS, form_of, rotation_rows
 from gyrostat.schema import interval
-from gyrostat.vary import Floats, Number, Plan, as_varied, number_in, read_cases
+from gyrostat.vary import Floats, Number, Plan, as_varied, number_in, read_cases, told_of
 
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
@@ -125,15 +125,12 @@ class Place:
     product: bool = False  # a product of inertia, which the bounds of the field do not hold for
 
     def read(self, value: Number) -> float:
-        """A number as it was given: in the unit of the key or with one; of a choice its word. Raises DomainError."""
+        """A number as it was given: in the unit of the key or with one; of a choice its word. Raises DomainError, which does not name the key."""
         if self.field.form == "choice":
             if value not in self.field.choices:
-                raise DomainError(f"{self.key} = {value}: use one of {', '.join(self.field.choices)}")
+                raise DomainError(f"{value}: use one of {', '.join(self.field.choices)}")
             return float(self.field.choices.index(str(value)))
-        try:
-            return number_in(value, self.field.unit)
-        except DomainError as error:
-            raise DomainError(f"{self.key}: {error}") from None
+        return number_in(value, self.field.unit)
 
     def outside(self, values: Floats) -> NDArray[np.bool_]:
         """Which of the values (n,) the key does not allow; NaN among them."""
@@ -162,8 +159,8 @@ def _indices(key: str, text: str | None, field: Field, value: Any) -> tuple[int,
     """Places of a component among the numbers of a key."""
     found = [int(part) for part in text.split(",")] if text else []
     components = sum(1 for _ in _numbers(field, value))
-    tensor = field.form == "inertia" and isinstance(value[0], tuple)
-    width = _ROWS.get(field.form)
+    width = 3 if field.form == "inertia" else _ROWS.get(field.form)
+    alone = field.form == "inertia" and not isinstance(value[0], tuple)  # one index names a component as well as two
     if WIDTHS.get(field.form) == 1:
         if found:
             raise DomainError(f"{key}[{text}]: {key} is one number; leave out [{text}]")
@@ -171,22 +168,31 @@ def _indices(key: str, text: str | None, field: Field, value: Any) -> tuple[int,
     if field.form == "inertia" and len(found) == 2 and max(found) < 3:
         i, j = found
         return tuple({3 * i + j, 3 * j + i})
-    if field.form == "inertia" and len(found) == 1 and not tensor and found[0] < 3:
-        return (4 * found[0],)
-    if field.form == "matrix" and len(found) < 2:
-        moments, off = np.diag(value), np.array(value) - np.diag(np.diag(value))
-        if not found and not np.any(off) and np.all(moments == moments[0]):
+    if field.form == "matrix" and not np.any(np.array(value) - np.diag(np.diag(value))):
+        alone = True
+        if not found and np.all(np.diag(value) == value[0][0]):
             return (0, 4, 8)  # one number for all axes
-        if found and found[0] < 3 and not np.any(off):
-            return (4 * found[0],)
+    if alone and len(found) == 1 and found[0] < 3:
+        return (4 * found[0],)
     if width and len(found) == 2 and found[1] < width and width * found[0] < components:
         return (width * found[0] + found[1],)
-    if field.form == "inertia" or width or len(found) != 1 or found[0] >= components:
-        if len(found) == 1 and found[0] >= components and not tensor and not width:
-            raise DomainError(f"{key}[{text}]: there is no such component; they count from 0 to {components - 1}")
-        example = f"{key}[0,1]" if tensor or width else f"{key}[0]"
-        raise DomainError(f"{key}{f'[{text}]' if text else ''}: one component varies at a time; name it, such as {example}, counting from 0")
+    if width or len(found) != 1 or found[0] >= components:
+        one = 2 if alone else -1 if width else components - 1
+        raise DomainError(f"{key}{f'[{text}]' if text else ''}: {_no_component(key, found, one, (components // width - 1, width - 1) if width else None)}")
     return (found[0],)
+
+
+def _no_component(key: str, found: list[int], last: int, ends: tuple[int, int] | None) -> str:
+    """Why there is no component of these indices. last: the greatest index where one index names one, else -1; ends: the greatest of two, where two do."""
+    example = f"{key}[0]" if last >= 0 else f"{key}[0,1]"
+    if not found:
+        return f"one component varies at a time; name it, such as {example}, counting from 0"
+    if len(found) == 1 and last < 0:
+        return f"two indices name a component here, that of its row and that of its column, such as {example}; they count from 0"
+    if len(found) == 2 and ends is None:
+        return f"one index names a component here; write {example}, counting from 0"
+    return "there is no such component; " + (f"they count from 0 to {last}" if len(found) == 1 or ends is None else
+                                             f"rows count from 0 to {ends[0]}, columns to {ends[1]}")
 
 
 def _unknown(family: Family, key: str) -> DomainError:
@@ -209,7 +215,6 @@ def place_of(scene: "Scene", key: str) -> Place:
 
 def _located(scene: "Scene", key: str) -> Place:
     bare = key.replace(" ", "").replace("][", ",")
-    named = re.fullmatch(r"([\w-]+)\.([\w-]+)\.(.+)", bare)
     element = re.fullmatch(r"([\w-]+)\[(\d+)\]\.([\w.-]+)(?:\[(\d+(?:,\d+)?)\])?", bare)
     single = re.fullmatch(r"([\w.-]+)(?:\[(\d+(?:,\d+)?)\])?", bare)
     family = FAMILIES[scene.kind]
@@ -217,9 +222,8 @@ def _located(scene: "Scene", key: str) -> Place:
     for full, table, field in inputs_of(family):
         value = _value(scene, table, field)
         if field.form == "records":
-            names = [str(item.get("name") or "").replace(" ", "") for item in value]
-            if named and named[1] == full and names.count(named[2]) == 1:
-                return _located(scene, f"{full}[{names.index(named[2])}].{named[3]}")
+            if (by_place := _by_place(full, value, bare)) != bare:
+                return _located(scene, by_place)
             if element and element[1] == full:
                 place = int(element[2])
                 if place >= len(value):
@@ -237,6 +241,16 @@ def _located(scene: "Scene", key: str) -> Place:
             return _place(full, field, value, first, single[2])
         first += sum(1 for _ in _numbers(field, value))
     raise _unknown(family, key)
+
+
+def _by_place(full: str, records: Iterable[Mapping[str, Any]], key: str) -> str:
+    """The key with the place of a record for its name, `wheel[1].rate` for `wheel.pitch.rate`; as it is where it names none of them, or several."""
+    names = [str(item.get("name") or "").replace(" ", "") for item in records]
+    found = [name for name in names if name and names.count(name) == 1 and key.startswith(f"{full}.{name}.")]
+    if not found:
+        return key
+    name = max(found, key=len)  # which may have points in it
+    return f"{full}[{names.index(name)}]{key.removeprefix(f'{full}.{name}')}"
 
 
 def _place(full: str, field: Field, value: Any, first: int, index: str | None) -> Place:
@@ -282,8 +296,10 @@ def plan_of(scene: "Scene", vary: Mapping[str, Any] | None = None, *, cases: Any
     from_scene = {key: value for key, value in in_full({key: own[key] for key in own if key not in SETTINGS}).items() if key not in listed}
     if not isinstance(vary or {}, Mapping) or not all(isinstance(key, str) for key in vary or {}):
         raise DomainError(f"vary = {str(vary)[:60]}: give a table, key -> how it varies")
-    varied = {key: _varied(key, value) for key, value in {**from_scene, **in_full(vary or {})}.items()}
-    for key, each in varied.items():
+    varied = {}
+    for key, value in {**from_scene, **in_full(vary or {})}.items():
+        with told_of(key):
+            varied[key] = each = as_varied(value)
         if places[key].field.form == "choice" and each.name not in ("list", "choice"):
             raise DomainError(f"{key}: this is a word: write choice(...), or a list of words")
     _require_apart([places[key] for key in (*listed, *varied)])
@@ -310,7 +326,7 @@ def integer(name: str, value: Any) -> int:
             return operator.index(value)
     except TypeError:
         pass
-    raise DomainError(f"{name} = {value}: give an integer")
+    raise DomainError(f'{name} = "{value}": give an integer without quotes' if isinstance(value, str) else f"{name} = {value}: give an integer")
 
 
 def _require_apart(places: list[Place]) -> None:
@@ -320,13 +336,6 @@ def _require_apart(places: list[Place]) -> None:
         for number in place.numbers:
             if keys.setdefault(number, place.key) != place.key:
                 raise DomainError(f"{place.key}: this is the number that {keys[number]} stands for, too")
-
-
-def _varied(key: str, value: Any) -> Any:
-    try:
-        return as_varied(value)
-    except DomainError as error:
-        raise DomainError(f"{key}: {error}") from None
 
 
 def request(scene: "Scene", places: Iterable[Place], columns: Iterable[Floats], sound: NDArray[np.bool_]) -> dict[str, Any]:

@@ -323,7 +323,7 @@ def _number(field: Field, value: Any, element: str = "") -> float:
     if not math.isfinite(number):
         raise Refused(f"{what} is not finite", f"give a finite number{unit}")
     if not field.low <= number <= field.high or (field.open_low and number == field.low) or (field.open_high and number == field.high):
-        most = f" and <= {LIMIT:g}" if number > LIMIT else ""
+        most = f" and <= {LIMIT:g}" if number > LIMIT and field.low > -LIMIT and field.high >= LIMIT else ""
         raise Refused(f"{what} is out of range", f"give a number {_interval(field)}{most}{unit}")
     return number
 

@@ -54,6 +54,7 @@ _WORDS: Final = {word: name for name, words in {
     "T": "tesla", "G": "gauss", "A": "amp ampere", "C": "coulomb", "V": "volt", "S": "siemen siemens"}.items() for word in words.split()}
 # They stand alone.
 _SHARES: Final = {"%": Fraction(1, 100), "ppm": Fraction(1, 1_000_000)}
+_PREFIXES: Final = "pnuµμmcdhkMGT"  # a unit without one of them is another, by a power of ten
 # What is weighed and what pulls, by the same name but for an f.
 _FORCES: Final = {"lb": "lbf", "oz": "ozf", "kg": "kgf"}
 
@@ -83,8 +84,8 @@ def split(text: str) -> tuple[Fraction, str]:
     return Fraction(number), "" if unit == "1" else unit
 
 
-def _factors(product: str, unit: str) -> Iterator[tuple[str, int]]:
-    """Names and powers of a product that is a part of the unit."""
+def _factors(product: str, unit: str, want: str) -> Iterator[tuple[str, int]]:
+    """Names and powers of a product that is a part of the unit, where one of the dimension of `want` is wanted."""
     for token in re.split(_JOIN, product.strip(" ")):
         found = re.fullmatch(rf"([A-Za-z°]+)({_POWER})?", token)
         if found and found[1] in UNITS:
@@ -95,7 +96,7 @@ def _factors(product: str, unit: str) -> Iterator[tuple[str, int]]:
             raise Refused(f"{token} is no power", "write an integer from 1 to 9 behind ^, with - or without, such as m^2 or s^-1")
         else:
             name = found[1] if found else token
-            raise Refused(f"there is no unit {name}", _meant(name, found[2] or "" if found else "", unit))
+            raise Refused(f"there is no unit {name}", _meant(name, found[2] or "" if found else "", unit, want))
 
 
 def _by_word(word: str) -> str:
@@ -116,8 +117,8 @@ def _apart(word: str) -> str:
     return next((f"{word[:i]} {rest}" for i in range(len(word) - 1, 0, -1) if word[:i] in UNITS and (rest := _apart(word[i:]))), "")
 
 
-def _meant(word: str, power: str, unit: str) -> str:
-    """What to do about a name that is none, which has this power in the unit."""
+def _meant(word: str, power: str, unit: str, want: str) -> str:
+    """What to do about a name that is none, which has this power in a unit in whose place one of the dimension of `want` is wanted."""
     if word.lower().endswith("hz"):
         return "it may mean turns or radians: write rev/s or rad/s, for rates without an angle 1/s"
     if _by_word(word):
@@ -127,14 +128,32 @@ def _meant(word: str, power: str, unit: str) -> str:
     if re.search("[A-Za-z]-[A-Za-z]", word):
         return f"write {word.replace('-', ' ')}{power}, with blanks between"
     lower = {name.lower(): name for name in UNITS}
-    if near := lower.get(re.sub("[µμ]", "u", word).lower()) or next(iter(difflib.get_close_matches(word, UNITS, 1, 0.6)), None):
+    near = lower.get(re.sub("[µμ]", "u", word).lower()) or next(iter(difflib.get_close_matches(word, UNITS, 1, 0.6)), "")
+    if near and not (word[1:] in UNITS and word[0] in _PREFIXES) and _measures(unit.replace(word, near), want):
         return f"did you mean {near}?"
-    return f"the units are {', '.join(UNITS)}"
+    return _known(want)
+
+
+def _measures(unit: str, want: str) -> bool:
+    """This is a unit, and of the dimension of `want`."""
+    try:
+        return _fits(_unit(unit)[1], _unit(want)[1])
+    except Refused:
+        return False
+
+
+def _known(want: str) -> str:
+    """What to write where a unit of the dimension of `want` is wanted, and another stands."""
+    if not want:
+        return "write the bare number"
+    others = [name for name, (_, dimension) in UNITS.items() if dimension == _unit(want)[1] and name != want]
+    return f"write it in {', '.join((want, *others))}, or in another unit of what that measures" + ("" if others else f"; the units are {', '.join(UNITS)}")
 
 
 @lru_cache(maxsize=256)
-def _unit(text: str) -> tuple[Fraction, Dimension]:
-    """Size in SI units and dimension of a unit; of an empty one those of a number. Raises Refused."""
+def _unit(text: str, want: str = "") -> tuple[Fraction, Dimension]:
+    """Size in SI units and dimension of a unit; of an empty one those of a number. Raises Refused, saying what to write where one of the dimension of
+    `want` is wanted."""
     if text in _SHARES:
         return _SHARES[text], (0, 0, 0, 0, 0)
     above, slash, below = text.partition("/")
@@ -147,7 +166,7 @@ def _unit(text: str) -> tuple[Fraction, Dimension]:
     size, powers = Fraction(1), [0] * 5
     for sign, product in ((1, "" if above.strip(" ") == "1" else above), (-1, below)):
         if product.strip(" ") or (slash and sign < 0):
-            for name, power in _factors(product, text):
+            for name, power in _factors(product, text, want):
                 each, dimension = UNITS[name]
                 size *= each ** (sign * power)
                 powers = [have + sign * power * more for have, more in zip(powers, dimension, strict=True)]
@@ -172,7 +191,7 @@ def _swapped(unit: str, want: str) -> tuple[str, str, str] | None:
 def to_si(number: Fraction, unit: str, want: str) -> float:
     """So many of a unit as the double next to it in SI units, where one of the dimension of `want` is wanted. An angle may be left out where
     one is wanted, but stands nowhere else. Raises Refused."""
-    size, found = _unit(unit)
+    size, found = _unit(unit, want)
     wanted = _unit(want)[1]
     if not _fits(found, wanted):
         if swapped := _swapped(unit, want):

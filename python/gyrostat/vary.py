@@ -11,7 +11,8 @@ import math
 import os
 import re
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property, partial
 from numbers import Real
@@ -25,7 +26,7 @@ from gyrostat.errors import DomainError, Refused
 from gyrostat.units import quantity
 
 __all__ = ["DESIGNS", "Axis", "Plan", "Spread", "Varied", "as_varied", "choice", "grid", "linspace", "logspace", "lognormal", "normal", "number_in",
-           "read_cases", "read_words", "uniform"]
+           "read_cases", "read_words", "told_of", "uniform"]
 
 Floats = NDArray[np.float64]
 Number = float | str  # a text: with a unit, "3 deg/s", or a share, "5%"; where words are taken one of them
@@ -163,6 +164,15 @@ _ALIASES: Final = {"gauss": "normal", "gaussian": "normal", "unif": "uniform", "
 _FORMS: Final = "normal(0.005, 5%), uniform(15, 17), lognormal(1e-4, 20%), choice(1, 2, 5), [1, 2, 5], 0:10:11 or 1e-5:1e-3:50log"
 
 
+@contextmanager
+def told_of(key: str) -> Iterator[None]:
+    """What is refused in the block is told of this key."""
+    try:
+        yield
+    except DomainError as error:
+        raise DomainError(f"{key}: {error}") from None
+
+
 def _number(text: str) -> Number:
     try:
         return float(text)
@@ -253,21 +263,23 @@ def _choice_at(values: Floats, share: Floats) -> Floats:
 
 def _normal(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
     mean = read(spread.arguments[0])
+    if not math.isfinite(mean):
+        raise DomainError(f"{spread}: give a finite mean")
     deviation = _deviation(spread, read, mean)
     return partial(_normal_at, mean, deviation)
 
 
 def _lognormal(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
     median, deviation = read(spread.arguments[0]), _deviation(spread, lambda value: number_in(value, "1"), 1.0)
-    if not median > 0:
-        raise DomainError(f"{spread}: give a median > 0")
+    if not 0 < median < math.inf:
+        raise DomainError(f"{spread}: give a finite median > 0")
     return partial(_lognormal_at, median, deviation)
 
 
 def _uniform(spread: Spread, read: Reader) -> Callable[[Floats], Floats]:
     low, high = map(read, spread.arguments)
-    if not low < high:
-        raise DomainError(f"{spread}: give the smaller end first")
+    if not 0 < high - low < math.inf:
+        raise DomainError(f"{spread}: give two finite ends, the smaller first")
     return partial(_uniform_at, low, high)
 
 
@@ -352,10 +364,8 @@ class Plan:
         if both := next((key for key in vary if key in cases), None):
             raise DomainError(f"{both}: it stands in the table of cases, and is to vary beside it")
         for key, each in vary.items():
-            try:
+            with told_of(key):
                 each.quantiles(readers[key]) if isinstance(each, Spread) else each.ends(readers[key])
-            except DomainError as error:
-                raise DomainError(f"{key}: {error}") from None
         every = math.prod(cls(vary, cases, readers, 1, seed, design)._shape)
         if n is None:
             n = every if cases or any(isinstance(each, Axis) for each in vary.values()) else 0
@@ -380,7 +390,11 @@ class Plan:
 
     @cached_property
     def _cases(self) -> dict[str, Floats]:
-        return {key: np.array([self.readers[key](value) for value in values]) for key, values in self.cases.items()}
+        made = {}
+        for key, values in self.cases.items():
+            with told_of(key):
+                made[key] = np.array([self.readers[key](value) for value in values])
+        return made
 
     @cached_property
     def _quantiles(self) -> dict[str, Callable[[Floats], Floats]]:
@@ -407,7 +421,8 @@ class Plan:
             of_axes = zip(self._axes.items(), places[len(places) - len(self._axes):], strict=True)
             made |= {key: axis.at(place, ends) for (key, (axis, ends)), place in of_axes}
         shares = self._shares(rows)
-        made |= {key: np.ascontiguousarray(quantile(shares[key])) for key, quantile in self._quantiles.items()}
+        with np.errstate(over="ignore"):  # a row whose number is infinite says so
+            made |= {key: np.ascontiguousarray(quantile(shares[key])) for key, quantile in self._quantiles.items()}
         return {key: made[key] for key in (*self.cases, *self.vary)}
 
     def _shares(self, rows: range) -> dict[str, Floats]:

@@ -82,7 +82,7 @@ def test_a_sweep_meets_no_missing_name() -> None:
 
 
 @pytest.mark.parametrize(("ask", "text"), [
-    (["atitude"], "did you mean attitude"),
+    (["atitude"], "did you mean attitude"), (["all", "attitude"], 'write "all" alone'),
     ([], "nothing is asked"),
     ({"attitude": "1 kg"}, "its unit is rad"),
     ({"attitude": -1.0}, "> 0"),

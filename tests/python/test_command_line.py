@@ -46,6 +46,15 @@ def test_a_folder_in_the_place_of_the_file_is_told_before_the_work(tmp_path: Pat
         assert status == 2 and f"{tmp_path / name}: this is a folder; name a file" in err
 
 
+@pytest.mark.parametrize(("command", "told"), [("solve t-handle", "leave -o out"), ("new free", "leave -o out"), ("view t-handle", "name another"),
+                                               ("sweep t-handle --vary inertia[0]=[1e-4]", "name another"), ("reproduce heavy", "name another")])
+def test_a_file_named_as_the_standard_output_is_not_made(command: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str],
+                                                         monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    status, out, err = run(capsys, *command.split(), "-o", "-")
+    assert status == 2 and out == "" and told in err and not list(tmp_path.iterdir())
+
+
 def test_solve_prints_an_answer_for_people(scene_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(capsys, "solve", str(scene_file))
     assert status == 0 and err == ""

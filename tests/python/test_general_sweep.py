@@ -252,6 +252,9 @@ def test_wheels_and_torques_go_by_their_names_too() -> None:
         place_of(scene, "wheel.pitch.rate")
     with pytest.raises(DomainError, match="twice"):
         sweep(scene, {"wheel.z.rate": [1.0, 2.0], "wheel[2].rate": [1.0, 2.0]})
+    odd = scene.replace(**{f"wheel[{i}].name": name for i, name in enumerate(("rw/1", "rw", "rw.2 b"))})
+    for i, name in enumerate(("rw/1", "rw", "rw.2 b")):
+        assert place_of(odd, f"wheel.{name}.axis[2]").key == f"wheel[{i}].axis[2]"
 
 
 @pytest.mark.parametrize(("key", "told"), [

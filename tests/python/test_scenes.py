@@ -75,7 +75,7 @@ MISTAKES: dict[str, tuple[str, list[str]]] = {
     "infinite": (swap("[40.0, 25.0, 16.5]", "[40.0, -inf, 16.5]"), ["initial.angular_momentum", "element 2 = -inf", "finite"]),
     "integer beyond double precision": (swap("2.0e-4", "1" + "0" * 400), ["torque.drag", "not finite"]),
     "integer beyond reading": (swap("2.0e-4", "1" * 5000), ["cannot be read"]),
-    "absurd size": (swap("[40.0, 25.0, 16.5]", "[1e200, 0, 0]"), ["initial.angular_momentum", "out of range", "1e+60"]),
+    "absurd size": (swap("[40.0, 25.0, 16.5]", "[1e200, 0, 0]"), ["initial.angular_momentum", "out of range", "of size at most 1e+60 (N m s)"]),
     "zero moment": (swap("[35.0, 22.0, 16.0]", "[35.0, 22.0, 0.0]"), ["body.inertia", "element 3 = 0.0", "kg m^2"]),
     "negative moment": (swap("[35.0, 22.0, 16.0]", "[35.0, -22.0, 16.0]"), ["body.inertia", "element 2 = -22.0", ">="]),
     "triangle inequality": (swap("[35.0, 22.0, 16.0]", "[50.0, 22.0, 16.0]"), ["body.inertia", "50", "22", "16", "triangle"]),

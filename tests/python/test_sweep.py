@@ -147,7 +147,10 @@ def test_words_say_what_the_functions_say(text: str, meant: Varied) -> None:
     ({"torque.control[0]": "norml(1, 2)"}, "norml"), ({"torque.control[0]": "normal(1)"}, "normal(0.005"), ({"torque.control[0]": 3.0}, "how"),
     ({"torque.control": "normal(1, 2)"}, "torque.control[0]"), ({"torque.contrl[0]": "normal(1, 2)"}, "did you mean torque.control"),
     ({"solve.tolerance": "normal(1, 2)"}, "can vary"), ({"torque.drag": "normal(1 kg, 2)"}, "1/s"), ({"torque.drag": "uniform(2, 1)"}, "smaller"),
-    ({"torque.drag": "normal(1, -2)"}, ">= 0"), ({"torque.drag": "normal(0, 5%)"}, "nothing would vary"), ({"torque.drag": "lognormal(-1, 2)"}, "median"), ({"torque.drag": "2:1:5"}, "smaller first"),
+    ({"torque.drag": "normal(1, -2)"}, ">= 0"), ({"torque.drag": "normal(0, 5%)"}, "nothing would vary"),
+    ({"torque.drag": "uniform(-inf, inf)"}, "finite ends"), ({"torque.drag": "normal(nan, 1)"}, "finite mean"), ({"torque.drag": "lognormal(inf, 1)"}, "finite median"),
+    ({"body.inertia[3]": "uniform(1, 2)"}, "no such component; they count from 0 to 2"), ({"body.inertia[0,3]": "uniform(1, 2)"}, "rows count from 0 to 2, columns to 2"),
+    ({"torque.control[0,1]": "uniform(1, 2)"}, "one index names"), ({"torque.drag": "lognormal(-1, 2)"}, "median"), ({"torque.drag": "2:1:5"}, "smaller first"),
     ({"torque.law": "choice(total, all)"}, "carrier"), ({"torque.law": choice()}, "at least one"), ({"initial.angular_momentum[0]": "normal(1, 2)"}, "no value"),
     ({"torque.drag": "[1, 2, 3]"}, "multiple of the 3"), ({"drag": "uniform(0, 1)", "torque.drag": "uniform(0, 1)"}, "twice"),
     ({"body.inertia[0,1]": "uniform(0, 1)", "body.inertia[1,0]": "uniform(0, 1)"}, "the number that"), ({}, "nothing varies")])
@@ -156,9 +159,25 @@ def test_a_study_that_cannot_be_says_why(vary: dict[str, Any], told: str) -> Non
         sweep("tiangong-1", vary, n=10)
 
 
+@pytest.mark.parametrize("vary", [{"torque.drag": "normal(1 kg, 2)"}, {"torque.drag": "uniform(2, 1)"}, {"torque.law": "choice(total, all)"}])
+@pytest.mark.parametrize("listed", [False, True])
+def test_a_key_is_named_once(vary: dict[str, Any], listed: bool) -> None:
+    key, = vary
+    with pytest.raises(DomainError) as refused:
+        sweep("tiangong-1", *(() if listed else (vary,)), n=1, cases={key: ["1 kg"]} if listed else None)
+    assert str(refused.value).count(key) == 1 and str(refused.value).startswith(f"{key}: ")
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_number_beyond_all_doubles_is_the_reason_of_its_row() -> None:
+    found = sweep("tiangong-1", {"torque.drag": "lognormal(1e-300, 1000)"}, n=20, **LIGHT)
+    over = np.isinf(found["torque.drag"].values)
+    assert np.any(over) and np.all(found["reason"].values[over] == "torque.drag is not finite")
+
+
 def test_other_settings_that_cannot_be_say_why() -> None:
     wrong: dict[str, dict[str, Any]] = {
-        "how many rows": {}, "design": {"n": 5, "design": "halton"}, "seed": {"n": 5, "seed": -1}, "shard": {"n": 5, "shard": "3/2"},
+        "how many rows": {}, "design": {"n": 5, "design": "halton"}, "seed": {"n": 5, "seed": -1}, 'n = "4": give an integer without quotes': {"n": "4"}, "shard": {"n": 5, "shard": "3/2"},
         "threads": {"n": 5, "threads": 0},
         "columns have": {"cases": {"body.inertia[0]": [1.0], "body.inertia[1]": [1.0, 2.0]}}}
     for told, settings in wrong.items():
