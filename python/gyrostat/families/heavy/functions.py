@@ -303,10 +303,10 @@ def sleeping_top(*, inertia: ArrayLike, mass: ArrayLike, centre_of_mass: ArrayLi
 
 @dataclass(frozen=True, eq=False)
 class Precession:
-    """Rates of regular precession about down, rad/s; NaN where there is none."""
+    """Rates of regular precession about down, rad/s, |slow| <= |fast|; both NaN where the top cannot precess so."""
 
     slow: Floats  # (...)
-    fast: Floats  # (...) infinite where the axis is horizontal
+    fast: Floats  # (...) infinite where the axis is level: there is the slow one alone
 
 
 def regular_precession(*, inertia: ArrayLike, mass: ArrayLike, centre_of_mass: ArrayLike, gravity: ArrayLike, spin: ArrayLike,
@@ -314,6 +314,7 @@ def regular_precession(*, inertia: ArrayLike, mass: ArrayLike, centre_of_mass: A
     """The rates at which a top with an axis of symmetry through its mass centre precesses at constant inclination.
 
     spin : (...) about that axis [rad/s]; cos_inclination : (...) of the axis to down, in [-1, 1]. Others as in `series`.
+    NaN where the spin is too slow for any; of a level axis (cos_inclination = 0) with spin there is the slow one alone, and `fast` is infinite.
     """
     lead, many, (r, u) = bodies({"inertia": inertia, "mass": mass, "centre_of_mass": centre_of_mass, "gravity": gravity,
                                  "gravity_gradient": gravity_gradient}, ("spin", spin, ()), ("cos_inclination", cos_inclination, ()))
