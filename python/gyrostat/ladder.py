@@ -23,12 +23,14 @@ SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
 
 
 def scene_of(scene: SceneLike, overrides: Mapping[str, Any]) -> Scene:
-    """The checked scene behind a scene, a dict, a file or the name of a bundled scene."""
+    """The checked scene behind a scene, a dict, a file or the name of a bundled scene. Raises SceneError, and DomainError for what is none of these."""
     if isinstance(scene, Scene):
         return scene.replace(**overrides)
     if isinstance(scene, Mapping):
         return scene_from(scene, **overrides)
-    return load(scene, **overrides)
+    if isinstance(scene, str | os.PathLike):
+        return load(scene, **overrides)
+    raise DomainError(f"scene = {str(scene)[:60]}: give a Scene, a dict in the layout of a scene file, a file, or the name of a bundled scene")
 
 
 def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = None, breakpoints: Any = (), data_error: bool = False, **overrides: Any) -> Answer:

@@ -2,6 +2,7 @@
 """Scene files: read, checked in full, and handed on as a `Scene`. Whatever is wrong comes back as one `SceneError`."""
 
 import difflib
+import json
 import math
 import os
 import re
@@ -45,6 +46,7 @@ class Scene:
     whatever form it was given, is the quaternion `attitude`, too.
 
     `written` holds by full key what was given with units. `path` is the file it came from, or None. Change a value with `replace`, which checks again.
+    Scenes are equal that say the same, whatever files they came from.
     """
 
     name: str
@@ -109,6 +111,17 @@ class Scene:
                          if value is not UNSET and not (instead and key == "attitude")}:
                 made[table] = given
         return made
+
+    @cached_property
+    def _words(self) -> str:
+        """All that it says, and what the scenes before it say."""
+        return json.dumps([self.to_dict(), self.before and self.before._words], default=str)
+
+    def __eq__(self, other: object) -> bool:
+        return self._words == other._words if isinstance(other, Scene) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._words)
 
     def told(self) -> dict[str, Any]:
         """As to_dict(), for wherever it is read: the file that the motion goes on `from` by its full path, unless it is bundled."""
@@ -1056,7 +1069,9 @@ def scene_from(data: Mapping[str, Any], label: str = "scene", **overrides: Any) 
 
 
 def load(path: str | os.PathLike[str], **overrides: Any) -> Scene:
-    """Read a scene file (TOML), or a bundled scene by name; overrides as in `Scene.replace`. Raises SceneError."""
+    """Read a scene file (TOML), or a bundled scene by name; overrides as in `Scene.replace`. Raises SceneError, and DomainError for what names no file."""
+    if not isinstance(path, str | os.PathLike):
+        raise DomainError(f"path = {str(path)[:60]}: name a scene file or a bundled scene; gyrostat.solve and its kin take a dict in the layout of a scene file, too")
     return _load(path, overrides)
 
 

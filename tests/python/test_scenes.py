@@ -9,12 +9,14 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import gyrostat
 import numpy as np
 import pytest
 from conftest import ASSEMBLED, GOOD, HEAVY, PERIODIC, ROTOR, SPINNING, at_length
-from gyrostat.errors import SceneError
+from gyrostat.errors import DomainError, SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import bundled, load, parse_override, scene_from
+from gyrostat.toml_text import toml_text
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -297,6 +299,41 @@ def test_defaults_are_filled_in() -> None:
 def test_a_scene_survives_its_dict(scene_file: Path) -> None:
     scene = load(scene_file)
     assert scene_from(scene.to_dict()).to_dict() == scene.to_dict()
+
+
+def test_scenes_that_say_the_same_are_equal(tmp_path: Path) -> None:
+    scene = load("t-handle")
+    assert scene == load("t-handle") == scene_from(scene.to_dict()) and len({scene, load("t-handle")}) == 1
+    assert scene != scene.replace(tolerance=1e-7) and scene != scene.to_dict()
+    assert scene.replace(duration="60 s") != scene.replace(duration="1 min")  # it says so, although it means the same
+    goes_on = """
+kind = "general"
+name = "later"
+from = "first.toml"
+[body]
+inertia = [1.0, 2.0, 2.5]
+[solve]
+times = [20.0]
+"""
+    made = []
+    for rate in (1.0, 1.0, 1.1):
+        (tmp_path / "first.toml").write_text(toml_text(load("t-handle").replace(**{"initial.angular_velocity": [rate, 0.1, 0.1]}).to_dict()))
+        (tmp_path / "later.toml").write_text(goes_on)
+        made.append(load(tmp_path / "later.toml"))
+    assert made[0] == made[1] != made[2]
+
+
+@pytest.mark.parametrize("call", [gyrostat.solve, gyrostat.chart, lambda given: gyrostat.sweep(given, {})])
+@pytest.mark.parametrize("given", [None, 3, b"t-handle"])
+def test_what_is_no_scene_is_told_what_is_one(call: Any, given: Any) -> None:
+    with pytest.raises(DomainError, match="give a Scene, a dict .* a file, or the name of a bundled scene"):
+        call(given)
+
+
+def test_load_takes_names_of_files_alone() -> None:
+    for given in (load("t-handle").to_dict(), None, 3):
+        with pytest.raises(DomainError, match="name a scene file or a bundled scene"):
+            load(given)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("text", [ROTOR, ASSEMBLED])
