@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 import gyrostat
 from gyrostat.asking import parse_ask
 from gyrostat.completion import SHELLS, PrintCompletion
-from gyrostat.console import Progress, check_output, say, short, show_table, small
+from gyrostat.console import Progress, check_output, leave, say, short, show_table, small
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, Refused, SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene, bundled, load, parse_override
@@ -234,7 +234,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except BrokenPipeError:
         # The reader went away, as `| head` does: close quietly.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        leave(sys.stdout)
         return MET
     except OSError as error:
         say(f"gyrostat: {error.filename or 'output'}: {error.strerror or error}", sys.stderr)

@@ -2,6 +2,7 @@
 """Text, tables and progress on the terminal: rich where it is installed and someone is watching, plain text elsewhere."""
 
 import math
+import os
 import shutil
 import sys
 import textwrap
@@ -12,7 +13,7 @@ from typing import Any, TextIO
 
 from gyrostat.errors import DomainError
 
-__all__ = ["Progress", "check_output", "say", "short", "show_table", "small"]
+__all__ = ["Progress", "check_output", "leave", "say", "short", "show_table", "small"]
 
 
 def check_output(file: Path | None) -> None:
@@ -55,9 +56,19 @@ def _rich(out: TextIO) -> bool:
     return True
 
 
+def leave(out: TextIO) -> None:
+    """Let a stream whose reader went away swallow what else is written."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), out.fileno())
+
+
 def say(text: str, out: TextIO) -> None:
-    """Print a line."""
-    print(text, file=out)
+    """Print a line. Where the standard error takes none the work goes on without."""
+    try:
+        print(text, file=out)
+    except OSError:
+        if out is not sys.stderr:
+            raise
+        leave(out)
 
 
 def show_table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]], out: TextIO) -> None:

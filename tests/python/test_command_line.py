@@ -264,6 +264,15 @@ def test_closed_streams_are_no_failure(command: str, status: int, closed: str) -
     assert "failure" not in made.stderr and ("2>" not in closed or "nothere" not in made.stdout)
 
 
+@pytest.mark.parametrize(("command", "status"), [("solve nothere", 2), ("new free -o {}/new.toml", 0)])
+def test_a_standard_error_without_a_reader_changes_no_exit_status(command: str, status: int, tmp_path: Path) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    made = subprocess.run([*GYROSTAT, *command.format(tmp_path).split()], stdout=subprocess.PIPE, stderr=writer, timeout=60)
+    os.close(writer)
+    assert made.returncode == status and not made.stdout
+
+
 def test_ctrl_c_stops_long_work(tmp_path: Path) -> None:
     process = subprocess.Popen(
         [*GYROSTAT, "solve", "tiangong-1", "--set", "model=full", "--set", "control=[1e-13, 2e-13, 3e-13]", "--set", "drag=0", "--set",
