@@ -439,7 +439,17 @@ TEST_CASE("a body at rest is let go by its brake, by a table, and by a held whee
   p.torques[1].vector = {0, 0, 1};
   p.torques[1].factor.table = {{0, 10, 10.5}, {-0.09, 0.09, 0.2}, Between::linear, true};
   CHECK(run(p, {10}, 1e-10).answer.met);
-  CHECK(run(p, {10.4}, 1e-10).answer.at_stop == AtStop::later);
+  // beyond, from where it reaches the brake, as the square of the time since
+  const double begin = 10 + 0.5 * 0.01 / 0.11;
+  const std::vector<double> asked{10, begin, 10.2, 10.4};
+  const auto grown = run(p, asked, 1e-10);
+  REQUIRE(grown.answer.met);
+  REQUIRE(grown.answer.rests.size() == 1);
+  CHECK(grown.answer.rests[0][1] == Approx(begin).epsilon(1e-13));
+  for (std::size_t i = 1; i < 4; ++i) {
+    const double since = asked[i] - begin;
+    CHECK(std::abs(grown.states[i].angular_momentum[2] - 0.11 * since * since) < 1e-14);
+  }
   p.torques[1].factor.table = {{0, 10, 10.5}, {-0.09, 0.2, 0.2}, Between::step, true};
   CHECK(run(p, {20}, 1e-10).states[0].angular_momentum[2] == Approx(0.1 * 10));
   // a wheel that is brought to another rate throws the body, which its brake stops again
@@ -453,6 +463,48 @@ TEST_CASE("a body at rest is let go by its brake, by a table, and by a held whee
   CHECK(thrown.states[2].angular_velocity[2] == Approx(-(2 - 0.1 * 15) / 1.5));
   CHECK(thrown.states[3].angular_velocity.isZero(0));
   CHECK(thrown.answer.rests.size() == 2);
+}
+
+TEST_CASE("a body leaves its rest where a table outgrows brakes that differ by axis", "[general]") {
+  for (const auto opposed : {Opposed::momentum, Opposed::carrier_momentum}) {
+    Problem<double> p;
+    p.inertia << 2, 0.2, 0, 0.2, 3, 0.1, 0, 0.1, 4;
+    if (opposed == Opposed::carrier_momentum) p.rotor_momentum = {0.5, -0.3, 0.4};
+    p.torques.resize(3);
+    auto &brake = p.torques[0], &damping = p.torques[1], &push = p.torques[2];
+    brake.type = TorqueType::brake, brake.opposed = opposed, brake.vector = {0.1, 0.2, 0.3};
+    damping.type = TorqueType::damping, damping.matrix = 0.05 * Mat3<double>::Identity();
+    push.vector = {0.3, 0.5, 0.8}, push.factor.table = {{0, 10, 20}, {0, 0.6, 0.8}, Between::linear, true};
+    const std::vector<double> asked{3, 3.55, 4, 7, 12};
+    const auto loose = run(p, asked, 1e-6), tight = run(p, asked, 1e-13);
+    REQUIRE(loose.answer.met);
+    CHECK(loose.states[0].angular_velocity.isZero(0));
+    CHECK(loose.answer.rests[0][1] == Approx(10 / 0.6 / Vec3<double>(3, 2.5, 8 / 3.).norm()).epsilon(1e-13));
+    double size = 0, off = 0;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      size = std::max(size, tight.states[i].angular_velocity.norm());
+      off = std::max(off, (loose.states[i].angular_velocity - tight.states[i].angular_velocity).norm());
+    }
+    CHECK(off <= loose.answer.error[full_column::angular_velocity] * size);
+    // from the rest on by small steps of another method, a moment after it
+    const double t = 3.55;
+    const auto& at = loose.states[1];
+    Vec3<double> w = at.angular_velocity;
+    const int steps = 4000;
+    const double h = (4 - t) / steps;
+    const auto rate = [&](double now, const Vec3<double>& v) {
+      const Vec3<double> M = p.inertia * v + p.rotor_momentum, Jw = p.inertia * v;
+      const Vec3<double> n = (opposed == Opposed::momentum ? M : Jw).normalized();
+      const Vec3<double> torque = 0.06 * now * push.vector - 0.05 * v - brake.vector.cwiseProduct(n);
+      return Vec3<double>(p.inertia.inverse() * (M.cross(v) + torque));
+    };
+    for (int k = 0; k < steps; ++k) {
+      const double now = t + k * h;
+      const Vec3<double> a = rate(now, w), b = rate(now + h / 2, w + h / 2 * a), c = rate(now + h / 2, w + h / 2 * b);
+      w += h / 6 * (a + 2 * b + 2 * c + rate(now + h, w + h * c));
+    }
+    CHECK((w - loose.states[2].angular_velocity).norm() < 1e-10);
+  }
 }
 
 TEST_CASE("a stop is none because a far greater torque acted before", "[general]") {
@@ -482,7 +534,9 @@ TEST_CASE("a stop that is not gone through says why", "[general]") {
   CHECK(why(p) == AtStop::varying);
   p.torques[1].factor = {};
   p.torques[1].factor.table = {{0, 40}, {0, 20}, Between::linear, false};
-  CHECK(why(p) == AtStop::later);
+  auto standing = p;
+  standing.angular_velocity.setZero(), standing.torques[0].vector[0] = 0;
+  CHECK(why(standing) == AtStop::later);
   p.torques.pop_back();
   p.wheels.push_back({WheelType::motor, Vec3<double>(0.6, 0, 0.8), 0.1, 1, 0, 0, 0, 0.01, 20, {}});
   CHECK(why(p) == AtStop::turning);

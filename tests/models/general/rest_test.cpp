@@ -124,7 +124,8 @@ TEST_CASE("a table that stays within the brakes all along is held", "[general]")
     CHECK(stop(p).what == AtStop::rests);
     CHECK(stop(p).slip > 0);
     torque.factor.table.values[1] = 1.05;
-    CHECK(stop(p).what == AtStop::later);
+    CHECK(stop(p).what == AtStop::rests);
+    CHECK(stop(p).until == Approx(10 * 1.9 / 1.95).epsilon(1e-12));
     torque.factor.table.values = {1.05, 0.5};
     CHECK(stop(p).what == AtStop::leaves);
     CHECK(stop(p, 5).what == AtStop::rests);
@@ -135,7 +136,9 @@ TEST_CASE("a table that stays within the brakes all along is held", "[general]")
   torque.factor.table = {{-5, 0, 5, 10}, {0.1, 0.99, 0.97, 0.1}, Between::cubic, false};
   const auto cubic = piece(torque.factor.table, 1, 0, 0.);
   REQUIRE(cubic(1.5) > 1);
-  CHECK(stop(p).what == AtStop::later);
+  CHECK(stop(p).what == AtStop::rests);
+  CHECK(cubic(stop(p).until) == Approx(1).epsilon(1e-12));
+  CHECK(stop(p).until < 1.5);
   for (const auto what : {AtStop::barely, AtStop::later, AtStop::turning, AtStop::laws, AtStop::varying})
     CHECK(!std::string_view(why_not_through(what)).empty());
 }
@@ -163,6 +166,32 @@ TEST_CASE("a body at rest turns with its held wheels alone, and its centre goes 
     CHECK(later[std::size_t(Places<true>::position + i)] == Approx(way * along[i] + (i == 0 ? 21 : 0)));
     CHECK(later[std::size_t(i)] == x[std::size_t(i)]);
   }
+}
+
+TEST_CASE("a torque that outgrows the brakes moves the body by its own series", "[general]") {
+  auto p = braked(Opposed::momentum);
+  auto& torque = push(p, {0.3, 1.2, 0.8});
+  torque.factor.table = {{0, 10}, {0, 10}, Between::linear, false};
+  const auto rests = stop(p);
+  REQUIRE(rests.what == AtStop::rests);
+  const double held = rests.until;
+  const auto leaves = stop(p, held);
+  REQUIRE(leaves.what == AtStop::leaves);
+  const auto& out = leaves.outgrowth;
+  REQUIRE(out.time == Approx(held).epsilon(1e-9));  // from nothing to all that the brakes hold
+  // dU/dt = torque - limit U/|U| to the second power of the time: what is left falls as its third
+  const Vec3<double> limit = p.torques[0].vector, slope = torque.vector;
+  const auto left = [&](double s) {
+    const Vec3<double> U = s * s * (out.second + s * out.third), rate = s * (2 * out.second + 3 * s * out.third);
+    return Vec3<double>(slope * (held + s) - limit.cwiseProduct(U.normalized()) - rate);
+  };
+  CHECK(left(1e-2).norm() / left(1e-3).norm() == Approx(100).epsilon(0.2));
+  // and along the direction as the third, which is what remains of it
+  const Vec3<double> along = out.second.normalized().cwiseQuotient(limit);
+  CHECK(along.dot(left(1e-2)) / along.dot(left(1e-3)) == Approx(1000).epsilon(0.2));
+  // an axis that no brake holds
+  p.torques[0].vector[1] = 0;
+  CHECK(stop(p).what == AtStop::later);
 }
 
 }  // namespace general_rest_test

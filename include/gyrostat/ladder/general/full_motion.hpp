@@ -35,6 +35,7 @@
 #include "gyrostat/ode/radau.hpp"
 #include "gyrostat/ode/status.hpp"
 #include "gyrostat/ode/taylor.hpp"
+#include "gyrostat/rotation/exp_log.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
@@ -335,11 +336,14 @@ class FullCourse {
   static constexpr bool rests_through = Method::integrator == Integrator::taylor;
   using Rest = std::conditional_t<rests_through, Resting<Scalar, Method::is_large>, Numbers>;
 
-  /// How a body leaves its rest: what brakes oppose grows by `rate`, N m, from the numbers of `rest` on, up to `until`.
+  /// How a body leaves its rest, from the numbers of `rest` on, up to `until`: what brakes oppose grows by `rate`, N m, or by the outgrowth.
   struct Leaving {
     Rest rest;
     Vec3<Scalar> rate;
+    Outgrowth<Scalar> outgrowth;
     Scalar until;
+
+    Vec3<Scalar> gained(Scalar s) const noexcept { return s * (rate + s * (outgrowth.second + s * outgrowth.third)); }
   };
 
   ode::Status move(Scalar t_max) noexcept {
@@ -403,8 +407,10 @@ class FullCourse {
 
   /// The piece behind this one, where it ends with the last step.
   void look_ahead() noexcept {
-    if (!(time_ >= piece_.to && cut_ < cuts_.size())) return;
-    const Scalar to = ++cut_ < cuts_.size() ? cuts_[cut_] : last_;
+    if (!(time_ >= piece_.to && (parted_ || cut_ < cuts_.size()))) return;
+    if (!parted_) ++cut_;
+    parted_ = false;
+    const Scalar to = cut_ < cuts_.size() ? cuts_[cut_] : last_;
     next_ = Piece<Scalar>::behind(piece_, of_.problem, of_.wheels, of_.torques, to);
   }
 
@@ -419,9 +425,17 @@ class FullCourse {
   }
   /// A moment after a rest.
   Numbers leaving(Scalar t) const noexcept {
+    using At = typename System::At;
+    const Scalar s = t - leaving_->rest.from();
+    const Vec3<Scalar> gained = leaving_->gained(s);
     Numbers x = leaving_->rest.at(t);
-    for (std::size_t i = 0; i < 3; ++i)
-      x[System::At::momentum + i] += (t - leaving_->rest.from()) * leaving_->rate[int(i)];
+    for (std::size_t i = 0; i < 3; ++i) x[At::momentum + i] += gained[int(i)];
+    if (const auto& [second, third, time] = leaving_->outgrowth; time > 0) {
+      const Vec3<Scalar> turn = of_.wheels.inverse * Vec3<Scalar>(s * s * s * (second / 3 + s * third / 4));
+      const Quat<Scalar> q = Quat<Scalar>{x[0], x[1], x[2], x[3]} * quaternion_from_vector<Scalar>(turn);
+      x[0] = q.w, x[1] = q.x, x[2] = q.y, x[3] = q.z;
+      for (std::size_t i = 0; i < 3; ++i) x[At::turned + i] += turn[int(i)];
+    }
     return x;
   }
 
@@ -487,6 +501,8 @@ class FullCourse {
     if constexpr (rests_through) {
       rest_.emplace(of_, piece_, made, t, numbers);
       if (!rested) rests_.push_back({t, t});
+      parted_ = made.until < piece_.to;
+      piece_.to = std::min(made.until, piece_.to);
       const Scalar given = made.slip * (piece_.to - t);
       slipped_ += given, slipped_angle_ += given / of_.sizes.least * (last_ - t);
     }
@@ -494,17 +510,25 @@ class FullCourse {
   void leave(const Stop<Scalar>& stop, Scalar t, const Numbers& numbers) noexcept {
     if constexpr (rests_through) {
       using std::sqrt;
-      // so short that what the direction and the torque have changed is lost in rounding
       const auto& sizes = of_.sizes;
-      const Scalar pace =
-          sizes.turning + sizes.damping + sizes.forcing + 1 / (piece_.to - t) + sqrt(stop.departure.rate / sizes.least);
-      const Scalar moment = std::max(Scalar(1e-9L) * (1 + share_) / pace, 64 * epsilon<Scalar> * t);
+      const auto& out = stop.outgrowth;
+      const Scalar torque = stop.departure.rate + 2 * out.time * magnitude(out.second), rest = piece_.to - t;
+      Scalar pace = sizes.turning + sizes.damping + sizes.forcing + sqrt(torque / sizes.least), moment;
+      if (out.time > 0) {
+        // so short that what the series leaves out is a millionth of it; behind it steps are the shorter the less has been gained
+        pace += 1 / out.time;
+        moment = std::min(Scalar(1e-3L) * (1 + share_) / pace, rest / 2);
+      } else {
+        // so short that what the direction and the torque have changed is lost in rounding
+        moment = Scalar(1e-9L) * (1 + share_) / (pace + 1 / rest);
+      }
+      moment = std::max(moment, 64 * epsilon<Scalar> * t);
       const Scalar until = t + moment < piece_.to ? t + moment : t;
       const Vec3<Scalar> rate = stop.departure.rate * stop.departure.direction;
-      leaving_.emplace(Leaving{Rest(of_, piece_, stop, t, numbers), rate, until});
+      leaving_.emplace(Leaving{Rest(of_, piece_, stop, t, numbers), rate, out, until});
       Numbers x = leaving(until);
       if (!(until > t))
-        for (std::size_t i = 0; i < 3; ++i) x[System::At::momentum + i] += moment * rate[int(i)];
+        for (std::size_t i = 0; i < 3; ++i) x[System::At::momentum + i] += leaving_->gained(moment)[int(i)];
       previous_ = t;
       begin(until, x);
     }
@@ -563,7 +587,8 @@ class FullCourse {
   std::optional<Solver> solver_;
   ode::Counts counts_;
   Scalar greatest_ = 0, bound_ = infinity<Scalar>, slipped_ = 0, slipped_angle_ = 0;
-  Scalar braked_ = 0;  ///< what brakes opposed where the last step began, in the same piece
+  bool parted_ = false;  ///< the piece ends before its breakpoint, where a torque outgrows the brakes
+  Scalar braked_ = 0;    ///< what brakes opposed where the last step began, in the same piece
   AtStop at_stop_ = AtStop::rests;
   std::optional<Rest> rest_;
   std::optional<Leaving> leaving_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/general/collected.hpp"
@@ -25,7 +26,7 @@ enum class AtStop : std::uint8_t {
   rests,    ///< up to the end of the piece at least
   leaves,   ///< at once
   barely,   ///< what acts is hardly more than the brakes can hold
-  later,    ///< it would leave within the piece, where a table takes the torque beyond the brakes
+  later,    ///< it would leave within the piece, about an axis that no brake holds
   turning,  ///< undecided: wheels turn by torques of their own
   laws,     ///< undecided: brakes of both laws, and wheels that hold momentum
   varying,  ///< undecided: what acts goes on by itself, or turns as the body does
@@ -45,8 +46,8 @@ constexpr const char* why_not_through(AtStop what) noexcept {
              "field that moves, a torque in space on a body that turns on), and whether it holds is not followed: ask "
              "for times up to the stop, or give what varies as a table of steps";
     case AtStop::later:
-      return "a table takes the torque on a body at rest past what its brake can hold between two of its times, and "
-             "how the body leaves is not followed: give the table in steps";
+      return "a table takes the torque on a body at rest from zero about an axis that its brake does not hold, and how "
+             "the body leaves is not followed: give the table in steps";
     case AtStop::barely:
       return "the torque on a body at a stop exceeds what the brake can hold by less than a ten-thousandth, and how "
              "it leaves is not followed: change one of them";
@@ -57,14 +58,44 @@ constexpr const char* why_not_through(AtStop what) noexcept {
 /// The least rate at which a body is followed out of its rest, over the size of torque and brakes.
 inline constexpr double least_departure = 1e-4;
 
+/// How U leaves zero where a torque has just become all that the brakes hold and goes on growing: U = s^2 (second + s third), s the time since.
+template <Real Scalar>
+struct Outgrowth {
+  Vec3<Scalar> second{0, 0, 0}, third{0, 0, 0};
+  Scalar time = 0;  ///< in which the torque grows by about what the brakes hold, s; 0: it does not
+};
+
+/// torque: by powers of the time since, its first all that the brakes hold; follows(U): by how much dU/dt changes with U but for the brakes, to first
+/// order. In dU/dt = torque - limit n, n = U/|U|, n0 is the share that each brake has; the first power gives n1, across n0, and |second|, the next
+/// third along n0 (docs/general.md, section 1.6).
+template <Real Scalar, class Follows>
+Outgrowth<Scalar> outgrowth(const Vec3<Scalar>& limit, const std::array<Vec3<Scalar>, 4>& torque,
+                            const Follows& follows) noexcept {
+  Outgrowth<Scalar> made;
+  if (!(limit.minCoeff() > 0)) return made;
+  const auto share = [&](const Vec3<Scalar>& v) noexcept { return Vec3<Scalar>(v.cwiseQuotient(limit)); };
+  const Vec3<Scalar> n0 = share(torque[0]).normalized(), growth = share(torque[1]);
+  const Scalar along = n0.dot(growth), hold = n0.dot(share(n0));
+  if (!(along > Scalar(least_departure) * magnitude(growth))) return made;
+  const Scalar size = along / (2 * hold);
+  made.second = size * n0;
+  const Vec3<Scalar> n1 = share(torque[1] - 2 * made.second), across = size * n1;
+  const Vec3<Scalar> next = torque[2] + follows(made.second);
+  made.third = across + (n0.dot(share(next)) / 3 + n1.squaredNorm() / 6 - n0.dot(share(across))) / hold * n0;
+  made.time = 1 / magnitude(growth);
+  return made;
+}
+
 /// What happens where all that brakes oppose is zero.
 template <Real Scalar>
 struct Stop {
   AtStop what = AtStop::rests;
-  Departure<Scalar> departure;    ///< of what the brakes oppose, where the body leaves
-  Vec3<Scalar> turning{0, 0, 0};  ///< w, rad/s: that of held wheels alone
-  Scalar slip = 0;                ///< at most so much torque may be left over, as share_slack is allowed, N m
-  bool carrier = false;           ///< J w is opposed, not M
+  Scalar until = infinity<Scalar>;  ///< when a torque that grows leaves the body no rest, s
+  Departure<Scalar> departure;      ///< of what the brakes oppose, where the body leaves
+  Outgrowth<Scalar> outgrowth;      ///< where it leaves so slowly that the departure has no rate
+  Vec3<Scalar> turning{0, 0, 0};    ///< w, rad/s: that of held wheels alone
+  Scalar slip = 0;                  ///< at most so much torque may be left over, as share_slack is allowed, N m
+  bool carrier = false;             ///< J w is opposed, not M
 };
 
 namespace detail {
@@ -128,6 +159,18 @@ bool holds_all(const Vec3<Scalar>& limit, const std::array<Vec3<Scalar>, 4>& c, 
     left[count++] = {{middle, bcd, cd, p[3]}};
   }
   return true;
+}
+
+/// How long, of `length`, which they do not hold.
+template <Real Scalar>
+Scalar held_for(const Vec3<Scalar>& limit, const std::array<Vec3<Scalar>, 4>& c, Scalar length, Scalar most) noexcept {
+  Scalar low = 0, high = length;
+  for (int trip = 0; trip < 2 * std::numeric_limits<Scalar>::digits; ++trip) {
+    const Scalar middle = low + (high - low) / 2;
+    if (!(low < middle && middle < high)) break;
+    (holds_all(limit, c, middle, most) ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace detail
@@ -199,11 +242,31 @@ Stop<Scalar> stop_at(const Prepared<Scalar>& of, const Piece<Scalar>& piece, con
   const Scalar allowed = slack * std::max(Scalar(1), magnitude(of_brake));
   const Scalar most = 1 + allowed, share = share_of_brake(limit, torque[0]);
   const Scalar whole = std::max(magnitude(torque[0]), limit.maxCoeff());
+  // a torque that grows has just become all that they hold, to roundings of it and of the time
+  const auto outgrows = [&](Scalar over) noexcept {
+    stop.outgrowth = outgrowth(limit, torque, [&](const Vec3<Scalar>& U) noexcept -> Vec3<Scalar> {
+      const Vec3<Scalar> w = of.wheels.inverse * U;
+      const auto at = [&](const Vec3<Scalar>& rate, const Vec3<Scalar>& all) noexcept {
+        return detail::steady_torque<Scalar>(of, piece.power[0], q, rate, all).sum;
+      };
+      const Vec3<Scalar> turn = stop.carrier ? cross<Scalar>(l, w) : cross<Scalar>(U, stop.turning);
+      return at(stop.turning + w, M + U) - at(stop.turning, M) + turn;
+    });
+    const Scalar time = stop.outgrowth.time;
+    return time > 0 && over <= 16 * allowed + 4 * epsilon<Scalar> * t / time;
+  };
   if (share > most) {
     stop.departure = departure(limit, torque[0]);
-    stop.what = stop.departure.rate < Scalar(least_departure) * whole ? AtStop::barely : AtStop::leaves;
-  } else if (!detail::holds_all(limit, torque, piece.to - t, most)) {
-    stop.what = AtStop::later;
+    const bool slowly = stop.departure.rate < Scalar(least_departure) * whole;
+    if (slowly && outgrows(share - 1)) stop.departure = {};
+    else stop.outgrowth = {};
+    stop.what = slowly && !(stop.outgrowth.time > 0) ? AtStop::barely : AtStop::leaves;
+  } else if (const Scalar length = piece.to - t; !detail::holds_all(limit, torque, length, most)) {
+    const Scalar held = detail::held_for(limit, torque, length, most);
+    stop.until = t + held;
+    const bool grows = outgrows(0);
+    if (!(stop.until > t) || (grows && held <= 16 * allowed * stop.outgrowth.time))
+      stop.what = grows ? AtStop::leaves : limit.minCoeff() > 0 ? AtStop::barely : AtStop::later;
   } else {
     // where the margin hides in roundings the torque may be more than the brake, and drive the body by so much
     const bool changes = !(torque[1].isZero(0) && torque[2].isZero(0) && torque[3].isZero(0));
