@@ -330,6 +330,9 @@ Outcome add(gyrostat_scene& scene, const char* what, const char* type) {
   const auto at = std::find(words.begin(), words.end(), std::string_view(type));
   if (at == words.end()) return bad(std::string("a ") + what + " has no type " + type + ": use " + one_of(words));
   const auto place = std::size_t(at - words.begin());
+  // a refused call, for want of memory too, changes nothing
+  auto& given = wheels ? scene.given_wheels : scene.given_torques;
+  given.reserve(given.size() + 1);
   if (!wheels) {
     scene.problem.torques.emplace_back().type = T(place);
     if (T(place) == T::brake) scene.problem.torques.back().opposed = general::Opposed::momentum;
@@ -438,6 +441,12 @@ Outcome complete(const gyrostat_scene& scene, bool with_question) {
   for (std::size_t i = 0; i < scene.problem.torques.size(); ++i)
     if (scene.problem.torques[i].type == T::weight && scene.problem.fixed && !given("field.gravity"))
       return missing(*find<Key>(keys, "field.gravity"), "torque " + std::to_string(i + 1) + " is a weight, and ");
+  for (std::size_t i = 0; i < scene.given_torques.size(); ++i) {
+    const auto has = [&](const char* name) { return !lacks(scene.given_torques[i], *find<Key>(keys, name)); };
+    if (has("torque.factor.times") && (has("torque.factor.mean") || has("torque.factor.rate")))
+      return {GYROSTAT_BAD_SCENE,
+              "of torque " + std::to_string(i + 1) + " the factor is a wave and a table: give one of them"};
+  }
   for (std::size_t i = 0; i < scene.problem.wheels.size(); ++i)
     if (scene.problem.wheels[i].type == W::friction && lacks(scene.given_wheels[i], *find<Key>(keys, "wheel.friction")))
       return missing(*find<Key>(keys, "wheel.friction"), "of wheel " + std::to_string(i + 1) + " ");

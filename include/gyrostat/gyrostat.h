@@ -204,7 +204,7 @@ double gyrostat_answer_warning_value(const gyrostat_answer* answer, size_t place
 gyrostat_monitor* gyrostat_monitor_new(void);
 void gyrostat_monitor_free(gyrostat_monitor* monitor);
 
-/* How much of the model at work is done, 0 to 1: the full equations count their span. */
+/* How much of the model at work is done, 0 to 1: the full equations count their span. 1 behind a call that has ended, a cancelled one too. */
 double gyrostat_monitor_fraction(const gyrostat_monitor* monitor);
 void gyrostat_monitor_cancel(gyrostat_monitor* monitor);
 

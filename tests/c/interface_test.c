@@ -521,6 +521,7 @@ static void refuse_scene(gyrostat_scene* scene, int code, const char* words) {
 }
 
 static void refused_scenes(void) {
+  const double huge[] = {1e160, 0, 0}, ramp[] = {0, 1};
   const double axis[] = {0, 0, 1}, long_bar[] = {1, 2, 9};
   gyrostat_scene* scene = gyrostat_scene_new();
   refuse_scene(scene, GYROSTAT_BAD_SCENE, "body.inertia is not set");
@@ -550,6 +551,18 @@ static void refused_scenes(void) {
   scene = body(3, 4, 5, 0.1, 0.2, 1);
   OK(gyrostat_set_word(scene, "solve.model", "heavy:exact"));
   refuse_scene(scene, GYROSTAT_NO_ANSWER, "model heavy:exact: ");
+  scene = body(3, 3.5, 4, 0, 0, 1);
+  OK(gyrostat_add(scene, "torque", "constant"));
+  OK(gyrostat_set(scene, "torque.torque", huge, 3));
+  OK(gyrostat_set_number(scene, "torque.factor.mean", 1e160));
+  refuse_scene(scene, GYROSTAT_BAD_SCENE, "a number is NaN or infinite");
+  scene = body(3, 3.5, 4, 0, 0, 1);
+  OK(gyrostat_add(scene, "torque", "constant"));
+  OK(gyrostat_set(scene, "torque.torque", huge, 3));
+  OK(gyrostat_set_number(scene, "torque.factor.mean", 2));
+  OK(gyrostat_set(scene, "torque.factor.times", ramp, 2));
+  OK(gyrostat_set(scene, "torque.factor.values", ramp, 2));
+  refuse_scene(scene, GYROSTAT_BAD_SCENE, "a wave and a table");
 }
 
 static void refused_steps(void) {

@@ -55,10 +55,10 @@ def test_a_body_that_a_brake_stops_against_another_torque_rests_where_that_is_kn
     made = gyrostat.solve(scene(torque=torques, solve={"times": [1.0, 1e3], "tolerance": 1e-9}), ask=["attitude", "angular_velocity", "torque", "stop_time"])
     assert made.met and not np.any(made["angular_velocity"][1]) and not np.any(made["torque"][1])
     assert [warning.code for warning in made.warnings] == ["rest"] and 1.0 < made.scalars["stop_time"] < 1e3
-    for late in ({"factor": {"amplitude": 1.0, "rate": 0.1}}, {"factor": {"times": [0.0, 1e3], "values": [1.0, 80.0]}}):
-        with pytest.raises(DomainError, match="is not followed"):
-            gyrostat.solve(scene(torque=[torques[0], {**torques[1], **late}], solve={"times": [1.0, 1e3], "tolerance": 1e-9}))
-        assert gyrostat.solve(scene(torque=[torques[0], {**torques[1], **late}], solve={"times": [0.0, 1.0], "tolerance": 1e-9})).met
+    late = {"factor": {"amplitude": 1.0, "rate": 0.1}}
+    with pytest.raises(DomainError, match="is not followed"):
+        gyrostat.solve(scene(torque=[torques[0], {**torques[1], **late}], solve={"times": [1.0, 1e3], "tolerance": 1e-9}))
+    assert gyrostat.solve(scene(torque=[torques[0], {**torques[1], **late}], solve={"times": [0.0, 1.0], "tolerance": 1e-9})).met
 
 
 RAMP: dict[str, Any] = {"times": [0.0, 100.0], "values": [0.0, 1.0]}
@@ -67,7 +67,7 @@ RAMP: dict[str, Any] = {"times": [0.0, 100.0], "values": [0.0, 1.0]}
 @pytest.mark.parametrize("law", ["total", "carrier"])
 @pytest.mark.parametrize("ramp", [{"type": "constant", "torque": [0.0, 0.0, 1.0], "factor": RAMP},
                                   {"type": "table", "times": RAMP["times"], "values": [[0.0, 0.0, v] for v in RAMP["values"]], "interpolation": "linear"}])
-def test_a_body_that_leaves_its_rest_inside_a_ramp_is_refused_and_one_that_does_not_is_answered(law: str, ramp: dict[str, Any]) -> None:
+def test_a_body_that_a_ramp_takes_past_its_brake_leaves_where_it_does(law: str, ramp: dict[str, Any]) -> None:
     # about the third axis J w' = t/100 - 0.3 sign(w): at rest it would leave at 30 s, which is no time of the table
     brake = {"type": "brake", "limit": [0.3, 0.3, 0.3], "law": law}
 
@@ -75,8 +75,10 @@ def test_a_body_that_leaves_its_rest_inside_a_ramp_is_refused_and_one_that_does_
         return gyrostat.solve(scene(torque=[brake, *torques], initial={"angular_velocity": [0.0, 0.0, w]}, solve={"times": times, "tolerance": 1e-9}))
 
     for w in (0.0, 0.5):  # at rest from the start, or from 3.8 s on
-        with pytest.raises(DomainError, match="past what its brake can hold between two of its times, and how the body leaves is not followed: give the table in steps"):
-            answer(w, [10.0, 40.0], ramp)
+        left = answer(w, [10.0, 30.0, 30.5, 40.0, 80.0], ramp)
+        assert left.met and np.allclose(left["angular_velocity"][:, 2], [max(0.0, t - 30) ** 2 / 400 for t in left.t], rtol=1e-9, atol=1e-15)
+    with pytest.raises(DomainError, match="from zero about an axis that its brake does not hold"):
+        gyrostat.solve(scene(torque=[{**brake, "limit": [0.3, 0.3, 0.0]}, ramp], initial={"angular_velocity": [0.0, 0.0, 0.0]}, solve={"times": [10.0]}))
     # while it turns it goes through the limit of the brake as through any other torque
     turning = answer(3.0, [20.0, 30.0, 80.0], ramp)
     assert turning.met and np.allclose(turning["angular_velocity"][:, 2], [3 + (t * t / 200 - 0.3 * t) / 2 for t in turning.t], rtol=1e-9)

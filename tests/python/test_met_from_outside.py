@@ -614,3 +614,20 @@ def test_companions_of_a_spinner_err_less_than_the_answer() -> None:
         answer = gyrostat.solve({**spinner, "solve": {"times": [1292.4696504196386], "tolerance": float(tolerance), "model": "full", "ask": ["attitude"]}})
         off = 2 * min(np.linalg.norm(answer["attitude"][0] - sign * there) for sign in (1, -1))
         assert off <= answer.error["attitude"], (tolerance, off)
+
+
+@pytest.mark.parametrize(("body", "torque", "rates", "times"), [
+    ({"inertia": [11.42, 10.96, 10.96], "rotor_momentum": [0.0, 0.0, 0.43]}, {"control": [1.8e-4, 1.5e-4, 2.4e-4], "drag": 2.7e-5, "law": "total", "drag_law": "carrier"},
+     [9e-6, 9e-6, 0.13], [1750.0, 3500.0]),
+    ({"inertia": [0.05, 0.07, 0.11], "rotor_momentum": [0.0, 0.017, 0.0]}, {"control": [7.9e-6, 1.8e-5, 1.3e-5], "drag": 0.0, "law": "total", "drag_law": "total"},
+     [-9e-6, 0.24, 9e-6], [650.0, 1300.0]),
+])
+def test_mean_equations_beside_the_axis_of_the_wheels_err_less_than_they_state(body: dict[str, Any], torque: dict[str, Any], rates: list[float], times: list[float]) -> None:
+    scene = {"kind": "deceleration", "name": "beside the wheels", "body": body, "torque": torque, "initial": {"angular_velocity": rates}, "solve": {"times": times, "tolerance": 1e-6}}
+    truth = gyrostat.solve(scene, model="full", tolerance=1e-11)
+    for columns in (times, times[-1:]):
+        made = gyrostat.solve(scene, model="averaged", times=columns)
+        for name in ("angular_momentum_norm", "energy"):
+            right = truth[name][-len(columns):]
+            size = max(np.max(np.abs(right)), made.scale[name])
+            assert np.max(np.abs(made[name] - right)) / size <= made.error[name] + truth.error[name], name

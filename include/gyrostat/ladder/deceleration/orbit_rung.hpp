@@ -266,7 +266,7 @@ void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Ellip
   in_span.norm += crossing / (2 * scales(problem)[column::energy]) * problem.momentum.norm();
   const double local = honesty::mean_steps * mean_tolerance(scene);
   // the energy is a difference of numbers of the size of what the rotors hold
-  double energy = problem.rotor_energy_scale() / 2;
+  double energy = std::max(problem.rotor_energy_scale() / 2, scales(problem)[column::energy]);
   for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
   const double norm = local * problem.momentum.norm() + problem.momentum_error() + standing;
   energy = local * energy + problem.energy_error(problem.momentum) +
@@ -294,7 +294,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   };
   using Rates = FirstOrderRates<Elliptic>;
   const std::uint64_t step_cap = steps_worth(scene, averaged_orbit_step, Rates::step_cap);
-  OrbitMotion<Rates, double> motion(problem, orbit->level(), orbit->component(), 0, mean_tolerance(scene),
+  OrbitMotion<Rates, double> motion(problem, orbit->level(), orbit->component(), 0, mean_orbit_tolerance(scene),
                                     infinity<double>, {}, step_cap);
   const auto not_worth = [&] { return motion.failure() == Errc::step_limit && step_cap < Rates::step_cap; };
   visit(orbit->level(), orbit->component(), 0);

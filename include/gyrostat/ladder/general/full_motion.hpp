@@ -509,18 +509,21 @@ class FullCourse {
   }
   void leave(const Stop<Scalar>& stop, Scalar t, const Numbers& numbers) noexcept {
     if constexpr (rests_through) {
-      using std::sqrt;
+      using std::cbrt, std::sqrt;
       const auto& sizes = of_.sizes;
       const auto& out = stop.outgrowth;
-      const Scalar torque = stop.departure.rate + 2 * out.time * magnitude(out.second), rest = piece_.to - t;
-      Scalar pace = sizes.turning + sizes.damping + sizes.forcing + sqrt(torque / sizes.least), moment;
+      const Scalar rest = piece_.to - t;
+      Scalar moment;
       if (out.time > 0) {
         // so short that what the series leaves out is a millionth of it; behind it steps are the shorter the less has been gained
-        pace += 1 / out.time;
+        const Scalar pace = 1 / out.time + sizes.damping + magnitude(stop.turning) +
+                            magnitude(piece_.momentum[0]) / sizes.least + cbrt(magnitude(out.second) / sizes.least);
         moment = std::min(Scalar(1e-3L) * (1 + share_) / pace, rest / 2);
       } else {
         // so short that what the direction and the torque have changed is lost in rounding
-        moment = Scalar(1e-9L) * (1 + share_) / (pace + 1 / rest);
+        const Scalar pace =
+            sizes.turning + sizes.damping + sizes.forcing + 1 / rest + sqrt(stop.departure.rate / sizes.least);
+        moment = Scalar(1e-9L) * (1 + share_) / pace;
       }
       moment = std::max(moment, 64 * epsilon<Scalar> * t);
       const Scalar until = t + moment < piece_.to ? t + moment : t;

@@ -92,7 +92,7 @@ inline double settling_steps(const Scene& scene) noexcept {
 
 GYROSTAT_COMPILED_ONCE double cost_of_full(const Scene& scene) noexcept {
   const auto& times = scene.question().times;
-  const double phase = (scene.sizes().turning + scene.sizes().forcing) * times.back();
+  const double phase = scene.sizes().angle + scene.sizes().forcing * times.back();
   const double tolerance = first_step_tolerance(scene.goal().tightest, phase, honesty::loosest_step);
   const auto& cost = scene.is_stiff() ? stiff_cost : scene.is_large() ? large_series_cost : small_series_cost;
   const double again = scene.is_stiff() ? 10 : 2;  // steps that a breakpoint costs

@@ -166,7 +166,8 @@ inline constexpr WarningKind warning_kinds[] = {
      "the second of the angles comes so near to where the first and the last turn are about one axis that they "
      "cannot be told apart; distance, rad"},
     {"custom-smooth",
-     "no times are named at which the torque of your own jumps or has kinks: it is taken to be smooth"},
+     "no times are named at which the torque of your own jumps or has kinks: it is taken to be smooth, and what is "
+     "shorter than a step, as a pulse, goes unseen"},
     {"stiff",
      "wheels settle so much faster than the body turns that the equations are solved by collocation (Radau IIA); "
      "greatest rate of settling, 1/s"},

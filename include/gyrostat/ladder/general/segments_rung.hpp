@@ -202,7 +202,7 @@ class SegmentedMotion {
 struct SegmentCost {
   double each, share;
 };
-inline constexpr SegmentCost segment_cost{120e-6, 2};
+inline constexpr SegmentCost segment_cost{300e-6, 6};
 
 /// What the rung `segments` costs, s: every segment by the rungs up to the first that is sure, with those that carry errors on; NaN: one of
 /// them is no instance of a family.

@@ -25,6 +25,7 @@ struct Sizes {
       0;  ///< momentum that the torques build up over the span, or until the body has turned by about a radian, N m s
   Scalar least = 1, greatest = 1;  ///< moments of J* and J, kg m^2
   Scalar turning = 0;              ///< how fast the body turns or could soon turn, of the order of |w|, rad/s
+  Scalar angle = 0;  ///< that it may turn through over the span, torques taken to act while they are on alone, rad
 
   Scalar damping = 0;  ///< how fast torques that are linear in the motion change it, 1/s
   Scalar forcing = 0;  ///< the greatest rate at which waves, fields and the orbit go on by themselves, rad/s
@@ -88,6 +89,15 @@ Scalar forcing_rate(const Problem<Scalar>& problem) noexcept {
   return std::max(rate, sqrt(orbit.mu / axis) / axis);
 }
 
+/// How long a factor is on, s.
+template <Real Scalar>
+Scalar time_on(const Factor<Scalar>& factor, Scalar span) noexcept {
+  if (factor.on.empty()) return span;
+  Scalar sum = 0;
+  for (const auto& [from, to] : factor.on) sum += std::max(Scalar(0), std::min(to, span) - std::max(from, Scalar(0)));
+  return std::min(sum, span);
+}
+
 }  // namespace detail
 
 template <Real Scalar>
@@ -116,9 +126,11 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
     // a wheel that settles gives no more than what it comes to hold
     given += law.friction * span > law.axial_inertia ? settled / law.friction : torque * span;
   }
+  Scalar by_pushes = given;
   for (const auto& record : torques.records) {
     const Scalar factor = detail::greatest_factor(record.factor);
-    made.external += factor * detail::torque_size(problem, record.sum, made.greatest);
+    const Scalar push = factor * detail::torque_size(problem, record.sum, made.greatest);
+    made.external += push, by_pushes += push * detail::time_on(record.factor, span);
     made.damping += factor * detail::damping_rate(problem, record.sum, made.least);
     made.force += factor * (record.sum.force_body.norm() + record.sum.force_inertial.norm());
   }
@@ -126,7 +138,10 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
   made.torque = made.external + motors;
   given += made.external * span;
   made.built = std::min(given, sqrt(made.torque * made.greatest));
-  made.turning = made.momenta / made.least + std::min(given / made.least, sqrt(made.torque / made.least));
+  const auto turned = [&](Scalar momentum) noexcept {
+    return made.momenta / made.least + std::min(momentum / made.least, sqrt(made.torque / made.least));
+  };
+  made.turning = turned(given), made.angle = turned(by_pushes) * span;
   return made;
 }
 
