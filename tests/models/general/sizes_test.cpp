@@ -40,6 +40,18 @@ TEST_CASE("a body at rest has the size of what torques build up", "[general]") {
   CHECK(of(p, 10).turning == 0);
 }
 
+TEST_CASE("the angle of a body that is pushed for a while is less than if it were all along", "[general]") {
+  Problem<double> p;
+  p.inertia = 2 * Mat3<double>::Identity();
+  p.angular_velocity = {0, 0, 0.1};
+  p.torques.emplace_back().vector = {0, 0, 0.001};
+  const auto all_along = of(p, 100);
+  CHECK(all_along.angle == Approx(100 * all_along.turning));
+  p.torques[0].factor.on = {{-5, 10}, {90, 200}};
+  CHECK(of(p, 100).turning == all_along.turning);
+  CHECK(of(p, 100).angle == Approx(100 * (0.1 + 0.001 * 20 / 2)));
+}
+
 TEST_CASE("what goes on by itself has a rate", "[general]") {
   Problem<double> p;
   CHECK(of(p, 1).forcing == 0);

@@ -59,6 +59,20 @@ TEST_CASE("an orbit obeys the law of gravity", "[general]") {
   CHECK((start.radial - orbit_of(0).radial).norm() < 1e-15);
 }
 
+TEST_CASE("an orbit by a later clock is the same one", "[general]") {
+  for (const double e : {0.0, 0.3, 0.95}) {
+    Orbit<double> orbit;
+    orbit.mu = 2, orbit.radius = 1.5, orbit.eccentricity = e, orbit.true_anomaly = 0.7;
+    const auto later = orbit_from(orbit, 3.0);
+    for (const double t : {0.0, 0.4, 5.0}) {
+      const auto one = orbit_at(orbit, 3.0 + t), other = orbit_at(later, t);
+      CHECK((one.radial - other.radial).norm() < 1e-12);
+      CHECK((one.along - other.along).norm() < 1e-12);
+      CHECK(other.radius == Approx(one.radius).epsilon(1e-12));
+    }
+  }
+}
+
 TEST_CASE("Kepler's equation is solved near a parabola too", "[general]") {
   for (const double e : {0.5, 0.99, 0.999999})
     for (const double M : {0., 1e-8, 0.1, 3., 3.2, 6.2, 100.}) {

@@ -61,7 +61,7 @@ inline constexpr double least_departure = 1e-4;
 /// How U leaves zero where a torque has just become all that the brakes hold and goes on growing: U = s^2 (second + s third), s the time since.
 template <Real Scalar>
 struct Outgrowth {
-  Vec3<Scalar> second{0, 0, 0}, third{0, 0, 0};
+  Vec3<Scalar> second{0, 0, 0}, third{0, 0, 0};  ///< N m/s, N m/s^2
   Scalar time = 0;  ///< in which the torque grows by about what the brakes hold, s; 0: it does not
 };
 
