@@ -205,10 +205,41 @@ TEST_CASE("a steady rotation that is neither stable nor unstable leaves as slowl
   };
   const auto sphere = steady({1.2, 1.2, 1.2}, {1e-9, 1, -1e-9});
   const auto across = steady({1.5, 1, 1}, {0, .6, .8});
-  for (const double t :
-       {1., 30., 1e3}) {  // rates drift apart in proportion to time, across an axis of symmetry to its square
-    CHECK(sphere.at(t).attitude < 1e-14 * (1 + t) * (1 + t));
-    CHECK(across.at(t).attitude < 1e-14 * (1 + t) * (1 + t) * (1 + t));
+  for (const double t : {1., 30., 1e3}) {  // across an axis of symmetry M drifts in proportion to the square of time
+    CHECK(sphere.at(t).attitude < 1e-14 * (1 + t));
+    CHECK(across.at(t).attitude < 1e-14 * (1 + t) * (1 + t));
+  }
+}
+
+TEST_CASE("in flat spin the attitude is as sure as the rate and the momentum's place in the body", "[free]") {
+  // a booster after separation, end over end for a day
+  const auto p = Problem<double>::from_moments({122e3, 122e3, 11300}, {0, 0, 0}, {0, 2.0943951023931953, 0});
+  const double day = 86400;
+  const auto m = Motion<double>::make<Wide>(p.cast<Wide>());
+  const auto error = MotionError<double>::of<Wide>(Assembly<double>{p, {}}, Data::rounded, day);
+  REQUIRE((m && error));
+  CHECK(m->kind() == Kind::steady);
+  CHECK(error->at(day).attitude < 1e-7);
+  Bodies bodies(36);
+  for (int i = 0; i < 20; ++i) {
+    const auto truth = Motion<Wide>::make<Wide>(bodies.jittered(p).cast<Wide>());
+    CHECK(off(m->at(day), truth->at(day)).attitude <= error->at(day).attitude);
+  }
+}
+
+TEST_CASE("the momentum of a steady rotation is known to the roundings of what it is summed of", "[free]") {
+  Bodies bodies(37);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3<double> J = bodies.moments();
+    const double w = bodies.uniform(.1, 2), little = bodies.scale(-6, -1);
+    const auto p = Problem<double>::from_moments(J, {0, 0, (little - 1) * J[2] * w}, {0, 0, w});
+    const auto m = Motion<double>::make<Wide>(p.cast<Wide>());
+    const auto error = MotionError<double>::of<Wide>(Assembly<double>{p, {}}, Data::rounded, 1);
+    const auto truth = Motion<Wide>::make<Wide>(bodies.jittered(p).cast<Wide>());
+    REQUIRE((m && error && truth));
+    CAPTURE(i, little);
+    CHECK(off(m->at(1), truth->at(1)).momentum <= error->at(1).angular_momentum);
+    CHECK(error->at(1).angular_momentum < 1e-14 * (1 + 1 / little));
   }
 }
 

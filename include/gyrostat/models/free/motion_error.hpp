@@ -381,6 +381,9 @@ class MotionError {
     const Vec3<Scalar>& J = motion.principal_moments();
     shear_ = R * (J[0] - J[2]) / (J[0] * J[2]);
     gain_ = speed_ > 0 ? R / J[2] / speed_ : Scalar(0);
+    // M . omega / |M|, the rate about M, is stationary on the sphere but for the rotors' J^-1 l
+    const Vec3<Scalar> swept = inverse_inertia(motion) * motion.rotor_momentum(), M = motion.at(0).angular_momentum;
+    coupling_ = R > 0 && speed_ > 0 ? std::min(gain_, cross<Scalar>(swept, M).norm() / (R * speed_)) : Scalar(0);
     span_ = period_ = speed_ > 0 ? 2 * pi<Scalar> / speed_ : Scalar(1);
   }
 
@@ -510,9 +513,10 @@ class MotionError {
   Scalar modulus_ = 0, energy_ = 0, norm_ = 0, cancellation_ = 1, rate_terms_ = 0;
   Scalar turned_along_ = 0,
          turned_across_ = 0;  // of a regular precession: rad/s, and the swing of the integral of omega, rad
-  Scalar drift_ = 0, unstable_ = 0, frequency_ = 0, shear_ = 0, gain_ = 0;  // of a steady rotation
-  std::array<Bound, std::size_t(many + 1)> first_{};                        // up to the nodes of the first span
-  Bound last_;                                                              // up to the horizon
+  Scalar drift_ = 0, unstable_ = 0, frequency_ = 0, shear_ = 0, gain_ = 0,
+         coupling_ = 0;                               // of a steady rotation
+  std::array<Bound, std::size_t(many + 1)> first_{};  // up to the nodes of the first span
+  Bound last_;                                        // up to the horizon
 };
 
 template <Real Scalar>
@@ -637,9 +641,12 @@ auto MotionError<Scalar>::at(Scalar t) const noexcept -> Bound {
   if (!(beyond <= abs(horizon_)) || t * horizon_ < 0) b.attitude = infinity<Scalar>;
   if (kind_ == Kind::steady) {
     const Scalar off = wander(beyond);
-    b.angular_momentum += 4 * off;
+    b.angular_momentum += 4 * off + norm_;
     b.angular_velocity += 4 * off * gain_;
-    b.attitude += 4 * (off * gain_ + 2 * epsilon<Scalar>)*speed_ * beyond;
+    const Scalar turns = speed_ * beyond, rounding = 4 * epsilon<Scalar> * gain_ + 2 * epsilon<Scalar>;
+    // where M is in the body, and the phase about it; what is hardly any momentum moves nothing
+    const Scalar phase = (rounding + off * (coupling_ + off * gain_)) * turns;
+    b.attitude += 4 * (std::min(off, off * gain_ * turns) + phase);
   } else {
     if (hidden_share_ > 0) {
       b.angular_velocity += late * rates_change_;
