@@ -41,6 +41,30 @@ TEST_CASE("equal-torque rung: drag alone never stops the body, and leaves no dou
   }
 }
 
+TEST_CASE("equal-torque rung: what turns about its axis rests there without a jump of the modulus", "[deceleration]") {
+  Case c;
+  c.moments = V(2.2e-3, 2.1e-3, 2e-3);
+  c.data.drag = 0;
+  c.data.control.setConstant(4.4e-6);
+  c.data.momentum = V(2.2e-4, 0, 0);
+  c.data.times = until(100, 10);  // with the stop, at 50 s
+  c.data.tolerance = 1e-3;
+  for (const int by : {any_rung, int(rung::equal_torque), int(rung::full)}) {
+    CAPTURE(by);
+    c.data.rung = by;
+    const Answer answer = c.solve();
+    CHECK(answer.met);
+    CHECK(answer.find("modulus_squared")->error < 1e-12);
+  }
+  c.data.momentum = V(2e-4, 1e-4, 0);  // on an orbit: its modulus, or that of rest
+  const double stop = c.data.momentum.norm() / 4.4e-6;
+  c.data.times = {stop / 2, stop};
+  c.data.rung = any_rung;
+  const auto on_orbit = *c.solve().find("modulus_squared");
+  CHECK(on_orbit.error >= on_orbit.values[0]);
+  CHECK(on_orbit.error < 1.1 * on_orbit.values[0]);
+}
+
 TEST_CASE("equal-torque rung: says why it does not apply", "[deceleration]") {
   const auto why = [](const Case& c) {
     const Track track = equal_torque_track(c.scene(), nullptr);

@@ -192,6 +192,40 @@ TEST_CASE(
   CHECK(off[column::angular_velocity] <= told.error[column::angular_velocity]);
 }
 
+TEST_CASE("heavy exact rung: a pendulum whose attitude is given stays in the plane that its zeros name", "[heavy]") {
+  using Long = long double;
+  const V inertia(0.875, 0.914, 0.0954), centre(0, 0, 0.43);
+  const auto body = Body::make(inertia.asDiagonal(), 4.3, centre, 9.80665, 0);
+  const auto longer = Problem<Long>::make(inertia.cast<Long>(), Long(4.3), centre.cast<Long>(), Long(9.80665), 0);
+  REQUIRE((body && longer));
+  for (const double angle : {-2.6, -0.5, 0.7, 3.0}) {
+    CAPTURE(angle);
+    Question question;
+    question.times = {1, 17, 60};
+    question.wants_attitude = true;
+    const auto from = start({0, 0, 0}, {std::cos(angle / 2), std::sin(angle / 2), 0, 0});
+    const auto scene = Scene::make(*body, {from}, question);
+    REQUIRE(scene);
+    const Track told = exact_track(*scene, nullptr);
+    REQUIRE(told.failure == Errc::ok);
+    CHECK(told.error[column::attitude] < 1e-10);
+    const auto given = scene->given().attitude;
+    const Quat<Long> turn = normalised(Quat<Long>{given.w, given.x, given.y, given.z});
+    const Exact<Long> truth(*longer, {V::Zero().cast<Long>(), rotate<Long>(conjugate(turn), {0, 0, -1}), turn});
+    Comparison apart(Row<double>{});
+    for (std::size_t i = 0; i < question.times.size(); ++i) {
+      const auto right = truth.at(Long(question.times[i]));
+      const auto& q = right.attitude;
+      apart.add(told.states[i], {right.angular_velocity.cast<double>(),
+                                 right.down.cast<double>(),
+                                 {double(q.w), double(q.x), double(q.y), double(q.z)}});
+    }
+    const auto off = apart.relative(apart.difference());
+    for (const std::size_t c : {column::down, column::angular_velocity, column::attitude})
+      CHECK(off[c] <= told.error[c]);
+  }
+}
+
 TEST_CASE("heavy exact rung: in the caller's axes", "[heavy]") {
   const Mat3<double> R = to_matrix(normalised(Quat<double>{0.9, 0.2, -0.1, 0.05}));
   const auto from = start({1, 2, 30}, {0.5, 0.1, -0.7, 0.3});

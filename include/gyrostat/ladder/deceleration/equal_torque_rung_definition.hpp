@@ -153,8 +153,9 @@ inline Track follow_norm(const Scene& scene) {
   track.error[column::energy] = 16 * epsilon<double> * energy + problem.energy_error(problem.momentum);
   track.error[column::modulus_squared] =
       kind.regime == Regime::point ? (problem.exact_moments ? 0 : 1) : 2 * k2_of_data(problem, p, problem.momentum);
-  for (const double t : scene.question().times)
-    if (track.may_be_at_stop(t)) track.error[column::modulus_squared] = 1;
+  double& of_modulus = track.error[column::modulus_squared];
+  for (const double t : scene.question().times)  // that of the orbit, or of rest
+    if (track.may_be_at_stop(t)) of_modulus = std::max(of_modulus, kind.k2);
   return track;
 }
 

@@ -48,6 +48,16 @@ inline double k2_error(const Track& track, const Problem<double>& problem,
   return most;
 }
 
+/// By how much the modulus may change at the stop: a body that turns about a principal axis to the last digit does so until then, others may do
+/// anything on the way.
+inline double k2_before_rest(const Track& track, const Problem<double>& problem) noexcept {
+  const bool on_axis =
+      problem.exact_moments && problem.rotor_momentum.isZero(0) && (problem.momentum.array() != 0).count() == 1;
+  double most = track.error[column::modulus_squared];
+  for (const auto& state : track.states) most = std::max(most, state.k2);
+  return on_axis ? most : 1;
+}
+
 GYROSTAT_COMPILED_ONCE Track track_of(const Problem<double>& problem, std::vector<State<double>> states,
                                       bool knows_attitude, const ColumnErrors<double>& error,
                                       std::span<const ColumnErrors<double>> errors) {
@@ -92,7 +102,7 @@ GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, s
   if (std::isnan(track.stop_error) && std::isfinite(track.stop_time)) track.stop_error = infinity<double>;
   if (find_stop && std::isnan(track.stop_time)) track.warn(warning::stop_unknown);
   for (const double t : times)
-    if (track.may_be_at_stop(t)) track.error[column::modulus_squared] = 1;
+    if (track.may_be_at_stop(t)) track.error[column::modulus_squared] = detail::k2_before_rest(track, problem);
   return track;
 }
 

@@ -69,7 +69,8 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
   const auto& off = apart.difference();
   constexpr double margin = honesty::neighbours_margin;
   worst += {margin * off[column::attitude], margin * off[column::down], margin * off[column::angular_velocity]};
-  if (const auto* pendulum = exact.pendulum()) worst += pendulum->error(end, conversion);
+  if (const auto* pendulum = exact.pendulum(); pendulum && (converted || !pendulum->in_plane()))
+    worst += pendulum->error(end, conversion);
   if (converted && exact.which() == ExactCase::lagrange) {
     const auto start = exact.at(0);
     const double rate = start.angular_velocity.norm() + rate_size(problem, start), angle = rate * end;

@@ -83,6 +83,8 @@ class Pendulum {
 
   PendulumMotion motion() const noexcept { return motion_; }
   int axis() const noexcept { return axis_; }  ///< k
+  /// Body and start lie in the plane to the last digit: zeros, which no rounding of the data moves.
+  bool in_plane() const noexcept { return defect_ == 0; }
   math::Modulus<Scalar> modulus() const noexcept { return modulus_; }
   Scalar frequency() const noexcept { return unit_ * frequency_; }  ///< c of small swings, rad/s
   /// To and fro, or once round (with the gradient alone half round), s; of small swings at rest; infinite on the
