@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "gyrostat/ladder/cost.hpp"
+#include "gyrostat/ladder/free/closed_form_rung.hpp"
 #include "gyrostat/ladder/free/full_rung.hpp"
 #include "gyrostat/ladder/free/scene.hpp"
 #include "gyrostat/ladder/honesty.hpp"
@@ -15,13 +16,14 @@
 /// What the rungs of the family `free` cost, s.
 namespace gyrostat::free {
 
-/// Of a regular precession; where a set-up in double does, where it does not, and beside a separatrix, where errors are looked at in many places.
-inline constexpr FormulaCost precession_cost{2e-6, 0.05e-6}, quick_form_cost{15e-6, 0.06e-6},
-    closed_form_cost{90e-6, 0.06e-6}, separatrix_form_cost{190e-6, 0.06e-6};
+/// Of a regular precession; of states alone, in lanes; where a set-up in double does, where it does not, and beside a separatrix, where errors are
+/// looked at in many places.
+inline constexpr FormulaCost precession_cost{1.3e-6, 0.05e-6}, lanes_form_cost{5e-6, 0.06e-6},
+    quick_form_cost{13e-6, 0.06e-6}, closed_form_cost{56e-6, 0.06e-6}, separatrix_form_cost{200e-6, 0.06e-6};
 /// Where the angles of wheels are asked: the neighbours' integrals, and a series at each time.
-inline constexpr FormulaCost precession_angle_cost{1e-6, 0.1e-6}, quick_angle_cost{200e-6, 0.5e-6},
-    rotor_angle_cost{500e-6, 0.5e-6};
-inline constexpr SeriesCost series_cost{1e-6, 1.5e-6, 0.25e-6, 0.5};
+inline constexpr FormulaCost precession_angle_cost{1e-6, 0.1e-6}, quick_angle_cost{118e-6, 3e-6},
+    rotor_angle_cost{170e-6, 3e-6};
+inline constexpr SeriesCost series_cost{3e-6, 1.8e-6, 0.15e-6, 0.5};
 
 namespace detail {
 
@@ -35,25 +37,30 @@ inline bool suits_quick_form(const Scene& scene) noexcept {
   return epsilon<double> * (300 + 20 * turned_angle(scene)) < scene.goal().tightest;
 }
 /// How the closed form is set up.
-enum class SetUp : std::uint8_t { precession, quick, precise, beside_separatrix };
+enum class SetUp : std::uint8_t { precession, in_lanes, quick, precise, beside_separatrix };
 
-/// Of a motion that QuickLanes takes `quick` where that suits, else `precise`.
+/// Where a set-up in double does.
+inline SetUp quick_set_up(const Scene& scene) noexcept {
+  return asks_for_states(scene) ? SetUp::in_lanes : SetUp::quick;
+}
+/// Of a motion that QuickLanes takes that where it suits, else `precise`.
 inline SetUp set_up_of(const Scene& scene) noexcept {
   const auto motion = Motion<double>::make(scene.gyrostat().problem);
   if (motion && motion->hyperbolic()) return SetUp::beside_separatrix;
   if (motion && motion->is_regular_precession() && motion->kind() != Kind::spherical) return SetUp::precession;
   const bool quick = suits_quick_form(scene) && motion && MotionError<double>::is_tame(*motion, scene.assembly());
-  return quick ? SetUp::quick : SetUp::precise;
+  return quick ? quick_set_up(scene) : SetUp::precise;
 }
 
 inline FormulaCost cost_of_set_up(SetUp how) noexcept {
-  constexpr FormulaCost costs[] = {precession_cost, quick_form_cost, closed_form_cost, separatrix_form_cost};
+  constexpr FormulaCost costs[] = {precession_cost, lanes_form_cost, quick_form_cost, closed_form_cost,
+                                   separatrix_form_cost};
   return costs[int(how)];
 }
 inline double cost_of_form(const Scene& scene, SetUp how) noexcept {
   const std::size_t times = scene.question().times.size();
   const FormulaCost& of_angles = how == SetUp::precession ? precession_angle_cost
-                                 : how == SetUp::quick    ? quick_angle_cost
+                                 : how <= SetUp::quick    ? quick_angle_cost
                                                           : rotor_angle_cost;
   return cost_of_set_up(how)(times) + (scene.gives(column::rotor_angle) ? of_angles(times) : 0);
 }
@@ -70,10 +77,11 @@ inline double cost_of_states(const Scene& scene) noexcept {
 inline double cost_of_closed_form(const Scene& scene) noexcept {
   return detail::cost_of_form(scene, detail::set_up_of(scene));
 }
-/// With the closed form where scalars are told, which come from it.
+/// With the closed form, which warns, and has the scalars.
 inline double cost_of_full(const Scene& scene) noexcept {
-  const double of_scalars = tells_scalars(scene.question()) ? detail::cost_of_set_up(detail::set_up_of(scene))(0) : 0;
-  return detail::cost_of_states(scene) + of_scalars;
+  const detail::SetUp how = detail::set_up_of(scene);
+  return detail::cost_of_states(scene) +
+         detail::cost_of_set_up(how == detail::SetUp::in_lanes ? detail::SetUp::quick : how)(0);
 }
 
 }  // namespace gyrostat::free

@@ -135,7 +135,7 @@ inline bool begins_with_states(const Scene& scene) noexcept {
   const Question& question = scene.question();
   return question.rung == any_rung && question.alone == any_rung && asks_for_states(scene) &&
          !(cost_of_states(scene) <
-           clearly_cheaper * cost_of_form(scene, suits_quick_form(scene) ? SetUp::quick : SetUp::precise));
+           clearly_cheaper * cost_of_form(scene, suits_quick_form(scene) ? quick_set_up(scene) : SetUp::precise));
 }
 
 }  // namespace detail

@@ -25,7 +25,10 @@ struct Sizes {
       0;  ///< momentum that the torques build up over the span, or until the body has turned by about a radian, N m s
   Scalar least = 1, greatest = 1;  ///< moments of J* and J, kg m^2
   Scalar turning = 0;              ///< how fast the body turns or could soon turn, of the order of |w|, rad/s
-  Scalar angle = 0;  ///< that it may turn through over the span, torques taken to act while they are on alone, rad
+  /// That it is likely to turn through over the span, rad: at its rate, at that at which its wheels make it precess, at half of what steady torques
+  /// bring while they are on, and at that of its swings in a field or gradient. Of 600 random scenes the steps that runs took were 0.3 to 4 times
+  /// proportional to it.
+  Scalar angle = 0;
 
   Scalar damping = 0;  ///< how fast torques that are linear in the motion change it, 1/s
   Scalar forcing = 0;  ///< the greatest rate at which waves, fields and the orbit go on by themselves, rad/s
@@ -45,12 +48,19 @@ Scalar greatest_factor(const Factor<Scalar>& factor) noexcept {
   return table * (abs(factor.mean) + abs(factor.amplitude));
 }
 
+/// A bound of the torques of a record without its factor that push in one direction, where the body stands still, and do not brake.
+template <Real Scalar>
+Scalar push_size(const Terms<Scalar>& terms) noexcept {
+  Scalar sum = terms.body.norm();
+  for (std::size_t j = 0; j < 3; ++j) sum += terms.inertial[j].norm() + terms.orbital[j].norm();
+  return sum;
+}
+
 /// A bound of the torques of a record without its factor, where the body stands still.
 template <Real Scalar>
 Scalar torque_size(const Problem<Scalar>& problem, const Terms<Scalar>& terms, Scalar greatest) noexcept {
   using std::abs;
-  Scalar sum = terms.body.norm() + terms.brake_total.norm() + terms.brake_carrier.norm();
-  for (std::size_t j = 0; j < 3; ++j) sum += terms.inertial[j].norm() + terms.orbital[j].norm();
+  Scalar sum = push_size(terms) + terms.brake_total.norm() + terms.brake_carrier.norm();
   sum += abs(terms.gradient) * greatest;
   if (terms.orbit_gradient != 0) {
     const auto at = orbit_at(*problem.orbit, Scalar(0));
@@ -107,7 +117,8 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
   Sizes<Scalar> made;
   made.least = symmetric_eigen<Scalar>(wheels.reduced).values[0];
   made.greatest = symmetric_eigen<Scalar>(wheels.whole).values[2];
-  made.momenta = (wheels.reduced * problem.angular_velocity).norm() + wheels.rotor_momentum.norm();
+  const Scalar of_body = (wheels.reduced * problem.angular_velocity).norm();
+  made.momenta = of_body + wheels.rotor_momentum.norm();
   Scalar motors = 0, given = 0;  // their torques, and the momentum that these give
   for (std::size_t i = 0; i < wheels.count; ++i) {
     const auto& law = wheels.laws[i];
@@ -126,11 +137,12 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
     // a wheel that settles gives no more than what it comes to hold
     given += law.friction * span > law.axial_inertia ? settled / law.friction : torque * span;
   }
-  Scalar by_pushes = given;
+  Scalar pushed = given, swings = 0;  // momentum, and torques that change with the attitude
   for (const auto& record : torques.records) {
-    const Scalar factor = detail::greatest_factor(record.factor);
-    const Scalar push = factor * detail::torque_size(problem, record.sum, made.greatest);
-    made.external += push, by_pushes += push * detail::time_on(record.factor, span);
+    const Scalar factor = detail::greatest_factor(record.factor), push = factor * detail::push_size(record.sum);
+    const Scalar torque = factor * detail::torque_size(problem, record.sum, made.greatest);
+    const Scalar brakes = factor * (record.sum.brake_total.norm() + record.sum.brake_carrier.norm());
+    made.external += torque, pushed += push * detail::time_on(record.factor, span), swings += torque - push - brakes;
     made.damping += factor * detail::damping_rate(problem, record.sum, made.least);
     made.force += factor * (record.sum.force_body.norm() + record.sum.force_inertial.norm());
   }
@@ -138,10 +150,10 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
   made.torque = made.external + motors;
   given += made.external * span;
   made.built = std::min(given, sqrt(made.torque * made.greatest));
-  const auto turned = [&](Scalar momentum) noexcept {
-    return made.momenta / made.least + std::min(momentum / made.least, sqrt(made.torque / made.least));
-  };
-  made.turning = turned(given), made.angle = turned(by_pushes) * span;
+  made.turning = made.momenta / made.least + std::min(given / made.least, sqrt(made.torque / made.least));
+  const Scalar mean = sqrt(made.least * made.greatest), swinging = sqrt(std::max(swings, Scalar(0)) / mean);
+  const Scalar precessing = (made.momenta - of_body + pushed / 2) / mean;
+  made.angle = (problem.angular_velocity.norm() + precessing + swinging) * span;
   return made;
 }
 
