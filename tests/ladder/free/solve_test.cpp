@@ -78,6 +78,24 @@ TEST_CASE("a dual-spin satellite precesses regularly: in closed form, with the r
   CHECK(turned.quantity("period")->values[0] == Approx(value("period")).epsilon(1e-13));
 }
 
+TEST_CASE(
+    "rates of precession and spin are those of an axis that M surrounds, where rotors leave the principal axis outside",
+    "[free]") {
+  // truth: quadrature over the path of M, integrated with 34 digits
+  Question question;
+  question.times = {10};
+  for (const auto place : {free::scalar::precession_rate, free::scalar::spin_rate, free::scalar::period})
+    question.asked.push_back({place, true, 1e-6, false, false});
+  const auto scene = Scene::make(body({2, 1.5, 1.2}, {0, .1, .2}, {1, 0, .02}), question);
+  REQUIRE(scene);
+  const Answer answer = solved(*scene);
+  CHECK(answer.met);
+  CHECK(answer.quantity("precession_rate")->values[0] == Approx(1.4558836).epsilon(1e-7));
+  CHECK(answer.quantity("spin_rate")->values[0] == Approx(-0.4370267).epsilon(1e-6));
+  CHECK(std::abs(answer.quantity("spin_rate")->values[0]) ==
+        Approx(2 * pi<double> / answer.quantity("period")->values[0]).epsilon(1e-12));
+}
+
 TEST_CASE("a view of a motion that closes is stated within one over its periods", "[free]") {
   // spin 4 : precession 1, closed after one period: each time has but one azimuth about M, and the long run is a matter of where the motion began
   Question question;
@@ -88,6 +106,18 @@ TEST_CASE("a view of a motion that closes is stated within one over its periods"
   const Quantity& seen = *answer.quantity("view_fraction");
   CHECK(std::abs(seen.values[0] - 0.0661) <= seen.error);
   CHECK(seen.error == Approx(1));
+}
+
+TEST_CASE("the mean cosine of a view does not hang on the cone", "[free]") {
+  Question question;
+  question.times = {100};
+  const auto scene = Scene::make(body({1, 2, 2.5}, {0, 0, 0}, {0, 0, .1}), question);
+  REQUIRE(scene);
+  const Answer answer = solved(*scene->viewed(free::ViewRequest{{0, 0, 1}, {1, 0, 0}, pi<double> / 2}));
+  const Quantity& cosine = *answer.quantity("view_cosine");
+  CHECK(std::abs(cosine.values[0]) <= cosine.error);
+  CHECK(cosine.error < 1e-11);
+  CHECK(answer.quantity("view_fraction")->error >= 0.5);  // it stands on the edge of the cone
 }
 
 TEST_CASE("the means, rates and views of a free motion state what a rounding of the data makes of them", "[free]") {
@@ -136,10 +166,15 @@ TEST_CASE("the means, rates and views of a free motion state what a rounding of 
       const bool largest =
           regime == free_bodies::Regime::symmetric ? i % 2 : motion->kind() == free::Kind::about_largest;
       const int axis = largest ? 0 : 2;
-      const auto turning = free::precession<double>(*motion, motion->R_BP().col(axis));
+      Vec3<double> about = motion->R_BP().col(axis);
+      const Vec3<double> mean = free::averages(*motion).angular_momentum;
+      auto turning = free::precession<double>(*motion, about);
+      // beside rotors the axis may lie outside the path of M
+      if (given.rotor_momentum.norm() > 0 && !(turning.converged && turning.about_axis != 0))
+        about = mean.normalized(), turning = free::precession<double>(*motion, about);
       if (turning.converged) {
         // of the axis in the sense of M
-        const double along = motion->R_BP().col(axis).dot(free::averages(*motion).angular_momentum);
+        const double along = about.dot(mean);
         check("spin_rate", {std::copysign(turning.about_axis, turning.about_axis * along), 0, 0});
         check("precession_rate", {turning.about_momentum, 0, 0});
       }

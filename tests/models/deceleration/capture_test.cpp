@@ -113,6 +113,12 @@ TEST_CASE("without rotor momentum both pairs share the saddle", "[deceleration]"
   CHECK(all->level[3].eta == Approx(3));
   CHECK(all->level[5].eta == Approx(6));
   CHECK(band_of(p, Level<double>{3., 2.9})->separatrix_distance() == Approx(.1 / 4.5));
+  // about the principal axes of both ends, where an equilibrium is born and is stable in one level
+  for (const double rounding : {-1e-15, 0., 1e-15, 1e-9}) {
+    CAPTURE(rounding);
+    CHECK(band_of(p, Level<double>{3., 1.5 + rounding})->separatrix_distance() == Approx(1.5 / 4.5));
+    CHECK(band_of(p, Level<double>{3., 6 - rounding})->separatrix_distance() == Approx(3 / 4.5));
+  }
   CHECK(capture(p, 3., Regime::about_smallest, Component{Regime::about_largest, 1}).error() == Errc::not_applicable);
 }
 

@@ -392,6 +392,32 @@ TEST_CASE("regular precessions need no neighbours, and their rate's integral is 
   CHECK(ratio[ratio.size() / 2] < 30);
 }
 
+TEST_CASE("the modulus of a body of revolution in turned axes errs the more the nearer it is to flat spin", "[free]") {
+  Bodies bodies(39);
+  std::vector<double> ratio;
+  for (const Vec3<double>& J : {Vec3<double>(1, 4, 4), Vec3<double>(0.2, 4, 4), Vec3<double>(5, 5, 7)})
+    for (int i = 0; i < 60; ++i) {
+      const double off = bodies.scale(-4, 0), azimuth = bodies.uniform(0, 6);
+      const Vec3<double> flat(std::cos(azimuth), std::sin(azimuth), off);
+      const int axis = J[0] < J[1] ? 0 : 2;
+      Vec3<double> w;
+      for (int k = 0; k < 3; ++k) w[k] = flat[(k + 2 - axis) % 3];
+      const auto p = turned(bodies, Problem<double>::from_moments(J, {0, 0, 0}, w));
+      const auto m = Motion<double>::make(p);
+      const auto truth = Motion<Wide>::make<Wide>(p.cast<Wide>());
+      REQUIRE((m && truth));
+      if (m->kind() == Kind::steady || truth->kind() == Kind::steady) continue;
+      const auto error = MotionError<double>::of<double>(*m, Assembly<double>{p, {}}, Data::rounded, 10);
+      const double apart = std::abs(m->modulus_squared() - double(truth->modulus_squared()));
+      CAPTURE(J, off, m->modulus_squared(), double(truth->modulus_squared()));
+      CHECK(apart <= error.modulus_squared());
+      if (apart > 0) ratio.push_back(error.modulus_squared() / apart);
+    }
+  std::sort(ratio.begin(), ratio.end());
+  REQUIRE(ratio.size() > 100);
+  CHECK(ratio[ratio.size() / 2] < 100);
+}
+
 TEST_CASE("neighbours side by side show what they show one by one", "[free]") {
   Bodies bodies(37);
   std::vector<double> ratio;

@@ -40,16 +40,23 @@ TEST_CASE("a body at rest has the size of what torques build up", "[general]") {
   CHECK(of(p, 10).turning == 0);
 }
 
-TEST_CASE("the angle of a body that is pushed for a while is less than if it were all along", "[general]") {
+TEST_CASE("the angle of a body that is pushed from its rate on, all along or for a while", "[general]") {
   Problem<double> p;
   p.inertia = 2 * Mat3<double>::Identity();
   p.angular_velocity = {0, 0, 0.1};
   p.torques.emplace_back().vector = {0, 0, 0.001};
   const auto all_along = of(p, 100);
-  CHECK(all_along.angle == Approx(100 * all_along.turning));
+  CHECK(all_along.angle == Approx(0.1 * 100 + 0.001 / 2 * 100 * 100 / 2));
   p.torques[0].factor.on = {{-5, 10}, {90, 200}};
   CHECK(of(p, 100).turning == all_along.turning);
-  CHECK(of(p, 100).angle == Approx(100 * (0.1 + 0.001 * 20 / 2)));
+  CHECK(of(p, 100).angle == Approx(100 * (0.1 + 0.001 * 20 / 2 / 2)));
+  // a brake adds nothing, a field what the body swings in it
+  p.torques[0] = {};
+  p.torques[0].type = TorqueType::brake, p.torques[0].vector = {1, 1, 1};
+  CHECK(of(p, 100).angle == Approx(10));
+  p.torques[0].type = TorqueType::magnetic, p.torques[0].vector = {0, 0, 4};
+  p.field.magnetic = MagneticField::uniform, p.field.flux_density = {0.5, 0, 0};
+  CHECK(of(p, 100).angle == Approx(10 + 100 * std::sqrt(4 * 0.5 / 2)));
 }
 
 TEST_CASE("what goes on by itself has a rate", "[general]") {

@@ -36,8 +36,8 @@ GYROSTAT_COMPILED_ONCE double momentum_error(const Scene& scene, double R, doubl
 GYROSTAT_COMPILED_ONCE void state_errors(Track& track, const Scene& scene, const MotionError<double>::Bound& bound,
                                          double fastest, double R, double rounding) noexcept;
 
-/// Of what is unstable or nearly so; last: the last time, s, and whether the phase is known there.
-GYROSTAT_COMPILED_ONCE void warn_of_form(Outcome& track, const ClosedForm& form, double last, bool known);
+/// Of what is unstable or nearly so; agree: neighbours are motions of the same kind.
+GYROSTAT_COMPILED_ONCE void warn_of_motion(Outcome& track, const Motion<double>& motion, bool agree);
 
 /// What the rung answers by a form.
 GYROSTAT_COMPILED_ONCE Track track_of(const Scene& scene, const ClosedForm& form);

@@ -114,13 +114,11 @@ GYROSTAT_COMPILED_ONCE double rate_error(const Scene& scene, std::span<const Sta
   return relative_to_truth(over(off, size));
 }
 
-GYROSTAT_COMPILED_ONCE void warn_of_form(Outcome& track, const ClosedForm& form, double last, bool known) {
-  const Motion<double>& motion = form.motion;
+GYROSTAT_COMPILED_ONCE void warn_of_motion(Outcome& track, const Motion<double>& motion, bool agree) {
   if (motion.kind() == Kind::steady && motion.steady_square() < 0)
     track.warn(warning_kinds[warning::unstable_rotation], std::sqrt(-motion.steady_square()));
-  else if (motion.modulus().kp2 < 1e-6 || !form.error.kinds_agree())
+  else if (motion.modulus().kp2 < 1e-6 || !agree)
     track.warn(warning_kinds[warning::near_separatrix], motion.modulus().kp2);
-  if (!known) track.warn(warning_kinds[warning::phase_unknown], last);
 }
 
 GYROSTAT_COMPILED_ONCE double momentum_error(const Scene& scene, double R, double bound) noexcept {
@@ -152,7 +150,8 @@ GYROSTAT_COMPILED_ONCE Track track_of(const Scene& scene, const ClosedForm& form
   state_errors(track, scene, bound, form.error.fastest(), form.motion.angular_momentum_norm(),
                takes_grid(times) ? grid_rounding : 0);
   if (scene.gives(column::rotor_angle)) turn_wheels(track, scene, form);
-  warn_of_form(track, form, times.back(), bound.attitude < infinity<double>);
+  warn_of_motion(track, form.motion, form.error.kinds_agree());
+  if (!(bound.attitude < infinity<double>)) track.warn(warning_kinds[warning::phase_unknown], times.back());
   track.form = form;
   return track;
 }

@@ -23,7 +23,7 @@ inline constexpr FormulaCost precession_cost{1.3e-6, 0.05e-6}, lanes_form_cost{5
 /// Where the angles of wheels are asked: the neighbours' integrals, and a series at each time.
 inline constexpr FormulaCost precession_angle_cost{1e-6, 0.1e-6}, quick_angle_cost{118e-6, 3e-6},
     rotor_angle_cost{170e-6, 3e-6};
-inline constexpr SeriesCost series_cost{3e-6, 1.8e-6, 0.15e-6, 0.5};
+inline constexpr SeriesCost series_cost{5e-6, 1.8e-6, 0.15e-6, 0.5};
 
 namespace detail {
 
@@ -77,11 +77,10 @@ inline double cost_of_states(const Scene& scene) noexcept {
 inline double cost_of_closed_form(const Scene& scene) noexcept {
   return detail::cost_of_form(scene, detail::set_up_of(scene));
 }
-/// With the closed form, which warns, and has the scalars.
+/// With the closed form where scalars are told, which come from it.
 inline double cost_of_full(const Scene& scene) noexcept {
-  const detail::SetUp how = detail::set_up_of(scene);
-  return detail::cost_of_states(scene) +
-         detail::cost_of_set_up(how == detail::SetUp::in_lanes ? detail::SetUp::quick : how)(0);
+  const double of_scalars = tells_scalars(scene.question()) ? detail::cost_of_set_up(detail::set_up_of(scene))(0) : 0;
+  return detail::cost_of_states(scene) + of_scalars;
 }
 
 }  // namespace gyrostat::free

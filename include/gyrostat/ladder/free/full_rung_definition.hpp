@@ -59,10 +59,14 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
     track.error[column::rotor_angle] =
         relative_to_truth((std::sqrt(double(n)) * answer->error[3] * turned + rates) / angle);
   }
-  auto form = quick_form_of(scene);
-  if (!form)
-    if (const auto made = closed_form_of(scene)) form = *made;
-  if (form) detail::warn_of_form(track, *form, times.back(), true);
+  if (tells_scalars(question)) {  // they come from the closed form
+    track.form = quick_form_of(scene);
+    if (!track.form)
+      if (const auto made = closed_form_of(scene)) track.form = *made;
+    if (track.form) detail::warn_of_motion(track, track.form->motion, track.form->error.kinds_agree());
+  } else if (const auto motion = Motion<double>::make(problem)) {
+    detail::warn_of_motion(track, *motion, true);
+  }
   return track;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "gyrostat/body/realisability.hpp"
 #include "gyrostat/body/rotor.hpp"
@@ -33,19 +35,24 @@ inline double closing_share(const Motion<double>& motion, double turn_error) noe
   return closed.periods > 0 && std::abs(closed.rest) <= turn_error * closed.periods ? 1.0 / closed.periods : 0.0;
 }
 
-/// How much of the time the axis is in view, and how far that is off where M in the body is off by so much, rad, and the turn in a period by turn_error.
-inline View<double> view_of(const ViewRequest& view, const Motion<double>& motion, double off, double turn_error) {
+/// What an axis sees, and how far each is off.
+struct Seen {
+  double fraction, mean_cosine, fraction_error, cosine_error;
+};
+
+/// Where M in the body is off by so much, rad, and the turn in a period by turn_error.
+inline Seen seen_of(const ViewRequest& view, const Motion<double>& motion, double off, double turn_error) {
   const auto seen = [&](double half_angle) { return long_run_view(motion, view.axis, view.direction, half_angle); };
-  auto made = seen(view.half_angle);
+  const auto made = seen(view.half_angle);
   if (!(off < pi<double>)) {
-    made.error = off == off ? 1.0 : nan<double>;
-    return made;
+    const double all = off == off ? 1.0 : nan<double>;
+    return {made.fraction, made.mean_cosine, all, all};
   }
-  // as if the cone were wider and narrower
+  // as if the cone were wider and narrower; the cosine of an axis that is off by an angle is off by as much
   const double wide = seen(std::min(view.half_angle + off, pi<double>)).fraction;
   const double narrow = seen(std::max(view.half_angle - off, 0.0)).fraction;
-  made.error += std::max(wide - narrow, off) + closing_share(motion, turn_error);
-  return made;
+  const double left = made.error + closing_share(motion, turn_error);
+  return {made.fraction, made.mean_cosine, left + std::max(wide - narrow, off), left + off};
 }
 
 /// Room that the body's second moments leave beside its wheels, kg m^2: negative where no body has that inertia and holds them.
@@ -54,6 +61,35 @@ inline double room_beside_wheels(const Assembly<double>& assembly) noexcept {
   for (const auto& wheel : assembly.wheels)
     known += Rotor<double>::from_axis(wheel.axis, wheel.axial_inertia)->least_second_moments();
   return realisability<double>(assembly.body.inertia, known);
+}
+
+}  // namespace detail
+
+namespace detail {
+
+struct PrecessionInside {
+  double about_momentum, about_axis;
+  bool sure;
+};
+
+/// The precession of an axis that M surrounds, which all such axes share: the principal axis of that place, or the mean of M, beside which rotors may
+/// leave it. Nothing where M passes so near to it that its turns cannot be counted.
+inline std::optional<PrecessionInside> precession_inside(const Motion<double>& motion, const Vec3<double>& mean,
+                                                         int place) {
+  constexpr double clear = 1e3 * epsilon<double>;
+  const Vec3<double>& J = motion.principal_moments();
+  const double R = motion.angular_momentum_norm();
+  const Vec3<double> principal = motion.R_BP().col(place);
+  const Vec3<double> axis = principal.dot(mean) < 0 ? Vec3<double>(-principal) : principal;
+  // rounding turns the axes of equal moments, and an axis that M is across to on the average
+  const bool fixed = std::abs(J[place] - J[1]) > clear * J[0] && axis.dot(mean) > clear * R;
+  const auto about = precession(motion, axis);
+  if (motion.rotor_momentum().isZero(0) || (about.converged && about.about_axis != 0))
+    return about.converged ? std::optional(PrecessionInside{about.about_momentum, about.about_axis, fixed})
+                           : std::nullopt;
+  const auto inside = precession(motion, Vec3<double>(mean.normalized()));
+  if (!inside.converged) return std::nullopt;
+  return PrecessionInside{inside.about_momentum, inside.about_axis, inside.about_axis != 0 && mean.norm() > clear * R};
 }
 
 }  // namespace detail
@@ -95,26 +131,19 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   const bool symmetric = motion.is_regular_precession() && motion.kind() != Kind::spherical;
   if (symmetric || motion.kind() == Kind::about_largest || motion.kind() == Kind::about_smallest) {
     const bool largest = symmetric ? J[1] == J[2] : motion.kind() == Kind::about_largest;
-    const Vec3<double> one = motion.R_BP().col(largest ? 0 : 2);
-    const Vec3<double> axis = one.dot(means.angular_momentum) < 0 ? Vec3<double>(-one) : one;
-    const auto turning = precession(motion, axis);
-    if (turning.converged) {
-      // rounding turns the axes of equal moments, and an axis that M is across to on the average
-      constexpr double clear = 1e3 * epsilon<double>;
-      const bool fixed = std::abs(J[largest ? 0 : 2] - J[1]) > clear * J[0] &&
-                         axis.dot(means.angular_momentum) > clear * motion.angular_momentum_norm();
-      const double rate = turning.about_momentum, off = error.turn_rate(motion.turn_per_period(), rate);
-      tell(scalar::precession_rate, {rate}, fixed ? over(off, std::abs(rate)) : infinity<double>);
-      tell(scalar::spin_rate, {turning.about_axis}, fixed ? error.period() : infinity<double>);
+    if (const auto turning = detail::precession_inside(motion, means.angular_momentum, largest ? 0 : 2)) {
+      const double rate = turning->about_momentum, off = error.turn_rate(motion.turn_per_period(), rate);
+      tell(scalar::precession_rate, {rate}, turning->sure ? over(off, std::abs(rate)) : infinity<double>);
+      tell(scalar::spin_rate, {turning->about_axis}, turning->sure ? error.period() : infinity<double>);
     }
     if (const double interval = flip_interval(motion); interval == interval)
       tell(scalar::flip_interval, {interval}, error.period());
   }
   if (const auto& view = scene.view()) {
     const double off = over_period.angular_momentum + error.angular_momentum_norm() + 16 * epsilon<double>;
-    const auto seen = detail::view_of(*view, motion, off, error.turn_per_period());
-    tell(scalar::view_fraction, {seen.fraction}, seen.error);
-    tell(scalar::view_cosine, {seen.mean_cosine}, seen.error);
+    const auto seen = detail::seen_of(*view, motion, off, error.turn_per_period());
+    tell(scalar::view_fraction, {seen.fraction}, seen.fraction_error);
+    tell(scalar::view_cosine, {seen.mean_cosine}, seen.cosine_error);
   }
 }
 

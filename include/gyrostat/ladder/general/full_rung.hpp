@@ -75,7 +75,7 @@ GYROSTAT_COMPILED_ONCE void balance(Track& track, const Scene& scene, double ste
 }  // namespace detail
 
 /// Of wheels and torques that need no states of their own; and of the others, and of a path that forces bend.
-inline constexpr SeriesCost small_series_cost{15e-6, 12e-6, 0.4e-6, 0.7}, large_series_cost{40e-6, 16e-6, 0.8e-6, 0.7};
+inline constexpr SeriesCost small_series_cost{26e-6, 2e-6, 0.7e-6, 0.7}, large_series_cost{26e-6, 2.9e-6, 0.75e-6, 0.7};
 /// Of wheels that settle fast, by Radau: some forty short steps until they follow, then those that the body asks for.
 inline constexpr SeriesCost stiff_cost{800e-6, 20e-6, 3e-6, 1};
 

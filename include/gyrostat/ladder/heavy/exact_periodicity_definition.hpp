@@ -90,7 +90,7 @@ GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Problem<double>& probl
       constexpr double near = 1e-12;
       const bool one = (1 + top.least() < near) != (1 - top.greatest() < near);
       repeats(nutation * (one ? 2 : 1));
-      known.precession_error = 0;
+      known.precession_error = top.in_plane() ? 0 : infinity<double>;
     } else {
       known.sides = top.sides();
       // whether down passes on this side of a pole or on the other hangs on the last digits

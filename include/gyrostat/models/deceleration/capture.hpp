@@ -87,7 +87,8 @@ struct LevelBand {
   }
 };
 
-/// The band of a level: inside it no orbit changes its type. A level outside the energies possible at its R is taken at the end.
+/// The band of a level: inside it no orbit changes its type. A level outside the energies possible at its R is taken at the end, and one of two critical
+/// levels that are one but for rounding belongs to the band beside them.
 /// Errors as critical_levels.
 template <Real Scalar>
 Result<LevelBand<Scalar>> band_of(const Problem<Scalar>& problem, const Level<Scalar>& level) noexcept {
@@ -95,7 +96,12 @@ Result<LevelBand<Scalar>> band_of(const Problem<Scalar>& problem, const Level<Sc
   if (!critical) return critical.error();
   std::size_t i = 0;
   const std::size_t last = std::size_t(critical->count) - 2;
-  while (i < last && level.eta > critical->level[i + 1].eta) ++i;
+  const auto closed = [&](std::size_t at) noexcept {
+    const Scalar one = critical->level[at].eta, next = critical->level[at + 1].eta;
+    return next - one <= 8 * epsilon<Scalar> * std::max(std::abs(one), std::abs(next));
+  };
+  while (i < last && (level.eta > critical->level[i + 1].eta || closed(i))) ++i;
+  while (i > 0 && closed(i)) --i;
   const auto &below = critical->level[i], &above = critical->level[i + 1];
   const Scalar range = critical->range();
   return LevelBand<Scalar>{below, above, std::max(Scalar(0), level.eta - below.eta) / range,

@@ -624,7 +624,7 @@ std::optional<MotionError<Scalar>> MotionError<Scalar>::of_precession(const Moti
   error.share_ = of_pace / (2 * pi<Scalar>);
   error.turn_rate_ = of_momentum;
   error.turn_ = motion.period() * (of_momentum + R / J[1] * of_pace / pace);
-  error.modulus_ = 2 * lopsided * R / across;
+  error.modulus_ = 2 * lopsided * R / along;  // of unequal moments, about the axis of the third
   error.energy_ = 4 * off * (1 + (assembly.body.momentum_given ? terms / (J[2] * speed) : Scalar(0)));
   error.norm_ = 2 * off * terms / R;
   error.turned_along_ = 2 * off * of_spin + tilt * speed;

@@ -110,7 +110,8 @@ class LagrangeGradient {
   Scalar greatest() const noexcept { return u_b_ < u_o_ ? u_o_ : u_b_; }
   /// Of the nutation, s; of small nutation where there is none; infinite or NaN where it is not stable.
   Scalar nutation_period() const noexcept { return period_ / unit_; }
-  bool planar() const noexcept { return planar_; }  ///< see LagrangeTop
+  bool planar() const noexcept { return planar_; }      ///< see LagrangeTop
+  bool in_plane() const noexcept { return in_plane_; }  ///< see LagrangeTop
   /// Right-handed about DOWN, rad; see LagrangeTop.
   Scalar precession_per_nutation() const noexcept {
     if (planar_) return 0;
@@ -170,7 +171,7 @@ class LagrangeGradient {
   Three mean_{};
   std::array<Three, harmonics + 1> series_{};
   int used_ = 0;
-  bool still_ = false, planar_ = false;
+  bool still_ = false, planar_ = false, in_plane_ = false;
   Scalar tail_ = 0, most_ = 1, least_ = 1, size_ = 1, pole_ = 0, fastest_ = 0, across_ = 0, swing_ = 0, defect_ = 0;
   Scalar growth_ = 0;  // see LagrangeTop
   Scalar parts_ = 0;   // of the gradient, which may cancel: C and A are rounded
@@ -207,6 +208,7 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
   unit_ = o.unit;
   defect_ = top.skew();
   planar_ = o.planar();
+  in_plane_ = o.planar(0);
   const Scalar u = o.u, x = o.swing;
   const Scalar pull = o.pull - 2 * o.gradient * u;  // slope of v^2
   const Scalar b = -2 * u * o.square + pull * o.ground + 2 * o.rho * o.d;

@@ -79,6 +79,8 @@ class LagrangeTop {
   /// A pendulum: the axis stays in one vertical plane. It passes the vertical once in a nutation where it swings, twice where it goes
   /// round.
   bool planar() const noexcept { return planar_; }
+  /// The same to the last digit: off the plane by a rounding the axis passes the vertical on one side, by half a turn.
+  bool in_plane() const noexcept { return in_plane_; }
   /// Turn of the axis about the vertical in one nutation, right-handed about DOWN, rad; of a pendulum, whose plane stands still, 0. Where
   /// the axis passes through the vertical, half a turn more or less is the same.
   Scalar precession_per_nutation() const noexcept {
@@ -125,7 +127,7 @@ class LagrangeTop {
   Scalar plus_factor_ = 0, minus_factor_ = 0;  // before them, s
   Scalar fastest_ = 0, across_ = 0, swing_ = 0, share_ = 1, shift_ = 0, skew_shift_ = 0, defect_ = 0;
   AxisMotion motion_ = AxisMotion::nutation;
-  bool planar_ = false, standing_ = false;
+  bool planar_ = false, in_plane_ = false, standing_ = false;
   Scalar growth_ = 0;  // of what is off an axis that stands: square of its rate, of its tilt beside a pole
   TopAttitude<Scalar> attitude_;
 };
@@ -197,6 +199,7 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   rho_ = o.rho;
   defect_ = top.skew();
   planar_ = o.planar();
+  in_plane_ = o.planar(0);
   const Scalar kappa = std::abs(o.pull);
   roots(o, kappa);
   h1_ = h_plus_ + kappa * above1_;

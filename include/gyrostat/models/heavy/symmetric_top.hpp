@@ -111,8 +111,7 @@ struct TopStart {
   Scalar nutation_terms() const noexcept { return square + 2 * std::abs(pull) + 5 * std::abs(gradient) + rho * rho; }
 
   /// The axis stays in one vertical plane, to rounding: no spin and no momentum about the vertical.
-  bool planar() const noexcept {
-    constexpr Scalar rounding = 16 * epsilon<Scalar>;
+  bool planar(Scalar rounding = 16 * epsilon<Scalar>) const noexcept {
     return std::abs(spin) <= rounding && std::abs(rho) <= rounding && std::abs(d) <= rounding;
   }
 };
