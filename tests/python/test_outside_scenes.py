@@ -105,14 +105,14 @@ def test_the_modulus_just_before_the_stop_is_not_passed_over_among_many_times(la
     assert abs(many["modulus_squared"][130] - alone["modulus_squared"][0]) <= many.error["modulus_squared"] + alone.error["modulus_squared"]
 
 
-def test_the_modulus_at_a_time_that_rounds_to_the_stop_is_not_known() -> None:
+def test_the_modulus_at_a_time_that_rounds_to_the_stop_is_that_of_the_orbit_or_of_rest() -> None:
     scene: dict[str, Any] = {
         "name": "k", "kind": "deceleration", "body": {"inertia": [1.48122426957337, 1.479171308885466, 1.9502088860348656]}, "torque": {"control": [3.702786561639652] * 3, "drag": 0.0},
         "initial": {"angular_velocity": [0.23330600220435588, -0.36752350008817214, -1.5923004403838803]}, "solve": {"times": [1.0], "ask": ["modulus_squared", "stop_time"]}}
     stop = gyrostat.solve(scene).scalars["stop_time"]
     for time in (stop, math.nextafter(stop, 0), math.nextafter(stop, 1)):
         answer = gyrostat.solve(scene, times=[0.1, time], tolerance=1e-11)
-        assert answer.error["modulus_squared"] == 1 and not answer.met
+        assert answer.error["modulus_squared"] == pytest.approx(answer["modulus_squared"][0]) and not answer.met
     assert gyrostat.solve(scene, times=[0.1, 2 * stop], tolerance=1e-11).error["modulus_squared"] < 1e-11
 
 

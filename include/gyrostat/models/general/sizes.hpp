@@ -48,19 +48,37 @@ Scalar greatest_factor(const Factor<Scalar>& factor) noexcept {
   return table * (abs(factor.mean) + abs(factor.amplitude));
 }
 
-/// A bound of the torques of a record without its factor that push in one direction, where the body stands still, and do not brake.
+/// Of the torques of a record without its factor, brakes left out, a bound of those that keep their direction in some axes while the body turns, and of
+/// those that change with its attitude.
 template <Real Scalar>
-Scalar push_size(const Terms<Scalar>& terms) noexcept {
-  Scalar sum = terms.body.norm();
-  for (std::size_t j = 0; j < 3; ++j) sum += terms.inertial[j].norm() + terms.orbital[j].norm();
-  return sum;
+struct Pushes {
+  Scalar steady = 0, swinging = 0;
+};
+/// @param torque a bound of all of them
+template <Real Scalar>
+Pushes<Scalar> pushes_of(const Terms<Scalar>& terms, Scalar torque) noexcept {
+  Pushes<Scalar> made{terms.body.norm(), 0};
+  Scalar rest = torque - terms.body.norm() - terms.brake_total.norm() - terms.brake_carrier.norm();
+  for (const auto* frame : {&terms.inertial, &terms.orbital}) {
+    Vec3<Scalar> steady;  // a multiple of the unit matrix for each axis, where the torque stands still in the frame
+    for (int j = 0; j < 3; ++j) {
+      const Mat3<Scalar>& part = (*frame)[std::size_t(j)];
+      steady[j] = part.trace() / 3;
+      rest -= part.norm();
+      made.swinging += Mat3<Scalar>(part - steady[j] * Mat3<Scalar>::Identity()).norm();
+    }
+    made.steady += steady.norm();
+  }
+  made.swinging += std::max(Scalar(0), rest);
+  return made;
 }
 
 /// A bound of the torques of a record without its factor, where the body stands still.
 template <Real Scalar>
 Scalar torque_size(const Problem<Scalar>& problem, const Terms<Scalar>& terms, Scalar greatest) noexcept {
   using std::abs;
-  Scalar sum = push_size(terms) + terms.brake_total.norm() + terms.brake_carrier.norm();
+  Scalar sum = terms.body.norm() + terms.brake_total.norm() + terms.brake_carrier.norm();
+  for (std::size_t j = 0; j < 3; ++j) sum += terms.inertial[j].norm() + terms.orbital[j].norm();
   sum += abs(terms.gradient) * greatest;
   if (terms.orbit_gradient != 0) {
     const auto at = orbit_at(*problem.orbit, Scalar(0));
@@ -139,10 +157,11 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
   }
   Scalar pushed = given, swings = 0;  // momentum, and torques that change with the attitude
   for (const auto& record : torques.records) {
-    const Scalar factor = detail::greatest_factor(record.factor), push = factor * detail::push_size(record.sum);
-    const Scalar torque = factor * detail::torque_size(problem, record.sum, made.greatest);
-    const Scalar brakes = factor * (record.sum.brake_total.norm() + record.sum.brake_carrier.norm());
-    made.external += torque, pushed += push * detail::time_on(record.factor, span), swings += torque - push - brakes;
+    const Scalar factor = detail::greatest_factor(record.factor);
+    const Scalar torque = detail::torque_size(problem, record.sum, made.greatest);
+    const auto pushes = detail::pushes_of(record.sum, torque);
+    made.external += factor * torque, swings += factor * pushes.swinging;
+    pushed += factor * pushes.steady * detail::time_on(record.factor, span);
     made.damping += factor * detail::damping_rate(problem, record.sum, made.least);
     made.force += factor * (record.sum.force_body.norm() + record.sum.force_inertial.norm());
   }
@@ -151,7 +170,7 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
   given += made.external * span;
   made.built = std::min(given, sqrt(made.torque * made.greatest));
   made.turning = made.momenta / made.least + std::min(given / made.least, sqrt(made.torque / made.least));
-  const Scalar mean = sqrt(made.least * made.greatest), swinging = sqrt(std::max(swings, Scalar(0)) / mean);
+  const Scalar mean = sqrt(made.least * made.greatest), swinging = sqrt(swings / mean);
   const Scalar precessing = (made.momenta - of_body + pushed / 2) / mean;
   made.angle = (problem.angular_velocity.norm() + precessing + swinging) * span;
   return made;
