@@ -70,22 +70,32 @@ double angles_apart(const Track& track, const Scene& scene, Setup by) {
   return off;
 }
 
+/// How far the angles of the wheels may be off, rad, besides rounding; their integrals of omega into the track.
+inline double turn_by_body(Track& track, const Scene& scene, const ClosedForm& form,
+                           const RateIntegral<double>& integral) {
+  for (const double t : scene.question().times) track.turned.push_back(integral.at(t));
+  const double last = scene.question().times.back();
+  if (!form.precise && form.motion.is_regular_precession()) return form.error.turned(last);
+  return form.precise ? angles_apart<DoubleDouble>(track, scene, DoubleDouble(epsilon<double>))
+                      : 2 * angles_apart<double>(track, scene, 2 * epsilon<double>);
+}
+
 GYROSTAT_COMPILED_ONCE void turn_wheels(Track& track, const Scene& scene, const ClosedForm& form) {
   const auto& times = scene.question().times;
-  const RateIntegral<double> integral(form.motion);
-  for (const double t : times) track.turned.push_back(integral.at(t));
-  const bool quick_precession = !form.precise && form.motion.is_regular_precession();
-  const double off = quick_precession ? form.error.turned(times.back())
-                     : form.precise   ? angles_apart<DoubleDouble>(track, scene, DoubleDouble(epsilon<double>))
-                                      : 2 * angles_apart<double>(track, scene, 2 * epsilon<double>);
+  double off = 0, size = 1e-3, through = 0;
+  if (scene.needs_turned()) {
+    const RateIntegral<double> integral(form.motion);
+    off = turn_by_body(track, scene, form, integral);
+    through = integral.swing();
+  }
   const auto& wheels = scene.gyrostat().wheels;
-  double size = 1e-3, through = integral.swing();
   for (std::size_t i = 0; i < times.size(); ++i) {
+    const Vec3<double> turned = track.turned.empty() ? Vec3<double>(0, 0, 0) : track.turned[i];
     double square = 0;
     for (const auto& wheel : wheels) {
-      const double angle = rotor_angle(wheel, times[i], track.turned[i]);
+      const double angle = rotor_angle(wheel, times[i], turned);
       square += angle * angle;
-      const double of_body = wheel.turns_freely ? track.turned[i].norm() : 0;
+      const double of_body = wheel.turns_freely ? turned.norm() : 0;
       through = std::max(through, std::abs(wheel.rate) * times[i] + of_body);
     }
     size = std::max(size, std::sqrt(square));

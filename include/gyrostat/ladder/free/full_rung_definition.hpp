@@ -28,7 +28,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
       {goal.columns[column::attitude],
        std::min(goal.columns[column::angular_velocity], goal.columns[column::rotor_rate]),
        goal.columns[column::angular_momentum],
-       scene.gives(column::rotor_angle) ? goal.columns[column::rotor_angle] : infinity<double>}};
+       scene.needs_turned() ? goal.columns[column::rotor_angle] : infinity<double>}};
   MotionOptions<double> options;
   options.tolerance = goal.tightest;
   options.wanted = wanted.of;
@@ -40,11 +40,11 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
 
   Track track;
   track.counts = answer->counts;
-  double angle = 1e-3, turned = 1e-3;
+  double angle = 1e-3, turned = scene.needs_turned() ? 1e-3 : 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     track.states.push_back({found[i].angular_velocity, found[i].angular_momentum, found[i].attitude});
     track.turned.push_back(found[i].turned);
-    turned = std::max(turned, found[i].turned.norm());
+    if (scene.needs_turned()) turned = std::max(turned, found[i].turned.norm());
     double square = 0;
     for (const auto& wheel : scene.gyrostat().wheels)
       square += std::pow(rotor_angle(wheel, times[i], found[i].turned), 2);

@@ -63,6 +63,11 @@ class Scene {
   const std::optional<ViewRequest>& view() const noexcept { return view_; }
   const Question& question() const noexcept { return question_; }
   std::size_t wheels() const noexcept { return gyrostat_.wheels.size(); }
+  /// The angle of a wheel is told that turns freely: it hangs on the integral of omega. That of a held one is its rate times time.
+  bool needs_turned() const noexcept {
+    return gives(column::rotor_angle) && std::any_of(gyrostat_.wheels.begin(), gyrostat_.wheels.end(),
+                                                     [](const auto& wheel) { return wheel.turns_freely; });
+  }
 
   /// What moves at t = 0: omega, rad/s, and M, N m s.
   GYROSTAT_COMPILED_ONCE Vec3<double> angular_velocity() const noexcept;
