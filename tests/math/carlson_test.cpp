@@ -55,6 +55,18 @@ TEST_CASE("the series of R_F does for a double and for two words", "[math]") {
   }
 }
 
+TEMPLATE_TEST_CASE("Carlson's R_J where the fourth argument is far above the others", "[math]", float, double,
+                   long double) {
+  using S = TestType;
+  // 3/p (R_F - pi/2 / sqrt(p)) but for the next order, 1/p of it
+  const S rf = carlson_RF<S>(1, 2, 3);
+  for (const S p : {S(1e12), S(1e24), S(1e30), S(1e36)}) {
+    CAPTURE(p);
+    const S limit = 3 * (rf - gyrostat::pi<S> / 2 / std::sqrt(p));
+    CHECK(std::abs(carlson_RJ<S>(1, 2, 3, p) * p / limit - 1) <= 16 * gyrostat::epsilon<S> + 10 / p);
+  }
+}
+
 TEMPLATE_TEST_CASE("Carlson's integrals outside their domain", "[math]", float, double, long double) {
   using S = TestType;
   const S bad = gyrostat::nan<S>, endless = gyrostat::infinity<S>;

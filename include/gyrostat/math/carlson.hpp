@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gyrostat/core/real.hpp"
 
@@ -13,6 +14,11 @@ namespace detail {
 /// Cap on the duplication steps. Each divides the spread of the arguments by 4, and the first one alone undoes any
 /// spread that the exponent range allows, so 8 (double) to 20 (quadruple) are made.
 inline constexpr int carlson_steps = 40;
+
+/// The same where p is far above the others: it falls by 4 a step, which at most the whole range of exponents makes many.
+template <Real Scalar>
+inline constexpr int carlson_RJ_steps =
+    carlson_steps + std::numeric_limits<Scalar>::max_exponent - std::numeric_limits<Scalar>::min_exponent;
 
 /// Spread at which the series of degree 7 beyond it is below rounding: (eps/4)^(1/8), Carlson 1995 with degree 7.
 template <Real Scalar>
@@ -138,7 +144,7 @@ inline Scalar carlson_RJ(Scalar x, Scalar y, Scalar z, Scalar p) noexcept {
   Scalar sum = 0;
   Scalar power = 1;
   const Scalar reach = detail::carlson_reach<Scalar>();
-  for (int step = 0; step < detail::carlson_steps; ++step) {
+  for (int step = 0; step < detail::carlson_RJ_steps<Scalar>; ++step) {
     const Scalar spread = std::max(std::max(std::abs(a), std::abs(b)), std::max(std::abs(c), std::abs(a + b + c) / 2));
     if (!(spread > reach * mean)) break;
     const Scalar rx = std::sqrt(x);

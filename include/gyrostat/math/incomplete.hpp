@@ -61,7 +61,7 @@ inline Scalar incomplete_E(Scalar phi, Modulus<Scalar> m) noexcept {
 /// one (a principal value) NaN; NaN for NaN, an infinite phi or n, or an illegal modulus.
 template <Real Scalar>
 inline Scalar incomplete_Pi(Scalar phi, Scalar n, Modulus<Scalar> m) noexcept {
-  if (!m.legal()) return nan<Scalar>;
+  if (!m.legal() || !(phi - phi == 0) || !(n - n == 0)) return nan<Scalar>;
   const auto at = detail::Amplitude<Scalar>::of(phi, m);
   // Pi at sin r = s, cos^2 r = c2 with 0 <= characteristic, given with its complement 1 - characteristic
   const auto positive = [&](Scalar characteristic, Scalar rest, Scalar s, Scalar c2, Scalar delta2) {

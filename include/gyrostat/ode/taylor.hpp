@@ -98,7 +98,7 @@ class Taylor {
   /// Returns reached with time() < t_max after an ordinary step.
   GYROSTAT_NOINLINE Status step(Scalar t_max = infinity<Scalar>) noexcept;
 
-  /// Steps until t_end exactly.
+  /// Steps until t_end exactly; does nothing where that is passed already.
   Status advance(Scalar t_end) noexcept {
     Status status = Status::reached;
     while (time_.high < t_end && status == Status::reached) status = step(t_end);

@@ -101,6 +101,14 @@ TEST_CASE("critical levels are in order, and equilibria lie on them", "[decelera
   CHECK(two > 50);
 }
 
+TEST_CASE("critical levels that overflow are refused", "[deceleration]") {
+  Problem<double> p;
+  p.inverse_inertia = {.5, 1, 1.7};
+  p.rotor_momentum = {.1, .2, .05};
+  CHECK(critical_levels(p, 1e100));
+  CHECK(critical_levels(p, 1e200).error() == Errc::not_finite);
+}
+
 TEST_CASE("without rotor momentum both pairs share the saddle", "[deceleration]") {
   Problem<double> p;
   p.inverse_inertia = {1, 2, 4};

@@ -62,6 +62,9 @@ TEST_CASE("motions without a period or a middle axis have no flips", "[free]") {
   const auto with_rotor = *Motion<double>::make(Problem<double>::from_moments({6, 4, 3}, {1, 2, 3}, {0, 2, 0}));
   CHECK(std::isnan(flip_interval(with_rotor)));
   CHECK(flips<double>(with_rotor, V(1, 0, 0), 10, 0).empty());
+  const auto turns = *Motion<double>::make(Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {.1, 2, 0}));
+  CHECK(flips<double>(turns, V(0, 1, 0), -gyrostat::infinity<double>, 10).empty());
+  CHECK(flips<double>(turns, V(0, 1, 0), 1e30, 2e30).empty());
 }
 
 }  // namespace free_flips_test

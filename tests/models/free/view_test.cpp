@@ -73,11 +73,27 @@ TEST_CASE("the view from a steady rotation and its limits", "[free]") {
   CHECK(long_run_view<double>(m, x, x, pi<double>).fraction == 1);
   CHECK(view_fraction<double>(m, x, x, .3, 0, pi<double>) == Approx(.3 / pi<double>));
   CHECK(view_fraction<double>(m, x, x, .3, 0, .1) == Approx(1));
+  CHECK(view_fraction<double>(m, x, x, .3, 0, 600) == Approx(.3 / pi<double>).epsilon(1e-2));
   const auto rest = *Motion<double>::make(Problem<double>::from_moments({6, 4, 3}, {1, 0, 0}, {0, 0, 0}));
   CHECK(long_run_view<double>(rest, x, x, .1).fraction == 1);
   CHECK(long_run_view<double>(rest, z, x, .1).fraction == 0);
   const auto separatrix = *Motion<double>::make(Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {1, 1, 2}));
   CHECK(std::isnan(long_run_view<double>(separatrix, x, x, 1).fraction));
+}
+
+TEST_CASE("what is in view for a moment counts", "[free]") {
+  const auto m = *Motion<double>::make(Problem<double>::from_moments({1, 1, .6}, {0, 0, 0}, {.3, 0, .2}));
+  const V axis(1, 0, 0), direction = gyrostat::rotate<double>(m.at(3.).attitude, axis);
+  for (const double half_angle : {.05, .01, .002}) {
+    CAPTURE(half_angle);
+    double inside = 0;
+    const int looks = 400'000;
+    for (int i = 0; i < looks; ++i)
+      inside +=
+          gyrostat::rotate<double>(m.at(2000 * (i + .5) / looks).attitude, axis).dot(direction) >= std::cos(half_angle);
+    CHECK(view_fraction<double>(m, axis, direction, half_angle, 0, 2000) ==
+          Approx(inside / looks).epsilon(0.02).margin(1e-5));
+  }
 }
 
 }  // namespace free_view_test

@@ -241,3 +241,16 @@ TEST_CASE("exact motion: upright at rest but for rounding, when it falls is not 
   REQUIRE(hanging.applies());
   CHECK(hanging.error(1.7e6).down < 1e-11);
 }
+
+TEST_CASE("exact: a mass centre off the axis is seen in any unit", "[heavy]") {
+  for (const double scale : {1e-200, 1e-170, 1., 1e160, 1e200}) {
+    CAPTURE(scale);
+    const auto p = Problem<double>::make(Vec3<double>(1, 1, .7) * scale, 1e-3 * scale, {0, .03, 0}, 9800, 0);
+    REQUIRE(p);
+    State<double> start;
+    start.angular_velocity = {.3, .2, .1};
+    start.down = {0, .6, -.8};
+    CHECK(Exact<double>(*p, start).which() == ExactCase::none);
+    CHECK(p->pendulum_rate() == Approx(std::sqrt(1e-3 * 9800 * .03 / .7)));
+  }
+}

@@ -144,6 +144,7 @@ TEST_CASE("series 2: the limits of its domain", "[heavy]") {
   const auto lamina = made(0.625, 0.375, {0.6, 0.8, 0}, 0.3, 20, 0.3);
   REQUIRE(lamina);
   CHECK(lamina->error(0).down == gyrostat::infinity<double>);
+  CHECK(lamina->error(0).angular_velocity == gyrostat::infinity<double>);
   CHECK(lamina->period_error() == gyrostat::infinity<double>);
   CHECK(lamina->precession_error() == gyrostat::infinity<double>);
   // answered, with an estimate that covers the distance to the full series or says that there is none

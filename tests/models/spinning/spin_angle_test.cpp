@@ -169,6 +169,16 @@ TEST_CASE("where the search is cut into too many pieces theta is known but for t
   CHECK(angle.least_cosine() == 0);
 }
 
+TEST_CASE("a search to infinity ends", "[spinning]") {
+  Problem<double> p;
+  p.inertia = {1, 1.1, 2};
+  p.torque = {.1, 0, 0};
+  const SpinAngle<double>::Sample stays{p.angular_velocity, {1, 0, 0, 0}, 0};
+  SpinAngle<double> angle(p);
+  angle.follow(gyrostat::infinity<double>, stays, [&](double) { return stays; });
+  CHECK(angle.least_cosine() >= 0);
+}
+
 TEST_CASE("what is not a number ends the search", "[spinning]") {
   Sphere sphere;
   sphere.problem.angular_velocity = {0, gyrostat::nan<double>, 1};

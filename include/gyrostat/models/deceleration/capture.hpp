@@ -71,6 +71,9 @@ Result<CriticalLevels<Scalar>> critical_levels(const Problem<Scalar>& problem, S
   }
   if (!mirror.turning_point(0, -1, infinity<Scalar>, end)) return Errc::no_convergence;
   put(Critical::highest, Regime::one_component, mirror, -1, end);
+  for (int i = 0; i < all.count; ++i)  // a product of finite numbers may overflow
+    if (const auto& level = all.level[std::size_t(i)]; !std::isfinite(level.eta) || !std::isfinite(level.sigma))
+      return Errc::not_finite;
   return all;
 }
 

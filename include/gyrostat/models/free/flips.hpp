@@ -14,21 +14,22 @@ namespace gyrostat::free {
 /// Points in a period that show every turn of the path of M: more beside a separatrix.
 template <Real Scalar>
 int nodes_of(const Motion<Scalar>& motion) noexcept {
-  using std::ceil, std::min;
-  if (motion.is_regular_precession() || !(motion.quarter_period() < infinity<Scalar>)) return 32;
-  const Scalar ratio = motion.quarter_period() / motion.quarter_period_conjugate();
-  return 32 + 24 * static_cast<int>(ceil(min(ratio, Scalar(1000))));
+  using std::ceil;
+  const Scalar K = motion.quarter_period();  // 0 of a steady rotation
+  if (motion.is_regular_precession() || !(K > 0 && K < infinity<Scalar>)) return 32;
+  const Scalar ratio = K / motion.quarter_period_conjugate();
+  return 32 + 24 * (ratio < 1000 ? static_cast<int>(ceil(ratio)) : 1000);
 }
 
 /// Times of [begin, end] at which a function that repeats with the motion's period crosses zero, in order; `value(t)`, at most `most` of
-/// them. Empty where the motion has no period.
+/// them. Empty where the motion has no period, and where the begin is not finite.
 template <Real Scalar, class Function>
 std::vector<Scalar> periodic_zeros(const Motion<Scalar>& motion, const Function& value, Scalar begin, Scalar end,
                                    std::size_t most = 1000000) noexcept {
   using std::ceil, std::floor;
   std::vector<Scalar> first, times;
   const Scalar T = motion.period();
-  if (!(T < infinity<Scalar>) || !(begin <= end)) return times;
+  if (!(T < infinity<Scalar>) || !(begin <= end) || !(begin - begin == 0)) return times;
   const int nodes = nodes_of(motion);
   const Scalar begins = value(Scalar(0)), near = 64 * epsilon<Scalar> * T;
   Scalar last = begins;
@@ -46,7 +47,7 @@ std::vector<Scalar> periodic_zeros(const Motion<Scalar>& motion, const Function&
     last = next;
   }
   if (first.empty()) return times;
-  for (Scalar turn = floor(begin / T); turn * T <= end && times.size() < most; turn += 1)
+  for (Scalar turn = floor(begin / T); turn * T <= end && turn + 1 > turn && times.size() < most; turn += 1)
     for (const Scalar t : first)
       if (const Scalar at = turn * T + t; at >= begin && at <= end && times.size() < most) times.push_back(at);
   return times;

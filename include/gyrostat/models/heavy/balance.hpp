@@ -18,7 +18,7 @@ namespace detail {
 /// How fast the weight swings the body, to its order, rad/s.
 template <Real Scalar>
 Scalar swing_rate(const Problem<Scalar>& problem) noexcept {
-  return std::sqrt(problem.moment().norm() / problem.inertia().maxCoeff() + problem.gradient());
+  return std::sqrt(magnitude(problem.moment()) / problem.inertia().maxCoeff() + problem.gradient());
 }
 
 }  // namespace detail
@@ -29,7 +29,7 @@ bool is_steady(const Problem<Scalar>& problem, const Vec3<Scalar>& angular_veloc
                Scalar share) noexcept {
   const Vec3<Scalar>&I = problem.inertia(), &w = angular_velocity;
   const Scalar off = problem.torque(w, down).norm();
-  const Scalar whole = I.cwiseProduct(w).norm() * w.norm() + problem.moment().norm() +
+  const Scalar whole = I.cwiseProduct(w).norm() * w.norm() + magnitude(problem.moment()) +
                        std::abs(problem.gradient()) * I.cwiseProduct(down).norm();
   return whole > 0 && off <= share * whole &&
          cross<Scalar>(w, down).norm() <= share * (w.norm() + detail::swing_rate(problem)) * down.norm();

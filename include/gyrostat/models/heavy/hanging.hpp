@@ -25,7 +25,8 @@ struct Hanging {
       swing;  ///< of down, unit, across it: at rest at down + a swing, a small, the body swings so
 };
 
-/// Errors: not_applicable where all orientations are alike: neither weight nor gradient, or no weight and three equal moments.
+/// Errors: not_applicable where all orientations are alike: neither weight nor gradient, or no weight and three equal moments; not_finite where
+/// products overflow or vanish.
 template <Real Scalar>
 Result<Hanging<Scalar>> hanging(const Problem<Scalar>& problem) noexcept {
   const Vec3<Scalar>& I = problem.inertia();
@@ -62,7 +63,7 @@ Result<Hanging<Scalar>> hanging(const Problem<Scalar>& problem) noexcept {
           return math::Slope<Scalar>{1 / std::sqrt(square) - 1, bend / (square * std::sqrt(square))};
         },
         soft, std::max(weight, soft), true, weight);
-    if (!root) return root.error();
+    if (!root) return Errc::not_finite;
     shift = *root;
     down = down_of(shift);
   }
@@ -83,6 +84,7 @@ Result<Hanging<Scalar>> hanging(const Problem<Scalar>& problem) noexcept {
     if (i == 0 && change.squaredNorm() < other.squaredNorm()) change = other;
     made.frequency[k] = std::sqrt(std::max(eigen.values[i + 1], Scalar(0)));
     made.swing[k] = change / change.norm();
+    if (!std::isfinite(made.frequency[k]) || !made.swing[k].allFinite()) return Errc::not_finite;
   }
   return made;
 }

@@ -43,7 +43,7 @@ class FourthIntegral {
     const Vec3<Scalar>& I = inertia_;
     constexpr Scalar slack = 8 * epsilon<Scalar>;
     const auto equal = [](Scalar a, Scalar b) noexcept { return std::abs(a - b) <= slack * std::abs(b); };
-    const Scalar weight = m.norm();
+    const Scalar weight = magnitude(m);
     if (weight == 0 && gradient_ == 0) {
       kind_ = FourthCase::euler;
       return;

@@ -55,7 +55,9 @@ class Nutating {
     const Scalar near = 1 + Scalar(0.04L) / std::abs(1 - 2 * std::sqrt(s_.nutation_squared()));
     const Scalar rates = small_ > 0 ? std::fmax(near * small_ * shape, stiffened)
                                     : Scalar(0);  // on the resonance itself nothing is left of a steady spin's
-    return {std::abs(s_.spin) * (rates + rounding), down, std::fmin(down + shape / s_.M3, pi<Scalar>)};
+    return MotionError<Scalar>{std::abs(s_.spin) * (rates + rounding), down,
+                               std::fmin(down + shape / s_.M3, pi<Scalar>)}
+        .or_infinite();
   }
 
   /// At any t of either sign; at t = 0 the start itself.

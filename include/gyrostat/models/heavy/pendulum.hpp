@@ -207,7 +207,7 @@ bool Pendulum<Scalar>::build(const Problem<Scalar>& problem, const State<Scalar>
   if (!hanging) return false;
   const Vec3<Scalar>&I = problem.inertia(), &w = start.angular_velocity;
   const Vec3<Scalar> m = problem.moment();
-  const Scalar size = m.norm() + problem.gradient() * (I.maxCoeff() - I.minCoeff());
+  const Scalar size = magnitude(m) + problem.gradient() * (I.maxCoeff() - I.minCoeff());
   fold_ = hanging->fold;
   parts_ = hanging->parts;
   const Scalar speed = w[k] * fold_;

@@ -57,7 +57,7 @@ class Problem {
   Scalar gradient() const noexcept { return gradient_; }                       ///< N, 1/s^2
   Vec3<Scalar> moment() const noexcept { return mass_ * gravity_ * centre_; }  ///< M g r_cm, N m
   /// c = sqrt(M g l/C), the pendulum rate, rad/s.
-  Scalar pendulum_rate() const noexcept { return std::sqrt(moment().norm() / inertia_[2]); }
+  Scalar pendulum_rate() const noexcept { return std::sqrt(magnitude(moment()) / inertia_[2]); }
 
   /// Least eigenvalue of the second moments of mass about the mass centre, tr(I)/2 - I - M r r^T, kg m^2: negative where no body has
   /// this inertia about O and this mass centre. Stronger than the triangle inequality.

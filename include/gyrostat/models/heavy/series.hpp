@@ -28,6 +28,11 @@ struct MotionError {
   Scalar relative(Scalar spin) const noexcept {
     return std::fmax(angular_velocity / std::abs(spin), std::fmax(down, attitude));
   }
+  /// Infinite in the place of what is no number.
+  MotionError or_infinite() const noexcept {
+    const auto one = [](Scalar x) { return x == x ? x : infinity<Scalar>; };
+    return {one(angular_velocity), one(down), one(attitude)};
+  }
 };
 
 /// Errors of a forced motion: of its shape, and of its phase and precession, which grow with time.
@@ -43,8 +48,10 @@ struct ForcedError {
     const Scalar angle = std::abs(spin * t), late = (phase + 4 * epsilon<Scalar>)*angle;
     // down is set to length one, which moves it by no more than its error
     const Scalar direction = 2 * down + down_slope * late;
-    return {std::abs(spin) * (rates + rates_slope * late), direction,
-            std::fmin(direction + (swing_slope + 1) * late + swing + (drift + 4 * epsilon<Scalar>)*angle, pi<Scalar>)};
+    return MotionError<Scalar>{
+        std::abs(spin) * (rates + rates_slope * late), direction,
+        std::fmin(direction + (swing_slope + 1) * late + swing + (drift + 4 * epsilon<Scalar>)*angle, pi<Scalar>)}
+        .or_infinite();
   }
 
   /// What a sum of the terms 0..kept leaves out, and rounding.

@@ -34,7 +34,7 @@ struct SymmetricTop {
   static Result<SymmetricTop> of(const Problem<Scalar>& problem) noexcept {
     const Vec3<Scalar>& I = problem.inertia();
     const Vec3<Scalar> m = problem.moment();
-    const Scalar size = m.norm(), most = I.maxCoeff();
+    const Scalar size = magnitude(m), most = I.maxCoeff();
     SymmetricTop best;
     best.defect = infinity<Scalar>;
     for (const int k : {2, 0, 1}) {

@@ -142,7 +142,7 @@ class SpinAngle {
     return theta + 2 * pi<Scalar> * std::round((expected - theta) / (2 * pi<Scalar>));
   }
 
-  bool divisible(Scalar step) const noexcept { return time_ + step / 2 > time_; }
+  bool divisible(Scalar step) const noexcept { return time_ + step / 2 > time_ && step < infinity<Scalar>; }
 
   /// Bound of how far c e^{-iA} moves in a time before or after a sample.
   Scalar drift(const View& v, Scalar step) const noexcept {
