@@ -62,12 +62,13 @@ def tables(answer: Answer) -> Iterator[Table]:
     scalars = [[name, _scalar(name, value), UNITS.get(name, ""), small(answer.scalar_error[name]), *_of_data(answer, name)]
                for name, value in answer.scalars.items()]
     yield "Scalars", ["name", "value", "unit", "estimated error", *more], scalars
-    columns = []
+    columns, count = [], len(answer.t)
+    shown = [0, -1] if count > 1 else [0]
     for name, values in answer.columns.items():
-        ends = [str(value) if values.dtype.kind == "U" else short(value) for value in (values[0], values[-1])]
+        ends = [str(value) if values.dtype.kind == "U" else short(value) for value in values[shown]]
         columns.append([name, UNITS.get(name, ""), *ends, small(answer.error.get(name)), *_of_data(answer, name)])
-    heads = ["name", "unit", f"t = {answer.t[0]:g} s", f"t = {answer.t[-1]:g} s", "estimated error", *more]
-    yield f"Columns, {len(answer.t)} times", heads, columns
+    heads = ["name", "unit", *(f"t = {t:g} s" for t in answer.t[shown]), "estimated error", *more]
+    yield f"Columns, {count} time{'s' if count > 1 else ''}", heads, columns
 
 
 def _of_data(answer: Answer, name: str) -> list[str]:

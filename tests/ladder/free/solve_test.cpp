@@ -188,6 +188,14 @@ TEST_CASE("the means, rates and views of a free motion state what a rounding of 
   CHECK(ratios[ratios.size() / 2] < 1e3);
 }
 
+TEST_CASE("the modulus of a permanent rotation is 0, of an unstable one 1", "[free]") {
+  for (const auto& [w, k2] :
+       {std::pair(Vec3<double>(1, 0, 0), 0.), {Vec3<double>(0, 1, 0), 1.}, {Vec3<double>(0, 0, 1), 0.}}) {
+    const Answer answer = solved(posed(body({3, 2, 1.5}, {0, 0, 0}, w), {2}));
+    CHECK(answer.quantity("modulus_squared")->values[0] == k2);
+  }
+}
+
 TEST_CASE("an answer beside a separatrix says so, whichever rung gives it", "[free]") {
   for (const int named : {any_rung, int(free::rung::closed_form), int(free::rung::full)}) {
     const Answer answer = solved(posed(body({3, 2, 1.5}, {0, 0, 0}, {1e-5, 1, 1e-5}), {2}, 1e-6, named));

@@ -15,6 +15,13 @@ namespace detail {
 inline MotionError<double> nutating_error(const Scene& scene, const Nutating<double>& motion, double end) {
   MotionError<double> error = motion.error(end);
   if (!scene.converts_start()) return error;
+  // on the ladder a motion that misses the tolerance by far more than any conversion is passed over as it is
+  constexpr double clear = 1e-6;
+  const auto goal = scene.goal().columns;
+  const auto misses = [&](double off, std::size_t place) { return off > std::max(clear, goal[place]); };
+  if (scene.question().rung == any_rung &&
+      (misses(error.down, column::down) || misses(error.attitude, column::attitude)))
+    return error;
   constexpr double open = infinity<double>;
   constexpr int looks = 32;
   Comparison apart(Row<double>{});

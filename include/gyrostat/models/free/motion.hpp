@@ -194,7 +194,8 @@ class Motion {
   /// Rotation about M after one period, rad, in (-pi, pi]; NaN where there is no period.
   Scalar turn_per_period() const noexcept { return 2 * pi<Scalar> * turn_; }
   math::Modulus<Scalar> modulus() const noexcept { return modulus_; }
-  Scalar modulus_squared() const noexcept { return modulus_.k2; }
+  /// k2; 1 of an unstable permanent rotation, whose level is that of the separatrix.
+  Scalar modulus_squared() const noexcept { return steady_square_ < 0 ? Scalar(1) : modulus_.k2; }
 
   Scalar energy() const noexcept { return energy_; }                           ///< omega.J omega/2, J
   Scalar angular_momentum_norm() const noexcept { return R_; }                 ///< N m s
