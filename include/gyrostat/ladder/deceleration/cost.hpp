@@ -15,7 +15,7 @@
 namespace gyrostat::deceleration {
 
 /// By what of the free motion is needed (Unbraked).
-inline constexpr FormulaCost equal_torque_cost[] = {{1e-6, 0.05e-6}, {4e-6, 0.2e-6}, {180e-6, 0.2e-6}};
+inline constexpr FormulaCost equal_torque_cost[] = {{1e-6, 0.05e-6}, {4e-6, 0.2e-6}, {50e-6, 0.2e-6}};
 inline constexpr FormulaCost averaged_cost{9e-6, 0.17e-6}, averaged_orbit_cost{280e-6, 1e-6};
 inline constexpr FormulaCost averaged_2_cost{300e-6, 0.5e-6}, averaged_2_orbit_cost{1.5e-3, 1e-6};
 inline constexpr SeriesCost series_cost{5e-6, 3e-6, 0.2e-6, 1};
