@@ -52,7 +52,7 @@ inline constexpr double averaged_orbit_step = 30e-6, averaged_2_orbit_step = 250
 /// So many steps of the mean equations as cost no more than the full equations, `most` at most; of a rung that is named all of these.
 inline std::uint64_t steps_worth(const Scene& scene, double step, std::uint64_t most) noexcept {
   const Question& question = scene.question();
-  if (question.rung != any_rung || question.alone != any_rung) return most;
+  if (question.rung != any_rung) return most;
   return static_cast<std::uint64_t>(std::clamp(cost_of_full(scene) / step, 1.0, static_cast<double>(most)));
 }
 
