@@ -147,7 +147,7 @@ class Study:
         used = {name for dims, *_ in variables.values() if isinstance(dims, tuple) for name in dims}
         every: dict[str, Any] = {"time": ("time", self.scene.times, {"units": "s", "long_name": TIME}), "axis": list("xyz"), "component": list("xyzw")}
         wheels = next((values.shape[dims.index("wheel")] for dims, values, *_ in variables.values() if "wheel" in dims), 0)
-        every["wheel"] = np.arange(1, wheels + 1)
+        every["wheel"] = np.arange(1, wheels + 1, dtype=np.int32)
         return {"row": np.arange(rows.start, rows.stop, dtype=np.int32), **{name: values for name, values in every.items() if name in used}}
 
 

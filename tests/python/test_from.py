@@ -467,3 +467,14 @@ def test_a_given_momentum_leaves_to_the_body_what_the_wheels_may_be_off(tmp_path
         true = second(rate)["angular_velocity"]
         off = np.linalg.norm(stated["angular_velocity"] - true) / np.linalg.norm(true)
         assert 1e-3 < off <= stated.error["angular_velocity"] < 10 * off
+
+
+def test_a_scene_goes_on_from_one_that_ends_before_the_clock_reaches_zero(tmp_path: Path) -> None:
+    body, rates = "[body]\ninertia = [1.0, 2.0, 2.5]\n", []
+    for begin in (-5.0, 5.0):
+        (tmp_path / "a.toml").write_text(f'name = "a"\n[solve]\nduration = 2.0\nsamples = 3\n{body}[initial]\ntime = {begin}\nangular_velocity = [0.1, 0.2, 0.3]\n', encoding="utf-8")
+        (tmp_path / "b.toml").write_text(f'name = "b"\nfrom = "a.toml"\n[solve]\nduration = 10.0\nsamples = 3\n{body}', encoding="utf-8")
+        answer = gyrostat.solve(tmp_path / "b.toml")
+        assert answer.met and answer.t[0] == begin + 2
+        rates.append(answer["angular_velocity"])
+    np.testing.assert_array_equal(*rates)

@@ -349,3 +349,16 @@ def test_what_a_row_of_a_scene_that_goes_on_may_be_and_what_not(tmp_path: Path) 
         studies.append(sweep(later, {"body.inertia[0]": [3.0, 3.1]}))
     assert studies[0].attrs["study"] != studies[1].attrs["study"]
     assert np.all(studies[0]["attitude"].values != studies[1]["attitude"].values)
+
+
+def test_a_resumed_sweep_has_the_types_of_one_that_ran_through(tmp_path: Path) -> None:
+    def swept(**how: Any) -> Any:
+        return sweep("cubesat-three-wheels", {"wheel[1].rate": "normal(10, 10%)"}, n=6, times=[21.0], ask=["attitude", "rotor_rate"], chunk=2, **how)
+
+    whole, first = swept(), swept(parts=tmp_path)
+    resumed = swept(parts=tmp_path)  # every part is read again
+    for made in (first, resumed):
+        assert made.equals(whole)
+        for name, values in whole.variables.items():
+            if values.dtype.kind in "if":
+                assert made[name].dtype == values.dtype, name

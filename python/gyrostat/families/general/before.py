@@ -68,7 +68,7 @@ def end_of(scene: "Scene") -> End:
     ask = ["attitude", "angular_velocity", "angular_momentum", *(("rotor_rate", "rotor_angle") if names else ()), *(() if fixed else ("velocity", "position"))]
     last = float(scene.times[-1])
     general = FAMILIES["general"]
-    given = general.arguments(told.replace(**{"solve.times": [last], "solve.ask": ask}))
+    given = {**general.arguments(told.replace(**{"solve.ask": ask})), "times": np.array([last])}  # which lies before 0 where the clock began there
     answer = general.solve(**given)
     error = {name: answer.error[name] * (1.0 if name == "attitude" else max(answer.scale[name], float(np.linalg.norm(answer[name])))) for name in ask}
     for name in ask:
