@@ -114,6 +114,7 @@ GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Scene& scene) {
     const Problem<double> body = scene.converts_body() ? off_body(problem, which) : problem;
     const auto off = periodicity_from(body, off_start(scene.start(), which, plane));
     if (std::isnan(off.precession)) known.precession = nan<double>;
+    if (off.precession_error == infinity<double>) known.precession_error = infinity<double>;
     known.precession_error += margin * std::abs(off.precession - known.precession);
     // a top whose inclination is steady nods a little in a start that is off
     if (!std::isnan(off.period)) known.period_error += margin * std::abs(off.period / known.period - 1);

@@ -83,8 +83,13 @@ class Pendulum {
 
   PendulumMotion motion() const noexcept { return motion_; }
   int axis() const noexcept { return axis_; }  ///< k
-  /// Body and start lie in the plane to the last digit: zeros, which no rounding of the data moves.
-  bool in_plane() const noexcept { return defect_ == 0; }
+  /// Body and start lie in the plane to the last digit, by zeros of the data, which no rounding moves: those of the attitude make what is across
+  /// the plane vanish term by term, not by what cancels.
+  bool in_plane() const noexcept {
+    const auto& q = start_.attitude;
+    const bool zeros = axis_ == 0 ? q.x * q.z == 0 && q.w * q.y == 0 : q.y * q.z == 0 && q.w * q.x == 0;
+    return defect_ == 0 && axis_ != 2 && zeros;
+  }
   math::Modulus<Scalar> modulus() const noexcept { return modulus_; }
   Scalar frequency() const noexcept { return unit_ * frequency_; }  ///< c of small swings, rad/s
   /// To and fro, or once round (with the gradient alone half round), s; of small swings at rest; infinite on the
