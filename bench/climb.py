@@ -51,6 +51,8 @@ def least(scene: Any, **how: Any) -> Cost | None:
 
 
 def spread(values: list[float]) -> str:
+    if not values:
+        return "-"
     low, middle, high = np.percentile(values, [10, 50, 90])
     return f"{low:.3g} / {middle:.3g} / {high:.3g}"
 
