@@ -13,6 +13,7 @@
 #include "../tests/ladder/general/special_scenes.hpp"
 #include "../tests/models/general/scenes.hpp"
 #include "../tests/models/general/truth.hpp"
+#include "gyrostat/ladder/general/cvode_motion.hpp"
 #include "gyrostat/ladder/general/solve.hpp"
 #include "gyrostat/ladder/general/track.hpp"
 #include "honesty.hpp"

@@ -13,6 +13,7 @@
 
 #include "../tests/ladder/heavy/truth.hpp"
 #include "gyrostat/body/principal_axes.hpp"
+#include "gyrostat/ladder/heavy/cvode_motion.hpp"
 #include "gyrostat/ladder/heavy/full_motion.hpp"
 #include "gyrostat/ladder/heavy/motion.hpp"
 #include "gyrostat/ladder/heavy/solve.hpp"

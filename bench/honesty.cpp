@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "gyrostat/ladder/deceleration/cvode_motion.hpp"
 #include "gyrostat/ladder/deceleration/full_motion.hpp"
 #include "gyrostat/ladder/deceleration/motion.hpp"
 #include "gyrostat/ladder/deceleration/solve.hpp"

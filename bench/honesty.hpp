@@ -207,7 +207,18 @@ inline double spent_by(const Answer& answer) {
   return infinity<double>;
 }
 
-/// The run of a family: [SCENES] [SEED] [RUNG] on the command line; every other answer of the ladder is asked for every column by name; without a rung the ladder, and every fourth answer by the rungs in turn,
+/// Has the scene's full equations solved by CVODE; false where it is not linked.
+template <class Scene>
+bool by_cvode([[maybe_unused]] Scene& scene) {
+#ifdef GYROSTAT_HAVE_CVODE
+  scene.full_equations = [](const Scene& of, Monitor* monitor) { return full_by_cvode(of, monitor); };
+  return true;
+#else
+  return false;
+#endif
+}
+
+/// The run of a family: [SCENES] [SEED] [RUNG] on the command line, RUNG being `cvode` for the full equations by CVODE where it is linked; every other answer of the ladder is asked for every column by name; without a rung the ladder, and every fourth answer by the rungs in turn,
 /// by name. source.next() gives a scene of some kind; a `Made` has posed(question), a Result of the scene of the family under that question
 /// (its times left to it), and text(), all that is needed to make it anew; truth(scene, answer), or truth(made, scene, answer) where the
 /// scene keeps less than was given, fills in the true motion, false where it cannot be had. Each scene is solved at every tolerance.
@@ -215,8 +226,9 @@ template <class Scenes, class Truth, class Solve>
 void run(int argc, char** argv, const Family& family, int count, Scenes source, const Truth& truth, const Solve& solve,
          std::initializer_list<double> tolerances, std::initializer_list<std::string_view> scalars = {}) {
   if (argc > 1) count = std::atoi(argv[1]);
-  const int named = argc > 3 ? place_of(family.rungs, argv[3]) : any_rung;
   const std::size_t rungs = family.rungs.size();
+  const bool outside = argc > 3 && std::string_view(argv[3]) == "cvode";
+  const int named = outside ? int(rungs) - 1 : argc > 3 ? place_of(family.rungs, argv[3]) : any_rung;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
 
   std::vector<Tally> tallies(tolerances.size());
@@ -230,14 +242,19 @@ void run(int argc, char** argv, const Family& family, int count, Scenes source, 
       const std::size_t round = std::size_t(i) + k;
       question.rung = named != any_rung ? named : round % 4 == 0 ? int(round / 4 % rungs) : any_rung;
       if (question.rung == any_rung && round % 2 != 0) question.asked = every_column(family);
-      const auto scene = made.posed(question);
-      if (!scene) {
-        std::printf("no scene: %s\n", message(scene.error()));
+      auto posed = made.posed(question);
+      if (!posed) {
+        std::printf("no scene: %s\n", message(posed.error()));
         continue;
+      }
+      auto scene = std::move(posed).value();
+      if (outside && !by_cvode(scene)) {
+        std::printf("no CVODE here\n");
+        return;
       }
       Refusal refusal;
       const auto begin = std::chrono::steady_clock::now();
-      const Answer answer = solve(*scene, refusal);
+      const Answer answer = solve(scene, refusal);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       const std::string text = std::string(answer.model) + ", " + made.text();
       tallies[k].time(seconds, text);

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "../tests/ladder/rotor/truth.hpp"
+#include "gyrostat/ladder/rotor/cvode_motion.hpp"
 #include "gyrostat/ladder/rotor/solve.hpp"
 #include "gyrostat/models/rotor/steady.hpp"
 #include "honesty.hpp"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../tests/ladder/spinning/truth.hpp"
+#include "gyrostat/ladder/spinning/cvode_motion.hpp"
 #include "gyrostat/ladder/spinning/axial_motion.hpp"
 #include "gyrostat/ladder/spinning/motion.hpp"
 #include "gyrostat/ladder/spinning/solve.hpp"

@@ -146,11 +146,13 @@ inline constexpr double mean_orbit_share = 1.0 / 64;
 /// To the error of the time at which they stop so many local errors are added. Chosen.
 inline constexpr double mean_stop = 100;
 
-/// The longest steps of the two runs of CVODE, over the span: where a few steps would do both may err alike.
-inline constexpr double cvode_longest[2] = {1.0 / 64, 1.0 / 45};
-/// CVODE is compared with itself at a tolerance so many times looser.
-inline constexpr double cvode_looser = 10;
-/// The stated error of CVODE over the distance of its two runs.
+/// CVODE is compared with so many runs of its own of neighbours.
+inline constexpr int cvode_companions = 2;
+/// The longest steps of the answer and of these, over the span: where a few steps would do all may err alike.
+inline constexpr double cvode_longest[1 + cvode_companions] = {1.0 / 64, 1.0 / 45, 1.0 / 37};
+/// Their tolerances are so many times looser.
+inline constexpr double cvode_looser[cvode_companions] = {10, 20};
+/// The stated error of CVODE over the distance of the first, and of a looser one in proportion.
 inline constexpr double cvode_margin = 4;
 /// The same next to rounding, where a tighter tolerance gains little.
 inline constexpr double cvode_margin_of_rounding = 10;

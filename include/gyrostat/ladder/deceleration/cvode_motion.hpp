@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "gyrostat/ladder/cvode_pair.hpp"
+#include "gyrostat/ladder/cvode_runs.hpp"
 #include "gyrostat/ladder/deceleration/full_motion.hpp"
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 #include "gyrostat/ode/cvode.hpp"
@@ -122,19 +122,19 @@ inline StoppedRun cvode_run(const Scene& scene, const Problem<double>& problem, 
 
 }  // namespace detail
 
-/// Rung `full` by CVODE. The error is the distance to a second run, at a looser tolerance, times the margin of cvode_pair. Finds the
+/// Rung `full` by CVODE. The error is that of cvode_runs(). Finds the
 /// stop only where it lies within the times asked for.
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
-  double stops[2];  // of the tighter run and of the looser one
+  double stops[1 + honesty::cvode_companions];  // of the answer and its companions
   double* stop = stops;
-  const auto run = [&](std::span<const double> watched, double tolerance, double longest, double change) {
+  const auto run = [&](std::span<const double> watched, const CvodeTask& task) {
     using Near = detail::Neighbour<double>;
     const auto& problem = scene.problem();
-    const Near near = change > 0 ? Near(problem, change, 0) : Near(problem);
+    const Near near = task.change > 0 ? Near(problem, task.change, task.which) : Near(problem);
     const Quat<double> turn = from_matrix(near.R);
     const bool turned = !near.R.isIdentity(0);
     auto made = detail::cvode_run(scene, near.problem, turned ? scene.attitude() * turn : scene.attitude(), watched,
-                                  tolerance, longest, monitor);
+                                  task.tolerance, task.longest, monitor);
     for (auto& state : made.states) {
       if (!turned) break;
       state.momentum = near.R * state.momentum;
@@ -143,17 +143,20 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
     *stop++ = made.stop_time;
     return made;
   };
-  const auto pair = cvode_pair(Row<double>{scene.problem()}, scene.question().times, scene.goal().tightest, 1e-5, run);
-  if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
+  const auto runs = cvode_runs(Row<double>{scene.problem()}, scene.question().times, scene.goal().tightest, 1e-5, run);
+  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, message(runs.failure));
 
   // what each step may err by itself adds up, and is shared by the runs where the longest step rules both
-  const double of_steps = (1 + double(pair.counts.steps) / 2) * pair.tolerance;
-  const auto error = pair.asked.relative(pair.margin * pair.distance) + ColumnErrors<double>::all(of_steps);
-  Track track = detail::track_of(scene.problem(), pair.states, scene.question().wants_attitude, error);
-  track.counts = pair.counts;
+  const double of_steps = (1 + double(runs.counts.steps) / (1 + honesty::cvode_companions)) * runs.tolerance;
+  const auto error = runs.asked.relative(runs.error) + ColumnErrors<double>::all(of_steps);
+  Track track = detail::track_of(scene.problem(), runs.states, scene.question().wants_attitude, error);
+  track.counts = runs.counts;
   if (std::isfinite(stops[0])) {
     track.stop_time = stops[0];
-    track.stop_error = pair.margin * over(std::abs(stops[0] - stops[1]), stops[0]) + 1e-8 + 1e3 * pair.tolerance;
+    double off = 0;
+    for (int c = 0; c < honesty::cvode_companions; ++c)
+      off = greater(off, runs.margin[c] * std::abs(stops[0] - stops[1 + c]));
+    track.stop_error = over(off, stops[0]) + 1e-8 + 1e3 * runs.tolerance;
   }
   return track;
 }

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "gyrostat/ladder/cvode_pair.hpp"
+#include "gyrostat/ladder/cvode_runs.hpp"
 #include "gyrostat/ladder/general/custom_rung.hpp"
 #include "gyrostat/ladder/pace.hpp"
 #include "gyrostat/models/general/torque_law.hpp"
@@ -23,8 +23,10 @@ class CvodeEquations {
   static constexpr std::size_t width = Equations::width;
   using Numbers = Equations::Numbers;
 
-  CvodeEquations(const Scene& scene, const Numbers& sizes) noexcept
-      : equations_(scene.problem(), scene.wheels(), scene.own_torque()), sizes_(sizes) {}
+  /// All but the sizes must outlive it.
+  CvodeEquations(const Problem<double>& problem, const Wheels<double>& wheels, const OwnTorque& law,
+                 const Numbers& sizes) noexcept
+      : equations_(problem, wheels, law), sizes_(sizes) {}
 
   Numbers start() const noexcept {
     Numbers y = equations_.start();
@@ -73,10 +75,11 @@ struct CvodeEnd {
 };
 
 /// One run over all pieces.
-inline CvodeRun<State<double>> run_pieces(const Scene& scene, std::span<const double> times, CvodeEquations equations,
+inline CvodeRun<State<double>> run_pieces(const Problem<double>& problem, const OwnTorque& law,
+                                          std::span<const double> times, CvodeEquations equations,
                                           const ode::CvodeOptions& options, Monitor* monitor, CvodeEnd& end) {
   const double span = times.back();
-  auto cuts = breakpoints_with<double>(scene.problem(), scene.own_torque().breakpoints, span);
+  auto cuts = breakpoints_with<double>(problem, law.breakpoints, span);
   cuts.push_back(span);
   CvodeRun<State<double>> run;
   const auto numbers = [](const ode::Cvode& cvode) {
@@ -114,7 +117,7 @@ inline CvodeRun<State<double>> run_pieces(const Scene& scene, std::span<const do
         run.states.push_back(equations.state(times[i], y));
       }
       if (status == ode::Status::reached &&
-          brakes.stopped(scene.problem(), equations.state(cvode.time(), numbers(cvode)), equations.inside()))
+          brakes.stopped(problem, equations.state(cvode.time(), numbers(cvode)), equations.inside()))
         return end.stopped = true, run.failure = Errc::not_applicable, run;
       if (monitor == nullptr) continue;
       if (monitor->cancelled()) status = ode::Status::cancelled;
@@ -133,8 +136,7 @@ inline CvodeRun<State<double>> run_pieces(const Scene& scene, std::span<const do
 
 }  // namespace detail
 
-/// Rung `full` by CVODE: Adams, or BDF where wheels settle fast. The error is four times the distance to a second run at a tolerance ten
-/// times looser, ten times where the tighter one is next to rounding.
+/// Rung `full` by CVODE: Adams, or BDF where wheels settle fast. The error is that of cvode_runs().
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const double span = scene.question().times.back();
   Track track = detail::unless_lost(scene);
@@ -150,25 +152,29 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto sizes = detail::number_sizes(of);
   const auto method = of.is_stiff() ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams;
   detail::CvodeEnd end;
-  auto pair =
-      cvode_pair(row, scene.question().times, scene.goal().tightest, 1e-5,
-                 [&](std::span<const double> watched, double tolerance, double longest, double) {
-                   return detail::run_pieces(
-                       scene, watched, CvodeEquations(scene, sizes),
-                       {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * span}, monitor, end);
-                 });
+  auto runs = cvode_runs(
+      row, scene.question().times, scene.goal().tightest, 1e-5,
+      [&](std::span<const double> watched, const CvodeTask& task) {
+        const auto& given = scene.problem();
+        const auto problem = task.change > 0 ? detail::beside(given, task.change, task.which) : given;
+        const auto wheels = Wheels<double>::of(problem);
+        return detail::run_pieces(
+            problem, law, watched, CvodeEquations(problem, wheels, law, sizes),
+            {method, task.tolerance, task.tolerance, ode::CvodeOptions{}.step_cap, task.longest * span}, monitor, end);
+      });
   if (end.lost == end.lost) {
     if (law.lost_at != nullptr) *law.lost_at = end.lost;
     return refused<Track>(Errc::not_applicable, no_value_of_law);
   }
   if (end.stopped) return refused<Track>(Errc::not_applicable, why_stopped_by_brake);
-  if (pair.failure == Errc::step_limit && law.any()) return refused<Track>(Errc::step_limit, steps_of_law);
-  if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
-  track.states = std::move(pair.states);
-  track.counts = pair.counts;
+  if (runs.failure == Errc::step_limit && law.any()) return refused<Track>(Errc::step_limit, steps_of_law);
+  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, message(runs.failure));
+  track.states = std::move(runs.states);
+  track.counts = runs.counts;
   // of what columns are made of, some of which may cancel
-  const auto rounding = detail::rounding_of_columns(of, row, pair.asked.size(), honesty::cvode_looser * pair.tolerance);
-  const auto error = pair.asked.relative(pair.margin * pair.distance + rounding);
+  const auto rounding =
+      detail::rounding_of_columns(of, row, runs.asked.size(), honesty::cvode_looser[0] * runs.tolerance);
+  const auto error = runs.asked.relative(runs.error + rounding);
   const auto to_truth = relative_to_truth(error, full_columns);
   track.off = detail::off_of(track, to_truth, row, scene);
   track.compared = detail::compared_of(track, to_truth, row, scene);

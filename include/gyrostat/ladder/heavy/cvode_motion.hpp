@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "gyrostat/ladder/cvode_pair.hpp"
+#include "gyrostat/ladder/cvode_runs.hpp"
 #include "gyrostat/ladder/full_motion.hpp"
 #include "gyrostat/ladder/heavy/full_motion.hpp"
 #include "gyrostat/ladder/heavy/track.hpp"
@@ -76,19 +76,19 @@ class CvodeEquations {
   Numbers start_;
 };
 
-/// Rung `full` by CVODE, from the scene's start. The error is four times the distance to a second run at a tolerance ten times looser,
-/// ten times where the tighter one is next to rounding.
+/// Rung `full` by CVODE, from the scene's start. The error is that of cvode_runs().
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto& times = scene.question().times;
   const auto& start = scene.start();
   const bool turning = scene.question().wants_attitude;
   const Row<double> row = row_of(scene);
-  const auto run = [&](std::span<const double> watched, double tolerance, double longest, double change) {
-    const ode::CvodeOptions options{ode::CvodeMethod::adams, tolerance, tolerance, step_budget, longest * times.back()};
+  const auto run = [&](std::span<const double> watched, const CvodeTask& task) {
+    const ode::CvodeOptions options{ode::CvodeMethod::adams, task.tolerance, task.tolerance, step_budget,
+                                    task.longest * times.back()};
     using Near = detail::Neighbour<double>;
     std::optional<Near> near;
-    if (change > 0) {
-      near.emplace(scene.problem(), start, change, 0, scene.converts_start());
+    if (task.change > 0) {
+      near.emplace(scene.problem(), start, task.change, task.which, scene.converts_start());
       if (!turning) near->start.attitude = start.attitude;
     }
     CvodeEquations equations(near ? near->problem : scene.problem(), near ? near->start : start, turning);
@@ -101,16 +101,16 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
     }
     return made;
   };
-  auto pair = cvode_pair(row, times, scene.goal().tightest, 1e-6, run);
-  if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
+  auto runs = cvode_runs(row, times, scene.goal().tightest, 1e-6, run);
+  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, message(runs.failure));
 
   Track track;
-  track.states = std::move(pair.states);
-  track.counts = pair.counts;
-  const double floor = honesty::cvode_looser * pair.tolerance;
+  track.states = std::move(runs.states);
+  track.counts = runs.counts;
+  const double floor = honesty::cvode_looser[0] * runs.tolerance;
   const double rate = std::max(rate_size(scene.problem(), start), row.scale[column::angular_velocity]);
   const ColumnErrors<double> parts{rate, 1, turning ? 1.0 : 0.0};
-  track.error = pair.asked.relative(pair.margin * pair.distance + floor * parts);
+  track.error = runs.asked.relative(runs.error + floor * parts);
   return track;
 }
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "gyrostat/ladder/cvode_pair.hpp"
+#include "gyrostat/ladder/cvode_runs.hpp"
 #include "gyrostat/ladder/rotor/full_motion.hpp"
 #include "gyrostat/ladder/rotor/full_rung.hpp"
 #include "gyrostat/models/rotor/full.hpp"
@@ -89,24 +89,25 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   const auto& times = scene.question().times;
   const auto& body = scene.gyrostat();
   const auto& start = scene.start();
-  const auto run = [&](std::span<const double> watched, double tolerance, double longest, double change) {
+  const auto run = [&](std::span<const double> watched, const CvodeTask& task) {
     std::optional<Neighbour<double>> near;
-    if (change > 0) near.emplace(body, start, change, 0);
+    if (task.change > 0) near.emplace(body, start, task.change, task.which);
     const auto& from = near ? near->start : start;
     CvodeEquations equations(near ? near->gyrostat : body, from, times.back());
-    return run_cvode(equations, from, watched,
-                     {method, tolerance, tolerance, ode::CvodeOptions{}.step_cap, longest * times.back()}, monitor);
+    return run_cvode(
+        equations, from, watched,
+        {method, task.tolerance, task.tolerance, ode::CvodeOptions{}.step_cap, task.longest * times.back()}, monitor);
   };
-  auto pair = cvode_pair(Row<double>(body, start), times, scene.goal().tightest, 1e-5, run);
-  if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
+  auto runs = cvode_runs(Row<double>(body, start), times, scene.goal().tightest, 1e-5, run);
+  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, message(runs.failure));
 
   Track track;
-  track.states = std::move(pair.states);
-  track.counts = pair.counts;
+  track.states = std::move(runs.states);
+  track.counts = runs.counts;
   // of the greatest numbers that a column is made of, some of which may cancel
   const double momentum = start.momentum.norm() + std::abs(start.axial_momentum) + std::abs(body.target_momentum());
   const double rate = momentum / body.free_principal()[0] + momentum / body.axial_inertia();
-  const auto& size = pair.asked.size();
+  const auto& size = runs.asked.size();
   ColumnErrors<double> parts;
   parts[column::attitude] = 1;
   parts[column::angular_velocity] = momentum / body.free_principal()[0];
@@ -114,15 +115,14 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   parts[column::rotor_rate] = rate;
   parts[column::rotor_angle] = size[column::rotor_angle] + rate * scene.question().times.back();
   parts[column::lyapunov] = size[column::lyapunov] + momentum * rate;
-  const double floor = honesty::cvode_looser * pair.tolerance;
-  track.error = pair.asked.relative(pair.margin * pair.distance + floor * parts);
+  const double floor = honesty::cvode_looser[0] * runs.tolerance;
+  track.error = runs.asked.relative(runs.error + floor * parts);
   return track;
 }
 
 }  // namespace detail
 
-/// Rung `full` by CVODE: Adams, or BDF where the motor is stiff. The error is four times the distance to a second run at a tolerance
-/// ten times looser, ten times where the tighter one is next to rounding.
+/// Rung `full` by CVODE: Adams, or BDF where the motor is stiff. The error is that of cvode_runs().
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const bool stiff = is_stiff(scene.gyrostat(), scene.start());
   return detail::by_cvode(scene, stiff ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams, monitor);

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "gyrostat/ladder/cvode_pair.hpp"
+#include "gyrostat/ladder/cvode_runs.hpp"
 #include "gyrostat/ladder/cvode_walk.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/spinning/full_rung.hpp"
@@ -132,29 +132,28 @@ inline CvodeRun<State<double>> cvode_run(const Problem<double>& problem, std::sp
 
 }  // namespace detail
 
-/// Rung `full` by CVODE. The error is four times the distance to a second run at a tolerance ten times looser, ten times
-/// where the tighter one is next to rounding.
+/// Rung `full` by CVODE. The error is that of cvode_runs().
 inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto& problem = scene.problem();
   const auto& times = scene.question().times;
   const Row<double> row{scales(problem, times.back())};
   const double rate = problem.rate_size(times.back());
-  double least_cosine[2] = {1, 1};
-  int runs = 0;
-  auto pair = cvode_pair(row, times, scene.goal().tightest, 1e-6,
-                         [&](std::span<const double> watched, double tolerance, double longest, double change) {
-                           const auto of = change > 0 ? neighbour(problem, rate, change, 0) : problem;
-                           return detail::cvode_run(of, watched, tolerance, longest, least_cosine[runs++], monitor);
-                         });
-  if (pair.failure != Errc::ok) return refused<Track>(pair.failure, message(pair.failure));
+  double least_cosine[1 + honesty::cvode_companions] = {1, 1, 1};
+  int run = 0;
+  auto runs =
+      cvode_runs(row, times, scene.goal().tightest, 1e-6, [&](std::span<const double> watched, const CvodeTask& task) {
+        const auto of = task.change > 0 ? neighbour(problem, rate, task.change, task.which) : problem;
+        return detail::cvode_run(of, watched, task.tolerance, task.longest, least_cosine[run++], monitor);
+      });
+  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, message(runs.failure));
 
   Track track;
-  track.states = std::move(pair.states);
-  track.counts = pair.counts;
-  auto error = pair.margin * pair.distance + honesty::cvode_looser * pair.tolerance * pair.asked.size();
+  track.states = std::move(runs.states);
+  track.counts = runs.counts;
+  auto error = runs.error + honesty::cvode_looser[0] * runs.tolerance * runs.asked.size();
   const double attitude = error[column::attitude];
   error[column::euler_312] = angles_error<double>(attitude, track.states);
-  track.error = pair.asked.relative(error);
+  track.error = runs.asked.relative(error);
   if (loses_turns<double>(track.states, problem.angles.phi, least_cosine[0], attitude))
     detail::warn_of_gimbal_lock(track, least_cosine[0]);
   return track;

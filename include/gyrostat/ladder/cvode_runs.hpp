@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/ladder/comparison.hpp"
+#include "gyrostat/ladder/cvode_walk.hpp"
+#include "gyrostat/ladder/honesty.hpp"
+
+/// The full equations by CVODE, the trusted outsider: at a tolerance, and for the error those of neighbours at looser ones. Needs the library gyrostat::cvode.
+namespace gyrostat::inline GYROSTAT_LEVEL {
+
+/// The states of one run at the asked times.
+template <class State>
+struct CvodeRun {
+  std::vector<State> states;
+  Errc failure = Errc::ok;
+  ode::Counts counts;
+};
+
+/// One run from t = 0. `equations` gives start(), the numbers at the start; state(numbers), a state that is kept; and system(). It must stay
+/// where it is meanwhile.
+template <class State, class Equations>
+CvodeRun<State> run_cvode(Equations& equations, const State& start, std::span<const double> times,
+                          const ode::CvodeOptions& options, Monitor* monitor) {
+  CvodeRun<State> run;
+  run.states.reserve(times.size());
+  if (!(times.front() > 0)) run.states.push_back(start);
+  if (!(times.back() > 0)) return run;
+  auto numbers = equations.start();
+  auto made = ode::Cvode::create(equations.system(), 0, numbers, options);
+  if (!made) return run.failure = made.error(), run;
+  auto cvode = std::move(made).value();
+  std::size_t next = run.states.size();
+  run.failure = walk(
+      cvode, times, next, run.counts, monitor,
+      [&](double t) {
+        if (!cvode.at(t, numbers)) return false;
+        run.states.push_back(equations.state(numbers.data()));
+        return true;
+      },
+      [] { return true; });
+  return run;
+}
+
+/// What a run is asked for.
+struct CvodeTask {
+  double tolerance, longest;  ///< of steps; longest: the share of the span that one may take
+  double change =
+      0;  ///< by how much the data of a companion differ: by what its steps may err, which a slim tensor or an unstable axis makes more of
+  int which = 0;  ///< companion
+};
+
+/// The answer's run and how far its companions' are off.
+template <class Writer>
+struct CvodeRuns {
+  std::vector<typename Writer::State> states;  ///< of the answer, at the asked times
+  Errc failure = Errc::ok;
+  ode::Counts counts;                                    ///< of all
+  double tolerance;                                      ///< of the answer
+  std::array<double, honesty::cvode_companions> margin;  ///< stated error over the distance of each
+  Comparison<Writer> asked;
+  typename Comparison<Writer>::ColumnErrors error;  ///< in units of the columns
+};
+
+/// The asked times, and where these are few some before the last one: what runs differ by may swing, and be small there by chance.
+inline std::vector<double> watched_times(std::span<const double> asked) {
+  std::vector<double> times(asked.begin(), asked.end());
+  if (asked.size() >= honesty::cvode_looks) return times;
+  for (std::size_t i = 1; i < honesty::cvode_looks; ++i)
+    times.push_back(asked.back() * (1 - honesty::cvode_watched * double(i) / honesty::cvode_looks));
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+/// run(times, task) gives a CvodeRun: first the answer's, then the companions' in turn. `share`: of the answer's tolerance, what its run is asked for:
+/// what one step errs adds up over many.
+template <class Writer, class Run>
+CvodeRuns<Writer> cvode_runs(const Writer& writer, std::span<const double> asked, double tolerance, double share,
+                             const Run& run) {
+  tolerance = std::max(honesty::cvode_tightest, tolerance * share);
+  const double margin =
+      tolerance > honesty::cvode_rounding_below ? honesty::cvode_margin : honesty::cvode_margin_of_rounding;
+  CvodeRuns<Writer> runs{{}, Errc::ok, {}, tolerance, {}, Comparison<Writer>(writer), {}};
+  const auto times = watched_times(asked);
+  const std::span<const double> watched = times;
+  const auto answer = run(watched, CvodeTask{tolerance, honesty::cvode_longest[0]});
+  if (answer.failure != Errc::ok) return runs.failure = answer.failure, runs;
+  runs.counts = answer.counts;
+  runs.states.reserve(asked.size());
+  for (std::size_t i = 0; i < times.size(); ++i)
+    for (std::size_t k; (k = runs.states.size()) < asked.size() && asked[k] == times[i];) {
+      runs.asked.add(answer.states[i]);
+      runs.states.push_back(answer.states[i]);
+    }
+  const double change = std::max(honesty::alone_change * epsilon<double>, tolerance);
+  for (int c = 0; c < honesty::cvode_companions; ++c) {
+    const double looser = honesty::cvode_looser[c];
+    const auto companion = run(watched, CvodeTask{looser * tolerance, honesty::cvode_longest[1 + c], change, c});
+    if (companion.failure != Errc::ok) return runs.states.clear(), runs.failure = companion.failure, runs;
+    runs.counts += companion.counts;
+    runs.margin[c] = margin * honesty::cvode_looser[0] / looser;
+    typename Comparison<Writer>::ColumnErrors distance;
+    for (std::size_t i = 0; i < times.size(); ++i)
+      distance.raise(runs.asked.apart(runs.asked.row(answer.states[i]), runs.asked.row(companion.states[i])));
+    runs.error.raise(runs.margin[c] * distance);
+  }
+  return runs;
+}
+
+}  // namespace gyrostat::inline GYROSTAT_LEVEL
