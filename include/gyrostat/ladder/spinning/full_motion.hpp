@@ -192,6 +192,10 @@ class FullMotion {
     const Scalar rounding_walk = eps * std::sqrt(static_cast<Scalar>(steps));
     const Scalar shared = 4 * shared_rounding(rounding_walk);
     ColumnErrors<Scalar> error = walk.error + shared * rounded_in(walk.asked.size());
+    // and the force's direction, which the mean acceleration along the spin axis may be a small part of
+    const Scalar gain = 2 * eps * (problem_.force.norm() / problem_.mass) * span;
+    error[column::velocity] += gain;
+    error[column::position] += gain * span / 2;
     answer.tilt_error = walk.error[column::euler_312] + shared;
     error[column::euler_312] = angles_error<Scalar>(error[column::attitude], states_);
     answer.least_cosine = course.least_cosine();
