@@ -478,3 +478,16 @@ def test_a_scene_goes_on_from_one_that_ends_before_the_clock_reaches_zero(tmp_pa
         assert answer.met and answer.t[0] == begin + 2
         rates.append(answer["angular_velocity"])
     np.testing.assert_array_equal(*rates)
+
+
+def test_a_body_that_a_brake_has_stopped_is_at_rest_where_another_scene_goes_on(tmp_path: Path) -> None:
+    body = "[body]\ninertia = [10.0, 12.0, 8.0]\n"
+    brake = '[[torque]]\ntype = "brake"\nlimit = [0.1, 0.1, 0.1]\nlaw = "carrier"\n'
+    (tmp_path / "a.toml").write_text(f'name = "a"\n[solve]\nduration = 30.0\nsamples = 2\n{body}{brake}[initial]\nangular_velocity = [0.1, 0.05, -0.02]\n', encoding="utf-8")
+    later = 'name = "b"\nfrom = "a.toml"\n[solve]\nduration = 30.0\nsamples = 3\nask = ["attitude", "angular_velocity"]\n'
+    (tmp_path / "b.toml").write_text(later + body, encoding="utf-8")
+    answer = gyrostat.solve(tmp_path / "b.toml")
+    assert answer.met and answer.error["angular_velocity"] == 0 and not np.any(answer["angular_velocity"])
+    # one that may be let go again is not known to be at rest
+    (tmp_path / "a.toml").write_text((tmp_path / "a.toml").read_text(encoding="utf-8").replace("[initial]", "on = [[0.0, 40.0]]\n[initial]"), encoding="utf-8")
+    assert gyrostat.solve(tmp_path / "b.toml").error["angular_velocity"] > 0

@@ -2,7 +2,7 @@
 """The end of a scene as the start of another: state, what is left of it where the body has changed, and by how much it may be off."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
@@ -14,6 +14,7 @@ from gyrostat.errors import DomainError
 from gyrostat.rotation import matrix_from_quaternion
 
 if TYPE_CHECKING:
+    from gyrostat.answer import Answer
     from gyrostat.scenes import Scene
 
 __all__ = ["End", "end_of"]
@@ -56,6 +57,18 @@ class End:
         return {"velocity": self.error.get("velocity", 0.0) + arm * (rate + omega * turn), "position": self.error.get("position", 0.0) + arm * turn}
 
 
+def _stays_at_rest(torques: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether torques that stop a body let it rest from then on: brakes, and what goes with the rates, all of them always."""
+    kinds = {torque["type"] for torque in torques}
+    return "brake" in kinds and kinds <= {"brake", "damping"} and all(torque["on"] is None and torque["factor"] is None for torque in torques)
+
+
+def _rests(answer: "Answer", time: float) -> bool:
+    """Whether a body that has stopped for good has done so by then, s."""
+    stop, off = answer.scalars["stop_time"], answer.scalar_error["stop_time"]
+    return stop is not None and off is not None and time > stop * (1 + off)
+
+
 @lru_cache(maxsize=16)
 def end_of(scene: "Scene") -> End:
     """The end of a scene of any kind, by the cheapest rung that meets its own tolerance, or comes nearest to it. Raises DomainError where it is not known."""
@@ -68,7 +81,8 @@ def end_of(scene: "Scene") -> End:
     ask = ["attitude", "angular_velocity", "angular_momentum", *(("rotor_rate", "rotor_angle") if names else ()), *(() if fixed else ("velocity", "position"))]
     last = float(scene.times[-1])
     general = FAMILIES["general"]
-    given = {**general.arguments(told.replace(**{"solve.ask": ask})), "times": np.array([last])}  # which lies before 0 where the clock began there
+    stops = _stays_at_rest(told.top["torque"])
+    given = {**general.arguments(told.replace(**{"solve.ask": [*ask, *(["stop_time"] if stops else [])]})), "times": np.array([last])}  # which lies before 0 where the clock began there
     answer = general.solve(**given)
     error = {name: answer.error[name] * (1.0 if name == "attitude" else max(answer.scale[name], float(np.linalg.norm(answer[name])))) for name in ask}
     for name in ask:
@@ -76,6 +90,8 @@ def end_of(scene: "Scene") -> End:
             raise DomainError(f"from: the end of {scene.name} is not known: rung {answer.model} states no error of {name} there; ask for a shorter span of it, or "
                               "give [initial]")
     row = {name: answer[name][-1] for name in ask}
+    if stops and _rests(answer, last):
+        error.update({name: 0.0 for name in ask if name in ("angular_velocity", "angular_momentum") and not np.any(row[name])})
     still = np.zeros(3)
     turning = zip(row["rotor_rate"].tolist(), row["rotor_angle"].tolist(), strict=True) if names else ()
     return End(row["attitude"], row["angular_velocity"], row["angular_momentum"], dict(zip(names, turning, strict=True)), fixed,
