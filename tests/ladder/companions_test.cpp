@@ -142,7 +142,7 @@ TEST_CASE("of many times some are looked at, and steps' ends; each hears an erro
     ode::Counts counts() const { return {0, 1, 0}; }
   };
   const Function grows = [](double t) { return 1 + t * 0x1p-20; };
-  for (const std::size_t count : {10, 64, 100, 6400, 6401}) {
+  for (const std::size_t count : {10u, 64u, 100u, 6400u, 6401u}) {
     int looks = 0;
     Counting course{still, 0.7}, companion{grows, 0.5, 0, &looks};
     std::vector<double> times, noted(count, -1.0), states(count);
@@ -164,7 +164,7 @@ TEST_CASE("of many times some are looked at, and steps' ends; each hears an erro
 
 TEST_CASE("what is off at the end of a step and gone in the next is seen, of however many times", "[ladder]") {
   const Function swells = [](double t) { return 1 + (t > 4.19 && t < 4.2005 ? 0x1p-20 : 0); };  // six steps of 0.7
-  for (const std::size_t count : {100, 1000, 6400}) {
+  for (const std::size_t count : {100u, 1000u, 6400u}) {
     Run course{swells, 0.7}, companion{still, 0.5};
     std::vector<double> times, states(count);
     for (std::size_t i = 1; i <= count; ++i) times.push_back(10 * double(i) / double(count));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <utility>
 #include <vector>
@@ -61,9 +60,9 @@ template <class Writer>
 struct CvodeRuns {
   std::vector<typename Writer::State> states;  ///< of the answer, at the asked times
   Errc failure = Errc::ok;
-  ode::Counts counts;                                    ///< of all
-  double tolerance;                                      ///< of the answer
-  std::array<double, honesty::cvode_companions> margin;  ///< stated error over the distance of each
+  ode::Counts counts;                        ///< of all
+  double tolerance;                          ///< of the answer
+  double margin[honesty::cvode_companions];  ///< stated error over the distance of each
   Comparison<Writer> asked;
   typename Comparison<Writer>::ColumnErrors error;  ///< in units of the columns
 };

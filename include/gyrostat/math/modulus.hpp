@@ -30,7 +30,7 @@ struct Modulus {
   constexpr Modulus complement() const noexcept { return {kp2, k2}; }
 
   /// Both squares lie in [0, 1]; false for NaN. Without branches, so that loops over it vectorise.
-  constexpr bool legal() const noexcept { return (k2 >= 0) & (k2 <= 1) & (kp2 >= 0) & (kp2 <= 1); }
+  constexpr bool legal() const noexcept { return (int(k2 >= 0) & int(k2 <= 1) & int(kp2 >= 0) & int(kp2 <= 1)) != 0; }
 };
 
 }  // namespace gyrostat::math

@@ -131,7 +131,7 @@ TEST_CASE("beside an axis without control the rest of the momentum ends as zero"
   const Answer answer = c.with(rung::full, 1e-6).solve();
   const auto& M = answer.find("angular_momentum")->values;
   CHECK(M[0] > 0);
-  for (const std::size_t i : {1, 2, 4, 5}) CHECK(M[i] == 0);
+  for (const std::size_t i : {1u, 2u, 4u, 5u}) CHECK(M[i] == 0);
   CHECK(M[3] == Approx(M[0] * std::exp(-.02 * 250)).epsilon(1e-9));
   CHECK(answer.met);
   CHECK(answer.counts.steps < many_steps);

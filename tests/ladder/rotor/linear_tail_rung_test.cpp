@@ -99,7 +99,7 @@ TEST_CASE("linear-tail rung: from far away the full equations lead to it", "[rot
 TEST_CASE("linear-tail rung: random bodies, within the stated errors", "[rotor]") {
   Bodies bodies(21);
   int answered = 0;
-  for (int i = 0; i < 120; ++i) {
+  for (int i = 0; i < 200; ++i) {
     Case c(0, 1, bodies.scale(1e-9, 1e-3));
     c.body = bodies.realisable();
     const auto start = bodies.start(c.body);

@@ -110,11 +110,11 @@ struct Response {
 
   /// The greatest change of column i to each side, at the asked times, or at all: the greater and the lesser.
   std::array<double, 2> most(std::size_t i, const std::vector<bool>& asked, bool all) const noexcept {
-    std::array<double, 2> sides{};
+    double sides[2] = {};
     const Apart &x = odd[i], &y = even[i];
     for (std::size_t row = 0; row < asked.size(); ++row) {
       if (!all && !asked[row]) continue;
-      std::array<double, 2> squares{};
+      double squares[2] = {};
       for (std::size_t k = row * x.width; k < (row + 1) * x.width; ++k) {
         squares[0] += (y.values[k] + x.values[k]) * (y.values[k] + x.values[k]);
         squares[1] += (y.values[k] - x.values[k]) * (y.values[k] - x.values[k]);

@@ -121,7 +121,7 @@ GYROSTAT_COMPILED_ONCE Periodicity periodicity_from(const Scene& scene) {
     // a side that is open leaves the turn open, and how long the axis lingers there; a body that is symmetric but for rounding trades so much of the
     // momentum along its axis
     const double traded = scene.converts_body() ? conversion : 0;
-    for (std::size_t pole : {0, 1})
+    for (std::size_t pole : {0u, 1u})
       if (std::abs(known.sides[pole]) <= margin * std::max(traded, std::abs(off.sides[pole] - known.sides[pole])))
         known.precession_error = infinity<double>;
   }

@@ -110,8 +110,8 @@ class QuickLanes {
   }
 
   int count_ = 0;
-  std::array<MotionLanes, copies> lanes_;
-  std::array<Known, size> known_;
+  MotionLanes lanes_[copies];
+  Known known_[size];
 };
 
 inline void QuickLanes::enlist(std::span<const Body> bodies) noexcept {

@@ -436,7 +436,7 @@ template <Real Real_, bool large>
 template <class Index, int Order>
 GYROSTAT_INLINE auto FullSystem<Real_, large>::fall(Index k, const Scalar (&x)[Order + 1][width], Work<Order>& work,
                                                     const Constants& c) const noexcept -> Row {
-  if (k > 0) work.orbit_turn.extend(k);
+  if constexpr (!std::is_same_v<Index, std::integral_constant<int, 0>>) work.orbit_turn.extend(k);
   work.outward.extend(k, load(&x[k][At::attitude]), work.orbit_turn);
   work.orbit_gradient[k] = shape_(work.outward.v, k);
   return lanes(c.unit * fall_) * work.orbit_gradient[k];
@@ -789,7 +789,8 @@ auto FullSystem<Real_, large>::rest(int k, Scalar (&x)[Order + 1][width], Work<O
     work.torque[i][k] = bending(part, k, work.current[i + 1], work, unit) + linear(part, k, x, work, unit);
     sum = sum + work.factor[i].times(work.torque[i], k);
   }
-  if (large && sees_.force) move_centre(k, x, work, unit);
+  if constexpr (large)
+    if (sees_.force) move_centre(k, x, work, unit);
   return sum;
 }
 

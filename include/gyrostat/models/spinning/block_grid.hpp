@@ -12,6 +12,7 @@
 #include "gyrostat/models/spinning/linear_functions.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
 
+GYROSTAT_QUIET_LOOPS
 namespace gyrostat::spinning {
 
 namespace detail {
@@ -443,3 +444,4 @@ extern template class BlockGrid<double>;
 #endif
 
 }  // namespace gyrostat::spinning
+GYROSTAT_QUIET_LOOPS_END

@@ -7,10 +7,17 @@
 
 #if defined(__clang__)
 #define GYROSTAT_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+// it warns where it does not vectorise one all the same
+#define GYROSTAT_QUIET_LOOPS _Pragma("clang diagnostic push") _Pragma("clang diagnostic ignored \"-Wpass-failed\"")
+#define GYROSTAT_QUIET_LOOPS_END _Pragma("clang diagnostic pop")
 #elif defined(__GNUC__)
 #define GYROSTAT_INDEPENDENT _Pragma("GCC ivdep")
 #else
 #define GYROSTAT_INDEPENDENT
+#endif
+#if !defined(GYROSTAT_QUIET_LOOPS)
+#define GYROSTAT_QUIET_LOOPS
+#define GYROSTAT_QUIET_LOOPS_END
 #endif
 
 namespace gyrostat::spinning {

@@ -12,6 +12,7 @@
 #include "gyrostat/models/spinning/pointing.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
 
+GYROSTAT_QUIET_LOOPS
 namespace gyrostat::spinning {
 
 /// The linear motion on an even grid as a sum of its modes, with cos and sin of theta and nu t by a rotation of two levels:
@@ -253,3 +254,4 @@ extern template class ModeGrid<double>;
 #endif
 
 }  // namespace gyrostat::spinning
+GYROSTAT_QUIET_LOOPS_END

@@ -100,7 +100,7 @@ class Motion {
     } else {
       y.circle = s.heading * (s.momentum + s.torque * once(r0) - s.charge_momentum * turned(I_Gamma));
       // with the factor e^(-i r0 tau) that (50), (51) and their integrals forget
-      const auto turned_back = [r0](Complex with, Complex without, Scalar w) noexcept {
+      const auto turned_back = [](Complex with, Complex without, Scalar w) noexcept {
         return turned(without - with) / w;
       };
       const Complex back = once(-r0), back2 = twice(-r0);
