@@ -491,3 +491,17 @@ def test_a_body_that_a_brake_has_stopped_is_at_rest_where_another_scene_goes_on(
     # one that may be let go again is not known to be at rest
     (tmp_path / "a.toml").write_text((tmp_path / "a.toml").read_text(encoding="utf-8").replace("[initial]", "on = [[0.0, 40.0]]\n[initial]"), encoding="utf-8")
     assert gyrostat.solve(tmp_path / "b.toml").error["angular_velocity"] > 0
+
+
+def test_a_wheel_that_seizes_keeps_its_angle_and_turns_on_from_it(tmp_path: Path) -> None:
+    def scene(name: str, kind: str, rest: str) -> str:
+        return (f'name = "{name}"\n{rest}[solve]\nduration = 10.0\nsamples = 3\nask = "all"\n[body]\ninertia = [2.0, 3.0, 4.0]\n'
+                f'[[wheel]]\nname = "x"\ntype = "{kind}"\naxis = [1, 0, 0]\naxial_inertia = 0.1\n')
+
+    first = scene("a", "free", "") + "rate = 1.0\n[initial]\nangular_velocity = [0.1, 0.2, 0.3]\n"
+    for name, text in (("a", first), ("b", scene("b", "locked", 'from = "a.toml"\n')), ("c", scene("c", "free", 'from = "b.toml"\n'))):
+        (tmp_path / f"{name}.toml").write_text(text, encoding="utf-8")
+    a, b, c = (gyrostat.solve(tmp_path / f"{name}.toml")["rotor_angle"][:, 0] for name in "abc")
+    assert abs(a[-1]) > 10
+    np.testing.assert_array_equal(b, np.full(3, b[0]))
+    np.testing.assert_allclose([b[0], c[0]], a[-1], rtol=1e-9)

@@ -605,6 +605,8 @@ def test_a_heavy_scene_that_names_no_kind_does_not_fall_silently() -> None:
     data = load("toy-top").to_dict()
     with pytest.raises(SceneError, match=r'no kind is named, and nothing here has weight; write kind = "heavy"'):
         scene_from({key: value for key, value in data.items() if key != "kind"})
+    turning = {**data, "wheel": [{"axis": [0, 0, 1], "axial_inertia": 1e-5, "rate": 10}]}
+    assert scene_from({key: value for key, value in turning.items() if key != "kind"}).kind == "general"  # which is no heavy body
     falling = scene_from({**data, "kind": "general"})
     assert "free" in [family for family, why in recognised(falling).items() if not why]
 

@@ -6,6 +6,13 @@
 
 #include "gyrostat/core/level.hpp"
 
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "gyrostat cannot be compiled with -ffast-math, -Ofast, -fassociative-math or -ffinite-math-only: numbers of twice the digits, NaN and infinities would be lost, and errors be stated wrongly. Leave these options out where a file includes gyrostat (-O3 -fno-math-errno -fno-trapping-math are all right)"
+#endif
+#if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2)
+#error "gyrostat needs arithmetic in the precision of the numbers themselves: compile with -msse2 -mfpmath=sse on 32-bit x86"
+#endif
+
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// True of a class of numbers that stands for a floating-point type (core/double_double.hpp): with the operators, the limits of

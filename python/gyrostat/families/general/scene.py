@@ -44,7 +44,7 @@ def _wheel(kind: str, *own: Field, meaning: str, default: Any = REQUIRED) -> Tab
         Field("mass", "number", "mass of the wheel, where body.wheels_in_inertia is false", "kg", UNSET, low=0, open_low=True),
         Field("position", "vector", "its mass centre from the body's origin, there", "m", UNSET),
         Field("equatorial_inertia", "number", "its inertia about an axis across its own, there; at least half of axial_inertia", "kg m^2", UNSET, low=0),
-        *(() if locked else (Field("angle", "number", "angle of the wheel at t = 0, 0 by default", "rad", UNSET),)),
+        Field("angle", "number", "angle of the wheel at t = 0; left out it is 0, or goes on in a scene that has from", "rad", UNSET),
     )
 
 
@@ -159,7 +159,7 @@ KEYS: Final[dict[str, Table]] = {
         Field("along", "axis", f"direction of motion at t = 0, inertial axes, {_DIRECTION}; what of it is radial is dropped", "", (0.0, 1.0, 0.0)),
     ),
     "field": (
-        Field("gravity", "number", "gravity; left out there is none", "m/s^2", UNSET, low=0),
+        Field("gravity", "number", "gravity, under which a body falls that is not held; left out there is none; that of an orbit is not meant", "m/s^2", UNSET, low=0),
         Field("down", "axis", f"direction of gravity, inertial axes, {_DIRECTION}", "", (0.0, 0.0, -1.0)),
         Field("uniform", "vector", "magnetic flux density, constant, inertial axes", "T", UNSET),
         Field("rotating", "record", "magnetic flux density that turns", "", UNSET, parts=(
@@ -264,8 +264,9 @@ def _asked_in_vain(tables: Values, orbiting: bool) -> Found:
 
 def doubts(tables: Values) -> Found:
     """Gravity and a mass centre that nothing feels: the scene of a heavy body has just these keys."""
-    gravity = tables["field"]["gravity"]
-    if gravity and any(tables["body"]["centre_of_mass"]) and not tables[""]["torque"]:
+    field, top = tables["field"], tables[""]
+    gravity, other = field["gravity"], any(field[name] is not UNSET for name in ("uniform", "rotating", "dipole"))
+    if gravity and any(tables["body"]["centre_of_mass"]) and not (top["torque"] or top["wheel"] or other or top["from"] is not UNSET):
         yield ("field.gravity", gravity, "no kind is named, and nothing here has weight",
                'write kind = "heavy" for a body that is held at a point, or kind = "general" for one that falls freely')
 
@@ -560,10 +561,10 @@ def _handed_on(wheels: list[dict[str, Any]], end: End) -> tuple[list[dict[str, A
     have their own; and the places of those whose rate is handed on."""
     made, taken = [], []
     for place, wheel in enumerate(wheels):
-        found = end.wheels.get(wheel["name"] or place + 1) if wheel["type"] != "locked" else None
+        found = end.wheels.get(wheel["name"] or place + 1)
         if found and wheel["angle"] is UNSET:
             wheel = {**wheel, "angle": found[1]}
-        if found and wheel["rate"] is UNSET and wheel["momentum"] is UNSET:
+        if found and wheel["type"] != "locked" and wheel["rate"] is UNSET and wheel["momentum"] is UNSET:
             wheel = {**wheel, "rate": found[0]}
             taken.append(place)
         made.append(wheel)
