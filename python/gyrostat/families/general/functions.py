@@ -239,6 +239,11 @@ def _torque(given: Record, place: str) -> dict[str, Any]:
             "amplitude": _or(wave.get("amplitude"), 0.0), "rate": _or(wave.get("rate"), 0.0), "phase": _or(wave.get("phase"), 0.0), "on": on}
 
 
+def _cosine(angle: Any) -> Any:
+    """One number at a time: of arrays numpy takes another cosine on some machines."""
+    return np.reshape([math.cos(each) for each in np.ravel(angle).tolist()], np.shape(angle)) if np.ndim(angle) else math.cos(angle)
+
+
 def _orbit(given: Record | None) -> dict[str, Any] | None:
     if given is None:
         return None
@@ -269,7 +274,7 @@ def _orbit(given: Record | None) -> dict[str, Any] | None:
     eccentricity = _or(given.get("eccentricity"), 0.0)
     if not varies(eccentricity) and not 0 <= number("orbit.eccentricity", eccentricity) < 1:
         raise DomainError(f"orbit.eccentricity = {eccentricity}: give a number in [0, 1)")
-    share = 1 + eccentricity * np.cos(_or(given.get("true_anomaly"), 0.0))
+    share = 1 + eccentricity * _cosine(_or(given.get("true_anomaly"), 0.0))
     if given.get("period") is not None:  # the mean rate: at t = 0 it is that times share^2/(1 - e^2)^(3/2)
         flat = 1 - eccentricity * eccentricity
         rate = 2 * math.pi / given["period"] * (share * share / (flat * np.sqrt(flat)))
@@ -305,8 +310,7 @@ def orbit_start(orbit: Record, time: float = 0.0) -> tuple[Floats, Floats]:
     made = orbit_since(at, at_zero)
     radial, along = np.broadcast_arrays(made["radial"], made["along"])
     radius, normal = np.asarray(made["radius"]), np.cross(radial, along)
-    cosine = np.reshape([math.cos(each) for each in np.ravel(made["true_anomaly"]).tolist()], np.shape(made["true_anomaly"]))
-    speed = np.sqrt(made["mu"] / radius * (1 + made["eccentricity"] * cosine))
+    speed = np.sqrt(made["mu"] / radius * (1 + made["eccentricity"] * _cosine(made["true_anomaly"])))
     return np.stack([along, -normal, -radial], -1), (speed / radius)[..., None] * normal
 
 
