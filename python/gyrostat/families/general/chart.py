@@ -32,6 +32,11 @@ LOOKS: Final = 201
 ROUGH: Final = 1e-3
 
 
+def _cross(a: Floats, b: Floats) -> Floats:
+    """Of numbers, or of formulas, which np.cross takes from numpy 2 on."""
+    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+
+
 def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, float]:
     """Greatest angle between the attitudes, and greatest difference of the angular velocities over the greatest wanted."""
     return {"attitude": greatest(angle_between(made["attitude"], want["attitude"])),
@@ -183,7 +188,7 @@ class Surroundings:
         field, kind = self.field, self.field["magnetic"]
         B, k = field["flux_density"], field["axis"]
         if kind == "rotating":
-            along, ahead = k * float(k @ B), np.cross(k, B)
+            along, ahead = k * float(k @ B), _cross(k, B)
             c, s, rate = self.maths.cos(field["rate"] * t), self.maths.sin(field["rate"] * t), field["rate"]
             return along + (B - along) * c + ahead * s, (ahead * c - (B - along) * s) * rate
         if kind != "dipole":
@@ -254,7 +259,7 @@ class Rival:
         def in_body(t: float, R: Floats, v: Floats) -> Floats:
             if torque["axes"] == "orbit":
                 radial, along = around.place(t)[:2]
-                v = v[0] * radial + v[1] * along + v[2] * np.cross(radial, along)
+                v = v[0] * radial + v[1] * along + v[2] * _cross(radial, along)
             return v if torque["axes"] == "body" else R.T @ v
 
         def opposed(w: Floats, M: Floats) -> Floats:
@@ -267,13 +272,13 @@ class Rival:
             else:
                 radial, _, r, _, _ = around.place(t)
                 size, d = 3 * around.orbit["mu"] / r**3, R.T @ radial
-            made: Floats = size * np.cross(d, J @ d)
+            made: Floats = size * _cross(d, J @ d)
             return made
 
         def eddy(t: float, R: Floats, w: Floats, M: Floats) -> Floats:
             flux, rate = around.flux(t)
             B = R.T @ flux
-            made: Floats = np.cross(matrix @ (np.cross(w, B) - R.T @ rate), B)
+            made: Floats = _cross(matrix @ (_cross(w, B) - R.T @ rate), B)
             return made
 
         def brake(t: float, R: Floats, w: Floats, M: Floats) -> Floats:
@@ -285,9 +290,9 @@ class Rival:
         laws: dict[str, Callable[[float, Floats, Floats, Floats], Any]] = {
             "constant": lambda t, R, w, M: in_body(t, R, vector), "table": lambda t, R, w, M: in_body(t, R, table(t)) if table else None,
             "damping": lambda t, R, w, M: -matrix @ opposed(w, M), "brake": brake, "gravity-gradient": gradient, "eddy-current": eddy,
-            "weight": lambda t, R, w, M: body["mass"] * field["gravity"] * np.cross(body["centre_of_mass"], R.T @ field["down"]),
-            "magnetic": lambda t, R, w, M: np.cross(vector, R.T @ around.flux(t)[0]),
-            "thrust": lambda t, R, w, M: np.cross(arm, in_body(t, R, vector)), "charge": lambda t, R, w, M: np.cross(w, vector)}
+            "weight": lambda t, R, w, M: body["mass"] * field["gravity"] * _cross(body["centre_of_mass"], R.T @ field["down"]),
+            "magnetic": lambda t, R, w, M: _cross(vector, R.T @ around.flux(t)[0]),
+            "thrust": lambda t, R, w, M: _cross(arm, in_body(t, R, vector)), "charge": lambda t, R, w, M: _cross(w, vector)}
         return laws[kind]
 
     def columns(self, states: Floats) -> dict[str, Any]:
@@ -301,7 +306,7 @@ class Rival:
 
     def _flow(self, t: Any, state: Floats, R: Floats, torques: list[tuple[Callable[[Any], Any], Callable[[Any, Floats, Floats, Floats], Floats]]]) -> Floats:
         w, M = self._rate(t, state), self.size * state[4:7]
-        torque = np.cross(M, w)
+        torque = _cross(M, w)
         for factor, one in torques:
             share = factor(t)
             if not isinstance(share, float) or share:
