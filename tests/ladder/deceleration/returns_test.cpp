@@ -209,7 +209,9 @@ TEST_CASE("averaging by name beyond its validity tells no error, and says so", "
   rotor.control = V(.254, .254, .52);
   rotor.momentum = V(11723 * .11206 + 304.27, .0019, -.0014);
   rotor.times = until(2462);
-  for (auto& [J, asked] : {std::pair{near_cube, slow}, std::pair{slender, rotor}}) {
+  for (const auto& given : {std::pair{near_cube, slow}, std::pair{slender, rotor}}) {
+    const Mat3<double>& J = given.first;
+    const Asked& asked = given.second;
     const auto solved = [&](int rung, double tolerance) {
       Asked other = asked;
       other.rung = rung;
