@@ -60,6 +60,13 @@ Vec3<Scalar> neighbour_direction(int which) noexcept {
   return {Scalar(v[0]), Scalar(v[1]), Scalar(v[2])};
 }
 
+/// By how much the moments of a companion's tensor differ, along the diagonal. which: 0 or 1.
+template <Real Scalar>
+Vec3<Scalar> moment_shifts(int which) noexcept {
+  const auto& v = honesty::moment_shifts[which == 0 ? 0 : 1];
+  return {Scalar(v[0]), Scalar(v[1]), Scalar(v[2])};
+}
+
 /// First guess of the step tolerance of a motion that turns through `phase` rad.
 template <Real Scalar>
 Scalar first_step_tolerance(Scalar tolerance, Scalar phase, Scalar loosest) noexcept {

@@ -176,7 +176,7 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noex
   const Vec3<Scalar> direction = neighbour_direction<Scalar>(which);
   Problem<Scalar> near = of;
   const bool diagonal = of.inertia.isDiagonal(0), kept = keeps_axis(of);
-  if (diagonal) near.inertia += amount * of.inertia * Vec3<Scalar>(change.diagonal()).asDiagonal();
+  if (diagonal) near.inertia += amount * of.inertia * moment_shifts<Scalar>(which).asDiagonal();
   else near.inertia += amount * of.inertia.cwiseAbs().maxCoeff() * change;
 
   const auto moved = [&](const Vec3<Scalar>& v, Scalar share) noexcept {

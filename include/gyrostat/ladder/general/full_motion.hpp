@@ -652,7 +652,7 @@ bool keeps_axis(const Problem<Scalar>& of) noexcept {
 /// wheel or torque stays so, and so do a body at rest and zeros that a symmetry keeps. which: 0 or 1, in another direction.
 template <Real Scalar>
 Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noexcept {
-  Shifts<Scalar> shift(5 * which);
+  Shifts<Scalar> shift(5 * which + 3);
   Problem<Scalar> near = of;
   const bool kept = keeps_axis(of);
   const auto scale = [&](Scalar& x) noexcept { x *= 1 + amount * shift(); };
@@ -664,7 +664,7 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noex
     for (int i = 0; i < 3; ++i)
       if (const Scalar s = shift(); v[i] != 0 || !kept) v[i] += by * s;
   };
-  Mat3<Scalar> change = Vec3<Scalar>(shift.vector()).asDiagonal();
+  Mat3<Scalar> change = moment_shifts<Scalar>(which).asDiagonal();
   if (of.inertia.isDiagonal(0)) {
     near.inertia += amount * of.inertia * change;
   } else {

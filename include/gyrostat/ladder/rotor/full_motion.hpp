@@ -192,13 +192,18 @@ struct Neighbour {
   }
 };
 
-/// How many times over a change of the start counts where it is next to a steady rotation, which is not bound to be stable: the motion may stay
-/// long, and how far off it began sets when it leaves. 1 elsewhere.
+/// How many times over a change of the start counts where it is next to a steady rotation, or not so near to one that is unstable with its wheel free or
+/// locked: the motion may stay long, and how far off it began sets when it leaves. 1 elsewhere.
 template <Real Scalar>
-Scalar condition_of_start(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start) noexcept {
-  const Vec3<Scalar> Omega = gyrostat.angular_velocity(start.momentum, start.axial_momentum);
+Scalar condition_of_start(const Gyrostat<Scalar>& body, const State<Scalar>& start) noexcept {
+  const Vec3<Scalar> Omega = body.angular_velocity(start.momentum, start.axial_momentum);
   const Scalar whole = Omega.norm() * start.momentum.norm(), across = cross<Scalar>(Omega, start.momentum).norm();
-  return across < Scalar(honesty::next_to_steady) * whole ? Scalar(honesty::steady_condition) : Scalar(1);
+  const auto unstable = [&](const Mat3<Scalar>& inverse) noexcept {
+    return gyrostat::condition_of_start<Scalar>(start.momentum, Omega, inverse);
+  };
+  const Scalar steady =
+      across < Scalar(honesty::next_to_steady) * whole ? Scalar(honesty::steady_condition) : Scalar(1);
+  return std::max({steady, unstable(body.free_inverse()), unstable(body.inertia().inverse())});
 }
 
 /// What errors leave unknown where the runs have parted (honesty::parted_lyapunov, parted_margin).
