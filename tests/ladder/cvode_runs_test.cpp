@@ -94,3 +94,17 @@ TEST_CASE("what runs differ by is not hidden where they meet at the one time tha
   CHECK(runs.error[0] > honesty::cvode_margin * 5e-7);
   CHECK(runs.asked.size()[0] == 0);
 }
+
+TEST_CASE("where one companion is near by chance the other counts", "[ladder]") {
+  for (const int away : {0, 1}) {
+    const auto near = [&](std::span<const double> times, const CvodeTask& task) {
+      CvodeRun<double> made;
+      made.states.assign(times.size(), task.change > 0 && task.which == away ? 1e-6 : 0);
+      return made;
+    };
+    const auto runs = cvode_runs(Row{}, std::vector<double>{10}, 1e-3, 1e-3, near);
+    CAPTURE(away);
+    CHECK(runs.error[0] == Approx(1e-6 * runs.margin[away]));
+    CHECK(runs.margin[away] == Approx(honesty::cvode_margin * honesty::cvode_looser[0] / honesty::cvode_looser[away]));
+  }
+}

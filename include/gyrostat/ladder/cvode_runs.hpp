@@ -47,12 +47,12 @@ CvodeRun<State> run_cvode(Equations& equations, const State& start, std::span<co
   return run;
 }
 
-/// What a run is asked for.
+/// What a run is asked for. longest: the share of the span that a step may take; change: by how much the data of companion `which` differ, 0 for the answer:
+/// by what its steps may err, which a slim tensor or an unstable axis makes more of.
 struct CvodeTask {
-  double tolerance, longest;  ///< of steps; longest: the share of the span that one may take
-  double change =
-      0;  ///< by how much the data of a companion differ: by what its steps may err, which a slim tensor or an unstable axis makes more of
-  int which = 0;  ///< companion
+  double tolerance, longest;
+  double change = 0;
+  int which = 0;
 };
 
 /// The answer's run and how far its companions' are off.

@@ -27,7 +27,7 @@ inline constexpr double shared_steps = 1.0 / 8;
 /// can be (0.82). Where one number rules, as in a steady rotation, the truncation may cancel what one companion shows, not what both do.
 inline constexpr double directions[2][3] = {{0.90, -0.12, 0.42}, {0.12, -0.90, -0.42}};
 /// By how much the moments of a diagonal tensor differ in two companions: no two of them nearly alike, or what hangs on the difference of two moments that are
-/// nearly equal would err alike in all runs. Chosen: with two that were 0.2 apart 198 of 240 bodies, symmetric but for 1e-7 about axis 2, had stated up to 20 times too little.
+/// nearly equal would err alike in all runs. Chosen: with two that were 0.2 apart 198 of 240 answers of a body, symmetric but for 1e-7 about axis 2, had stated up to 20 times too little.
 inline constexpr double moment_shifts[2][3] = {{-0.8, 0.1, 0.9}, {0.2, -0.8, 0.9}};
 /// By how much the data of a companion differ that runs alone, roundings: in its one direction it may be near by chance.
 inline constexpr double alone_change = 32;
