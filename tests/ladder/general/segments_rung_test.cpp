@@ -142,3 +142,21 @@ TEST_CASE("an error grows from segment to segment no less than the motion makes 
   const Answer answer = by(rung::segments, problem, times, 1e-4);
   check_within(answer, by(rung::full, problem, times, 1e-12));
 }
+
+TEST_CASE("segments end where too little is known of where the next begins") {
+  // pushed for long, ever faster
+  Problem<double> problem = brick();
+  problem.inertia = Vec3<double>(0.49, 0.74, 0.87).asDiagonal();
+  problem.angular_velocity = {-1.2, -1.7, 0.54};
+  problem.torques = {pulse(36, 145, {-0.018, 0.007, -0.003}),  pulse(165, 213, {0.002, 0.009, 0.18}),
+                     pulse(247, 266, {0, -0.005, -0.015}),     pulse(346, 353, {-0.004, 0.015, -0.005}),
+                     pulse(382, 462, {-0.01, -0.014, -0.002}), pulse(465, 485, {0, 0, 0.005})};
+  const Scene alone = posed(problem, question_at({0, 514}, 1e-6, rung::segments));
+  gyrostat::Refusal refusal;
+  (void)general::solve(alone, refusal);
+  CHECK(refusal.code == Errc::not_applicable);
+  CHECK(refusal.why == errors_grew);
+  const Answer answer = solved(posed(problem, question_at({0, 514}, 1e-6)));
+  CHECK(std::string_view(answer.model) == "full");
+  check_within(answer, by(rung::full, problem, {0, 514}, 1e-12));
+}

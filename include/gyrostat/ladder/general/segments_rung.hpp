@@ -26,6 +26,10 @@ inline constexpr std::size_t most_segments = 64;
 inline constexpr const char* not_in_segments =
     "not steady between the times at which something changes, or no instance of a family there";
 
+inline constexpr const char* errors_grew =
+    "the error of one segment leaves too little known of where the next begins; the full equations go through all at "
+    "once";
+
 /// What holds between two breakpoints, by a clock that begins with it. The start is that of the whole.
 struct Segment {
   double from, to;  ///< s
@@ -109,7 +113,18 @@ class SegmentedMotion {
     }
     end_ = state_of(answer, times.size() - 1);
     hand_on(answer, segment.to);
-    return Errc::ok;
+    if (next_ == asked.size() || !lost(answer)) return Errc::ok;
+    why = errors_grew;
+    return Errc::not_applicable;
+  }
+
+  /// Whether it is in vain to go on from the end of a segment: half of its rates is unknown, or more of the attitude is off than is asked and other
+  /// rungs stand.
+  bool lost(const Answer& answer) const noexcept {
+    const bool alone = scene_.question().rung != any_rung;
+    const Column* rates = answer.find(column_kinds[column::angular_velocity].name);
+    return (rates && !(error_.angular_velocity <= size_of(*rates) / 2)) ||
+           (!alone && track_.off[primitive::attitude] > scene_.goal().columns[column::attitude]);
   }
 
   /// The first answer of a rung of a family that meets what is asked of the segment, or else comes nearest to it: what counts is the whole. The full
