@@ -130,7 +130,7 @@ def test_averaged_states_what_its_integration_loses(tolerance: float) -> None:
 
 
 def test_quasi_stationary_modulus_solves_its_equation() -> None:
-    star = deceleration.quasi_stationary_modulus(control=[[0.95, 0.8, 1.0], [2.0, 1.0, 1.0]])
+    star = deceleration.quasi_stationary_modulus_squared(control=[[0.95, 0.8, 1.0], [2.0, 1.0, 1.0]])
     assert 0 < star[0] < 1 and math.isnan(star[1])
     c = elliptic.complete(star[0])
     w = 1 - c.E / c.K
@@ -138,7 +138,7 @@ def test_quasi_stationary_modulus_solves_its_equation() -> None:
     table = deceleration.stability(control=[0.95, 0.8, 1.0])
     assert (table.region, table.axis, table.interior, table.separatrix) == ("to-interior", "repels", "attracts", "repels")
     assert table.quasi_stationary + table.quasi_stationary_complement == pytest.approx(1)
-    other = deceleration.quasi_stationary_modulus(control=[1.0, 0.8, 0.95], regime="C")
+    other = deceleration.quasi_stationary_modulus_squared(control=[1.0, 0.8, 0.95], regime="C")
     assert other == pytest.approx(star[0], rel=1e-14)
 
 

@@ -22,7 +22,7 @@ largest: float = answer.greatest_error
 momentum = np.asarray(answer["angular_momentum_norm"])
 brake: gyrostat.Answer = deceleration.solve(inertia=[3.0, 2.0, 1.5], control=[0.1, 0.1, 0.1], drag=0.1, angular_momentum=[1.0, 2.0, 3.0], times=[0.0, 1.0])
 errors: dict[str, float] = brake.scalar_error
-star = deceleration.quasi_stationary_modulus(control=[0.95, 0.8, 1.0])
+star = deceleration.quasi_stationary_modulus_squared(control=[0.95, 0.8, 1.0])
 sweep = deceleration.averaged(inertia=[3.0, 2.0, 1.5], control=np.ones((4, 3)), drag=0.1, angular_momentum=[1.0, 2.0, 3.0], t=[0.0, 1.0])
 K = elliptic.complete(star).K
 turn = rotation.matrix_from_vector([0.0, 0.0, 1.0])

@@ -21,7 +21,7 @@ from gyrostat.broadcast import Floats, array, arrays, numbers, rows, shaped, who
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 
-__all__ = ["Averaged", "Monitor", "Stability", "averaged", "has_cvode", "integrate", "quasi_stationary_modulus",
+__all__ = ["Averaged", "Monitor", "Stability", "averaged", "has_cvode", "integrate", "quasi_stationary_modulus_squared",
            "solve", "stability"]
 
 REGIONS: Final = ("to-axis", "to-separatrix", "to-interior", "from-interior", "neutral")
@@ -141,8 +141,8 @@ def stability(*, control: ArrayLike, regime: str = "A") -> Stability:
                      quasi_stationary=shaped(made[:, 4], lead), quasi_stationary_complement=shaped(made[:, 5], lead))
 
 
-def quasi_stationary_modulus(*, control: ArrayLike, regime: str = "A") -> Floats:
-    """k*2, at which the torques leave the shape of the orbit alone; NaN where there is none. Arguments as in `stability`."""
+def quasi_stationary_modulus_squared(*, control: ArrayLike, regime: str = "A") -> Floats:
+    """k*², at which the torques leave the shape of the orbit alone; NaN where there is none. Arguments as in `stability`."""
     if regime not in ("A", "C"):
         raise DomainError(f"regime = {regime!r}: use A or C")
     return stability(control=control, regime=regime).quasi_stationary
