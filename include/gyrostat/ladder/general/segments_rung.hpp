@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gyrostat/core/linkage.hpp"
+#include "gyrostat/ladder/general/full_rung.hpp"
 #include "gyrostat/ladder/general/special_rung.hpp"
 #include "gyrostat/ladder/general/start_error.hpp"
 #include "gyrostat/ladder/goal.hpp"
@@ -35,6 +36,13 @@ struct Segment {
   double from, to;  ///< s
   Problem<double> problem;
 };
+
+/// Measured over that of the full equations: each segment takes so long, s, for its scene, for the families that are found and for errors
+/// that are handed on, and its rungs so many times what they alone do, as tighter tolerances are asked of them.
+struct SegmentCost {
+  double each, share;
+};
+inline constexpr SegmentCost segment_cost{300e-6, 6};
 
 namespace detail {
 
@@ -74,6 +82,10 @@ inline std::vector<Candidate> candidates_of(const Scene& scene) {
   return candidates_of(scene, std::make_index_sequence<std::size_t(rung::segments)>{});
 }
 
+/// What a segment costs, s, its start that of the whole or, displaced, off by what the one before errs.
+GYROSTAT_COMPILED_ONCE double cost_of_one(const Scene& segment, const std::vector<Candidate>& candidates,
+                                          bool displaced) noexcept;
+
 /// The ladder, which answers a segment.
 using Solve = Answer (*)(const Scene&, Refusal&, Monitor*);
 
@@ -104,7 +116,13 @@ class SegmentedMotion {
     const auto times = times_in(segment, asked, next_);
     const auto made = Scene::make(segment.problem, question_of(scene_, times, segment.from, segments_.size()));
     if (!made) return made.error();
-    const Answer answer = best_of(made->known_within(error_), monitor, why);
+    const auto candidates = candidates_of(*made);
+    if (!is_alone() && cost_of_one(*made, candidates, k > 0) > cost_of_full(scene_)) {
+      why = costs_more;
+      return Errc::not_applicable;
+    }
+    Answer answer = best_of(*made, candidates, monitor, why);
+    if (!answer.columns.empty() && error_.any()) answer = carried(*made, answer, monitor, why);
     if (answer.columns.empty()) return why == nullptr ? Errc::cancelled : Errc::not_applicable;
     track_.counts += answer.counts;
     for (std::size_t i = first, row = 0; i < next_; ++i) {
@@ -118,38 +136,46 @@ class SegmentedMotion {
     return Errc::not_applicable;
   }
 
+  bool is_alone() const noexcept { return scene_.question().rung != any_rung; }
   /// Whether it is in vain to go on from the end of a segment: half of its rates is unknown, or more of the attitude is off than is asked and other
   /// rungs stand.
   bool lost(const Answer& answer) const noexcept {
-    const bool alone = scene_.question().rung != any_rung;
     const Column* rates = answer.find(column_kinds[column::angular_velocity].name);
     return (rates && !(error_.angular_velocity <= size_of(*rates) / 2)) ||
-           (!alone && track_.off[primitive::attitude] > scene_.goal().columns[column::attitude]);
+           (!is_alone() && track_.off[primitive::attitude] > scene_.goal().columns[column::attitude]);
   }
 
-  /// The first answer of a rung of a family that meets what is asked of the segment, or else comes nearest to it: what counts is the whole. The full
-  /// equations of a family are asked where nothing else is of use.
-  Answer best_of(const Scene& segment, Monitor* monitor, const char*& why) const {
+  /// The first answer of a rung of a family that meets what is asked of the segment, or else comes nearest to it, were the start exact: what counts is
+  /// the whole. The full equations of a family are asked where nothing else is of use.
+  Answer best_of(const Scene& segment, const std::vector<Candidate>& candidates, Monitor* monitor,
+                 const char*& why) const {
     Answer best;
     why = not_in_segments;
-    for (const Candidate& candidate : candidates_of(segment)) {
+    for (const Candidate& candidate : candidates) {
       if (candidate.rung >= std::size_t(rung::family_full) && !best.columns.empty() && useful(best)) continue;
-      Question question = segment.question();
-      question.rung = int(candidate.rung);
-      Refusal refusal;
-      Answer answer = solve_(segment.asked(question), refusal, monitor);
-      if (refusal.code == Errc::cancelled) {
-        why = nullptr;
-        return {};
-      }
-      if (refusal.code != Errc::ok) {
-        if (best.columns.empty()) why = refusal.why;
-        continue;
-      }
+      Answer answer = by_rung(segment, int(candidate.rung), monitor, why);
+      if (why == nullptr) return {};
+      if (answer.columns.empty()) continue;
       if (best.columns.empty() || answer.excess < best.excess) best = std::move(answer);
       if (best.met) break;
     }
     return best;
+  }
+
+  /// The same answer with what the error of the start makes of it.
+  Answer carried(const Scene& segment, const Answer& answer, Monitor* monitor, const char*& why) const {
+    return by_rung(segment.known_within(error_), place_of(tables.rungs, answer.model), monitor, why);
+  }
+
+  /// Without columns: refused, and why; nullptr: cancelled.
+  Answer by_rung(const Scene& segment, int rung, Monitor* monitor, const char*& why) const {
+    Question question = segment.question();
+    question.rung = rung;
+    Refusal refusal;
+    Answer answer = solve_(segment.asked(question), refusal, monitor);
+    if (refusal.code == Errc::ok) return answer;
+    why = refusal.code == Errc::cancelled ? nullptr : refusal.why;
+    return {};
   }
 
   /// Whether an answer may be good enough for the whole, whatever is asked of the segment.
@@ -211,13 +237,6 @@ class SegmentedMotion {
 };
 
 }  // namespace detail
-
-/// Measured over that of the full equations: each segment takes so long, s, for its scene, for the families that are found and for errors
-/// that are handed on, and its rungs so many times what they alone do, as tighter tolerances are asked of them.
-struct SegmentCost {
-  double each, share;
-};
-inline constexpr SegmentCost segment_cost{300e-6, 6};
 
 /// What the rung `segments` costs, s: every segment by the rungs up to the first that is sure, with those that carry errors on; NaN: one of
 /// them is no instance of a family.

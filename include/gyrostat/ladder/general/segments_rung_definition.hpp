@@ -130,14 +130,22 @@ inline void set_turning(Problem<double>& problem, double rate) noexcept {
   if (own < rate) w = own > 0 ? Vec3<double>(rate / own * w) : Vec3<double>(rate * Vec3<double>(0.48, 0.6, 0.64));
 }
 
-/// What rungs cost, in their order, up to the first that surely meets what is asked: a closed form, or the full equations of a family.
-inline double cost_of_sure(const std::vector<Candidate>& candidates) noexcept {
+/// What rungs cost, in their order, up to the first that surely meets what is asked: a closed form, or the full equations of a family, which torques may
+/// drive as far as those of all.
+inline double cost_of_sure(const Scene& segment, const std::vector<Candidate>& candidates) noexcept {
   double sum = 0;
   for (const Candidate& candidate : candidates) {
-    sum += candidate.cost;
-    if (candidate.rung < closed_forms || candidate.rung >= std::size_t(rung::family_full)) break;
+    const bool full = candidate.rung >= std::size_t(rung::family_full);
+    sum += full ? std::max(candidate.cost, cost_of_full(segment)) : candidate.cost;
+    if (full || candidate.rung < closed_forms) break;
   }
   return sum;
+}
+
+GYROSTAT_COMPILED_ONCE double cost_of_one(const Scene& segment, const std::vector<Candidate>& candidates,
+                                          bool displaced) noexcept {
+  const double ways = 3 + (turns_along(segment.problem()) ? 0 : 3) + double(segment.wheels().count);
+  return segment_cost.each + segment_cost.share * cost_of_sure(segment, candidates) * (1 + (displaced ? ways : 0));
 }
 
 }  // namespace detail
@@ -145,18 +153,18 @@ inline double cost_of_sure(const std::vector<Candidate>& candidates) noexcept {
 GYROSTAT_COMPILED_ONCE double cost_of_segments(const Scene& scene) noexcept {
   if (!scene.is_recognised() || scene.breaks() == 0 || scene.breaks() >= most_segments) return nan<double>;
   const auto segments = detail::segments_of(scene.problem(), scene.question().times.back());
-  double sum = segments.empty() ? nan<double> : 0, displaced = 0;
+  double sum = segments.empty() ? nan<double> : 0;
+  bool displaced = false;
   std::size_t next = 0;
   for (const Segment& segment : segments) {
     auto times = detail::times_in(segment, scene.question().times, next);
     auto problem = segment.problem;
-    if (displaced > 0) detail::set_turning(problem, scene.sizes().turning);
+    if (displaced) detail::set_turning(problem, scene.sizes().turning);
     const auto made = Scene::make(problem, detail::question_of(scene, std::move(times), segment.from, segments.size()));
     const auto candidates = made ? detail::candidates_of(*made) : std::vector<detail::Candidate>{};
     if (candidates.empty()) return nan<double>;
-    const double ways = 3 + (detail::turns_along(segment.problem) ? 0 : 3) + double(scene.wheels().count);
-    sum += segment_cost.each + segment_cost.share * detail::cost_of_sure(candidates) * (1 + displaced * ways);
-    displaced = 1;
+    sum += detail::cost_of_one(*made, candidates, displaced);
+    displaced = true;
   }
   return sum;
 }

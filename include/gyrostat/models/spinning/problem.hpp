@@ -71,7 +71,8 @@ struct Problem {
   }
   /// The angle that body and nutation turn through in `span`, s, to its order, rad.
   Scalar phase(Scalar span) const noexcept {
-    return span * (rate_size(span) + std::abs(gyroscopic()) / std::min(inertia[0], inertia[1]));
+    const Scalar spun_up = std::abs(torque[2]) / inertia[2] * span / 2;  // rate, on the mean
+    return span * (rate_size(span) + spun_up + std::abs(gyroscopic()) / std::min(inertia[0], inertia[1]));
   }
   /// nu^2 = kappa1 kappa2 at r0, 1/s^2: negative where the spin is unstable.
   Scalar nutation_squared() const noexcept { return kappa1(spin()) * kappa2(spin()); }
