@@ -6,7 +6,7 @@
     docs_tables.py --write      write them anew
 
 A table stands between <!-- KIND:FAMILY --> (or <!-- KIND -->) and <!-- end -->. Columns, scalars, rungs and warnings come from the compiled families,
-keys of scene files and units from the tables behind the validator, constants from include/gyrostat/ladder/honesty.hpp. What to do about a warning is
+keys of scene files, units and planets from the tables behind the validator, constants from include/gyrostat/ladder/honesty.hpp. What to do about a warning is
 written by hand in the last cell of its row, what a scene is behind its command; neither may be empty, and both are kept. The rung of a scene is the
 one that answers it. Needs the package gyrostat.
 """
@@ -20,6 +20,7 @@ from collections.abc import Callable, Iterable, Iterator
 import gyrostat
 from gyrostat import _core
 from gyrostat.families import FAMILIES
+from gyrostat.families.general.functions import PLANETS
 from gyrostat.orientation import FORMS
 from gyrostat.scenes import bundled
 from gyrostat.schema import key_tables, ways
@@ -125,8 +126,13 @@ def units(_: str, __: str) -> str:
     return table(["measures", "units"], [[what, ", ".join(f"`{name}`" for name in sizes)] for what, (_, sizes) in QUANTITIES.items()])
 
 
+def planets(_: str, __: str) -> str:
+    return table(["planet", "gravitational parameter, m^3/s^2", "equatorial radius, m"],
+                 [[f"`{name}`", repr(mu), repr(radius)] for name, (mu, radius) in PLANETS.items()])
+
+
 TABLES: dict[str, Callable[[str, str], str]] = {"columns": columns, "scalars": scalars, "rungs": rungs, "warnings": warnings, "keys": keys,
-                                                "gallery": gallery, "constants": constants, "units": units}
+                                                "gallery": gallery, "constants": constants, "units": units, "planets": planets}
 
 
 def pages() -> Iterator[tuple[pathlib.Path, str, str]]:
@@ -155,7 +161,7 @@ def breaches() -> Iterator[str]:
                 yield from (f"docs/{path.name}: what is one to do about {row[0]}?" for row in map(cells, block.group(3).splitlines()[2:]) if not row[2])
             if block.group(1) == "gallery":
                 yield from (f"docs/{path.name}: what is this scene? {row[1]}" for row in map(cells, block.group(3).splitlines()[2:]) if row[1].endswith("<br>"))
-    for what in set(TABLES) - {"constants", "units"}:
+    for what in set(TABLES) - {"constants", "units", "planets"}:
         yield from (f"docs/: no table <!-- {what}:{kind} -->" for kind in FAMILIES if (what, kind) not in listed)
 
 

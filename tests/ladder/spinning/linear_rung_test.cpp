@@ -131,7 +131,7 @@ TEST_CASE("rung linear under an axial torque", "[spinning]") {
 
   Monitor monitor;
   monitor.cancel = true;
-  CHECK(linear_track(posed(p, 2000 * span, 1e-2, rung::linear), &monitor).failure == Errc::cancelled);
+  CHECK(linear_track(posed(p, 1000 * span, 1e-2, rung::linear), &monitor).failure == Errc::cancelled);
   // what no budget of steps reaches is refused before the first one
   p.torque[2] = 1e16 * p.inertia[2];
   for (const int asked : {any_rung, int(rung::linear)})
