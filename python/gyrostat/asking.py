@@ -13,7 +13,7 @@ from gyrostat.units import split, to_si
 
 __all__ = ["Ask", "AskError", "Asked", "asked", "knows_attitude", "parse_ask"]
 
-# "default", "all", names, or name -> tolerance: a number, as the column measures its errors, or a text with a unit.
+# "default", "all", names, or name -> tolerance: a number, as the column measures its errors, or a text with a unit; or all that in one text.
 Ask = str | Iterable[str] | Mapping[str, float | str]
 
 # As the compiled ladder takes it: name, tolerance (NaN: that of the scene), whether it is in the unit, whether a value has to be there.
@@ -78,13 +78,13 @@ def _tolerance(of: Quantity, value: Any) -> tuple[float, bool]:
 def asked(kind: str, ask: Ask | None, knows_attitude: bool = True) -> list[Asked] | None:
     """What the compiled ladder of the kind takes; None for the default. `knows_attitude`: the start has one. Raises AskError."""
     facts = FACTS[kind]
+    if isinstance(ask, str):
+        ask = parse_ask(ask)
     if ask is None or ask == "default":
         return None
     if ask == "all":
         columns = [name for name in facts.columns if name != "attitude" or knows_attitude]
         return [*((name, math.nan, False, True) for name in columns), *((name, math.nan, False, False) for name in facts.scalars)]
-    if isinstance(ask, str):
-        raise AskError(f'"{ask}" stands alone', f'write "all", or a list of names: ["{ask}"]')
     names = list(ask)
     if not names:
         raise AskError("nothing is asked for", "name a column or scalar, or leave it out")
@@ -104,7 +104,7 @@ def knows_attitude(kind: str, tables: Mapping[str, Mapping[str, Any]]) -> bool:
 
 
 def parse_ask(text: str) -> Ask:
-    """`--ask attitude=0.1deg,stop_time` of the command line."""
+    """What is asked in one text: "attitude", or "attitude=0.1deg,stop_time"."""
     parts = [part.strip() for part in text.split(",") if part.strip()]
     if parts in (["all"], ["default"]):
         return parts[0]

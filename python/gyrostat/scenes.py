@@ -17,7 +17,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.asking import AskError, asked, knows_attitude
+from gyrostat.asking import AskError, asked, knows_attitude, parse_ask
 from gyrostat.errors import DomainError, Mistake, Refused, SceneError
 from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import ARRAYS, GENERAL, LIMIT, MOST_SAMPLES, REQUIRED, ROUNDING, TIMES, UNSET, Choices, Field, Table, Values, inertia_parts, parts_of, table_of
@@ -632,6 +632,8 @@ def _no_sort(field: Field, value: Mapping[str, Any], where: str) -> tuple[str, s
 
 def _ask(field: Field, value: Any) -> Any:
     """Names and units are looked at when the kind is known."""
+    if isinstance(value, str):
+        value = parse_ask(value)
     if value in ("all", "default") or isinstance(value, dict):
         return value
     if not isinstance(value, list) or not all(isinstance(item, str) for item in value):

@@ -94,7 +94,7 @@ def _form(field: Field) -> dict[str, Any]:
             return {"enum": list(SEQUENCES)}
         case "ask":
             tolerance = {"oneOf": [{"type": "number", "exclusiveMinimum": 0}, {"type": "string"}]}
-            return {"oneOf": [{"enum": ["all", "default"]}, {"type": "array", "items": {"type": "string"}, "minItems": 1},
+            return {"anyOf": [{"enum": ["all", "default"]}, {"type": "string", "minLength": 1}, {"type": "array", "items": {"type": "string"}, "minItems": 1},
                               {"type": "object", "additionalProperties": tolerance, "minProperties": 1}]}
         case "record":
             return {"type": "object", "properties": {part.name: _property(part) for part in field.parts},

@@ -90,13 +90,21 @@ def test_a_sweep_meets_no_missing_name() -> None:
     ({"stop_time": "1 parsec"}, "no unit parsec"),
     ({"angular_momentum": 2.0}, "below 1"),
     ({"regime": 0.1}, "no error"),
-    ("attitude", '"all"'),
+    ("attitude=1kg", "its unit is rad"), ("atitude", "did you mean attitude"), (" , ", "nothing is asked"), ("all, attitude", 'write "all" alone'), (3, "array of names"),
     (["energy", "energy"], "twice"),
 ])
 def test_a_wrong_question_says_what_would_be_right(ask: Any, text: str) -> None:
     with pytest.raises(SceneError, match="solve.ask") as caught:
         gyrostat.solve("tiangong-1", ask=ask)
     assert text in str(caught.value)
+
+
+@pytest.mark.parametrize(("text", "ask"), [
+    ("stop_time", ["stop_time"]), ("stop_time, energy", ["stop_time", "energy"]), ("stop_time=60 s, energy", {"stop_time": "60 s", "energy": "default"}),
+])
+def test_one_text_asks_as_names_and_tolerances_do(text: str, ask: Any) -> None:
+    one, other = gyrostat.solve("tiangong-1", ask=text), gyrostat.solve("tiangong-1", ask=ask)
+    assert list(one) == list(other) and one.scalars == other.scalars and one.error == other.error and one.model == other.model
 
 
 def test_the_attitude_of_a_heavy_body_needs_that_of_the_start() -> None:
