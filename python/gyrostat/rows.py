@@ -7,7 +7,7 @@ import operator
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar
@@ -119,7 +119,7 @@ def numbers_of(scene: "Scene") -> Floats:
 class Place:
     """Where the number of a key is in the row, and what it may be."""
 
-    key: str  # in full, such as "torque.control[0]"
+    key: str  # in full, such as "torque.control[0]"; by the name of a wheel or torque where that was said
     numbers: tuple[int, ...]  # two of a product of inertia, three of a coefficient that stands for a matrix
     field: Field
     product: bool = False  # a product of inertia, which the bounds of the field do not hold for
@@ -223,7 +223,8 @@ def _located(scene: "Scene", key: str) -> Place:
         value = _value(scene, table, field)
         if field.form == "records":
             if (by_place := _by_place(full, value, bare)) != bare:
-                return _located(scene, by_place)
+                found = _located(scene, by_place)
+                return replace(found, key=bare) if re.fullmatch(r"[\w.,\[\]-]+", key) else found  # a file takes no other names
             if element and element[1] == full:
                 place = int(element[2])
                 if place >= len(value):
