@@ -9,8 +9,10 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <semaphore>
 #include <span>
+#include <system_error>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -55,7 +57,7 @@ struct SweepRow {
 /// SweepRow::reason of a row that nobody came to.
 inline constexpr const char* not_reached = "the sweep was stopped before this row";
 
-/// Does rows 0 to rows - 1 on `threads` threads, at least one, at most `most` in one go. make_worker(monitor), called once on each thread, gives what
+/// Does rows 0 to rows - 1 on `threads` threads, at least one and as many as the system gives, at most `most` in one go. make_worker(monitor), called once on each thread, gives what
 /// rows are done with: worker(begin, end); long work should look at the monitor, which is cancelled with that of the caller. After that rows are
 /// left out. Returns when all threads have ended.
 template <class MakeWorker>
@@ -70,19 +72,26 @@ void for_blocks(std::size_t rows, unsigned threads, std::size_t most, Monitor* m
   std::counting_semaphore<> ended{0};
   std::vector<std::jthread> pool;
   pool.reserve(pool_size);
-  for (Monitor& own : monitors)
-    pool.emplace_back([&] {
-      auto worker = make_worker(own);
-      for (;;) {
-        const std::size_t begin = next.fetch_add(block), end = std::min(begin + block, rows);
-        if (begin >= rows || own.cancel.load(std::memory_order_relaxed)) break;
-        worker(begin, end);
-        if (own.cancel.load(std::memory_order_relaxed)) break;
-        done.fetch_add(end - begin, std::memory_order_relaxed);
-      }
-      ended.release();
-    });
-  for (unsigned running = pool_size; running > 0;) {
+  const auto work = [&](Monitor& own) {
+    auto worker = make_worker(own);
+    for (;;) {
+      const std::size_t begin = next.fetch_add(block), end = std::min(begin + block, rows);
+      if (begin >= rows || own.cancel.load(std::memory_order_relaxed)) break;
+      worker(begin, end);
+      if (own.cancel.load(std::memory_order_relaxed)) break;
+      done.fetch_add(end - begin, std::memory_order_relaxed);
+    }
+    ended.release();
+  };
+  for (Monitor& own : monitors) {
+    try {
+      pool.emplace_back(work, std::ref(own));
+    } catch (const std::system_error&) {  // the system gives no more threads: those that there are do all
+      if (pool.empty()) throw;
+      break;
+    }
+  }
+  for (std::size_t running = pool.size(); running > 0;) {
     if (ended.try_acquire_for(pause)) --running;
     if (!monitor) continue;
     monitor->fraction.store(double(done.load()) / double(rows), std::memory_order_relaxed);
