@@ -9,10 +9,8 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <semaphore>
 #include <span>
-#include <system_error>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -57,14 +55,17 @@ struct SweepRow {
 /// SweepRow::reason of a row that nobody came to.
 inline constexpr const char* not_reached = "the sweep was stopped before this row";
 
-/// Does rows 0 to rows - 1 on `threads` threads, at least one and as many as the system gives, at most `most` in one go. make_worker(monitor), called once on each thread, gives what
+/// More threads than that are no faster on any machine, and a system may give no more.
+inline constexpr unsigned most_threads = 1024;
+
+/// Does rows 0 to rows - 1 on `threads` threads, one to most_threads of them, at most `most` in one go. make_worker(monitor), called once on each thread, gives what
 /// rows are done with: worker(begin, end); long work should look at the monitor, which is cancelled with that of the caller. After that rows are
 /// left out. Returns when all threads have ended.
 template <class MakeWorker>
 void for_blocks(std::size_t rows, unsigned threads, std::size_t most, Monitor* monitor, const MakeWorker& make_worker) {
   if (rows == 0) return;
   constexpr std::chrono::milliseconds pause{20};
-  const unsigned pool_size = unsigned(std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(rows, 1)));
+  const unsigned pool_size = unsigned(std::clamp<std::size_t>(threads, 1, std::min<std::size_t>(rows, most_threads)));
   // few rows, so that no thread waits long for the last to end
   const std::size_t block = std::clamp<std::size_t>(rows / (16 * std::size_t(pool_size)), 1, most);
   std::atomic<std::size_t> next{0}, done{0};
@@ -72,26 +73,19 @@ void for_blocks(std::size_t rows, unsigned threads, std::size_t most, Monitor* m
   std::counting_semaphore<> ended{0};
   std::vector<std::jthread> pool;
   pool.reserve(pool_size);
-  const auto work = [&](Monitor& own) {
-    auto worker = make_worker(own);
-    for (;;) {
-      const std::size_t begin = next.fetch_add(block), end = std::min(begin + block, rows);
-      if (begin >= rows || own.cancel.load(std::memory_order_relaxed)) break;
-      worker(begin, end);
-      if (own.cancel.load(std::memory_order_relaxed)) break;
-      done.fetch_add(end - begin, std::memory_order_relaxed);
-    }
-    ended.release();
-  };
-  for (Monitor& own : monitors) {
-    try {
-      pool.emplace_back(work, std::ref(own));
-    } catch (const std::system_error&) {  // the system gives no more threads: those that there are do all
-      if (pool.empty()) throw;
-      break;
-    }
-  }
-  for (std::size_t running = pool.size(); running > 0;) {
+  for (Monitor& own : monitors)
+    pool.emplace_back([&] {
+      auto worker = make_worker(own);
+      for (;;) {
+        const std::size_t begin = next.fetch_add(block), end = std::min(begin + block, rows);
+        if (begin >= rows || own.cancel.load(std::memory_order_relaxed)) break;
+        worker(begin, end);
+        if (own.cancel.load(std::memory_order_relaxed)) break;
+        done.fetch_add(end - begin, std::memory_order_relaxed);
+      }
+      ended.release();
+    });
+  for (unsigned running = pool_size; running > 0;) {
     if (ended.try_acquire_for(pause)) --running;
     if (!monitor) continue;
     monitor->fraction.store(double(done.load()) / double(rows), std::memory_order_relaxed);
