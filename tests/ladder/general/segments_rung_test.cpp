@@ -160,3 +160,16 @@ TEST_CASE("segments end where too little is known of where the next begins") {
   CHECK(std::string_view(answer.model) == "full");
   check_within(answer, by(rung::full, problem, {0, 514}, 1e-12));
 }
+
+TEST_CASE("a segment in which a torque drives the body fast is foreseen to be as dear") {
+  // about its middle axis, which no family follows in closed form
+  Problem<double> problem = brick();
+  problem.angular_velocity = {-0.65, 1.58, -0.3};
+  problem.torques = {pulse(1700, 3600, {0, 0.2, 0.05})};
+  const Scene scene = posed(problem, question_at({0, 4000}, 1e-4));
+  CHECK(cost_of_segments(scene) > cost_of_full(scene));
+  const Answer answer = solved(scene);
+  CHECK(std::string_view(answer.model) == "full");
+  for (const Attempt& attempt : answer.tried)
+    if (!attempt.accepted) CHECK(attempt.spent == 0);
+}

@@ -32,3 +32,13 @@ TEST_CASE("nu^2 - r0^2 = X (X - r0 (D1 + D2))/(D1 D2), for spin of either sign",
     }
   }
 }
+
+TEST_CASE("the angle that an axial torque spins a body through is in its phase", "[spinning]") {
+  Problem<double> p;
+  p.inertia = {3, 4, 5};
+  p.angular_velocity = {0, 0, 0.1};
+  p.torque = {0, 0, 0.02};
+  const double span = 1e4, angle = 0.1 * span + 0.02 / 5 * span * span / 2;
+  CHECK(p.phase(span) >= angle);
+  CHECK(p.phase(span) < 1.1 * angle);
+}
