@@ -158,7 +158,7 @@ TEST_CASE("of many times some are looked at, and steps' ends; each hears an erro
     CHECK(states == std::vector<double>(count, 1.0));
     CHECK(walk.error[0] == Approx(margin * 10 * 0x1p-20).epsilon(1e-9));
     for (std::size_t i = 0; i < count; ++i) CHECK(noted[i] >= margin * times[i] * 0x1p-20 * (1 - 1e-6));
-    CHECK(looks <= 65 + int(honesty::first_looks) + 21 + 2 * 15);  // steps of the companion, and of the answer
+    CHECK(looks <= 65 + int(honesty::first_compared) + 21 + 2 * 15);  // steps of the companion, and of the answer
   }
 }
 

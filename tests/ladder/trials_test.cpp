@@ -120,7 +120,7 @@ TEST_CASE("neighbours lie in two directions, far apart along every axis", "[ladd
 TEST_CASE("a start counts more where it is next to an unstable steady rotation") {
   const Vec3<double> moments{1, 2, 3};
   const auto of = [](const Vec3<double>& inertia, const Vec3<double>& rate, const Vec3<double>& rotor) {
-    return condition_of_start<double>(inertia.cwiseProduct(rate) + rotor, rate, inertia.cwiseInverse().asDiagonal());
+    return start_sensitivity<double>(inertia.cwiseProduct(rate) + rotor, rate, inertia.cwiseInverse().asDiagonal());
   };
   const Vec3<double> none{0, 0, 0};
   const double more = honesty::unstable_condition;

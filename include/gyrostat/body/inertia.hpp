@@ -62,8 +62,8 @@ class Inertia {
   /// diagonal tensors a signed permutation, exact, and the identity where they already descend.
   const Mat3<Scalar>& R_BP() const noexcept { return axes_; }
 
-  /// Principal components of a vector in body axes, by axes that are right to twice the digits: R_BP rounded turns what is great into what is
-  /// little, as into the momentum of a slim body across its axis.
+  /// Principal components of a vector in body axes, by axes known to twice the digits: a rounded R_BP leaks large components into small
+  /// ones, as into the momentum of a slim body across its axis.
   Vec3<Wider<Scalar>> in_principal_axes(const Vec3<Wider<Scalar>>& v_B) const noexcept {
     using Wide = Wider<Scalar>;
     const Mat3<Wide> R_PB = (matrix_cast<Wide>(axes_) + matrix_cast<Wide>(axes_low_)).transpose();

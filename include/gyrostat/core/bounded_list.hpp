@@ -8,7 +8,7 @@
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
-/// A list of at most `most` values without memory of the heap. What is pushed on a full one is dropped.
+/// A list of at most `most` values that uses no heap. A value pushed onto a full list is dropped.
 template <class T, std::size_t most>
 class BoundedList {
  public:

@@ -90,7 +90,7 @@ GYROSTAT_INLINE Wide<Scalar> greater_of(const Wide<Scalar>& a, const Wide<Scalar
 
 #if defined(__GNUC__) && defined(__AVX512F__)
 namespace detail {
-/// 1/sqrt a, or sqrt a, by the binomial series about what the processor has to 14 bits, up to the fourth power of what that is off; finite where a is 0.
+/// 1/sqrt a or sqrt a: the processor's 14-bit estimate, corrected by the binomial series up to the fourth power of its error; finite where a is 0.
 GYROSTAT_INLINE Wide<double> refined_root(const Wide<double>& a, bool of_itself) noexcept {
   const Wide<double> y = {_mm512_maskz_rsqrt14_pd(0xff, greater_of<double>(a, wide(1e-300)).v)}, s = a * y;
   const Wide<double> e = multiply_add(wide(-0.0) - s, y, wide(1.)), first = of_itself ? s : y;
@@ -101,7 +101,7 @@ GYROSTAT_INLINE Wide<double> refined_root(const Wide<double>& a, bool of_itself)
 }  // namespace detail
 #endif
 
-/// Of numbers from 1e-300 on and below infinity, to an eps; zeros give zero.
+/// sqrt a for 1e-300 <= a < infinity, error an eps; 0 gives 0.
 template <Real Scalar>
 GYROSTAT_INLINE Wide<Scalar> square_root(const Wide<Scalar>& a) noexcept {
 #if defined(__GNUC__) && defined(__AVX512F__)

@@ -17,22 +17,22 @@
 /// The full equations and their error: the answer's run and the runs of neighbours side by side.
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
-/// A course in which no law changes and no event ends the motion, so that the pace of its steps tells of the rest: `goes_on_alike`.
+/// A course without changes of law and without events, so that the pace of its steps foretells the rest: `goes_on_alike`.
 template <class Course>
 concept GoesOnAlike = Course::goes_on_alike;
 
-/// A course whose state can be moved by about an amount of itself.
+/// A course whose state can be perturbed by a relative amount.
 template <class Course>
 concept Kicked = requires(Course course) { course.kick(course.time()); };
 
-/// A writer that tells of two rows whether their motions have parted for good, in the columns for which that lasts: `has_parted(a, b)`, `lasts(column)`.
+/// A writer that tells whether the motions of two rows have diverged for good, and in which columns that lasts: `has_parted(a, b)`, `lasts(column)`.
 template <class Writer, class Row>
 concept TellsParted = requires(const Writer writer, const Row& row) {
   { writer.has_parted(row, row) } -> std::same_as<bool>;
   { writer.lasts(std::size_t()) } -> std::same_as<bool>;
 };
 
-/// What the walk found, over the asked times: the error that the distances of the runs tell, in units of the columns, and the sizes of these.
+/// Result of a walk over the asked times: the errors that the distances of the runs show, in units of the columns, and the sizes of the columns.
 template <class Writer>
 struct Walk {
   using Scalar = typename Writer::Scalar;
@@ -41,11 +41,12 @@ struct Walk {
   typename Comparison<Writer>::ColumnErrors error;
 };
 
-/// The runs side by side: the answer's, its companion's, and where rounding rules a second companion's.
+/// The runs side by side: the answer's, its companion's, and, where rounding dominates, a second companion's.
 template <class Course>
 struct Runs {
   Course &answer, &companion;
   Course* second;
+  double stride = honesty::companion_stride;  ///< the longest step of the companion, over that of the answer
 
   ode::Counts counts() const noexcept {
     ode::Counts all = answer.counts();
@@ -55,7 +56,7 @@ struct Runs {
   }
 };
 
-/// Kicks a companion that runs alone, once, behind half the span.
+/// Perturbs a companion that runs alone, once, in the second half of the span.
 template <class Course, Real Scalar>
 class HalfwayKick {
  public:
@@ -72,7 +73,7 @@ class HalfwayKick {
   Scalar after_;
 };
 
-/// The error of an answer that is `away` from its companions, which are so far from each other; of one companion they are 0.
+/// Estimated error of an answer, from its distance to its companions, `away`, and theirs from each other, `between`: 0 with one companion.
 template <Real Scalar>
 constexpr Scalar error_of_distances(Scalar away, Scalar between) noexcept {
   return Scalar(honesty::side_by_side.margin) * greater(away, between);
@@ -83,13 +84,13 @@ constexpr Errors<N, Scalar> error_of_distances(Errors<N, Scalar> away, const Err
   return Scalar(honesty::side_by_side.margin) * away;
 }
 
-/// What all runs may lose alike, relative: rounding of the evaluation, and a part of what the roundings of the steps add up to, `walk`.
+/// Relative error that all runs may share: rounding of the evaluation, and a part of `walk`, the accumulated rounding of the steps.
 template <Real Scalar>
 constexpr Scalar shared_rounding(Scalar walk) noexcept {
   return epsilon<Scalar> + Scalar(honesty::shared_steps) * walk;
 }
 
-/// Hears what nobody wants to know.
+/// A note(i, error) that does nothing.
 inline constexpr auto not_noted = [](std::size_t, const auto&) noexcept {};
 
 /// Steps a course until its last step holds t or ends at t_max. stride: the length of the last step that was made.
@@ -104,21 +105,21 @@ ode::Status reach(Course& course, Scalar t, Scalar t_max, Scalar& stride) noexce
   return status;
 }
 
-/// Where a step of the first companion from `now` ends at the latest, beside steps of the answer of this length.
+/// Where a step of the first companion from `now`, not longer than `longest`, ends at the latest.
 template <Real Scalar>
-constexpr Scalar companion_reaches(Scalar now, Scalar stride, Scalar last) noexcept {
-  const Scalar end = now + Scalar(honesty::companion_stride) * stride;
+constexpr Scalar companion_reaches(Scalar now, Scalar longest, Scalar last) noexcept {
+  const Scalar end = now + longest;
   return end > now && end < last ? end : last;
 }
 
-/// Whether times[i] is the last that is asked for in a step that ends at `end`, or the first behind the end of the one before: a series errs most
-/// there, and what it errs may soon be gone, where the motion is damped.
+/// Whether times[i] is the last asked time in the step from `begin` to `end`, or the first: there a series errs most, and where the motion is damped
+/// its error soon fades.
 template <Real Scalar>
 bool is_next_to_end(std::span<const Scalar> times, std::size_t i, Scalar begin, Scalar end) noexcept {
   return i + 1 >= times.size() || times[i + 1] > end || i == 0 || times[i - 1] <= begin;
 }
 
-/// Lets distances fade, but for those of motions that have parted for good.
+/// Lets distances fade, except those of motions that have diverged for good.
 template <class Writer>
 class Parting {
   using Row = typename Comparison<Writer>::Row;
@@ -142,15 +143,15 @@ class Parting {
   bool parted_ = false;
 };
 
-/// Steps the answer, and beside it its companions, over the asked times, and keeps its states there. Companions take tighter steps: their
-/// distance to the answer is its truncation, and their own distance what rounding and the data's last digits do. A course has step(t_max),
-/// time(), at(t) within the last step, and counts(); one that GoesOnAlike is given up where its steps would overrun their budget (Pace).
-/// The first companion leads, and all are compared at the end of each of its steps and at the asked times, of many at some and at the first and the last
-/// in each step of the answer. Their first
-/// steps end apart: from one start all would take the same polynomial, and err alike; one that runs alone is kicked at half the span. A
-/// distance that was seen fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which
-/// all are near by chance does not hide it. States
-/// behind a failure are `nowhere`. note(i, error) is called at each asked time.
+/// Steps the answer and its companions over the asked times, and keeps the answer's states there. Companions take tighter steps: their distance from
+/// the answer shows its truncation, their distance from each other the effect of rounding and of the last digits of the data.
+/// A course has step(t_max), time(), at(t) within the last step, and counts(); one that GoesOnAlike is given up where its steps would overrun their
+/// budget (Pace). The first companion leads. All are compared at the ends of its steps and at the asked times: of many at some, and at the first and the
+/// last in each step of the answer.
+/// The first steps have different lengths, else all runs would take the same polynomial and err alike; a lone companion is kicked at half the span.
+/// A distance fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which all happen to be near
+/// does not hide it.
+/// States behind a failure are `nowhere`. note(i, error) is called at each asked time.
 template <class Writer, class Course, class Note>
 Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const typename Writer::State& start,
                          typename Writer::Scalar rate, std::span<const typename Writer::Scalar> times,
@@ -190,7 +191,7 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
     states[next] = start;
     const auto row = walk.asked.row(start);
     walk.asked.add(row);
-    if (!(last > 0)) look(row, last);  // what conversions lose, which later times would show
+    if (!(last > 0)) look(row, last);  // the start alone is asked: no later time shows what conversions lose
     tell(next + 1);
   }
   if (next < times.size()) walk.status = runs.answer.step(last);
@@ -203,7 +204,8 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   HalfwayKick<Course, Scalar> kick(runs, last);
   while (next < times.size() && walk.status == Status::reached) {
     const Scalar before = runs.companion.time();
-    walk.status = runs.companion.step(trips == 0 ? first / 2 : companion_reaches(before, stride, last));
+    walk.status =
+        runs.companion.step(trips == 0 ? first / 2 : companion_reaches(before, Scalar(runs.stride) * stride, last));
     if (walk.status != Status::reached) break;
     const Scalar now = runs.companion.time();
     parting.fade(kept, 1 / (1 + (now - before) * rate / Scalar(honesty::fading_angle)));
@@ -212,12 +214,12 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
       const auto row = walk.asked.row(states[next]);
       walk.asked.add(row);
       const Scalar end = runs.answer.time();
-      if (!honesty::looked_at(next, times.size()) && !is_next_to_end(times, next, end - stride, end)) continue;
+      if (!honesty::is_compared(next, times.size()) && !is_next_to_end(times, next, end - stride, end)) continue;
       look(row, times[next]);
       tell(next + 1);
     }
     if (walk.status != Status::reached || told == times.size() || !all_reach(now)) break;
-    if (told < next || honesty::looked_at_end(trips)) look(walk.asked.row(runs.answer.at(now)), now);
+    if (told < next || honesty::is_compared_at_end(trips)) look(walk.asked.row(runs.answer.at(now)), now);
     if (told < next) tell(next);
     if (next == times.size()) break;
     kick(now);
@@ -232,9 +234,9 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
   return walk;
 }
 
-/// The answer of a run beside its companions. `rounding(sizes, walk)` gives, in units of the columns, what
-/// the runs share and no distance shows: rounding of the columns, where the roundings of the answer's steps have added up to `walk`. note(i, error)
-/// hears what the distances tell at each asked time.
+/// Solves by a run beside its companions. `rounding(sizes, walk)` gives, in units of the columns, the error that
+/// all runs share, so that no distance shows it: rounding of the columns, `walk` being the accumulated rounding of the answer's steps. note(i, error)
+/// receives the current estimate of the error at each asked time.
 template <class Answer, class Writer, class Course, class Rounding, class Note = decltype(not_noted)>
 void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs, const typename Writer::State& start,
                   typename Writer::Scalar rate, std::span<const typename Writer::Scalar> times,
@@ -247,12 +249,12 @@ void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs
       walk_beside(writer, runs, start, rate, times, states, nowhere, options, progress_from, progress_to, note);
   answer.status = walk.status;
   answer.counts = runs.counts();
-  const Scalar walk_of_steps = eps * std::sqrt(static_cast<Scalar>(runs.answer.counts().steps));
+  const Scalar step_rounding = eps * std::sqrt(static_cast<Scalar>(runs.answer.counts().steps));
   if (answer.status != ode::Status::reached) {
     answer.error = decltype(answer.error)::all(nan<Scalar>);
     return;
   }
-  const auto error = walk.error + rounding(walk.asked.size(), walk_of_steps);
+  const auto error = walk.error + rounding(walk.asked.size(), step_rounding);
   answer.error = relative_to_truth(walk.asked.relative(error), Writer::columns);
   answer.met = options.excess(answer) <= 1;
 }

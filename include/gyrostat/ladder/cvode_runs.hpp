@@ -11,7 +11,7 @@
 #include "gyrostat/ladder/cvode_walk.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 
-/// The full equations by CVODE, the trusted outsider: at a tolerance, and for the error those of neighbours at looser ones. Needs the library gyrostat::cvode.
+/// The full equations by CVODE, for comparison: one run at a tolerance and, for its error, neighbours at looser ones. Needs the library gyrostat::cvode.
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
 /// The states of one run at the asked times.
@@ -47,7 +47,7 @@ CvodeRun<State> run_cvode(Equations& equations, const State& start, std::span<co
   return run;
 }
 
-/// What a run is asked for. longest: the share of the span that a step may take; change: by how much the data of companion `which` differ, 0 for the answer:
+/// One run. longest: the share of the span that a step may take; change: by how much the data of companion `which` differ, 0 for the answer:
 /// by what its steps may err, which a slim tensor or an unstable axis makes more of.
 struct CvodeTask {
   double tolerance, longest;

@@ -21,7 +21,7 @@ constexpr Scalar over(Scalar error, Scalar size) noexcept {
   return error == 0 ? Scalar(0) : error / size;
 }
 
-/// An error relative to an answered number as one relative to the truth, which may be smaller by as much; infinite where the truth
+/// Makes an error relative to the answer one relative to the truth, which may be smaller by as much; infinite where the truth
 /// may vanish.
 template <Real Scalar>
 constexpr Scalar relative_to_truth(Scalar error) noexcept {

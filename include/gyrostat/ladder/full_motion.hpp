@@ -36,14 +36,14 @@ constexpr const char* why_stopped(ode::Status status) noexcept {
 
 /// Angle that is followed even where rounding of the phase alone is over the tolerance, rad: it costs a second, and the answer
 /// says what it is worth.
-inline constexpr double vain_angle = 1e6;
+inline constexpr double costly_angle = 1e6;
 
 /// Angle, rad, that the budget of steps does not reach.
 inline constexpr double unreachable_angle = 2e7;
 
 /// Whether a motion turns through so large an angle, rad, that no double can hold its phase to the tolerance.
 constexpr bool phase_too_long(double angle, double tolerance) noexcept {
-  return angle > vain_angle && epsilon<double> * angle > tolerance;
+  return angle > costly_angle && epsilon<double> * angle > tolerance;
 }
 inline constexpr const char* phase_lost =
     "the body turns so often that rounding of its phase alone, 2e-16 of the angle turned through, is over the "

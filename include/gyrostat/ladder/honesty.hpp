@@ -17,32 +17,35 @@ struct Companions {
   double margin;       ///< of the greatest distance of the answer and its companions from each other
 };
 
-/// All families, watched in every step, all components moved. The distance from the answer is its truncation, that of the companions from each other what
-/// rounding does, and either may be small by chance (error_of_distances).
+/// All families, watched in every step, all components perturbed. The distance from the answer shows its truncation, that between the companions the effect
+/// of rounding, and either may be small by chance (error_of_distances).
 inline constexpr Companions side_by_side{64, 2, 5};
-/// Of the roundings of the steps of an answer, which add up as the square root of their number, the part that the runs may share. Chosen: with all of it, and four
+/// The roundings of the steps add up as the square root of their number; the runs may share this part of the sum. Chosen: with all of it, and four
 /// times the roundings of an evaluation, general scenes stated twice as much at 1e-11, and no error came near.
 inline constexpr double shared_steps = 1.0 / 8;
-/// The directions in which the vectors of the data of two companions differ: across each other, and as far apart along every axis as such
-/// can be (0.82). Where one number rules, as in a steady rotation, the truncation may cancel what one companion shows, not what both do.
+/// Directions in which the data vectors of the two companions are changed: orthogonal, and as far apart along every axis as orthogonal ones
+/// can be (0.82). Where one number decides, as in a steady rotation, truncation may cancel the change in one companion, but not in both.
 inline constexpr double directions[2][3] = {{0.90, -0.12, 0.42}, {0.12, -0.90, -0.42}};
 /// By how much the moments of a diagonal tensor differ in two companions: no two of them nearly alike, or what hangs on the difference of two moments that are
 /// nearly equal would err alike in all runs. Chosen: with two that were 0.2 apart 198 of 240 answers of a body, symmetric but for 1e-7 about axis 2, had stated up to 20 times too little.
 inline constexpr double moment_shifts[2][3] = {{-0.8, 0.1, 0.9}, {0.2, -0.8, 0.9}};
-/// By how much the data of a companion differ that runs alone, roundings: in its one direction it may be near by chance.
+/// By how much the data of a lone companion differ, roundings: more, as in its one direction it may be near by chance.
 inline constexpr double alone_change = 32;
-/// At half the span a companion that runs alone is kicked by so many roundings of each number: what its data do may cancel the truncation
-/// by chance, at the end or on the way, but not both with the kick and without. Not of general scenes.
+/// At half the span a lone companion is kicked by so many roundings of each number: the effect of its data may cancel the truncation
+/// by chance, at the end or on the way, but not both with the kick and without. Not in general scenes.
 inline constexpr double kick = 64;
 /// Step tolerance, roundings times the condition of the tensor, below which rounding rules, and a second companion runs along.
 inline constexpr double rounding_below = 1 << 20;
 
-/// The longest step of the first companion, over that of the answer at the same place. Tolerances alone keep it below; but where a mode fades faster
-/// than the body turns, as of a wheel whose motor is fast, it and no tolerance sets the steps of all runs, and what these cut off was the same: of
+/// The longest step of the first companion, over that of the answer at the same place. Its tolerance alone mostly keeps it shorter; but where a mode decays
+/// faster than the body turns, as with a fast wheel motor, that mode and no tolerance sets the steps, and all runs had the same truncation: of
 /// 43 000 driven rotors 799 had stated too little, by up to 95 times.
 inline constexpr double companion_stride = 0.85;
+/// The same under waves, fields that move or an orbit: where products of waves come to the same phases in every step the errors of the steps add up, and a
+/// companion whose steps did so was as wrong as the answer. Of 6500 bodies under fast waves 8 had stated up to 5 times too little with 0.85, none with 0.7.
+inline constexpr double forced_stride = 0.7;
 
-/// Collocation: the margin of what a companion's last coefficients tell of its error inside the step that holds an asked time; answer and companion may
+/// Collocation: margin of a companion's error inside the step that holds an asked time, as its last coefficients show it; answer and companion may
 /// err alike there, where a jump of the data sets the steps of both.
 inline constexpr double margin_between = 2;
 
@@ -52,24 +55,24 @@ inline constexpr double companion_pace = 0.7;
 /// A distance that was seen fades while the body turns through this angle to one half, rad: twenty turns.
 inline constexpr double fading_angle = 128;
 
-/// The runs are compared at the end of every step, at the first and the last asked time in each of the answer's, and at so many of the asked times, or all where these are fewer.
-inline constexpr double looks = 64;
+/// The runs are compared at the end of every step, at the first and the last asked time in each step of the answer, and at so many of the asked times, or at all if fewer.
+inline constexpr double compared_times = 64;
 /// At so many of the first asked times they are compared in any case: what a first step errs on its way may be gone at its end.
-inline constexpr double first_looks = 16;
+inline constexpr double first_compared = 16;
 /// Whether the runs are compared at the asked time `i` of so many.
-constexpr bool looked_at(std::size_t i, std::size_t times) noexcept {
-  return i < std::size_t(first_looks) || i % (1 + times / std::size_t(looks)) == 0;
+constexpr bool is_compared(std::size_t i, std::size_t times) noexcept {
+  return i < std::size_t(first_compared) || i % (1 + times / std::size_t(compared_times)) == 0;
 }
-/// Behind so many steps they are compared at the ends of one in `end_looks`, in no order that a motion could keep.
-inline constexpr std::uint32_t first_ends = 64, end_looks = 4;
+/// After so many steps they are compared at the ends of one in `end_share`, chosen so that no periodic motion keeps in step with them.
+inline constexpr std::uint32_t first_ends = 64, end_share = 4;
 /// Whether the runs are compared at the end of this step of the first companion, counted from 0.
-constexpr bool looked_at_end(std::uint64_t step) noexcept {
+constexpr bool is_compared_at_end(std::uint64_t step) noexcept {
   constexpr std::uint32_t golden = 2654435769U;  // multiples of it are spread over the words
-  return step < first_ends || std::uint32_t(step) * golden < ~std::uint32_t(0) / end_looks;
+  return step < first_ends || std::uint32_t(step) * golden < ~std::uint32_t(0) / end_share;
 }
 
-/// Deceleration: errors sink with the motion, and a distance fades so many times as fast.
-inline constexpr double sinking = 8;
+/// Deceleration: errors decrease with the motion, and a distance fades so many times as fast.
+inline constexpr double stop_fading_factor = 8;
 /// Deceleration: the part of the way to the stop that one step of the answer may go at most, and of its companions. It rules the first
 /// steps of loose tolerances, whose truncation sinks as its power: of companions that went as far one step in some thousand erred alike.
 inline constexpr double reach = 0.3, companion_reach = 0.25, second_reach = 0.24;
@@ -77,7 +80,7 @@ inline constexpr double reach = 0.3, companion_reach = 0.25, second_reach = 0.24
 /// First guess of the step tolerance over the tolerance asked for, before the turns count. Steps that err far less than is asked lose
 /// themselves in rounding, which is stated less sharply: with an eighth medians at 1e-11 were twice as high.
 inline constexpr double first_share = 1;
-/// Spinners: so many times more, for what their steps err hardly adds up over the turns; but where then one companion alone would judge, at which
+/// Spinners: so many times first_share, as errors of their steps hardly add up over the turns; not where one companion alone would judge, at which
 /// of 1500 random ones at 1e-9 four stated too little. At 1e-11 the median of stated over true went from 20 to 8.6, and the cost down by a sixth.
 inline constexpr double spinning_share = 64;
 /// DOP853: first_share of its own, as its steps err as much as they may. Chosen.
@@ -95,7 +98,7 @@ inline constexpr double retry = 8;
 /// After so many steps of all runs no second try is made: it would take seconds more.
 inline constexpr double retry_steps = 3e6;
 
-/// Stops: the margin of their time over that of the columns.
+/// Stops: margin of the error of their time, over that of the columns.
 inline constexpr double stop_margin = 2;
 /// Decelerations: to the error of the stop's time so many step tolerances are added, twice what a companion errs; it is one number, at which two
 /// runs may be near by chance.
@@ -113,7 +116,7 @@ inline constexpr double parted_margin = 8;
 /// Driven rotors, stable or not: a start is next to a steady rotation where its rate is along its momentum but for this share. From 28 scenes of another generator, not
 /// a fit.
 inline constexpr double next_to_steady = 1e-6;
-/// It counts as so many times less well known: how far off it began sets when the motion leaves.
+/// There the start counts as known so many times less well: its distance from the rotation decides when the motion leaves.
 inline constexpr double steady_condition = 1e6;
 /// The same of all families, where the steady rotation is unstable. From 11 of 309 000 answers of bodies turned about their middle axis, 3 of which
 /// are left at this share, and of driven rotors from 81 of 14 900; not a fit.

@@ -8,14 +8,14 @@
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
-/// Watches whether steps would overrun their budget; looks once in `some` steps. Where they do not lengthen and would by far, at the second look; else behind
-/// seven, if they go on to lengthen as they did: by half of the budget, or, where they did not, at all.
+/// Watches whether steps will overrun their budget; looks once in `some` steps. They will, from the second look on, if they do not lengthen and would need
+/// four times the budget; from the seventh, if they overrun it at their present length or, where they have lengthened, by half of it though that goes on.
 template <Real Scalar, std::uint64_t some = 65536>
 class Pace {
  public:
   /// The motion begins anew at t, as where a law changes.
   void restart(Scalar t) noexcept { mark_ = t, stretch_ = first_ = 0, looks_ = 0; }
-  /// After so many steps, now, where they go on to `last` and `budget` is theirs.
+  /// After `steps` steps up to the time `now` of a run to `last` that may take `budget` steps.
   bool is_hopeless(std::uint64_t steps, Scalar now, Scalar last, std::uint64_t budget) noexcept {
     if (steps == 0 || steps % some != 0) return false;
     const Scalar before = stretch_;
@@ -32,8 +32,8 @@ class Pace {
   }
 
  private:
-  Scalar mark_ = 0, stretch_ = 0;  ///< when it was looked last, and how far the steps before had come, s
-  Scalar first_ = 0;               ///< how far the first ones had come, s
+  Scalar mark_ = 0, stretch_ = 0;  ///< time of the last look, and the time covered between the last two, s
+  Scalar first_ = 0;               ///< time covered up to the first look, s
   int looks_ = 0;
 };
 

@@ -33,8 +33,8 @@ concept RungResult = requires(const Track& track, const Scene& scene, Answer& an
 };
 
 /// A model of a scene: says whether it applies, answers, estimates its own error and counts its work; and before that what an answer would
-/// cost where it applies, in seconds of one core of some 3 GHz, to within a factor of a few. Costs are there to be compared with each other; infinite: the rung is there
-/// to be named, and otherwise asked when all others failed; NaN: it has no answer to this scene, and says why when it is named.
+/// cost where it applies, in seconds of one core of some 3 GHz, to within a factor of a few, for comparison with other rungs. Infinite: the rung is asked only
+/// by name or when all others have failed; NaN: it cannot answer this scene, and says why when it is named.
 template <class Scene, class Track>
 struct Rung {
   Track (*answer)(const Scene&, Monitor*);
@@ -48,7 +48,7 @@ struct Refusal {
   const char* why = "";
 };
 
-/// Predicted costs hold to a factor of two or so: a rung comes before one that stands before it in the table where it is to cost less than
+/// Predicted costs hold to a factor of about two, so a rung overtakes one that precedes it in the table only if it is to cost less than
 /// this share of it.
 inline constexpr double clearly_cheaper = 0.5;
 
@@ -226,7 +226,7 @@ class Ascent {
     return !best_.met;
   }
 
-  /// A rung that is not asked, and why; not told where it stands behind the one that answers.
+  /// Records a rung that is not asked, and why; not where it stands behind the one that answers.
   void leave_out(std::size_t rung, const char* why, double cost) {
     if (!best_.met || rung < rung_)
       tried_.insert(tried_.begin(), {family_.rungs[rung].name, nan<double>, false, why, nan<double>, cost});
@@ -235,12 +235,12 @@ class Ascent {
   bool answered() const noexcept { return answered_; }
   const Answer& best() const noexcept { return best_; }
 
-  /// The best answer, with what was tried; nothing else of work that was cancelled.
+  /// The best answer, with what was tried; of cancelled work only what was tried.
   Answer end() {
     if (refusal_.code == Errc::cancelled) best_ = {}, answered_ = false;
     best_.tried = std::move(tried_);
     if (!answered_) return std::move(best_);
-    refusal_ = {};  // of rungs that others answer for
+    refusal_ = {};  // other rungs have refused, but there is an answer
     for (Attempt& attempt : best_.tried)
       attempt.accepted = attempt.model == best_.model && !(attempt.error != best_.error);
     if (!describes_all_) describe(best_, scene_, track_);
@@ -260,8 +260,8 @@ class Ascent {
     return track.failure != Errc::cancelled;
   }
 
-  /// Than the best so far: one in its domain than any outside, then the less error; where neither knows its error the higher rung is the more
-  /// accurate.
+  /// Whether it is better than the best so far: in its domain rather than outside, then by the lesser error; where neither error is known the higher rung is
+  /// taken as the more accurate.
   bool is_better(std::size_t rung, const Answer& answer, const Track& track) const noexcept {
     if (answer.met) return true;
     if (track.in_domain != track_.in_domain) return track.in_domain;

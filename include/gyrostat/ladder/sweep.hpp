@@ -58,8 +58,8 @@ inline constexpr const char* not_reached = "the sweep was stopped before this ro
 /// More threads than that are no faster on any machine, and a system may give no more.
 inline constexpr unsigned most_threads = 1024;
 
-/// Does rows 0 to rows - 1 on `threads` threads, one to most_threads of them, at most `most` in one go. make_worker(monitor), called once on each thread, gives what
-/// rows are done with: worker(begin, end); long work should look at the monitor, which is cancelled with that of the caller. After that rows are
+/// Works through rows 0 to rows - 1 on `threads` threads, one to most_threads of them, at most `most` rows at a time. make_worker(monitor), called once on each
+/// thread, returns worker(begin, end), which does these rows; long work should look at the monitor, cancelled with that of the caller. After that rows are
 /// left out. Returns when all threads have ended.
 template <class MakeWorker>
 void for_blocks(std::size_t rows, unsigned threads, std::size_t most, Monitor* monitor, const MakeWorker& make_worker) {
@@ -154,7 +154,7 @@ SweepRow swept(const Family& family, const Scene& scene, const Solve& solve, std
 }
 
 /// A solver that answers up to Solve::width scenes side by side, 32 at most, as far as it can: solve.together(scenes, answers, monitor), a bit
-/// for each answer. No answer may hang on the scenes beside it.
+/// for each answer. No answer may depend on the scenes beside it.
 template <class Solve, class Scene>
 concept SolvesTogether =
     requires(const Solve& solve, std::span<const Scene> scenes, std::span<Answer> answers, Monitor* monitor) {

@@ -27,18 +27,17 @@ constexpr bool rounding_rules(Scalar step_tolerance, Scalar condition = 1) noexc
   return step_tolerance < Scalar(honesty::rounding_below) * epsilon<Scalar> * condition;
 }
 
-/// By how much the data of companions of an answer in steps of this tolerance differ. condition: as in rounding_rules.
+/// Relative change of the data of companions, for an answer with steps of this tolerance. condition: as in rounding_rules.
 template <Real Scalar>
 constexpr Scalar data_change(Scalar step_tolerance, Scalar condition = 1) noexcept {
   return epsilon<Scalar> *
          Scalar(rounding_rules(step_tolerance, condition) ? honesty::side_by_side.data_change : honesty::alone_change);
 }
 
-/// How many times over a change of the start counts, by total momentum and rate, and by the inverse of the tensor, of one and the same frame: next to
-/// an unstable steady rotation the motion may stay long, and how far off it began sets when it leaves. 1 elsewhere.
+/// Factor by which a change of the start counts more, from the total momentum, the rate and the inverse of the tensor in one frame: next to an unstable
+/// steady rotation the motion may linger, and how far off it began decides when it leaves. 1 elsewhere.
 template <Real Scalar>
-Scalar condition_of_start(const Vec3<Scalar>& momentum, const Vec3<Scalar>& rate,
-                          const Mat3<Scalar>& inverse) noexcept {
+Scalar start_sensitivity(const Vec3<Scalar>& momentum, const Vec3<Scalar>& rate, const Mat3<Scalar>& inverse) noexcept {
   const Scalar size = momentum.norm(), whole = size * rate.norm(), across = cross<Scalar>(rate, momentum).norm();
   if (!(across < Scalar(honesty::next_to_unstable) * whole)) return 1;
   // the energy over the sphere of the momentum has a saddle there

@@ -141,7 +141,7 @@ GYROSTAT_INLINE Many angle_of_cotangent(const Many& over, const Many& under) noe
 
 /// Integrals of the first kind, K of the modulus k and K' of k', and of each one that is incomplete, by the cotangent of its amplitude, not negative:
 /// F as a part of 4 K, and F' of k' as it is. By Landen's transformation, with the means that K is made of (Bulirsch 1965); each goes on until it is
-/// within rounding, so that none hangs on those beside it. k2 and kp2 from 1e-16 to 1.
+/// within rounding, so that no number depends on those beside it. k2 and kp2 from 1e-16 to 1.
 struct ManyIntegrals {
   Many K, Kp, F_part, Fp;
 };

@@ -9,7 +9,7 @@
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ode/status.hpp"
 
-/// CVODE of SUNDIALS, the trusted outsider. Declared here without its headers, defined in the library gyrostat::cvode.
+/// CVODE of SUNDIALS, for independent comparison. Declared here without its headers, defined in the library gyrostat::cvode.
 /// It allocates when it is made and inside its steps; nothing here throws.
 namespace gyrostat::ode {
 

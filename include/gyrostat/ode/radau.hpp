@@ -139,10 +139,10 @@ struct RadauOptions {
   Scalar inside = 0;
   /// The size against which the error of each component is measured; 0 leaves a component out.
   std::array<Scalar, Width> scale{};
-  /// Roundings of p in the values at the stages, which its coefficients show and no shorter step would lessen: so much of them is left out.
+  /// Rounding of p at the stages, in eps of p: its coefficients show it and no shorter step lessens it, so that much of them is ignored.
   Scalar blur = 0;
   Scalar first_step = 0;  ///< 0: chosen from the rates at the start
-  /// Part that is taken of the first step and of those that the sweeps allow. For a run beside another: where these and not the tolerance limit the
+  /// Factor on the first step and on steps limited by the sweeps, below 1 for a run that is compared with another: where these and not the tolerance set the
   /// steps, both would take the same and err alike.
   Scalar pace = 1;
   std::uint64_t step_cap = 100'000'000;
@@ -179,7 +179,7 @@ class Radau {
       weight_[i] = scale > 0 ? 1 / scale : Scalar(0);
       for (int j = 0; j < 8; ++j) last_[i][j] = 0;
     }
-    // what rounding forbids is not asked for
+    // no tolerance below what rounding allows
     constexpr Scalar least = epsilon<Scalar> / 64;
     tolerance_ = options.tolerance > least ? options.tolerance : least;
     const Scalar inside = options.inside > 0 ? options.inside : 1000 * tolerance_;
@@ -208,7 +208,7 @@ class Radau {
   /// The state at t inside the last step, within Options::inside. Outside it the polynomial is extrapolated.
   void at(Scalar t, Scalar* state) const noexcept;
 
-  /// at(t) with the error that the last coefficients of each component let suspect added to it.
+  /// at(t) plus the error that the last coefficients of each component suggest.
   void beside(Scalar t, Scalar* state) const noexcept;
 
  private:
@@ -255,7 +255,7 @@ class Radau {
     return lanes(left(0), left(1), left(2), left(3));
   }
 
-  /// What the last four coefficients, their squares summed over components, tell of those left out.
+  /// Estimates the coefficients left out from the last four, given their squares summed over components.
   struct Tail {
     explicit Tail(const Row& squares) noexcept {
       const Scalar a4 = squares[0], a5 = squares[1], a6 = squares[2], a7 = squares[3];
@@ -455,7 +455,7 @@ auto Radau<System>::solve(Scalar h, Scalar rounding) noexcept -> Sweeps {
     const Scalar ratio = change / before;
     // what the next sweep would change; below some roundings it changes nothing any more
     if (change * std::min(ratio, Scalar(1)) <= goal_ || (change < 256 * rounding && ratio > Scalar(0.3L))) {
-      // a change that is rounding tells no pace
+      // a change of the size of rounding says nothing of the convergence
       if (const Scalar least = rounding / 4; first > least)
         contraction_ = static_cast<Scalar>(
             std::pow(static_cast<float>(std::max(change, least) / first), 1 / static_cast<float>(k - 1)));

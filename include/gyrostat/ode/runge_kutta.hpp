@@ -174,7 +174,7 @@ class RungeKutta {
   const F& rhs() const noexcept { return rhs_; }
 
  private:
-  static constexpr int blind_cap = 40;  // 5^-40 of the step: beyond that it is no matter of length
+  static constexpr int blind_cap = 40;  // 5^-40 of the step: no shorter one would avoid the NaN
 
   static bool finite(const State& y) noexcept {
     bool all = true;

@@ -120,7 +120,7 @@ class Taylor {
   template <class Function>
   Result<Scalar> crossing(Function&& g) const noexcept;
 
-  /// Moves every component by about `amount` of itself, this way and that; what is zero stays so. The last step stays as it was.
+  /// Perturbs every component by about `amount` of itself, up or down; zeros stay zero. The last step stays as it was.
   void kick(Scalar amount) noexcept {
     constexpr std::array<Scalar, 3> part{Scalar(0.64L), Scalar(0.48L), Scalar(-0.6L)};
     for (int i = 0; i < moving(); ++i) state_[i] *= 1 + amount * part[static_cast<std::size_t>(i % 3)];

@@ -149,7 +149,7 @@ class TaylorBatch {
     for (std::size_t i = 0; i < carried; ++i) carried_[i][b] = start_carried_[i][b] = state[width + i];
   }
 
-  /// Moves every number of problem b by about `amount` of itself, this way and that; what is zero stays so. The last step stays as it was.
+  /// Perturbs every number of problem b by about `amount` of itself, up or down; zeros stay zero. The last step stays as it was.
   void kick(int b, Scalar amount) noexcept {
     constexpr std::array<Scalar, 3> part{Scalar(0.64L), Scalar(0.48L), Scalar(-0.6L)};
     const auto by = [&](int i) noexcept { return 1 + amount * part[static_cast<std::size_t>(i % 3)]; };

@@ -6,7 +6,7 @@
 
 namespace gyrostat::inline GYROSTAT_LEVEL {
 
-/// R(q) v, with one rounding at the end: for what a motion keeps from its start, which all its steps would take over the roundings of. q need not have
+/// R(q) v, rounded once at the end: for constants of a motion found at its start, whose rounding all its steps would inherit. q need not have
 /// unit norm.
 template <Real Scalar>
 Vec3<Scalar> rotate_once(const Quat<Scalar>& q, const Vec3<Scalar>& v) noexcept {

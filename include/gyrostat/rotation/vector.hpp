@@ -28,7 +28,7 @@ struct Quat {
   friend constexpr bool operator==(const Quat&, const Quat&) = default;
 };
 
-/// |v|, also where its square would overflow or vanish. The same bits wherever v lies: Eigen's sums hang on the address.
+/// |v|, also where its square would overflow or vanish. The same bits wherever v lies: Eigen's sums depend on the address.
 template <Real Scalar>
 Scalar magnitude(const Vec3<Scalar>& v) noexcept {
   using std::abs, std::sqrt;

@@ -136,10 +136,7 @@ TEST_CASE("damping of the carrier and charge are matrices on the angular velocit
   const auto made = Collected<double>::of(p, 1.);
   const auto& sum = made.steady().sum;
   CHECK((sum.by_rate - 0.1 * p.inertia - cross_matrix<double>(charge.vector)).norm() < 1e-15);
-  const auto scalar = as_scalar(sum.by_carrier, made.steady().size.by_carrier);
-  REQUIRE(scalar);
-  CHECK(*scalar == Approx(0.1));
-  CHECK_FALSE(as_scalar(sum.by_rate, made.steady().size.by_rate));
+  CHECK((sum.by_carrier - 0.1 * Mat3<double>::Identity()).norm() < 1e-15);
 }
 
 TEST_CASE("breakpoints are in order, once each, and inside the span", "[general]") {

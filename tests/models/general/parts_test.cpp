@@ -36,7 +36,7 @@ TEST_CASE("the normal of an orbit is a direction", "[general]") {
   CHECK(directions.count == 1);
   const Part<double> part(terms, directions, normal);
   CHECK(part.has_directions);
-  CHECK_FALSE(part.bends());
+  CHECK_FALSE(part.is_nonlinear());
   const auto torque = part.direction[0] * row<double>({1, 2, 3});
   for (int i = 0; i < 3; ++i) CHECK(torque[i] == Approx(i + 1));
 }
@@ -50,10 +50,10 @@ TEST_CASE("a part knows what is in it", "[general]") {
   };
   CHECK_FALSE(made([](auto& t) { t.body = {1, 2, 3}; }).moves());
   CHECK(made([](auto& t) { t.by_rate(0, 1) = 1; }).moves());
-  CHECK_FALSE(made([](auto& t) { t.by_rate(0, 1) = 1; }).bends());
-  CHECK(made([](auto& t) { t.gradient = 1; }).bends());
-  CHECK(made([](auto& t) { t.eddy(1, 1) = 1; }).bends());
-  CHECK(made([](auto& t) { t.brake_carrier[1] = 1; }).bends());
+  CHECK_FALSE(made([](auto& t) { t.by_rate(0, 1) = 1; }).is_nonlinear());
+  CHECK(made([](auto& t) { t.gradient = 1; }).is_nonlinear());
+  CHECK(made([](auto& t) { t.eddy(1, 1) = 1; }).is_nonlinear());
+  CHECK(made([](auto& t) { t.brake_carrier[1] = 1; }).is_nonlinear());
 
   Sees sees;
   Terms<double> terms;

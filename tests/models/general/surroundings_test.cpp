@@ -43,11 +43,11 @@ TEST_CASE("an orbit obeys the law of gravity", "[general]") {
       const Vec3<double> pull = (place(t + h) - 2 * place(t) + place(t - h)) / (h * h);
       CHECK((pull + orbit.mu / (at.radius * at.radius) * at.radial).norm() < 1e-4 * pull.norm());
       const Vec3<double> speed = (place(t + h) - place(t - h)) / (2 * h);
-      CHECK((speed - at.climb * at.radial - at.radius * at.rate * at.along).norm() < 1e-5 * speed.norm());
+      CHECK((speed - at.radial_rate * at.radial - at.radius * at.rate * at.along).norm() < 1e-5 * speed.norm());
       // energy and momentum are those of the start
       const auto first = orbit_at(orbit, 0.);
       const auto energy = [&](const OrbitPoint<double>& p) {
-        return (p.climb * p.climb + p.radius * p.radius * p.rate * p.rate) / 2 - orbit.mu / p.radius;
+        return (p.radial_rate * p.radial_rate + p.radius * p.radius * p.rate * p.rate) / 2 - orbit.mu / p.radius;
       };
       CHECK(energy(at) == Approx(energy(first)).epsilon(1e-12));
       CHECK(at.radius * at.radius * at.rate == Approx(first.radius * first.radius * first.rate).epsilon(1e-13));

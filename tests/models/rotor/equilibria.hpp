@@ -17,7 +17,7 @@ namespace gyrostat::rotor {
 struct ReferencePoint {
   std::string type;
   Vec3<double> direction;
-  double spin_rate, level, determinant, feeling;
+  double spin_rate, level, determinant, tilt_coupling;
   std::array<std::complex<double>, 3> eigenvalues;
   std::string verdict;
 };

@@ -71,7 +71,7 @@ TEST_CASE("the stability of the reference data") {
       });
       const double scale = std::pow(set.norm / g.principal()[0], 2);
       CHECK(std::abs(s.determinant - truth.determinant) <= 1e-13 * scale);
-      CHECK(std::abs(s.feeling - truth.feeling) <= 2e-14 * set.norm / std::pow(g.principal()[0], 3));
+      CHECK(std::abs(s.tilt_coupling - truth.tilt_coupling) <= 2e-14 * set.norm / std::pow(g.principal()[0], 3));
       CHECK(s.cubic[0] == Approx(set.coupling).epsilon(1e-15));
       CHECK(s.cubic[1] == Approx(set.slope / set.axial_inertia).epsilon(1e-15));
       const double size = std::max({std::abs(truth.eigenvalues[0]), std::abs(truth.eigenvalues[1]), 1e-3});
@@ -122,7 +122,7 @@ TEST_CASE("the cubic is the characteristic polynomial of the motion, and the ver
         ++stable;
         CHECK(s.verdict == Verdict::asymptotically_stable);
         CHECK(growing == 0);
-        CHECK(s.feeling > 0);
+        CHECK(s.tilt_coupling > 0);
         CHECK(s.best_rate >= s.decay_rate * (1 - 1e-12));
       } else {
         (r.type == SteadyType::saddle ? saddles : maxima) += 1;
@@ -327,7 +327,7 @@ TEST_CASE("what has no exponential rate is said") {
   for (const auto& r : pair) {
     const auto s = stability_of(principal, 5.0, r);
     CHECK(s.verdict == Verdict::marginal);
-    CHECK(s.feeling == 0);
+    CHECK(s.tilt_coupling == 0);
     CHECK(std::isnan(s.decay_rate));
     CHECK(std::isnan(s.best_slope));
     CHECK(s.eigenvalues[1].real() == 0);

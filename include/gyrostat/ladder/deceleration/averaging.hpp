@@ -53,8 +53,8 @@ struct Halt {
 
 GYROSTAT_COMPILED_ONCE Halt not_followed(Errc failure) noexcept;
 
-/// How many times over errors of the start's size count in what the weakest control is left to stop, where it stops the body last: its time is that of the
-/// momentum that the others leave. 1 where that is all of it.
+/// Factor by which errors relative to the momentum at the start count in the momentum that is left to the weakest control, which sets the time of the
+/// stop where that control acts last. 1 where all of it is left.
 inline double weight_of_rest(const Scene& scene, double stop) noexcept {
   const auto& problem = scene.problem();
   const double drag = problem.drag, braked = drag > 0 ? std::expm1(drag * stop) / drag : stop;
@@ -62,7 +62,7 @@ inline double weight_of_rest(const Scene& scene, double stop) noexcept {
   return left > 0 && left < norm ? norm / left : 1.0;
 }
 
-/// What local errors of the mean equations make of the time of the stop, relative.
+/// Relative error of the time of the stop, from local errors of the mean equations.
 inline double stop_of_steps(double weight, double tolerance) noexcept {
   return std::max(honesty::mean_stop, 2 * honesty::mean_steps * weight) * tolerance;
 }

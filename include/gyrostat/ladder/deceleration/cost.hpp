@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include "gyrostat/ladder/cost.hpp"
@@ -49,7 +48,7 @@ inline double cost_of_full(const Scene& scene) noexcept {
 /// What a step of the mean equations over an orbit takes, with what the error is made of, s.
 inline constexpr double averaged_orbit_step = 30e-6, averaged_2_orbit_step = 250e-6;
 
-/// So many steps of the mean equations as cost no more than the full equations, `most` at most; of a rung that is named all of these.
+/// The number of steps of the mean equations that cost as much as the full equations, `most` at most; `most` for a rung that is named.
 inline std::uint64_t steps_worth(const Scene& scene, double step, std::uint64_t most) noexcept {
   const Question& question = scene.question();
   if (question.rung != any_rung) return most;

@@ -13,7 +13,7 @@
 #include "gyrostat/rotation/exp_log.hpp"
 #include "gyrostat/rotation/kinematics.hpp"
 
-/// The full equations by CVODE (Adams), the trusted outsider. Needs the library gyrostat::cvode.
+/// The full equations by CVODE (Adams), for comparison. Needs the library gyrostat::cvode.
 namespace gyrostat::deceleration {
 
 namespace detail {

@@ -437,7 +437,7 @@ ColumnErrors<Scalar> rounding_of_columns(const Problem<Scalar>& problem, const C
 template <Real Scalar>
 Scalar condition_of(const Problem<Scalar>& problem) noexcept {
   const Vec3<Scalar>&a = problem.inverse_inertia, &M = problem.momentum;
-  Scalar most = condition_of_start<Scalar>(M, a.cwiseProduct(M - problem.rotor_momentum), a.asDiagonal());
+  Scalar most = start_sensitivity<Scalar>(M, a.cwiseProduct(M - problem.rotor_momentum), a.asDiagonal());
   if (problem.exact_moments) return most;
   const Vec3<Scalar> gaps = problem.inverse_gaps();
   most = std::max(most, a[2] / a[0]);
@@ -484,8 +484,8 @@ class FullMotion {
       const State<Scalar> start = state_of(problem_, problem_.momentum, attitude_);
       const State<Scalar> nowhere = state_of(problem_, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)),
                                              Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
-      solve_beside(answer, row, runs, start, Scalar(honesty::sinking) * turning_rate(problem_), times_, states_,
-                   nowhere, options_, progress_from, progress_to, rounding, note);
+      solve_beside(answer, row, runs, start, Scalar(honesty::stop_fading_factor) * turning_rate(problem_), times_,
+                   states_, nowhere, options_, progress_from, progress_to, rounding, note);
       if (answer.status == ode::Status::reached) add_rounding(row, rounding, answer.counts.steps);
       if (!with_attitude) answer.error[column::attitude] = 0;
       answer.error[column::modulus_squared] = 0;

@@ -144,7 +144,7 @@ template <Real Scalar>
 Scalar condition_of(const Problem<Scalar>& of) noexcept {
   const Mat3<Scalar> inverse = of.inertia.inverse();
   const Vec3<Scalar> M = of.momentum();
-  const Scalar of_start = condition_of_start<Scalar>(M, inverse * Vec3<Scalar>(M - of.rotor_momentum), inverse);
+  const Scalar of_start = start_sensitivity<Scalar>(M, inverse * Vec3<Scalar>(M - of.rotor_momentum), inverse);
   if (of.inertia.isDiagonal(0)) return of_start;
   return std::max(of_start, of.inertia.cwiseAbs().maxCoeff() * inverse.cwiseAbs().maxCoeff());
 }

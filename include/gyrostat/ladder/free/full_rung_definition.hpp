@@ -18,7 +18,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
       scene.wheels() > 0 ? scene.precise().problem.cast<double>() : scene.gyrostat().problem;
   const double phase = turning_rate(scene.principal()) * times.back();
   if (phase_too_long(phase, goal.tightest)) return refused<Track>(Errc::step_limit, phase_lost);
-  if (phase > (question.rung == any_rung ? vain_angle : unreachable_angle))
+  if (phase > (question.rung == any_rung ? costly_angle : unreachable_angle))
     return refused<Track>(
         Errc::step_limit,
         "the body turns so often that the full equations would take too many steps: the closed form takes none");

@@ -85,7 +85,7 @@ std::array<Scalar, Flow<Scalar>::width> number_sizes(const Prepared<Scalar>& of)
   return made;
 }
 
-/// The least size of what brakes oppose that act just before t, by that at hand; infinite where none acts.
+/// The least |U| of the brakes that act just before t, by this state; infinite where none acts.
 template <Real Scalar>
 Scalar braked(const Problem<Scalar>& problem, const State<Scalar>& state, Scalar t) noexcept {
   Scalar least = infinity<Scalar>;
@@ -102,7 +102,7 @@ Scalar braked(const Problem<Scalar>& problem, const State<Scalar>& state, Scalar
 template <Real Scalar>
 class BrakeWatch {
  public:
-  /// Whether what a brake opposes is at rest, or all but; inside: a time in the piece that was integrated to this state.
+  /// Whether what a brake opposes has all but vanished; inside: a time in the piece that was integrated to this state.
   bool stopped(const Problem<Scalar>& problem, const State<Scalar>& state, Scalar inside) noexcept {
     const Scalar now = braked(problem, state, inside);
     if (!(now < infinity<Scalar>)) return false;
@@ -185,7 +185,7 @@ class CustomCourse {
     const bool grows = next > grown_ * (t - solver_.previous_time());
     return grows ? std::min(to_, t + share_ * next) : to_;
   }
-  /// Over a jump of the law that nobody has named, where no step is short enough for the tolerance: some roundings of the time.
+  /// Steps some roundings of the time over an unnamed jump of the law, where no step is short enough for the tolerance.
   ode::Status hop(Scalar t_max) noexcept {
     ++hops_;
     const Scalar t = time(), to = std::min({t_max, to_, t + 32 * epsilon<Scalar> * t});

@@ -13,7 +13,7 @@
 #include "gyrostat/models/general/torque_law.hpp"
 #include "gyrostat/ode/cvode.hpp"
 
-/// The full equations of a general scene by CVODE, the trusted outsider, anew from each breakpoint on. Needs the library gyrostat::cvode.
+/// The full equations of a general scene by CVODE, for comparison, anew from each breakpoint on. Needs the library gyrostat::cvode.
 namespace gyrostat::general {
 
 /// The equations as numbers of order one: those of Flow over their sizes.

@@ -37,8 +37,8 @@ struct Segment {
   Problem<double> problem;
 };
 
-/// Measured over that of the full equations: each segment takes so long, s, for its scene, for the families that are found and for errors
-/// that are handed on, and its rungs so many times what they alone do, as tighter tolerances are asked of them.
+/// Costs beyond those of the full equations, measured: `each`, s a segment, for its scene, for finding families and for handing
+/// errors on; `share`, the factor on what its rungs cost alone, as tighter tolerances are asked of them.
 struct SegmentCost {
   double each, share;
 };
@@ -137,8 +137,8 @@ class SegmentedMotion {
   }
 
   bool is_alone() const noexcept { return scene_.question().rung != any_rung; }
-  /// Whether it is in vain to go on from the end of a segment: half of its rates is unknown, or more of the attitude is off than is asked and other
-  /// rungs stand.
+  /// Whether it is useless to go on from the end of a segment: the rates err by more than half of their size, or the attitude by more than is asked while other
+  /// rungs remain.
   bool lost(const Answer& answer) const noexcept {
     const Column* rates = answer.find(column_kinds[column::angular_velocity].name);
     return (rates && !(error_.angular_velocity <= size_of(*rates) / 2)) ||

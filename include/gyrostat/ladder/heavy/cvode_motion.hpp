@@ -17,7 +17,7 @@
 #include "gyrostat/ode/cvode.hpp"
 #include "gyrostat/rotation/kinematics.hpp"
 
-/// The full equations by CVODE (Adams), the trusted outsider. Needs the library gyrostat::cvode.
+/// The full equations by CVODE (Adams), for comparison. Needs the library gyrostat::cvode.
 namespace gyrostat::heavy {
 
 /// The full equations as numbers of order one: (p, q, r over the size that they reach | d | w, x, y, z where the attitude is wanted).

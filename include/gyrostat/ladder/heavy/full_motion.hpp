@@ -167,7 +167,7 @@ class FullMotion {
   /// By how much the inverse of the tensor, or the start, magnifies rounding.
   Scalar condition() const noexcept {
     const Vec3<Scalar>&I = problem_.inertia(), &w = start_.angular_velocity;
-    Scalar of_start = condition_of_start<Scalar>(I.cwiseProduct(w), w, I.cwiseInverse().asDiagonal());
+    Scalar of_start = start_sensitivity<Scalar>(I.cwiseProduct(w), w, I.cwiseInverse().asDiagonal());
     // stable or not, how far off it began may rule for long
     if (is_steady(problem_, w, start_.down, Scalar(honesty::next_to_balance)))
       of_start = std::max(of_start, Scalar(honesty::unstable_condition));

@@ -14,7 +14,7 @@
 #include "gyrostat/models/rotor/full.hpp"
 #include "gyrostat/ode/cvode.hpp"
 
-/// The full equations by CVODE, the trusted outsider. Needs the library gyrostat::cvode.
+/// The full equations by CVODE, for comparison. Needs the library gyrostat::cvode.
 namespace gyrostat::rotor {
 
 /// The full equations as numbers of order one: (w, x, y, z | H, p in units of |H| + |p| + |h| | rotor angle over what it may reach).

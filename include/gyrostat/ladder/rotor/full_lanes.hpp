@@ -39,7 +39,7 @@ inline bool suits_lanes(const Gyrostat<double>& gyrostat, const State<double>& s
 }
 
 /// Finds the motions. Their estimates are those of full_motion, by companions in lanes beside them, and like the answers
-/// differ from its in the last bits, and in that the energy is not kept. No answer hangs on the tasks beside it. answer.status says what became of a task; one
+/// differ from its in the last bits, and in that the energy is not kept. No answer depends on other tasks. answer.status says what became of a task; one
 /// that has not reached its last time may still be answered by full_motion. Every scene must suit the lanes. No heap.
 GYROSTAT_COMPILED_ONCE void full_in_lanes(std::span<LaneTask> tasks) noexcept;
 

@@ -132,7 +132,7 @@ class FullLanes {
     Lane& lane = lane_[b];
     const LaneTask& task = *lane.task;
     const Gyrostat<double>& body = *task.gyrostat;
-    const double condition = std::max(body.condition(), condition_of_start(body, task.start));
+    const double condition = std::max(body.condition(), start_sensitivity(body, task.start));
     const double change = data_change(lane.step_tolerance, condition);
     lane.alone = !rounding_rules(lane.step_tolerance, condition);
     put(answers_, b, body, task.start, body.free_axes(), lane.step_tolerance);
@@ -253,7 +253,8 @@ class FullLanes {
       if (lane.task == nullptr) continue;
       const double first = answers_.time(int(b));
       if (lane.fresh ? first > 0 && (lane.alone || seconds_.time(int(b)) > 0) : lane.seen) {
-        ends[b] = lane.fresh ? first / 2 : companion_reaches(before[b], lane.stride, lane.last);
+        ends[b] =
+            lane.fresh ? first / 2 : companion_reaches(before[b], honesty::companion_stride * lane.stride, lane.last);
         any = true;
       }
     }
@@ -281,7 +282,7 @@ class FullLanes {
   /// Whether the runs are compared at the lane's next asked time, where the step of its answer ends at `end`.
   static bool compares_at(const Lane& lane, double end) noexcept {
     const std::span<const double> times(lane.task->times);
-    return honesty::looked_at(lane.next, times.size()) || is_next_to_end(times, lane.next, end - lane.stride, end);
+    return honesty::is_compared(lane.next, times.size()) || is_next_to_end(times, lane.next, end - lane.stride, end);
   }
 
   /// Looks at the lanes whose runs have come to what is next, an asked time or the end of the first companion's step; false where there are none.

@@ -192,14 +192,14 @@ struct Neighbour {
   }
 };
 
-/// How many times over a change of the start counts where it is next to a steady rotation, or not so near to one that is unstable with its wheel free or
-/// locked: the motion may stay long, and how far off it began sets when it leaves. 1 elsewhere.
+/// Factor by which a change of the start counts more where it is next to a steady rotation, or less near to one that is unstable with its wheel free or
+/// locked: the motion may linger, and how far off it began decides when it leaves. 1 elsewhere.
 template <Real Scalar>
-Scalar condition_of_start(const Gyrostat<Scalar>& body, const State<Scalar>& start) noexcept {
+Scalar start_sensitivity(const Gyrostat<Scalar>& body, const State<Scalar>& start) noexcept {
   const Vec3<Scalar> Omega = body.angular_velocity(start.momentum, start.axial_momentum);
   const Scalar whole = Omega.norm() * start.momentum.norm(), across = cross<Scalar>(Omega, start.momentum).norm();
   const auto unstable = [&](const Mat3<Scalar>& inverse) noexcept {
-    return gyrostat::condition_of_start<Scalar>(start.momentum, Omega, inverse);
+    return gyrostat::start_sensitivity<Scalar>(start.momentum, Omega, inverse);
   };
   const Scalar steady =
       across < Scalar(honesty::next_to_steady) * whole ? Scalar(honesty::steady_condition) : Scalar(1);
@@ -260,7 +260,7 @@ class FullMotion {
         states_(states),
         options_(options),
         turning_(turning_rate(gyrostat, start)),
-        condition_(std::max(gyrostat.condition(), condition_of_start(gyrostat, start))) {
+        condition_(std::max(gyrostat.condition(), start_sensitivity(gyrostat, start))) {
     const bool stiff = is_stiff(gyrostat, start);
     const bool collocates = options.integrator == Integrator::radau || (options.integrator == Integrator::any && stiff);
     // behind 40 relaxation times the motor has forgotten where it began

@@ -17,7 +17,7 @@
 #include "gyrostat/ode/cvode.hpp"
 #include "gyrostat/rotation/kinematics.hpp"
 
-/// The full equations by CVODE (Adams), the trusted outsider. Needs the library gyrostat::cvode.
+/// The full equations by CVODE (Adams), for comparison. Needs the library gyrostat::cvode.
 namespace gyrostat::spinning {
 
 namespace detail {

@@ -170,7 +170,7 @@ class FullMotion {
     const Scalar tight = companion_step(step_tolerance);
     const Vec3<Scalar>&D = problem_.inertia, &w = problem_.angular_velocity;
     const Vec3<Scalar> stiff = D.cwiseProduct(w) + Vec3<Scalar>(0, 0, problem_.gyroscopic());
-    const Scalar condition = condition_of_start<Scalar>(stiff, w, D.cwiseInverse().asDiagonal());
+    const Scalar condition = start_sensitivity<Scalar>(stiff, w, D.cwiseInverse().asDiagonal());
     const Scalar change = data_change(step_tolerance, condition);
     const Problem<Scalar> one = neighbour(problem_, rate_, change, 0), two = neighbour(problem_, rate_, change, 1);
     const bool both = rounding_rules(step_tolerance, condition);

@@ -165,7 +165,7 @@ class FullSystem {
     return along >= 0 && along < 3 && keeps_[along] ? along : -1;
   }
 
-  /// Whether all that U has across axis i fades beside what it has along it, `most`, from now on: the control about that axis is the weakest, and
+  /// Whether U across axis i decays against U along it, `most`, from now on: the control about that axis is the weakest, and
   /// damps the other two faster than they feed each other, which they do the less the slower the body turns.
   bool settles_on(int i, Scalar most) const noexcept {
     const Scalar square = most * most;
@@ -190,7 +190,7 @@ class FullSystem {
   // of each axis
   bool keeps_[3];          ///< a U along it stays there
   Vec3<Scalar> own_;       ///< the control about it, N m
-  Vec3<Scalar> damping_;   ///< product of what the other two have more, N^2 m^2; 0: this is not the weakest
+  Vec3<Scalar> damping_;   ///< product of the excesses of the other two over it, N^2 m^2; 0: this is not the weakest
   Vec3<Scalar> coupling_;  ///< product of the quadratic terms that couple the other two
   // exact laws
   Vec3<Scalar> rotor_momentum_, a_;

@@ -69,8 +69,8 @@ struct Problem {
     return exact_moments ? Scalar(0) : 4 * epsilon<Scalar> / inverse_inertia[0] * angular_velocity(M).squaredNorm();
   }
 
-  /// The size of what M at t = 0 is summed of, and so of its rounding over that of a number, N m s: of a slim body that turns about its
-  /// slight axis far more than |M|.
+  /// Magnitude of the terms that M at t = 0 is a sum of, to which its rounding is relative, N m s: of a slim body that turns about the axis of its
+  /// least moment far more than |M|.
   Scalar momentum_terms() const noexcept {
     const Scalar carrier = momentum_converted ? Scalar(angular_velocity(momentum).norm() / inverse_inertia[0])
                                               : Scalar((momentum - rotor_momentum).norm());

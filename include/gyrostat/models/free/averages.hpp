@@ -92,7 +92,7 @@ struct Precession {
 template <Real Scalar>
 Precession<Scalar> precession(const Motion<Scalar>& motion, const Vec3<Scalar>& axis) noexcept {
   const Scalar T = motion.period();
-  Scalar magnified = 0;  // a rounding of M's direction in these rates, over it
+  Scalar magnified = 0;  // error of these rates over that of M's direction
   const auto rates = [&](Scalar t) {
     const auto s = motion.at(t);
     // by the parts of M and omega across the axis, which cancel nothing where both are nearly along it

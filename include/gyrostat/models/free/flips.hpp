@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -53,8 +52,8 @@ std::vector<Scalar> periodic_zeros(const Motion<Scalar>& motion, const Function&
   return times;
 }
 
-/// Times of [begin, end], s, at which M crosses the plane across a body axis: of a rigid body spun about its middle axis, and that axis,
-/// the flips that Dzhanibekov saw in 1985; they are half a period apart. Each is as uncertain as the motion's phase. The first `most` of them.
+/// The first `most` times of [begin, end], s, at which M crosses the plane normal to a body axis. Of the middle axis of a rigid body spun about it these
+/// are the flips that Dzhanibekov saw in 1985, half a period apart. Each is as uncertain as the motion's phase.
 template <Real Scalar>
 std::vector<Scalar> flips(const Motion<Scalar>& motion, const Vec3<Scalar>& axis, Scalar begin, Scalar end,
                           std::size_t most = 1000000) noexcept {

@@ -151,7 +151,7 @@ struct SpinorFrame {
     if (!known && !plane.real_roots()) {
       single(pencil, plane);
     } else {
-      // roots that agree to the last bit are taken a rounding of a rounding apart
+      // roots that agree to the last bit are taken to differ by eps^2
       const Scalar least = epsilon<Scalar> * epsilon<Scalar>;
       if (plane.E_plus == 0) plane.E_plus = plane.E_minus * least;
       if (plane.E_minus == 0) plane.E_minus = plane.E_plus * least;

@@ -64,7 +64,7 @@ struct Fraction {
   }
 };
 
-/// One number with what Wide offers, where registers of four with a fused product are none: there many at once take longer than one by one.
+/// One number with the interface of Wide, for machines without registers of four and a fused product: there many at once take longer.
 template <Real Scalar>
 struct OnePoint {
   Scalar x;
@@ -137,7 +137,7 @@ class Motion {
   void grid(Scalar first, Scalar step, std::size_t count, Scalar* angular_velocity, Scalar* attitude,
             Scalar* angular_momentum) const noexcept;
 
-  /// By how much rounding in at(t) grows since terms of opposite sign are added, 1 or more; near 1 but where the frame is boosted.
+  /// Factor by which cancellation magnifies rounding in at(t), 1 or more; near 1 except where the frame is boosted.
   Scalar cancellation(Scalar t) const noexcept {
     using std::abs;
     if (kind_ == Kind::steady || precesses_) return 1;
@@ -148,8 +148,8 @@ class Motion {
     return parts / abs(sum);
   }
 
-  /// What omega is summed of in at(t), all terms by their sizes, rad/s: more than |omega| where the body is slim, whose slight moment turns a small
-  /// part of M, which products of the pair nearly cancel to, into much of omega.
+  /// The sum of the magnitudes of the terms of omega in at(t), rad/s. More than |omega| where the body is slim: its least moment makes much of omega
+  /// from a small part of M, which is what products of the pair leave where they nearly cancel.
   Scalar rate_terms(Scalar t) const noexcept {
     using std::abs, std::sqrt;
     if (kind_ == Kind::steady || precesses_) return at(t).angular_velocity.norm();
@@ -393,7 +393,7 @@ class Motion {
   using Value = typename ThetaPair<Scalar>::Value;
 
   /// Where the motion is at a time: the angle or the exponent of E and what rounding took from that, the turns of the spinor's phase, and
-  /// whether a number of half periods that is odd was taken off u.
+  /// whether an odd number of half periods was taken off u.
   struct Place {
     Scalar exponent, rest, turns;
     bool odd;

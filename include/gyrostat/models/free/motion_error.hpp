@@ -63,9 +63,9 @@ Assembly<Scalar, Room> neighbour(Assembly<Scalar, Room> given, int k, Scalar by)
   return given;
 }
 
-/// How wrong a motion may be between time 0 and a horizon, from neighbours whose data are a rounding away: they are compared over the first period and
-/// over the last one before the horizon. What they are apart between grows no faster than along a straight line. Bounds are some times the root of the
-/// mean square of the neighbours' distances, each the greatest up to a time.
+/// How wrong a motion may be between time 0 and a horizon, judged by neighbours whose data are off by a rounding. They are compared over the first
+/// period and over the last one before the horizon; in between their distances grow at most linearly. Each bound is a multiple of the root mean
+/// square of the neighbours' distances, each the greatest up to a time.
 template <Real Scalar>
 class MotionError {
  public:
@@ -101,7 +101,7 @@ class MotionError {
   static std::optional<MotionError> of_precession(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly,
                                                   Scalar horizon) noexcept;
 
-  /// Whether nothing that the set-up subtracts cancels as a matter of course: no separatrix is near, and no principal axes found in Scalar belong to
+  /// Whether no cancellation is to be expected in the set-up: no separatrix is near, and no principal axes found in Scalar belong to
   /// moments that are nearly equal. Else there is no quick error.
   template <class Room>
   static bool is_tame(const Motion<Scalar>& motion, const Assembly<Scalar, Room>& assembly) noexcept {
@@ -130,7 +130,7 @@ class MotionError {
   Scalar of_scalars() const noexcept {
     return std::max({period(), turn_per_period(), modulus_squared(), energy(), angular_momentum_norm()});
   }
-  /// Whether bounds reach over a whole period, which means over it need.
+  /// Whether the bounds cover a whole period, as means over one require.
   bool spans_period() const noexcept { return period_ <= std::abs(horizon_); }
   /// The greatest |omega| over a period or up to the horizon, rad/s: what bounds of the rates are relative to.
   Scalar fastest() const noexcept { return fastest_; }
@@ -187,7 +187,7 @@ class MotionError {
     nodes_ = few;
   }
 
-  /// Whether what quick() has seen of a motion can be believed; takes the defect into what is constant. J: principal moments; M and l in their axes,
+  /// Whether what quick() has found can be trusted; takes the defect into the errors of the constants. J: principal moments; M and l in their axes,
   /// over |M|; kappa: of the attitude's phase, rad/s.
   bool trust_quick(const Vec3<Scalar>& J, const Vec3<Scalar>& M, const Vec3<Scalar>& l, Scalar kappa) noexcept {
     if (!agree_ || !(cancellation_ < quick_cancellation) || !(defect_ < quick_defect)) return false;
@@ -309,7 +309,7 @@ class MotionError {
     return false;
   }
 
-  /// What of the motion does not depend on its neighbours.
+  /// Finds what the bounds take from the motion itself, without neighbours.
   void start(const Motion<Scalar>& motion) noexcept {
     const State<Scalar> first = motion.at(0);
     begin(motion, first);
@@ -337,7 +337,7 @@ class MotionError {
     return motion.R_BP() * motion.principal_moments().cwiseInverse().asDiagonal() * motion.R_BP().transpose();
   }
 
-  /// Takes a state of the motion into what is greatest.
+  /// Raises the greatest values by those of a state of the motion.
   void visit(const Motion<Scalar>& motion, const State<Scalar>& at, const Mat3<Scalar>& inverse, Scalar cancellation,
              Scalar rate_terms) noexcept {
     using std::max;
@@ -655,7 +655,7 @@ auto MotionError<Scalar>::at(Scalar t) const noexcept -> Bound {
     }
     if (!agree_ && beyond > period_) b.attitude = infinity<Scalar>;
   }
-  // a defect that were always on the same side
+  // a defect that always acts in the same direction
   const Scalar off_course = defect_ * fastest_ * beyond;
   b.angular_velocity += off_course;
   b.angular_momentum += off_course;

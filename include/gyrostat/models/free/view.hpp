@@ -117,7 +117,7 @@ View<Scalar> long_run_view(const Motion<Scalar>& motion, const Vec3<Scalar>& axi
 
 namespace detail {
 
-/// How long a function is positive between two times, of which its values are known and which it passes at most so `fast`: pieces in which it might
+/// How long a function is positive between two times, by its values there and a bound `fast` of its slope: pieces in which it might
 /// cross zero and come back are halved.
 template <Real Scalar, class Function>
 Scalar time_above(const Function& above, Scalar low, Scalar at_low, Scalar high, Scalar at_high, Scalar fast,

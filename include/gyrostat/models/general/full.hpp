@@ -51,7 +51,7 @@ struct Prepared {
     momentum = wheels.reduced * of.angular_velocity + wheels.momentum_of_wheels();
     sizes = sizes_of(of, wheels, torques, span);
   }
-  /// Whether wheels settle so much faster than all else goes on, and so often, that Taylor steps, which cannot be longer than about 8 over
+  /// Whether wheels settle so much faster than everything else changes, and for so long, that Taylor steps, which cannot be longer than about 8 over
   /// their rate, cost more than collocation.
   bool is_stiff() const noexcept {
     const Scalar fastest = settling.fastest(), pace = sizes.turning + sizes.forcing + sizes.damping;
@@ -96,8 +96,8 @@ std::array<Scalar, Places<large>::width> first_numbers(const Prepared<Scalar>& f
   return x;
 }
 
-/// What steps measure errors against: 1 for the quaternion and W (rad), the momenta for M, that of its own for p, what forces do in a
-/// radian's time for v.
+/// What steps measure errors against: 1 for the quaternion and W (rad), the size of the momenta for M, of each wheel's own for p, and for v what forces
+/// add in the time of a radian.
 template <Real Scalar, bool large>
 std::array<Scalar, Places<large>::width> scale_of(const Prepared<Scalar>& of) noexcept {
   using std::abs;
@@ -172,7 +172,7 @@ State<Scalar> state_of(const Prepared<Scalar>& of, const Piece<Scalar>& piece, S
 /// Taylor recurrences over one piece, with M x w as the state M in the user's axes.
 ///
 /// One order costs two convolutions of M x w and three of the quaternion, two for each inertial direction that the torques see. The terms
-/// with the newest order of M are split off as one matrix, the Jacobian at the start of the step, so that an order waits for the last only
+/// through one matrix-vector product. All other terms (rest) are skipped where there are none, and else summed order by order. Vectors
 /// through one matrix-vector product. All else (rest) is looked at only where there is something of it, and then order by order. Vectors
 /// that are seen from the body are formed from the quaternion at the start of every step, and expanded beside: they cannot drift.
 template <Real Real_, bool large>
@@ -236,14 +236,14 @@ class FullSystem {
   /// What a brake opposes, N m s, by the numbers at t: the lesser of the two, if both laws are there; infinite without a brake.
   Scalar braked(Scalar t, const Scalar* x) const noexcept;
   bool has_brake() const noexcept { return sees_.total_brake || sees_.carrier_brake; }
-  /// A bound of the torques that take away what a brake opposes, N m: no motor does from M.
+  /// A bound of the torques that can reduce what a brake opposes, N m: motors change J w, but not M.
   Scalar torque(Scalar, const Scalar*) const noexcept {
     return sees_.carrier_brake ? of_.sizes.torque : of_.sizes.external;
   }
 
   Numbers scale() const noexcept { return scale_of<Scalar, large>(of_); }
 
-  /// How many of the numbers change over the piece: none behind them does.
+  /// How many numbers at the head of the state change over the piece; those behind them stay.
   int moving() const noexcept { return moves_centre_ ? width : 12 + 8 * halves_; }
 
  private:
@@ -280,18 +280,18 @@ class FullSystem {
                               const Constants& c) const noexcept;
   /// Order k of the torque by the gradient of the orbit, without a factor; of what of it always acts, times unit.
   template <class Index, int Order>
-  GYROSTAT_INLINE Row fall(Index k, const Scalar (&x)[Order + 1][width], Work<Order>& work,
-                           const Constants& c) const noexcept;
+  GYROSTAT_INLINE Row orbit_gradient_torque(Index k, const Scalar (&x)[Order + 1][width], Work<Order>& work,
+                                            const Constants& c) const noexcept;
   template <class Index, int Order>
   GYROSTAT_INLINE void turn_seen(Index k, int i, Work<Order>& work, Ahead& ahead) const noexcept;
-  /// All torque of order k, times unit, that bends or has a factor and depends on the motion; and order k + 1 of all vectors and numbers
+  /// All torque of order k, times unit, that is nonlinear, or depends on the motion and has a factor; and order k + 1 of all vectors and numbers
   /// that are not in the core.
   template <int Order>
   GYROSTAT_NOINLINE Row rest(int k, Scalar (&x)[Order + 1][width], Work<Order>& work,
                              const Constants& c) const noexcept;
   template <int Order>
-  Row bending(const Part<Scalar>& part, int k, typename Work<Order>::Vectors& current, Work<Order>& work,
-              Scalar unit) const noexcept;
+  Row nonlinear_torque(const Part<Scalar>& part, int k, typename Work<Order>::Vectors& current, Work<Order>& work,
+                       Scalar unit) const noexcept;
   template <int Order>
   Row linear(const Part<Scalar>& part, int k, const Scalar (&x)[Order + 1][width], const Work<Order>& work,
              Scalar unit) const noexcept;
@@ -325,8 +325,8 @@ class FullSystem {
   Directions<Scalar> directions_;
   Sees sees_;
   Vec3<Scalar> normal_{0, 0, 1};
-  Part<Scalar> steady_;  ///< but for `fall_`
-  Scalar fall_ = 0;      ///< how often the gradient of the orbit always counts
+  Part<Scalar> steady_;        ///< but for `orbit_gradient_`
+  Scalar orbit_gradient_ = 0;  ///< the multiple of the orbit's gravity gradient that always acts
   int factors_ = 0;
   std::array<Part<Scalar>, most_factors> parts_;  ///< of the sources that depend on the motion
   std::vector<Source> sources_;
@@ -366,7 +366,7 @@ void FullSystem<Real_, large>::take_parts() noexcept {
   sees_.orbit_axes = sees_.orbit_axes || (sees_.field && field.magnetic == MagneticField::dipole);
 
   steady_ = Part<Scalar>(piece_.power[0], directions_, normal_);
-  fall_ = std::exchange(steady_.orbit_gradient, Scalar(0));
+  orbit_gradient_ = std::exchange(steady_.orbit_gradient, Scalar(0));
   const auto take = [&](const Terms<Scalar>& terms, int power, int wave) noexcept {
     if (!terms.any()) return;
     const Part<Scalar> part(terms, directions_, normal_);
@@ -377,7 +377,7 @@ void FullSystem<Real_, large>::take_parts() noexcept {
   };
   for (int i = 1; i < 4; ++i) take(piece_.power[std::size_t(i)], i, 0);
   for (std::size_t i = 0; i < piece_.waves.size(); ++i) take(piece_.waves[i].terms, 0, int(i));
-  has_rest_ = steady_.bends() || factors_ > 0 || sees_.force;
+  has_rest_ = steady_.is_nonlinear() || factors_ > 0 || sees_.force;
 }
 
 template <Real Real_, bool large>
@@ -434,12 +434,13 @@ GYROSTAT_INLINE void FullSystem<Real_, large>::turn_seen(Index k, int i, Work<Or
 
 template <Real Real_, bool large>
 template <class Index, int Order>
-GYROSTAT_INLINE auto FullSystem<Real_, large>::fall(Index k, const Scalar (&x)[Order + 1][width], Work<Order>& work,
-                                                    const Constants& c) const noexcept -> Row {
+GYROSTAT_INLINE auto FullSystem<Real_, large>::orbit_gradient_torque(Index k, const Scalar (&x)[Order + 1][width],
+                                                                     Work<Order>& work,
+                                                                     const Constants& c) const noexcept -> Row {
   if constexpr (!std::is_same_v<Index, std::integral_constant<int, 0>>) work.orbit_turn.extend(k);
   work.outward.extend(k, load(&x[k][At::attitude]), work.orbit_turn);
   work.orbit_gradient[k] = shape_(work.outward.v, k);
-  return lanes(c.unit * fall_) * work.orbit_gradient[k];
+  return lanes(c.unit * orbit_gradient_) * work.orbit_gradient[k];
 }
 
 template <Real Real_, bool large>
@@ -480,7 +481,7 @@ GYROSTAT_INLINE void FullSystem<Real_, large>::extend(Index k, Scalar (&x)[Order
     known = c.direction[i].times(work.seen[i].v[k], known);
     turn_seen(k, i, work, ahead);
   }
-  if (sees_.orbit_gradient) known = known + fall(k, x, work, c);
+  if (sees_.orbit_gradient) known = known + orbit_gradient_torque(k, x, work, c);
   store(&x[k + 1][0], over_next(lanes(Scalar(0.5L)) * work.turn.extend(k, x, 0, rate), k));
   store(&x[k + 1][At::turned], over_next(rate, k));
   if (drives_) known = known + work.drive[k];
@@ -528,7 +529,7 @@ void FullSystem<Real_, large>::expand(Scalar t, Scalar unit, Scalar (&x)[Order +
   begin(t, x, work, c);
   Row newest = c.torque_by(rate) + lanes(unit) * (steady_.body - steady_.by_momentum * c.first_momentum);
   if (drives_) newest = newest + work.drive[0];
-  if (sees_.orbit_gradient) newest = newest + fall(std::integral_constant<int, 0>{}, x, work, c);
+  if (sees_.orbit_gradient) newest = newest + orbit_gradient_torque(std::integral_constant<int, 0>{}, x, work, c);
   for (int i = 0; i < directions_.count; ++i) {
     auto& seen = work.seen[i];
     newest = c.direction[i].times(seen.v[0], newest);
@@ -738,8 +739,8 @@ void FullSystem<Real_, large>::oppose(int which, int k, const Row& opposed, Work
 
 template <Real Real_, bool large>
 template <int Order>
-auto FullSystem<Real_, large>::bending(const Part<Scalar>& part, int k, typename Work<Order>::Vectors& current,
-                                       Work<Order>& work, Scalar unit) const noexcept -> Row {
+auto FullSystem<Real_, large>::nonlinear_torque(const Part<Scalar>& part, int k, typename Work<Order>::Vectors& current,
+                                                Work<Order>& work, Scalar unit) const noexcept -> Row {
   Row sum = lanes(Scalar(0));
   if (part.has_orbital) sum = part.radial.times(work.seen[radial].v[k], part.along.times(work.seen[along].v[k], sum));
   if (part.gradient != 0) sum = multiply_add(lanes(part.gradient), work.gradient[k], sum);
@@ -783,10 +784,10 @@ auto FullSystem<Real_, large>::rest(int k, Scalar (&x)[Order + 1][width], Work<O
     work.down.set(k, down);
     work.gradient[k] = shape_(work.down, k);
   }
-  Row sum = bending(steady_, k, work.current[0], work, unit);
+  Row sum = nonlinear_torque(steady_, k, work.current[0], work, unit);
   for (int i = 0; i < factors_; ++i) {
     const auto& part = parts_[std::size_t(i)];
-    work.torque[i][k] = bending(part, k, work.current[i + 1], work, unit) + linear(part, k, x, work, unit);
+    work.torque[i][k] = nonlinear_torque(part, k, work.current[i + 1], work, unit) + linear(part, k, x, work, unit);
     sum = sum + work.factor[i].times(work.torque[i], k);
   }
   if constexpr (large)

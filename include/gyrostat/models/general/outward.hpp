@@ -17,14 +17,14 @@ namespace gyrostat::general {
 
 /// g = (N/N(t))^(1/4) e^(i angle/2) of the orbit from t on, order by order: the angle is that through which the radius has turned since.
 ///
-/// By Q = (r/r(t))^2: Q'' = 2 (climb^2/r^2 + n^2 + (z - 2) mu/r^3) with z = Q^(-1/2) and climb, n, r those at t. g = Q^(-3/8) e^(i angle/2)
+/// By Q = (r/r(t))^2: Q'' = 2 (radial_rate^2/r^2 + n^2 + (z - 2) mu/r^3) with z = Q^(-1/2) and radial_rate, n, r those at t. g = Q^(-3/8) e^(i angle/2)
 /// obeys Q g' = (-3/8 Q' + i n/2) g, and z, too, is a power of Q: both are one sum.
 template <Real Scalar, int Order>
 struct OrbitTurn {
   Lanes<Scalar> g[Order + 1];  ///< real and imaginary part, z, and a zero
 
   void begin(const Orbit<Scalar>& orbit, const OrbitPoint<Scalar>& at, Scalar unit) noexcept {
-    const Scalar turn = unit * at.rate, out = unit * at.climb / at.radius;
+    const Scalar turn = unit * at.rate, out = unit * at.radial_rate / at.radius;
     const Scalar pull = unit * unit * at.gradient / 3;
     half_turn_ = lanes(-turn / 2, turn / 2, Scalar(0), Scalar(0));
     twice_pull_ = 2 * pull, circle_ = orbit.eccentricity == 0;

@@ -105,11 +105,11 @@ struct Part {
   }
 
   /// Whether there is a torque that is not linear in M, w and the directions.
-  bool bends() const noexcept {
+  bool is_nonlinear() const noexcept {
     return has_orbital || has_eddy || has_dipole || has_total || has_carrier || gradient != 0 || orbit_gradient != 0;
   }
   /// Whether there is one that depends on the motion.
-  bool moves() const noexcept { return bends() || has_rate || has_momentum || has_directions; }
+  bool moves() const noexcept { return is_nonlinear() || has_rate || has_momentum || has_directions; }
 };
 
 /// The most factors at a time of torques that depend on the motion, powers of time and waves.

@@ -29,14 +29,15 @@ enum class AtStop : std::uint8_t {
   later,    ///< it would leave within the piece, about an axis that no brake holds
   turning,  ///< undecided: wheels turn by torques of their own
   laws,     ///< undecided: brakes of both laws, and wheels that hold momentum
-  varying,  ///< undecided: what acts goes on by itself, or turns as the body does
+  varying,  ///< undecided: a load varies by itself, or because the body turns on
 };
 
 /// Why the motion is not followed through a stop, and what to do.
 constexpr const char* why_not_through(AtStop what) noexcept {
   switch (what) {
     case AtStop::turning:
-      return "a brake brings the body to its stop while wheels turn by motors, by friction or at rates that change, and "
+      return "a brake brings the body to its stop while wheels turn by motors, by friction or at rates that change, "
+             "and "
              "what it would have to hold then is not followed: ask for times up to the stop, or hold the wheels";
     case AtStop::laws:
       return "brakes of both laws bring the body to its stop while wheels hold momentum, and what they come to "
@@ -58,14 +59,14 @@ constexpr const char* why_not_through(AtStop what) noexcept {
 /// The least rate at which a body is followed out of its rest, over the size of torque and brakes.
 inline constexpr double least_departure = 1e-4;
 
-/// How U leaves zero where a torque has just become all that the brakes hold and goes on growing: U = s^2 (second + s third), s the time since.
+/// How U leaves zero where a growing torque has just reached the limit of the brakes: U = s^2 (second + s third), s the time since then.
 template <Real Scalar>
 struct Outgrowth {
   Vec3<Scalar> second{0, 0, 0}, third{0, 0, 0};  ///< N m/s, N m/s^2
   Scalar time = 0;  ///< in which the torque grows by about what the brakes hold, s; 0: it does not
 };
 
-/// torque: by powers of the time since, its first all that the brakes hold; follows(U): by how much dU/dt changes with U but for the brakes, to first
+/// torque: coefficients of its powers of s, the first at the limit of the brakes; follows(U): the change of dU/dt with U, brakes excluded, to first
 /// order. In dU/dt = torque - limit n, n = U/|U|, n0 is the share that each brake has; the first power gives n1, across n0, and |second|, the next
 /// third along n0 (docs/general.md, section 1.6).
 template <Real Scalar, class Follows>
@@ -94,7 +95,7 @@ struct Stop {
   Departure<Scalar> departure;      ///< of what the brakes oppose, where the body leaves
   Outgrowth<Scalar> outgrowth;      ///< where it leaves so slowly that the departure has no rate
   Vec3<Scalar> turning{0, 0, 0};    ///< w, rad/s: that of held wheels alone
-  Scalar slip = 0;                  ///< at most so much torque may be left over, as share_slack is allowed, N m
+  Scalar slip = 0;                  ///< the most torque that may be left over, because of share_slack, N m
   bool carrier = false;             ///< J w is opposed, not M
 };
 
@@ -107,13 +108,13 @@ void each_of(const Piece<Scalar>& piece, const Action& action) noexcept {
   for (const auto& wave : piece.waves) action(wave.terms);
 }
 
-/// A sum of torques but brakes, and the magnitudes that went in, body axes.
+/// The sum of the torques other than brakes, and the sum of their magnitudes, body axes.
 template <Real Scalar>
 struct SizedTorque {
   Vec3<Scalar> sum, size;
 };
 
-/// That of steady terms on a body that turns with w, and of a field that does not move. M: all its momentum.
+/// The torque of these coefficients on a body that turns with w, in a field at rest. M: its total momentum.
 template <Real Scalar>
 SizedTorque<Scalar> steady_torque(const Prepared<Scalar>& of, const Terms<Scalar>& terms, const Quat<Scalar>& q,
                                   const Vec3<Scalar>& w, const Vec3<Scalar>& M) noexcept {
@@ -136,8 +137,8 @@ SizedTorque<Scalar> steady_torque(const Prepared<Scalar>& of, const Terms<Scalar
   return made;
 }
 
-/// Whether brakes hold the torque sum of c_k s^k for all s from 0 to `length`, or not somewhere; by its control points as a Bezier curve, in whose
-/// hull it lies. most: a share_of_brake().
+/// Whether brakes hold the torque sum of c_k s^k for all s from 0 to `length`: decided by subdividing it as a Bezier curve, which lies in the hull of
+/// its control points; false also where that stays undecided. most: a share_of_brake().
 template <Real Scalar>
 bool holds_all(const Vec3<Scalar>& limit, const std::array<Vec3<Scalar>, 4>& c, Scalar length, Scalar most) noexcept {
   const Vec3<Scalar> a = length * c[1], b = length * length * c[2], d = length * length * length * c[3];
@@ -161,7 +162,7 @@ bool holds_all(const Vec3<Scalar>& limit, const std::array<Vec3<Scalar>, 4>& c, 
   return true;
 }
 
-/// How long, of `length`, which they do not hold.
+/// For how long, of `length`, the brakes hold it.
 template <Real Scalar>
 Scalar held_for(const Vec3<Scalar>& limit, const std::array<Vec3<Scalar>, 4>& c, Scalar length, Scalar most) noexcept {
   Scalar low = 0, high = length;
@@ -175,7 +176,7 @@ Scalar held_for(const Vec3<Scalar>& limit, const std::array<Vec3<Scalar>, 4>& c,
 
 }  // namespace detail
 
-/// Whether a stop in a piece can be looked through at all, before anything is known of it: rests, turning or laws.
+/// Whether stops in a piece can be followed at all, by its wheels and brakes alone: rests (they can), turning or laws.
 template <Real Scalar>
 AtStop stoppable(const Prepared<Scalar>& of, const Piece<Scalar>& piece) noexcept {
   bool total = false, carrier = false, own = false, with_momentum = false;
@@ -242,7 +243,7 @@ Stop<Scalar> stop_at(const Prepared<Scalar>& of, const Piece<Scalar>& piece, con
   const Scalar allowed = slack * std::max(Scalar(1), magnitude(of_brake));
   const Scalar most = 1 + allowed, share = share_of_brake(limit, torque[0]);
   const Scalar whole = std::max(magnitude(torque[0]), limit.maxCoeff());
-  // a torque that grows has just become all that they hold, to roundings of it and of the time
+  // whether a growing torque has just reached the limit of the brakes, to roundings of it and of the time
   const auto outgrows = [&](Scalar over) noexcept {
     stop.outgrowth = outgrowth(limit, torque, [&](const Vec3<Scalar>& U) noexcept -> Vec3<Scalar> {
       const Vec3<Scalar> w = of.wheels.inverse * U;
@@ -268,7 +269,7 @@ Stop<Scalar> stop_at(const Prepared<Scalar>& of, const Piece<Scalar>& piece, con
     if (!(stop.until > t) || (grows && held <= 16 * allowed * stop.outgrowth.time))
       stop.what = grows ? AtStop::leaves : limit.minCoeff() > 0 ? AtStop::barely : AtStop::later;
   } else {
-    // where the margin hides in roundings the torque may be more than the brake, and drive the body by so much
+    // within the margin of rounding the torque may exceed the brake, and drive the body by the difference
     const bool changes = !(torque[1].isZero(0) && torque[2].isZero(0) && torque[3].isZero(0));
     const bool clear = changes && detail::holds_all(limit, torque, piece.to - t, 1 - allowed);
     const Scalar over = clear ? Scalar(0) : (changes ? most : share) - 1 + allowed;

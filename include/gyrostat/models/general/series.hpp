@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "gyrostat/core/lanes.hpp"
@@ -212,7 +211,7 @@ struct OrbitSeries {
   void set_eccentric(const OrbitPoint<Scalar>& at, Scalar unit) noexcept {
     const Scalar turn = unit * at.rate, centrifugal = turn * turn, pull = unit * unit * at.gradient / 3;
     Scalar y[Order + 2], z[Order + 1], square[Order + 1], cube[Order + 1];
-    y[0] = 1, y[1] = unit * at.climb / at.radius;
+    y[0] = 1, y[1] = unit * at.radial_rate / at.radius;
     for (int k = 0; k <= Order; ++k) {
       z[k] = math::quotient(Scalar(k == 0 ? 1 : 0), y, z, k, Scalar(1));
       square[k] = math::square(z, k);

@@ -18,20 +18,20 @@ namespace gyrostat::general {
 template <Real Scalar>
 struct Sizes {
   Scalar momenta = 0;   ///< of body and wheels at t = 0, their magnitudes summed, N m s
-  Scalar torque = 0;    ///< a bound of all torques but those that vanish with the motion, and of the motors, N m
+  Scalar torque = 0;    ///< a bound of all torques, motors included, but those that vanish with the motion, N m
   Scalar external = 0;  ///< the same without the motors
   Scalar force = 0;     ///< of the forces that move the mass centre, N
   Scalar built =
       0;  ///< momentum that the torques build up over the span, or until the body has turned by about a radian, N m s
   Scalar least = 1, greatest = 1;  ///< moments of J* and J, kg m^2
   Scalar turning = 0;              ///< how fast the body turns or could soon turn, of the order of |w|, rad/s
-  /// That it is likely to turn through over the span, rad: at its rate, at that at which its wheels make it precess, at half of what steady torques
-  /// bring while they are on, and at that of its swings in a field or gradient. Of 600 random scenes the steps that runs took were 0.3 to 4 times
-  /// proportional to it.
+  /// Angle that it is likely to turn through over the span, rad: the span times the sum of its rate, of the precession due to its wheels and to half the
+  /// momentum that motors and steady torques add while they are on, and of the rate of its swings in a field or gradient. Of 600 random scenes the steps
+  /// of the runs were 0.3 to 4 times those of a law in proportion to it.
   Scalar angle = 0;
 
-  Scalar damping = 0;  ///< how fast torques that are linear in the motion change it, 1/s
-  Scalar forcing = 0;  ///< the greatest rate at which waves, fields and the orbit go on by themselves, rad/s
+  Scalar damping = 0;  ///< rate at which torques linear in the motion change it, 1/s
+  Scalar forcing = 0;  ///< greatest rate of what depends on time alone: waves, fields, the orbit, rad/s
 
   /// The momenta, or what the torques build up where there are none.
   Scalar momentum() const noexcept { return momenta > 0 ? momenta : built; }
@@ -48,8 +48,8 @@ Scalar greatest_factor(const Factor<Scalar>& factor) noexcept {
   return table * (abs(factor.mean) + abs(factor.amplitude));
 }
 
-/// Of the torques of a record without its factor, brakes left out, a bound of those that keep their direction in some axes while the body turns, and of
-/// those that change with its attitude.
+/// Bounds of the torques of a record without its factor and brakes: `steady`, of those that keep their direction in some axes while the body turns;
+/// `swinging`, of those that change with its attitude.
 template <Real Scalar>
 struct Pushes {
   Scalar steady = 0, swinging = 0;
@@ -90,7 +90,7 @@ Scalar torque_size(const Problem<Scalar>& problem, const Terms<Scalar>& terms, S
          terms.eddy.norm() * field.flux_density.norm() * field.rate.norm();
 }
 
-/// How fast the torques of a record without its factor that are linear in the motion change it, 1/s.
+/// Rate at which the torques of a record that are linear in the motion change it, without the factor, 1/s.
 template <Real Scalar>
 Scalar damping_rate(const Problem<Scalar>& problem, const Terms<Scalar>& terms, Scalar least) noexcept {
   Scalar sum = terms.by_rate.norm() / least + terms.by_momentum.norm();
@@ -98,7 +98,7 @@ Scalar damping_rate(const Problem<Scalar>& problem, const Terms<Scalar>& terms, 
   return sum;
 }
 
-/// The greatest rate at which what acts goes on by itself, rad/s.
+/// Greatest rate of the loads that depend on time alone: waves, a rotating field, the mean motion of the orbit, rad/s.
 template <Real Scalar>
 Scalar forcing_rate(const Problem<Scalar>& problem) noexcept {
   using std::abs, std::sqrt;

@@ -19,7 +19,7 @@
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/vector.hpp"
 
-/// The full equations over one piece for wheels that settle fast: each unknown z of settling.hpp relaxes by itself, as fast as it likes
+/// The full equations over one piece for wheels that settle fast: each unknown z of settling.hpp relaxes by itself, at any rate
 /// (docs/general.md, section 3).
 namespace gyrostat::general {
 

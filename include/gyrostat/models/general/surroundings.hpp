@@ -11,7 +11,7 @@
 /// Orbit and magnetic field at a time (docs/general.md, section 1.3), inertial axes.
 namespace gyrostat::general {
 
-/// Where something that turns with the clock is.
+/// Sine and cosine of an angle that grows evenly with time.
 template <Real Scalar>
 struct ClockAngle {
   Scalar sine, cosine;
@@ -31,7 +31,7 @@ template <Real Scalar>
 struct OrbitPoint {
   Vec3<Scalar> radial{1, 0, 0}, along{0, 1, 0};  ///< unit: outward, and along track
   Scalar radius = 1;                             ///< m
-  Scalar climb = 0;                              ///< its derivative, m/s
+  Scalar radial_rate = 0;                        ///< its derivative, m/s
   Scalar rate = 0;                               ///< at which the two turn about the normal, rad/s
   Scalar gradient = 0;                           ///< N = 3 mu/r^3, 1/s^2
 };
@@ -95,7 +95,7 @@ OrbitPoint<Scalar> orbit_at(const Orbit<Scalar>& orbit, Scalar t) noexcept {
     const Scalar x = (cos(E) - e) / near, y = flat * sin(E) / near;  // from the pericentre
     c = x * c0 + y * s0, s = y * c0 - x * s0;
     made.radius = axis * near;
-    made.climb = axis * mean * e * sin(E) / near;
+    made.radial_rate = axis * mean * e * sin(E) / near;
     made.rate = mean * flat / (near * near);
   }
   made.radial = c * orbit.radial + s * orbit.along;
@@ -152,7 +152,8 @@ MagneticPoint<Scalar> field_at(const Problem<Scalar>& problem, Scalar t) noexcep
       const Scalar ratio = field.radius / at.radius, b = field.strength * ratio * ratio * ratio;
       const Scalar out = k.dot(at.radial), on = k.dot(at.along);
       const Vec3<Scalar> shape = k - 3 * out * at.radial;
-      return {b * shape, -3 * (at.climb / at.radius) * b * shape - 3 * at.rate * b * (on * at.radial + out * at.along)};
+      return {b * shape,
+              -3 * (at.radial_rate / at.radius) * b * shape - 3 * at.rate * b * (on * at.radial + out * at.along)};
     }
   }
   return {};

@@ -72,7 +72,7 @@ Scalar table_slope(const Table<Scalar>& table, std::size_t width, std::size_t co
 }  // namespace detail
 
 /// How far a cubic may go beyond the greatest value of its table. The slope of a jump between two times that lie close carries it on into
-/// the long gaps beside them; what lies so far beyond nobody meant.
+/// the long gaps beside them, farther than any table is meant to go.
 inline constexpr double most_swing = 1000;
 
 /// How far the cubics of a table that check() finds right go, at most, over its greatest value: by the points that span each of them.

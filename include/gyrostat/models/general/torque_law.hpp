@@ -45,7 +45,7 @@ struct OwnTorque {
   Vec3<double> (*call)(const void* law, double t, const Seen<double>& seen) noexcept = nullptr;
   const void* law = nullptr;        ///< must outlive what holds this
   std::vector<double> breakpoints;  ///< s
-  double* lost_at = nullptr;  ///< told the time at which a law that a motion needs has no value; nullptr: nobody asks
+  double* lost_at = nullptr;  ///< receives the time when a law that a motion needs has no value; nullptr: not wanted
 
   /// `law` must outlive what is made.
   template <TorqueLaw<double> Law>

@@ -180,7 +180,7 @@ Fault check_wheels(const Problem<Scalar>& problem) noexcept {
 }
 
 /// Least eigenvalue of the second moments of mass that body (its mass centre about a fixed point) and wheels leave, kg m^2: clearly
-/// negative (below -8 eps of the trace of J) where no distribution of mass is such a body. The least room is that of discs.
+/// negative (below -8 eps of the trace of J) where no distribution of mass is such a body. Wheels count as thin discs, which need the least room.
 template <Real Scalar>
 Scalar realisability(const Problem<Scalar>& problem) noexcept {
   Mat3<Scalar> known = Mat3<Scalar>::Zero();

@@ -23,7 +23,7 @@ Scalar swing_rate(const Problem<Scalar>& problem) noexcept {
 
 }  // namespace detail
 
-/// Whether a body turns steadily about the vertical, or rests: the torque and the change of down vanish but for a `share` of what they are made of.
+/// Whether a body turns steadily about the vertical, or rests: the torque and the change of down vanish to within a `share` of their terms.
 template <Real Scalar>
 bool is_steady(const Problem<Scalar>& problem, const Vec3<Scalar>& angular_velocity, const Vec3<Scalar>& down,
                Scalar share) noexcept {

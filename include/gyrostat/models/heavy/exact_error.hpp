@@ -54,7 +54,7 @@ Scalar time_error(Scalar relative, Scalar shift, Scalar K, Scalar rate, Scalar t
   return relative * t + passages * std::min(shift, relative * std::expm1(rate * t)) / rate;
 }
 
-/// How far what should stand still has gone by the time t where it is pushed off at the acceleration `push`: z'' = push + square z, from rest.
+/// Displacement at t of an equilibrium disturbed by the acceleration `push`: z'' = push + square z, from rest.
 template <Real Scalar>
 Scalar pushed_off(Scalar push, Scalar square, Scalar t) noexcept {
   if (push == 0) return 0;

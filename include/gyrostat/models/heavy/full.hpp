@@ -47,7 +47,7 @@ Eigen::Matrix<Scalar, 6, 6> state_jacobian(const Problem<Scalar>& problem, const
   return jacobian;
 }
 
-/// What |w| may reach from a start, rad/s: of its order, and zero only for a body that stays at rest.
+/// An estimate of the greatest |w| that is reached from a start, rad/s; zero only for a body that stays at rest.
 template <Real Scalar>
 Scalar rate_size(const Problem<Scalar>& problem, const State<Scalar>& start) noexcept {
   // the potential energy that the start may still lose: each of its two parts falls to its least at most
@@ -248,7 +248,7 @@ void EulerPoisson<Scalar>::project(Scalar* x, Scalar* low) const noexcept {
   Scalar ee = give * Iw.dot(w_free) + per_whole_ * e.squaredNorm();
   const Scalar es = give * Iw.dot(d_free) + per_whole_ * e.dot(s),
                ss_of_all = give * Id.dot(d_free) + per_whole_ * s.squaredNorm();
-  // rounding of a great energy must not move d: of so little only the part is corrected that moves d by a rounding
+  // rounding of a great energy must not move d: a defect that small is corrected only as far as it moves d by a rounding
   const Scalar size = Iw.dot(w_free) / 2 + potential_;
   if (std::abs(lacking_energy) <= 64 * epsilon<Scalar> * size) ee += per_whole_ * size * size;
   // nor that of the momentum, where the axis is so near the vertical that hardly anything changes it

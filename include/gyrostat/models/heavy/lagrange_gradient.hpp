@@ -118,7 +118,7 @@ class LagrangeGradient {
     if (still_) return mean_precession() * nutation_period();
     return pi<Scalar> * (side_above_ + side_below_) + 2 * pi<Scalar> * (mean_[1] + mean_[2]);
   }
-  /// On which side the axis passes the upper pole, and the lower, by the sign: what is left of momenta that cancel there, over their size.
+  /// Their signs tell on which side the axis passes the upper and the lower pole: what is left of momenta that cancel there, over their size.
   std::array<Scalar, 2> sides() const noexcept { return {c_above_ / fastest_, c_below_ / fastest_}; }
   Scalar mean_precession() const noexcept {  ///< rad/s
     if (still_ && !planar_) return unit_ * (c_above_ / above_b_ + c_below_ / below_b_) / 2;
@@ -206,7 +206,7 @@ Scalar LagrangeGradient<Scalar>::greatest_speed(const TopStart<Scalar>& o, Scala
 template <Real Scalar>
 void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept {
   unit_ = o.unit;
-  defect_ = top.skew();
+  defect_ = top.asymmetry_error();
   planar_ = o.planar();
   in_plane_ = o.planar(0);
   const Scalar u = o.u, x = o.swing;

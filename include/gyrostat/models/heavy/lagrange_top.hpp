@@ -90,7 +90,7 @@ class LagrangeTop {
             c_above_ * (T + minus_factor_ * 2 * minus_.complete()) / above1_) /
            2;
   }
-  /// On which side the axis passes the upper pole, and the lower, by the sign: what is left of momenta that cancel there, over their size.
+  /// Their signs tell on which side the axis passes the upper and the lower pole: what is left of momenta that cancel there, over their size.
   std::array<Scalar, 2> sides() const noexcept { return {c_above_ / fastest_, c_below_ / fastest_}; }
   /// rad/s; on the separatrix that of its end.
   Scalar mean_precession() const noexcept {
@@ -197,7 +197,7 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   unit_ = o.unit;
   s_ = top.weight > 0 ? -1 : 1;
   rho_ = o.rho;
-  defect_ = top.skew();
+  defect_ = top.asymmetry_error();
   planar_ = o.planar();
   in_plane_ = o.planar(0);
   const Scalar kappa = std::abs(o.pull);

@@ -69,7 +69,7 @@ class Pendulum {
   }
 
   /// Bound of the error of at() up to time |t|. A start off the plane by rounding may leave it, and one that stands upright to rounding
-  /// may fall. @param blur by how much, relative, the start may be off the plane beyond what is seen
+  /// may fall. @param blur relative distance from the plane that the start may have beyond what its numbers show
   ExactError<Scalar> error(Scalar t, Scalar blur = 0) const noexcept {
     t = std::abs(unit_ * t);
     const Scalar share = rate_ > frequency_ ? frequency_ / rate_ : Scalar(1);  // what the torque has in the rate

@@ -59,8 +59,8 @@ struct SymmetricTop {
     return best;
   }
 
-  /// By how much, relative to the rates, their change is off: what is uneven turns the body about its axis by its least moment.
-  Scalar skew() const noexcept { return defect * std::max(Scalar(1), across / along); }
+  /// Relative error of the changes of the rates: asymmetry acts on the spin through the moment about the axis, which may be slight.
+  Scalar asymmetry_error() const noexcept { return defect * std::max(Scalar(1), across / along); }
   /// N (C - A)/A, what the gradient does to the axis, 1/s^2.
   Scalar gradient_rate() const noexcept { return gradient * (along - across) / across; }
   /// 2 W/A, 1/s^2.
@@ -107,7 +107,7 @@ struct TopStart {
   Scalar nutation_square() const noexcept {
     return square + 2 * u * (pull - 2 * gradient * u) + gradient * ground + rho * rho;
   }
-  /// The same, all terms by their sizes.
+  /// The sum of the magnitudes of its terms.
   Scalar nutation_terms() const noexcept { return square + 2 * std::abs(pull) + 5 * std::abs(gradient) + rho * rho; }
 
   /// The axis stays in one vertical plane, to rounding: no spin and no momentum about the vertical.

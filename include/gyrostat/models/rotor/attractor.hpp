@@ -72,7 +72,7 @@ bool arc_below(const Gyrostat<Scalar>& gyrostat, Scalar l, const Vec3<Scalar>& a
   const LevelOnCircle<Scalar> F(gyrostat, l, a, across / sine);
   constexpr int parts = 64;
   const Scalar step = std::atan2(sine, a.dot(b)) / parts, square = step * step / 8;
-  const Scalar slack = square * F.bound(4);  // F'' is so close to its chord
+  const Scalar slack = square * F.bound(4);  // how far F'' may be from its chord
   auto last = F.at(0);
   for (int i = 1; i <= parts; ++i) {
     const auto next = F.at(Scalar(i) * step);

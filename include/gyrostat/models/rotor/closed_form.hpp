@@ -46,9 +46,9 @@ class ClosedForm {
 
   /// none: no family lies within greatest_defect. Then nothing else here has a meaning but defect().
   ClosedFormKind kind() const noexcept { return kind_; }
-  /// How far body and start lie off the family, relative to inertia, momentum and rate; infinite without start of finite numbers.
+  /// How far body and start lie off the family, relative to inertia, momentum and rate; infinite where the start is not finite.
   Scalar defect() const noexcept { return defect_; }
-  /// Lies in the family exactly, by zeros of the data, so that not even an instability leads away.
+  /// Body and start lie in the family exactly, by zeros of the data: not even an instability leads out of it.
   bool exact() const noexcept { return exact_; }
 
   State<Scalar> at(Scalar t) const noexcept;
@@ -78,7 +78,7 @@ class ClosedForm {
     Scalar fast;       // pace of the motion
     Scalar data;       // of H, as the start is known
   };
-  /// What H and p are put together from, which may cancel, N m s.
+  /// Sizes of the terms that H and p are sums of, which may cancel, N m s.
   struct Parts {
     Scalar momentum, axial;
   };
@@ -171,7 +171,7 @@ ClosedForm<Scalar>::ClosedForm(const Gyrostat<Scalar>& gyrostat, const State<Sca
   offer_circular_section(n, excess);
 }
 
-/// Whether a kind with this defect is taken, the first one that is small enough or a better one.
+/// Whether a kind with this defect is taken: the first within greatest_defect or, until one holds to rounding, one with a lesser defect.
 template <Real Scalar>
 bool ClosedForm<Scalar>::offer(ClosedFormKind kind, Scalar defect) noexcept {
   const Scalar rounding = 64 * epsilon<Scalar>;

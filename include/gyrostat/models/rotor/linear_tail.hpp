@@ -70,7 +70,7 @@ class LinearTail {
     Scalar phase;                // psi - psi_dot t
   };
 
-  /// By which the tail fails the equations of motion.
+  /// Residuals of the tail in the equations of motion.
   struct Misfit {
     std::array<Scalar, 3> modal{};  // 1/s
     Scalar phase = 0;               // rad/s

@@ -25,7 +25,7 @@ struct Linearisation {
   Mat3<Scalar> G;           ///< l R^-1 - psi_dot E, 1/s
   Vec3<Scalar> g;           ///< lambda unit n, 1/s
   Vec3<Scalar> n;           ///< J e, 1/(kg m^2)
-  Scalar unit = 0;          ///< of omega - omega_s in xi, rad/s: xi and d store alike much energy
+  Scalar unit = 0;          ///< of omega - omega_s in xi, rad/s: so that xi and d count alike in the energy
   Scalar feed = 0;          ///< St l/(k unit), kg m^2/s
   Scalar relaxation = 0;    ///< St, 1/s
   Scalar rate_of_tilt = 0;  ///< l/k: omega - omega_s by n.d
@@ -118,7 +118,7 @@ template <Real Scalar>
 Complex3<Scalar> complex_scaled(math::Complex<Scalar> c, const Complex3<Scalar>& a) noexcept {
   return {c * a[0], c * a[1], c * a[2]};
 }
-/// To the sum, the real part of c a.
+/// Adds the real part of c a to the sum.
 template <Real Scalar>
 void add_real(Vec3<Scalar>& sum, math::Complex<Scalar> c, const Complex3<Scalar>& a) noexcept {
   for (int i = 0; i < 3; ++i) sum[i] += (c * a[std::size_t(i)]).re;

@@ -15,7 +15,7 @@ namespace gyrostat::rotor {
 /// The equations of a driven rotor (docs/rotor.md, section 2) as a system with one unknown that relaxes linearly, the axial momentum p:
 ///     dq/dt = q (0, Omega)/2,  dH/dt = H x Omega,  Omega = R^-1 (H - p e),
 ///     dp/dt = -S/(lambda k) p + S (omega* + (R^-1 e).H).
-/// Components in the principal axes of R: (q.w, q.x, q.y, q.z, H1, H2, H3, rotor angle, p). The motor may be as stiff as it likes.
+/// Components in the principal axes of R: (q.w, q.x, q.y, q.z, H1, H2, H3, rotor angle, p). The motor may be arbitrarily stiff.
 template <Real Real_>
 class RelaxingRotor {
  public:

@@ -331,7 +331,7 @@ struct SteadyAxes {
     return m;
   }
 
-  /// What m has along the active axes at the place of a group that is not, and phi there with its rounding.
+  /// Components of m along the active axes at the place of an inactive group, and phi there with its rounding.
   struct OnGroup {
     Vec3<Scalar> m{0, 0, 0};
     Scalar phi = -1, rounding = 0;
@@ -351,7 +351,7 @@ struct SteadyAxes {
   }
 };
 
-/// Finds them, in three parts.
+/// Finds all steady rotations, in three parts.
 template <Real Scalar>
 class SteadySearch {
  public:

@@ -32,7 +32,7 @@ enum class Verdict : std::uint8_t {
 template <Real Scalar>
 struct SteadyStability {
   Scalar determinant = 0;                             ///< D, of B on the tangent plane, 1/s^2
-  Scalar feeling = 0;                                 ///< q, 1/(kg^2 m^4 s)
+  Scalar tilt_coupling = 0;                           ///< q, 1/(kg^2 m^4 s)
   std::array<Scalar, 4> cubic{};                      ///< k, S/lambda, k D + lambda l q, S D/lambda
   std::array<std::complex<Scalar>, 3> eigenvalues{};  ///< roots of the cubic, 1/s: a real one, then the two others
   Scalar decay_rate = 0;  ///< -max Re, 1/s: negative for growth; NaN where the slowest mode is not exponential
@@ -160,9 +160,9 @@ SteadyStability<Scalar> stability_of(const Gyrostat<Scalar>& gyrostat, Scalar mo
     }
   }
   const bool felt = sine > rounding;
-  r.feeling = felt ? along_u * along_u * uu + 2 * along_u * along_v * uv + along_v * along_v * vv : Scalar(0);
+  r.tilt_coupling = felt ? along_u * along_u * uu + 2 * along_u * along_v * uv + along_v * along_v * vv : Scalar(0);
   if (rotation.type == SteadyType::degenerate) r.determinant = 0;
-  const Scalar s = gyrostat.relaxation_rate(), D = r.determinant, kappa = lambda * l * r.feeling / k;
+  const Scalar s = gyrostat.relaxation_rate(), D = r.determinant, kappa = lambda * l * r.tilt_coupling / k;
   r.cubic = {k, s * k, k * (D + kappa), s * k * D};
   r.eigenvalues = detail::nutation_roots<Scalar>(s, D, kappa);
   const Scalar growth = std::max({r.eigenvalues[0].real(), r.eigenvalues[1].real(), r.eigenvalues[2].real()});

@@ -12,7 +12,7 @@
 
 namespace gyrostat::spinning {
 
-/// Tilt, rad, up to which orders of it tell of errors: beyond it sizes alone do, as if nothing swung or cancelled.
+/// Tilt, rad, up to which errors are estimated by orders of it; beyond it by magnitudes alone, as if nothing oscillated or cancelled.
 inline constexpr double small_tilt = 0.3;
 
 /// Estimated greatest errors of the linear motion over [0, T] against the full equations, in units of the quantities; of a pair,
@@ -168,7 +168,7 @@ struct StillTilt {
   }
 };
 
-/// What the rates at the start make of errors where the spin is unstable, rad/s: third order of theirs and roundings, even where no mode of
+/// Error that grows from the rates at the start where the spin is unstable, rad/s: their third order and roundings, even where no mode of
 /// the linear motion itself grows, as where the torque holds the body on its unstable axis. 0 where it is stable.
 template <Real Scalar>
 Scalar grown_error(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, Scalar zeta, Scalar T) noexcept {
@@ -181,7 +181,7 @@ Scalar grown_error(const Problem<Scalar>& problem, const LinearStart<Scalar>& st
   return sizes * (zeta * spin * once + 8 * epsilon<Scalar>)*grown;
 }
 
-/// By how much the linear motion errs in the transverse momentum at its start, which it takes to first order of the tilt, N m s.
+/// Error of the linear motion's transverse momentum at its start, which it takes to first order in the tilt, N m s.
 template <Real Scalar>
 Scalar momentum_left_out(const Problem<Scalar>& problem) noexcept {
   const auto less_sine = [](Scalar x) noexcept {
@@ -279,7 +279,7 @@ struct TiltLeftOut {
 
 }  // namespace detail
 
-/// At the cost of a few dozen operations; no bounds, but wide (docs/spinning.md, section 5.1a). T > 0.
+/// Costs a few dozen operations; no bounds, but generous estimates (docs/spinning.md, section 5.1a). T > 0.
 template <Real Scalar>
 LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noexcept {
   const LinearStart<Scalar> start(problem);

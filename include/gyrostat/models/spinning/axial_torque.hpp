@@ -162,7 +162,7 @@ class AxialTorqueSystem {
   Numbers start_{};
 };
 
-/// What was seen of a motion under an axial torque on the way, greatest magnitudes.
+/// Greatest magnitudes along a motion under an axial torque.
 template <Real Scalar>
 struct AxialSizes {
   Amplitudes<Scalar> size{0, 0};

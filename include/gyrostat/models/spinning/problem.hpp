@@ -30,8 +30,8 @@ struct State {
   Vec3<Scalar> position{0, 0, 0};    ///< of the mass centre, m
 };
 
-/// What torques of the angular acceleration `drive`, rad/s^2, build up from rest in `span`, s: for that time, until the body has turned,
-/// or, but for an axial torque, until a gyroscopic stiffness stops them, 1/s; rad/s.
+/// Rate, rad/s, that a torque of angular acceleration `drive`, rad/s^2, builds up from rest within `span`, s: until the span ends, the body has turned,
+/// or, unless the torque is axial, the gyroscopic `stiffness`, 1/s, stops it.
 template <Real Scalar>
 Scalar built_rate(Scalar drive, Scalar stiffness, bool axial, Scalar span) noexcept {
   const Scalar built = std::min(drive * span, std::sqrt(drive));

@@ -103,7 +103,7 @@ class TiltIntegrals {
     return now.totals;
   }
 
-  /// at(first + i step) for i = 0 to count - 1, step > 0: visit(i, totals). Dearer than some twenty times alone, then a tenth of one each.
+  /// visit(i, totals) with at(first + i step) for i = 0 to count - 1, step > 0. Costs some twenty calls of at() to begin, then a tenth of one each.
   template <class Visit>
   void along(Scalar first, Scalar step, std::size_t count, const Visit& visit) const noexcept {
     constexpr std::size_t anew = 256;  // rounding adds up no longer than over so many
