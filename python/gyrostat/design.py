@@ -61,7 +61,8 @@ GOALS: Final[dict[str, Goal]] = {
 }
 WHY: Final = {
     "no-torque": "no torque acts across axis 3: there is nothing to design against",
-    "never-reached": "the motion does not reach the budget, or grows beyond all numbers before",
+    "never-reached": "the motion grows beyond all numbers before it reaches the budget",
+    "too-long": "the motion stays below the budget for a million steps of the search, and nothing is known of what comes then",
 }
 
 
@@ -74,7 +75,7 @@ class Design:
     unstable: NDArray[np.bool_]  # (...) nu^2 <= 0; of a spin: value is the limit of stability, which faster spins are within
     resonant: NDArray[np.bool_]  # (...) the tilt grows over many turns
     compliant: NDArray[np.bool_]  # (...) next to no gyroscopic stiffness
-    why: NDArray[np.str_]  # (...) "", "no-torque", "not-covered" or "never-reached"
+    why: NDArray[np.str_]  # (...) "", "no-torque", "not-covered", "never-reached" or "too-long"
 
 
 def _design(goal: str, budget: ArrayLike, given: Mapping[str, ArrayLike]) -> Design:

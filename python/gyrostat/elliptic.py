@@ -47,7 +47,9 @@ def _complement(k2: ArrayLike, kp2: ArrayLike | None) -> ArrayLike:
 
 def _agreeing(k2: Floats, kp2: Floats) -> tuple[Floats, Floats]:
     """The two; k2 is NaN where kp2 is another modulus's."""
-    return np.where(np.abs(k2 + kp2 - 1.0) <= 8 * np.finfo(float).eps, k2, np.nan), kp2
+    with np.errstate(invalid="ignore"):  # of infinities
+        same = np.abs(k2 + kp2 - 1.0) <= 8 * np.finfo(float).eps
+    return np.where(same, k2, np.nan), kp2
 
 
 def complete(k2: ArrayLike, *, kp2: ArrayLike | None = None, elliptic: str = "auto") -> Complete:

@@ -30,7 +30,7 @@ const char* reason(Errc code) {
   switch (code) {
     case Errc::ok: return "";
     case Errc::zero_vector: return "no-torque";
-    case Errc::step_limit:
+    case Errc::step_limit: return "too-long";
     case Errc::not_finite: return "never-reached";
     default: return "not-covered";
   }

@@ -158,3 +158,9 @@ def test_toml_text_reads_back() -> None:
     data = {"name": 'a "quoted" \\ name\n\x7f é', "flag": True, "solve": {"times": [0.0, 1e-300, 0.1 + 0.2], "samples": 5, "tolerance": 1e-06},
             "body": {"inertia": [[1.0, 0.5], [0.5, -2.5e22]]}}
     assert tomllib.loads(toml_text(data)) == data
+
+
+def test_a_budget_beyond_the_search_is_not_told_as_never_reached() -> None:
+    spinner = {"inertia": [0.867, 0.9754, 0.5528], "torque": [-2.1e-7, 2.38e-7, 0.0], "force": [-3.3e-4, 0.0, 0.0], "angular_velocity": [0.0, 0.0, 1.0]}
+    made = design.burn_for_displacement(**spinner, mass=1e9, budget=1.8)
+    assert np.isnan(made.value) and made.why == "too-long"

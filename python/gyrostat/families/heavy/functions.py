@@ -314,7 +314,8 @@ def regular_precession(*, inertia: ArrayLike, mass: ArrayLike, centre_of_mass: A
     """The rates at which a top with an axis of symmetry through its mass centre precesses at constant inclination.
 
     spin : (...) about that axis [rad/s]; cos_inclination : (...) of the axis to down, in [-1, 1]. Others as in `series`.
-    NaN where the spin is too slow for any; of a level axis (cos_inclination = 0) with spin there is the slow one alone, and `fast` is infinite.
+    NaN where the spin is too slow for any; of a level axis (cos_inclination = 0 to 8 eps) with spin there is the slow one alone,
+    and `fast` is infinite.
     """
     lead, many, (r, u) = bodies({"inertia": inertia, "mass": mass, "centre_of_mass": centre_of_mass, "gravity": gravity,
                                  "gravity_gradient": gravity_gradient}, ("spin", spin, ()), ("cos_inclination", cos_inclination, ()))

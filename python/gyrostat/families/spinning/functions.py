@@ -131,7 +131,8 @@ def linear(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_v
 
     inertia : (..., 3) D1, D2, D3 [kg m^2]; torque : (..., 3), none about axis 3 [N m]; force : (..., 3) [N]; angular_velocity, euler_312,
     velocity, position : (..., 3) at t = 0; mass, rotor_momentum, charge_momentum : (...); t : (n,) of either sign, in any order [s].
-    Leading axes broadcast. Exact at resonances, for a sphere, without spin and where the spin is unstable.
+    Leading axes broadcast. Exact at resonances, for a sphere, without spin and where the spin is unstable; NaN where a number overflows, as
+    of an unstable spin at a late time.
     error : rates (p, q), spin r, tilt (psi, phi), theta, attitude (the angle), momentum (G1, G2), axial_momentum G3, velocity (v1, v2),
     axial_velocity v3, position (x1, x2), axial_position x3: wide estimates, no bounds (section 5.1).
     Raises DomainError for what is not physical and for a torque about axis 3, naming the row.
@@ -175,7 +176,8 @@ def linear_grid(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angu
                 euler_312: ArrayLike = ORIGIN, velocity: ArrayLike = ORIGIN, position: ArrayLike = ORIGIN) -> LinearGrid:
     """The motion of `linear` at start + i step, i = 0 .. samples - 1, at some ten nanoseconds a time for all columns together.
 
-    step [s] of either sign, not 0; samples >= 1; the others as in `linear`. Good to rounding of the greatest value of each quantity.
+    step [s] of either sign, not 0; samples >= 1; the others as in `linear`. Good to rounding of the greatest value of each quantity;
+    NaN where a number overflows.
     """
     first, by, n = number("start", start), number("step", step), whole("samples", samples)
     if not (math.isfinite(first) and math.isfinite(by) and by != 0):
