@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How honest the answers to general scenes are: random scenes, a fifth of them with wheels that settle thousands of times, half of the others exactly
-// instances of a family, solved at four tolerances, against the
+// instances of a family, or between the times at which something changes, solved at four tolerances, against the
 // equations as they are written, in long double by a Runge-Kutta method. Prints the fraction of answers whose true error is within the
 // stated one in every column, the median of stated over true, and the worst cases.
 //
@@ -52,9 +52,12 @@ class Scenes {
       const auto any = general_.next(turns);
       made.problem = any.problem, made.kind = any.kind, span = any.span;
     } else {
-      const auto family = Special(i / 2 % int(specials));
-      const auto one = special_.of(family, turns);
+      constexpr int families = int(specials), kinds = families + 2;
+      const int kind = i / 2 % kinds;
+      const auto family = kind < families ? Special(kind) : kind == families ? Special::free : Special::spinning;
+      const auto one = kind < families ? special_.of(family, turns) : special_.in_segments(family, turns);
       made.problem = one.problem, made.kind = special_words[int(family)], span = one.span;
+      if (kind >= families) made.kind += ", in segments";
     }
     made.times = honesty::asked_times(all % 5 == 4 ? stiff_.random() : special_.random(), span);
     made.kind = "seed " + std::to_string(seed_) + " scene " + std::to_string(all) + " " + made.kind;

@@ -114,3 +114,10 @@ def complexes(real: Floats, imaginary: Floats) -> NDArray[np.complex128]:
     made = np.empty(np.shape(real), dtype=np.complex128)
     made.real, made.imag = real, imaginary
     return made
+
+
+def in_range(what: str, values: Floats) -> Floats:
+    """A result that is no overflow. Raises DomainError for one that is."""
+    if not np.all(np.isfinite(values)):
+        raise DomainError(f"{what} is beyond the greatest double: give arguments of another size")
+    return values

@@ -48,8 +48,8 @@ struct Found {
 Found walked(Run course, Run companion, Run second, std::vector<double> times, double rate = 0,
              const MotionOptions<double>& options = {}) {
   std::vector<double> states(times.size());
-  auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, &second}, course.at(0), rate, times, states, -1.0,
-                          options, 0, 1, not_noted);
+  auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, &second},
+                          {course.at(0), rate, times, states, -1.0}, options, not_noted);
   return {walk, states};
 }
 
@@ -94,9 +94,9 @@ TEST_CASE("one companion shows truncation alone", "[ladder]") {
   Run course{still, 1}, companion{farther, 1};
   const std::vector<double> times{0, 3, 5};
   std::vector<double> states(3), noted;
-  const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
-                                MotionOptions<double>{}, 0, 1,
-                                [&](std::size_t, const Errors<1>& error) { noted.push_back(error[0]); });
+  const auto walk =
+      walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, {1.0, 0.0, times, states, -1.0},
+                  MotionOptions<double>{}, [&](std::size_t, const Errors<1>& error) { noted.push_back(error[0]); });
   CHECK(walk.error[0] == margin * 0.5);
   CHECK(states == std::vector<double>{1, 1, 1});
   CHECK(noted == std::vector<double>{0, margin * 0.5, margin * 0.5});
@@ -119,8 +119,8 @@ TEST_CASE("the first steps of the runs end apart", "[ladder]") {
   Stepped course, companion, second;
   const std::vector<double> times{1};
   std::vector<double> states(1);
-  const auto walk = walk_beside(PairWriter{}, Runs<Stepped>{course, companion, &second}, 1.0, 0.0, times, states, -1.0,
-                                MotionOptions<double>{}, 0, 1, not_noted);
+  const auto walk = walk_beside(PairWriter{}, Runs<Stepped>{course, companion, &second},
+                                {1.0, 0.0, times, states, -1.0}, MotionOptions<double>{}, not_noted);
   CHECK(walk.error[0] == Approx(margin).epsilon(1e-2));
 }
 
@@ -148,11 +148,12 @@ TEST_CASE("of many times some are looked at, and steps' ends; each hears an erro
     std::vector<double> times, noted(count, -1.0), states(count);
     for (std::size_t i = 1; i <= count; ++i) times.push_back(10 * double(i) / double(count));
     std::size_t next = 0;
-    const auto walk = walk_beside(PairWriter{}, Runs<Counting>{course, companion, nullptr}, 1.0, 0.0, times, states,
-                                  -1.0, MotionOptions<double>{}, 0, 1, [&](std::size_t i, const Errors<1>& error) {
-                                    CHECK(i == next++);
-                                    noted[i] = error[0];
-                                  });
+    const auto walk =
+        walk_beside(PairWriter{}, Runs<Counting>{course, companion, nullptr}, {1.0, 0.0, times, states, -1.0},
+                    MotionOptions<double>{}, [&](std::size_t i, const Errors<1>& error) {
+                      CHECK(i == next++);
+                      noted[i] = error[0];
+                    });
     CAPTURE(count);
     CHECK(next == count);
     CHECK(states == std::vector<double>(count, 1.0));
@@ -168,8 +169,8 @@ TEST_CASE("what is off at the end of a step and gone in the next is seen, of how
     Run course{swells, 0.7}, companion{still, 0.5};
     std::vector<double> times, states(count);
     for (std::size_t i = 1; i <= count; ++i) times.push_back(10 * double(i) / double(count));
-    const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
-                                  MotionOptions<double>{}, 0, 1, not_noted);
+    const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, {1.0, 0.0, times, states, -1.0},
+                                  MotionOptions<double>{}, not_noted);
     CAPTURE(count);
     CHECK(walk.error[0] == Approx(margin * 0x1p-20).epsilon(1e-9));
   }
@@ -181,8 +182,8 @@ namespace {
 double error_seen(Run course, Run companion) {
   std::vector<double> times, states(6400);
   for (int i = 1; i <= 6400; ++i) times.push_back(i / 640.0);
-  return walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
-                     MotionOptions<double>{}, 0, 1, not_noted)
+  return walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, {1.0, 0.0, times, states, -1.0},
+                     MotionOptions<double>{}, not_noted)
       .error[0];
 }
 
@@ -208,8 +209,8 @@ TEST_CASE("a companion steps shorter than the answer, whatever its own tolerance
     double of_answer = 0;
     Measured course{{still, 0.7}, &of_answer}, companion{{still, own}, &longest};
     std::vector<double> times{70}, states(1);
-    (void)walk_beside(PairWriter{}, Runs<Measured>{course, companion, nullptr}, 1.0, 0.0, times, states, -1.0,
-                      MotionOptions<double>{}, 0, 1, not_noted);
+    (void)walk_beside(PairWriter{}, Runs<Measured>{course, companion, nullptr}, {1.0, 0.0, times, states, -1.0},
+                      MotionOptions<double>{}, not_noted);
     CHECK(of_answer == Approx(0.7));
     CHECK(longest == Approx(std::min(own, honesty::companion_stride * 0.7)));
   }
@@ -265,8 +266,8 @@ TEST_CASE("steps that would overrun their budget by far, and do not lengthen, ar
     std::vector<double> states(1);
     MotionOptions<double> options;
     options.step_cap = budget;
-    const auto walk = walk_beside(PairWriter{}, Runs<Plodding>{course, companion, nullptr}, 1.0, 0.0, times, states,
-                                  -1.0, options, 0, 1, not_noted);
+    const auto walk = walk_beside(PairWriter{}, Runs<Plodding>{course, companion, nullptr},
+                                  {1.0, 0.0, times, states, -1.0}, options, not_noted);
     return std::pair{walk.status, companion.steps};
   };
   const auto even = [](double) { return 1.0; };
@@ -299,8 +300,8 @@ TEST_CASE("a companion that runs alone is kicked once, behind half the span", "[
   std::vector<double> states(2);
   const auto walked_with = [&](KickedCourse* second, KickedCourse& companion) {
     KickedCourse answer;
-    const auto walk = walk_beside(PairWriter{}, Runs<KickedCourse>{answer, companion, second}, 1.0, 0.0, times, states,
-                                  -1.0, MotionOptions<double>{}, 0, 1, not_noted);
+    const auto walk = walk_beside(PairWriter{}, Runs<KickedCourse>{answer, companion, second},
+                                  {1.0, 0.0, times, states, -1.0}, MotionOptions<double>{}, not_noted);
     CHECK(answer.kicks == 0);
     return walk.error[0];
   };
@@ -325,8 +326,8 @@ TEST_CASE("the stated error is the distance times its margin and what rounding a
     Run course{still, 1}, companion{beside, 1}, second{beside, 1};
     MotionOptions<double> options;
     options.tolerance = 1e-3;
-    solve_beside(answer, PairWriter{}, Runs<Run>{course, companion, &second}, 1.0, 0.0, times, states, -1.0, options, 0,
-                 1, [](const Errors<1>& size, double steps) noexcept { return steps * size; });
+    solve_beside(answer, PairWriter{}, Runs<Run>{course, companion, &second}, {1.0, 0.0, times, states, -1.0}, options,
+                 [](const Errors<1>& size, double steps) noexcept { return steps * size; });
     return answer;
   };
   const double rounding = 10 * epsilon<double>;  // of 100 steps, of a column of size 1

@@ -71,6 +71,8 @@ REFUSED: list[tuple[str, Callable[[], Any], str]] = [
     ("samples", lambda: spinning.linear_grid(**SPINNER, force=[0, 0, 0], angular_velocity=[0, 0, 1], step=0.1, samples=math.nan), "samples = nan"),
     ("step", lambda: spinning.linear_grid(**SPINNER, force=[0, 0, 0], angular_velocity=[0, 0, 1], step=[0.1, 0.2], samples=3), "step: one number"),
     ("step of text", lambda: spinning.linear_grid(**SPINNER, force=[0, 0, 0], angular_velocity=[0, 0, 1], step="a", samples=3), "step = a"),
+    ("charge overflow", lambda: spinning.charge_momentum(charge=1e308, flux_density=1e9, arm=1.0, angle=0.0), "greatest double"),
+    ("gradient overflow", lambda: heavy.gravity_gradient(gravity=9.8, distance=1e-308), "greatest double"),
     ("charge", lambda: spinning.charge_momentum(charge=1.0, flux_density=1.0, arm=1.0, angle=math.inf), "angle, row 0"),
     ("gravity", lambda: heavy.gravity_gradient(gravity=math.nan, distance=1.0), "gravity, row 0"),
     ("rotor far out", lambda: rotor.assembled_inertia(carrier_inertia=[1, 1, 1], carrier_mass=1, rotor_mass=1, axis=[0, 0, 1], axial_inertia=0.1,

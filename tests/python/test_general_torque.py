@@ -52,6 +52,12 @@ def test_cvode_answers_as_well() -> None:
         assert answer.met and apart(answer, right) <= answer.error["angular_velocity"] + right.error["angular_velocity"]
 
 
+def test_collocation_by_name_agrees_with_taylor_series() -> None:
+    one, other = (general.solve(**DAMPED, tolerance=1e-9, model="full", integrator=name) for name in ("radau", "taylor"))
+    assert one.met and "stiff" not in [warning.code for warning in one.warnings]
+    assert 0 < apart(one, other) <= one.error["angular_velocity"] + other.error["angular_velocity"]
+
+
 def test_dop853_of_scenes_with_no_torque_of_ones_own() -> None:
     right = general.solve(**DAMPED, tolerance=1e-13, model="full")
     answer = general.solve(**DAMPED, tolerance=1e-7, model="full", integrator="dop853")

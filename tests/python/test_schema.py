@@ -91,7 +91,7 @@ SPOILT = {
               ("initial", "periodic", {"spin": 1.0, "cos_inclination": 0.0, "phase": 0.0}), ("solve", "model", "averaged"), ("solve", "integrator", "radau")],
     "general": [("body", "mass", 0), ("body", "fixed", 1), ("body", "inertia", [1, 2]), ("body", "inertia_about", "centre"), ("field", "gravity", -1.0),
                 ("field", "uniform", 1.0), ("field", "dipole", {"axis": [0, 0, 1]}), ("orbit", "eccentricity", 1.0), ("orbit", "planet", "vulcan"),
-                ("orbit", "radius", 0), ("solve", "recognise", "yes"), ("solve", "model", "averaged"), ("solve", "integrator", "radau"),
+                ("orbit", "radius", 0), ("solve", "recognise", "yes"), ("solve", "model", "averaged"), ("solve", "integrator", "adams"),
                 ("initial", "relative_to", "body"), ("initial", "angular_velocity", {"inertial": [0, 1]}), ("initial", "velocity", 1.0)],
 }
 

@@ -56,6 +56,19 @@ struct Runs {
   }
 };
 
+/// What a walk is to find: the states of the answer at `times`, s, from `start` on; behind a failure they are `nowhere`.
+template <class Writer>
+struct Sought {
+  using Scalar = typename Writer::Scalar;
+  using State = typename Writer::State;
+  State start;
+  Scalar rate;  ///< at which the body turns, rad/s: distances fade with its turns
+  std::span<const Scalar> times;
+  std::span<State> states;
+  State nowhere;
+  double progress_from = 0, progress_to = 1;  ///< the part of the progress that is told
+};
+
 /// Perturbs a companion that runs alone, once, in the second half of the span.
 template <class Course, Real Scalar>
 class HalfwayKick {
@@ -153,14 +166,12 @@ class Parting {
 /// does not hide it.
 /// States behind a failure are `nowhere`. note(i, error) is called at each asked time.
 template <class Writer, class Course, class Note>
-Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const typename Writer::State& start,
-                         typename Writer::Scalar rate, std::span<const typename Writer::Scalar> times,
-                         std::span<typename Writer::State> states, const typename Writer::State& nowhere,
-                         const MotionOptions<typename Writer::Scalar>& options, double progress_from,
-                         double progress_to, const Note& note) noexcept {
+Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const Sought<Writer>& sought,
+                         const MotionOptions<typename Writer::Scalar>& options, const Note& note) noexcept {
   using Scalar = typename Writer::Scalar;
   using ode::Status;
   using Rows = Comparison<Writer>;
+  const auto& [start, rate, times, states, nowhere, progress_from, progress_to] = sought;
   Walk<Writer> walk{Status::reached, Rows(writer), {}};
   typename Rows::ColumnErrors kept;
   Parting<Writer> parting(writer);
@@ -238,15 +249,12 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const t
 /// all runs share, so that no distance shows it: rounding of the columns, `walk` being the accumulated rounding of the answer's steps. note(i, error)
 /// receives the current estimate of the error at each asked time.
 template <class Answer, class Writer, class Course, class Rounding, class Note = decltype(not_noted)>
-void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs, const typename Writer::State& start,
-                  typename Writer::Scalar rate, std::span<const typename Writer::Scalar> times,
-                  std::span<typename Writer::State> states, const typename Writer::State& nowhere,
-                  const MotionOptions<typename Writer::Scalar>& options, double progress_from, double progress_to,
-                  const Rounding& rounding, const Note& note = not_noted) noexcept {
+void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs, const Sought<Writer>& sought,
+                  const MotionOptions<typename Writer::Scalar>& options, const Rounding& rounding,
+                  const Note& note = not_noted) noexcept {
   using Scalar = typename Writer::Scalar;
   constexpr Scalar eps = epsilon<Scalar>;
-  const auto walk =
-      walk_beside(writer, runs, start, rate, times, states, nowhere, options, progress_from, progress_to, note);
+  const auto walk = walk_beside(writer, runs, sought, options, note);
   answer.status = walk.status;
   answer.counts = runs.counts();
   const Scalar step_rounding = eps * std::sqrt(static_cast<Scalar>(runs.answer.counts().steps));

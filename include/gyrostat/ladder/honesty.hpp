@@ -98,6 +98,8 @@ inline constexpr double retry = 8;
 /// After so many steps of all runs no second try is made: it would take seconds more.
 inline constexpr double retry_steps = 3e6;
 
+/// A body leaves its stop at a time that all runs know to so many roundings of itself alone. Chosen.
+inline constexpr double release_roundings = 4;
 /// Stops: margin of the error of their time, over that of the columns.
 inline constexpr double stop_margin = 2;
 /// Decelerations: to the error of the stop's time so many step tolerances are added, twice what a companion errs; it is one number, at which two

@@ -171,6 +171,35 @@ TEST_CASE("at a time where laws change the state is that by the new one", "[gene
   CHECK(made.states[5].rotor_angle[0] == Approx(10 + 20 + 30));
 }
 
+TEST_CASE("a law that changes before any step ends holds from the start", "[general]") {
+  Problem<double> problem;
+  problem.inertia = Vec3<double>(0.8, 1.9, 2).asDiagonal(), problem.angular_velocity = {-0.25, 0.8, -0.5};
+  auto& push = problem.torques.emplace_back();
+  push.type = TorqueType::table;
+  push.table = {{0, 1e-300, 2}, {0, 0, 0, 0.3, -0.1, 0.2, 0, 0, 0}, Between::step, true};
+  const auto early = run(problem, {1, 3}, 1e-9).states;
+  push.table = {{0, 2}, {0.3, -0.1, 0.2, 0, 0, 0}, Between::step, true};
+  const auto right = run(problem, {1, 3}, 1e-9).states;
+  for (const std::size_t i : {0U, 1U}) CHECK((early[i].angular_velocity - right[i].angular_velocity).norm() < 1e-12);
+}
+
+TEST_CASE("stated errors hold where errors of the steps add up in the rhythm of a wave", "[general]") {
+  Problem<double> problem;
+  problem.inertia = Vec3<double>(3.8623853002576709, 2.9852334256520101, 2.9883542126617701).asDiagonal();
+  problem.angular_velocity = {-0.012378858846069466, -0.075057929512032315, 0.070684410677873538};
+  auto& drag = problem.torques.emplace_back();
+  drag.type = TorqueType::damping;
+  drag.matrix = Vec3<double>(0.0026718218687744682, 0.0079709779971234001, 0.00834381871610149).asDiagonal();
+  drag.factor.mean = 0.30782586915981414, drag.factor.amplitude = 0.17683024456620378;
+  drag.factor.rate = 53.307121155064657, drag.factor.phase = 3.5337755929954224;
+  const std::vector<double> times = {562.77659250690431};
+  for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}) {
+    CAPTURE(tolerance);
+    const auto made = run(problem, times, tolerance);
+    check_within(apart(problem, times, made.states, run(problem, times, 1e-13).states), made.answer.error);
+  }
+}
+
 TEST_CASE("times of a table that are neighbours among the doubles", "[general]") {
   Problem<double> p;
   p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
@@ -504,6 +533,26 @@ TEST_CASE("a body leaves its rest where a table outgrows brakes that differ by a
       w += h / 6 * (a + 2 * b + 2 * c + rate(now + h, w + h * c));
     }
     CHECK((w - loose.states[2].angular_velocity).norm() < 1e-10);
+  }
+}
+
+TEST_CASE("a torque that is more than the brake turns a body back from the very time of its stop", "[general]") {
+  Problem<double> problem;
+  const double moment = 1.7, rate = 0.93, push = 0.0517, brake = 0.0313;
+  problem.inertia = Vec3<double>(2, 1.9, moment).asDiagonal(), problem.angular_velocity = {0, 0, rate};
+  auto& constant = problem.torques.emplace_back();
+  constant.type = TorqueType::constant, constant.vector = {0, 0, -push};
+  auto& holds = problem.torques.emplace_back();
+  holds.type = TorqueType::brake, holds.opposed = Opposed::momentum, holds.vector = {brake, brake, brake};
+  const double stop = moment * rate / (push + brake);
+  const std::vector<double> times = {stop + 1, stop + 20};
+  for (const double tolerance : {1e-3, 1e-9}) {
+    const auto made = run(problem, times, tolerance);
+    for (const std::size_t i : {0U, 1U}) {
+      const double right = -(push - brake) * (times[i] - stop) / moment;
+      CAPTURE(tolerance, times[i]);
+      CHECK(std::abs(made.states[i].angular_velocity[2] - right) <= 8 * epsilon<double> * stop * push / moment);
+    }
   }
 }
 

@@ -87,6 +87,21 @@ TEST_CASE("the value at a listed time is that behind a step, and the momentum st
   CHECK(std::abs(norm[5] / norm[0] - 1) < 1e-12);
 }
 
+TEST_CASE("a segment between neighbours among the doubles keeps its own law") {
+  Problem<double> problem = brick();
+  problem.wheels = {wheel(WheelType::held, {0, 0.6, 0.8})};
+  const double first = 3.7, second = std::nextafter(first, 4);
+  auto& table = problem.wheels[0].table;
+  table.times = {0, first, second}, table.values = {2, 7, -400}, table.between = Between::step, table.holds = true;
+  problem.wheels[0].rate = 2;
+  const std::vector<double> times = {1, first, second, 5};
+  const Answer answer = by(rung::segments, problem, times, 1e-6);
+  check_within(answer, by(rung::full, problem, times, 1e-12));
+  const Column& rates = *answer.find("rotor_rate");
+  CHECK(rates.values[1] == 7);
+  CHECK(rates.values[2] == -400);
+}
+
 TEST_CASE("thrust moves the mass centre from segment to segment") {
   Problem<double> problem = brick();
   problem.inertia = Vec3<double>(3, 3, 2).asDiagonal();

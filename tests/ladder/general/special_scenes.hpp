@@ -48,6 +48,24 @@ class SpecialScenes {
     return made;
   }
 
+  /// The same with torques that come and go and wheels whose rates step: an instance between these times alone.
+  Made in_segments(Special family, double turns) {
+    Made made = of(family, turns);
+    Problem<double>& p = made.problem;
+    if (unit() < 0.5) torque(p, TorqueType::constant, momentum_ * rate_ * scale(1e-3, 1) * direction());
+    for (auto& each : p.torques) {
+      const double from = made.span * unit(), length = made.span * scale(1e-2, 0.5);
+      each.factor.on = {{from, from + length}};
+      if (unit() < 0.3) each.factor.on.push_back({from + 2 * length, from + 3 * length});
+    }
+    for (auto& one : p.wheels) {
+      if (one.type != WheelType::held || unit() < 0.5) continue;
+      const double step = made.span * unit();
+      one.table = {{0, step}, {one.rate, one.rate * scale(0.1, 3)}, Between::step, true};
+    }
+    return made;
+  }
+
   double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   double scale(double low, double high) { return std::exp(std::log(low) + unit() * std::log(high / low)); }
   std::mt19937_64& random() { return random_; }

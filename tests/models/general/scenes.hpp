@@ -183,8 +183,10 @@ class Scenes {
     }
     if (unit() < 0.25) {
       f.mean = unit() < 0.5 ? 0 : unit(), f.amplitude = unit();
-      f.rate = rate_ * scale(0.03, 3), f.phase = 6 * unit();
-      if (torque.type == TorqueType::brake) f.mean = 1, f.amplitude *= 0.5;
+      f.rate = rate_ * scale(0.03, 100), f.phase = 6 * unit();
+      // the faster a wave, the more it takes for it to show
+      if (f.rate > rate_) f.amplitude *= std::sqrt(f.rate / rate_);
+      if (torque.type == TorqueType::brake) f.mean = 1, f.amplitude = 0.5 * unit();
     }
   }
 

@@ -484,8 +484,10 @@ class FullMotion {
       const State<Scalar> start = state_of(problem_, problem_.momentum, attitude_);
       const State<Scalar> nowhere = state_of(problem_, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)),
                                              Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
-      solve_beside(answer, row, runs, start, Scalar(honesty::stop_fading_factor) * turning_rate(problem_), times_,
-                   states_, nowhere, options_, progress_from, progress_to, rounding, note);
+      solve_beside(answer, row, runs,
+                   {start, Scalar(honesty::stop_fading_factor) * turning_rate(problem_), times_, states_, nowhere,
+                    progress_from, progress_to},
+                   options_, rounding, note);
       if (answer.status == ode::Status::reached) add_rounding(row, rounding, answer.counts.steps);
       if (!with_attitude) answer.error[column::attitude] = 0;
       answer.error[column::modulus_squared] = 0;

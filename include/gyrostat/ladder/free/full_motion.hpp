@@ -227,8 +227,8 @@ class FullMotion {
       return error;
     };
     solve_beside(answer, FullRow<Scalar>(problem_),
-                 Runs<FullCourse<Scalar>>{course, companion, second ? &*second : nullptr}, start, turning_, times_,
-                 states_, nowhere(), options_, progress_from, progress_to, rounding);
+                 Runs<FullCourse<Scalar>>{course, companion, second ? &*second : nullptr},
+                 {start, turning_, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding);
     return answer;
   }
 

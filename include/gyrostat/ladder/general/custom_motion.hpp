@@ -272,8 +272,9 @@ class CustomMotion {
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
       return rounding_of_columns(of_, row, size, 4 * eps + steps + unseen);
     };
-    solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of_.sizes.turning, times_,
-                 states_, nowhere<Scalar>(), options_, progress_from, progress_to, rounding);
+    solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()},
+                 {course->at(0), of_.sizes.turning, times_, states_, nowhere<Scalar>(), progress_from, progress_to},
+                 options_, rounding);
     for (const Course* each : {course.get(), companion.get(), second.get()})
       if (each != nullptr && each->lost_at() == each->lost_at())
         answer.fault = LawFault::no_value, answer.fault_time = each->lost_at();

@@ -145,8 +145,8 @@ struct FullRow {
 template <Real Scalar>
 struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
   Integrator used = Integrator::taylor;
-  /// How far apart attitudes of neighbours are at the last time, over what errors of their data and steps come to in proportion to the angle that the body turns
-  /// through.
+  /// Distance of the attitudes of neighbours at the last time, over what errors of their data and steps give in proportion to the angle that the body
+  /// turns through.
   Scalar growth = 0;
   /// When a brake has first brought what it opposes to zero and held it there, s, and the error of that, s: infinite where neighbours do not
   /// come to the same stops. Status::event: when one has brought it to a stop, or all but, that the equations do not go through.
@@ -162,7 +162,7 @@ struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
 template <Real Scalar>
 struct FullMotionOptions : MotionOptions<Scalar> {
   Integrator integrator = Integrator::any;
-  /// By how many times what the caller makes of the states, which are in place, misses what is asked of it; nullptr: it makes nothing.
+  /// Error over tolerance of what the caller makes of the states, which are in place; nullptr: it makes nothing.
   Scalar (*beyond)(void* caller, const FullMotionAnswer<Scalar>&) noexcept = nullptr;
   void* caller = nullptr;
 
@@ -306,7 +306,7 @@ class FullCourse {
   }
   Scalar previous_time() const noexcept { return previous_; }
 
-  /// Of collocation alone: inside() with the error that its last coefficients let suspect.
+  /// Of collocation alone: inside() with the error that its last coefficients suggest.
   State<Scalar> beside(Scalar t) const noexcept {
     alignas(32) Numbers x;
     solver_->beside(t, x.data());
@@ -315,7 +315,7 @@ class FullCourse {
 
   /// From when to when brakes have held the body so far, s.
   const std::vector<std::array<Scalar, 2>>& rests() const noexcept { return rests_; }
-  /// What a torque that brakes may not quite have held can have given the body, N m s, and turned it by, rad.
+  /// Momentum, N m s, and turn, rad, that a torque which the brakes may not quite have held can have given the body.
   Scalar slipped() const noexcept { return slipped_; }
   Scalar slipped_angle() const noexcept { return slipped_angle_; }
   /// Share of its time to which a stop is found.
@@ -382,12 +382,12 @@ class FullCourse {
     return ode::Status::reached;
   }
 
-  /// In what time what brakes oppose, `now`, doubles, if it goes on to grow as it did in the last step; else 0. Taylor series alone step so far.
+  /// Time in which what brakes oppose, `now`, doubles if it goes on growing as in the last step; 0 if it does not grow. Only Taylor series step so far.
   Scalar doubling(Scalar now) const noexcept {
     if (!rests_through || !(now < infinity<Scalar> && braked_ > 0 && now > braked_)) return 0;
     return (1 + share_) / 2 * now * ((time_ - previous_) / (now - braked_));
   }
-  /// Whether what brakes oppose points, in inertial axes, much as it did where the last step began, from these numbers: it has not passed zero.
+  /// Whether what brakes oppose has kept its direction in inertial axes, to 60 degrees, since these numbers: it has not passed through zero.
   bool keeps_on(const Numbers& from) const noexcept {
     const State<Scalar> old = system_->state(time_, from.data());
     const State<Scalar> now = system_->state(solver_->time(), solver_->state());
@@ -448,7 +448,7 @@ class FullCourse {
     time_ = previous_ = t;
     greatest_ = braked_ = 0;
     bound_ = torque_of_piece();
-    if (system_->has_brake() && !(system_->braked(t, numbers.data()) > 0)) stop(t, numbers, rested);
+    if (system_->has_brake() && !(system_->braked(t, numbers.data()) > 0)) stop(t, numbers, rested, t);
     else begin(t, numbers);
   }
   /// A bound of the torques in the piece; infinite where wheels add theirs.
@@ -484,14 +484,14 @@ class FullCourse {
     enter(t, x);
   }
 
-  /// What a brake opposes is zero from t on, at these numbers. rested: it was already.
-  void stop(Scalar t, const Numbers& numbers, bool rested = false) noexcept {
+  /// What a brake opposes is zero from t on, at these numbers. rested: it was already. when: exactly, for a body that leaves at once.
+  void stop(Scalar t, const Numbers& numbers, bool rested, Scalar when) noexcept {
     if constexpr (!rests_through) {
       at_stop_ = AtStop::turning;
     } else {
       const auto q = normalised(Quat<Scalar>{numbers[0], numbers[1], numbers[2], numbers[3]});
       const Stop<Scalar> made = stop_at(of_, piece_, q, t, spare_);
-      if (made.what == AtStop::leaves) return leave(made, t, numbers);
+      if (made.what == AtStop::leaves) return leave(made, when, numbers);
       if (made.what == AtStop::rests) return rest(made, t, numbers, rested);
       at_stop_ = made.what;
     }
@@ -503,9 +503,12 @@ class FullCourse {
       if (!rested) rests_.push_back({t, t});
       parted_ = made.until < piece_.to;
       piece_.to = std::min(made.until, piece_.to);
-      const Scalar given = made.slip * (piece_.to - t);
-      slipped_ += given, slipped_angle_ += given / of_.sizes.least * (last_ - t);
+      take_slip(made.slip * (piece_.to - t), last_ - t);
     }
+  }
+  /// Momentum, N m s, that a run may have taken wrongly, and that turns the body for so long.
+  void take_slip(Scalar momentum, Scalar time) noexcept {
+    slipped_ += momentum, slipped_angle_ += momentum / of_.sizes.least * time;
   }
   void leave(const Stop<Scalar>& stop, Scalar t, const Numbers& numbers) noexcept {
     if constexpr (rests_through) {
@@ -525,6 +528,9 @@ class FullCourse {
             sizes.turning + sizes.damping + sizes.forcing + 1 / rest + sqrt(stop.departure.rate / sizes.least);
         moment = Scalar(1e-9L) * (1 + share_) / pace;
       }
+      // all runs know when to some roundings alone
+      const Scalar late = Scalar(honesty::release_roundings) * epsilon<Scalar> * t;
+      take_slip((std::abs(stop.departure.rate) + 2 * magnitude(out.second) * rest) * late, last_ - t);
       moment = std::max(moment, 64 * epsilon<Scalar> * t);
       const Scalar until = t + moment < piece_.to ? t + moment : t;
       const Vec3<Scalar> rate = stop.departure.rate * stop.departure.direction;
@@ -543,12 +549,12 @@ class FullCourse {
     if (at_stop_ == AtStop::rests) {
       leaving_.reset();
       const std::size_t before = rests_.size();
-      stop(time_, x);
+      stop(time_, x, false, std::min(when, piece_.to));
       if (rests_.size() > before) rests_.back()[0] = when;
     }
     return at_stop_ == AtStop::rests ? ode::Status::reached : ode::Status::event;
   }
-  /// When what a brake opposes, `before` at the begin of the last step, is gone, if it is as good as that now; else infinite.
+  /// When what a brake opposes vanishes, if it is all but gone, `before` being its size where the last step began; infinite otherwise.
   Scalar stop_time(Scalar before) const noexcept {
     const Scalar now = system_->braked(time_, solver_->state());
     if (!(now > 0)) return time_;
@@ -557,7 +563,7 @@ class FullCourse {
     const State<Scalar> at = system_->state(time_, solver_->state());
     const Vec3<Scalar>&M = at.angular_momentum, &w = at.angular_velocity, Jw = of_.wheels.whole * w;
     const Pose<Scalar> pose{at.attitude, w, M};
-    const Vec3<Scalar> torque = load_at(of_.problem, pose, time_, piece_.from + (piece_.to - piece_.from) / 2).torque;
+    const Vec3<Scalar> torque = load_at(of_.problem, pose, time_, piece_.inside()).torque;
     const bool of_carrier = std::abs(Jw.norm() - now) < std::abs(M.norm() - now);
     const Vec3<Scalar> rate = cross<Scalar>(M, w) + torque, U = of_carrier ? Jw : M;
     const Scalar fall = -U.dot(rate) / now;
@@ -605,14 +611,14 @@ Scalar condition_of(const Wheels<Scalar>& wheels) noexcept {
   return wheels.whole.cwiseAbs().maxCoeff() * wheels.inverse.cwiseAbs().maxCoeff();
 }
 
-/// That, or by how much the start does.
+/// The same, or by how much the start magnifies errors where that is more.
 template <Real Scalar>
 Scalar condition_of(const Wheels<Scalar>& wheels, const State<Scalar>& start) noexcept {
   return std::max(condition_of(wheels),
-                  condition_of_start<Scalar>(start.angular_momentum, start.angular_velocity, wheels.inverse));
+                  start_sensitivity<Scalar>(start.angular_momentum, start.angular_velocity, wheels.inverse));
 }
 
-/// Arbitrary numbers of about 1, the same at each call in turn.
+/// Arbitrary numbers of about 1, the same sequence every time.
 template <Real Scalar>
 class Shifts {
  public:
@@ -785,8 +791,8 @@ class FullMotion {
     answer.step_tolerance = tolerance.end;
     const StepTolerance<Scalar> tight{companion_step(tolerance.end), companion_step(tolerance.inside)};
     const Scalar span = times_.back();
-    // a course is large
     Scalar spare = share_slack<Scalar>;
+    // courses are large, and live on the heap
     const auto begin = [&](const Problem<Scalar>& problem, int share, const StepTolerance<Scalar>& its) noexcept {
       return std::make_unique<Course>(problem, span, cuts_, 1 / Scalar(share), its, options_.step_cap, spare);
     };
@@ -799,6 +805,7 @@ class FullMotion {
     const auto companion = begin(one, 2, tight);
     std::unique_ptr<Course> second;
     if (rounding_rules(tolerance.end, condition)) second = begin(two, 3, tight);
+    const double stride = of.sizes.forcing > 0 ? honesty::forced_stride : honesty::companion_stride;
     const FullRow<Scalar> row(of, !options_.wanted.empty());
     // rounding at the asked times, and between steps
     FullErrors<Scalar> between;
@@ -819,8 +826,9 @@ class FullMotion {
       if constexpr (Method::integrator == Integrator::radau)
         between.raise(rows.apart(rows.row(companion->inside(times_[i])), rows.row(companion->beside(times_[i]))));
     };
-    solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()}, course->at(0), of.sizes.turning, times_,
-                 states_, nowhere<Scalar>(), options_, progress_from, progress_to, rounding, note);
+    solve_beside(answer, row, Runs<Course>{*course, *companion, second.get(), stride},
+                 {course->at(0), of.sizes.turning, times_, states_, nowhere<Scalar>(), progress_from, progress_to},
+                 options_, rounding, note);
     tell_stops(answer, *course, *companion, second.get());
     if (answer.status == ode::Status::reached && span > 0) {
       const Course& other = second ? *second : *course;
@@ -835,7 +843,7 @@ class FullMotion {
  private:
   using Course = FullCourse<Method>;
 
-  /// What a torque that brakes hold but for roundings may have done.
+  /// Adds what a torque that brakes hold only to rounding may have done.
   static void add_slip(FullErrors<Scalar>& error, const Course& course) noexcept {
     const Scalar rate = course.slipped() / course.prepared().sizes.least, angle = course.slipped_angle();
     const auto& sizes = course.prepared().sizes;

@@ -82,9 +82,15 @@ GYROSTAT_COMPILED_ONCE void balance(Track& track, const Scene& scene, double ste
   track.momentum_balance = residuals.momentum;
 }
 
+/// Whether the scene is integrated by Radau: where wheels are stiff, or as the question names it.
+inline bool is_collocated(const Scene& scene) noexcept {
+  const Integrator by = scene.question().integrator;
+  return by == Integrator::any ? scene.is_stiff() : by == Integrator::radau;
+}
+
 /// Steps that a run takes so that wheels settle as they should, or by Radau, which need not follow them, what damping there is.
 inline double settling_steps(const Scene& scene) noexcept {
-  const double rate = scene.is_stiff() ? scene.sizes().damping : scene.settling_rate();
+  const double rate = is_collocated(scene) ? scene.sizes().damping : scene.settling_rate();
   return rate * scene.question().times.back() / 8;
 }
 
@@ -94,8 +100,9 @@ GYROSTAT_COMPILED_ONCE double cost_of_full(const Scene& scene) noexcept {
   const auto& times = scene.question().times;
   const double phase = scene.sizes().angle + scene.sizes().forcing * times.back();
   const double tolerance = first_step_tolerance(scene.goal().tightest, phase, honesty::loosest_step);
-  const auto& cost = scene.is_stiff() ? stiff_cost : scene.is_large() ? large_series_cost : small_series_cost;
-  const double again = scene.is_stiff() ? 10 : 2;  // steps that a breakpoint costs
+  const bool collocated = detail::is_collocated(scene);
+  const auto& cost = collocated ? stiff_cost : scene.is_large() ? large_series_cost : small_series_cost;
+  const double again = collocated ? 10 : 2;  // steps that a breakpoint costs
   return cost(phase + detail::settling_steps(scene), tolerance, times.size()) +
          double(scene.breaks()) * again * cost.step;
 }
@@ -138,7 +145,8 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   if (answer->status != ode::Status::reached)
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   if (answer->growth > honesty::chaotic_growth) track.warn(warning_kinds[warning::chaotic], answer->growth);
-  if (answer->used == Integrator::radau) track.warn(warning_kinds[warning::stiff], scene.settling_rate());
+  if (scene.is_stiff() && answer->used == Integrator::radau)
+    track.warn(warning_kinds[warning::stiff], scene.settling_rate());
   reader(*answer);
   if (answer->met || answer->excess_beyond > 0) track.compared.torque = reader.torque_off;
   if (answer->stop_off < infinity<double>) {

@@ -254,7 +254,7 @@ inline constexpr RungKind rung_kinds[] = {
 static_assert(std::size(special_rungs) == std::size(rung_kinds) && special_rungs[rung::full].special == Special::none);
 static_assert(special_rungs[rung::family_full].rung == free::rung::full);
 
-inline constexpr const char* integrator_names[] = {"taylor", "dop853", "cvode"};
+inline constexpr const char* integrator_names[] = {"taylor", "radau", "dop853", "cvode"};
 
 /// Columns that an answer lacks where nobody asks for them.
 inline constexpr ColumnSet unasked_columns = column_set(

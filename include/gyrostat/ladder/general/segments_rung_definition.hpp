@@ -48,18 +48,17 @@ inline std::optional<std::optional<Torque<double>>> steady_torque(const Problem<
   return std::optional(made);
 }
 
-/// Nothing where a law is not steady from `from` to `to`.
-inline std::optional<Problem<double>> steady_problem(const Problem<double>& of, double from, double to) {
-  const double inside = from + (to - from) / 2;
+/// Nothing where a law is not steady from the breakpoint `from` to the next.
+inline std::optional<Problem<double>> steady_problem(const Problem<double>& of, double from) {
   Problem<double> made = of;
   made.torques.clear();
   for (const auto& torque : of.torques) {
-    auto steady = steady_torque(of, torque, inside);
+    auto steady = steady_torque(of, torque, from);
     if (!steady) return std::nullopt;
     if (*steady) made.torques.push_back(std::move(**steady));
   }
   for (auto& wheel : made.wheels) {
-    if (!wheel.table.times.empty() && !make_steady(wheel, inside)) return std::nullopt;
+    if (!wheel.table.times.empty() && !make_steady(wheel, from)) return std::nullopt;
   }
   return made;
 }
@@ -71,7 +70,7 @@ GYROSTAT_COMPILED_ONCE std::vector<Segment> segments_of(const Problem<double>& p
   edges.push_back(span);
   std::vector<Segment> made;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    auto steady = steady_problem(problem, edges[i], edges[i + 1]);
+    auto steady = steady_problem(problem, std::max(edges[i], least_breakpoint<double>));
     if (!steady) return {};
     made.push_back({edges[i], edges[i + 1], std::move(*steady)});
   }

@@ -159,8 +159,8 @@ class FullMotion {
       return 4 * shared_rounding(steps) * ColumnErrors<Scalar>{rate_, 1, Scalar(turning ? 1 : 0)};
     };
     solve_beside(answer, Row<Scalar>{scales(problem_, start_.angular_velocity.norm())},
-                 Runs<Course>{course, companion, second ? &*second : nullptr}, start_, rate_, times_, states_,
-                 nowhere(), options_, progress_from, progress_to, rounding);
+                 Runs<Course>{course, companion, second ? &*second : nullptr},
+                 {start_, rate_, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding);
     return answer;
   }
 

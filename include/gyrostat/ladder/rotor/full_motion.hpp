@@ -294,8 +294,8 @@ class FullMotion {
       if (answer.used == Integrator::radau)
         between.raise(rows.apart(rows.row(companion.at(times_[i])), rows.row(companion.beside(times_[i]))));
     };
-    solve_beside(answer, row, Runs<Course<Scalar>>{course, companion, second ? &*second : nullptr}, start_, turning_,
-                 times_, states_, nowhere(), options_, progress_from, progress_to, rounding, note);
+    solve_beside(answer, row, Runs<Course<Scalar>>{course, companion, second ? &*second : nullptr},
+                 {start_, turning_, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding, note);
     forget_parted(answer.error);
     answer.met = answer.met && options_.excess(answer) <= 1;
     return answer;

@@ -178,8 +178,9 @@ class FullMotion {
     std::optional<Course<Scalar>> second;
     if (both) second.emplace(two, span, tight, options_.step_cap, false, true);
     const Runs<Course<Scalar>> runs{course, companion, second ? &*second : nullptr};
-    const auto walk = walk_beside(WatchedRow<Scalar>{scales(problem_, span)}, runs, start_state(problem_), rate_,
-                                  times_, states_, nowhere(), options_, progress_from, progress_to, not_noted);
+    const auto walk = walk_beside(
+        WatchedRow<Scalar>{scales(problem_, span)}, runs,
+        {start_state(problem_), rate_, times_, states_, nowhere(), progress_from, progress_to}, options_, not_noted);
     answer.status = walk.status;
     answer.counts = runs.counts();
     const std::uint64_t steps = course.counts().steps;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -38,7 +37,7 @@ struct Terms {
   Vec3<Scalar> brake_total{0, 0, 0}, brake_carrier{0, 0, 0};          ///< N m
   std::array<Mat3<Scalar>, 3> inertial = zeros(), orbital = zeros();  ///< N m
   Scalar gradient = 0;                                                ///< 1/s^2, of the field that stands still
-  Scalar orbit_gradient = 0;                                          ///< how often the gradient of the orbit counts
+  Scalar orbit_gradient = 0;                                          ///< multiple of the orbit's gravity gradient
   Vec3<Scalar> dipole{0, 0, 0};                                       ///< in a field that moves, A m^2
   Mat3<Scalar> eddy = Mat3<Scalar>::Zero();                           ///< S m^4
   Vec3<Scalar> force_body{0, 0, 0}, force_inertial{0, 0, 0};          ///< that moves the mass centre of a free body, N
@@ -115,26 +114,16 @@ template <Real Scalar>
 struct Record {
   Factor<Scalar> factor;  ///< by default 1
   Terms<Scalar> sum;
-  Terms<Scalar> size;  ///< the magnitudes of what went in, summed: what the rounding of `sum` is relative to
+  Terms<Scalar> size;  ///< the sum of the magnitudes of its terms, which the rounding of `sum` is relative to
 };
 
-/// The value of m, where it is a multiple of the unit matrix: to 8 roundings of `size`, the magnitudes that were summed.
-template <Real Scalar>
-std::optional<Scalar> as_scalar(const Mat3<Scalar>& m, const Mat3<Scalar>& size) noexcept {
-  using std::abs;
-  const Scalar mean = m.trace() / 3, slack = 8 * epsilon<Scalar> * size.maxCoeff();
-  const Mat3<Scalar> rest = m - mean * Mat3<Scalar>::Identity();
-  if (!(rest.cwiseAbs().maxCoeff() <= slack)) return std::nullopt;
-  return mean;
-}
-
-/// So many factors with a wave may torques have that depend on the motion.
+/// The most wave factors that torques which depend on the motion may have.
 inline constexpr std::ptrdiff_t most_waves = 8;
 
 /// All torques of a problem.
 template <Real Scalar>
 struct Collected {
-  /// One record for each factor; that of what always acts, unchanged over the span, is the first, whether it holds anything or not.
+  /// One record for each factor. The first, which may be empty, is of what acts unchanged over the whole span.
   std::vector<Record<Scalar>> records;
 
   /// The torques of a problem that check_torques() finds right, over the times from 0 to `span`.
@@ -145,13 +134,16 @@ struct Collected {
   bool is_steady() const noexcept { return records.size() == 1; }
 };
 
-/// The times in (0, span) at which a torque or a wheel of a problem changes its law, increasing; those so small that no step ends before them
-/// are none.
+/// Breakpoints up to here are none, s: no step ends before them. The law behind them holds from the start.
+template <Real Scalar>
+inline constexpr Scalar least_breakpoint = std::numeric_limits<Scalar>::min() / epsilon<Scalar>;
+
+/// The times in (0, span) at which a torque or a wheel of a problem changes its law, increasing.
 template <Real Scalar>
 std::vector<Scalar> breakpoints(const Problem<Scalar>& problem, Scalar span) noexcept {
   std::vector<Scalar> found;
   const auto take = [&](Scalar t) noexcept {
-    if (t > std::numeric_limits<Scalar>::min() / epsilon<Scalar> && t < span) found.push_back(t);
+    if (t > least_breakpoint<Scalar> && t < span) found.push_back(t);
   };
   for (const auto& torque : problem.torques) {
     for (const auto& [from, to] : torque.factor.on)
@@ -286,7 +278,7 @@ Fault check_factor(const Factor<Scalar>& factor, int place) noexcept {
                      "the table of its factor must have one finite value for each time, and times that increase");
 }
 
-/// The least value of a table of single numbers, between its times, too, but for roundings; 0 of none.
+/// The least value of a table of single numbers, between its times too, to rounding; 0 of an empty one.
 template <Real Scalar>
 Scalar least_of(const Table<Scalar>& table) noexcept {
   if (table.values.empty()) return 0;

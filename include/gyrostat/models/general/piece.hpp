@@ -29,7 +29,7 @@ struct Wave {
 template <Real Scalar>
 struct WheelPiece {
   std::array<Scalar, 5> c{};
-  Scalar integral = 0;  ///< of that divided by I, from t = 0 to the begin of the piece; not of a T
+  Scalar integral = 0;  ///< of this over I, from t = 0 to the begin of the piece; not used for a T
 
   Scalar at(Scalar s) const noexcept { return c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * c[4]))); }
   /// The integral of it over the piece up to s.
@@ -45,13 +45,16 @@ struct Piece {
       power;  ///< the torques are power[0] + s power[1] + s^2 power[2] + s^3 power[3], s = t - from, and waves
   std::vector<Wave<Scalar>> waves;
   std::array<WheelPiece<Scalar>, most_wheels> wheels;
-  std::array<Vec3<Scalar>, 5> momentum;  ///< of all wheels but those whose p is a state, l0 among it, by powers of s
+  std::array<Vec3<Scalar>, 5> momentum;  ///< by powers of s: of l0 and all wheels but those whose p is a state
 
   /// The first piece of a problem, up to its first breakpoint `to`, and the one behind `before`.
   static Piece first(const Problem<Scalar>& problem, const Wheels<Scalar>& wheels, const Collected<Scalar>& torques,
                      Scalar to) noexcept;
   static Piece behind(const Piece& before, const Problem<Scalar>& problem, const Wheels<Scalar>& wheels,
                       const Collected<Scalar>& torques, Scalar to) noexcept;
+
+  /// A time in the piece, for the laws that hold in it.
+  Scalar inside() const noexcept { return std::max(from, least_breakpoint<Scalar>); }
 
   /// The momentum of all wheels but those whose p is a state, N m s.
   Vec3<Scalar> momentum_at(Scalar t) const noexcept {
@@ -94,9 +97,9 @@ void Piece<Scalar>::take_torques(const Collected<Scalar>& torques) noexcept {
 template <Real Scalar>
 void Piece<Scalar>::take_record(const Record<Scalar>& record) noexcept {
   const auto& factor = record.factor;
-  if (!factor.is_on(from)) return;
+  if (!factor.is_on(inside())) return;
   Cubic<Scalar> cubic{from, {1}};
-  if (!factor.table.times.empty()) cubic = piece(factor.table, 1, 0, from).about(from);
+  if (!factor.table.times.empty()) cubic = piece(factor.table, 1, 0, inside()).about(from);
   for (std::size_t i = 0; i < 4; ++i)
     if (cubic.c[i] != 0 && factor.mean != 0) power[i].add(factor.mean * cubic.c[i], record.sum);
   if (factor.amplitude == 0) return;
@@ -121,7 +124,7 @@ void Piece<Scalar>::take_wheels(const Problem<Scalar>& problem, const Wheels<Sca
     const WheelLaw<Scalar>& law = all.laws[i];
     WheelPiece<Scalar>& mine = wheels[i];
     Cubic<Scalar> table{from, {}};
-    if (law.tabled) table = piece(problem.wheels[i].table, 1, 0, from).about(from);
+    if (law.tabled) table = piece(problem.wheels[i].table, 1, 0, inside()).about(from);
     const Scalar length = before != nullptr ? from - before->from : Scalar(0);
     if (before != nullptr && law.follows != Follows::state && law.follows != Follows::body)
       mine.integral = before->wheels[i].integral + before->wheels[i].gained(length) / law.axial_inertia;

@@ -106,7 +106,7 @@ def averaged(*, inertia: ArrayLike, control: ArrayLike, drag: ArrayLike, angular
                                   ("angular_momentum", angular_momentum, (3,)), ("rotor_momentum", rotor_momentum, (3,))])
     made: dict[str, Any] = _core.deceleration_averaged(
         inertia=J, rotor_momentum=l, control=b, drag=d, angular_momentum=M, law=law, drag_law=drag_law,
-        times=array("t", t), **numbers(tolerance=tolerance), elliptic=elliptic)
+        times=np.atleast_1d(array("t", t)), **numbers(tolerance=tolerance), elliptic=elliptic)
     n = made["momentum_norm"].shape[1]
     symbols = np.array(_core.deceleration_regimes())
     names = ("momentum_norm", "energy", "modulus_squared")

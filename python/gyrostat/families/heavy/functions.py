@@ -23,7 +23,7 @@ from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask, asked
-from gyrostat.broadcast import Floats, array, arrays, complexes, finite_rows, number, numbers, rows, shaped, whole
+from gyrostat.broadcast import Floats, array, arrays, complexes, finite_rows, in_range, number, numbers, rows, shaped, whole
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 
@@ -43,7 +43,7 @@ def gravity_gradient(*, gravity: ArrayLike, distance: ArrayLike) -> Floats:
     if not np.all(R > 0):
         raise DomainError(f"distance = {np.min(R):g}: give numbers > 0")
     with np.errstate(over="ignore"):
-        made: Floats = shaped(3 * (g / R), lead)
+        made: Floats = shaped(in_range("the gradient", 3 * (g / R)), lead)
     return made
 
 

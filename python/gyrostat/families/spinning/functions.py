@@ -21,7 +21,7 @@ from gyrostat import _core
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.asking import Ask, asked
-from gyrostat.broadcast import Floats, array, arrays, complexes, finite_rows, number, numbers, rows, shaped, whole
+from gyrostat.broadcast import Floats, array, arrays, complexes, finite_rows, in_range, number, numbers, rows, shaped, whole
 from gyrostat.errors import DomainError
 from gyrostat.families import answer_of
 
@@ -45,8 +45,8 @@ def charge_momentum(*, charge: ArrayLike, flux_density: ArrayLike, arm: ArrayLik
     taken as constant [rad]. The Lorentz force on the moving charge is left out.
     """
     lead, (e, H, l, sigma) = finite_rows([("charge", charge, ()), ("flux_density", flux_density, ()), ("arm", arm, ()), ("angle", angle, ())])
-    with np.errstate(over="ignore"):
-        made: Floats = shaped(e * H * l**2 * np.cos(sigma), lead)
+    with np.errstate(over="ignore", invalid="ignore"):
+        made: Floats = shaped(in_range("the momentum of the charge", e * H * l**2 * np.cos(sigma)), lead)
     return made
 
 
