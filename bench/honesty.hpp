@@ -80,7 +80,8 @@ struct Tally {
     const auto one = [&](const char* name, double error, double stated, double own) {
       error = std::max(0.0, error - own);  // what the truth itself may be off by
       if (std::isnan(stated)) good = false, stated = 0;
-      if (error > 0) ratios[std::string(answer.model) + " " + name].push_back(stated / error);
+      if (error > 0 && std::min(error, stated) < infinity<double>)
+        ratios[std::string(answer.model) + " " + name].push_back(stated / error);
       good = good && error <= stated;
       within = within && (error <= answer.tolerance || stated > answer.tolerance);
       const double ratio = error == 0 ? 0 : error / stated;
