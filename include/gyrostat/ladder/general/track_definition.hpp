@@ -94,67 +94,66 @@ class Writer {
 
   /// By how much the torques change where attitude, rates and momentum change by their errors, by differences at some of the times, or at all.
   double torque_off() const noexcept {
-    for (const std::size_t p : {primitive::attitude, primitive::angular_velocity, primitive::angular_momentum})
-      if (!(track_.off[p] < infinity<double>)) return infinity<double>;
-    const auto& times = scene_.question().times;
-    // what turns over, as a brake where what it opposes nearly vanishes, or acts for a while would not show at some of the times
-    const auto& torques = scene_.problem().torques;
-    const auto& orbit = scene_.problem().orbit;  // far out what falls with distance is small
-    const bool changes = scene_.breaks() > 0 || scene_.own_torque().any() || (orbit && orbit->eccentricity > 0) ||
-                         std::any_of(torques.begin(), torques.end(), [](const auto& torque) {
-                           return torque.type == TorqueType::brake || torque.factor.amplitude != 0;
-                         });
-    const std::size_t n = track_.states.size(), stride = changes ? 1 : 1 + n / 16;
+    for (const std::size_t what : moved)
+      if (!(track_.off[what] < infinity<double>)) return infinity<double>;
+    const std::size_t n = track_.states.size(), stride = torque_comes_and_goes() ? 1 : 1 + n / 16;
     double most = 0;
-    for (std::size_t back = 0; back < n; back += stride) {
-      const std::size_t i = n - 1 - back;
-      const Seen<double> here = seen_of(track_.states[i]);
-      const auto torque = [&](const Seen<double>& at) { return scene_.torque(times[i], at); };
-      const Vec3<double> now = torque(here);
-      const double sizes =
-          terms_of_torques(scene_.problem(), here, times[i]) + scene_.own_torque()(times[i], here).norm();
-      double sum = 8 * epsilon<double> * sizes;
-      if (const double late = clock_off(times[i]); late > 0)
-        sum += (load_at(scene_.problem(), here, times[i] + late, times[i]).torque -
-                load_at(scene_.problem(), here, times[i], times[i]).torque)
-                   .norm();
-      const bool rests = std::any_of(track_.rests.begin(), track_.rests.end(), [&](const auto& rest) {
-        return times[i] >= rest[0] + track_.rest_off && times[i] <= rest[1];
-      });
-      if (rests) {
-        most = greater(sum, most);
-        continue;
-      }
-      for (int axis = 0; axis < 3; ++axis) {
-        const Vec3<double> e = Vec3<double>::Unit(axis);
-        // by at least the root of a rounding, so that the difference means something
-        const auto moved = [&](std::size_t p, double size, auto&& move) {
-          const double off = track_.off[p], by = std::max(off, 1e-8 * size);
-          if (by > 0) sum += (torque(move(by)) - now).norm() * (off / by);
-        };
-        moved(primitive::attitude, 1, [&](double by) {
-          Seen<double> at = here;
-          at.attitude = normalised(at.attitude * Quat<double>{1, by / 2 * e[0], by / 2 * e[1], by / 2 * e[2]});
-          return at;
-        });
-        moved(primitive::angular_velocity, here.angular_velocity.norm(), [&](double by) {
-          Seen<double> at = here;
-          at.angular_velocity += by * e;
-          return at;
-        });
-        moved(primitive::angular_momentum, here.angular_momentum.norm(), [&](double by) {
-          Seen<double> at = here;
-          at.angular_momentum += by * e;
-          return at;
-        });
-      }
-      if (scene_.own_torque().any()) sum += off_by_wheels(here, now, times[i]);
-      most = greater(sum, most);
-    }
+    for (std::size_t back = 0; back < n; back += stride) most = greater(torque_off_at(n - 1 - back), most);
     return most;
   }
 
  private:
+  static constexpr std::size_t moved[] = {primitive::attitude, primitive::angular_velocity,
+                                          primitive::angular_momentum};
+
+  /// Whether a torque turns over, as a brake where what it opposes nearly vanishes, or acts for a while, or falls with distance: some of the times would not
+  /// show it.
+  bool torque_comes_and_goes() const noexcept {
+    const auto& torques = scene_.problem().torques;
+    const auto& orbit = scene_.problem().orbit;
+    return scene_.breaks() > 0 || scene_.own_torque().any() || (orbit && orbit->eccentricity > 0) ||
+           std::any_of(torques.begin(), torques.end(), [](const auto& torque) {
+             return torque.type == TorqueType::brake || torque.factor.amplitude != 0;
+           });
+  }
+  bool rests_at(double t) const noexcept {
+    return std::any_of(track_.rests.begin(), track_.rests.end(),
+                       [&](const auto& rest) { return t >= rest[0] + track_.rest_off && t <= rest[1]; });
+  }
+  /// The error of the torques at an asked time.
+  double torque_off_at(std::size_t i) const noexcept {
+    const double t = scene_.question().times[i], late = clock_off(t);
+    const Seen<double> here = seen_of(track_.states[i]);
+    const auto& problem = scene_.problem();
+    const double sizes = terms_of_torques(problem, here, t) + scene_.own_torque()(t, here).norm();
+    double sum = 8 * epsilon<double> * sizes;
+    if (late > 0) sum += (load_at(problem, here, t + late, t).torque - load_at(problem, here, t, t).torque).norm();
+    if (rests_at(t)) return sum;
+    const Vec3<double> now = scene_.torque(t, here);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const std::size_t what : moved) sum += off_by(what, Vec3<double>::Unit(axis), here, now, t);
+    if (scene_.own_torque().any()) sum += off_by_wheels(here, now, t);
+    return sum;
+  }
+  /// What the error of attitude, rates or momentum about an axis does to the torque `now` at t.
+  double off_by(std::size_t what, const Vec3<double>& axis, const Seen<double>& here, const Vec3<double>& now,
+                double t) const noexcept {
+    const double size = what == primitive::attitude           ? 1
+                        : what == primitive::angular_velocity ? here.angular_velocity.norm()
+                                                              : here.angular_momentum.norm();
+    // by at least the root of a rounding, so that the difference means something
+    const double off = track_.off[what], by = std::max(off, 1e-8 * size);
+    if (!(by > 0)) return 0;
+    Seen<double> at = here;
+    switch (what) {
+      case primitive::attitude:
+        at.attitude = normalised(at.attitude * Quat<double>{1, by / 2 * axis[0], by / 2 * axis[1], by / 2 * axis[2]});
+        break;
+      case primitive::angular_velocity: at.angular_velocity += by * axis; break;
+      default: at.angular_momentum += by * axis;
+    }
+    return (scene_.torque(t, at) - now).norm() * (off / by);
+  }
   template <class Size>
   double greatest(const Size& size) const noexcept {
     double most = 0;
