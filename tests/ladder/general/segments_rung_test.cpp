@@ -90,7 +90,8 @@ TEST_CASE("the value at a listed time is that behind a step, and the momentum st
 TEST_CASE("a segment between neighbours among the doubles keeps its own law") {
   Problem<double> problem = brick();
   problem.wheels = {wheel(WheelType::held, {0, 0.6, 0.8})};
-  const double first = 3.7, second = std::nextafter(first, 4);
+  const double first = std::nextafter(3.7, 4), second = std::nextafter(first, 4);  // their mean rounds to the second
+  REQUIRE(first + (second - first) / 2 == second);
   auto& table = problem.wheels[0].table;
   table.times = {0, first, second}, table.values = {2, 7, -400}, table.between = Between::step, table.holds = true;
   problem.wheels[0].rate = 2;
