@@ -39,6 +39,7 @@ TABLES = {  # tables and the like: tested where they are used
     "ode/dop853.hpp": "ode/runge_kutta_test.cpp",
 }
 UMBRELLA = "gyrostat.hpp"
+LEVEL = "core/level.hpp"  # the inline namespace of the instruction level, and all that stands in it
 PAGE_OF_HEADERS = "docs/headers.md"  # what it names is public, and so is what the umbrella of a family includes; all else is a detail
 OF_EVERY_FAMILY = ["ladder/{}/inputs.hpp", "ladder/{}/solve.hpp"]
 UMBRELLAS_TEST = "ladder/one_form_test.cpp"
@@ -299,6 +300,15 @@ def check_headers_alone(root):
                     yield f"{name}:{text.count(chr(10), 0, found.start()) + 1} is no template and not GYROSTAT_COMPILED_ONCE"
 
 
+def check_levels(root):
+    """That every namespace gyrostat::x is the one of the instruction level, as core/level.hpp declares it first."""
+    level = root / "include" / "gyrostat" / LEVEL
+    declared = re.findall(r"^namespace (\w+) \{\}", level.read_text(encoding="utf-8"), re.M)
+    for path in sources(root, {"include"}, {".hpp"}):
+        for name in sorted(set(re.findall(r"^namespace gyrostat::(\w+)", path.read_text(encoding="utf-8"), re.M)) - {"inline", *declared}):
+            yield f"{path.relative_to(root).as_posix()}: {LEVEL} does not declare namespace {name}: its functions would be the same at every instruction level"
+
+
 NUMBERS = r"\d+(?:\.\d+)*(?:(?:, | and | to )\d+(?:\.\d+)*)*"
 PAGE = re.compile(r"((?:docs/)?[\w-]+\.md)(?:,? sections? (" + NUMBERS + "))?")
 CITED = re.compile(r"(?<![\w<>*./-])((?:[\w-]+/)*[\w-]+\.(?:hpp|cpp))\b")
@@ -361,7 +371,7 @@ def check_c_keys(root):
 
 
 CHECKS = [check_layers, check_sundials, check_umbrellas, check_page_of_headers, check_headers, check_c_keys, check_spdx, check_version, check_functions, check_headers_alone,
-          check_citations]
+          check_levels, check_citations]
 
 
 def breaches(root):
@@ -374,6 +384,7 @@ def sound_tree(root):
     files = {
         "include/gyrostat/version.hpp": 'inline constexpr const char* header_version = "1.2.3";',
         "include/gyrostat/core/real.hpp": "#include <concepts>",
+        "include/gyrostat/core/level.hpp": "namespace math {}",
         "include/gyrostat/math/root.hpp": '#include "gyrostat/core/real.hpp"',
         "include/gyrostat/math/gsl.hpp": "#include <gsl/gsl_sf_ellint.h>",
         "include/gyrostat/rotation/vector.hpp": "#include <Eigen/Core>",
@@ -473,6 +484,8 @@ BREACHES = [
     ("a header that throws", append("include/gyrostat/core/real.hpp", "inline int f() {\n  throw 1;\n}\n"), "real.hpp:5 has the word throw"),
     ("a definition that is not inline", append("include/gyrostat/ladder/heavy/solve_definition.hpp",
         f"// {SPDX}\n#pragma once\nint f(int x) {{\n  return x;\n}}\n"), "solve_definition.hpp:3 is no template and not"),
+    ("a namespace of no level", append("include/gyrostat/math/root.hpp", "namespace gyrostat::math {}\nnamespace gyrostat::heavy {}\n"),
+     "math/root.hpp: core/level.hpp does not declare namespace heavy"),
     ("a page that is not there", append("src/cvode.cpp", "/// See docs/light.md.\n"), "src/cvode.cpp:3 cites docs/light.md"),
     ("a section that is not there", append("src/cvode.cpp", "int a;  // as in heavy.md,\n        // sections 2.1 and 3\n"),
      "src/cvode.cpp:3 cites section 3 of heavy.md"),

@@ -934,6 +934,9 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
         if not table:
             bare = _without_places(name)
             homes = [home for home, fields in layout.items() if any(field.name == bare for field in fields)]
+            there = [home for home in homes if not home or (isinstance(table_there := tree.get(home), dict) and bare in table_there)]
+            if not there and "solve" not in homes:
+                homes = [*_in_lists(tree, layout, bare), *homes]
             if not homes and name in layout:
                 first = next(iter(value)) if isinstance(value, Mapping) and value else layout[name][0].name
                 raise SceneError(Mistake(f"{source.label} (set on the command line or by keyword)", key, _show(_plain(value)), "a table is not replaced as a whole",
@@ -942,7 +945,6 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
                 raise SceneError(Mistake(f"{source.label} (set on the command line or by keyword)", key, _show(_plain(value)), "unknown key",
                                          _advice_anywhere(name, layout)))
             if len(homes) > 1:
-                there = [home for home in homes if isinstance(table_there := tree.get(home), dict) and bare in table_there]
                 if len(there) != 1:
                     full_keys = " or ".join(f"{home}.{name}" for home in homes)
                     raise SceneError(Mistake(f"{source.label} (set on the command line or by keyword)", key, _show(_plain(value)),
@@ -964,6 +966,17 @@ def _override(tree: dict[str, Any], source: _Source, overrides: Mapping[str, Any
         yield plain
         if isinstance(tree.get(head := plain.partition(".")[0]), list):
             yield head  # of which mistakes in one of its tables are told
+
+
+def _in_lists(tree: Mapping[str, Any], layout: Mapping[str, Table], key: str) -> list[str]:
+    """The tables in lists, as wheel[0], that can have this key."""
+    made = []
+    for field in layout.get("", ()):
+        tables = tree.get(field.name)
+        for i, table in enumerate(tables if isinstance(tables, list) else ()):
+            if isinstance(table, dict) and any(part.name == key for part in parts_of(field, table) or ()):
+                made.append(f"{field.name}[{i}]")
+    return made
 
 
 def _without_places(key: str) -> str:

@@ -168,6 +168,15 @@ TEST_CASE("rungs that do not apply are passed over with their reason", "[ladder]
   CHECK_FALSE(none.answer.met);
 }
 
+TEST_CASE("where no rung knows its cost the climb says that it has no answer", "[ladder]") {
+  Scene scene{{0, 0, 0, 0}};
+  scene.cost.fill(gyrostat::nan<double>);
+  const Climb c(scene, 1e-3);
+  CHECK(c.looked_at == 0);
+  CHECK(c.refusal.code == Errc::not_applicable);
+  CHECK(Climb(scene, 1e-3, 2).is("third"));  // by name
+}
+
 TEST_CASE("outside its domain a rung never meets a tolerance", "[ladder]") {
   Scene scene{{1e-9, 1e-3, 1e-3, 1e-3}};
   scene.in_domain[0] = false;

@@ -672,3 +672,13 @@ def test_the_period_of_an_eccentric_orbit() -> None:
         # a period later it is where it was
         for one, later in zip(by_period, general.orbit_start({"period": period, **shape}, period), strict=True):
             np.testing.assert_allclose(one, later, rtol=1e-12, atol=1e-13)
+
+
+def test_a_key_without_its_table_that_wheels_have_too() -> None:
+    wheel = {"axis": [0, 0, 1], "axial_inertia": 0.01, "rate": 3.0}
+    scene = {"name": "a wheel", "kind": "general", "body": {"inertia": [3, 4, 5]}, "wheel": [wheel], "solve": {"times": [1.0]}}
+    with pytest.raises(gyrostat.SceneError, match=r"write wheel\[0\].rate or orbit.rate"):
+        gyrostat.solve(scene, rate=4.0)
+    assert gyrostat.solve(scene, times=[2.0]).times[-1] == 2.0
+    changed = gyrostat.solve(scene, axial_inertia=0.02, ask="rotor_rate,energy")  # no other table has it
+    assert changed["energy"][0] == pytest.approx(0.02 * 3.0**2 / 2)

@@ -89,3 +89,32 @@ def test_a_scene_in_other_units(name: str, powers: tuple[int, int, int]) -> None
         made |= home if not table else ({table: {**given, **home}} if given else {})
     for model in ("auto", *(rung for rung in FACTS[scene.kind].rungs if not rung.endswith("full"))):
         compare(plain, made, powers, model)
+
+
+def in_unit_of_mass(kind: str, unit: float) -> gyrostat.Answer:
+    """A body that turns, told in a unit of mass that is so many times less, by the function of the family, which takes any numbers."""
+    moments = np.array([1.0, 2.0, 2.5]) * unit
+    common: dict[str, Any] = {"inertia": moments, "times": [0.0, 1.0], "ask": ["angular_velocity"], "tolerance": 1e-6}
+    turning = {"angular_velocity": [1.0, 1.0, 1.0]}
+    if kind == "free":
+        return gyrostat.free.solve(**common, **turning)
+    if kind == "rotor":
+        motor = {"axis": [0, 0, 1], "axial_inertia": 0.1 * unit, "slope": 0.01 * unit, "no_load_rate": 10.0}
+        return gyrostat.rotor.solve(**common, **turning, **motor)
+    if kind == "deceleration":
+        return gyrostat.deceleration.solve(**common, control=0.1 * moments, drag=0.01, angular_momentum=moments)
+    return gyrostat.general.solve(**common, **turning, torques=[{"type": "damping", "matrix": np.diag(0.1 * moments)}])
+
+
+@pytest.mark.parametrize("exponent", [-300, -250, -200, -170, -160, -155, -150, -140, 140, 150, 153, 155, 160, 170, 200, 250, 300])
+@pytest.mark.parametrize("kind", ["free", "rotor", "deceleration", "general"])
+def test_units_in_which_squares_overflow_or_vanish(kind: str, exponent: int) -> None:
+    truth = in_unit_of_mass(kind, 1.0)["angular_velocity"]
+    try:
+        answer = in_unit_of_mass(kind, 10.0**exponent)
+    except (gyrostat.DomainError, gyrostat.ConvergenceError) as error:
+        assert "give them in other units" in str(error)
+        assert not -140 <= exponent <= 140
+        return
+    off = np.max(np.linalg.norm(answer["angular_velocity"] - truth, axis=1)) / np.linalg.norm(truth[0])
+    assert off <= answer.error["angular_velocity"] + 1e-6

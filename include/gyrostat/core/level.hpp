@@ -25,4 +25,5 @@ namespace heavy {}
 namespace rotor {}
 namespace free {}
 namespace general {}
+namespace honesty {}
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

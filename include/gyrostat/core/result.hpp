@@ -28,6 +28,7 @@ enum class Errc : std::uint8_t {
   not_applicable,       ///< the model does not cover this scene
   unavailable,          ///< the build lacks an optional library
   cancelled,            ///< the caller stopped the work
+  beyond_range,         ///< numbers are so large or small that their products overflow or vanish
 };
 
 /// One English sentence a failure, for a message at the edge.
@@ -51,6 +52,8 @@ constexpr const char* message(Errc code) noexcept {
     case Errc::not_applicable: return "the model does not cover this scene";
     case Errc::unavailable: return "the build lacks an optional library";
     case Errc::cancelled: return "the caller stopped the work";
+    case Errc::beyond_range:
+      return "numbers are so large or small that their products overflow or vanish: give them in other units";
   }
   return "unknown error";
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -65,6 +66,12 @@ inline Errc check_times(std::span<const double> times, double tolerance) noexcep
     last = t;
   }
   return Errc::ok;
+}
+
+/// Whether the square of a size is a number with all its digits; of 0, too.
+inline bool can_be_squared(double size) noexcept {
+  const double square = size * size;
+  return size == 0 || (square >= std::numeric_limits<double>::min() && square < infinity<double>);
 }
 
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

@@ -239,6 +239,8 @@ class Ascent {
   Answer end() {
     if (refusal_.code == Errc::cancelled) best_ = {}, answered_ = false;
     best_.tried = std::move(tried_);
+    if (!answered_ && refusal_.code == Errc::ok)  // no rung knows what it would cost
+      refusal_ = {Errc::not_applicable, "auto", message(Errc::not_applicable)};
     if (!answered_) return std::move(best_);
     refusal_ = {};  // other rungs have refused, but there is an answer
     for (Attempt& attempt : best_.tried)

@@ -47,6 +47,7 @@ TEST_CASE("a scene that is not one says why", "[deceleration]") {
   }
   for (int i = 0; i < 3; ++i) CHECK(changed([&](Asked& d) { d.control[i] = -1e-300; }) == Errc::negative);
   CHECK(changed([](Asked& d) { d.drag = -1e-9; }) == Errc::negative);
+  CHECK(changed([](Asked& d) { d.momentum *= 1e154; }) == Errc::beyond_range);
   CHECK(changed([](Asked& d) { d.times = {-1, 1}; }) == Errc::negative);
   CHECK(changed([](Asked& d) { d.times = {1, 1}; }) == Errc::not_increasing);
   CHECK(changed([](Asked& d) { d.times = {0, 2, 1}; }) == Errc::not_increasing);

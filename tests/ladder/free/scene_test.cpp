@@ -38,6 +38,9 @@ TEST_CASE("a scene of a free body refuses what is not physical, and says which w
   CHECK((unsound.limit > 0.1 && unsound.limit < 2.9));
   CHECK(Scene::make(body({3, 1, 1}, {0, 0, 0}, {1, 1, 1}), question).error() == Errc::triangle_inequality);
   CHECK(Scene::make(body({3, 2, 2}, {0, 0, 0}, {1, 1, gyrostat::nan<double>}), question).error() == Errc::not_finite);
+  CHECK(Scene::make(body({3e-160, 2e-160, 2e-160}, {0, 0, 0}, {1, 1, 1}), question).error() == Errc::beyond_range);
+  CHECK(Scene::make(body({3, 2, 2}, {0, 0, 0}, {1e154, 1, 1}), question).error() == Errc::beyond_range);
+  CHECK(Scene::make(body({3, 2, 2}, {0, 0, 0}, {0, 0, 0}), question).error() == Errc::ok);
   question.times = {1, 0.5};
   CHECK(Scene::make(wheeled(), question).error() == Errc::not_increasing);
 }

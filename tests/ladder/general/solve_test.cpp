@@ -115,6 +115,21 @@ TEST_CASE("torques that come and go and leave the start a thousandth", "[general
   CHECK(warns(1.0));
 }
 
+TEST_CASE("a held wheel that stands still where the table of its rate ends", "[general]") {
+  auto p = brick();
+  Wheel<double> wheel;
+  wheel.axis = {0, 0, 1}, wheel.axial_inertia = 0.01, wheel.type = WheelType::held;
+  wheel.table.times = {0, 2}, wheel.table.values = {0, 5};
+  p.wheels = {wheel};
+  const auto warns = [&](double last) { return solved(posed(p, question_at({last}))).warns("held-table-ends"); };
+  CHECK(!warns(2));
+  CHECK(warns(2.5));
+  p.wheels[0].table.holds = true;
+  CHECK(!warns(2.5));
+  p.wheels[0].table = {{0, 1, 2}, {0, 5, 0}};
+  CHECK(!warns(2.5));
+}
+
 TEST_CASE("motions that part are told as chaotic, those that drift are not", "[general]") {
   auto p = brick();
   p.inertia = Vec3<double>(0.6, 0.5, 0.3).asDiagonal();

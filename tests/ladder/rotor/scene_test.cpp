@@ -25,6 +25,11 @@ TEST_CASE("a rotor scene checks what it is given", "[rotor]") {
     change(data);
     return make_scene(body, data).error();
   };
+  CHECK(failure([](auto& d) {
+          d.angular_velocity *= 1e-160;
+          d.rotor_rate = 0;
+        }) == Errc::ok);  // beside the motor's
+  CHECK(failure([](auto& d) { d.angular_velocity *= 1e155; }) == Errc::beyond_range);
   CHECK(failure([](auto& d) { d.times.clear(); }) == Errc::out_of_domain);
   CHECK(failure([](auto& d) { d.times = {-1, 0}; }) == Errc::negative);
   CHECK(failure([](auto& d) { d.times = {0, 0}; }) == Errc::not_increasing);

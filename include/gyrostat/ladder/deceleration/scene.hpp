@@ -36,7 +36,7 @@ class Scene {
   Scene() = default;
 
   /// not_finite, negative (control, drag), zero_vector (an attitude without length), out_of_domain (a momentum that is not that of the given
-  /// angular velocity), and what check_times finds.
+  /// angular velocity), beyond_range (moments or momentum), and what check_times finds.
   GYROSTAT_COMPILED_ONCE static Result<Scene> make(const Inertia<double>& body, const Setup& setup,
                                                    const Question& question);
 

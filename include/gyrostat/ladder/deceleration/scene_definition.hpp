@@ -49,6 +49,10 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Inertia<double>& body, co
   scene.problem_.momentum = vector_cast<double>(M);
   scene.problem_.momentum_converted = setup.angular_velocity && !body.has_exact_moments();
   if (!body.has_exact_moments()) scene.problem_.make_round();
+  const double momentum = magnitude(scene.problem_.momentum);
+  if (!can_be_squared(body.principal()[0]) || !can_be_squared(body.principal()[2]) ||
+      !(momentum * momentum < infinity<double>))
+    return Errc::beyond_range;
   return scene;
 }
 

@@ -92,7 +92,8 @@ inline constexpr WarningKind warning_kinds[] = {
     {"unstable-rotation",
      "the body stands on an unstable steady rotation: it leaves it by whatever disturbs it; growth rate, 1/s"},
     {"not-realisable",
-     "no body with this inertia can hold these wheels: the equations are solved as they stand; kg m^2"},
+     "no body with this inertia can hold these wheels: the equations are solved as they stand; least second moment "
+     "that is left for the body, kg m^2"},
 };
 
 /// Places in rung_kinds, cheapest first.

@@ -27,7 +27,7 @@ class Scene {
  public:
   Scene() = default;
 
-  /// What Reduced::of and check_times find; `unsound` tells which wheel is.
+  /// What Reduced::of and check_times find; beyond_range (moments or momentum); `unsound` tells which wheel is.
   GYROSTAT_COMPILED_ONCE static Result<Scene> make(const Assembly<double>& assembly, const Question& question,
                                                    UnsoundWheel<double>* unsound = nullptr);
 

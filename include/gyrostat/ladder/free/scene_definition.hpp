@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include "gyrostat/ladder/free/scene.hpp"
+#include "gyrostat/rotation/vector.hpp"
 
 namespace gyrostat::free {
 
@@ -13,7 +16,10 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Assembly<double>& assembl
   Scene scene;
   scene.assembly_ = assembly;
   scene.gyrostat_ = *sound;
-  scene.principal_ = PrincipalProblem<double>::of(sound->problem);
+  const auto& p = scene.principal_ = PrincipalProblem<double>::of(sound->problem);
+  const double momenta = std::max(magnitude(p.G), magnitude(p.l));
+  if (!can_be_squared(p.moments[0]) || !can_be_squared(p.moments[2]) || !(momenta * momenta < infinity<double>))
+    return Errc::beyond_range;
   scene.question_ = question;
   return scene;
 }

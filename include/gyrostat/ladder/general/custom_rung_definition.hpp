@@ -31,7 +31,7 @@ GYROSTAT_COMPILED_ONCE Track full_by_dop853(const Scene& scene, Monitor* monitor
   if (track.failure != Errc::ok) return track;
   if (detail::settles_too_fast(scene)) return refused<Track>(Errc::step_limit, too_fast_for_dop853);
   const auto row = detail::driven_row(scene);
-  const auto wanted = detail::wanted_of(scene, goal, row, detail::share_of_unjudged_torque);
+  const auto wanted = detail::wanted_of(scene, goal, row, false);
   track.states.resize(times.size());
   MotionOptions<double> options;
   options.tolerance = goal.tightest;

@@ -156,19 +156,19 @@ struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
   Scalar rest_off = 0;                       ///< to which each of their begins is known, s
   /// Status::step_limit: the body turns far faster than foreseen, and would go on through an angle that no run reaches.
   bool outgrown = false;
-  Scalar excess_beyond = 0;  ///< as FullMotionOptions::beyond says
+  Scalar excess_judged = 0;  ///< as FullMotionOptions::judge says
 };
 
 template <Real Scalar>
 struct FullMotionOptions : MotionOptions<Scalar> {
   Integrator integrator = Integrator::any;
   /// Error over tolerance of what the caller makes of the states, which are in place; nullptr: it makes nothing.
-  Scalar (*beyond)(void* caller, const FullMotionAnswer<Scalar>&) noexcept = nullptr;
+  Scalar (*judge)(void* caller, const FullMotionAnswer<Scalar>&) noexcept = nullptr;
   void* caller = nullptr;
 
   /// The greatest error over its tolerance; NaN if one is.
   Scalar excess(const FullMotionAnswer<Scalar>& answer) const noexcept {
-    return greater(MotionOptions<Scalar>::excess(answer), answer.excess_beyond);
+    return greater(MotionOptions<Scalar>::excess(answer), answer.excess_judged);
   }
 };
 
@@ -902,9 +902,9 @@ FullMotionAnswer<Scalar> full_motion_of(const Prepared<Scalar>& of, std::span<co
   return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar by, double begin, double end) noexcept {
     inside = std::max(step_tolerance, inside / by);
     auto answer = motion.run({step_tolerance, inside}, begin, end);
-    if (answer.met && options.beyond != nullptr) {
-      answer.excess_beyond = options.beyond(options.caller, answer);
-      answer.met = answer.excess_beyond <= 1;
+    if (answer.status == ode::Status::reached && options.judge != nullptr) {
+      answer.excess_judged = options.judge(options.caller, answer);
+      answer.met = answer.met && answer.excess_judged <= 1;
     }
     return answer;
   });

@@ -37,9 +37,15 @@ inline constexpr double share_of_each = 0.5;
 /// The same of the torque where its own error is not looked at: a torque may change much where they change little.
 inline constexpr double share_of_unjudged_torque = 1.0 / 64;
 
-/// What is asked of the primitives so that the columns made of them are as asked.
+/// Columns whose own errors a run knows, which may be far less than what those of the primitives would make of them: a motion whose phase is
+/// lost may keep its energy. Each is at most three numbers wide.
+inline constexpr std::size_t compared_columns[] = {column::angular_momentum_inertial, column::angular_momentum_norm,
+                                                   column::energy};
+
+/// What is asked of the primitives so that the columns made of them are as asked. judged: where a run judges the compared columns and the
+/// torque itself.
 inline FullErrors<double> wanted_of(const Scene& scene, const Goal<std::size(column_kinds)>& goal,
-                                    const FullRow<double>& row, double of_torque) noexcept {
+                                    const FullRow<double>& row, bool judged) noexcept {
   // rates are held to those of the start, if it turns
   constexpr auto rate = primitive::angular_velocity;
   const double least = scene.problem().angular_velocity.norm() > 0 ? 1e-3 : 0.1;
@@ -51,6 +57,8 @@ inline FullErrors<double> wanted_of(const Scene& scene, const Goal<std::size(col
                                  column::position};
   for (std::size_t c = 0; c < std::size(column_kinds); ++c) {
     if (!(goal.columns[c] < infinity<double>) || !scene.has_column(c)) continue;
+    if (judged && std::ranges::find(compared_columns, c) != std::end(compared_columns)) continue;
+    const double of_torque = judged ? share_of_each : share_of_unjudged_torque;
     for (std::size_t p = 0; p < primitive::count; ++p) {
       if (!has(made_of[c], p) || (p == primitive::rotor_rate && scene.wheels().count == 0)) continue;
       const double share = own[p] == c ? 1.0 : c == column::torque ? of_torque : share_of_each;

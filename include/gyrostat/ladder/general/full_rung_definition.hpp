@@ -50,25 +50,31 @@ GYROSTAT_COMPILED_ONCE Track::Compared compared_of(const Track& track, const Ful
   return {off[full_column::impulse], off[full_column::gain], off[full_column::work] + 8 * epsilon<double> * most};
 }
 
-/// Takes what a run says about its errors into the track that has its states.
-struct TorqueReader {
+/// Takes what a run says about its errors into the track that has its states, and judges it by what is asked of the columns made of them.
+struct RunReader {
   const Scene& scene;
   const FullRow<double>& row;
-  double torque;  ///< the error wanted in the torque, relative
+  const Goal<std::size(column_kinds)>& goal;
   Track& track;
-  double torque_off = nan<double>;  ///< as it was judged last, N m
 
-  void operator()(const FullMotionAnswer<double>& answer) noexcept {
-    track.rests = answer.rests, track.rest_off = answer.rest_off;
-    track.off = off_of(track, answer.error, row, scene);
-    track.compared = compared_of(track, answer.error, row, scene);
+  bool judges(std::size_t place) const noexcept {
+    return goal.columns[place] < infinity<double> && scene.has_column(place);
   }
-  /// FullMotionOptions::beyond of a TorqueReader.
-  static double excess_of_torque(void* caller, const FullMotionAnswer<double>& answer) noexcept {
-    TorqueReader& reader = *static_cast<TorqueReader*>(caller);
-    reader(answer);
-    reader.torque_off = detail::torque_off(reader.track, reader.scene);
-    return torque_error(reader.track, reader.scene, reader.torque_off) / reader.torque;
+  double excess(std::size_t place) const noexcept { return column_error(track, scene, place) / goal.columns[place]; }
+
+  /// FullMotionOptions::judge of a RunReader.
+  static double judge(void* caller, const FullMotionAnswer<double>& answer) noexcept {
+    RunReader& reader = *static_cast<RunReader*>(caller);
+    Track& track = reader.track;
+    track.rests = answer.rests, track.rest_off = answer.rest_off;
+    track.off = off_of(track, answer.error, reader.row, reader.scene);
+    track.compared = compared_of(track, answer.error, reader.row, reader.scene);
+    double most = 0;
+    for (const std::size_t place : compared_columns)
+      if (reader.judges(place)) most = greater(reader.excess(place), most);
+    if (!reader.judges(column::torque)) return most;
+    track.compared.torque = column_off(track, reader.scene, column::torque);
+    return greater(reader.excess(column::torque), most);
   }
 };
 
@@ -127,16 +133,15 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   if (track.failure != Errc::ok) return track;
   if (detail::settling_steps(scene) > double(step_budget)) return refused<Track>(Errc::step_limit, too_stiff);
   const FullRow<double> row(Prepared<double>(scene.problem(), times.back()), true);
-  const auto wanted = detail::wanted_of(scene, goal, row, detail::share_of_each);
+  const auto wanted = detail::wanted_of(scene, goal, row, true);
   track.states.resize(times.size());
+  detail::RunReader reader{scene, row, goal, track};
   FullMotionOptions<double> options;
   options.integrator = question.integrator;
   options.tolerance = goal.tightest;
   options.wanted = wanted.of;
   options.watched_by(monitor);
-  detail::TorqueReader reader{scene, row, goal.columns[column::torque], track};
-  if (reader.torque < infinity<double> && scene.has_column(column::torque))
-    options.beyond = &detail::TorqueReader::excess_of_torque, options.caller = &reader;
+  options.judge = &detail::RunReader::judge, options.caller = &reader;
   const auto answer = full_motion<double>(scene.problem(), times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status == ode::Status::event)
@@ -147,8 +152,6 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   if (answer->growth > honesty::chaotic_growth) track.warn(warning_kinds[warning::chaotic], answer->growth);
   if (scene.is_stiff() && answer->used == Integrator::radau)
     track.warn(warning_kinds[warning::stiff], scene.settling_rate());
-  reader(*answer);
-  if (answer->met || answer->excess_beyond > 0) track.compared.torque = reader.torque_off;
   if (answer->stop_off < infinity<double>) {
     track.stop_time = answer->stop;
     track.stop_error = answer->stop > 0 ? relative_to_truth(answer->stop_off / answer->stop) : 0;

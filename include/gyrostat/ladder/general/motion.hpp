@@ -147,6 +147,7 @@ enum : std::size_t {
   inside_planet,
   wide_in_orbit,
   torque_outruns,
+  held_table_ends,
   chaotic,
   with_rounding
 };
@@ -154,7 +155,8 @@ enum : std::size_t {
 
 inline constexpr WarningKind warning_kinds[] = {
     {"not-realisable",
-     "no body with this inertia can hold these wheels: the equations are solved as they stand; kg m^2"},
+     "no body with this inertia can hold these wheels: the equations are solved as they stand; least second moment "
+     "that is left for the body, kg m^2"},
     {"driven-damping", "a damping matrix has a negative symmetric part: it drives the body; its least eigenvalue is"},
     {"eddy-not-positive",
      "the matrix of the eddy currents has a negative symmetric part: they drive the body; its least eigenvalue is"},
@@ -181,6 +183,9 @@ inline constexpr WarningKind warning_kinds[] = {
      "size of the body over the radius of the orbit, which is"},
     {"torque-outruns",
      "torques that come and go bring the body to more than a thousand times the rate that it starts with; times"},
+    {"held-table-ends",
+     "the table of the rate at which a wheel is held ends before the last time: the wheel stands still after it, and "
+     "the body takes up its momentum at once; first so long after the start, s"},
     {"chaotic",
      "motions that start closer than any data part far faster than in proportion to the time: the motion is chaotic, "
      "or "

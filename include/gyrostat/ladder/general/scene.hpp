@@ -57,7 +57,7 @@ class Scene {
  public:
   Scene() = default;
 
-  /// What check_times() and check() find. recognised: look for families.
+  /// What check_times() and check() find; beyond_range (moments, or the rate that the body could come to). recognised: look for families.
   GYROSTAT_COMPILED_ONCE static Result<Scene> make(const Problem<double>& problem, const Question& question,
                                                    bool recognised = true);
 

@@ -97,7 +97,10 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Problem<double>& problem,
   const Prepared<double> prepared(scene.problem_, question.times.back());
   scene.wheels_ = prepared.wheels;
   scene.sizes_ = prepared.sizes;
-  if (!(scene.sizes_.turning < infinity<double>)) return Errc::not_finite;  // a product of finite numbers, too
+  const auto& sizes = scene.sizes_;
+  if (!(sizes.turning < infinity<double>) || !(sizes.angle < infinity<double>) || !can_be_squared(sizes.least) ||
+      !can_be_squared(sizes.greatest))
+    return Errc::beyond_range;
   scene.large_ = prepared.is_large();
   scene.stiff_ = prepared.is_stiff();
   scene.settling_rate_ = prepared.settling.fastest();

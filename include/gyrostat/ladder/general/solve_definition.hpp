@@ -49,6 +49,17 @@ inline double outrun(const Scene& scene, const Track& track) noexcept {
   return most / first;
 }
 
+/// The first time at which a held wheel falls to rest because the table of its rate ends, s from the start; infinity: there is none.
+inline double held_end(const Scene& scene) noexcept {
+  double first = infinity<double>;
+  for (const auto& wheel : scene.problem().wheels) {
+    const auto& table = wheel.table;
+    if (wheel.type != WheelType::held || table.holds || table.times.empty() || table.values.back() == 0) continue;
+    first = std::min(first, table.times.back());
+  }
+  return first < scene.question().times.back() ? first : infinity<double>;
+}
+
 /// What is odd about orbit and torques, or was dropped on the way to a family.
 template <class Warn>
 void warn_of_scene(const Answer& answer, const Scene& scene, const Track& track, const Warn& warn) {
@@ -68,6 +79,7 @@ void warn_of_scene(const Answer& answer, const Scene& scene, const Track& track,
     if (height < 0.01 * problem.orbit->surface) warn(warning::inside_planet, height);
   }
   if (const double times = outrun(scene, track); times > 1e3) warn(warning::torque_outruns, times);
+  if (const double end = held_end(scene); end >= 0 && end < infinity<double>) warn(warning::held_table_ends, end);
   if (!track.rests.empty()) warn(warning::rest, track.rests.front()[0]);
   const int rung = place_of(tables.rungs, answer.model);
   const Special by = rung < 0 ? Special::none : special_rungs[std::size_t(rung)].special;

@@ -53,9 +53,9 @@ GYROSTAT_COMPILED_ONCE Quat<double> orbit_axes(const Orbit<double>& orbit, doubl
 /// Whether a rung that gives these primitives, norm and energy apart, gives the column.
 GYROSTAT_COMPILED_ONCE bool known(const Track& track, std::size_t place) noexcept;
 
-/// The error of the torque that those of the primitives make: absolute, and relative to its size, as its column has it.
-GYROSTAT_COMPILED_ONCE double torque_off(const Track& track, const Scene& scene) noexcept;
-GYROSTAT_COMPILED_ONCE double torque_error(const Track& track, const Scene& scene, double off) noexcept;
+/// The error of a column of which Track::Compared knows: absolute, and relative to its size, as the answer has it.
+GYROSTAT_COMPILED_ONCE double column_off(const Track& track, const Scene& scene, std::size_t place) noexcept;
+GYROSTAT_COMPILED_ONCE double column_error(const Track& track, const Scene& scene, std::size_t place) noexcept;
 
 }  // namespace detail
 

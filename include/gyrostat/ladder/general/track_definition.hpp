@@ -240,15 +240,19 @@ class Writer {
   const Track& track_;
 };
 
-GYROSTAT_COMPILED_ONCE double torque_off(const Track& track, const Scene& scene) noexcept {
-  return Writer(scene, track).torque_off();
+GYROSTAT_COMPILED_ONCE double column_off(const Track& track, const Scene& scene, std::size_t place) noexcept {
+  return Writer(scene, track).off(place);
 }
 
-GYROSTAT_COMPILED_ONCE double torque_error(const Track& track, const Scene& scene, double off) noexcept {
-  double size = scene.scales()[column::torque];
-  for (std::size_t i = 0; i < track.states.size(); ++i)
-    size = std::max(size, scene.torque(scene.question().times[i], seen_of(track.states[i])).norm());
-  return relative_to_truth(over(off, size));
+GYROSTAT_COMPILED_ONCE double column_error(const Track& track, const Scene& scene, std::size_t place) noexcept {
+  const Writer write(scene, track);
+  double size = scene.scales()[place];
+  for (std::size_t i = 0; i < track.states.size(); ++i) {
+    Vec3<double> row(0, 0, 0);
+    write(place, i, scene.question().times[i], row.data());
+    size = std::max(size, row.norm());
+  }
+  return relative_to_truth(over(write.off(place), size));
 }
 
 }  // namespace detail

@@ -64,8 +64,10 @@ GYROSTAT_COMPILED_ONCE Track series_2_track(const Scene& scene, Monitor*) {
   if (!nutating)
     return refused<Track>(
         Errc::not_applicable,
-        "the start is not that of the periodic motion, and there is no formula for its free nutation: axis 3 is "
-        "that of the intermediate moment, of one equal to it, or does not spin");
+        nutating.error() == Errc::out_of_domain
+            ? detail::no_series(nutating.error())
+            : "the start is not that of the periodic motion, and there is no formula for its free nutation: axis 3 is "
+              "that of the intermediate moment, of one equal to it, or across a lamina");
   return detail::series_track(scene, *nutating, error, rung::series_2);
 }
 

@@ -26,7 +26,7 @@ class Scene {
  public:
   Scene() = default;
 
-  /// not_finite; zero_vector (an attitude without length); and what check_times finds.
+  /// not_finite; zero_vector (an attitude without length); beyond_range (moments, momentum or rates); and what check_times finds.
   GYROSTAT_COMPILED_ONCE static Result<Scene> make(const Gyrostat<double>& gyrostat, const Start& start,
                                                    const Question& question);
 

@@ -114,8 +114,9 @@ class Gyrostat {
     const Vec3<Wide> carrier = matrix_cast<Wide>(inertia_) * turn;
     const Wide spin = Wide(axial_inertia()) * Wide(omega);
     Vec3<Scalar> H = vector_cast<Scalar>(Vec3<Wide>(carrier + spin * e));
-    const Scalar lost = 8 * epsilon<Scalar> * (vector_cast<Scalar>(carrier).norm() + axial_inertia() * std::abs(omega));
-    if (H.norm() <= lost) H.setZero();
+    const Scalar lost =
+        8 * epsilon<Scalar> * (magnitude(vector_cast<Scalar>(carrier)) + axial_inertia() * std::abs(omega));
+    if (magnitude(H) <= lost) H.setZero();
     return {attitude, H, static_cast<Scalar>(spin + Wide(axial_inertia()) * e.dot(turn)), 0};
   }
 
