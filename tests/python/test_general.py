@@ -676,7 +676,8 @@ def test_the_period_of_an_eccentric_orbit() -> None:
 
 def test_a_key_without_its_table_that_wheels_have_too() -> None:
     wheel = {"axis": [0, 0, 1], "axial_inertia": 0.01, "rate": 3.0}
-    scene = {"name": "a wheel", "kind": "general", "body": {"inertia": [3, 4, 5]}, "wheel": [wheel], "solve": {"times": [1.0]}}
+    scene: dict[str, Any] = {"name": "a wheel", "kind": "general", "body": {"inertia": [3, 4, 5]}, "wheel": [wheel]}
+    scene |= {"initial": {"angular_velocity": [0, 0, 0]}, "solve": {"times": [1.0]}}
     with pytest.raises(gyrostat.SceneError, match=r"write wheel\[0\].rate or orbit.rate"):
         gyrostat.solve(scene, rate=4.0)
     assert gyrostat.solve(scene, times=[2.0]).times[-1] == 2.0
