@@ -73,6 +73,18 @@ TEST_CASE("the first guess of the step tolerance falls with the angle turned thr
   CHECK(first_step_tolerance(1e-30, 0.0, 1e-8) == finest_step_tolerance<double>);
 }
 
+TEST_CASE("the phase of a body without weight errs with the square of the angle", "[ladder]") {
+  const auto plain = [](double tolerance, double phase) { return first_step_tolerance(tolerance, phase, 1e-9); };
+  const auto made = [](double tolerance, double phase) {
+    return first_step_tolerance_of_phase(tolerance, phase, 1e-9);
+  };
+  CHECK(made(1e-3, 300) == 1e-9);
+  CHECK(made(1e-6, 3e3) == Approx(1e-6 * honesty::first_share / (8 + honesty::first_drift * 9e6)));
+  CHECK(made(1e-9, 1e4) == honesty::drifting_least);
+  CHECK(made(1e-12, 1e3) == plain(1e-12, 1e3));
+  CHECK(made(1e-12, 1e9) == plain(1e-12, 1e9));
+}
+
 TEST_CASE("a run of so many steps that another would take seconds is not tried again") {
   std::atomic<double> progress{0};
   int runs = 0;

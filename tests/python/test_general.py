@@ -674,6 +674,11 @@ def test_the_period_of_an_eccentric_orbit() -> None:
             np.testing.assert_allclose(one, later, rtol=1e-12, atol=1e-13)
 
 
+def test_rates_far_below_what_the_momenta_let_foresee_are_met() -> None:
+    answer = gyrostat.solve("momentum-dump", tolerance=1e-7)
+    assert answer.met and answer.error["angular_velocity"] <= 1e-7
+
+
 def test_a_key_without_its_table_that_wheels_have_too() -> None:
     wheel = {"axis": [0, 0, 1], "axial_inertia": 0.01, "rate": 3.0}
     scene: dict[str, Any] = {"name": "a wheel", "kind": "general", "body": {"inertia": [3, 4, 5]}, "wheel": [wheel]}

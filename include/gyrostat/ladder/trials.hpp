@@ -74,6 +74,15 @@ Scalar first_step_tolerance(Scalar tolerance, Scalar phase, Scalar loosest) noex
   return std::max(finest_step_tolerance<Scalar>, std::min(share, loosest));
 }
 
+/// The same of a body without weight, whose phase errs with the square of the angle.
+template <Real Scalar>
+Scalar first_step_tolerance_of_phase(Scalar tolerance, Scalar phase, Scalar loosest) noexcept {
+  const Scalar of_rates = first_step_tolerance(tolerance, phase, loosest);
+  const Scalar drift = Scalar(honesty::first_drift) * phase * phase;
+  const Scalar of_phase = tolerance * Scalar(honesty::first_share) / (Scalar(honesty::first_base) + drift);
+  return std::min(of_rates, std::max(of_phase, Scalar(honesty::drifting_least)));
+}
+
 /// The same of a spinner (honesty::spinning_share): looser where two companions judge it all the same.
 template <Real Scalar>
 Scalar first_step_tolerance_of_spinner(Scalar tolerance, Scalar phase) noexcept {

@@ -68,7 +68,7 @@ inline double cost_of_form(const Scene& scene, SetUp how) noexcept {
 inline double cost_of_states(const Scene& scene) noexcept {
   const auto& times = scene.question().times;
   const double phase = turned_angle(scene);
-  const double tolerance = first_step_tolerance(scene.goal().tightest, phase, honesty::loosest_step);
+  const double tolerance = first_step_tolerance_of_phase(scene.goal().tightest, phase, honesty::loosest_step);
   return series_cost(phase, tolerance, times.size());
 }
 

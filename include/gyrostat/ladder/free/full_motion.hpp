@@ -265,7 +265,8 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
 
   const detail::FullMotion<Scalar> motion(problem, times, states, options);
   if (!(motion.turning() < infinity<Scalar>)) return Errc::not_finite;
-  const Scalar first = first_step_tolerance<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_step));
+  const Scalar first =
+      first_step_tolerance_of_phase<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_step));
   return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar, double begin, double end) noexcept {
     return motion.run(step_tolerance, begin, end);
   });

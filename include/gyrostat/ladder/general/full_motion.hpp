@@ -897,7 +897,12 @@ FullMotionAnswer<Scalar> full_motion_of(const Prepared<Scalar>& of, std::span<co
                                         const FullMotionOptions<Scalar>& options) noexcept {
   const FullMotion<Method> motion(of.problem, times, states, options);
   const Scalar phase = of.sizes.turning * times.back();
-  const Scalar first = first_step_tolerance<Scalar>(options.tolerance, phase, Scalar(honesty::loosest_step));
+  // energy, momentum in space and path hardly know the phase
+  const auto of_phase = options.wanted.first(std::min(options.wanted.size(), std::size_t{full_column::velocity}));
+  const bool turns = std::ranges::any_of(of_phase, [](double off) { return off < infinity<double>; });
+  const auto guess =
+      turns || options.wanted.empty() ? first_step_tolerance_of_phase<Scalar> : first_step_tolerance<Scalar>;
+  const Scalar first = guess(options.tolerance, phase, Scalar(honesty::loosest_step));
   Scalar inside = options.tolerance / 512;
   return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar by, double begin, double end) noexcept {
     inside = std::max(step_tolerance, inside / by);

@@ -49,8 +49,9 @@ inline FullErrors<double> wanted_of(const Scene& scene, const Goal<std::size(col
   // rates are held to those of the start, if it turns
   constexpr auto rate = primitive::angular_velocity;
   const double least = scene.problem().angular_velocity.norm() > 0 ? 1e-3 : 0.1;
-  const double finer =
-      row.scale[rate] > 0 ? std::clamp(scene.scales()[column::angular_velocity] / row.scale[rate], least, 1.0) : 1.0;
+  const double finer = !judged && row.scale[rate] > 0
+                           ? std::clamp(scene.scales()[column::angular_velocity] / row.scale[rate], least, 1.0)
+                           : 1.0;
   auto wanted = FullErrors<double>::all(infinity<double>);
   constexpr std::size_t own[] = {column::attitude,   column::angular_velocity, column::angular_momentum,
                                  column::rotor_rate, column::rotor_angle,      column::velocity,
@@ -84,6 +85,8 @@ GYROSTAT_COMPILED_ONCE void balance(Track& track, const Scene& scene, double ste
 
 /// Of wheels and torques that need no states of their own; and of the others, and of a path that forces bend.
 inline constexpr SeriesCost small_series_cost{26e-6, 2e-6, 0.7e-6, 0.7}, large_series_cost{26e-6, 2.9e-6, 0.75e-6, 0.7};
+/// A step with a torque that a field exerts costs so many times what one without does more, with a dipole's so many more, and on an orbit that is no circle.
+inline constexpr double of_field = 1, of_dipole = 1, of_ellipse = 2;
 /// Of wheels that settle fast, by Radau: some forty short steps until they follow, then those that the body asks for.
 inline constexpr SeriesCost stiff_cost{800e-6, 20e-6, 3e-6, 1};
 

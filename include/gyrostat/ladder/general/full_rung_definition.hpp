@@ -69,7 +69,8 @@ struct RunReader {
     track.rests = answer.rests, track.rest_off = answer.rest_off;
     track.off = off_of(track, answer.error, reader.row, reader.scene);
     track.compared = compared_of(track, answer.error, reader.row, reader.scene);
-    double most = 0;
+    // the sizes of rates are foreseen from the momenta, which may be far more than what they come to
+    double most = reader.judges(column::angular_velocity) ? reader.excess(column::angular_velocity) : 0;
     for (const std::size_t place : compared_columns)
       if (reader.judges(place)) most = greater(reader.excess(place), most);
     if (!reader.judges(column::torque)) return most;
@@ -102,12 +103,29 @@ inline double settling_steps(const Scene& scene) noexcept {
 
 }  // namespace detail
 
+namespace detail {
+
+/// How many times the cost of a step without them fields make a step cost.
+inline double cost_of_fields(const Problem<double>& problem) noexcept {
+  const auto acts = [&](TorqueType type) {
+    return std::ranges::any_of(problem.torques, [type](const auto& torque) { return torque.type == type; });
+  };
+  const bool magnetic = acts(TorqueType::magnetic) || acts(TorqueType::eddy_current);
+  const bool dipole = magnetic && problem.field.magnetic == MagneticField::dipole;
+  const bool gradient = problem.orbit && acts(TorqueType::gravity_gradient);
+  const bool ellipse = (dipole || gradient) && problem.orbit->eccentricity > 0;
+  return 1 + (magnetic || gradient ? of_field : 0) + (dipole ? of_dipole : 0) + (ellipse ? of_ellipse : 0);
+}
+
+}  // namespace detail
+
 GYROSTAT_COMPILED_ONCE double cost_of_full(const Scene& scene) noexcept {
   const auto& times = scene.question().times;
   const double phase = scene.sizes().angle + scene.sizes().forcing * times.back();
-  const double tolerance = first_step_tolerance(scene.goal().tightest, phase, honesty::loosest_step);
+  const double tolerance = first_step_tolerance_of_phase(scene.goal().tightest, phase, honesty::loosest_step);
   const bool collocated = detail::is_collocated(scene);
-  const auto& cost = collocated ? stiff_cost : scene.is_large() ? large_series_cost : small_series_cost;
+  SeriesCost cost = collocated ? stiff_cost : scene.is_large() ? large_series_cost : small_series_cost;
+  if (!collocated) cost.step *= detail::cost_of_fields(scene.problem());
   const double again = collocated ? 10 : 2;  // steps that a breakpoint costs
   return cost(phase + detail::settling_steps(scene), tolerance, times.size()) +
          double(scene.breaks()) * again * cost.step;

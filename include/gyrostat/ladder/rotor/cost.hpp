@@ -24,7 +24,7 @@ inline double cost_of_linear_tail(const Scene& scene) noexcept {
 inline double cost_of_full(const Scene& scene) noexcept {
   const auto& times = scene.question().times;
   const double phase = turning_rate(scene.gyrostat(), scene.start()) * times.back();
-  const double tolerance = first_step_tolerance(scene.goal().tightest, phase, honesty::loosest_step);
+  const double tolerance = first_step_tolerance_of_phase(scene.goal().tightest, phase, honesty::loosest_step);
   return series_cost(phase, tolerance, times.size());
 }
 

@@ -75,7 +75,7 @@ class FullLanes {
     return turning_rate(*task.gyrostat, task.start) * task.times.back();
   }
   static double first_tolerance(const LaneTask& task) noexcept {
-    return first_step_tolerance(task.options.tolerance, phase_of(task), honesty::loosest_step);
+    return first_step_tolerance_of_phase(task.options.tolerance, phase_of(task), honesty::loosest_step);
   }
 
   /// The next task, in lane b.

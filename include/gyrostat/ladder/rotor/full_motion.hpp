@@ -339,7 +339,8 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Gyrostat<Scalar>& gyrostat, c
   State<Scalar> from = start;
   from.attitude = as_unit(start.attitude);
   const detail::FullMotion<Scalar> motion(gyrostat, from, times, states, options);
-  const Scalar first = first_step_tolerance<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_step));
+  const Scalar first =
+      first_step_tolerance_of_phase<Scalar>(options.tolerance, motion.phase(), Scalar(honesty::loosest_step));
   Scalar inside = options.tolerance / 512;
   return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar by, double begin, double end) noexcept {
     inside = std::max(step_tolerance, inside / by);
