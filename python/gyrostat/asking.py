@@ -40,7 +40,9 @@ def _known(facts: Facts, name: Any) -> Quantity:
         raise AskError(f'"{name}" stands beside names', f'write "{name}" alone, or names alone')
     if found is None:
         near = [each for each in _CALLED.get(str(name), ()) if each in facts.quantities] or difflib.get_close_matches(str(name), facts.quantities, 1, 0.6)
-        raise AskError(f"there is no column or scalar {name}",
+        elsewhere = [kind for kind, each in FACTS.items() if name in each.quantities]
+        of_others = f" in scenes of the kind {facts.name}; those of the kind {' or '.join(elsewhere)} have it" if elsewhere else ""
+        raise AskError(f"there is no column or scalar {name}{of_others}",
                        f"did you mean {near[0]}?" if near else f"use {', '.join(facts.quantities)}, or \"all\"")
     return found
 

@@ -160,12 +160,12 @@ def _arguments() -> argparse.ArgumentParser:
     design = command("design", _design, "find the spin, torque or burn of a thrusting spinner that keeps within a budget")
     takes_scene(design)
     goal = design.add_mutually_exclusive_group(required=True)
-    for name, unit, text in (
-            ("spin-for-pointing", "RAD", "least stable spin rate for a lean of axis 3 under the torque"),
-            ("torque-for-direction", "RAD", "greatest transverse torque for the direction of the velocity, from axis 3"),
-            ("burn-for-displacement", "M", "longest burn for a displacement across axis 3"),
-            ("burn-for-velocity", "M/S", "longest burn for a change of velocity")):
-        goal.add_argument(f"--{name}", type=partial(_amount, unit.lower()), metavar=unit, help=f"{text}; in this unit, or with another: '1 deg'")
+    for name, unit, text, other in (
+            ("spin-for-pointing", "RAD", "least stable spin rate for a lean of axis 3 under the torque", "1 deg"),
+            ("torque-for-direction", "RAD", "greatest transverse torque for the direction of the velocity, from axis 3", "1 deg"),
+            ("burn-for-displacement", "M", "longest burn for a displacement across axis 3", "20 cm"),
+            ("burn-for-velocity", "M/S", "longest burn for a change of velocity", "9 km/h")):
+        goal.add_argument(f"--{name}", type=partial(_amount, unit.lower()), metavar=unit, help=f"{text}; in this unit, or with another: '{other}'")
     design.add_argument("--json", action="store_const", const="json", dest="form", help="print one JSON object")
     design.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the scene with the value in it, as TOML")
 
@@ -439,9 +439,9 @@ def _design(arguments: argparse.Namespace) -> int:
             say(f"warning, {warning}", sys.stdout)
         verdict = "confirmed" if made.confirmed else "NOT confirmed"
         rows = [[words.measure, words.budget_unit, short(budget), short(made.found), f"{(made.found - budget) / budget:+.2g}", verdict]]
-        show_table(f"The scene with it, by the full motion over {short(made.span, 6)} s", ["", "unit", "asked", "found", "off by", ""], rows, sys.stdout)
+        show_table(f"The scene with it, by the full motion over {short(made.span, 6)} s", ["", "unit", "asked", "found", "off by, share", ""], rows, sys.stdout)
         met = "met" if made.met else "NOT met"
-        say(f"answered by {made.model}: estimated error {small(made.error)}, tolerance {made.tolerance:g} {met}", sys.stdout)
+        say(f"The scene as it now stands: answered by {made.model}, estimated error {small(made.error)}, tolerance {made.tolerance:g} {met}", sys.stdout)
         say(f"wrote {arguments.output}" if arguments.output is not None else f"\n{text}", sys.stdout)
     return MET if made.confirmed and made.met else NOT_MET
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 from gyrostat.console import Progress, check_output, say, show_table
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene
-from gyrostat.sweep_files import open_results, save, writer_of
+from gyrostat.sweep_files import import_xarray, open_results, save, writer_of
 from gyrostat.sweep_report import save_figures, shares, tables
 from gyrostat.sweeps import Study, answered, merge
 
@@ -104,6 +104,7 @@ def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
     if parts.exists() and not arguments.resume and not (parts.is_dir() and not any(parts.iterdir())):
         raise DomainError(f"{parts}: here is what an earlier run has left: go on from it with --resume, or remove it")
     study = Study.of(scene, _varied(arguments.vary), n=arguments.n, cases=arguments.cases, seed=arguments.seed, design=arguments.design)
+    import_xarray()  # which takes seconds the first time: no part of the work
     began = time.monotonic()
     with Progress(scene.name) as progress:
 

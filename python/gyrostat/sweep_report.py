@@ -85,6 +85,16 @@ def responses(dataset: "xarray.Dataset") -> list[Response]:
     return found
 
 
+def endless(dataset: "xarray.Dataset") -> list[Response]:
+    """The scalars that are infinite in every row that has a value, as the time of a stop that never comes."""
+    found = []
+    for name, variable in _quantities(dataset, False):
+        values = variable.values[~np.isnan(variable.values)]
+        if variable.ndim == 1 and len(values) and np.all(values == np.inf):
+            found.append(Response(name, variable.attrs.get("units", ""), variable.values, None))
+    return found
+
+
 def _ranks(values: Floats) -> Floats:
     """Ranks from 0; of equal values the mean of theirs."""
     _, inverse, counts = np.unique(values, return_inverse=True, return_counts=True)
@@ -239,6 +249,7 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
         numbers = [short(float(value), 5) for value in np.percentile(each.values[known], PERCENTILES)]
         errors = np.empty(0) if each.error is None else each.error[known.reshape(len(known), -1).any(axis=1) & ~np.isnan(each.error)]
         rows.append([each.label, each.unit, _percent(float(known.mean())), *numbers, small(float(np.max(errors))) if len(errors) else "-"])
+    rows += [[each.label, each.unit, _percent(0), *["inf"] * len(PERCENTILES), "-"] for each in endless(dataset)]
     yield "Percentiles", ["", "unit", "finite", *(f"{p} %" for p in PERCENTILES), "greatest error"], rows
     keys = list(parameters(dataset))
     rows = [[each.label, *(f"{value:+.3f}" if math.isfinite(value) else "-" for value in rank_correlations(dataset, each).values())]

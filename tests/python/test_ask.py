@@ -121,3 +121,8 @@ def test_what_is_asked_twice_on_the_command_line_is_refused() -> None:
     ("all", "all"), ("stop_time", ["stop_time"]), ("attitude=0.1deg, stop_time", {"attitude": "0.1deg", "stop_time": ""})])
 def test_the_command_line_reads_what_is_asked(text: str, ask: Any) -> None:
     assert parse_ask(text) == ask
+
+
+def test_what_only_scenes_of_another_kind_have() -> None:
+    with pytest.raises(SceneError, match="tilt_max in scenes of the kind general; those of the kind spinning have it"):
+        gyrostat.solve("iss-drift", ask="tilt_max")

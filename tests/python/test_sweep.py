@@ -609,6 +609,12 @@ def test_a_number_that_does_nothing_explains_nothing(idle: Varied) -> None:
     assert np.median(shares) < 0.01 and np.mean(shares) < 0.02
 
 
+def test_a_report_tells_of_stops_that_never_come() -> None:
+    found = sweep("tiangong-1", {"torque.drag": uniform(1e-5, 2e-5)}, n=5, ask="stop_time", **{"torque.control": [0.0, 0.0, 0.0]})
+    titles = {title.split(",")[0]: rows for title, _, rows in tables(found)}
+    assert titles["Percentiles"] == [["stop_time", "s", "0 %", *["inf"] * 7, "-"]]
+
+
 def test_of_general_scenes_a_report_shows_the_columns_where_no_scalar_has_a_value() -> None:
     found = sweep("momentum-dump", {"body.inertia[0]": uniform(850.0, 950.0)}, n=3)
     assert "angular_velocity_x" in [each.label for each in responses(found)]

@@ -55,7 +55,7 @@ inline constexpr double clearly_cheaper = 0.5;
 inline constexpr const char* costs_more = "an answer of it is predicted to cost more";
 
 inline constexpr WarningKind no_value{
-    "no-value", "this rung does not give all that is asked for: what it lacks is left without a value"};
+    "no-value", "the motion does not have all that is asked for, or this rung does not give it: that is left without a value"};
 
 namespace detail {
 
