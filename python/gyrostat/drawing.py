@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from gyrostat.answer import Answer
 
 __all__ = ["COLOURS", "MOMENT_NAMES", "Drawing", "Panel", "changes", "check_ending", "components", "curve", "error_text", "finish", "goes_on", "is_coarse", "laid_out",
-           "legend_beside", "legend_row", "map_frame", "map_legend", "mark_stop", "new_figure", "note", "on_map", "principal_axes", "save", "span_text", "split",
+           "legend_beside", "legend_row", "map_frame", "map_legend", "map_reach", "mark_stop", "new_figure", "note", "on_map", "principal_axes", "save", "span_text", "split",
            "stacked", "time_unit", "vector", "wheels_panel"]
 
 COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31")
@@ -246,8 +246,14 @@ def on_map(values: NDArray[Any], centre: NDArray[Any]) -> NDArray[Any]:
     return made
 
 
-def map_frame(axes: "Axes", title: str, reach: float = 180.0) -> None:
-    """The circles of a map that shows directions as far as `reach` [deg] from its centre: of the whole sphere the rim and the equator."""
+def map_reach(points: NDArray[np.float64]) -> float:
+    """How far the farthest of points (n, 2) on a map lies from its centre, and a little more [deg]."""
+    return math.degrees(2 * math.asin(min(1.0, 1.05 * float(np.max(np.linalg.norm(points, axis=1))) / 2)))
+
+
+def map_frame(axes: "Axes", title: str, reach: float = 180.0) -> float:
+    """The circles of a map that shows directions as far as `reach` [deg] from its centre: of the whole sphere the rim and the equator. The radius of
+    the outermost."""
     step = next((step for step in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0) if reach <= 4 * step), 0.0)
     angles = [step * (i + 1) for i in range(max(1, math.ceil(reach / step - 1e-9)))] if step else [90.0, 180.0]
     turn = np.linspace(0, 2 * math.pi, 361)
@@ -261,6 +267,7 @@ def map_frame(axes: "Axes", title: str, reach: float = 180.0) -> None:
     axes.set_aspect("equal")
     axes.set_axis_off()
     axes.set_title(title, fontsize=10)
+    return 2 * math.sin(math.radians(min(angles[-1], 180.0)) / 2)
 
 
 def map_legend(axes: "Axes") -> None:

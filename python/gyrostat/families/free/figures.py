@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.drawing import (
-    COLOURS, MOMENT_NAMES, Panel, components, error_text, laid_out, map_frame, map_legend, note, on_map, principal_axes, vector, wheels_panel)
+    COLOURS, MOMENT_NAMES, Panel, components, error_text, laid_out, map_frame, map_legend, map_reach, note, on_map, principal_axes, vector, wheels_panel)
 from gyrostat.errors import DomainError
 from gyrostat.families.free.functions import flips, permanent_rotations, reduced
 from gyrostat.rotation import matrix_from_quaternion
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 __all__ = ["figure", "remarks", "sphere"]
 
 Vectors = NDArray[np.float64]
+
+NEAR = 30.0  # deg: a path that goes no farther from the middle of its map is shown on one as large as itself
 
 
 def figure(answer: "Answer", given: Mapping[str, Any]) -> "Figure":
@@ -46,8 +48,9 @@ def remarks(answer: "Answer", _: Mapping[str, Any]) -> list[str]:
     return [str(kind)] + ([f"period {period:.4g} s"] if period is not None and math.isfinite(period) else [])
 
 
-def sphere(body: Mapping[str, Any]) -> Any:
-    """The map of M in the body, with the permanent rotations and the separatrix, of a `body` as `solve` takes it."""
+def sphere(body: Mapping[str, Any], all_unstable: bool = False) -> Any:
+    """The map of M in the body, with the permanent rotations and the separatrix, of a `body` as `solve` takes it: of a path that stays near its middle
+    only what is there, unless `all_unstable` rotations are wanted and there are some."""
 
     def draw(axes: "Axes", answer: "Answer") -> None:
         M = answer["angular_momentum"]
@@ -56,44 +59,50 @@ def sphere(body: Mapping[str, Any]) -> Any:
         _, principal = principal_axes(body["inertia"])
         centre = principal[:, int(np.argmax(np.abs(principal.T @ n.mean(0))))]
         centre = centre * (1 if centre @ n.mean(0) >= 0 else -1)
-        map_frame(axes, "Momentum sphere in the body, equal area")
         try:
             found = permanent_rotations(**body)
         except DomainError:
             found = None
+        points = on_map(n, centre)
+        reach = map_reach(points)
+        near = reach < NEAR and not (all_unstable and found is not None and not np.all(found.stable))
+        edge = map_frame(axes, "Momentum in the body, near its axis" if near else "Momentum sphere in the body, equal area", reach if near else 180.0)
+        half = 1.03 * edge  # the contours of the separatrix cut the rim
         if found is not None:
-            _separatrix(axes, body, found, R, centre)
+            _separatrix(axes, body, found, R, centre, min(edge, 2.0))
             for stable, marker, colour, name in ((True, "o", COLOURS[2], "stable rotation"), (False, "X", COLOURS[4], "unstable")):
                 at = found.angular_momentum[found.stable == stable] / R
-                if len(at):
-                    points = on_map(at, centre)
-                    axes.plot(points[:, 0], points[:, 1], marker, color=colour, markersize=6, label=name, linestyle="none")
-        points = on_map(n, centre)
+                where = on_map(at, centre) if len(at) else np.empty((0, 2))
+                where = where[np.linalg.norm(where, axis=1) < half]
+                if len(where):
+                    axes.plot(where[:, 0], where[:, 1], marker, color=colour, markersize=6, label=name, linestyle="none")
         axes.plot(points[:, 0], points[:, 1], ".", color=COLOURS[0], markersize=2, label="M")
         axes.plot(*points[0], "o", color=COLOURS[0], markersize=5, label="start")
-        _body_axes(axes, centre)
-        axes.set(xlim=(-2.06, 2.06), ylim=(-2.06, 2.06))  # the contours of the separatrix cut the rim
+        _body_axes(axes, centre, half)
+        axes.set(xlim=(-half, half), ylim=(-half, half))
         map_legend(axes)
 
     return draw
 
 
-def _body_axes(axes: "Axes", centre: Vectors) -> None:
+def _body_axes(axes: "Axes", centre: Vectors, half: float) -> None:
     """Crosses where the body's own axes are, but for what lies on the rim, opposite the centre."""
     for sign, before in ((1.0, "+"), (-1.0, "\u2212")):
         for axis, name in zip(sign * np.eye(3), "xyz", strict=True):
             if axis @ centre > -0.99:
                 (at,) = on_map(axis[None, :], centre)
+                if np.linalg.norm(at) >= half:
+                    continue
                 axes.plot(*at, "+", color="#000000", markersize=6, label="_")
                 axes.annotate(f"{before}{name}", at, xytext=(4, 4), textcoords="offset points", fontsize=8)
 
 
-def _separatrix(axes: "Axes", body: Mapping[str, Any], found: Any, R: float, centre: Vectors) -> None:
+def _separatrix(axes: "Axes", body: Mapping[str, Any], found: Any, R: float, centre: Vectors, edge: float) -> None:
     """The level of the energy through each unstable rotation."""
-    side = np.linspace(-2, 2, 401)
+    side = np.linspace(-edge, edge, 401)
     x, y = np.meshgrid(side, side)
     r2 = x**2 + y**2
-    inside = r2 <= 4
+    inside = r2 <= edge**2
     up = np.eye(3)[int(np.argmin(np.abs(centre)))]
     right = np.cross(up, centre)
     right /= np.linalg.norm(right)
@@ -104,7 +113,7 @@ def _separatrix(axes: "Axes", body: Mapping[str, Any], found: Any, R: float, cen
     energy = 0.5 * np.einsum("...i,ij,...j", G, np.linalg.inv(inertia), G)
     energy[~inside] = np.nan
     levels = sorted({float(e) for e in found.energy[~found.stable]})
-    if levels:
+    if any(np.nanmin(energy) < level < np.nanmax(energy) for level in levels):
         axes.contour(x, y, energy, levels=levels, colors=COLOURS[1], linewidths=0.8)
         axes.plot([], [], color=COLOURS[1], linewidth=0.8, label="separatrix")
 
@@ -120,8 +129,9 @@ def _space(body: Mapping[str, Any]) -> Any:
         pole = pole / np.linalg.norm(pole)
         if np.mean(rotated @ pole) < 0:
             rotated = -rotated
-        map_frame(axes, "Path of a body axis in space, the momentum in the middle")
         points = on_map(rotated, pole)
+        reach = map_reach(points)
+        map_frame(axes, "Path of a body axis in space, the momentum in the middle", reach if reach < NEAR else 180.0)
         axes.plot(points[:, 0], points[:, 1], ".", color=COLOURS[3], markersize=2,
                   label=f"axis of the {MOMENT_NAMES[which]} moment")
         axes.plot(*points[0], "o", color=COLOURS[3], markersize=5, label="start")

@@ -80,6 +80,6 @@ def plot(scene: Scene, report: Mapping[str, Any]) -> "Figure":
     end = period if period is not None and math.isfinite(period) else float(given["times"][-1])
     answer = solve(**{**given, "times": np.linspace(0.0, end, 721), "model": "closed-form", "tolerance": 1e-3, "ask": None})
     figure = new_figure(8.5, 6.5)
-    sphere(_body(given))(figure.add_subplot(), answer)
+    sphere(_body(given), all_unstable=True)(figure.add_subplot(), answer)
     figure.suptitle(f"Rotations that last: {scene.name}", fontsize=13)
     return figure

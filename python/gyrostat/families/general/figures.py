@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.drawing import (
-    COLOURS, MOMENT_NAMES, Panel, changes, components, curve, error_text, laid_out, legend_row, map_frame, map_legend, note, on_map,
+    COLOURS, MOMENT_NAMES, Panel, changes, components, curve, error_text, laid_out, legend_row, map_frame, map_legend, map_reach, note, on_map,
     principal_axes, span_text, vector, wheels_panel)
 from gyrostat.fields import UNSET
 from gyrostat.rotation import matrix_from_quaternion
@@ -95,7 +95,7 @@ def _trace(axes: "Axes", directions: Vectors, centre: Vectors, colour: str, labe
 
 def _path(axes: "Axes", directions: Vectors, centre: Vectors, title: str, colour: str, label: str, sparse: bool) -> float:
     """The path of a direction (n, 3) on a map around `centre` that is as large as the path; how far that is [deg]."""
-    reach = math.degrees(2 * math.asin(min(1.0, 1.05 * float(np.max(np.linalg.norm(on_map(directions, centre), axis=1))) / 2)))
+    reach = map_reach(on_map(directions, centre))
     map_frame(axes, title, reach)
     points = _trace(axes, directions, centre, colour, label, sparse)
     axes.plot(*points[0], "o", color=COLOURS[2], markersize=5, label="start")
