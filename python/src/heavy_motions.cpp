@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -107,6 +108,17 @@ Data series_rows(const HeavyBodies& bodies, const Array& spin, const Array& cosi
   return made;
 }
 
+/// Of a top: how its axis nods, least and greatest down along it, and its mean turn about the vertical, rad/s. NaN of what is none.
+std::array<double, 3> nutation_of(const Exact<double>& motion) {
+  const auto of = [](const auto& top) {
+    return std::array<double, 3>{top.least(), top.greatest(), top.mean_precession()};
+  };
+  if (const auto* top = motion.top()) return of(*top);
+  if (const auto* top = motion.top_in_gradient()) return of(*top);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  return {none, none, none};
+}
+
 /// The motion of every row by a closed form or a quadrature, NaN where there is none.
 Data exact_rows(const HeavyBodies& bodies, const Array& angular_velocity, const Array& down, const Array& attitude,
                 const Array& at) {
@@ -119,7 +131,7 @@ Data exact_rows(const HeavyBodies& bodies, const Array& angular_velocity, const 
   for (const double time : t) span = std::max(span, std::abs(time));
   Motions motions(bodies.size(), t.size());
   std::vector<const char*> which;
-  std::vector<std::array<double, 4>> numbers;
+  std::vector<std::array<double, 7>> numbers;
   for (std::size_t row = 0; row < bodies.size(); ++row) {
     const double *w = angular_velocity.data() + 3 * row, *d = down.data() + 3 * row, *q = attitude.data() + 4 * row;
     const auto start = aligned<double>({{w[0], w[1], w[2]}, {d[0], d[1], d[2]}, {q[3], q[0], q[1], q[2]}});
@@ -127,7 +139,8 @@ Data exact_rows(const HeavyBodies& bodies, const Array& angular_velocity, const 
     const Exact<double> motion(bodies.rows()[row], *start);
     which.push_back(symbol(motion.which()));
     const auto e = motion.error(span);
-    numbers.push_back({motion.period(), e.angular_velocity, e.down, e.attitude});
+    const auto [least, greatest, precession] = nutation_of(motion);
+    numbers.push_back({motion.period(), e.angular_velocity, e.down, e.attitude, least, greatest, precession});
     if (!motion.applies()) continue;
     for (std::size_t i = 0; i < t.size(); ++i) motions.put(row, i, motion.at(t[i]));
   }
@@ -306,7 +319,8 @@ void bind_heavy_motions(pybind11::module_& module) {
       "its error, errors of rates, down and attitude.");
   module.def("heavy_exact", &exact_rows, py::arg("bodies"), py::kw_only(), py::arg("angular_velocity"), py::arg("down"),
              py::arg("attitude"), py::arg("t"),
-             "The exact motion of every row; numbers (rows, 4): period, errors of rates, down and attitude.");
+             "The exact motion of every row; numbers (rows, 7): period, errors of rates, down and attitude, least and "
+             "greatest down along the axis of a top, and its mean precession.");
   module.def("heavy_sleeping", &sleeping_rows, py::arg("bodies"), py::kw_only(), py::arg("spin"), py::arg("axis_down"),
              "Sleeping tops; numbers (rows, 3): threshold, frequency squared, amplification.");
   module.def("heavy_regular_precession", &precession_rows, py::arg("bodies"), py::kw_only(), py::arg("cos_inclination"),

@@ -95,6 +95,29 @@ def test_a_top(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.usefixtures("few_members")
+@pytest.mark.parametrize(("spin", "tilt"), [(157.0, 160.0), (157.0, 90.0), (40.0, 120.0), (70.0, 179.0), (5.0, 30.0)])
+def test_the_nutation_of_a_top_is_that_of_its_motion(spin: float, tilt: float) -> None:
+    """From a start without transverse rate the axis is back at its extreme after one nutation, and goes to the other after half of it."""
+    body: dict[str, Any] = {"inertia": [3e-4, 3e-4, 1.5e-4], "mass": 0.2, "centre_of_mass": [0, 0, 0.03], "gravity": 9.81}
+    down = [math.sin(math.radians(tilt)), 0.0, math.cos(math.radians(tilt))]
+    scene = scene_from({"name": "top", "kind": "heavy", "body": {k: v for k, v in body.items() if k != "gravity"}, "field": {"gravity": 9.81},
+                        "initial": {"angular_velocity": [0, 0, spin], "down": down}, "solve": {"times": [1.0]}})
+    told = stability_report(scene)["top"]["nutation"]
+    times = told["period"] * np.array([0.0, 0.5, 1.0])
+    motion = heavy.integrate(**body, angular_velocity=[0, 0, spin], down=down, attitude=None, times=times, tolerance=1e-13)
+    assert sorted(motion["down"][:2, 2]) == pytest.approx([told["least"], told["greatest"]], abs=1e-10)
+    assert motion["down"][2, 2] == pytest.approx(motion["down"][0, 2], abs=1e-10)
+    exact = heavy.exact(**body, angular_velocity=[0, 0, spin], down=down, t=[0.0])
+    assert exact.nutation.tolist() == [told["least"], told["greatest"]] and exact.precession_rate == told["precession_rate"]
+
+
+def test_only_a_top_that_leans_nods(capsys: pytest.CaptureFixture[str]) -> None:
+    assert np.isnan(heavy.exact(**{**BODY, "gravity": 0.0}, angular_velocity=[1, 2, 3], down=[0, 0, 1], t=[0.0]).nutation).all()
+    top = {"name": "top", "kind": "heavy", "body": {"inertia": [3e-4, 3e-4, 1.5e-4], "mass": 0.2, "centre_of_mass": [0, 0, 0.03]},
+           "field": {"gravity": 9.81}, "initial": {"angular_velocity": [0, 0, 157.0], "down": [0, 0, -1]}, "solve": {"times": [1.0]}}
+    assert stability_report(scene_from(top))["top"]["nutation"]["precession_rate"] is None  # it sleeps
+
+
 def test_a_tongue(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     assert main(["stability", "half-rate-tongue", "--json", "--plot", str(tmp_path / "family.png")]) == 0

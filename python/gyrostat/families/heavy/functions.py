@@ -178,6 +178,8 @@ class Exact:
     down: Floats  # (..., n, 3)
     attitude: Floats  # (..., n, 4)
     period: Floats  # (...) of what repeats itself: the rates (euler, pendulum), the nutation (lagrange), s
+    nutation: Floats  # (..., 2) of a top: least and greatest down along its axis of symmetry, 1 where it hangs; NaN of others
+    precession_rate: Floats  # (...) of a top: mean turn of its axis about down, right-handed, rad/s; NaN of others
     error: dict[str, Floats]  # bounds until the farthest time: angular_velocity [rad/s], down, attitude [rad] -> (...)
 
 
@@ -197,7 +199,8 @@ def exact(*, inertia: ArrayLike, mass: ArrayLike, centre_of_mass: ArrayLike, gra
     d = given if down is not None else _down_of(given)
     made = _core.heavy_exact(many, angular_velocity=w, down=d, attitude=q, t=np.atleast_1d(array("t", t)))
     n, numbers = made["down"].shape[1], made["numbers"]
-    return Exact(case=_words(made["case"], lead), period=shaped(numbers[:, 0], lead),
+    return Exact(case=_words(made["case"], lead), period=shaped(numbers[:, 0], lead), nutation=shaped(numbers[:, 4:6], lead, 2),
+                 precession_rate=shaped(numbers[:, 6], lead),
                  **{name: shaped(made[name], lead, n, width) for name, width in (("angular_velocity", 3), ("down", 3), ("attitude", 4))},
                  error={name: shaped(numbers[:, 1 + i], lead) for i, name in enumerate(("angular_velocity", "down", "attitude"))})
 

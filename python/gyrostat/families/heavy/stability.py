@@ -42,7 +42,8 @@ def report(scene: Scene) -> dict[str, Any]:
     rest : down of least potential energy, frequencies and directions of its two swings, and start_angle, how far down is from there at the start
     (None where a periodic motion is asked for) [rad], or None without torque.
     top : None, or for a body with an axis of symmetry through its mass centre: spin, and for both ends of the axis (up, down) threshold,
-    frequency_squared, verdict and amplification; precession : cos_inclination, and slow and fast rate about down.
+    frequency_squared, verdict and amplification; precession : cos_inclination, and slow and fast rate about down; nutation : of the start, its
+    period [s], least and greatest down along the axis, and precession_rate, the mean turn about down (None where a periodic motion is asked for).
     periodic : the motion with the spin and inclination of the start: spin, cos_inclination, angular_velocity, down, period, closure, trace (sum of the
     two multipliers), multipliers ([re, im]), verdict (stable, unstable, undecided, none) and why, fast (the verdict of the second
     order: exponent, tongue, trace, verdict; None without spin).
@@ -56,7 +57,7 @@ def report(scene: Scene) -> dict[str, Any]:
     spin, cosine = _start(given, axes)
     c = math.sqrt(body["mass"] * body["gravity"] * float(np.linalg.norm(body["centre_of_mass"])) / float(inertia[2]))
     slow = max(c, math.sqrt(body["gravity_gradient"]))
-    return {"scene": scene.name, "pendulum_rate": c, "slow_rate": slow, "rest": _rest(body, axes, given), "top": _top(body, spin, cosine, given),
+    return {"scene": scene.name, "pendulum_rate": c, "slow_rate": slow, "rest": _rest(body, axes, given), "top": _top(body, axes, spin, cosine, given),
             "periodic": _periodic(body, spin, cosine, axes), "family": _family(body, spin, cosine, slow)}
 
 
@@ -91,7 +92,7 @@ def _rest(body: Mapping[str, Any], axes: Any, given: Mapping[str, Any]) -> dict[
     return {"down": down.tolist(), "frequency": made.frequency.tolist(), "swing": (made.swing @ axes.T).tolist(), "start_angle": angle}
 
 
-def _top(body: Mapping[str, Any], spin: float, cosine: float, given: Mapping[str, Any]) -> dict[str, Any] | None:
+def _top(body: Mapping[str, Any], axes: Any, spin: float, cosine: float, given: Mapping[str, Any]) -> dict[str, Any] | None:
     I, r = body["inertia"], body["centre_of_mass"]
     # of an axis other than the third the spin is another
     if I[0] != I[1] or r[0] != 0 or r[1] != 0:
@@ -103,7 +104,16 @@ def _top(body: Mapping[str, Any], spin: float, cosine: float, given: Mapping[str
         return None
     ends = {name: {"threshold": float(s.threshold), "frequency_squared": float(s.frequency_squared), "verdict": str(s.verdict),
                    "amplification": _number(s.amplification)} for name, s in zip(("up", "down"), sleeps, strict=True)}
-    return {"spin": spin, **ends, "precession": {"cos_inclination": cosine, "slow": _number(rates.slow), "fast": _number(rates.fast)}}
+    return {"spin": spin, **ends, "nutation": _nutation(body, axes, given), "precession": {"cos_inclination": cosine, "slow": _number(rates.slow), "fast": _number(rates.fast)}}
+
+
+def _nutation(body: Mapping[str, Any], axes: Any, given: Mapping[str, Any]) -> dict[str, Any] | None:
+    if given["periodic"] is not None:
+        return None
+    made = heavy.exact(**body, angular_velocity=axes.T @ given["angular_velocity"], down=axes.T @ _down(given), t=[0.0])
+    least, greatest = made.nutation.tolist()
+    upright = min(1 + greatest, 1 - least) < ROUNDING  # an axis that stays on the vertical does not go round it
+    return {"period": _number(made.period), "least": _number(least), "greatest": _number(greatest), "precession_rate": None if upright else _number(made.precession_rate)}
 
 
 def _periodic(body: Mapping[str, Any], spin: float, cosine: float, axes: Any) -> dict[str, Any]:
@@ -195,6 +205,9 @@ def tables(report: Mapping[str, Any]) -> Tables:
         p = top["precession"]
         made.append((f"Regular precession at cos(inclination) = {p['cos_inclination']:.6g}, right-handed about down", ["", "rate [rad/s]"],
                      [["slow", _precession(p, "slow")], ["fast", _precession(p, "fast")]]))
+        if (n := top["nutation"]) is not None:
+            made.append(("Nutation from this start", ["period [s]", "down along the axis", "mean precession about down [rad/s]"],
+                         [[_text(n["period"], 9), f"{_text(n['least'])} to {_text(n['greatest'])}", _text(n["precession_rate"])]]))
     if orbit["verdict"] != "none":
         a, b = (_complex(m) for m in orbit["multipliers"])
         made.append((f"Periodic motion with spin {orbit['spin']:.6g} rad/s, cos(inclination) {orbit['cos_inclination']:.6g}",
