@@ -16,6 +16,7 @@
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/core/times.hpp"
 #include "gyrostat/core/wide.hpp"
 #include "gyrostat/ladder/answer.hpp"
 #include "gyrostat/ladder/companions.hpp"

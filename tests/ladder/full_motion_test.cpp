@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/full_motion.hpp"
 
-#include <vector>
-
 #include "catch.hpp"
 
 using namespace gyrostat;
-
-TEST_CASE("the times of a motion start at zero or later and do not fall", "[ladder]") {
-  const auto check = [](std::vector<double> times) { return check_span<double>(times); };
-  CHECK(check({}) == Errc::ok);
-  CHECK(check({0, 1, 1, 2}) == Errc::ok);
-  CHECK(check({-1e-300}) == Errc::not_increasing);
-  CHECK(check({2, 1}) == Errc::not_increasing);
-  CHECK(check({0, gyrostat::nan<double>}) == Errc::not_finite);
-  CHECK(check({infinity<double>}) == Errc::not_finite);
-}
 
 TEST_CASE("progress is reported where it is asked for and never passes one; a set flag cancels", "[ladder]") {
   MotionOptions<double> nobody;

@@ -280,7 +280,7 @@ class FullCourse {
     if (next_) pass();
     if (at_stop_ != AtStop::rests) return ode::Status::event;
     if (!(t_max > time_)) return ode::Status::reached;
-    if (rest_) {
+    if (resting_) {
       previous_ = time_;
       time_ = rests_.back()[1] = std::min(t_max, piece_.to);
       look_ahead();
@@ -333,8 +333,8 @@ class FullCourse {
   bool outgrown() const noexcept { return outgrown_; }
 
  private:
-  static constexpr bool rests_through = Method::integrator == Integrator::taylor;
-  using Rest = std::conditional_t<rests_through, Resting<Scalar, Method::is_large>, Numbers>;
+  static constexpr bool goes_through_stops = Method::integrator == Integrator::taylor;
+  using Rest = std::conditional_t<goes_through_stops, Resting<Scalar, Method::is_large>, Numbers>;
 
   /// How a body leaves its rest, from the numbers of `rest` on, up to `until`: what brakes oppose grows by `rate`, N m, or by the outgrowth.
   struct Leaving {
@@ -365,7 +365,7 @@ class FullCourse {
     Numbers from;
     if (bold > sound) from = numbers_now();
     ode::Status status = solver_->step(std::min(until, bold));
-    if constexpr (rests_through)
+    if constexpr (goes_through_stops)
       if (status == ode::Status::reached && solver_->time() > sound && !keeps_on(from)) {
         solver_->restart(time_, from);
         status = solver_->step(std::min(until, sound));
@@ -384,7 +384,7 @@ class FullCourse {
 
   /// Time in which what brakes oppose, `now`, doubles if it goes on growing as in the last step; 0 if it does not grow. Only Taylor series step so far.
   Scalar doubling(Scalar now) const noexcept {
-    if (!rests_through || !(now < infinity<Scalar> && braked_ > 0 && now > braked_)) return 0;
+    if (!goes_through_stops || !(now < infinity<Scalar> && braked_ > 0 && now > braked_)) return 0;
     return (1 + share_) / 2 * now * ((time_ - previous_) / (now - braked_));
   }
   /// Whether what brakes oppose has kept its direction in inertial axes, to 60 degrees, since these numbers: it has not passed through zero.
@@ -416,15 +416,15 @@ class FullCourse {
 
   Numbers numbers(Scalar t) const noexcept {
     alignas(32) Numbers x;
-    if constexpr (rests_through) {
-      if (rest_ && t >= rest_->from()) return rest_->at(t);
-      if (leaving_ && t < leaving_->until) return leaving(t);
+    if constexpr (goes_through_stops) {
+      if (resting_ && t >= resting_->from()) return resting_->at(t);
+      if (leaving_ && t < leaving_->until) return numbers_leaving(t);
     }
     solver_->at(t, x.data());
     return x;
   }
   /// A moment after a rest.
-  Numbers leaving(Scalar t) const noexcept {
+  Numbers numbers_leaving(Scalar t) const noexcept {
     using At = typename System::At;
     const Scalar s = t - leaving_->rest.from();
     const Vec3<Scalar> gained = leaving_->gained(s);
@@ -441,14 +441,14 @@ class FullCourse {
 
   /// Begins piece_ at t.
   void enter(Scalar t, const Numbers& numbers) noexcept {
-    const bool rested = bool(rest_);
-    rest_.reset(), leaving_.reset();
+    const bool rested = bool(resting_);
+    resting_.reset(), leaving_.reset();
     system_.emplace(of_, piece_, numbers);
     options_.scale = system_->scale();
     time_ = previous_ = t;
     greatest_ = braked_ = 0;
     bound_ = torque_of_piece();
-    if (system_->has_brake() && !(system_->braked(t, numbers.data()) > 0)) stop(t, numbers, rested, t);
+    if (system_->has_brake() && !(system_->braked(t, numbers.data()) > 0)) decide_at_stop(t, numbers, rested, t);
     else begin(t, numbers);
   }
   /// A bound of the torques in the piece; infinite where wheels add theirs.
@@ -485,21 +485,21 @@ class FullCourse {
   }
 
   /// What a brake opposes is zero from t on, at these numbers. rested: it was already. when: exactly, for a body that leaves at once.
-  void stop(Scalar t, const Numbers& numbers, bool rested, Scalar when) noexcept {
-    if constexpr (!rests_through) {
+  void decide_at_stop(Scalar t, const Numbers& numbers, bool rested, Scalar when) noexcept {
+    if constexpr (!goes_through_stops) {
       at_stop_ = AtStop::turning;
     } else {
       const auto q = normalised(Quat<Scalar>{numbers[0], numbers[1], numbers[2], numbers[3]});
       const Stop<Scalar> made = stop_at(of_, piece_, q, t, spare_);
-      if (made.what == AtStop::leaves) return leave(made, when, numbers);
-      if (made.what == AtStop::rests) return rest(made, t, numbers, rested);
+      if (made.what == AtStop::leaves) return begin_departure(made, when, numbers);
+      if (made.what == AtStop::rests) return begin_rest(made, t, numbers, rested);
       at_stop_ = made.what;
     }
     if (at_stop_ != AtStop::rests && !solver_) begin(t, numbers);
   }
-  void rest(const Stop<Scalar>& made, Scalar t, const Numbers& numbers, bool rested) noexcept {
-    if constexpr (rests_through) {
-      rest_.emplace(of_, piece_, made, t, numbers);
+  void begin_rest(const Stop<Scalar>& made, Scalar t, const Numbers& numbers, bool rested) noexcept {
+    if constexpr (goes_through_stops) {
+      resting_.emplace(of_, piece_, made, t, numbers);
       if (!rested) rests_.push_back({t, t});
       parted_ = made.until < piece_.to;
       piece_.to = std::min(made.until, piece_.to);
@@ -510,32 +510,32 @@ class FullCourse {
   void take_slip(Scalar momentum, Scalar time) noexcept {
     slipped_ += momentum, slipped_angle_ += momentum / of_.sizes.least * time;
   }
-  void leave(const Stop<Scalar>& stop, Scalar t, const Numbers& numbers) noexcept {
-    if constexpr (rests_through) {
+  void begin_departure(const Stop<Scalar>& stop, Scalar t, const Numbers& numbers) noexcept {
+    if constexpr (goes_through_stops) {
       using std::cbrt, std::sqrt;
       const auto& sizes = of_.sizes;
       const auto& out = stop.outgrowth;
-      const Scalar rest = piece_.to - t;
+      const Scalar left = piece_.to - t;
       Scalar moment;
       if (out.time > 0) {
         // so short that what the series leaves out is a millionth of it; behind it steps are the shorter the less has been gained
         const Scalar pace = 1 / out.time + sizes.damping + magnitude(stop.turning) +
                             magnitude(piece_.momentum[0]) / sizes.least + cbrt(magnitude(out.second) / sizes.least);
-        moment = std::min(Scalar(1e-3L) * (1 + share_) / pace, rest / 2);
+        moment = std::min(Scalar(1e-3L) * (1 + share_) / pace, left / 2);
       } else {
         // so short that what the direction and the torque have changed is lost in rounding
         const Scalar pace =
-            sizes.turning + sizes.damping + sizes.forcing + 1 / rest + sqrt(stop.departure.rate / sizes.least);
+            sizes.turning + sizes.damping + sizes.forcing + 1 / left + sqrt(stop.departure.rate / sizes.least);
         moment = Scalar(1e-9L) * (1 + share_) / pace;
       }
       // all runs know when to some roundings alone
       const Scalar late = Scalar(honesty::release_roundings) * epsilon<Scalar> * t;
-      take_slip((std::abs(stop.departure.rate) + 2 * magnitude(out.second) * rest) * late, last_ - t);
+      take_slip((std::abs(stop.departure.rate) + 2 * magnitude(out.second) * left) * late, last_ - t);
       moment = std::max(moment, 64 * epsilon<Scalar> * t);
       const Scalar until = t + moment < piece_.to ? t + moment : t;
       const Vec3<Scalar> rate = stop.departure.rate * stop.departure.direction;
       leaving_.emplace(Leaving{Rest(of_, piece_, stop, t, numbers), rate, out, until});
-      Numbers x = leaving(until);
+      Numbers x = numbers_leaving(until);
       if (!(until > t))
         for (std::size_t i = 0; i < 3; ++i) x[System::At::momentum + i] += leaving_->gained(moment)[int(i)];
       previous_ = t;
@@ -549,7 +549,7 @@ class FullCourse {
     if (at_stop_ == AtStop::rests) {
       leaving_.reset();
       const std::size_t before = rests_.size();
-      stop(time_, x, false, std::min(when, piece_.to));
+      decide_at_stop(time_, x, false, std::min(when, piece_.to));
       if (rests_.size() > before) rests_.back()[0] = when;
     }
     return at_stop_ == AtStop::rests ? ode::Status::reached : ode::Status::event;
@@ -559,7 +559,7 @@ class FullCourse {
     const Scalar now = system_->braked(time_, solver_->state());
     if (!(now > 0)) return time_;
     if (!(now < before && now < nearly_ * std::max(greatest_, now))) return infinity<Scalar>;
-    if (!rests_through || stoppable(of_, piece_) != AtStop::rests) return time_;
+    if (!goes_through_stops || stoppable(of_, piece_) != AtStop::rests) return time_;
     const State<Scalar> at = system_->state(time_, solver_->state());
     const Vec3<Scalar>&M = at.angular_momentum, &w = at.angular_velocity, Jw = of_.wheels.whole * w;
     const Pose<Scalar> pose{at.attitude, w, M};
@@ -599,7 +599,7 @@ class FullCourse {
   bool parted_ = false;  ///< the piece ends before its breakpoint, where a torque outgrows the brakes
   Scalar braked_ = 0;    ///< what brakes opposed where the last step began, in the same piece
   AtStop at_stop_ = AtStop::rests;
-  std::optional<Rest> rest_;
+  std::optional<Rest> resting_;
   std::optional<Leaving> leaving_;
   std::vector<std::array<Scalar, 2>> rests_;
 };

@@ -76,10 +76,6 @@ inline bool turns_along(const Scene& scene) noexcept {
 
 GYROSTAT_COMPILED_ONCE std::vector<Displacement> displacements(const Scene& scene);
 
-}  // namespace detail
-
-namespace detail {
-
 /// The times at which displaced motions are compared: the asked ones, of very many of these a part, and of a few some on the way as well.
 struct Watch {
   std::vector<double> times;

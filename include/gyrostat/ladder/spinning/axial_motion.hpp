@@ -10,6 +10,7 @@
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/core/times.hpp"
 #include "gyrostat/models/spinning/axial_torque.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
 #include "gyrostat/ode/status.hpp"
@@ -47,10 +48,7 @@ Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, s
                                                const AxialMotionOptions<Scalar>& options = {}) noexcept {
   using System = AxialTorqueSystem<Scalar>;
   if (states.size() != times.size()) return Errc::out_of_domain;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
-    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
-  }
+  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
   const System system(problem);
   const Scalar end = times.empty() ? Scalar(0) : times.back();
   ode::TaylorOptions<Scalar, System::width> how;
@@ -63,8 +61,7 @@ Result<AxialMotionAnswer<Scalar>> axial_motion(const Problem<Scalar>& problem, s
 
   AxialMotionAnswer<Scalar> answer;
   Scalar before = 0;
-  const auto& D = problem.inertia;
-  const Scalar zeta = std::max(std::abs(D[2] - D[1]) / D[0], std::abs(D[2] - D[0]) / D[1]);
+  const Scalar zeta = problem.greatest_zeta();
   const auto look = [&](const Scalar* x, Scalar since, Scalar t) noexcept {
     auto& [size, spin, phase, gross, left_out] = answer.seen;
     const Scalar rate = std::hypot(x[0], x[1]), tilt = std::hypot(x[2], x[3]);

@@ -197,6 +197,64 @@ AtStop stoppable(const Prepared<Scalar>& of, const Piece<Scalar>& piece) noexcep
   return total && carrier && with_momentum ? AtStop::laws : AtStop::rests;
 }
 
+namespace detail {
+
+/// Makes the polynomial sum of c_k s^k that of s + by.
+template <Real Scalar>
+void shift_origin(std::array<Vec3<Scalar>, 4>& c, Scalar by) noexcept {
+  for (int k = 0; k < 3; ++k)
+    for (int j = 2; j >= k; --j) c[std::size_t(j)] += by * c[std::size_t(j) + 1];
+}
+
+/// Whether the torques of a piece on a body that turns with w are no polynomial of the time.
+template <Real Scalar>
+bool load_varies(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Vec3<Scalar>& w) noexcept {
+  const bool turns = !w.isZero(0), stands = of.problem.field.magnetic == MagneticField::uniform && !turns;
+  const auto any = [](const auto& matrices) noexcept {
+    return std::any_of(matrices.begin(), matrices.end(), [](const auto& m) noexcept { return !m.isZero(0); });
+  };
+  bool varies = !piece.waves.empty();
+  for (std::size_t k = 0; k < piece.power.size(); ++k) {
+    const Terms<Scalar>& terms = piece.power[k];
+    varies = varies || any(terms.orbital) || terms.orbit_gradient != 0 || !terms.dipole.isZero(0);
+    varies = varies || (!terms.eddy.isZero(0) && !stands);
+    varies = varies || (turns && (any(terms.inertial) || terms.gradient != 0 || !terms.force_body.isZero(0)));
+    varies = varies || (k > 0 && (!terms.brake_total.isZero(0) || !terms.brake_carrier.isZero(0)));
+  }
+  return varies;
+}
+
+/// What brakes have to hold: the torque by powers of the time since a moment, and how many times the brakes the terms are that it is the sum of, at
+/// least 1.
+template <Real Scalar>
+struct Load {
+  std::array<Vec3<Scalar>, 4> torque;
+  Scalar terms = 1;
+};
+
+/// That of a piece from t on, on a body with attitude q and total momentum M that turns with w. limit: of the brakes.
+template <Real Scalar>
+Load<Scalar> load_from(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Quat<Scalar>& q,
+                       const Vec3<Scalar>& w, const Vec3<Scalar>& M, const Vec3<Scalar>& limit, Scalar t) noexcept {
+  Load<Scalar> load;
+  Vec3<Scalar> size(0, 0, 0), of_brake(0, 0, 0);
+  Scalar power = 1;
+  for (std::size_t k = 0; k < 4; ++k, power *= std::max(t, piece.to) - piece.from) {
+    const auto one = steady_torque<Scalar>(of, piece.power[k], q, w, M);
+    load.torque[k] = one.sum, size += power * one.size;
+  }
+  shift_origin(load.torque, t - piece.from);
+  for (int i = 0; i < 3; ++i) {
+    if (limit[i] > 0) of_brake[i] = size[i] / limit[i];
+    for (auto& c : load.torque)
+      if (limit[i] == 0 && std::abs(c[i]) <= share_slack<Scalar> * size[i]) c[i] = 0;
+  }
+  load.terms = std::max(Scalar(1), magnitude(of_brake));
+  return load;
+}
+
+}  // namespace detail
+
 /// What happens in a piece from t on, where all that brakes oppose is zero. slack: how much of a share over 1 still counts as held.
 template <Real Scalar>
 Stop<Scalar> stop_at(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Quat<Scalar>& q, Scalar t,
@@ -208,39 +266,14 @@ Stop<Scalar> stop_at(const Prepared<Scalar>& of, const Piece<Scalar>& piece, con
   stop.carrier = !steady.brake_carrier.isZero(0);
   const Vec3<Scalar> l = piece.momentum[0], M = stop.carrier ? l : Vec3<Scalar>(0, 0, 0);
   if (!stop.carrier) stop.turning = of.wheels.inverse * Vec3<Scalar>(-l);
-  const bool turns = !stop.turning.isZero(0);
-  bool varies = !piece.waves.empty();
-  for (std::size_t k = 0; k < piece.power.size(); ++k) {
-    const Terms<Scalar>& terms = piece.power[k];
-    const bool in_space =
-        std::any_of(terms.inertial.begin(), terms.inertial.end(), [](const auto& m) noexcept { return !m.isZero(0); });
-    const bool in_orbit =
-        std::any_of(terms.orbital.begin(), terms.orbital.end(), [](const auto& m) noexcept { return !m.isZero(0); });
-    const bool stands = of.problem.field.magnetic == MagneticField::uniform && !turns;
-    varies = varies || in_orbit || terms.orbit_gradient != 0 || !terms.dipole.isZero(0);
-    varies = varies || (!terms.eddy.isZero(0) && !stands);
-    varies = varies || (turns && (in_space || terms.gradient != 0 || !terms.force_body.isZero(0)));
-    varies = varies || (k > 0 && (!terms.brake_total.isZero(0) || !terms.brake_carrier.isZero(0)));
+  if (detail::load_varies<Scalar>(of, piece, stop.turning)) {
+    stop.what = AtStop::varying;
+    return stop;
   }
-  if (varies) return stop.what = AtStop::varying, stop;
   const Vec3<Scalar> limit = steady.brake_total + steady.brake_carrier;
-  // the torque from t on, by powers of the time
-  std::array<Vec3<Scalar>, 4> torque;
-  Vec3<Scalar> size(0, 0, 0);
-  Scalar power = 1;
-  for (std::size_t k = 0; k < 4; ++k, power *= std::max(t, piece.to) - piece.from) {
-    const auto one = detail::steady_torque<Scalar>(of, piece.power[k], q, stop.turning, M);
-    torque[k] = one.sum, size += power * one.size;
-  }
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t j = 2; j + 1 > k; --j) torque[j] += (t - piece.from) * torque[j + 1];
-  Vec3<Scalar> of_brake(0, 0, 0);
-  for (int i = 0; i < 3; ++i) {
-    if (limit[i] > 0) of_brake[i] = size[i] / limit[i];
-    for (auto& c : torque)
-      if (limit[i] == 0 && std::abs(c[i]) <= share_slack<Scalar> * size[i]) c[i] = 0;
-  }
-  const Scalar allowed = slack * std::max(Scalar(1), magnitude(of_brake));
+  const auto load = detail::load_from<Scalar>(of, piece, q, stop.turning, M, limit, t);
+  const auto& torque = load.torque;
+  const Scalar allowed = slack * load.terms;
   const Scalar most = 1 + allowed, share = share_of_brake(limit, torque[0]);
   const Scalar whole = std::max(magnitude(torque[0]), limit.maxCoeff());
   // whether a growing torque has just reached the limit of the brakes, to roundings of it and of the time
@@ -297,8 +330,7 @@ class Resting {
       const auto q = normalised(Quat<Scalar>{begin_[0], begin_[1], begin_[2], begin_[3]});
       for (std::size_t k = 0; k < 4; ++k)
         push_[k] = (rotate<Scalar>(q, piece.power[k].force_body) + piece.power[k].force_inertial) / of.problem.mass;
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t j = 2; j + 1 > k; --j) push_[j] += (t - piece.from) * push_[j + 1];
+      detail::shift_origin(push_, t - piece.from);
     }
   }
 

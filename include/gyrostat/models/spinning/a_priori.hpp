@@ -285,11 +285,10 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
   const LinearStart<Scalar> start(problem);
   const Amplitudes<Scalar> size = amplitudes(problem, T);
   const detail::SpinChange<Scalar> rho(problem, start, size.rate, T);
-  const auto& D = problem.inertia;
   const Scalar r0 = std::abs(problem.spin());
   const Scalar kappa1 = std::abs(problem.kappa1(problem.spin())), kappa2 = std::abs(problem.kappa2(problem.spin()));
   const Scalar steep = std::max(kappa1, kappa2), flat = std::min(kappa1, kappa2);
-  const Scalar zeta = std::max(std::abs(D[2] - D[1]) / D[0], std::abs(D[2] - D[0]) / D[1]);
+  const Scalar zeta = problem.greatest_zeta();
   // greatest ratio of the rates' ellipse, or what it grows to within T
   const Scalar skew = std::min(1 + steep * T, std::sqrt(steep / flat));
   const Scalar answer = std::min(T, 2 / divisors(problem).least());

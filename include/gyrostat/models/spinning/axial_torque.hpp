@@ -186,7 +186,7 @@ LinearErrors<Scalar> axial_torque_errors(const Problem<Scalar>& problem, Scalar 
     steep = std::max(steep, std::abs(k));
     flat = k * kappa[0] > 0 ? std::min(flat, std::abs(k)) : Scalar(0);
   }
-  const Scalar zeta = std::max(std::abs(D[2] - D[1]) / D[0], std::abs(D[2] - D[0]) / D[1]);
+  const Scalar zeta = problem.greatest_zeta();
   const Scalar skew = std::min(1 + steep * T, std::sqrt(steep / flat));
 
   LinearErrors<Scalar> error;

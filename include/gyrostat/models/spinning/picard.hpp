@@ -10,6 +10,7 @@
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
+#include "gyrostat/core/times.hpp"
 #include "gyrostat/math/chebyshev_panel.hpp"
 #include "gyrostat/math/complex.hpp"
 #include "gyrostat/models/spinning/full.hpp"
@@ -299,10 +300,7 @@ Result<PicardAnswer<Scalar>> picard_motion(const Problem<Scalar>& problem, std::
   const int last = options.sweeps;
   if (states.size() != times.size() || last < 2 || last > detail::PicardSweeps<Scalar>::sweep_cap)
     return Errc::out_of_domain;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (!(std::abs(times[i]) < infinity<Scalar>)) return Errc::not_finite;
-    if (times[i] < 0 || (i > 0 && times[i] < times[i - 1])) return Errc::not_increasing;
-  }
+  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
   const Scalar nu = std::sqrt(std::abs(problem.nutation_squared()));
   const Scalar rate = std::abs(problem.spin()) + 2 * nu;
   if (!(rate < infinity<Scalar>)) return Errc::not_finite;

@@ -63,6 +63,10 @@ struct Problem {
   Scalar kappa1(Scalar r) const noexcept { return ((inertia[2] - inertia[1]) * r + gyroscopic()) / inertia[0]; }
   /// ((D3 - D1) r + Lambda)/D2 at spin r, 1/s.
   Scalar kappa2(Scalar r) const noexcept { return ((inertia[2] - inertia[0]) * r + gyroscopic()) / inertia[1]; }
+  /// The greater of |D3 - D2|/D1 and |D3 - D1|/D2: how much of a change of the spin goes into what turns the transverse rates.
+  Scalar greatest_zeta() const noexcept {
+    return std::max(std::abs(inertia[2] - inertia[1]) / inertia[0], std::abs(inertia[2] - inertia[0]) / inertia[1]);
+  }
   /// How fast the body turns at the start, or is soon made to within `span`, s; rad/s.
   Scalar rate_size(Scalar span) const noexcept {
     const Scalar stiffness = std::max(std::abs(gyroscopic() / inertia[0]), std::abs(gyroscopic() / inertia[1]));
