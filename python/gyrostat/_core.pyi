@@ -212,7 +212,7 @@ def general_solve(*, scene: dict[str, typing.Any], times: typing.Annotated[numpy
     """
 def heavy_exact(bodies: HeavyBodies, *, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
     """
-    The exact motion of every row; numbers (rows, 4): period, errors of rates, down and attitude.
+    The exact motion of every row; numbers (rows, 7): period, errors of rates, down and attitude, least and greatest down along the axis of a top, and its mean precession.
     """
 def heavy_fast_stability(bodies: HeavyBodies, *, spin: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], cos_inclination: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
     """
