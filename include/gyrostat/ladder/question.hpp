@@ -35,8 +35,8 @@ struct Question {
   std::vector<double> times;  ///< s, increasing, the first >= 0
   double tolerance = 1e-6;    ///< greatest error wanted in what is asked, as its table measures it
   int rung = any_rung;        ///< place in the family's table of the one rung that is to answer
-  int alone =
-      any_rung;  ///< the one rung that is asked, as it would be on the way up the ladder: it refuses what it cannot meet
+  /// The only rung that is asked, as it would be on the way up the ladder: it refuses where it is not sure to meet, as `rung` does not.
+  int only_rung = any_rung;
   Integrator integrator = Integrator::any;
   bool wants_attitude = false;         ///< of families that can leave it out
   std::vector<AskedQuantity> asked{};  ///< empty: what the family gives by default; of a rung that is named, all it has

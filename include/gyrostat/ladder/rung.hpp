@@ -55,7 +55,8 @@ inline constexpr double clearly_cheaper = 0.5;
 inline constexpr const char* costs_more = "an answer of it is predicted to cost more";
 
 inline constexpr WarningKind no_value{
-    "no-value", "the motion does not have all that is asked for, or this rung does not give it: that is left without a value"};
+    "no-value",
+    "the motion does not have all that is asked for, or this rung does not give it: that is left without a value"};
 
 namespace detail {
 
@@ -97,9 +98,9 @@ struct Order {
   Order(const Family& family, std::span<const Rung<Scene, Track>> rungs, const Scene& scene) {
     const Question& question = scene.question();
     const bool named = question.rung >= 0;
-    const int alone = named ? question.rung : question.alone;
+    const int only = named ? question.rung : question.only_rung;
     for (std::size_t i = 0; i < rungs.size(); ++i) {
-      if (alone >= 0 && i != std::size_t(alone)) continue;
+      if (only >= 0 && i != std::size_t(only)) continue;
       const double cost = rungs[i].cost(scene);
       if (!named && std::isnan(cost)) continue;
       if (!named && lacks_needed(family.rungs[i], question, family)) lacking.push_back(i);

@@ -162,7 +162,7 @@ namespace detail {
 /// Whether the ladder begins with the closed form, by states alone, where that has a quick form.
 inline bool begins_with_states(const Scene& scene) noexcept {
   const Question& question = scene.question();
-  return question.rung == any_rung && question.alone == any_rung && asks_for_states(scene) &&
+  return question.rung == any_rung && question.only_rung == any_rung && asks_for_states(scene) &&
          !(cost_of_states(scene) <
            clearly_cheaper * cost_of_form(scene, suits_quick_form(scene) ? quick_set_up(scene) : SetUp::precise));
 }

@@ -161,10 +161,10 @@ inline std::optional<Answer> answer_beside(const Scene& scene, const Problem<dou
   Refusal refusal;
   Question question = scene.question();
   question.times = times;
-  if (question.rung == any_rung) question.alone = rung;
+  if (question.rung == any_rung) question.only_rung = rung;
   Answer made = climbed(beside->asked(question), refusal, monitor);
   if (refusal.code != Errc::ok)
-    refusal = {}, question.alone = any_rung, made = climbed(beside->asked(question), refusal, monitor);
+    refusal = {}, question.only_rung = any_rung, made = climbed(beside->asked(question), refusal, monitor);
   return refusal.code == Errc::ok ? std::optional(std::move(made)) : std::nullopt;
 }
 

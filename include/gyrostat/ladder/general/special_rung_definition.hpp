@@ -15,7 +15,7 @@ GYROSTAT_COMPILED_ONCE Question question_for(const Scene& scene, Special special
   const Question& question = scene.question();
   const Sources& from = sources[std::size_t(special)];
   Question made = plain(question);
-  (question.rung == any_rung ? made.alone : made.rung) = rung;
+  (question.rung == any_rung ? made.only_rung : made.rung) = rung;
   const auto want = [&](int place, const Aim& aim, bool as_it_is) {
     if (place < 0) return;
     // what is made of others shares its tolerance among them
