@@ -295,6 +295,10 @@ def histograms(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure"
     figure, axes = _panels(len(shown), 11, 2.9, 2)
     for place, each in zip(axes, shown, strict=True):
         values = each.values[np.isfinite(each.values)]
+        unit = each.unit
+        if unit == "s":  # in which people tell it
+            scale, unit = time_unit(float(np.median(np.abs(values))))
+            values = values / scale
         low, high = float(np.min(values)), float(np.max(values))
         least = ROUNDINGS * max(abs(low), abs(high))
         wide = None if high == low or high - low > least else (low - least, high + least)
@@ -303,7 +307,7 @@ def histograms(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure"
             at = float(np.percentile(values, share))
             place.axvline(at, color=COLOURS[1], linestyle=dashes, linewidth=1.2, label=f"{share} %: {short(at, 5)}")
         place.legend(fontsize=8)
-        place.set_xlabel(_axis_text(each.label, each.unit))
+        place.set_xlabel(_axis_text(each.label, unit))
         place.set_ylabel("rows")
         place.grid(alpha=0.3)
         place.ticklabel_format(axis="x", scilimits=(-3, 6))
