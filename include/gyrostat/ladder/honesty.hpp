@@ -87,8 +87,9 @@ inline constexpr double spinning_share = 64;
 inline constexpr double dop853_share = 1.0 / 8;
 /// With the turns it is first_share / (first_base + angle / first_angle), the angle turned through in rad.
 inline constexpr double first_base = 8, first_angle = 16;
-/// Bodies without weight: to that first_drift * angle^2 is added, as a rate that drifts takes the phase with it. Of 1200 random general scenes 15 % had to
-/// be run again without it and 8 % are with it, of 1500 driven rotors 18 % and 7 %, and all steps fell by 5 and 15 %. Heavy bodies gain nothing.
+/// Bodies without weight: first_share / (first_base + first_drift * angle^2) where that is less, as a rate that drifts takes the phase with it. Chosen by
+/// what the first runs of 1200 random general scenes and 1500 driven rotors let foresee: 15 and 18 % had to be run again, 8 and 7 % would be. Heavy bodies
+/// would gain nothing.
 inline constexpr double first_drift = 0.01;
 /// It makes no step tolerance less than this, where rounding is stated less sharply.
 inline constexpr double drifting_least = 1e-12;
