@@ -21,7 +21,8 @@ from gyrostat.completion import SHELLS, PrintCompletion
 from gyrostat.console import Progress, check_output, leave, say, short, show_table, small
 from gyrostat.errors import Cancelled, ConvergenceError, DomainError, Refused, SceneError
 from gyrostat.families import FAMILIES
-from gyrostat.scenes import Scene, bundled, load, parse_override
+from gyrostat.overriding import parse_override
+from gyrostat.scenes import Scene, bundled, load
 from gyrostat.sweep_commands import Command, add_commands
 from gyrostat.units import quantity
 from gyrostat.watching import watched

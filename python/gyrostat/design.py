@@ -5,6 +5,8 @@ The linear motion is solved backwards (docs/spinning.md, section 3.1). `design_s
 there by the full equations of motion; the functions over arrays do not.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -6,6 +6,8 @@ Arguments broadcast against each other; the GIL is released. `elliptic` picks th
 build holds GSL; another name raises DomainError. Outside the domain the result is NaN, and where kp2 is not 1 - k2.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

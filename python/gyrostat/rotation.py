@@ -7,6 +7,8 @@ scalar_first=True [w, x, y, z], as in SciPy's Rotation; tensors are (..., 3, 3);
 not have unit norm but must not vanish; a tensor that is not orthogonal within 1e-6 raises DomainError.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

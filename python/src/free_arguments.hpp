@@ -46,7 +46,7 @@ T sound(const Result<T>& made, const free::Assembly<double>& assembly, const fre
   if (made) return *made;
   if (unsound.wheel < 0) raise("DomainError", message(made.error()));
   const auto& wheel = assembly.wheels[std::size_t(unsound.wheel)];
-  const std::string which = "wheel " + std::to_string(unsound.wheel + 1) + ": ";
+  const std::string which = "wheel[" + std::to_string(unsound.wheel) + "]: ";
   if (made.error() == Errc::triangle_inequality)
     raise("DomainError", which + "axial_inertia = " + text(wheel.axial_inertia) +
                              ": the body of this inertia holds less than " + text(unsound.limit) +

@@ -160,10 +160,10 @@ inline general::Problem<double> general_problem(const py::dict& given) {
   made.rotor_momentum = body.vector("rotor_momentum");
   std::size_t place = 0;
   for (const py::handle wheel : all["wheels"].cast<py::list>())
-    made.wheels.push_back(detail::wheel_of({"wheel " + std::to_string(++place), wheel.cast<py::dict>()}));
+    made.wheels.push_back(detail::wheel_of({"wheel[" + std::to_string(place++) + "]", wheel.cast<py::dict>()}));
   place = 0;
   for (const py::handle torque : all["torques"].cast<py::list>())
-    made.torques.push_back(detail::torque_of({"torque " + std::to_string(++place), torque.cast<py::dict>()}));
+    made.torques.push_back(detail::torque_of({"torque[" + std::to_string(place++) + "]", torque.cast<py::dict>()}));
   if (all.has("orbit")) made.orbit = detail::orbit_of(all.part("orbit"));
   made.field = detail::field_of(all.part("field"));
   made.attitude = start.quaternion("attitude");
@@ -179,7 +179,7 @@ inline general::Problem<double> general_problem(const py::dict& given) {
   const general::Fault of_wheel = general::check_wheels(problem), fault = general::check(problem);
   if (!fault) raise("DomainError", message(code));
   if (fault.place < 0) raise("DomainError", fault.why);
-  raise("DomainError", (of_wheel ? "wheel " : "torque ") + std::to_string(fault.place + 1) + ": " + fault.why);
+  raise("DomainError", (of_wheel ? "wheel[" : "torque[") + std::to_string(fault.place) + "]: " + fault.why);
 }
 
 }  // namespace gyrostat::python

@@ -72,8 +72,8 @@ def test_scene_text_reads_back() -> None:
 
 @pytest.mark.parametrize(("changes", "text"), [
     ({"wheel": {"axis": [0, 0, 1]}}, "not an array of tables"),
-    ({"wheel": [{**WHEEL, "axis": [0.0, 0.6, 0.9]}]}, "wheel 1: axis = [0.0, 0.6, 0.9]: the norm is"),
-    ({"wheel": [WHEEL, {"axis": [0.0, 0.0, 1.0], "rate": 3.0}]}, "wheel 2: the key axial_inertia is missing"),
+    ({"wheel": [{**WHEEL, "axis": [0.0, 0.6, 0.9]}]}, "wheel[0]: axis = [0.0, 0.6, 0.9]: the norm is"),
+    ({"wheel": [WHEEL, {"axis": [0.0, 0.0, 1.0], "rate": 3.0}]}, "wheel[1]: the key axial_inertia is missing"),
     ({"wheel": [{**WHEEL, "rates": 1.0}]}, "did you mean rate?"),
     ({"wheel": [{**WHEEL, "type": "fixed"}]}, "use one of held, free"),
     ({"wheel": [{**WHEEL, "axial_inertia": -1.0}]}, "out of range"),
@@ -86,7 +86,7 @@ def test_mistakes_are_named(changes: dict[str, Any], text: str) -> None:
 
 
 def test_a_wheel_that_the_body_cannot_hold() -> None:
-    with pytest.raises(DomainError, match="wheel 1: axial_inertia = 2.4: the body of this inertia holds less than"):
+    with pytest.raises(DomainError, match=r"wheel\[0\]: axial_inertia = 2.4: the body of this inertia holds less than"):
         gyrostat.solve(scene_from(scene(wheel=[{**WHEEL, "axial_inertia": 2.4, "type": "free"}])))
 
 
@@ -103,7 +103,7 @@ def test_body_and_wheels_come_to_one_gyrostat() -> None:
         np.testing.assert_allclose(inertia @ omega + kept, M, rtol=1e-14)
         again = reduced({**given, "angular_velocity": None, "angular_momentum": M, "wheels": [{**WHEEL, "type": "free"}]})
         np.testing.assert_allclose(again[1], turning[1], rtol=1e-14)
-    with pytest.raises(DomainError, match="wheel 1"):
+    with pytest.raises(DomainError, match=r"wheel\[0\]"):
         reduced({**given, "wheels": [{**WHEEL, "axial_inertia": 9.0, "type": "free"}]})
 
 

@@ -377,12 +377,12 @@ def test_balances_close_where_they_are_asked_for(name: str) -> None:
 ORBIT = {"altitude": "400 km"}
 UNIFORM = {"uniform": [0, 0, 1e-5]}
 MISTAKES: list[tuple[dict[str, Any], str]] = [
-    ({"wheel": [{"type": "held", "axial_inertia": 0.1}]}, "wheel 1: the key axis is missing"),
+    ({"wheel": [{"type": "held", "axial_inertia": 0.1}]}, "wheel[0]: the key axis is missing"),
     ({"wheel": [{"type": "spun", "axis": [0, 0, 1]}]}, 'type = "spun" is unknown'),
     ({"wheel": [{"axis": [0, 0, 0], "axial_inertia": 0.1}]}, "zero vector has no direction"),
     ({"wheel": [wheel("held", axial_inertia=0.0)]}, "out of range"),
-    ({"wheel": [wheel("free", axial_inertia=3.0)]}, "wheel 1: the inertia of the whole must be more than that of its wheels"),
-    ({"wheel": [wheel("held", momentum=1.0)]}, "wheel 1: rate and momentum are both given"),
+    ({"wheel": [wheel("free", axial_inertia=3.0)]}, "wheel[0]: the inertia of the whole must be more than that of its wheels"),
+    ({"wheel": [wheel("held", momentum=1.0)]}, "wheel[0]: rate and momentum are both given"),
     ({"wheel": [wheel("locked", rate=1.0)]}, 'unknown key "rate"'),
     ({"wheel": [{"type": "motor", "axis": [0, 0, 1], "axial_inertia": 0.1, "no_load_rate": 3.0}]}, "of slope and stall_torque one is wanted"),
     ({"wheel": [wheel("motor", stall_torque=0.1)]}, "of slope and stall_torque one is wanted"),
@@ -407,7 +407,7 @@ MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"torque": [{**CONSTANT, "on": [0, 2]}]}, "not an array of 2 numbers"),
     ({"torque": [{**CONSTANT, "factor": {"mean": 1.0}}]}, "neither a wave nor a table"),
     ({"torque": [{**CONSTANT, "factor": {"rate": 1.0, "times": [0, 1], "values": [1, 1]}}]}, "neither a wave nor a table"),
-    ({"torque": [{**CONSTANT, "factor": {"times": [0, 1]}}]}, "factor has times and no values"),
+    ({"torque": [{**CONSTANT, "factor": {"times": [0, 1]}}]}, "factor: there are times and no values"),
     ({"torque": [{**CONSTANT, "factor": {"times": [0, 1], "values": [1]}}]}, "2 times and 1 values"),
     ({"torque": [{"type": "table", "times": [0, 1], "values": [[0, 0, 0]]}]}, "2 times and 1 values"),
     ({"torque": [{"type": "table", "times": [0, 1], "values": [[0, 0], [1, 1]]}]}, "element 1 is not an array of 3 numbers"),
@@ -646,9 +646,9 @@ def test_no_mass_and_no_gravity_are_made_up_where_they_count() -> None:
     weight, thrust = {"type": "weight"}, {"type": "thrust", "force": [0.0, 0.0, 1.0], "point": [0.1, 0.0, 0.0]}
     gravity = {"gravity": 9.8}
     for changes, key, why in (
-            ({"body": held, "field": gravity, "torque": [weight]}, "body.mass", "torque 1 (weight) is mass times gravity"),
-            ({"body": {**held, "mass": 2.0}, "torque": [weight]}, "field.gravity", "torque 1 (weight) is mass times gravity"),
-            ({"body": {"inertia": [3.0, 2.5, 2.0]}, "torque": [CONSTANT, thrust]}, "body.mass", "torque 2 (thrust) moves the mass centre"),
+            ({"body": held, "field": gravity, "torque": [weight]}, "body.mass", "torque[0] (weight) is mass times gravity"),
+            ({"body": {**held, "mass": 2.0}, "torque": [weight]}, "field.gravity", "torque[0] (weight) is mass times gravity"),
+            ({"body": {"inertia": [3.0, 2.5, 2.0]}, "torque": [CONSTANT, thrust]}, "body.mass", "torque[1] (thrust) moves the mass centre"),
             ({"body": {**held, "inertia_about": "mass-centre"}}, "body.mass", "by it the inertia is moved"),
             ({"body": {"inertia": [3.0, 2.5, 2.0], "wheels_in_inertia": False},
               "wheel": [wheel("free", mass=0.1, position=[0, 0, 0], equatorial_inertia=0.02)]}, "body.mass", "the wheels are added to the body")):

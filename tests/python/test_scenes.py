@@ -15,7 +15,8 @@ import pytest
 from conftest import ASSEMBLED, GOOD, HEAVY, PERIODIC, ROTOR, SPINNING, at_length
 from gyrostat.errors import DomainError, SceneError
 from gyrostat.families import FAMILIES
-from gyrostat.scenes import bundled, load, parse_override, scene_from
+from gyrostat.overriding import parse_override
+from gyrostat.scenes import bundled, load, scene_from
 from gyrostat.toml_text import toml_text
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -562,7 +563,7 @@ no_load_rate = 10.0
 """)
     with pytest.raises(SceneError) as caught:
         load(file)
-    assert f"{file}:13: wheel: wheel 2: of slope and stall_torque one is wanted" in str(caught.value)
+    assert f"{file}:13: wheel[1]: of slope and stall_torque one is wanted" in str(caught.value)
 
 
 def test_a_scene_that_can_only_be_general_is_not_asked_for_its_kind() -> None:

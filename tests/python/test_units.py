@@ -19,7 +19,8 @@ from gyrostat.cli import main
 from gyrostat.errors import Refused, SceneError
 from gyrostat.families import FAMILIES
 from gyrostat.fields import Field
-from gyrostat.scenes import bundled, load, parse_override, scene_from
+from gyrostat.overriding import parse_override
+from gyrostat.scenes import bundled, load, scene_from
 from gyrostat.schema import schema
 from gyrostat.toml_text import toml_text
 from gyrostat.units import PATTERN, UNITS, quantity, split, to_si
@@ -287,7 +288,7 @@ def test_wheels_have_units() -> None:
     assert scene.top["wheel"][0] == {"axis": (0.0, 0.0, 1.0), "axial_inertia": 0.0035, "rate": pytest.approx(100 * math.pi, rel=4e-16), "type": "held"}
     assert scene.to_dict()["wheel"] == [{**wheels[0], "type": "held"}, wheels[1]]
     assert scene_from(scene.to_dict()).top == scene.top
-    with pytest.raises(SceneError, match='wheel 1: rate = "1 Hz": there is no unit Hz'):
+    with pytest.raises(SceneError, match=r'wheel\[0\]: rate = "1 Hz": there is no unit Hz'):
         load("tumbling-brick", wheel=[{**wheels[0], "rate": "1 Hz"}])
 
 

@@ -6,6 +6,8 @@ dM/dt = M x omega - drag D - control U/|U|. Law "total" opposes U = M (drag: D =
 All in body axes and SI units. Source: docs/deceleration.md.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import Any, Final

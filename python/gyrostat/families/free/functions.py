@@ -6,6 +6,8 @@ J the inertia with the wheels locked, less that of wheels that turn freely about
 SI units. Equations and closed form: docs/free.md.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -64,10 +66,10 @@ def _wheels(wheels: Sequence[Wheel]) -> tuple[Floats, Floats, Floats, Floats]:
     axes, turn_freely = np.empty((len(wheels), 3)), np.zeros(len(wheels))
     of_each = {"axial_inertia": np.empty(len(wheels)), "rate": np.empty(len(wheels))}
     for i, wheel in enumerate(wheels):
-        what = f"wheels: wheel {i + 1}"
+        what = f"wheels: wheel[{i}]"
         record(what, wheel, ("axis", "axial_inertia", "rate"), ("type", "name"))
         if wheel.get("type", "held") not in ("held", "free"):
-            raise DomainError(f'wheels: the type of wheel {i + 1} is "{wheel["type"]}": use held or free')
+            raise DomainError(f'wheels: the type of wheel[{i}] is "{wheel["type"]}": use held or free')
         axis = array(f"{what}: axis", wheel["axis"])
         if axis.shape != (3,):
             raise DomainError(f"{what}: axis has the shape {axis.shape}, not (3,)")

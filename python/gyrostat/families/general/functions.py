@@ -6,6 +6,8 @@ J the inertia of the whole, wheels locked, about the fixed point or the mass cen
 units where nothing else is said. Equations, torques and the families that are found in a scene: docs/general.md.
 """
 
+from __future__ import annotations
+
 import ctypes
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -336,14 +338,14 @@ def _field(given: Record | None) -> dict[str, Any]:
 
 def _check_forces(torques: Sequence[Record], mass: Any, gravity: Any, fixed: bool) -> None:
     """What a force does without the mass or the gravity that it needs would be what nobody meant."""
-    for place, torque in enumerate(torques, 1):
+    for place, torque in enumerate(torques):
         kind = torque.get("type")
         if kind == "weight" and fixed:
             for name, given, unit in (("mass", mass, "kg"), ("field.gravity", gravity, "m/s^2")):
                 if given is None:
-                    raise DomainError(f"{name}: it is missing, and torque {place} (weight) is mass times gravity: give it, in {unit}")
+                    raise DomainError(f"{name}: it is missing, and torque[{place}] (weight) is mass times gravity: give it, in {unit}")
         elif kind == "thrust" and not fixed and mass is None:
-            raise DomainError(f"mass: it is missing, and torque {place} (thrust) moves the mass centre: give it, in kg, or the torque alone, as a "
+            raise DomainError(f"mass: it is missing, and torque[{place}] (thrust) moves the mass centre: give it, in kg, or the torque alone, as a "
                               'torque of the type "constant"')
 
 
@@ -356,13 +358,13 @@ def posed(*, inertia: Any, angular_velocity: Any = _ZERO, attitude: Any = (0.0, 
     for name, given in (("wheels", wheels), ("torques", torques)):
         if not isinstance(given, Sequence) or isinstance(given, str):
             raise DomainError(f"{name} = {given!r}: give a list of records")
-    acting = [_torque(each, f"torque {place}") for place, each in enumerate(torques, 1)]
+    acting = [_torque(each, f"torque[{place}]") for place, each in enumerate(torques)]
     around = _field(field)
     _check_forces(torques, mass, (field or {}).get("gravity"), fixed)
     return {
         "body": {"inertia": _matrix(inertia, "inertia"), "mass": stacked(1.0 if mass is None else mass)[()], "mass_given": mass is not None, "centre_of_mass": stacked(centre_of_mass), "fixed": fixed,
                  "rotor_momentum": stacked(rotor_momentum)},
-        "wheels": [_wheel(each, f"wheel {place}") for place, each in enumerate(wheels, 1)],
+        "wheels": [_wheel(each, f"wheel[{place}]") for place, each in enumerate(wheels)],
         "torques": acting, "orbit": _orbit(orbit), "field": around,
         "initial": {"attitude": stacked(attitude), "angular_velocity": stacked(angular_velocity), "velocity": stacked(velocity),
                     "position": stacked(position)},

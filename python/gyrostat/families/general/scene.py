@@ -234,8 +234,8 @@ def mistakes(tables: Values) -> Found:
         if not body["fixed"] or not any(start[key] or ()):
             continue
         yield f"initial.{key}", start[key], "the body is held at its origin", f"leave out {key}, or body.fixed"
-    for place, wheel in enumerate(tables[""]["wheel"], 1):
-        yield from _wheel_mistakes(place, wheel, body["wheels_in_inertia"])
+    for place, wheel in enumerate(tables[""]["wheel"]):
+        yield from _wheel_mistakes(f"wheel[{place}]", wheel, body["wheels_in_inertia"])
     if not body["wheels_in_inertia"] and any(wheel[name] is UNSET for wheel in tables[""]["wheel"] for name in APART):
         return
     yield from _mass_mistakes(body, tables[""]["wheel"])
@@ -243,9 +243,10 @@ def mistakes(tables: Values) -> Found:
     if body["inertia_about"] == "origin" and not body["fixed"] and (moments[0] <= 0 or moments[0] + moments[1] < moments[2] * (1 - 1e-9)):
         yield ("body.inertia", body["inertia"], f"moved from the origin to the mass centre it has the moments {', '.join(f'{m:.6g}' for m in moments)}, which "
                "no body has", "check mass and centre_of_mass, or say what point the inertia is about by inertia_about")
-    for place, torque in enumerate(tables[""]["torque"], 1):
-        yield from _torque_mistakes(place, torque, orbiting, body["fixed"], any(field[name] is not UNSET for name in ("uniform", "rotating", "dipole")))
-        yield from _force_mistakes(place, torque, body, field["gravity"])
+    magnetic = any(field[name] is not UNSET for name in ("uniform", "rotating", "dipole"))
+    for place, torque in enumerate(tables[""]["torque"]):
+        yield from _torque_mistakes(f"torque[{place}]", torque, orbiting, body["fixed"], magnetic)
+        yield from _force_mistakes(f"torque[{place}]", torque, body, field["gravity"])
 
 
 def _asked_in_vain(tables: Values, orbiting: bool) -> Found:
@@ -271,55 +272,55 @@ def doubts(tables: Values) -> Found:
                'write kind = "heavy" for a body that is held at a point, or kind = "general" for one that falls freely')
 
 
-def _wheel_mistakes(place: int, wheel: Mapping[str, Any], in_inertia: bool) -> Found:
+def _wheel_mistakes(key: str, wheel: Mapping[str, Any], in_inertia: bool) -> Found:
     kind = wheel["type"]
     for name in APART:
         if in_inertia and wheel[name] is not UNSET:
-            yield "wheel", "", f"wheel {place}: {name} is given, but its inertia is part of body.inertia", "leave it out, or set body.wheels_in_inertia = false"
+            yield key, "", f"{name} is given, but its inertia is part of body.inertia", "leave it out, or set body.wheels_in_inertia = false"
         if not in_inertia and wheel[name] is UNSET:
-            yield "wheel", "", f"wheel {place}: the key {name} is missing, and the body is without its wheels", "give it, or set body.wheels_in_inertia = true"
+            yield key, "", f"the key {name} is missing, and the body is without its wheels", "give it, or set body.wheels_in_inertia = true"
     if not in_inertia and wheel["equatorial_inertia"] is not UNSET and 2 * wheel["equatorial_inertia"] < wheel["axial_inertia"] * (1 - ROUNDING):
-        yield ("wheel", "", f"wheel {place}: equatorial_inertia {wheel['equatorial_inertia']!r} is below half of axial_inertia {wheel['axial_inertia']!r}, which "
+        yield (key, "", f"equatorial_inertia {wheel['equatorial_inertia']!r} is below half of axial_inertia {wheel['axial_inertia']!r}, which "
                "no body has", "a thin disc has half of it, a ring too")
     if wheel.get("rate") is not UNSET and wheel.get("momentum") is not UNSET:
-        yield "wheel", "", f"wheel {place}: rate and momentum are both given", "give one of them"
+        yield key, "", f"rate and momentum are both given", "give one of them"
     if kind == "motor" and (wheel["slope"] is UNSET) == (wheel["stall_torque"] is UNSET):
-        yield "wheel", "", f"wheel {place}: of slope and stall_torque one is wanted", "give the one you know"
+        yield key, "", f"of slope and stall_torque one is wanted", "give the one you know"
     if kind == "motor" and wheel["stall_torque"] is not UNSET and wheel["stall_torque"] * wheel["no_load_rate"] <= 0:
-        yield "wheel", "", f"wheel {place}: stall_torque and no_load_rate differ in sign", "both point the way in which the motor drives"
+        yield key, "", f"stall_torque and no_load_rate differ in sign", "both point the way in which the motor drives"
     for name in ("rate", "torque"):
         if isinstance(wheel.get(name), Mapping):
-            yield from _lengths(f"wheel {place}: {name}", "wheel", wheel[name])
+            yield from _lengths(f"{key}.{name}", wheel[name])
 
 
-def _lengths(what: str, key: str, table: Mapping[str, Any]) -> Found:
+def _lengths(key: str, table: Mapping[str, Any]) -> Found:
     if len(table["times"]) != len(table["values"]):
-        yield key, "", f"{what} has {len(table['times'])} times and {len(table['values'])} values", "give one value for each time"
+        yield key, "", f"there are {len(table['times'])} times and {len(table['values'])} values", "give one value for each time"
 
 
-def _torque_mistakes(place: int, torque: Mapping[str, Any], orbiting: bool, fixed: bool, magnetic: bool) -> Found:
-    kind, what = torque["type"], f"torque {place} ({torque['type']})"
+def _torque_mistakes(key: str, torque: Mapping[str, Any], orbiting: bool, fixed: bool, magnetic: bool) -> Found:
+    kind = torque["type"]
     if kind in ("damping", "eddy-current") and (torque["matrix"] is UNSET) == (torque["coefficient"] is UNSET):
-        yield "torque", "", f"{what}: of matrix and coefficient one is wanted", "give one number as coefficient, or nine as matrix"
+        yield key, "", "of matrix and coefficient one is wanted", "give one number as coefficient, or nine as matrix"
     if kind == "table":
-        yield from _lengths(what, "torque", torque)
+        yield from _lengths(key, torque)
     if kind == "weight" and not fixed:
-        yield "torque", "", f"{what}: the weight of a free body has no moment about its mass centre", "leave it out, or set body.fixed = true"
+        yield key, "", "the weight of a free body has no moment about its mass centre", "leave it out, or set body.fixed = true"
     if (kind == "gravity-gradient" and torque["gradient"] is UNSET or torque.get("frame") == "orbit") and not orbiting:
-        yield "torque", "", f"{what}: there is no orbit", "add [orbit] with altitude, radius, rate or period"
+        yield key, "", "there is no orbit", "add [orbit] with altitude, radius, rate or period"
     if kind in ("magnetic", "eddy-current") and not magnetic:
-        yield "torque", "", f"{what}: there is no magnetic field", "add [field] with uniform, rotating or dipole"
+        yield key, "", "there is no magnetic field", "add [field] with uniform, rotating or dipole"
     factor = torque.get("factor")
     if isinstance(factor, Mapping):
         wave, table = factor["rate"] is not UNSET, factor["times"] is not UNSET
         if wave == table or (wave and factor["amplitude"] is UNSET):
-            yield "torque", "", f"{what}: factor is neither a wave nor a table", "write { mean = 1.0, amplitude = 0.5, rate = 2.0 } or { times = [...], values = [...] }"
+            yield f"{key}.factor", "", "this is neither a wave nor a table", "write { mean = 1.0, amplitude = 0.5, rate = 2.0 } or { times = [...], values = [...] }"
         elif table and any(factor[name] is not UNSET for name in ("mean", "amplitude", "phase")):
-            yield "torque", "", f"{what}: factor is a table, beside which mean, amplitude and phase mean nothing", "leave them out, or give a wave by its rate"
+            yield f"{key}.factor", "", "this is a table, beside which mean, amplitude and phase mean nothing", "leave them out, or give a wave by its rate"
         elif table and factor["values"] is UNSET:
-            yield "torque", "", f"{what}: factor has times and no values", "give one value for each time"
+            yield f"{key}.factor", "", "there are times and no values", "give one value for each time"
         elif table:
-            yield from _lengths(f"{what}: factor", "torque", factor)
+            yield from _lengths(f"{key}.factor", factor)
 
 
 def _mass_mistakes(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]]) -> Found:
@@ -333,9 +334,9 @@ def _mass_mistakes(body: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]])
                "give it")
 
 
-def _force_mistakes(place: int, torque: Mapping[str, Any], body: Mapping[str, Any], gravity: Any) -> Found:
+def _force_mistakes(key: str, torque: Mapping[str, Any], body: Mapping[str, Any], gravity: Any) -> Found:
     """What a force needs: what it does without a mass or gravity that were given would be what nobody meant."""
-    kind, what = torque["type"], f"torque {place} ({torque['type']})"
+    kind, what = torque["type"], f"{key} ({torque['type']})"
     if kind == "weight" and body["fixed"] and body["mass"] is UNSET:
         yield "body.mass", "", f"the key is missing, and {what} is mass times gravity", "give it"
     if kind == "weight" and body["fixed"] and gravity is UNSET:

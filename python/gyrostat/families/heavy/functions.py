@@ -10,6 +10,8 @@ which `principal_axes` finds.
 SI units, rad. Equations: docs/heavy.md.
 """
 
+from __future__ import annotations
+
 import itertools
 import math
 from collections.abc import Mapping

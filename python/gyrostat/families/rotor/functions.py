@@ -7,6 +7,8 @@ to it. No torque acts from outside; the motor's moment on the rotor is -S (omega
 All in body axes and SI units. Equations: docs/rotor.md.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -9,6 +9,8 @@ The 3-1-2 angles are (psi, phi, theta), R = Rz(theta) Rx(psi) Ry(phi) from body 
 spin angle. SI units, rad. Equations: docs/spinning.md.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
