@@ -166,83 +166,139 @@ class Parting {
 /// does not hide it.
 /// States behind a failure are `nowhere`. note(i, error) is called at each asked time.
 template <class Writer, class Course, class Note>
+class SideBySide {
+  using Scalar = typename Writer::Scalar;
+  using Status = ode::Status;
+  using Rows = Comparison<Writer>;
+  using Row = typename Rows::Row;
+
+ public:
+  SideBySide(const Writer& writer, const Runs<Course>& runs, const Sought<Writer>& sought,
+             const MotionOptions<Scalar>& options, const Note& note) noexcept
+      : runs_(runs),
+        sought_(sought),
+        options_(options),
+        note_(note),
+        last_(sought.times.back()),
+        walk_{Status::reached, Rows(writer), {}},
+        parting_(writer),
+        kick_(runs, sought.times.back()) {}
+
+  Walk<Writer> walk() noexcept {
+    take_start();
+    if (is_going_on()) take_first_steps();
+    while (is_going_on()) take_step();
+    for (; next_ < sought_.times.size(); ++next_) sought_.states[next_] = sought_.nowhere;
+    return walk_;
+  }
+
+ private:
+  bool is_well() const noexcept { return walk_.status == Status::reached; }
+  bool is_going_on() const noexcept { return is_well() && next_ < sought_.times.size(); }
+
+  void take_start() noexcept {
+    for (; next_ < sought_.times.size() && !(sought_.times[next_] > 0); ++next_) {
+      const Row row = keep(sought_.start);
+      if (!(last_ > 0)) look(row, last_);  // the start alone is asked: no later time shows what conversions lose
+      tell(next_ + 1);
+    }
+  }
+
+  void take_first_steps() noexcept {
+    walk_.status = runs_.answer.step(last_);
+    stride_ = runs_.answer.time();
+    if (!is_well()) return;
+    if (runs_.second != nullptr) walk_.status = runs_.second->step(stride_ / 3);
+    longest_ = stride_ / 2;
+  }
+
+  /// One of the companion, and what the others make up to its end.
+  void take_step() noexcept {
+    const Scalar before = runs_.companion.time();
+    walk_.status = runs_.companion.step(longest_);
+    if (!is_well()) return;
+    const Scalar now = runs_.companion.time();
+    parting_.fade(kept_, 1 / (1 + (now - before) * sought_.rate / Scalar(honesty::fading_angle)));
+    take_times(now);
+    if (!is_well() || told_ == sought_.times.size() || !all_reach(now)) return;
+    if (told_ < next_ || honesty::is_compared_at_end(trips_)) look(walk_.asked.row(runs_.answer.at(now)), now);
+    if (told_ < next_) tell(next_);
+    if (!is_going_on()) return;
+    kick_(now);
+    if (GoesOnAlike<Course> && pace_.is_hopeless(trips_, now, last_, options_.step_cap)) {
+      walk_.status = Status::step_limit;
+    } else if ((trips_++ & 255U) == 0) {
+      const double from = sought_.progress_from, to = sought_.progress_to;
+      options_.report(from + static_cast<double>(now / last_) * (to - from));
+      if (options_.cancelled()) walk_.status = Status::cancelled;
+    }
+    longest_ = companion_reaches(now, Scalar(runs_.stride) * stride_, last_);
+  }
+
+  /// The asked times up to `now`.
+  void take_times(Scalar now) noexcept {
+    const auto times = sought_.times;
+    for (; next_ < times.size() && times[next_] <= now && all_reach(times[next_]); ++next_) {
+      const Row row = keep(runs_.answer.at(times[next_]));
+      const Scalar end = runs_.answer.time();
+      if (!honesty::is_compared(next_, times.size()) && !is_next_to_end(times, next_, end - stride_, end)) continue;
+      look(row, times[next_]);
+      tell(next_ + 1);
+    }
+  }
+
+  /// The state of the answer at the next time.
+  Row keep(const typename Writer::State& state) noexcept {
+    sought_.states[next_] = state;
+    const Row row = walk_.asked.row(state);
+    walk_.asked.add(row);
+    return row;
+  }
+
+  bool all_reach(Scalar t) noexcept {
+    walk_.status = reach(runs_.answer, t, last_, stride_);
+    Scalar unused = 0;
+    if (is_well() && runs_.second != nullptr) walk_.status = reach(*runs_.second, t, last_, unused);
+    return is_well();
+  }
+
+  /// Compares the companions at time t with the answer there.
+  void look(const Row& answer, Scalar t) noexcept {
+    const Row one = walk_.asked.row(runs_.companion.at(t));
+    auto away = Rows::apart(answer, one);
+    parting_.see(answer, one);
+    if (runs_.second == nullptr) return kept_.raise(error_of_distances(away, {}));
+    const Row two = walk_.asked.row(runs_.second->at(t));
+    parting_.see(answer, two);
+    away.raise(Rows::apart(answer, two));
+    kept_.raise(error_of_distances(away, Rows::apart(one, two)));
+  }
+
+  void tell(std::size_t end) noexcept {
+    walk_.error.raise(kept_);
+    for (; told_ < end; ++told_) note_(told_, kept_);
+  }
+
+  const Runs<Course>& runs_;
+  const Sought<Writer>& sought_;
+  const MotionOptions<Scalar>& options_;
+  const Note& note_;
+  Scalar last_;
+  Walk<Writer> walk_;
+  typename Rows::ColumnErrors kept_;  ///< the error by now: it fades
+  Parting<Writer> parting_;
+  HalfwayKick<Course, Scalar> kick_;
+  Pace<Scalar> pace_;
+  std::size_t next_ = 0, told_ = 0;  ///< asked times: the next one, and how many have their error
+  std::uint64_t trips_ = 0;
+  Scalar stride_ = 0;   ///< the last step of the answer
+  Scalar longest_ = 0;  ///< where the next step of the companion ends at the latest
+};
+
+template <class Writer, class Course, class Note>
 Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const Sought<Writer>& sought,
                          const MotionOptions<typename Writer::Scalar>& options, const Note& note) noexcept {
-  using Scalar = typename Writer::Scalar;
-  using ode::Status;
-  using Rows = Comparison<Writer>;
-  const auto& [start, rate, times, states, nowhere, progress_from, progress_to] = sought;
-  Walk<Writer> walk{Status::reached, Rows(writer), {}};
-  typename Rows::ColumnErrors kept;
-  Parting<Writer> parting(writer);
-  const auto look = [&](const typename Rows::Row& answer, Scalar t) noexcept {
-    const auto one = walk.asked.row(runs.companion.at(t));
-    auto away = Rows::apart(answer, one);
-    parting.see(answer, one);
-    if (runs.second == nullptr) return kept.raise(error_of_distances(away, {}));
-    const auto two = walk.asked.row(runs.second->at(t));
-    parting.see(answer, two);
-    away.raise(Rows::apart(answer, two));
-    kept.raise(error_of_distances(away, Rows::apart(one, two)));
-  };
-  const Scalar last = times.back();
-  Scalar stride = 0, of_second = 0;
-  const auto all_reach = [&](Scalar t) noexcept {
-    walk.status = reach(runs.answer, t, last, stride);
-    if (walk.status == Status::reached && runs.second != nullptr) walk.status = reach(*runs.second, t, last, of_second);
-    return walk.status == Status::reached;
-  };
-
-  std::size_t next = 0, told = 0;
-  const auto tell = [&](std::size_t end) noexcept {
-    walk.error.raise(kept);
-    for (; told < end; ++told) note(told, kept);
-  };
-  for (; next < times.size() && !(times[next] > 0); ++next) {
-    states[next] = start;
-    const auto row = walk.asked.row(start);
-    walk.asked.add(row);
-    if (!(last > 0)) look(row, last);  // the start alone is asked: no later time shows what conversions lose
-    tell(next + 1);
-  }
-  if (next < times.size()) walk.status = runs.answer.step(last);
-  const Scalar first = runs.answer.time();
-  stride = first;
-  if (next < times.size() && walk.status == Status::reached && runs.second != nullptr)
-    walk.status = runs.second->step(first / 3);
-  Pace<Scalar> pace;
-  std::uint64_t trips = 0;
-  HalfwayKick<Course, Scalar> kick(runs, last);
-  while (next < times.size() && walk.status == Status::reached) {
-    const Scalar before = runs.companion.time();
-    walk.status =
-        runs.companion.step(trips == 0 ? first / 2 : companion_reaches(before, Scalar(runs.stride) * stride, last));
-    if (walk.status != Status::reached) break;
-    const Scalar now = runs.companion.time();
-    parting.fade(kept, 1 / (1 + (now - before) * rate / Scalar(honesty::fading_angle)));
-    for (; next < times.size() && times[next] <= now && all_reach(times[next]); ++next) {
-      states[next] = runs.answer.at(times[next]);
-      const auto row = walk.asked.row(states[next]);
-      walk.asked.add(row);
-      const Scalar end = runs.answer.time();
-      if (!honesty::is_compared(next, times.size()) && !is_next_to_end(times, next, end - stride, end)) continue;
-      look(row, times[next]);
-      tell(next + 1);
-    }
-    if (walk.status != Status::reached || told == times.size() || !all_reach(now)) break;
-    if (told < next || honesty::is_compared_at_end(trips)) look(walk.asked.row(runs.answer.at(now)), now);
-    if (told < next) tell(next);
-    if (next == times.size()) break;
-    kick(now);
-    if (GoesOnAlike<Course> && pace.is_hopeless(trips, now, last, options.step_cap)) {
-      walk.status = Status::step_limit;
-    } else if ((trips++ & 255U) == 0) {
-      options.report(progress_from + static_cast<double>(now / last) * (progress_to - progress_from));
-      if (options.cancelled()) walk.status = Status::cancelled;
-    }
-  }
-  for (; next < times.size(); ++next) states[next] = nowhere;
-  return walk;
+  return SideBySide<Writer, Course, Note>(writer, runs, sought, options, note).walk();
 }
 
 /// Solves by a run beside its companions. `rounding(sizes, walk)` gives, in units of the columns, the error that

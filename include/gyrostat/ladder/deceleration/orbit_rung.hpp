@@ -277,6 +277,28 @@ void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Ellip
   state_errors(track, {in_span.norm + norm, in_span.energy + energy, std::min(1.0, in_span.k2 + k2), 0});
 }
 
+/// The time of the stop and its error, or the warning why there is none: false. `opposed`: the error of |U| by now.
+template <class Motion, class Visit>
+bool take_stop(Track& track, const Scene& scene, Motion& motion, Visit& visit, double breakdown, double opposed) {
+  const auto& problem = scene.problem();
+  const auto stop = motion.stop_time(visit);
+  if (!stop) {
+    const auto why = impasse(problem, motion);
+    if (why.code == Errc::undetermined) track.warn(warning::capture_undetermined, why.chance);
+    else track.warn(warning::stop_unknown);
+    return false;
+  }
+  track.stop_time = *stop;
+  const auto torque = final_torque(scene);
+  const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
+  // The law of the carrier ends where its averages are differences of large numbers; with a slow libration as well they say nothing about
+  // the stop.
+  const bool slow = symmetry_gap(problem) < narrow_gap;
+  const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
+  track.stop_error = doubt * (tail + opposed / torque.least) / *stop + honesty::mean_stop * mean_tolerance(scene);
+  return true;
+}
+
 }  // namespace detail
 
 /// First order over the free gyrostat orbit.
@@ -320,29 +342,13 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   detail::errors_of_averages(track, scene, error, motion.crossing(), standing);
 
   const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
-  const double carrier = (problem.momentum - problem.rotor_momentum).norm();
+  const double opposed =
+      detail::opposed_error(problem, error.first_order(), (problem.momentum - problem.rotor_momentum).norm());
   // near rest the body falls to the axis of the weakest control, the averaged one need not
-  const bool low =
-      breakdown > 0 && motion.opposed() < 3 * breakdown + detail::opposed_error(problem, error.first_order(), carrier);
-  if (!hold.holds) {
-    track.stop_time = infinity<double>;
-  } else if (const auto stop = motion.stop_time(visit); !stop && not_worth()) {
+  const bool low = breakdown > 0 && motion.opposed() < 3 * breakdown + opposed;
+  if (!hold.holds) track.stop_time = infinity<double>;
+  else if (!detail::take_stop(track, scene, motion, visit, breakdown, opposed) && not_worth())
     return refused<Track>(Errc::not_applicable, detail::steps_not_worth);
-  } else if (stop) {
-    track.stop_time = *stop;
-    const auto torque = final_torque(scene);
-    const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
-    const double late = detail::opposed_error(problem, error.first_order(), carrier) / torque.least;
-    // The law of the carrier ends where its averages are differences of large numbers; with a slow libration as well
-    // they say nothing about the stop.
-    const bool slow = detail::symmetry_gap(problem) < detail::narrow_gap;
-    const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
-    track.stop_error = doubt * (tail + late) / *stop + honesty::mean_stop * mean_tolerance(scene);
-  } else if (const auto why = detail::impasse(problem, motion); why.code == Errc::undetermined) {
-    track.warn(warning::capture_undetermined, why.chance);
-  } else {
-    track.warn(warning::stop_unknown);
-  }
   if (low || end >= track.stop_time || motion.changed_by(end)) track.error[column::modulus_squared] = 1;
   if (motion.changed_component()) track.warn(warning::crosses_separatrix);
   if (!known || error.start_is_unclear() || motion.doubtful() || !(small_parameter(scene) < 0.1) ||

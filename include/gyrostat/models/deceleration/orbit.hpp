@@ -405,10 +405,8 @@ class Orbit {
     return Errc::ok;
   }
 
-  /// Frame and modulus of a level with two spacelike eigenvectors and a complex pair m +- i B. `outside`: there is no such
-  /// pair, because the energy is that of an equilibrium or beyond.
-  Errc one_component(const Quartic& q, Scalar eta, bool& outside) noexcept {
-    Axis axis[3];
+  /// The spacelike eigenvectors that have one of the gaps between the axes, or an axis itself, to themselves; how many.
+  Result<int> eigenvectors(const Quartic& q, Scalar eta, Axis (&axis)[3]) const noexcept {
     int n = 0, previous = -1;
     for (int i = 0; i < 3; ++i) {
       if (!q.active(i)) {
@@ -429,7 +427,16 @@ class Orbit {
       }
       previous = i;
     }
-    if (n != 2) {
+    return n;
+  }
+
+  /// Frame and modulus of a level with two spacelike eigenvectors and a complex pair m +- i B. `outside`: there is no such
+  /// pair, because the energy is that of an equilibrium or beyond.
+  Errc one_component(const Quartic& q, Scalar eta, bool& outside) noexcept {
+    Axis axis[3];
+    const auto found = eigenvectors(q, eta, axis);
+    if (!found) return found.error();
+    if (*found != 2) {
       outside = true;
       return Errc::separatrix;
     }
@@ -464,7 +471,12 @@ class Orbit {
 
     const Scalar width = R * q.difference(axis[0].place, axis[1].place);
     const Scalar s1 = R * q.sigma(axis[0].place), s2 = R * q.sigma(axis[1].place);
-    const Scalar al = m - s1, be = s2 - m;
+    set_one_component(x1, x2, width, m - s1, s2 - m, B);
+    return Errc::ok;
+  }
+
+  /// Modulus, rate and the vectors of the four functions, from the eigenvectors and the distances of their roots, `width` apart, from the pair.
+  void set_one_component(const Vec4& x1, const Vec4& x2, Scalar width, Scalar al, Scalar be, Scalar B) noexcept {
     const Scalar rho = std::hypot(al, B), rho2 = std::hypot(be, B);
     rate_ = std::sqrt(rho * rho2);
     const Scalar r = (al * be - B * B) / (B * width), size = std::sqrt(1 + r * r);
@@ -485,7 +497,6 @@ class Orbit {
     norm_cn_ = 2 * std::sqrt(xc2 * rho / width);
     v_sn_ = norm_sn_ * x1;
     v_cn_ = norm_cn_ * x2;
-    return Errc::ok;
   }
 
   /// The vector that is Lorentz orthogonal to three others.

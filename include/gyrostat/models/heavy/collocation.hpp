@@ -89,70 +89,24 @@ class Collocation {
 
   /// Errors: no_convergence, not_finite.
   Errc solve(CollocatedOrbit<Scalar>& orbit) const {
-    const std::size_t n = orbit.nodes.size(), size = 6 * n + 4, stride = math::padded(size);
-    std::vector<Vector6> y(n);
-    for (std::size_t i = 0; i < n; ++i) y[i] << orbit.nodes[i].angular_velocity / rate_, orbit.nodes[i].down;
-    std::vector<Scalar> matrix(size * stride), step(size);
-    const auto at = [&](std::size_t i, std::size_t j) -> Scalar& { return matrix[i * stride + j]; };
-    Scalar turn = 2 * pi<Scalar> / (orbit.period * rate_), last = infinity<Scalar>;
-    Vec3<Scalar> unfolding(0, 0, 0);
+    Unknowns now(orbit, rate_);
+    Equations equations(orbit.nodes.size());
+    Scalar last = infinity<Scalar>;
     for (int trip = 0; trip < 20; ++trip) {
-      std::fill(matrix.begin(), matrix.end(), Scalar(0));
-      orbit.residual = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        const Vec3<Scalar> w = y[i].template head<3>(), d = y[i].template tail<3>();
-        Vector6 slope = Vector6::Zero();
-        for (std::size_t j = 0; j < n; ++j) {
-          if (i == j) continue;
-          const Scalar by = derivative(static_cast<int>(i) - static_cast<int>(j), static_cast<int>(n));
-          slope += by * y[j];
-          for (std::size_t k = 0; k < 6; ++k) at(6 * i + k, 6 * j + k) = turn * by;
-        }
-        Eigen::Matrix<Scalar, 6, 3> gradient;
-        const Vector6 f = right_side(w, d, gradient);
-        const Eigen::Matrix<Scalar, 6, 6> by_state = jacobian(w, d);
-        for (int k = 0; k < 6; ++k) {
-          const std::size_t here = 6 * i + static_cast<std::size_t>(k);
-          Scalar defect = turn * slope[k] - f[k];
-          for (int j = 0; j < 3; ++j) {
-            at(here, 6 * n + 1 + static_cast<std::size_t>(j)) = -gradient(k, j);
-            defect -= gradient(k, j) * unfolding[j];
-          }
-          for (int j = 0; j < 6; ++j) at(here, 6 * i + static_cast<std::size_t>(j)) -= by_state(k, j);
-          at(here, 6 * n) = slope[k];
-          step[here] = defect;
-          orbit.residual = std::max(orbit.residual, std::abs(defect));
-        }
-      }
-      // the section, and the length of down
-      const Vector6& first = y[0];
-      at(6 * n, 2) = at(6 * n + 1, 4) = at(6 * n + 2, 5) = 1;
-      for (int k = 3; k < 6; ++k) at(6 * n + 3, static_cast<std::size_t>(k)) = first[k];
-      step[6 * n] = first[2] - spin_;
-      step[6 * n + 1] = first[4];
-      step[6 * n + 2] = first[5] - G0_;
-      step[6 * n + 3] = (first[3] * first[3] + first[4] * first[4] + first[5] * first[5] - 1) / 2;
-
-      if (!math::solve_in_place<Scalar>(matrix, step)) return Errc::no_convergence;
+      equations.clear();
+      orbit.residual = collocate(now, equations);
+      close(now, equations);
+      if (!math::solve_in_place<Scalar>(equations.matrix, equations.right)) return Errc::no_convergence;
       Scalar length = 0;
-      for (const Scalar x : step) length = std::abs(x) > length ? std::abs(x) : length + 0 * x;
+      for (const Scalar x : equations.right) length = std::abs(x) > length ? std::abs(x) : length + 0 * x;
       if (!(length < infinity<Scalar>)) return Errc::not_finite;
-      const Scalar part = length > Scalar(0.5L) ? Scalar(0.5L) / length : Scalar(1);
-      for (std::size_t i = 0; i < n; ++i)
-        for (int k = 0; k < 6; ++k) y[i][k] -= part * step[6 * i + static_cast<std::size_t>(k)];
-      turn -= part * step[6 * n];
-      for (int k = 0; k < 3; ++k) unfolding[k] -= part * step[6 * n + 1 + static_cast<std::size_t>(k)];
+      now.go_back(equations.right, length > Scalar(0.5L) ? Scalar(0.5L) / length : Scalar(1));
       ++orbit.iterations;
-      if (!(turn > 0)) return Errc::no_convergence;
+      if (!(now.turn > 0)) return Errc::no_convergence;
       const bool small = length < Scalar(1e-9L) + 1024 * epsilon<Scalar>;
       if (length <= 8 * epsilon<Scalar> || (small && length > last / 4)) {
-        for (std::size_t i = 0; i < n; ++i) {
-          orbit.nodes[i].angular_velocity = rate_ * y[i].template head<3>();
-          orbit.nodes[i].down = y[i].template tail<3>();
-        }
-        orbit.period = 2 * pi<Scalar> / (turn * rate_);
-        orbit.unfolding = unfolding;
-        orbit.tail = tail(y);
+        now.write(orbit, rate_);
+        orbit.tail = tail(now.nodes);
         return Errc::ok;
       }
       last = length;
@@ -161,6 +115,87 @@ class Collocation {
   }
 
  private:
+  /// In the order of the equations' columns: omega over the rate and down at each node, turns in a unit of time, and the unfolding.
+  struct Unknowns {
+    std::vector<Vector6> nodes;
+    Scalar turn;
+    Vec3<Scalar> unfolding{0, 0, 0};
+
+    Unknowns(const CollocatedOrbit<Scalar>& orbit, Scalar rate)
+        : nodes(orbit.nodes.size()), turn(2 * pi<Scalar> / (orbit.period * rate)) {
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        nodes[i] << orbit.nodes[i].angular_velocity / rate, orbit.nodes[i].down;
+    }
+    void go_back(const std::vector<Scalar>& step, Scalar part) noexcept {
+      const std::size_t n = nodes.size();
+      for (std::size_t i = 0; i < n; ++i)
+        for (int k = 0; k < 6; ++k) nodes[i][k] -= part * step[6 * i + static_cast<std::size_t>(k)];
+      turn -= part * step[6 * n];
+      for (int k = 0; k < 3; ++k) unfolding[k] -= part * step[6 * n + 1 + static_cast<std::size_t>(k)];
+    }
+    void write(CollocatedOrbit<Scalar>& orbit, Scalar rate) const noexcept {
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        orbit.nodes[i].angular_velocity = rate * nodes[i].template head<3>();
+        orbit.nodes[i].down = nodes[i].template tail<3>();
+      }
+      orbit.period = 2 * pi<Scalar> / (turn * rate);
+      orbit.unfolding = unfolding;
+    }
+  };
+
+  /// Of one Newton step, by rows; once they are solved, `right` is the step.
+  struct Equations {
+    std::size_t size, stride;
+    std::vector<Scalar> matrix, right;
+
+    explicit Equations(std::size_t nodes)
+        : size(6 * nodes + 4), stride(math::padded(size)), matrix(size * stride), right(size) {}
+    void clear() noexcept { std::fill(matrix.begin(), matrix.end(), Scalar(0)); }
+    Scalar& at(std::size_t i, std::size_t j) noexcept { return matrix[i * stride + j]; }
+  };
+
+  /// The equations of motion at each node; how far they are from holding.
+  Scalar collocate(const Unknowns& now, Equations& equations) const {
+    const std::size_t n = now.nodes.size();
+    Scalar residual = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3<Scalar> w = now.nodes[i].template head<3>(), d = now.nodes[i].template tail<3>();
+      Vector6 slope = Vector6::Zero();
+      for (std::size_t j = 0; j < n; ++j) {
+        if (i == j) continue;
+        const Scalar by = derivative(static_cast<int>(i) - static_cast<int>(j), static_cast<int>(n));
+        slope += by * now.nodes[j];
+        for (std::size_t k = 0; k < 6; ++k) equations.at(6 * i + k, 6 * j + k) = now.turn * by;
+      }
+      Eigen::Matrix<Scalar, 6, 3> gradient;
+      const Vector6 f = right_side(w, d, gradient);
+      const Eigen::Matrix<Scalar, 6, 6> by_state = jacobian(w, d);
+      const Vector6 defect = now.turn * slope - f - gradient * now.unfolding;
+      for (int k = 0; k < 6; ++k) {
+        const std::size_t here = 6 * i + static_cast<std::size_t>(k);
+        for (int j = 0; j < 3; ++j) equations.at(here, 6 * n + 1 + static_cast<std::size_t>(j)) = -gradient(k, j);
+        for (int j = 0; j < 6; ++j) equations.at(here, 6 * i + static_cast<std::size_t>(j)) -= by_state(k, j);
+        equations.at(here, 6 * n) = slope[k];
+        equations.right[here] = defect[k];
+      }
+      residual = std::max(residual, defect.cwiseAbs().maxCoeff());
+    }
+    return residual;
+  }
+
+  /// The section, and the length of down.
+  void close(const Unknowns& now, Equations& equations) const noexcept {
+    const std::size_t last = 6 * now.nodes.size();
+    const Vector6& first = now.nodes[0];
+    const Vec3<Scalar> down = first.template tail<3>();
+    equations.at(last, 2) = equations.at(last + 1, 4) = equations.at(last + 2, 5) = 1;
+    for (int k = 0; k < 3; ++k) equations.at(last + 3, static_cast<std::size_t>(3 + k)) = down[k];
+    equations.right[last] = first[2] - spin_;
+    equations.right[last + 1] = down[1];
+    equations.right[last + 2] = down[2] - G0_;
+    equations.right[last + 3] = (down.squaredNorm() - 1) / 2;
+  }
+
   /// Of the cardinal function of a node, k nodes away, by the phase.
   static Scalar derivative(int k, int n) noexcept {
     const Scalar half = Scalar(0.5L) / std::sin(pi<Scalar> * static_cast<Scalar>(k) / static_cast<Scalar>(n));

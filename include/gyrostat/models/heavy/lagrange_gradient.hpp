@@ -135,6 +135,8 @@ class LagrangeGradient {
   void build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept;
   std::array<Scalar, 2> turning_points(Scalar x, Scalar b, Scalar a, Scalar k, Scalar gradient) const noexcept;
   static Scalar greatest_speed(const TopStart<Scalar>& o, Scalar pull, Scalar y1, Scalar y2) noexcept;
+  Scalar off_pole(Scalar c, Scalar reach, Scalar near, Scalar far, Scalar& at_near, Scalar& at_far,
+                  Scalar& root) noexcept;
   void expand() noexcept;
   AxisPoint<Scalar> axis(Scalar t) const noexcept;
 
@@ -203,6 +205,21 @@ Scalar LagrangeGradient<Scalar>::greatest_speed(const TopStart<Scalar>& o, Scala
   return std::sqrt(std::max(greatest, Scalar(0)));
 }
 
+/// The distances of the turning points from a pole, `reach` away, and the c that belongs to them: a pole that is touched is kept away by less than
+/// rounding.
+template <Real Scalar>
+Scalar LagrangeGradient<Scalar>::off_pole(Scalar c, Scalar reach, Scalar near, Scalar far, Scalar& at_near,
+                                          Scalar& at_far, Scalar& root) noexcept {
+  const Scalar there = h(reach);
+  at_far = std::max(far, floor);
+  const bool by_h = !still_ && there > size_ * near;  // the smaller relative error
+  at_near = std::min(std::max(by_h ? c * c / (at_far * there) : near, floor), at_far);
+  if (by_h) c = std::copysign(std::sqrt(at_near * at_far * there), c);
+  root = std::abs(c) / std::sqrt(at_near * at_far);
+  pole_ = std::max(pole_, std::sqrt(at_near) * (by_h ? size_ / there : 1 / at_near));
+  return c;
+}
+
 template <Real Scalar>
 void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept {
   unit_ = o.unit;
@@ -228,22 +245,10 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
   h_y_ = k + (y1 + y2) * h_yy_;
   h0_ = a + (y1 + y2) * h_y_ - y1 * y2 * h_yy_;
 
-  // distances from the poles, with the c that belongs to them; a pole that is touched is kept away by less than
-  // rounding
-  const auto pole = [&](Scalar c, Scalar reach, Scalar near, Scalar far, Scalar& at_near, Scalar& at_far,
-                        Scalar& root) {
-    const Scalar there = h(reach);
-    at_far = std::max(far, floor);
-    const bool by_h = !still_ && there > size_ * near;  // the smaller relative error
-    at_near = std::min(std::max(by_h ? c * c / (at_far * there) : near, floor), at_far);
-    if (by_h) c = std::copysign(std::sqrt(at_near * at_far * there), c);
-    root = std::abs(c) / std::sqrt(at_near * at_far);
-    pole_ = std::max(pole_, std::sqrt(at_near) * (by_h ? size_ / there : 1 / at_near));
-    return c;
-  };
+  // of the two turning points
   Scalar above1 = 1, above2 = 1, below1 = 1, below2 = 1;
-  c_below_ = pole(c_below_, to_below_, o.below + y1, o.below + y2, below1, below2, root_below_);
-  c_above_ = pole(c_above_, to_above_, o.above - y2, o.above - y1, above2, above1, root_above_);
+  c_below_ = off_pole(c_below_, to_below_, o.below + y1, o.below + y2, below1, below2, root_below_);
+  c_above_ = off_pole(c_above_, to_above_, o.above - y2, o.above - y1, above2, above1, root_above_);
   side_above_ = c_above_ < 0 ? -1 : 1;
   side_below_ = c_below_ < 0 ? -1 : 1;
   weight_above_ = side_above_ * std::sqrt(above1 * above2) / 2;

@@ -30,7 +30,6 @@ class ModeGrid {
   ModeGrid(const Problem<Scalar>& problem, Scalar start, Scalar step) noexcept : begin_(start), step_(step) {
     using Wide = detail::Wide<Scalar>;
     using Complex = math::Complex<Wide>;
-    using math::conjugate, math::turned;
     const auto w = detail::problem_cast<Wide>(problem);
     const LinearStart<Wide> s(w);
     const Wide r = w.spin(), nu2 = w.nutation_squared(), nu = std::sqrt(nu2), X = w.effective_momentum();
@@ -38,8 +37,6 @@ class ModeGrid {
     // r0 + nu and r0 - nu, the smaller from (r0 + nu)(r0 - nu) = X (r0 (D1 + D2) - X)/(D1 D2)
     const Wide product = X / w.inertia[0] * ((r * (w.inertia[0] + w.inertia[1]) - X) / w.inertia[1]);
     const Wide plus = r > 0 ? r + nu : product / (r - nu), minus = r > 0 ? product / (r + nu) : r - nu;
-    const auto over = [](Complex a, Wide rate) noexcept { return -turned(a) / rate; };  // a/(i rate)
-
     const Modes<Wide> tilt{over(rates.constant, r), over(rates.up, plus), over(rates.down, minus)};
     const Complex still = s.Gamma - tilt.constant - tilt.up - tilt.down;  // of e^(-i r0 t)
     const Complex pull{0, -s.axial_acceleration};
@@ -70,33 +67,9 @@ class ModeGrid {
     r0_ = problem.spin();
     theta0_ = problem.angles.theta;
 
-    // Re(i a~ int Gamma) and its integral, a = f/m or M
-    const auto along = [](Complex a, Complex b) noexcept { return a.im * b.re - a.re * b.im; };
-    const Modes<Wide> B1{over(still, -r), over(tilt.up, nu), over(tilt.down, -nu)};
-    const Modes<Wide> B2{over(B1.constant, -r), over(B1.up, nu), over(B1.down, -nu)};
-    const Wide forward = s.axial_acceleration + along(s.acceleration, tilt.constant);
-    const Wide v3 = w.velocity[2] - along(s.acceleration, B1.sum());
-    v3_ = Axial(s.acceleration, s.heading, B1, v3, forward, Wide(0));
-    x3_ = Axial(s.acceleration, s.heading, B2, w.position[2] - along(s.acceleration, B2.sum()), v3, forward / 2);
-    const Wide tilted = s.Gamma.re * s.Gamma.re + s.Gamma.im * s.Gamma.im;
-    G3_ = Axial(s.torque, s.heading, B1, s.axial_momentum - along(s.torque, B1.sum()) + s.charge_momentum * tilted / 2,
-                along(s.torque, tilt.constant), Wide(0));
+    set_axial(w, s, nu, tilt, still);
     pushed_ = problem.force[0] != 0 || problem.force[1] != 0;
-
-    // 16 x 16 rotations
-    math::Complex<Scalar> spin[32], nutation[32];
-    for (int i = 0; i < 32; ++i) {
-      const Scalar steps = Scalar(i < 16 ? i : 16 * (i - 16));
-      spin[i] = spin_.turn(steps);
-      nutation[i] = nutation_.turn(steps);
-    }
-    for (std::size_t j = 0; j < block; ++j) {
-      const auto c = spin[16 + j / 16] * spin[j % 16], n = nutation[16 + j / 16] * nutation[j % 16];
-      table_.C[j] = c.re;
-      table_.S[j] = c.im;
-      table_.c[j] = n.re;
-      table_.s[j] = n.im;
-    }
+    fill_table();
   }
 
   /// Values first .. first + count - 1 of the grid.
@@ -125,6 +98,12 @@ class ModeGrid {
   template <Real S>
   static math::Complex<Scalar> narrow(math::Complex<S> a) noexcept {
     return math::complex_cast<Scalar>(a);
+  }
+
+  /// a/(i rate).
+  template <Real S>
+  static math::Complex<S> over(math::Complex<S> a, S rate) noexcept {
+    return -math::turned(a) / rate;
   }
 
   /// constant + up e^(i nu t) + down e^(-i nu t) over 1, cos, sin.
@@ -159,6 +138,40 @@ class ModeGrid {
       S = static_cast<Scalar>(back.im);
     }
   };
+
+  /// v3, x3 and G3: Re(i a~ int Gamma) and its integral, a = f/m or M.
+  template <Real Wide>
+  void set_axial(const Problem<Wide>& w, const LinearStart<Wide>& s, Wide nu, const Modes<Wide>& tilt,
+                 math::Complex<Wide> still) noexcept {
+    using Complex = math::Complex<Wide>;
+    const auto along = [](Complex a, Complex b) noexcept { return a.im * b.re - a.re * b.im; };
+    const Modes<Wide> B1{over(still, -w.spin()), over(tilt.up, nu), over(tilt.down, -nu)};
+    const Modes<Wide> B2{over(B1.constant, -w.spin()), over(B1.up, nu), over(B1.down, -nu)};
+    const Wide forward = s.axial_acceleration + along(s.acceleration, tilt.constant);
+    const Wide v3 = w.velocity[2] - along(s.acceleration, B1.sum());
+    v3_ = Axial(s.acceleration, s.heading, B1, v3, forward, Wide(0));
+    x3_ = Axial(s.acceleration, s.heading, B2, w.position[2] - along(s.acceleration, B2.sum()), v3, forward / 2);
+    const Wide tilted = s.Gamma.re * s.Gamma.re + s.Gamma.im * s.Gamma.im;
+    G3_ = Axial(s.torque, s.heading, B1, s.axial_momentum - along(s.torque, B1.sum()) + s.charge_momentum * tilted / 2,
+                along(s.torque, tilt.constant), Wide(0));
+  }
+
+  /// 16 x 16 rotations.
+  void fill_table() noexcept {
+    math::Complex<Scalar> spin[32], nutation[32];
+    for (int i = 0; i < 32; ++i) {
+      const Scalar steps = Scalar(i < 16 ? i : 16 * (i - 16));
+      spin[i] = spin_.turn(steps);
+      nutation[i] = nutation_.turn(steps);
+    }
+    for (std::size_t j = 0; j < block; ++j) {
+      const auto c = spin[16 + j / 16] * spin[j % 16], n = nutation[16 + j / 16] * nutation[j % 16];
+      table_.C[j] = c.re;
+      table_.S[j] = c.im;
+      table_.c[j] = n.re;
+      table_.s[j] = n.im;
+    }
+  }
 
   struct Rotation {
     alignas(64) Scalar c[block], s[block], C[block], S[block], t[block];

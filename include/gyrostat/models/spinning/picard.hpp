@@ -290,6 +290,45 @@ class PicardSweeps {
   Columns value_[sweep_cap + 1]{};
 };
 
+/// The errors of an answer by what each sweep moved, from the first on, and by what rounding makes of columns of the sizes `size`.
+template <Real Scalar>
+void judge_sweeps(PicardAnswer<Scalar>& answer, std::span<const SweepErrors<Scalar>> moved,
+                  const std::array<Scalar, 6>& size, Scalar rounding) noexcept {
+  const auto combine = [&](Scalar a, const SweepErrors<Scalar>& x, Scalar b, const SweepErrors<Scalar>& y,
+                           Scalar c) noexcept {
+    const auto first = x.all(), second = y.all();
+    const auto one = [&](std::size_t i) noexcept { return a * first[i] + b * second[i] + c * size[i]; };
+    return SweepErrors<Scalar>{one(0), one(1), one(2), one(3), one(4), one(5)};
+  };
+  const SweepErrors<Scalar>& last = moved.back();
+  const auto now = last.all(), before = moved[moved.size() - 2].all();
+  Scalar ratio = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const bool moves = !(now[i] <= 4 * rounding * size[i]);
+    if (moves && !(now[i] <= before[i] / 2)) answer.converges = false;
+    if (moves) ratio = std::max(ratio, now[i] / before[i]);
+  }
+  answer.linear = combine(1, moved[1], 3, moved[2], rounding);
+  answer.error = combine(std::clamp(128 * ratio, Scalar(1), Scalar(2)), last, 0, last, 4 * rounding);
+}
+
+/// Keeps the state at time t of the last sweep, its size, and what each sweep moved there.
+template <Real Scalar>
+State<Scalar> settled(const PicardSweeps<Scalar>& sweeps, Scalar t, std::span<SweepErrors<Scalar>> moved,
+                      SweepErrors<Scalar>& size) noexcept {
+  State<Scalar> state = sweeps.state(0, t);
+  for (std::size_t n = 1; n < moved.size(); ++n) {
+    const State<Scalar> now = sweeps.state(static_cast<int>(n), t);
+    moved[n].add(now, state);
+    state = now;
+  }
+  const Scalar one = size.attitude;
+  const Vec3<Scalar> none = Vec3<Scalar>::Zero();
+  size.add(state, State<Scalar>{none, {}, state.attitude, none, none, none});
+  size.attitude = one;
+  return state;
+}
+
 }  // namespace detail
 
 template <Real Scalar>
@@ -308,7 +347,8 @@ Result<PicardAnswer<Scalar>> picard_motion(const Problem<Scalar>& problem, std::
 
   PicardAnswer<Scalar> answer;
   answer.size.attitude = 1;
-  SweepErrors<Scalar> moved[detail::PicardSweeps<Scalar>::sweep_cap + 1]{};
+  SweepErrors<Scalar> all[detail::PicardSweeps<Scalar>::sweep_cap + 1]{};
+  const std::span<SweepErrors<Scalar>> moved(all, static_cast<std::size_t>(last) + 1);  // by each sweep
   const Scalar end = times.empty() ? Scalar(0) : times.back();
   // three radians a panel are exact to double rounding
   const Scalar reach = eps < Scalar(1e-18L) ? Scalar(1.5L) : Scalar(3);
@@ -320,51 +360,21 @@ Result<PicardAnswer<Scalar>> picard_motion(const Problem<Scalar>& problem, std::
   while (next < times.size()) {
     if (!sweeps.advance()) return Errc::no_convergence;
     const bool final = !(static_cast<Scalar>(sweeps.done() + 1) < panels);
-    for (; next < times.size() && (times[next] <= sweeps.end() || final); ++next) {
-      State<Scalar> before = sweeps.state(0, times[next]);
-      for (int n = 1; n <= last; ++n) {
-        const State<Scalar> now = sweeps.state(n, times[next]);
-        moved[n].add(now, before);
-        before = now;
-      }
-      states[next] = before;
-      const Scalar one = answer.size.attitude;
-      answer.size.add(before, State<Scalar>{Vec3<Scalar>::Zero(),
-                                            {},
-                                            before.attitude,
-                                            Vec3<Scalar>::Zero(),
-                                            Vec3<Scalar>::Zero(),
-                                            Vec3<Scalar>::Zero()});
-      answer.size.attitude = one;
-    }
+    for (; next < times.size() && (times[next] <= sweeps.end() || final); ++next)
+      states[next] = detail::settled<Scalar>(sweeps, times[next], moved, answer.size);
     sweeps.leave();
   }
   answer.nodes = sweeps.done() * detail::PicardSweeps<Scalar>::size * static_cast<std::uint64_t>(last);
 
-  // rounding of every panel, and of the phases
+  // of every panel, and of the phases; the stiffnesses and the momentum are differences of terms that may nearly cancel
   const auto& D = problem.inertia;
   const Scalar kept = std::abs(problem.rotor_momentum) + std::abs(problem.charge_momentum);
-  // the stiffnesses and the momentum are differences of terms that may nearly cancel
   const Scalar stiffest = (kept + D[2] * std::abs(problem.spin())) / std::min(D[0], D[1]);
   const Scalar rounding = eps * (16 + 4 * std::sqrt(panels) + (rate + stiffest) * end / 4);
   auto size = answer.size.all();
   size[2] += std::abs(problem.angles.theta);
   size[3] += kept + D.maxCoeff() * answer.size.angular_velocity;
-  const auto combine = [&](Scalar a, const SweepErrors<Scalar>& x, Scalar b, const SweepErrors<Scalar>& y,
-                           Scalar c) noexcept {
-    const auto first = x.all(), second = y.all();
-    const auto one = [&](std::size_t i) noexcept { return a * first[i] + b * second[i] + c * size[i]; };
-    return SweepErrors<Scalar>{one(0), one(1), one(2), one(3), one(4), one(5)};
-  };
-  const auto now = moved[last].all(), before = moved[last - 1].all();
-  Scalar ratio = 0;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const bool moves = !(now[i] <= 4 * rounding * size[i]);
-    if (moves && !(now[i] <= before[i] / 2)) answer.converges = false;
-    if (moves) ratio = std::max(ratio, now[i] / before[i]);
-  }
-  answer.linear = combine(1, moved[1], 3, moved[2], rounding);
-  answer.error = combine(std::clamp(128 * ratio, Scalar(1), Scalar(2)), moved[last], 0, moved[last], 4 * rounding);
+  detail::judge_sweeps<Scalar>(answer, moved, size, rounding);
   return answer;
 }
 
