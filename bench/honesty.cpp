@@ -211,7 +211,8 @@ bool true_motion(const Made& made, Answer& answer) {
     while (run.time() < t)
       if (run.step(last) != ode::Status::reached) return false;
     State<Long> state = run.at(t);
-    const bool rest = state.momentum.isZero(0) || state.momentum == problem.rotor_momentum;
+    // at rest, or turning about an axis on which it stays
+    const bool rest = state.momentum.cross(problem.angular_velocity(state.momentum)).isZero(0);
     state.k2 = 0;
     if (!rest && problem.rotor_momentum.isZero(0)) {
       const auto p = polhode_through<Long>(problem.inverse_inertia, *problem.gaps, state.momentum);

@@ -154,9 +154,6 @@ inline constexpr double mean_steps = 10;
 /// The same of `averaged` without rotors where the local error is below `mean_fine`: so many times the number of its steps. Of 10 000 bodies under equal torques and drag, whose
 /// |M| has a closed form, the greatest was 0.9 times; at looser local errors 5 in all.
 inline constexpr double mean_steps_share = 1.5, mean_fine = 1e-10;
-/// With rotors the local error is this part of that. Of 1551 bodies that began within 1e-3 of the wheels' axis 169 columns had erred by up to 37 times what `mean_steps` says
-/// without, at 1e-5 and 1e-6.
-inline constexpr double mean_orbit_share = 1.0 / 64;
 /// To the error of the time at which they stop so many local errors are added. Chosen.
 inline constexpr double mean_stop = 100;
 

@@ -95,3 +95,17 @@ TEST_CASE("k2 of a nearly symmetric body, where the moments are known", "[decele
     CHECK(std::abs(orbit_kind(p, p.momentum).k2 / double(k2) - 1) < 4 * epsilon<double> / gap);
   }
 }
+
+TEST_CASE("a body that stays on an axis has k2 = 0 whatever the rounding of its level", "[deceleration]") {
+  Problem<double> p;
+  // axis 3 is the middle one, all but equal to axis 1
+  p.inverse_inertia = V(1 / 0.00035777185885536514, 1 / 0.00021759402542216941, 1 / 0.00021759402525162928);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 1; i <= 50; ++i) {
+      p.rotor_momentum = 2.0078477569557876e-18 * V::Unit(axis);
+      const OrbitKind kind = orbit_kind(p, i * 2.4e-18 * V::Unit(axis));
+      CAPTURE(axis, i, kind.k2);
+      CHECK(kind.regime == Regime::point);
+      CHECK(kind.k2 == 0);
+    }
+}

@@ -171,3 +171,56 @@ TEST_CASE("orbit motion: no heap, in either order", "[deceleration]") {
     CHECK(sample.level.R > 0);
   }
 }
+
+namespace {
+
+Problem<long double> widened(const Problem<double>& p) {
+  Problem<long double> w;
+  w.inverse_inertia = p.inverse_inertia.cast<long double>();
+  w.rotor_momentum = p.rotor_momentum.cast<long double>();
+  w.control = p.control.cast<long double>();
+  w.drag = p.drag;
+  w.law = p.law, w.drag_law = p.drag_law;
+  w.momentum = p.momentum.cast<long double>();
+  return w;
+}
+
+}  // namespace
+
+TEST_CASE("orbit motion: beside an equilibrium and a separatrix errors stay within their tolerance", "[deceleration]") {
+  int checked = 0;
+  for (const Law law : {Law::total, Law::carrier})
+    for (const int axis : {0, 1, 2})
+      for (double off = 1e-2; off > 1e-9; off /= 10) {
+        Problem<double> p = gyrostat_of({0, 0, 0}, law, 1e-6);
+        p.rotor_momentum = 0.03 * V::Unit(axis);
+        p.momentum = V::Unit(axis) + off * V(.3, .5, .4);
+        const auto orbit = Orbit<double>::through(p, p.momentum);
+        if (!orbit) continue;
+        const Level<double> start = orbit->level();
+        OrbitMotion<Averages, long double> truth(widened(p), {start.R, start.eta}, orbit->component(), 0, 1e-16L,
+                                                 infinity<long double>);
+        constexpr double times[] = {2e5, 4e5, 6e5};
+        std::array<Level<double>, 3> wanted;
+        bool known = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+          known = known && truth.advance(times[i], 0, [](auto, auto, auto) {}) == ode::Status::reached;
+          const auto there = truth.sample().level;
+          wanted[i] = {double(there.R), double(there.eta)};
+        }
+        if (!known || truth.changed_component()) continue;
+        for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12}) {
+          OrbitRun motion(p, start, orbit->component(), 0, tolerance, infinity<double>);
+          CAPTURE(int(law), axis, off, tolerance);
+          for (std::size_t i = 0; i < 3; ++i) {
+            REQUIRE(motion.advance(times[i], 0, no_one) == ode::Status::reached);
+            const auto level = motion.sample().level;
+            CHECK(std::abs(level.R - wanted[i].R) <= 4 * tolerance);
+            CHECK(std::abs(level.eta - wanted[i].eta) <= 4 * tolerance * p.inverse_inertia[2]);
+          }
+          CHECK_FALSE(motion.changed_component());
+          ++checked;
+        }
+      }
+  CHECK(checked > 100);
+}

@@ -156,6 +156,8 @@ TEST_CASE("linear-tail rung: asked for by name it answers over the tolerance, an
   CHECK(track.failure == Errc::ok);
   CHECK_FALSE(track.in_domain);
   CHECK(track.states.size() == outside.data.times.size());
+  REQUIRE(track.warnings.size() == 1);
+  CHECK(track.warnings[0].code() == "beyond-validity");
 }
 
 TEST_CASE("linear-tail rung: the caller can stop it", "[rotor]") {

@@ -97,4 +97,24 @@ TEST_CASE("what is known of wheels goes on from piece to piece", "[general]") {
   CHECK(last == 7);
 }
 
+TEST_CASE("the angle of a wheel adds up over many pieces without rounding more than once", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 2.5).asDiagonal();
+  p.wheels.resize(1);
+  auto& wheel = p.wheels[0];
+  wheel.type = WheelType::held, wheel.axial_inertia = 1, wheel.axis = {1, 0, 0};
+  wheel.table = {{0}, {0.7}, Between::linear, true};
+  auto& torque = p.torques.emplace_back();
+  torque.vector = {1, 0, 0};
+  for (int i = 0; i < 200; ++i) torque.factor.on.push_back({100 + 0.1 * i, 100 + 0.1 * (i + 0.5)});
+  int pieces = 0;
+  for_pieces(p, 130., [&](const Piece<double>& piece, const Wheels<double>&) {
+    ++pieces;
+    const long double exact = static_cast<long double>(0.7) * piece.from;
+    const auto& mine = piece.wheels[0];
+    CHECK(std::abs(double(mine.integral + static_cast<long double>(mine.lost) - exact)) <= 1e-16 * (1 + double(exact)));
+  });
+  CHECK(pieces > 400);
+}
+
 }  // namespace general_piece_test

@@ -395,3 +395,15 @@ TEST_CASE("no momentum, no numbers, and no allocation") {
   CHECK(after == before);
   STATIC_REQUIRE(noexcept(steady_rotations(g, 8.0)));
 }
+
+TEST_CASE("directions are unit vectors, also where two moments are nearly equal in rotated axes") {
+  Bodies bodies(12);
+  for (int i = 0; i < 400; ++i) {
+    const Mat3<double> R = to_matrix(bodies.attitude());
+    const double gap = std::pow(10., -16 + 8 * (i / 400.));
+    const Mat3<double> theta = R * Vec3<double>(1 - gap, 1, 1 + gap / 2).asDiagonal() * R.transpose();
+    const auto g = Gyrostat<double>::make((theta + theta.transpose()) / 2, bodies.direction(), 0.1, 0.1, 0);
+    REQUIRE(g);
+    for (const auto& r : steady_rotations(*g, 1.0)) CHECK(r.direction.norm() == Approx(1).epsilon(1e-14));
+  }
+}

@@ -22,11 +22,6 @@ inline double mean_tolerance(const Scene& scene) noexcept {
   return std::max(1e-13, std::min(1e-5, scene.goal().tightest * 1e-3));
 }
 
-/// The same with rotors, where beside the axis of the wheels the local errors add up to more.
-inline double mean_orbit_tolerance(const Scene& scene) noexcept {
-  return std::max(1e-13, mean_tolerance(scene) * honesty::mean_orbit_share);
-}
-
 namespace detail {
 
 /// Why no averaged rung answers the scene, or nullptr.

@@ -14,6 +14,12 @@ struct OrbitKind {
   double k2 = 0;
 };
 
+/// Whether M stands in the body but for roundings, which an orbit made of differences of the energy may take for a turn.
+inline bool rests_in_body(const Problem<double>& problem, const Vec3<double>& M) noexcept {
+  const double rate = (problem.inverse_inertia.cwiseProduct(M)).norm() + problem.gyro_rate().norm();
+  return M.cross(problem.angular_velocity(M)).norm() <= 32 * epsilon<double> * M.norm() * rate;
+}
+
 GYROSTAT_COMPILED_ONCE OrbitKind orbit_kind(const Problem<double>& problem, const Vec3<double>& M) noexcept;
 
 /// How far the modulus of the polhode through M, no rotors, can be off by what rounding makes of the data.

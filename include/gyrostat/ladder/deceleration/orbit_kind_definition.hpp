@@ -16,6 +16,7 @@ GYROSTAT_COMPILED_ONCE OrbitKind orbit_kind(const Problem<double>& problem, cons
     if (!(p.modulus.kp2 > 0)) return {Regime::separatrix, 1};
     return {p.regime, p.modulus.k2};
   }
+  if (rests_in_body(problem, M)) return {Regime::point, 0};
   const auto orbit = Orbit<double>::through(problem, M);
   if (orbit) return {orbit->regime(), orbit->modulus().k2};
   return orbit.error() == Errc::separatrix ? OrbitKind{Regime::separatrix, 1} : OrbitKind{Regime::point, 0};

@@ -64,6 +64,7 @@ struct OrbitEquations {
 template <class Elliptic>
 struct FirstOrderRates {
   static constexpr double longest_step = 2;
+  static constexpr bool smooth = false;  // beside a separatrix and an equilibrium
   static constexpr std::uint64_t step_cap = 5000;
 
   template <Real Scalar>
@@ -71,8 +72,27 @@ struct FirstOrderRates {
                                Component followed) const noexcept {
     const auto mean = average<Elliptic>(problem, level, followed);
     if (!mean) return mean.error();
-    return MeanRates<Scalar>{mean->rates, 1 / mean->period};
+    const MeanRates<Scalar> rates{mean->rates, 1 / mean->period};
+    const Scalar beyond = level.eta - mean->level.eta;
+    return mean->component.regime == Regime::point && beyond != 0
+               ? continued(problem, mean->level, rates, beyond, followed)
+               : rates;
   }
+
+  /// The rates beyond an equilibrium, where stages of a step may go and the motion does not: the parabola through those of the equilibrium and of two
+  /// levels as far on its other side, since a kink misleads the step control. Without such levels those of the equilibrium.
+  template <Real Scalar>
+  static MeanRates<Scalar> continued(const Problem<Scalar>& problem, const Level<Scalar>& end,
+                                     const MeanRates<Scalar>& rates, Scalar beyond, Component followed) noexcept {
+    const auto one = average<Elliptic>(problem, Level<Scalar>{end.R, end.eta - beyond}, followed);
+    const auto two = average<Elliptic>(problem, Level<Scalar>{end.R, end.eta - 2 * beyond}, followed);
+    if (!one || !two || one->component.regime != two->component.regime) return rates;
+    const auto by = [](Scalar zero, Scalar first, Scalar second) noexcept { return 3 * (zero - first) + second; };
+    return {{by(rates.rates.R, one->rates.R, two->rates.R), by(rates.rates.h, one->rates.h, two->rates.h),
+             by(rates.rates.eta, one->rates.eta, two->rates.eta)},
+            by(rates.phase_rate, 1 / one->period, 1 / two->period)};
+  }
+
   template <Real Scalar>
   void accept(const Problem<Scalar>&, const Level<Scalar>&, Component) noexcept {}
 };
@@ -82,6 +102,7 @@ struct FirstOrderRates {
 template <class Elliptic, Real Scalar>
 struct SecondOrderRates {
   static constexpr Scalar longest_step = Scalar(.25);  // neighbouring orbits must resemble each other
+  static constexpr bool smooth = true;                 // there it has no value
   static constexpr std::uint64_t step_cap = 600;
   static constexpr Scalar most_oscillation = Scalar(.5);  // of the phase, turns
 
@@ -144,7 +165,7 @@ class OrbitMotion {
               std::uint64_t step_cap = Rates::step_cap) noexcept
       : start_opposed_(Equations{problem, start.R, component}.opposed(start)),
         solver_(Equations{problem, start.R, component, rates}, Scalar(0), State{0, start.eta, 0, phase},
-                control_of(problem, start, tolerance, phase_error, step_cap)),
+                control_of(problem, start, component, rates, tolerance, phase_error, step_cap)),
         component_(component) {}
 
   /// Moves on to time t, or to the step in which the control comes to oppose no more than `floor` [N m s] if that is
@@ -219,8 +240,30 @@ class OrbitMotion {
   /// Where the clock of the mean equations ends: it tells e-folds of what the torque changes, or turns of a free motion.
   static constexpr Scalar far_away = Scalar(1e9);
 
+  /// Short enough that the distance from a separatrix, by kp2, changes by half at most: beside it the rates are singular, which a step far over that
+  /// distance would not see.
+  static Scalar first_step(const Equations& equations, const Level<Scalar>& start) noexcept {
+    Scalar step = Scalar(.02);
+    const auto orbit = Orbit<Scalar>::at(equations.problem, start, equations.followed);
+    if (!orbit || !(orbit->modulus().kp2 < Scalar(.1))) return step;
+    Equations trial = equations;
+    const State y{0, start.eta, 0, 0};
+    State slope;
+    trial(Scalar(0), y, slope);
+    const Scalar kp2 = orbit->modulus().kp2;
+    for (int trip = 0; trip < 60; ++trip, step /= 4) {
+      const auto moved = Orbit<Scalar>::at(
+          equations.problem,
+          equations.level({step * slope[Equations::log_norm], start.eta + step * slope[Equations::eta], 0, 0}),
+          equations.followed);
+      if (moved && moved->regime() == orbit->regime() && std::abs(moved->modulus().kp2 - kp2) <= kp2 / 2) break;
+    }
+    return step;
+  }
+
   static ode::StepControl<Scalar, 4> control_of(const Problem<Scalar>& problem, const Level<Scalar>& start,
-                                                Scalar tolerance, Scalar phase_error, std::uint64_t step_cap) noexcept {
+                                                Component component, const Rates& rates, Scalar tolerance,
+                                                Scalar phase_error, std::uint64_t step_cap) noexcept {
     ode::StepControl<Scalar, 4> control;
     control.relative = 0;
     const Scalar swing = problem.inverse_inertia[2] * start.R + problem.gyro_rate().norm();
@@ -228,7 +271,8 @@ class OrbitMotion {
     const Scalar fading = problem.drag + (b > 0 ? b / start.R : Scalar(0));
     const Scalar local = tolerance * energy_share(problem, start);
     control.absolute = {local, local * swing, fading > 0 ? tolerance / fading : infinity<Scalar>, phase_error};
-    control.first_step = Scalar(.02);
+    control.smooth = Rates::smooth;
+    control.first_step = first_step(Equations{problem, start.R, component, rates}, start);
     control.longest_step = Rates::longest_step;
     control.step_cap = step_cap;
     return control;

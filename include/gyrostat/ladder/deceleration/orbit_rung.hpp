@@ -248,13 +248,6 @@ class SecondOrderOrbit {
   OrbitMotion<Rates, double> motion_;
 };
 
-/// Whether M stands in the body but for roundings, which an orbit made of differences of the energy may take for a turn.
-inline bool starts_at_rest_in_body(const Problem<double>& problem) noexcept {
-  const Vec3<double>& M = problem.momentum;
-  const double rate = (problem.inverse_inertia.cwiseProduct(M)).norm() + problem.gyro_rate().norm();
-  return M.cross(problem.angular_velocity(M)).norm() <= 32 * epsilon<double> * M.norm() * rate;
-}
-
 /// crossed: what the turns beside separatrices have changed of the energy, J; standing: |U| that is not followed into the stop, N m s.
 template <class Elliptic>
 void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Elliptic>& error, double crossed,
@@ -316,7 +309,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   };
   using Rates = FirstOrderRates<Elliptic>;
   const std::uint64_t step_cap = steps_worth(scene, averaged_orbit_step, Rates::step_cap);
-  OrbitMotion<Rates, double> motion(problem, orbit->level(), orbit->component(), 0, mean_orbit_tolerance(scene),
+  OrbitMotion<Rates, double> motion(problem, orbit->level(), orbit->component(), 0, mean_tolerance(scene),
                                     infinity<double>, {}, step_cap);
   const auto not_worth = [&] { return motion.failure() == Errc::step_limit && step_cap < Rates::step_cap; };
   visit(orbit->level(), orbit->component(), 0);
@@ -369,7 +362,7 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   Orbit<double, Elliptic> orbit;
   const auto mean = mean_of<Elliptic>(problem, problem.momentum, &orbit);
   if (!mean) return detail::refused(detail::not_followed(mean.error()));
-  if (orbit.regime() == Regime::point || detail::starts_at_rest_in_body(problem))
+  if (orbit.regime() == Regime::point || rests_in_body(problem, problem.momentum))
     return refused<Track>(Errc::not_applicable,
                           "the motion starts on an equilibrium: there is nothing to average over");
 

@@ -50,7 +50,7 @@ inline Seen seen_of(const ViewRequest& view, const Motion<double>& motion, doubl
   }
   // as if the cone were wider and narrower; the cosine of an axis that is off by an angle is off by as much
   const double wide = seen(std::min(view.half_angle + off, pi<double>)).fraction;
-  const double narrow = seen(std::max(view.half_angle - off, 0.0)).fraction;
+  const double narrow = seen(view.half_angle - off).fraction;
   const double left = made.error + closing_share(motion, turn_error);
   return {made.fraction, made.mean_cosine, left + std::max(wide - narrow, off), left + off};
 }

@@ -110,6 +110,7 @@ GYROSTAT_COMPILED_ONCE Track linear_tail_track(const Scene& scene, Monitor* moni
     for (const double t : question.times) track.states.push_back(tail.at(t));
     track.error = state_columns(row, track.states, bound);
     track.in_domain = near;
+    if (!near) track.warn(warning_kinds[warning::beyond_validity], tail.distance());
     return track;
   };
   Track track;

@@ -54,6 +54,7 @@ enum : std::size_t {
   no_attractor,
   marginal,
   attractor_undecided,
+  beyond_validity,
 };
 }
 
@@ -70,6 +71,8 @@ inline constexpr WarningKind warning_kinds[] = {
     {"marginal", "the rotor lies on a principal axis: the nutation dies out like 1/sqrt(t), at no exponential rate"},
     {"attractor-undecided",
      "two steady rotations attract and the motion has not chosen at the last time; V is above the lowest saddle by, J"},
+    {"beyond-validity",
+     "the start is far from the steady rotation on whose linear motion the answer goes on, and so may be drawn to another; distance, rad"},
 };
 
 /// Places in rung_kinds, cheapest first.

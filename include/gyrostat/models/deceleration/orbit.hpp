@@ -269,9 +269,11 @@ class Orbit {
       if (!rise.exists) continue;
       const Scalar below = q.value(rise.lo, eta), above = q.value(rise.hi, eta);
       const Regime regime = mirrored ? Regime::about_smallest : Regime::about_largest;
+      // a point may have been the end of a lobe
+      const bool in_lobe = followed.regime == regime || followed.regime == Regime::point;
       if (below > 0) {  // under the lowest energy of the lobes
         const bool both = !q.active(0);
-        if (both || (followed.regime == regime && followed.branch == younger(q)))
+        if (both || (in_lobe && followed.branch == younger(q)))
           return o.rest_at(q, mirrored, rise.lo, followed.branch, M);
         continue;
       }
@@ -280,7 +282,7 @@ class Orbit {
       if (const auto e = o.two_components(q, mirrored, rise, eta); e != Errc::ok) return e;
       o.branch_ = 1;
       if (M) o.branch_ = lorentz(o.v_even2_, with_unit(*M)) >= 0 ? 1 : -1;
-      else if (followed.regime == regime && followed.branch != 0) o.branch_ = followed.branch;
+      else if (in_lobe && followed.branch != 0) o.branch_ = followed.branch;
       else if (q.active(0) && -below < above) o.branch_ = -younger(q);
       else return Errc::undetermined;
       if (q.active(0) && o.branch_ == -younger(q) && -below < 2 * level.R * close) {

@@ -27,26 +27,42 @@ struct View {
 
 namespace detail {
 
-/// What is seen in one turn about a pole, at the angle arc cos s from the direction, of an axis at the angle arc cos b from the pole.
+/// Between two vectors, rad, to some roundings also where it is small or nearly pi.
+template <Real Scalar>
+Scalar angle_between(const Vec3<Scalar>& a, const Vec3<Scalar>& b) noexcept {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// What is seen in one turn about a pole, at the angle delta from the direction, of an axis at the angle theta from the pole, rad.
 template <Real Scalar>
 struct SeenInTurn {
-  Scalar s, limit;  ///< limit: cosine of half the angle of the cone
+  Scalar delta, half_angle;  ///< half_angle: of the cone, rad; below 0 it holds nothing
 
-  View<Scalar> operator()(Scalar b) const noexcept {
-    const Scalar A = b * s, B = std::sqrt(std::max(Scalar(0), (1 - b) * (1 + b) * (1 - s) * (1 + s)));
-    const auto angle = [](Scalar above, Scalar below) noexcept {
-      return below > 0    ? std::acos(std::clamp(above / below, Scalar(-1), Scalar(1)))
-             : above <= 0 ? pi<Scalar>
-                          : Scalar(0);
-    };
-    const Scalar lit = angle(-A, B);
-    return {angle(limit - A, B) / pi<Scalar>, (A * lit + B * std::sin(lit)) / pi<Scalar>};
+  View<Scalar> operator()(Scalar theta) const noexcept {
+    const Scalar lit = azimuth(theta, pi<Scalar> / 2);
+    const Scalar mean = std::cos(theta) * std::cos(delta) * lit + std::sin(theta) * std::sin(delta) * std::sin(lit);
+    return {azimuth(theta, half_angle) / pi<Scalar>, mean / pi<Scalar>};
   }
-  /// The b beyond which a turn touches the cone or leaves it, or the half space of the direction: where the above has roots for ends.
+  /// The theta at which a turn touches the cone, or the half space of the direction: beyond, the above has roots for ends.
   std::array<Scalar, 4> edges() const noexcept {
-    const Scalar c = std::sqrt(std::max(Scalar(0), (1 - s) * (1 + s)));
-    const Scalar sine = std::sqrt(std::max(Scalar(0), (1 - limit) * (1 + limit)));
-    return {s * limit - c * sine, s * limit + c * sine, -c, c};
+    const auto folded = [](Scalar angle) noexcept {
+      return angle > pi<Scalar> ? 2 * pi<Scalar> - angle : std::abs(angle);
+    };
+    const Scalar right = pi<Scalar> / 2;
+    return {folded(delta - half_angle), folded(delta + half_angle), folded(delta - right), folded(delta + right)};
+  }
+
+ private:
+  /// phi of cos within = cos theta cos delta + sin theta sin delta cos phi, rad, 0 and pi beyond: by half angles, which keep their digits beside
+  /// the poles.
+  Scalar azimuth(Scalar theta, Scalar within) const noexcept {
+    if (within < 0) return 0;
+    const Scalar apart = theta - delta, sum = theta + delta;
+    const Scalar inside =
+        std::sin((within + apart) / 2) * std::sin((within - apart) / 2);  // sin theta sin delta sin^2(phi/2)
+    const Scalar outside = std::sin((sum + within) / 2) * std::sin((sum - within) / 2);  // and the same of cos^2
+    if (!(outside > 0)) return inside >= 0 ? pi<Scalar> : Scalar(0);
+    return inside > 0 ? 2 * std::atan(std::sqrt(inside / outside)) : Scalar(0);
   }
 };
 
@@ -83,7 +99,7 @@ void add_view(View<Scalar>& sum, const Seen& seen, Scalar from, Scalar to) noexc
 /// In the long run, of a motion whose turn in a period is no fraction of a whole turn with a small denominator (resonance()): the phases
 /// then fill a torus evenly, and the azimuth about M integrates in closed form; over the other phase by Kronrod's rule between the times at
 /// which the axis comes to see the direction all the way round, or not at all. In a steady rotation over a turn; on a separatrix NaN.
-/// @param axis unit, body axes; @param direction unit, inertial axes; @param half_angle in [0, pi], rad
+/// @param axis unit, body axes; @param direction unit, inertial axes; @param half_angle up to pi, rad; below 0 nothing is seen
 template <Real Scalar>
 View<Scalar> long_run_view(const Motion<Scalar>& motion, const Vec3<Scalar>& axis, const Vec3<Scalar>& direction,
                            Scalar half_angle) noexcept {
@@ -93,25 +109,40 @@ View<Scalar> long_run_view(const Motion<Scalar>& motion, const Vec3<Scalar>& axi
   // the axis about which all goes round: M, or omega where that is steady
   const Vec3<Scalar> pole =
       steady ? rotate<Scalar>(start.attitude, start.angular_velocity) : motion.inertial_momentum();
-  const Scalar length = pole.norm();
-  const Scalar s = length > 0 ? direction.dot(pole) / length : direction.dot(rotate<Scalar>(start.attitude, axis));
-  const detail::SeenInTurn<Scalar> turn{std::clamp(s, Scalar(-1), Scalar(1)), std::cos(half_angle)};
-  if (steady)
-    return length > 0 ? turn(axis.dot(start.angular_velocity) / length)
-                      : View<Scalar>{Scalar(s >= turn.limit), std::max(s, Scalar(0))};
+  if (!(pole.norm() > 0)) {
+    const Vec3<Scalar> there = rotate<Scalar>(start.attitude, axis);
+    const Scalar seen = detail::angle_between<Scalar>(direction, there) <= half_angle ? Scalar(1) : Scalar(0);
+    return {seen, std::max(direction.dot(there), Scalar(0))};
+  }
+  const detail::SeenInTurn<Scalar> turn{detail::angle_between<Scalar>(direction, pole), half_angle};
+  if (steady) return turn(detail::angle_between<Scalar>(axis, start.angular_velocity));
+
+  // between its extremes the angle from M goes through each edge once
   const Scalar T = motion.period();
-  const auto along = [&](Scalar t) noexcept { return axis.dot(motion.at(t).angular_momentum) / length; };
-  std::vector<Scalar> cuts{Scalar(0), T};
+  const auto theta = [&](Scalar t) noexcept {
+    return detail::angle_between<Scalar>(axis, motion.at(t).angular_momentum);
+  };
+  const auto turning = [&](Scalar t) noexcept {
+    const auto state = motion.at(t);
+    return axis.dot(state.angular_momentum.cross(state.angular_velocity));
+  };
+  std::vector<Scalar> extremes = periodic_zeros(motion, turning, Scalar(0), T);
+  extremes.insert(extremes.begin(), Scalar(0));
+  extremes.push_back(T);
+  std::vector<Scalar> cuts = extremes;
   for (const Scalar edge : turn.edges())
-    for (const Scalar t : periodic_zeros(motion, [&](Scalar x) noexcept { return along(x) - edge; }, Scalar(0), T))
-      cuts.push_back(t);
+    for (std::size_t i = 0; i + 1 < extremes.size(); ++i) {
+      const auto off = [&](Scalar t) noexcept { return theta(t) - edge; };
+      if ((off(extremes[i]) < 0) == (off(extremes[i + 1]) < 0)) continue;
+      if (const auto root = math::bracketed_root<Scalar>(off, extremes[i], extremes[i + 1])) cuts.push_back(*root);
+    }
   // beside a separatrix all happens in a small share of the period
   const int pieces = nodes_of(motion) / 16;
   for (int i = 1; i < pieces; ++i) cuts.push_back(T * Scalar(i) / Scalar(pieces));
   std::sort(cuts.begin(), cuts.end());
   View<Scalar> view;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-    detail::add_view(view, [&](Scalar x) noexcept { return turn(along(x * T)); }, cuts[i] / T, cuts[i + 1] / T);
+    detail::add_view(view, [&](Scalar x) noexcept { return turn(theta(x * T)); }, cuts[i] / T, cuts[i + 1] / T);
   return view;
 }
 

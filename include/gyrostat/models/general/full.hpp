@@ -150,7 +150,7 @@ State<Scalar> state_of(const Prepared<Scalar>& of, const Piece<Scalar>& piece, S
       made.work += (x[At::wheel(i)] - law.momentum) * (x[At::wheel(i)] + law.momentum) / (2 * I);
       continue;
     }
-    const Scalar integral = piece.wheels[i].integral + piece.wheels[i].gained(s) / I;
+    const Scalar integral = piece.wheels[i].integral + (piece.wheels[i].lost + piece.wheels[i].gained(s) / I);
     const bool held = law.follows == Follows::rate;
     made.rotor_rate[i] = own / I - (held ? Scalar(0) : law.axis.dot(w));
     made.rotor_angle[i] = law.angle + (integral - (held ? Scalar(0) : law.axis.dot(turned)));

@@ -30,8 +30,15 @@ template <Real Scalar>
 struct WheelPiece {
   std::array<Scalar, 5> c{};
   Scalar integral = 0;  ///< of this over I, from t = 0 to the begin of the piece; not used for a T
+  Scalar lost = 0;      ///< what rounding has taken from that in the pieces before
 
   Scalar at(Scalar s) const noexcept { return c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * c[4]))); }
+  /// Goes on behind a piece of this length, s, of a wheel of this inertia.
+  void add_up(const WheelPiece& before, Scalar length, Scalar inertia) noexcept {
+    const Scalar was = before.integral, gain = before.gained(length) / inertia;
+    integral = was + gain;
+    lost = before.lost + (std::abs(was) >= std::abs(gain) ? (was - integral) + gain : (gain - integral) + was);
+  }
   /// The integral of it over the piece up to s.
   Scalar gained(Scalar s) const noexcept {
     return s * (c[0] + s * (c[1] / 2 + s * (c[2] / 3 + s * (c[3] / 4 + s * c[4] / 5))));
@@ -127,7 +134,7 @@ void Piece<Scalar>::take_wheels(const Problem<Scalar>& problem, const Wheels<Sca
     if (law.tabled) table = piece(problem.wheels[i].table, 1, 0, inside()).about(from);
     const Scalar length = before != nullptr ? from - before->from : Scalar(0);
     if (before != nullptr && law.follows != Follows::state && law.follows != Follows::body)
-      mine.integral = before->wheels[i].integral + before->wheels[i].gained(length) / law.axial_inertia;
+      mine.add_up(before->wheels[i], length, law.axial_inertia);
     switch (law.follows) {
       case Follows::body: continue;
       case Follows::rate:

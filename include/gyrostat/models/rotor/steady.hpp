@@ -268,7 +268,7 @@ void polish(const Gyrostat<Scalar>& gyrostat, Scalar l, SteadyRotation<Scalar>& 
   const Scalar du = (vv * fu - uv * fv) / determinant, dv = (uu * fv - uv * fu) / determinant;
   if (!(std::abs(du) + std::abs(dv) <= Scalar(1e-3L) * std::abs(determinant) / size)) return;
   const Vec3<Scalar> change = du * t.u + dv * t.v - excess * m;
-  r.direction = m + change;
+  r.direction = m + change - (du * du + dv * dv) / 2 * m;
   r.spin_rate = psi + (change.dot(Jm) + excess * psi - m.dot(force));
 }
 
