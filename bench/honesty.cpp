@@ -211,12 +211,17 @@ bool true_motion(const Made& made, Answer& answer) {
     while (run.time() < t)
       if (run.step(last) != ode::Status::reached) return false;
     State<Long> state = run.at(t);
-    // at rest, or turning about an axis on which it stays
-    const bool rest = state.momentum.cross(problem.angular_velocity(state.momentum)).isZero(0);
+    const bool rest = state.momentum.isZero(0) || state.momentum == problem.rotor_momentum;
+    const bool steady = state.momentum.cross(problem.angular_velocity(state.momentum)).isZero(0);
     state.k2 = 0;
     if (!rest && problem.rotor_momentum.isZero(0)) {
       const auto p = polhode_through<Long>(problem.inverse_inertia, *problem.gaps, state.momentum);
       state.k2 = std::isfinite(p.modulus.k2) ? p.modulus.k2 : 0;
+    } else if (!rest && steady) {
+      Problem<double> here;
+      here.inverse_inertia = problem.inverse_inertia.cast<double>();
+      here.rotor_momentum = problem.rotor_momentum.cast<double>();
+      state.k2 = orbit_kind(here, state.momentum.cast<double>()).k2;
     } else if (!rest) {
       // beside an equilibrium the roots that it is made of part by the root of a rounding
       auto& own = answer.columns[column::modulus_squared].error;

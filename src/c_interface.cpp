@@ -60,6 +60,8 @@ int told(const Work& work) noexcept {
     return refuse(GYROSTAT_NO_MEMORY, "there is no memory for it");
   } catch (const std::length_error&) {
     return refuse(GYROSTAT_BAD_ARGUMENT, "an array is longer than memory can be");
+  } catch (...) {
+    return refuse(GYROSTAT_BAD_ARGUMENT, "an exception that nobody expects");
   }
 #endif
 }
@@ -293,7 +295,7 @@ int gyrostat_answer_error(const gyrostat_answer* answer, const char* name, doubl
     const double stated = column != nullptr ? column->error : quantity->error;
     double relative_to = 1;
     if (measure == Measure::relative)
-      relative_to = column != nullptr ? gyrostat::size_of(*column) : std::abs(quantity->values[0]);
+      relative_to = column != nullptr ? gyrostat::size_of(*column) : gyrostat::size_of(*quantity);
     if (error != nullptr) *error = measure == Measure::none ? gyrostat::nan<double> : stated;
     if (size != nullptr) *size = relative_to;
     return {};

@@ -21,14 +21,9 @@ namespace {
 using Numbers = std::span<const double>;
 using Scene = gyrostat_scene;
 
-// in the order of the enumerations
-constexpr const char* wheel_types[] = {"locked", "held", "free", "torque", "motor", "friction"};
-constexpr const char* torque_types[] = {"constant",         "table",    "damping",      "brake",  "weight",
-                                        "gravity-gradient", "magnetic", "eddy-current", "thrust", "charge"};
-constexpr const char* axes_words[] = {"body", "inertial", "orbit"};
-constexpr const char* opposed_words[] = {"angular-velocity", "momentum", "carrier-momentum"};
+using gyrostat::general::axes_words, gyrostat::general::between_words, gyrostat::general::opposed_words,
+    gyrostat::general::torque_words, gyrostat::general::wheel_words;
 constexpr const char* law_words[] = {"total", "carrier"};
-constexpr const char* between_words[] = {"step", "linear", "cubic"};
 constexpr const char* extend_words[] = {"zero", "hold"};
 
 /// How many numbers a key takes.
@@ -264,7 +259,7 @@ Outcome fits(const Scene& scene, std::string_view key, Types of) {
   const auto place =
       wheels ? std::size_t(scene.problem.wheels.back().type) : std::size_t(scene.problem.torques.back().type);
   if ((of >> place & 1U) != 0) return {};
-  return bad("a " + what + " of the type " + (wheels ? wheel_types : torque_types)[place] + " has no " +
+  return bad("a " + what + " of the type " + (wheels ? wheel_words : torque_words)[place] + " has no " +
              std::string(key) + ": use " + keys_of(what + ".", 1U << place));
 }
 
@@ -326,7 +321,7 @@ Outcome add(gyrostat_scene& scene, const char* what, const char* type) {
   if (part != "wheel" && part != "torque")
     return bad(std::string("there is no ") + what + " to add: use wheel or torque");
   const bool wheels = part == "wheel";
-  const std::span<const char* const> words = wheels ? std::span<const char* const>(wheel_types) : torque_types;
+  const std::span<const char* const> words = wheels ? std::span<const char* const>(wheel_words) : torque_words;
   const auto at = std::find(words.begin(), words.end(), std::string_view(type));
   if (at == words.end()) return bad(std::string("a ") + what + " has no type " + type + ": use " + one_of(words));
   const auto place = std::size_t(at - words.begin());

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -73,7 +74,7 @@ inline const char* symbol(ode::Status status) {
 }
 
 /// DomainError unless the array has the shape.
-inline void require_shape(const char* name, const Array& values, std::initializer_list<py::ssize_t> shape) {
+inline void require_shape(const char* name, const py::array& values, std::initializer_list<py::ssize_t> shape) {
   bool same = values.ndim() == py::ssize_t(shape.size());
   py::ssize_t axis = 0;
   for (const py::ssize_t length : shape) {
@@ -102,9 +103,9 @@ inline Vec3<double> vector(const char* name, const Array& values) {
 
 /// A numpy array that owns what the vector held.
 inline py::array_t<double> array(std::vector<double>&& values, std::vector<py::ssize_t> shape) {
-  auto* owned = new std::vector<double>(std::move(values));
-  const py::capsule owner(owned, [](void* p) { delete static_cast<std::vector<double>*>(p); });
-  return py::array_t<double>(std::move(shape), owned->data(), owner);
+  auto owned = std::make_unique<std::vector<double>>(std::move(values));
+  const py::capsule owner(owned.get(), [](void* p) { delete static_cast<std::vector<double>*>(p); });
+  return py::array_t<double>(std::move(shape), owned.release()->data(), owner);
 }
 
 }  // namespace gyrostat::python

@@ -47,27 +47,35 @@ py::array_t<double> each(py::ssize_t n, int width, Work&& work) {
   return array(std::move(out), {n, width});
 }
 
+/// How many arguments there are: of each as many.
+py::ssize_t length_of(std::initializer_list<const Array*> arguments) {
+  const py::ssize_t n = (*arguments.begin())->size();
+  for (const Array* each : arguments) require_shape("an argument", *each, {n});
+  return n;
+}
+
 py::array_t<double> complete(const Array& k2, const Array& kp2, const std::string& backend) {
   const EllipticBackend& elliptic = elliptic_backend(backend);
-  return each(k2.size(), 2, [&](std::size_t n, double* out) { elliptic.complete(n, k2.data(), kp2.data(), out); });
+  return each(length_of({&k2, &kp2}), 2,
+              [&](std::size_t n, double* out) { elliptic.complete(n, k2.data(), kp2.data(), out); });
 }
 
 py::array_t<double> jacobi(const Array& u, const Array& k2, const Array& kp2, const std::string& backend) {
   const EllipticBackend& elliptic = elliptic_backend(backend);
-  return each(k2.size(), 4,
+  return each(length_of({&u, &k2, &kp2}), 4,
               [&](std::size_t n, double* out) { elliptic.jacobi(n, u.data(), k2.data(), kp2.data(), out); });
 }
 
 py::array_t<double> zeta(const Array& u, const Array& k2, const Array& kp2, const std::string& backend) {
   const EllipticBackend& elliptic = elliptic_backend(backend);
-  return each(k2.size(), 1,
+  return each(length_of({&u, &k2, &kp2}), 1,
               [&](std::size_t n, double* out) { elliptic.zeta(n, u.data(), k2.data(), kp2.data(), out); });
 }
 
 py::array_t<double> incomplete(const Array& phi, const Array& n, const Array& k2, const Array& kp2,
                                const std::string& backend) {
   const EllipticBackend& elliptic = elliptic_backend(backend);
-  return each(k2.size(), 3, [&](std::size_t size, double* out) {
+  return each(length_of({&phi, &n, &k2, &kp2}), 3, [&](std::size_t size, double* out) {
     elliptic.incomplete(size, phi.data(), n.data(), k2.data(), kp2.data(), out);
   });
 }

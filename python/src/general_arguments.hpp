@@ -62,15 +62,6 @@ class Entries {
   py::dict entries_;
 };
 
-// in the order of the enumerations
-inline constexpr const char* wheel_types[] = {"locked", "held", "free", "torque", "motor", "friction"};
-inline constexpr const char* torque_types[] = {"constant",         "table",    "damping",      "brake",  "weight",
-                                               "gravity-gradient", "magnetic", "eddy-current", "thrust", "charge"};
-inline constexpr const char* axes_words[] = {"body", "inertial", "orbit"};
-inline constexpr const char* opposed_words[] = {"angular-velocity", "momentum", "carrier-momentum"};
-inline constexpr const char* between_words[] = {"step", "linear", "cubic"};
-inline constexpr const char* field_words[] = {"none", "uniform", "rotating", "dipole"};
-
 /// times (n,), values (n, width), interpolation, extend; None: no table.
 inline general::Table<double> table_of(const Entries& of, const char* key, py::ssize_t width) {
   general::Table<double> made;
@@ -81,14 +72,14 @@ inline general::Table<double> table_of(const Entries& of, const char* key, py::s
   require_shape(given.name("values").c_str(), values, {times.size(), width});
   made.times.assign(times.data(), times.data() + times.size());
   made.values.assign(values.data(), values.data() + values.size());
-  made.between = given.word<general::Between>("interpolation", between_words);
+  made.between = given.word<general::Between>("interpolation", general::between_words);
   made.holds = given["extend"].cast<std::string>() == "hold";
   return made;
 }
 
 inline general::Wheel<double> wheel_of(const Entries& given) {
   general::Wheel<double> made;
-  made.type = given.word<general::WheelType>("type", wheel_types);
+  made.type = given.word<general::WheelType>("type", general::wheel_words);
   made.axis = given.vector("axis");
   made.axial_inertia = given.number("axial_inertia");
   made.rate = given.number("rate");
@@ -103,9 +94,9 @@ inline general::Wheel<double> wheel_of(const Entries& given) {
 
 inline general::Torque<double> torque_of(const Entries& given) {
   general::Torque<double> made;
-  made.type = given.word<general::TorqueType>("type", torque_types);
-  made.axes = given.word<general::Axes>("axes", axes_words);
-  made.opposed = given.word<general::Opposed>("opposed", opposed_words);
+  made.type = given.word<general::TorqueType>("type", general::torque_words);
+  made.axes = given.word<general::Axes>("axes", general::axes_words);
+  made.opposed = given.word<general::Opposed>("opposed", general::opposed_words);
   made.vector = given.vector("vector");
   made.point = given.vector("point");
   made.matrix = given.matrix("matrix");
@@ -138,7 +129,7 @@ inline general::Field<double> field_of(const Entries& given) {
   general::Field<double> made;
   made.gravity = given.number("gravity");
   made.down = given.vector("down");
-  made.magnetic = given.word<general::MagneticField>("magnetic", field_words);
+  made.magnetic = given.word<general::MagneticField>("magnetic", general::field_words);
   made.flux_density = given.vector("flux_density");
   made.axis = given.vector("axis");
   made.rate = given.number("rate");

@@ -161,8 +161,10 @@ SymmetricTop<double> top_of(const HeavyBodies& bodies, std::size_t row) {
 }
 
 /// (rows, 3) threshold, frequency squared, amplification; and the verdicts.
-Data sleeping_rows(const HeavyBodies& bodies, const Array& spin, const py::array_t<bool>& axis_down) {
+Data sleeping_rows(const HeavyBodies& bodies, const Array& spin,
+                   const py::array_t<bool, py::array::c_style | py::array::forcecast>& axis_down) {
   require_rows("spin", spin, bodies.size());
+  require_shape("axis_down", axis_down, {py::ssize_t(bodies.size())});
   std::vector<std::array<double, 3>> numbers;
   std::vector<const char*> verdicts;
   constexpr const char* names[] = {"stable", "unstable", "undecided"};

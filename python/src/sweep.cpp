@@ -206,6 +206,7 @@ Data rows_of(const Family& family, const SceneOf& scene_of, const Solve& solve, 
     const py::gil_scoped_release free;
     sweep(family, numbers, varied, posed, solve, tables.targets(), told, rows.threads, rows.monitor);
   }
+  if (PyErr_Occurred() != nullptr) throw py::error_already_set();  // what a signal has raised
   Data made;
   made["values"] = tables.values();
   made["errors"] = tables.errors();

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <random>
 #include <utility>
 
@@ -128,6 +130,12 @@ TEST_CASE("whole numbers, signs and order of double-doubles look at both words",
   CHECK(ldexp(above, 3) == 8 * above);
   CHECK(static_cast<double>(above) == 3);
   CHECK(static_cast<int>(DD(7.9)) == 7);
+  CHECK(static_cast<int>(DD(3, -1e-20)) == 2);
+  CHECK(static_cast<int>(DD(-3, 1e-20)) == -2);
+  CHECK(static_cast<int>(DD(3, 1e-20)) == 3);
+  CHECK(DD(std::numeric_limits<std::int64_t>::max()) == DD(9223372036854775808.) - 1);
+  CHECK(DD(std::numeric_limits<std::int64_t>::min()) == DD(-9223372036854775808.));
+  CHECK(DD(std::numeric_limits<std::uint64_t>::max()) == DD(18446744073709551616.) - 1);
   CHECK(DD(9007199254740993LL) == DD(9007199254740992.) + 1);
 }
 

@@ -233,15 +233,14 @@ TEST_CASE("what lies behind a failure is nowhere, whichever run fails", "[ladder
 }
 
 TEST_CASE("a walk can be stopped, and reports how far it is", "[ladder]") {
-  std::atomic<bool> cancel{true};
-  std::atomic<double> progress{0};
+  Monitor monitor;
+  monitor.cancel = true;
   MotionOptions<double> options;
-  options.cancel = &cancel;
-  options.progress = &progress;
+  options.monitor = &monitor;
   const auto found = walked({still, 1}, {still, 1}, {still, 1}, {10}, 0, options);
   CHECK(found.walk.status == ode::Status::cancelled);
   CHECK(found.states[0] == -1);
-  CHECK(progress > 0);
+  CHECK(monitor.fraction > 0);
 }
 
 /// Steps of a length that time changes.

@@ -9,29 +9,27 @@ TEST_CASE("progress is reported where it is asked for and never passes one; a se
   MotionOptions<double> nobody;
   nobody.report(0.5);
   CHECK_FALSE(nobody.cancelled());
-  std::atomic<double> progress{0};
-  std::atomic<bool> cancel{false};
-  MotionOptions<double> options;
-  options.progress = &progress;
-  options.cancel = &cancel;
-  options.report(1.5);
-  CHECK(progress == 1);
-  CHECK_FALSE(options.cancelled());
-  cancel = true;
-  CHECK(options.cancelled());
-
   Monitor monitor;
-  MotionOptions<double> watched;
-  watched.watched_by(nullptr);
-  CHECK_FALSE(watched.cancelled());
-  watched.watched_by(&monitor);
-  watched.report(0.5);
-  CHECK(monitor.fraction == 0.5);
-  CHECK_FALSE(watched.cancelled());
-  monitor.stop = []() noexcept { return true; };
-  CHECK(monitor.cancelled());
-  watched.watched_by(&monitor);
-  CHECK(watched.cancelled());
+  MotionOptions<double> options;
+  options.monitor = &monitor;
+  options.report(1.5);
+  CHECK(monitor.fraction == 1);
+  CHECK_FALSE(options.cancelled());
+  monitor.cancel = true;
+  CHECK(options.cancelled());
+}
+
+TEST_CASE("what stops the work once, as a signal does, stops all of it", "[ladder]") {
+  static int asked;
+  asked = 0;
+  Monitor monitor;
+  monitor.stop = []() noexcept { return ++asked == 2; };
+  MotionOptions<double> options;
+  options.monitor = &monitor;
+  CHECK_FALSE(options.cancelled());
+  for (int i = 0; i < 3; ++i) CHECK(options.cancelled());
+  CHECK(asked == 2);
+  CHECK(monitor.cancel);
 }
 
 TEST_CASE("a phase that no double holds is known before it is followed; a short motion is followed in any case",

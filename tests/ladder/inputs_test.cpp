@@ -17,10 +17,14 @@ TEST_CASE("a row of numbers is read as what it stands for", "[ladder]") {
   const auto q = next.quaternion();
   CHECK(q.w == 1);
   CHECK(q.z == 0);
-  CHECK(next.choice<Word>() == Word::second);
+  CHECK(next.choice<Word>(2) == Word::second);
   const Mat3<double> diagonal = next.tensor();
   CHECK(diagonal == Vec3<double>(1, 2, 3).asDiagonal().toDenseMatrix());
   CHECK(next.left() == 0);
+  for (const double none : {-1.0, 0.5, 2.0, 1e300, gyrostat::nan<double>}) {
+    InputReader strange(std::span(&none, 1));
+    CHECK_FALSE(strange.choice<Word>(2));
+  }
 }
 
 TEST_CASE("a direction of unit length, and one without length, stay as they are", "[ladder]") {

@@ -270,6 +270,12 @@ TEST_CASE("an integration can start anew from another state") {
   ode::Taylor<Oscillator<double>> solver({}, 0, {1, 0, 0, 0}, watching(1e-16));
   REQUIRE(solver.advance(3) == Status::reached);
   solver.restart(5, {0, 1, 0, 0});
+  CHECK(solver.previous_time() == 5);
+  double now[4];
+  for (const double t : {4.0, 5.0, 6.0}) {
+    solver.at(t, now);
+    CHECK((now[0] == 0 && now[1] == 1));
+  }
   REQUIRE(solver.advance(6) == Status::reached);
   CHECK(solver.state()[0] == Approx(std::sin(1.0)).epsilon(1e-15));
 }

@@ -22,8 +22,14 @@ struct DoubleDouble {
   constexpr DoubleDouble() = default;
   template <class T>
     requires std::integral<T>
-  constexpr DoubleDouble(T x) noexcept
-      : high(static_cast<double>(x)), low(static_cast<double>(x - static_cast<T>(high))) {}
+  constexpr DoubleDouble(T x) noexcept {
+    if constexpr (sizeof(T) <= 4) {
+      high = static_cast<double>(x);
+    } else {
+      constexpr T half = T(1) << 32;
+      *this = quick_sum(static_cast<double>(x / half) * 4294967296.0, static_cast<double>(x % half));
+    }
+  }
   template <class T>
     requires std::floating_point<T>
   constexpr DoubleDouble(T x) noexcept : high(static_cast<double>(x)) {
@@ -37,10 +43,13 @@ struct DoubleDouble {
   constexpr explicit operator T() const noexcept {
     return static_cast<T>(high) + static_cast<T>(low);
   }
+  /// Truncated.
   template <class T>
-    requires std::integral<T>
+    requires(std::integral<T> && sizeof(T) <= 4)
   constexpr explicit operator T() const noexcept {
-    return static_cast<T>(high) + static_cast<T>(low);
+    const T whole = static_cast<T>(high);
+    if (static_cast<double>(whole) != high) return whole;
+    return static_cast<T>(whole - (high > 0 && low < 0 ? 1 : 0) + (high < 0 && low > 0 ? 1 : 0));
   }
 
   /// a + b, |a| >= |b| or a = 0, with its rounding error (Dekker 1971).

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// The instruction level that this file is compiled for, as far as it changes the code: v3 with AVX2 and fused multiply-add, v4 with
-/// AVX-512, v2 between, v1 else. It is an inline namespace of all that gyrostat declares: where files of one program are compiled
+/// The instruction level that this file is compiled for, as far as it changes the code: v4 with AVX-512, v3 with AVX2, both with fused
+/// multiply-add, v2f with AVX and that, v2 with AVX alone, v1 else. It is an inline namespace of all that gyrostat declares: where files of one program are compiled
 /// with different options, each calls the functions of its own level, and a library of another level is an error of the linker, not
 /// an illegal instruction on somebody's processor.
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(__FMA__)
+#error "AVX-512 without fused multiply-add: add -mfma, or say -march=x86-64-v4"
+#elif defined(__AVX512F__)
 #define GYROSTAT_LEVEL v4
 #elif defined(__AVX2__) && defined(__FMA__)
 #define GYROSTAT_LEVEL v3
+#elif defined(__AVX__) && defined(__FMA__)
+#define GYROSTAT_LEVEL v2f
 #elif defined(__AVX__)
 #define GYROSTAT_LEVEL v2
 #else

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <utility>
 
@@ -64,16 +65,27 @@ template <class T>
 class [[nodiscard]] Result {
  public:
   constexpr Result(T value) noexcept : value_(std::move(value)) {}
-  constexpr Result(Errc error) noexcept : error_(error) {}
+  constexpr Result(Errc error) noexcept : error_(error) { assert(error != Errc::ok); }
 
   constexpr explicit operator bool() const noexcept { return error_ == Errc::ok; }
   constexpr Errc error() const noexcept { return error_; }
 
   /// The value; a default-constructed one where error() is not ok.
   constexpr const T& value() const& noexcept { return value_; }
-  constexpr T&& value() && noexcept { return std::move(value_); }
-  constexpr const T& operator*() const noexcept { return value_; }
-  constexpr const T* operator->() const noexcept { return &value_; }
+  constexpr T value() && noexcept { return std::move(value_); }
+  /// The value, where there is one; of a result that is about to go a value of its own.
+  constexpr const T& operator*() const& noexcept {
+    assert(error_ == Errc::ok);
+    return value_;
+  }
+  constexpr T operator*() && noexcept {
+    assert(error_ == Errc::ok);
+    return std::move(value_);
+  }
+  constexpr const T* operator->() const noexcept {
+    assert(error_ == Errc::ok);
+    return &value_;
+  }
 
  private:
   T value_{};

@@ -165,6 +165,8 @@ class Parting {
 /// A distance fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which all happen to be near
 /// does not hide it.
 /// States behind a failure are `nowhere`. note(i, error) is called at each asked time.
+/// Between two steps the times before told_ have state and error, those before next_ their state, and the last step of every run reaches the
+/// companion's time.
 template <class Writer, class Course, class Note>
 class SideBySide {
   using Scalar = typename Writer::Scalar;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -67,9 +66,7 @@ struct MotionOptions {
   /// The same of each column, infinite where nobody asks; empty: `tolerance` for all.
   std::span<const double> wanted{};
   std::uint64_t step_cap = step_budget;
-  std::atomic<double>* progress = nullptr;    ///< grows to 1 while the motion is computed
-  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
-  bool (*stop)() noexcept = nullptr;          ///< as that of Monitor
+  Monitor* monitor = nullptr;  ///< who watches, if anybody
 
   /// The greatest error over its tolerance; NaN if one is.
   template <std::size_t columns>
@@ -82,18 +79,9 @@ struct MotionOptions {
     return most;
   }
   void report(double done) const noexcept {
-    if (progress != nullptr) progress->store(std::min(done, 1.0), std::memory_order_relaxed);
+    if (monitor != nullptr) monitor->fraction.store(std::min(done, 1.0), std::memory_order_relaxed);
   }
-  bool cancelled() const noexcept {
-    return (cancel != nullptr && cancel->load(std::memory_order_relaxed)) || (stop != nullptr && stop());
-  }
-  /// Takes all that a monitor has; nullptr: nobody watches.
-  void watched_by(Monitor* monitor) noexcept {
-    if (monitor == nullptr) return;
-    progress = &monitor->fraction;
-    cancel = &monitor->cancel;
-    stop = monitor->stop;
-  }
+  bool cancelled() const noexcept { return monitor != nullptr && monitor->cancelled(); }
 };
 
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

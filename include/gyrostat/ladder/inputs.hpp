@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "gyrostat/core/real.hpp"
@@ -66,10 +67,13 @@ class InputReader {
     for (int i = 0; i < 9; ++i) made(i / 3, i % 3) = number();
     return made;
   }
-  /// An enumerator by its place.
+  /// An enumerator by its place among so many; nothing where there is none.
   template <class Word>
-  Word choice() noexcept {
-    return static_cast<Word>(int(number()));
+  std::optional<Word> choice(int words) noexcept {
+    const double place = number();
+    for (int i = 0; i < words; ++i)
+      if (place == i) return static_cast<Word>(i);
+    return std::nullopt;
   }
 
  private:

@@ -14,7 +14,12 @@ struct Monitor {
   bool (*stop)() noexcept =
       nullptr;  ///< asked now and then by the thread that works; true ends the work as `cancel` does
 
-  bool cancelled() const noexcept { return cancel.load(std::memory_order_relaxed) || (stop != nullptr && stop()); }
+  /// Whether the work is to end. What `stop` has said once holds from then on: it may say so only once, as of a signal.
+  bool cancelled() noexcept {
+    if (stop != nullptr && !cancel.load(std::memory_order_relaxed) && stop())
+      cancel.store(true, std::memory_order_relaxed);
+    return cancel.load(std::memory_order_relaxed);
+  }
 };
 
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

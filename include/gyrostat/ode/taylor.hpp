@@ -82,16 +82,10 @@ class Taylor {
   Taylor(const System& system, Scalar t, const State& state, const Options& options) noexcept
       : system_(system), options_(options), time_{t, 0}, start_{t, 0} {
     for (int i = 0; i < width; ++i) {
-      state_[i] = state[static_cast<std::size_t>(i)];
-      low_[i] = 0;
       const Scalar scale = options.scale[static_cast<std::size_t>(i)];
       weight_[i] = scale > 0 ? 1 / (scale * options.tolerance) : Scalar(0);
-      x_[0][i] = state_[i];
-      start_low_[i] = 0;
     }
-    for (int k = 1; k <= Order; ++k) {
-      for (int i = 0; i < width; ++i) x_[k][i] = 0;
-    }
+    restart(t, state);
   }
 
   /// One step, at most up to t_max; reached if the time is t_max already or now.
@@ -126,13 +120,16 @@ class Taylor {
     for (int i = 0; i < moving(); ++i) state_[i] *= 1 + amount * part[static_cast<std::size_t>(i % 3)];
   }
 
-  /// Starts anew from another state (after an event that changes it).
+  /// Starts anew from another state (after an event that changes it): until the next step at() has that one alone. The counts go on.
   void restart(Scalar t, const State& state) noexcept {
-    time_ = {t, 0};
+    time_ = start_ = {t, 0};
+    flat_ = false;
     for (int i = 0; i < width; ++i) {
-      state_[i] = state[static_cast<std::size_t>(i)];
-      low_[i] = 0;
+      x_[0][i] = state_[i] = state[static_cast<std::size_t>(i)];
+      low_[i] = start_low_[i] = 0;
     }
+    for (int k = 1; k <= Order; ++k)
+      for (int i = 0; i < width; ++i) x_[k][i] = 0;
   }
 
  private:

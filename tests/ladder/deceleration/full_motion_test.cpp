@@ -438,19 +438,17 @@ TEST_CASE("float works within its digits") {
 TEST_CASE("a motion can be watched, stopped and capped") {
   const auto problem = simple(1e-4);
   const std::vector<double> times = {0, 100};
-  std::atomic<double> progress{0};
-  std::atomic<bool> cancel{false};
+  Monitor monitor;
   FullMotionOptions<double> options;
-  options.progress = &progress;
-  options.cancel = &cancel;
+  options.monitor = &monitor;
   CHECK(solve(problem, times, 1e-8, false, options).answer.status == Status::reached);
-  CHECK(progress == 1.0);
-  cancel = true;
+  CHECK(monitor.fraction == 1.0);
+  monitor.cancel = true;
   const auto cancelled = solve(problem, times, 1e-8, false, options);
   CHECK(cancelled.answer.status == Status::cancelled);
   CHECK(!cancelled.answer.met);
 
-  options.cancel = nullptr;
+  options.monitor = nullptr;
   options.step_cap = 20;
   const auto capped = solve(problem, {0.0, 1.0, 4000.0}, 1e-8, false, options);
   CHECK(capped.answer.status == Status::step_limit);

@@ -262,20 +262,18 @@ TEST_CASE("what the full free equations cannot answer is refused", "[free]") {
 TEST_CASE("the full free equations can be watched and stopped, and need no memory", "[free]") {
   const auto p = Problem<double>::from_moments({3, 2, 1.5}, {0.3, -0.5, 0.2}, {1, 0.5, -0.7});
   std::vector<FullState<double>> states(3);
-  std::atomic<double> progress{0};
-  std::atomic<bool> cancel{false};
+  Monitor monitor;
   FullMotionOptions<double> options;
-  options.progress = &progress;
-  options.cancel = &cancel;
+  options.monitor = &monitor;
   const std::vector<double> times{0, 1, 400};
   const auto before = allocations();
   const auto answer = full_motion<double>(p, times, states, options);
   CHECK(allocations() == before);
   REQUIRE(answer);
   CHECK(answer->met);
-  CHECK(progress == 1);
+  CHECK(monitor.fraction == 1);
   CHECK((states[0].angular_velocity - p.angular_velocity).norm() < 4e-16);
-  cancel = true;
+  monitor.cancel = true;
   CHECK(full_motion<double>(p, times, states, options)->status == Status::cancelled);
 }
 

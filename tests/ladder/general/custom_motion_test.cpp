@@ -261,10 +261,11 @@ TEST_CASE("a body at rest that a law wakes", "[general]") {
 }
 
 TEST_CASE("a custom motion is stopped by its caller, and refuses what is no question", "[general]") {
-  std::atomic<bool> cancel{true};
+  Monitor monitor;
+  monitor.cancel = true;
   std::vector<State<double>> states(2);
   MotionOptions<double> options;
-  options.cancel = &cancel;
+  options.monitor = &monitor;
   const std::vector<double> at{0, 1e4}, wrong{1, 0}, bad{gyrostat::nan<double>};
   const auto made = custom_motion<double>(brick(), NoTorque{}, {}, at, states, options);
   REQUIRE(made);

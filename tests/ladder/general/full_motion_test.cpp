@@ -591,6 +591,19 @@ TEST_CASE("a stop that is not gone through says why", "[general]") {
   CHECK(why(p) == AtStop::turning);
   p.angular_velocity.setZero(), p.wheels[0].rate = 0;
   CHECK(why(p) == AtStop::turning);
+
+  // at rest but for the rounding of a wheel's momentum along no axis
+  Problem<double> askew;
+  askew.inertia = Vec3<double>(0.4, 0.39, 0.31).asDiagonal();
+  auto& brake = askew.torques.emplace_back();
+  brake.type = TorqueType::brake, brake.opposed = Opposed::carrier_momentum, brake.vector.setConstant(0.0048);
+  askew.wheels.push_back(
+      {WheelType::friction, Vec3<double>(-0.3, 1, 0.15).normalized(), 0.0009, -3.6, 0, 0, 0.00075, 0, 0, {}});
+  CHECK(why(askew) == AtStop::turning);
+  askew.wheels[0].type = WheelType::held, askew.wheels[0].friction = 0;
+  const auto made = run(askew, {1, 100}, 1e-6);
+  CHECK(made.answer.met);
+  CHECK(made.states[1].angular_velocity.norm() < 1e-15);
 }
 
 TEST_CASE("a scene that is chaotic says so", "[general]") {
@@ -723,14 +736,13 @@ TEST_CASE("the full general equations can be watched and stopped", "[general]") 
   p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
   p.angular_velocity = {1, 0.5, -0.7};
   std::vector<State<double>> states(2);
-  std::atomic<double> progress{0};
-  std::atomic<bool> cancel{false};
+  Monitor monitor;
   FullMotionOptions<double> options;
-  options.progress = &progress, options.cancel = &cancel;
+  options.monitor = &monitor;
   const std::vector<double> times{0, 400};
   CHECK(full_motion<double>(p, times, states, options)->met);
-  CHECK(progress == 1);
-  cancel = true;
+  CHECK(monitor.fraction == 1);
+  monitor.cancel = true;
   CHECK(full_motion<double>(p, times, states, options)->status == Status::cancelled);
 }
 

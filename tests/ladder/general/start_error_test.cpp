@@ -60,7 +60,7 @@ TEST_CASE("a work that is cancelled while the start is displaced has no answer")
   for (int times = 0; times < 200 && answered == 0; times += 1 + times / 4) {
     asked_before_stop = times;
     Monitor monitor;
-    monitor.stop = []() noexcept { return asked_before_stop-- <= 0; };
+    monitor.stop = []() noexcept { return asked_before_stop-- == 0; };  // once, as a signal
     Refusal refusal;
     const Answer answer = solve(scene, refusal, &monitor);
     CAPTURE(times);

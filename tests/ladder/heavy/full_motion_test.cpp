@@ -383,19 +383,17 @@ TEST_CASE("heavy: a motion can be watched, stopped and capped", "[heavy]") {
   const auto p = random.body();
   const auto s = random.start();
   const std::vector<double> times{0, 1, 400};
-  std::atomic<double> progress{0};
-  std::atomic<bool> cancel{false};
+  Monitor monitor;
   FullMotionOptions<double> options;
-  options.progress = &progress;
-  options.cancel = &cancel;
+  options.monitor = &monitor;
   CHECK(solve(p, s, times, 1e-3, false, options).answer.status == Status::reached);
-  CHECK(progress == 1.0);
-  cancel = true;
+  CHECK(monitor.fraction == 1.0);
+  monitor.cancel = true;
   const auto cancelled = solve(p, s, times, 1e-3, false, options);
   CHECK(cancelled.answer.status == Status::cancelled);
   CHECK(!cancelled.answer.met);
 
-  options.cancel = nullptr;
+  options.monitor = nullptr;
   options.step_cap = 20;
   const auto capped = solve(p, s, times, 1e-3, false, options);
   CHECK(capped.answer.status == Status::step_limit);

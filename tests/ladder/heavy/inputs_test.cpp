@@ -64,5 +64,6 @@ TEST_CASE("a heavy body that is none says why", "[heavy]") {
   row = heavy_row(), row[15] = -1;
   CHECK(scene_of(row, question).error() == Errc::not_positive);
   row.pop_back();
+  CHECK(scenes.why(row) == nullptr);
   CHECK(scene_of(row, question).error() == Errc::out_of_domain);
 }

@@ -168,10 +168,11 @@ TEST_CASE("lanes: the start alone, a caller that stops, no heap", "[rotor]") {
   CHECK(same_state(states[0], scenes.starts[0]));
   full_in_lanes({});
 
-  const std::atomic<bool> cancel = true;
+  Monitor monitor;
+  monitor.cancel = true;
   std::vector<double> late{9e4 / turning_rate(scenes.bodies[0], scenes.starts[0])};
   task.times = late;
-  task.options.cancel = &cancel;
+  task.options.monitor = &monitor;
   full_in_lanes({&task, 1});
   CHECK(task.answer.status == ode::Status::cancelled);
 

@@ -441,24 +441,22 @@ TEST_CASE("work can be watched and stopped, and needs no memory", "[rotor]") {
   const auto body = reference_body(0.2, 3);
   const State<double> start = body.state({}, {0.5, 1.1, -0.8}, 0);
   std::vector<State<double>> states(3);
-  std::atomic<double> progress{0};
-  std::atomic<bool> cancel{false};
+  Monitor monitor;
   FullMotionOptions<double> options;
-  options.progress = &progress;
-  options.cancel = &cancel;
+  options.monitor = &monitor;
   for (const Integrator integrator : {Integrator::taylor, Integrator::radau}) {
     options.integrator = integrator;
     const std::vector<double> times{0, 1, 400};
-    progress = 0;
-    cancel = false;
+    monitor.fraction = 0;
+    monitor.cancel = false;
     const auto before = allocations();
     const auto answer = full_motion<double>(body, start, times, states, options);
     CHECK(allocations() == before);
     REQUIRE(answer);
     CHECK(answer->met);
-    CHECK(progress == 1);
+    CHECK(monitor.fraction == 1);
     CHECK(states[0].momentum == start.momentum);
-    cancel = true;
+    monitor.cancel = true;
     CHECK(full_motion<double>(body, start, times, states, options)->status == Status::cancelled);
   }
 }

@@ -219,9 +219,10 @@ TEST_CASE("bad requests of an axial motion are refused, long ones can be stopped
   options.step_cap = 10;
   CHECK(axial_motion<double>(p, times, states, options)->status == ode::Status::step_limit);
   CHECK(std::isnan(states[1].angles.theta));
-  const std::atomic<bool> cancel{true};
+  Monitor monitor;
+  monitor.cancel = true;
   options = {};
-  options.cancel = &cancel;
+  options.monitor = &monitor;
   CHECK(axial_motion<double>(p, times, states, options)->status == ode::Status::cancelled);
 }
 

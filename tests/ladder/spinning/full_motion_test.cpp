@@ -390,19 +390,17 @@ TEST_CASE("spinning: float works within its digits", "[spinning]") {
 TEST_CASE("spinning: a motion can be watched, stopped and capped", "[spinning]") {
   const auto p = Spinners(9).body(1e-4);
   const std::vector<double> times{0, 1, 2000 / p.angular_velocity.norm()};
-  std::atomic<double> progress{0};
-  std::atomic<bool> cancel{false};
+  Monitor monitor;
   FullMotionOptions<double> options;
-  options.progress = &progress;
-  options.cancel = &cancel;
+  options.monitor = &monitor;
   CHECK(solve(p, times, 1e-8, options).answer.status == Status::reached);
-  CHECK(progress == 1.0);
-  cancel = true;
+  CHECK(monitor.fraction == 1.0);
+  monitor.cancel = true;
   const auto cancelled = solve(p, times, 1e-8, options);
   CHECK(cancelled.answer.status == Status::cancelled);
   CHECK(!cancelled.answer.met);
 
-  options.cancel = nullptr;
+  options.monitor = nullptr;
   options.step_cap = 20;
   const auto capped = solve(p, times, 1e-8, options);
   CHECK(capped.answer.status == Status::step_limit);

@@ -34,7 +34,7 @@ struct Swept {
 
 template <Real S>
 Swept<S> sweep(const Problem<S>& p, const std::vector<S>& times, int sweeps) {
-  Swept<S> swept{Errc::ok, std::vector<State<S>>(times.size())};
+  Swept<S> swept{Errc::no_convergence, std::vector<State<S>>(times.size())};
   PicardOptions<S> options;
   options.sweeps = sweeps;
   swept.answer = picard_motion<S>(p, times, swept.states, options);

@@ -90,7 +90,7 @@ GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, s
   std::array<ColumnErrors<double>, detail::k2_looks + 1> errors{};
   options.errors = errors;
   options.stride = detail::k2_stride(times.size());
-  options.watched_by(monitor);
+  options.monitor = monitor;
   const auto answer = full_motion<double>(problem, times, states, options, attitude);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)

@@ -19,7 +19,7 @@ inline constexpr InputKind input_kinds[] = {{"body.inertia", 9},
                                             {"initial.angular_momentum", 3}};
 
 /// The scene of the numbers of input_kinds; of angular_velocity and angular_momentum one is given. Errors: those of
-/// Inertia::from_tensor and Scene::make; out_of_domain: not so many numbers.
+/// Inertia::from_tensor and Scene::make; out_of_domain: not so many numbers, or no such law.
 inline Result<Scene> scene_of(std::span<const double> numbers, const Question& question) {
   if (numbers.size() != input_width(input_kinds)) return Errc::out_of_domain;
   InputReader next(numbers);
@@ -29,8 +29,9 @@ inline Result<Scene> scene_of(std::span<const double> numbers, const Question& q
   setup.rotor_momentum = next.vector();
   setup.control = next.vector();
   setup.drag = next.number();
-  setup.law = next.choice<Law>();
-  setup.drag_law = next.choice<Law>();
+  const auto law = next.choice<Law>(2), drag_law = next.choice<Law>(2);
+  if (!law || !drag_law) return Errc::out_of_domain;
+  setup.law = *law, setup.drag_law = *drag_law;
   Question asked = question;
   const Quat<double> attitude = next.quaternion();
   asked.wants_attitude = is_given(attitude);

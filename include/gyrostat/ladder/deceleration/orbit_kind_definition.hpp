@@ -8,6 +8,19 @@
 
 namespace gyrostat::deceleration {
 
+namespace detail {
+
+/// Of a steady rotation: on a separatrix where it is unstable, since the energy has a saddle there on the sphere of |M|.
+inline OrbitKind kind_at_rest(const Problem<double>& problem, const Vec3<double>& M) noexcept {
+  const Vec3<double> m = M.normalized(), t = m.unitOrthogonal(), u = m.cross(t), a = problem.inverse_inertia;
+  const double rate = m.dot(problem.angular_velocity(M)) / M.norm();
+  const double tt = t.dot(a.cwiseProduct(t)) - rate, uu = u.dot(a.cwiseProduct(u)) - rate,
+               tu = t.dot(a.cwiseProduct(u));
+  return tt * uu < tu * tu ? OrbitKind{Regime::separatrix, 1} : OrbitKind{Regime::point, 0};
+}
+
+}  // namespace detail
+
 GYROSTAT_COMPILED_ONCE OrbitKind orbit_kind(const Problem<double>& problem, const Vec3<double>& M) noexcept {
   if (M.isZero(0) || M == problem.rotor_momentum) return {};
   if (problem.rotor_momentum.isZero(0)) {
@@ -16,7 +29,7 @@ GYROSTAT_COMPILED_ONCE OrbitKind orbit_kind(const Problem<double>& problem, cons
     if (!(p.modulus.kp2 > 0)) return {Regime::separatrix, 1};
     return {p.regime, p.modulus.k2};
   }
-  if (rests_in_body(problem, M)) return {Regime::point, 0};
+  if (rests_in_body(problem, M)) return detail::kind_at_rest(problem, M);
   const auto orbit = Orbit<double>::through(problem, M);
   if (orbit) return {orbit->regime(), orbit->modulus().k2};
   return orbit.error() == Errc::separatrix ? OrbitKind{Regime::separatrix, 1} : OrbitKind{Regime::point, 0};

@@ -270,7 +270,13 @@ class OrbitMotion {
     const Scalar b = problem.control.diagonal().maxCoeff();
     const Scalar fading = problem.drag + (b > 0 ? b / start.R : Scalar(0));
     const Scalar local = tolerance * energy_share(problem, start);
-    control.absolute = {local, local * swing, fading > 0 ? tolerance / fading : infinity<Scalar>, phase_error};
+    // beside an equilibrium the width of the orbit is the root of how far the energy is from its own
+    Scalar beside = local * swing;
+    if (const auto band = band_of(problem, start))
+      for (const auto* end : {&band->below, &band->above})
+        if (end->kind != Critical::saddle) beside = std::min(beside, std::abs(end->eta - start.eta) / 64);
+    beside = std::max(beside, std::min(local, Scalar(1e-13)) * swing);
+    control.absolute = {local, beside, fading > 0 ? tolerance / fading : infinity<Scalar>, phase_error};
     control.smooth = Rates::smooth;
     control.first_step = first_step(Equations{problem, start.R, component, rates}, start);
     control.longest_step = Rates::longest_step;

@@ -72,6 +72,14 @@ class OrbitError {
     const double f = first_factor;
     return {f * (first_.norm + drift_R_), f * (first_.energy + drift_h_), std::min(1.0, f * first_.k2), 0};
   }
+  /// The same with what the turns beside separatrices have changed of the energy, J: nobody knows in which of them they were crossed.
+  SlowError<double> first_order_across(double crossed) const noexcept {
+    auto made = first_order();
+    const double energy = crossing_factor * crossed;
+    made.energy += energy;
+    made.norm += energy / (2 * scales(problem_)[column::energy]) * problem_.momentum.norm();
+    return made;
+  }
   SlowError<double> second_order_error() const noexcept {
     const double f = second_factor;
     return {f * second_.norm, f * second_.energy, std::min(1.0, f * second_.k2), f * (second_.vector + second_.norm)};
@@ -103,18 +111,36 @@ class OrbitError {
     keep(second_.vector, beside);
   }
 
-  /// The torque across M swings the body beside an equilibrium, however small its orbit is: then what oscillates is that of an orbit so wide.
+  /// The torque across M swings the body beside an equilibrium, however small its orbit is, from where it is to as far on the other side: then
+  /// what oscillates is that of an orbit so wide, and its energy is another one.
   void swing_aside(const SecondOrder<double, Elliptic>& s, double size) noexcept {
-    const Vec3<double> M = s.orbit.momentum_at(0.0), torque = small_torque(problem_, M);
-    const double across = cross<double>(M, torque).norm() / M.norm();
-    const double beside = across * s.orbit.period() / (2 * pi<double>);
-    if (!(size < beside)) return;
-    const Vec3<double> aside = cross<double>(M, Vec3<double>(1, 1, 1));
-    const auto away = Orbit<double, Elliptic>::through(problem_, Vec3<double>(M + beside / aside.norm() * aside));
-    const auto wide = away ? second_order<Elliptic>(problem_, away->level(), away->component())
-                           : Result<SecondOrder<double, Elliptic>>(away.error());
-    keep(first_.norm, wide ? wide->oscillation.R : beside);
-    keep(first_.energy, wide ? wide->oscillation.h : beside * problem_.angular_velocity(M).norm());
+    const Vec3<double> M = s.orbit.momentum_at(0.0), one = M.unitOrthogonal();
+    const double R = M.norm(), beside = 2 * drive_across(M, s.first.R) * s.orbit.period() / (2 * pi<double>);
+    if (size >= beside) return;
+    for (const Vec3<double>& aside : {one, Vec3<double>(M.cross(one) / R)}) {
+      const Vec3<double> there = (M + beside * aside) * (R / std::hypot(R, beside));
+      const auto away = Orbit<double, Elliptic>::through(problem_, there);
+      const auto wide = away ? second_order<Elliptic>(problem_, away->level(), away->component())
+                             : Result<SecondOrder<double, Elliptic>>(away.error());
+      keep(first_.norm, wide ? wide->oscillation.R : beside);
+      keep(first_.energy, (wide ? wide->oscillation.h : beside * problem_.angular_velocity(M).norm()) +
+                              std::abs(problem_.energy(there) - problem_.energy(M)));
+      keep(first_.k2, away ? away->modulus().k2 : 1.0);
+    }
+  }
+
+  /// What drives M away from an equilibrium next to it, N m: the torque across M, less what M needs to go along with the equilibrium, whose
+  /// direction m changes with |M| as (diag(a) - nu) |M| dm/d|M| = -diag(a) m does on the tangent plane, omega = nu M.
+  double drive_across(const Vec3<double>& M, double rate) const noexcept {
+    const double R = M.norm();
+    const Vec3<double> m = M / R, t = m.unitOrthogonal(), u = m.cross(t), a = problem_.inverse_inertia;
+    const Vec3<double> torque = small_torque(problem_, M);
+    const double nu = m.dot(problem_.angular_velocity(M)) / R;
+    const double tt = t.dot(a.cwiseProduct(t)) - nu, uu = u.dot(a.cwiseProduct(u)) - nu;
+    const double tu = t.dot(a.cwiseProduct(u)), tm = t.dot(a.cwiseProduct(m)), um = u.dot(a.cwiseProduct(m));
+    const double determinant = tt * uu - tu * tu;
+    return std::hypot(t.dot(torque) + rate * (uu * tm - tu * um) / determinant,
+                      u.dot(torque) + rate * (tt * um - tu * tm) / determinant);
   }
 
   /// Mean square distance of M from its mean over the orbit.
@@ -213,6 +239,8 @@ class SecondOrderOrbit {
     if (motion_.advance(t, floor, visit) != ode::Status::reached) {
       const Errc failure = impasse(problem_, motion_).code;
       if (failure == Errc::step_limit && step_cap_ < Rates::step_cap) return {Errc::not_applicable, steps_not_worth};
+      if (failure == Errc::not_applicable)
+        return {failure, "next to an equilibrium, or where a lobe is born or dies, the second order has no value"};
       return not_followed(failure);
     }
     if (motion_.rates().phase_lost || motion_.changed_by(motion_.time()))
@@ -253,10 +281,7 @@ template <class Elliptic>
 void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Elliptic>& error, double crossed,
                         double standing) {
   const auto& problem = scene.problem();
-  auto in_span = error.first_order();
-  const double crossing = OrbitError<Elliptic>::crossing_factor * crossed;
-  in_span.energy += crossing;
-  in_span.norm += crossing / (2 * scales(problem)[column::energy]) * problem.momentum.norm();
+  const auto in_span = error.first_order_across(crossed);
   const double local = honesty::mean_steps * mean_tolerance(scene);
   // the energy is a difference of numbers of the size of what the rotors hold
   double energy = std::max(problem.rotor_energy_scale() / 2, scales(problem)[column::energy]);
@@ -270,9 +295,10 @@ void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Ellip
   state_errors(track, {in_span.norm + norm, in_span.energy + energy, std::min(1.0, in_span.k2 + k2), 0});
 }
 
-/// The time of the stop and its error, or the warning why there is none: false. `opposed`: the error of |U| by now.
-template <class Motion, class Visit>
-bool take_stop(Track& track, const Scene& scene, Motion& motion, Visit& visit, double breakdown, double opposed) {
+/// The time of the stop and its error, or the warning why there is none: false. opposed(): the error of |U| by now.
+template <class Motion, class Visit, class Opposed>
+bool take_stop(Track& track, const Scene& scene, Motion& motion, Visit& visit, double breakdown,
+               const Opposed& opposed) {
   const auto& problem = scene.problem();
   const auto stop = motion.stop_time(visit);
   if (!stop) {
@@ -288,7 +314,7 @@ bool take_stop(Track& track, const Scene& scene, Motion& motion, Visit& visit, d
   // the stop.
   const bool slow = symmetry_gap(problem) < narrow_gap;
   const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
-  track.stop_error = doubt * (tail + opposed / torque.least) / *stop + honesty::mean_stop * mean_tolerance(scene);
+  track.stop_error = doubt * (tail + opposed() / torque.least) / *stop + honesty::mean_stop * mean_tolerance(scene);
   return true;
 }
 
@@ -335,10 +361,12 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   detail::errors_of_averages(track, scene, error, motion.crossing(), standing);
 
   const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
-  const double opposed =
-      detail::opposed_error(problem, error.first_order(), (problem.momentum - problem.rotor_momentum).norm());
+  const double carrier = (problem.momentum - problem.rotor_momentum).norm();
+  const auto opposed = [&] {
+    return detail::opposed_error(problem, error.first_order_across(motion.crossing()), carrier);
+  };
   // near rest the body falls to the axis of the weakest control, the averaged one need not
-  const bool low = breakdown > 0 && motion.opposed() < 3 * breakdown + opposed;
+  const bool low = breakdown > 0 && motion.opposed() < 3 * breakdown + opposed();
   if (!hold.holds) track.stop_time = infinity<double>;
   else if (!detail::take_stop(track, scene, motion, visit, breakdown, opposed) && not_worth())
     return refused<Track>(Errc::not_applicable, detail::steps_not_worth);

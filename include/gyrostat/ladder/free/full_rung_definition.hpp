@@ -32,7 +32,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   MotionOptions<double> options;
   options.tolerance = goal.tightest;
   options.wanted = wanted.of;
-  options.watched_by(monitor);
+  options.monitor = monitor;
   const auto answer = full_motion<double>(problem, times, found, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)

@@ -36,7 +36,7 @@ GYROSTAT_COMPILED_ONCE Track full_by_dop853(const Scene& scene, Monitor* monitor
   MotionOptions<double> options;
   options.tolerance = goal.tightest;
   options.wanted = wanted.of;
-  options.watched_by(monitor);
+  options.monitor = monitor;
   const auto& law = scene.own_torque();
   const auto answer = law.any()
                           ? custom_motion<double>(scene.problem(), law, law.breakpoints, times, track.states, options)

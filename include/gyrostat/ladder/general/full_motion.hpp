@@ -448,7 +448,9 @@ class FullCourse {
     time_ = previous_ = t;
     greatest_ = braked_ = 0;
     bound_ = torque_of_piece();
-    if (system_->has_brake() && !(system_->braked(t, numbers.data()) > 0)) decide_at_stop(t, numbers, rested, t);
+    // what a brake opposes is a difference of momenta: below its rounding the body is at rest
+    const Scalar nothing = 4 * epsilon<Scalar> * of_.sizes.momentum();
+    if (system_->has_brake() && !(system_->braked(t, numbers.data()) > nothing)) decide_at_stop(t, numbers, rested, t);
     else begin(t, numbers);
   }
   /// A bound of the torques in the piece; infinite where wheels add theirs.

@@ -158,7 +158,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   options.integrator = question.integrator;
   options.tolerance = goal.tightest;
   options.wanted = wanted.of;
-  options.watched_by(monitor);
+  options.monitor = monitor;
   options.judge = &detail::RunReader::judge, options.caller = &reader;
   const auto answer = full_motion<double>(scene.problem(), times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));

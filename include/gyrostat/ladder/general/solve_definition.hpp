@@ -163,7 +163,7 @@ inline std::optional<Answer> answer_beside(const Scene& scene, const Problem<dou
   question.times = times;
   if (question.rung == any_rung) question.only_rung = rung;
   Answer made = climbed(beside->asked(question), refusal, monitor);
-  if (refusal.code != Errc::ok)
+  if (refusal.code != Errc::ok && refusal.code != Errc::cancelled)
     refusal = {}, question.only_rung = any_rung, made = climbed(beside->asked(question), refusal, monitor);
   return refusal.code == Errc::ok ? std::optional(std::move(made)) : std::nullopt;
 }

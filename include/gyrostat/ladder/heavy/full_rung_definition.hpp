@@ -23,7 +23,7 @@ GYROSTAT_COMPILED_ONCE Track full_from_start(const Scene& scene, bool converted,
   options.wanted = goal.columns.of;
   options.attitude = question.wants_attitude;
   options.converted = converted;
-  options.watched_by(monitor);
+  options.monitor = monitor;
   const auto answer = full_motion<double>(scene.problem(), scene.start(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)

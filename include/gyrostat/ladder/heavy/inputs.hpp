@@ -58,6 +58,7 @@ struct SceneOf {
     return scene_of(numbers, question);
   }
   static const char* why(std::span<const double> numbers) {
+    if (numbers.size() != input_width(input_kinds)) return nullptr;
     InputReader next(numbers);
     const Mat3<double> inertia = next.tensor();
     const double mass = next.number();

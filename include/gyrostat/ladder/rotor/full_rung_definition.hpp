@@ -17,7 +17,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   options.tolerance = goal.tightest;
   options.wanted = goal.columns.of;
   options.integrator = question.integrator;
-  options.watched_by(monitor);
+  options.monitor = monitor;
   const auto answer = full_motion<double>(scene.gyrostat(), scene.start(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)

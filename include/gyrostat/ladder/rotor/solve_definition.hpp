@@ -98,8 +98,7 @@ GYROSTAT_COMPILED_ONCE unsigned solve_together(std::span<const Scene> scenes, st
     task.states = tracks[count].states;
     task.options.tolerance = goals[count].tightest;
     task.options.wanted = goals[count].columns.of;
-    task.options.watched_by(monitor);
-    task.options.progress = nullptr;
+    task.options.monitor = monitor;
     places[count++] = i;
   }
   full_in_lanes(std::span(tasks).first(count));

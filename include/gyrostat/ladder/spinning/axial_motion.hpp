@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/core/times.hpp"
+#include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/models/spinning/axial_torque.hpp"
 #include "gyrostat/models/spinning/problem.hpp"
 #include "gyrostat/ode/status.hpp"
@@ -25,12 +25,9 @@ inline constexpr double senseless_tilt = 1e6;
 template <Real Scalar>
 struct AxialMotionOptions {
   std::uint64_t step_cap = 10'000'000;
-  const std::atomic<bool>* cancel = nullptr;  ///< set by another thread to end the work
-  bool (*stop)() noexcept = nullptr;          ///< as that of Monitor
+  Monitor* monitor = nullptr;  ///< who watches, if anybody
 
-  bool cancelled() const noexcept {
-    return (cancel != nullptr && cancel->load(std::memory_order_relaxed)) || (stop != nullptr && stop());
-  }
+  bool cancelled() const noexcept { return monitor != nullptr && monitor->cancelled(); }
 };
 
 template <Real Scalar>

@@ -16,7 +16,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   FullMotionOptions<double> options;
   options.tolerance = goal.tightest;
   options.wanted = goal.columns.of;
-  options.watched_by(monitor);
+  options.monitor = monitor;
   const auto answer = full_motion<double>(scene.problem(), question.times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status != ode::Status::reached)

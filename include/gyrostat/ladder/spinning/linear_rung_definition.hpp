@@ -117,7 +117,7 @@ inline Track axial_track(const Scene& scene, Monitor* monitor) {
     return refused<Track>(Errc::step_limit, why_stopped(ode::Status::step_limit));
   AxialMotionOptions<double> options;
   options.step_cap = step_budget;
-  if (monitor) options.cancel = &monitor->cancel, options.stop = monitor->stop;
+  options.monitor = monitor;
   Track track;
   const auto advance = [&](std::span<const double> times, std::span<State<double>> states, auto& error) {
     const auto made = axial_motion<double>(scene.problem(), times, states, options);

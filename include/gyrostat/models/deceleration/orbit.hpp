@@ -249,6 +249,9 @@ class Orbit {
     rate_ = turning;
   }
 
+  /// How far rounding may move the place of an equilibrium on the sphere: the root of it.
+  static constexpr Scalar rounding_of_place = Scalar(1e-6L);
+
   static Result<Orbit> build_for(const Vec3<Scalar>& a, const Problem<Scalar>& problem, Level<Scalar> level,
                                  const Component& followed, const Vec3<Scalar>* M) noexcept {
     const Vec3<Scalar> g = problem.gyro_rate();
@@ -275,6 +278,12 @@ class Orbit {
         const bool both = !q.active(0);
         if (both || (in_lobe && followed.branch == younger(q)))
           return o.rest_at(q, mirrored, rise.lo, followed.branch, M);
+        // the end of the younger lobe, where M stands but for rounding
+        if (M) {
+          Orbit end = o;
+          const auto rest = end.rest_at(q, mirrored, rise.lo, younger(q), M);
+          if (rest && (rest->momentum_at(0) - *M).norm() <= rounding_of_place * level.R) return rest;
+        }
         continue;
       }
       if (above < 0) continue;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,9 @@ enum class Between : std::uint8_t {
   linear,  ///< a straight line
   cubic,   ///< a cubic, continuous with its slope, which at each time is that of the parabola through three points
 };
+/// Words of the enumerators, in their order, here and below.
+inline constexpr const char* between_words[] = {"step", "linear", "cubic"};
+static_assert(std::size(between_words) == std::size_t(Between::cubic) + 1);
 
 /// Values given at times. Outside of them it is zero, or where it holds the nearest value.
 template <Real Scalar>
@@ -62,6 +66,8 @@ enum class WheelType : std::uint8_t {
   motor,     ///< driven by slope (no_load_rate - rate), with friction
   friction,  ///< slowed by its bearing
 };
+inline constexpr const char* wheel_words[] = {"locked", "held", "free", "torque", "motor", "friction"};
+static_assert(std::size(wheel_words) == std::size_t(WheelType::friction) + 1);
 
 /// Rotationally symmetric about an axis fixed in the body.
 template <Real Scalar>
@@ -91,6 +97,9 @@ enum class TorqueType : std::uint8_t {
   thrust,            ///< a force, `vector`, N, at `point`, m
   charge,            ///< w x vector, N m s
 };
+inline constexpr const char* torque_words[] = {"constant",         "table",    "damping",      "brake",  "weight",
+                                               "gravity-gradient", "magnetic", "eddy-current", "thrust", "charge"};
+static_assert(std::size(torque_words) == std::size_t(TorqueType::charge) + 1);
 
 /// The axes in which a torque, or a force, is given.
 enum class Axes : std::uint8_t {
@@ -98,6 +107,8 @@ enum class Axes : std::uint8_t {
   inertial,
   orbit  ///< radial, along track, normal
 };
+inline constexpr const char* axes_words[] = {"body", "inertial", "orbit"};
+static_assert(std::size(axes_words) == std::size_t(Axes::orbit) + 1);
 
 /// What damping and brakes oppose.
 enum class Opposed : std::uint8_t {
@@ -105,6 +116,8 @@ enum class Opposed : std::uint8_t {
   momentum,          ///< M
   carrier_momentum,  ///< J w
 };
+inline constexpr const char* opposed_words[] = {"angular-velocity", "momentum", "carrier-momentum"};
+static_assert(std::size(opposed_words) == std::size_t(Opposed::carrier_momentum) + 1);
 
 /// One torque that acts on the body, times its factor. Which of the numbers count is said by its type; in SI units.
 template <Real Scalar>
@@ -133,6 +146,8 @@ struct Orbit {
 
 /// The magnetic field where the body is: none, the same always, turning about an axis, or a dipole that the body orbits.
 enum class MagneticField : std::uint8_t { none, uniform, rotating, dipole };
+inline constexpr const char* field_words[] = {"none", "uniform", "rotating", "dipole"};
+static_assert(std::size(field_words) == std::size_t(MagneticField::dipole) + 1);
 
 /// Fields, inertial axes.
 template <Real Scalar>

@@ -55,6 +55,8 @@ struct OwnTorque {
     };
     return {call, &law, std::move(breakpoints), nullptr};
   }
+  template <TorqueLaw<double> Law>
+  static OwnTorque of(const Law&&, std::vector<double> = {}) = delete;
 
   bool any() const noexcept { return call != nullptr; }
   Vec3<double> operator()(double t, const Seen<double>& seen) const noexcept {
