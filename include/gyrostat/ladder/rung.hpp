@@ -215,7 +215,7 @@ class Ascent {
     if (track.failure != Errc::ok) return refused(candidate, track, watch);
     const char* const model = family_.rungs[candidate.rung].name;
     Answer answer = answer_of(family_, model, scene, track, describes_all_);
-    tried_.push_back({model, answer.error, answer.met || scene.question().rung >= 0,
+    tried_.push_back({model, answer.error, false,  // end() says which was accepted
                       track.in_domain ? nullptr : "the scene leaves its domain", answer.excess, candidate.cost,
                       watch.seconds()});
     if (!answered_ || is_better(candidate.rung, answer, track)) {

@@ -31,9 +31,14 @@ class OrbitError {
   void visit(const Level<double>& level, Component component, double t) noexcept {
     const double opposed = problem_.law == Law::total ? level.R : std::sqrt(std::max(0.0, energy_of(problem_, level)));
     if (t - last_ < spacing_ * t && opposed > (1 - spacing_) * last_opposed_) return;
-    const double span = t - last_;
-    last_ = t;
     last_opposed_ = opposed;
+    look(level, component, t);
+  }
+
+  /// Looks at it in any case, as at the last asked time: the motion may end beside a separatrix.
+  void look(const Level<double>& level, Component component, double t) noexcept {
+    const double span = std::max(0.0, t - last_);
+    last_ = std::max(last_, t);
     const auto s = second_order<Elliptic>(problem_, level, component);
     if (!s) {
       const bool on_equilibrium = s.error() == Errc::not_applicable;
@@ -245,6 +250,8 @@ class SecondOrderOrbit {
     }
     if (motion_.rates().phase_lost || motion_.changed_by(motion_.time()))
       return {Errc::separatrix, "the kind of orbit changes: the phase is lost, and M with it"};
+    if (const auto now = motion_.sample(); t >= last_ && !now.at_rest)
+      error_.look(now.level, now.component, motion_.time());
     return error_.known() ? Halt{} : Halt{Errc::no_convergence, "the size of the second order is not known"};
   }
   bool floored() const noexcept { return motion_.floored(); }
@@ -354,6 +361,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
           "carrier on: there the averages end");
     if (!std::isfinite(now.level.R)) return detail::refused(detail::not_followed(Errc::separatrix));
     track.states.push_back(detail::slow_state(problem, now.level, now.component, now.at_rest));
+    if (t == scene.question().times.back() && !now.at_rest) error.look(now.level, now.component, t);
     if (motion.stands()) standing = motion.opposed();
   }
   const double end = scene.question().times.back();

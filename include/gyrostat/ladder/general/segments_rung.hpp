@@ -98,18 +98,20 @@ class SegmentedMotion {
     track_.off.fill(nan<double>);
   }
 
-  /// Errc::ok, or why there is no motion.
-  Errc run(Monitor* monitor, const char*& why) {
+  /// Errc::ok, or why there is no motion: why().
+  Errc run(Monitor* monitor) {
     for (std::size_t k = 0; k < segments_.size(); ++k) {
       if (k > 0) error_.angular_velocity += begin_at(end_, segments_[k - 1], segments_[k]);
-      if (const Errc wrong = solve_one(k, monitor, why); wrong != Errc::ok) return wrong;
+      if (const Errc wrong = solve_one(k, monitor); wrong != Errc::ok) return wrong;
     }
     return Errc::ok;
   }
+  /// The last reason why a segment, or a rung that was asked of it, has no answer; nullptr: none but the code's.
+  const char* why() const noexcept { return why_; }
   Track take() noexcept { return std::move(track_); }
 
  private:
-  Errc solve_one(std::size_t k, Monitor* monitor, const char*& why) {
+  Errc solve_one(std::size_t k, Monitor* monitor) {
     const Segment& segment = segments_[k];
     const auto& asked = scene_.question().times;
     const std::size_t first = next_;
@@ -118,12 +120,13 @@ class SegmentedMotion {
     if (!made) return made.error();
     const auto candidates = candidates_of(*made);
     if (!is_alone() && cost_of_one(*made, candidates, k > 0) > cost_of_full(scene_)) {
-      why = costs_more;
+      why_ = costs_more;
       return Errc::not_applicable;
     }
-    Answer answer = best_of(*made, candidates, monitor, why);
-    if (!answer.columns.empty() && error_.any()) answer = carried(*made, answer, monitor, why);
-    if (answer.columns.empty()) return why == nullptr ? Errc::cancelled : Errc::not_applicable;
+    auto found = best_of(*made, candidates, monitor);
+    if (found && error_.any()) found = carried(*made, *found, monitor);
+    if (!found) return found.error();
+    const Answer& answer = *found;
     track_.counts += answer.counts;
     for (std::size_t i = first, row = 0; i < next_; ++i) {
       while (times[row] < asked[i] - segment.from) ++row;
@@ -132,7 +135,7 @@ class SegmentedMotion {
     end_ = state_of(answer, times.size() - 1);
     hand_on(answer, segment.to);
     if (next_ == asked.size() || !lost(answer)) return Errc::ok;
-    why = errors_grew;
+    why_ = errors_grew;
     return Errc::not_applicable;
   }
 
@@ -147,35 +150,32 @@ class SegmentedMotion {
 
   /// The first answer of a rung of a family that meets what is asked of the segment, or else comes nearest to it, were the start exact: what counts is
   /// the whole. The full equations of a family are asked where nothing else is of use.
-  Answer best_of(const Scene& segment, const std::vector<Candidate>& candidates, Monitor* monitor,
-                 const char*& why) const {
-    Answer best;
-    why = not_in_segments;
+  Result<Answer> best_of(const Scene& segment, const std::vector<Candidate>& candidates, Monitor* monitor) {
+    Result<Answer> best = Errc::not_applicable;
+    why_ = not_in_segments;
     for (const Candidate& candidate : candidates) {
-      if (candidate.rung >= std::size_t(rung::family_full) && !best.columns.empty() && useful(best)) continue;
-      Answer answer = by_rung(segment, int(candidate.rung), monitor, why);
-      if (why == nullptr) return {};
-      if (answer.columns.empty()) continue;
-      if (best.columns.empty() || answer.excess < best.excess) best = std::move(answer);
-      if (best.met) break;
+      if (candidate.rung >= std::size_t(rung::family_full) && best && useful(*best)) continue;
+      auto answer = by_rung(segment, int(candidate.rung), monitor);
+      if (answer.error() == Errc::cancelled) return answer;
+      if (answer && (!best || answer->excess < best->excess)) best = std::move(answer);
+      if (best && best->met) break;
     }
     return best;
   }
 
   /// The same answer with what the error of the start makes of it.
-  Answer carried(const Scene& segment, const Answer& answer, Monitor* monitor, const char*& why) const {
-    return by_rung(segment.known_within(error_), place_of(tables.rungs, answer.model), monitor, why);
+  Result<Answer> carried(const Scene& segment, const Answer& answer, Monitor* monitor) {
+    return by_rung(segment.known_within(error_), place_of(tables.rungs, answer.model), monitor);
   }
 
-  /// Without columns: refused, and why; nullptr: cancelled.
-  Answer by_rung(const Scene& segment, int rung, Monitor* monitor, const char*& why) const {
+  Result<Answer> by_rung(const Scene& segment, int rung, Monitor* monitor) {
     Question question = segment.question();
     question.rung = rung;
     Refusal refusal;
     Answer answer = solve_(segment.asked(question), refusal, monitor);
     if (refusal.code == Errc::ok) return answer;
-    why = refusal.code == Errc::cancelled ? nullptr : refusal.why;
-    return {};
+    why_ = refusal.why;
+    return refusal.code == Errc::cancelled ? Errc::cancelled : Errc::not_applicable;
   }
 
   /// Whether an answer may be good enough for the whole, whatever is asked of the segment.
@@ -193,7 +193,8 @@ class SegmentedMotion {
         case column::rotor_rate: std::copy_n(x, column.row_width(), made.rotor_rate.begin()); break;
         case column::rotor_angle: std::copy_n(x, column.row_width(), made.rotor_angle.begin()); break;
         case column::velocity: made.velocity = vector(); break;
-        default: made.position = vector(); break;
+        case column::position: made.position = vector(); break;
+        default: break;
       }
     }
     return made;
@@ -234,6 +235,7 @@ class SegmentedMotion {
   State<double> end_;
   std::size_t next_ = 0;  ///< of the asked times
   Track track_;
+  const char* why_ = nullptr;
 };
 
 }  // namespace detail

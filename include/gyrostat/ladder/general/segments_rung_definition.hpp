@@ -171,9 +171,8 @@ GYROSTAT_COMPILED_ONCE double cost_of_segments(const Scene& scene) noexcept {
 GYROSTAT_COMPILED_ONCE Track segments_track(const Scene& scene, Monitor* monitor, detail::Solve solve) {
   if (std::isnan(cost_of_segments(scene))) return refused<Track>(Errc::not_applicable, not_in_segments);
   detail::SegmentedMotion motion(scene, detail::segments_of(scene.problem(), scene.question().times.back()), solve);
-  const char* why = nullptr;
-  if (const Errc wrong = motion.run(monitor, why); wrong != Errc::ok)
-    return refused<Track>(wrong, why ? why : message(wrong));
+  if (const Errc wrong = motion.run(monitor); wrong != Errc::ok)
+    return refused<Track>(wrong, wrong != Errc::cancelled && motion.why() ? motion.why() : message(wrong));
   return motion.take();
 }
 

@@ -28,7 +28,7 @@ enum class Between : std::uint8_t {
   linear,  ///< a straight line
   cubic,   ///< a cubic, continuous with its slope, which at each time is that of the parabola through three points
 };
-/// Words of the enumerators, in their order, here and below.
+/// Words of the enumerators, in their order.
 inline constexpr const char* between_words[] = {"step", "linear", "cubic"};
 static_assert(std::size(between_words) == std::size_t(Between::cubic) + 1);
 
@@ -66,6 +66,7 @@ enum class WheelType : std::uint8_t {
   motor,     ///< driven by slope (no_load_rate - rate), with friction
   friction,  ///< slowed by its bearing
 };
+/// Words of the enumerators, in their order.
 inline constexpr const char* wheel_words[] = {"locked", "held", "free", "torque", "motor", "friction"};
 static_assert(std::size(wheel_words) == std::size_t(WheelType::friction) + 1);
 
@@ -97,6 +98,7 @@ enum class TorqueType : std::uint8_t {
   thrust,            ///< a force, `vector`, N, at `point`, m
   charge,            ///< w x vector, N m s
 };
+/// Words of the enumerators, in their order.
 inline constexpr const char* torque_words[] = {"constant",         "table",    "damping",      "brake",  "weight",
                                                "gravity-gradient", "magnetic", "eddy-current", "thrust", "charge"};
 static_assert(std::size(torque_words) == std::size_t(TorqueType::charge) + 1);
@@ -107,6 +109,7 @@ enum class Axes : std::uint8_t {
   inertial,
   orbit  ///< radial, along track, normal
 };
+/// Words of the enumerators, in their order.
 inline constexpr const char* axes_words[] = {"body", "inertial", "orbit"};
 static_assert(std::size(axes_words) == std::size_t(Axes::orbit) + 1);
 
@@ -116,6 +119,7 @@ enum class Opposed : std::uint8_t {
   momentum,          ///< M
   carrier_momentum,  ///< J w
 };
+/// Words of the enumerators, in their order.
 inline constexpr const char* opposed_words[] = {"angular-velocity", "momentum", "carrier-momentum"};
 static_assert(std::size(opposed_words) == std::size_t(Opposed::carrier_momentum) + 1);
 
@@ -146,6 +150,7 @@ struct Orbit {
 
 /// The magnetic field where the body is: none, the same always, turning about an axis, or a dipole that the body orbits.
 enum class MagneticField : std::uint8_t { none, uniform, rotating, dipole };
+/// Words of the enumerators, in their order.
 inline constexpr const char* field_words[] = {"none", "uniform", "rotating", "dipole"};
 static_assert(std::size(field_words) == std::size_t(MagneticField::dipole) + 1);
 
