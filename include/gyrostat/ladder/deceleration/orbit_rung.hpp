@@ -30,7 +30,9 @@ class OrbitError {
   /// Looks at a level of the motion at time t, s, unless one like it was seen just before.
   void visit(const Level<double>& level, Component component, double t) noexcept {
     const double opposed = problem_.law == Law::total ? level.R : std::sqrt(std::max(0.0, energy_of(problem_, level)));
-    if (t - last_ < spacing_ * t && opposed > (1 - spacing_) * last_opposed_) return;
+    const bool is_soon = t - last_ < spacing_ * t && opposed > (1 - spacing_) * last_opposed_ &&
+                         std::abs(level.R - last_R_) < spacing_ * last_R_;
+    if (is_soon && !swells(level, component)) return;
     last_opposed_ = opposed;
     look(level, component, t);
   }
@@ -39,9 +41,12 @@ class OrbitError {
   void look(const Level<double>& level, Component component, double t) noexcept {
     const double span = std::max(0.0, t - last_);
     last_ = std::max(last_, t);
+    last_R_ = level.R;
+    if (const auto orbit = Orbit<double, Elliptic>::at(problem_, level, component))
+      last_modulus_ = orbit->modulus(), last_period_ = orbit->period();
     const auto s = second_order<Elliptic>(problem_, level, component);
     if (!s) {
-      const bool on_equilibrium = s.error() == Errc::not_applicable;
+      const bool on_equilibrium = s.error() == Errc::not_applicable || is_narrow(level, component);
       known_ = known_ && on_equilibrium;
       if (on_equilibrium) visit_equilibrium(level, component);
       return;
@@ -61,7 +66,7 @@ class OrbitError {
       const double f = first_factor;
       unclear_ = !(k2_swing(*s, level, component, f * s->oscillation.R, f * s->oscillation.eta) < 1);
     }
-    const double size = std::sqrt(std::max(0.0, transverse(*s)));
+    const double size = std::sqrt(std::max(0.0, transverse(s->orbit)));
     swing_aside(*s, size);
     keep(second_.vector, 2 * pi<double> * size * s->phase_oscillation);
     keep(change_, s->phase_oscillation);
@@ -97,6 +102,14 @@ class OrbitError {
     if (!(value <= greatest) && greatest == greatest) greatest = value;  // NaN stays
   }
 
+  /// Whether the orbit has come to twice its width or period, or half as near to a separatrix, since it was looked at.
+  bool swells(const Level<double>& level, Component component) const noexcept {
+    constexpr double small = 1e-3;
+    const auto orbit = Orbit<double, Elliptic>::at(problem_, level, component);
+    return orbit && (orbit->modulus().k2 > std::max(small, 2 * last_modulus_.k2) ||
+                     orbit->modulus().kp2 < last_modulus_.kp2 / 2 || orbit->period() > 2 * last_period_);
+  }
+
   /// On an equilibrium nothing oscillates, but the torque holds the body a little beside it.
   void visit_equilibrium(const Level<double>& level, Component component) noexcept {
     const auto orbit = Orbit<double, Elliptic>::at(problem_, level, component);
@@ -105,7 +118,8 @@ class OrbitError {
     const double rate =
         level.R * (problem_.inverse_inertia[2] - problem_.inverse_inertia[0]) + problem_.gyro_rate().norm();
     const double turn = std::isfinite(orbit->period()) ? orbit->period() / (2 * pi<double>) : 1 / rate;
-    const double beside = small_torque(problem_, M).norm() * turn;
+    const Vec3<double> torque = small_torque(problem_, M);
+    const double beside = std::max(torque.norm(), drive_across(M, M.dot(torque) / M.norm())) * turn;
     keep(first_.norm, beside);
     keep(first_.energy, beside * problem_.angular_velocity(M).norm() + beside * beside * problem_.inverse_inertia[2]);
     const Vec3<double> aside = cross<double>(M, Vec3<double>(1, 1, 1));
@@ -120,7 +134,8 @@ class OrbitError {
   /// what oscillates is that of an orbit so wide, and its energy is another one.
   void swing_aside(const SecondOrder<double, Elliptic>& s, double size) noexcept {
     const Vec3<double> M = s.orbit.momentum_at(0.0), one = M.unitOrthogonal();
-    const double R = M.norm(), beside = 2 * drive_across(M, s.first.R) * s.orbit.period() / (2 * pi<double>);
+    const double R = M.norm();
+    const double beside = std::min(R, 2 * drive_across(M, s.first.R) * s.orbit.period() / (2 * pi<double>));
     if (size >= beside) return;
     for (const Vec3<double>& aside : {one, Vec3<double>(M.cross(one) / R)}) {
       const Vec3<double> there = (M + beside * aside) * (R / std::hypot(R, beside));
@@ -148,10 +163,16 @@ class OrbitError {
                       u.dot(torque) + rate * (tt * um - tu * tm) / determinant);
   }
 
+  /// An orbit so narrow that its neighbours, whose differences the second order is made of, are those of an equilibrium.
+  bool is_narrow(const Level<double>& level, Component component) const noexcept {
+    const auto orbit = Orbit<double, Elliptic>::at(problem_, level, component);
+    return orbit && transverse(*orbit) <= 1e-6 * level.R * level.R;
+  }
+
   /// Mean square distance of M from its mean over the orbit.
-  double transverse(const SecondOrder<double, Elliptic>& s) const noexcept {
+  double transverse(const Orbit<double, Elliptic>& orbit) const noexcept {
     Vec3<double> M[4];
-    s.orbit.quarter_points(M);
+    orbit.quarter_points(M);
     const Vec3<double> centre = (M[0] + M[1] + M[2] + M[3]) / 4;
     double most = 0;
     for (const auto& m : M) most = std::max(most, (m - centre).squaredNorm());
@@ -173,7 +194,9 @@ class OrbitError {
 
   const Problem<double>& problem_;
   SlowError<double> first_{}, second_{};
-  double drift_R_ = 0, drift_h_ = 0, last_ = 0, last_opposed_ = 0, change_ = 0;
+  double drift_R_ = 0, drift_h_ = 0, last_ = 0, last_opposed_ = 0, last_R_ = 0, change_ = 0;
+  math::Modulus<double> last_modulus_{1, 0};
+  double last_period_ = infinity<double>;
   bool known_ = true, unclear_ = false;
 };
 
@@ -283,6 +306,18 @@ class SecondOrderOrbit {
   OrbitMotion<Rates, double> motion_;
 };
 
+/// What |M| and the energy may be off by where it is not known on which curve the body moves: the torques' mean rates on one and another differ by as
+/// much as moments, controls and the rotors' share of M do.
+inline SlowError<double> on_another_curve(const Track& track, const Problem<double>& problem) noexcept {
+  const State<double>& end = track.states.back();
+  const Vec3<double>& a = problem.inverse_inertia;
+  const Vec3<double> b = problem.control.diagonal();
+  const double R = problem.momentum.norm(), controls = b.maxCoeff() > 0 ? 1 - b.minCoeff() / b.maxCoeff() : 0.0;
+  const double rotors = 2 * problem.rotor_momentum.norm() / std::max(R, problem.rotor_momentum.norm());
+  const double of_norm = std::min(1.0, controls + rotors), of_energy = std::min(1.0, 1 - a[0] / a[2] + of_norm);
+  return {of_norm * std::abs(R - end.norm), of_energy * std::abs(problem.energy(problem.momentum) - end.energy), 0, 0};
+}
+
 /// crossed: what the turns beside separatrices have changed of the energy, J; standing: |U| that is not followed into the stop, N m s.
 template <class Elliptic>
 void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Elliptic>& error, double crossed,
@@ -299,7 +334,9 @@ void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Ellip
   double k2 = local;
   for (const std::size_t i : {std::size_t(0), track.states.size() - 1})
     k2 = std::max(k2, k2_beside(problem, track.states[i], norm, energy));
-  state_errors(track, {in_span.norm + norm, in_span.energy + energy, std::min(1.0, in_span.k2 + k2), 0});
+  k2 = std::min(1.0, in_span.k2 + k2);
+  const SlowError<double> elsewhere = k2 < 1 ? SlowError<double>{} : on_another_curve(track, problem);
+  state_errors(track, {in_span.norm + norm + elsewhere.norm, in_span.energy + energy + elsewhere.energy, k2, 0});
 }
 
 /// The time of the stop and its error, or the warning why there is none: false. opposed(): the error of |U| by now.
