@@ -44,6 +44,41 @@ class OrbitError {
     last_R_ = level.R;
     if (const auto orbit = Orbit<double, Elliptic>::at(problem_, level, component))
       last_modulus_ = orbit->modulus(), last_period_ = orbit->period();
+    take(level, component, t, span);
+    if (!(t > 0) || first_factor * first_.k2 < 1) sure_ = level;
+  }
+
+  /// The last level looked at where it was known on which curve the body moves.
+  const Level<double>& last_sure() const noexcept { return sure_; }
+
+  /// False where some level had no second order: the errors below are then not bounds.
+  bool known() const noexcept { return known_; }
+  double phase_oscillation() const noexcept { return change_; }
+  /// Whether the error of the start leads over a separatrix: then the mean motion may begin on its other side, and lead elsewhere.
+  bool start_is_unclear() const noexcept { return unclear_; }
+
+  SlowError<double> first_order() const noexcept {
+    const double f = first_factor;
+    return {f * (first_.norm + drift_R_), f * (first_.energy + drift_h_), std::min(1.0, f * first_.k2), 0};
+  }
+  /// The same with what the turns beside separatrices have changed of the energy, J: nobody knows in which of them they were crossed.
+  SlowError<double> first_order_across(double crossed) const noexcept {
+    auto made = first_order();
+    const double energy = crossing_factor * crossed;
+    made.energy += energy;
+    made.norm += energy / (2 * scales(problem_)[column::energy]) * problem_.momentum.norm();
+    return made;
+  }
+  SlowError<double> second_order_error() const noexcept {
+    const double f = second_factor;
+    return {f * second_.norm, f * second_.energy, std::min(1.0, f * second_.k2), f * (second_.vector + second_.norm)};
+  }
+
+ private:
+  static constexpr double spacing_ = 0.25;
+
+  /// What second order says of the level, `span` s after the one before.
+  void take(const Level<double>& level, Component component, double t, double span) noexcept {
     const auto s = second_order<Elliptic>(problem_, level, component);
     if (!s) {
       const bool on_equilibrium = s.error() == Errc::not_applicable || is_narrow(level, component);
@@ -71,32 +106,6 @@ class OrbitError {
     keep(second_.vector, 2 * pi<double> * size * s->phase_oscillation);
     keep(change_, s->phase_oscillation);
   }
-
-  /// False where some level had no second order: the errors below are then not bounds.
-  bool known() const noexcept { return known_; }
-  double phase_oscillation() const noexcept { return change_; }
-  /// Whether the error of the start leads over a separatrix: then the mean motion may begin on its other side, and lead elsewhere.
-  bool start_is_unclear() const noexcept { return unclear_; }
-
-  SlowError<double> first_order() const noexcept {
-    const double f = first_factor;
-    return {f * (first_.norm + drift_R_), f * (first_.energy + drift_h_), std::min(1.0, f * first_.k2), 0};
-  }
-  /// The same with what the turns beside separatrices have changed of the energy, J: nobody knows in which of them they were crossed.
-  SlowError<double> first_order_across(double crossed) const noexcept {
-    auto made = first_order();
-    const double energy = crossing_factor * crossed;
-    made.energy += energy;
-    made.norm += energy / (2 * scales(problem_)[column::energy]) * problem_.momentum.norm();
-    return made;
-  }
-  SlowError<double> second_order_error() const noexcept {
-    const double f = second_factor;
-    return {f * second_.norm, f * second_.energy, std::min(1.0, f * second_.k2), f * (second_.vector + second_.norm)};
-  }
-
- private:
-  static constexpr double spacing_ = 0.25;
 
   static void keep(double& greatest, double value) noexcept {
     if (!(value <= greatest) && greatest == greatest) greatest = value;  // NaN stays
@@ -197,6 +206,7 @@ class OrbitError {
   double drift_R_ = 0, drift_h_ = 0, last_ = 0, last_opposed_ = 0, last_R_ = 0, change_ = 0;
   math::Modulus<double> last_modulus_{1, 0};
   double last_period_ = infinity<double>;
+  Level<double> sure_;
   bool known_ = true, unclear_ = false;
 };
 
@@ -306,16 +316,16 @@ class SecondOrderOrbit {
   OrbitMotion<Rates, double> motion_;
 };
 
-/// What |M| and the energy may be off by where it is not known on which curve the body moves: the torques' mean rates on one and another differ by as
+/// What |M| and the energy may be off by where it is not known on which curve the body moves, since the level `from`: the torques' mean rates on one and another differ by as
 /// much as moments, controls and the rotors' share of M do.
-inline SlowError<double> on_another_curve(const Track& track, const Problem<double>& problem) noexcept {
-  const State<double>& end = track.states.back();
+inline SlowError<double> on_another_curve(const State<double>& end, const Level<double>& from,
+                                          const Problem<double>& problem) noexcept {
   const Vec3<double>& a = problem.inverse_inertia;
   const Vec3<double> b = problem.control.diagonal();
   const double R = problem.momentum.norm(), controls = b.maxCoeff() > 0 ? 1 - b.minCoeff() / b.maxCoeff() : 0.0;
   const double rotors = 2 * problem.rotor_momentum.norm() / std::max(R, problem.rotor_momentum.norm());
   const double of_norm = std::min(1.0, controls + rotors), of_energy = std::min(1.0, 1 - a[0] / a[2] + of_norm);
-  return {of_norm * std::abs(R - end.norm), of_energy * std::abs(problem.energy(problem.momentum) - end.energy), 0, 0};
+  return {of_norm * std::abs(from.R - end.norm), of_energy * std::abs(energy_of(problem, from) - end.energy), 0, 0};
 }
 
 /// crossed: what the turns beside separatrices have changed of the energy, J; standing: |U| that is not followed into the stop, N m s.
@@ -335,7 +345,8 @@ void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Ellip
   for (const std::size_t i : {std::size_t(0), track.states.size() - 1})
     k2 = std::max(k2, k2_beside(problem, track.states[i], norm, energy));
   k2 = std::min(1.0, in_span.k2 + k2);
-  const SlowError<double> elsewhere = k2 < 1 ? SlowError<double>{} : on_another_curve(track, problem);
+  const SlowError<double> elsewhere =
+      k2 < 1 ? SlowError<double>{} : on_another_curve(track.states.back(), error.last_sure(), problem);
   state_errors(track, {in_span.norm + norm + elsewhere.norm, in_span.energy + energy + elsewhere.energy, k2, 0});
 }
 
