@@ -111,7 +111,8 @@ struct SecondOrderRates {
 
   Result<MeanRates<Scalar>> at(const Problem<Scalar>& problem, const Level<Scalar>& level,
                                Component followed) const noexcept {
-    const auto mean = second_order<Elliptic>(problem, level, followed, &reference);
+    OrbitOscillation<Scalar>* const no_sums = nullptr;
+    const auto mean = second_order<Elliptic>(problem, level, followed, &reference, no_sums, false);
     if (!mean) return mean.error();
     // else it would lead along the separatrix, where the second order is as large as the first
     if (!(mean->phase_oscillation < most_oscillation)) return Errc::separatrix;

@@ -47,9 +47,10 @@ struct OrbitAverage {
   Level<Scalar> level;  ///< of the orbit taken: differs from the one asked where that was clamped
   Component component;
   math::Modulus<Scalar> modulus;
-  Scalar period = 0;  ///< s
-  int nodes = 0;      ///< points on the orbit, uniform in time
-  Scalar error = 0;   ///< estimate from node doubling, relative to R and R^2
+  Scalar period = 0;      ///< s
+  int nodes = 0;          ///< points on the orbit, uniform in time
+  Scalar error = 0;       ///< estimate from node doubling, relative to R and R^2
+  Scalar half_error = 0;  ///< the same of half the points
 };
 
 namespace detail {
@@ -162,6 +163,7 @@ Result<OrbitAverage<Scalar>> average(const Problem<Scalar>& problem, const Orbit
   r.period = orbit.period();
   r.nodes = 4 * (grid.size() - 1);
   r.error = error;
+  r.half_error = before;
   return r;
 }
 

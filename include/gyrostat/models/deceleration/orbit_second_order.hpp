@@ -14,7 +14,7 @@
 /// thirty orbits at displaced momenta. The torques carry the small parameter, so U is of first order and f2 of second.
 namespace gyrostat::deceleration {
 
-/// M at the phases j/n, n = 16 ... 512 a power of two.
+/// M at the phases j/n, n = 8 ... 512 a power of two.
 template <Real Scalar, class Elliptic>
 void orbit_nodes(const Orbit<Scalar, Elliptic>& orbit, int n, Vec3<Scalar>* M) noexcept {
   PhaseGrid<Scalar> grid(orbit.modulus());
@@ -59,14 +59,15 @@ class OrbitOscillation {
 /// The mean equations on one level, and the size of what they leave out.
 template <Real Scalar, class Elliptic = math::Native>
 struct SecondOrder {
-  SlowRates<Scalar> first;               ///< <f>
-  SlowRates<Scalar> second;              ///< f2
-  Scalar phase_rate = 0;                 ///< d phase/dt, turns per second: 1/T + <P.grad phase>
-  Scalar phase_drift = 0;                ///< its second part
-  SlowRates<Scalar> oscillation;         ///< greatest |U|: what first order neglects at any one time
-  SlowRates<Scalar> second_oscillation;  ///< greatest oscillation of second order: what second order neglects
-  Scalar phase_oscillation = 0;          ///< greatest oscillation of the phase, turns
-  Orbit<Scalar, Elliptic> orbit;         ///< its phase is the one that phase_rate advances
+  SlowRates<Scalar> first;        ///< <f>
+  SlowRates<Scalar> second;       ///< f2
+  Scalar phase_rate = 0;          ///< d phase/dt, turns per second: 1/T + <P.grad phase>
+  Scalar phase_drift = 0;         ///< its second part
+  SlowRates<Scalar> oscillation;  ///< greatest |U|: what first order neglects at any one time
+  SlowRates<Scalar>
+      second_oscillation;  ///< greatest oscillation of second order: what second order neglects; zero where not wanted
+  Scalar phase_oscillation = 0;   ///< greatest oscillation of the phase, turns
+  Orbit<Scalar, Elliptic> orbit;  ///< its phase is the one that phase_rate advances
   int nodes = 0;
 };
 
@@ -130,7 +131,7 @@ struct OrbitSlopes {
       Level<Scalar> plus = here, minus = here;
       (along == 0 ? plus.R : plus.eta) += step;
       (along == 0 ? minus.R : minus.eta) -= step;
-      const Scalar width = along == 0 ? plus.R - minus.R : plus.eta - minus.eta;
+      const Scalar per_width = 1 / (along == 0 ? plus.R - minus.R : plus.eta - minus.eta);
       const auto above = Orbit<Scalar, Elliptic>::at(problem, plus, centre.component());
       const auto below = Orbit<Scalar, Elliptic>::at(problem, minus, centre.component());
       if (!above) return above.error();
@@ -140,14 +141,14 @@ struct OrbitSlopes {
       up.take(problem, above->aligned_to(centre, &doubt_above), n);
       down.take(problem, below->aligned_to(centre, &doubt_below), n);
       if (!(std::max(doubt_above, doubt_below) < Scalar(.01))) return Errc::no_convergence;
-      T[along] = (up.period - down.period) / width;
-      mean_R[along] = (up.mean.R - down.mean.R) / width;
-      mean_eta[along] = (up.mean.eta - down.mean.eta) / width;
+      T[along] = (up.period - down.period) * per_width;
+      mean_R[along] = (up.mean.R - down.mean.R) * per_width;
+      mean_eta[along] = (up.mean.eta - down.mean.eta) * per_width;
       const Scalar* f = along == 0 ? mid.fR : mid.feta;
       for (int i = 0; i < n; ++i) {
-        TfR[along][i] = (up.period * up.fR[i] - down.period * down.fR[i]) / width;
-        Tfeta[along][i] = (up.period * up.feta[i] - down.period * down.feta[i]) / width;
-        rest[i] -= (up.M[i] - down.M[i]) * (f[i] / width);
+        TfR[along][i] = (up.period * up.fR[i] - down.period * down.fR[i]) * per_width;
+        Tfeta[along][i] = (up.period * up.feta[i] - down.period * down.feta[i]) * per_width;
+        rest[i] -= (up.M[i] - down.M[i]) * (f[i] * per_width);
       }
     }
     return Errc::ok;
@@ -247,16 +248,21 @@ SlowRates<Scalar> greatest_rates(const Level<Scalar>& level, int n, const Scalar
 
 }  // namespace detail
 
+/// Where half the points that the averages need are as accurate as this, they do for terms of second order: those need far fewer digits.
+inline constexpr double sound_half = 1e-6;
+
 /// The second-order mean equations on a level.
 /// @param followed see Orbit::at; @param reference an orbit just before on the path, so that the origin of phase does not
 /// jump (Orbit::aligned_to), or null; @param oscillation when not null: receives the oscillation of first order.
+/// @param sized whether the oscillation of second order is wanted
 /// Errors: those of the orbit; not_applicable on an equilibrium; no_convergence where 256 points do not resolve the orbit
 /// or the frames of the neighbours do not agree (an exchange of axes, or a separatrix, within the differences).
 template <class Elliptic = math::Native, Real Scalar>
 Result<SecondOrder<Scalar, Elliptic>> second_order(const Problem<Scalar>& problem, const Level<Scalar>& level,
                                                    Component followed,
                                                    const Orbit<Scalar, Elliptic>* reference = nullptr,
-                                                   OrbitOscillation<Scalar>* oscillation = nullptr) noexcept {
+                                                   OrbitOscillation<Scalar>* oscillation = nullptr,
+                                                   bool sized = true) noexcept {
   using Samples = detail::OrbitSamples<Scalar>;
   using Pair = PeriodicPair<Scalar>;
   auto found = Orbit<Scalar, Elliptic>::at(problem, level, followed);
@@ -265,7 +271,7 @@ Result<SecondOrder<Scalar, Elliptic>> second_order(const Problem<Scalar>& proble
   const Orbit<Scalar, Elliptic> centre = reference ? found->aligned_to(*reference) : *found;
   const auto average = deceleration::average(problem, centre);
   if (!average) return average.error();
-  const int n = average->nodes;
+  const int n = average->half_error < sound_half ? average->nodes / 2 : average->nodes;
   if (n > Samples::capacity) return Errc::no_convergence;
 
   Samples mid;
@@ -290,8 +296,10 @@ Result<SecondOrder<Scalar, Elliptic>> second_order(const Problem<Scalar>& proble
 
   Scalar x[Samples::capacity], y[Samples::capacity];
   r.oscillation = detail::greatest_rates(here, n, terms.uR, terms.ueta, T);
-  terms.oscillation(x, y);
-  r.second_oscillation = detail::greatest_rates(here, n, x, y, Scalar(1));
+  if (sized) {
+    terms.oscillation(x, y);
+    r.second_oscillation = detail::greatest_rates(here, n, x, y, Scalar(1));
+  }
   const Pair phase = terms.phase_oscillation();
   phase.sample(roots, x, y);
   for (int i = 0; i < n; ++i) r.phase_oscillation = std::max(r.phase_oscillation, std::abs(x[i]));
@@ -318,7 +326,7 @@ Result<MeanLevel<Scalar>> mean_of(const Problem<Scalar>& problem, const Vec3<Sca
   MeanLevel<Scalar> mean{through->level(), through->phase_of(M), through->component()};
   if (through->regime() == Regime::point) return mean;
   OrbitOscillation<Scalar> u;
-  const auto order = second_order<Elliptic>(problem, mean.level, mean.component, &*through, &u);
+  const auto order = second_order<Elliptic>(problem, mean.level, mean.component, &*through, &u, false);
   if (!order) return order.error();
   const auto slow = u.slow(mean.phase);
   mean.level.R -= slow.R;
@@ -336,7 +344,7 @@ Result<Vec3<Scalar>> osculating_of(const Problem<Scalar>& problem, const MeanLev
   if (!found) return found.error();
   if (found->regime() == Regime::point) return found->momentum_at(Scalar(0));
   OrbitOscillation<Scalar> u;
-  const auto order = second_order<Elliptic>(problem, mean.level, mean.component, reference, &u);
+  const auto order = second_order<Elliptic>(problem, mean.level, mean.component, reference, &u, false);
   if (!order) return order.error();
   const auto slow = u.slow(mean.phase);
   const Level<Scalar> level{mean.level.R + slow.R, mean.level.eta + slow.eta};
