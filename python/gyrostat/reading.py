@@ -203,7 +203,7 @@ def _turn(field: Field, value: Any) -> tuple[float, ...]:
     q = tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
     if not any(q):
         raise Refused("a zero quaternion is no rotation", "write a quaternion [x, y, z, w], such as [0.0, 0.0, 0.0, 1.0]")
-    return _unit(q, math.inf, "quaternion")
+    return q
 
 
 def _direction(field: Field, value: Any) -> tuple[float, ...]:

@@ -185,7 +185,9 @@ def _shard(shard: tuple[int, int] | str | None, n: int) -> range:
         i, m = (int(part) if isinstance(part, str) else integer("shard", part) for part in given)
     except (TypeError, ValueError):
         i, m = 0, 0
-    if not 1 <= i <= m <= n:
+    if 1 <= i <= m and m > n:
+        raise DomainError(f"shard = {shard}: {n} rows make no {m} parts: give at most as many parts as rows, or more rows")
+    if not 1 <= i <= m:
         raise DomainError(f"shard = {shard}: give the number of a part and how many there are, such as 1/8; there are {n} rows")
     return range((i - 1) * n // m, i * n // m)
 

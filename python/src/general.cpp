@@ -103,6 +103,16 @@ py::typing::List<py::typing::Tuple<double, double, py::typing::List<py::str>>> s
   return made;
 }
 
+/// The value at t of a table of numbers, as a scene has it.
+double table_value(const Data& given, double t) {
+  Data holder;
+  holder["table"] = given;
+  const auto table = python::detail::table_of({"wheel", holder}, "table", 1);
+  if (general::check(table, 1) != Errc::ok)
+    raise("DomainError", "table: its times must increase, and its numbers be finite");
+  return general::piece(table, 1, 0, t)(t);
+}
+
 }  // namespace
 }  // namespace of_general
 
@@ -116,6 +126,8 @@ void bind_general(pybind11::module_& module) {
              "Answer of the ladder as plain data. torque: a callable, or the address of a compiled function.");
   module.def("general_segments", &segments_of_scene, py::kw_only(), py::arg("scene"), py::arg("times"),
              "Begin, end and families of each segment that the motion can be answered in.");
+  module.def("general_table_value", &table_value, py::arg("table"), py::arg("t"),
+             "The value at t of a table of numbers: times (n,), values (n, 1), interpolation, extend.");
   module.def("general_recognise", &recognise_scene, py::kw_only(), py::arg("scene"), py::arg("times"),
              "Each family, and why the scene is no instance of it; None where it is one.");
 }

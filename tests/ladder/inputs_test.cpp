@@ -34,6 +34,15 @@ TEST_CASE("a direction of unit length, and one without length, stay as they are"
   CHECK(next.direction() == Vec3<double>(0, 0, 0));
 }
 
+TEST_CASE("a quaternion without length turns nothing, and is not one that was left out", "[ladder]") {
+  const std::vector<double> numbers{0, 0, 0, 0, 0, 0, 0, 2};
+  InputReader next(numbers);
+  const Quat<double> none = next.quaternion();
+  CHECK(is_given(none));
+  CHECK(gyrostat::norm(none) == 0);
+  CHECK(next.quaternion() == Quat<double>{1, 0, 0, 0});
+}
+
 TEST_CASE("what a scene leaves out is not given", "[ladder]") {
   const double none = gyrostat::nan<double>;
   const std::vector<double> numbers{none, none, none, none, none, none, none, none, none, none, none, none, none, 1};

@@ -182,6 +182,33 @@ def test_a_step_of_a_wheel_at_the_cut_is_made_once(tmp_path: Path, cut: float, e
     assert np.linalg.norm(got["angular_velocity"][0] - end_of(load(tmp_path / "first.toml")).angular_velocity) > 1e-3
 
 
+@pytest.mark.parametrize("keep", ["rates", "momentum"])
+@pytest.mark.parametrize("interpolation", ["linear", "step", "cubic"])
+def test_a_table_that_takes_a_wheel_over_departs_from_the_rate_it_had(tmp_path: Path, interpolation: str, keep: str) -> None:
+    """Whatever the table says of earlier times: the wheel goes on at 100 rad/s, and nothing turns the body."""
+    wheel = {"name": "w", "type": "held", "axis": [0.0, 0.0, 1.0], "axial_inertia": 0.1, "rate": 100.0}
+    first = {"name": "first", "body": {"inertia": [3.0, 4.0, 5.0]}, "wheel": [wheel], "initial": {"angular_velocity": [0.0, 0.0, 0.1]}, "solve": {"times": [10.0]}}
+    table = {"times": [10.0, 15.0, 20.0], "values": [100.0, 100.0, 100.0], "interpolation": interpolation}
+    later = going_on(first, str(write(tmp_path, "first", first)), solve={"times": [10.0, 12.0]}, wheel=[{**wheel, "rate": table}])
+    later["from"] = {"file": later["from"], "keep": keep}
+    assert np.allclose(gyrostat.solve(later)["angular_velocity"], [0.0, 0.0, 0.1], atol=1e-12)
+    # begun at another rate it turns the body, as a motor does
+    table["values"] = [120.0, 120.0, 120.0]
+    assert np.allclose(gyrostat.solve(later)["angular_velocity"], [0.0, 0.0, 0.1 - 0.1 * 20.0 / 5.0], atol=1e-12)
+
+
+def test_a_momentum_is_shared_with_a_wheel_whose_table_is_under_way(tmp_path: Path) -> None:
+    """Between two of its times a cubic table is the cubic that the motion follows."""
+    table = {"times": [0.0, 4.0, 9.0, 20.0], "values": [10.0, 30.0, 20.0, 60.0], "interpolation": "cubic"}
+    whole = {"name": "whole", "body": {"inertia": [3.0, 4.0, 5.0]}, "initial": {"angular_velocity": [0.1, -0.2, 0.1]},
+             "wheel": [{"type": "held", "axis": [0.0, 0.6, 0.8], "axial_inertia": 0.1, "rate": table}]}
+    write(tmp_path, "first", whole | {"solve": {"times": [7.0], "tolerance": 1e-11}})
+    later = going_on(whole, str(tmp_path / "first.toml"), solve={"times": [7.0, 15.0], "tolerance": 1e-10}, wheel=copy.deepcopy(whole["wheel"]))
+    later["from"] = {"file": later["from"], "keep": "momentum"}
+    got, want = gyrostat.solve(later), gyrostat.solve(whole, times=[7.0, 15.0], tolerance=1e-11)
+    assert np.allclose(got["angular_velocity"], want["angular_velocity"], atol=1e-9)
+
+
 def test_wheels_without_a_name_are_not_taken_for_one_that_is_called_by_a_number(tmp_path: Path) -> None:
     wheels = [{"name": "2", "type": "free", "axis": [1.0, 0.0, 0.0], "axial_inertia": 0.1, "rate": 3.0}, {"type": "free", "axis": [0.0, 1.0, 0.0], "axial_inertia": 0.1, "rate": 5.0}]
     first = {"name": "first", "solve": {"times": [1.0]}, "body": {"inertia": [3.0, 2.5, 2.0]}, "wheel": wheels, "initial": {"angular_velocity": [0.0, 0.0, 0.1]}}

@@ -153,6 +153,15 @@ def test_numbers_that_vary_together_are_converted_together() -> None:
         assert all(rows[column].values[row].tobytes() == answer[column].tobytes() for column in answer.error)
 
 
+def test_a_number_of_an_attitude_of_any_length_is_that_of_the_scene() -> None:
+    scene = {"name": "turned", "solve": {"times": [10.0], "ask": ["attitude"]}, "body": {"inertia": [3.0, 4.0, 5.0]},
+             "initial": {"angular_velocity": [0.1, 0.2, 0.3], "attitude": [1.0, 2.0, 3.0, 4.0]}}
+    rows = sweep(scene, {"initial.attitude[3]": [4.0, -1.0, 0.0]})
+    for row, number in enumerate((4.0, -1.0, 0.0)):
+        scene["initial"]["attitude"][3] = number
+        assert rows["attitude"].values[row].tobytes() == gyrostat.solve(scene)["attitude"].tobytes()
+
+
 def test_a_coefficient_that_stands_for_a_matrix_is_one_number_or_three() -> None:
     scene = SCENES["about-origin"]
     whole, part = sweep(scene, {"torque[2].coefficient": [0.01, 0.03]}), sweep(scene, {"torque[2].coefficient[1]": [0.01, 0.03]})

@@ -355,6 +355,31 @@ def test_rows_side_by_side_are_what_solve_answers_to_the_bit() -> None:
             assert found[f"{name}_error"].values[row] == answer.error[name]
 
 
+TURNED: dict[str, dict[str, Any]] = {
+    "deceleration": {"torque": {"control": [0.01, 0.01, 0.01], "drag": 0.01}},
+    "free": {},
+    "general": {},
+    "heavy": {"body": {"inertia": [3.0, 4.0, 5.0], "mass": 2.0, "centre_of_mass": [0.1, 0.05, 0.1]}, "field": {"gravity": 9.8}},
+    "rotor": {"rotor": {"axis": [1.0, 0.0, 0.0], "axial_inertia": 0.1}, "motor": {"slope": 0.01, "no_load_rate": 3.0}},
+    "spinning": {"body": {"inertia": [3.0, 4.0, 5.0], "mass": 2.0}, "torque": {"body": [0.001, 0.0, 0.0], "force": [0.0, 0.0, 1.0]}},
+}
+
+
+@pytest.mark.parametrize("kind", list(FAMILIES))
+def test_a_row_whose_attitude_is_nought_is_refused_as_the_scene_is(kind: str) -> None:
+    """It is not one that was left out: a motion would begin at another."""
+    start: dict[str, Any] = {"angular_velocity": [0.1, 0.2, 0.3], "attitude": [0.0, 0.0, 0.0, 1.0]}
+    if kind == "rotor":
+        start["rotor_rate"] = 1.0
+    scene = {"name": "turned", "kind": kind, "body": {"inertia": [3.0, 4.0, 5.0]}, "solve": {"times": [1.0, 10.0]}, "initial": start, **TURNED[kind]}
+    rows = sweep(scene, {"initial.attitude[3]": [0.0, 1.0]})
+    assert not rows["met"].values[0] and rows["reason"].values[0]
+    assert rows["met"].values[1] and not rows["reason"].values[1]
+    start["attitude"] = [0.0, 0.0, 0.0, 0.0]
+    with pytest.raises(SceneError, match="zero quaternion"):
+        gyrostat.solve(scene)
+
+
 def test_shards_put_together_are_the_whole(tmp_path: Path) -> None:
     assert same(merge([tumbling(shard=(i, 7)) for i in range(1, 8)]), tumbling())
     whole, parts = light(), [light(shard=(i, 4)) for i in (3, 1, 4, 2)]

@@ -22,6 +22,13 @@ struct CvodeRun {
   ode::Counts counts;
 };
 
+/// Why CVODE has not come to the last time.
+constexpr const char* why_cvode_failed(Errc failure) noexcept {
+  return failure == Errc::no_convergence ? "the steps of CVODE come to nothing before the last time: leave integrator "
+                                           "to auto, or ask for a looser tolerance"
+                                         : message(failure);
+}
+
 /// One run from t = 0. `equations` gives start(), the numbers at the start; state(numbers), a state that is kept; and system(). It must stay
 /// where it is meanwhile.
 template <class State, class Equations>

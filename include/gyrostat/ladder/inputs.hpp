@@ -57,10 +57,11 @@ class InputReader {
     const double length = magnitude(v);
     return std::abs(length - 1) <= 4 * epsilon<double> || !(length > 0) ? v : Vec3<double>(v / length);
   }
-  /// An attitude brought to unit norm.
+  /// An attitude brought to unit norm; one without length, which turns nothing, stays as it is.
   Quat<double> quaternion() noexcept {
     const double x = number(), y = number(), z = number(), w = number();
-    return as_unit(Quat<double>{w, x, y, z});
+    const Quat<double> q{w, x, y, z};
+    return norm(q) == 0 ? q : as_unit(q);
   }
   Mat3<double> tensor() noexcept {
     Mat3<double> made;

@@ -148,7 +148,7 @@ Answer answer_of(const Family& family, const char* model, const Scene& scene, co
 /// Leaves the scalars that were asked for, each of them, and says where one has no value.
 inline void keep_asked(Answer& answer, const Question& question, const Family& family) {
   const auto without_value = [](const Column& column) {
-    return column.error == infinity<double> && !(column.values[0] == column.values[0]);
+    return column.error == infinity<double> && (std::isnan(column.values.front()) || std::isnan(column.values.back()));
   };
   bool lacking = std::any_of(answer.columns.begin(), answer.columns.end(), without_value);
   if (!question.asked.empty()) {

@@ -31,6 +31,8 @@ TEST_CASE("a row of numbers is the scene that it stands for", "[deceleration]") 
   CHECK(other->setup().momentum == Vec3<double>(4, 5, 6));
   CHECK(other->question().wants_attitude);
   CHECK(other->setup().attitude.w == 1);
+  row[21] = 0;
+  CHECK(scene_of(row, question).error() == Errc::zero_vector);
 }
 
 TEST_CASE("a row that is no scene says why", "[deceleration]") {

@@ -72,6 +72,23 @@ TEST_CASE("CVODE and DOP853 agree about a torque that steps", "[general]") {
   }
 }
 
+TEST_CASE("CVODE goes over switches that lie a rounding apart", "[general]") {
+  const double at = 2.5926710983288683, next = std::nextafter(at, 3.0);
+  auto problem = brick();
+  problem.torques.assign(2, torque(TorqueType::constant, {0.01, 0.02, -0.03}));
+  problem.torques[0].factor.on = {{0, at}}, problem.torques[1].factor.on = {{next, 4}};
+  for (const auto& times : {std::vector<double>{1, at, next, 5}, std::vector<double>{1, next}}) {
+    const Scene scene = posed(problem, question_at(times, 1e-9, rung::full));
+    Scene other = scene;
+    other.full_equations = &full_by_cvode;
+    const Answer one = solved(scene), two = solved(other);
+    for (const Column& column : one.columns) {
+      const Column& its = *two.find(column.name());
+      CHECK(column_error(column, its) <= column.error + its.error);
+    }
+  }
+}
+
 TEST_CASE("a law without a value ends a run of CVODE, too", "[general]") {
   double lost = gyrostat::nan<double>;
   const auto ends = [](double t, const Seen<double>&) noexcept {

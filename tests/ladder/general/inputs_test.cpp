@@ -78,5 +78,7 @@ TEST_CASE("an attitude of a row is brought to unit norm, and one that has it sta
   for (std::size_t i = 0; i < 4; ++i) row[at + i] *= 3;
   CHECK(std::abs(general::with_numbers(problem, row).attitude.w - .5) < 1e-15);
   for (std::size_t i = 0; i < 4; ++i) row[at + i] = 0;
-  CHECK(std::isnan(general::with_numbers(problem, row).attitude.w));
+  const auto none = general::with_numbers(problem, row);
+  CHECK(gyrostat::norm(none.attitude) == 0);
+  CHECK(check_start(none).code == Errc::out_of_domain);
 }

@@ -41,6 +41,11 @@ TEST_CASE("the scales of a general scene are those of its start", "[general]") {
   CHECK(scale[column::angular_momentum] == Approx(5e-3));
   p.torques = {torque(TorqueType::constant, {0, 3, 4})};
   CHECK(posed(p, question_at({1})).scales()[column::torque] == Approx(5e-3));
+  // torques that begin later, and cancel, have a size too
+  p.torques.assign(2, {});
+  p.torques[0].vector = {3, 0, 4}, p.torques[1].vector = {-3, 0, -4};
+  for (auto& torque : p.torques) torque.factor.on = {{.2, .4}};
+  CHECK(posed(p, question_at({1})).scales()[column::torque] == Approx(10e-3));
 }
 
 TEST_CASE("a general scene refuses what is not physical", "[general]") {

@@ -38,6 +38,8 @@ TEST_CASE("a row of numbers is the heavy body that it stands for", "[heavy]") {
   CHECK(scene->problem().gradient() == 3 * 9.80665 / 6.4e6);
   CHECK(scene->oriented());
   CHECK(scene->question().wants_attitude);
+  row[22] = 0;
+  CHECK(scene_of(row, question).error() == Errc::zero_vector);
 
   for (int i = 0; i < 3; ++i) row[std::size_t(16 + i)] = gyrostat::nan<double>;
   for (int i = 0; i < 4; ++i) row[std::size_t(22 + i)] = gyrostat::nan<double>;

@@ -40,6 +40,9 @@ TEST_CASE("a row of numbers is the spinner that it stands for", "[spinning]") {
   REQUIRE(scene);
   CHECK(scene->problem().charge_momentum == Approx(.003 * 100 * 1.21 * std::cos(.4)).epsilon(1e-15));
   CHECK(scene->problem().angles.theta == Approx(.3).epsilon(1e-14));
+  row[18] = row[19] = 0;
+  CHECK(scene_of(row, question).error() == Errc::zero_vector);
+  row[19] = 1;
   row[5] = .29, row[6] = gyrostat::nan<double>;
   CHECK(scene_of(row, question)->problem().charge_momentum == .29);
 }

@@ -48,7 +48,8 @@ TEST_CASE("the angle of a body that is pushed from its rate on, all along or for
   const auto all_along = of(p, 100);
   CHECK(all_along.angle == Approx(0.1 * 100 + 0.001 / 2 * 100 * 100 / 2));
   p.torques[0].factor.on = {{-5, 10}, {90, 200}};
-  CHECK(of(p, 100).turning == all_along.turning);
+  CHECK(of(p, 100).turning == Approx(0.1 + 0.001 * 20 / 2));
+  CHECK(of(p, 100).turning < all_along.turning);
   CHECK(of(p, 100).angle == Approx(100 * (0.1 + 0.001 * 20 / 2 / 2)));
   // a brake adds nothing, a field what the body swings in it
   p.torques[0] = {};

@@ -16,7 +16,7 @@ namespace gyrostat::deceleration {
 /// By what of the free motion is needed (Unbraked).
 inline constexpr FormulaCost equal_torque_cost[] = {{1e-6, 0.05e-6}, {4e-6, 0.2e-6}, {50e-6, 0.2e-6}};
 inline constexpr FormulaCost averaged_cost{9e-6, 0.17e-6}, averaged_orbit_cost{280e-6, 1e-6};
-inline constexpr FormulaCost averaged_2_cost{300e-6, 0.5e-6}, averaged_2_orbit_cost{1.5e-3, 1e-6};
+inline constexpr FormulaCost averaged_2_cost{300e-6, 0.5e-6}, averaged_2_orbit_cost{0.9e-3, 1e-6};
 inline constexpr SeriesCost series_cost{5e-6, 3e-6, 0.2e-6, 1};
 
 inline double cost_of_equal_torque(const Scene& scene) noexcept {
@@ -46,7 +46,7 @@ inline double cost_of_full(const Scene& scene) noexcept {
 }
 
 /// What a step of the mean equations over an orbit takes, with what the error is made of, s.
-inline constexpr double averaged_orbit_step = 30e-6, averaged_2_orbit_step = 250e-6;
+inline constexpr double averaged_orbit_step = 30e-6, averaged_2_orbit_step = 120e-6;
 
 /// The number of steps of the mean equations that cost as much as the full equations, `most` at most; `most` for a rung that is named.
 inline std::uint64_t steps_worth(const Scene& scene, double step, std::uint64_t most) noexcept {

@@ -144,7 +144,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
     return made;
   };
   const auto runs = cvode_runs(Row<double>{scene.problem()}, scene.question().times, scene.goal().tightest, 1e-5, run);
-  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, message(runs.failure));
+  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, why_cvode_failed(runs.failure));
 
   // what each step may err by itself adds up, and is shared by the runs where the longest step rules both
   const double of_steps = (1 + double(runs.counts.steps) / (1 + honesty::cvode_companions)) * runs.tolerance;

@@ -39,6 +39,14 @@ class CvodeEquations {
   double lost_at() const noexcept { return equations_.lost_at(); }
   double inside() const noexcept { return equations_.inside(); }
 
+  /// One step by Euler, for a time so short that it is right to rounding; false where the equations have no value.
+  bool step(double from, double to, Numbers& y) noexcept {
+    Numbers slope{};
+    if (!rate(from, y.data(), slope.data(), this)) return false;
+    for (std::size_t i = 0; i < width; ++i) y[i] += (to - from) * slope[i];
+    return true;
+  }
+
   /// For ode::Cvode, with a pointer to this for `user`. It must stay where it is while the integrator lives.
   ode::CvodeSystem system() noexcept {
     ode::CvodeSystem made;
@@ -74,6 +82,9 @@ struct CvodeEnd {
   bool stopped = false;       ///< by a brake
 };
 
+/// Times so near each other, relative to them, are one to CVODE, which makes no step between them.
+inline constexpr double shortest_piece = 4 * epsilon<double>;
+
 /// One run over all pieces.
 inline CvodeRun<State<double>> run_pieces(const Problem<double>& problem, const OwnTorque& law,
                                           std::span<const double> times, CvodeEquations equations,
@@ -97,6 +108,13 @@ inline CvodeRun<State<double>> run_pieces(const Problem<double>& problem, const 
     if (run.states.size() < times.size() && times[run.states.size()] == from)
       run.states.push_back(equations.state(from, y));
     if (!(to > from)) break;
+    if (to - from < shortest_piece * std::abs(to)) {
+      if (!equations.step(from, to, y)) return run.failure = Errc::not_finite, run;
+      for (std::size_t i; (i = run.states.size()) < times.size() && (times[i] < to || last);)
+        run.states.push_back(equations.state(times[i], y));
+      from = to;
+      continue;
+    }
     auto made = ode::Cvode::create(equations.system(), from, y, options);
     if (!made) return run.failure = made.error(), run;
     auto cvode = std::move(made).value();
@@ -168,7 +186,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   }
   if (end.stopped) return refused<Track>(Errc::not_applicable, why_stopped_by_brake);
   if (runs.failure == Errc::step_limit && law.any()) return refused<Track>(Errc::step_limit, steps_of_law);
-  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, message(runs.failure));
+  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, why_cvode_failed(runs.failure));
   track.states = std::move(runs.states);
   track.counts = runs.counts;
   // of what columns are made of, some of which may cancel

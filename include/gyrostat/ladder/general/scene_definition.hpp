@@ -123,9 +123,11 @@ GYROSTAT_COMPILED_ONCE ColumnErrors Scene::scales() const noexcept {
   if (momenta == 0) momenta = sizes_.momentum();
   const Vec3<double> M = wheels_.reduced * p.angular_velocity + wheels_.momentum_of_wheels();
   const Flow<double> flow(p, wheels_);
-  const double torques = detail::sum_of_torques(p, {p.attitude, p.angular_velocity, M}, 0) +
-                         own_torque_(0, seen_of(flow.state(0, flow.start()))).norm();
   const double T = question_.times.back();
+  const auto torques_at = [&](double t) { return detail::sum_of_torques(p, {p.attitude, p.angular_velocity, M}, t); };
+  double torques = torques_at(0) + own_torque_(0, seen_of(flow.state(0, flow.start()))).norm();
+  if (torques == 0)
+    for (const double t : breakpoints(p, T)) torques = std::max(torques, torques_at(t));
   const Vec3<double> g = p.fixed ? Vec3<double>(0, 0, 0) : Vec3<double>(p.field.gravity * p.field.down);
   ColumnErrors scale;
   scale[column::angular_velocity] = omega > 0 ? omega : share * momenta / most;

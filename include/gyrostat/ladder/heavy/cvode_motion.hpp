@@ -102,7 +102,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
     return made;
   };
   auto runs = cvode_runs(row, times, scene.goal().tightest, 1e-6, run);
-  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, message(runs.failure));
+  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, why_cvode_failed(runs.failure));
 
   Track track;
   track.states = std::move(runs.states);

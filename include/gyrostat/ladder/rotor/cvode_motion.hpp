@@ -99,7 +99,7 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
         {method, task.tolerance, task.tolerance, ode::CvodeOptions{}.step_cap, task.longest * times.back()}, monitor);
   };
   auto runs = cvode_runs(Row<double>(body, start), times, scene.goal().tightest, 1e-5, run);
-  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, message(runs.failure));
+  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, why_cvode_failed(runs.failure));
 
   Track track;
   track.states = std::move(runs.states);

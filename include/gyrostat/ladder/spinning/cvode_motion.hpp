@@ -145,7 +145,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
         const auto of = task.change > 0 ? neighbour(problem, rate, task.change, task.which) : problem;
         return detail::cvode_run(of, watched, task.tolerance, task.longest, least_cosine[run++], monitor);
       });
-  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, message(runs.failure));
+  if (runs.failure != Errc::ok) return refused<Track>(runs.failure, why_cvode_failed(runs.failure));
 
   Track track;
   track.states = std::move(runs.states);

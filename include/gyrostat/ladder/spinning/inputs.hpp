@@ -17,7 +17,8 @@ inline constexpr InputKind input_kinds[] = {
     {"initial.euler_312", 3}, {"initial.velocity", 3},   {"initial.position", 3}};
 
 /// The scene of the numbers of input_kinds; the field is given by its momentum, its parts or not at all, the attitude by a quaternion,
-/// angles or not at all. Errors: those of Scene::make; out_of_domain: not so many numbers.
+/// angles or not at all. Errors: those of Scene::make; out_of_domain: not so many numbers;
+/// zero_vector: a quaternion of nought.
 inline Result<Scene> scene_of(std::span<const double> numbers, const Question& question) {
   if (numbers.size() != input_width(input_kinds)) return Errc::out_of_domain;
   InputReader next(numbers);
@@ -34,6 +35,7 @@ inline Result<Scene> scene_of(std::span<const double> numbers, const Question& q
   const Quat<double> attitude = next.quaternion();
   problem.angular_velocity = next.vector();
   Vec3<double> angles = next.vector();
+  if (norm(attitude) == 0) return Errc::zero_vector;
   if (is_given(attitude)) angles = angles_312(attitude);
   if (is_given(angles)) problem.angles = {angles[0], angles[1], angles[2]};
   problem.velocity = next.vector();

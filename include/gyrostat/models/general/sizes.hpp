@@ -160,14 +160,14 @@ Sizes<Scalar> sizes_of(const Problem<Scalar>& problem, const Wheels<Scalar>& whe
     const Scalar factor = detail::greatest_factor(record.factor);
     const Scalar torque = detail::torque_size(problem, record.sum, made.greatest);
     const auto pushes = detail::pushes_of(record.sum, torque);
+    const Scalar on = detail::time_on(record.factor, span);
     made.external += factor * torque, swings += factor * pushes.swinging;
-    pushed += factor * pushes.steady * detail::time_on(record.factor, span);
+    given += factor * torque * on, pushed += factor * pushes.steady * on;
     made.damping += factor * detail::damping_rate(problem, record.sum, made.least);
     made.force += factor * (record.sum.force_body.norm() + record.sum.force_inertial.norm());
   }
   made.forcing = detail::forcing_rate(problem);
   made.torque = made.external + motors;
-  given += made.external * span;
   made.built = std::min(given, sqrt(made.torque * made.greatest));
   made.turning = made.momenta / made.least + std::min(given / made.least, sqrt(made.torque / made.least));
   const Scalar mean = sqrt(made.least * made.greatest), swinging = sqrt(swings / mean);

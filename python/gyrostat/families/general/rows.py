@@ -2,7 +2,6 @@
 """Rows of a sweep of general scenes: what the keys that vary come to in the numbers of the compiled problem, of all rows at once."""
 
 import contextlib
-import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -17,7 +16,6 @@ from gyrostat.families import FAMILIES
 from gyrostat.families.general.clock import since
 from gyrostat.families.general.functions import QUESTION, START_ERRORS, OverRows, posed, stacked, varies
 from gyrostat.families.general.scene import arguments
-from gyrostat.fields import ROUNDING
 from gyrostat.orientation import axes_of, form_of, quaternions
 from gyrostat.rows import Place, inputs_of, numbers_of, refilled
 
@@ -88,12 +86,11 @@ def posed_of(scene: "Scene") -> dict[str, Any]:
 
 
 def _with_numbers(scene: "Scene", numbers: Iterator[Any]) -> "Scene":
-    """The scene with other numbers; an attitude is brought to unit length as that of a scene file is."""
+    """The scene with other numbers."""
     tables, top = {name: dict(table) for name, table in scene.tables.items()}, dict(scene.top)
     for _, table, field in inputs_of(FAMILIES[scene.kind]):
         home = tables[table] if table else top
-        made = refilled(field, home[field.name], numbers)
-        home[field.name] = _unit_turn(made) if field.form == "turn" and made is not None else made
+        home[field.name] = refilled(field, home[field.name], numbers)
     form = form_of(tables["initial"])
     if form.startswith("dcm") and (varies(tables["initial"][form]) or tables["initial"][form] != scene.tables["initial"][form]):
         tables["initial"]["attitude"] = _of_matrix(form, tables["initial"][form])
@@ -105,17 +102,6 @@ def _of_matrix(form: str, matrix: tuple[Any, ...]) -> tuple[Any, ...]:
     if not varies(matrix):
         return quaternions(form, [matrix])[0]
     made = np.reshape(quaternions(form, np.asarray(stacked(matrix))), (-1, 4))
-    return tuple(column.view(OverRows) for column in np.ascontiguousarray(made.T))
-
-
-def _unit_turn(turn: tuple[Any, ...]) -> tuple[Any, ...]:
-    if not any(isinstance(each, OverRows) for each in turn):
-        length = math.hypot(*turn)
-        return turn if not abs(length - 1) > ROUNDING else tuple(each / length for each in turn)
-    rows = np.stack(np.broadcast_arrays(*turn), -1)
-    lengths = np.array([math.hypot(*row) for row in rows.tolist()])
-    with np.errstate(invalid="ignore"):
-        made = np.where((np.abs(lengths - 1) <= ROUNDING)[:, None], rows, rows / lengths[:, None])
     return tuple(column.view(OverRows) for column in np.ascontiguousarray(made.T))
 
 

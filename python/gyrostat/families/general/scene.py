@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The scene file of one body with any wheels and any torques: its keys, the checks that take more than one key, and what they come to."""
 
-import bisect
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -9,10 +8,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from gyrostat import _core
 from gyrostat.broadcast import Floats
 from gyrostat.errors import DomainError
 from gyrostat.families.general.before import EPS, End, end_of
-from gyrostat.families.general.functions import PLANETS, diagonal, dot, orbit_start, stacked, turned, varies
+from gyrostat.families.general.functions import PLANETS, OverRows, diagonal, dot, orbit_start, stacked, turned, varies
 from gyrostat.fields import REQUIRED, ROUNDING, UNSET, Choices, Field, Found, Table, Values
 from gyrostat.rotation import matrix_from_quaternion, quaternion_from_matrix
 
@@ -482,18 +482,12 @@ def _rate_at(wheel: Mapping[str, Any], time: float) -> Any:
     if varies(times) or varies(values):
         rows = [each.tolist() for each in np.broadcast_arrays(*(np.atleast_2d(stacked(each)) for each in (times, values)))]
         return np.array([_rate_at({**wheel, "rate": {**rate, "times": tuple(t), "values": tuple(v)}}, time) for t, v in zip(*rows, strict=True)])
-    if time < times[0] or time >= times[-1]:
-        return float((values[0] if time < times[0] else values[-1]) if rate["extend"] == "hold" else 0.0)
-    place = bisect.bisect_right(times, time) - 1
-    if times[place] == time or rate["interpolation"] == "step":
-        return float(values[place])
-    if rate["interpolation"] == "cubic":
-        raise DomainError(f"initial.angular_momentum: a wheel's table has no value at t = {time:g} s, where the motion begins: add one, or give angular_velocity")
-    return float(np.interp(time, times, values))
+    return _core.general_table_value({**rate, "times": times, "values": np.reshape(values, (-1, 1))}, time)
 
 
-def _jump_at(wheel: Mapping[str, Any], time: float) -> Any:
-    """By how much the table of a wheel's rate steps at a time: a motor that keeps a rate needs none for it."""
+def _jump_at(wheel: Mapping[str, Any], time: float, before: float | None) -> Any:
+    """By how much the table of a wheel's rate steps at a time: a motor that keeps a rate needs none for it. before: the rate with which the scene before
+    hands the wheel on, which is what a table that begins here departs from."""
     rate = wheel["rate"]
     if wheel["type"] != "held" or not isinstance(rate, Mapping):
         return 0.0
@@ -501,25 +495,26 @@ def _jump_at(wheel: Mapping[str, Any], time: float) -> Any:
     if time not in times:
         return 0.0
     place = times.index(time)
-    outside = values[0] if rate["extend"] == "hold" else 0.0
+    outside = values[0] if rate["extend"] == "hold" else 0.0 if before is None else before
     return _rate_at(wheel, time) - (outside if place == 0 else values[place - 1] if rate["interpolation"] == "step" else values[place])
 
 
-def _stepped(rates: Floats, whole: _Whole, wheels: list[dict[str, Any]], taken: list[int], time: float) -> Floats:
+def _stepped(end: End, whole: _Whole, wheels: list[dict[str, Any]], taken: list[int], time: float) -> Floats:
     """Angular velocity behind the steps of tables at the start, which no momentum comes with; wheels that turn by themselves keep their absolute rates."""
     jump, inertia = np.zeros(3), whole.inertia
     turning = [wheels[place] for place in taken if wheels[place]["type"] != "held"]
-    for wheel in wheels:
+    for place, wheel in enumerate(wheels):
         if wheel["type"] == "held":
-            jump = jump + _times(wheel["axial_inertia"] * _jump_at(wheel, time), _axis(wheel))
+            before = _of_before(end, wheel, place)
+            jump = jump + _times(wheel["axial_inertia"] * _jump_at(wheel, time, before and before[0]), _axis(wheel))
     if not np.any(jump):
-        return rates
+        return end.angular_velocity
     for wheel in turning:
         inertia = inertia - _times(wheel["axial_inertia"], _square(_axis(wheel)))
     change = -_rounded(_solved(_rounded(inertia), jump))
     for wheel in turning:
         wheel["rate"] = wheel["rate"] - _rounded(dot(_axis(wheel), change))
-    made: Floats = rates + change
+    made: Floats = end.angular_velocity + change
     return made
 
 
@@ -529,6 +524,18 @@ def _rates_of(momentum: Floats, inertia: Floats, body: Mapping[str, Any], wheels
     for wheel in wheels:
         held = held + _times(_wide(wheel["axial_inertia"]) * _rate_at(wheel, time), _axis(wheel))
     return _rounded(_solved(inertia, momentum - held))
+
+
+def _unit_turn(turn: tuple[Any, ...]) -> tuple[Any, ...]:
+    """The unit quaternion of a turn, or of a turn in each row."""
+    if not any(isinstance(each, OverRows) for each in turn):
+        length = math.hypot(*turn)
+        return turn if not abs(length - 1) > ROUNDING else tuple(each / length for each in turn)
+    rows = np.stack(np.broadcast_arrays(*turn), -1)
+    lengths = np.array([math.hypot(*row) for row in rows.tolist()])
+    with np.errstate(invalid="ignore"):
+        made = np.where((np.abs(lengths - 1) <= ROUNDING)[:, None], rows, rows / lengths[:, None])
+    return tuple(column.view(OverRows) for column in np.ascontiguousarray(made.T))
 
 
 def _rotation(attitude: Floats) -> Floats:
@@ -557,12 +564,17 @@ def _from_orbit(axes: Floats, attitude: Floats) -> Floats:
     return made
 
 
+def _of_before(end: End, wheel: Mapping[str, Any], place: int) -> tuple[float, float] | None:
+    """Rate and angle of the wheel at the end of the scene before, by its name, or by its place where it has none."""
+    return end.wheels.get(wheel["name"] or place + 1)
+
+
 def _handed_on(wheels: list[dict[str, Any]], end: End) -> tuple[list[dict[str, Any]], list[int]]:
     """The wheels, with rates and angles of those of the same name in the scene before, or of the same place where they have no name, unless they
     have their own; and the places of those whose rate is handed on."""
     made, taken = [], []
     for place, wheel in enumerate(wheels):
-        found = end.wheels.get(wheel["name"] or place + 1)
+        found = _of_before(end, wheel, place)
         if found and wheel["angle"] is UNSET:
             wheel = {**wheel, "angle": found[1]}
         if found and wheel["type"] != "locked" and wheel["rate"] is UNSET and wheel["momentum"] is UNSET:
@@ -604,7 +616,7 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     if end:
         wheels, taken = _handed_on(wheels, end)
     error = dict.fromkeys(("attitude", "angular_velocity", "rotor_rate", "rotor_angle", "velocity", "position"), 0.0)
-    attitude = stacked(start["attitude"] if start["attitude"] is not UNSET else (0.0, 0.0, 0.0, 1.0) if end is None else end.attitude)
+    attitude = stacked(_unit_turn(start["attitude"]) if start["attitude"] is not UNSET else (0.0, 0.0, 0.0, 1.0) if end is None else end.attitude)
     axes, normal_rate = (np.eye(3), np.zeros(3)) if orbit is None else orbit_start(orbit, time)
     if start["relative_to"] == "orbit" and (end is None or start["attitude"] is not UNSET):
         attitude = _from_orbit(axes, attitude)
@@ -623,7 +635,7 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     elif end and given is UNSET and kept == "momentum":
         rates, error["angular_velocity"] = _caught(end, whole, body, wheels, taken, time)
     elif end and given is UNSET:
-        rates, error["angular_velocity"] = _stepped(end.angular_velocity, whole, wheels, taken, time), end.error["angular_velocity"]
+        rates, error["angular_velocity"] = _stepped(end, whole, wheels, taken, time), end.error["angular_velocity"]
     elif not isinstance(given, Mapping):
         rates = stacked(given)
     else:
