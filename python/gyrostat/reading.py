@@ -194,7 +194,8 @@ def _quaternion(field: Field, value: Any) -> tuple[float, ...]:
     q = tuple(_number(field, item, f"element {i}") for i, item in enumerate(items, 1))
     if not any(q):
         raise Refused("a zero quaternion is no rotation", f"write a unit quaternion [{order}], such as {identity}")
-    return _unit(q, UNIT_TOLERANCE, "quaternion")
+    _unit(q, UNIT_TOLERANCE, "quaternion")
+    return q  # what is made of it makes it unit: a row in which one of the numbers varies is that scene
 
 
 def _turn(field: Field, value: Any) -> tuple[float, ...]:

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Study", "answered", "merge", "open_results", "save", "sweep"]
 
+MOST_THREADS: Final = 1024
 MOST_BYTES: Final = 2**33  # of one Dataset
 CHUNK_BYTES: Final = 2**27
 MOST_CHUNK: Final = 16384
@@ -271,6 +272,8 @@ def answered(study: Study, *, threads: int | None = None, chunk: int | None = No
     for name, value in (("chunk", chunk), ("threads", threads)):
         if value is not None and integer(name, value) < 1:
             raise DomainError(f"{name} = {value}: give a number > 0")
+    if threads is not None and threads > MOST_THREADS:
+        raise DomainError(f"threads = {threads}: give at most {MOST_THREADS}, or none for as many as this machine has processors")
     folder = None if parts is None else Path(parts)
     if folder is not None:
         check_size(folder, study.sizes(min(chunk or 1, len(rows))), f"give a chunk of less than {chunk} rows")

@@ -132,10 +132,15 @@ Data exact_rows(const HeavyBodies& bodies, const Array& angular_velocity, const 
   Motions motions(bodies.size(), t.size());
   std::vector<const char*> which;
   std::vector<std::array<double, 7>> numbers;
-  for (std::size_t row = 0; row < bodies.size(); ++row) {
+  std::size_t row = 0;
+  Errc wrong = Errc::ok;
+  for (const py::gil_scoped_release free; row < bodies.size(); ++row) {
     const double *w = angular_velocity.data() + 3 * row, *d = down.data() + 3 * row, *q = attitude.data() + 4 * row;
     const auto start = aligned<double>({{w[0], w[1], w[2]}, {d[0], d[1], d[2]}, {q[3], q[0], q[1], q[2]}});
-    if (!start) raise("DomainError", bodies.label(py::ssize_t(row)) + "start: " + message(start.error()));
+    if (!start) {
+      wrong = start.error();
+      break;
+    }
     const Exact<double> motion(bodies.rows()[row], *start);
     which.push_back(symbol(motion.which()));
     const auto e = motion.error(span);
@@ -144,6 +149,7 @@ Data exact_rows(const HeavyBodies& bodies, const Array& angular_velocity, const 
     if (!motion.applies()) continue;
     for (std::size_t i = 0; i < t.size(); ++i) motions.put(row, i, motion.at(t[i]));
   }
+  if (wrong != Errc::ok) raise("DomainError", bodies.label(py::ssize_t(row)) + "start: " + message(wrong));
   Data made;
   motions.give(made);
   made["case"] = words(which);
@@ -293,16 +299,22 @@ Data fast_stability_rows(const HeavyBodies& bodies, const Array& spin, const Arr
   std::vector<std::array<double, 6>> numbers;
   std::vector<const char*> verdicts;
   constexpr const char* names[] = {"stable", "unstable", "undecided"};
-  for (std::size_t row = 0; row < bodies.size(); ++row) {
+  std::size_t row = 0;
+  Errc wrong = Errc::ok;
+  for (const py::gil_scoped_release free; row < bodies.size(); ++row) {
     const auto scaled = Scaled<double>::make(bodies.rows()[row], spin.data()[row], cosine.data()[row]);
-    if (!scaled)
-      raise("DomainError", bodies.label(py::ssize_t(row)) + "spin = " + text(spin.data()[row]) +
-                               ", cos_inclination = " + text(cosine.data()[row]) + ": " + message(scaled.error()));
+    if (!scaled) {
+      wrong = scaled.error();
+      break;
+    }
     const Floquet<double> floquet(*scaled);
     numbers.push_back({floquet.squared, floquet.squared_error, floquet.tongue, floquet.trace_minus_4, floquet.growth,
                        floquet.exponent()});
     verdicts.push_back(names[int(floquet.verdict)]);
   }
+  if (wrong != Errc::ok)
+    raise("DomainError", bodies.label(py::ssize_t(row)) + "spin = " + text(spin.data()[row]) +
+                             ", cos_inclination = " + text(cosine.data()[row]) + ": " + message(wrong));
   Data made;
   made["numbers"] = columns(numbers);
   made["verdict"] = words(verdicts);

@@ -365,19 +365,43 @@ TURNED: dict[str, dict[str, Any]] = {
 }
 
 
+def turned(kind: str, attitude: list[float]) -> dict[str, Any]:
+    start: dict[str, Any] = {"angular_velocity": [0.1, 0.2, 0.3], "attitude": attitude}
+    if kind == "rotor":
+        start["rotor_rate"] = 1.0
+    return {"name": "turned", "kind": kind, "body": {"inertia": [3.0, 4.0, 5.0]}, "solve": {"times": [1.0, 10.0]}, "initial": start, **TURNED[kind]}
+
+
+@pytest.mark.parametrize("kind", [kind for kind in FAMILIES if kind != "rotor"])
+def test_a_number_of_a_quaternion_that_is_off_unit_by_rounding_is_that_of_the_scene(kind: str) -> None:
+    attitude = [0.5, -0.5, 0.5, 0.5000003]
+    rows = sweep(turned(kind, attitude), {"initial.attitude[0]": [0.5, 0.50000012]}, ask=["attitude"])
+    for row, number in enumerate((0.5, 0.50000012)):
+        answer = gyrostat.solve(turned(kind, [number, *attitude[1:]]), ask=["attitude"])
+        assert rows["attitude"].values[row].tobytes() == answer["attitude"].tobytes()
+        assert rows["attitude_error"].values[row] == answer.error["attitude"]
+
+
+def test_the_gradient_of_a_centre_is_that_of_the_scene() -> None:
+    rows = sweep("bennu-gimbal", {"field.gravity": [7.57695831e-05]}, times=[70.0])
+    answer = gyrostat.solve("bennu-gimbal", times=[70.0], **{"field.gravity": 7.57695831e-05})
+    assert all(rows[column].values[0].tobytes() == answer[column].tobytes() for column in answer)
+
+
+def test_more_threads_than_any_machine_has_are_refused() -> None:
+    with pytest.raises(DomainError, match="threads = 1099511627776: give at most 1024"):
+        light(threads=2**40)
+
+
 @pytest.mark.parametrize("kind", list(FAMILIES))
 def test_a_row_whose_attitude_is_nought_is_refused_as_the_scene_is(kind: str) -> None:
     """It is not one that was left out: a motion would begin at another."""
-    start: dict[str, Any] = {"angular_velocity": [0.1, 0.2, 0.3], "attitude": [0.0, 0.0, 0.0, 1.0]}
-    if kind == "rotor":
-        start["rotor_rate"] = 1.0
-    scene = {"name": "turned", "kind": kind, "body": {"inertia": [3.0, 4.0, 5.0]}, "solve": {"times": [1.0, 10.0]}, "initial": start, **TURNED[kind]}
+    scene = turned(kind, [0.0, 0.0, 0.0, 1.0])
     rows = sweep(scene, {"initial.attitude[3]": [0.0, 1.0]})
     assert not rows["met"].values[0] and rows["reason"].values[0]
     assert rows["met"].values[1] and not rows["reason"].values[1]
-    start["attitude"] = [0.0, 0.0, 0.0, 0.0]
     with pytest.raises(SceneError, match="zero quaternion"):
-        gyrostat.solve(scene)
+        gyrostat.solve(turned(kind, [0.0, 0.0, 0.0, 0.0]))
 
 
 def test_shards_put_together_are_the_whole(tmp_path: Path) -> None:

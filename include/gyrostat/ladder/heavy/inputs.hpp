@@ -30,7 +30,7 @@ inline Result<Scene> scene_of(std::span<const double> numbers, const Question& q
   const double gravity = next.number(), gradient = next.number(), distance = next.number();
   if (is_given(distance) && !(distance > 0)) return Errc::not_positive;
   const auto body = Body::make(inertia, mass, centre, gravity,
-                               is_given(distance)   ? 3 * gravity / distance
+                               is_given(distance)   ? 3 * (gravity / distance)
                                : is_given(gradient) ? gradient
                                                     : 0);
   if (!body) return body.error();

@@ -69,7 +69,7 @@ inline ColumnErrors<double> tilt_errors(const Problem<double>& problem, const Li
 
   for (std::size_t i = 0; i < std::size(column_kinds); ++i) {
     // below a part of the rounding of the column's scale nothing is claimed: what cancels so far hangs on the order of operations
-    error[i] += of_data[i] + epsilon<double> / 16 * (row.scale[i] < infinity<double> ? row.scale[i] : 0);
+    error[i] += of_data[i] + epsilon<double> / 4 * (row.scale[i] < infinity<double> ? row.scale[i] : 0);
     if (column_kinds[i].measure != Measure::relative || error[i] == 0) continue;
     const double least = std::max(size[i] - error[i], row.scale[i]);
     error[i] = least > 0 ? error[i] / least : infinity<double>;

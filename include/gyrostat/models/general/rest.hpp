@@ -227,16 +227,17 @@ bool load_varies(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const V
 /// What brakes have to hold: the torque by powers of the time since a moment, and how many times the brakes the terms are that it is the sum of, at
 /// least 1.
 template <Real Scalar>
-struct Load {
+struct TorqueOnBrakes {
   std::array<Vec3<Scalar>, 4> torque;
   Scalar terms = 1;
 };
 
 /// That of a piece from t on, on a body with attitude q and total momentum M that turns with w. limit: of the brakes.
 template <Real Scalar>
-Load<Scalar> load_from(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Quat<Scalar>& q,
-                       const Vec3<Scalar>& w, const Vec3<Scalar>& M, const Vec3<Scalar>& limit, Scalar t) noexcept {
-  Load<Scalar> load;
+TorqueOnBrakes<Scalar> torque_on_brakes(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Quat<Scalar>& q,
+                                        const Vec3<Scalar>& w, const Vec3<Scalar>& M, const Vec3<Scalar>& limit,
+                                        Scalar t) noexcept {
+  TorqueOnBrakes<Scalar> load;
   Vec3<Scalar> size(0, 0, 0), of_brake(0, 0, 0);
   Scalar power = 1;
   for (std::size_t k = 0; k < 4; ++k, power *= std::max(t, piece.to) - piece.from) {
@@ -271,7 +272,7 @@ Stop<Scalar> stop_at(const Prepared<Scalar>& of, const Piece<Scalar>& piece, con
     return stop;
   }
   const Vec3<Scalar> limit = steady.brake_total + steady.brake_carrier;
-  const auto load = detail::load_from<Scalar>(of, piece, q, stop.turning, M, limit, t);
+  const auto load = detail::torque_on_brakes<Scalar>(of, piece, q, stop.turning, M, limit, t);
   const auto& torque = load.torque;
   const Scalar allowed = slack * load.terms;
   const Scalar most = 1 + allowed, share = share_of_brake(limit, torque[0]);

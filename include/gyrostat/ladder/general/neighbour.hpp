@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+#include "gyrostat/core/real.hpp"
+#include "gyrostat/ladder/companions.hpp"
+#include "gyrostat/ladder/trials.hpp"
+#include "gyrostat/models/general/problem.hpp"
+#include "gyrostat/models/general/right_side.hpp"
+#include "gyrostat/models/general/surroundings.hpp"
+#include "gyrostat/models/general/wheels.hpp"
+#include "gyrostat/rotation/vector.hpp"
+
+/// General problems that differ from a given one by what rounding makes of it.
+namespace gyrostat::general::detail {
+
+/// By how much the inverse of the tensor without its wheels magnifies its rounding; 1 where it is diagonal.
+template <Real Scalar>
+Scalar condition_of(const Wheels<Scalar>& wheels) noexcept {
+  if (wheels.reduced.isDiagonal(0)) return 1;
+  return wheels.whole.cwiseAbs().maxCoeff() * wheels.inverse.cwiseAbs().maxCoeff();
+}
+
+/// The same, or by how much the start magnifies errors where that is more.
+template <Real Scalar>
+Scalar condition_of(const Wheels<Scalar>& wheels, const State<Scalar>& start) noexcept {
+  return std::max(condition_of(wheels),
+                  start_sensitivity<Scalar>(start.angular_momentum, start.angular_velocity, wheels.inverse));
+}
+
+/// Arbitrary numbers of about 1, the same sequence every time.
+template <Real Scalar>
+class Shifts {
+ public:
+  explicit Shifts(int which) noexcept : turn_(which) {}
+  Scalar operator()() noexcept {
+    constexpr long double of[] = {0.9L, -0.6L, 0.7L, -0.8L, 0.5L, -0.7L, 0.8L, -0.9L, 0.6L, -0.5L, 1.0L};
+    turn_ = (turn_ + 1) % 11;
+    return static_cast<Scalar>(of[turn_]);
+  }
+  Vec3<Scalar> vector() noexcept { return {(*this)(), (*this)(), (*this)()}; }
+
+ private:
+  int turn_;
+};
+
+/// Whether zeros of the data stay zero by a symmetry: rotation about one axis of a diagonal tensor, along which all wheels and torques
+/// are.
+template <Real Scalar>
+bool keeps_axis(const Problem<Scalar>& of) noexcept {
+  if (!of.inertia.isDiagonal(0)) return false;
+  const auto along = [](const Vec3<Scalar>& v, int k) noexcept { return v[(k + 1) % 3] == 0 && v[(k + 2) % 3] == 0; };
+  for (int k = 0; k < 3; ++k) {
+    bool kept = along(of.angular_velocity, k) && along(of.rotor_momentum, k);
+    for (const auto& wheel : of.wheels) kept = kept && along(wheel.axis, k);
+    for (const auto& torque : of.torques) {
+      const bool fixed = torque.type == TorqueType::constant || torque.type == TorqueType::charge;
+      const bool diagonal = torque.type == TorqueType::damping || torque.type == TorqueType::brake;
+      kept = kept && ((fixed && torque.axes == Axes::body && along(torque.vector, k)) ||
+                      (diagonal && torque.matrix.isDiagonal(0)));
+    }
+    if (kept) return true;
+  }
+  return false;
+}
+
+/// A problem that differs from the given one by about `amount`: by what rounding makes of data and arithmetic. What is exactly zero of a
+/// wheel or torque stays so, and so do a body at rest and zeros that a symmetry keeps. which: 0 or 1, in another direction.
+template <Real Scalar>
+Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noexcept {
+  Shifts<Scalar> shift(5 * which + 3);
+  Problem<Scalar> near = of;
+  const bool kept = keeps_axis(of);
+  const auto scale = [&](Scalar& x) noexcept { x *= 1 + amount * shift(); };
+  const auto scale_vector = [&](Vec3<Scalar>& v) noexcept {
+    for (int i = 0; i < 3; ++i) scale(v[i]);
+  };
+  const auto move = [&](Vec3<Scalar>& v) noexcept {
+    const Scalar by = amount * v.cwiseAbs().maxCoeff();
+    for (int i = 0; i < 3; ++i)
+      if (const Scalar s = shift(); v[i] != 0 || !kept) v[i] += by * s;
+  };
+  Mat3<Scalar> change = moment_shifts<Scalar>(which).asDiagonal();
+  if (of.inertia.isDiagonal(0)) {
+    near.inertia += amount * of.inertia * change;
+  } else {
+    for (int i = 0; i < 3; ++i) change(i, (i + 1) % 3) = change((i + 1) % 3, i) = shift();
+    near.inertia += amount * of.inertia.cwiseAbs().maxCoeff() * change;
+  }
+  move(near.rotor_momentum), move(near.angular_velocity);
+  for (auto& wheel : near.wheels) {
+    if (!kept) {
+      Vec3<Scalar> axis = wheel.axis + amount * cross<Scalar>(shift.vector(), wheel.axis);
+      wheel.axis = axis.normalized();
+    }
+    scale(wheel.axial_inertia), scale(wheel.rate), scale(wheel.torque), scale(wheel.friction);
+    scale(wheel.slope), scale(wheel.no_load_rate);
+    for (Scalar& v : wheel.table.values) scale(v);
+  }
+  for (auto& torque : near.torques) {
+    scale_vector(torque.vector), scale_vector(torque.point);
+    for (int i = 0; i < 9; ++i) scale(torque.matrix(i));
+    if (torque.gradient) scale(*torque.gradient);
+    for (Scalar& v : torque.table.values) scale(v);
+    for (Scalar& v : torque.factor.table.values) scale(v);
+    scale(torque.factor.mean), scale(torque.factor.amplitude), scale(torque.factor.rate), scale(torque.factor.phase);
+  }
+  scale_vector(near.centre_of_mass), scale_vector(near.field.flux_density);
+  scale(near.field.gravity), scale(near.field.rate), scale(near.field.strength), scale(near.mass);
+  scale_vector(near.velocity), scale_vector(near.position);
+  if (near.orbit) {
+    scale(near.orbit->radius), scale(near.orbit->mu), scale(near.orbit->true_anomaly);
+    if (Scalar e = of.orbit->eccentricity; scale(e), e < 1) near.orbit->eccentricity = e;
+  }
+  if (of.clock != 0) {
+    // what went on before by rates that are known to rounding
+    const auto late = [&]() noexcept { return amount / 2 * shift() * of.clock; };
+    if (near.orbit) near.orbit = orbit_from(*near.orbit, late());
+    for (auto& torque : near.torques)
+      if (torque.factor.amplitude != 0) torque.factor.phase += torque.factor.rate * late();
+    if (near.field.magnetic == MagneticField::rotating)
+      near.field.flux_density = field_at<Scalar>(near, late()).flux_density;
+  }
+  return near;
+}
+
+}  // namespace gyrostat::general::detail

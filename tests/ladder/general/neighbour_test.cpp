@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gyrostat/ladder/general/neighbour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "../../models/general/scenes.hpp"
+#include "catch.hpp"
+#include "gyrostat/ladder/general/inputs.hpp"
+
+namespace general_neighbour_test {
+
+using namespace gyrostat;
+using namespace gyrostat::general;
+using general::detail::beside;
+using general::detail::condition_of;
+using general::detail::keeps_axis;
+
+/// All numbers of a problem, list after list.
+std::vector<double> numbers_of(Problem<double> problem) {
+  std::vector<double> made;
+  visit_numbers(problem, [&](const InputName&, const auto& value) { give(value, made); });
+  return made;
+}
+
+TEST_CASE("a neighbour differs by the amount, in every number that is not zero, and in another direction",
+          "[general]") {
+  general_scenes::Scenes source(41);
+  const double amount = 1e-8;
+  for (int i = 0; i < 40; ++i) {
+    const auto of = source.next(3).problem;
+    const auto one = numbers_of(beside(of, amount, 0)), two = numbers_of(beside(of, amount, 1)), given = numbers_of(of);
+    REQUIRE(one.size() == given.size());
+    std::size_t moved = 0, apart = 0;
+    for (std::size_t k = 0; k < given.size(); ++k) moved += one[k] != given[k], apart += one[k] != two[k];
+    CHECK(moved >= 9);
+    CHECK(apart >= 9);
+    const auto near = beside(of, amount, 0);
+    CHECK((near.angular_velocity - of.angular_velocity).norm() <= 2 * amount * of.angular_velocity.norm());
+    CHECK((near.inertia - of.inertia).norm() <= 4 * amount * of.inertia.norm());
+    for (std::size_t k = 0; k < of.wheels.size(); ++k) {
+      CHECK(std::abs(near.wheels[k].axial_inertia / of.wheels[k].axial_inertia - 1) <= amount);
+      CHECK((near.wheels[k].axis - of.wheels[k].axis).norm() <= 2 * amount);
+    }
+  }
+}
+
+TEST_CASE("what a symmetry keeps at zero stays there in a neighbour, and a body at rest rests", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 4).asDiagonal();
+  p.angular_velocity = {0, 0, 0.5};
+  p.torques.resize(1);
+  p.torques[0].vector = {0, 0, 0.1};
+  CHECK(keeps_axis(p));
+  auto near = beside(p, 1e-9, 0);
+  CHECK(near.angular_velocity[0] == 0);
+  CHECK(near.angular_velocity[1] == 0);
+  CHECK(near.angular_velocity[2] != 0.5);
+  CHECK(near.inertia.isDiagonal(0));
+  // a torque aside, another frame, or products of inertia end the symmetry
+  p.torques[0].vector = {0, 0.1, 0};
+  CHECK_FALSE(keeps_axis(p));
+  CHECK(beside(p, 1e-9, 0).angular_velocity[0] != 0);
+  p.torques[0].vector = {0, 0, 0.1}, p.torques[0].axes = Axes::inertial;
+  CHECK_FALSE(keeps_axis(p));
+  p.torques[0].axes = Axes::body, p.inertia(0, 1) = p.inertia(1, 0) = 0.1;
+  CHECK_FALSE(keeps_axis(p));
+  p.angular_velocity.setZero();
+  CHECK(beside(p, 1e-9, 0).angular_velocity.isZero(0));
+}
+
+TEST_CASE("a tensor that is all but singular without its wheels magnifies its rounding", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 4).asDiagonal();
+  CHECK(condition_of(Wheels<double>::of(p)) == 1);
+  p.inertia(0, 1) = p.inertia(1, 0) = 0.1;
+  CHECK(condition_of(Wheels<double>::of(p)) < 3);
+  Wheel<double> wheel;
+  wheel.type = WheelType::free, wheel.axis = Vec3<double>(1, 1, 0) / std::sqrt(2.), wheel.axial_inertia = 2.4;
+  p.wheels.push_back(wheel);
+  CHECK(condition_of(Wheels<double>::of(p)) > 20);
+}
+
+}  // namespace general_neighbour_test
