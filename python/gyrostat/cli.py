@@ -8,6 +8,7 @@ import difflib
 import io
 import json
 import os
+import shlex
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -494,7 +495,7 @@ def _new(arguments: argparse.Namespace) -> int:
             stream.write(text)
     except FileExistsError:
         raise DomainError(f"{arguments.output}: the file exists; name another, or overwrite it with --force") from None
-    say(f"wrote {arguments.output}: next, gyrostat solve {arguments.output}", sys.stderr)
+    say(f"wrote {arguments.output}: next, gyrostat solve {shlex.quote(str(arguments.output))}", sys.stderr)
     return MET
 
 

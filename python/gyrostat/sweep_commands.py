@@ -2,6 +2,7 @@
 """The commands gyrostat sweep, gyrostat merge and gyrostat report."""
 
 import argparse
+import json
 import shutil
 import sys
 import time
@@ -125,6 +126,8 @@ def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
 def _merge(arguments: argparse.Namespace) -> int:
     check_output(arguments.output)
     writer_of(arguments.output)
+    if any(arguments.output.resolve() == Path(file).resolve() for file in arguments.files):
+        raise DomainError(f"{arguments.output}: the whole would replace one of its parts; name another file")
     dataset = merge(arguments.files)
     save(dataset, arguments.output)
     say(f"wrote {arguments.output}: {', '.join(_verdict(dataset))}", sys.stderr)
@@ -133,13 +136,18 @@ def _merge(arguments: argparse.Namespace) -> int:
 
 def _report(arguments: argparse.Namespace) -> int:
     dataset = open_results(arguments.file)
-    say(f"{dataset.attrs['title']} ({dataset.attrs['kind']})", sys.stdout)
+    rows, whole = dataset["row"].values, json.loads(dataset.attrs["study"])["n"]
+    part = "" if len(rows) == whole else f", a part: rows {rows[0]} to {rows[-1]} of {whole}"
+    say(f"{dataset.attrs['title']} ({dataset.attrs['kind']}){part}", sys.stdout)
     for key, values in dataset.data_vars.items():
         if values.attrs.get("role") == "parameter":
             say(f"{key}: {values.attrs['varied']}", sys.stdout)
     for table in tables(dataset):
         show_table(*table, sys.stdout)
     if arguments.output is not None:
-        for file in save_figures(dataset, arguments.output):
+        files = list(save_figures(dataset, arguments.output))
+        for file in files:
             say(f"wrote {file}", sys.stdout)
+        if not files:
+            say("nothing to draw: no row has a finite value of what was asked", sys.stdout)
     return MET

@@ -403,7 +403,7 @@ def drawings(dataset: "xarray.Dataset") -> Iterator[Drawing]:
 
 def save_figures(dataset: "xarray.Dataset", folder: Path) -> Iterator[Path]:
     """Writes the figures as PNG; yields their files."""
-    folder.mkdir(parents=True, exist_ok=True)
     for name, draw in drawings(dataset):
+        folder.mkdir(parents=True, exist_ok=True)
         save(draw(), folder / f"{name}.png")
         yield folder / f"{name}.png"

@@ -548,6 +548,10 @@ def test_the_commands_sweep_merge_and_report(tmp_path: Path, capsys: pytest.Capt
     assert main(["merge", str(tmp_path / "2.nc"), str(tmp_path / "1.nc"), "-o", str(tmp_path / "both.nc")]) == 0
     assert same(open_results(tmp_path / "both.nc"), open_results(tmp_path / "out.nc"))
     capsys.readouterr()
+    assert main(["merge", str(tmp_path / "1.nc"), str(tmp_path / "2.nc"), "-o", str(tmp_path / "1.nc")]) == 2
+    assert "the whole would replace one of its parts" in capsys.readouterr().err
+    assert main(["report", str(tmp_path / "2.nc")]) == 0
+    assert "a part: rows 20 to 39 of 40" in capsys.readouterr().out
     assert main(["report", str(tmp_path / "out.nc"), "-o", str(tmp_path / "figures")]) == 0
     told = capsys.readouterr().out
     assert "Rank correlations" in told and "averaged" in told
@@ -561,6 +565,9 @@ def test_the_commands_sweep_merge_and_report(tmp_path: Path, capsys: pytest.Capt
     assert main([*common, "--resume", "-o", str(tmp_path / "out.nc")]) == 0
     assert main(["sweep", "tiangong-1", "--vary", "torque.drag=[-1, 1e-6]", "--ask", "stop_time", "-o", str(tmp_path / "bad.csv")]) == 3
     assert "torque.drag is not >= 0" in capsys.readouterr().err
+    assert main(["sweep", "tiangong-1", "--vary", "torque.drag=[-1, -2]", "--ask", "stop_time", "-o", str(tmp_path / "bad.nc")]) == 3
+    assert main(["report", str(tmp_path / "bad.nc"), "-o", str(tmp_path / "none")]) == 0
+    assert "nothing to draw" in capsys.readouterr().out and not (tmp_path / "none").exists()
 
 
 @pytest.mark.parametrize(("name", "settings", "told"), [
