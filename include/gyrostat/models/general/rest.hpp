@@ -36,9 +36,9 @@ enum class AtStop : std::uint8_t {
 constexpr const char* why_not_through(AtStop what) noexcept {
   switch (what) {
     case AtStop::turning:
-      return "a brake brings the body to its stop while wheels turn by motors, by friction or at rates that change, "
-             "and "
-             "what it would have to hold then is not followed: ask for times up to the stop, or hold the wheels";
+      return "a brake brings the body to its stop while wheels turn freely, by motors, by friction or at rates that "
+             "change, and what it would have to hold then is not followed: ask for times up to the stop, or hold the "
+             "wheels";
     case AtStop::laws:
       return "brakes of both laws bring the body to its stop while wheels hold momentum, and what they come to "
              "together is not known: give one law";
