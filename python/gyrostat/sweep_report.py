@@ -30,8 +30,8 @@ MOST_DOTS: Final = 20000  # of a scatter plot
 MOST_PANELS: Final = 12
 CHECKS: Final = ("energy_balance", "momentum_balance")
 ENOUGH: Final = 100  # rows, to tell a share of the variance
-MOST_CLASSES: Final = 32  # of rows alike in a parameter
-DEGREE: Final = 2  # of a curve over them
+MOST_CURVES: Final = 24  # of which a curve over a parameter is the sum
+MOST_ROWS: Final = 2**17  # that a share of the variance is told by
 FEW_TIMES: Final = 12  # between so few a curve would be guessed
 RESAMPLED: Final = 200  # times, for a standard error
 
@@ -116,28 +116,25 @@ def rank_correlations(dataset: "xarray.Dataset", response: Response) -> dict[str
 
 
 def _unexplained(x: Floats, y: Floats) -> float:
-    """What curves over x leave of the sum of the squares of y: a parabola in each of up to MOST_CLASSES classes of rows alike in x, or of less degree where
-    a class has few values. The square of each row is divided by what its own weight in the fit leaves of it (MacKinnon and White 1985, HC2)."""
-    classes = min(MOST_CLASSES, round(math.sqrt(len(y) / 4)))
-    _, place, counts = np.unique(np.floor(_ranks(x) * classes / len(y)), return_inverse=True, return_counts=True)
-    left = 0.0
-    for rows in np.split(np.argsort(place, kind="stable"), np.cumsum(counts)[:-1]):
-        apart = x[rows] - np.mean(x[rows])
-        powers = np.vander(apart / np.max(np.abs(apart), initial=1e-300), min(DEGREE + 1, len(np.unique(x[rows]))), increasing=True)
-        base = np.linalg.qr(powers).Q
-        residual = y[rows] - base @ (base.T @ y[rows])
-        left += float(np.sum(residual**2 / np.maximum(1 - np.sum(base**2, axis=1), ROUNDINGS)))
-    return left
+    """What a curve over x leaves of the sum of the squares of y: a parabola in x and slow waves in its rank, which points of low discrepancy tell from those
+    of other numbers. The square of each row is divided by what its own weight in the fit leaves of it (MacKinnon and White 1985, HC2)."""
+    apart, rank = x - np.mean(x), np.pi * (_ranks(x) + 0.5) / len(x)
+    apart = apart / np.max(np.abs(apart), initial=1e-300)
+    waves = range(1, min(MOST_CURVES, round(3 * math.sqrt(len(y)) / 4)) - 1)
+    curves = [np.ones_like(x), apart, apart**2, *(np.cos(k * rank) for k in waves)][:len(np.unique(x))]
+    base = np.linalg.qr(np.stack(curves, axis=1)).Q
+    residual = y - base @ (base.T @ y)
+    return float(np.sum(residual**2 / np.maximum(1 - np.sum(base**2, axis=1), ROUNDINGS)))
 
 
 def variance_shares(dataset: "xarray.Dataset", response: Response) -> dict[str, float]:
-    """Share of the response's variance that each parameter explains by itself, of any shape, rising or not: by curves over classes of rows alike in the
-    parameter, less what chance makes of them, at least 0; NaN where one of them is constant, and of fewer than ENOUGH rows. Of random rows it estimates the
-    first Sobol index: of hundreds to some hundredths, of ten thousands to some thousandths."""
+    """Share of the response's variance that each parameter explains by itself, of any smooth shape, rising or not: by a curve over the parameter, less what
+    chance makes of it, at least 0; NaN where one of them is constant, and of fewer than ENOUGH rows. Of random rows, of which the first MOST_ROWS are looked
+    at, it estimates the first Sobol index: of hundreds to some hundredths, of ten thousands to some thousandths."""
     made = {}
     for key, values in parameters(dataset).items():
         known = np.isfinite(response.values) & np.isfinite(values.values)
-        x, y = values.values[known], response.values[known]
+        x, y = values.values[known][:MOST_ROWS], response.values[known][:MOST_ROWS]
         made[key] = math.nan
         if len(y) < ENOUGH:
             continue

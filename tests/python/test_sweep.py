@@ -630,9 +630,9 @@ def test_a_share_of_the_variance_sees_what_rises_and_falls() -> None:
     assert all(math.isnan(share) for share in variance_shares(constant, responses(constant)[0]).values())
 
 
-def shares_of(answer: Callable[..., Any], vary: Mapping[str, Varied], n: int, seed: int = 4) -> dict[str, float]:
+def shares_of(answer: Callable[..., Any], vary: Mapping[str, Varied], n: int, seed: int = 4, design: str = "random") -> dict[str, float]:
     """Shares of the variance of a function of random numbers, as if it were the answer of a sweep."""
-    drawn = plan(vary, n, seed=seed).columns(range(n))
+    drawn = plan(vary, n, seed=seed, design=design).columns(range(n))
     found = xarray.Dataset({key: ("row", values, {"role": "parameter"}) for key, values in drawn.items()} | {"stop_time": ("row", answer(**drawn))},
                            {"row": np.arange(n)}, {"kind": "deceleration"})
     return variance_shares(found, responses(found)[0])
@@ -663,6 +663,15 @@ def test_the_shares_of_a_sum_are_those_of_its_parts() -> None:
 def test_a_number_that_does_nothing_explains_nothing(idle: Varied) -> None:
     shares = [shares_of(lambda idle, works: works, {"idle": idle, "works": lognormal(1, "50%")}, 400, seed)["idle"] for seed in range(30)]
     assert np.median(shares) < 0.01 and np.mean(shares) < 0.02
+
+
+def test_points_of_low_discrepancy_give_idle_numbers_no_share() -> None:
+    """A few such points lie along lines in a pair of numbers: what one does must not be told of the other."""
+    vary: dict[str, Varied] = {**{f"idle{i}": normal(0, 1) for i in range(6)}, "much": normal(0, 1), "some": normal(0, 1)}
+    for n, most in ((256, 0.15), (512, 0.06)):
+        found = [shares_of(lambda much, some, **idle: much + 0.4 * some, vary, n, seed, design="sobol") for seed in range(6)]
+        assert max(share for shares in found for key, share in shares.items() if key.startswith("idle")) < most
+        assert all(shares["much"] == pytest.approx(1 / 1.16, abs=0.08) and shares["some"] == pytest.approx(0.16 / 1.16, abs=0.08) for shares in found)
 
 
 def test_a_report_tells_of_stops_that_never_come() -> None:

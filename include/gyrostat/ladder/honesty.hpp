@@ -157,6 +157,10 @@ inline constexpr double mean_steps_share = 1.5, mean_fine = 1e-10;
 /// To the error of the time at which they stop so many local errors are added. Chosen.
 inline constexpr double mean_stop = 100;
 
+/// The longest step under a torque of the caller's own, over the span: it is asked at twelve places of a step by DOP853, the widest gap
+/// between which is 0.27 of it, and at its ends by CVODE, whose steps are so many times shorter.
+inline constexpr double law_longest = 1.0 / 64, law_shorter = 4;
+
 /// CVODE is compared with so many runs of its own of neighbours.
 inline constexpr int cvode_companions = 2;
 /// The longest steps of the answer and of these, over the span: where a few steps would do all may err alike.

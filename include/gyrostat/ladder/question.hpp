@@ -53,6 +53,13 @@ inline bool tells_scalars(const Question& question) noexcept {
   return question.asked.empty() || asks_for_scalars(question);
 }
 
+/// Whether it tells the scalar at this place of the table.
+inline bool tells_scalar(const Question& question, std::size_t place) noexcept {
+  return question.asked.empty() ||
+         std::any_of(question.asked.begin(), question.asked.end(),
+                     [place](const AskedQuantity& each) { return each.scalar && each.place == place; });
+}
+
 /// Whether an answer can be asked for at these times, s, to this tolerance. Errc::not_finite; out_of_domain: no times, or a
 /// tolerance outside (0, 1); negative: a time before the start; not_increasing.
 inline Errc check_times(std::span<const double> times, double tolerance) noexcept {

@@ -67,6 +67,14 @@ inline double room_beside_wheels(const Assembly<double>& assembly) noexcept {
 
 namespace detail {
 
+/// Place of the principal axis that M surrounds; nothing where it surrounds none.
+inline std::optional<int> surrounded_axis(const Motion<double>& motion) noexcept {
+  const Vec3<double>& J = motion.principal_moments();
+  if (motion.is_regular_precession() && motion.kind() != Kind::spherical) return J[1] == J[2] ? 0 : 2;
+  if (motion.kind() == Kind::about_largest) return 0;
+  return motion.kind() == Kind::about_smallest ? std::optional(2) : std::nullopt;
+}
+
 struct PrecessionInside {
   double about_momentum, about_axis;
   bool sure;
@@ -122,24 +130,24 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   const Vec3<double> M_I = motion.inertial_momentum();
   tell(scalar::angular_momentum_inertial, {M_I[0], M_I[1], M_I[2]},
        error.at(0).angular_momentum + error.angular_momentum_norm());
+  const auto wants = [&](auto... which) { return (tells_scalar(scene.question(), which) || ...); };
   const auto over_period = detail::bound_over_period(motion, error, scene.question().times.back());
-  const auto means = averages(motion);
-  const Vec3<double>& mean = means.angular_velocity;
-  tell(scalar::mean_angular_velocity, {mean[0], mean[1], mean[2]},
-       over((over_period.angular_velocity + error.period() + means.error) * error.fastest(), mean.norm()));
-  const Vec3<double>& J = motion.principal_moments();
-  const bool symmetric = motion.is_regular_precession() && motion.kind() != Kind::spherical;
-  if (symmetric || motion.kind() == Kind::about_largest || motion.kind() == Kind::about_smallest) {
-    const bool largest = symmetric ? J[1] == J[2] : motion.kind() == Kind::about_largest;
-    if (const auto turning = detail::precession_inside(motion, means.angular_momentum, largest ? 0 : 2)) {
-      const double rate = turning->about_momentum, off = error.turn_rate(motion.turn_per_period(), rate);
-      tell(scalar::precession_rate, {rate}, turning->sure ? over(off, std::abs(rate)) : infinity<double>);
-      tell(scalar::spin_rate, {turning->about_axis}, turning->sure ? error.period() : infinity<double>);
-    }
+  if (wants(scalar::mean_angular_velocity, scalar::precession_rate, scalar::spin_rate)) {
+    const auto means = averages(motion);
+    const Vec3<double>& mean = means.angular_velocity;
+    tell(scalar::mean_angular_velocity, {mean[0], mean[1], mean[2]},
+         over((over_period.angular_velocity + error.period() + means.error) * error.fastest(), mean.norm()));
+    if (const auto place = detail::surrounded_axis(motion))
+      if (const auto turning = detail::precession_inside(motion, means.angular_momentum, *place)) {
+        const double rate = turning->about_momentum, off = error.turn_rate(motion.turn_per_period(), rate);
+        tell(scalar::precession_rate, {rate}, turning->sure ? over(off, std::abs(rate)) : infinity<double>);
+        tell(scalar::spin_rate, {turning->about_axis}, turning->sure ? error.period() : infinity<double>);
+      }
+  }
+  if (wants(scalar::flip_interval) && detail::surrounded_axis(motion))
     if (const double interval = flip_interval(motion); interval == interval)
       tell(scalar::flip_interval, {interval}, error.period());
-  }
-  if (const auto& view = scene.view()) {
+  if (const auto& view = scene.view(); view && wants(scalar::view_fraction, scalar::view_cosine)) {
     const double off = over_period.angular_momentum + error.angular_momentum_norm() + 16 * epsilon<double>;
     const auto seen = detail::seen_of(*view, motion, off, error.turn_per_period());
     tell(scalar::view_fraction, {seen.fraction}, seen.fraction_error);

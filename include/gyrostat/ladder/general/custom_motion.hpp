@@ -135,7 +135,7 @@ class CustomCourse {
         step_cap_(step_cap),
         to_(end_of(0)),
         next_(problem_, wheels_, law, law_share),
-        solver_(entered(next_, 0, to_), 0, next_.start(), control(sizes, tolerance, step_cap)) {}
+        solver_(entered(next_, 0, to_), 0, next_.start(), control(sizes, tolerance, step_cap, share * span)) {}
   CustomCourse(const CustomCourse&) = delete;
   CustomCourse& operator=(const CustomCourse&) = delete;
 
@@ -199,9 +199,12 @@ class CustomCourse {
     equations.enter(from, to);
     return equations;
   }
-  static Control control(const typename Equations::Numbers& sizes, Scalar tolerance, std::uint64_t step_cap) noexcept {
+  /// span: that of the motion, or a share of it.
+  static Control control(const typename Equations::Numbers& sizes, Scalar tolerance, std::uint64_t step_cap,
+                         Scalar span) noexcept {
     Control made;
     made.relative = tolerance, made.step_cap = step_cap;
+    if constexpr (!std::is_same_v<Law, NoTorque>) made.longest_step = span * Scalar(honesty::law_longest);
     for (std::size_t i = 0; i < sizes.size(); ++i) made.absolute[i] = tolerance * sizes[i];
     return made;
   }

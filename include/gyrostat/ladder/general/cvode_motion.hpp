@@ -176,9 +176,10 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
         const auto& given = scene.problem();
         const auto problem = task.change > 0 ? detail::beside(given, task.change, task.which) : given;
         const auto wheels = Wheels<double>::of(problem);
+        const double longest = task.longest / (law.any() ? honesty::law_shorter : 1);
         return detail::run_pieces(
             problem, law, watched, CvodeEquations(problem, wheels, law, sizes),
-            {method, task.tolerance, task.tolerance, ode::CvodeOptions{}.step_cap, task.longest * span}, monitor, end);
+            {method, task.tolerance, task.tolerance, ode::CvodeOptions{}.step_cap, longest * span}, monitor, end);
       });
   if (end.lost == end.lost) {
     if (law.lost_at != nullptr) *law.lost_at = end.lost;
