@@ -14,7 +14,7 @@ from gyrostat.console import Progress, check_output, say, show_table
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene
 from gyrostat.sweep_files import import_xarray, open_results, save, writer_of
-from gyrostat.sweep_report import save_figures, shares, tables
+from gyrostat.sweep_report import in_words, save_figures, shares, tables
 from gyrostat.sweeps import Study, answered, merge
 
 if TYPE_CHECKING:
@@ -119,7 +119,8 @@ def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
     say(f"wrote {output}: {', '.join(_verdict(dataset))}; {took:.3g} s", sys.stderr)
     for reason, share in shares(dataset["reason"]).items():
         if reason:
-            say(f"no answer to {100 * share:.4g} % of the rows: {reason}", sys.stderr)
+            example = in_words(dataset, reason)
+            say(f"no answer to {100 * share:.4g} % of the rows: {reason}" + (f" ({example})" if example else ""), sys.stderr)
     return MET if bool(dataset["met"].all()) else NOT_MET
 
 

@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from gyrostat.asking import asked
 from gyrostat.console import short, small
 from gyrostat.drawing import COLOURS, Drawing, new_figure, note, save, time_unit
+from gyrostat.errors import DomainError, SceneError
 from gyrostat.facts import FACTS
+from gyrostat.scenes import scene_from
 from gyrostat.vary import Spread, read_words
 
 if TYPE_CHECKING:
@@ -259,11 +261,24 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
     yield "Sobol indices: share of the variance by itself / with all others, each with its standard error", ["", *sorted(keys)], [
         [label, *(f"{index.first:.3f}({index.first_error:.3f}) / {index.total:.3f}({index.total_error:.3f})" for index in indices.values())]
         for label, indices in found.items() if indices]
-    yield "No answer", ["reason", "share", "rows"], [
-        [reason, _percent(share), str(round(share * len(met)))] for reason, share in shares(dataset["reason"]).items() if reason]
+    yield "No answer", ["reason", "share", "rows", "such as"], [
+        [reason, _percent(share), str(round(share * len(met))), in_words(dataset, reason)] for reason, share in shares(dataset["reason"]).items() if reason]
     bits, masks = dataset["warnings"].values, np.atleast_1d(dataset["warnings"].attrs["flag_masks"])
     told = [(code, float(np.mean((bits & mask) != 0))) for code, mask in zip(dataset["warnings"].attrs["flag_meanings"].split(), masks, strict=True)]
     yield "Warnings", ["code", "share"], [[code, _percent(share)] for code, share in told if share > 0]
+
+
+def in_words(dataset: "xarray.Dataset", reason: str) -> str:
+    """What is wrong with the scene that the first row without an answer for this reason stands for; empty where no key of it is."""
+    row = int(np.argmax(dataset["reason"].values.astype(str) == reason))
+    numbers = {key: values.values[row].item() for key, values in parameters(dataset).items()}
+    try:
+        scene_from(json.loads(dataset.attrs["study"])["scene"], **numbers)
+    except SceneError as error:
+        return f"row {dataset['row'].values[row]}: " + "; ".join(f"{each.key}: {each.problem}" for each in error.mistakes)
+    except (DomainError, OSError):
+        pass
+    return ""
 
 
 # ---- figures ----

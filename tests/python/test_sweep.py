@@ -565,6 +565,11 @@ def test_the_commands_sweep_merge_and_report(tmp_path: Path, capsys: pytest.Capt
     assert main([*common, "--resume", "-o", str(tmp_path / "out.nc")]) == 0
     assert main(["sweep", "tiangong-1", "--vary", "torque.drag=[-1, 1e-6]", "--ask", "stop_time", "-o", str(tmp_path / "bad.csv")]) == 3
     assert "torque.drag is not >= 0" in capsys.readouterr().err
+    assert main(["sweep", "iss-drift", "--vary", "body.inertia[0,1]=[1e3, 9e12]", "--ask", "attitude", "--set", "times=[1.0]", "-o", str(tmp_path / "no.nc")]) == 3
+    example = "row 1: body.inertia: the principal moments are"
+    assert example in capsys.readouterr().err
+    assert main(["report", str(tmp_path / "no.nc")]) == 0
+    assert example in " ".join(capsys.readouterr().out.split())
     assert main(["sweep", "tiangong-1", "--vary", "torque.drag=[-1, -2]", "--ask", "stop_time", "-o", str(tmp_path / "bad.nc")]) == 3
     assert main(["report", str(tmp_path / "bad.nc"), "-o", str(tmp_path / "none")]) == 0
     assert "nothing to draw" in capsys.readouterr().out and not (tmp_path / "none").exists()

@@ -102,7 +102,7 @@ class OrbitError {
       unclear_ = !(k2_swing(*s, level, component, f * s->oscillation.R, f * s->oscillation.eta) < 1);
     }
     const double size = std::sqrt(std::max(0.0, transverse(s->orbit)));
-    swing_aside(*s, size);
+    swing_aside(*s, size, span);
     keep(second_.vector, 2 * pi<double> * size * s->phase_oscillation);
     keep(change_, s->phase_oscillation);
   }
@@ -140,12 +140,13 @@ class OrbitError {
   }
 
   /// The torque across M swings the body beside an equilibrium, however small its orbit is, from where it is to as far on the other side: then
-  /// what oscillates is that of an orbit so wide, and its energy is another one.
-  void swing_aside(const SecondOrder<double, Elliptic>& s, double size) noexcept {
+  /// what oscillates is that of an orbit so wide, its energy is another one, and so are its mean rates, over the `span` since the level before.
+  void swing_aside(const SecondOrder<double, Elliptic>& s, double size, double span) noexcept {
     const Vec3<double> M = s.orbit.momentum_at(0.0), one = M.unitOrthogonal();
     const double R = M.norm();
     const double beside = std::min(R, 2 * drive_across(M, s.first.R) * s.orbit.period() / (2 * pi<double>));
     if (size >= beside) return;
+    double drift_R = 0, drift_h = 0;
     for (const Vec3<double>& aside : {one, Vec3<double>(M.cross(one) / R)}) {
       const Vec3<double> there = (M + beside * aside) * (R / std::hypot(R, beside));
       const auto away = Orbit<double, Elliptic>::through(problem_, there);
@@ -155,7 +156,11 @@ class OrbitError {
       keep(first_.energy, (wide ? wide->oscillation.h : beside * problem_.angular_velocity(M).norm()) +
                               std::abs(problem_.energy(there) - problem_.energy(M)));
       keep(first_.k2, away ? away->modulus().k2 : 1.0);
+      if (!wide) continue;
+      drift_R = std::max(drift_R, std::abs(wide->first.R - s.first.R));
+      drift_h = std::max(drift_h, std::abs(wide->first.h - s.first.h));
     }
+    drift_R_ += drift_R * span, drift_h_ += drift_h * span;
   }
 
   /// What drives M away from an equilibrium next to it, N m: the torque across M, less what M needs to go along with the equilibrium, whose
