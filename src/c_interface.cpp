@@ -241,13 +241,15 @@ int gyrostat_solve(const gyrostat_scene* scene, gyrostat_answer** answer) {
 
 int gyrostat_solve_watched(const gyrostat_scene* scene, gyrostat_monitor* monitor, gyrostat_answer** answer) {
   if (answer != nullptr) *answer = nullptr;
-  return told([&] {
+  const int code = told([&] {
     if (scene == nullptr || answer == nullptr) return no_pointer(scene == nullptr ? "scene" : "answer");
     std::unique_ptr<gyrostat_answer> made;
     auto outcome = answered(*scene, monitor != nullptr ? &monitor->monitor : nullptr, made);
     if (outcome.code == GYROSTAT_OK) *answer = made.release();
     return outcome;
   });
+  if (monitor != nullptr) monitor->monitor.fraction.store(1);  // whatever came of it: who waits for it must not wait on
+  return code;
 }
 void gyrostat_answer_free(gyrostat_answer* answer) { delete answer; }
 

@@ -77,9 +77,9 @@ general::Field<double>& field(Scene& s, general::MagneticField kind) {
   return s.problem.field;
 }
 void put_intervals(Scene& s, Numbers v) {
-  auto& on = torque(s).factor.on;
-  on.clear();
+  std::vector<std::array<double, 2>> on;
   for (std::size_t i = 0; i < v.size(); i += 2) on.push_back({v[i], v[i + 1]});
+  torque(s).factor.on = std::move(on);
 }
 
 using W = general::WheelType;

@@ -357,6 +357,10 @@ static void watched_and_stopped(void) {
   REFUSED(gyrostat_solve_watched(scene, its.monitor, &answer), GYROSTAT_CANCELLED, "stopped");
   CHECK(answer == NULL && its.asked >= 20000 && its.asked < 40000 && its.seen > 0 && its.seen < 1);
   REFUSED(gyrostat_solve_watched(scene, its.monitor, &answer), GYROSTAT_CANCELLED, "stopped");
+  CHECK(gyrostat_monitor_fraction(its.monitor) == 1);
+  gyrostat_monitor_free(its.monitor);
+  its.monitor = gyrostat_monitor_new();
+  CHECK(gyrostat_solve_watched(scene, its.monitor, NULL) != GYROSTAT_OK && gyrostat_monitor_fraction(its.monitor) == 1);
   gyrostat_monitor_free(its.monitor);
 
   its.monitor = gyrostat_monitor_new(), its.cancels_after = -1;

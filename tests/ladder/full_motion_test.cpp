@@ -39,3 +39,19 @@ TEST_CASE("a phase that no double holds is known before it is followed; a short 
   CHECK_FALSE(phase_too_long(1e5, 1e-15));
   CHECK(phase_too_long(infinity<double>, 1e-3));
 }
+
+TEST_CASE("what a motion cannot be asked for so", "[ladder]") {
+  MotionOptions<double> options;
+  const std::vector<double> times{0, 1, 2}, tolerances{1e-3, 1e-6};
+  CHECK(options.check(times, 3, 4) == Errc::ok);
+  CHECK(options.check(times, 2, 4) == Errc::out_of_domain);
+  options.wanted = tolerances;
+  CHECK(options.check(times, 3, 2) == Errc::ok);
+  CHECK(options.check(times, 3, 4) == Errc::out_of_domain);
+  options.wanted = {};
+  CHECK(options.check(std::vector<double>{1, 0}, 2, 4) == Errc::not_increasing);
+  options.tolerance = -1e-9;
+  CHECK(options.check(times, 3, 4) == Errc::negative);
+  options.tolerance = gyrostat::nan<double>;
+  CHECK(options.check(times, 3, 4) == Errc::not_finite);
+}

@@ -4,7 +4,8 @@
 /// The instruction level that this file is compiled for, as far as it changes the code: v4 with AVX-512, v3 with AVX2, both with fused
 /// multiply-add, v2f with AVX and that, v2 with AVX alone, v1 else. It is an inline namespace of all that gyrostat declares: where files of one program are compiled
 /// with different options, each calls the functions of its own level, and a library of another level is an error of the linker, not
-/// an illegal instruction on somebody's processor.
+/// an illegal instruction on somebody's processor. What Eigen and the standard library leave to the linker it goes on sharing: a program that
+/// is to run on the lesser processor needs all its files compiled for it.
 #if defined(__AVX512F__) && !defined(__FMA__)
 #error "AVX-512 without fused multiply-add: add -mfma, or say -march=x86-64-v4"
 #elif defined(__AVX512F__)

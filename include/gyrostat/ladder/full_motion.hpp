@@ -82,6 +82,15 @@ struct MotionOptions {
     if (monitor != nullptr) monitor->fraction.store(std::min(done, 1.0), std::memory_order_relaxed);
   }
   bool cancelled() const noexcept { return monitor != nullptr && monitor->cancelled(); }
+
+  /// Whether a motion can be asked for so, at these times, s, with room for so many states, compared by so many columns. Errc::out_of_domain: as
+  /// many states as times are wanted, and none or as many tolerances as columns; what check_span() finds; not_finite and negative (tolerance).
+  Errc check(std::span<const Scalar> times, std::size_t states, std::size_t columns) const noexcept {
+    if (states != times.size() || !(wanted.empty() || wanted.size() == columns)) return Errc::out_of_domain;
+    if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
+    if (!(tolerance == tolerance)) return Errc::not_finite;
+    return tolerance < 0 ? Errc::negative : Errc::ok;
+  }
 };
 
 }  // namespace gyrostat::inline GYROSTAT_LEVEL

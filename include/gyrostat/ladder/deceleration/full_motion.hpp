@@ -576,12 +576,10 @@ template <Real Scalar>
 Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
                                              std::span<State<Scalar>> states, const FullMotionOptions<Scalar>& options,
                                              const Quat<Scalar>* start_attitude) noexcept {
-  if (states.size() != times.size()) return Errc::out_of_domain;
-  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
+  if (const Errc wrong = options.check(times, states.size(), std::size(column_kinds)); wrong != Errc::ok) return wrong;
   const auto finite = [](const auto& m) noexcept { return (m - m).isZero(0); };
   if (!finite(problem.inverse_inertia) || !finite(problem.rotor_momentum) || !finite(problem.control) ||
-      !finite(problem.momentum) || !(std::abs(problem.drag) < infinity<Scalar>) ||
-      !(options.tolerance == options.tolerance)) {
+      !finite(problem.momentum) || !(std::abs(problem.drag) < infinity<Scalar>)) {
     return Errc::not_finite;
   }
 

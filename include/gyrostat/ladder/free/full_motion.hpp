@@ -255,9 +255,7 @@ template <Real Scalar>
 Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
                                              std::span<FullState<Scalar>> states,
                                              const FullMotionOptions<Scalar>& options) noexcept {
-  if (states.size() != times.size()) return Errc::out_of_domain;
-  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
-  if (!(options.tolerance == options.tolerance)) return Errc::not_finite;
+  if (const Errc wrong = options.check(times, states.size(), std::size(full_columns)); wrong != Errc::ok) return wrong;
   if (const Errc wrong = problem.check(); wrong != Errc::ok) return wrong;
   FullMotionAnswer<Scalar> answer;
   answer.met = true;

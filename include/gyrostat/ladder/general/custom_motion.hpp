@@ -347,9 +347,7 @@ Result<CustomMotionAnswer<Scalar>> custom_motion(const Problem<Scalar>& problem,
                                                  std::span<const Scalar> named, std::span<const Scalar> times,
                                                  std::span<State<Scalar>> states,
                                                  const MotionOptions<Scalar>& options = {}) noexcept {
-  if (states.size() != times.size()) return Errc::out_of_domain;
-  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
-  if (!(options.tolerance == options.tolerance)) return Errc::not_finite;
+  if (const Errc wrong = options.check(times, states.size(), std::size(full_columns)); wrong != Errc::ok) return wrong;
   if (!std::all_of(named.begin(), named.end(), [](Scalar t) { return std::isfinite(t); })) return Errc::not_finite;
   if (const Fault wrong = check(problem)) return wrong.code;
   CustomMotionAnswer<Scalar> answer;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "gyrostat/ladder/general/scene_definition.hpp"
 #include "gyrostat/ladder/general/segments_rung.hpp"
 
 namespace gyrostat::general {

@@ -242,10 +242,8 @@ template <Real Scalar>
 Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, const State<Scalar>& start,
                                              std::span<const Scalar> times, std::span<State<Scalar>> states,
                                              const FullMotionOptions<Scalar>& options) noexcept {
-  if (states.size() != times.size()) return Errc::out_of_domain;
-  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
-  if (!start.angular_velocity.allFinite() || !start.down.allFinite() || !(options.tolerance == options.tolerance))
-    return Errc::not_finite;
+  if (const Errc wrong = options.check(times, states.size(), std::size(column_kinds)); wrong != Errc::ok) return wrong;
+  if (!start.angular_velocity.allFinite() || !start.down.allFinite()) return Errc::not_finite;
   if (!(start.down.squaredNorm() > 0)) return Errc::zero_vector;
   State<Scalar> from = start;
   from.attitude = {};

@@ -325,11 +325,10 @@ template <Real Scalar>
 Result<FullMotionAnswer<Scalar>> full_motion(const Gyrostat<Scalar>& gyrostat, const State<Scalar>& start,
                                              std::span<const Scalar> times, std::span<State<Scalar>> states,
                                              const FullMotionOptions<Scalar>& options) noexcept {
-  if (states.size() != times.size()) return Errc::out_of_domain;
-  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
+  if (const Errc wrong = options.check(times, states.size(), std::size(column_kinds)); wrong != Errc::ok) return wrong;
   const Scalar length = norm(start.attitude);
   if (!(length < infinity<Scalar>) || !start.momentum.allFinite() || !std::isfinite(start.axial_momentum) ||
-      !std::isfinite(start.rotor_angle) || !(options.tolerance == options.tolerance))
+      !std::isfinite(start.rotor_angle))
     return Errc::not_finite;
   if (!(length > 0)) return Errc::zero_vector;
   FullMotionAnswer<Scalar> answer;

@@ -238,15 +238,13 @@ template <Real Scalar>
 Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std::span<const Scalar> times,
                                              std::span<State<Scalar>> states,
                                              const FullMotionOptions<Scalar>& options) noexcept {
-  if (states.size() != times.size()) return Errc::out_of_domain;
-  if (const Errc wrong = check_span(times); wrong != Errc::ok) return wrong;
+  if (const Errc wrong = options.check(times, states.size(), std::size(column_kinds)); wrong != Errc::ok) return wrong;
   const auto finite = [](const auto& v) noexcept { return (v - v).isZero(0); };
   const auto& a = problem.angles;
   if (!finite(problem.inertia) || !finite(problem.torque) || !finite(problem.force) ||
       !finite(problem.angular_velocity) || !finite(problem.velocity) || !finite(problem.position) ||
       !finite(Vec3<Scalar>(a.psi, a.phi, a.theta)) ||
-      !finite(Vec3<Scalar>(problem.mass, problem.rotor_momentum, problem.charge_momentum)) ||
-      !(options.tolerance == options.tolerance))
+      !finite(Vec3<Scalar>(problem.mass, problem.rotor_momentum, problem.charge_momentum)))
     return Errc::not_finite;
   if (!(problem.inertia.minCoeff() > 0) || !(problem.mass > 0)) return Errc::not_positive;
 
