@@ -343,13 +343,15 @@ void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Ellip
   // the energy is a difference of numbers of the size of what the rotors hold
   double energy = std::max(problem.rotor_energy_scale() / 2, scales(problem)[column::energy]);
   for (const State<double>& state : track.states) energy = std::max(energy, state.energy);
+  // who does not know the energy, or |M|, does not know the curve
+  const bool lost = in_span.energy >= energy || in_span.norm >= problem.momentum.norm();
   const double norm = local * problem.momentum.norm() + problem.momentum_error() + standing;
   energy = local * energy + problem.energy_error(problem.momentum) +
            standing * problem.inverse_inertia.maxCoeff() * (problem.rotor_momentum.norm() + standing);
   double k2 = local;
   for (const std::size_t i : {std::size_t(0), track.states.size() - 1})
     k2 = std::max(k2, k2_beside(problem, track.states[i], norm, energy));
-  k2 = std::min(1.0, in_span.k2 + k2);
+  k2 = lost ? 1.0 : std::min(1.0, in_span.k2 + k2);
   const SlowError<double> elsewhere =
       k2 < 1 ? SlowError<double>{} : on_another_curve(track.states.back(), error.last_sure(), problem);
   state_errors(track, {in_span.norm + norm + elsewhere.norm, in_span.energy + energy + elsewhere.energy, k2, 0});
