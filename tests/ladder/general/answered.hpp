@@ -104,4 +104,26 @@ inline Torque<double> damping(const Mat3<double>& matrix, Opposed opposed) {
   return made;
 }
 
+/// A torque of the caller's own that acts for half a hundredth of the span, wherever: an answer states at least what it errs. full: the full
+/// equations by another integrator than DOP853.
+inline void check_pulses(Track (*full)(const Scene&, Monitor*)) {
+  auto slow = brick();
+  slow.angular_velocity *= 1e-3;
+  for (const double begin : {0.013, 0.1, 0.317, 0.49, 0.633, 0.871, 0.96}) {
+    CAPTURE(begin);
+    const auto pulse = [begin](double t, const Seen<double>&) noexcept {
+      return Vec3<double>(0, 0, t > begin && t < begin + 0.005 ? 1. : 0.);
+    };
+    const auto asked = [&](double tolerance, std::vector<double> breakpoints) {
+      return posed(slow, question_at({1}, tolerance, rung::full))
+          .driven_by(OwnTorque::of(pulse, std::move(breakpoints)));
+    };
+    Scene scene = asked(1e-3, {});
+    scene.full_equations = full;
+    const Answer answer = solved(scene), named = solved(asked(1e-9, {begin, begin + 0.005}));
+    const Column &column = *answer.find("angular_velocity"), &truth = *named.find("angular_velocity");
+    CHECK(column_error(column, truth) <= column.error + truth.error);
+  }
+}
+
 }  // namespace general_scenes

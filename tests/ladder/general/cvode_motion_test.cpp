@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "../../models/general/scenes.hpp"
@@ -92,23 +91,7 @@ TEST_CASE("CVODE goes over switches that lie a rounding apart", "[general]") {
 }
 
 TEST_CASE("CVODE sees a pulse of half a hundredth of the span, though its ends are not named", "[general]") {
-  auto slow = brick();
-  slow.angular_velocity *= 1e-3;
-  for (const double begin : {0.013, 0.1, 0.317, 0.49, 0.633, 0.871, 0.96}) {
-    CAPTURE(begin);
-    const auto pulse = [begin](double t, const Seen<double>&) noexcept {
-      return Vec3<double>(0, 0, t > begin && t < begin + 0.005 ? 1. : 0.);
-    };
-    const auto asked = [&](double tolerance, std::vector<double> breakpoints) {
-      return posed(slow, question_at({1}, tolerance, rung::full))
-          .driven_by(OwnTorque::of(pulse, std::move(breakpoints)));
-    };
-    Scene scene = asked(1e-3, {});
-    scene.full_equations = &full_by_cvode;
-    const Answer answer = solved(scene), named = solved(asked(1e-9, {begin, begin + 0.005}));
-    const Column &column = *answer.find("angular_velocity"), &truth = *named.find("angular_velocity");
-    CHECK(column_error(column, truth) <= column.error + truth.error);
-  }
+  check_pulses(&full_by_cvode);
 }
 
 TEST_CASE("a law without a value ends a run of CVODE, too", "[general]") {
