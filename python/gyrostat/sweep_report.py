@@ -269,11 +269,15 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
 
 
 def in_words(dataset: "xarray.Dataset", reason: str) -> str:
-    """What is wrong with the scene that the first row without an answer for this reason stands for; empty where no key of it is."""
+    """What is wrong with the scene that the first row without an answer for this reason stands for; empty where no key of it is, and of a scene that goes on
+    from another, whose file is not looked for again."""
+    scene = json.loads(dataset.attrs["study"])["scene"]
+    if "from" in scene:
+        return ""
     row = int(np.argmax(dataset["reason"].values.astype(str) == reason))
     numbers = {key: values.values[row].item() for key, values in parameters(dataset).items()}
     try:
-        scene_from(json.loads(dataset.attrs["study"])["scene"], **numbers)
+        scene_from(scene, **numbers)
     except SceneError as error:
         return f"row {dataset['row'].values[row]}: " + "; ".join(f"{each.key}: {each.problem}" for each in error.mistakes)
     except (DomainError, OSError):

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstring>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "catch.hpp"
 
@@ -254,6 +256,20 @@ TEST_CASE("a scalar that no rung gives is there without a value, with a warning"
   CHECK(std::isnan(answer.quantity("trace")->values[0]));
   scene.its_question.asked[1].needed = false;
   CHECK(climb<Scene, Track>(wider, ladder, scene, nullptr, refusal).met);
+}
+
+TEST_CASE("a column that ends without a value says so, as one that begins so", "[ladder]") {
+  const double none = gyrostat::nan<double>;
+  const auto warns = [](std::vector<double> values, double error) {
+    Answer answer;
+    answer.columns.push_back({&rung_columns[0], std::move(values), error});
+    gyrostat::detail::keep_asked(answer, Question{}, rung_family);
+    return answer.warns("no-value");
+  };
+  CHECK(warns({none, none, none}, infinity<double>));
+  CHECK(warns({1, 2, none}, infinity<double>));
+  CHECK_FALSE(warns({1, 2, 3}, infinity<double>));
+  CHECK_FALSE(warns({1, 2, 3}, 1e-3));
 }
 
 TEST_CASE("a tolerance in the unit is held against the size that the answer found", "[ladder]") {

@@ -19,6 +19,7 @@ from gyrostat.orientation import FORMS
 from gyrostat.rows import inputs_of, numbers_of, place_of
 from gyrostat.scenes import Scene, bundled, load, scene_from
 from gyrostat.sweeps import merge
+from gyrostat.sweep_report import in_words
 
 pytest.importorskip("xarray")
 
@@ -361,6 +362,9 @@ def test_what_a_row_of_a_scene_that_goes_on_may_be_and_what_not(tmp_path: Path) 
         studies.append(sweep(later, {"body.inertia[0]": [3.0, 3.1]}))
     assert studies[0].attrs["study"] != studies[1].attrs["study"]
     assert np.all(studies[0]["attitude"].values != studies[1]["attitude"].values)
+    rows = sweep(later, {"body.inertia[0]": [3.0, 99.0]})
+    first.unlink()  # a report looks for no file: that one is not there would be no reason of a row
+    assert rows["reason"].values[1] and in_words(rows, str(rows["reason"].values[1])) == ""
 
 
 def test_a_resumed_sweep_has_the_types_of_one_that_ran_through(tmp_path: Path) -> None:
