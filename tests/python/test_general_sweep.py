@@ -18,8 +18,8 @@ from gyrostat.fields import Field, parts_of
 from gyrostat.orientation import FORMS
 from gyrostat.rows import inputs_of, numbers_of, place_of
 from gyrostat.scenes import Scene, bundled, load, scene_from
-from gyrostat.sweeps import merge
 from gyrostat.sweep_report import in_words
+from gyrostat.sweeps import merge
 
 pytest.importorskip("xarray")
 

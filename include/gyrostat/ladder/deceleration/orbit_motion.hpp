@@ -111,8 +111,7 @@ struct SecondOrderRates {
 
   Result<MeanRates<Scalar>> at(const Problem<Scalar>& problem, const Level<Scalar>& level,
                                Component followed) const noexcept {
-    OrbitOscillation<Scalar>* const no_sums = nullptr;
-    const auto mean = second_order<Elliptic>(problem, level, followed, &reference, no_sums, false);
+    const auto mean = second_order<Elliptic>(problem, level, followed, &reference, nullptr, false);
     if (!mean) return mean.error();
     // else it would lead along the separatrix, where the second order is as large as the first
     if (!(mean->phase_oscillation < most_oscillation)) return Errc::separatrix;

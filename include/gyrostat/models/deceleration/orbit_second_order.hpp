@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "gyrostat/models/deceleration/orbit_average.hpp"
 #include "gyrostat/models/deceleration/periodic_integral.hpp"
@@ -258,11 +259,10 @@ inline constexpr double sound_half = 1e-6;
 /// Errors: those of the orbit; not_applicable on an equilibrium; no_convergence where 256 points do not resolve the orbit
 /// or the frames of the neighbours do not agree (an exchange of axes, or a separatrix, within the differences).
 template <class Elliptic = math::Native, Real Scalar>
-Result<SecondOrder<Scalar, Elliptic>> second_order(const Problem<Scalar>& problem, const Level<Scalar>& level,
-                                                   Component followed,
-                                                   const Orbit<Scalar, Elliptic>* reference = nullptr,
-                                                   OrbitOscillation<Scalar>* oscillation = nullptr,
-                                                   bool sized = true) noexcept {
+Result<SecondOrder<Scalar, Elliptic>> second_order(
+    const Problem<Scalar>& problem, const Level<Scalar>& level, Component followed,
+    const Orbit<Scalar, Elliptic>* reference = nullptr,
+    std::type_identity_t<OrbitOscillation<Scalar>>* oscillation = nullptr, bool sized = true) noexcept {
   using Samples = detail::OrbitSamples<Scalar>;
   using Pair = PeriodicPair<Scalar>;
   auto found = Orbit<Scalar, Elliptic>::at(problem, level, followed);
