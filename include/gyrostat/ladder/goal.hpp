@@ -67,6 +67,14 @@ struct Goal {
     return goal;
   }
 
+  /// The least tolerance of these columns; infinite where none is asked for.
+  double tightest_of(ColumnSet set) const noexcept {
+    double least = infinity<double>;
+    for (std::size_t i = 0; i < N; ++i)
+      if (has(set, i)) least = std::min(least, columns[i]);
+    return least;
+  }
+
   /// The greatest error over its tolerance; NaN if one is.
   template <Real Scalar>
   Scalar excess(const Errors<N, Scalar>& error) const noexcept {

@@ -114,6 +114,54 @@ TEST_CASE("orbit rung: honest with rotor momentum, to the stop and behind it", "
     }
 }
 
+TEST_CASE("orbit rung: who asks for M to a loose tolerance has the phase by it", "[deceleration]") {
+  for (const Law law : {Law::total, Law::carrier})
+    for (const double tolerance : {2e-2, 2e-3}) {
+      CAPTURE(int(law), tolerance);
+      Case c = gyrostat_case(tolerance / 400, law).with(rung::averaged_2, tolerance);
+      c.data.asked = {{column::angular_momentum}};
+      const Answer answer = c.solve();
+      CHECK(answer.met);
+      check_honest(answer, c.truth());
+    }
+}
+
+TEST_CASE("orbit rung: the stop is sought only where it is asked for", "[deceleration]") {
+  for (const int model : {rung::averaged, rung::averaged_2}) {
+    CAPTURE(model);
+    Case c = gyrostat_case(1e-4, Law::total).with(model, 1e-3);
+    c.data.asked = {{column::angular_momentum_norm}};
+    const Answer without = c.solve();
+    c.data.asked.push_back({scalar::stop_time, true});
+    const Answer with = c.solve();
+    CHECK(with.find("angular_momentum_norm")->values == without.find("angular_momentum_norm")->values);
+    CHECK(with.counts.steps > 2 * without.counts.steps);
+    CHECK(without.quantities.empty());
+    REQUIRE(with.quantities.size() == 1);
+    CHECK(with.quantities[0].values[0] > 1e4);
+  }
+}
+
+TEST_CASE("orbit rung: a stop whose error is too large whenever it comes is not sought", "[deceleration]") {
+  Case c = gyrostat_case(1e-3, Law::carrier);
+  c.data.tolerance = 1e-3;
+  Track none, needed, named;
+  const auto sought = [](Track& track, const Case& of, double late) {
+    return deceleration::detail::seeks_stop(track, of.scene(), late, 1000);
+  };
+  CHECK(sought(none, c, .9));
+  CHECK(none.warnings.empty());
+  CHECK_FALSE(sought(none, c, 1.1));
+  REQUIRE(none.warnings.size() == 1);
+  CHECK(none.warnings[0].code() == "stop-withheld");
+  CHECK(sought(named, c.with(rung::averaged, 1e-3), 1.1));
+  c.data.asked = {{scalar::stop_time, true}};
+  CHECK(sought(needed, c, 1.1));
+  c.data.asked = {{column::energy}};
+  CHECK_FALSE(sought(needed, c, .9));
+  CHECK(needed.warnings.empty());
+}
+
 TEST_CASE("orbit rung: refusals and the size of breakdown", "[deceleration]") {
   Case c = gyrostat_case(1e-3, Law::total);
   Case sphere = c, rest = c;

@@ -202,7 +202,7 @@ Track averaged_2_track(const Scene& scene, Monitor* monitor) {
 
   // A relative error of the mean orbit becomes one of the phase, times the turns made.
   const double tolerance = 1e-3 * mean_tolerance(scene) + 1e-13;
-  const double phase_error = std::max(1e-7, scene.goal().tightest * 1e-2);
+  const double phase_error = mean_phase_error(scene);
   AveragedRun<Elliptic> run(scene, mean.polhode, norm0 * (1 - away.norm), u0 / Elliptic::complete(start.modulus).K,
                             tolerance, phase_error);
   const double doubt = std::min(k2_of_data(problem, start, M0) / start.modulus.kp2, 1e300);

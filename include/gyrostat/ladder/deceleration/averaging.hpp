@@ -22,6 +22,13 @@ inline double mean_tolerance(const Scene& scene) noexcept {
   return std::max(1e-13, std::min(1e-5, scene.goal().tightest * 1e-3));
 }
 
+/// Local error of the phase of a mean motion of second order: far below what is asked of M. Where M is not asked for the phase tells its oscillation alone.
+inline double mean_phase_error(const Scene& scene) noexcept {
+  const auto goal = scene.goal();
+  const double fast = goal.tightest_of(fast_columns);
+  return std::max(1e-10, fast < infinity<double> ? fast * 1e-3 : goal.tightest * 1e-2);
+}
+
 namespace detail {
 
 /// Why no averaged rung answers the scene, or nullptr.
@@ -60,6 +67,16 @@ inline double weight_of_rest(const Scene& scene, double stop) noexcept {
 /// Relative error of the time of the stop, from local errors of the mean equations.
 inline double stop_of_steps(double weight, double tolerance) noexcept {
   return std::max(honesty::mean_stop, 2 * honesty::mean_steps * weight) * tolerance;
+}
+
+/// Whether a motion is followed from the asked times to its stop: only where that is asked for. A stop that may be left out is not sought where its error, this
+/// late at the least, is too large whenever it comes, at `latest`; then the track has a warning. Times in s.
+inline bool seeks_stop(Track& track, const Scene& scene, double late, double latest) {
+  if (!scene.asks_for_stop()) return false;
+  const bool hopeless = late > scene.question().tolerance * latest;
+  if (!hopeless || scene.needs_stop() || scene.question().rung != any_rung) return true;
+  track.warn(warning::stop_withheld);
+  return false;
 }
 
 inline Track refused(const Halt& halt) { return gyrostat::refused<Track>(halt.code, halt.why); }
@@ -107,8 +124,18 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   // The tail, for the stop time and for the samples beyond the hand-over. Where it leads to no stop the full equations tell more, and
   // nothing is left out to spare them.
   bool stops = false;
+  const auto sought = [&] {
+    const Vec3<double>& M = track.states.back().momentum;
+    const double carrier = (M - problem.rotor_momentum).norm(),
+                 opposed = problem.law == Law::total ? M.norm() : carrier;
+    const double least = final_torque(scene).least;
+    const double late = detail::opposed_error(problem, mean.second_order(), carrier) / least;
+    return detail::seeks_stop(track, scene, late, times.back() + opposed / least);
+  };
   if (in_time && !Hold<double>(problem).holds) {
     track.stop_time = infinity<double>;
+  } else if (in_time && !sought()) {
+    // nothing asks what comes after the asked times
   } else if (const auto halt = mean.advance(infinity<double>, floor); halt.code != Errc::ok) {
     if (!in_time || halt.code == Errc::not_applicable) return detail::refused(halt);
     if (halt.code == Errc::separatrix || halt.code == Errc::undetermined)

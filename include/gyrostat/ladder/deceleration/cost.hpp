@@ -15,8 +15,10 @@ namespace gyrostat::deceleration {
 
 /// By what of the free motion is needed (Unbraked).
 inline constexpr FormulaCost equal_torque_cost[] = {{1e-6, 0.05e-6}, {4e-6, 0.2e-6}, {50e-6, 0.2e-6}};
-inline constexpr FormulaCost averaged_cost{9e-6, 0.17e-6}, averaged_orbit_cost{280e-6, 1e-6};
-inline constexpr FormulaCost averaged_2_cost{300e-6, 0.5e-6}, averaged_2_orbit_cost{0.9e-3, 1e-6};
+inline constexpr FormulaCost averaged_cost{9e-6, 0.17e-6}, averaged_orbit_cost{110e-6, 1e-6};
+inline constexpr FormulaCost averaged_2_cost{13e-6, 0.35e-6}, averaged_2_orbit_cost{0.9e-3, 1e-6};
+/// On top, where the motion is followed to its stop.
+inline constexpr double averaged_orbit_stop = 200e-6, averaged_2_stop = 200e-6, averaged_2_orbit_stop = 2e-3;
 inline constexpr SeriesCost series_cost{5e-6, 3e-6, 0.2e-6, 1};
 
 inline double cost_of_equal_torque(const Scene& scene) noexcept {
@@ -24,10 +26,15 @@ inline double cost_of_equal_torque(const Scene& scene) noexcept {
   return equal_torque_cost[int(unbraked_motion(scene))](scene.question().times.size());
 }
 inline double cost_of_averaged(const Scene& scene) noexcept {
-  return (needs_orbit(scene) ? averaged_orbit_cost : averaged_cost)(scene.question().times.size());
+  const std::size_t times = scene.question().times.size();
+  if (!needs_orbit(scene)) return averaged_cost(times);
+  return averaged_orbit_cost(times) + (goes_to_stop(scene) ? averaged_orbit_stop : 0.0);
 }
 inline double cost_of_averaged_2(const Scene& scene) noexcept {
-  return (needs_orbit(scene) ? averaged_2_orbit_cost : averaged_2_cost)(scene.question().times.size());
+  const std::size_t times = scene.question().times.size();
+  const bool orbit = needs_orbit(scene);
+  const double to_stop = orbit ? averaged_2_orbit_stop : averaged_2_stop;
+  return (orbit ? averaged_2_orbit_cost : averaged_2_cost)(times) + (goes_to_stop(scene) ? to_stop : 0.0);
 }
 inline double cost_of_full(const Scene& scene) noexcept {
   const auto& problem = scene.problem();

@@ -132,9 +132,7 @@ GYROSTAT_COMPILED_ONCE bool goes_to_stop(const Scene& scene) noexcept {
 }
 
 GYROSTAT_COMPILED_ONCE const char* not_worth(const Scene& scene, const Goal<std::size(column_kinds)>& goal) noexcept {
-  double phase = infinity<double>;
-  for (std::size_t i = 0; i < std::size(column_kinds); ++i)
-    if (has(fast_columns, i)) phase = std::min(phase, goal.columns[i]);
+  const double phase = goal.tightest_of(fast_columns);
   if (phase < infinity<double> && phase_too_long(turned_angle(scene, false), phase)) return phase_lost;
   return turned_angle(scene, goes_to_stop(scene)) > unreachable_angle
              ? "the body turns so often that the budget of 10 million steps would end before the last time: ask for a "

@@ -203,12 +203,13 @@ class OrbitMotion {
             at_rest_ && controlled() && now_ >= end[Equations::time] + remainder()};
   }
 
-  /// Time at which the control reaches its goal, s; infinite where no control acts.
+  /// Time at which the control reaches its goal, s; infinite where no control acts. From where it opposes no more than `near` [N m s] on what is
+  /// left is told from the mean rate there.
   template <class Visitor>
-  Result<Scalar> stop_time(Visitor visit) noexcept {
+  Result<Scalar> stop_time(Visitor visit, Scalar near = 0) noexcept {
     if (!controlled()) return infinity<Scalar>;
     if (parted_) return failure();
-    while (!at_rest_)
+    while (!at_rest_ && opposed() > near)
       if (step(visit) != ode::Status::reached) return failure();
     return solver_.state()[Equations::time] + remainder();
   }

@@ -265,7 +265,7 @@ class SecondOrderOrbit {
       : problem_(scene.problem()),
         last_(scene.question().times.back()),
         monitor_(monitor),
-        phase_error_(std::max(1e-6, scene.goal().tightest * 1e-2)),
+        phase_error_(mean_phase_error(scene)),
         step_cap_(steps_worth(scene, averaged_2_orbit_step, Rates::step_cap)),
         error_(problem_),
         motion_(problem_, start.level, start.component, start.phase, tolerance, phase_error_, Rates{orbit}, step_cap_) {
@@ -357,26 +357,27 @@ void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Ellip
   state_errors(track, {in_span.norm + norm + elsewhere.norm, in_span.energy + energy + elsewhere.energy, k2, 0});
 }
 
-/// The time of the stop and its error, or the warning why there is none: false. opposed(): the error of |U| by now.
+/// Braking times below the breakdown momentum may differ by this, s, of which the averages tell nothing.
+inline double tail_of(const FinalTorque& torque, double breakdown) noexcept {
+  return 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
+}
+
+/// The time of the stop and its error, or the warning why there is none: false. doubt: factor of its error; opposed(): the error of |U| by now.
 template <class Motion, class Visit, class Opposed>
-bool take_stop(Track& track, const Scene& scene, Motion& motion, Visit& visit, double breakdown,
+bool take_stop(Track& track, const Scene& scene, Motion& motion, Visit& visit, double breakdown, double doubt,
                const Opposed& opposed) {
-  const auto& problem = scene.problem();
-  const auto stop = motion.stop_time(visit);
+  constexpr double end_of_averages = 1.0 / 64;  // of the breakdown momentum: the rest is a small part of its doubt
+  const auto stop = motion.stop_time(visit, end_of_averages * breakdown);
   if (!stop) {
-    const auto why = impasse(problem, motion);
+    const auto why = impasse(scene.problem(), motion);
     if (why.code == Errc::undetermined) track.warn(warning::capture_undetermined, why.chance);
     else track.warn(warning::stop_unknown);
     return false;
   }
-  track.stop_time = *stop;
   const auto torque = final_torque(scene);
-  const double tail = 3 * breakdown * (1 / torque.least - 1 / torque.greatest);
-  // The law of the carrier ends where its averages are differences of large numbers; with a slow libration as well they say nothing about
-  // the stop.
-  const bool slow = symmetry_gap(problem) < narrow_gap;
-  const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
-  track.stop_error = doubt * (tail + opposed() / torque.least) / *stop + honesty::mean_stop * mean_tolerance(scene);
+  track.stop_time = *stop;
+  track.stop_error = doubt * (tail_of(torque, breakdown) + opposed() / torque.least) / *stop +
+                     honesty::mean_stop * mean_tolerance(scene);
   return true;
 }
 
@@ -430,8 +431,15 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   };
   // near rest the body falls to the axis of the weakest control, the averaged one need not
   const bool low = breakdown > 0 && motion.opposed() < 3 * breakdown + opposed();
+  // The law of the carrier ends where its averages are differences of large numbers; with a slow libration as well they say nothing about
+  // the stop.
+  const bool slow = detail::symmetry_gap(problem) < detail::narrow_gap;
+  const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
+  const auto torque = final_torque(scene);
+  const double late = doubt * (detail::tail_of(torque, breakdown) + opposed() / torque.least);
   if (!hold.holds) track.stop_time = infinity<double>;
-  else if (!detail::take_stop(track, scene, motion, visit, breakdown, opposed) && not_worth())
+  else if ((motion.ended() || detail::seeks_stop(track, scene, late, end + motion.opposed() / torque.least)) &&
+           !detail::take_stop(track, scene, motion, visit, breakdown, doubt, opposed) && not_worth())
     return refused<Track>(Errc::not_applicable, detail::steps_not_worth);
   if (low || end >= track.stop_time || motion.changed_by(end)) track.error[column::modulus_squared] = 1;
   if (motion.changed_component()) track.warn(warning::crosses_separatrix);
@@ -467,8 +475,11 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   if (scene.question().rung == any_rung && turns < 1000)
     return refused<Track>(Errc::not_applicable, "the full equations are cheaper: the braking takes few turns");
 
-  // f2 is a difference of neighbouring orbits: below its noise a tighter tolerance only costs steps.
-  const double tolerance = std::max(1e-9, mean_tolerance(scene));
+  // A relative error of the mean orbit becomes one of the phase, times the turns made. f2 is a difference of neighbouring orbits: below its noise a
+  // tighter tolerance only costs steps.
+  const double made = 1 + scene.question().times.back() / orbit.period();
+  const double of_phase = scene.goal().tightest_of(fast_columns) / (100 * honesty::mean_steps * made);
+  const double tolerance = std::max(1e-9, std::min(mean_tolerance(scene), of_phase));
   detail::SecondOrderOrbit<Elliptic> motion(scene, *mean, orbit, tolerance, monitor);
   if (motion.start_is_unclear())
     return refused<Track>(Errc::separatrix,
