@@ -196,7 +196,7 @@ TEST_CASE("solve: climbs from the cheapest rung as the tolerance tightens", "[de
   Case c(1e-5, 3e4);
   const Answer truth = c.truth();
   int before = 0;
-  for (const double tolerance : {1e-1, 1e-3, 1e-5, 1e-7, 1e-9}) {
+  for (const double tolerance : {1e-1, 1e-3, 1e-5, 1e-7, 1e-9, 1e-10}) {
     CAPTURE(tolerance);
     c.data.tolerance = tolerance;
     const Answer answer = c.solve();

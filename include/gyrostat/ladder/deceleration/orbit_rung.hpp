@@ -265,7 +265,7 @@ class SecondOrderOrbit {
       : problem_(scene.problem()),
         last_(scene.question().times.back()),
         monitor_(monitor),
-        phase_error_(mean_phase_error(scene)),
+        phase_error_(std::max(1e-7, mean_phase_error(scene))),  // the noise of f2, as below
         step_cap_(steps_worth(scene, averaged_2_orbit_step, Rates::step_cap)),
         error_(problem_),
         motion_(problem_, start.level, start.component, start.phase, tolerance, phase_error_, Rates{orbit}, step_cap_) {
@@ -479,7 +479,8 @@ Track orbit_averaged_2_track(const Scene& scene, Monitor* monitor) {
   // tighter tolerance only costs steps.
   const double made = 1 + scene.question().times.back() / orbit.period();
   const double of_phase = scene.goal().tightest_of(fast_columns) / (100 * honesty::mean_steps * made);
-  const double tolerance = std::max(1e-9, std::min(mean_tolerance(scene), of_phase));
+  const double noise = 1e-9 / energy_share(problem, mean->level);
+  const double tolerance = std::max(1e-9, std::min(mean_tolerance(scene), std::max(noise, of_phase)));
   detail::SecondOrderOrbit<Elliptic> motion(scene, *mean, orbit, tolerance, monitor);
   if (motion.start_is_unclear())
     return refused<Track>(Errc::separatrix,
