@@ -142,6 +142,19 @@ TEST_CASE("orbit rung: the stop is sought only where it is asked for", "[deceler
   }
 }
 
+TEST_CASE("orbit rung: where no tail is in doubt the stop is followed to its end, through the drag", "[deceleration]") {
+  Case c = gyrostat_case(1e-4, Law::total);
+  c.data.control = V(1e-4, 1e-4, 1e-4);
+  c.data.drag = 1e-2;
+  c.data.rung = rung::averaged;
+  c.data.tolerance = 1e-9;
+  const Answer answer = c.solve(), truth = c.truth();
+  const Quantity &stop = answer.quantities.at(0), &right = truth.quantities.at(0);
+  REQUIRE(stop.kind == &scalar_kinds[scalar::stop_time]);
+  CHECK(stop.values[0] == Approx(std::log(1 + 1e-2 / 1e-4) / 1e-2).epsilon(1e-9));
+  CHECK(std::abs(stop.values[0] - right.values[0]) <= (stop.error + right.error) * right.values[0]);
+}
+
 TEST_CASE("orbit rung: a stop whose error is too large whenever it comes is not sought", "[deceleration]") {
   Case c = gyrostat_case(1e-3, Law::carrier);
   c.data.tolerance = 1e-3;

@@ -366,15 +366,16 @@ inline double tail_of(const FinalTorque& torque, double breakdown) noexcept {
 template <class Motion, class Visit, class Opposed>
 bool take_stop(Track& track, const Scene& scene, Motion& motion, Visit& visit, double breakdown, double doubt,
                const Opposed& opposed) {
-  constexpr double end_of_averages = 1.0 / 64;  // of the breakdown momentum: the rest is a small part of its doubt
-  const auto stop = motion.stop_time(visit, end_of_averages * breakdown);
+  const auto torque = final_torque(scene);
+  // what is left from here on is a small part of the tail, which is in doubt
+  const double near = breakdown / 64 * (1 - torque.least / torque.greatest);
+  const auto stop = motion.stop_time(visit, near);
   if (!stop) {
     const auto why = impasse(scene.problem(), motion);
     if (why.code == Errc::undetermined) track.warn(warning::capture_undetermined, why.chance);
     else track.warn(warning::stop_unknown);
     return false;
   }
-  const auto torque = final_torque(scene);
   track.stop_time = *stop;
   track.stop_error = doubt * (tail_of(torque, breakdown) + opposed() / torque.least) / *stop +
                      honesty::mean_stop * mean_tolerance(scene);
