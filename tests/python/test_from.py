@@ -197,6 +197,27 @@ def test_a_table_that_takes_a_wheel_over_departs_from_the_rate_it_had(tmp_path: 
     assert np.allclose(gyrostat.solve(later)["angular_velocity"], [0.0, 0.0, 0.1 - 0.1 * 20.0 / 5.0], atol=1e-12)
 
 
+@pytest.mark.parametrize("names", [["v"], [""], ["v", "w"]])
+def test_a_table_departs_from_a_rate_that_is_known_as_well_as_the_scene_before_knows_it(tmp_path: Path, names: list[str]) -> None:
+    """Wheels of rates known to 5 rad/s; a table takes the first over at what is thought to be its rate, and turns the body where it is not."""
+    v = {"name": names[0], "type": "free", "axis": [0.0, 0.0, 1.0], "axial_inertia": 0.1, "rate": 100.0}
+    others = [{"name": name, "type": "free", "axis": [0.0, 0.0, 1.0], "axial_inertia": 0.2, "rate": 50.0} for name in names[1:]]
+    first = {"name": "first", "body": {"inertia": [3.0, 4.0, 5.0]}, "wheel": [v, *others], "initial": {"angular_velocity": [0.0, 0.0, 0.1]}, "solve": {"times": [10.0], "tolerance": 1e-9}}
+    table = {"times": [10.0, 15.0, 20.0], "values": [105.0, 105.0, 105.0]}
+
+    def solved(name: str, of: dict[str, Any]) -> gyrostat.Answer:
+        later = going_on(first, str(write(tmp_path, name, of)), solve={"times": [10.0, 12.0]}, wheel=[{**v, "type": "held", "rate": table}, *({k: w[k] for k in w if k != "rate"} for w in others)])
+        return gyrostat.solve(later, ask="all")
+
+    answer = solved("known", copy.deepcopy(first) | {"initial": first["initial"] | {"error": {"rotor_rate": 5.0}}})
+    assert not answer.met
+    for rate in (95.0, 105.0):
+        other = solved("other", copy.deepcopy(first) | {"wheel": [v | {"rate": rate}, *others]})
+        for name in ("angular_velocity", "attitude", "angular_momentum_inertial"):
+            off = np.abs(other[name] - answer[name]).max()
+            assert off > 1e-2 and off <= answer.error[name] * max(answer.scale.get(name, 1.0), np.abs(answer[name]).max()), name
+
+
 def test_a_momentum_is_shared_with_a_wheel_whose_table_is_under_way(tmp_path: Path) -> None:
     """Between two of its times a cubic table is the cubic that the motion follows."""
     table = {"times": [0.0, 4.0, 9.0, 20.0], "values": [10.0, 30.0, 20.0, 60.0], "interpolation": "cubic"}

@@ -499,23 +499,37 @@ def _jump_at(wheel: Mapping[str, Any], time: float, before: float | None) -> Any
     return _rate_at(wheel, time) - (outside if place == 0 else values[place - 1] if rate["interpolation"] == "step" else values[place])
 
 
-def _stepped(end: End, whole: _Whole, wheels: list[dict[str, Any]], taken: list[int], time: float) -> Floats:
-    """Angular velocity behind the steps of tables at the start, which no momentum comes with; wheels that turn by themselves keep their absolute rates."""
-    jump, inertia = np.zeros(3), whole.inertia
+def _departs(wheel: Mapping[str, Any], time: float) -> bool:
+    """Whether the table of its rate begins at a time, and so departs from the rate with which the scene before hands the wheel on."""
+    rate = wheel["rate"]
+    return wheel["type"] == "held" and isinstance(rate, Mapping) and time == rate["times"][0] and rate["extend"] != "hold"
+
+
+def _stepped(end: End, whole: _Whole, wheels: list[dict[str, Any]], taken: list[int], time: float) -> tuple[Floats, dict[str, float]]:
+    """Angular velocity behind the steps of tables at the start, which no momentum comes with; wheels that turn by themselves keep their absolute rates.
+    And its error with that of the wheels' rates, which those grow by that a table departs from."""
+    jump, inertia, departing = np.zeros(3), whole.inertia, []
     turning = [wheels[place] for place in taken if wheels[place]["type"] != "held"]
     for place, wheel in enumerate(wheels):
         if wheel["type"] == "held":
             before = _of_before(end, wheel, place)
             jump = jump + _times(wheel["axial_inertia"] * _jump_at(wheel, time, before and before[0]), _axis(wheel))
-    if not np.any(jump):
-        return end.angular_velocity
+            if before and _departs(wheel, time):
+                departing.append(_times(wheel["axial_inertia"], _axis(wheel)))
+    error = {"angular_velocity": end.error["angular_velocity"], "rotor_rate": end.error.get("rotor_rate", 0.0)}
+    if not np.any(jump) and not departing:
+        return end.angular_velocity, error
     for wheel in turning:
         inertia = inertia - _times(wheel["axial_inertia"], _square(_axis(wheel)))
-    change = -_rounded(_solved(_rounded(inertia), jump))
+    inertia = _rounded(inertia)
+    grown = error["rotor_rate"] * sum((np.max(np.linalg.norm(_rounded(_solved(inertia, each)), axis=-1)) for each in departing), 0.0)
+    error["angular_velocity"] += float(grown)
+    error["rotor_rate"] += math.sqrt(len(turning)) * float(grown)
+    change = -_rounded(_solved(inertia, jump))
     for wheel in turning:
         wheel["rate"] = wheel["rate"] - _rounded(dot(_axis(wheel), change))
     made: Floats = end.angular_velocity + change
-    return made
+    return made, error
 
 
 def _rates_of(momentum: Floats, inertia: Floats, body: Mapping[str, Any], wheels: list[dict[str, Any]], time: float) -> Floats:
@@ -635,7 +649,8 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
     elif end and given is UNSET and kept == "momentum":
         rates, error["angular_velocity"] = _caught(end, whole, body, wheels, taken, time)
     elif end and given is UNSET:
-        rates, error["angular_velocity"] = _stepped(end, whole, wheels, taken, time), end.error["angular_velocity"]
+        rates, stepped = _stepped(end, whole, wheels, taken, time)
+        error |= stepped
     elif not isinstance(given, Mapping):
         rates = stacked(given)
     else:
@@ -647,7 +662,7 @@ def _start(scene: "Scene", whole: _Whole, orbit: Mapping[str, Any] | None) -> _S
             error["angular_velocity"] = float(np.linalg.norm(about)) * end.error["attitude"]
     velocity, position = np.zeros(3), np.zeros(3)
     if end:
-        error |= {name: end.error.get(name, 0.0) for name in ("rotor_rate", "rotor_angle") if wheels}
+        error |= {name: max(error[name], end.error.get(name, 0.0)) for name in ("rotor_rate", "rotor_angle") if wheels}
         if kept == "momentum" and given is UNSET and momentum is UNSET:  # wheels that turn by themselves keep their absolute rates
             freely = sum(wheels[place]["type"] != "held" for place in taken)
             error["rotor_rate"] += math.sqrt(freely) * (end.error["angular_velocity"] + error["angular_velocity"])
