@@ -100,7 +100,7 @@ class Reader:
                 comment += said[3:].removeprefix(" ") + "\n"
             elif access := self.matched(ACCESS.pattern):
                 shown = access == "public:"
-            elif not self.matched(r"#(?:.*\\\n)*.*|//.*|;"):
+            elif not self.matched(r"#(?:.*\\\n)*.*|//.*|;|[A-Z_]+\n"):
                 found = self.declaration(comment)
                 made += found if shown else []
                 comment = ""

@@ -142,6 +142,8 @@ int Each<T>::out() { return 1; }
 enum class Kind { one, two };
 inline constexpr int most[] = {1, 2};
 }  // namespace a
+
+LOUD_AGAIN
 """
 
 
