@@ -27,6 +27,7 @@ from gyrostat.scenes import Scene, bundled, load
 from gyrostat.sweep_commands import Command, add_commands
 from gyrostat.units import quantity
 from gyrostat.watching import watched
+from gyrostat.writing import write_text, written
 
 if TYPE_CHECKING:
     from gyrostat._core import Monitor
@@ -326,7 +327,7 @@ def _solve(arguments: argparse.Namespace) -> int:
         case "netcdf":
             answer.to_netcdf(arguments.output)
         case _ if arguments.output is not None:
-            with arguments.output.open("w", encoding="utf-8") as stream:
+            with written(arguments.output) as beside, beside.open("w", encoding="utf-8") as stream:
                 report(answer, stream)
         case _:
             report(answer, sys.stdout)
@@ -364,13 +365,11 @@ def _view(arguments: argparse.Namespace) -> int:
 
 def _write(text: str, file: Path | None, end: str = "") -> None:
     """Writes text that may be long, so that it is not copied."""
-    if file is None:
-        sys.stdout.write(text)
-        sys.stdout.write(end)
+    if file is not None:
+        write_text(file, text, end)
         return
-    with file.open("w", encoding="utf-8") as stream:
-        stream.write(text)
-        stream.write(end)
+    sys.stdout.write(text)
+    sys.stdout.write(end)
 
 
 def _recognise(arguments: argparse.Namespace) -> int:
@@ -431,7 +430,7 @@ def _design(arguments: argparse.Namespace) -> int:
     made = _in_thread(lambda monitor: design_scene(scene, goal, budget, monitor=monitor), scene.name)
     text = toml_text(made.scene.to_dict())
     if arguments.output is not None:
-        arguments.output.write_text(text, encoding="utf-8")
+        write_text(arguments.output, text)
     if arguments.form == "json":
         say(json.dumps(made.to_dict(), allow_nan=False), sys.stdout)
     else:

@@ -27,7 +27,7 @@ def check_output(file: Path | None) -> None:
     if file.suffix.lower() == ".zarr" and file.is_file():
         raise DomainError(f"{file}: this is a file, and results in .zarr are a folder; remove it, or name another")
     if file.suffix.lower() != ".zarr" and file.is_dir():
-        raise DomainError(f"{file}: this is a folder; name a file, such as {file.with_name(f'{file.stem}-1{file.suffix}')}")
+        raise DomainError(f"{file}: this is a folder; name a file, such as {file / f'results{file.suffix}'}")
 
 
 def short(value: Any, digits: int = 9) -> str:

@@ -192,6 +192,10 @@ class SceneDesign:
             "scene": self.scene.to_dict(),
         }
 
+# By goal: the key of the scene that is designed.
+DESIGNED: Final = {"spin-for-pointing": "initial.angular_velocity", "torque-for-direction": "torque.body", "burn-for-displacement": "solve.duration",
+                   "burn-for-velocity": "solve.duration"}
+
 
 def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | None = None) -> SceneDesign:
     """Design a scene of a spinning body for a budget, put the value into it, solve it, and measure the budget on its full motion.
@@ -226,6 +230,9 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
     if not tilt <= SMALL_TILT:
         much = f"the tilt may reach {tilt:.3g} rad" if math.isfinite(tilt) else "the tilt grows for ever"
         warnings.insert(0, f"beyond-small-tilt: {much}, and the design is by the linear motion, which holds for small tilt")
+    if varied := [key for key in scene.vary if key.split("[")[0].split(".")[-1] == DESIGNED[goal].split(".")[-1]]:
+        warnings.append(f"varies-as-before: the table [vary] still says {', '.join(f'{key} = {scene.vary[key]}' for key in varied)}, and a sweep of the designed scene "
+                        "goes by that: change it")
     checked = spinning.arguments(designed)
     if goal == "spin-for-pointing" and (start := start_lean(checked)) > budget:
         warnings.append(f"start-leans-more: tilt and rates of the start alone put the mean direction of axis 3 {start:.3g} rad off inertial axis 3, which is not in "
@@ -254,14 +261,15 @@ def _not_covered(goal: str, given: Mapping[str, Any]) -> str:
 
 
 def _designed(scene: Scene, given: Mapping[str, Any], goal: str, value: float) -> Scene:
-    changes: dict[str, Any]
+    made: Any = value
     if goal == "spin-for-pointing":
-        changes = {"initial.angular_velocity": [*given["angular_velocity"][:2].tolist(), value]}
+        made = [*given["angular_velocity"][:2].tolist(), value]
     elif goal == "torque-for-direction":
         M = given["torque"]
-        changes = {"torque.body": [*(value * M[:2] / math.hypot(M[0], M[1])).tolist(), 0.0]}
-    else:
-        changes = {"solve.duration": value, "solve.samples": max(2, len(given["times"]))}
+        made = [*(value * M[:2] / math.hypot(M[0], M[1])).tolist(), 0.0]
+    changes = {DESIGNED[goal]: made}
+    if DESIGNED[goal] == "solve.duration":
+        changes["solve.samples"] = max(2, len(given["times"]))
     quantity = GOALS[goal]
     note = f"{quantity.quantity} {value!r} {quantity.unit} by gyrostat design --{goal}"
     return scene.replace(source=f"{scene.source}; {note}" if scene.source else note, **changes)

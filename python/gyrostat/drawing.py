@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gyrostat.errors import DomainError
+from gyrostat.writing import written
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -69,11 +70,14 @@ def as_written(figure: "Figure") -> "Figure":
     return figure
 
 
+NO_FIGURES: Final = {"pgf", "raw", "rgba", "gif"}  # they need LaTeX, have no size of their own, or move
+
+
 def check_ending(file: Path) -> None:
     """Raise DomainError where the ending of a file is that of no format of figures: to be asked before long work."""
     known = _matplotlib("backend_bases").FigureCanvasBase.get_supported_filetypes()
-    if file.suffix[1:].lower() not in known:
-        raise DomainError(f"plot file {file}: unknown ending {file.suffix or '(none)'!r}; use one of {', '.join(sorted(known))}")
+    if file.suffix[1:].lower() not in set(known) - NO_FIGURES:
+        raise DomainError(f"plot file {file}: unknown ending {file.suffix or '(none)'!r}; use one of {', '.join(sorted(set(known) - NO_FIGURES))}")
 
 
 def save(figure: "Figure", file: Path) -> None:
@@ -81,7 +85,8 @@ def save(figure: "Figure", file: Path) -> None:
     check_ending(file)
     as_written(figure)
     figure.draw_without_rendering()  # the layout of axes whose sides are equal, with legends beside them, takes a second pass
-    figure.savefig(file, dpi=DENSITY)
+    with written(file) as beside:
+        figure.savefig(beside, dpi=DENSITY)
 
 
 def finish(figure: "Figure", title: str, seen: Sequence[str]) -> None:
@@ -125,6 +130,9 @@ def changes(values: NDArray[Any]) -> bool:
     return len(numbers) < 2 or bool(np.max(spread) > CONSTANT * np.max(np.abs(numbers)))
 
 
+FEW_SAMPLES: Final = 12  # between which a curve would be guessed
+
+
 def is_coarse(values: NDArray[Any]) -> bool:
     """Samples (n, k) that are less than a few a turn and draw no curve."""
     if len(values) < 4:
@@ -137,14 +145,14 @@ def is_coarse(values: NDArray[Any]) -> bool:
 
 def curve(axes: "Axes", x: NDArray[Any], values: NDArray[Any], labels: Sequence[str], colours: Sequence[str] = COLOURS, *,
           coarse: bool | None = None, **style: Any) -> None:
-    """Columns (n, k) over x: lines, or dots where the samples draw no curve, or few enough to be marked."""
+    """Columns (n, k) over x: lines, or dots where the samples draw no curve; where they are few they are marked, and the lines between them faint."""
     values = np.asarray(values, dtype=float)
     values = values[:, None] if values.ndim == 1 else values
     if coarse is None:
         coarse = is_coarse(values)
     look: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 2} if coarse else {"linewidth": 1.0, **style}
-    if len(x) < 4:
-        look |= {"marker": "o", "markersize": 4}
+    if len(x) < FEW_SAMPLES:
+        look = {"marker": "o", "markersize": 4} | look | {"linestyle": ":", "linewidth": 0.8}
     for column, label, colour in zip(values.T, labels, itertools.cycle(colours), strict=False):
         axes.plot(x, column, color=colour, label=label, **look)
 

@@ -5,7 +5,6 @@ import json
 import math
 import os
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 from gyrostat._core import csv_rows, json_numbers
 from gyrostat.answer import Answer
 from gyrostat.facts import FACTS, TIME, UNITS
+from gyrostat.writing import write_text, written
 
 if TYPE_CHECKING:
     import pandas
@@ -86,7 +86,7 @@ def _json(value: Any) -> Iterator[str]:
 def _written(text: str, file: str | os.PathLike[str] | None, end: str = "") -> str:
     """The text, which goes into the file, too, where one is named."""
     if file is not None:
-        Path(file).write_text(text + end, encoding="utf-8", newline="\n")
+        write_text(file, text, end)
     return text
 
 
@@ -184,4 +184,5 @@ def to_netcdf(answer: Answer, file: str | os.PathLike[str]) -> None:
         import scipy.io  # noqa: F401
     except ImportError as error:
         raise ImportError("scipy is not installed: pip install 'gyrostat[xarray]'") from error
-    dataset.to_netcdf(file, engine="scipy")
+    with written(file) as beside:
+        dataset.to_netcdf(beside, engine="scipy")

@@ -47,10 +47,13 @@ def _asked(answer: "Answer") -> "Figure":
     return figure
 
 
+TITLE: Final = 84  # letters
+
+
 def _column(name: str) -> Panel:
     def draw(axes: "Axes", answer: "Answer", t: "NDArray[Any]") -> None:
         values, quantity = answer[name], FACTS[answer.scene["kind"]].quantities[name]
-        title = f"{name}: {quantity.meaning}"
+        title = textwrap.shorten(f"{name}: {quantity.meaning}", TITLE, placeholder=" ...")  # beside the error
         unit = "" if UNITS[name] == "1" else UNITS[name]
         if values.ndim == 1:
             curve(axes, t, values, [f"_{name}"])

@@ -3,10 +3,10 @@
 
 import argparse
 import json
-import shutil
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -115,13 +115,21 @@ def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
         dataset = answered(study, threads=arguments.threads, chunk=arguments.chunk, shard=arguments.shard, parts=parts, progress=told, output=output)
     took = time.monotonic() - began
     save(dataset, output)
-    shutil.rmtree(parts, ignore_errors=True)
+    _clear(parts)
     say(f"wrote {output}: {', '.join(_verdict(dataset))}; {took:.3g} s", sys.stderr)
     for reason, share in shares(dataset["reason"]).items():
         if reason:
             example = in_words(dataset, reason)
             say(f"no answer to {100 * share:.4g} % of the rows: {reason}" + (f" ({example})" if example else ""), sys.stderr)
     return MET if bool(dataset["met"].all()) else NOT_MET
+
+
+def _clear(parts: Path) -> None:
+    """Removes the parts of a study, and their folder if nothing else is in it."""
+    for part in parts.glob("rows-*-*.nc"):
+        part.unlink(missing_ok=True)
+    with suppress(OSError):
+        parts.rmdir()
 
 
 def _merge(arguments: argparse.Namespace) -> int:
@@ -150,5 +158,5 @@ def _report(arguments: argparse.Namespace) -> int:
         for file in files:
             say(f"wrote {file}", sys.stdout)
         if not files:
-            say("nothing to draw: no row has a finite value of what was asked", sys.stdout)
+            say("nothing to draw: no number that was asked for varies from row to row", sys.stdout)
     return MET

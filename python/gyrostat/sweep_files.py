@@ -12,6 +12,7 @@ import numpy as np
 
 from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS
+from gyrostat.writing import written
 
 if TYPE_CHECKING:
     import xarray
@@ -47,7 +48,6 @@ def check_size(file: Path, sizes: Mapping[str, int], remedy: str = LESS) -> None
 
 def to_netcdf(dataset: "xarray.Dataset", file: Path) -> None:
     """Write NetCDF 3, whatever the ending."""
-    check_size(file, {str(name): _bytes(values) for name, values in dataset.variables.items()})
     dataset.to_netcdf(file, engine="scipy", format="NETCDF3_64BIT")
 
 
@@ -101,7 +101,13 @@ def writer_of(file: Path) -> Callable[["xarray.Dataset", Path], None]:
 
 def save(dataset: "xarray.Dataset", file: str | os.PathLike[str]) -> None:
     """Write the results of a sweep: .nc (NetCDF 3), .csv, .parquet (needs pyarrow) or .zarr (needs zarr)."""
-    writer_of(Path(file))(dataset, Path(file))
+    write, path = writer_of(Path(file)), Path(file)
+    if path.suffix.lower() == ".zarr":  # a folder
+        write(dataset, path)
+        return
+    check_size(path, {str(name): _bytes(values) for name, values in dataset.variables.items()})
+    with written(path) as beside:
+        write(dataset, beside)
 
 
 def open_results(file: str | os.PathLike[str]) -> "xarray.Dataset":
@@ -121,11 +127,22 @@ def open_results(file: str | os.PathLike[str]) -> "xarray.Dataset":
         if isinstance(error, DomainError):
             raise
         raise DomainError(f"{file}: this cannot be read ({str(error).splitlines()[0] if str(error) else type(error).__name__})") from None
-    if "study" not in found.attrs:
-        raise DomainError(f"{file}: this holds no results of a sweep")
+    if not _is_sound(found):
+        raise DomainError(f"{file}: this holds no results of a sweep, or they are damaged")
     words = {name: values.astype(object) for name, values in found.data_vars.items() if values.dtype.kind in "UT"}
     made: xarray.Dataset = found.assign(words)[_in_order(found)]
     return made
+
+
+def _is_sound(dataset: "xarray.Dataset") -> bool:
+    """Whether there is all that every sweep has."""
+    try:
+        study = json.loads(dataset.attrs["study"])
+    except (KeyError, TypeError, ValueError):
+        return False
+    kind, needed = dataset.attrs.get("kind"), ("model", "met", "excess", "warnings", "reason")
+    return (isinstance(study, dict) and {"n", "cases", "vary"} <= study.keys() and kind in FACTS and dataset.sizes.get("row", 0) > 0
+            and "row" in dataset.coords and all(name in dataset for name in needed))
 
 
 def _in_order(dataset: "xarray.Dataset") -> list[str]:

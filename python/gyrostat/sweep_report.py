@@ -249,7 +249,7 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
         errors = np.empty(0) if each.error is None else each.error[known.reshape(len(known), -1).any(axis=1) & ~np.isnan(each.error)]
         rows.append([each.label, each.unit, _percent(float(known.mean())), *numbers, small(float(np.max(errors))) if len(errors) else "-"])
     rows += [[each.label, each.unit, _percent(0), *["inf"] * len(PERCENTILES), "-"] for each in endless(dataset)]
-    yield "Percentiles", ["", "unit", "finite", *(f"{p} %" for p in PERCENTILES), "greatest error"], rows
+    yield "Percentiles, of the rows in which it is finite", ["", "unit", "finite", *(f"{p} %" for p in PERCENTILES), "greatest error"], rows
     keys = list(parameters(dataset))
     rows = [[each.label, *(f"{value:+.3f}" if math.isfinite(value) else "-" for value in rank_correlations(dataset, each).values())]
             for each in responses(dataset)]

@@ -30,6 +30,7 @@ from gyrostat.scenes import Scene
 from gyrostat.sweep_files import check_size, import_xarray, open_results, save, to_netcdf, writer_of
 from gyrostat.vary import Plan
 from gyrostat.watching import watched
+from gyrostat.writing import written
 
 if TYPE_CHECKING:
     import xarray
@@ -208,8 +209,13 @@ def _part_file(folder: Path, rows: range) -> Path:
     return folder / f"rows-{rows.start:010d}-{rows.stop:010d}.nc"
 
 
+def _has_rows(part: "xarray.Dataset", rows: range) -> bool:
+    """Whether a part has these rows, each once, in order."""
+    return bool(np.array_equal(part["row"].values, np.arange(rows.start, rows.stop)))
+
+
 def _kept(folder: Path, study: Study, rows: range) -> "dict[range, xarray.Dataset]":
-    """The parts of these rows that an earlier run left behind."""
+    """The parts of these rows that an earlier run left behind, but for those that are damaged or hold other rows than their name says."""
     found: dict[range, xarray.Dataset] = {}
     at = rows.start
     for file in sorted(folder.glob("rows-*-*.nc")):
@@ -217,11 +223,15 @@ def _kept(folder: Path, study: Study, rows: range) -> "dict[range, xarray.Datase
         if named is None:
             continue
         start, stop = int(named[1]), int(named[2])
-        part = open_results(file)
+        try:
+            part = open_results(file)
+        except DomainError:  # damaged: its rows are done again
+            continue
         if part.attrs["study"] != study.told:
             raise DomainError(f"{file}: this part belongs to another study: remove {folder}, or name another output")
-        if at <= start and stop <= rows.stop:
-            found[range(start, stop)], at = part, stop
+        named_rows = range(start, stop)
+        if at <= start and stop <= rows.stop and _has_rows(part, named_rows):
+            found[named_rows], at = part, stop
     return found
 
 
@@ -351,10 +361,8 @@ def _rows_of_call(call: str, study: Study, rows: range, threads: int) -> "xarray
 
 def _keep(dataset: "xarray.Dataset", folder: Path, rows: range) -> None:
     """Writes a part such that there is never half of one."""
-    file = _part_file(folder, rows)
-    beside = file.with_suffix(".tmp")
-    to_netcdf(dataset, beside)
-    beside.replace(file)
+    with written(_part_file(folder, rows)) as beside:
+        to_netcdf(dataset, beside)
 
 
 def _joined(parts: "list[xarray.Dataset]") -> "xarray.Dataset":
@@ -380,7 +388,9 @@ def merge(files: "Iterable[str | os.PathLike[str] | xarray.Dataset]") -> "xarray
         first = int(part["row"][0])
         if first != at:
             raise DomainError(f"rows {at} to {first - 1} are missing" if first > at else f"{name}: row {first} is there twice")
-        at = int(part["row"][-1]) + 1
+        at = first + part.sizes["row"]
+        if not _has_rows(part, range(first, at)):
+            raise DomainError(f"{name}: rows are missing in it, or there twice, or out of their order: make this part again")
     if at != json.loads(study)["n"]:
         raise DomainError(f"rows {at} to {json.loads(study)['n'] - 1} are missing")
     return _joined([part for _, part in named])

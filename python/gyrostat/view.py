@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -24,6 +23,7 @@ from gyrostat.ladder import solve
 from gyrostat.report import summary
 from gyrostat.rotation import matrix_from_quaternion, quaternion_from_vector
 from gyrostat.scenes import Scene
+from gyrostat.writing import write_text
 
 __all__ = ["View", "view"]
 
@@ -48,7 +48,7 @@ class View:
 
     def save(self, file: str | os.PathLike[str]) -> None:
         """Write the page to a file."""
-        Path(file).write_text(self.html, encoding="utf-8")
+        write_text(file, self.html)
 
     def __repr__(self) -> str:
         return f"<View of {self.answer!r}: save('view.html'), or show it in a notebook>"

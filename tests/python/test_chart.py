@@ -129,7 +129,7 @@ KINDS = ("tiangong-1", "two-attractors", "spinning-paper", "toy-top", "iss-drift
 @pytest.mark.parametrize("scene", KINDS)
 def test_a_single_time_is_charted_and_time_zero_refused(scene: str) -> None:
     made = gyrostat.chart(scene, times=[2.0])
-    assert "1 times to 2 s" in made.title and "rung full" in made.by_label()
+    assert "1 time to 2 s" in made.title and "rung full" in made.by_label()
     with pytest.raises(DomainError, match="no motion to chart"):
         gyrostat.chart(scene, times=[0.0])
 

@@ -78,6 +78,13 @@ def test_the_full_motion_of_the_designed_scene_finds_the_budget(goal: str, budge
         assert before == after
 
 
+def test_a_study_that_varies_the_designed_number_as_before_is_told() -> None:
+    study = scene().replace(vary={"n": 10, "initial.angular_velocity[2]": "normal(50 rpm, 5%)", "body.inertia[2]": "normal(3000, 1%)"})
+    told = [text for text in design_scene(study, "spin-for-pointing", 0.005).warnings if text.startswith("varies-as-before: ")]
+    assert len(told) == 1 and "initial.angular_velocity[2] = normal(50 rpm, 5%)" in told[0] and "inertia" not in told[0]
+    assert not [text for text in design_scene(study, "burn-for-velocity", 10.0).warnings if "vary" in text]
+
+
 def test_a_start_that_leans_by_more_than_the_budget_is_told() -> None:
     nutating = scene(**{"initial.angular_velocity": [0.01, 0.0, 0.33]})
     made = design_scene(nutating, "spin-for-pointing", 0.005)

@@ -71,8 +71,27 @@ def test_what_is_written_has_room(scene: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("times", [[1.0], [0.0, 1.0]])
 def test_one_time_and_two_are_marked(scene: str, times: list[float]) -> None:
     figure = gyrostat.solve(scene, times=times).plot()
-    curves = [line for axes in drawn(figure) for line in axes.lines if len(line.get_xdata()) == len(times) and line.get_linestyle() in ("-", "--")]
-    assert curves and all(line.get_marker() == "o" for line in curves if line.get_color() != "#D55E00" or line.get_linestyle() == "-")
+    curves = [line for axes in drawn(figure) for line in axes.lines if len(line.get_xdata()) == len(times) and line.get_linestyle() == ":"]
+    assert curves and all(line.get_marker() in "os" for line in curves)
+    dots = {(line.get_marker(), line.get_markersize()) for line in curves}
+    assert len(dots) == (2 if scene in ("tiangong-1", "cubesat-wheel") and len(times) == 1 else 1)  # one within the other on two scales
+
+
+def test_a_torque_that_is_switched_is_not_drawn_across_the_switch() -> None:
+    answer = gyrostat.solve("iss-torque-pulse", times=[0.0, 1500.0, 1600.0, 28800.0], ask="all")
+    panel = next(axes for axes in answer.plot().axes if axes.get_title(loc="left").startswith("External torque"))
+    x, y = panel.lines[0].get_data()
+    pieces = np.split(np.asarray(y, dtype=float), np.flatnonzero(np.isnan(np.asarray(y, dtype=float))))
+    assert [len(piece[np.isfinite(piece)]) for piece in pieces] == [1, 2, 1] and np.all(np.diff(x) >= 0)
+    alone = next(line for line in panel.lines if line.get_label() == "_alone")
+    assert len(alone.get_xdata()) == 2
+
+
+def test_a_map_of_one_time_shows_all_that_its_legend_names() -> None:
+    axes = gyrostat.solve("pam-d-burn", times=[50.0]).plot().axes[0]
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    for line in axes.lines:
+        assert np.all((line.get_xdata() > left) & (line.get_xdata() < right) & (line.get_ydata() > low) & (line.get_ydata() < high)), line.get_label()
 
 
 def test_constants_of_a_free_motion_have_room() -> None:

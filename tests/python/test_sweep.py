@@ -440,6 +440,60 @@ def test_a_sweep_that_is_interrupted_goes_on_where_it_was(tmp_path: Path) -> Non
         light(seed=9, parts=tmp_path)
 
 
+@pytest.mark.parametrize("harm", ["empty", "cut", "nought", "renamed", "another's", "fewer"])
+def test_parts_that_are_damaged_are_done_again(tmp_path: Path, harm: str) -> None:
+    light(chunk=10, parts=tmp_path)
+    parts = sorted(tmp_path.glob("*.nc"))
+    whole = parts[2].read_bytes()
+    match harm:
+        case "empty":
+            parts[2].write_bytes(b"")
+        case "cut":
+            parts[2].write_bytes(whole[:len(whole) // 2])
+        case "nought":
+            parts[2].write_bytes(bytes(len(whole)))
+        case "renamed":
+            parts[2].rename(tmp_path / "rows-0000000020-0000000025.nc")
+        case "another's":
+            parts[2].write_bytes(parts[1].read_bytes())
+        case "fewer":
+            save(open_results(parts[2]).isel(row=slice(0, 4)), parts[2])
+    assert same(light(chunk=10, parts=tmp_path), light())
+
+
+def test_what_is_put_together_has_each_row_once(tmp_path: Path) -> None:
+    part = light(shard=(2, 2))
+    for rows in ([0, 1, 1, *range(2, 30)], [0, *range(2, 30)], [1, 0, *range(2, 30)], [*range(14), *range(15, 30), 29]):
+        with pytest.raises(DomainError, match="rows are missing in it, or there twice, or out of their order|missing"):
+            merge([light(shard=(1, 2)), part.isel(row=rows)])
+
+
+@pytest.mark.parametrize("harm", [{"study": "{broken"}, {"study": "{}"}, {"study": None}, {"kind": "none"}, {"kind": None}, {"row": None}, {"met": None}, {"rows": None}])
+def test_damaged_results_are_told_as_such(tmp_path: Path, harm: dict[str, str | None]) -> None:
+    found = light()
+    (name, value), = harm.items()
+    if name in ("met", "row"):
+        found = found.drop_vars(name)
+    elif name == "rows":
+        found = found.isel(row=slice(0, 0))
+    elif value is None:
+        del found.attrs[name]
+    else:
+        found.attrs[name] = value
+    found.to_netcdf(tmp_path / "found.nc", engine="scipy", format="NETCDF3_64BIT")
+    with pytest.raises(DomainError, match="this holds no results of a sweep, or they are damaged"):
+        open_results(tmp_path / "found.nc")
+
+
+def test_a_folder_of_parts_keeps_what_is_not_a_part(tmp_path: Path) -> None:
+    file = tmp_path / "f.nc"
+    command = ["sweep", "tiangong-1", "--vary", "torque.drag=[1e-6, 2e-6]", "--ask", "stop_time", "--set", "tolerance=0.01", "-o", str(file)]
+    (tmp_path / "f.nc.parts").mkdir()
+    (tmp_path / "f.nc.parts" / "notes.txt").write_text("mine")
+    assert main([*command, "--resume"]) == 0
+    assert [each.name for each in (tmp_path / "f.nc.parts").iterdir()] == ["notes.txt"]
+
+
 def test_long_rows_are_left_at_once_when_a_sweep_is_stopped() -> None:
     def stop(done: int, rows: int) -> None:
         raise KeyboardInterrupt

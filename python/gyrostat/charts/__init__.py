@@ -15,6 +15,7 @@ from gyrostat.charts.problem import Errors, Line, Measure, Problem, Run, Unanswe
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
 from gyrostat.scenes import Scene
+from gyrostat.writing import write_text
 
 __all__ = ["Chart", "ChartPoint", "LeftOut", "make_chart", "measured"]
 
@@ -114,7 +115,7 @@ class Chart:
         files = [folder / f"chart.{ending}" for ending in ("png", "svg", "csv")]
         for file in files[:2]:
             save(figure, file)
-        files[2].write_text(self.to_csv(), encoding="utf-8")
+        write_text(files[2], self.to_csv())
         return files
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
 
-__all__ = ["MOST_TURNS", "Errors", "Line", "Measure", "Problem", "Rival", "Run", "Unanswered", "first_turns", "greatest", "reference", "relative", "tensor"]
+__all__ = ["MOST_TURNS", "Errors", "Line", "Measure", "Problem", "Rival", "Run", "Unanswered", "counted", "first_turns", "greatest", "reference", "relative", "tensor"]
 
 Vectors = NDArray[np.float64]
 # True errors of columns, by the keys of the measures.
@@ -91,6 +91,11 @@ class Problem:
     rungs: tuple[str, ...] = ()  # none: all that the family has
     cuts: tuple[float, ...] = ()  # times since the start at which the equations change, where a rival begins anew [s]
     begin: float = 0.0  # where the clock of the times stands at the start [s]
+
+
+def counted(n: int, what: str) -> str:
+    """So many of it, in words."""
+    return f"{n} {what}{'' if n == 1 else 's'}"
 
 
 def first_turns(times: Vectors, turns: Callable[[float], float], most: float) -> tuple[Vectors, str]:

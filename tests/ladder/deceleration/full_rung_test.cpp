@@ -85,3 +85,20 @@ TEST_CASE("full rung: a momentum that a tensor makes of omega errs as the greate
     CHECK(given.find("angular_momentum_norm")->error < 1e-13);
   }
 }
+
+TEST_CASE("full rung: a stop far behind the asked times is said not to be followed", "[deceleration]") {
+  Case c(1e-4, 10);
+  c.data.tolerance = 1e-9;
+  const Answer far = c.solve();
+  REQUIRE(std::string_view(far.model) == "full");
+  CHECK(far.met);
+  REQUIRE(far.warnings.size() == 1);
+  CHECK(far.warnings[0].code() == "stop-withheld");
+  c.data.asked = {{column::angular_momentum_norm}};
+  CHECK(c.solve().warnings.empty());
+  c.data.asked.push_back({scalar::stop_time, true});
+  const Answer asked = c.solve();
+  CHECK(asked.warnings.empty());
+  CHECK(asked.quantities.size() == 1);
+  CHECK(Case(1e-2, 80).with(any_rung, 1e-9).solve().warnings.empty());
+}

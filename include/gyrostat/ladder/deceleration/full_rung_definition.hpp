@@ -165,6 +165,10 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
     finer.counts += track.counts;
     track = std::move(finer);
   }
+  if (!find_stop && scene.asks_for_stop() && std::isnan(track.stop_time))
+    track.warn(warning::stop_withheld, nan<double>,
+               "the stop lies far behind the times asked for, and the full equations are not followed to it; ask for "
+               "times up to it, or for stop_time by name");
   return track;
 }
 

@@ -77,7 +77,7 @@ inline constexpr WarningKind warning_kinds[] = {
     {"spin-reversal", "the axial torque takes the spin through zero at about, s"},
     {"mean-of-small-tilt",
      "pointing_error and secular_velocity_ratio are formulas for small tilt, and are off by some times the square of "
-     "it; the mean tilt is, by the first, rad"},
+     "it; the mean tilt is by the first of them, in rad"},
 };
 
 /// Places in rung_kinds, cheapest first.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, first_turns, greatest, reference, relative, tensor
+from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, counted, first_turns, greatest, reference, relative, tensor
 from gyrostat.errors import DomainError
 from gyrostat.families.deceleration.functions import integrate, solve
 from gyrostat.families.deceleration.scene import arguments
@@ -53,7 +53,7 @@ def problem(scene: "Scene") -> Problem:
     made, source = reference(integrate, physics)
     want = np.asarray(made["angular_momentum"])
     turns = rate * float(times[-1])
-    title = (f"{len(times)} times to {times[-1]:.6g} s{cut}{stop}\n{turns:.3g} turns at most; {source}")
+    title = (f"{counted(len(times), 'time')} to {times[-1]:.6g} s{cut}{stop}\n{turns:.3g} turns at most; {source}")
     return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics), 10 * turns)
 
 

@@ -60,7 +60,8 @@ def _size_and_energy(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
     others = []
     if "energy" in answer.columns:
         right = axes.twinx()
-        curve(right, t, answer["energy"], ["carrier energy h"], COLOURS[1:], linestyle="--")
+        ring: dict[str, Any] = {"marker": "s", "markersize": 8, "fillstyle": "none"} if len(t) == 1 else {}  # round the dot of |M|
+        curve(right, t, answer["energy"], ["carrier energy h"], COLOURS[1:], linestyle="--", **ring)
         right.set_ylabel("h [J]", color=COLOURS[1])
         right.set_ylim(bottom=0)
         others.append(right)

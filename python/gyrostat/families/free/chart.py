@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, first_turns, greatest, reference, relative
+from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, counted, first_turns, greatest, reference, relative
 from gyrostat.families.free.functions import integrate, reduced, solve
 from gyrostat.families.free.scene import arguments
 from gyrostat.rotation import angle_between
@@ -39,7 +39,7 @@ def problem(scene: "Scene") -> Problem:
     physics = {key: value for key, value in given.items() if key not in ("tolerance", "model", "integrator", "view")}
     want, source = reference(integrate, physics, "taylor")
     end = float(given["times"][-1])
-    title = f"{len(given['times'])} times to {end:.6g} s{cut}\n{rate * end:.3g} turns at most; {source}"
+    title = f"{counted(len(given['times']), 'time')} to {end:.6g} s{cut}\n{rate * end:.3g} turns at most; {source}"
     return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics), end * 10 * rate)
 
 

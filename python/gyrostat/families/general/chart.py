@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from gyrostat.broadcast import Floats
-from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, Unanswered, first_turns, greatest, reference, relative
+from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, Unanswered, counted, first_turns, greatest, reference, relative
 from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS
 from gyrostat.families.general.clock import since
@@ -42,6 +42,8 @@ def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, f
     return {"attitude": greatest(angle_between(made["attitude"], want["attitude"])),
             "angular_velocity": relative(made["angular_velocity"], want["angular_velocity"])}
 
+AT_REST: Final = 1e-300  # rad/s, a rate that divides nothing by nought
+
 
 def problem(scene: "Scene") -> Problem:
     """The scene, or its first part where the whole is too long. What is known of the error of its start is no error of a method: all begin at the same
@@ -59,7 +61,7 @@ def problem(scene: "Scene") -> Problem:
     want, source = reference(integrate, physics, "taylor")
     end, last = float(rival.times[-1]), float(given["times"][-1])
     first = f" from {begin:.6g}" if begin else ""
-    title = f"{len(given['times'])} times{first} to {last:.6g} s{cut}\n{rate * end:.3g} turns at most; {source}{exact}"
+    title = f"{counted(len(given['times']), 'time')}{first} to {last:.6g} s{cut}\n{rate * end if rate > AT_REST else 0:.3g} turns at most; {source}{exact}"
     lacks = set() if segments(**physics) else {"segments"}
     rungs = tuple(name for name in FACTS["general"].rungs if name.rpartition(":")[0] in {"", *found} and name not in lacks)
     return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), rival, end * 10 * rate, rungs=rungs,
@@ -79,7 +81,7 @@ def _rate(given: Mapping[str, Any], rival: "Rival") -> float:
         if warning.code == "rest":
             raise DomainError(f"the motion cannot be charted to {end:.6g} s, choose a shorter time: integrators do not go through a stop, and "
                               f"{warning.message}")
-    return max(float(np.max(np.linalg.norm(answer["angular_velocity"], axis=1))), rival.forcing, 1e-300) / (2 * math.pi)
+    return max(float(np.max(np.linalg.norm(answer["angular_velocity"], axis=1))), rival.forcing, AT_REST) / (2 * math.pi)
 
 
 # ---- the equations for rivals ----

@@ -3,14 +3,14 @@
 and what the answer holds over time, with the times at which a torque or a wheel changes its law."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.drawing import (
-    COLOURS, MOMENT_NAMES, Panel, changes, components, curve, error_text, laid_out, legend_row, map_frame, map_legend, map_reach, note, on_map,
+    COLOURS, MOMENT_NAMES, Panel, changes, components, curve, error_text, is_coarse, laid_out, legend_row, map_frame, map_legend, map_reach, note, on_map,
     principal_axes, span_text, vector, wheels_panel)
 from gyrostat.fields import UNSET
 from gyrostat.rotation import matrix_from_quaternion
@@ -99,7 +99,8 @@ def _path(axes: "Axes", directions: Vectors, centre: Vectors, title: str, colour
     map_frame(axes, title, reach)
     points = _trace(axes, directions, centre, colour, label, sparse)
     axes.plot(*points[0], "o", color=COLOURS[2], markersize=5, label="start")
-    axes.plot(*points[-1], "s", color=COLOURS[1], markersize=4, label="end")
+    if len(points) > 1:
+        axes.plot(*points[-1], "s", color=COLOURS[1], markersize=4, label="end")
     return reach
 
 
@@ -208,7 +209,7 @@ def _attitude(column: str, title: str) -> Panel:
     return draw
 
 
-_VECTORS: Final = (
+_VECTORS: Final[tuple[tuple[str, str, str, str], ...]] = (
     ("angular_velocity", "ω", "rad/s", "Angular velocity, body axes"), ("angular_momentum", "M", "N m s", "Angular momentum, body axes"),
     ("angular_momentum_inertial", "M", "N m s", "Angular momentum, inertial axes"), ("torque", "τ", "N m", "External torque, body axes"),
     ("down", "d", "", "Down, body axes"), ("velocity", "v", "m/s", "Velocity, inertial axes"), ("position", "x", "m", "Position, inertial axes"))
@@ -224,8 +225,40 @@ def _panels(answer: "Answer", given: Mapping[str, Any]) -> list[Panel]:
     made += [_attitude(column, title) for column, title in _ATTITUDES if column in answer.columns][:1]
     made += [vector("euler", "a", "rad", f"Angles of the attitude, {given['euler']}")] if "euler" in answer.columns else []
     made += [wheels_panel(*kind, names) for kind in _WHEELS if kind[0] in answer.columns]
-    made += [vector(*kind) for kind in _VECTORS[1:] if kind[0] in answer.columns]
+    made += [_torque(kind, _jumps(given)) if kind[0] == "torque" else vector(*kind) for kind in _VECTORS[1:] if kind[0] in answer.columns]
     return made + [_single(*kind) for kind in _SINGLES if kind[0] in answer.columns]
+
+
+def _jumps(given: Mapping[str, Any]) -> list[float]:
+    """Times at which torques come, go or step [s]."""
+    times: set[float] = set()
+    for each in given["torques"]:
+        on = each.get("on")
+        times |= set() if on in (None, UNSET) else {float(t) for span in on for t in span}
+        for table in (each.get("factor"), each.get("torque")):
+            if isinstance(table, Mapping) and table.get("times") not in (None, UNSET):
+                stepping = table["interpolation"] == "step"
+                times |= {float(t) for t in (table["times"] if stepping else (table["times"][0], table["times"][-1]))}
+    return sorted(times)
+
+
+def _torque(kind: tuple[str, str, str, str], jumps: Sequence[float]) -> Panel:
+    """The curves of the torque end where it jumps: nothing is drawn across."""
+    column, symbol, unit, title = kind
+
+    def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
+        values = answer[column]
+        cuts = np.unique(np.searchsorted(answer.t, jumps))
+        cuts = cuts[(cuts > 0) & (cuts < len(t))]
+        nothing = np.full((len(cuts), values.shape[1]), np.nan)
+        components(axes, np.insert(t, cuts, t[cuts]), np.insert(values, cuts, nothing, axis=0), symbol, unit, title, coarse=is_coarse(values))
+        alone = np.diff(np.concatenate([[0], cuts, [len(t)]])) == 1
+        places = np.concatenate([[0], cuts])[alone]
+        for each, colour in zip(values.T, COLOURS, strict=False):  # what is no line
+            axes.plot(t[places], each[places], ".", color=colour, markersize=4, label="_alone")
+        note(axes, error_text(answer, column))
+
+    return draw
 
 
 def _marks(given: Mapping[str, Any], end: float) -> tuple[list[float], list[tuple[float, float]]]:

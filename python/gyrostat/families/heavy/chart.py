@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gyrostat import _core
 from gyrostat.charts.methods import timed
-from gyrostat.charts.problem import MOST_TURNS, Line, Measure, Problem, Run, Unanswered, first_turns, reference, relative, tensor
+from gyrostat.charts.problem import MOST_TURNS, Line, Measure, Problem, Run, Unanswered, counted, first_turns, reference, relative, tensor
 from gyrostat.errors import ConvergenceError, DomainError
 from gyrostat.families.heavy.functions import integrate, periodic_orbit, principal_axes, series, solve
 from gyrostat.families.heavy.scene import arguments
@@ -46,7 +46,7 @@ def problem(scene: "Scene") -> Problem:
     want, source = reference(integrate, physics)
     turns = rate * float(times[-1])
     found = "" if periodic is None else ", from the start that shooting finds"
-    title = (f"{len(times)} times to {times[-1]:.6g} s{cut}{found}\n"
+    title = (f"{counted(len(times), 'time')} to {times[-1]:.6g} s{cut}{found}\n"
              f"about {turns:.3g} turns; {source}")
     return Problem(title, (RATES, DOWN), solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics, rate), 10 * turns,
                    lines=lambda: _series(given))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, first_turns, greatest, reference, relative, tensor
+from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, counted, first_turns, greatest, reference, relative, tensor
 from gyrostat.families.rotor.functions import integrate, solve
 from gyrostat.families.rotor.scene import arguments
 from gyrostat.rotation import angle_between
@@ -43,7 +43,7 @@ def problem(scene: "Scene") -> Problem:
     physics = {key: value for key, value in given.items() if key not in ("tolerance", "model", "integrator")}
     want, source = reference(integrate, physics, "radau" if relaxing > STIFF * rate else "taylor")
     end = float(given["times"][-1])
-    title = (f"{len(given['times'])} times to {end:.6g} s{cut}\n{rate * end:.3g} turns at most, {relaxing * end:.3g} "
+    title = (f"{counted(len(given['times']), 'time')} to {end:.6g} s{cut}\n{rate * end:.3g} turns at most, {relaxing * end:.3g} "
              f"relaxation times of the motor; {source}")
     return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics),
                    end * max(relaxing / STABLE, 10 * rate), (("radau", "Radau IIA", "radau"),))

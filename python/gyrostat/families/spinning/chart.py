@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, first_turns, greatest, reference, relative
+from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, counted, first_turns, greatest, reference, relative
 from gyrostat.families.spinning.functions import integrate, solve
 from gyrostat.families.spinning.scene import arguments
 from gyrostat.rotation import angle_between, quaternion_from_euler_312
@@ -40,7 +40,7 @@ def problem(scene: "Scene") -> Problem:
     want, source = reference(integrate, physics)
     end = float(given["times"][-1])
     turns = float(np.mean(np.linalg.norm(want["angular_velocity"], axis=1))) * end / (2 * math.pi)
-    title = (f"{len(given['times'])} times to {end:.6g} s{cut}\nabout {turns:.3g} turns; {source}")
+    title = (f"{counted(len(given['times']), 'time')} to {end:.6g} s{cut}\nabout {turns:.3g} turns; {source}")
     return Problem(title, (ATTITUDE, VELOCITY if np.any(given["force"]) else RATES), solve, given, integrate, physics,
                    lambda made: true_errors(made, want), Rival(physics), 10 * _rate(given, end) * end)
 

@@ -71,8 +71,10 @@ def _finish_map(axes: "Axes", title: str, path: NDArray[Any]) -> None:
     """The path is what shall be seen whole."""
     low, high = path[:, :2].min(axis=0), path[:, :2].max(axis=0)
     half = 0.58 * float(np.max(high - low))
-    if half <= 1e-12 * float(np.max(np.abs(path[:, :2]))):  # a point, but for rounding
-        half = 1e-3
+    if half <= 1e-12 * float(np.max(np.abs(path[:, :2]))):  # a point, but for rounding: then with all others
+        drawn = np.concatenate([path[:1, :2], *(line.get_xydata() for line in axes.lines)])
+        low, high = drawn.min(axis=0), drawn.max(axis=0)
+        half = max(0.58 * float(np.max(high - low)), 1e-3)
     x, y = (low + high) / 2
     axes.set_xlim(x - half, x + half)
     axes.set_ylim(y - half, y + half)
