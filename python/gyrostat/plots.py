@@ -40,7 +40,7 @@ def _asked(answer: "Answer") -> "Figure":
     """A panel for each column of numbers that was asked for."""
     panels = [_column(name) for name, values in answer.columns.items() if values.dtype.kind == "f"]
     if not panels:
-        raise DomainError("nothing that varies over time was asked for: ask for a column, such as "
+        raise DomainError("no column of numbers over time was asked for: ask for one, such as "
                           f"{next(iter(FACTS[answer.scene['kind']].columns))}, to have a figure")
     figure = stacked(answer, panels)
     mark_stop(figure, answer, len(panels))

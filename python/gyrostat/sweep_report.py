@@ -129,13 +129,25 @@ def _unexplained(x: Floats, y: Floats) -> float:
     return float(np.sum(residual**2 / np.maximum(1 - np.sum(base**2, axis=1), ROUNDINGS)))
 
 
+def _drawn_for_themselves(dataset: "xarray.Dataset") -> NDArray[np.bool_]:
+    """Of the design saltelli the two rows of each point of which the others are mixtures; else all rows."""
+    rows, study = dataset["row"].values, json.loads(dataset.attrs.get("study", "{}"))
+    every: NDArray[np.bool_] = np.ones(len(rows), dtype=bool)
+    if study.get("design") != "saltelli" or study["cases"] or not all(isinstance(read_words(text), Spread) for text in study["vary"].values()):
+        return every
+    own: NDArray[np.bool_] = rows % (len(study["vary"]) + 2) < 2
+    return own if own.sum() >= ENOUGH else every
+
+
 def variance_shares(dataset: "xarray.Dataset", response: Response) -> dict[str, float]:
     """Share of the response's variance that each parameter explains by itself, of any smooth shape, rising or not: by a curve over the parameter, less what
     chance makes of it, at least 0; NaN where one of them is constant, and of fewer than ENOUGH rows. Of random rows, of which the first MOST_ROWS are looked
-    at, it estimates the first Sobol index: of hundreds to some hundredths, of ten thousands to some thousandths."""
+    at, it estimates the first Sobol index: of hundreds to some hundredths, of ten thousands to some thousandths. Of the design saltelli those rows that
+    are drawn for themselves count."""
     made = {}
+    own = _drawn_for_themselves(dataset)
     for key, values in parameters(dataset).items():
-        known = np.isfinite(response.values) & np.isfinite(values.values)
+        known = own & np.isfinite(response.values) & np.isfinite(values.values)
         x, y = values.values[known][:MOST_ROWS], response.values[known][:MOST_ROWS]
         made[key] = math.nan
         if len(y) < ENOUGH:

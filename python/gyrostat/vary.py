@@ -65,8 +65,9 @@ class Axis:
 
     def __post_init__(self) -> None:
         _require_numbers("a grid", self.arguments)
-        if isinstance(self.count, bool) or not isinstance(self.count, int):
+        if isinstance(self.count, bool) or not isinstance(self.count, int | np.integer):
             raise DomainError(f"a grid: {self.count!r} is no whole number of values")
+        object.__setattr__(self, "count", int(self.count))
         if not self.arguments:
             raise DomainError("a grid: give at least one value")
 
@@ -185,7 +186,7 @@ def read_words(text: str) -> Varied:
     text = text.strip()
     if found := re.fullmatch(r"([a-z]+)\s*\((.*)\)", text):
         word = _WORDS.get(found[1])
-        arguments = [_number(part.strip()) for part in found[2].split(",")]
+        arguments = [_number(part.strip().strip("\"'")) for part in found[2].split(",")]
         if word is not None and all(argument != "" for argument in arguments) and (word is choice or len(arguments) == 2):
             return word(*arguments)
         if word is not None:
@@ -331,9 +332,13 @@ def read_cases(file: str | os.PathLike[str]) -> dict[str, tuple[Number, ...]]:
     keys = [key.strip() for key in lines[0][1]]
     if twice := next((key for key in keys if keys.count(key) > 1), None):
         raise DomainError(f"{file}: {twice} is there twice")
+    if len(keys) == 1 and ";" in keys[0]:
+        raise DomainError(f"{file}: part the keys and numbers by commas, not by ;")
     for number, line in lines[1:]:
         if len(line) != len(keys):
             raise DomainError(f"{file}: line {number} has {len(line)} values, the first line {len(keys)} keys")
+        if empty := next((key for key, part in zip(keys, line, strict=True) if not part.strip()), None):
+            raise DomainError(f"{file}: line {number} has no value of {empty}")
     return {key: tuple(_number(line[i].strip()) for _, line in lines[1:]) for i, key in enumerate(keys)}
 
 

@@ -462,6 +462,9 @@ def test_parts_that_are_damaged_are_done_again(tmp_path: Path, harm: str) -> Non
 
 
 def test_what_is_put_together_has_each_row_once(tmp_path: Path) -> None:
+    for wrong in ([3], "none.nc"):
+        with pytest.raises(DomainError, match="parts are files|no such file"):
+            merge(wrong)  # type: ignore[arg-type]
     part = light(shard=(2, 2))
     for rows in ([0, 1, 1, *range(2, 30)], [0, *range(2, 30)], [1, 0, *range(2, 30)], [*range(14), *range(15, 30), 29]):
         with pytest.raises(DomainError, match="rows are missing in it, or there twice, or out of their order|missing"):
@@ -580,6 +583,30 @@ def test_cases_come_from_a_table(good: str, tmp_path: Path) -> None:
     (tmp_path / "cases.csv").write_text("torque.drag\n")
     with pytest.raises(DomainError, match="first line"):
         sweep(file)
+
+
+def test_a_table_of_cases_with_gaps_or_other_separators_is_told_where(tmp_path: Path) -> None:
+    file = tmp_path / "cases.csv"
+    for text, told in {"torque.drag,body.mass\n1e-6,\n": "line 2 has no value of body.mass", "torque.drag;body.mass\n1;2\n": "by commas, not by ;"}.items():
+        file.write_text(text)
+        with pytest.raises(DomainError, match=f"cases.csv: .*{told}"):
+            sweep("tiangong-1", cases=file)
+
+
+def test_words_may_be_quoted_and_counts_be_those_of_numpy() -> None:
+    assert read_words("choice('total', \"carrier\")") == read_words("choice(total, carrier)")
+    assert linspace(0, 1, np.int64(3)) == linspace(0, 1, 3)  # type: ignore[arg-type]
+
+
+def test_the_shares_of_saltelli_rows_are_those_of_independent_ones() -> None:
+    """The mixtures of a point share its numbers: what explains nothing would seem to explain a hundredth."""
+    plan = gyrostat.load("stage-despin-study").to_dict()
+    plan.pop("vary")
+    vary = {"torque.control[0]": "uniform(0.9, 1.1)", "torque.control[1]": "uniform(0.9, 1.1)", "body.inertia[0]": "normal(4000, 0.1%)"}
+    found = sweep(plan, vary, n=5 * 256, design="saltelli", ask=["angular_momentum_norm"], times=[10.0])
+    own = found.isel(row=found["row"].values % 5 < 2)
+    for each, alone in zip(responses(found), responses(own), strict=True):
+        assert variance_shares(found, each) == variance_shares(own, alone)
 
 
 def test_cases_of_a_scene_from_the_standard_input_stand_in_the_working_folder(tmp_path: Path) -> None:
