@@ -19,13 +19,15 @@ namespace gyrostat::deceleration {
 
 /// Collects at some levels along a mean motion what its error is made of (SecondOrder), and says how large it is.
 /// First order leaves out the oscillation and f2; second order leaves out the oscillation of second order and, in the
-/// phase, that of first. The factors are measured (docs/errors.md).
+/// phase, that of first and the drift that its own error of the level makes. The factors are measured (docs/errors.md).
 template <class Elliptic>
 class OrbitError {
  public:
   static constexpr double first_factor = 6, second_factor = 15, crossing_factor = 4;
+  static constexpr double phase_factor = 3, drift_factor = 2;  // of M
 
-  explicit OrbitError(const Problem<double>& problem) noexcept : problem_(problem) {}
+  /// second: whether the errors of second order are wanted
+  OrbitError(const Problem<double>& problem, bool second) noexcept : problem_(problem), wants_second_(second) {}
 
   /// Looks at a level of the motion at time t, s, unless one like it was seen just before.
   void visit(const Level<double>& level, Component component, double t) noexcept {
@@ -71,7 +73,7 @@ class OrbitError {
   }
   SlowError<double> second_order_error() const noexcept {
     const double f = second_factor;
-    return {f * second_.norm, f * second_.energy, std::min(1.0, f * second_.k2), f * (second_.vector + second_.norm)};
+    return {f * second_.norm, f * second_.energy, std::min(1.0, f * second_.k2), second_.vector + f * second_.norm};
   }
 
  private:
@@ -93,18 +95,27 @@ class OrbitError {
     drift_h_ += (std::abs(s->second.h) + std::abs(s->first.h) * (s->oscillation.R + drift_R_) / level.R) * span;
     keep(first_.norm, s->oscillation.R);
     keep(first_.energy, s->oscillation.h);
-    keep(second_.norm, std::max(s->second_oscillation.R, s->oscillation.R * shift));
-    keep(second_.energy, std::max(s->second_oscillation.h, s->oscillation.h * shift));
     keep(first_.k2, k2_swing(*s, level, component, s->oscillation.R, s->oscillation.eta));
-    keep(second_.k2, k2_swing(*s, level, component, s->second_oscillation.R, s->second_oscillation.eta));
+    const double size = std::sqrt(std::max(0.0, transverse(s->orbit)));
+    if (wants_second_) take_second(*s, level, component, shift, size, span);
     if (!(t > 0)) {
       const double f = first_factor;
       unclear_ = !(k2_swing(*s, level, component, f * s->oscillation.R, f * s->oscillation.eta) < 1);
     }
-    const double size = std::sqrt(std::max(0.0, transverse(s->orbit)));
     swing_aside(*s, size, span);
-    keep(second_.vector, 2 * pi<double> * size * s->phase_oscillation);
     keep(change_, s->phase_oscillation);
+  }
+
+  /// size: of the orbit, N m s.
+  void take_second(const SecondOrder<double, Elliptic>& s, const Level<double>& level, Component component,
+                   double shift, double size, double span) noexcept {
+    const double R = std::max(s.second_oscillation.R, s.oscillation.R * shift);
+    const double eta = std::max(s.second_oscillation.eta, s.oscillation.eta * shift);
+    keep(second_.norm, R);
+    keep(second_.energy, std::max(s.second_oscillation.h, s.oscillation.h * shift));
+    keep(second_.k2, k2_swing(s, level, component, s.second_oscillation.R, s.second_oscillation.eta));
+    drift_phase_ += detuning(s, level, component, R, eta) * span;
+    keep(second_.vector, 2 * pi<double> * size * (phase_factor * s.phase_oscillation + drift_factor * drift_phase_));
   }
 
   static void keep(double& greatest, double value) noexcept {
@@ -193,6 +204,19 @@ class OrbitError {
     return most;
   }
 
+  /// Change of the rate of the phase, turns per second, when the level moves by (dR, deta).
+  double detuning(const SecondOrder<double, Elliptic>& s, const Level<double>& level, Component component, double dR,
+                  double deta) const noexcept {
+    const double rate = 1 / s.orbit.period();
+    double change = 0;
+    for (const auto& moved : {Level<double>{level.R + dR, level.eta}, Level<double>{level.R, level.eta + deta},
+                              Level<double>{level.R, level.eta - deta}}) {
+      const auto orbit = Orbit<double, Elliptic>::at(problem_, moved, component);
+      change += orbit ? std::abs(1 / orbit->period() - rate) : rate;
+    }
+    return change;
+  }
+
   /// Change of k2 when the level moves by (dR, deta).
   double k2_swing(const SecondOrder<double, Elliptic>& s, const Level<double>& level, Component component, double dR,
                   double deta) const noexcept {
@@ -208,11 +232,11 @@ class OrbitError {
 
   const Problem<double>& problem_;
   SlowError<double> first_{}, second_{};
-  double drift_R_ = 0, drift_h_ = 0, last_ = 0, last_opposed_ = 0, last_R_ = 0, change_ = 0;
+  double drift_R_ = 0, drift_h_ = 0, drift_phase_ = 0, last_ = 0, last_opposed_ = 0, last_R_ = 0, change_ = 0;
   math::Modulus<double> last_modulus_{1, 0};
   double last_period_ = infinity<double>;
   Level<double> sure_;
-  bool known_ = true, unclear_ = false;
+  bool wants_second_, known_ = true, unclear_ = false;
 };
 
 namespace detail {
@@ -267,7 +291,7 @@ class SecondOrderOrbit {
         monitor_(monitor),
         phase_error_(std::max(1e-7, mean_phase_error(scene))),  // the noise of f2, as below
         step_cap_(steps_worth(scene, averaged_2_orbit_step, Rates::step_cap)),
-        error_(problem_),
+        error_(problem_, true),
         motion_(problem_, start.level, start.component, start.phase, tolerance, phase_error_, Rates{orbit}, step_cap_) {
     error_.visit(start.level, start.component, 0);
   }
@@ -393,7 +417,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   if (!orbit) return detail::refused(detail::not_followed(orbit.error()));
 
   Track track;
-  OrbitError<Elliptic> error(problem);
+  OrbitError<Elliptic> error(problem, false);
   const auto visit = [&](const Level<double>& level, Component component, double t) {
     error.visit(level, component, t);
   };
