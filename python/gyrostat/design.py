@@ -47,19 +47,20 @@ Vectors = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """What can be designed: the quantity sought and the one that the budget limits, with their units."""
+    """What can be designed: the quantity sought, with the key of the scene that it changes, and the one that the budget limits, with their units."""
 
     quantity: str
+    key: str
     unit: str
     measure: str
     budget_unit: str
 
 
 GOALS: Final[dict[str, Goal]] = {
-    "spin-for-pointing": Goal("least spin rate", "rad/s", "lean under the torque", "rad"),
-    "torque-for-direction": Goal("greatest transverse torque", "N m", "direction of the velocity from axis 3", "rad"),
-    "burn-for-displacement": Goal("longest burn", "s", "displacement across axis 3", "m"),
-    "burn-for-velocity": Goal("longest burn", "s", "change of velocity", "m/s"),
+    "spin-for-pointing": Goal("least spin rate", "initial.angular_velocity", "rad/s", "lean under the torque", "rad"),
+    "torque-for-direction": Goal("greatest transverse torque", "torque.body", "N m", "direction of the velocity from axis 3", "rad"),
+    "burn-for-displacement": Goal("longest burn", "solve.duration", "s", "displacement across axis 3", "m"),
+    "burn-for-velocity": Goal("longest burn", "solve.duration", "s", "change of velocity", "m/s"),
 }
 WHY: Final = {
     "no-torque": "no torque acts across axis 3: there is nothing to design against",
@@ -192,10 +193,6 @@ class SceneDesign:
             "scene": self.scene.to_dict(),
         }
 
-# By goal: the key of the scene that is designed.
-DESIGNED: Final = {"spin-for-pointing": "initial.angular_velocity", "torque-for-direction": "torque.body", "burn-for-displacement": "solve.duration",
-                   "burn-for-velocity": "solve.duration"}
-
 
 def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | None = None) -> SceneDesign:
     """Design a scene of a spinning body for a budget, put the value into it, solve it, and measure the budget on its full motion.
@@ -230,7 +227,7 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
     if not tilt <= SMALL_TILT:
         much = f"the tilt may reach {tilt:.3g} rad" if math.isfinite(tilt) else "the tilt grows for ever"
         warnings.insert(0, f"beyond-small-tilt: {much}, and the design is by the linear motion, which holds for small tilt")
-    if varied := [key for key in scene.vary if key.split("[")[0].split(".")[-1] == DESIGNED[goal].split(".")[-1]]:
+    if varied := [key for key in scene.vary if key.split("[")[0].split(".")[-1] == GOALS[goal].key.split(".")[-1]]:
         warnings.append(f"varies-as-before: the table [vary] still says {', '.join(f'{key} = {scene.vary[key]}' for key in varied)}, and a sweep of the designed scene "
                         "goes by that: change it")
     checked = spinning.arguments(designed)
@@ -267,10 +264,10 @@ def _designed(scene: Scene, given: Mapping[str, Any], goal: str, value: float) -
     elif goal == "torque-for-direction":
         M = given["torque"]
         made = [*(value * M[:2] / math.hypot(M[0], M[1])).tolist(), 0.0]
-    changes = {DESIGNED[goal]: made}
-    if DESIGNED[goal] == "solve.duration":
-        changes["solve.samples"] = max(2, len(given["times"]))
     quantity = GOALS[goal]
+    changes = {quantity.key: made}
+    if quantity.key == "solve.duration":
+        changes["solve.samples"] = max(2, len(given["times"]))
     note = f"{quantity.quantity} {value!r} {quantity.unit} by gyrostat design --{goal}"
     return scene.replace(source=f"{scene.source}; {note}" if scene.source else note, **changes)
 

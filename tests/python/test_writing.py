@@ -27,6 +27,9 @@ def test_what_is_no_plain_file_is_written_itself(tmp_path: Path) -> None:
     (tmp_path / "link.txt").symlink_to(tmp_path / "real.txt")
     write_text(tmp_path / "link.txt", "new")
     assert (tmp_path / "link.txt").is_symlink() and (tmp_path / "real.txt").read_text() == "new"
+    (tmp_path / "real.txt").chmod(0o600)
+    write_text(tmp_path / "real.txt", "newer")
+    assert (tmp_path / "real.txt").stat().st_mode & 0o777 == 0o600
     write_text("/dev/null", "gone")
     assert not Path("/dev/null").is_file()
 
