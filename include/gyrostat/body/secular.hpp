@@ -247,6 +247,7 @@ class Secular {
     using std::abs, std::copysign, std::isfinite, std::sqrt;
     const Scalar side = lo + hi > 0 ? Scalar(1) : Scalar(-1);
     const Scalar constant = R_ * (R_ * a_[origin] - 2 * eta);
+    const Scalar parts = R_ * (abs(R_ * a_[origin]) + abs(2 * eta));  // whose rounding `constant` has
     const Scalar weight = g2_[origin];
     Scalar x = (lo + hi) / 2;
     if (slope > 0) {
@@ -265,7 +266,7 @@ class Secular {
     constexpr int trips = native ? 100 : 300;
     const Scalar noise = (native ? 4 : 32) * epsilon<Scalar>;
     for (int trip = 0; trip < trips; ++trip) {
-      Scalar rest = constant + R_ * R_ * x, steep = R_ * R_, size = abs(constant) + abs(R_ * R_ * x);
+      Scalar rest = constant + R_ * R_ * x, steep = R_ * R_, size = parts + abs(R_ * R_ * x);
       for (int i = 0; i < 3; ++i)
         if (i != origin && active(i)) {
           const Scalar inverse = 1 / (gap_[origin][i] - x), term = g2_[i] * inverse;

@@ -392,6 +392,24 @@ TEST_CASE("small momentum: regular as R -> 0", "[deceleration]") {
   }
 }
 
+TEST_CASE("a level within rounding of an equilibrium's has an orbit", "[deceleration]") {
+  const V a(8035.0582867391722, 8676.3189897155808, 9268.5726525713162);
+  Problem<double> p;
+  p.inverse_inertia = a;
+  p.rotor_momentum.setZero();
+  for (int i = 0; i < 2000; ++i) {
+    const double R = 1.5e-4 * (1 + 1e-4 * i);
+    for (const auto& [axis, regime] : {std::pair{0, Regime::about_largest}, std::pair{2, Regime::about_smallest}})
+      for (int ulps = -3; ulps <= 3; ++ulps) {
+        const double eta = R * a[axis] / 2 * (1 + ulps * epsilon<double> / 2);
+        const auto orbit = Orbit<double>::at(p, {R, eta}, {regime, -1});
+        REQUIRE(orbit);
+        CHECK(orbit->modulus().k2 < 1e-12);
+        CHECK(orbit->lobe() == regime);
+      }
+  }
+}
+
 TEST_CASE("bad arguments", "[deceleration]") {
   const auto p = body({1.4, 1, .7}, {.2, .15, .3});
   CHECK(Orbit<double>::through(p, {0, 0, 0}).error() == Errc::zero_vector);

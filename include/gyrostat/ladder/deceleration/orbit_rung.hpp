@@ -217,15 +217,20 @@ class OrbitError {
     return change;
   }
 
-  /// Change of k2 when the level moves by (dR, deta).
+  /// Change of k2 when the level moves by (dR, deta): all of it where that leads from the lobes about one axis to those about the other,
+  /// however small k2 is in both.
   double k2_swing(const SecondOrder<double, Elliptic>& s, const Level<double>& level, Component component, double dR,
                   double deta) const noexcept {
+    const auto is_across = [](Regime from, Regime to) {
+      return (from == Regime::about_largest && to == Regime::about_smallest) ||
+             (from == Regime::about_smallest && to == Regime::about_largest);
+    };
     const double k2 = s.orbit.modulus().k2;
     double swing = 0;
     for (const auto& moved : {Level<double>{level.R + dR, level.eta}, Level<double>{level.R, level.eta + deta},
                               Level<double>{level.R, level.eta - deta}}) {
       const auto orbit = Orbit<double, Elliptic>::at(problem_, moved, component);
-      swing += orbit ? std::abs(orbit->modulus().k2 - k2) : 1.0;
+      swing += orbit && !is_across(s.orbit.lobe(), orbit->lobe()) ? std::abs(orbit->modulus().k2 - k2) : 1.0;
     }
     return std::min(1.0, swing);
   }
@@ -430,6 +435,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   const Hold<double> hold(problem);
   const bool passes = hold.driven && !hold.holds;
   double standing = 0;  // of |U|, where the motion is not followed into the stop
+  bool without_orbit = false;
   for (const double t : scene.question().times) {
     if (motion.advance(t, 0, visit) != ode::Status::reached)
       return not_worth() ? refused<Track>(Errc::not_applicable, detail::steps_not_worth)
@@ -442,11 +448,13 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
           "carrier on: there the averages end");
     if (!std::isfinite(now.level.R)) return detail::refused(detail::not_followed(Errc::separatrix));
     track.states.push_back(detail::slow_state(problem, now.level, now.component, now.at_rest));
+    without_orbit = without_orbit || std::isnan(track.states.back().k2);
     if (t == scene.question().times.back() && !now.at_rest) error.look(now.level, now.component, t);
     if (motion.stands()) standing = motion.opposed();
   }
   const double end = scene.question().times.back();
-  const bool known = error.known();
+  const auto doubtful = [&] { return !error.known() || motion.doubtful(); };
+  const bool doubtful_in_time = doubtful();
   detail::errors_of_averages(track, scene, error, motion.crossing(), standing);
 
   const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
@@ -467,11 +475,12 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
            !detail::take_stop(track, scene, motion, visit, breakdown, doubt, opposed) && not_worth())
     return refused<Track>(Errc::not_applicable, detail::steps_not_worth);
   if (low || end >= track.stop_time || motion.changed_by(end)) track.error[column::modulus_squared] = 1;
+  if (without_orbit) track.error[column::modulus_squared] = infinity<double>;
   if (motion.changed_component()) track.warn(warning::crosses_separatrix);
-  if (!known || error.start_is_unclear() || motion.doubtful() || !(small_parameter(scene) < 0.1) ||
+  if (doubtful_in_time || error.start_is_unclear() || !(small_parameter(scene) < 0.1) ||
       !(breakdown <= scene.opposed().norm() / 3))
     track.leave_domain();
-  else if (!error.known() && std::isfinite(track.stop_time)) track.stop_error = infinity<double>;
+  else if (doubtful() && std::isfinite(track.stop_time)) track.stop_error = infinity<double>;
   track.counts = motion.counts();
   detail::warn_of_start(track, scene, orbit->modulus().kp2);
   withhold_stop(track, scene);

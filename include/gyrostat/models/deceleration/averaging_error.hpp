@@ -27,6 +27,7 @@ template <Real Scalar>
 class AveragingError {
  public:
   static constexpr Scalar first_order_factor = 3, second_order_factor = 5;
+  static constexpr Scalar phase_factor = 3, squeeze_factor = 9;  // of M
   static constexpr Scalar crossing_norm_factor = 1, crossing_k2_factor = 6;
 
   void visit(const Polhode<Scalar>& p, const ControlTorques<Scalar>& b, const MeanTorque<Scalar>& mean, Scalar drag,
@@ -59,7 +60,7 @@ class AveragingError {
     // The phase oscillates by the part of `change` in which the axes differ; M moves by as much of its own swing.
     const Scalar uneven = most > 0 ? (most - least) / most : Scalar(0);
     const Scalar swing = std::min(Scalar(1), 3 * std::sqrt(tilt * p.axes.near_far / p.axes.near_mid));
-    keep(second_.vector, norm * (Scalar(.6) * uneven * change * swing + Scalar(1.8) * squeeze));
+    keep(second_.vector, norm * (phase_factor * uneven * change * swing + squeeze_factor * squeeze));
     keep(change_, change);
     keep(squeeze_, squeeze);
   }
@@ -83,7 +84,7 @@ class AveragingError {
   SlowError<Scalar> second_order() const noexcept {
     const Scalar f = second_order_factor;
     return {f * second_.norm, f * second_.energy, std::min(Scalar(1), f * second_.k2),
-            f * (second_.vector + second_.norm)};
+            second_.vector + f * second_.norm};
   }
 
   Scalar greatest_change() const noexcept { return change_; }    ///< relative, in one quarter period

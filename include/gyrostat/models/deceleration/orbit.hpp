@@ -115,6 +115,8 @@ class Orbit {
   Regime regime() const noexcept { return regime_; }
   int branch() const noexcept { return branch_; }
   Component component() const noexcept { return {regime_, branch_}; }
+  /// The same regime, and at an equilibrium that of the lobes about it: about_largest at a least energy, about_smallest at a greatest.
+  Regime lobe() const noexcept { return regime_ == Regime::point ? lobe_ : regime_; }
   math::Modulus<Scalar> modulus() const noexcept { return modulus_; }
   Scalar rate() const noexcept { return rate_; }             ///< du/dt, rad/s
   Scalar quarter_period() const noexcept { return K_; }      ///< of u: K
@@ -557,6 +559,7 @@ class Orbit {
     }
     v.normalize();
     regime_ = Regime::point;
+    lobe_ = mirrored ? Regime::about_smallest : Regime::about_largest;
     branch_ = branch;
     level_.eta = (mirrored ? -1 : 1) * q.level(place);
     v_even_ = unmirrored(Vec4(v[0], v[1], v[2], Scalar(1)), mirrored);
@@ -573,7 +576,7 @@ class Orbit {
   }
 
   Level<Scalar> level_;
-  Regime regime_ = Regime::separatrix;
+  Regime regime_ = Regime::separatrix, lobe_ = Regime::separatrix;
   int branch_ = 0, quarter_ = 0;
   math::Modulus<Scalar> modulus_;
   Scalar rate_ = 0, K_ = 0;
