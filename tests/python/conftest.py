@@ -11,6 +11,10 @@ from typing import Any, TypeVar
 
 import pytest
 
+# Tests run side by side: threads of the linear algebra would only wait for each other. To be set before numpy is imported.
+for threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(threads, "1")
+
 if sys.dont_write_bytecode:
     # Beside the sources none is wanted; without any, each worker and each command that a test starts compiles all that it imports.
     sys.dont_write_bytecode = False
