@@ -87,6 +87,14 @@ def test_a_torque_that_is_switched_is_not_drawn_across_the_switch() -> None:
     assert len(alone.get_xdata()) == 2
 
 
+def test_angles_of_the_attitude_are_drawn_in_degrees() -> None:
+    answer = gyrostat.solve("cubesat-three-wheels", ask=["euler"], **{"solve.euler": "3-2-1"})
+    panels = drawn(answer.plot())
+    (angles,) = [axes for axes in panels if "3-2-1" in axes.get_title(loc="left")]
+    assert angles.get_ylabel() == "a [deg]"
+    assert angles.lines[0].get_ydata()[0] == pytest.approx(np.degrees(answer["euler"][0, 0]))
+
+
 def test_a_map_of_one_time_shows_all_that_its_legend_names() -> None:
     axes = gyrostat.solve("pam-d-burn", times=[50.0]).plot().axes[0]
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()

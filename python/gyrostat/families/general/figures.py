@@ -209,6 +209,14 @@ def _attitude(column: str, title: str) -> Panel:
     return draw
 
 
+def _euler(sequence: str) -> Panel:
+    def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
+        components(axes, t, np.degrees(answer["euler"]), "a", "deg", f"Angles of the attitude, {sequence}")
+        note(axes, error_text(answer, "euler"))
+
+    return draw
+
+
 _VECTORS: Final[tuple[tuple[str, str, str, str], ...]] = (
     ("angular_velocity", "ω", "rad/s", "Angular velocity, body axes"), ("angular_momentum", "M", "N m s", "Angular momentum, body axes"),
     ("angular_momentum_inertial", "M", "N m s", "Angular momentum, inertial axes"), ("torque", "τ", "N m", "External torque, body axes"),
@@ -223,7 +231,7 @@ def _panels(answer: "Answer", given: Mapping[str, Any]) -> list[Panel]:
     names = [str(wheel.get("name") or place) for place, wheel in enumerate(given["wheels"], 1)]
     made: list[Panel] = [vector(*_VECTORS[0])] if "angular_velocity" in answer.columns else []
     made += [_attitude(column, title) for column, title in _ATTITUDES if column in answer.columns][:1]
-    made += [vector("euler", "a", "rad", f"Angles of the attitude, {given['euler']}")] if "euler" in answer.columns else []
+    made += [_euler(given["euler"])] if "euler" in answer.columns else []
     made += [wheels_panel(*kind, names) for kind in _WHEELS if kind[0] in answer.columns]
     made += [_torque(kind, _jumps(given)) if kind[0] == "torque" else vector(*kind) for kind in _VECTORS[1:] if kind[0] in answer.columns]
     return made + [_single(*kind) for kind in _SINGLES if kind[0] in answer.columns]
