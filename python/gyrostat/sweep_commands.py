@@ -14,7 +14,7 @@ from gyrostat.console import Progress, check_output, say, show_table
 from gyrostat.errors import DomainError
 from gyrostat.scenes import Scene
 from gyrostat.sweep_files import import_xarray, open_results, save, writer_of
-from gyrostat.sweep_report import in_words, save_figures, shares, tables
+from gyrostat.sweep_report import dependences, in_words, save_figures, shares, tables
 from gyrostat.sweeps import Study, answered, merge
 
 if TYPE_CHECKING:
@@ -151,10 +151,11 @@ def _report(arguments: argparse.Namespace) -> int:
     for key, values in dataset.data_vars.items():
         if values.attrs.get("role") == "parameter":
             say(f"{key}: {values.attrs['varied']}", sys.stdout)
-    for table in tables(dataset):
+    depends = dependences(dataset)
+    for table in tables(dataset, depends):
         show_table(*table, sys.stdout)
     if arguments.output is not None:
-        files = list(save_figures(dataset, arguments.output))
+        files = list(save_figures(dataset, arguments.output, depends))
         for file in files:
             say(f"wrote {file}", sys.stdout)
         if not files:

@@ -3,7 +3,7 @@
 
 import json
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Index", "Response", "drawings", "missed_by", "rank_correlations", "responses", "save_figures", "shares", "sobol_indices", "tables", "variance_shares"]
+__all__ = ["Dependence", "Index", "Response", "dependences", "drawings", "missed_by", "rank_correlations", "responses", "save_figures", "shares", "sobol_indices", "tables", "variance_shares"]
 
 PERCENTILES: Final = (1, 5, 25, 50, 75, 95, 99)
 ROUNDINGS: Final = 1e-12  # a spread this small beside the values cannot be cut into bins
@@ -160,11 +160,23 @@ def variance_shares(dataset: "xarray.Dataset", response: Response) -> dict[str, 
     return made
 
 
-def _strength(dataset: "xarray.Dataset", response: Response) -> dict[str, float]:
-    """How much a response hangs on each parameter: the greater of the size of its rank correlation and its share of the variance; known ones alone."""
-    ranked, explained = rank_correlations(dataset, response), variance_shares(dataset, response)
-    made = {key: max((size for size in (abs(ranked[key]), explained[key]) if math.isfinite(size)), default=math.nan) for key in ranked}
-    return {key: size for key, size in made.items() if math.isfinite(size)}
+@dataclass(frozen=True, slots=True)
+class Dependence:
+    """How a response hangs on each parameter: its rank correlation, and the share of its variance; NaN where that is not known."""
+
+    ranked: dict[str, float]
+    explained: dict[str, float]
+
+    @property
+    def strength(self) -> dict[str, float]:
+        """The greater of the size of the correlation and the share; known ones alone."""
+        made = {key: max((size for size in (abs(self.ranked[key]), self.explained[key]) if math.isfinite(size)), default=math.nan) for key in self.ranked}
+        return {key: size for key, size in made.items() if math.isfinite(size)}
+
+
+def dependences(dataset: "xarray.Dataset") -> dict[str, Dependence]:
+    """That of each response, by its label. Of many rows it costs more than all else of a report: tables and figures share it."""
+    return {each.label: Dependence(rank_correlations(dataset, each), variance_shares(dataset, each)) for each in responses(dataset)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -241,8 +253,9 @@ def _percent(share: float) -> str:
     return f"{100 * share:.4g} %"
 
 
-def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
-    """Title, heads and rows of each table of the report."""
+def tables(dataset: "xarray.Dataset", depends: Mapping[str, Dependence] | None = None) -> Iterator[Table]:
+    """Title, heads and rows of each table of the report. `depends`: of these results, where it is known already."""
+    depends = dependences(dataset) if depends is None else depends
     met = dataset["met"].values
     rows = []
     for name, share in shares(dataset["model"]).items():
@@ -263,11 +276,9 @@ def tables(dataset: "xarray.Dataset") -> Iterator[Table]:
     rows += [[each.label, each.unit, _percent(0), *["inf"] * len(PERCENTILES), "-"] for each in endless(dataset)]
     yield "Percentiles, of the rows in which it is finite", ["", "unit", "finite", *(f"{p} %" for p in PERCENTILES), "greatest error"], rows
     keys = list(parameters(dataset))
-    rows = [[each.label, *(f"{value:+.3f}" if math.isfinite(value) else "-" for value in rank_correlations(dataset, each).values())]
-            for each in responses(dataset)]
+    rows = [[label, *(f"{value:+.3f}" if math.isfinite(value) else "-" for value in each.ranked.values())] for label, each in depends.items()]
     yield "Rank correlations (which way it goes; blind to what rises and falls again)", ["", *keys], rows
-    rows = [[each.label, *(_percent(round(value, 3)) if math.isfinite(value) else "-" for value in variance_shares(dataset, each).values())]
-            for each in responses(dataset)]
+    rows = [[label, *(_percent(round(value, 3)) if math.isfinite(value) else "-" for value in each.explained.values())] for label, each in depends.items()]
     yield f"Share of the variance that each explains by itself, of any shape ({ENOUGH} rows or more)", ["", *keys], rows
     found = {each.label: sobol_indices(dataset, each) for each in responses(dataset)}
     yield "Sobol indices: share of the variance by itself / with all others, each with its standard error", ["", *sorted(keys)], [
@@ -372,12 +383,12 @@ def bands(dataset: "xarray.Dataset", columns: Sequence[tuple[str, Any]]) -> "Fig
     return figure
 
 
-def tornado(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
+def tornado(dataset: "xarray.Dataset", shown: Sequence[Response], depends: Mapping[str, Dependence]) -> "Figure":
     """Rank correlation of each response with each parameter, and its share of the variance, the strongest on top."""
     keys = list(parameters(dataset))
     figure, axes = _panels(len(shown), 11, 1.2 + 0.3 * len(keys), 2)
     for place, each in zip(axes, shown, strict=True):
-        ranked, explained, strength = rank_correlations(dataset, each), variance_shares(dataset, each), _strength(dataset, each)
+        ranked, explained, strength = depends[each.label].ranked, depends[each.label].explained, depends[each.label].strength
         names = sorted(strength, key=lambda key: strength[key])
         place.barh(names, [ranked[key] for key in names], color=[COLOURS[0] if ranked[key] > 0 else COLOURS[1] for key in names])
         place.plot([explained[key] for key in names], names, "kD", markersize=4)
@@ -391,14 +402,14 @@ def tornado(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
     return figure
 
 
-def scatter(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
+def scatter(dataset: "xarray.Dataset", shown: Sequence[Response], depends: Mapping[str, Dependence]) -> "Figure":
     """Each response over the parameter that it hangs on most, coloured by the rung that answered."""
     rungs = list(FACTS[dataset.attrs["kind"]].rungs)
     models = dataset["model"].values.astype(str)
     figure, axes = _panels(len(shown), 11, 3.4, 2)
     few = np.arange(0, len(models), -(-len(models) // MOST_DOTS))
     for place, each in zip(axes, shown, strict=True):
-        found = _strength(dataset, each)
+        found = depends[each.label].strength
         key = max(found, key=lambda name: found[name]) if found else next(iter(parameters(dataset)))
         values = parameters(dataset)[key]
         answered = few[models[few] != ""]
@@ -418,20 +429,21 @@ def scatter(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure":
     return figure
 
 
-def drawings(dataset: "xarray.Dataset") -> Iterator[Drawing]:
-    """Name of the file and figure of what these results can show."""
+def drawings(dataset: "xarray.Dataset", depends: Mapping[str, Dependence] | None = None) -> Iterator[Drawing]:
+    """Name of the file and figure of what these results can show. `depends` as in `tables`."""
+    known = dependences(dataset) if depends is None else depends
     shown = [each for each in responses(dataset) if np.ptp(each.values[np.isfinite(each.values)]) > 0][:MOST_PANELS]
     columns = [(name, values) for name, values in _quantities(dataset, True) if len(dataset["time"]) > 1
                and np.isfinite(values.values).reshape(len(values), -1).all(axis=1).any()]
     made: list[tuple[str, bool, Callable[[], Figure]]] = [
         ("histograms", bool(shown), lambda: histograms(dataset, shown)), ("bands", bool(columns), lambda: bands(dataset, columns)),
-        ("tornado", bool(shown), lambda: tornado(dataset, shown)), ("scatter", bool(shown), lambda: scatter(dataset, shown))]
+        ("tornado", bool(shown), lambda: tornado(dataset, shown, known)), ("scatter", bool(shown), lambda: scatter(dataset, shown, known))]
     yield from ((name, draw) for name, there, draw in made if there)
 
 
-def save_figures(dataset: "xarray.Dataset", folder: Path) -> Iterator[Path]:
-    """Writes the figures as PNG; yields their files."""
-    for name, draw in drawings(dataset):
+def save_figures(dataset: "xarray.Dataset", folder: Path, depends: Mapping[str, Dependence] | None = None) -> Iterator[Path]:
+    """Writes the figures as PNG; yields their files. `depends` as in `tables`."""
+    for name, draw in drawings(dataset, depends):
         folder.mkdir(parents=True, exist_ok=True)
         save(draw(), folder / f"{name}.png")
         yield folder / f"{name}.png"
