@@ -324,6 +324,8 @@ def _solve(arguments: argparse.Namespace) -> int:
             _write(answer.to_json(), arguments.output, "\n")
         case "csv":
             _write(answer.to_csv(), arguments.output)
+            if lacking := _asked_scalars(scene, answer):
+                say(f"CSV has columns alone, and not what was asked for that is one number: {', '.join(lacking)}; write JSON or NetCDF (.json, .nc)", sys.stderr)
         case "netcdf":
             answer.to_netcdf(arguments.output)
         case _ if arguments.output is not None:
@@ -337,6 +339,12 @@ def _solve(arguments: argparse.Namespace) -> int:
         answer.plot(arguments.plot)
         say(f"wrote {arguments.plot}", sys.stderr)
     return MET if answer.met else NOT_MET
+
+
+def _asked_scalars(scene: Scene, answer: "Answer") -> list[str]:
+    """Those that the scene asks for by name."""
+    ask = scene.tables["solve"].get("ask") or "all"
+    return [name for name in answer.scalars if name in ([ask] if isinstance(ask, str) else ask)]
 
 
 def _with_data_error(scene: Scene, answer: "Answer") -> "Answer":

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From a scene to its answer and to its chart."""
 
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
@@ -59,7 +62,22 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = Non
     answer = family.solve(**family.arguments(checked), **own, monitor=monitor)
     if data_error:
         answer = replace(answer, data_error=error_of_data(checked, answer, monitor=monitor))
-    return answer.of_scene(checked.told, off_orthonormal(checked.tables.get("initial", {})))
+    return _with_remedy(answer.of_scene(checked.told, off_orthonormal(checked.tables.get("initial", {}))), checked)
+
+
+def _with_remedy(answer: Answer, scene: Scene) -> Answer:
+    """Where the error of the start is too great, and is that of the scene before: by which tolerance of that it would not be."""
+    before, excess = scene.before, answer.greatest_error / answer.tolerance
+    if before is None or not 1 < excess < math.inf or all(each.code != "start-uncertain" for each in answer.warnings):
+        return answer
+    from gyrostat.families.general.before import end_of
+
+    end = end_of(before)
+    off = max(end.error["attitude"], end.error["angular_velocity"] / max(float(np.linalg.norm(end.angular_velocity)), 1e-300))
+    tolerance = min(float(before.tables["solve"]["tolerance"]), off) / (2 * excess)
+    remedy = f"; solve.tolerance = {tolerance:.0e} in {before.path.name if before.path else before.name} should do, with as much in those before it"
+    told = (replace(each, message=each.message + remedy) if each.code == "start-uncertain" else each for each in answer.warnings)
+    return replace(answer, warnings=tuple(told))
 
 
 def chart(scene: SceneLike, **overrides: Any) -> "Chart":

@@ -72,6 +72,12 @@ def test_solve_json_and_csv(scene_file: Path, capsys: pytest.CaptureFixture[str]
     assert status == 0 and [float(row["t"]) for row in rows] == answer["t"]
 
 
+def test_csv_tells_what_it_leaves_out(scene_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(capsys, "solve", str(scene_file), "--csv")[2] == ""
+    status, out, err = run(capsys, "solve", str(scene_file), "--csv", "--ask", "energy,stop_time")
+    assert status == 0 and out.startswith("t,energy\n") and "one number: stop_time; write JSON or NetCDF" in err
+
+
 def test_solve_writes_files(scene_file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("matplotlib")
     report, plot = tmp_path / "answer.txt", tmp_path / "plot.png"

@@ -3,6 +3,7 @@
 
 import copy
 import math
+import re
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -238,6 +239,28 @@ def test_wheels_without_a_name_are_not_taken_for_one_that_is_called_by_a_number(
     assert list(end) == ["2", 2]
     later = arguments(load(write(tmp_path, "second", going_on(first, "first.toml", solve={"times": [2.0]}))))
     assert [wheel["rate"] for wheel in later["wheels"]] == [end["2"][0], end[2][0]]
+
+
+def test_a_wheel_that_is_called_otherwise_is_not_left_at_rest(tmp_path: Path) -> None:
+    later = going_on(WHOLE, str(write(tmp_path, "first", WHOLE)))
+    later["wheel"][1]["name"] = "B"
+    with pytest.raises(DomainError, match="no wheel B, and b would go on nowhere"):
+        gyrostat.solve(later)
+    later["wheel"][1]["rate"] = 0.0
+    assert gyrostat.solve(later)["rotor_rate"][0, 1] == 0.0
+    later["wheel"] = [later["wheel"][0]]  # b is taken off
+    gyrostat.solve(later)
+
+
+def test_what_the_start_makes_too_great_is_told_with_the_tolerance_that_would_do(tmp_path: Path) -> None:
+    first = copy.deepcopy(WHOLE)
+    first["solve"]["tolerance"] = 1e-4
+    answer = gyrostat.solve(going_on(first, str(write(tmp_path, "first", first))))
+    (told,) = [warning.message for warning in answer.warnings if warning.code == "start-uncertain"]
+    found = re.search(r"solve.tolerance = (\S+) in first.toml should do", told)
+    assert not answer.met and found
+    first["solve"]["tolerance"] = float(found[1])
+    assert gyrostat.solve(going_on(first, str(write(tmp_path, "first", first)))).met
 
 
 def test_rates_are_kept_by_default(tmp_path: Path) -> None:

@@ -595,7 +595,18 @@ def _handed_on(wheels: list[dict[str, Any]], end: End) -> tuple[list[dict[str, A
             wheel = {**wheel, "rate": found[0]}
             taken.append(place)
         made.append(wheel)
+    _check_names(wheels, end)
     return made, taken
+
+
+def _check_names(wheels: Sequence[Mapping[str, Any]], end: End) -> None:
+    """Against a wheel that the scene before calls otherwise: it would begin at rest, and what it had be lost."""
+    called = [wheel["name"] or place for place, wheel in enumerate(wheels, 1)]
+    left = [name for name in end.wheels if name not in called]
+    for name, wheel in zip(called, wheels, strict=True):
+        if left and name not in end.wheels and wheel["type"] != "locked" and wheel["rate"] is UNSET and wheel["momentum"] is UNSET:
+            raise DomainError(f"from: the scene before has no wheel {name}, and {', '.join(map(str, left))} would go on nowhere: give the wheel the name that it has "
+                              "there, or a rate of its own")
 
 
 def _caught(end: End, whole: _Whole, body: Mapping[str, Any], wheels: list[dict[str, Any]], taken: list[int], time: float) -> tuple[Floats, float]:
