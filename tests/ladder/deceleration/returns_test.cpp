@@ -262,6 +262,33 @@ TEST_CASE("averaging knows when the oscillation leads over to the lobes about an
   }
 }
 
+TEST_CASE("a body without rotors and with actuators off its axes goes over its separatrix, and to rest",
+          "[deceleration]") {
+  Named given;
+  given.inertia << 42000, 150, 0, 150, 41000, 0, 0, 0, 5600;
+  given.asked.control = V(.003, .0025, .001);
+  given.asked.drag = 2e-8;
+  given.asked.momentum = given.inertia * V(.0436, .007, .0175);
+  for (const double end : {3e5, 3.5e5, 6e5, 7e5}) {  // before, behind, and after the stop
+    given.asked.times = until(end);
+    const Answer named = solved(given, rung::averaged, 1e-3), truth = solved(given, rung::full, 1e-10);
+    check_honest(named, truth);
+    CHECK(named.find("angular_momentum_norm")->error < (end < 3e5 ? 1e-3 : .4));
+    CHECK(std::abs(quantity(named, "stop_time") - quantity(truth, "stop_time")) < 100);
+  }
+}
+
+TEST_CASE("equal controls about an axis act along any axes across it", "[deceleration]") {
+  Named given;
+  given.inertia << 42000, 150, 0, 150, 41000, 0, 0, 0, 5600;
+  given.asked.momentum = given.inertia * V(.0436, .007, .0175);
+  given.asked.times = {1e3};
+  for (const double b : {.3, .003, .7, 1e-6}) {
+    given.asked.control = V(b, b, b / 3);
+    CHECK(make_scene(*Inertia<double>::from_tensor(given.inertia), given.asked)->principal_control());
+  }
+}
+
 TEST_CASE("a torque that tears the carrier off is no torque to average", "[deceleration]") {
   Case c;  // drag |l| is a hundred times the control
   c.moments = V(33.045, 591.148, 561.463);

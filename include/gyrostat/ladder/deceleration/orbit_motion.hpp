@@ -46,7 +46,7 @@ struct OrbitEquations {
     const Level<Scalar> at = level(y);
     const auto mean = rates.at(problem, at, followed);
     if (!mean) {
-      failure = mean.error();
+      if (std::isfinite(at.R) && std::isfinite(at.eta)) failure = mean.error();
       dy.fill(nan<Scalar>);
       return;
     }
@@ -343,7 +343,11 @@ class OrbitMotion {
       const Scalar moved = std::abs(to.eta - from.eta) / range + std::abs(to.R - from.R) / to.R;
       if (moved < band->separatrix_distance() / 4) return doubtful_ = true;
     }
-    if (problem.rotor_momentum.isZero(0)) return true;  // lobes mirror each other
+    if (problem.rotor_momentum.isZero(0)) {  // lobes mirror each other
+      for (const Component& side : {around_, now})
+        if (const auto flow = inflow_at_saddle(problem, to.R, side)) crossing_ += std::abs(*flow);
+      return true;
+    }
     const Regime lobes = now.regime == Regime::one_component ? around_.regime : now.regime;
     const auto next = capture(problem, to.R, lobes, around_);
     if (next && next->determined()) {

@@ -17,6 +17,22 @@
 /// Rungs `averaged` and `averaged-2` with rotor momentum, or with actuators off the principal axes.
 namespace gyrostat::deceleration {
 
+namespace detail {
+
+/// What |M| and the energy may be off by where it is not known on which curve the body moves, between the level `from` and an end: the torques' mean rates on one and another differ by as
+/// much as moments, controls and the rotors' share of M do.
+inline SlowError<double> on_another_curve(const Problem<double>& problem, const Level<double>& from, double R_end,
+                                          double energy_end) noexcept {
+  const Vec3<double>& a = problem.inverse_inertia;
+  const Vec3<double> b = problem.control.diagonal();
+  const double R = problem.momentum.norm(), controls = b.maxCoeff() > 0 ? 1 - b.minCoeff() / b.maxCoeff() : 0.0;
+  const double rotors = 2 * problem.rotor_momentum.norm() / std::max(R, problem.rotor_momentum.norm());
+  const double of_norm = std::min(1.0, controls + rotors), of_energy = std::min(1.0, 1 - a[0] / a[2] + of_norm);
+  return {of_norm * std::abs(from.R - R_end), of_energy * std::abs(energy_of(problem, from) - energy_end), 0, 0};
+}
+
+}  // namespace detail
+
 /// Collects at some levels along a mean motion what its error is made of (SecondOrder), and says how large it is.
 /// First order leaves out the oscillation and f2; second order leaves out the oscillation of second order and, in the
 /// phase, that of first and the drift that its own error of the level makes. The factors are measured (docs/errors.md).
@@ -26,8 +42,9 @@ class OrbitError {
   static constexpr double first_factor = 6, second_factor = 15, crossing_factor = 4;
   static constexpr double phase_factor = 3, drift_factor = 2;  // of M
 
-  /// second: whether the errors of second order are wanted
-  OrbitError(const Problem<double>& problem, bool second) noexcept : problem_(problem), wants_second_(second) {}
+  /// breakdown: |M| below which the averages tell nothing, N m s; second: whether the errors of second order are wanted
+  OrbitError(const Problem<double>& problem, double breakdown, bool second) noexcept
+      : problem_(problem), breakdown_(breakdown), wants_second_(second) {}
 
   /// Looks at a level of the motion at time t, s, unless one like it was seen just before.
   void visit(const Level<double>& level, Component component, double t) noexcept {
@@ -46,12 +63,24 @@ class OrbitError {
     last_R_ = level.R;
     if (const auto orbit = Orbit<double, Elliptic>::at(problem_, level, component))
       last_modulus_ = orbit->modulus(), last_period_ = orbit->period();
+    swing_ = 0;
     take(level, component, t, span);
-    if (!(t > 0) || first_factor * first_.k2 < 1) sure_ = level;
+    const bool is_sure = !(t > 0) || first_factor * (mirrored_ ? swing_ : first_.k2) < 1;
+    if (is_sure && was_unsure_) {
+      const auto off = detail::on_another_curve(problem_, sure_, level.R, energy_of(problem_, level));
+      astray_.norm += off.norm, astray_.energy += off.energy;
+    }
+    if (is_sure) sure_ = level;
+    was_unsure_ = !is_sure;
   }
 
-  /// The last level looked at where it was known on which curve the body moves.
-  const Level<double>& last_sure() const noexcept { return sure_; }
+  /// What |M| and the energy of a motion that ends there may be off by because it was not known all the way on which curve the body moves. Behind a separatrix
+  /// that is known again where the lobes mirror each other.
+  SlowError<double> astray(double R_end, double energy_end) const noexcept {
+    auto off = detail::on_another_curve(problem_, sure_, R_end, energy_end);
+    off.norm += astray_.norm, off.energy += astray_.energy;
+    return off;
+  }
 
   /// False where some level had no second order: the errors below are then not bounds.
   bool known() const noexcept { return known_; }
@@ -86,16 +115,24 @@ class OrbitError {
       const bool on_equilibrium = s.error() == Errc::not_applicable || is_narrow(level, component);
       known_ = known_ && on_equilibrium;
       if (on_equilibrium) visit_equilibrium(level, component);
+      else swing_ = 1;
       return;
     }
     // What second order leaves out: its own oscillation, or that of first order times the change during it.
     const double shift = 2 * pi<double> * s->phase_oscillation + s->orbit.period() * std::abs(s->first.R) / level.R;
-    drift_R_ += std::abs(s->second.R) * span;
+    const bool rests =
+        problem_.law == Law::total;  // then no more can be wrong than there is, or there was where the averages ended
+    const double most = most_off(level);
+    const double off = std::min(s->oscillation.R, most);
+    drift_R_ += std::min(std::abs(s->second.R), rests ? std::abs(s->first.R) : infinity<double>) * span;
     // and what the error of |M| changes of the rate: its oscillation, part of which the mean motion begins with, and its own drift
-    drift_h_ += (std::abs(s->second.h) + std::abs(s->first.h) * (s->oscillation.R + drift_R_) / level.R) * span;
-    keep(first_.norm, s->oscillation.R);
-    keep(first_.energy, s->oscillation.h);
-    keep(first_.k2, k2_swing(*s, level, component, s->oscillation.R, s->oscillation.eta));
+    const double share = (off + drift_R_) / level.R;
+    drift_h_ += std::min(std::abs(s->second.h) + std::abs(s->first.h) * share,
+                         rests ? std::abs(s->first.h) : infinity<double>) *
+                span;
+    keep(first_.norm, off);
+    keep(first_.energy, std::min(s->oscillation.h, problem_.inverse_inertia[2] * most * most));
+    keep_k2(k2_swing(*s, level, component, s->oscillation.R, s->oscillation.eta));
     const double size = std::sqrt(std::max(0.0, transverse(s->orbit)));
     if (wants_second_) take_second(*s, level, component, shift, size, span);
     if (!(t > 0)) {
@@ -118,6 +155,15 @@ class OrbitError {
     keep(second_.vector, 2 * pi<double> * size * (phase_factor * s.phase_oscillation + drift_factor * drift_phase_));
   }
 
+  /// Of |M|, N m s.
+  double most_off(const Level<double>& level) const noexcept {
+    return problem_.law == Law::total ? std::max(level.R, breakdown_) : infinity<double>;
+  }
+
+  void keep_k2(double swing) noexcept {
+    keep(first_.k2, swing);
+    keep(swing_, swing);
+  }
   static void keep(double& greatest, double value) noexcept {
     if (!(value <= greatest) && greatest == greatest) greatest = value;  // NaN stays
   }
@@ -139,14 +185,15 @@ class OrbitError {
         level.R * (problem_.inverse_inertia[2] - problem_.inverse_inertia[0]) + problem_.gyro_rate().norm();
     const double turn = std::isfinite(orbit->period()) ? orbit->period() / (2 * pi<double>) : 1 / rate;
     const Vec3<double> torque = small_torque(problem_, M);
-    const double beside = std::max(torque.norm(), drive_across(M, M.dot(torque) / M.norm())) * turn;
+    const double beside =
+        std::min(most_off(level), std::max(torque.norm(), drive_across(M, M.dot(torque) / M.norm())) * turn);
     keep(first_.norm, beside);
     keep(first_.energy, beside * problem_.angular_velocity(M).norm() + beside * beside * problem_.inverse_inertia[2]);
     const Vec3<double> aside = cross<double>(M, Vec3<double>(1, 1, 1));
     const double length = magnitude(aside);
     const auto away =
         Orbit<double, Elliptic>::through(problem_, length > 0 ? Vec3<double>(M + beside / length * aside) : M);
-    keep(first_.k2, away ? 4 * away->modulus().k2 : 1.0);
+    keep_k2(away ? 4 * away->modulus().k2 : 1.0);
     keep(second_.vector, beside);
   }
 
@@ -166,7 +213,7 @@ class OrbitError {
       keep(first_.norm, wide ? wide->oscillation.R : beside);
       keep(first_.energy, (wide ? wide->oscillation.h : beside * problem_.angular_velocity(M).norm()) +
                               std::abs(problem_.energy(there) - problem_.energy(M)));
-      keep(first_.k2, away ? away->modulus().k2 : 1.0);
+      keep_k2(away ? away->modulus().k2 : 1.0);
       if (!wide) continue;
       drift_R = std::max(drift_R, std::abs(wide->first.R - s.first.R));
       drift_h = std::max(drift_h, std::abs(wide->first.h - s.first.h));
@@ -236,12 +283,16 @@ class OrbitError {
   }
 
   const Problem<double>& problem_;
+  double breakdown_;
   SlowError<double> first_{}, second_{};
   double drift_R_ = 0, drift_h_ = 0, drift_phase_ = 0, last_ = 0, last_opposed_ = 0, last_R_ = 0, change_ = 0;
   math::Modulus<double> last_modulus_{1, 0};
   double last_period_ = infinity<double>;
-  Level<double> sure_;
-  bool wants_second_, known_ = true, unclear_ = false;
+  Level<double> sure_;          ///< the last one looked at where it was known on which curve the body moves
+  SlowError<double> astray_{};  ///< over the spans before it where that was not
+  double swing_ = 0;            ///< of k2 on the level looked at
+  bool wants_second_, known_ = true, unclear_ = false, was_unsure_ = false;
+  bool mirrored_ = problem_.rotor_momentum.isZero(0);
 };
 
 namespace detail {
@@ -296,7 +347,7 @@ class SecondOrderOrbit {
         monitor_(monitor),
         phase_error_(std::max(1e-7, mean_phase_error(scene))),  // the noise of f2, as below
         step_cap_(steps_worth(scene, averaged_2_orbit_step, Rates::step_cap)),
-        error_(problem_, true),
+        error_(problem_, orbit_breakdown(problem_, braking_torque(scene)), true),
         motion_(problem_, start.level, start.component, start.phase, tolerance, phase_error_, Rates{orbit}, step_cap_) {
     error_.visit(start.level, start.component, 0);
   }
@@ -350,18 +401,6 @@ class SecondOrderOrbit {
   OrbitMotion<Rates, double> motion_;
 };
 
-/// What |M| and the energy may be off by where it is not known on which curve the body moves, since the level `from`: the torques' mean rates on one and another differ by as
-/// much as moments, controls and the rotors' share of M do.
-inline SlowError<double> on_another_curve(const State<double>& end, const Level<double>& from,
-                                          const Problem<double>& problem) noexcept {
-  const Vec3<double>& a = problem.inverse_inertia;
-  const Vec3<double> b = problem.control.diagonal();
-  const double R = problem.momentum.norm(), controls = b.maxCoeff() > 0 ? 1 - b.minCoeff() / b.maxCoeff() : 0.0;
-  const double rotors = 2 * problem.rotor_momentum.norm() / std::max(R, problem.rotor_momentum.norm());
-  const double of_norm = std::min(1.0, controls + rotors), of_energy = std::min(1.0, 1 - a[0] / a[2] + of_norm);
-  return {of_norm * std::abs(from.R - end.norm), of_energy * std::abs(energy_of(problem, from) - end.energy), 0, 0};
-}
-
 /// crossed: what the turns beside separatrices have changed of the energy, J; standing: |U| that is not followed into the stop, N m s.
 template <class Elliptic>
 void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Elliptic>& error, double crossed,
@@ -381,8 +420,8 @@ void errors_of_averages(Track& track, const Scene& scene, const OrbitError<Ellip
   for (const std::size_t i : {std::size_t(0), track.states.size() - 1})
     k2 = std::max(k2, k2_beside(problem, track.states[i], norm, energy));
   k2 = lost ? 1.0 : std::min(1.0, in_span.k2 + k2);
-  const SlowError<double> elsewhere =
-      k2 < 1 ? SlowError<double>{} : on_another_curve(track.states.back(), error.last_sure(), problem);
+  const State<double>& end = track.states.back();
+  const auto elsewhere = k2 < 1 ? SlowError<double>{} : error.astray(end.norm, end.energy);
   state_errors(track, {in_span.norm + norm + elsewhere.norm, in_span.energy + energy + elsewhere.energy, k2, 0});
 }
 
@@ -422,7 +461,8 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   if (!orbit) return detail::refused(detail::not_followed(orbit.error()));
 
   Track track;
-  OrbitError<Elliptic> error(problem, false);
+  const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
+  OrbitError<Elliptic> error(problem, breakdown, false);
   const auto visit = [&](const Level<double>& level, Component component, double t) {
     error.visit(level, component, t);
   };
@@ -457,7 +497,6 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   const bool doubtful_in_time = doubtful();
   detail::errors_of_averages(track, scene, error, motion.crossing(), standing);
 
-  const double breakdown = detail::orbit_breakdown(problem, braking_torque(scene));
   const double carrier = (problem.momentum - problem.rotor_momentum).norm();
   const auto opposed = [&] {
     return detail::opposed_error(problem, error.first_order_across(motion.crossing()), carrier);

@@ -34,6 +34,10 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Inertia<double>& body, co
   scene.problem_.gaps = body.inverse_gaps();
   scene.problem_.exact_moments = body.has_exact_moments();
   scene.problem_.control = R_PB * setup.control.asDiagonal() * scene.R_BP_;
+  const double rounding = 4 * epsilon<double> * setup.control.maxCoeff();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)  // as where two equal controls are turned about the axis of the third
+      if (i != j && std::abs(scene.problem_.control(i, j)) <= rounding) scene.problem_.control(i, j) = 0;
   if (scene.equal_control()) scene.problem_.control = setup.control.asDiagonal();  // in any axes
   scene.problem_.drag = setup.drag;
   scene.problem_.law = setup.law;

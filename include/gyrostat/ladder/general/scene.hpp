@@ -57,7 +57,7 @@ class Scene {
  public:
   Scene() = default;
 
-  /// What check_times() and check() find; beyond_range (moments, or the rate that the body could come to). recognised: look for families.
+  /// What check_times() and check() find, which says in words what is wrong, and with which wheel or torque; beyond_range (moments, or the rate that the body could come to). recognised: look for families.
   GYROSTAT_COMPILED_ONCE static Result<Scene> make(const Problem<double>& problem, const Question& question,
                                                    bool recognised = true);
 

@@ -76,8 +76,8 @@ inline constexpr WarningKind warning_kinds[] = {
     {"unstable-spin", "nu^2 <= 0: the transverse rates grow; nu^2, 1/s^2"},
     {"spin-reversal", "the axial torque takes the spin through zero at about, s"},
     {"mean-of-small-tilt",
-     "pointing_error and secular_velocity_ratio are formulas for small tilt, and are off by some times the square of "
-     "it; the mean tilt is by the first of them, in rad"},
+     "pointing_error and secular_velocity_ratio are formulas for small tilt, and not those of this motion: they are "
+     "off by up to, relative"},
 };
 
 /// Places in rung_kinds, cheapest first.

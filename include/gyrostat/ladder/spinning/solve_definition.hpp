@@ -41,8 +41,9 @@ inline void put_start(Answer& answer, const Problem<double>& problem) {
   put(column::position, problem.position);
 }
 
-/// Mean tilt, rad, from which on its formula errs by one percent or more: some 3.6 to 4 times its square, by the full equations of one stage at spins that
-/// make it 0.13 and 0.21.
+/// The formulas of the mean err by so many times the square of the mean tilt: 1.7 to 4, by the full equations of one stage at spins that make it 0.13 to 0.42 rad.
+inline constexpr double mean_error = 4;
+/// Mean tilt, rad, from which on they err by one percent or more.
 inline constexpr double sound_mean = 0.05;
 
 /// Whether the formulas of the mean are asked for, or nothing is by name.
@@ -69,7 +70,8 @@ inline void tell_scalars(Answer& answer, const Question& question, const Problem
   give(scalar::tilt_max, {greatest_tilt(track.states)}, std::fmin(track.tilt_error, track.error[column::attitude]));
   give(scalar::nutation_frequency_squared, {nu2});
   const auto& kind = warning_kinds[warning::mean_of_small_tilt];
-  if (mean > sound_mean && asks_for_mean(question)) answer.warnings.push_back({&kind, kind.text, mean});
+  if (mean > sound_mean && asks_for_mean(question))
+    answer.warnings.push_back({&kind, kind.text, mean_error * mean * mean});
 }
 
 }  // namespace detail

@@ -122,11 +122,40 @@ struct Capture {
   bool determined() const noexcept { return plus == 1 || minus == 1 || outside == 1; }
 };
 
+/// How far beside a separatrix the loop is taken, over the range of energies: what is so near has a period, and errs by some 1e-7.
+template <Real Scalar>
+Scalar beside_saddle(const CriticalLevels<Scalar>& critical) noexcept {
+  return critical.range() * std::sqrt(epsilon<Scalar>) / 2;
+}
+
+/// Theta: energy, J, that a turn along the loop of the lobe `side` beside its saddle moves the motion inwards. Errors: those of the orbit; not_applicable
+/// where it is none of that lobe.
+template <class Elliptic = math::Native, Real Scalar>
+Result<Scalar> inflow(const Problem<Scalar>& problem, Scalar R, const CriticalLevel<Scalar>& saddle, Scalar away,
+                      const Component& side) noexcept {
+  // lobes around the largest moment lie under their saddle, the others above it
+  const Scalar inwards = side.regime == Regime::about_largest ? Scalar(-1) : Scalar(1);
+  const auto loop = average<Elliptic>(problem, Level<Scalar>{R, saddle.eta + inwards * away}, side);
+  if (!loop) return loop.error();
+  if (loop->component.regime != side.regime) return Errc::not_applicable;
+  return inwards * loop->period * (loop->rates.h - saddle.sigma * R * loop->rates.R);
+}
+
+/// The same where the critical levels are not at hand. Errors: theirs, too; not_applicable without such a saddle.
+template <class Elliptic = math::Native, Real Scalar>
+Result<Scalar> inflow_at_saddle(const Problem<Scalar>& problem, Scalar R, const Component& side) noexcept {
+  const auto critical = critical_levels(problem, R);
+  if (!critical) return critical.error();
+  for (int i = 0; i < critical->count; ++i)
+    if (const auto& c = critical->level[std::size_t(i)]; c.kind == Critical::saddle && c.lobes == side.regime)
+      return inflow<Elliptic>(problem, R, c, beside_saddle(*critical), side);
+  return Errc::not_applicable;
+}
+
 /// What follows on the separatrix of the lobes `lobes` (about_largest, about_smallest) at |M| = R for a motion that comes
 /// from `from` (one_component, or a lobe). Theta_i = -oint_i (h' - h_s'(R) R') dt over the loop of lobe i, taken with the
 /// sign that makes inwards positive; entering both lobes, P_i = Theta_i/(Theta_1 + Theta_2); leaving lobe 1, the loop of the other takes in the
-/// part Theta_2/-Theta_1 of those that pass it (Neishtadt 1975). The loops are those of the orbit at
-/// a distance of 1e-8 of the energy range, which errs by about 1e-7.
+/// part Theta_2/-Theta_1 of those that pass it (Neishtadt 1975).
 /// Errors: not_applicable where there is no such separatrix or it is shared by the lobes around both axes (no rotor momentum
 /// along the middle one: arcs, not loops); undetermined where the torques hold the motion at the separatrix, or take it away
 /// from it on the side it comes from; those of the orbit.
@@ -141,23 +170,18 @@ Result<Capture<Scalar>> capture(const Problem<Scalar>& problem, Scalar R, Regime
     if (c.kind == Critical::saddle && c.lobes == lobes) saddle = &c;
   }
   if (!saddle) return Errc::not_applicable;
-  const Scalar away = critical->range() * std::sqrt(epsilon<Scalar>) / 2;
+  const Scalar away = beside_saddle(*critical);
   for (int i = 0; i < critical->count; ++i) {
     const auto& c = critical->level[std::size_t(i)];
     if (c.kind == Critical::saddle && std::abs(c.eta - saddle->eta) < 4 * away) ++saddles_there;
   }
   if (saddles_there > 1) return Errc::not_applicable;
 
-  // lobes around the largest moment lie under their saddle, the others above it
-  const Scalar inwards = lobes == Regime::about_largest ? Scalar(-1) : Scalar(1);
   Capture<Scalar> r;
   for (const int branch : {1, -1}) {
-    const auto loop =
-        average<Elliptic>(problem, Level<Scalar>{R, saddle->eta + inwards * away}, Component{lobes, branch});
-    if (!loop) return loop.error();
-    if (loop->component.regime != lobes) return Errc::not_applicable;
-    (branch > 0 ? r.inflow_plus : r.inflow_minus) =
-        inwards * loop->period * (loop->rates.h - saddle->sigma * R * loop->rates.R);
+    const auto flow = inflow<Elliptic>(problem, R, *saddle, away, Component{lobes, branch});
+    if (!flow) return flow.error();
+    (branch > 0 ? r.inflow_plus : r.inflow_minus) = *flow;
   }
 
   const Scalar plus = r.inflow_plus, minus = r.inflow_minus;

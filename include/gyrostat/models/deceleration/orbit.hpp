@@ -96,7 +96,8 @@ class Orbit {
   /// The orbit on a level.
   /// @param followed the curve that the motion has followed so far: chooses the lobe where the level has two components.
   /// From one component the motion keeps to the older lobe where the level lies nearer to the birth of the other one than
-  /// to the separatrix; nearer to the separatrix the lobe is undetermined (capture.hpp). Within 1e-9 of the birth the older
+  /// to the separatrix; nearer to the separatrix the lobe is undetermined (capture.hpp), but for a body without rotor momentum, whose lobes mirror each
+  /// other: there the branch is kept. Within 1e-9 of the birth the older
   /// lobe is taken as one component still, on the level just before, which is level(). A lobe below the energy of its own centre
   /// (a stage of an integrator that overshoots) and a level outside the energies possible at this R become that equilibrium,
   /// regime() == point, and level() is then the clamped one.
@@ -295,6 +296,7 @@ class Orbit {
       if (M) o.branch_ = lorentz(o.v_even2_, with_unit(*M)) >= 0 ? 1 : -1;
       else if (in_lobe && followed.branch != 0) o.branch_ = followed.branch;
       else if (q.active(0) && -below < above) o.branch_ = -younger(q);
+      else if (g.isZero(0)) o.branch_ = followed.branch < 0 ? -1 : 1;  // lobes mirror each other
       else return Errc::undetermined;
       if (q.active(0) && o.branch_ == -younger(q) && -below < 2 * level.R * close) {
         // at the birth of the other lobe this frame is singular and the orbit is not: the mirror image of the level, where
