@@ -278,3 +278,15 @@ PARTS: dict[str, Any] = {"carrier_inertia": [2.1, 2.6, 3.2], "carrier_mass": 12.
 def test_a_bad_part_is_named(change: dict[str, Any], text: str) -> None:
     with pytest.raises(DomainError, match=text):
         rotor.assembled_inertia(**{**PARTS, **change})
+
+
+@pytest.mark.parametrize(("body", "wheel", "motor", "rates", "exact"), [
+    ([0.3851670853165049, 0.7703341706330098, 0.9629177132912623], 0.010003027677950149, (0.0005001513838975074, -0.005546857995155879),
+     (-0.027035922825800366, 2.6025489304127936), 1.5985928450100736582e-09)])
+def test_a_momentum_that_cancels_at_the_start_is_known_as_well_as_its_parts(body: list[float], wheel: float, motor: tuple[float, float], rates: tuple[float, float],
+                                                                             exact: float) -> None:
+    answer = rotor.solve(inertia=body, axis=[0.0, 0.0, 1.0], axial_inertia=wheel, slope=motor[0], no_load_rate=motor[1],
+                         angular_velocity=[0.0, 0.0, rates[0]], rotor_rate=rates[1], times=[2000.0], tolerance=1e-6)
+    assert answer.model == "closed-form" and abs(answer["lyapunov"][0] / exact - 1) > 1e-14  # by the roundings of the start
+    scale = max(answer.scale["lyapunov"], exact)
+    assert abs(answer["lyapunov"][0] - exact) <= answer.error["lyapunov"] * scale

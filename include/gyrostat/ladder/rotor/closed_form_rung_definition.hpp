@@ -16,7 +16,7 @@ GYROSTAT_COMPILED_ONCE Track closed_form_track(const Scene& scene, Monitor*) {
   Track track;
   track.states.reserve(scene.question().times.size());
   for (const double t : scene.question().times) track.states.push_back(form.at(t));
-  track.error = state_columns({scene.gyrostat(), scene.start()}, track.states, bound);
+  track.error = state_columns({scene.gyrostat(), scene.start()}, scene.start(), track.states, bound);
   track.in_domain = bound.attitude < infinity<double>;
   if (!track.in_domain) track.warn(warning_kinds[warning::leaves_closed_form], form.defect());
   return track;

@@ -63,7 +63,7 @@ inline Track tail_after_full_motion(const Scene& scene, const ExponentialAttract
     if (bound.attitude + track.error[column::attitude] <= tolerance && bound.momentum <= tolerance * l) {
       for (std::size_t i = track.states.size(); i < times.size(); ++i)
         track.states.push_back(tail.at(times[i] - window));
-      track.error += state_columns(row, track.states, bound);
+      track.error += state_columns(row, scene.start(), track.states, bound);
       track.counts = counts;
       if (track.error.greatest() <= tolerance) {
         track.warn(warning_kinds[warning::hand_over], window);
@@ -108,7 +108,7 @@ GYROSTAT_COMPILED_ONCE Track linear_tail_track(const Scene& scene, Monitor* moni
     Track track;
     track.states.reserve(question.times.size());
     for (const double t : question.times) track.states.push_back(tail.at(t));
-    track.error = state_columns(row, track.states, bound);
+    track.error = state_columns(row, start, track.states, bound);
     track.in_domain = near;
     if (!near) track.warn(warning_kinds[warning::beyond_validity], tail.distance());
     return track;
