@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the ladder answers: columns over time, scalars, the error estimate of each, and how the answer was found."""
 
+import io
 import math
 import os
 from collections.abc import Callable, Iterator, KeysView, Mapping
@@ -207,6 +208,14 @@ class Answer:
                    if isinstance(value, float) and not math.isnan(self.scalar_error[name])]
         return (f"<Answer of {self.scene.get('name', 'a scene')} by {self.model}: {self.verdict}, {len(self.t)} times, "
                 f"{', '.join([*self.columns, *scalars])}>")
+
+    def __str__(self) -> str:
+        """The report, as the command `gyrostat solve` prints it."""
+        from gyrostat.report import report
+
+        text = io.StringIO()
+        report(self, text)
+        return text.getvalue()
 
     def _repr_html_(self) -> str:
         from gyrostat.notebook import answer_html

@@ -77,7 +77,7 @@ def check_ending(file: Path) -> None:
     """Raise DomainError where the ending of a file is that of no format of figures: to be asked before long work."""
     known = _matplotlib("backend_bases").FigureCanvasBase.get_supported_filetypes()
     if file.suffix[1:].lower() not in set(known) - NO_FIGURES:
-        raise DomainError(f"plot file {file}: unknown ending {file.suffix or '(none)'!r}; use one of {', '.join(sorted(set(known) - NO_FIGURES))}")
+        raise DomainError(f"plot file {file}: unknown ending {file.suffix or '(none)'!r}; use .png, .svg or .pdf")
 
 
 def save(figure: "Figure", file: Path) -> None:

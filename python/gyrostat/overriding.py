@@ -98,7 +98,9 @@ def _home(tree: dict[str, Any], table: str, label: str) -> dict[str, Any]:
         if isinstance(home, list):
             named = [item for item in home if isinstance(item, dict) and item.get("name") == name]
             if len(named) != 1:
-                raise fail(f"there is no one table named {name} here", f"write its place, such as {table.partition('.')[0]}[0], counted from 0")
+                names = [item["name"] for item in home if isinstance(item, dict) and isinstance(item.get("name"), str)]
+                raise fail(f"there is no one table named {name} here",
+                           (f"they are named {', '.join(names)}; " if names else "") + f"write its place, such as {table.partition('.')[0]}[0], counted from 0")
             home = named[0]
         else:
             home = home.setdefault(name, {})

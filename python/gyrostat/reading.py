@@ -41,7 +41,7 @@ def plain(value: Any) -> Any:
 
 def _text(field: Field, value: Any) -> str:
     if not isinstance(value, str):
-        raise Refused(f"this is {type_of(value)}, not text", f'write {field.name} = "..." in quotes')
+        raise Refused(f"this is {type_of(value)}, not text", f'write {field.name} = "{"-".join(str(value)) if field.form == "sequence" and type(value) is int else "..."}" in quotes')
     if any("\ud800" <= c <= "\udfff" for c in value):
         raise Refused("the text holds half a character", "write valid Unicode text")
     if field.default is REQUIRED and not value.strip():

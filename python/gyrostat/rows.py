@@ -198,6 +198,9 @@ def _no_component(key: str, found: list[int], last: int, ends: tuple[int, int] |
 def _unknown(family: Family, key: str) -> DomainError:
     known = [name for name, _, _ in inputs_of(family)]
     near = difflib.get_close_matches(key, known, 1, 0.6)
+    whole = next((name for name in known if key.startswith(f"{name}.")), "")  # told by another form of it
+    if whole:
+        return DomainError(f"{key}: no key of this name can vary; {whole} varies by its components, such as {whole}[0,0], whichever form the scene gives it in")
     return DomainError(f"{key}: no key of this name can vary; " + (f"did you mean {near[0]}? " if near else "")
                        + f"in scenes of the kind {family.name} these can: {', '.join(known)}")
 

@@ -127,6 +127,8 @@ def open_results(file: str | os.PathLike[str]) -> "xarray.Dataset":
         if isinstance(error, DomainError):
             raise
         raise DomainError(f"{file}: this cannot be read ({str(error).splitlines()[0] if str(error) else type(error).__name__})") from None
+    if "model" in found.attrs and "row" not in found.dims:
+        raise DomainError(f"{file}: this holds the answer of one scene, not the rows of a sweep: xarray.open_dataset reads it")
     if not _is_sound(found):
         raise DomainError(f"{file}: this holds no results of a sweep, or they are damaged")
     words = {name: values.astype(object) for name, values in found.data_vars.items() if values.dtype.kind in "UT"}

@@ -122,7 +122,9 @@ def _meant(word: str, power: str, unit: str, want: str) -> str:
     if word.lower().endswith("hz"):
         return "it may mean turns or radians: write rev/s or rad/s, for rates without an angle 1/s"
     if _by_word(word):
-        return f"write {spelled(unit)}"
+        said = spelled(unit)
+        is_rate = re.fullmatch(_PRODUCT, said) and not _measures(said, want) and _measures(f"{said}/s", want)
+        return f"write {said}/s" if is_rate else f"write {said}"
     if len(word) <= 12 and (names := _apart(word.replace("-", ""))):
         return f"write {names.replace('N ms', 'N m s').replace('kg ms', 'kg m s')}{power}, with blanks between"
     if re.search("[A-Za-z]-[A-Za-z]", word):

@@ -17,7 +17,7 @@ int main() {
   Question question;
   question.times = {30, 60, 82};  // s
   const auto scene = general::Scene::make(body, question);
-  if (!scene) return std::puts(message(scene.error())), 1;
+  if (!scene) return std::printf("%s: %s\n", message(scene.error()), general::check(body).why), 1;
 
   Refusal refusal;
   const Answer answer = general::solve(scene->driven_by(general::OwnTorque::of(damper, {60, 80})), refusal);

@@ -345,3 +345,8 @@ def test_two_runs_of_cvode_that_take_few_steps_do_not_err_alike() -> None:
         answer = gyrostat.solve(braked, tolerance=tolerance, integrator="cvode")
         off = np.max(angle_between(answer["attitude"], truth["attitude"]))
         assert off <= answer.error["attitude"], tolerance
+
+
+def test_printing_an_answer_prints_its_report() -> None:
+    text = str(gyrostat.solve("tiangong-1"))
+    assert "What was tried" in text and "stop_time" in text

@@ -842,3 +842,14 @@ def test_all_rows_of_motors_that_are_faster_than_the_body_state_what_they_err() 
         single = gyrostat.solve(scene, **{"motor.slope": slope})
         for got, stated in ((rows["attitude"].values[row], float(rows["attitude_error"].values[row])), (single["attitude"], single.error["attitude"])):
             assert float(np.max(angle_between(got, truth["attitude"]))) <= stated + truth.error["attitude"], slope
+
+
+def test_an_answer_of_one_scene_is_no_sweep(tmp_path: Path) -> None:
+    gyrostat.solve("tiangong-1").to_netcdf(tmp_path / "answer.nc")
+    with pytest.raises(DomainError, match="answer of one scene, not the rows of a sweep"):
+        open_results(tmp_path / "answer.nc")
+
+
+def test_a_component_of_a_key_that_is_told_in_another_form_is_named() -> None:
+    with pytest.raises(DomainError, match=r"varies by its components, such as body.inertia\[0,0\]"):
+        sweep("tiangong-1", {"body.inertia.moments[0]": uniform(1, 2)}, n=3)

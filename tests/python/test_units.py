@@ -324,3 +324,8 @@ def test_a_tolerance_may_be_a_share() -> None:
     answer = gyrostat.solve(scene)
     assert answer.tolerance == 1e-3 and answer.model == gyrostat.solve("tiangong-1", tolerance=1e-3).model
     assert parse_override("tolerance=0.1%") == ("tolerance", "0.1%") and scene.replace(tolerance="0.1%").tolerance == 1e-3
+
+
+def test_a_word_for_an_angle_where_a_rate_is_wanted() -> None:
+    with pytest.raises(SceneError, match="there is no unit degs; write deg/s"):
+        gyrostat.solve("tiangong-1", angular_velocity=["2.5 degs", 0, 0])
