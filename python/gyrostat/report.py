@@ -59,9 +59,8 @@ def tables(answer: Answer) -> Iterator[Table]:
     tried = [[a.model, small(a.error), "answered" if a.accepted else "passed over", a.why, _time(a.predicted), _time(a.spent)] for a in answer.tried]
     yield "What was tried", ["rung", "estimated error", "", "why", "predicted", "spent"], tried
     more = ["of one rounding of the data", "mostly of"] if answer.data_error else []
-    asked_for = answer.scene.get("solve", {}).get("ask") or ()
     scalars = [[name, _scalar(name, value), UNITS.get(name, ""), small(answer.scalar_error[name]), *_of_data(answer, name)]
-               for name, value in answer.scalars.items() if value is not None or name in asked_for]
+               for name, value in answer.scalars.items()]
     yield "Scalars", ["name", "value", "unit", "estimated error", *more], scalars
     columns, count = [], len(answer.t)
     shown = [0, -1] if count > 1 else [0]
