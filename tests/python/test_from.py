@@ -392,6 +392,14 @@ def test_angles_are_those_that_a_start_takes(sequence: str) -> None:
     assert answer.error["euler"] >= answer.error["attitude"]
 
 
+def test_turns_that_are_not_counted_are_told() -> None:
+    scene: dict[str, Any] = {"name": "x", "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": {"angular_velocity": [0.0, 0.0, 1.0]},
+                             "solve": {"duration": 20.0, "euler": "3-2-1", "ask": ["euler"]}}
+    few, many = (gyrostat.solve(scene, samples=n) for n in (3, 30))
+    assert [warning.code for warning in few.warnings] == ["turns-untold"] and not many.warnings
+    assert many["euler"][-1, 0] == pytest.approx(20) and (few["euler"][-1, 0] - 20) / (2 * np.pi) == pytest.approx(round((few["euler"][-1, 0] - 20) / (2 * np.pi)))
+
+
 def test_a_sequence_asks_for_the_angles() -> None:
     for ask in (None, ["attitude"], {"attitude": "0.1 deg"}, "all", ["euler"]):
         changes = {} if ask is None else {"solve.ask": ask}

@@ -140,6 +140,7 @@ enum : std::size_t {
   beyond_no_load,
   start_uncertain,
   gimbal_lock,
+  turns_untold,
   custom_smooth,
   stiff,
   rest,
@@ -167,6 +168,9 @@ inline constexpr WarningKind warning_kinds[] = {
     {"gimbal-lock",
      "the second of the angles comes so near to where the first and the last turn are about one axis that they "
      "cannot be told apart; distance, rad"},
+    {"turns-untold",
+     "the body may turn by more than half a turn from one asked time to the next: whole turns of the angles between "
+     "them are not told; at most, rad"},
     {"custom-smooth",
      "no times are named at which the torque of your own jumps or has kinks: it is taken to be smooth, and what is "
      "shorter than a step, as a pulse, goes unseen"},

@@ -122,6 +122,13 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
     for (const auto& state : track.states)
       nearest = std::min(nearest, euler_angles(*scene.euler(), state.attitude).from_lock);
     if (!(nearest - track.off[primitive::attitude] > 1e-8)) warn(warning::gimbal_lock, nearest);
+    const auto& times = scene.question().times;
+    double fastest = problem.angular_velocity.norm(),
+           longest = 0;  // rates that were not asked for may be zero in the states
+    for (const auto& state : track.states) fastest = std::max(fastest, state.angular_velocity.norm());
+    for (std::size_t i = 1; i < times.size(); ++i) longest = std::max(longest, times[i] - times[i - 1]);
+    const double turn = fastest * longest;
+    if (turn > pi<double>) warn(warning::turns_untold, turn);
   }
   for (const auto& wheel : problem.wheels)
     if (wheel.type == WheelType::motor && std::abs(wheel.rate) > std::abs(wheel.no_load_rate) && wheel.slope > 0)
@@ -179,10 +186,12 @@ inline Question shared(Question question, double share) {
 inline Answer solve_uncertain(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   Answer answer = climbed(scene, refusal, monitor);
   if (refusal.code != Errc::ok) return answer;
+  const gyrostat::detail::Stopwatch watch;
   const Carried carried =
       carried_error(scene, answer, [&](const Problem<double>& start, const std::vector<double>& times) {
         return answer_beside(scene, start, times, place_of(tables.rungs, answer.model), monitor);
       });
+  const double of_displaced = watch.seconds();
   if (monitor != nullptr && monitor->cancelled()) {
     refusal = {Errc::cancelled, message(Errc::cancelled)};
     return {};
@@ -205,7 +214,7 @@ inline Answer solve_uncertain(const Scene& scene, Refusal& refusal, Monitor* mon
   if (constexpr const auto& kind = warning_kinds[warning::start_uncertain]; !(taken <= 1))
     answer.warnings.push_back({&kind, kind.text, taken});
   for (Attempt& attempt : answer.tried)
-    if (attempt.accepted) attempt.error = answer.error, attempt.excess = answer.excess;
+    if (attempt.accepted) attempt.error = answer.error, attempt.excess = answer.excess, attempt.spent += of_displaced;
   return answer;
 }
 
