@@ -85,7 +85,7 @@ def _torque(kind: str, *own: Field, meaning: str, factor: bool = True) -> Table:
 
 
 def _frame(*frames: str) -> Field:
-    return Field("frame", "choice", "axes in which it is given", default=frames[0], choices=frames)
+    return Field("frame", "choice", "axes in which it is given" + (": orbit is radial, along, normal, other axes than those of initial.relative_to" if "orbit" in frames else ""), default=frames[0], choices=frames)
 
 
 def _damping(*against: str, unit: str, default: Any) -> Table:
