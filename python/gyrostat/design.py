@@ -199,10 +199,16 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
 
     goal : one of GOALS; budget : in its unit, angles in rad. Held: everything but the spin rate, the size of the transverse torque, or
     the duration. The mean direction of axis 3 with the torque is measured from the one without it; means are over many turns with a
-    smooth window. Raises DomainError for a scene of another kind and where there is no design, saying why.
+    smooth window. A general scene that is exactly one of a spinning body is designed as that. Raises DomainError for a scene of another kind and where
+    there is no design, saying why.
     """
+    if scene.kind == "general":
+        from gyrostat.families.general.instance import as_instance
+
+        scene = as_instance(scene, ("spinning",)) or scene
     if scene.kind != "spinning":
-        raise DomainError(f"kind = {scene.kind!r}: designs are known for the kind spinning")
+        raise DomainError(f"kind = {scene.kind!r}: designs are known for the kind spinning" + (
+            ", and for general scenes that are exactly of it (gyrostat recognise tells why one is not)" if scene.kind == "general" else ""))
     if goal not in GOALS:
         raise DomainError(f"goal = {goal!r}: use one of {', '.join(GOALS)}")
     given = spinning.arguments(scene)

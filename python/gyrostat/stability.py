@@ -32,9 +32,9 @@ def _judged(scene: Scene | Mapping[str, Any]) -> Scene:
     from gyrostat.families.general.instance import as_instance
     from gyrostat.families.general.rewrite import recognised
 
-    made = as_instance(checked)
+    known = [name for name, family in FAMILIES.items() if family.part("stability")]
+    made = as_instance(checked, known)
     if made is None:
-        known = [name for name, family in FAMILIES.items() if family.part("stability")]
         reasons: dict[str, list[str]] = {}
         for name, reason in recognised(checked).items():
             if name in known and reason:

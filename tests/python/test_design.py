@@ -10,7 +10,7 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat import design, spinning
+from gyrostat import DomainError, design, spinning
 from gyrostat.cli import main
 from gyrostat.design import design_scene
 from gyrostat.scenes import scene_from
@@ -171,3 +171,16 @@ def test_a_budget_beyond_the_search_is_not_told_as_never_reached() -> None:
     spinner = {"inertia": [0.867, 0.9754, 0.5528], "torque": [-2.1e-7, 2.38e-7, 0.0], "force": [-3.3e-4, 0.0, 0.0], "angular_velocity": [0.0, 0.0, 1.0]}
     made = design.burn_for_displacement(**spinner, mass=1e9, budget=1.8)
     assert np.isnan(made.value) and made.why == "too-long"
+
+
+def test_a_general_scene_of_a_spinning_body_is_designed_as_that() -> None:
+    stage: dict[str, Any] = {
+        "name": "stage", "solve": {"times": [60.0], "tolerance": 1e-4}, "body": {"inertia": [2400.0, 2400.0, 700.0], "mass": 2500.0},
+        "torque": [{"type": "thrust", "force": [0.0, 0.0, 4e4], "point": [0.0, 0.002, -1.5]}], "initial": {"angular_velocity": [0.0, 0.0, 2.6]}}
+    design = design_scene(scene_from(stage), "spin-for-pointing", math.radians(1))
+    told = {"name": "stage", "kind": "spinning", "solve": stage["solve"], "body": stage["body"], "torque": {"body": [80.0, 0.0, 0.0], "force": [0.0, 0.0, 4e4]},
+            "initial": stage["initial"]}
+    assert design.scene.kind == "spinning" and design.value == design_scene(scene_from(told), "spin-for-pointing", math.radians(1)).value
+    stage["torque"].append({"type": "damping", "coefficient": 0.1})
+    with pytest.raises(DomainError, match="gyrostat recognise tells why"):
+        design_scene(scene_from(stage), "spin-for-pointing", math.radians(1))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """General scenes that are an instance of a family in so many words, as scenes of that family: what is known of it alone, such as where a motion ends."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -57,7 +57,40 @@ def _heavy(given: Posed) -> Tables:
             "initial": {"angular_velocity": given["initial"]["angular_velocity"].tolist(), "down": _down(given).tolist()}}
 
 
-_INSTANCES: Final[dict[str, Callable[[Posed], Tables]]] = {"free": _free, "deceleration": _deceleration, "rotor": _rotor, "heavy": _heavy}
+def _spinning(given: Posed) -> Tables:
+    thrust = _thrust(given)
+    start = given["initial"]
+    made: Tables = {"body": {"rotor_momentum": float(given["body"]["rotor_momentum"][2])}, "torque": {"body": thrust["torque"].tolist(), "force": thrust["force"].tolist()},
+                    "initial": {name: start[name].tolist() for name in ("attitude", "angular_velocity", "velocity", "position")}}
+    if given["body"]["mass_given"]:
+        made["body"]["mass"] = float(given["body"]["mass"])
+    if np.any(thrust["charge"]):
+        made["field"] = {"momentum": float(thrust["charge"][2])}
+    return made
+
+
+_INSTANCES: Final[dict[str, Callable[[Posed], Tables]]] = {"free": _free, "deceleration": _deceleration, "rotor": _rotor, "heavy": _heavy, "spinning": _spinning}
+
+
+def _thrust(given: Posed) -> dict[str, Floats]:
+    """What torques that are constant in the body come to: about the mass centre, as a force, and as a charge in a field."""
+    made = {"torque": np.zeros(3), "force": np.zeros(3), "charge": np.zeros(3)}
+    for each in given["torques"]:
+        match each["type"]:
+            case "constant":
+                made["torque"] = made["torque"] + each["vector"]
+            case "thrust":
+                made["force"] = made["force"] + each["vector"]
+                made["torque"] = made["torque"] + np.cross(each["point"] - given["body"]["centre_of_mass"], each["vector"])
+            case "charge":
+                made["charge"] = made["charge"] + each["vector"]
+    return made
+
+
+def _is_constant(torque: Posed) -> bool:
+    """Always the same in the axes of the body."""
+    return (torque["type"] in ("constant", "thrust", "charge") and torque["axes"] == "body" and torque["factor_table"] is None and torque["mean"] == 1
+            and torque["amplitude"] == 0 and len(torque["on"]) == 0)
 
 
 def _without_locked(given: Posed) -> Posed:
@@ -69,6 +102,9 @@ def _physics(given: Posed) -> dict[str, Any]:
     """What the motion hangs on; of weight and mass where something weighs."""
     made = {"inertia": given["body"]["inertia"], "rotor_momentum": given["body"]["rotor_momentum"], "wheels": given["wheels"], "torques": given["torques"],
             "orbit": given["orbit"], "angular_velocity": given["initial"]["angular_velocity"]}
+    if given["torques"] and all(_is_constant(each) for each in given["torques"]):
+        return made | {"torques": _thrust(given), "mass": given["body"]["mass"], "fixed": given["body"]["fixed"],
+                       **{name: given["initial"][name] for name in ("attitude", "velocity", "position")}}
     if given["torques"]:
         made |= {"fixed": given["body"]["fixed"], "down": _down(given)}
     if any(each["type"] == "weight" for each in given["torques"]):
@@ -88,16 +124,16 @@ def _same(one: Any, other: Any) -> bool:
     return a.shape == b.shape and bool(np.all(np.abs(a - b) <= 4e-15 * np.max(np.abs(a), initial=0.0)))
 
 
-def as_instance(scene: "Scene") -> "Scene | None":
-    """A general scene as one of the first of free, deceleration, rotor and heavy in whose words all of it can be told; None where it is none: what
-    begins or ends, for one, even behind the last time."""
+def as_instance(scene: "Scene", kinds: Collection[str]) -> "Scene | None":
+    """A general scene as one of the first of these kinds in whose words all of it can be told; None where it is none: what begins or ends, for one, even behind
+    the last time."""
     from gyrostat.families.general.rewrite import as_general, recognised
     from gyrostat.families.general.rows import posed_of
     from gyrostat.scenes import scene_from
 
     why, given = recognised(scene), _without_locked(posed_of(scene))
     for kind, told in _INSTANCES.items():
-        if why[kind]:
+        if kind not in kinds or why[kind]:
             continue
         try:
             made = told(given)
