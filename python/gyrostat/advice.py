@@ -82,9 +82,9 @@ def advice(key: str, table: str, family: Family) -> str:
     if homes and not homes[0]:
         return f"{key} belongs at the top of the file, before the first table"
     if homes:
-        here = f"{key} belongs in {' or '.join(f'[{home}]' for home in homes)}"
+        home = f"{key} belongs in {' or '.join(f'[{each}]' for each in homes)}"
         kinds = [each.name for each in FAMILIES.values() if any(field.name == key for field in each.keys.get(table, ()))]
-        return f"scenes of the kind {' or '.join(kinds)} have {table}.{key}; in this kind {here}" if kinds else here
+        return f"scenes of the kind {' or '.join(kinds)} have {table}.{key}; in this kind {home}" if kinds else home
     if near := nearest(key, here):
         return f"did you mean {near}?"
     if not table and (kinds := [family.name for family in FAMILIES.values() if key in family.keys]):
