@@ -39,7 +39,7 @@ inline SlowError<double> on_another_curve(const Problem<double>& problem, const 
 template <class Elliptic>
 class OrbitError {
  public:
-  static constexpr double first_factor = 6, second_factor = 15, crossing_factor = 4;
+  static constexpr double first_factor = 6, second_factor = 15, crossing_factor = 4, start_factor = 1.5;
   static constexpr double phase_factor = 3, drift_factor = 2;  // of M
 
   /// breakdown: |M| below which the averages tell nothing, N m s; second: whether the errors of second order are wanted
@@ -90,7 +90,8 @@ class OrbitError {
 
   SlowError<double> first_order() const noexcept {
     const double f = first_factor;
-    return {f * (first_.norm + drift_R_), f * (first_.energy + drift_h_), std::min(1.0, f * first_.k2), 0};
+    return {f * (first_.norm + drift_R_) + start_factor * drift_start_, f * (first_.energy + drift_h_),
+            std::min(1.0, f * first_.k2), 0};
   }
   /// The same with what the turns beside separatrices have changed of the energy, J: nobody knows in which of them they were crossed.
   SlowError<double> first_order_across(double crossed) const noexcept {
@@ -125,6 +126,11 @@ class OrbitError {
     const double most = most_off(level);
     const double off = std::min(s->oscillation.R, most);
     drift_R_ += std::min(std::abs(s->second.R), rests ? std::abs(s->first.R) : infinity<double>) * span;
+    // and what the oscillation, by which the mean motion begins beside the true one, changes of the rates
+    start_R_ = t > 0 ? start_R_ : s->oscillation.R, start_eta_ = t > 0 ? start_eta_ : s->oscillation.eta;
+    drift_start_ += std::min(std::abs(s->along_R) * start_R_ + std::abs(s->along_eta) * start_eta_,
+                             rests ? std::abs(s->first.R) : infinity<double>) *
+                    span;
     // and what the error of |M| changes of the rate: its oscillation, part of which the mean motion begins with, and its own drift
     const double share = (off + drift_R_) / level.R;
     drift_h_ += std::min(std::abs(s->second.h) + std::abs(s->first.h) * share,
@@ -285,6 +291,7 @@ class OrbitError {
   const Problem<double>& problem_;
   double breakdown_;
   SlowError<double> first_{}, second_{};
+  double start_R_ = 0, start_eta_ = 0, drift_start_ = 0;  // the oscillation at the start, and what it makes of |M|
   double drift_R_ = 0, drift_h_ = 0, drift_phase_ = 0, last_ = 0, last_opposed_ = 0, last_R_ = 0, change_ = 0;
   math::Modulus<double> last_modulus_{1, 0};
   double last_period_ = infinity<double>;

@@ -67,8 +67,9 @@ struct SecondOrder {
   SlowRates<Scalar> oscillation;  ///< greatest |U|: what first order neglects at any one time
   SlowRates<Scalar>
       second_oscillation;  ///< greatest oscillation of second order: what second order neglects; zero where not wanted
-  Scalar phase_oscillation = 0;   ///< greatest oscillation of the phase, turns
-  Orbit<Scalar, Elliptic> orbit;  ///< its phase is the one that phase_rate advances
+  Scalar phase_oscillation = 0;       ///< greatest oscillation of the phase, turns
+  Scalar along_R = 0, along_eta = 0;  ///< derivatives of the first <f> of R, 1/s and N m s/rad
+  Orbit<Scalar, Elliptic> orbit;      ///< its phase is the one that phase_rate advances
   int nodes = 0;
 };
 
@@ -287,6 +288,7 @@ Result<SecondOrder<Scalar, Elliptic>> second_order(
   SecondOrder<Scalar, Elliptic> r;
   r.first = average->rates;
   r.second = terms.rates(here);
+  r.along_R = slopes.mean_R[0], r.along_eta = slopes.mean_R[1];
   r.phase_drift = terms.phase_drift();
   r.phase_rate = 1 / T + r.phase_drift;
   r.orbit = centre;
