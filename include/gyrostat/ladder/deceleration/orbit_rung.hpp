@@ -199,7 +199,7 @@ class OrbitError {
     const double length = magnitude(aside);
     const auto away =
         Orbit<double, Elliptic>::through(problem_, length > 0 ? Vec3<double>(M + beside / length * aside) : M);
-    keep_k2(away ? 4 * away->modulus().k2 : 1.0);
+    keep_k2(away && !is_across(*orbit, *away) ? 4 * away->modulus().k2 : 1.0);
     keep(second_.vector, beside);
   }
 
@@ -219,7 +219,7 @@ class OrbitError {
       keep(first_.norm, wide ? wide->oscillation.R : beside);
       keep(first_.energy, (wide ? wide->oscillation.h : beside * problem_.angular_velocity(M).norm()) +
                               std::abs(problem_.energy(there) - problem_.energy(M)));
-      keep_k2(away ? away->modulus().k2 : 1.0);
+      keep_k2(away && !is_across(s.orbit, *away) ? away->modulus().k2 : 1.0);
       if (!wide) continue;
       drift_R = std::max(drift_R, std::abs(wide->first.R - s.first.R));
       drift_h = std::max(drift_h, std::abs(wide->first.h - s.first.h));
@@ -270,20 +270,23 @@ class OrbitError {
     return change;
   }
 
+  /// Whether a separatrix lies between two orbits, for they lie in the lobes about different axes.
+  static bool is_across(const Orbit<double, Elliptic>& from, const Orbit<double, Elliptic>& to) noexcept {
+    const Regime one = from.lobe(), other = to.lobe();
+    return (one == Regime::about_largest && other == Regime::about_smallest) ||
+           (one == Regime::about_smallest && other == Regime::about_largest);
+  }
+
   /// Change of k2 when the level moves by (dR, deta): all of it where that leads from the lobes about one axis to those about the other,
   /// however small k2 is in both.
   double k2_swing(const SecondOrder<double, Elliptic>& s, const Level<double>& level, Component component, double dR,
                   double deta) const noexcept {
-    const auto is_across = [](Regime from, Regime to) {
-      return (from == Regime::about_largest && to == Regime::about_smallest) ||
-             (from == Regime::about_smallest && to == Regime::about_largest);
-    };
     const double k2 = s.orbit.modulus().k2;
     double swing = 0;
     for (const auto& moved : {Level<double>{level.R + dR, level.eta}, Level<double>{level.R, level.eta + deta},
                               Level<double>{level.R, level.eta - deta}}) {
       const auto orbit = Orbit<double, Elliptic>::at(problem_, moved, component);
-      swing += orbit && !is_across(s.orbit.lobe(), orbit->lobe()) ? std::abs(orbit->modulus().k2 - k2) : 1.0;
+      swing += orbit && !is_across(s.orbit, *orbit) ? std::abs(orbit->modulus().k2 - k2) : 1.0;
     }
     return std::min(1.0, swing);
   }
