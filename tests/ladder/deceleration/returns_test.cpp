@@ -299,6 +299,24 @@ TEST_CASE("equal controls about an axis act along any axes across it", "[deceler
   }
 }
 
+TEST_CASE("averages that stand where drag alone brakes are off by what is left", "[deceleration]") {
+  Named given;
+  given.inertia = V(2707.0157625796101, 2707.0157617644218, 4257.3879387944789).asDiagonal();
+  given.asked.rotor_momentum = V(18.96, 20.01, -26.46);
+  given.asked.drag = 0.0205;
+  given.asked.law = given.asked.drag_law = Law::total;
+  given.asked.momentum = V(-576.7, -158.4, 0.0046);
+  given.asked.times = until(1967);
+  const Answer named = solved(given, rung::averaged, 1e-9);
+  const Column& norm = *named.find("angular_momentum_norm");
+  double most = 0;
+  for (std::size_t i = 0; i < named.times.size(); ++i)
+    most = std::max(most, std::abs(norm.values[i] / norm.values[0] - std::exp(-given.asked.drag * named.times[i])));
+  CHECK(most > 1e-9);
+  CHECK(most <= norm.error);
+  CHECK(norm.error < 1e-7);
+}
+
 TEST_CASE("a torque that tears the carrier off is no torque to average", "[deceleration]") {
   Case c;  // drag |l| is a hundred times the control
   c.moments = V(33.045, 591.148, 561.463);

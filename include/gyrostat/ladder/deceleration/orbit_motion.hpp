@@ -185,10 +185,11 @@ class OrbitMotion {
   /// What the control opposes has come to nothing, or all but.
   bool ended() const noexcept { return at_rest_; }
 
-  /// The motion stands, between the end of its last step and the stop: what the control opposes sinks from opposed() to nothing there.
+  /// The motion stands, between the end of its last step and the stop, and for ever where drag alone brakes: what the torques oppose sinks from opposed() to
+  /// nothing there.
   bool stands() const noexcept {
     const Scalar end = solver_.state()[Equations::time];
-    return at_rest_ && controlled() && now_ > end && now_ < end + remainder();
+    return at_rest_ && now_ > end && (!controlled() || now_ < end + remainder());
   }
 
   Scalar time() const noexcept { return now_; }
