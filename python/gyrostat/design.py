@@ -202,6 +202,7 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
     smooth window. A general scene that is exactly one of a spinning body is designed as that. Raises DomainError for a scene of another kind and where
     there is no design, saying why.
     """
+    left_out = [key for key in scene.vary if "." in key] if scene.kind == "general" else []
     if scene.kind == "general":
         from gyrostat.families.general.instance import as_instance
 
@@ -233,6 +234,9 @@ def design_scene(scene: Scene, goal: str, budget: float, *, monitor: Monitor | N
     if not tilt <= SMALL_TILT:
         much = f"the tilt may reach {tilt:.3g} rad" if math.isfinite(tilt) else "the tilt grows for ever"
         warnings.insert(0, f"beyond-small-tilt: {much}, and the design is by the linear motion, which holds for small tilt")
+    if left_out:
+        warnings.append(f"vary-left-out: the keys that the table [vary] names ({', '.join(left_out)}) are those of a general scene, and the designed one has none of them: "
+                        "vary its own")
     if varied := [key for key in scene.vary if key.split("[")[0].split(".")[-1] == GOALS[goal].key.split(".")[-1]]:
         warnings.append(f"varies-as-before: the table [vary] still says {', '.join(f'{key} = {scene.vary[key]}' for key in varied)}, and a sweep of the designed scene "
                         "goes by that: change it")

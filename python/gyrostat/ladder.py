@@ -13,6 +13,7 @@ from gyrostat._core import Monitor
 from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
+from gyrostat.fields import UNSET
 from gyrostat.orientation import off_orthonormal
 from gyrostat.rounding import data_error as error_of_data
 from gyrostat.scenes import Scene, load, scene_from
@@ -68,7 +69,7 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = Non
 def _with_remedy(answer: Answer, scene: Scene) -> Answer:
     """Where the error of the start is too great, and is that of the scene before: by which tolerance of that it would not be."""
     before, excess = scene.before, answer.greatest_error / answer.tolerance
-    if before is None or not 1 < excess < math.inf or all(each.code != "start-uncertain" for each in answer.warnings):
+    if before is None or scene.tables["initial"]["error"] is not UNSET or not 1 < excess < math.inf or all(each.code != "start-uncertain" for each in answer.warnings):
         return answer
     from gyrostat.families.general.before import end_of
 

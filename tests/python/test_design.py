@@ -184,3 +184,12 @@ def test_a_general_scene_of_a_spinning_body_is_designed_as_that() -> None:
     stage["torque"].append({"type": "damping", "coefficient": 0.1})
     with pytest.raises(DomainError, match="gyrostat recognise tells why"):
         design_scene(scene_from(stage), "spin-for-pointing", math.radians(1))
+
+
+def test_what_varies_in_a_general_scene_is_told_to_be_left_out() -> None:
+    stage: dict[str, Any] = {
+        "name": "stage", "solve": {"times": [60.0], "tolerance": 1e-4}, "body": {"inertia": [2400.0, 2400.0, 700.0], "mass": 2500.0},
+        "torque": [{"name": "motor", "type": "thrust", "force": [0.0, 0.0, 4e4], "point": [0.0, 0.002, -1.5]}],
+        "initial": {"angular_velocity": [0.0, 0.0, 2.6]}, "vary": {"n": 4, "torque.motor.point[1]": "normal(2 mm, 1 mm)"}}
+    design = design_scene(scene_from(stage), "spin-for-pointing", math.radians(1))
+    assert any("vary-left-out" in warning and "torque.motor.point[1]" in warning for warning in design.warnings) and not design.scene.vary

@@ -19,8 +19,8 @@ namespace gyrostat::deceleration {
 
 namespace detail {
 
-/// What |M| and the energy may be off by where it is not known on which curve the body moves, between the level `from` and an end: the torques' mean rates on one and another differ by as
-/// much as moments, controls and the rotors' share of M do.
+/// What |M| and the energy may be off by where it is not known on which curve the body moves, between the level `from` and an end: the torques' mean
+/// rates on one and another differ by as much as moments, controls and the rotors' share of M do.
 inline SlowError<double> on_another_curve(const Problem<double>& problem, const Level<double>& from, double R_end,
                                           double energy_end) noexcept {
   const Vec3<double>& a = problem.inverse_inertia;
@@ -127,7 +127,7 @@ class OrbitError {
     const double off = std::min(s->oscillation.R, most);
     drift_R_ += std::min(std::abs(s->second.R), rests ? std::abs(s->first.R) : infinity<double>) * span;
     // and what the oscillation, by which the mean motion begins beside the true one, changes of the rates
-    start_R_ = t > 0 ? start_R_ : s->oscillation.R, start_eta_ = t > 0 ? start_eta_ : s->oscillation.eta;
+    if (!(t > 0)) start_R_ = s->oscillation.R, start_eta_ = s->oscillation.eta;
     drift_start_ += std::min(std::abs(s->along_R) * start_R_ + std::abs(s->along_eta) * start_eta_,
                              rests ? std::abs(s->first.R) : infinity<double>) *
                     span;
