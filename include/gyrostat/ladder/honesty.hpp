@@ -29,6 +29,8 @@ inline constexpr double directions[2][3] = {{0.90, -0.12, 0.42}, {0.12, -0.90, -
 /// By how much the moments of a diagonal tensor differ in two companions: no two of them nearly alike, or what hangs on the difference of two moments that are
 /// nearly equal would err alike in all runs. Chosen: with two that were 0.2 apart 198 of 240 answers of a body, symmetric but for 1e-7 about axis 2, had stated up to 20 times too little.
 inline constexpr double moment_shifts[2][3] = {{-0.8, 0.1, 0.9}, {0.2, -0.8, 0.9}};
+/// By how much the tensor of a companion differs where it is not diagonal, over its greatest moment: elements 11, 22, 33, 12, 13, 23, of norm 1.5.
+inline constexpr double tensor_shifts[2][6] = {{0.9, -0.8, 0.6, -0.6, 0.7, 0.5}, {-0.7, 0.9, -0.5, 0.5, 0.8, 0.6}};
 /// By how much the data of a lone companion differ, roundings: more, as in its one direction it may be near by chance.
 inline constexpr double alone_change = 32;
 /// At half the span a lone companion is kicked by so many roundings of each number: the effect of its data may cancel the truncation

@@ -66,6 +66,16 @@ Vec3<Scalar> moment_shifts(int which) noexcept {
   return {Scalar(v[0]), Scalar(v[1]), Scalar(v[2])};
 }
 
+/// By how much the tensor of a companion, where it is not diagonal, differs: over its greatest moment. which: 0 or 1.
+template <Real Scalar>
+Mat3<Scalar> tensor_shifts(int which) noexcept {
+  const auto& v = honesty::tensor_shifts[which == 0 ? 0 : 1];
+  Mat3<Scalar> made;
+  made << Scalar(v[0]), Scalar(v[3]), Scalar(v[4]), Scalar(v[3]), Scalar(v[1]), Scalar(v[5]), Scalar(v[4]),
+      Scalar(v[5]), Scalar(v[2]);
+  return made;
+}
+
 /// First guess of the step tolerance of a motion that turns through `phase` rad.
 template <Real Scalar>
 Scalar first_step_tolerance(Scalar tolerance, Scalar phase, Scalar loosest) noexcept {

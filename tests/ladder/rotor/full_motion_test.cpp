@@ -314,6 +314,20 @@ TEST_CASE("rest, no momentum, no motor", "[rotor]") {
       }
     }
   }
+  SECTION("an angle far from no load is known as the angle of no load, from which it is told, is") {
+    const auto body = reference_body(1e-6, 1e6);
+    const long double r = Motion<double>{body}.widened().body.relaxation_rate();
+    for (int i = 1; i <= 20; ++i) {
+      const double t = 0.001 * i * i;
+      const auto solved = solve<double>(body, body.state({}, {0, 0, 0}, 0), {t}, 1e-6);
+      const long double late = r * t;  // some 1e-5 at most
+      const auto beta = double(1e6L * t * late / 2 * (1 - late / 3 * (1 - late / 4)));
+      CAPTURE(t);
+      const double stated = solved.answer.error[column::rotor_angle] * std::max(beta, 1e-3);
+      CHECK(std::abs(solved.states[0].rotor_angle - beta) <= stated);
+      CHECK(stated < 4e-15 * 1e6 * t + 1e-14 * beta);
+    }
+  }
   SECTION("without slope p and the energy stay") {
     const auto body = reference_body(0, 30);
     const State<double> start = body.state({}, {1, -2, 0.5}, 4);

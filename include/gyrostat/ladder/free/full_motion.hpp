@@ -165,19 +165,11 @@ bool keeps_axis(const Problem<Scalar>& of) noexcept {
 /// without momentum stay so, and so do zeros that a symmetry keeps. which: 0 or 1, in another direction.
 template <Real Scalar>
 Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noexcept {
-  const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
-  Mat3<Scalar> change;  // arbitrary, of norm 1.5
-  if (which == 0)
-    change << number(0.9L), number(-0.6L), number(0.7L), number(-0.6L), number(-0.8L), number(0.5L), number(0.7L),
-        number(0.5L), number(0.6L);
-  else
-    change << number(-0.7L), number(0.5L), number(0.8L), number(0.5L), number(0.9L), number(0.6L), number(0.8L),
-        number(0.6L), number(-0.5L);
   const Vec3<Scalar> direction = neighbour_direction<Scalar>(which);
   Problem<Scalar> near = of;
   const bool diagonal = of.inertia.isDiagonal(0), kept = keeps_axis(of);
   if (diagonal) near.inertia += amount * of.inertia * moment_shifts<Scalar>(which).asDiagonal();
-  else near.inertia += amount * of.inertia.cwiseAbs().maxCoeff() * change;
+  else near.inertia += amount * of.inertia.cwiseAbs().maxCoeff() * tensor_shifts<Scalar>(which);
 
   const auto moved = [&](const Vec3<Scalar>& v, Scalar share) noexcept {
     const Scalar by = share * v.cwiseAbs().maxCoeff();

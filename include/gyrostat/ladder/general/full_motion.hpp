@@ -188,7 +188,8 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
 
 namespace detail {
 
-/// What an evaluation of the columns loses, in their units, where the state is known to `relative`.
+/// What an evaluation of the columns loses, in their units, where the state is known to `relative`, and what one rounding of the tensor
+/// makes of the angles in the span: the companions may be blind to it.
 template <Real Scalar>
 FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow<Scalar>& row,
                                        const FullErrors<Scalar>& size, Scalar relative) noexcept {
@@ -210,8 +211,13 @@ FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow
   const Scalar drift =
       size[full_column::angular_velocity] < small * fastest ? epsilon<Scalar> * fastest * of.span : Scalar(0);
   error[full_column::attitude] = 4 * relative + blur * of.span + drift;
-  error[full_column::angular_momentum] = 4 * relative * momenta;
-  error[full_column::angular_velocity] = 2 * relative * fastest + 4 * blur;
+  // of what turns in body axes: not in a steady rotation
+  const Vec3<Scalar>&M = of.momentum, &w = of.problem.angular_velocity;
+  const Scalar whole = M.norm() * w.norm();
+  const Scalar swung = whole > 0 ? blur * of.span * (cross<Scalar>(M, w).norm() / whole) : Scalar(0);
+  error[full_column::angular_momentum] = 4 * relative * momenta + swung * size[full_column::angular_momentum];
+  error[full_column::angular_velocity] =
+      2 * relative * fastest + 4 * blur + swung * size[full_column::angular_velocity];
   if (wheels.count > 0) {
     error[full_column::rotor_rate] = 4 * relative * size[full_column::rotor_rate];
     if (lightest < infinity<Scalar>) error[full_column::rotor_rate] += error[full_column::angular_velocity];

@@ -180,7 +180,8 @@ class FullLanes {
       for (std::size_t i = 0; i < columns; ++i) sizes[i] = size_.of[i][b];
       // an attitude is put together anew in each step, from one product more
       constexpr double eps = epsilon<double>;
-      auto error = rounding_of_columns(row, task.start, sizes, 4 * eps + 2 * eps * std::sqrt(double(steps)));
+      auto error =
+          rounding_of_columns(row, task.start, sizes, 4 * eps + 2 * eps * std::sqrt(double(steps)), task.times.back());
       for (std::size_t i = 0; i < columns; ++i) {
         error[i] += error_.of[i][b];
         if (column_kinds[i].measure == Measure::relative) error[i] = over(error[i], greater(sizes[i], row.scale[i]));

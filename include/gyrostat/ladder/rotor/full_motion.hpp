@@ -165,18 +165,9 @@ struct Neighbour {
   /// which: 0 or 1, in another direction.
   Neighbour(const Gyrostat<Scalar>& of, const State<Scalar>& from, Scalar amount, int which) noexcept
       : gyrostat(of), start(from) {
-    const auto number = [](long double x) noexcept { return static_cast<Scalar>(x); };
-    Mat3<Scalar> change;  // arbitrary, of norm 1.5
-    if (which == 0) {
-      change << number(0.9L), number(-0.6L), number(0.7L), number(-0.6L), number(-0.8L), number(0.5L), number(0.7L),
-          number(0.5L), number(0.6L);
-    } else {
-      change << number(-0.7L), number(0.5L), number(0.8L), number(0.5L), number(0.9L), number(0.6L), number(0.8L),
-          number(0.6L), number(-0.5L);
-    }
     const Vec3<Scalar> direction = (which == 0 ? 1 : -1) * neighbour_direction<Scalar>(which);
     if (which != 0) amount = -amount;
-    const Mat3<Scalar> inertia = of.inertia() + amount * of.principal()[2] * change;
+    const Mat3<Scalar> inertia = of.inertia() + amount * of.principal()[2] * tensor_shifts<Scalar>(which);
     const auto moved = Gyrostat<Scalar>::make(inertia, of.axis() + amount * cross<Scalar>(direction, of.axis()),
                                               of.axial_inertia() * (1 + amount), of.slope() * (1 - amount),
                                               of.no_load_rate() * (1 + amount));
@@ -215,10 +206,11 @@ void forget_parted(ColumnErrors<Scalar>& error) noexcept {
     error[c] *= Scalar(honesty::parted_margin);
 }
 
-/// What an evaluation of the columns loses, in their units, where the state is known to `relative`.
+/// What an evaluation of the columns loses, in their units, where the state is known to `relative`, and what one rounding of the tensor
+/// makes of the angles in `span`, s: the companions may be blind to it.
 template <Real Scalar>
 ColumnErrors<Scalar> rounding_of_columns(const Row<Scalar>& row, const State<Scalar>& start,
-                                         const ColumnErrors<Scalar>& size, Scalar relative) noexcept {
+                                         const ColumnErrors<Scalar>& size, Scalar relative, Scalar span) noexcept {
   const Gyrostat<Scalar>& gyrostat = row.body;
   const Scalar lambda = gyrostat.axial_inertia(), k = gyrostat.coupling();
   const Scalar H = start.momentum.norm(), wheel = std::abs(start.axial_momentum) + std::abs(gyrostat.target_momentum());
@@ -226,11 +218,19 @@ ColumnErrors<Scalar> rounding_of_columns(const Row<Scalar>& row, const State<Sca
   const Scalar p = relative * (wheel + std::min(H, lambda * fastest * H));
   const Scalar pull = (gyrostat.free_inverse() * gyrostat.axis()).norm();
   ColumnErrors<Scalar> error;
-  error[column::attitude] = 4 * relative;
-  error[column::angular_momentum] = 4 * relative * (H + row.scale[column::angular_momentum]);
-  error[column::angular_velocity] = 2 * relative * H * fastest + 2 * p * pull;
+  const Vec3<Scalar> Omega = gyrostat.angular_velocity(start.momentum, start.axial_momentum);
+  const Scalar turned = epsilon<Scalar> * gyrostat.condition() * size[column::angular_velocity] * span;
+  const Scalar whole = H * Omega.norm(), across = cross<Scalar>(start.momentum, Omega).norm();
+  const Scalar swung =
+      whole > 0 ? turned * (across / whole) : Scalar(0);  // of H in body axes: not in a steady rotation
+  error[column::attitude] = 4 * relative + turned;
+  error[column::angular_momentum] = (4 * relative + swung) * H + 4 * relative * row.scale[column::angular_momentum];
+  error[column::angular_velocity] = 2 * relative * H * fastest + 2 * p * pull + swung * size[column::angular_velocity];
   error[column::rotor_rate] = 2 * relative * H * pull + 2 * p / (lambda * k);
   error[column::rotor_angle] = 4 * relative * size[column::rotor_angle];
+  // put together from two terms that may cancel while the motor is far from no load
+  if (size[column::rotor_angle] > 0)
+    error[column::rotor_angle] += turned + epsilon<Scalar> * std::abs(gyrostat.no_load_rate()) * span;
   // of the polynomial of one step, too; an angle that never left zero has not been integrated
   const Scalar turning = turning_rate(gyrostat, start);
   if (turning > 0 && size[column::rotor_angle] > 0) error[column::rotor_angle] += error[column::rotor_rate] / turning;
@@ -240,8 +240,7 @@ ColumnErrors<Scalar> rounding_of_columns(const Row<Scalar>& row, const State<Sca
   error[column::lyapunov] = std::sqrt(2 * size[column::lyapunov]) * root + root * root;
   if (const Scalar condition = gyrostat.condition(); condition > 1) {
     const Scalar blur = 4 * epsilon<Scalar> * condition;
-    error[column::angular_momentum] +=
-        4 * epsilon<Scalar> * gyrostat.momentum_blur(gyrostat.angular_velocity(start.momentum, start.axial_momentum));
+    error[column::angular_momentum] += 4 * epsilon<Scalar> * gyrostat.momentum_blur(Omega);
     error[column::angular_velocity] += blur * size[column::angular_velocity];
     error[column::rotor_rate] += blur * size[column::angular_velocity];
     error[column::lyapunov] += blur * size[column::lyapunov];
@@ -287,7 +286,8 @@ class FullMotion {
     const Row<Scalar> row(gyrostat_, start_);
     ColumnErrors<Scalar> between;
     const auto rounding = [&](const ColumnErrors<Scalar>& size, Scalar steps) noexcept {
-      return rounding_of_columns(row, start_, size, shared_rounding(steps)) + Scalar(honesty::margin_between) * between;
+      return rounding_of_columns(row, start_, size, shared_rounding(steps), times_.back()) +
+             Scalar(honesty::margin_between) * between;
     };
     const Comparison<Row<Scalar>> rows(row);
     const auto note = [&](std::size_t i, const auto&) noexcept {
