@@ -70,6 +70,14 @@ def _known(value: Any) -> Any:
     return None if isinstance(value, float) and math.isnan(value) else value
 
 
+class Scalars(dict[str, Any]):
+    """The scalars of an answer by name; the KeyError of one that is not there names those that are."""
+
+    def __missing__(self, name: str) -> Any:
+        there = f"the scalars of this answer are {', '.join(self)}" if self else "this answer has none"
+        raise KeyError(f'there is no scalar "{name}"; {there}; `gyrostat info --columns` lists those of each kind, to be asked for by name')
+
+
 @dataclass(frozen=True, eq=False)
 class Answer:
     """Answer to a scene: `answer["attitude"]` is a column, `list(answer)` are the names of all, `answer.t` their times.
@@ -93,7 +101,7 @@ class Answer:
     warnings: tuple[Warning_, ...]
     t: NDArray[np.float64]
     columns: dict[str, NDArray[Any]]
-    scalars: dict[str, Any]
+    scalars: Scalars
     scalar_error: dict[str, float]
     scale: dict[str, float]
     tolerances: dict[str, float]
@@ -110,7 +118,8 @@ class Answer:
             told=told, model=made["model"], tolerance=tolerance, met=made["met"], error=dict(made["error"]),
             warnings=tuple(Warning_(w["code"], w["message"]) for w in made["warnings"]), t=times,
             columns={name: np.asarray(values) for name, values in made["columns"].items()},
-            scalars={name: _known(value) for name, value in made["scalars"].items()}, scalar_error={name: made["scalar_error"].get(name, math.nan) for name in made["scalars"]},
+            scalars=Scalars({name: _known(value) for name, value in made["scalars"].items()}),
+            scalar_error={name: made["scalar_error"].get(name, math.nan) for name in made["scalars"]},
             scale=dict(made["scale"]), tolerances=dict(made["tolerances"]), counts=dict(made["counts"]), seconds=made["seconds"],
             tried=tuple(Attempt(a["model"], a["error"], a["accepted"], a["why"], a["predicted"], a["spent"]) for a in made["tried"]),
         )

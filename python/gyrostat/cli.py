@@ -27,7 +27,7 @@ from gyrostat.scenes import Scene, bundled, load
 from gyrostat.sweep_commands import Command, add_commands
 from gyrostat.units import quantity
 from gyrostat.watching import watched
-from gyrostat.writing import write_text, written
+from gyrostat.writing import write_text
 
 if TYPE_CHECKING:
     from gyrostat._core import Monitor
@@ -329,8 +329,7 @@ def _solve(arguments: argparse.Namespace) -> int:
         case "netcdf":
             answer.to_netcdf(arguments.output)
         case _ if arguments.output is not None:
-            with written(arguments.output) as beside, beside.open("w", encoding="utf-8") as stream:
-                report(answer, stream)
+            write_text(arguments.output, str(answer))
         case _:
             report(answer, sys.stdout)
     if arguments.output is not None:

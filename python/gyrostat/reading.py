@@ -466,4 +466,4 @@ def as_given(field: Field, value: Any, read: Any) -> Any:
     if field.form == "record" or (field.form.endswith("or record") and isinstance(value, dict) and "value" not in value):
         return {part.name: as_given(part, value[part.name], read[part.name]) if part.name in value else plain(read[part.name]) for part in field.parts
                 if part.name in value or read[part.name] is not UNSET}
-    return value if worded(field, value) else plain(read)
+    return plain(value if worded(field, value) else read)

@@ -97,10 +97,10 @@ class Scene:
         made: dict[str, Any] = {"name": self.name, "kind": self.kind}
         if self.source:
             made["source"] = self.source
-        made |= {key: self.written.get(key, plain(value)) for key, value in self.top.items() if value}
+        made |= {key: plain(self.written.get(key, value)) for key, value in self.top.items() if value}
         for table, values in self.tables.items():
             instead = table == "initial" and form_of(values)  # of the attitude
-            if given := {key: self.written.get(f"{table}.{key}", plain(value)) for key, value in values.items()
+            if given := {key: plain(self.written.get(f"{table}.{key}", value)) for key, value in values.items()
                          if value is not UNSET and not (instead and key == "attitude")}:
                 made[table] = given
         return made

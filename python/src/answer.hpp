@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "convert.hpp"
+#include "gil.hpp"
 #include "gyrostat/ladder/answer.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/ladder/rung.hpp"
@@ -128,7 +129,7 @@ inline double thread_seconds() noexcept {
 /// Runs `work` without the GIL; its result and the CPU time that it took, s.
 template <class Work>
 auto timed(Work&& work) {
-  const py::gil_scoped_release free;
+  const Unlocked free;
   const double began = thread_seconds();
   auto made = work();
   return std::pair(std::move(made), thread_seconds() - began);
@@ -141,7 +142,7 @@ inline bool signalled() noexcept {
   const auto now = Clock::now();
   if (now - last < std::chrono::milliseconds(50)) return false;
   last = now;
-  const py::gil_scoped_acquire hold;
+  const Locked hold;
   return PyErr_CheckSignals() != 0;
 }
 

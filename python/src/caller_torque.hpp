@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "convert.hpp"
+#include "gil.hpp"
 #include "gyrostat/models/general/torque_law.hpp"
 
 namespace gyrostat::python {
@@ -58,7 +59,7 @@ class CallerTorque {
     const auto& self = *static_cast<const CallerTorque*>(its);
     constexpr double no = nan<double>;
     if (self.raised_) return {no, no, no};
-    const py::gil_scoped_acquire hold;
+    const Locked hold;
     try {
       return self.called(t + self.clock_, general::numbers_of(seen));
     } catch (...) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ladder of the deceleration family, and its functions over arrays; gyrostat/deceleration.py wraps them.
+#include "gil.hpp"
 #include "gyrostat/ladder/deceleration/solve.hpp"
 
 #include <pybind11/stl.h>
@@ -103,7 +104,7 @@ Data averaged_rows(const Array& inertia, const Array& rotor_momentum, const Arra
     Refusal refusal;
     Answer answer;
     {
-      const py::gil_scoped_release free;
+      const Unlocked free;
       answer = functions.decelerate(*scene, refusal, nullptr);
     }
     if (refusal.code != Errc::ok) raise(refusal.code, row_text(refusal.why));
@@ -140,7 +141,7 @@ py::array_t<double> stability_rows(const Array& control, const std::string& regi
   py::ssize_t bad = -1;
   Errc why = Errc::ok;
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     for (py::ssize_t row = 0; row < rows && bad < 0; ++row) {
       const double* b = control.data() + 3 * row;
       const auto table = regime_stability(Vec3<double>(b[0], b[1], b[2]), about);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the stability report and the reproduction of the published figures need of the deceleration.
+#include "gil.hpp"
 #include "gyrostat/models/deceleration/published.hpp"
 
 #include <array>
@@ -87,7 +88,7 @@ Run run_published(const pub::Data<double>& d, const std::string& how, double mod
   };
   bool ended = false;
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     // Where the equations end is not known beforehand: once to find it, once to sample up to it.
     ode::RungeKutta scout(system, 0.0, system.start(modulus_squared), ode::StepControl<double, 3>{.relative = 1e-11});
     ended = scout.advance(end) != ode::Status::reached;

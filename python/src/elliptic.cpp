@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Elliptic integrals and functions over flat arrays; gyrostat/elliptic.py broadcasts.
 #include "gyrostat/math/elliptic.hpp"
+#include "gil.hpp"
 
 #include <string>
 
@@ -41,7 +42,7 @@ template <class Work>
 py::array_t<double> each(py::ssize_t n, int width, Work&& work) {
   std::vector<double> out(std::size_t(n) * std::size_t(width));
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     work(std::size_t(n), out.data());
   }
   return array(std::move(out), {n, width});

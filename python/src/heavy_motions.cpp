@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bind.hpp"
+#include "gil.hpp"
 #include "gyrostat/ladder/heavy/periodic_family.hpp"
 #include "gyrostat/ladder/heavy/periodic_orbit.hpp"
 #include "gyrostat/models/heavy/aligned_attitude.hpp"
@@ -94,7 +95,7 @@ Data series_rows(const HeavyBodies& bodies, const Array& spin, const Array& cosi
     if (!made)
       raise(made.error(), bodies.label(py::ssize_t(row)) + "spin = " + text(r0) + ", cos_inclination = " + text(G0) +
                               ": " + message(made.error()));
-    const py::gil_scoped_release free;
+    const Unlocked free;
     std::vector<State<double>> states(t.size());
     made->at(t, states);
     for (std::size_t i = 0; i < t.size(); ++i) motions.put(row, i, states[i]);
@@ -134,7 +135,7 @@ Data exact_rows(const HeavyBodies& bodies, const Array& angular_velocity, const 
   std::vector<std::array<double, 7>> numbers;
   std::size_t row = 0;
   Errc wrong = Errc::ok;
-  for (const py::gil_scoped_release free; row < bodies.size(); ++row) {
+  for (const Unlocked free; row < bodies.size(); ++row) {
     const double *w = angular_velocity.data() + 3 * row, *d = down.data() + 3 * row, *q = attitude.data() + 4 * row;
     const auto start = aligned<double>({{w[0], w[1], w[2]}, {d[0], d[1], d[2]}, {q[3], q[0], q[1], q[2]}});
     if (!start) {
@@ -255,7 +256,7 @@ Data periodic_rows(const HeavyBodies& bodies, const Array& spin, const Array& co
   require_rows("cos_inclination", cosine, bodies.size());
   Orbits orbits;
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     for (std::size_t row = 0; row < bodies.size(); ++row) {
       const auto orbit = periodic_orbit(bodies.rows()[row], spin.data()[row], cosine.data()[row]);
       if (orbit) orbits.add(*orbit);
@@ -274,7 +275,7 @@ Data family_of(const HeavyBodies& bodies, double first_spin, double cosine, doub
   options.most_members = most;
   Result<PeriodicFamily<double>> found = Errc::no_convergence;
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     found = periodic_family(bodies.rows().front(), first_spin, cosine, options);
   }
   if (!found)
@@ -301,7 +302,7 @@ Data fast_stability_rows(const HeavyBodies& bodies, const Array& spin, const Arr
   constexpr const char* names[] = {"stable", "unstable", "undecided"};
   std::size_t row = 0;
   Errc wrong = Errc::ok;
-  for (const py::gil_scoped_release free; row < bodies.size(); ++row) {
+  for (const Unlocked free; row < bodies.size(); ++row) {
     const auto scaled = Scaled<double>::make(bodies.rows()[row], spin.data()[row], cosine.data()[row]);
     if (!scaled) {
       wrong = scaled.error();

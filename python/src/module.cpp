@@ -7,6 +7,7 @@
 
 #include "answer.hpp"
 #include "bind.hpp"
+#include "gil.hpp"
 #include "gyrostat/ladder/monitor.hpp"
 #include "gyrostat/version.hpp"
 
@@ -85,6 +86,9 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
       .def(
           "cancel", [](gyrostat::Monitor& m) { m.cancel.store(true); },
           "Ask the work to stop: it raises Cancelled soon after.");
+  py::module_::import("atexit").attr("register")(py::cpp_function(&gyrostat::python::Lock::close));
+  py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") =
+                                                         py::cpp_function(&gyrostat::python::Lock::forget));
   bind_elliptic(module);
   bind_rotation(module);
   bind_text(module);

@@ -2,6 +2,7 @@
 // Conversions of rotations over arrays of rows; gyrostat/rotation.py broadcasts. Quaternions are scalar-last here.
 #include "bind.hpp"
 #include "convert.hpp"
+#include "gil.hpp"
 #include "gyrostat/rotation/euler_312.hpp"
 #include "gyrostat/rotation/exp_log.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
@@ -40,7 +41,7 @@ auto rows(Convert convert) {
     const py::ssize_t n = values.shape(0);
     std::vector<double> out(std::size_t(n * to));
     {
-      const py::gil_scoped_release free;
+      const Unlocked free;
       for (py::ssize_t i = 0; i < n; ++i) put(convert(values.data() + i * from), &out[std::size_t(i * to)]);
     }
     return array(std::move(out), {n, to});

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bind.hpp"
+#include "gil.hpp"
 #include "gyrostat/ladder/rotor/capture.hpp"
 #include "gyrostat/ladder/rotor/fall_time.hpp"
 #include "gyrostat/models/rotor/attractor.hpp"
@@ -70,7 +71,7 @@ Data steady_rows(const Array& inertia, const Array& axis, const Array& axial_ine
       determinant(n, missing), best_slope(n, missing), best_rate(n, missing), algebraic(n, missing);
   std::vector<double> count(body.size()), continuum(body.size()), family(body.size());
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     for (std::size_t row = 0; row < body.size(); ++row) {
       const double l = momentum.data()[row];
       const auto found = steady_rotations(body[row], l);
@@ -131,7 +132,7 @@ Data certify_rows(const Array& inertia, const Array& axis, double axial_inertia,
   std::vector<double> momentum, index, certificate, level, margin;
   for (auto* values : {&momentum, &index, &certificate, &level, &margin}) values->reserve(std::size_t(rows));
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     for (py::ssize_t row = 0; row < rows; ++row) {
       const double* Omega = angular_velocity.data() + 3 * row;
       const auto state = body.state({}, {Omega[0], Omega[1], Omega[2]}, rotor_rate.data()[row]);
@@ -163,7 +164,7 @@ Data capture_rows(const Array& inertia, const Array& axis, double axial_inertia,
   std::vector<double> index, certificate, time, margin;
   for (auto* values : {&index, &certificate, &time, &margin}) values->reserve(std::size_t(rows));
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     for (py::ssize_t row = 0; row < rows; ++row) {
       const double* Omega = angular_velocity.data() + 3 * row;
       const auto found =
@@ -190,7 +191,7 @@ std::array<double, 2> fall_time(const Array& inertia, const Array& axis, double 
   const auto body = gyrostat_of(inertia, axis, axial_inertia, slope, no_load_rate);
   const auto state = body.state({}, vector("angular_velocity", angular_velocity), finite("rotor_rate", rotor_rate));
   const double l = state.momentum.norm();
-  const py::gil_scoped_release free;
+  const Unlocked free;
   const auto steady = steady_rotations(body, l);
   const auto fall = time_between_levels(body, steady, l, lobe_of(body, steady, state.momentum), valley,
                                         body.lyapunov(state.momentum, state.axial_momentum), end);

@@ -11,6 +11,7 @@
 
 #include "answer.hpp"
 #include "bind.hpp"
+#include "gil.hpp"
 #include "gyrostat/ladder/spinning/motion.hpp"
 #include "gyrostat/ladder/spinning/solve.hpp"
 #include "gyrostat/models/spinning/a_priori.hpp"
@@ -64,7 +65,7 @@ Data linear_rows(const SpinningProblems& problems, const Array& at) {
   constexpr std::size_t measures = 13;
   std::vector<double> errors(rows * measures, 0.0);
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     double span = 0;
     for (std::size_t i = 0; i < n; ++i) span = std::max(span, std::abs(at.data()[i]));
     for (std::size_t row = 0; row < rows; ++row) {
@@ -110,7 +111,7 @@ py::array_t<double> linear_grid_rows(const SpinningProblems& problems, double st
   py::array_t<double> out({py::ssize_t(14), py::ssize_t(rows), py::ssize_t(points)});
   double* const first = out.mutable_data();
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     for (std::size_t row = 0; row < rows; ++row) {
       const auto column = [&](std::size_t i) { return first + i * all + row * points; };
       const GridColumns<double> columns{column(0),  column(1),  column(2),  column(3), column(4),
@@ -127,7 +128,7 @@ py::array_t<double> pointing_rows(const SpinningProblems& problems) {
   constexpr std::size_t width = 9;
   std::vector<double> out(problems.rows().size() * width);
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     for (std::size_t row = 0; row < problems.rows().size(); ++row) {
       const auto& problem = problems.rows()[row];
       const SpinFlags flags = spin_flags(problem);

@@ -5,6 +5,7 @@
 
 #include "bind.hpp"
 #include "convert.hpp"
+#include "gil.hpp"
 #include "gyrostat/models/spinning/design.hpp"
 #include "spinning_arguments.hpp"
 
@@ -45,7 +46,7 @@ Data design_rows(const SpinningProblems& problems, const std::string& goal, cons
   std::vector<Result<Design<double>>> made;
   made.reserve(bodies.size());
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     for (std::size_t row = 0; row < bodies.size(); ++row) made.push_back(solve(bodies[row], budget.data()[row]));
   }
   std::vector<double> value, tilt, unstable, resonant, compliant;

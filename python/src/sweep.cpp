@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps over rows of scenes, of every family; gyrostat/sweeps.py wraps them.
 #include "gyrostat/ladder/sweep.hpp"
+#include "gil.hpp"
 
 #include <pybind11/stl.h>
 
@@ -203,7 +204,7 @@ Data rows_of(const Family& family, const SceneOf& scene_of, const Solve& solve, 
     varied.push_back({rows.places[i], {rows.values.data() + i * rows.count, rows.count}});
   std::vector<SweepRow> told(rows.count);
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     sweep(family, numbers, varied, posed, solve, tables.targets(), told, rows.threads, rows.monitor);
   }
   if (PyErr_Occurred() != nullptr) throw py::error_already_set();  // what a signal has raised

@@ -7,6 +7,7 @@
 
 #include "bind.hpp"
 #include "convert.hpp"
+#include "gil.hpp"
 
 namespace gyrostat::python {
 namespace {
@@ -49,7 +50,7 @@ py::str json_numbers(const Array& values) {
   Text text(std::size_t(rows) * (std::size_t(width) * (longest + 2) + 4) + 2);
   char* at = text.begin();
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     *at++ = '[';
     for (py::ssize_t row = 0; row < rows; ++row) {
       if (row > 0) at = std::copy_n(", ", 2, at);
@@ -112,7 +113,7 @@ py::str csv_rows(const py::typing::List<py::array>& given) {
   Text text(std::size_t(rows) * row_length);
   char* at = text.begin();
   {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     for (py::ssize_t row = 0; row < rows; ++row)
       for (const CsvColumn& column : columns) {
         at = column.put_row(at, row);

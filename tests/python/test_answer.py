@@ -71,6 +71,9 @@ def test_a_column_that_is_not_there_is_told_with_those_that_are(full: Answer) ->
         gyrostat.solve(BRAKE)["angular_momentum"]
     with pytest.raises(KeyError, match="stop_time is a scalar"):
         averaged["stop_time"]
+    with pytest.raises(KeyError, match='no scalar "stop"; the scalars of this answer are .*stop_time'):
+        averaged.scalars["stop"]
+    assert averaged.scalars.get("stop") is None
 
 
 def test_the_error_that_is_shown_is_the_one_that_was_judged() -> None:

@@ -203,3 +203,14 @@ def test_integrals_behind_the_quarter_period_of_the_limit_are_infinite() -> None
     for n in (-1.0, 0.0, 0.3, 1.0):
         beyond = elliptic.incomplete([2.0, -2.0], 1.0, n=n)
         assert beyond.F.tolist() == [math.inf, -math.inf] == beyond.Pi.tolist()
+
+
+def test_an_answer_tells_the_scene_that_was_solved_whatever_becomes_of_its_arrays() -> None:
+    inertia, rates, times = np.array([0.7, 0.9, 1.1]), np.array([0.02, -0.3, 0.05]), np.array([30.0, 60.0])
+    wheels = [{"axis": np.array([1.0, 0.0, 0.0]), "axial_inertia": 0.01, "rate": 10.0}]
+    answer = gyrostat.general.solve(inertia=inertia, angular_velocity=rates, times=times, wheels=wheels)
+    inertia[:], rates[:], times[:], wheels[0]["rate"] = 9.0, 8.0, 7.0, 77.0
+    wheels[0]["axis"][0] = 5.0  # type: ignore[index]
+    scene = answer.scene
+    assert scene["initial"]["angular_velocity"] == [0.02, -0.3, 0.05] and scene["solve"]["times"] == [30.0, 60.0] == list(answer.t)
+    assert scene["wheel"][0]["rate"] == 10.0 and scene["wheel"][0]["axis"] == [1.0, 0.0, 0.0] and np.trace(scene["body"]["inertia"]) == 2.7

@@ -302,6 +302,17 @@ def test_a_scene_survives_its_dict(scene_file: Path) -> None:
     assert scene_from(scene.to_dict()).to_dict() == scene.to_dict()
 
 
+def test_a_scene_is_its_own_whatever_becomes_of_what_it_was_made_of_and_of_its_dict() -> None:
+    given = {"name": "x", "body": {"inertia": ["0.7 kg m^2", 0.9, 1.1]}, "initial": {"angular_velocity": {"value": [1, 2, 3], "unit": "deg/s"}},
+             "torque": [{"type": "constant", "torque": ["1 N m", 0, 0]}], "solve": {"times": [30.0]}}
+    scene = scene_from(given)
+    told = str(scene)
+    given["body"]["inertia"][0] = given["torque"][0]["torque"][0] = "5 kg m^2"
+    for made in (scene.to_dict(), gyrostat.solve(scene).scene):
+        made["body"]["inertia"][0], made["initial"]["angular_velocity"]["value"][0], made["torque"][0]["torque"][0] = "1 kg m^2", 55, "9 N m"
+    assert str(scene) == told and "0.7 kg m^2" in told
+
+
 def test_scenes_that_say_the_same_are_equal(tmp_path: Path) -> None:
     scene = load("t-handle")
     assert scene == load("t-handle") == scene_from(scene.to_dict()) and len({scene, load("t-handle")}) == 1

@@ -8,6 +8,8 @@ import ctypes
 import itertools
 import math
 import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -126,3 +128,19 @@ def test_a_signal_stops_long_work_in_a_program() -> None:
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
+
+
+@pytest.mark.parametrize("torque", ["", ", torque=lambda t, *_: (1e-6, 0.0, 0.0)"])
+def test_a_program_ends_while_a_daemon_works(torque: str) -> None:
+    scene = {**TUMBLING, "solve": {"duration": 1e3, "samples": 5}}
+    program = f"""
+import gyrostat, threading, time
+def work():
+    while True:
+        gyrostat.solve({scene!r}, tolerance=1e-9{torque})
+for _ in range(3):
+    threading.Thread(target=work, daemon=True).start()
+time.sleep(0.5)
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=60, check=False)
+    assert ended.returncode == 0 and ended.stderr == b""

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import errno
 import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -32,6 +35,30 @@ def test_what_is_no_plain_file_is_written_itself(tmp_path: Path) -> None:
     assert (tmp_path / "real.txt").stat().st_mode & 0o777 == 0o600
     write_text("/dev/null", "gone")
     assert not Path("/dev/null").is_file()
+
+
+def test_standard_output_that_is_a_file_keeps_what_it_holds(tmp_path: Path) -> None:
+    log = tmp_path / "log.txt"
+    log.write_text("before\n")
+    program = "from gyrostat.writing import write_text; write_text('/dev/stdout', 'between\\n'); print('after')"
+    with log.open("a") as stream:
+        subprocess.run([sys.executable, "-c", program], stdout=stream, check=True)
+    assert log.read_text() == "before\nbetween\nafter\n"
+    piped = subprocess.run([sys.executable, "-c", program], stdout=subprocess.PIPE, check=True, text=True)
+    assert piped.stdout == "between\nafter\n"
+
+
+def test_threads_that_write_one_file_leave_one_of_them_whole(tmp_path: Path) -> None:
+    file = tmp_path / "a.txt"
+    texts = [f"{i}" * 20000 for i in range(8)]
+
+    def write(text: str) -> str:
+        write_text(file, text)
+        return file.read_text()
+
+    with ThreadPoolExecutor(8) as pool:
+        assert set(pool.map(write, texts * 5)) <= set(texts)
+    assert [each.name for each in tmp_path.iterdir()] == ["a.txt"]
 
 
 @pytest.mark.parametrize("command", [["solve", "tiangong-1", "-o"], ["solve", "tiangong-1", "--plot"], ["sweep", "stage-despin-study", "-n", "4", "-o"],

@@ -14,6 +14,7 @@ Columns, scalars, rungs and integrators are those of the compiled ladder (facts.
 """
 
 from collections.abc import Callable, Mapping
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import cache, cached_property, partial
 from importlib import import_module
@@ -143,7 +144,16 @@ FAMILIES: Final[dict[str, Family]] = {name: Family(name) for name in FACTS}
 
 def answer_of(kind: str, made: Mapping[str, Any], arguments: Mapping[str, Any]) -> Answer:
     """What the compiled ladder `made` of the arguments of a family's `solve`, which stand in the answer as a scene."""
-    return Answer.of(partial(_told, kind, dict(arguments)), np.array(arguments["times"], dtype=float), arguments["tolerance"], made)
+    times = np.array(arguments["times"], dtype=float)
+    kept = {name: _kept(value) for name, value in arguments.items() if name != "times"} | {"times": times.copy()}
+    return Answer.of(partial(_told, kind, kept), times, arguments["tolerance"], made)
+
+
+def _kept(value: Any) -> Any:
+    """A value that does not change where the caller's does."""
+    if isinstance(value, np.ndarray):
+        return value.copy()
+    return deepcopy(value) if isinstance(value, list | Mapping) else value
 
 
 def _listed(value: Any) -> Any:
