@@ -100,6 +100,8 @@ inline constexpr double drifting_least = 1e-12;
 inline constexpr double drifting_base = 32, drifting_phase = 1.6e-3;
 /// No looser steps: at 1e-8, near the radius of convergence of a step, all runs were seen to err alike.
 inline constexpr double loosest_step = 1e-9;
+/// No looser steps of a run whose own error is not looked at: far under the 1e-4 rad by which starts are displaced (general/start_error.hpp).
+inline constexpr double loosest_alone = 1e-11;
 
 /// By how much more than the excess over the tolerance the steps of a second try are tightened.
 inline constexpr double retry = 8;

@@ -67,6 +67,26 @@ TEST_CASE("stated errors of the full general equations bound the true ones", "[g
   CHECK(met > all * 8 / 10);
 }
 
+TEST_CASE("a run by itself is the motion, for less, and tells no errors", "[general]") {
+  general_scenes::Scenes source(83);
+  std::uint64_t steps = 0, steps_beside = 0;
+  for (int i = 0; i < (slow_build ? 10 : 40); ++i) {
+    const auto made = source.next(3);
+    const std::vector<double> times{0, made.span / 3, made.span};
+    const auto beside = run(made.problem, times, 1e-6), alone = run(made.problem, times, 1e-6, true);
+    CAPTURE(i, made.kind);
+    CHECK(alone.answer.status == beside.answer.status);
+    if (alone.answer.status != Status::reached) continue;
+    CHECK(alone.answer.met);
+    CHECK(alone.answer.error.greatest() == 0);
+    check_within(apart(made.problem, times, beside.states, alone.states), beside.answer.error);
+    REQUIRE(alone.answer.rests.size() == beside.answer.rests.size());
+    if (!alone.answer.rests.empty()) CHECK(std::abs(alone.answer.stop - beside.answer.stop) <= beside.answer.stop_off);
+    steps += alone.answer.counts.steps, steps_beside += beside.answer.counts.steps;
+  }
+  CHECK(2 * steps < steps_beside);
+}
+
 TEST_CASE("the balances of energy and momentum hold over every kind of piece", "[general]") {
   general_scenes::Scenes source(82);
   for (int i = 0; i < (slow_build ? 10 : 60); ++i) {

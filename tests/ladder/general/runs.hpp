@@ -27,11 +27,11 @@ struct Run {
   std::vector<State<double>> states;
 };
 
-inline Run run(const Problem<double>& problem, const std::vector<double>& times, double tolerance) {
+inline Run run(const Problem<double>& problem, const std::vector<double>& times, double tolerance, bool alone = false) {
   Run made;
   made.states.resize(times.size());
   FullMotionOptions<double> options;
-  options.tolerance = tolerance, options.step_cap = 1'000'000;
+  options.tolerance = tolerance, options.step_cap = 1'000'000, options.alone = alone;
   const auto answer = full_motion<double>(problem, times, made.states, options);
   REQUIRE(answer);
   made.answer = *answer;

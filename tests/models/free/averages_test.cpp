@@ -178,6 +178,24 @@ TEST_CASE("angles of rotors meet the reference cases", "[free]") {
   }
 }
 
+TEST_CASE("beside a saddle the integral of the rates is the angle turned through, to rounding", "[free]") {
+  // a free wheel along an axis that the body turns about, and from which it falls off by e in 17 s
+  const double inertia = 0.2312644683592179, lambda = 0.0030162406825449645, w = 0.22739603937628647;
+  for (const double of_wheel : {-0.07893026337005613, 0.31, 2.0}) {
+    Problem<double> p;
+    p.inertia = V(0.020532983611022796, inertia, inertia - lambda).asDiagonal();
+    p.rotor_momentum = {0, 0, lambda * (of_wheel + w)};
+    p.angular_velocity = {-2.1096549447771598e-17, -6.047129932554282e-17, w};
+    for (const Motion<double>& m : {*Motion<double>::make(p), *Motion<double>::make<Wide>(p.cast<Wide>())}) {
+      const RateIntegral<double> turned(m);
+      for (const double t : {0.3, 7.0, 31.0, 95.0, 170.65020563893728}) {
+        CAPTURE(of_wheel, t);
+        CHECK(std::abs(turned.at(t)[2] - w * t) <= 1e-15 * (1 + w * t));
+      }
+    }
+  }
+}
+
 TEST_CASE("the integral of the rates has them as its slope, in every kind of motion", "[free]") {
   std::vector<Problem<double>> problems = {
       Problem<double>::from_moments({6, 4, 3}, {0, 0, 0}, {1, 1, 2}),     // separatrix

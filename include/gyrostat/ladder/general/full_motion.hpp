@@ -155,6 +155,8 @@ struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
 template <Real Scalar>
 struct FullMotionOptions : MotionOptions<Scalar> {
   Integrator integrator = Integrator::any;
+  bool alone =
+      false;  ///< one run, as the tolerance lets begin, without neighbours: its errors are not known, and told as 0
   /// Error over tolerance of what the caller makes of the states, which are in place; nullptr: it makes nothing.
   Scalar (*judge)(void* caller, const FullMotionAnswer<Scalar>&) noexcept = nullptr;
   void* caller = nullptr;
@@ -320,6 +322,32 @@ class FullMotion {
     return answer;
   }
 
+  /// One run by itself.
+  FullMotionAnswer<Scalar> alone(const StepTolerance<Scalar>& tolerance) const noexcept {
+    FullMotionAnswer<Scalar> answer;
+    answer.used = Method::integrator;
+    answer.step_tolerance = tolerance.end;
+    const Scalar span = times_.back();
+    Scalar spare = share_slack<Scalar>;
+    const auto course = std::make_unique<Course>(problem_, span, cuts_, Scalar(1), tolerance, options_.step_cap, spare);
+    std::ranges::fill(states_, nowhere<Scalar>());
+    std::uint64_t trips = 0;
+    for (std::size_t i = 0; i < times_.size() && answer.status == ode::Status::reached; ++i) {
+      while (answer.status == ode::Status::reached && course->time() < times_[i]) {
+        answer.status = course->step(span);
+        if ((trips++ & 255U) == 0 && options_.cancelled()) answer.status = ode::Status::cancelled;
+      }
+      if (answer.status == ode::Status::reached) states_[i] = course->at(times_[i]);
+    }
+    answer.counts = course->counts();
+    answer.met = answer.status == ode::Status::reached;
+    if (answer.status == ode::Status::event) answer.stop = course->time(), answer.at_stop = course->at_stop();
+    answer.rests = course->rests();
+    if (answer.met && !answer.rests.empty()) answer.stop = answer.rests[0][0], answer.stop_off = 0;
+    answer.outgrown = course->outgrown();
+    return answer;
+  }
+
  private:
   using Course = FullCourse<Method>;
 
@@ -382,8 +410,10 @@ FullMotionAnswer<Scalar> full_motion_of(const Prepared<Scalar>& of, std::span<co
   const bool turns = std::ranges::any_of(of_phase, [](double off) { return off < infinity<double>; });
   const auto guess =
       turns || options.wanted.empty() ? first_step_tolerance_of_phase<Scalar> : first_step_tolerance<Scalar>;
-  const Scalar first = guess(options.tolerance, phase, Scalar(honesty::loosest_step));
+  const Scalar loosest = Scalar(options.alone ? honesty::loosest_alone : honesty::loosest_step);
+  const Scalar first = guess(options.tolerance, phase, loosest);
   Scalar inside = options.tolerance / 512;
+  if (options.alone) return motion.alone({first, std::max(first, inside)});
   return tightened<Scalar>(options, first, [&](Scalar step_tolerance, Scalar by, double begin, double end) noexcept {
     inside = std::max(step_tolerance, inside / by);
     auto answer = motion.run({step_tolerance, inside}, begin, end);

@@ -101,6 +101,8 @@ GYROSTAT_COMPILED_ONCE Track unless_lost(const Scene& scene);
 
 /// Rung `full`: the full equations by Taylor series, or by Radau where wheels settle fast.
 GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor);
+/// The same in one run without neighbours, its errors told as 0: to be compared with another of its kind.
+GYROSTAT_COMPILED_ONCE Track full_track_alone(const Scene& scene, Monitor* monitor);
 
 }  // namespace gyrostat::general
 

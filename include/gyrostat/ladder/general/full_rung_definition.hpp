@@ -143,23 +143,27 @@ GYROSTAT_COMPILED_ONCE Track unless_lost(const Scene& scene) {
 
 }  // namespace detail
 
-GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
+namespace detail {
+
+/// The full equations in one run or, where their error is wanted, with neighbours.
+inline Track track_of(const Scene& scene, Monitor* monitor, bool alone) {
   const Question& question = scene.question();
   const auto& times = question.times;
   const auto goal = scene.goal();
-  Track track = detail::unless_lost(scene);
+  Track track = unless_lost(scene);
   if (track.failure != Errc::ok) return track;
-  if (detail::settling_steps(scene) > double(step_budget)) return refused<Track>(Errc::step_limit, too_stiff);
+  if (settling_steps(scene) > double(step_budget)) return refused<Track>(Errc::step_limit, too_stiff);
   const FullRow<double> row(Prepared<double>(scene.problem(), times.back()), true);
-  const auto wanted = detail::wanted_of(scene, goal, row, true);
+  const auto wanted = wanted_of(scene, goal, row, true);
   track.states.resize(times.size());
-  detail::RunReader reader{scene, row, goal, track};
+  RunReader reader{scene, row, goal, track};
   FullMotionOptions<double> options;
   options.integrator = question.integrator;
-  options.tolerance = goal.tightest;
+  options.alone = alone;
+  options.tolerance = alone ? goal.tightest / 8 : goal.tightest;
   options.wanted = wanted.of;
   options.monitor = monitor;
-  options.judge = &detail::RunReader::judge, options.caller = &reader;
+  options.judge = &RunReader::judge, options.caller = &reader;
   const auto answer = full_motion<double>(scene.problem(), times, track.states, options);
   if (!answer) return refused<Track>(answer.error(), message(answer.error()));
   if (answer->status == ode::Status::event)
@@ -175,8 +179,18 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
     track.stop_error = answer->stop > 0 ? relative_to_truth(answer->stop_off / answer->stop) : 0;
   }
   track.counts = answer->counts;
-  detail::balance(track, scene, companion_step(answer->step_tolerance));
+  if (alone) RunReader::judge(&reader, *answer);
+  else balance(track, scene, companion_step(answer->step_tolerance));
   return track;
+}
+
+}  // namespace detail
+
+GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
+  return detail::track_of(scene, monitor, false);
+}
+GYROSTAT_COMPILED_ONCE Track full_track_alone(const Scene& scene, Monitor* monitor) {
+  return detail::track_of(scene, monitor, true);
 }
 
 }  // namespace gyrostat::general

@@ -160,18 +160,21 @@ inline Answer climbed(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);
 }
 
-/// The answer from another start at these times, which end with the asked ones, if possible by the same rung, so that what it leaves out cancels.
+/// The answer from another start at these times, which end with the asked ones, if possible by the same rung, so that what it leaves out cancels. Its
+/// error is of no interest.
 inline std::optional<Answer> answer_beside(const Scene& scene, const Problem<double>& start,
                                            const std::vector<double>& times, int rung, Monitor* monitor) {
-  const auto beside = scene.with(start);
-  if (!beside) return std::nullopt;
+  const auto displaced = scene.with(start);
+  if (!displaced) return std::nullopt;
+  Scene beside = *displaced;
+  if (!scene.own_torque().any() && !scene.full_equations) beside.full_equations = &full_track_alone;
   Refusal refusal;
   Question question = scene.question();
   question.times = times;
   if (question.rung == any_rung) question.only_rung = rung;
-  Answer made = climbed(beside->asked(question), refusal, monitor);
+  Answer made = climbed(beside.asked(question), refusal, monitor);
   if (refusal.code != Errc::ok && refusal.code != Errc::cancelled)
-    refusal = {}, question.only_rung = any_rung, made = climbed(beside->asked(question), refusal, monitor);
+    refusal = {}, question.only_rung = any_rung, made = climbed(beside.asked(question), refusal, monitor);
   return refusal.code == Errc::ok ? std::optional(std::move(made)) : std::nullopt;
 }
 

@@ -230,11 +230,15 @@ class RateIntegral {
   /// Coefficients of exp(2 pi i k t/T), k = 1..n/2 - 1, of the integral.
   void transform(std::size_t n) noexcept {
     std::vector<Vec3<Scalar>> node(n);
-    mean_.setZero();
+    // with what each sum loses (Kahan 1965): beside a separatrix all nodes are alike, and so were their roundings
+    Vec3<Scalar> sum(0, 0, 0), lost(0, 0, 0);
     for (std::size_t j = 0; j < n; ++j) {
       node[j] = motion_.at(period_ * Scalar(j) / Scalar(n)).angular_velocity;
-      mean_ += node[j] / Scalar(n);
+      const Vec3<Scalar> more = node[j] - lost, now = sum + more;
+      lost = (now - sum) - more;
+      sum = now;
     }
+    mean_ = sum / Scalar(n);
     std::vector<C> turn(n);
     for (std::size_t j = 0; j < n; ++j) turn[j] = math::unit(-2 * pi<Scalar> * Scalar(j) / Scalar(n));
     coefficients_.assign(n / 2 - 1, {});
