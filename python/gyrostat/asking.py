@@ -82,9 +82,9 @@ def asked(kind: str, ask: Ask | None, knows_attitude: bool = True) -> list[Asked
     facts = FACTS[kind]
     if isinstance(ask, str):
         ask = parse_ask(ask)
-    if ask is None or ask == "default":
+    if ask is None or (isinstance(ask, str) and ask == "default"):
         return None
-    if ask == "all":
+    if isinstance(ask, str):  # "all"
         columns = [name for name in facts.columns if name != "attitude" or knows_attitude]
         return [*((name, math.nan, False, True) for name in columns), *((name, math.nan, False, False) for name in facts.scalars)]
     names = list(ask)

@@ -18,7 +18,9 @@ Floats = NDArray[np.float64]
 
 
 def array(name: str, value: ArrayLike) -> Floats:
-    """An argument as an array of doubles. Raises DomainError for what is none: text, dates, complex numbers, rows of different length, None."""
+    """An argument as an array of doubles. Raises DomainError for what is none: text, dates, complex numbers, rows of different length, None, masked elements."""
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        raise DomainError(f"{name}: elements are masked; leave them out or give them a value")
     try:
         made = np.asarray(value)
         if made.dtype == np.float64:

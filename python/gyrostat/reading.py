@@ -391,7 +391,7 @@ def _ask(field: Field, value: Any) -> Any:
     """Names and units are looked at when the kind is known."""
     if isinstance(value, str):
         value = parse_ask(value)
-    if value in ("all", "default") or isinstance(value, dict):
+    if isinstance(value, str | dict):  # "all", "default", or tolerances
         return value
     if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
         raise Refused(f"this is {type_of(value)}, not an array of names", 'write "all", names such as ["attitude"], or { attitude = "0.1 deg" }')

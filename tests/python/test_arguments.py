@@ -35,6 +35,13 @@ def _nothing_leaks() -> Any:
 # ---- what is no number ----
 
 
+def test_masked_elements_are_no_numbers() -> None:
+    masked = np.ma.masked_array([0.0, 1.0, 2.0], [False, False, True])
+    with pytest.raises(DomainError, match="times: elements are masked"):
+        free.solve(**{**FREE, "times": masked})
+    assert list(free.solve(**{**FREE, "times": np.ma.masked_array([0.0, 1.0], False)}).t) == [0.0, 1.0]
+
+
 @pytest.mark.parametrize("value", [1j, [1 + 5j], np.array([1 + 0j]), None, [None, 1.0], "a", ["1", "2"], np.datetime64("2020-01-01"), [[1.0], [1.0, 2.0]], 10**400, [object()]])
 def test_what_is_no_array_of_numbers_is_refused(value: Any) -> None:
     with pytest.raises(DomainError, match="x = .*: not an array of numbers"):
