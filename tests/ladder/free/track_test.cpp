@@ -46,7 +46,7 @@ TEST_CASE("what a wheel has turned through errs less than is stated, also where 
     const auto motion = free::Motion<long double>::make<long double>(exact.problem);
     if (!motion) continue;
     const auto& wheel = exact.wheels[0];
-    const long double truth = wheel.rate * t - wheel.axis.dot(free::RateIntegral<long double>(*motion).at(t));
+    const long double truth = wheel.rate * t - wheel.axis.dot(free::RateIntegral<long double>(*motion, t).at(t));
     const Column* angle = answer.find("rotor_angle");
     REQUIRE(angle);
     const double off = double(std::abs(angle->values[0] - truth)) / std::max(1e-3, std::abs(angle->values[0]));

@@ -53,7 +53,7 @@ double angles_apart(const Track& track, const Scene& scene, Setup by) {
     const auto near = Reduced<Setup>::taken(neighbour<Setup>(given, k, by));
     const auto moved = Motion<double>::make<Setup>(near.problem);
     if (!moved) return infinity<double>;
-    const RateIntegral<double> other(*moved);
+    const RateIntegral<double> other(*moved, times.back());
     for (std::size_t i = times.size(); i-- > 0;) {
       if (i % stride != 0 && i + 1 != times.size()) continue;
       const Vec3<double> turned = other.at(times[i]);
@@ -84,7 +84,7 @@ GYROSTAT_COMPILED_ONCE void turn_wheels(Track& track, const Scene& scene, const 
   const auto& times = scene.question().times;
   double off = 0, size = 1e-3, through = 0;
   if (scene.needs_turned()) {
-    const RateIntegral<double> integral(form.motion);
+    const RateIntegral<double> integral(form.motion, times.back());
     off = turn_by_body(track, scene, form, integral);
     through = integral.swing();
   }

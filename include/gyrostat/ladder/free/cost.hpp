@@ -20,9 +20,9 @@ namespace gyrostat::free {
 /// looked at in many places.
 inline constexpr FormulaCost precession_cost{1.3e-6, 0.05e-6}, lanes_form_cost{5e-6, 0.06e-6},
     quick_form_cost{13e-6, 0.06e-6}, closed_form_cost{56e-6, 0.06e-6}, separatrix_form_cost{200e-6, 0.06e-6};
-/// Where the angles of wheels that turn freely are asked: the neighbours' integrals, and a series at each time.
-inline constexpr FormulaCost precession_angle_cost{1e-6, 0.1e-6}, quick_angle_cost{118e-6, 3e-6},
-    rotor_angle_cost{170e-6, 3e-6};
+/// Where the angles of wheels that turn freely are asked: the neighbours' integrals, and Kronrod's rule at each time.
+inline constexpr FormulaCost precession_angle_cost{1e-6, 0.1e-6}, quick_angle_cost{55e-6, 4e-6},
+    rotor_angle_cost{90e-6, 4e-6};
 inline constexpr SeriesCost series_cost{5e-6, 1.8e-6, 0.15e-6, 0.5};
 
 namespace detail {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gyrostat/core/real.hpp"
-#include "gyrostat/math/complex.hpp"
 #include "gyrostat/math/periodic.hpp"
+#include "gyrostat/math/quadrature.hpp"
 #include "gyrostat/math/root.hpp"
 #include "gyrostat/models/free/flips.hpp"
 #include "gyrostat/models/free/motion.hpp"
@@ -196,125 +196,89 @@ Resonance<Scalar> resonance(const Motion<Scalar>& motion, int most) noexcept {
   return {static_cast<int>(p), static_cast<int>(q), 2 * pi<Scalar> * (Scalar(q) * share - Scalar(p))};
 }
 
-/// The integral of omega over time since t = 0, body axes, rad: what the angle of a rotor that turns freely needs. A mean rate and a
-/// Fourier series of the period; beside the separatrix the sum of a quadrature. Allocates at construction.
+/// The integral of omega over time since t = 0, body axes, rad, up to `span`: what the angle of a rotor that turns freely needs. Kronrod's rule on panels
+/// of a period, or of as much of it as the span has, each halved until Gauss's agrees. Allocates at construction.
 template <Real Scalar>
 class RateIntegral {
  public:
-  explicit RateIntegral(const Motion<Scalar>& motion) noexcept : motion_(motion), period_(motion.period()) {
+  RateIntegral(const Motion<Scalar>& motion, Scalar span) noexcept : motion_(motion), period_(motion.period()) {
     steady_ = motion.at(Scalar(0)).angular_velocity;
-    if (motion.is_regular_precession()) steady_ = averages(motion).angular_velocity;
-    if (motion.is_regular_precession() || !(period_ < infinity<Scalar>)) return;
-    std::size_t n = 64;
-    while (n < 8192 && n < std::size_t(4 * nodes_of(motion))) n *= 2;
-    for (; n <= 16384; n *= 2) {
-      transform(n);
-      if (settled()) break;
-    }
-    steady_ = mean_;
-    start_ = periodic(Scalar(0));
+    if (motion.is_regular_precession() || motion.kind() == Kind::steady) return;
+    const Scalar rate = motion.jacobi_rate();
+    // beyond 40 units of u a separatrix motion turns steadily
+    end_ = period_ < infinity<Scalar> ? std::min(span, period_)
+                                      : std::clamp((40 - motion.jacobi_start()) / rate, Scalar(0), span);
+    if (!(end_ > 0)) return;
+    if (!(period_ < infinity<Scalar>)) steady_ = motion.at(end_).angular_velocity;
+    divide(1 + static_cast<int>(std::min(end_ * rate, Scalar(1000))));
   }
 
   Vec3<Scalar> at(Scalar t) const noexcept {
-    if (motion_.kind() == Kind::separatrix) return quadrature(t);
     if (motion_.is_regular_precession()) return motion_.precession_integral(t);
-    if (coefficients_.empty()) return steady_ * t;
-    return mean_ * t + (periodic(t) - start_);
+    if (panels_.empty()) return steady_ * t;
+    if (!(t > end_)) return within(t);
+    if (!(period_ < infinity<Scalar>)) return whole_ + (t - end_) * steady_;
+    const auto turns = detail::Fraction<Scalar>::of(detail::Turns<Scalar>{1 / period_, 0}, t, {});
+    const bool before = turns.high < 0;
+    const Scalar rest = before ? 1 + (turns.high + turns.low) : turns.high + turns.low;
+    return (before ? turns.whole - 1 : turns.whole) * whole_ + within(std::clamp(rest * period_, Scalar(0), end_));
   }
-  /// The size of what the series sums, rad, of which its rounding is, also where little time has passed.
-  Scalar swing() const noexcept { return coefficients_.empty() ? Scalar(0) : size_ * period_ / (2 * pi<Scalar>); }
+  /// The size of what is summed, rad, of which its rounding is, also where it cancels.
+  Scalar swing() const noexcept {
+    Scalar most = whole_.norm();
+    for (const Panel& panel : panels_) most = std::max(most, panel.before.norm());
+    return most;
+  }
 
  private:
-  using C = math::Complex<Scalar>;
+  struct Panel {
+    Scalar begin;
+    Vec3<Scalar> before;  ///< the integral up to there
+  };
 
-  /// Coefficients of exp(2 pi i k t/T), k = 1..n/2 - 1, of the integral.
-  void transform(std::size_t n) noexcept {
-    std::vector<Vec3<Scalar>> node(n);
-    // with what each sum loses (Kahan 1965): beside a separatrix all nodes are alike, and so were their roundings
+  void divide(int panels) noexcept {
+    using std::pow;
+    const Scalar agreed = pow(epsilon<Scalar>, Scalar(0.6L));  // Kronrod's rule has 24 orders where Gauss's has 14
     Vec3<Scalar> sum(0, 0, 0), lost(0, 0, 0);
-    for (std::size_t j = 0; j < n; ++j) {
-      node[j] = motion_.at(period_ * Scalar(j) / Scalar(n)).angular_velocity;
-      const Vec3<Scalar> more = node[j] - lost, now = sum + more;
-      lost = (now - sum) - more;
-      sum = now;
-    }
-    mean_ = sum / Scalar(n);
-    std::vector<C> turn(n);
-    for (std::size_t j = 0; j < n; ++j) turn[j] = math::unit(-2 * pi<Scalar> * Scalar(j) / Scalar(n));
-    coefficients_.assign(n / 2 - 1, {});
-    for (int i = 0; i < 3; ++i) {
-      std::vector<C> x(n);
-      for (std::size_t j = 0; j < n; ++j) x[j] = {node[j][i] - mean_[i], Scalar(0)};
-      fourier(x, turn);
-      for (std::size_t k = 1; k < n / 2; ++k)
-        coefficients_[k - 1][std::size_t(i)] =
-            Scalar(2) / Scalar(n) * period_ / (2 * pi<Scalar> * Scalar(k)) * C{x[k].im, -x[k].re};
-    }
-    size_ = node[0].norm();
-    for (const auto& w : node) size_ = std::max(size_, w.norm());
+    // nothing refuses
+    (void)math::halved_panels(Scalar(0), end_, panels, 12,
+                              [&](Scalar middle, Scalar half, bool halvable) noexcept -> Result<bool> {
+                                Vec3<Scalar> part(0, 0, 0), apart(0, 0, 0);
+                                Scalar fastest = 0;
+                                for (const auto& point : math::kronrod_points<Scalar>) {
+                                  const Vec3<Scalar> omega = motion_.at(middle + half * point.node).angular_velocity;
+                                  part += point.weight * omega;
+                                  apart += (point.weight - point.gauss_weight) * omega;
+                                  fastest = std::max(fastest, omega.norm());
+                                }
+                                if (halvable && !(apart.norm() <= agreed * fastest)) return false;
+                                panels_.push_back({middle - half, sum});
+                                // with what the sum loses (Kahan 1965): beside a separatrix panels are alike, and so are their roundings
+                                const Vec3<Scalar> more = half * part - lost, now = sum + more;
+                                lost = (now - sum) - more;
+                                sum = now;
+                                return true;
+                              });
+    whole_ = sum;
   }
 
-  /// In place, by halves (Cooley and Tukey 1965); n a power of two, turn[j] = exp(-2 pi i j/n).
-  static void fourier(std::vector<C>& x, const std::vector<C>& turn) noexcept {
-    const std::size_t n = x.size();
-    for (std::size_t i = 1, j = 0; i < n; ++i) {
-      std::size_t bit = n >> 1;
-      for (; j & bit; bit >>= 1) j ^= bit;
-      j ^= bit;
-      if (i < j) std::swap(x[i], x[j]);
-    }
-    for (std::size_t half = 1; half < n; half *= 2)
-      for (std::size_t i = 0; i < n; i += 2 * half)
-        for (std::size_t j = 0; j < half; ++j) {
-          const C odd = turn[j * (n / (2 * half))] * x[i + j + half], even = x[i + j];
-          x[i + j] = even + odd;
-          x[i + j + half] = even - odd;
-        }
-  }
-
-  /// The last eighth of the coefficients is rounding.
-  bool settled() const noexcept {
-    Scalar tail = 0;
-    for (std::size_t k = coefficients_.size() * 7 / 8; k < coefficients_.size(); ++k)
-      for (const C& c : coefficients_[k]) tail = std::max(tail, std::max(std::abs(c.re), std::abs(c.im)) * Scalar(k));
-    return tail <= 64 * epsilon<Scalar> * size_ * period_;
-  }
-
-  Vec3<Scalar> periodic(Scalar t) const noexcept {
-    const auto x = detail::Fraction<Scalar>::of(detail::Turns<Scalar>{1 / period_, 0}, t, {});
-    const C z = math::unit(2 * pi<Scalar> * (x.high + x.low));
-    std::array<C, 3> sum{};
-    for (std::size_t k = coefficients_.size(); k-- > 0;)
-      for (std::size_t i = 0; i < 3; ++i) sum[i] = (sum[i] + coefficients_[k][i]) * z;
-    return {sum[0].re, sum[1].re, sum[2].re};
-  }
-
-  /// Gauss's rule of five points on panels of half a unit of u, and the constant rate beyond 40 units.
-  Vec3<Scalar> quadrature(Scalar t) const noexcept {
-    static constexpr Scalar x[5] = {
-        Scalar(-0.906179845938663992797626878299392965L), Scalar(-0.538469310105683091036314420700208805L), Scalar(0),
-        Scalar(0.538469310105683091036314420700208805L), Scalar(0.906179845938663992797626878299392965L)};
-    static constexpr Scalar weight[5] = {
-        Scalar(0.236926885056189087514264040719917363L), Scalar(0.478628670499366468041291514835638193L),
-        Scalar(0.568888888888888888888888888888888889L), Scalar(0.478628670499366468041291514835638193L),
-        Scalar(0.236926885056189087514264040719917363L)};
-    const Scalar rate = motion_.jacobi_rate(),
-                 end = (t < 0 ? -40 - motion_.jacobi_start() : 40 - motion_.jacobi_start()) / rate;
-    const bool past = t < 0 ? t < end && end < 0 : t > end && end > 0;
-    const Scalar to = past ? end : t;
-    const int panels = 1 + static_cast<int>(std::min(std::abs(to) * rate * 4, Scalar(1000)));
-    Vec3<Scalar> sum(0, 0, 0);
-    for (int i = 0; i < panels; ++i)
-      for (int k = 0; k < 5; ++k)
-        sum += weight[k] / 2 * motion_.at(to * (Scalar(i) + (1 + x[k]) / 2) / Scalar(panels)).angular_velocity;
-    sum *= to / Scalar(panels);
-    return past ? Vec3<Scalar>(sum + (t - end) * motion_.at(end).angular_velocity) : sum;
+  /// Up to t, at most the end of the panels.
+  Vec3<Scalar> within(Scalar t) const noexcept {
+    const auto next = std::upper_bound(panels_.begin() + 1, panels_.end(), t,
+                                       [](Scalar time, const Panel& panel) noexcept { return time < panel.begin; });
+    const Panel& panel = *(next - 1);
+    const Scalar half = (t - panel.begin) / 2;
+    Vec3<Scalar> part(0, 0, 0);
+    for (const auto& point : math::kronrod_points<Scalar>)
+      part += point.weight * motion_.at(panel.begin + half * (1 + point.node)).angular_velocity;
+    return panel.before + half * part;
   }
 
   Motion<Scalar> motion_;
-  Scalar period_, size_ = 0;
-  Vec3<Scalar> steady_{0, 0, 0}, mean_{0, 0, 0}, start_{0, 0, 0};
-  std::vector<std::array<C, 3>> coefficients_;
+  Scalar period_, end_ = 0;
+  Vec3<Scalar> steady_{0, 0, 0};  ///< omega where it does not change, or no more
+  Vec3<Scalar> whole_{0, 0, 0};   ///< the integral over all panels
+  std::vector<Panel> panels_;
 };
 
 }  // namespace gyrostat::free

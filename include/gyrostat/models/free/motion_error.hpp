@@ -603,7 +603,9 @@ std::optional<MotionError<Scalar>> MotionError<Scalar>::of_precession(const Moti
   // the slight moment of a tensor is off by what the greatest is
   const Scalar slim = axes_given ? Scalar(1) : J[0] / J[k];
   const Scalar of_spin = assembly.body.momentum_given ? slim * (along + carried) / J[k] : spin;
-  const Scalar of_pace = off * ((J[1] + J[k]) * of_spin + carried) / J[1] + gap * (R * lifted + J[k] * speed * tilt);
+  // what wheels carry is put together in more roundings: a rate, a product, a sum, a quotient
+  const Scalar of_pace =
+      off * ((J[1] + J[k]) * of_spin + 2 * carried) / J[1] + gap * (R * lifted + J[k] * speed * tilt);
   const Scalar of_momentum = off * terms / J[1];
   MotionError error;
   error.horizon_ = horizon;
