@@ -126,7 +126,7 @@ def _sweep(arguments: argparse.Namespace, scene: Scene) -> int:
 
 def _clear(parts: Path) -> None:
     """Removes the parts of a study, and their folder if nothing else is in it."""
-    for part in parts.glob("rows-*-*.nc"):
+    for part in (*parts.glob("rows-*-*.nc"), *parts.glob(".rows-*-*.nc")):  # also what was half written
         part.unlink(missing_ok=True)
     with suppress(OSError):
         parts.rmdir()

@@ -3,6 +3,7 @@
 
 import json
 import os
+import zlib
 from collections.abc import Callable, Mapping
 from importlib.util import find_spec
 from pathlib import Path
@@ -17,7 +18,7 @@ from gyrostat.writing import written
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["check_size", "import_xarray", "open_results", "save", "to_netcdf", "writer_of"]
+__all__ = ["check_size", "checksum", "import_xarray", "open_results", "save", "to_netcdf", "writer_of"]
 
 
 def import_xarray() -> Any:
@@ -44,6 +45,16 @@ def check_size(file: Path, sizes: Mapping[str, int], remedy: str = LESS) -> None
         return
     if large := next((name for name, size in sizes.items() if size >= MOST_BYTES), None):
         raise DomainError(f"{file}: {large} would be over 2 GiB, more than a variable of this format holds: {remedy}")
+
+
+def checksum(dataset: "xarray.Dataset") -> str:
+    """Of all values, whatever types a file gives them."""
+    total = 0
+    for name in sorted(map(str, dataset.variables)):
+        values = dataset[name].values
+        told = values.astype(np.float64).tobytes() if values.dtype.kind in "biuf" else "\n".join(map(str, values.ravel())).encode()
+        total = zlib.crc32(told, total)
+    return f"{total:08x}"
 
 
 def to_netcdf(dataset: "xarray.Dataset", file: Path) -> None:
@@ -133,6 +144,8 @@ def open_results(file: str | os.PathLike[str]) -> "xarray.Dataset":
         raise DomainError(f"{file}: this holds no results of a sweep, or they are damaged")
     words = {name: values.astype(object) for name, values in found.data_vars.items() if values.dtype.kind in "UT"}
     made: xarray.Dataset = found.assign(words)[_in_order(found)]
+    if made.attrs.pop("checksum", None) not in (None, checksum(made)):
+        raise DomainError(f"{file}: bits of this have turned since it was written")
     return made
 
 

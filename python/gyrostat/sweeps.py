@@ -27,7 +27,7 @@ from gyrostat.ladder import SceneLike, scene_of
 from gyrostat.orientation import NOT_ORTHONORMAL, form_of
 from gyrostat.rows import Place, integer, plan_of, request, turned
 from gyrostat.scenes import Scene
-from gyrostat.sweep_files import check_size, import_xarray, open_results, save, to_netcdf, writer_of
+from gyrostat.sweep_files import check_size, checksum, import_xarray, open_results, save, to_netcdf, writer_of
 from gyrostat.vary import Plan
 from gyrostat.watching import watched
 from gyrostat.writing import written
@@ -360,9 +360,9 @@ def _rows_of_call(call: str, study: Study, rows: range, threads: int) -> "xarray
 
 
 def _keep(dataset: "xarray.Dataset", folder: Path, rows: range) -> None:
-    """Writes a part such that there is never half of one."""
+    """Writes a part such that there is never half of one, and so that it shows where bits of it have turned."""
     with written(_part_file(folder, rows)) as beside:
-        to_netcdf(dataset, beside)
+        to_netcdf(dataset.assign_attrs(checksum=checksum(dataset)), beside)
 
 
 def _joined(parts: "list[xarray.Dataset]") -> "xarray.Dataset":

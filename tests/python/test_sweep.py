@@ -6,6 +6,7 @@ import itertools
 import json
 import math
 import re
+import struct
 import subprocess
 import sys
 import tomllib
@@ -440,7 +441,7 @@ def test_a_sweep_that_is_interrupted_goes_on_where_it_was(tmp_path: Path) -> Non
         light(seed=9, parts=tmp_path)
 
 
-@pytest.mark.parametrize("harm", ["empty", "cut", "nought", "renamed", "another's", "fewer"])
+@pytest.mark.parametrize("harm", ["empty", "cut", "nought", "renamed", "another's", "fewer", "a bit"])
 def test_parts_that_are_damaged_are_done_again(tmp_path: Path, harm: str) -> None:
     light(chunk=10, parts=tmp_path)
     parts = sorted(tmp_path.glob("*.nc"))
@@ -456,9 +457,21 @@ def test_parts_that_are_damaged_are_done_again(tmp_path: Path, harm: str) -> Non
             parts[2].rename(tmp_path / "rows-0000000020-0000000025.nc")
         case "another's":
             parts[2].write_bytes(parts[1].read_bytes())
+        case "a bit":
+            place = whole.find(struct.pack(">d", open_results(parts[2])["stop_time"][3]))
+            assert place > 0
+            parts[2].write_bytes(whole[:place + 1] + bytes([whole[place + 1] ^ 16]) + whole[place + 2:])
         case "fewer":
             save(open_results(parts[2]).isel(row=slice(0, 4)), parts[2])
     assert same(light(chunk=10, parts=tmp_path), light())
+
+
+def test_what_a_killed_sweep_left_half_written_goes_with_its_parts(tmp_path: Path) -> None:
+    left = tmp_path / "a.nc.parts" / ".rows-0000000000-0000000010.17-4.nc"
+    left.parent.mkdir()
+    left.write_bytes(b"CDF")
+    assert main(["sweep", "stage-despin-study", "-n", "20", "--chunk", "10", "--resume", "-o", str(tmp_path / "a.nc")]) == 0
+    assert [each.name for each in tmp_path.iterdir()] == ["a.nc"]
 
 
 def test_what_is_put_together_has_each_row_once(tmp_path: Path) -> None:
