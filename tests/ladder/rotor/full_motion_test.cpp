@@ -328,6 +328,20 @@ TEST_CASE("rest, no momentum, no motor", "[rotor]") {
       CHECK(stated < 4e-15 * 1e6 * t + 1e-14 * beta);
     }
   }
+  SECTION("a momentum that cancels but for a rounding turns the body on when the motor has stopped it") {
+    const double J = 0.20128893406024037, lambda = 0.05275733582847058, rate = -44.51652072736134;
+    const Vec3<double> axis(0.8183702167305487, 0.5707549635205743, -0.06714878989991283),
+        Omega(9.548474344885568, 6.659381066144883, -0.78346998038485);
+    const auto body = Gyrostat<double>::make(J * Mat3<double>::Identity(), axis, lambda, 25.9, 0).value();
+    const auto start = body.state({}, Omega, rate);
+    REQUIRE(start.momentum.isZero(0));
+    const auto solved = solve<double>(body, start, {100.0}, 1e-6);
+    CHECK(solved.answer.met);
+    const Vec3<long double> left =
+        J * Omega.cast<long double>() + (long double)(lambda)*rate * axis.cast<long double>().normalized();
+    CHECK(double(left.norm()) / J * 100 > 3e-13);
+    CHECK(solved.answer.error[column::attitude] > double(left.norm()) / J * 100);
+  }
   SECTION("without slope p and the energy stay") {
     const auto body = reference_body(0, 30);
     const State<double> start = body.state({}, {1, -2, 0.5}, 4);

@@ -223,9 +223,15 @@ ColumnErrors<Scalar> rounding_of_columns(const Row<Scalar>& row, const State<Sca
   const Scalar whole = H * Omega.norm(), across = cross<Scalar>(start.momentum, Omega).norm();
   const Scalar swung =
       whole > 0 ? turned * (across / whole) : Scalar(0);  // of H in body axes: not in a steady rotation
-  error[column::attitude] = 4 * relative + turned;
-  error[column::angular_momentum] = (4 * relative + swung) * H + 4 * relative * row.scale[column::angular_momentum];
-  error[column::angular_velocity] = 2 * relative * H * fastest + 2 * p * pull + swung * size[column::angular_velocity];
+  // a momentum that cancels to rounding was taken for none, and turns the body for ever
+  const Scalar left =
+      H > 0 ? Scalar(0)
+            : gyrostat.lost_momentum(gyrostat.inertia() * Omega, gyrostat.rotor_rate(start.axial_momentum, Omega));
+  error[column::attitude] = 4 * relative + turned + left * fastest * span;
+  error[column::angular_momentum] =
+      (4 * relative + swung) * H + 4 * relative * row.scale[column::angular_momentum] + left;
+  error[column::angular_velocity] =
+      2 * relative * H * fastest + 2 * p * pull + swung * size[column::angular_velocity] + left * fastest;
   error[column::rotor_rate] = 2 * relative * H * pull + 2 * p / (lambda * k);
   error[column::rotor_angle] = 4 * relative * size[column::rotor_angle];
   // put together from two terms that may cancel while the motor is far from no load

@@ -114,10 +114,13 @@ class Gyrostat {
     const Vec3<Wide> carrier = matrix_cast<Wide>(inertia_) * turn;
     const Wide spin = Wide(axial_inertia()) * Wide(omega);
     Vec3<Scalar> H = vector_cast<Scalar>(Vec3<Wide>(carrier + spin * e));
-    const Scalar lost =
-        8 * epsilon<Scalar> * (magnitude(vector_cast<Scalar>(carrier)) + axial_inertia() * std::abs(omega));
-    if (magnitude(H) <= lost) H.setZero();
+    if (magnitude(H) <= lost_momentum(vector_cast<Scalar>(carrier), omega)) H.setZero();
     return {attitude, H, static_cast<Scalar>(spin + Wide(axial_inertia()) * e.dot(turn)), 0};
+  }
+
+  /// The momentum, N m s, that state() takes for none, where the carrier has theta Omega and the rotor turns with the rate omega.
+  Scalar lost_momentum(const Vec3<Scalar>& of_carrier, Scalar omega) const noexcept {
+    return 8 * epsilon<Scalar> * (magnitude(of_carrier) + axial_inertia() * std::abs(omega));
   }
 
   /// Rotational energy about the mass centre, J.
