@@ -19,7 +19,7 @@ inline constexpr const char* not_repeatable =
 inline constexpr const char* steps_of_law =
     "the torque of your own makes the steps so short that their budget, 10 million, does not reach the last "
     "time: give a jump with the state, as that of a switch at zero, a width, name in breakpoints where a fast "
-    "phase ends, or ask for a shorter span or a looser tolerance";
+    "phase ends, give what brakes hard as [[torque]] of type damping, or ask for a shorter span or a looser tolerance";
 inline constexpr const char* too_fast_for_dop853 =
     "wheels settle so fast that DOP853 would take too many steps: ask for a shorter span, or give the torque as tables "
     "and damping";
