@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Elliptic integrals and functions over flat arrays; gyrostat/elliptic.py broadcasts.
 #include "gyrostat/math/elliptic.hpp"
-#include "gil.hpp"
 
 #include <string>
 
 #include "bind.hpp"
 #include "convert.hpp"
 #include "elliptic_backend.hpp"
+#include "gil.hpp"
 
 namespace gyrostat::python {
 

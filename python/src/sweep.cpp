@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps over rows of scenes, of every family; gyrostat/sweeps.py wraps them.
 #include "gyrostat/ladder/sweep.hpp"
-#include "gil.hpp"
 
 #include <pybind11/stl.h>
 
@@ -16,6 +15,7 @@
 #include "convert.hpp"
 #include "elliptic_backend.hpp"
 #include "general_arguments.hpp"
+#include "gil.hpp"
 #include "gyrostat/ladder/deceleration/inputs.hpp"
 #include "gyrostat/ladder/deceleration/solve.hpp"
 #include "gyrostat/ladder/free/inputs.hpp"

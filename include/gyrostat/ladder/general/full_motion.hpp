@@ -155,8 +155,8 @@ struct FullMotionAnswer : MotionOutcome<std::size(full_columns), Scalar> {
 template <Real Scalar>
 struct FullMotionOptions : MotionOptions<Scalar> {
   Integrator integrator = Integrator::any;
-  bool alone =
-      false;  ///< one run, as the tolerance lets begin, without neighbours: its errors are not known, and told as 0
+  /// One run, as the tolerance lets begin, without neighbours: its errors are not known, and told as 0.
+  bool alone = false;
   /// Error over tolerance of what the caller makes of the states, which are in place; nullptr: it makes nothing.
   Scalar (*judge)(void* caller, const FullMotionAnswer<Scalar>&) noexcept = nullptr;
   void* caller = nullptr;

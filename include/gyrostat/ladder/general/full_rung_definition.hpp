@@ -141,10 +141,6 @@ GYROSTAT_COMPILED_ONCE Track unless_lost(const Scene& scene) {
   return {};
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// The full equations in one run or, where their error is wanted, with neighbours.
 inline Track track_of(const Scene& scene, Monitor* monitor, bool alone) {
   const Question& question = scene.question();

@@ -240,25 +240,24 @@ class RateIntegral {
     using std::pow;
     const Scalar agreed = pow(epsilon<Scalar>, Scalar(0.6L));  // Kronrod's rule has 24 orders where Gauss's has 14
     Vec3<Scalar> sum(0, 0, 0), lost(0, 0, 0);
-    // nothing refuses
-    (void)math::halved_panels(Scalar(0), end_, panels, 12,
-                              [&](Scalar middle, Scalar half, bool halvable) noexcept -> Result<bool> {
-                                Vec3<Scalar> part(0, 0, 0), apart(0, 0, 0);
-                                Scalar fastest = 0;
-                                for (const auto& point : math::kronrod_points<Scalar>) {
-                                  const Vec3<Scalar> omega = motion_.at(middle + half * point.node).angular_velocity;
-                                  part += point.weight * omega;
-                                  apart += (point.weight - point.gauss_weight) * omega;
-                                  fastest = std::max(fastest, omega.norm());
-                                }
-                                if (halvable && !(apart.norm() <= agreed * fastest)) return false;
-                                panels_.push_back({middle - half, sum});
-                                // with what the sum loses (Kahan 1965): beside a separatrix panels are alike, and so are their roundings
-                                const Vec3<Scalar> more = half * part - lost, now = sum + more;
-                                lost = (now - sum) - more;
-                                sum = now;
-                                return true;
-                              });
+    const auto take = [&](Scalar middle, Scalar half, bool halvable) noexcept -> Result<bool> {
+      Vec3<Scalar> part(0, 0, 0), apart(0, 0, 0);
+      Scalar fastest = 0;
+      for (const auto& point : math::kronrod_points<Scalar>) {
+        const Vec3<Scalar> omega = motion_.at(middle + half * point.node).angular_velocity;
+        part += point.weight * omega;
+        apart += (point.weight - point.gauss_weight) * omega;
+        fastest = std::max(fastest, omega.norm());
+      }
+      if (halvable && !(apart.norm() <= agreed * fastest)) return false;
+      panels_.push_back({middle - half, sum});
+      // with what the sum loses (Kahan 1965): beside a separatrix panels are alike, and so are their roundings
+      const Vec3<Scalar> more = half * part - lost, now = sum + more;
+      lost = (now - sum) - more;
+      sum = now;
+      return true;
+    };
+    (void)math::halved_panels(Scalar(0), end_, panels, 12, take);  // nothing refuses
     whole_ = sum;
   }
 
