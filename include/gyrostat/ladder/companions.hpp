@@ -304,8 +304,8 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const S
 }
 
 /// Solves by a run beside its companions. `rounding(sizes, walk)` gives, in units of the columns, the error that
-/// all runs share, so that no distance shows it: rounding of the columns, `walk` being the accumulated rounding of the answer's steps. note(i, error)
-/// receives the current estimate of the error at each asked time.
+/// all runs share, so that no distance shows it: rounding of the columns, `walk` being the accumulated rounding of the answer's steps. The greater of it and what
+/// the distances show is stated: the margin of each leaves room for the other. note(i, error) receives the current estimate of the error at each asked time.
 template <class Answer, class Writer, class Course, class Rounding, class Note = decltype(not_noted)>
 void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs, const Sought<Writer>& sought,
                   const MotionOptions<typename Writer::Scalar>& options, const Rounding& rounding,
@@ -320,7 +320,8 @@ void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs
     answer.error = decltype(answer.error)::all(nan<Scalar>);
     return;
   }
-  const auto error = walk.error + rounding(walk.asked.size(), step_rounding);
+  auto error = walk.error;
+  error.raise(rounding(walk.asked.size(), step_rounding));
   answer.error = relative_to_truth(walk.asked.relative(error), Writer::columns);
   answer.met = options.excess(answer) <= 1;
 }

@@ -88,6 +88,42 @@ TEST_CASE("the error of a torque is what the errors of the motion make of it", "
   CHECK(exact.columns[0].error < 30 * apart);
 }
 
+TEST_CASE("what a law keeps is as far off as it has gone from the start, however far the phase is", "[general]") {
+  Problem<double> problem = brick();
+  problem.wheels = {wheel(WheelType::free, {0, 0.6, 0.8}), wheel(WheelType::held, {1, 0, 0})};
+  problem.wheels[0].rate = 3, problem.wheels[1].rate = -2;
+  Question question = question_at({3});
+  question.asked = {{column::angular_momentum_inertial}, {column::angular_momentum_norm}, {column::energy}};
+  const auto answered = [&](const Quat<double>& turn) {
+    const Scene scene = posed(problem, question);
+    Track track;
+    const std::vector<long double> wide{3};
+    track.states.push_back(general_truth::cast<double>(
+        general_truth::motion<long double>(general_truth::cast<long double>(scene.problem()), wide, 1e-16L)[0]));
+    track.states[0].attitude = normalised(turn * track.states[0].attitude);
+    track.off.fill(1e-3);
+    Answer answer;
+    fill(answer, scene, track);
+    return answer;
+  };
+  const Answer exact = answered({});
+  for (const Column& column : exact.columns) {
+    CAPTURE(column.name());
+    CHECK(column.error < 1e-14);
+    CHECK(column.error > 4 * epsilon<double>);
+  }
+  const Answer off = answered({1, 4e-7, 2e-7, 0});
+  const double apart = column_error(off.columns[0], exact.columns[0]);
+  CHECK(apart > 1e-8);
+  CHECK(off.columns[0].error >= apart);
+  CHECK(off.columns[0].error < 1.0001 * apart);
+  problem.wheels[0].type = WheelType::motor, problem.wheels[0].slope = 1e-3;
+  CHECK(answered({}).find("angular_momentum_norm")->error < 1e-14);
+  CHECK(answered({}).find("energy")->error > 1e-4);
+  problem.torques = {torque(TorqueType::constant, {0.1, 0, 0})};
+  for (const Column& column : answered({}).columns) CHECK(column.error > 1e-4);
+}
+
 TEST_CASE("angles of the attitude count turns, and state an error that holds for each of them") {
   Problem<double> problem = brick();
   problem.angular_velocity = {0.1, 0.2, 1.4};

@@ -476,7 +476,7 @@ class FullMotion {
         const Scalar gyro = problem_.gyro_rate().norm(), omega = size[column::angular_velocity];
         // omega is the difference of J^-1 M and J^-1 l in every step
         const Scalar swell = problem_.law == Law::total && omega > 0 ? std::min(gyro / omega, Scalar(100)) : Scalar(0);
-        return rounding_of_columns(problem_, size, 4 * eps + (1 + 6 * swell) * steps, rest * gyro);
+        return rounding_of_columns(problem_, size, 3 * eps + shared_rounding(steps) + 6 * swell * steps, rest * gyro);
       };
       const auto note = [&](std::size_t i, const ColumnErrors<Scalar>& error) noexcept {
         if (i / options_.stride < options_.errors.size()) options_.errors[i / options_.stride].raise(error);
@@ -509,7 +509,7 @@ class FullMotion {
     for (std::size_t i = 0; i < options_.errors.size() && i * options_.stride < states_.size(); ++i) {
       Comparison size(row);
       size.add(states_[i * options_.stride]);
-      options_.errors[i] += rounding(size.size(), relative);
+      options_.errors[i].raise(rounding(size.size(), relative));
     }
   }
 
@@ -535,7 +535,7 @@ class FullMotion {
     const Scalar apart = error_of_distances(std::max(std::abs(one - stop), std::abs(two - stop)), std::abs(one - two));
     answer.stop_error = Scalar(honesty::stop_margin) * apart / stop +
                         Scalar(honesty::stop_steps) * answer.step_tolerance +
-                        Scalar(2e-13L) * std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
+                        8 * shared_rounding(epsilon<Scalar> * std::sqrt(Scalar(runs.answer.counts().steps)));
     // where the runs have parted, three of them may stop together by chance: what they had |M| apart takes the weakest torque so long
     if (!times_.empty() && !(answer.error[column::angular_momentum] < 1))
       answer.stop_error += Scalar(honesty::stop_margin) * answer.error[column::angular_momentum_norm] *

@@ -51,7 +51,7 @@ GYROSTAT_COMPILED_ONCE Track full_by_dop853(const Scene& scene, Monitor* monitor
     return refused<Track>(failure_of(answer->status), why_stopped(answer->status));
   track.counts = answer->counts;
   track.off = detail::off_of(track, answer->error, row, scene);
-  track.compared = detail::compared_of(track, answer->error, row, scene);
+  track.compared = detail::compared_of(track, answer->error, row);
   detail::warn_of_law(track, scene);
   return track;
 }

@@ -196,7 +196,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto error = runs.asked.relative(runs.error + rounding);
   const auto to_truth = relative_to_truth(error, full_columns);
   track.off = detail::off_of(track, to_truth, row, scene);
-  track.compared = detail::compared_of(track, to_truth, row, scene);
+  track.compared = detail::compared_of(track, to_truth, row);
   detail::warn_of_law(track, scene);
   return track;
 }

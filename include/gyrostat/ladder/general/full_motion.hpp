@@ -228,15 +228,17 @@ FullErrors<Scalar> rounding_of_columns(const Prepared<Scalar>& of, const FullRow
     if (of.sizes.turning > 0) error[full_column::rotor_angle] += error[full_column::rotor_rate] / of.sizes.turning;
   }
   for (const auto column : {full_column::velocity, full_column::position})
-    error[column] = 4 * relative * (size[column] + row.foreseen[column]);
+    error[column] = 2 * relative * (size[column] + row.foreseen[column]);
   error[full_column::impulse] = error[full_column::gain] = 4 * relative * momenta;
   const Scalar rate = size[full_column::angular_velocity];
   Scalar& work = error[full_column::work];
-  work = of.sizes.greatest * rate * (error[full_column::angular_velocity] + 4 * relative * rate);
+  // w . dM, and what the evaluation of w and of the energy loses; a phase takes no work
+  const Scalar evaluated = 2 * relative * fastest + 4 * blur;
+  work = rate * (relative * momenta + of.sizes.greatest * (4 * blur + 2 * relative * rate));
   for (std::size_t i = 0; i < wheels.count; ++i) {
     const auto& law = wheels.laws[i];
     const Scalar turning = size[full_column::rotor_rate] + rate;
-    const Scalar its = error[full_column::rotor_rate] + error[full_column::angular_velocity] + 4 * relative * turning;
+    const Scalar its = error[full_column::rotor_rate] + evaluated + 4 * relative * turning;
     if (law.turns_by_itself()) work += law.axial_inertia * turning * its;
   }
   return error;
@@ -351,16 +353,18 @@ class FullMotion {
  private:
   using Course = FullCourse<Method>;
 
-  /// Adds what a torque that brakes hold only to rounding may have done.
+  /// Adds what a torque that brakes hold only to rounding may have done, and a quarter: of the greater of two errors the lesser, a fifth of what the
+  /// companions' distances state, must fit in as well.
   static void add_slip(FullErrors<Scalar>& error, const Course& course) noexcept {
-    const Scalar rate = course.slipped() / course.prepared().sizes.least, angle = course.slipped_angle();
+    constexpr Scalar margin = Scalar(1.25L);
     const auto& sizes = course.prepared().sizes;
+    const Scalar slip = margin * course.slipped(), rate = slip / sizes.least, angle = margin * course.slipped_angle();
     error[full_column::attitude] += angle;
-    error[full_column::angular_momentum] += course.slipped();
+    error[full_column::angular_momentum] += slip;
     error[full_column::angular_velocity] += rate;
-    error[full_column::impulse] += course.slipped() + sizes.momentum() * angle;
-    error[full_column::gain] += course.slipped();
-    error[full_column::work] += course.slipped() * (sizes.turning + rate);
+    error[full_column::impulse] += slip + sizes.momentum() * angle;
+    error[full_column::gain] += slip;
+    error[full_column::work] += slip * (sizes.turning + rate);
     if (course.prepared().wheels.count == 0) return;
     error[full_column::rotor_rate] += rate;
     error[full_column::rotor_angle] += angle;

@@ -71,7 +71,7 @@ inline FullErrors<double> wanted_of(const Scene& scene, const Goal<std::size(col
 
 /// The absolute errors of what is made of the primitives, as it was compared itself.
 GYROSTAT_COMPILED_ONCE Track::Compared compared_of(const Track& track, const FullErrors<double>& error,
-                                                   const FullRow<double>& row, const Scene& scene) noexcept;
+                                                   const FullRow<double>& row) noexcept;
 
 /// The absolute errors of the primitives.
 GYROSTAT_COMPILED_ONCE std::array<double, primitive::count> off_of(const Track& track, const FullErrors<double>& error,

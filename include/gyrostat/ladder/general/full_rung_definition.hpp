@@ -42,12 +42,11 @@ GYROSTAT_COMPILED_ONCE std::array<double, primitive::count> off_of(const Track& 
 }
 
 GYROSTAT_COMPILED_ONCE Track::Compared compared_of(const Track& track, const FullErrors<double>& error,
-                                                   const FullRow<double>& row, const Scene& scene) noexcept {
+                                                   const FullRow<double>& row) noexcept {
   Comparison<FullRow<double>> sizes(row);
-  double most = 0;
-  for (const auto& s : track.states) sizes.add(s), most = greater(energy(scene.wheels(), s), most);
+  for (const auto& s : track.states) sizes.add(s);
   const auto off = sizes.absolute(error);
-  return {off[full_column::impulse], off[full_column::gain], off[full_column::work] + 8 * epsilon<double> * most};
+  return {off[full_column::impulse], off[full_column::gain], off[full_column::work]};
 }
 
 /// Takes what a run says about its errors into the track that has its states, and judges it by what is asked of the columns made of them.
@@ -68,7 +67,7 @@ struct RunReader {
     Track& track = reader.track;
     track.rests = answer.rests, track.rest_off = answer.rest_off;
     track.off = off_of(track, answer.error, reader.row, reader.scene);
-    track.compared = compared_of(track, answer.error, reader.row, reader.scene);
+    track.compared = compared_of(track, answer.error, reader.row);
     // the sizes of rates are foreseen from the momenta, which may be far more than what they come to
     double most = reader.judges(column::angular_velocity) ? reader.excess(column::angular_velocity) : 0;
     for (const std::size_t place : compared_columns)

@@ -72,7 +72,7 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noex
   Shifts<Scalar> shift(5 * which + 3);
   Problem<Scalar> near = of;
   const bool kept = keeps_axis(of);
-  const auto scale = [&](Scalar& x) noexcept { x *= 1 + amount * shift(); };
+  const auto scale = [&](Scalar& x) noexcept { x *= 1 + amount / 2 * shift(); };
   const auto scale_vector = [&](Vec3<Scalar>& v) noexcept {
     for (int i = 0; i < 3; ++i) scale(v[i]);
   };
@@ -108,7 +108,6 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noex
   }
   scale_vector(near.centre_of_mass), scale_vector(near.field.flux_density);
   scale(near.field.gravity), scale(near.field.rate), scale(near.field.strength), scale(near.mass);
-  scale_vector(near.velocity), scale_vector(near.position);
   if (near.orbit) {
     scale(near.orbit->radius), scale(near.orbit->mu), scale(near.orbit->true_anomaly);
     if (Scalar e = of.orbit->eccentricity; scale(e), e < 1) near.orbit->eccentricity = e;

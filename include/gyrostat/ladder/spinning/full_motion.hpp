@@ -192,11 +192,13 @@ class FullMotion {
     // What the runs share: rounding at the asked times.
     const Scalar rounding_walk = eps * std::sqrt(static_cast<Scalar>(steps));
     const Scalar shared = 4 * shared_rounding(rounding_walk);
-    ColumnErrors<Scalar> error = walk.error + shared * rounded_in(walk.asked.size());
+    ColumnErrors<Scalar> rounding = shared * rounded_in(walk.asked.size());
     // and the force's direction, which the mean acceleration along the spin axis may be a small part of
     const Scalar gain = 2 * eps * (problem_.force.norm() / problem_.mass) * span;
-    error[column::velocity] += gain;
-    error[column::position] += gain * span / 2;
+    rounding[column::velocity] += gain;
+    rounding[column::position] += gain * span / 2;
+    ColumnErrors<Scalar> error = walk.error;
+    error.raise(rounding);
     answer.tilt_error = walk.error[column::euler_312] + shared;
     error[column::euler_312] = angles_error<Scalar>(error[column::attitude], states_);
     answer.least_cosine = course.least_cosine();
