@@ -315,17 +315,19 @@ TEST_CASE("a companion that runs alone is kicked once, behind half the span", "[
   CHECK(first.kicks + second.kicks == 0);
 }
 
-TEST_CASE("the stated error is the distance times its margin or the rounding, the greater, relative to the truth",
-          "[ladder]") {
+TEST_CASE(
+    "the stated error is the distance times its margin or the rounding, the greater, of a lone companion their sum",
+    "[ladder]") {
   struct Answer : MotionOutcome<1, double> {};
   const std::vector<double> times{1, 5};
   std::vector<double> states(2);
-  const auto solved = [&](Function beside) {
+  const auto solved = [&](Function beside, bool lone = false) {
     Answer answer;
     Run course{still, 1}, companion{beside, 1}, second{beside, 1};
     MotionOptions<double> options;
     options.tolerance = 1e-3;
-    solve_beside(answer, PairWriter{}, Runs<Run>{course, companion, &second}, {1.0, 0.0, times, states, -1.0}, options,
+    solve_beside(answer, PairWriter{}, Runs<Run>{course, companion, lone ? nullptr : &second},
+                 {1.0, 0.0, times, states, -1.0}, options,
                  [](const Errors<1>& size, double steps) noexcept { return steps * size; });
     return answer;
   };
@@ -337,6 +339,9 @@ TEST_CASE("the stated error is the distance times its margin or the rounding, th
   CHECK(loose.met);
   CHECK(loose.counts.steps == 300);
   CHECK(solved(still).error[0] == Approx(rounding));
+  // a lone companion may be near by chance
+  const double both = truncated + rounding;
+  CHECK(solved(near, true).error[0] == Approx(both / (1 - both)).epsilon(1e-12));
   CHECK(solved(off).error[0] == infinity<double>);
   CHECK_FALSE(solved(off).met);
 }

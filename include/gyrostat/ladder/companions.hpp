@@ -97,6 +97,18 @@ constexpr Errors<N, Scalar> error_of_distances(Errors<N, Scalar> away, const Err
   return Scalar(honesty::side_by_side.margin) * away;
 }
 
+/// What is stated where distances of the runs show one error and `shared` is what they cannot show: the greater, as the margin of each leaves room for the
+/// other; with a lone companion, which may be near by chance, the sum.
+template <Real Scalar>
+constexpr Scalar stated_error(Scalar shown, Scalar shared, bool lone) noexcept {
+  return lone ? shown + shared : greater(shown, shared);
+}
+template <std::size_t N, Real Scalar>
+constexpr Errors<N, Scalar> stated_error(Errors<N, Scalar> shown, const Errors<N, Scalar>& shared, bool lone) noexcept {
+  for (std::size_t i = 0; i < N; ++i) shown[i] = stated_error(shown[i], shared[i], lone);
+  return shown;
+}
+
 /// Relative error that all runs may share: rounding of the evaluation, and a part of `walk`, the accumulated rounding of the steps.
 template <Real Scalar>
 constexpr Scalar shared_rounding(Scalar walk) noexcept {
@@ -304,8 +316,8 @@ Walk<Writer> walk_beside(const Writer& writer, const Runs<Course>& runs, const S
 }
 
 /// Solves by a run beside its companions. `rounding(sizes, walk)` gives, in units of the columns, the error that
-/// all runs share, so that no distance shows it: rounding of the columns, `walk` being the accumulated rounding of the answer's steps. The greater of it and what
-/// the distances show is stated: the margin of each leaves room for the other. note(i, error) receives the current estimate of the error at each asked time.
+/// all runs share, so that no distance shows it: rounding of the columns, `walk` being the accumulated rounding of the answer's steps. note(i, error)
+/// receives the current estimate of the error at each asked time.
 template <class Answer, class Writer, class Course, class Rounding, class Note = decltype(not_noted)>
 void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs, const Sought<Writer>& sought,
                   const MotionOptions<typename Writer::Scalar>& options, const Rounding& rounding,
@@ -320,8 +332,7 @@ void solve_beside(Answer& answer, const Writer& writer, const Runs<Course>& runs
     answer.error = decltype(answer.error)::all(nan<Scalar>);
     return;
   }
-  auto error = walk.error;
-  error.raise(rounding(walk.asked.size(), step_rounding));
+  const auto error = stated_error(walk.error, rounding(walk.asked.size(), step_rounding), runs.second == nullptr);
   answer.error = relative_to_truth(walk.asked.relative(error), Writer::columns);
   answer.met = options.excess(answer) <= 1;
 }

@@ -488,7 +488,7 @@ class FullMotion {
                    {start, Scalar(honesty::stop_fading_factor) * turning_rate(problem_), times_, states_, nowhere,
                     progress_from, progress_to},
                    options_, rounding, note);
-      if (answer.status == ode::Status::reached) add_rounding(row, rounding, answer.counts.steps);
+      if (answer.status == ode::Status::reached) add_rounding(row, rounding, answer.counts.steps, !second);
       if (!with_attitude) answer.error[column::attitude] = 0;
       answer.error[column::modulus_squared] = 0;
       for (State<Scalar>& state : states_) state.k2 = 0;
@@ -504,12 +504,12 @@ class FullMotion {
 
   /// To the errors at single times, what no distance shows.
   template <class Rounding>
-  void add_rounding(const Row<Scalar>& row, const Rounding& rounding, std::uint64_t steps) const noexcept {
+  void add_rounding(const Row<Scalar>& row, const Rounding& rounding, std::uint64_t steps, bool lone) const noexcept {
     const Scalar relative = epsilon<Scalar> * std::sqrt(static_cast<Scalar>(steps));
     for (std::size_t i = 0; i < options_.errors.size() && i * options_.stride < states_.size(); ++i) {
       Comparison size(row);
       size.add(states_[i * options_.stride]);
-      options_.errors[i].raise(rounding(size.size(), relative));
+      options_.errors[i] = stated_error(options_.errors[i], rounding(size.size(), relative), lone);
     }
   }
 

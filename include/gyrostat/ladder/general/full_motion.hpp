@@ -353,8 +353,8 @@ class FullMotion {
  private:
   using Course = FullCourse<Method>;
 
-  /// Adds what a torque that brakes hold only to rounding may have done, and a quarter: of the greater of two errors the lesser, a fifth of what the
-  /// companions' distances state, must fit in as well.
+  /// Adds what a torque that brakes hold only to rounding may have done, and a quarter: a fifth of what the companions' distances state
+  /// must fit in as well (stated_error).
   static void add_slip(FullErrors<Scalar>& error, const Course& course) noexcept {
     constexpr Scalar margin = Scalar(1.25L);
     const auto& sizes = course.prepared().sizes;

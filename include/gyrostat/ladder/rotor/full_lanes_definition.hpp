@@ -183,7 +183,7 @@ class FullLanes {
       auto error =
           rounding_of_columns(row, task.start, sizes, 4 * eps + 2 * eps * std::sqrt(double(steps)), task.times.back());
       for (std::size_t i = 0; i < columns; ++i) {
-        error[i] = greater(error_.of[i][b], error[i]);
+        error[i] = stated_error(error_.of[i][b], error[i], lane.alone);
         if (column_kinds[i].measure == Measure::relative) error[i] = over(error[i], greater(sizes[i], row.scale[i]));
       }
       answer.error = relative_to_truth(error, column_kinds);

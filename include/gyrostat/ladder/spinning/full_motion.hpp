@@ -197,8 +197,7 @@ class FullMotion {
     const Scalar gain = 2 * eps * (problem_.force.norm() / problem_.mass) * span;
     rounding[column::velocity] += gain;
     rounding[column::position] += gain * span / 2;
-    ColumnErrors<Scalar> error = walk.error;
-    error.raise(rounding);
+    ColumnErrors<Scalar> error = stated_error(walk.error, rounding, !both);
     answer.tilt_error = walk.error[column::euler_312] + shared;
     error[column::euler_312] = angles_error<Scalar>(error[column::attitude], states_);
     answer.least_cosine = course.least_cosine();
