@@ -145,7 +145,9 @@ def test_what_is_an_instance_and_what_just_is_not(changes: dict[str, Any], famil
 # Of two numbers of roundings the first is within the rule and the second is not: 8 of the greatest of what was summed or compared.
 BORDERS: list[tuple[str, int, int, Any]] = [
     ("deceleration", 11, 13, lambda r: {"torque": [damping(against="momentum", coefficient=[0.01, 0.01, 0.01 * (1 + r * EPS)])]}),  # 2/3 of r
-    ("free", 7, 9, lambda r: {"torque": [CONSTANT, {**CONSTANT, "torque": [-0.01, -0.02, 0.01 + 0.04 * r * EPS]}]}),  # of 0.02 and 0.02
+    # of 0.001 and 0.001; so weak that what is left does no more than a rounding of the momentum
+    ("free", 7, 9, lambda r: {"torque": [{**CONSTANT, "torque": [0.0005, 0.001, -0.0005]},
+                                         {**CONSTANT, "torque": [-0.0005, -0.001, 0.0005 + 0.002 * r * EPS]}]}),
     ("rotor", 7, 9, lambda r: {"wheel": [wheel("friction"), wheel("held", (0, r * EPS, 1))]}),
     ("spinning", 7, 9, lambda r: {"torque": [CONSTANT], "wheel": [wheel("held", (1, r * EPS, 0))]}),
     ("heavy", 7, 9, lambda r: {"body": {**TOP, "inertia": [0.02, 0.02 * (1 + r * EPS), 0.012]}, "field": GRAVITY, "torque": [WEIGHT],

@@ -414,21 +414,23 @@ Scalar turning_rate(const Problem<Scalar>& problem) noexcept {
   return f.quadratic.cwiseAbs().maxCoeff() * (problem.momentum - f.offset).norm() + f.linear.norm() + f.rate.norm();
 }
 
-/// What an evaluation of the columns loses, in their units, where the state is known to `relative`; at_rest: angle turned through behind the
-/// stop, rad.
+/// What an evaluation of the columns loses, in their units, where the state is known to `relative`; walked: of the momentum at the start, what the
+/// steps have lost; at_rest: angle turned through behind the stop, rad.
 template <Real Scalar>
 ColumnErrors<Scalar> rounding_of_columns(const Problem<Scalar>& problem, const ColumnErrors<Scalar>& size,
-                                         Scalar relative, Scalar at_rest) noexcept {
+                                         Scalar relative, Scalar walked, Scalar at_rest) noexcept {
   const Scalar M = size[column::angular_momentum] + problem.rotor_momentum.norm();
   const Scalar omega = size[column::angular_velocity];
   // moments that come from a tensor err as the greatest does
   const Scalar slim = problem.exact_moments ? Scalar(1) : problem.inverse_inertia[2] / problem.inverse_inertia[0];
   ColumnErrors<Scalar> error;
-  error[column::angular_momentum] = relative * M;
-  error[column::angular_velocity] = relative * (M * problem.inverse_inertia[2] + slim * omega);
-  error[column::angular_momentum_norm] = relative * M;
-  error[column::energy] = relative * M * omega;
-  error[column::attitude] = 4 * (relative + epsilon<Scalar> * at_rest);
+  // steps are as long, and lose as much, where little of it is left
+  const Scalar off = relative * M + walked * problem.momentum.norm();
+  error[column::angular_momentum] = off;
+  error[column::angular_velocity] = (relative + walked) * (M * problem.inverse_inertia[2] + slim * omega);
+  error[column::angular_momentum_norm] = off;
+  error[column::energy] = off * omega;
+  error[column::attitude] = 4 * (relative + walked + epsilon<Scalar> * at_rest);
   return error;
 }
 
@@ -476,7 +478,7 @@ class FullMotion {
         const Scalar gyro = problem_.gyro_rate().norm(), omega = size[column::angular_velocity];
         // omega is the difference of J^-1 M and J^-1 l in every step
         const Scalar swell = problem_.law == Law::total && omega > 0 ? std::min(gyro / omega, Scalar(100)) : Scalar(0);
-        return rounding_of_columns(problem_, size, 3 * eps + shared_rounding(steps) + 6 * swell * steps, rest * gyro);
+        return rounding_of_columns(problem_, size, 3 * eps + 6 * swell * steps, shared_rounding(steps), rest * gyro);
       };
       const auto note = [&](std::size_t i, const ColumnErrors<Scalar>& error) noexcept {
         if (i / options_.stride < options_.errors.size()) options_.errors[i / options_.stride].raise(error);

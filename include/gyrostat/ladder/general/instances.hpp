@@ -18,6 +18,7 @@
 #include "gyrostat/ladder/spinning/scene.hpp"
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/problem.hpp"
+#include "gyrostat/models/general/sizes.hpp"
 #include "gyrostat/models/general/wheels.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
 #include "gyrostat/rotation/symmetric.hpp"
@@ -94,7 +95,20 @@ inline bool parallel(const Vec3<double>& a, const Vec3<double>& b, double* dropp
 GYROSTAT_COMPILED_ONCE bool symmetric_about(const Mat3<double>& J, const Vec3<double>& e,
                                             double* dropped = nullptr) noexcept;
 
-/// What is summed and does not change, sorted by what a family may have; what is below rounding is dropped.
+/// How large a motion is, by which what torques that all but cancel leave is judged: it may be a rounding of them, and yet turn the body.
+struct Extent {
+  double rate = 0, momentum = 0;     ///< rad/s, N m s
+  double torque = infinity<double>;  ///< that comes to a rounding of the momentum in the span, N m
+  double force = infinity<double>;   ///< that comes to a rounding of the mass centre's, N
+
+  static Extent of(const Problem<double>& problem, const Sizes<double>& sizes, double span) noexcept {
+    if (!(span > 0)) return {sizes.turning, sizes.momenta};
+    const double rounding = epsilon<double> / span;
+    return {sizes.turning, sizes.momenta, rounding * sizes.momenta, rounding * problem.mass * problem.velocity.norm()};
+  }
+};
+
+/// What is summed and does not change, sorted by what a family may have; what is below rounding, and comes to no more in the span, is dropped.
 struct Loads {
   Vec3<double> body{0, 0, 0}, charge{0, 0, 0};
   Mat3<double> damping = Mat3<double>::Zero(), by_momentum = Mat3<double>::Zero();  ///< without charge
@@ -106,12 +120,24 @@ struct Loads {
   Vec3<double> force{0, 0, 0}, force_I{0, 0, 0};
   const char* other = nullptr;  ///< something that no family has
   double dropped = 0;           ///< the greatest of what was dropped, in roundings
+  Extent extent;                ///< with the torque and the force that may be dropped beside what is there
 
   bool damps() const noexcept { return !damping.isZero(0) || !by_momentum.isZero(0); }
   bool brakes() const noexcept { return !brake_total.isZero(0) || !brake_carrier.isZero(0); }
   bool quiet() const noexcept { return !other && body.isZero(0) && !damps() && !brakes() && !weighs; }
 
-  GYROSTAT_COMPILED_ONCE static Loads of(const Problem<double>& problem, const Collected<double>& torques) noexcept;
+  /// Whether a residue may be dropped: a torque, N m, or what gives one times `per`.
+  template <class Value, class Size>
+  bool drop(const Value& residue, const Size& size, double per = 1) noexcept {
+    return drop(residue, size, per, &dropped);
+  }
+  template <class Value, class Size>
+  bool drop(const Value& residue, const Size& size, double per, double* raised) const noexcept {
+    return residue.cwiseAbs().maxCoeff() * per <= extent.torque && vanishes(residue, size, raised);
+  }
+
+  GYROSTAT_COMPILED_ONCE static Loads of(const Problem<double>& problem, const Collected<double>& torques,
+                                         const Extent& extent = {}) noexcept;
 };
 
 /// The wheels as families may have them.

@@ -22,7 +22,8 @@ struct Given {
 
 /// Of which families the scene is an instance, in some microseconds.
 GYROSTAT_COMPILED_ONCE Instances recognise(const Problem<double>& problem, const Wheels<double>& wheels,
-                                           const Collected<double>& torques, const Question& question);
+                                           const Collected<double>& torques, const Sizes<double>& sizes,
+                                           const Question& question);
 
 }  // namespace gyrostat::general
 

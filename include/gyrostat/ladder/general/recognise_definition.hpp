@@ -35,11 +35,12 @@ inline const char* as_free(const Given& given, std::optional<free::Scene>& scene
   return nullptr;
 }
 
-/// The factor by which a matrix is a multiple of another, to 8 roundings of `size`; NaN: it is none.
-inline double multiple_of(const Mat3<double>& m, const Mat3<double>& of, const Mat3<double>& size,
-                          double* dropped) noexcept {
+/// The factor by which a matrix is a multiple of another, to 8 roundings of `size`; NaN: it is none, or what is left of it times `per` is a torque that
+/// matters.
+inline double multiple_of(const Mat3<double>& m, const Mat3<double>& of, const Mat3<double>& size, const Loads& loads,
+                          double per, double* dropped) noexcept {
   const double factor = m.trace() / of.trace();
-  return vanishes(m - factor * of, size, dropped) ? factor : nan<double>;
+  return loads.drop(m - factor * of, size, per, dropped) ? factor : nan<double>;
 }
 
 inline const char* as_deceleration(const Given& given, std::optional<deceleration::Scene>& scene, double* dropped) {
@@ -59,8 +60,11 @@ inline const char* as_deceleration(const Given& given, std::optional<deceleratio
   const bool on_carrier = carrier || setup.law == deceleration::Law::carrier;
   if (on_carrier && spinners.free)
     return "a wheel turns freely, and what brakes the carrier acts on it with that wheel locked";
-  if (carrier) setup.drag = multiple_of(loads.damping, wheels.whole, loads.damping_size, dropped);
-  if (total) setup.drag = multiple_of(loads.by_momentum, Mat3<double>::Identity(), loads.by_momentum_size, dropped);
+  if (carrier)
+    setup.drag = multiple_of(loads.damping, wheels.whole, loads.damping_size, loads, loads.extent.rate, dropped);
+  if (total)
+    setup.drag = multiple_of(loads.by_momentum, Mat3<double>::Identity(), loads.by_momentum_size, loads,
+                             loads.extent.momentum, dropped);
   if (!(setup.drag >= 0))
     return carrier ? "the damping is not a positive multiple of the inertia"
                    : "the drag on the momentum is not the same about all axes, or drives";
@@ -223,8 +227,10 @@ inline const char* as_spinning(const Given& given, std::optional<SpinningInstanc
 }  // namespace detail
 
 GYROSTAT_COMPILED_ONCE Instances recognise(const Problem<double>& problem, const Wheels<double>& wheels,
-                                           const Collected<double>& torques, const Question& question) {
-  const detail::Given given{problem, wheels, detail::Loads::of(problem, torques), detail::Spinners::of(wheels),
+                                           const Collected<double>& torques, const Sizes<double>& sizes,
+                                           const Question& question) {
+  const auto extent = detail::Extent::of(problem, sizes, question.times.back());
+  const detail::Given given{problem, wheels, detail::Loads::of(problem, torques, extent), detail::Spinners::of(wheels),
                             detail::plain(question)};
   Instances found;
   found.charge = given.loads.charge;

@@ -106,7 +106,7 @@ GYROSTAT_COMPILED_ONCE Result<Scene> Scene::make(const Problem<double>& problem,
   scene.settling_rate_ = prepared.settling.fastest();
   scene.breaks_ = breakpoints(scene.problem_, question.times.back()).size();
   scene.recognised_ = recognised;
-  if (recognised) scene.instances_ = recognise(scene.problem_, prepared.wheels, prepared.torques, question);
+  if (recognised) scene.instances_ = recognise(scene.problem_, prepared.wheels, prepared.torques, sizes, question);
   return scene;
 }
 
