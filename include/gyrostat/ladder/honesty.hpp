@@ -96,8 +96,8 @@ inline constexpr double first_drift = 0.01;
 /// It makes no step tolerance less than this, where rounding is stated less sharply.
 inline constexpr double drifting_least = 1e-12;
 /// Deceleration, where the error of the phase grows with the square of the angle: first_share / (drifting_base +
-/// drifting_phase * angle^2). With 32 and 1.6e-3 the medians of stated over true were 1.4 times as high at 1e-11, and the cost at 1e-2 by a tenth; with a phase of
-/// 2e-5 eight of 600 answers more would miss 1e-8 or 1e-11 after their last try.
+/// drifting_phase * angle^2). With 32 and 1.6e-3 the medians of stated over true were 1.4 times as high at 1e-11, and the cost at 1e-2 by a tenth, but five
+/// answers fewer, of 600 at 1e-8 and 600 at 1e-11, missed after their last try; with a phase of 2e-5 three more would.
 inline constexpr double drifting_base = 8, drifting_phase = 1e-4;
 /// No looser steps: at 1e-8, near the radius of convergence of a step, all runs were seen to err alike.
 inline constexpr double loosest_step = 1e-9;
