@@ -116,8 +116,17 @@ inline constexpr double stop_margin = 2;
 /// Decelerations: to the error of the stop's time so many step tolerances are added, twice what a companion errs; it is one number, at which two
 /// runs may be near by chance.
 inline constexpr double stop_steps = 1.0 / 32;
-/// The same of the time when a brake stops the body.
+/// And so many times the rounding that the runs share. Chosen.
+inline constexpr double stop_rounding = 8;
+/// The same as stop_steps of the time when a brake stops the body.
 inline constexpr double brake_steps = 1;
+/// General scenes: margin of what a torque that brakes hold only to rounding may have done, which no companion shows. Chosen: a fifth of what distances
+/// state must fit in beside it.
+inline constexpr double slip_margin = 1.25;
+/// Decelerations: no second try for the modulus or the stop where their error is more than so many times over what is asked: no digits are left for it.
+inline constexpr double retry_excess = 1e6;
+/// Spinners: the size of the attitude to which rounding is relative, as it is put together from two rotations. Chosen.
+inline constexpr double composed_attitude = 1.5;
 
 /// Driven rotors: where the rates of the runs have parted, as behind a saddle, a function of Lyapunov's that is off by more than this is not
 /// known: how far three runs have fallen by then may be near by chance.

@@ -537,7 +537,8 @@ class FullMotion {
     const Scalar apart = error_of_distances(std::max(std::abs(one - stop), std::abs(two - stop)), std::abs(one - two));
     answer.stop_error = Scalar(honesty::stop_margin) * apart / stop +
                         Scalar(honesty::stop_steps) * answer.step_tolerance +
-                        8 * shared_rounding(epsilon<Scalar> * std::sqrt(Scalar(runs.answer.counts().steps)));
+                        Scalar(honesty::stop_rounding) *
+                            shared_rounding(epsilon<Scalar> * std::sqrt(Scalar(runs.answer.counts().steps)));
     // where the runs have parted, three of them may stop together by chance: what they had |M| apart takes the weakest torque so long
     if (!times_.empty() && !(answer.error[column::angular_momentum] < 1))
       answer.stop_error += Scalar(honesty::stop_margin) * answer.error[column::angular_momentum_norm] *

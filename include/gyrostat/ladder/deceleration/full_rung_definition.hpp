@@ -159,7 +159,7 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
   for (int trial = 0; trial < 3 && track.failure == Errc::ok; ++trial) {
     const double of_modulus = track.error[column::modulus_squared] / goal.columns[column::modulus_squared];
     const double excess = 4 * std::max(of_modulus, stop_counts ? track.stop_error / goal.tightest : 0.0);
-    if (!(excess > 4) || excess > 1e6 || tolerance <= 1e-13) break;
+    if (!(excess > 4) || excess > honesty::retry_excess || tolerance <= 1e-13) break;
     tolerance = std::max(1e-13, tolerance / excess);
     Track finer = at_tolerance(tolerance);
     finer.counts += track.counts;

@@ -353,10 +353,9 @@ class FullMotion {
  private:
   using Course = FullCourse<Method>;
 
-  /// Adds what a torque that brakes hold only to rounding may have done, and a quarter: a fifth of what the companions' distances state
-  /// must fit in as well (stated_error).
+  /// Adds what a torque that brakes hold only to rounding may have done.
   static void add_slip(FullErrors<Scalar>& error, const Course& course) noexcept {
-    constexpr Scalar margin = Scalar(1.25L);
+    constexpr auto margin = Scalar(honesty::slip_margin);
     const auto& sizes = course.prepared().sizes;
     const Scalar slip = margin * course.slipped(), rate = slip / sizes.least, angle = margin * course.slipped_angle();
     error[full_column::attitude] += angle;

@@ -214,7 +214,7 @@ class FullMotion {
     const auto& p = problem_;
     const Scalar fastest = std::max(rate_, size[column::angular_velocity]);
     ColumnErrors<Scalar> parts = size;
-    parts[column::attitude] = Scalar(1.5L);  // put together from two
+    parts[column::attitude] = Scalar(honesty::composed_attitude);
     parts[column::angular_velocity] = fastest;
     parts[column::angular_momentum_inertial] = p.inertia.maxCoeff() * fastest + std::abs(p.rotor_momentum);
     parts[column::velocity] += p.velocity.norm();
