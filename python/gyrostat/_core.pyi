@@ -214,7 +214,7 @@ def general_table_value(table: dict[str, typing.Any], t: typing.SupportsFloat | 
     """
     The value at t of a table of numbers: times (n,), values (n, 1), interpolation, extend.
     """
-def heavy_exact(bodies: HeavyBodies, *, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
+def heavy_exact(bodies: HeavyBodies, *, angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], down: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None, attitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict[str, typing.Any]:
     """
     The exact motion of every row; numbers (rows, 7): period, errors of rates, down and attitude, least and greatest down along the axis of a top, and its mean precession.
     """

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "bind.hpp"
 #include "gil.hpp"
+#include "gyrostat/ladder/heavy/conversion_error.hpp"
 #include "gyrostat/ladder/heavy/periodic_family.hpp"
 #include "gyrostat/ladder/heavy/periodic_orbit.hpp"
 #include "gyrostat/models/heavy/aligned_attitude.hpp"
@@ -99,9 +101,13 @@ Data series_rows(const HeavyBodies& bodies, const Array& spin, const Array& cosi
     std::vector<State<double>> states(t.size());
     made->at(t, states);
     for (std::size_t i = 0; i < t.size(); ++i) motions.put(row, i, states[i]);
-    const auto e = made->error(span);
-    numbers.push_back({double(made->order()), made->period(), made->period() * made->period_error(),
-                       made->precession_rate(), made->precession_error(), e.angular_velocity, e.down, e.attitude});
+    const auto e = made->error(span), first = made->error(0);
+    // what the series leave out of the start: no error of theirs means anything where that is great
+    const double beyond =
+        std::max(first.angular_velocity / std::abs(r0), first.down) < series_domain ? 0 : infinity<double>;
+    numbers.push_back({double(made->order()), made->period(), made->period() * made->period_error() + beyond,
+                       made->precession_rate(), made->precession_error() + beyond, e.angular_velocity + beyond,
+                       e.down + beyond, e.attitude + beyond});
   }
   Data made;
   motions.give(made);
@@ -120,31 +126,49 @@ std::array<double, 3> nutation_of(const Exact<double>& motion) {
   return {none, none, none};
 }
 
-/// The motion of every row by a closed form or a quadrature, NaN where there is none.
-Data exact_rows(const HeavyBodies& bodies, const Array& angular_velocity, const Array& down, const Array& attitude,
-                const Array& at) {
+/// Bounds of the errors of an exact motion, with what rounding makes of a start whose down was an attitude. times: to compare at, s, the span last.
+ExactError<double> error_of_exact(const HeavyBodies& bodies, std::size_t row, const Exact<double>& motion,
+                                  const State<double>& start, bool oriented, const std::vector<double>& times) {
+  const auto bound = motion.error(times.back());
+  if (!oriented || !(bound.attitude < infinity<double>)) return bound;
+  const int axis = motion.pendulum() ? motion.pendulum()->axis() : -1;
+  return conversion_error(
+      bodies.rows()[row], false, motion, times,
+      [&](const Problem<double>&, int which) -> Result<State<double>> { return off_start(start, which, axis); });
+}
+
+/// The motion of every row by a closed form or a quadrature, NaN where there is none. down: or none, and that of the attitude counts.
+Data exact_rows(const HeavyBodies& bodies, const Array& angular_velocity, const std::optional<Array>& down,
+                const Array& attitude, const Array& at) {
   const std::vector<double> t = moments_of_time(at);
   const auto n = py::ssize_t(bodies.size());
   require_shape("angular_velocity", angular_velocity, {n, 3});
-  require_shape("down", down, {n, 3});
+  if (down) require_shape("down", *down, {n, 3});
   require_shape("attitude", attitude, {n, 4});
   double span = 0;
   for (const double time : t) span = std::max(span, std::abs(time));
+  std::vector<double> times;
+  for (std::size_t i = 0; i < t.size(); i += 1 + t.size() / 32) times.push_back(t[i]);
+  for (const double share : {-1.0, 0.25, 0.5, 0.75, 1.0}) times.push_back(share * span);
   Motions motions(bodies.size(), t.size());
   std::vector<const char*> which;
   std::vector<std::array<double, 7>> numbers;
   std::size_t row = 0;
   Errc wrong = Errc::ok;
   for (const Unlocked free; row < bodies.size(); ++row) {
-    const double *w = angular_velocity.data() + 3 * row, *d = down.data() + 3 * row, *q = attitude.data() + 4 * row;
-    const auto start = aligned<double>({{w[0], w[1], w[2]}, {d[0], d[1], d[2]}, {q[3], q[0], q[1], q[2]}});
+    const double *w = angular_velocity.data() + 3 * row, *q = attitude.data() + 4 * row;
+    State<double> given{{w[0], w[1], w[2]}, {0, 0, -1}, {q[3], q[0], q[1], q[2]}};
+    if (down) given.down = Vec3<double>(down->data()[3 * row], down->data()[3 * row + 1], down->data()[3 * row + 2]);
+    else if (norm(given.attitude) > 0)
+      given.down = rotate<double>(conjugate(normalised(given.attitude)), Vec3<double>(0, 0, -1));
+    const auto start = aligned<double>(given);
     if (!start) {
       wrong = start.error();
       break;
     }
     const Exact<double> motion(bodies.rows()[row], *start);
     which.push_back(symbol(motion.which()));
-    const auto e = motion.error(span);
+    const auto e = error_of_exact(bodies, row, motion, *start, !down, times);
     const auto [least, greatest, precession] = nutation_of(motion);
     numbers.push_back({motion.period(), e.angular_velocity, e.down, e.attitude, least, greatest, precession});
     if (!motion.applies()) continue;

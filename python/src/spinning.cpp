@@ -135,7 +135,9 @@ py::array_t<double> pointing_rows(const SpinningProblems& problems) {
       // what grows has no mean; a spinner that nothing drives has, however it stands
       const bool has_mean = !flags.unstable;
       const math::Complex<double> none{gyrostat::nan<double>, gyrostat::nan<double>};
-      const auto ratio = has_mean ? secular_velocity_ratio(problem) : none, tilt = has_mean ? mean_tilt(problem) : none;
+      const auto ratio = has_mean ? secular_velocity_ratio(problem) : none;
+      auto tilt = has_mean ? mean_tilt(problem) : none;
+      if (!std::isfinite(tilt.re) || !std::isfinite(tilt.im)) tilt = none;
       const double numbers[width] = {has_mean ? pointing_error(problem) : gyrostat::infinity<double>,
                                      ratio.re,
                                      ratio.im,

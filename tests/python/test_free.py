@@ -114,6 +114,8 @@ def test_permanent_rotations_of_a_rigid_body_and_with_much_rotor_momentum() -> N
     assert math.sqrt(-found.square[2]) == pytest.approx(9 * math.sqrt((1.2 - 0.9) * (0.9 - 0.4) / (1.2 * 0.4)))
     few = free.permanent_rotations(**{**body, "rotor_momentum": [0.0, 0.0, 1.0]})
     assert len(few.square) == 2 and few.stable.all()
+    with pytest.raises(DomainError, match="other units"):  # squares of their rates overflow
+        free.permanent_rotations(inertia=[2e-300, 2.5e-300, 3e-300], angular_velocity=[0.01, 1.0, 0.01], rotor_momentum=[0.1, 0.0, 0.2])
 
 
 def test_flips_come_at_even_intervals() -> None:

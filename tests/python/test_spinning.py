@@ -264,6 +264,8 @@ def test_velocity_goes_to_its_limit() -> None:
     mean = spinning.pointing(**{name: value for name, value in given.items() if name not in ("mass", "force")}).mean_tilt
     grid = spinning.linear_grid(start=0.0, step=0.01, samples=2_000_000, **given)
     assert np.mean(np.exp(1j * grid.theta) * (grid.psi + 1j * grid.phi)) == pytest.approx(mean, abs=1e-6)
+    still = spinning.pointing(inertia=[2.0, 2.2, 1.5], torque=[0.1, 0.0, 0.0], angular_velocity=[0.0, 0.0, 0.0], rotor_momentum=0.1)
+    assert np.isnan(still.mean_tilt) and np.isinf(still.error)  # what stands leans on and on
     flags = spinning.pointing(inertia=[8.0, 7.0, 12.0], torque=[0, 0, 0], angular_velocity=[0, 0, 1], rotor_momentum=[-12.0, 0.0, -4.0])
     assert flags.compliant.tolist() == [True, False, False] and flags.resonant.tolist() == [True, False, False]
     unpushed = {**given, "force": [0.0, 0.0, 0.0]}

@@ -50,7 +50,7 @@ Track series_track(const Scene& scene, const Motion& motion, const MotionError<d
   Comparison sizes(row_of(scene));
   for (const State<double>& state : track.states) sizes.add(state);
   track.error = relative_to_truth(sizes.relative({error.angular_velocity, error.down, error.attitude}), column_kinds);
-  track.in_domain = greatest < 0.3;
+  track.in_domain = greatest < series_domain;
   if (!track.in_domain) track.warn(warning_kinds[warning::beyond_validity], greatest);
   return track;
 }

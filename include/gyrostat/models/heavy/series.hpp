@@ -17,6 +17,9 @@
 
 namespace gyrostat::heavy {
 
+/// Errors up to here (of rates over the spin; rad) mean something: beyond, the terms left out are no longer the lesser ones.
+inline constexpr double series_domain = 0.3;
+
 /// The largest errors of a motion over a span of time.
 template <Real Scalar>
 struct MotionError {

@@ -140,8 +140,8 @@ def permanent_rotations(*, inertia: ArrayLike, angular_velocity: ArrayLike | Non
     Arguments as of `solve`. Raises DomainError as `solve` does, and where the momentum is zero.
     """
     made = _core.free_permanent(**_body(inertia, rotor_momentum, wheels, angular_velocity, angular_momentum, (0.0, 0.0, 0.0, 1.0)))
-    if not np.all(np.isfinite(made["energy"])):
-        raise DomainError("the energy of the body leaves the range of the doubles: give its inertia and momentum in other units")
+    if not (np.all(np.isfinite(made["energy"])) and np.all(np.isfinite(made["square"]))):
+        raise DomainError("energy or rates of the body leave the range of the doubles: give its inertia and momentum in other units")
     order = np.argsort(made["energy"], kind="stable")
     return PermanentRotations(*(np.asarray(made[name])[order] for name in ("angular_velocity", "angular_momentum", "energy", "square")))
 

@@ -134,7 +134,8 @@ def integrate(*, inertia: ArrayLike, mass: float, centre_of_mass: ArrayLike, gra
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """Fast periodic motions by series, at times; `error` is the greatest over them."""
+    """Fast periodic motions by series, at times; `error` is the greatest over them. Errors are infinite where the terms left out are no longer the lesser
+    ones: where they exceed 0.3 (of the rates over the spin, or rad) at t = 0."""
 
     angular_velocity: Floats  # (..., n, 3) rad/s
     down: Floats  # (..., n, 3)
@@ -189,8 +190,9 @@ def exact(*, inertia: ArrayLike, mass: ArrayLike, centre_of_mass: ArrayLike, gra
           gravity_gradient: ArrayLike = 0.0, down: ArrayLike | None = None, attitude: ArrayLike | None = None) -> Exact:
     """The exact motion of many bodies where there is one (docs/heavy.md, section 7).
 
-    Arguments as in `series`; angular_velocity : (..., 3) at t = 0, with down (..., 3) or attitude (..., 4). Without an attitude the body starts in one
-    that the smallest turn makes of the identity. Leading axes broadcast.
+    Arguments as in `series`; angular_velocity : (..., 3) at t = 0, with down (..., 3) or attitude (..., 4), of any length. Without an attitude the body
+    starts in one that the smallest turn makes of the identity. Leading axes broadcast. Down that an attitude gives is known to rounding, and the error
+    counts that: infinite where the motion is unstable and rounding decides. Raises DomainError for a direction or quaternion that vanishes, naming the row.
     """
     value, name, width = (down, "down", 3) if attitude is None else (attitude, "attitude", 4)
     if value is None or (down is not None and attitude is not None):
@@ -198,19 +200,12 @@ def exact(*, inertia: ArrayLike, mass: ArrayLike, centre_of_mass: ArrayLike, gra
     lead, many, (w, given) = bodies({"inertia": inertia, "mass": mass, "centre_of_mass": centre_of_mass, "gravity": gravity,
                                      "gravity_gradient": gravity_gradient}, ("angular_velocity", angular_velocity, (3,)), (name, value, (width,)))
     q = given if down is None else np.tile([0.0, 0.0, 0.0, 1.0], (len(given), 1))
-    d = given if down is not None else _down_of(given)
-    made = _core.heavy_exact(many, angular_velocity=w, down=d, attitude=q, t=np.atleast_1d(array("t", t)))
+    made = _core.heavy_exact(many, angular_velocity=w, down=None if down is None else given, attitude=q, t=np.atleast_1d(array("t", t)))
     n, numbers = made["down"].shape[1], made["numbers"]
     return Exact(case=_words(made["case"], lead), period=shaped(numbers[:, 0], lead), nutation=shaped(numbers[:, 4:6], lead, 2),
                  precession_rate=shaped(numbers[:, 6], lead),
                  **{name: shaped(made[name], lead, n, width) for name, width in (("angular_velocity", 3), ("down", 3), ("attitude", 4))},
                  error={name: shaped(numbers[:, 1 + i], lead) for i, name in enumerate(("angular_velocity", "down", "attitude"))})
-
-
-def _down_of(attitude: Floats) -> Floats:
-    """(n, 3), minus the third rows of the rotation tensors."""
-    tensor: Floats = _core.matrix_from_quaternion(attitude).reshape(-1, 3, 3)
-    return -tensor[:, 2, :]
 
 
 def _words(texts: list[str], lead: tuple[int, ...]) -> Words:
