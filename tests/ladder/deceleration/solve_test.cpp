@@ -229,6 +229,56 @@ TEST_CASE("solve: the models answer by their names", "[deceleration]") {
   CHECK(none.columns.empty());
 }
 
+TEST_CASE("solve: about an axis that the control leaves alone a body turns on for ever, and every rung says so",
+          "[deceleration]") {
+  const auto told = [](const Answer& answer) {
+    const Quantity* stop = answer.quantity("stop_time");
+    return std::array<double, 2>{stop ? stop->values[0] : gyrostat::nan<double>,
+                                 stop ? stop->error : gyrostat::nan<double>};
+  };
+  for (const double drag : {0., 3e-5}) {
+    for (const int alone : {0, 2}) {  // the axes of the greatest and the least moment
+      Case c(1e-4, 3000);
+      c.data.drag = drag;
+      c.data.control[alone] = 0;
+      // from beside the axis, and from aside, where only going on decides
+      for (const double aside : {0.1, 20.}) {
+        V M(aside, 0.7 * aside, aside);
+        M[alone] = 1;
+        c.data.momentum = M.normalized();
+        for (const int model : {rung::averaged, rung::averaged_2, rung::full}) {
+          Refusal refusal;
+          const Answer answer = c.with(model, 1e-3).solve(refusal);
+          if (refusal.code != Errc::ok) continue;
+          CAPTURE(drag, alone, aside, answer.model);
+          if (aside < 1) {
+            CHECK(std::isinf(told(answer)[0]));
+            CHECK(told(answer)[1] == 0);
+            CHECK(warns(answer, "does-not-stop"));
+          }
+          CHECK(answer.quantity("final_angular_velocity") == nullptr);
+        }
+        c.data.asked = {{scalar::stop_time, true}};
+        const Answer answer = c.with(rung::full, 1e-3).solve();
+        CHECK(std::isinf(told(answer)[0]));
+        CHECK(warns(answer, "does-not-stop"));
+      }
+    }
+  }
+  // right across the axis it stops
+  Case across(1e-4, 3000);
+  across.data.asked = {{scalar::stop_time, true}};
+  across.data.drag = 0, across.data.control = V(0, 2e-4, 2e-4), across.data.momentum = V(0, 0, 1);
+  CHECK(told(across.with(rung::full, 1e-6).solve())[0] == Approx(5000).epsilon(1e-6));
+  // a late time shows what is left
+  Case late(1e-2, 3000);
+  late.data.drag = 0, late.data.control[2] = 0, late.data.momentum = V(20, 14, 1).normalized();
+  const Answer answer = late.with(rung::full, 1e-9).solve();
+  const auto& norm = answer.find("angular_momentum_norm")->values;
+  CHECK(norm.back() > 1e-3);
+  CHECK(norm.back() == Approx(norm[norm.size() - 2]).epsilon(1e-9));
+}
+
 TEST_CASE("solve: what an answer says of its scene", "[deceleration]") {
   Case c(1e-4, 3000);
   const Answer plain = c.solve();
@@ -248,6 +298,16 @@ TEST_CASE("solve: what an answer says of its scene", "[deceleration]") {
           Approx(-rotor.data.rotor_momentum[i] / rotor.moments[i]).epsilon(1e-13));
   rotor.data.law = rotor.data.drag_law = Law::carrier;
   CHECK_FALSE(warns(rotor.solve(), "does-not-stop"));
+  // a drag on what the control does not oppose pushes on when that has come to zero
+  const auto pushed = [&](Law law, Law drag_law) {
+    Case strong = rotor;
+    strong.data.drag = 10, strong.data.law = law, strong.data.drag_law = drag_law;
+    for (const auto& warning : strong.solve().warnings)
+      if (warning.kind->code == std::string("does-not-stop")) return std::string(warning.text);
+    return std::string();
+  };
+  CHECK(pushed(Law::total, Law::carrier).find("momentum at zero") != std::string::npos);
+  CHECK(pushed(Law::carrier, Law::total).find("carrier at rest") != std::string::npos);
 }
 
 TEST_CASE("solve: attitude comes from the full equations alone", "[deceleration]") {

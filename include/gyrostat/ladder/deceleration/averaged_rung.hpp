@@ -174,6 +174,7 @@ Track averaged_track(const Scene& scene) {
   track.counts = run.motion().counts();
   detail::warn_of_start(track, scene, start);
   detail::warn_of_motion(track, run.error(), run.motion().crossed(), run.motion().stuck());
+  if (!Hold<double>(problem).comes) track.stop_time = infinity<double>, track.stop_error = 0;
   withhold_stop(track, scene);
   return track;
 }

@@ -75,7 +75,7 @@ inline bool seeks_stop(Track& track, const Scene& scene, double late, double lat
   if (!scene.asks_for_stop()) return false;
   const bool hopeless = late > scene.question().tolerance * latest;
   if (!hopeless || scene.needs_stop() || scene.question().rung != any_rung) return true;
-  track.warn(warning::stop_withheld);
+  warn_of_stop_withheld(track, scene);
   return false;
 }
 
@@ -132,7 +132,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
     const double late = detail::opposed_error(problem, mean.second_order(), carrier) / least;
     return detail::seeks_stop(track, scene, late, times.back() + opposed / least);
   };
-  if (in_time && !Hold<double>(problem).holds) {
+  if (in_time && !Hold<double>(problem).may_stop()) {
     track.stop_time = infinity<double>;
   } else if (in_time && !sought()) {
     // nothing asks what comes after the asked times

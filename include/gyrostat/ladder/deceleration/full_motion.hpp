@@ -49,14 +49,18 @@ struct FullMotionAnswer : MotionOutcome<std::size(column_kinds), Scalar> {
 /// How the control acts at U = 0, where its torque can be any -control n with |n| <= 1 (Filippov).
 template <Real Scalar>
 struct Hold {
-  bool holds = false;   ///< U = 0 is kept once reached
+  bool holds = false;  ///< U = 0 is kept once reached
+  bool comes =
+      true;  ///< U = 0 may be reached; false: about an axis that the control leaves alone the body is certain to turn on
   bool driven = false;  ///< at U = 0 the drag of the other law pushes on
   Scalar weakest = 0;   ///< lower bound of the rate at which |U| shrinks near U = 0, N m; 0 if there is none
 
   explicit Hold(const Problem<Scalar>& problem) noexcept {
     const Mat3<Scalar>& b = problem.control;
-    const Vec3<Scalar> c = FullCoefficients<Scalar>(problem).constant;
+    const FullCoefficients<Scalar> coefficients(problem);
+    const Vec3<Scalar> c = coefficients.constant;
     driven = !c.isZero(0);
+    comes = !AxisLeftAlone<Scalar>(problem).keeps(problem.momentum - coefficients.offset);
     if (b.isZero(0)) return;
     const Mat3<Scalar> cofactor = cofactors(b);
     const Scalar determinant = b.row(0).dot(cofactor.row(0));
@@ -72,6 +76,8 @@ struct Hold {
       weakest = holds ? least * (1 - used) : Scalar(0);
     }
   }
+
+  bool may_stop() const noexcept { return holds && comes; }
 
   /// Cofactors of a symmetric matrix: determinant times its inverse.
   static Mat3<Scalar> cofactors(const Mat3<Scalar>& b) noexcept {
@@ -205,7 +211,7 @@ class Course {
         system_(problem_, reach),
         solver_(system_, start_.time, start_.numbers, options_of(step_tolerance, step_cap)),
         step_cap_(step_cap),
-        may_stop_(with_control && hold_.holds),
+        may_stop_(with_control && hold_.may_stop()),
         faded_(without_digits * (problem_.momentum - f_.offset).norm()) {
     if (!may_stop_ && !(with_control && hold_.weakest > 0)) stop_time_ = infinity<Scalar>;
     if (start_.at_rest) come_to_rest(0, start_.numbers.data());
@@ -260,6 +266,9 @@ class Course {
   Scalar stop_time() const noexcept { return stop_time_; }
   /// Whether the motion is bound to come to a stop.
   bool stops() const noexcept { return may_stop_ && hold_.weakest > 0; }
+  /// Whether going on decides when the body stops, or that it never does; and whether that is decided.
+  bool can_decide() const noexcept { return stops() || (may_stop_ && system_.leaves_axis_alone()); }
+  bool is_decided() const noexcept { return rests_ || !may_stop_; }
 
  private:
   struct Start {
@@ -400,7 +409,8 @@ class Course {
 template <class Course, Real Scalar>
 ode::Status go_to_rest(Course& course, Scalar t_max, const MotionOptions<Scalar>& options) noexcept {
   ode::Status status = ode::Status::reached;
-  for (std::uint32_t trips = 1; status == ode::Status::reached && !course.rests() && course.time() < t_max; ++trips) {
+  for (std::uint32_t trips = 1; status == ode::Status::reached && !course.is_decided() && course.time() < t_max;
+       ++trips) {
     status = course.step(t_max);
     if ((trips & 255U) == 0 && options.cancelled()) status = ode::Status::cancelled;
   }
@@ -520,7 +530,7 @@ class FullMotion {
     const auto go = [&](Run& run, Scalar t_max) noexcept {
       if (answer.status == ode::Status::reached) answer.status = go_to_rest(run, t_max, options_);
     };
-    if (options_.find_stop && runs.answer.stops()) go(runs.answer, infinity<Scalar>);
+    if (options_.find_stop && runs.answer.can_decide()) go(runs.answer, infinity<Scalar>);
     if (answer.status != ode::Status::reached) {
       if (times_.empty() || answer.status == ode::Status::cancelled) return;
       answer.status = ode::Status::reached;  // the asked times are answered all the same

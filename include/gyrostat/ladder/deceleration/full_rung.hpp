@@ -47,6 +47,13 @@ GYROSTAT_COMPILED_ONCE const char* not_worth(const Scene& scene, const Goal<std:
 /// Rung `full`: the full equations, by Taylor series or by what the scene brings.
 GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor);
 
+namespace detail {
+
+/// Warns that a stop behind the asked times is not told, with this text but where the body may never stop; nullptr: the warning's own.
+GYROSTAT_COMPILED_ONCE void warn_of_stop_withheld(Track& track, const Scene& scene, const char* text = nullptr);
+
+}  // namespace detail
+
 }  // namespace gyrostat::deceleration
 
 #ifndef GYROSTAT_COMPILED

@@ -106,6 +106,19 @@ GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, s
   return track;
 }
 
+namespace detail {
+
+GYROSTAT_COMPILED_ONCE void warn_of_stop_withheld(Track& track, const Scene& scene, const char* text) {
+  const bool alone = scene.greatest_control() > 0 && !(Hold<double>(scene.problem()).weakest > 0);
+  track.warn(warning::stop_withheld, nan<double>,
+             alone
+                 ? "the control leaves an axis alone, about which the body may turn on for ever; ask for stop_time by "
+                   "name to have the stop looked for"
+                 : text);
+}
+
+}  // namespace detail
+
 GYROSTAT_COMPILED_ONCE double turned_angle(const Scene& scene, bool to_stop) noexcept {
   const auto& problem = scene.problem();
   const FullCoefficients<double> f(problem);
@@ -166,9 +179,10 @@ GYROSTAT_COMPILED_ONCE Track full_track(const Scene& scene, Monitor* monitor) {
     track = std::move(finer);
   }
   if (!find_stop && scene.asks_for_stop() && std::isnan(track.stop_time))
-    track.warn(warning::stop_withheld, nan<double>,
-               "the stop lies far behind the times asked for, and the full equations are not followed to it; ask for "
-               "times up to it, or for stop_time by name");
+    detail::warn_of_stop_withheld(
+        track, scene,
+        "the stop lies far behind the times asked for, and the full equations are not followed to it; ask for "
+        "times up to it, or for stop_time by name");
   return track;
 }
 

@@ -32,7 +32,7 @@ GYROSTAT_COMPILED_ONCE Errc hand_over(Track& track, const Scene& scene, const Ve
   const double late =
       detail::opposed_error(problem, error, (M - problem.rotor_momentum).norm()) / final_torque(scene).least;
   if (rest.empty() && scene.question().rung == any_rung && !scene.needs_stop() && late > tolerance * 2 * begin) {
-    track.warn(warning::stop_withheld);
+    detail::warn_of_stop_withheld(track, scene);
     return Errc::ok;
   }
   const auto solve = [&] { return full_motion_track(problem, rest, tolerance, {}, true, nullptr, monitor); };

@@ -519,7 +519,7 @@ Track orbit_averaged_track(const Scene& scene, Monitor*) {
   const double doubt = problem.law == Law::total ? 1 : slow ? infinity<double> : 20;
   const auto torque = final_torque(scene);
   const double late = doubt * (detail::tail_of(torque, breakdown) + opposed() / torque.least);
-  if (!hold.holds) track.stop_time = infinity<double>;
+  if (!hold.may_stop()) track.stop_time = infinity<double>;
   else if ((motion.ended() || detail::seeks_stop(track, scene, late, end + motion.opposed() / torque.least)) &&
            !detail::take_stop(track, scene, motion, visit, breakdown, doubt, opposed) && not_worth())
     return refused<Track>(Errc::not_applicable, detail::steps_not_worth);

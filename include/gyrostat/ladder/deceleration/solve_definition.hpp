@@ -43,7 +43,9 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   const auto tell = [&](std::size_t which, std::array<double, 3> values) {
     answer.quantities.push_back({&scalar_kinds[which], values});
   };
-  if (control) tell(scalar::final_angular_velocity, {end[0], end[1], end[2]});
+  const Hold<double> hold(problem);
+  const bool stops = hold.may_stop() && (hold.weakest > 0 || std::isfinite(track.stop_time));
+  if (control && stops) tell(scalar::final_angular_velocity, {end[0], end[1], end[2]});
   tell(scalar::small_parameter, {small_parameter(scene)});
   tell(scalar::separatrix_distance, {detail::separatrix_distance(scene)});
 
@@ -52,9 +54,13 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   };
   if (!control) {
     if (track.stop_time != 0) warn(warning::no_control, nan<double>);
-  } else if (!Hold<double>(problem).holds) {
+  } else if (!hold.holds) {
     warn(warning::does_not_stop, problem.drag * problem.rotor_momentum.norm(),
-         "the control cannot hold the carrier at rest against the drag of the stored momentum");
+         total ? "the control cannot hold the momentum at zero against the drag of the carrier, which turns there"
+               : "the control cannot hold the carrier at rest against the drag of the stored momentum");
+  } else if (!hold.comes || std::isinf(track.stop_time)) {
+    warn(warning::does_not_stop, nan<double>,
+         "the control leaves an axis alone, about which the body turns on for ever");
   } else if (total && scene.has_rotor()) {
     warn(warning::does_not_stop, problem.gyro_rate().norm());
   }
