@@ -39,8 +39,9 @@ Problem<Scalar> neighbour(const Problem<Scalar>& of, Scalar rate, Scalar amount,
   for (int i = 0; i < 3; ++i) {
     const Scalar part = v[(i + 1) % 3];
     near.torque[i] += part * std::max(std::abs(of.torque[i]), torque);
+    // to opposite sides in the two, so that truncation cannot cancel it in both; and against the kick of one that runs alone (Taylor::kick)
     Scalar& w = near.angular_velocity[i];
-    if (w != 0 || !kept) w += rate * amount / (part > 0 ? 2 : -2);
+    if (w != 0 || !kept) w += std::copysign(rate * amount / (i == 2 ? 4 : -4), which == 0 ? w : -w);
   }
   // the axes whose third is the force's are known to a rounding: what they leave along the spin axis pushes on
   const bool oblique = of.force[0] != 0 || of.force[1] != 0;
