@@ -135,8 +135,8 @@ Outcome not_moved(gyrostat::Errc wrong) {
     case Errc::not_applicable:
       return {
           GYROSTAT_NO_ANSWER,
-          "a brake brings the momentum that it opposes to zero within dt, and a step does not follow what becomes of "
-          "the body then: ask gyrostat_solve for the span"};
+          "a brake brings the momentum that it opposes to zero within dt, where wheels or other torques set the body "
+          "going again in a way that is not followed: give a shorter dt"};
     case Errc::undetermined:
       return {GYROSTAT_NO_ANSWER,
               "the body turns so often within dt that no double knows its phase: give a shorter dt"};

@@ -229,7 +229,8 @@ int gyrostat_propagator_is_closed_form(const gyrostat_propagator* propagator);
  * call leaves them as they are.
  *
  * error[3]: how far the new state may be from that to which the given one moves, the given one taken to be right to a rounding:
- * attitude, rad; angular velocity, rad/s, and rates of the wheels, rad/s, as lengths. NULL: not asked for. Errors of steps that
+ * attitude, rad; angular velocity, rad/s, and rates of the wheels, rad/s, as lengths; infinite where rounding decides, as on an
+ * unstable axis for long. NULL: not asked for. Errors of steps that
  * follow each other add up, and grow with the motion: what roundings have changed of its momentum and energy turns it wrongly ever after. */
 int gyrostat_propagate(const gyrostat_propagator* propagator, double dt, double* attitude, double* angular_velocity,
                        double* rotor_rate, double* error);

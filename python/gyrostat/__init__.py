@@ -56,4 +56,4 @@ else:
         raise AttributeError(f"module 'gyrostat' has no attribute {name!r}")
 
     def __dir__() -> list[str]:
-        return sorted({*globals(), *_FUNCTIONS})
+        return sorted({*__all__, *_FUNCTIONS})

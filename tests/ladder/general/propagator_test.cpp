@@ -324,6 +324,11 @@ TEST_CASE("a problem that knows the time is refused, with the reason", "[general
   problem = plain;
   problem.inertia(0, 0) = -1;
   CHECK(!Propagator::make(problem, 1e-9));
+  for (const double size : {1e-310, 1e-200, 1e160}) {
+    problem = plain;
+    problem.inertia *= size;
+    CHECK(Propagator::make(problem, 1e-9).error() == Errc::beyond_range);
+  }
 }
 
 }  // namespace general_propagator_test

@@ -45,17 +45,18 @@ class Propagator {
   GYROSTAT_COMPILED_ONCE static const char* clock_needed(const Problem<double>& problem) noexcept;
 
   /// Of body, wheels and torques of a problem, whose start does not matter. tolerance: of the full equations; the closed form is set up in
-  /// double where that errs by less than a thousandth of it, so that a thousand steps stay within it, else to twice the digits. Errors: those of check();
-  /// out_of_domain: the tolerance; not_applicable: clock_needed.
+  /// double where that errs by less than a thousandth of it, else to twice the digits: errors of steps that follow each other grow faster than their number.
+  /// Errors: those of check(); out_of_domain: the tolerance; not_applicable: clock_needed; beyond_range: moments of inertia.
   GYROSTAT_COMPILED_ONCE static Result<Propagator> make(const Problem<double>& problem, double tolerance);
 
   std::size_t wheels() const noexcept { return wheels_.count; }
   bool is_closed_form() const noexcept { return closed_; }
 
   /// Moves a state on by dt >= 0, s. error: how far it may be then from that to which the given state moves, where that is right to
-  /// a rounding; nullptr saves most of the time of a closed form. Errors, which leave the state as it is: not_finite; negative (dt); out_of_domain: an attitude that is not of
-  /// unit length to 1e-6, or a locked wheel that turns; not_applicable: a brake stops the body, and what becomes of it then is not
-  /// followed; undetermined: the body turns so often that no double knows its phase; step_limit and no_convergence.
+  /// a rounding; infinite where rounding decides, as on an unstable axis for long. nullptr saves most of the time of a closed form. Errors, which leave the
+  /// state as it is: not_finite; negative (dt); out_of_domain: an attitude that is not of unit length to 1e-6, or a locked wheel that turns; not_applicable: a
+  /// brake stops the body where wheels or other torques set it going again in a way that is not followed (models/general/rest.hpp); undetermined: the body
+  /// turns so often that no double knows its phase; step_limit and no_convergence.
   GYROSTAT_COMPILED_ONCE Errc advance(double dt, Moving& state, MovedError* error = nullptr) const noexcept;
 
  private:

@@ -11,6 +11,7 @@
 #include "gyrostat/ladder/general/full_motion.hpp"
 #include "gyrostat/ladder/general/propagator.hpp"
 #include "gyrostat/ladder/outcome.hpp"
+#include "gyrostat/ladder/question.hpp"
 #include "gyrostat/models/free/motion.hpp"
 #include "gyrostat/models/free/motion_error.hpp"
 #include "gyrostat/models/general/collected.hpp"
@@ -36,10 +37,12 @@ GYROSTAT_COMPILED_ONCE Result<Propagator> Propagator::make(const Problem<double>
   if (const Fault wrong = check(problem)) return wrong.code;
   if (!(tolerance > 0 && tolerance < 1)) return Errc::out_of_domain;
   if (clock_needed(problem) != nullptr) return Errc::not_applicable;
+  const Prepared<double> prepared(problem, 1);
+  if (!can_be_squared(prepared.sizes.least) || !can_be_squared(prepared.sizes.greatest)) return Errc::beyond_range;
   Propagator made;
   made.problem_ = problem;
   made.problem_.velocity = made.problem_.position = {0, 0, 0};
-  made.wheels_ = Wheels<double>::of(problem);
+  made.wheels_ = prepared.wheels;
   made.tolerance_ = tolerance;
   made.closed_ = made.find_closed_form();
   return made;

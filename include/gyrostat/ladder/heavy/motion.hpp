@@ -88,9 +88,9 @@ inline constexpr WarningKind warning_kinds[] = {
      "gravity and gravity gradient belong to a centre at 3 g/N, which is not far beside the body's size: give them on "
      "purpose only; m"},
     {"not-unique",
-     "another periodic motion with this spin and inclination may be near, for a free nutation hardly turns beside this "
-     "one, or keeps pace with it: the full equations answer at every tolerance with the one that shooting finds from "
-     "the first order; nu^2 is"},
+     "another periodic motion with this spin and inclination may be near, as a free nutation about this one nearly "
+     "stands still or keeps in step with it; the full equations give at every tolerance the one to which shooting from "
+     "the motion of first order leads; nu^2 is"},
 };
 
 /// Places in rung_kinds, in the order in which the ladder is climbed.

@@ -23,7 +23,7 @@ inline constexpr ColumnKind column_kinds[] = {
     {"angular_velocity", 3, "rad/s", Frame::body, Measure::relative, "angular velocity of the carrier, body axes",
      "what the momenta of carrier and rotor at t = 0 would turn the whole with, over its greatest moment"},
     {"angular_momentum", 3, "N m s", Frame::body, Measure::relative, "total angular momentum, body axes",
-     "where it vanishes: the momenta of carrier and rotor at t = 0, which cancel"},
+     "where |H| = 0: the sum of the sizes of the momenta of carrier and rotor at t = 0"},
     {"rotor_rate", 1, "rad/s", Frame::none, Measure::relative, "rate of the rotor relative to the carrier",
      "a thousandth of the greatest of the rates of carrier and rotor at t = 0 and the scale of angular_velocity"},
     {"rotor_angle", 1, "rad", Frame::none, Measure::relative, "angle of the rotor in the carrier, from 0 at t = 0",
@@ -72,7 +72,8 @@ inline constexpr WarningKind warning_kinds[] = {
     {"attractor-undecided",
      "two steady rotations attract and the motion has not chosen at the last time; V is above the lowest saddle by, J"},
     {"beyond-validity",
-     "the start is far from the steady rotation on whose linear motion the answer goes on, and so may be drawn to another; distance, rad"},
+     "the start is far from the steady rotation on whose linear motion the answer goes on, and so may be drawn to "
+     "another; distance, rad"},
 };
 
 /// Places in rung_kinds, cheapest first.

@@ -516,11 +516,11 @@ class Orbit {
 
   /// The vector that is Lorentz orthogonal to three others.
   static Vec4 cross(const Vec4& x, const Vec4& y, const Vec4& z) noexcept {
-    const auto minor = [&](int i, int j, int k) {
+    const auto subdeterminant = [&](int i, int j, int k) {
       return x[i] * (y[j] * z[k] - y[k] * z[j]) - x[j] * (y[i] * z[k] - y[k] * z[i]) +
              x[k] * (y[i] * z[j] - y[j] * z[i]);
     };
-    return {minor(1, 2, 3), -minor(0, 2, 3), minor(0, 1, 3), minor(0, 1, 2)};
+    return {subdeterminant(1, 2, 3), -subdeterminant(0, 2, 3), subdeterminant(0, 1, 3), subdeterminant(0, 1, 2)};
   }
 
   /// Last steps: merged axes turned back, time made to run with u, K.

@@ -312,12 +312,15 @@ struct SpinorFrame {
 
   static Scalar determinant(const Vec4<Scalar>& a, const Vec4<Scalar>& b, const Vec4<Scalar>& c,
                             const Vec4<Scalar>& d) noexcept {
-    const auto minor = [](const Vec4<Scalar>& x, const Vec4<Scalar>& y, int i, int j) {
+    const auto subdeterminant = [](const Vec4<Scalar>& x, const Vec4<Scalar>& y, int i, int j) {
       return x[i] * y[j] - x[j] * y[i];
     };
-    return minor(a, b, 0, 1) * minor(c, d, 2, 3) - minor(a, b, 0, 2) * minor(c, d, 1, 3) +
-           minor(a, b, 0, 3) * minor(c, d, 1, 2) + minor(a, b, 1, 2) * minor(c, d, 0, 3) -
-           minor(a, b, 1, 3) * minor(c, d, 0, 2) + minor(a, b, 2, 3) * minor(c, d, 0, 1);
+    return subdeterminant(a, b, 0, 1) * subdeterminant(c, d, 2, 3) -
+           subdeterminant(a, b, 0, 2) * subdeterminant(c, d, 1, 3) +
+           subdeterminant(a, b, 0, 3) * subdeterminant(c, d, 1, 2) +
+           subdeterminant(a, b, 1, 2) * subdeterminant(c, d, 0, 3) -
+           subdeterminant(a, b, 1, 3) * subdeterminant(c, d, 0, 2) +
+           subdeterminant(a, b, 2, 3) * subdeterminant(c, d, 0, 1);
   }
 };
 

@@ -352,9 +352,9 @@ struct PlaneLanes {
   /// Of u, v and V: what times a fourth is the determinant of the four.
   GYROSTAT_INLINE Many4 minors(const Many4& V) const noexcept {
     const Many *a = u.x.x, *b = v.x.x, *c = V.x;
-    const auto minor = [a, b](int i, int j) GYROSTAT_INLINE_LAMBDA { return a[i] * b[j] - a[j] * b[i]; };
-    const Many m01 = minor(0, 1), m02 = minor(0, 2), m03 = minor(0, 3), m12 = minor(1, 2), m13 = minor(1, 3),
-               m23 = minor(2, 3);
+    const auto subdeterminant = [a, b](int i, int j) GYROSTAT_INLINE_LAMBDA { return a[i] * b[j] - a[j] * b[i]; };
+    const Many m01 = subdeterminant(0, 1), m02 = subdeterminant(0, 2), m03 = subdeterminant(0, 3),
+               m12 = subdeterminant(1, 2), m13 = subdeterminant(1, 3), m23 = subdeterminant(2, 3);
     return {{m13 * c[2] - m12 * c[3] - m23 * c[1], m02 * c[3] - m03 * c[2] + m23 * c[0],
              m03 * c[1] - m01 * c[3] - m13 * c[0], m01 * c[2] - m02 * c[1] + m12 * c[0]}};
   }
