@@ -653,3 +653,33 @@ def test_a_rotor_beside_an_unstable_rotation_is_judged_by_two_neighbours() -> No
     true = {"attitude": 5.26e-12, "angular_velocity": 5.30e-12}  # by a Taylor integrator of its own in 113 bits
     for name, error in true.items():
         assert error <= answer.error[name] <= 50 * error
+
+
+def test_a_stop_that_was_not_estimated_is_not_met() -> None:
+    # an axis without control, where the averages say nothing of the stop: these bodies turn on for ever
+    for inertia, control, rate, ask in (([1.25324885, 0.90515779, 1.45084214], [0.0, 0.04747753, 0.03111634], [-0.66406986, -0.30701765, 0.71250908], "2 min"),
+                                        ([1.0, 1.0, 0.5], [0.0, 0.1, 0.1], [1.0, 0.2, 0.3], "60 s"),
+                                        ([1.0, 0.635, 1.0], [0.167, 0.354, 0.0], [1.9, -0.128, 0.594], "60 s")):
+        scene = {"name": "left alone", "kind": "deceleration", "body": {"inertia": inertia}, "torque": {"control": control, "drag": 0.0},
+                 "initial": {"angular_velocity": rate}, "solve": {"times": [0.0, 1.0, 10.0], "tolerance": 1e-3}}
+        for model in ("auto", "averaged", "full"):
+            answer = gyrostat.solve(scene, ask={"stop_time": ask}, model=model)
+            stop = answer.scalars["stop_time"]
+            assert stop is None or math.isinf(stop) or not answer.met, (inertia, model, stop)
+        told = gyrostat.solve({**scene, "solve": {"times": [0.0, 1e5], "tolerance": 1e-3}}, model="full", ask="angular_momentum_norm")
+        assert told["angular_momentum_norm"][-1] > 0.2
+
+
+def test_a_body_on_an_axis_stops_though_the_others_are_left_alone() -> None:
+    scene = {"name": "on its axis", "kind": "deceleration", "body": {"inertia": [3.0, 2.0, 1.0]}, "torque": {"control": [0.01, 0.0, 0.0], "drag": 0.0},
+             "initial": {"angular_velocity": [1.0, 0.0, 0.0]}, "solve": {"times": [0.0, 10.0], "tolerance": 1e-6}}
+    assert gyrostat.solve(scene, model="full", ask="stop_time").scalars["stop_time"] == pytest.approx(300.0, rel=1e-9)
+
+
+def test_what_is_said_of_an_axis_left_alone_beside_rotors() -> None:
+    scene = {"name": "rotor along it", "kind": "deceleration", "body": {"inertia": [3.0, 2.0, 1.0], "rotor_momentum": [0.0, 0.0, 0.5]},
+             "torque": {"control": [0.1, 0.1, 0.0], "drag": 0.0}, "initial": {"angular_velocity": [0.1, 0.2, 1.0]},
+             "solve": {"times": [0.0, 10.0], "tolerance": 1e-3}}
+    answer = gyrostat.solve(scene)
+    told = {warning.code: warning.message for warning in answer.warnings}
+    assert "leaves an axis alone" in told["does-not-stop"] and answer.scalars["final_angular_velocity"] is None

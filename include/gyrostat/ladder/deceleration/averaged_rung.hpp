@@ -139,7 +139,7 @@ Track averaged_track(const Scene& scene) {
 
   // Below a few breakdown momenta the body falls to the axis of the weakest control, the averaged one need not.
   const double low = 3 * breakdown;
-  double late = scene.greatest_control() > 0 ? 1 : 0;
+  double late = scene.greatest_control() > 0 ? infinity<double> : 0;
   if (late > 0 && low < norm0 / 2 && run.advance(infinity<double>, low) == ode::Status::reached) {
     const auto s = run.motion().state();
     const auto b = ControlTorques<double>::of(problem.control, s.polhode.axes);

@@ -60,7 +60,7 @@ struct Hold {
     const FullCoefficients<Scalar> coefficients(problem);
     const Vec3<Scalar> c = coefficients.constant;
     driven = !c.isZero(0);
-    comes = !AxisLeftAlone<Scalar>(problem).keeps(problem.momentum - coefficients.offset);
+    comes = !AxesLeftAlone<Scalar>(problem).keep(problem.momentum - coefficients.offset);
     if (b.isZero(0)) return;
     const Mat3<Scalar> cofactor = cofactors(b);
     const Scalar determinant = b.row(0).dot(cofactor.row(0));
@@ -267,7 +267,7 @@ class Course {
   /// Whether the motion is bound to come to a stop.
   bool stops() const noexcept { return may_stop_ && hold_.weakest > 0; }
   /// Whether going on decides when the body stops, or that it never does; and whether that is decided.
-  bool can_decide() const noexcept { return stops() || (may_stop_ && system_.leaves_axis_alone()); }
+  bool can_decide() const noexcept { return stops() || (may_stop_ && system_.tells_its_stop(solver_.state())); }
   bool is_decided() const noexcept { return rests_ || !may_stop_; }
 
  private:

@@ -109,12 +109,15 @@ GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, s
 namespace detail {
 
 GYROSTAT_COMPILED_ONCE void warn_of_stop_withheld(Track& track, const Scene& scene, const char* text) {
-  const bool alone = scene.greatest_control() > 0 && !(Hold<double>(scene.problem()).weakest > 0);
-  track.warn(warning::stop_withheld, nan<double>,
-             alone
-                 ? "the control leaves an axis alone, about which the body may turn on for ever; ask for stop_time by "
-                   "name to have the stop looked for"
-                 : text);
+  const auto& problem = scene.problem();
+  const bool alone = scene.greatest_control() > 0 && !(Hold<double>(problem).weakest > 0);
+  if (alone)
+    text =
+        AxesLeftAlone<double>(problem).any()
+            ? "the control leaves an axis alone, about which the body may turn on for ever; ask for stop_time by name "
+              "to have the stop looked for"
+            : "the control leaves an axis alone, about which the body may turn on for ever: no stop is looked for";
+  track.warn(warning::stop_withheld, nan<double>, text);
 }
 
 }  // namespace detail

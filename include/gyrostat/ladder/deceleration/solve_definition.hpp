@@ -62,7 +62,10 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
     warn(warning::does_not_stop, nan<double>,
          "the control leaves an axis alone, about which the body turns on for ever");
   } else if (total && scene.has_rotor()) {
-    warn(warning::does_not_stop, problem.gyro_rate().norm());
+    warn(warning::does_not_stop, problem.gyro_rate().norm(),
+         hold.weakest > 0 ? nullptr
+                          : "the control leaves an axis alone, along which M may stay; at best the carrier ends "
+                            "turning at -J^-1 l");
   }
 }
 

@@ -67,40 +67,41 @@ struct FullCoefficients {
   }
 };
 
-/// A principal axis that the control leaves alone, and about which the body turns on for ever where what U has along it is certain to last.
+/// Principal axes that the control leaves alone, and about which the body turns on for ever where what U has along one is certain to last.
 ///
-/// Let i be that axis, of the greatest or the least moment, so that q_j q_k < 0, and c the controls about the other two. W = |q_k| U_j^2 + |q_j| U_k^2 obeys
-/// dW/dt = -2 (c_j |q_k| U_j^2 + c_k |q_j| U_k^2)/|U|, and P = |q_k| U_j^2 - |q_j| U_k^2, of which |P| <= W,
-/// dP/dt = +-4 |q_j q_k| U_i U_j U_k - 2 (c_j |q_k| U_j^2 - c_k |q_j| U_k^2)/|U|. As dU_i^2/dt = 2 q_i U_i U_j U_k, U_i^2 changes from now on by at most
-/// |q_i| W (2 + c_most/c_least)/(2 |q_j q_k|). Drag along U shrinks all of this alike.
+/// Let i be such an axis, of the greatest or the least moment, so that q_j q_k < 0, and c the controls about the other two. W = |q_k| U_j^2 + |q_j| U_k^2 obeys
+/// dW/dt = -2 (c_j |q_k| U_j^2 + c_k |q_j| U_k^2)/|U|, and P = |q_k| U_j^2 - |q_j| U_k^2
+/// dP/dt = +-4 |q_j q_k| U_i U_j U_k - 2 (c_j |q_k| U_j^2 - c_k |q_j| U_k^2)/|U|, where the last term is no greater than dW/dt, and |P| <= W. As
+/// dU_i^2/dt = 2 q_i U_i U_j U_k, U_i^2 changes from now on by at most |q_i| W/|q_j q_k|. Drag along U shrinks all of this alike.
 template <Real Scalar>
-class AxisLeftAlone {
+class AxesLeftAlone {
  public:
   /// Where control and drag act along principal axes, and neither a rotor nor the drag pushes; else there is none.
-  explicit AxisLeftAlone(const Problem<Scalar>& problem) noexcept {
+  explicit AxesLeftAlone(const Problem<Scalar>& problem) noexcept {
     const FullCoefficients<Scalar> f(problem);
     const Mat3<Scalar>& b = problem.control;
     if (!b.isDiagonal(0) || !f.linear.isDiagonal(0) || !f.constant.isZero(0)) return;
+    const Vec3<Scalar> q = f.quadratic.cwiseAbs();
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
-      const Scalar least = std::min(b(j, j), b(k, k)), most = std::max(b(j, j), b(k, k));
-      const Vec3<Scalar> q = f.quadratic.cwiseAbs();
-      const bool turning = f.quadratic[j] * f.quadratic[k] < 0;
-      if (b(i, i) != 0 || !(least > 0) || !(turning || q[i] == 0)) continue;
-      axis_ = i;
-      if (q[i] != 0) weight_[j] = q[i] * (2 + most / least) / (2 * q[j]), weight_[k] = weight_[j] * q[j] / q[k];
+      if (b(i, i) != 0 || !(f.quadratic[j] * f.quadratic[k] < 0 || q[i] == 0)) continue;
+      any_ = is_[i] = true;
+      if (q[i] != 0) weight_(i, j) = q[i] / q[j], weight_(i, k) = q[i] / q[k];
     }
   }
-  bool exists() const noexcept { return axis_ >= 0; }
+  bool any() const noexcept { return any_; }
   /// Whether U never comes to zero.
-  bool keeps(const Vec3<Scalar>& U) const noexcept {
+  bool keep(const Vec3<Scalar>& U) const noexcept {
     constexpr Scalar clear = Scalar(1.001L);
-    return axis_ >= 0 && clear * weight_.dot(U.cwiseAbs2()) < U[axis_] * U[axis_];
+    const Vec3<Scalar> square = U.cwiseAbs2();
+    for (int i = 0; any_ && i < 3; ++i)
+      if (is_[i] && clear * weight_.row(i).dot(square) < square[i]) return true;
+    return false;
   }
 
  private:
-  int axis_ = -1;
-  Vec3<Scalar> weight_{0, 0, 0};
+  bool any_ = false, is_[3] = {};
+  Mat3<Scalar> weight_ = Mat3<Scalar>::Zero();
 };
 
 /// dM/dt, N m; momentum M in principal axes. Where U = 0 and the control does not vanish the torque has no value: NaN.
@@ -179,10 +180,10 @@ class FullSystem {
   /// Whether U is certain never to come to zero: it lies on an axis where it stays and that the control leaves alone, or keeps what it has along one.
   bool never_stops(const Scalar* x) const noexcept {
     const int axis = axis_kept(x);
-    return (axis >= 0 && own_[axis] == 0) || left_alone_.keeps({x[0], x[1], x[2]});
+    return (axis >= 0 && own_[axis] == 0) || left_alone_.keep({x[0], x[1], x[2]});
   }
-  /// Whether the motion will tell in time whether it never stops.
-  bool leaves_axis_alone() const noexcept { return left_alone_.exists(); }
+  /// Whether the motion tells in time when it stops, or that it never does, though the control leaves an axis alone.
+  bool tells_its_stop(const Scalar* x) const noexcept { return left_alone_.any() || axis_kept(x) >= 0; }
 
   /// |U| at t where it obeys its own law, dR/dt = -drag R - b: (R0 + b/drag) exp(-drag t) - b/drag, N m s.
   Scalar norm_at(Scalar t) const noexcept {
@@ -225,7 +226,7 @@ class FullSystem {
   Row linear_[3];
   Row control_[3];
   Scalar reach_, control_bound_, constant_bound_, linear_bound_, drag_;
-  AxisLeftAlone<Scalar> left_alone_;
+  AxesLeftAlone<Scalar> left_alone_;
   // of each axis
   bool keeps_[3];          ///< a U along it stays there
   Vec3<Scalar> own_;       ///< the control about it, N m
