@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from gyrostat.answer import Answer
 
-__all__ = ["COLOURS", "MOMENT_NAMES", "Drawing", "Panel", "changes", "check_ending", "components", "curve", "error_text", "finish", "goes_on", "is_coarse", "laid_out",
+__all__ = ["COLOURS", "MOMENT_NAMES", "Drawing", "Panel", "changes", "check_ending", "components", "curve", "error_text", "finish", "goes_on", "head", "is_coarse", "laid_out",
            "legend_beside", "legend_row", "map_frame", "map_legend", "map_reach", "mark_stop", "new_figure", "note", "on_map", "principal_axes", "save", "span_text", "split",
            "stacked", "time_unit", "vector", "wheels_panel"]
 
@@ -89,9 +89,15 @@ def save(figure: "Figure", file: Path) -> None:
         figure.savefig(beside, dpi=DENSITY)
 
 
+def head(figure: "Figure", lines: Sequence[str], size: float) -> None:
+    """A title of these lines, broken where they are wider than the figure."""
+    width = round(122 / size * figure.get_figwidth())
+    figure.suptitle("\n".join(textwrap.fill(line, width) for line in lines), fontsize=size)
+
+
 def finish(figure: "Figure", title: str, seen: Sequence[str]) -> None:
     """Title above, and below a paragraph for each thing that is seen."""
-    figure.suptitle(title, fontsize=13)
+    head(figure, [title], 13)
     width = round(12.5 * figure.get_figwidth())
     figure.supxlabel("\n".join(textwrap.fill(text, width) for text in seen), fontsize=9, x=0.01, ha="left")
 

@@ -5,7 +5,7 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any, Final
 
-from gyrostat.drawing import COLOURS, Panel, as_written, components, curve, error_text, mark_stop, new_figure, note, save, stacked
+from gyrostat.drawing import COLOURS, Panel, as_written, components, curve, error_text, head, mark_stop, new_figure, note, save, stacked
 from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS, UNITS
 from gyrostat.families import FAMILIES
@@ -32,7 +32,7 @@ def plot_answer(answer: "Answer") -> "Figure":
     made: Figure = figures.figure(answer, given) if whole else _asked(answer)
     title = f"{scene.name}: rung {answer.model}, {answer.verdict}"
     remarks = figures.remarks(answer, given) if whole else []
-    made.suptitle("\n".join([title, *remarks]), fontsize=11)
+    head(made, [title, *remarks], 11)
     return as_written(made)
 
 
@@ -124,7 +124,7 @@ def plot_chart(chart: "Chart") -> "Figure":
         handles[STATED], = key.plot([], [], marker="_", color="black", linestyle="none", markersize=9)
     key.legend(handles.values(), handles.keys(), loc="upper left", fontsize=8, borderaxespad=0, title="the time of a rung holds\nits error estimate",
                title_fontsize=8, alignment="left")
-    figure.suptitle(f"{chart.name}: {chart.title}", fontsize=11)
+    head(figure, [f"{chart.name}: {chart.title}"], 11)
     if chart.left_out:
         figure.supxlabel("Left out: " + "\n".join(textwrap.fill(str(each), 190) for each in chart.left_out), fontsize=8, x=0.01, ha="left")
     return figure

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gyrostat.asking import asked
 from gyrostat.console import short, small
-from gyrostat.drawing import COLOURS, Drawing, new_figure, note, save, time_unit
+from gyrostat.drawing import COLOURS, Drawing, head, new_figure, note, save, span_text, time_unit
 from gyrostat.errors import DomainError, SceneError
 from gyrostat.facts import FACTS
 from gyrostat.scenes import scene_from
@@ -49,6 +49,7 @@ class Response:
     unit: str
     values: Floats  # (n,)
     error: Floats | None  # (n,), as its family measures it
+    at_end: bool = False  # of a column, at the last time
 
 
 def _labels(dataset: "xarray.Dataset", name: str, dims: Sequence[str]) -> list[str]:
@@ -80,7 +81,7 @@ def responses(dataset: "xarray.Dataset") -> list[Response]:
             error = dataset[f"{name}_error"].values if f"{name}_error" in dataset else None
             parts = values.values.reshape(values.shape[0], -1).T
             labels = _labels(dataset, name, [str(dim) for dim in values.dims[1:]])
-            made = [Response(label, values.attrs.get("units", ""), part, error) for label, part in zip(labels, parts, strict=True)]
+            made = [Response(label, values.attrs.get("units", ""), part, error, over_time) for label, part in zip(labels, parts, strict=True)]
             found += [each for each in made if np.isfinite(each.values).any()]
         if found:
             break
@@ -268,13 +269,14 @@ def tables(dataset: "xarray.Dataset", depends: Mapping[str, Dependence] | None =
     yield "Over the tolerance by what errs most", ["", "share", "rows"], [
         [name, _percent(share), str(round(share * len(met)))] for name, share in missed_by(dataset).items()]
     rows = []
-    for each in responses(dataset):
+    shown = responses(dataset)
+    for each in shown:
         known = np.isfinite(each.values)
         numbers = [short(float(value), 5) for value in np.percentile(each.values[known], PERCENTILES)]
         errors = np.empty(0) if each.error is None else each.error[known.reshape(len(known), -1).any(axis=1) & ~np.isnan(each.error)]
         rows.append([each.label, each.unit, _percent(float(known.mean())), *numbers, small(float(np.max(errors))) if len(errors) else "-"])
     rows += [[each.label, each.unit, _percent(0), *["inf"] * len(PERCENTILES), "-"] for each in endless(dataset)]
-    yield "Percentiles, of the rows in which it is finite", ["", "unit", "finite", *(f"{p} %" for p in PERCENTILES), "greatest error"], rows
+    yield f"Percentiles{_when(dataset, shown)}, of the rows in which it is finite", ["", "unit", "finite", *(f"{p} %" for p in PERCENTILES), "greatest error"], rows
     keys = list(parameters(dataset))
     rows = [[label, *(f"{value:+.3f}" if math.isfinite(value) else "-" for value in each.ranked.values())] for label, each in depends.items()]
     yield "Rank correlations (which way it goes; blind to what rises and falls again)", ["", *keys], rows
@@ -311,8 +313,14 @@ def in_words(dataset: "xarray.Dataset", reason: str) -> str:
 # ---- figures ----
 
 
-def _title(dataset: "xarray.Dataset") -> str:
-    return f"{dataset.attrs['title']}: {dataset.sizes['row']} rows, {_percent(float(dataset['met'].values.mean()))} within the tolerance"
+def _head(figure: "Figure", dataset: "xarray.Dataset", when: str = "") -> None:
+    title = f"{dataset.attrs['title']}: {dataset.sizes['row']} rows, {_percent(float(dataset['met'].values.mean()))} within the tolerance"
+    head(figure, [title + when], 11)
+
+
+def _when(dataset: "xarray.Dataset", shown: Sequence[Response]) -> str:
+    """The time of the responses, where these are columns."""
+    return f", at t = {span_text(float(dataset['time'].values[-1]))}" if any(each.at_end for each in shown) else ""
 
 
 def _panels(count: int, width: float, height: float, columns: int) -> "tuple[Figure, list[Axes]]":
@@ -352,7 +360,7 @@ def histograms(dataset: "xarray.Dataset", shown: Sequence[Response]) -> "Figure"
         place.ticklabel_format(axis="x", scilimits=(-3, 6))
         if len(values) < len(each.values):
             note(place, f"finite in {_percent(len(values) / len(each.values))}")
-    figure.suptitle(_title(dataset), fontsize=11)
+    _head(figure, dataset, _when(dataset, shown))
     return figure
 
 
@@ -379,7 +387,7 @@ def bands(dataset: "xarray.Dataset", columns: Sequence[tuple[str, Any]]) -> "Fig
         place.ticklabel_format(axis="y", scilimits=(-3, 6))
         place.grid(alpha=0.3)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8)
-    figure.suptitle(_title(dataset), fontsize=11)
+    _head(figure, dataset)
     return figure
 
 
@@ -398,7 +406,7 @@ def tornado(dataset: "xarray.Dataset", shown: Sequence[Response], depends: Mappi
         place.set_xlabel("bar: rank correlation; mark: share of the variance")
         place.set_title(each.label, loc="left", fontsize=10)
         place.grid(alpha=0.3, axis="x")
-    figure.suptitle(_title(dataset), fontsize=11)
+    _head(figure, dataset, _when(dataset, shown))
     return figure
 
 
@@ -425,7 +433,7 @@ def scatter(dataset: "xarray.Dataset", shown: Sequence[Response], depends: Mappi
         place.set_ylabel(_axis_text(each.label, each.unit))
         place.legend(fontsize=8)
         place.grid(alpha=0.3)
-    figure.suptitle(_title(dataset), fontsize=11)
+    _head(figure, dataset, _when(dataset, shown))
     return figure
 
 

@@ -60,7 +60,7 @@ def _size_and_energy(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
     others = []
     if "energy" in answer.columns:
         right = axes.twinx()
-        ring: dict[str, Any] = {"marker": "s", "markersize": 8, "fillstyle": "none"} if len(t) == 1 else {}  # round the dot of |M|
+        ring: dict[str, Any] = {"marker": "s", "markersize": 8, "fillstyle": "none"} if len(t) < 4 else {}  # round the dots of |M|
         curve(right, t, answer["energy"], ["carrier energy h"], COLOURS[1:], linestyle="--", **ring)
         right.set_ylabel("h [J]", color=COLOURS[1])
         right.set_ylim(bottom=0)
@@ -88,12 +88,15 @@ def _modulus(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
         note(axes, error_text(answer, "modulus_squared"))
     if "regime" in answer.columns:
         named = set()
+        stop, end = (answer.scalars.get("stop_time") or math.nan) / time_unit(float(answer.t[-1]))[0], t[0]
         for name, first, last in _runs(answer["regime"]):
+            begin, end = end, t[min(last + 1, len(t) - 1)]
+            if t[last] < stop < end:  # it changes there, and not at the next time
+                end = stop
             if name == "rest" and goes_on(answer):
                 continue
             colour, meaning = REGIMES.get(name, ("#CCCCCC", name))
-            end = t[min(last + 1, len(t) - 1)]
-            axes.axvspan(t[first], end, color=colour, alpha=0.25, linewidth=0, label=None if name in named else meaning)
+            axes.axvspan(begin, end, color=colour, alpha=0.25, linewidth=0, label=None if name in named else meaning)
             named.add(name)
         axes.legend(loc="upper right", fontsize=8, ncols=max(1, len(named)), borderaxespad=0.2)
     axes.set_ylim(-0.04, 1.32)
