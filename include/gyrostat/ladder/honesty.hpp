@@ -26,11 +26,15 @@ inline constexpr double shared_steps = 1.0 / 8;
 /// Directions in which the data vectors of the two companions are changed: orthogonal, and as far apart along every axis as orthogonal ones
 /// can be (0.82). Where one number decides, as in a steady rotation, truncation may cancel the change in one companion, but not in both.
 inline constexpr double directions[2][3] = {{0.90, -0.12, 0.42}, {0.12, -0.90, -0.42}};
-/// By how much the moments of a diagonal tensor differ in two companions: no two of them nearly alike, or what hangs on the difference of two moments that are
-/// nearly equal would err alike in all runs. Chosen: with two that were 0.2 apart 198 of 240 answers of a body, symmetric but for 1e-7 about axis 2, had stated up to 20 times too little.
-inline constexpr double moment_shifts[2][3] = {{-0.8, 0.1, 0.9}, {0.2, -0.8, 0.9}};
-/// By how much the tensor of a companion differs where it is not diagonal, over its greatest moment: elements 11, 22, 33, 12, 13, 23, of norm 1.5.
-inline constexpr double tensor_shifts[2][6] = {{0.9, -0.8, 0.6, -0.6, 0.7, 0.5}, {-0.7, 0.9, -0.5, 0.5, 0.8, 0.6}};
+/// By how much the moments of a diagonal tensor differ in two companions: in neither two of them nearly alike, or what hangs on the difference of two moments
+/// that are nearly equal would err alike in all runs; and no moment nearly alike in both. Chosen: with two that were 0.2 apart 198 of 240 answers of a body, symmetric but for 1e-7 about axis 2, had stated up to 20 times too little.
+inline constexpr double moment_shifts[2][3] = {{-0.8, 0.1, 0.9}, {0.1, 0.9, -0.8}};
+/// By how much the tensor of a companion differs where it is not diagonal, over its greatest moment: elements 11, 22, 33, 12, 13, 23; none nearly alike in both.
+inline constexpr double tensor_shifts[2][6] = {{0.9, -0.8, 0.3, -0.6, 0.8, 0.5}, {0.3, 0.8, 0.9, 0.6, 0.2, -0.5}};
+/// By how much single numbers of the data differ, one behind the other, in two companions: what truncation makes of a number cannot be near to what its change
+/// makes in both, and yet the two are nearly orthogonal.
+inline constexpr double number_shifts[2][11] = {{1.0, -0.6, 0.4, -0.6, 1.0, 0.6, -0.4, 0.6, -1.0, -0.6, 0.6},
+                                                {0.4, 0.6, 1.0, 0.6, 0.4, -0.6, -1.0, -0.6, -0.4, 0.6, -0.6}};
 /// By how much the data of a lone companion differ, roundings: more, as in its one direction it may be near by chance.
 inline constexpr double alone_change = 32;
 /// At half the span a lone companion is kicked by so many roundings of each number: the effect of its data may cancel the truncation

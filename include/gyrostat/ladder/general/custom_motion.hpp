@@ -295,7 +295,7 @@ class CustomMotion {
   }
   std::unique_ptr<Course> neighbour(int which, int share, Scalar tolerance) const noexcept {
     constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
-    const Vec3<Scalar> law_share = Vec3<Scalar>(1, 1, 1) + change * Shifts<Scalar>(3 + 5 * which).vector();
+    const Vec3<Scalar> law_share = Vec3<Scalar>(1, 1, 1) + change * Shifts<Scalar>(which).vector();
     return begin(beside(problem_, change, which), law_share, share, tolerance);
   }
 

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/ladder/companions.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/trials.hpp"
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/right_side.hpp"
@@ -29,20 +32,20 @@ Scalar condition_of(const Wheels<Scalar>& wheels, const State<Scalar>& start) no
                   start_sensitivity<Scalar>(start.angular_momentum, start.angular_velocity, wheels.inverse));
 }
 
-/// Arbitrary numbers of about 1, the same sequence every time.
+/// By how much the numbers of a companion's data differ, one after the other. which: 0 or 1.
 template <Real Scalar>
 class Shifts {
  public:
-  explicit Shifts(int which) noexcept : turn_(which) {}
+  explicit Shifts(int which) noexcept : of_(honesty::number_shifts[which == 0 ? 0 : 1]) {}
   Scalar operator()() noexcept {
-    constexpr long double of[] = {0.9L, -0.6L, 0.7L, -0.8L, 0.5L, -0.7L, 0.8L, -0.9L, 0.6L, -0.5L, 1.0L};
-    turn_ = (turn_ + 1) % 11;
-    return static_cast<Scalar>(of[turn_]);
+    turn_ = (turn_ + 1) % std::size(honesty::number_shifts[0]);
+    return Scalar(of_[turn_]);
   }
   Vec3<Scalar> vector() noexcept { return {(*this)(), (*this)(), (*this)()}; }
 
  private:
-  int turn_;
+  const double* of_;
+  std::size_t turn_ = 3;
 };
 
 /// Whether zeros of the data stay zero by a symmetry: rotation about one axis of a diagonal tensor, along which all wheels and torques
@@ -69,7 +72,7 @@ bool keeps_axis(const Problem<Scalar>& of) noexcept {
 /// wheel or torque stays so, and so do a body at rest and zeros that a symmetry keeps. which: 0 or 1, in another direction.
 template <Real Scalar>
 Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noexcept {
-  Shifts<Scalar> shift(5 * which + 3);
+  Shifts<Scalar> shift(which);
   Problem<Scalar> near = of;
   const bool kept = keeps_axis(of);
   const auto scale = [&](Scalar& x) noexcept { x *= 1 + amount / 2 * shift(); };

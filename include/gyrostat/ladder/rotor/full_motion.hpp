@@ -165,9 +165,9 @@ struct Neighbour {
   /// which: 0 or 1, in another direction.
   Neighbour(const Gyrostat<Scalar>& of, const State<Scalar>& from, Scalar amount, int which) noexcept
       : gyrostat(of), start(from) {
+    const Mat3<Scalar> inertia = of.inertia() + amount * of.principal()[2] * tensor_shifts<Scalar>(which);
     const Vec3<Scalar> direction = (which == 0 ? 1 : -1) * neighbour_direction<Scalar>(which);
     if (which != 0) amount = -amount;
-    const Mat3<Scalar> inertia = of.inertia() + amount * of.principal()[2] * tensor_shifts<Scalar>(which);
     const auto moved = Gyrostat<Scalar>::make(inertia, of.axis() + amount * cross<Scalar>(direction, of.axis()),
                                               of.axial_inertia() * (1 + amount), of.slope() * (1 - amount),
                                               of.no_load_rate() * (1 + amount));
