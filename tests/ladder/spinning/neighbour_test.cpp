@@ -17,6 +17,14 @@ Problem spinner() {
   return p;
 }
 
+TEST_CASE("the rates of two neighbours of a spinner lie on opposite sides of its own", "[spinning]") {
+  Problem p = spinner();
+  p.angular_velocity = {-0.3, 0.2, 4};
+  const Vec3<double> one = neighbour<double>(p, 4, 1e-9, 0).angular_velocity - p.angular_velocity,
+                     two = neighbour<double>(p, 4, 1e-9, 1).angular_velocity - p.angular_velocity;
+  for (int i = 0; i < 3; ++i) CHECK(one[i] * two[i] < 0);
+}
+
 TEST_CASE("a neighbour of a spinner keeps its symmetry and its axis", "[spinning]") {
   Problem p = spinner();
   for (const int which : {0, 1}) {
