@@ -99,7 +99,7 @@ TEST_CASE("where one companion is near by chance the other counts", "[ladder]") 
   for (const int away : {0, 1}) {
     const auto near = [&](std::span<const double> times, const CvodeTask& task) {
       CvodeRun<double> made;
-      made.states.assign(times.size(), task.change > 0 && task.which == away ? 1e-6 : 0);
+      made.states.assign(times.size(), task.change > 0 && (task.aside == Aside::first) == (away == 0) ? 1e-6 : 0);
       return made;
     };
     const auto runs = cvode_runs(Row{}, std::vector<double>{10}, 1e-3, 1e-3, near);

@@ -102,11 +102,11 @@ TEST_CASE("a companion takes tighter steps down to the finest, and rounding rule
   CHECK(companion_step(1e-9) == 1e-9 / honesty::side_by_side.tighter);
   CHECK(data_change(1e-12) == honesty::side_by_side.data_change * epsilon<double>);
   CHECK(data_change(1e-9) == honesty::alone_change * epsilon<double>);  // no second one beside it
-  CHECK(data_change(1e-9, 10.) == data_change(1e-12));
+  CHECK(data_change(1e-9, {10., 1.}) == data_change(1e-12));
   CHECK(companion_step(finest_step_tolerance<double>) == finest_step_tolerance<double>);
   CHECK_FALSE(rounding_rules(1e-9));
   CHECK(rounding_rules(epsilon<double>));
-  CHECK(rounding_rules(1e-9, 1e6));
+  CHECK(rounding_rules(1e-9, {1., 1e6}));
 }
 
 TEST_CASE("steps of spinners are looser where two companions judge them", "[ladder]") {
@@ -122,11 +122,20 @@ TEST_CASE("steps of spinners are looser where two companions judge them", "[ladd
 }
 
 TEST_CASE("neighbours lie in two directions, far apart along every axis", "[ladder]") {
-  const auto a = neighbour_direction<double>(0), b = neighbour_direction<double>(1);
+  const auto a = neighbour_direction<double>(Aside::first), b = neighbour_direction<double>(Aside::second);
   CHECK(std::abs(a.norm() - 1) < 1e-2);
   CHECK(std::abs(b.norm() - 1) < 1e-2);
   CHECK(std::abs(a.dot(b)) < 0.1);
   CHECK((a - b).cwiseAbs().minCoeff() > 0.75);
+}
+
+TEST_CASE("where the start decides two neighbours lie on opposite sides", "[ladder]") {
+  CHECK(second_aside<double>({1e9, 1}) == Aside::second);
+  CHECK(second_aside<double>({1, honesty::unstable_condition}) == Aside::opposite);
+  CHECK(neighbour_direction<double>(Aside::opposite) == -neighbour_direction<double>(Aside::first));
+  CHECK(moment_shifts<double>(Aside::opposite) == -moment_shifts<double>(Aside::first));
+  CHECK(tensor_shifts<double>(Aside::opposite) == -tensor_shifts<double>(Aside::first));
+  CHECK(tensor_shifts<double>(Aside::second) != -tensor_shifts<double>(Aside::first));
 }
 
 TEST_CASE("a start counts more where it is next to an unstable steady rotation") {

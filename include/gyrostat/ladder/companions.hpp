@@ -130,6 +130,14 @@ ode::Status reach(Course& course, Scalar t, Scalar t_max, Scalar& stride) noexce
   return status;
 }
 
+/// The longest step of the first companion after so many, over that of the answer at the same place: `longest` or up to stride_spread less, evenly strewn
+/// (the fractions of the multiples of the golden ratio).
+constexpr double companion_stride(double longest, std::uint64_t steps) noexcept {
+  // the multiples of the golden ratio in units of 2^-32, which wrap around
+  const auto turn = static_cast<std::uint32_t>(steps) * std::uint32_t{2654435769};
+  return longest - honesty::stride_spread * (double(turn) * 0x1p-32);
+}
+
 /// Where a step of the first companion from `now`, not longer than `longest`, ends at the latest.
 template <Real Scalar>
 constexpr Scalar companion_reaches(Scalar now, Scalar longest, Scalar last) noexcept {
@@ -246,7 +254,7 @@ class SideBySide {
       options_.report(from + static_cast<double>(now / last_) * (to - from));
       if (options_.cancelled()) walk_.status = Status::cancelled;
     }
-    longest_ = companion_reaches(now, Scalar(runs_.stride) * stride_, last_);
+    longest_ = companion_reaches(now, Scalar(companion_stride(runs_.stride, trips_)) * stride_, last_);
   }
 
   /// The asked times up to `now`.

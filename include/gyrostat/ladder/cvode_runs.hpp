@@ -10,6 +10,7 @@
 #include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/cvode_walk.hpp"
 #include "gyrostat/ladder/honesty.hpp"
+#include "gyrostat/ladder/trials.hpp"
 
 /// The full equations by CVODE, for comparison: one run at a tolerance and, for its error, neighbours at looser ones. Needs the library gyrostat::cvode.
 namespace gyrostat::inline GYROSTAT_LEVEL {
@@ -54,12 +55,12 @@ CvodeRun<State> run_cvode(Equations& equations, const State& start, std::span<co
   return run;
 }
 
-/// One run. longest: the share of the span that a step may take; change: by how much the data of companion `which` differ, 0 for the answer:
+/// One run. longest: the share of the span that a step may take; change: by how much the data of a companion differ, 0 for the answer:
 /// by what its steps may err, which a slim tensor or an unstable axis makes more of.
 struct CvodeTask {
   double tolerance, longest;
   double change = 0;
-  int which = 0;
+  Aside aside = Aside::first;
 };
 
 /// The answer's run and how far its companions' are off.
@@ -108,7 +109,8 @@ CvodeRuns<Writer> cvode_runs(const Writer& writer, std::span<const double> asked
   const double change = std::max(honesty::alone_change * epsilon<double>, tolerance);
   for (int c = 0; c < honesty::cvode_companions; ++c) {
     const double looser = honesty::cvode_looser[c];
-    const auto companion = run(watched, CvodeTask{looser * tolerance, honesty::cvode_longest[1 + c], change, c});
+    const auto companion = run(watched, CvodeTask{looser * tolerance, honesty::cvode_longest[1 + c], change,
+                                                  c == 0 ? Aside::first : Aside::second});
     if (companion.failure != Errc::ok) return runs.states.clear(), runs.failure = companion.failure, runs;
     runs.counts += companion.counts;
     runs.margin[c] = margin * honesty::cvode_looser[0] / looser;

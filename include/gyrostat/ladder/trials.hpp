@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/ladder/honesty.hpp"
@@ -20,16 +22,24 @@ constexpr Scalar companion_step(Scalar step_tolerance) noexcept {
   return std::max(finest_step_tolerance<Scalar>, step_tolerance / Scalar(honesty::side_by_side.tighter));
 }
 
-/// Whether rounding rules in steps of this tolerance, so that one companion may be near by chance. condition: greatest moment over the least,
-/// where they come from a tensor and err as the greatest does.
+/// How many times over a rounding of the data counts in a motion.
 template <Real Scalar>
-constexpr bool rounding_rules(Scalar step_tolerance, Scalar condition = 1) noexcept {
-  return step_tolerance < Scalar(honesty::rounding_below) * epsilon<Scalar> * condition;
+struct Condition {
+  Scalar tensor =
+      1;  ///< of the inertia: greatest moment over the least, where they come from a tensor and err as the greatest does
+  Scalar start = 1;  ///< start_sensitivity()
+  constexpr Scalar worst() const noexcept { return std::max(tensor, start); }
+};
+
+/// Whether rounding rules in steps of this tolerance, so that one companion may be near by chance.
+template <Real Scalar>
+constexpr bool rounding_rules(Scalar step_tolerance, const Condition<Scalar>& condition = {}) noexcept {
+  return step_tolerance < Scalar(honesty::rounding_below) * epsilon<Scalar> * condition.worst();
 }
 
-/// Relative change of the data of companions, for an answer with steps of this tolerance. condition: as in rounding_rules.
+/// Relative change of the data of companions, for an answer with steps of this tolerance.
 template <Real Scalar>
-constexpr Scalar data_change(Scalar step_tolerance, Scalar condition = 1) noexcept {
+constexpr Scalar data_change(Scalar step_tolerance, const Condition<Scalar>& condition = {}) noexcept {
   return epsilon<Scalar> *
          Scalar(rounding_rules(step_tolerance, condition) ? honesty::side_by_side.data_change : honesty::alone_change);
 }
@@ -52,27 +62,43 @@ Scalar start_sensitivity(const Vec3<Scalar>& momentum, const Vec3<Scalar>& rate,
   return first * second < both * both ? Scalar(honesty::unstable_condition) : Scalar(1);
 }
 
-/// The direction in which the vectors of a companion's data differ. which: 0 or 1.
+/// How the data of a companion differ: the first one's, a second one's, and a second one's opposite to the first.
+enum class Aside : std::uint8_t { first, second, opposite };
+
+/// How a second companion's do. Where the start decides when a motion leaves a rotation, one number rules all, and truncation and rounding of
+/// the answer may be near what the data make of it in two companions, but not in two that lie on opposite sides.
 template <Real Scalar>
-Vec3<Scalar> neighbour_direction(int which) noexcept {
-  const auto& v = honesty::directions[which == 0 ? 0 : 1];
-  return {Scalar(v[0]), Scalar(v[1]), Scalar(v[2])};
+constexpr Aside second_aside(const Condition<Scalar>& condition) noexcept {
+  return condition.start > 1 ? Aside::opposite : Aside::second;
 }
 
-/// By how much the moments of a companion's tensor differ, along the diagonal. which: 0 or 1.
-template <Real Scalar>
-Vec3<Scalar> moment_shifts(int which) noexcept {
-  const auto& v = honesty::moment_shifts[which == 0 ? 0 : 1];
-  return {Scalar(v[0]), Scalar(v[1]), Scalar(v[2])};
+/// One row of a table of displacements (honesty.hpp), a number at a time.
+template <Real Scalar, std::size_t count>
+constexpr Scalar displacement(const double (&table)[2][count], Aside aside, std::size_t place) noexcept {
+  const Scalar size = Scalar(table[aside == Aside::second ? 1 : 0][place]);
+  return aside == Aside::opposite ? -size : size;
 }
 
-/// By how much the tensor of a companion, where it is not diagonal, differs: over its greatest moment. which: 0 or 1.
+/// The direction in which the vectors of a companion's data differ.
 template <Real Scalar>
-Mat3<Scalar> tensor_shifts(int which) noexcept {
-  const auto& v = honesty::tensor_shifts[which == 0 ? 0 : 1];
+Vec3<Scalar> neighbour_direction(Aside aside) noexcept {
+  const auto by = [aside](std::size_t i) noexcept { return displacement<Scalar>(honesty::directions, aside, i); };
+  return {by(0), by(1), by(2)};
+}
+
+/// By how much the moments of a companion's tensor differ, along the diagonal.
+template <Real Scalar>
+Vec3<Scalar> moment_shifts(Aside aside) noexcept {
+  const auto by = [aside](std::size_t i) noexcept { return displacement<Scalar>(honesty::moment_shifts, aside, i); };
+  return {by(0), by(1), by(2)};
+}
+
+/// By how much the tensor of a companion, where it is not diagonal, differs: over its greatest moment.
+template <Real Scalar>
+Mat3<Scalar> tensor_shifts(Aside aside) noexcept {
+  const auto by = [aside](std::size_t i) noexcept { return displacement<Scalar>(honesty::tensor_shifts, aside, i); };
   Mat3<Scalar> made;
-  made << Scalar(v[0]), Scalar(v[3]), Scalar(v[4]), Scalar(v[3]), Scalar(v[1]), Scalar(v[5]), Scalar(v[4]),
-      Scalar(v[5]), Scalar(v[2]);
+  made << by(0), by(3), by(4), by(3), by(1), by(5), by(4), by(5), by(2);
   return made;
 }
 

@@ -647,7 +647,7 @@ TEST_CASE("of a slim body in turned axes the momentum at the start is right to r
 
 TEST_CASE("a neighbour keeps what the motion keeps") {
   auto problem = simple();
-  const auto moved = [&] { return deceleration::detail::Neighbour<double>(problem, 1e-12, 0).problem; };
+  const auto moved = [&] { return deceleration::detail::Neighbour<double>(problem, 1e-12, Aside::first).problem; };
   problem.gaps = problem.inverse_gaps(), problem.exact_moments = true;
   problem.momentum = {0, 2, 0};
   CHECK(moved().momentum[0] == 0);  // a steady rotation

@@ -30,13 +30,14 @@ TEST_CASE("a neighbour differs by the amount, in every number that is not zero, 
   const double amount = 1e-8;
   for (int i = 0; i < 40; ++i) {
     const auto of = source.next(3).problem;
-    const auto one = numbers_of(beside(of, amount, 0)), two = numbers_of(beside(of, amount, 1)), given = numbers_of(of);
+    const auto one = numbers_of(beside(of, amount, Aside::first)), two = numbers_of(beside(of, amount, Aside::second)),
+               given = numbers_of(of);
     REQUIRE(one.size() == given.size());
     std::size_t moved = 0, apart = 0;
     for (std::size_t k = 0; k < given.size(); ++k) moved += one[k] != given[k], apart += one[k] != two[k];
     CHECK(moved >= 9);
     CHECK(apart >= 9);
-    const auto near = beside(of, amount, 0);
+    const auto near = beside(of, amount, Aside::first);
     CHECK((near.angular_velocity - of.angular_velocity).norm() <= 2 * amount * of.angular_velocity.norm());
     CHECK((near.inertia - of.inertia).norm() <= 4 * amount * of.inertia.norm());
     for (std::size_t k = 0; k < of.wheels.size(); ++k) {
@@ -53,7 +54,7 @@ TEST_CASE("what a symmetry keeps at zero stays there in a neighbour, and a body 
   p.torques.resize(1);
   p.torques[0].vector = {0, 0, 0.1};
   CHECK(keeps_axis(p));
-  auto near = beside(p, 1e-9, 0);
+  auto near = beside(p, 1e-9, Aside::first);
   CHECK(near.angular_velocity[0] == 0);
   CHECK(near.angular_velocity[1] == 0);
   CHECK(near.angular_velocity[2] != 0.5);
@@ -61,13 +62,13 @@ TEST_CASE("what a symmetry keeps at zero stays there in a neighbour, and a body 
   // a torque aside, another frame, or products of inertia end the symmetry
   p.torques[0].vector = {0, 0.1, 0};
   CHECK_FALSE(keeps_axis(p));
-  CHECK(beside(p, 1e-9, 0).angular_velocity[0] != 0);
+  CHECK(beside(p, 1e-9, Aside::first).angular_velocity[0] != 0);
   p.torques[0].vector = {0, 0, 0.1}, p.torques[0].axes = Axes::inertial;
   CHECK_FALSE(keeps_axis(p));
   p.torques[0].axes = Axes::body, p.inertia(0, 1) = p.inertia(1, 0) = 0.1;
   CHECK_FALSE(keeps_axis(p));
   p.angular_velocity.setZero();
-  CHECK(beside(p, 1e-9, 0).angular_velocity.isZero(0));
+  CHECK(beside(p, 1e-9, Aside::first).angular_velocity.isZero(0));
 }
 
 TEST_CASE("a tensor that is all but singular without its wheels magnifies its rounding", "[general]") {

@@ -20,20 +20,21 @@ Problem spinner() {
 TEST_CASE("the rates of two neighbours of a spinner lie on opposite sides of its own", "[spinning]") {
   Problem p = spinner();
   p.angular_velocity = {-0.3, 0.2, 4};
-  const Vec3<double> one = neighbour<double>(p, 4, 1e-9, 0).angular_velocity - p.angular_velocity,
-                     two = neighbour<double>(p, 4, 1e-9, 1).angular_velocity - p.angular_velocity;
-  for (int i = 0; i < 3; ++i) CHECK(one[i] * two[i] < 0);
+  const Vec3<double> one = neighbour<double>(p, 4, 1e-9, Aside::first).angular_velocity - p.angular_velocity,
+                     two = neighbour<double>(p, 4, 1e-9, Aside::second).angular_velocity - p.angular_velocity,
+                     three = neighbour<double>(p, 4, 1e-9, Aside::opposite).angular_velocity - p.angular_velocity;
+  for (int i = 0; i < 3; ++i) CHECK((one[i] * two[i] < 0 && one[i] * three[i] < 0));
 }
 
 TEST_CASE("a neighbour of a spinner keeps its symmetry and its axis", "[spinning]") {
   Problem p = spinner();
-  for (const int which : {0, 1}) {
-    Problem near = neighbour<double>(p, 4, 1e-12, which);
+  for (const Aside aside : {Aside::first, Aside::second, Aside::opposite}) {
+    Problem near = neighbour<double>(p, 4, 1e-12, aside);
     CHECK(near.inertia[0] == near.inertia[1]);
     CHECK(near.inertia[0] != p.inertia[0]);
     CHECK(near.angular_velocity[0] != 0);  // the torque takes it off the axis
     p.torque.setZero();
-    near = neighbour<double>(p, 4, 1e-12, which);
+    near = neighbour<double>(p, 4, 1e-12, aside);
     CHECK((near.angular_velocity[0] == 0 && near.angular_velocity[1] == 0));
     p = spinner();
   }
@@ -45,7 +46,7 @@ TEST_CASE("what was turned into the axes of the spin errs as its greatest compon
   const double change = 1e-12;
   for (const bool converted : {false, true}) {
     p.converted = converted;
-    const auto near = neighbour<double>(p, 4, change, 0);
+    const auto near = neighbour<double>(p, 4, change, Aside::first);
     CHECK((std::abs(near.torque[1] - p.torque[1]) > .4 * change) == converted);
     CHECK((near.torque[2] != 0) == converted);
     CHECK(std::abs(near.torque[0] - 1) < change);

@@ -130,7 +130,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto run = [&](std::span<const double> watched, const CvodeTask& task) {
     using Near = detail::Neighbour<double>;
     const auto& problem = scene.problem();
-    const Near near = task.change > 0 ? Near(problem, task.change, task.which) : Near(problem);
+    const Near near = task.change > 0 ? Near(problem, task.change, task.aside) : Near(problem);
     const Quat<double> turn = from_matrix(near.R);
     const bool turned = !near.R.isIdentity(0);
     auto made = detail::cvode_run(scene, near.problem, turned ? scene.attitude() * turn : scene.attitude(), watched,

@@ -137,9 +137,8 @@ struct Neighbour {
   /// The problem itself.
   explicit Neighbour(const Problem<Scalar>& of) noexcept : problem(of) {}
 
-  /// which: 0 or 1, in another direction.
-  Neighbour(const Problem<Scalar>& of, Scalar amount, int which) noexcept : problem(of) {
-    const Vec3<Scalar> v = amount * neighbour_direction<Scalar>(which);
+  Neighbour(const Problem<Scalar>& of, Scalar amount, Aside aside) noexcept : problem(of) {
+    const Vec3<Scalar> v = amount * neighbour_direction<Scalar>(aside);
     const Vec3<Scalar>& l = of.rotor_momentum;
     const Vec3<Scalar> parts = (of.momentum - l).cwiseAbs() + l.cwiseAbs();
     problem.drag *= 1 + v[0];
@@ -447,15 +446,15 @@ ColumnErrors<Scalar> rounding_of_columns(const Problem<Scalar>& problem, const C
 /// How many times over a rounding of the tensor counts in the motion: where a moment is slight, or two are so near that it turns their axes; or one of
 /// the start.
 template <Real Scalar>
-Scalar condition_of(const Problem<Scalar>& problem) noexcept {
+Condition<Scalar> condition_of(const Problem<Scalar>& problem) noexcept {
   const Vec3<Scalar>&a = problem.inverse_inertia, &M = problem.momentum;
-  Scalar most = start_sensitivity<Scalar>(M, a.cwiseProduct(M - problem.rotor_momentum), a.asDiagonal());
-  if (problem.exact_moments) return most;
+  const Scalar of_start = start_sensitivity<Scalar>(M, a.cwiseProduct(M - problem.rotor_momentum), a.asDiagonal());
+  if (problem.exact_moments) return {1, of_start};
   const Vec3<Scalar> gaps = problem.inverse_gaps();
-  most = std::max(most, a[2] / a[0]);
-  if (gaps[0] > 0) most = std::max(most, a[1] / gaps[0]);
-  if (gaps[1] > 0) most = std::max(most, a[1] * a[2] / a[0] / gaps[1]);
-  return most;
+  Scalar of_tensor = a[2] / a[0];
+  if (gaps[0] > 0) of_tensor = std::max(of_tensor, a[1] / gaps[0]);
+  if (gaps[1] > 0) of_tensor = std::max(of_tensor, a[1] * a[2] / a[0] / gaps[1]);
+  return {of_tensor, of_start};
 }
 
 /// The answer's run, its neighbours' side by side, and their distance.
@@ -471,14 +470,15 @@ class FullMotion {
     FullMotionAnswer<Scalar> answer;
     answer.step_tolerance = step_tolerance;
     const Scalar tight = companion_step(step_tolerance);
-    const Scalar condition = condition_of(problem_), change = data_change(step_tolerance, condition);
+    const Condition<Scalar> condition = condition_of(problem_);
+    const Scalar change = data_change(step_tolerance, condition);
     Run course(itself_, attitude_, step_tolerance, Scalar(honesty::reach), options_.step_cap);
-    Run companion(Neighbour<Scalar>(problem_, change, 0), attitude_, tight, Scalar(honesty::companion_reach),
+    Run companion(Neighbour<Scalar>(problem_, change, Aside::first), attitude_, tight, Scalar(honesty::companion_reach),
                   options_.step_cap);
     std::optional<Run> second;
     if (rounding_rules(step_tolerance, condition))
-      second.emplace(Neighbour<Scalar>(problem_, change, 1), attitude_, tight, Scalar(honesty::second_reach),
-                     options_.step_cap);
+      second.emplace(Neighbour<Scalar>(problem_, change, second_aside(condition)), attitude_, tight,
+                     Scalar(honesty::second_reach), options_.step_cap);
     const Runs<Run> runs{course, companion, second ? &*second : nullptr};
     if (!times_.empty()) {
       const Row<Scalar> row(problem_);

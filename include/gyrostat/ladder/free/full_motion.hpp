@@ -141,12 +141,12 @@ class FullCourse {
 
 /// By how much the inverse of the tensor, of a diagonal one not at all, or the start magnifies rounding.
 template <Real Scalar>
-Scalar condition_of(const Problem<Scalar>& of) noexcept {
+Condition<Scalar> condition_of(const Problem<Scalar>& of) noexcept {
   const Mat3<Scalar> inverse = of.inertia.inverse();
   const Vec3<Scalar> M = of.momentum();
   const Scalar of_start = start_sensitivity<Scalar>(M, inverse * Vec3<Scalar>(M - of.rotor_momentum), inverse);
-  if (of.inertia.isDiagonal(0)) return of_start;
-  return std::max(of_start, of.inertia.cwiseAbs().maxCoeff() * inverse.cwiseAbs().maxCoeff());
+  if (of.inertia.isDiagonal(0)) return {1, of_start};
+  return {of.inertia.cwiseAbs().maxCoeff() * inverse.cwiseAbs().maxCoeff(), of_start};
 }
 
 /// Whether zeros of the data stay zero by a symmetry: rotation about one axis of a diagonal tensor, which the rotors turn about too.
@@ -162,14 +162,14 @@ bool keeps_axis(const Problem<Scalar>& of) noexcept {
 }
 
 /// A problem that differs from the given one by about `amount`: by what rounding makes of data and arithmetic. A body at rest and one
-/// without momentum stay so, and so do zeros that a symmetry keeps. which: 0 or 1, in another direction.
+/// without momentum stay so, and so do zeros that a symmetry keeps.
 template <Real Scalar>
-Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noexcept {
-  const Vec3<Scalar> direction = neighbour_direction<Scalar>(which);
+Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, Aside aside) noexcept {
+  const Vec3<Scalar> direction = neighbour_direction<Scalar>(aside);
   Problem<Scalar> near = of;
   const bool diagonal = of.inertia.isDiagonal(0), kept = keeps_axis(of);
-  if (diagonal) near.inertia += amount * of.inertia * moment_shifts<Scalar>(which).asDiagonal();
-  else near.inertia += amount * of.inertia.cwiseAbs().maxCoeff() * tensor_shifts<Scalar>(which);
+  if (diagonal) near.inertia += amount * of.inertia * moment_shifts<Scalar>(aside).asDiagonal();
+  else near.inertia += amount * of.inertia.cwiseAbs().maxCoeff() * tensor_shifts<Scalar>(aside);
 
   const auto moved = [&](const Vec3<Scalar>& v, Scalar share) noexcept {
     const Scalar by = share * v.cwiseAbs().maxCoeff();
@@ -198,11 +198,12 @@ class FullMotion {
     answer.step_tolerance = step_tolerance;
     FullCourse<Scalar> course(problem_, step_tolerance, options_.step_cap);
     const Scalar tight = companion_step(step_tolerance);
-    const Scalar condition = condition_of(problem_), change = data_change(step_tolerance, condition);
-    FullCourse<Scalar> companion(beside(problem_, change, 0), tight, options_.step_cap);
+    const Condition<Scalar> condition = condition_of(problem_);
+    const Scalar change = data_change(step_tolerance, condition);
+    FullCourse<Scalar> companion(beside(problem_, change, Aside::first), tight, options_.step_cap);
     std::optional<FullCourse<Scalar>> second;
     if (rounding_rules(step_tolerance, condition))
-      second.emplace(beside(problem_, change, 1), tight, options_.step_cap);
+      second.emplace(beside(problem_, change, second_aside(condition)), tight, options_.step_cap);
     const auto& system = course.system();
     const FullState<Scalar> start = system.state(0, system.start().data());
     // rounding at the asked times

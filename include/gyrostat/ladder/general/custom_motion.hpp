@@ -264,11 +264,12 @@ class CustomMotion {
     CustomMotionAnswer<Scalar> answer;
     answer.step_tolerance = tolerance;
     const Scalar tight = companion_step(tolerance);
-    const auto course = begin(problem_, {1, 1, 1}, 1, tolerance), companion = neighbour(0, 2, tight);
+    const auto course = begin(problem_, {1, 1, 1}, 1, tolerance), companion = neighbour(Aside::first, 2, tight);
     std::unique_ptr<Course> second;
     // over a jump that is not named one companion may err as the answer does, by chance
     constexpr bool may_jump = !std::is_same_v<Law, NoTorque>;
-    if (may_jump || rounding_rules(tolerance, condition_of(of_.wheels, course->at(0)))) second = neighbour(1, 3, tight);
+    const Condition<Scalar> condition = condition_of(of_.wheels, course->at(0));
+    if (may_jump || rounding_rules(tolerance, condition)) second = neighbour(second_aside(condition), 3, tight);
     const FullRow<Scalar> row(of_, !options_.wanted.empty());
     // a step over a jump that is not named may err by its tolerance and show nothing of it
     const Scalar unseen = may_jump && !named_ ? tolerance / 4 : Scalar(0);
@@ -293,10 +294,10 @@ class CustomMotion {
     return std::make_unique<Course>(problem, law_, law_share, sizes_, times_.back(), cuts_, 1 / Scalar(share),
                                     tolerance, options_.step_cap);
   }
-  std::unique_ptr<Course> neighbour(int which, int share, Scalar tolerance) const noexcept {
+  std::unique_ptr<Course> neighbour(Aside aside, int share, Scalar tolerance) const noexcept {
     constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
-    const Vec3<Scalar> law_share = Vec3<Scalar>(1, 1, 1) + change * Shifts<Scalar>(which).vector();
-    return begin(beside(problem_, change, which), law_share, share, tolerance);
+    const Vec3<Scalar> law_share = Vec3<Scalar>(1, 1, 1) + change * Shifts<Scalar>(aside).vector();
+    return begin(beside(problem_, change, aside), law_share, share, tolerance);
   }
 
   const Problem<Scalar>& problem_;

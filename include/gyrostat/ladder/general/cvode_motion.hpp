@@ -174,7 +174,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
       row, scene.question().times, scene.goal().tightest, 1e-5,
       [&](std::span<const double> watched, const CvodeTask& task) {
         const auto& given = scene.problem();
-        const auto problem = task.change > 0 ? detail::beside(given, task.change, task.which) : given;
+        const auto problem = task.change > 0 ? detail::beside(given, task.change, task.aside) : given;
         const auto wheels = Wheels<double>::of(problem);
         const double longest = task.longest / (law.any() ? honesty::law_shorter : 1);
         return detail::run_pieces(

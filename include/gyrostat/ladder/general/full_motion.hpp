@@ -282,10 +282,11 @@ class FullMotion {
     };
     const auto course = begin(problem_, 1, tolerance);
     const auto& of = course->prepared();
-    const Scalar condition = condition_of(of.wheels, course->at(0)), change = data_change(tolerance.end, condition);
+    const Condition<Scalar> condition = condition_of(of.wheels, course->at(0));
+    const Scalar change = data_change(tolerance.end, condition);
     // what the answer's brakes hold those of neighbours must hold, too
     spare += 8 * change;
-    const auto one = beside(problem_, change, 0), two = beside(problem_, change, 1);
+    const auto one = beside(problem_, change, Aside::first), two = beside(problem_, change, second_aside(condition));
     const auto companion = begin(one, 2, tight);
     std::unique_ptr<Course> second;
     if (rounding_rules(tolerance.end, condition)) second = begin(two, 3, tight);

@@ -25,26 +25,26 @@ Scalar condition_of(const Wheels<Scalar>& wheels) noexcept {
   return wheels.whole.cwiseAbs().maxCoeff() * wheels.inverse.cwiseAbs().maxCoeff();
 }
 
-/// The same, or by how much the start magnifies errors where that is more.
+/// The same, and by how much the start magnifies errors.
 template <Real Scalar>
-Scalar condition_of(const Wheels<Scalar>& wheels, const State<Scalar>& start) noexcept {
-  return std::max(condition_of(wheels),
-                  start_sensitivity<Scalar>(start.angular_momentum, start.angular_velocity, wheels.inverse));
+Condition<Scalar> condition_of(const Wheels<Scalar>& wheels, const State<Scalar>& start) noexcept {
+  return {condition_of(wheels),
+          start_sensitivity<Scalar>(start.angular_momentum, start.angular_velocity, wheels.inverse)};
 }
 
-/// By how much the numbers of a companion's data differ, one after the other. which: 0 or 1.
+/// By how much the numbers of a companion's data differ, one after the other.
 template <Real Scalar>
 class Shifts {
  public:
-  explicit Shifts(int which) noexcept : of_(honesty::number_shifts[which == 0 ? 0 : 1]) {}
+  explicit Shifts(Aside aside) noexcept : aside_(aside) {}
   Scalar operator()() noexcept {
     turn_ = (turn_ + 1) % std::size(honesty::number_shifts[0]);
-    return Scalar(of_[turn_]);
+    return displacement<Scalar>(honesty::number_shifts, aside_, turn_);
   }
   Vec3<Scalar> vector() noexcept { return {(*this)(), (*this)(), (*this)()}; }
 
  private:
-  const double* of_;
+  Aside aside_;
   std::size_t turn_ = 3;
 };
 
@@ -69,10 +69,10 @@ bool keeps_axis(const Problem<Scalar>& of) noexcept {
 }
 
 /// A problem that differs from the given one by about `amount`: by what rounding makes of data and arithmetic. What is exactly zero of a
-/// wheel or torque stays so, and so do a body at rest and zeros that a symmetry keeps. which: 0 or 1, in another direction.
+/// wheel or torque stays so, and so do a body at rest and zeros that a symmetry keeps.
 template <Real Scalar>
-Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noexcept {
-  Shifts<Scalar> shift(which);
+Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, Aside aside) noexcept {
+  Shifts<Scalar> shift(aside);
   Problem<Scalar> near = of;
   const bool kept = keeps_axis(of);
   const auto scale = [&](Scalar& x) noexcept { x *= 1 + amount / 2 * shift(); };
@@ -84,7 +84,7 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, int which) noex
     for (int i = 0; i < 3; ++i)
       if (const Scalar s = shift(); v[i] != 0 || !kept) v[i] += by * s;
   };
-  Mat3<Scalar> change = moment_shifts<Scalar>(which).asDiagonal();
+  Mat3<Scalar> change = moment_shifts<Scalar>(aside).asDiagonal();
   if (of.inertia.isDiagonal(0)) {
     near.inertia += amount * of.inertia * change;
   } else {

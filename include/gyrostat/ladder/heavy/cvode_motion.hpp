@@ -88,7 +88,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
     using Near = detail::Neighbour<double>;
     std::optional<Near> near;
     if (task.change > 0) {
-      near.emplace(scene.problem(), start, task.change, task.which, scene.converts_start());
+      near.emplace(scene.problem(), start, task.change, task.aside, scene.converts_start());
       if (!turning) near->start.attitude = start.attitude;
     }
     CvodeEquations equations(near ? near->problem : scene.problem(), near ? near->start : start, turning);

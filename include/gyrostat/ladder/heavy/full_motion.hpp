@@ -60,11 +60,10 @@ struct Neighbour {
   Mat3<Scalar> turn =
       Mat3<Scalar>::Identity();  ///< the given axes to those of this body, which a conversion may find elsewhere
 
-  /// which: 0 or 1, in another direction.
-  Neighbour(const Problem<Scalar>& of, const State<Scalar>& from, Scalar amount, int which,
+  Neighbour(const Problem<Scalar>& of, const State<Scalar>& from, Scalar amount, Aside aside,
             bool converted = false) noexcept
       : problem(of), start(from) {
-    const Vec3<Scalar> v = amount * neighbour_direction<Scalar>(which);
+    const Vec3<Scalar> v = amount * neighbour_direction<Scalar>(aside);
     const auto changed = [](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c) noexcept {
       return Vec3<Scalar>(x[0] * (1 + a), x[1] * (1 + b), x[2] * (1 + c));
     };
@@ -147,13 +146,13 @@ class FullMotion {
     answer.step_tolerance = step_tolerance;
     Course course(problem_, start_, step_tolerance, options_.step_cap);
     const Scalar change = data_change(step_tolerance, condition());
-    const auto beside = [&](int which) noexcept {
-      const Neighbour<Scalar> near(problem_, start_, change, which, options_.converted);
+    const auto beside = [&](Aside aside) noexcept {
+      const Neighbour<Scalar> near(problem_, start_, change, aside, options_.converted);
       return Course(near.problem, near.start, companion_step(step_tolerance), options_.step_cap, near.turn);
     };
-    Course companion = beside(0);
+    Course companion = beside(Aside::first);
     std::optional<Course> second;
-    if (rounding_rules(step_tolerance, condition())) second = beside(1);
+    if (rounding_rules(step_tolerance, condition())) second = beside(second_aside(condition()));
     // rounding at the asked times
     const auto rounding = [&](const ColumnErrors<Scalar>&, Scalar steps) noexcept {
       return 4 * shared_rounding(steps) * ColumnErrors<Scalar>{rate_, 1, Scalar(turning ? 1 : 0)};
@@ -165,13 +164,13 @@ class FullMotion {
   }
 
   /// By how much the inverse of the tensor, or the start, magnifies rounding.
-  Scalar condition() const noexcept {
+  Condition<Scalar> condition() const noexcept {
     const Vec3<Scalar>&I = problem_.inertia(), &w = start_.angular_velocity;
     Scalar of_start = start_sensitivity<Scalar>(I.cwiseProduct(w), w, I.cwiseInverse().asDiagonal());
     // stable or not, how far off it began may rule for long
     if (is_steady(problem_, w, start_.down, Scalar(honesty::next_to_balance)))
       of_start = std::max(of_start, Scalar(honesty::unstable_condition));
-    return std::max(of_start, options_.converted ? I.maxCoeff() / I.minCoeff() : Scalar(1));
+    return {options_.converted ? I.maxCoeff() / I.minCoeff() : Scalar(1), of_start};
   }
   /// The angle turned through up to the last time, to its order, rad.
   Scalar phase() const noexcept { return rate_ * times_.back(); }

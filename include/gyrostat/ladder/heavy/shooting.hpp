@@ -231,8 +231,8 @@ OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scal
     return std::max((start.angular_velocity - closed.start.angular_velocity).norm() / rate,
                     (start.down - closed.start.down).norm());
   };
-  for (const int which : {0, 1}) {
-    const detail::Neighbour<Scalar> near(problem, closed.start, 8 * eps, which);
+  for (const Aside aside : {Aside::first, Aside::second}) {
+    const detail::Neighbour<Scalar> near(problem, closed.start, 8 * eps, aside);
     State<Scalar> start = near.start;
     Scalar period = closed.period;
     Shot<Scalar> shot = shoot(near.problem, start, period, looser);

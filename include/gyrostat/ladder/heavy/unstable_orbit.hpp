@@ -63,8 +63,8 @@ Result<PeriodicOrbit<Scalar>> unstable_orbit(const Problem<Scalar>& problem, con
 
   // what rounding of the data makes of it, and what the last harmonics do
   constexpr Scalar eps = epsilon<Scalar>;
-  for (const int which : {0, 1}) {
-    const detail::Neighbour<Scalar> near(problem, orbit.start, 8 * eps, which);
+  for (const Aside aside : {Aside::first, Aside::second}) {
+    const detail::Neighbour<Scalar> near(problem, orbit.start, 8 * eps, aside);
     CollocatedOrbit<Scalar> other = *found;
     const Errc error = detail::Collocation<Scalar>(near.problem, spin, G0, rate).solve(other);
     const Scalar failed = error == Errc::ok ? Scalar(0) : infinity<Scalar>;

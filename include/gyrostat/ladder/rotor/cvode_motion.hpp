@@ -91,7 +91,7 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   const auto& start = scene.start();
   const auto run = [&](std::span<const double> watched, const CvodeTask& task) {
     std::optional<Neighbour<double>> near;
-    if (task.change > 0) near.emplace(body, start, task.change, task.which);
+    if (task.change > 0) near.emplace(body, start, task.change, task.aside);
     const auto& from = near ? near->start : start;
     CvodeEquations equations(near ? near->gyrostat : body, from, times.back());
     return run_cvode(

@@ -17,7 +17,7 @@ class FullLanes {
     // long ones first, and those with as many companions together
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       const LaneTask& task = tasks[i];
-      const double condition = task.gyrostat->condition();
+      const Condition<double> condition{task.gyrostat->condition()};
       rank_[i] = phase_of(task) * (rounding_rules(first_tolerance(task), condition) ? 1e6 : 1);
       order_[i] = std::uint8_t(i);
     }
@@ -132,17 +132,17 @@ class FullLanes {
     Lane& lane = lane_[b];
     const LaneTask& task = *lane.task;
     const Gyrostat<double>& body = *task.gyrostat;
-    const double condition = std::max(body.condition(), start_sensitivity(body, task.start));
+    const Condition<double> condition{body.condition(), start_sensitivity(body, task.start)};
     const double change = data_change(lane.step_tolerance, condition);
     lane.alone = !rounding_rules(lane.step_tolerance, condition);
     put(answers_, b, body, task.start, body.free_axes(), lane.step_tolerance);
-    const auto beside = [&](Batch& batch, int which) noexcept {
-      const Neighbour<double> neighbour(body, task.start, change, which);
+    const auto beside = [&](Batch& batch, Aside aside) noexcept {
+      const Neighbour<double> neighbour(body, task.start, change, aside);
       put(batch, b, neighbour.gyrostat, neighbour.start, near_axes(neighbour.gyrostat),
           companion_step(lane.step_tolerance));
     };
-    beside(firsts_, 0);
-    if (!lane.alone) beside(seconds_, 1);
+    beside(firsts_, Aside::first);
+    if (!lane.alone) beside(seconds_, second_aside(condition));
 
     lane.last = task.times.back();
     lane.next = lane.told = 0;
@@ -188,6 +188,8 @@ class FullLanes {
       }
       answer.error = relative_to_truth(error, column_kinds);
       forget_parted(answer.error);
+      if (leaves_steady_rotation<double>(*task.gyrostat, task.start, task.states))
+        answer.error = ColumnErrors<double>::all(infinity<double>);
       const double excess = task.options.excess(answer);
       answer.met = excess <= 1;
       if (!answer.met && lane.trial < 2 && lane.step_tolerance > finest_step_tolerance<double> &&
@@ -254,8 +256,8 @@ class FullLanes {
       if (lane.task == nullptr) continue;
       const double first = answers_.time(int(b));
       if (lane.fresh ? first > 0 && (lane.alone || seconds_.time(int(b)) > 0) : lane.seen) {
-        ends[b] =
-            lane.fresh ? first / 2 : companion_reaches(before[b], honesty::companion_stride * lane.stride, lane.last);
+        const double stride = companion_stride(honesty::companion_stride, firsts_.counts(int(b)).steps) * lane.stride;
+        ends[b] = lane.fresh ? first / 2 : companion_reaches(before[b], stride, lane.last);
         any = true;
       }
     }

@@ -162,15 +162,14 @@ struct Neighbour {
   Gyrostat<Scalar> gyrostat;
   State<Scalar> start;
 
-  /// which: 0 or 1, in another direction.
-  Neighbour(const Gyrostat<Scalar>& of, const State<Scalar>& from, Scalar amount, int which) noexcept
+  Neighbour(const Gyrostat<Scalar>& of, const State<Scalar>& from, Scalar amount, Aside aside) noexcept
       : gyrostat(of), start(from) {
-    const Mat3<Scalar> inertia = of.inertia() + amount * of.principal()[2] * tensor_shifts<Scalar>(which);
-    const Vec3<Scalar> direction = (which == 0 ? 1 : -1) * neighbour_direction<Scalar>(which);
-    if (which != 0) amount = -amount;
-    const auto moved = Gyrostat<Scalar>::make(inertia, of.axis() + amount * cross<Scalar>(direction, of.axis()),
-                                              of.axial_inertia() * (1 + amount), of.slope() * (1 - amount),
-                                              of.no_load_rate() * (1 + amount));
+    const Mat3<Scalar> inertia = of.inertia() + amount * of.principal()[2] * tensor_shifts<Scalar>(aside);
+    const Vec3<Scalar> shift = amount * neighbour_direction<Scalar>(aside);
+    const Scalar by = aside == Aside::first ? amount : -amount;
+    const auto moved =
+        Gyrostat<Scalar>::make(inertia, of.axis() + cross<Scalar>(shift, of.axis()), of.axial_inertia() * (1 + by),
+                               of.slope() * (1 - by), of.no_load_rate() * (1 + by));
     if (moved) gyrostat = *moved;
 
     const Vec3<Scalar> Omega = of.angular_velocity(from.momentum, from.axial_momentum);
@@ -178,8 +177,8 @@ struct Neighbour {
     const Scalar lambda = of.axial_inertia();
     // what cancels in H, and in the product with the tensor of a slim body; a momentum that is exactly 0 stays so
     const Scalar parts = (of.inertia().cwiseAbs() * Omega.cwiseAbs()).norm() + lambda * std::abs(omega);
-    if (!from.momentum.isZero(0)) start.momentum += amount * parts * direction;
-    start.axial_momentum += amount * lambda * (std::abs(omega) + Omega.norm());
+    if (!from.momentum.isZero(0)) start.momentum += parts * shift;
+    start.axial_momentum += by * lambda * (std::abs(omega) + Omega.norm());
   }
 };
 
@@ -204,6 +203,26 @@ void forget_parted(ColumnErrors<Scalar>& error) noexcept {
   if (error[column::lyapunov] > Scalar(honesty::parted_lyapunov)) error[column::lyapunov] = infinity<Scalar>;
   for (const auto c : {column::rotor_rate, column::rotor_angle, column::lyapunov})
     error[c] *= Scalar(honesty::parted_margin);
+}
+
+/// Whether the motion starts, to rounding, in a steady rotation that lasts while the motor works, and the states have left it, as it is unstable or has become so.
+/// When it leaves, if ever, only digits behind those of the data say: all runs leave by their roundings, and where they settle they are near each other.
+template <Real Scalar>
+bool leaves_steady_rotation(const Gyrostat<Scalar>& body, const State<Scalar>& start,
+                            std::span<const State<Scalar>> states) noexcept {
+  const Vec3<Scalar>& M = start.momentum;
+  const Vec3<Scalar> Omega = body.angular_velocity(M, start.axial_momentum), pull = body.free_inverse() * body.axis();
+  const Scalar rounding = 16 * epsilon<Scalar> * body.condition(), size = M.norm();
+  const auto is_along = [&](const Vec3<Scalar>& v) noexcept {
+    return cross<Scalar>(v, M).norm() <= rounding * v.norm() * size;
+  };
+  const bool lasts =
+      is_along(pull) || body.slope() * (body.no_load_rate() - body.rotor_rate(start.axial_momentum, Omega)) == 0;
+  if (!lasts || !is_along(Omega)) return false;
+  const auto has_left = [&](const State<Scalar>& s) noexcept {
+    return (s.momentum - M).norm() > Scalar(honesty::left_steady) * size;
+  };
+  return std::ranges::any_of(states, has_left);
 }
 
 /// What an evaluation of the columns loses, in their units, where the state is known to `relative`, and what one rounding of the tensor
@@ -265,7 +284,7 @@ class FullMotion {
         states_(states),
         options_(options),
         turning_(turning_rate(gyrostat, start)),
-        condition_(std::max(gyrostat.condition(), start_sensitivity(gyrostat, start))) {
+        condition_{gyrostat.condition(), start_sensitivity(gyrostat, start)} {
     const bool stiff = is_stiff(gyrostat, start);
     const bool collocates = options.integrator == Integrator::radau || (options.integrator == Integrator::any && stiff);
     // behind 40 relaxation times the motor has forgotten where it began
@@ -280,14 +299,14 @@ class FullMotion {
     answer.used = layer_ < times_.back() ? Integrator::radau : Integrator::taylor;
     Course<Scalar> course(gyrostat_, start_, layer_, step_tolerance, inside, options_.step_cap, Scalar(1));
     const Scalar change = data_change(step_tolerance, condition_);
-    const auto beside = [&](int which) noexcept {
-      const Neighbour<Scalar> neighbour(gyrostat_, start_, change, which);
+    const auto beside = [&](Aside aside) noexcept {
+      const Neighbour<Scalar> neighbour(gyrostat_, start_, change, aside);
       return Course<Scalar>(neighbour.gyrostat, neighbour.start, layer_, companion_step(step_tolerance),
                             companion_step(inside), options_.step_cap, Scalar(honesty::companion_pace));
     };
-    Course<Scalar> companion = beside(0);
+    Course<Scalar> companion = beside(Aside::first);
     std::optional<Course<Scalar>> second;
-    if (rounding_rules(step_tolerance, condition_)) second = beside(1);
+    if (rounding_rules(step_tolerance, condition_)) second = beside(second_aside(condition_));
     // rounding at the asked times, and between steps
     const Row<Scalar> row(gyrostat_, start_);
     ColumnErrors<Scalar> between;
@@ -303,6 +322,8 @@ class FullMotion {
     solve_beside(answer, row, Runs<Course<Scalar>>{course, companion, second ? &*second : nullptr},
                  {start_, turning_, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding, note);
     forget_parted(answer.error);
+    if (leaves_steady_rotation<Scalar>(gyrostat_, start_, states_))
+      answer.error = ColumnErrors<Scalar>::all(infinity<Scalar>);
     answer.met = answer.met && options_.excess(answer) <= 1;
     return answer;
   }
@@ -322,7 +343,7 @@ class FullMotion {
   std::span<State<Scalar>> states_;
   const FullMotionOptions<Scalar>& options_;
   Scalar turning_, layer_;
-  Scalar condition_;  ///< how many times over a change of the data counts
+  Condition<Scalar> condition_;
 };
 
 }  // namespace detail

@@ -142,7 +142,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   int run = 0;
   auto runs =
       cvode_runs(row, times, scene.goal().tightest, 1e-6, [&](std::span<const double> watched, const CvodeTask& task) {
-        const auto of = task.change > 0 ? neighbour(problem, rate, task.change, task.which) : problem;
+        const auto of = task.change > 0 ? neighbour(problem, rate, task.change, task.aside) : problem;
         return detail::cvode_run(of, watched, task.tolerance, task.longest, least_cosine[run++], monitor);
       });
   if (runs.failure != Errc::ok) return refused<Track>(runs.failure, why_cvode_failed(runs.failure));

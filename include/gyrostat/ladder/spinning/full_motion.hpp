@@ -170,9 +170,10 @@ class FullMotion {
     const Scalar tight = companion_step(step_tolerance);
     const Vec3<Scalar>&D = problem_.inertia, &w = problem_.angular_velocity;
     const Vec3<Scalar> stiff = D.cwiseProduct(w) + Vec3<Scalar>(0, 0, problem_.gyroscopic());
-    const Scalar condition = start_sensitivity<Scalar>(stiff, w, D.cwiseInverse().asDiagonal());
+    const Condition<Scalar> condition{1, start_sensitivity<Scalar>(stiff, w, D.cwiseInverse().asDiagonal())};
     const Scalar change = data_change(step_tolerance, condition);
-    const Problem<Scalar> one = neighbour(problem_, rate_, change, 0), two = neighbour(problem_, rate_, change, 1);
+    const Problem<Scalar> one = neighbour(problem_, rate_, change, Aside::first),
+                          two = neighbour(problem_, rate_, change, second_aside(condition));
     const bool both = rounding_rules(step_tolerance, condition);
     Course<Scalar> companion(one, span, tight, options_.step_cap, false, both);
     std::optional<Course<Scalar>> second;

@@ -77,8 +77,8 @@ ColumnErrors<double> conversion_errors(const Scene& scene, Follow&& follow) {
   std::vector<State<double>> given(scene.question().times.size()), near(given.size());
   bool found = follow(problem, given);
   Comparison apart(Row<double>{});
-  for (const int which : {0, 1}) {
-    found = found && follow(neighbour<double>(problem, rate, 4 * epsilon<double>, which), near);
+  for (const Aside aside : {Aside::first, Aside::second}) {
+    found = found && follow(neighbour<double>(problem, rate, 4 * epsilon<double>, aside), near);
     for (std::size_t i = 0; i < given.size(); ++i) apart.add(given[i], near[i]);
   }
   return found ? apart.difference() : ColumnErrors<double>::all(infinity<double>);

@@ -23,10 +23,10 @@ bool keeps_axis(const Problem<Scalar>& problem) noexcept {
 }
 
 /// A problem that differs from the given one by about `amount`: by what rounding makes of data and arithmetic, which errs by what
-/// the greatest rate, about `rate`, rounds to. What is equal or zero by a symmetry stays so. which: 0 or 1, in another direction.
+/// the greatest rate, about `rate`, rounds to. What is equal or zero by a symmetry stays so.
 template <Real Scalar>
-Problem<Scalar> neighbour(const Problem<Scalar>& of, Scalar rate, Scalar amount, int which) noexcept {
-  const Vec3<Scalar> v = amount * neighbour_direction<Scalar>(which);
+Problem<Scalar> neighbour(const Problem<Scalar>& of, Scalar rate, Scalar amount, Aside aside) noexcept {
+  const Vec3<Scalar> v = amount * neighbour_direction<Scalar>(aside);
   const bool symmetric = of.inertia[0] == of.inertia[1], kept = keeps_axis(of);
   Problem<Scalar> near = of;
   near.inertia[0] *= 1 + v[0];
@@ -41,7 +41,7 @@ Problem<Scalar> neighbour(const Problem<Scalar>& of, Scalar rate, Scalar amount,
     near.torque[i] += part * std::max(std::abs(of.torque[i]), torque);
     // to opposite sides in the two, so that truncation cannot cancel it in both; and against the kick of one that runs alone (Taylor::kick)
     Scalar& w = near.angular_velocity[i];
-    if (w != 0 || !kept) w += std::copysign(rate * amount / (i == 2 ? 4 : -4), which == 0 ? w : -w);
+    if (w != 0 || !kept) w += std::copysign(rate * amount / 4, aside == Aside::first ? w : -w);
   }
   // the axes whose third is the force's are known to a rounding: what they leave along the spin axis pushes on
   const bool oblique = of.force[0] != 0 || of.force[1] != 0;

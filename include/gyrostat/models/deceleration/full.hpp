@@ -204,6 +204,15 @@ class FullSystem {
     return along >= 0 && along < 3 && keeps_[along] ? along : -1;
   }
 
+  /// The reciprocal moments less that of the axis to which the momentum starts nearest. Energy over |M|^2 less that is as well known as the
+  /// distance from the axis, however near.
+  static Vec3<Scalar> gaps_from_nearest_axis(const Problem<Scalar>& problem) noexcept {
+    const Vec3<Scalar> gaps = problem.inverse_gaps(), size = problem.momentum.cwiseAbs();
+    if (size[0] >= size[1] && size[0] >= size[2]) return {0, gaps[0], gaps[2]};
+    if (size[1] >= size[2]) return {-gaps[0], 0, gaps[1]};
+    return {-gaps[2], -gaps[1], 0};
+  }
+
   /// Whether U across axis i decays against U along it, `most`, from now on: the control about that axis is the weakest, and
   /// damps the other two faster than they feed each other, which they do the less the slower the body turns.
   bool settles_on(int i, Scalar most) const noexcept {
@@ -233,8 +242,10 @@ class FullSystem {
   Vec3<Scalar> damping_;   ///< product of the excesses of the other two over it, N^2 m^2; 0: this is not the weakest
   Vec3<Scalar> coupling_;  ///< product of the quadratic terms that couple the other two
   // exact laws
-  Vec3<Scalar> rotor_momentum_, a_;
-  Scalar norm_, energy_, equal_control_;
+  Vec3<Scalar> rotor_momentum_;
+  Vec3<Scalar>
+      by_momentum_;  ///< the reciprocal moments, without rotor less that of the axis next to which U starts: of a level that is kept, too
+  Scalar norm_, level_, equal_control_;
   bool norm_is_known_, energy_is_known_, energy_is_constant_;
 };
 
@@ -267,11 +278,12 @@ FullSystem<Real_, with_control, with_attitude>::FullSystem(const Problem<Scalar>
     coupling_[i] = f.quadratic[j] * f.quadratic[k];
   }
   rotor_momentum_ = problem.rotor_momentum;
-  a_ = problem.inverse_inertia;
   equal_control_ = b(0, 0);
   norm_ = (problem.momentum - f.offset).norm();
-  energy_ = problem.energy(problem.momentum);
   const bool no_rotor = rotor_momentum_.isZero(0);
+  by_momentum_ = no_rotor ? gaps_from_nearest_axis(problem) : problem.inverse_inertia;
+  const Vec3<Scalar> G = problem.momentum - rotor_momentum_;
+  level_ = G.dot(by_momentum_.cwiseProduct(G)) / 2;
   const bool equal = b == Mat3<Scalar>(equal_control_ * Mat3<Scalar>::Identity());
   const bool turning_only = no_rotor || (f.offset.isZero(0) && f.constant.isZero(0));
   norm_is_known_ = equal && turning_only && norm_ > 0;
@@ -431,15 +443,21 @@ void FullSystem<Real_, with_control, with_attitude>::project(Scalar t, Scalar* x
       const Scalar stretch = ((target * target - square) / 2 - U.dot(rest)) / square;
       Vec3<Scalar> change = stretch * U;
       if (energy_is_known_) {
-        // along the part of the gradient omega that leaves |U| alone
+        // Along the part of the gradient that leaves |U| alone, whose square is `slope`. Where that is slight rounding of the level, eps size, must not
+        // move U by more than some roundings: of a defect that small the part slope/(slope + (size/U)^2/64) is corrected.
         const Scalar ratio = target / norm_;
-        const Scalar wanted = energy_is_constant_ ? energy_ : energy_ * ratio * ratio;
+        const Scalar wanted = energy_is_constant_ ? level_ : level_ * ratio * ratio;
         const Vec3<Scalar> G = U - rotor_momentum_;
-        const Vec3<Scalar> omega = a_.cwiseProduct(G);
-        const Scalar missing = wanted - G.dot(omega) / 2 - omega.dot(rest + change);
-        const Vec3<Scalar> across = omega - (omega.dot(U) / square) * U;
+        const Vec3<Scalar> gradient = by_momentum_.cwiseProduct(G);
+        const Scalar missing = wanted - G.dot(gradient) / 2 - gradient.dot(rest + change);
+        const Vec3<Scalar> across = gradient - (gradient.dot(U) / square) * U;
         const Scalar slope = across.squaredNorm();
-        if (slope > Scalar(1e-6L) * omega.squaredNorm()) change += (missing / slope) * across;
+        const Scalar size = gradient.cwiseAbs().dot(U.cwiseAbs() + rotor_momentum_.cwiseAbs()) / 2;
+        if (std::abs(missing) < 64 * epsilon<Scalar> * size) {
+          change += (missing / (slope + size * size / (64 * square))) * across;
+        } else if (slope > Scalar(1e-6L) * gradient.squaredNorm()) {
+          change += (missing / slope) * across;
+        }
       }
       for (int i = 0; i < 3; ++i) add_to(x[i], low[i], change[i]);
     }
