@@ -268,6 +268,24 @@ TEST_CASE("near a saddle errors grow and are stated", "[rotor]") {
   CHECK(saddles > 0);
 }
 
+TEST_CASE("what becomes of a start in an unstable steady rotation is not known once rounding has left it", "[rotor]") {
+  // the rotor spins down along the middle axis; the true motion stays there, all runs leave it and settle alike
+  const auto body = Gyrostat<double>::make(Vec3<double>(3, 4, 5).asDiagonal(), {0, 1, 0}, 0.9, 0.9, 0);
+  REQUIRE(body);
+  const auto known = [&](const Vec3<double>& Omega, double end) {
+    const auto solved = solve<double>(*body, body->state({0.82, -0.53, -0.15, -0.15}, Omega, 20), {end}, 1e-4);
+    REQUIRE(solved.answer.status == Status::reached);
+    return list(solved.answer.error);
+  };
+  for (const double error : known({0, 2, 0}, 172)) CHECK(error == infinity<double>);
+  for (const double error : known({0, 2, 0}, 1)) CHECK(error < 1e-4);
+  // off the axis the data say when it leaves, and where it settles is known
+  CHECK(known({1e-6, 2, 0}, 172)[column::lyapunov] < 1e-3);
+  // a stable one is kept
+  const auto stable = solve<double>(*body, body->state({}, {0, 0, 2}, 0), {172}, 1e-4);
+  for (const double error : list(stable.answer.error)) CHECK(error < 1e-4);
+}
+
 TEST_CASE("steps too long at first are shortened", "[rotor]") {
   // differences from a motion that leaves a saddle grow thousandfold: more than the first guess allows for
   const auto body = reference_body(0.2, 3);

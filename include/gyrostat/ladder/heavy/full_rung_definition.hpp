@@ -63,8 +63,7 @@ GYROSTAT_COMPILED_ONCE Track periodic_full(const Scene& scene, Monitor* monitor)
   const auto found = periodic_orbit<double>(scene.problem(), spin, cosine);
   if (!found) return refused<Track>(found.error(), no_orbit(found.error(), scene));
   PeriodicOrbit<double> orbit = *found;
-  constexpr double margin = honesty::neighbours_margin;
-  orbit.error = {margin * orbit.error.start, margin * orbit.error.period, margin * orbit.error.trace};
+  orbit.error.start *= honesty::neighbours_margin;
   const PeriodicMotion<double> motion(scene.problem(), orbit, scene.question().times);
 
   Question once = scene.question();

@@ -112,13 +112,14 @@ class PeriodicMotion {
     // what an error of the start becomes within a period
     const Scalar start = orbit_.error.start * (16 + 4 * std::abs(orbit_.trace_minus_4));
     const Scalar late = orbit_.error.period * T * (1 + periods_);
-    const Scalar rounding = 8 * epsilon<Scalar> * (1 + periods_ * (1 + std::abs(half)));
-    const Scalar turned = error[column::attitude] + start + rounding;
-    made.error = relative_to_truth(
-        sizes.relative(
-            {error[column::angular_velocity] * once.unit(column::angular_velocity) + rate * start + steepest * late,
-             error[column::down] + start + fastest * late + rounding, (1 + periods_) * turned + fastest * late}),
-        column_kinds);
+    const Scalar of_turn = 8 * epsilon<Scalar> * (1 + std::abs(half)), rounding = (1 + periods_) * of_turn;
+    const Scalar turned = error[column::attitude] + start;
+    made.error =
+        relative_to_truth(sizes.relative({error[column::angular_velocity] * once.unit(column::angular_velocity) +
+                                              rate * start + steepest * late,
+                                          error[column::down] + start + fastest * late + rounding,
+                                          (1 + periods_) * turned + fastest * late + rounding}),
+                          column_kinds);
 
     // right-handed about DOWN, and the whole turns from the path of the axis
     const Scalar branch = std::nearbyint((turned_axis + 2 * half) / (2 * pi<Scalar>));
@@ -126,7 +127,7 @@ class PeriodicMotion {
     made.precession = std::abs(psi - turned_axis) < Scalar(0.1L) ? psi / T : nan<Scalar>;
     // at another period the body has turned further about the vertical by its rate about it
     const Scalar about_down = std::abs(orbit_.start.angular_velocity.dot(orbit_.start.down));
-    made.precession_error = turned / T + (about_down + std::abs(made.precession)) * orbit_.error.period;
+    made.precession_error = (turned + of_turn) / T + (about_down + std::abs(made.precession)) * orbit_.error.period;
     return made;
   }
 
