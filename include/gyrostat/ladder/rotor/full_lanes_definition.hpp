@@ -188,8 +188,7 @@ class FullLanes {
       }
       answer.error = relative_to_truth(error, column_kinds);
       forget_parted(answer.error);
-      if (leaves_steady_rotation<double>(*task.gyrostat, task.start, task.states))
-        answer.error = ColumnErrors<double>::all(infinity<double>);
+      count_departure(answer.error, departure_from_steady<double>(*task.gyrostat, task.start, task.states));
       const double excess = task.options.excess(answer);
       answer.met = excess <= 1;
       if (!answer.met && lane.trial < 2 && lane.step_tolerance > finest_step_tolerance<double> &&

@@ -205,24 +205,32 @@ void forget_parted(ColumnErrors<Scalar>& error) noexcept {
     error[c] *= Scalar(honesty::parted_margin);
 }
 
-/// Whether the motion starts, to rounding, in a steady rotation that lasts while the motor works, and the states have left it, as it is unstable or has become so.
-/// When it leaves, if ever, only digits behind those of the data say: all runs leave by their roundings, and where they settle they are near each other.
+/// How far the states have gone from a steady rotation in which the motion starts, but for some roundings, and which lasts while the motor works: the
+/// greatest change of the momentum in body axes over its size; 0 where it does not start in one.
 template <Real Scalar>
-bool leaves_steady_rotation(const Gyrostat<Scalar>& body, const State<Scalar>& start,
-                            std::span<const State<Scalar>> states) noexcept {
+Scalar departure_from_steady(const Gyrostat<Scalar>& body, const State<Scalar>& start,
+                             std::span<const State<Scalar>> states) noexcept {
   const Vec3<Scalar>& M = start.momentum;
   const Vec3<Scalar> Omega = body.angular_velocity(M, start.axial_momentum), pull = body.free_inverse() * body.axis();
-  const Scalar rounding = 16 * epsilon<Scalar> * body.condition(), size = M.norm();
+  const Scalar rounding = Scalar(honesty::steady_roundings) * epsilon<Scalar> * body.condition(), size = M.norm();
   const auto is_along = [&](const Vec3<Scalar>& v) noexcept {
     return cross<Scalar>(v, M).norm() <= rounding * v.norm() * size;
   };
-  const bool lasts =
-      is_along(pull) || body.slope() * (body.no_load_rate() - body.rotor_rate(start.axial_momentum, Omega)) == 0;
-  if (!lasts || !is_along(Omega)) return false;
-  const auto has_left = [&](const State<Scalar>& s) noexcept {
-    return (s.momentum - M).norm() > Scalar(honesty::left_steady) * size;
-  };
-  return std::ranges::any_of(states, has_left);
+  const Scalar slip = body.no_load_rate() - body.rotor_rate(start.axial_momentum, Omega);
+  const bool lasts = is_along(pull) || body.slope() * slip == 0;
+  if (!lasts || !is_along(Omega)) return 0;
+  Scalar most = 0;
+  for (const State<Scalar>& s : states) most = greater(most, over((s.momentum - M).norm(), size));
+  return most;
+}
+
+/// What such a departure makes of the errors. It is an error itself, as only digits behind those of the data say when the motion leaves, if ever; the other
+/// columns err in proportion. Where it has grown nothing is known: all runs leave by their roundings, and where they settle they are near each other.
+template <Real Scalar>
+void count_departure(ColumnErrors<Scalar>& error, Scalar departure) noexcept {
+  if (departure > Scalar(honesty::left_steady)) error = ColumnErrors<Scalar>::all(infinity<Scalar>);
+  const Scalar known = error[column::angular_momentum];
+  if (2 * departure > known && known > 0) error *= 2 * departure / known;
 }
 
 /// What an evaluation of the columns loses, in their units, where the state is known to `relative`, and what one rounding of the tensor
@@ -322,8 +330,7 @@ class FullMotion {
     solve_beside(answer, row, Runs<Course<Scalar>>{course, companion, second ? &*second : nullptr},
                  {start_, turning_, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding, note);
     forget_parted(answer.error);
-    if (leaves_steady_rotation<Scalar>(gyrostat_, start_, states_))
-      answer.error = ColumnErrors<Scalar>::all(infinity<Scalar>);
+    count_departure(answer.error, departure_from_steady<Scalar>(gyrostat_, start_, states_));
     answer.met = answer.met && options_.excess(answer) <= 1;
     return answer;
   }
