@@ -286,6 +286,31 @@ TEST_CASE("what becomes of a start in an unstable steady rotation is not known o
   for (const double error : list(stable.answer.error)) CHECK(error < 1e-4);
 }
 
+TEST_CASE("a departure from a steady rotation counts as error", "[rotor]") {
+  auto error = rotor::ColumnErrors<double>::all(1e-9);
+  error[column::angular_momentum] = 1e-10;
+  auto small = error, counted = error, grown = error;
+  rotor::detail::count_departure(small, 4e-11);
+  CHECK(list(small) == list(error));
+  rotor::detail::count_departure(counted, 1e-6);
+  CHECK(counted[column::angular_momentum] == Approx(2e-6));
+  CHECK(counted[column::rotor_angle] == Approx(2e-5));
+  rotor::detail::count_departure(grown, 2 * honesty::left_steady);
+  for (const double each : list(grown)) CHECK(each == infinity<double>);
+
+  // 2e-4 of the momentum has gone across, but for what the start lacks of being along the axis
+  const auto body = Gyrostat<double>::make(Vec3<double>(3, 4, 5).asDiagonal(), {0, 1, 0}, 0.9, 0.9, 0);
+  REQUIRE(body);
+  const auto start = body->state({}, {0, 2, 0}, 20), oblique = body->state({}, {1e-9, 2, 0}, 20);
+  State<double> late = start;
+  late.momentum[0] = 2e-4 * start.momentum.norm();
+  const auto gone = [&](const State<double>& from) {
+    return rotor::detail::departure_from_steady<double>(*body, from, std::span<const State<double>>(&late, 1));
+  };
+  CHECK(gone(start) == Approx(2e-4));
+  CHECK(gone(oblique) == 0);
+}
+
 TEST_CASE("steps too long at first are shortened", "[rotor]") {
   // differences from a motion that leaves a saddle grow thousandfold: more than the first guess allows for
   const auto body = reference_body(0.2, 3);
