@@ -683,3 +683,16 @@ def test_what_is_said_of_an_axis_left_alone_beside_rotors() -> None:
     answer = gyrostat.solve(scene)
     told = {warning.code: warning.message for warning in answer.warnings}
     assert "leaves an axis alone" in told["does-not-stop"] and answer.scalars["final_angular_velocity"] is None
+
+
+def test_a_rotor_that_rounding_takes_from_a_steady_rotation_is_not_met() -> None:
+    # the true motion stays on the middle axis, the computed one falls to a stable rotation
+    scene = {"name": "spins down", "kind": "rotor", "body": {"inertia": [3.0, 4.0, 5.0]}, "rotor": {"axis": [0.0, 1.0, 0.0], "axial_inertia": 0.9},
+             "motor": {"slope": 0.9, "no_load_rate": 0.0}, "initial": {"angular_velocity": [0.0, 2.0, 0.0], "rotor_rate": 20.0},
+             "solve": {"times": [172.4], "tolerance": 1e-2, "model": "full", "ask": ["rotor_angle", "lyapunov"]}}
+    answer = gyrostat.solve(scene)
+    assert not answer.met and all(math.isinf(error) for error in answer.error.values())
+    rows = gyrostat.sweep(scene, {"motor.slope": [0.8 + 0.01 * i for i in range(16)]})
+    assert not rows.met.any() and np.isinf(rows.lyapunov_error).all()
+    # asked in time it is known
+    assert gyrostat.solve(scene, times=[1.0]).met

@@ -10,6 +10,7 @@
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"
 #include "gyrostat/ladder/heavy/full_motion.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/math/least_squares.hpp"
 #include "gyrostat/models/heavy/full.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
@@ -213,16 +214,15 @@ struct OrbitError {
   Scalar trace = 0;
 };
 
-/// What rounding and the steps make of a motion that closes, judged by two neighbours: bodies and starts that differ by two roundings,
-/// integrated with looser steps, closed by one correction. Two shots each. Of period and trace four times their distance: of 246 traces of random motions
-/// the worst erred by 1/3.4 of what is stated, of 24 periods that were off at all by 1/19. Of the start sixteen times. And at least what a closure of a few
-/// roundings leaves
-/// open: where one direction is weakly held, two neighbours may both happen to lie near.
+/// What rounding and the steps make of a motion that closes, judged by two neighbours (honesty::orbit_change, orbit_margin, orbit_start_margin): bodies and
+/// starts that differ by roundings, integrated with looser steps, closed by one correction. Two shots each. And at least what a closure of a few roundings
+/// leaves open: where one direction is weakly held, two neighbours may both happen to lie near.
 template <Real Scalar, OrbitSpace<Scalar> Space>
 OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scalar>& closed, Scalar rate,
                                const Space& space, ode::Counts& counts) noexcept {
   using Method = detail::Shooting<Scalar, Space>;
-  constexpr Scalar eps = epsilon<Scalar>, looser = 8 * eps;
+  constexpr Scalar eps = epsilon<Scalar>, looser = 8 * eps, change = Scalar(honesty::orbit_change) * eps,
+                   margin = Scalar(honesty::orbit_margin);
   const Method method(space, rate);
   OrbitError<Scalar> error;
   typename Method::Rows residual;
@@ -233,7 +233,7 @@ OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scal
                     (start.down - closed.start.down).norm());
   };
   for (const Aside aside : {Aside::first, Aside::second}) {
-    const detail::Neighbour<Scalar> near(problem, closed.start, 2 * eps, aside);
+    const detail::Neighbour<Scalar> near(problem, closed.start, change, aside);
     State<Scalar> start = near.start;
     Scalar period = closed.period;
     Shot<Scalar> shot = shoot(near.problem, start, period, looser);
@@ -247,13 +247,13 @@ OrbitError<Scalar> orbit_error(const Problem<Scalar>& problem, const Closed<Scal
     const auto take = [failed](Scalar& most, Scalar now) noexcept {
       most = now + failed > most ? now : most + 0 * (now + failed);
     };
-    take(error.start, 16 * moved(start));
-    take(error.period, 4 * std::abs(period / closed.period - 1));
-    take(error.trace, 4 * std::abs(shot.derivative.trace() - trace));
+    take(error.start, Scalar(honesty::orbit_start_margin) * moved(start));
+    take(error.period, margin * std::abs(period / closed.period - 1));
+    take(error.trace, margin * std::abs(shot.derivative.trace() - trace));
   }
   // a part that both neighbours happen to leave alone has the rounding of its parts nevertheless
-  error.period += 2 * eps;
-  error.trace += 2 * eps * (closed.shot.derivative.diagonal().cwiseAbs().sum());
+  error.period += change;
+  error.trace += change * (closed.shot.derivative.diagonal().cwiseAbs().sum());
   error.start += 8 * eps;
   method.equations(problem, closed.start, closed.period, closed.shot, residual, jacobian);
   Scalar open = 0, late = 0;
