@@ -12,6 +12,8 @@ import pytest
 from conftest import drawn
 from gyrostat import DomainError, SceneError, free
 from gyrostat.families.free.functions import reduced
+from gyrostat.families.free.stability import tables
+from gyrostat.rotation import matrix_from_quaternion
 from gyrostat.scenes import load, scene_from
 from gyrostat.stability import plot_stability, stability_report
 from gyrostat.toml_text import toml_text
@@ -116,6 +118,18 @@ def test_permanent_rotations_of_a_rigid_body_and_with_much_rotor_momentum() -> N
     assert len(few.square) == 2 and few.stable.all()
     with pytest.raises(DomainError, match="other units"):  # squares of their rates overflow
         free.permanent_rotations(inertia=[2e-300, 2.5e-300, 3e-300], angular_velocity=[0.01, 1.0, 0.01], rotor_momentum=[0.1, 0.0, 0.2])
+
+
+@pytest.mark.parametrize("q", [[0.0, 0.0, 0.0, 1.0], [0.1, -0.5, 0.3, 0.8]], ids=["in its axes", "turned"])
+def test_rotations_in_the_plane_of_equal_moments_are_one_of_a_circle(q: list[float], tmp_path: Path) -> None:
+    turn = matrix_from_quaternion(np.array(q) / np.linalg.norm(q))
+    body = {"inertia": (turn @ np.diag([2.0, 2.0, 1.0]) @ turn.T).tolist(), "angular_velocity": (turn @ [0.1, 0.2, 1.0]).tolist()}
+    found = free.permanent_rotations(**body)
+    assert found.isolated.tolist() == [False] * (len(found.square) - 2) + [True, True] and found.stable.tolist() == found.isolated.tolist()
+    report = stability_report(scene_from(scene(body={"inertia": body["inertia"]}, initial={"angular_velocity": body["angular_velocity"]})))
+    across = [r for r in report["rotations"] if not r["isolated"]]
+    assert across and all(r["growth_rate"] is None and r["frequency"] is None and not r["stable"] for r in across)
+    assert {row[2] for _, _, rows in tables(report) for row in rows} == {"one of a circle", "stable"}
 
 
 def test_flips_come_at_even_intervals() -> None:

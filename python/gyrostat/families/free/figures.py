@@ -70,8 +70,10 @@ def sphere(body: Mapping[str, Any], all_unstable: bool = False) -> Any:
         half = 1.03 * edge  # the contours of the separatrix cut the rim
         if found is not None:
             _separatrix(axes, body, found, R, centre, min(edge, 2.0))
-            for stable, marker, colour, name in ((True, "o", COLOURS[2], "stable rotation"), (False, "X", COLOURS[4], "unstable")):
-                at = found.angular_momentum[found.stable == stable] / R
+            kinds = ((found.stable, "o", COLOURS[2], "stable rotation"), (found.isolated & ~found.stable, "X", COLOURS[4], "unstable"),
+                     (~found.isolated, "D", COLOURS[3], "one of a circle"))
+            for those, marker, colour, name in kinds:
+                at = found.angular_momentum[those] / R
                 where = on_map(at, centre) if len(at) else np.empty((0, 2))
                 where = where[np.linalg.norm(where, axis=1) < half]
                 if len(where):

@@ -35,7 +35,7 @@ class PermanentRotations:
     """The rotations that last, by ascending energy.
 
     angular_velocity : (n, 3) [rad/s]; angular_momentum : (n, 3), all of the start's length [N m s], body axes; energy : (n,) w.J w/2 [J];
-    square : (n,) of the frequency of small oscillations about each, negative where it is unstable [1/s^2]; stable : (n,).
+    square : (n,) of the frequency of small oscillations about each, negative where it is unstable [1/s^2]; isolated, stable : (n,).
     """
 
     angular_velocity: Floats
@@ -44,9 +44,17 @@ class PermanentRotations:
     square: Floats
 
     @property
+    def isolated(self) -> NDArray[np.bool_]:
+        """(n,) false: it stands for a circle of rotations, as of a body with two equal moments about any axis in their plane; what starts beside it leaves
+        in proportion to time. Told to a few roundings."""
+        greatest = max(float(np.abs(self.square).max()), float(np.square(self.angular_velocity).sum(1).max()))
+        made: NDArray[np.bool_] = np.abs(self.square) > 8 * np.finfo(float).eps * greatest
+        return made
+
+    @property
     def stable(self) -> NDArray[np.bool_]:
         """(n,) neighbours stay neighbours."""
-        made: NDArray[np.bool_] = self.square > 0
+        made: NDArray[np.bool_] = self.isolated & (self.square > 0)
         return made
 
 
@@ -135,7 +143,7 @@ def reduced(given: Mapping[str, Any]) -> tuple[Floats, Floats, Floats]:
 def permanent_rotations(*, inertia: ArrayLike, angular_velocity: ArrayLike | None = None, angular_momentum: ArrayLike | None = None,
                         rotor_momentum: ArrayLike = (0.0, 0.0, 0.0), wheels: Sequence[Wheel] = ()) -> PermanentRotations:
     """The rotations with constant angular velocity that have the angular momentum of the start: two, four or six (Volterra 1899); where two moments
-    are equal some stand for a circle of them, and have square = 0.
+    are equal some stand for a circle of them (`isolated`), and have square = 0 but for rounding.
 
     Arguments as of `solve`. Raises DomainError as `solve` does, and where the momentum is zero.
     """

@@ -17,6 +17,8 @@ from gyrostat.scenes import Scene
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from gyrostat.broadcast import Floats
+
 __all__ = ["plot", "report", "sentence", "tables"]
 
 
@@ -27,8 +29,9 @@ def _body(given: Mapping[str, Any]) -> dict[str, Any]:
 def report(scene: Scene) -> dict[str, Any]:
     """The permanent rotations with the momentum of the start, as plain data.
 
-    rotations : by ascending energy, each with angular_velocity [rad/s], energy [J], stable, frequency of small oscillations about it [rad/s]
-    (None where it is unstable) and growth rate of what leaves it [1/s] (None where it is stable); motion : what the start does.
+    rotations : by ascending energy, each with angular_velocity [rad/s], energy [J], stable, isolated (false: it stands for a circle of them, as of a
+    body with two equal moments about any axis in their plane, and what is beside it leaves in proportion to time), frequency of small oscillations
+    about it [rad/s] (None where there are none) and growth rate of what leaves it [1/s] (None where nothing grows so); motion : what the start does.
     Raises DomainError where the momentum is zero.
     """
     given = arguments(scene)
@@ -37,12 +40,15 @@ def report(scene: Scene) -> dict[str, Any]:
     except DomainError:
         raise DomainError("initial: the body has no momentum, or turns about any axis alike: nothing tells one rotation from another; give it a momentum, "
                           "or moments that differ") from None
-    rotations = [
-        {"angular_velocity": w.tolist(), "energy": float(e), "stable": bool(s > 0), "frequency": math.sqrt(s) if s > 0 else None,
-         "growth_rate": math.sqrt(-s) if s < 0 else None}
-        for w, e, s in zip(found.angular_velocity, found.energy, found.square, strict=True)]
+    rotations = [_rotation(*one) for one in zip(found.angular_velocity, found.energy, found.square, found.isolated, found.stable, strict=True)]
     answer = solve(**{**given, "times": [0.0], "model": "closed-form", "ask": ["kind", "period", "modulus_squared", "energy"]})
     return {"scene": scene.name, "rotations": rotations, "motion": {name: _finite(answer.scalars[name]) for name in ("kind", "period", "modulus_squared", "energy")}}
+
+
+def _rotation(rate: "Floats", energy: float, square: float, isolated: bool, stable: bool) -> dict[str, Any]:
+    """One of the rotations as plain data; `square` is that of the frequency of small oscillations."""
+    return {"angular_velocity": rate.tolist(), "energy": float(energy), "stable": bool(stable), "isolated": bool(isolated),
+            "frequency": math.sqrt(square) if stable else None, "growth_rate": math.sqrt(-square) if isolated and not stable else None}
 
 
 def _finite(value: Any) -> Any:
@@ -56,8 +62,9 @@ def _text(value: float | None) -> str:
 
 def tables(report: Mapping[str, Any]) -> list[tuple[str, list[str], list[list[str]]]]:
     """For the terminal."""
-    rows = [[", ".join(f"{x:.6g}" for x in r["angular_velocity"]), _text(r["energy"]), "stable" if r["stable"] else "unstable",
-             _text(r["frequency"]), _text(r["growth_rate"])] for r in report["rotations"]]
+    verdicts = ("stable" if r["stable"] else "unstable" if r["isolated"] else "one of a circle" for r in report["rotations"])
+    rows = [[", ".join(f"{x:.6g}" for x in r["angular_velocity"]), _text(r["energy"]), verdict, _text(r["frequency"]), _text(r["growth_rate"])]
+            for r, verdict in zip(report["rotations"], verdicts, strict=True)]
     return [("Rotations that last, with the momentum of the start",
              ["angular velocity [rad/s]", "energy [J]", "", "frequency [rad/s]", "growth rate [1/s]"], rows)]
 
