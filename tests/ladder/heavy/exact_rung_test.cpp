@@ -8,6 +8,7 @@
 
 #include "catch.hpp"
 #include "gyrostat/core/double_double.hpp"
+#include "gyrostat/ladder/heavy/full_motion.hpp"
 #include "gyrostat/ladder/heavy/full_rung.hpp"
 #include "gyrostat/models/free/motion.hpp"
 
@@ -237,6 +238,45 @@ TEST_CASE("heavy exact rung: what cancels is no zero of the data", "[heavy]") {
     REQUIRE(swing);
     CHECK(swing->in_plane() == sure);
   }
+}
+
+TEST_CASE("heavy exact rung: moments that differ by roundings turn a slow body, and the error says so", "[heavy]") {
+  // The torque of the gradient about the axis grows with the square of the time; neighbours are as symmetric as the answer, and were all that was asked.
+  const double ulp = epsilon<double>;
+  for (const double differs : {1 * ulp, 3 * ulp, 12 * ulp})
+    for (const double along : {1.5, 1.0000001}) {
+      CAPTURE(differs, along);
+      const V inertia(1 + differs, 1, along);
+      const double gradient = 0.35;
+      State<double> from;
+      from.angular_velocity = V(-0.016, -0.0002, -0.0005), from.down = V(-0.458, -0.88, 0.124).normalized();
+      const std::vector<double> times{9.0, 150.0, 800.0};
+      const auto body = Body::make(inertia.asDiagonal(), 1, V(0, 0, 0), 9.80665, gradient);
+      REQUIRE(body);
+      Question question;
+      question.times = times;
+      question.tolerance = 1e-14;
+      const auto scene = Scene::make(*body, {from}, question);
+      REQUIRE(scene);
+      const Track track = exact_track(*scene, nullptr);
+      REQUIRE(track.failure == Errc::ok);
+      using Long = long double;
+      const auto problem = Problem<Long>::make(inertia.cast<Long>(), 1, Vec3<Long>(0, 0, 0), Long(9.80665), gradient);
+      FullMotionOptions<Long> options;
+      options.tolerance = 1e-16L;
+      std::vector<State<Long>> states(times.size());
+      const std::vector<Long> asked(times.begin(), times.end());
+      const State<Long> wide{from.angular_velocity.cast<Long>(), from.down.cast<Long>().normalized(), {}};
+      REQUIRE(full_motion<Long>(*problem, wide, asked, states, options));
+      Comparison apart(Row<double>{});
+      for (std::size_t k = 0; k < times.size(); ++k)
+        apart.add(track.states[k],
+                  {states[k].angular_velocity.cast<double>(), states[k].down.cast<double>(), track.states[k].attitude});
+      const auto off = apart.relative(apart.difference());
+      CHECK(off[column::down] <= track.error[column::down]);
+      CHECK(off[column::angular_velocity] <= track.error[column::angular_velocity]);
+      CHECK(track.error[column::down] <= 1e3 * off[column::down]);
+    }
 }
 
 TEST_CASE("heavy exact rung: in the caller's axes", "[heavy]") {

@@ -65,3 +65,37 @@ TEST_CASE("heavy: an asymmetric body is held upright by spins between two bounds
     CHECK((growth_rate<double>(p, {0, 0, r}, {0, 0, -1}) > 0) == grows(r));
   }
 }
+
+TEST_CASE("heavy: a plane swing is beside a separatrix where its energy is nearly that of a rest on high", "[heavy]") {
+  constexpr double near = 0.03;
+  for (const double gradient : {0.0, 40.0}) {
+    // about axis 2, the mass centre between axes 3 and 1
+    const auto p = body({0.1, 0.12, 0.15}, {0.03, 0, 0.1}, gradient);
+    const auto potential = [&](double angle) {
+      const Vec3<double> d(std::sin(angle), 0, std::cos(angle));
+      return gradient * d.dot(p.inertia().cwiseProduct(d)) / 2 - p.moment().dot(d);
+    };
+    double low = infinity<double>, high = -infinity<double>;
+    for (int n = 0; n < 100'000; ++n) {
+      const double height = potential(2 * pi<double> * n / 100'000);
+      low = std::min(low, height), high = std::max(high, height);
+    }
+    const auto swings = [&](double angle, double above, double across = 0) {
+      const double rate = std::sqrt(2 * (high + above * (high - low) - potential(angle)) / 0.12);
+      return is_beside_separatrix<double>(p, {across * rate, rate, 0}, {std::sin(angle), across, std::cos(angle)},
+                                          near);
+    };
+    for (const double angle : {0.0, 1.0, -2.0}) {
+      CAPTURE(gradient, angle);
+      CHECK(swings(angle, 0));
+      CHECK(swings(angle, 0.029));
+      CHECK(swings(angle, -0.029));
+      CHECK(swings(angle, 0, 0.02));
+      CHECK_FALSE(swings(angle, 0.031));
+      CHECK_FALSE(swings(angle, -0.031));
+      CHECK_FALSE(swings(angle, 0, 0.05));
+    }
+  }
+  // no plane holds the mass centre and the motion
+  CHECK_FALSE(is_beside_separatrix<double>(body({0.1, 0.12, 0.15}, {0, 0.1, 0}), {0, 1, 0}, {1, 0, 0}, near));
+}

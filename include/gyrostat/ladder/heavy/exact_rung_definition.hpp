@@ -92,7 +92,9 @@ GYROSTAT_COMPILED_ONCE Track exact_track(const Scene& scene, Monitor*) {
   track.error = stated();
   const Vec3<double>& I = scene.problem().inertia();
   const bool slim = I.minCoeff() < honesty::exact_slim * I.maxCoeff();
-  if (!of_tensor && !scene.converts_body() && !scene.periodic() && !slim && bound.attitude < infinity<double> &&
+  // neighbours leave out what the motion itself does
+  const bool tells_all = !of_tensor && !scene.converts_body() && exact.defect() == 0;
+  if (tells_all && !scene.periodic() && !slim && bound.attitude < infinity<double> &&
       !(scene.goal().excess(track.error) <= 1)) {
     const auto finer = error_by_neighbours(scene.problem(), start, scene.converts_start(), axis, exact, looks());
     bound = bound.least(finer.most(bound.over(honesty::exact_trust)));

@@ -168,7 +168,8 @@ class FullMotion {
     const Vec3<Scalar>&I = problem_.inertia(), &w = start_.angular_velocity;
     Scalar of_start = start_sensitivity<Scalar>(I.cwiseProduct(w), w, I.cwiseInverse().asDiagonal());
     // stable or not, how far off it began may rule for long
-    if (is_steady(problem_, w, start_.down, Scalar(honesty::next_to_balance)))
+    if (is_steady(problem_, w, start_.down, Scalar(honesty::next_to_balance)) ||
+        is_beside_separatrix(problem_, w, start_.down, Scalar(honesty::next_to_balance)))
       of_start = std::max(of_start, Scalar(honesty::unstable_condition));
     return {options_.converted ? I.maxCoeff() / I.minCoeff() : Scalar(1), of_start};
   }

@@ -35,6 +35,39 @@ bool is_steady(const Problem<Scalar>& problem, const Vec3<Scalar>& angular_veloc
          cross<Scalar>(w, down).norm() <= share * (w.norm() + detail::swing_rate(problem)) * down.norm();
 }
 
+/// Whether a body swings in a plane about a principal axis, to within a `share`, and its energy is within that share of the range of its potential from
+/// that of a rest where it turns back or goes over.
+template <Real Scalar>
+bool is_beside_separatrix(const Problem<Scalar>& problem, const Vec3<Scalar>& angular_velocity,
+                          const Vec3<Scalar>& down, Scalar share) noexcept {
+  const Vec3<Scalar>&I = problem.inertia(), &w = angular_velocity;
+  const Vec3<Scalar> m = problem.moment(), d = down / down.norm();
+  const auto across = [share](const Vec3<Scalar>& v, int k) noexcept { return std::abs(v[k]) <= share * v.norm(); };
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    if (!across(m, k) || !across(d, k) || !(std::hypot(w[i], w[j]) <= share * std::abs(w[k]))) continue;
+    const auto potential = [&](Scalar x, Scalar y) noexcept {
+      return problem.gradient() * (I[i] * x * x + I[j] * y * y) / 2 - m[i] * x - m[j] * y;
+    };
+    const Scalar energy = I[k] * w[k] * w[k] / 2 + potential(d[i], d[j]);
+    // its maxima from values all round, by a parabola each
+    constexpr int count = 48;
+    Scalar V[count];
+    for (int n = 0; n < count; ++n) {
+      const Scalar angle = 2 * pi<Scalar> * Scalar(n) / count;
+      V[n] = potential(std::cos(angle), std::sin(angle));
+    }
+    const Scalar range = *std::max_element(V, V + count) - *std::min_element(V, V + count);
+    for (int n = 0; n < count; ++n) {
+      const Scalar before = V[(n + count - 1) % count], behind = V[(n + 1) % count], slope = (behind - before) / 2;
+      if (!(V[n] >= before && V[n] > behind)) continue;
+      const Scalar top = V[n] + slope * slope / (2 * (2 * V[n] - before - behind));
+      if (std::abs(energy - top) <= share * range) return true;
+    }
+  }
+  return false;
+}
+
 /// Greatest growth rate, 1/s, of small departures from a steady rotation about the vertical, or a rest; 0 where none grows, but for rounding.
 /// Beside two zeros the linear equations of the departures have eigenvalues +-a, +-b; their matrix J has tr J^2 = 2 (a^2 + b^2) and
 /// tr J^4 = 2 (a^4 + b^4).

@@ -61,6 +61,15 @@ class Exact {
     constexpr Scalar open = infinity<Scalar>;
     return visited([&](const auto& m) { return m.error(t); }, ExactError<Scalar>{open, open, open});
   }
+  /// What rounding has put the data off symmetry or plane, and the motion leaves out; relative.
+  Scalar defect() const noexcept {
+    return visited(
+        [](const auto& m) {
+          if constexpr (requires { m.defect(); }) return m.defect();
+          else return Scalar(0);
+        },
+        Scalar(0));
+  }
   /// Of what repeats itself, s: of the angular velocity in the body (euler, pendulum), of the nutation (lagrange). NaN
   /// where none applies.
   Scalar period() const noexcept {

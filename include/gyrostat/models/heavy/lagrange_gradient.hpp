@@ -98,10 +98,10 @@ class LagrangeGradient {
     const Scalar rate = std::sqrt(most_) / 2, K = rate * period_ / 2;
     const Scalar relative = stated * (size_ + parts_) / least_;
     const Scalar late = still_ ? Scalar(0) : time_error(relative, relative, K, rate, t) + 64 * tail_ * (t + period_);
-    const Scalar fast = fastest_ + std::sqrt(std::abs(most_)), skew = defect_ * fastest_ * t;
+    const Scalar fast = fastest_ + std::sqrt(std::abs(most_)), skew = defect_ * t;
     const Scalar off = still_ ? pushed_off(defect_ * (swing_ * swing_ + parts_), growth_, t) : Scalar(0);
-    const Scalar angle = stated * (1 + (still_ ? Scalar(0) : pole_)) * (1 + fast * t) + skew * (1 + fastest_ * t) +
-                         fastest_ * late + off;
+    const Scalar angle = stated * (1 + (still_ ? Scalar(0) : pole_)) * (1 + fast * t) +
+                         skew * (fastest_ + (fastest_ * fastest_ + gradient_) * t) + fastest_ * late + off;
     return ExactError<Scalar>::of(
         angle, unit_ * (across_ * angle + swing_ * (swing_ * late + off) + stated * (fastest_ + parts_ * t)));
   }
@@ -111,6 +111,7 @@ class LagrangeGradient {
   /// Of the nutation, s; of small nutation where there is none; infinite or NaN where it is not stable.
   Scalar nutation_period() const noexcept { return period_ / unit_; }
   bool planar() const noexcept { return planar_; }      ///< see LagrangeTop
+  Scalar defect() const noexcept { return defect_; }    ///< see LagrangeTop
   bool in_plane() const noexcept { return in_plane_; }  ///< see LagrangeTop
   /// Right-handed about DOWN, rad; see LagrangeTop.
   Scalar precession_per_nutation() const noexcept {
@@ -175,8 +176,9 @@ class LagrangeGradient {
   int used_ = 0;
   bool still_ = false, planar_ = false, in_plane_ = false;
   Scalar tail_ = 0, most_ = 1, least_ = 1, size_ = 1, pole_ = 0, fastest_ = 0, across_ = 0, swing_ = 0, defect_ = 0;
-  Scalar growth_ = 0;  // see LagrangeTop
-  Scalar parts_ = 0;   // of the gradient, which may cancel: C and A are rounded
+  Scalar growth_ = 0;    // see LagrangeTop
+  Scalar gradient_ = 0;  // of itself; it turns an uneven body about its axis
+  Scalar parts_ = 0;     // of the gradient, which may cancel: C and A are rounded
   TopAttitude<Scalar> attitude_;
 };
 
@@ -236,7 +238,8 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
   c_above_ = o.d - o.rho * o.above;
   c_below_ = o.d + o.rho * o.below;
   size_ = o.square + o.rho * o.rho + 2 * std::abs(o.pull) + 4 * std::abs(o.gradient);
-  parts_ = 4 * top.gradient * (top.along + top.across) / (top.across * o.unit * o.unit);
+  gradient_ = top.gradient / (o.unit * o.unit);
+  parts_ = 4 * gradient_ * (top.along + top.across) / top.across;
   swing_ = std::sqrt(std::abs(o.pull) + std::abs(o.gradient));
 
   still_ = x == 0 && b == 0;
