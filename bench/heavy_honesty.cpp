@@ -66,7 +66,10 @@ class Scenes {
     const auto moment = [this] { return std::round(any(0.3, 2) * 0x1p24) * 0x1p-24; };
     Vec3<double> I{moment(), moment(), moment()};
     Vec3<double> centre = direction();
-    const double shape = unit(), off = unit() < 0.4 ? 0 : sign() * scale(1e-15, 0.1);
+    const double shape = unit(), kind = unit();
+    const double off = kind < 0.4   ? 0
+                       : kind < 0.5 ? sign() * epsilon<double> * std::ceil(14 * unit())
+                                    : sign() * scale(1e-15, 0.1);
     made.kind = "generic";
     if (shape < 0.12) {
       I[1] = I[0] * (1 + off), centre = Vec3<double>(off * any(-1, 1), off * any(-1, 1), sign());
@@ -128,6 +131,28 @@ class Scenes {
     return true;
   }
 
+  /// What the potential energy lacks at `down` to its maximum in the plane across axis k, J.
+  static double to_top(const Problem<double>& p, int k, const Vec3<double>& down) {
+    const auto potential = [&](const Vec3<double>& d) {
+      return p.gradient() * d.dot(p.inertia().cwiseProduct(d)) / 2 - p.moment().dot(d);
+    };
+    const auto at = [&](double angle) {
+      Vec3<double> d(0, 0, 0);
+      d[(k + 1) % 3] = std::cos(angle), d[(k + 2) % 3] = std::sin(angle);
+      return potential(d);
+    };
+    constexpr double step = pi<double> / 64;
+    double best = 0;
+    for (int n = 1; n < 128; ++n)
+      if (at(n * step) > at(best)) best = n * step;
+    double low = best - step, high = best + step;
+    for (int trip = 0; trip < 80; ++trip) {
+      const double one = low + (high - low) / 3, two = high - (high - low) / 3;
+      (at(one) < at(two) ? low : high) = at(one) < at(two) ? one : two;
+    }
+    return at((low + high) / 2) - potential(down);
+  }
+
   bool motion(Made& made) {
     const Problem<double>& p = made.body.problem;
     const double c = std::max({p.pendulum_rate(), std::sqrt(p.gradient()), 0.1 * clock_});
@@ -169,14 +194,17 @@ class Scenes {
       stand(down);
       made.kind += ", sleeping";
     } else if (kind < 0.82) {
-      // flat swings, near the separatrix too
-      const int k = int(3 * unit()), i = (k + 1) % 3, j = (k + 2) % 3;
+      // flat swings, near the separatrix too; mostly with the mass centre in their plane where a body has one
+      int k = int(3 * unit());
+      for (int axis = 0; axis < 3; ++axis)
+        if (p.centre_of_mass()[axis] == 0 && unit() < 0.7) k = axis;
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
       const double angle = any(-3.2, 3.2);
       Vec3<double> down;
       down[i] = std::cos(angle), down[j] = std::sin(angle), down[k] = unit() < 0.7 ? 0 : scale(1e-16, 1e-3);
       stand(down);
       s.angular_velocity.setZero();
-      const double up = std::sqrt(2 * (p.moment().norm() + p.moment().dot(s.down)) / p.inertia()[k]);
+      const double up = std::sqrt(2 * std::max(0.0, to_top(p, k, s.down)) / p.inertia()[k]);
       s.angular_velocity[k] = unit() < 0.5 ? up * (1 + sign() * scale(1e-16, 0.5)) : c * scale(0.01, 10);
       made.kind += ", flat swing";
       turns = scale(0.5, 20);
@@ -187,7 +215,7 @@ class Scenes {
       made.kind += ", from rest";
       turns = scale(0.5, 20);
     } else if (kind < 0.92) {
-      s.angular_velocity = c * scale(0.1, 10) * direction();
+      s.angular_velocity = c * scale(1e-3, 10) * direction();
       made.kind += ", slow";
       turns = scale(0.5, 20);
     } else {
