@@ -71,7 +71,7 @@ struct PicardAnswer {
 /// in the tilt by two: of the rates, the tilt and the momentum from 3, of theta, r and v3 from 2.
 ///
 /// A sweep takes rates and tilt of the last one and integrates, in a frame that turns with the body,
-///     rho = ((D1 - D2)/D3) int p q,   Pi = e^(Bt) [Pi0 + int e^(-Bs) (mu + i rho (zb Pi + zd Pi~))],   B Pi = i (kb Pi + kd Pi~),
+///     rho = ((D1 - D2)/D3) int p q,   Pi = e^(Bt) [Pi0 + int e^(-Bs) (mu + rho Z Pi)],   B Pi = -kappa1 q + i kappa2 p,   Z = dB/dr,
 ///     u = e^(-i Th) [u0 + int e^(i Th) sqrt(1 - |u|^2) Pi],   Th = int r,   z = z0 + Th + int Im(Pi w~),   w = u/(1 + c),
 /// v and x from w and z. The quadratures run over panels of three radians of r0 + 2 nu, each through all sweeps before the next,
 /// so that nothing is stored: no heap. A sweep over a panel costs some 3 us, so a turn ten times what the series of the full
@@ -101,11 +101,9 @@ class PicardSweeps {
     const Scalar r0 = problem.spin();
     mu_ = {problem.torque[0] / D[0], problem.torque[1] / D[1]};
     skew_ = (D[0] - D[1]) / D[2];
-    const Scalar k1 = problem.kappa1(r0), k2 = problem.kappa2(r0);
-    const Scalar z1 = (D[2] - D[1]) / D[0], z2 = (D[2] - D[0]) / D[1];
-    kb_ = (k1 + k2) / 2, kd_ = (k2 - k1) / 2;
-    zb_ = (z1 + z2) / 2, zd_ = (z2 - z1) / 2;
-    const Scalar square = k1 * k2, nu = std::sqrt(std::abs(square));
+    stiffness_ = {problem.kappa1(r0), problem.kappa2(r0)};
+    by_spin_ = {(D[2] - D[1]) / D[0], (D[2] - D[0]) / D[1]};
+    const Scalar square = stiffness_.re * stiffness_.im, nu = std::sqrt(std::abs(square));
     for (std::size_t k = 0; k < size; ++k) {
       const Scalar s = length_ * panel_.node(k), x = nu * s;
       cosine_[k] = square < 0 ? std::cosh(x) : std::cos(x);
@@ -184,8 +182,8 @@ class PicardSweeps {
     return std::atan2(square.im, 1 - square.re);
   }
 
-  /// i (b F + d F~).
-  static Complex pushed(Scalar b, Scalar d, Complex F) noexcept { return {-(b - d) * F.im, (b + d) * F.re}; }
+  /// What a turn at the rate of the stiffnesses k makes of F.
+  static Complex pushed(Complex k, Complex F) noexcept { return {-k.re * F.im, k.im * F.re}; }
 
   /// The linear motion over a panel from each of (1, p, q, psi, phi) at its start.
   void map_linear() noexcept {
@@ -194,13 +192,13 @@ class PicardSweeps {
       Values re, im;
       for (std::size_t k = 0; k < size; ++k) {
         const Complex F = is(0) * mu_;
-        const Complex back = cosine_[k] * F - sine_[k] * pushed(kb_, kd_, F);
+        const Complex back = cosine_[k] * F - sine_[k] * pushed(stiffness_, F);
         re[k] = back.re, im[k] = back.im;
       }
       re = panel_.integrated(re, length_, is(1)), im = panel_.integrated(im, length_, is(2));
       std::array<Complex, size> spin;
       for (std::size_t k = 0; k < size; ++k) {
-        const Complex y{re[k], im[k]}, Pi = cosine_[k] * y + sine_[k] * pushed(kb_, kd_, y);
+        const Complex y{re[k], im[k]}, Pi = cosine_[k] * y + sine_[k] * pushed(stiffness_, y);
         map_[i][0][k] = Pi.re, map_[i][1][k] = Pi.im;
         spin[k] = math::unit(problem_.spin() * (length_ * panel_.node(k)));
         const Complex rate = spin[k] * Pi;
@@ -226,14 +224,14 @@ class PicardSweeps {
     for (std::size_t k = 0; k < size; ++k) turn[k] += problem_.spin() * (length_ * panel_.node(k));
 
     for (std::size_t k = 0; k < size; ++k) {
-      const Complex F = mu_ + now[rho][k] * pushed(zb_, zd_, {old[p][k], old[q][k]});
-      const Complex back = cosine_[k] * F - sine_[k] * pushed(kb_, kd_, F);
+      const Complex F = mu_ + now[rho][k] * pushed(by_spin_, {old[p][k], old[q][k]});
+      const Complex back = cosine_[k] * F - sine_[k] * pushed(stiffness_, F);
       re[k] = back.re, im[k] = back.im;
     }
     re = integrated(re, from[p]), im = integrated(im, from[q]);
     for (std::size_t k = 0; k < size; ++k) {
       const Complex y{re[k], im[k]};
-      const Complex Pi = cosine_[k] * y + sine_[k] * pushed(kb_, kd_, y);
+      const Complex Pi = cosine_[k] * y + sine_[k] * pushed(stiffness_, y);
       now[p][k] = Pi.re, now[q][k] = Pi.im;
     }
 
@@ -280,7 +278,8 @@ class PicardSweeps {
   int sweeps_;
   Scalar length_;
   Complex mu_, force_;
-  Scalar thrust_ = 0, skew_ = 0, kb_ = 0, kd_ = 0, zb_ = 0, zd_ = 0;
+  Complex stiffness_, by_spin_;  ///< kappa1 + i kappa2 at r0, 1/s; and its change with the spin
+  Scalar thrust_ = 0, skew_ = 0;
   Values cosine_{}, sine_{};  ///< cos(nu s) and sin(nu s)/nu at the nodes
   static constexpr std::size_t small_columns[] = {p, q, u1, u2};
   std::array<Scalar, 5> small_{};  ///< (1, p, q, psi, phi) of the linear motion at the panel's start
