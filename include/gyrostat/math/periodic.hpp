@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/real.hpp"
 
 namespace gyrostat::math {
@@ -27,13 +28,13 @@ template <Real Scalar, std::size_t N, class Function>
 [[nodiscard]] inline PeriodicMeans<Scalar, N> periodic_means(const Function& f, Scalar tolerance, int first = 16,
                                                              int most = 4096) noexcept {
   PeriodicMeans<Scalar, N> result;
-  std::array<Scalar, N> sum{};
+  std::array<Scalar, N> sum{}, low{};  // thousands of numbers that are nearly alike would round alike
   std::array<Scalar, N> size{};
   const auto add = [&](int nodes, int from, int step) {
     for (int j = from; j < nodes; j += step) {
       const std::array<Scalar, N> value = f(Scalar(j) / Scalar(nodes));
       for (std::size_t i = 0; i < N; ++i) {
-        sum[i] += value[i];
+        add_to(sum[i], low[i], value[i]);
         size[i] += std::abs(value[i]);
       }
     }

@@ -48,6 +48,23 @@ TEST_CASE("the scalars of a free motion: Toutatis as Hudson and Ostro (1995) saw
   CHECK(answer.quantity("period")->error < 1e-13);
 }
 
+TEST_CASE("what a wheel leaves of the momentum is known to its roundings, whichever rung answers", "[free]") {
+  // 0.7 * 1 - 0.0007 * 1000 of these doubles is -3.72966e-17
+  auto assembly = body({0.5, 0.7, 1}, {0, 0, 0}, {0, 1, 0});
+  assembly.body.attitude = {};
+  assembly.wheels.push_back({{0, 1, 0}, 0.0007, -1000, false});
+  for (const int rung : {free::rung::closed_form, free::rung::full}) {
+    Question question;
+    question.times = {1.0};
+    question.rung = rung;
+    const Answer answer = solved(*Scene::make(assembly, question));
+    const Column& M = *answer.find("angular_momentum");
+    CAPTURE(rung, M.values[1], M.error, M.scale);
+    CHECK(std::abs(M.values[1] - -3.72966e-17) <= M.error * std::max(M.scale, std::abs(M.values[1])));
+    CHECK(M.error < 1e-11);
+  }
+}
+
 TEST_CASE("a dual-spin satellite precesses regularly: in closed form, with the rates of its axis", "[free]") {
   auto assembly = body({120, 120, 90}, {0, 0, 0}, {0.05, -0.02, 0.3});
   assembly.body.attitude = {};

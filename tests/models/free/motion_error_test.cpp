@@ -441,6 +441,23 @@ TEST_CASE("the modulus of a body of revolution in turned axes errs the more the 
   CHECK(ratio[ratio.size() / 2] < 100);
 }
 
+TEST_CASE("the modulus of a body whose moments differ by roundings is not known to be that of a body of revolution",
+          "[free]") {
+  for (const double roundings : {1.0, 2.0, 3.0}) {
+    const double C = 440.72051068984547, B = C * (1 + roundings * epsilon<double>), A = 185.4819661003833;
+    const auto p = Problem<double>::from_moments({A, C, B}, {0, 0, 0}, {-0.06, 1, -0.08});
+    const auto m = Motion<double>::make(p);
+    REQUIRE(m);
+    REQUIRE(m->is_regular_precession());
+    const auto error = MotionError<double>::of<double>(*m, Assembly<double>{p, {}}, Data::rounded, 10);
+    const auto truth = Motion<Wide>::make<Wide>(p.cast<Wide>());
+    REQUIRE(truth);
+    CAPTURE(roundings, double(truth->modulus_squared()));
+    CHECK(double(truth->modulus_squared()) > 1e-13);
+    CHECK(double(truth->modulus_squared()) <= error.modulus_squared());
+  }
+}
+
 TEST_CASE("neighbours side by side show what they show one by one", "[free]") {
   Bodies bodies(37);
   std::vector<double> ratio;

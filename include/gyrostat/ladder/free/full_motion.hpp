@@ -56,7 +56,7 @@ struct FullRow {
     const auto p = PrincipalProblem<S>::of(problem);
     const S l = p.l.norm();
     if (p.omega.isZero(0)) scale[full_column::angular_velocity] = share * (p.M.norm() + l) / p.moments[0];
-    if (p.M.isZero(0)) scale[full_column::angular_momentum] = p.G.norm() + l;
+    scale[full_column::angular_momentum] = share * l;
     scale[full_column::turned] = share;
   }
 

@@ -573,6 +573,22 @@ std::optional<MotionError<Scalar>> MotionError<Scalar>::quick(const Motion<Scala
   return trusted ? std::optional(error) : std::nullopt;
 }
 
+namespace detail {
+
+/// By how much two principal moments J that PrincipalProblem has made equal may differ, with a rounding of the data; relative.
+template <Real Scalar, class Room>
+Scalar leveled(const Assembly<Scalar, Room>& assembly, const Vec3<Scalar>& J) noexcept {
+  const Scalar most = 4 * epsilon<Scalar> * J[0];
+  if (!assembly.has_axes()) return most / J[1];
+  const Vec3<Scalar> given = assembly.body.inertia.diagonal();
+  Scalar gap = 0;
+  for (int i = 0; i < 3; ++i)
+    if (const Scalar apart = std::abs(given[i] - given[(i + 1) % 3]); apart <= most) gap = std::max(gap, apart);
+  return gap / J[1] + epsilon<Scalar>;
+}
+
+}  // namespace detail
+
 template <Real Scalar>
 template <class Room>
 std::optional<MotionError<Scalar>> MotionError<Scalar>::of_precession(const Motion<Scalar>& motion,
@@ -597,7 +613,7 @@ std::optional<MotionError<Scalar>> MotionError<Scalar>::of_precession(const Moti
   const Scalar terms = J[0] * speed + carried;
   // how far the axis may be off, and M along it: by that, and by what unequal moments make of it
   const Scalar tilt = axes_given ? Scalar(0) : off * J[0] / abs(J[1] - J[k]);
-  const Scalar lopsided = off * across * across / (J[1] * pace * R);
+  const Scalar lopsided = detail::leveled(assembly, J) * across * across / (J[1] * pace * R);
   const Scalar lifted = tilt + lopsided + (axes_given ? Scalar(0) : off * carried / (J[1] * pace));
   if (!(lifted < Scalar(0.1))) return std::nullopt;
   // the slight moment of a tensor is off by what the greatest is
