@@ -59,6 +59,25 @@ TEST_CASE("CVODE agrees with Taylor series within what both state, through the s
   }
 }
 
+TEST_CASE("CVODE does not take the modulus just before the stop for that of rest") {
+  Asked data;
+  data.control = {0.064, 0.062, 0.058};
+  data.law = data.drag_law = Law::carrier;
+  data.momentum = {2, 1.25, 0.44};
+  data.rung = rung::full;
+  data.tolerance = 1e-3;
+  data.times = {38.12216898007308};  // 1e-7 of it before the stop: k2 is 0.371648 still
+  data.full_equations = &full_by_cvode;
+  const auto scene = make_scene(*Inertia<double>::from_moments(0.7, 1.0, 1.3), data);
+  REQUIRE(scene);
+  Refusal refusal;
+  const Answer made = solve(*scene, refusal);
+  REQUIRE(refusal.code == Errc::ok);
+  const Column& k2 = *made.find("modulus_squared");
+  CAPTURE(k2.values[0], k2.error);
+  CHECK(std::abs(k2.values[0] - 0.371648) <= k2.error);
+}
+
 TEST_CASE("a cancelled CVODE run is refused as such") {
   Asked data = wheel(Law::total);
   data.full_equations = &full_by_cvode;

@@ -64,7 +64,9 @@ inline StoppedRun cvode_run(const Scene& scene, const Problem<double>& problem, 
   const bool total = problem.law == Law::total;
   CvodeProblem user{problem, total ? Vec3<double>::Zero().eval() : problem.rotor_momentum, scene.greatest_control()};
   const Hold<double> hold(problem);
-  const double scale = std::max(problem.momentum.norm(), problem.rotor_momentum.norm());
+  // what the control opposes, to the digits that are left of it where momenta cancel
+  const double parts = problem.momentum.norm() + problem.rotor_momentum.norm();
+  const double scale = std::max((problem.momentum - user.offset).norm(), 64 * epsilon<double> * parts);
 
   std::array<double, 7> y{problem.momentum[0], problem.momentum[1], problem.momentum[2], attitude.w,
                           attitude.x,          attitude.y,          attitude.z};
@@ -120,6 +122,17 @@ inline StoppedRun cvode_run(const Scene& scene, const Problem<double>& problem, 
   return run;
 }
 
+/// What is not known where a time may lie on either side of the stop: what the control takes away in the time by which the stop may be off.
+inline void add_doubt_of_rest(Track& track, const Scene& scene) {
+  const auto& problem = scene.problem();
+  const double left = scene.greatest_control() * track.stop_error * track.stop_time;
+  const double rates = problem.inverse_inertia[2] * left;
+  track.error[column::angular_momentum] += left;
+  track.error[column::angular_momentum_norm] += left;
+  track.error[column::angular_velocity] += rates;
+  track.error[column::energy] += rates * (problem.rotor_momentum.norm() + left);
+}
+
 }  // namespace detail
 
 /// Rung `full` by CVODE. The error is that of cvode_runs(). Finds the
@@ -146,8 +159,10 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto runs = cvode_runs(Row<double>{scene.problem()}, scene.question().times, scene.goal().tightest, 1e-5, run);
   if (runs.failure != Errc::ok) return refused<Track>(runs.failure, why_cvode_failed(runs.failure));
 
-  // what each step may err by itself adds up, and is shared by the runs where the longest step rules both
-  const double of_steps = (1 + double(runs.counts.steps) / (1 + honesty::cvode_companions)) * runs.tolerance;
+  // what each step may err by itself adds up, and is shared by the runs where the longest step rules both; one number may have all of the mean square
+  const double numbers = scene.question().wants_attitude ? 7 : 3;
+  const double of_steps =
+      (1 + double(runs.counts.steps) / (1 + honesty::cvode_companions)) * std::sqrt(numbers) * runs.tolerance;
   const auto error = runs.asked.relative(runs.error) + ColumnErrors<double>::all(of_steps);
   Track track = detail::track_of(scene.problem(), runs.states, scene.question().wants_attitude, error);
   track.counts = runs.counts;
@@ -157,6 +172,8 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
     for (int c = 0; c < honesty::cvode_companions; ++c)
       off = greater(off, runs.margin[c] * std::abs(stops[0] - stops[1 + c]));
     track.stop_error = over(off, stops[0]) + 1e-8 + 1e3 * runs.tolerance;
+    if (detail::doubt_modulus_at_stop(track, scene.problem(), scene.question().times))
+      detail::add_doubt_of_rest(track, scene);
   }
   return track;
 }

@@ -26,6 +26,10 @@ GYROSTAT_COMPILED_ONCE Track track_of(const Problem<double>& problem, std::vecto
                                       bool knows_attitude, const ColumnErrors<double>& error,
                                       std::span<const ColumnErrors<double>> errors = {});
 
+/// Whether some of the times are so near the stop that they may be behind it; then the modulus may be any that it has on the way.
+GYROSTAT_COMPILED_ONCE bool doubt_modulus_at_stop(Track& track, const Problem<double>& problem,
+                                                  std::span<const double> times) noexcept;
+
 }  // namespace detail
 
 /// The full equations of a problem in principal axes at times >= 0, by Taylor series. `wanted`: as in MotionOptions.

@@ -58,6 +58,13 @@ inline double k2_before_rest(const Track& track, const Problem<double>& problem)
   return on_axis ? most : 1;
 }
 
+GYROSTAT_COMPILED_ONCE bool doubt_modulus_at_stop(Track& track, const Problem<double>& problem,
+                                                  std::span<const double> times) noexcept {
+  const bool any = std::any_of(times.begin(), times.end(), [&](double t) { return track.may_be_at_stop(t); });
+  if (any) track.error[column::modulus_squared] = k2_before_rest(track, problem);
+  return any;
+}
+
 GYROSTAT_COMPILED_ONCE Track track_of(const Problem<double>& problem, std::vector<State<double>> states,
                                       bool knows_attitude, const ColumnErrors<double>& error,
                                       std::span<const ColumnErrors<double>> errors) {
@@ -101,8 +108,7 @@ GYROSTAT_COMPILED_ONCE Track full_motion_track(const Problem<double>& problem, s
   track.stop_error = answer->stop_error;
   if (std::isnan(track.stop_error) && std::isfinite(track.stop_time)) track.stop_error = infinity<double>;
   if (find_stop && std::isnan(track.stop_time)) track.warn(warning::stop_unknown);
-  for (const double t : times)
-    if (track.may_be_at_stop(t)) track.error[column::modulus_squared] = detail::k2_before_rest(track, problem);
+  detail::doubt_modulus_at_stop(track, problem, times);
   return track;
 }
 
