@@ -185,7 +185,7 @@ TEST_CASE("heavy: a plane swing beside its separatrix is not near its companions
   const auto scale = [&](double low, double high) { return std::exp(any(std::log(low), std::log(high))); };
   const double g = 9.80665;
   int wrong = 0, answers = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 700; ++i) {
     const double a = any(0.03, 1), b = any(0.03, 1), c = any(0.03, 1);
     const Vec3<double> I = scale(1e-4, 1) * Vec3<double>(b + c, a + c, a + b);
     const Vec3<double> centre = std::sqrt(scale(1e-3, 0.9) * I[1]) * Vec3<double>(1, 0, 0);
@@ -202,8 +202,8 @@ TEST_CASE("heavy: a plane swing beside its separatrix is not near its companions
     wrong += off_by[column::down] > solved.answer.error[column::down];
     ++answers;
   }
-  CHECK(answers > 1500);
-  CHECK(wrong <= 1);
+  CHECK(answers > 600);
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("heavy: down and attitude belong together", "[heavy]") {
