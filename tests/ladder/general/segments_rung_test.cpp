@@ -189,3 +189,18 @@ TEST_CASE("a segment in which a torque drives the body fast is foreseen to be as
   for (const Attempt& attempt : answer.tried)
     if (!attempt.accepted) CHECK(attempt.spent == 0);
 }
+
+TEST_CASE("segments that would take minutes are refused before they are begun") {
+  // a slim body that a torque spins up to 1e7 rad/s: by name they took over a minute
+  Problem<double> problem = brick();
+  problem.inertia = Vec3<double>(100, 3.55e-5, 100.00001).asDiagonal();
+  problem.angular_velocity = {-2.5, -1.5, 2.1};
+  problem.torques = {pulse(0.11, 1.4, {400, -423, -166})};
+  const Scene scene = posed(problem, question_at({2.2}, 1e-9, rung::segments));
+  CHECK(cost_of_segments(scene) > longest_segments);
+  Refusal refusal;
+  const Answer none = solve(scene, refusal);
+  CHECK(refusal.code == Errc::step_limit);
+  CHECK(std::string_view(refusal.why) == too_long_in_segments);
+  CHECK(none.columns.empty());
+}

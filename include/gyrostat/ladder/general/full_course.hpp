@@ -375,9 +375,14 @@ class FullCourse {
       const Scalar late = Scalar(honesty::release_roundings) * epsilon<Scalar> * t;
       take_slip((std::abs(stop.departure.rate) + 2 * magnitude(out.second) * left) * late, last_ - t);
       moment = std::max(moment, 64 * epsilon<Scalar> * t);
-      const Scalar until = t + moment < piece_.to ? t + moment : t;
       const Vec3<Scalar> rate = stop.departure.rate * stop.departure.direction;
-      leaving_.emplace(Leaving{Rest(of_, piece_, stop, t, numbers), rate, out, until});
+      leaving_.emplace(Leaving{Rest(of_, piece_, stop, t, numbers), rate, out, t});
+      // and so long that what it gains is not lost beside what rotors hold
+      const Scalar seen = 16 * epsilon<Scalar> * sizes.momentum();
+      for (int trip = 0; trip < 100 && 2 * moment < left && !(leaving_->gained(moment).norm() > seen); ++trip)
+        moment *= 2;
+      const Scalar until = t + moment < piece_.to ? t + moment : t;
+      leaving_->until = until;
       Numbers x = numbers_leaving(until);
       if (!(until > t))
         for (std::size_t i = 0; i < 3; ++i) x[System::At::momentum + i] += leaving_->gained(moment)[int(i)];

@@ -27,6 +27,12 @@ inline constexpr std::size_t most_segments = 64;
 inline constexpr const char* not_in_segments =
     "not steady between the times at which something changes, or no instance of a family there";
 
+/// Segments that are foreseen to take longer, s, are not begun.
+inline constexpr double longest_segments = 30;
+inline constexpr const char* too_long_in_segments =
+    "the body turns so often that its segments, each with its neighbours, would take minutes: ask for full, or for a "
+    "shorter span";
+
 inline constexpr const char* errors_grew =
     "the error of one segment leaves too little known of where the next begins; the full equations go through all at "
     "once";
