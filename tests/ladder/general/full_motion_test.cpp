@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "../../models/general/cases.hpp"
@@ -114,6 +115,33 @@ TEST_CASE("stated errors hold where errors of the steps add up in the rhythm of 
     const auto made = run(problem, times, tolerance);
     check_within(apart(problem, times, made.states, run(problem, times, 1e-13).states), made.answer.error);
   }
+}
+
+TEST_CASE("stated errors hold where a body that carries a wheel all but rests in an unstable balance", "[general]") {
+  // The equations keep the momentum, and most of a slow rate is lost in its rounding beside the wheel's: when the body falls hangs on that.
+  std::mt19937_64 random(1);
+  const auto any = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  int wrong = 0, answers = 0;
+  for (int i = 0; i < 400; ++i) {
+    Problem<double> p;
+    p.inertia = Vec3<double>(1.3, 1.7, 2.1).asDiagonal();
+    p.mass = 1, p.centre_of_mass = {0, 0, 0.1}, p.fixed = true, p.field.gravity = 9.8, p.field.down = {0, 0, -1};
+    p.torques.resize(1);
+    p.torques[0].type = TorqueType::weight;
+    const double slow = std::pow(10, any(-16, -1));
+    p.angular_velocity = slow * Vec3<double>(any(-1, 1), any(-1, 1), 0);
+    p.wheels.resize(1);
+    p.wheels[0].type = i % 2 == 0 ? WheelType::held : WheelType::free;
+    p.wheels[0].axis = i % 3 == 0 ? Vec3<double>(0, 0.6, 0.8) : Vec3<double>(0, 1, 0);
+    p.wheels[0].axial_inertia = std::pow(10, any(-4, -1)), p.wheels[0].rate = std::pow(10, any(0, 2));
+    const std::vector<double> times{any(3, 25)};
+    const auto made = run(p, times, std::pow(10, -2 * any(1, 4.5)));
+    const auto error = apart(p, times, made.states, truth(p, times));
+    wrong += error[full_column::attitude] > made.answer.error[full_column::attitude];
+    ++answers;
+  }
+  CHECK(answers == 400);
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("a scene that is chaotic says so", "[general]") {

@@ -268,7 +268,7 @@ class CustomMotion {
     std::unique_ptr<Course> second;
     // over a jump that is not named one companion may err as the answer does, by chance
     constexpr bool may_jump = !std::is_same_v<Law, NoTorque>;
-    const Condition<Scalar> condition = condition_of(of_.wheels, course->at(0));
+    const Condition<Scalar> condition = condition_of(of_, course->at(0));
     if (may_jump || rounding_rules(tolerance, condition)) second = neighbour(second_aside(condition), 3, tight);
     const FullRow<Scalar> row(of_, !options_.wanted.empty());
     // a step over a jump that is not named may err by its tolerance and show nothing of it

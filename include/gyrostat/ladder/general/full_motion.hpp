@@ -282,7 +282,7 @@ class FullMotion {
     };
     const auto course = begin(problem_, 1, tolerance);
     const auto& of = course->prepared();
-    const Condition<Scalar> condition = condition_of(of.wheels, course->at(0));
+    const Condition<Scalar> condition = condition_of(of, course->at(0));
     const Scalar change = data_change(tolerance.end, condition);
     // what the answer's brakes hold those of neighbours must hold, too
     spare += 8 * change;

@@ -9,6 +9,7 @@
 #include "gyrostat/ladder/companions.hpp"
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/trials.hpp"
+#include "gyrostat/models/general/prepared.hpp"
 #include "gyrostat/models/general/problem.hpp"
 #include "gyrostat/models/general/right_side.hpp"
 #include "gyrostat/models/general/surroundings.hpp"
@@ -25,11 +26,29 @@ Scalar condition_of(const Wheels<Scalar>& wheels) noexcept {
   return wheels.whole.cwiseAbs().maxCoeff() * wheels.inverse.cwiseAbs().maxCoeff();
 }
 
-/// The same, and by how much the start magnifies errors.
+/// Whether a body all but rests where torques that change with its attitude all but balance (honesty::next_to_balance).
 template <Real Scalar>
-Condition<Scalar> condition_of(const Wheels<Scalar>& wheels, const State<Scalar>& start) noexcept {
-  return {condition_of(wheels),
-          start_sensitivity<Scalar>(start.angular_momentum, start.angular_velocity, wheels.inverse)};
+bool is_next_to_balance(const Prepared<Scalar>& of, const State<Scalar>& start) noexcept {
+  const auto turns_with_body = [](const Torque<Scalar>& torque) noexcept {
+    return torque.type == TorqueType::weight || torque.type == TorqueType::gravity_gradient ||
+           torque.type == TorqueType::magnetic || torque.axes != Axes::body;
+  };
+  const auto& torques = of.problem.torques;
+  if (std::none_of(torques.begin(), torques.end(), turns_with_body)) return false;
+  const Vec3<Scalar>&M = start.angular_momentum, &w = start.angular_velocity;
+  const Scalar share = Scalar(honesty::next_to_balance), torque = of.sizes.external, speed = w.norm();
+  if (!(of.sizes.least * speed * speed <= share * share * torque)) return false;
+  const Pose<Scalar> pose{start.attitude, w, M};
+  const Vec3<Scalar> rate = cross<Scalar>(M, w) + load_at(of.problem, pose, Scalar(0), Scalar(0)).torque;
+  return rate.norm() <= share * (M.norm() * speed + torque);
+}
+
+/// By how much the tensor and the start magnify errors.
+template <Real Scalar>
+Condition<Scalar> condition_of(const Prepared<Scalar>& of, const State<Scalar>& start) noexcept {
+  const Scalar steady = start_sensitivity<Scalar>(start.angular_momentum, start.angular_velocity, of.wheels.inverse);
+  return {condition_of(of.wheels),
+          is_next_to_balance(of, start) ? std::max(steady, Scalar(honesty::unstable_condition)) : steady};
 }
 
 /// By how much the numbers of a companion's data differ, one after the other.
@@ -92,6 +111,12 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, Aside aside) no
     near.inertia += amount * of.inertia.cwiseAbs().maxCoeff() * change;
   }
   move(near.rotor_momentum), move(near.angular_velocity);
+  // the equations keep M, which rounds beside what rotors hold: of a slow body that is most of its rate
+  if (const Scalar held = momenta_of_wheels(of); held > 0 && !of.angular_velocity.isZero(0)) {
+    const Vec3<Scalar> lost = Wheels<Scalar>::of(of).inverse * Vec3<Scalar>(amount / 2 * held * shift.vector());
+    for (int i = 0; i < 3; ++i)
+      if (of.angular_velocity[i] != 0 || !kept) near.angular_velocity[i] += lost[i];
+  }
   for (auto& wheel : near.wheels) {
     if (!kept) {
       Vec3<Scalar> axis = wheel.axis + amount * cross<Scalar>(shift.vector(), wheel.axis);
