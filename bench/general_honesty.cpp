@@ -45,7 +45,9 @@ class Scenes {
     Made made;
     double span = 1;
     const int all = count_++, i = all - all / 5;
-    if (all % 5 == 4) {
+    if (all % 10 == 8) {
+      made = balanced(span);
+    } else if (all % 5 == 4) {
       const auto any = stiff_.stiff(turns, stiff_.scale(2e3, 4e4));
       made.problem = any.problem, made.kind = any.kind, span = any.span;
     } else if (i % 2 == 0) {
@@ -65,6 +67,44 @@ class Scenes {
   }
 
  private:
+  /// Nearly at rest on high or hanging, a third of them as a dipole in a field, mostly with rotors that hold far more than the body turns with.
+  Made balanced(double& span) {
+    auto& random = special_.random();
+    const auto any = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const auto scale = [&](double low, double high) { return std::exp(any(std::log(low), std::log(high))); };
+    Made made;
+    made.kind = "balanced";
+    Problem<double>& p = made.problem;
+    const double a = any(0.1, 1), b = any(0.1, 1), c = any(0.1, 1), swing = scale(0.1, 10);
+    p.inertia = Vec3<double>(b + c, a + c, a + b).asDiagonal();
+    const double size = swing * swing * p.inertia.diagonal().minCoeff(), off = any(0, 1) < 0.5 ? 0 : scale(1e-16, 1e-3);
+    const Vec3<double> along =
+        (Vec3<double>(0, 0, any(0, 1) < 0.8 ? -1 : 1) + off * Vec3<double>(any(-1, 1), any(-1, 1), 0));
+    p.torques.resize(1);
+    if (any(0, 1) < 0.3) {
+      p.torques[0].type = TorqueType::magnetic, p.torques[0].vector = {0, 0, size};
+      p.field.magnetic = MagneticField::uniform, p.field.flux_density = along;
+    } else {
+      p.torques[0].type = TorqueType::weight, p.fixed = true;
+      p.mass = 1, p.centre_of_mass = {0, 0, 0.1}, p.field.gravity = 10 * size, p.field.down = along.normalized();
+    }
+    p.angular_velocity =
+        swing * scale(1e-16, 1) * Vec3<double>(any(-1, 1), any(-1, 1), any(0, 1) < 0.5 ? 0 : any(-1, 1));
+    const double momentum = size / swing * scale(1e-3, 1e2);
+    const Vec3<double> axis = any(0, 1) < 0.5 ? Vec3<double>(0, 1, 0) : Vec3<double>(0, 0.6, 0.8);
+    const double kind = any(0, 1);
+    if (kind < 0.2) {
+      p.rotor_momentum = momentum * axis;
+    } else if (kind < 0.8) {
+      p.wheels.resize(1);
+      auto& wheel = p.wheels[0];
+      wheel.type = kind < 0.5 ? WheelType::held : WheelType::free;
+      wheel.axis = axis, wheel.axial_inertia = scale(1e-4, 0.05), wheel.rate = momentum / wheel.axial_inertia;
+    }
+    span = scale(3, 30) / swing;
+    return made;
+  }
+
   unsigned seed_;
   int count_ = 0;
   general_scenes::Scenes general_;
