@@ -238,7 +238,7 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
   c_above_ = o.d - o.rho * o.above;
   c_below_ = o.d + o.rho * o.below;
   size_ = o.square + o.rho * o.rho + 2 * std::abs(o.pull) + 4 * std::abs(o.gradient);
-  gradient_ = top.gradient / (o.unit * o.unit);
+  gradient_ = std::abs(top.gradient) / (o.unit * o.unit);
   parts_ = 4 * gradient_ * (top.along + top.across) / top.across;
   swing_ = std::sqrt(std::abs(o.pull) + std::abs(o.gradient));
 

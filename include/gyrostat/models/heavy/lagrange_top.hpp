@@ -79,9 +79,8 @@ class LagrangeTop {
   /// A pendulum: the axis stays in one vertical plane. It passes the vertical once in a nutation where it swings, twice where it goes
   /// round.
   bool planar() const noexcept { return planar_; }
-  Scalar defect() const noexcept {
-    return defect_;
-  }  ///< of the body's symmetry, by rounding, which the motion leaves out; relative
+  /// Of the body's symmetry, by rounding, which the motion leaves out; relative.
+  Scalar defect() const noexcept { return defect_; }
   /// The same to the last digit: off the plane by a rounding the axis passes the vertical on one side, by half a turn.
   bool in_plane() const noexcept { return in_plane_; }
   /// Turn of the axis about the vertical in one nutation, right-handed about DOWN, rad; of a pendulum, whose plane stands still, 0. Where

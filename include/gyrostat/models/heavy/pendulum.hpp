@@ -83,9 +83,8 @@ class Pendulum {
 
   PendulumMotion motion() const noexcept { return motion_; }
   int axis() const noexcept { return axis_; }  ///< k
-  Scalar defect() const noexcept {
-    return defect_;
-  }  ///< how far off the plane the data are, by rounding, which the motion leaves out; relative
+  /// How far off the plane the data are, by rounding, which the motion leaves out; relative.
+  Scalar defect() const noexcept { return defect_; }
   /// Body and start lie in the plane to the last digit, by zeros of the data, which no rounding moves: those of the attitude make what is across
   /// the plane vanish term by term, not by what cancels.
   bool in_plane() const noexcept {
