@@ -51,7 +51,7 @@ bool is_beside_separatrix(const Problem<Scalar>& problem, const Vec3<Scalar>& an
     };
     const Scalar energy = I[k] * w[k] * w[k] / 2 + potential(d[i], d[j]);
     // its maxima from values all round, by a parabola each
-    constexpr int count = 48;
+    constexpr int count = 64;
     Scalar V[count];
     for (int n = 0; n < count; ++n) {
       const Scalar angle = 2 * pi<Scalar> * Scalar(n) / count;
