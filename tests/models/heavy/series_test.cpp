@@ -294,3 +294,13 @@ TEMPLATE_TEST_CASE("series: float and long double", "[heavy]", float, long doubl
   CHECK(error.angular_velocity < 20 * tiny);
   CHECK(error.attitude < tiny);
 }
+
+TEST_CASE("series: none where the torque outweighs how far a body is from a lamina", "[heavy]") {
+  // terms fell to 1e-14, and rates erred by 1e-9
+  const auto near = Problem<double>::make({0.4908928128695973, 0.5091255754993145, 1}, 1.1315653232578624,
+                                          {0.14743271577630784, 0.09377510403629412, 0}, 9.80665, 0);
+  REQUIRE(near);
+  CHECK(Series<double>::to_tolerance(*near, -115.43, -0.0344, 1e-6, 45).error() == Errc::no_convergence);
+  CHECK(Series<double>::make(*near, -115.43, -0.0344, 8).error() == Errc::no_convergence);
+  CHECK(Series<double>::to_tolerance(*near, -1154.3, -0.0344, 1e-6, 45));
+}

@@ -69,8 +69,8 @@ struct ForcedError {
             .rates = left.rates + rounding,
             .down = left.down + rounding,
             .swing = left.swing + rounding,
-            .phase = left.phase + 2 * terms.imbalance() / s.M3,
-            .drift = left.drift + 2 * terms.imbalance() / (s.M3 * s.M3)};
+            .phase = left.phase + 2 * terms.imbalance() / s.M3 + 8 * epsilon<Scalar> * amplified,
+            .drift = left.drift + 2 * terms.imbalance() / (s.M3 * s.M3) + 8 * epsilon<Scalar> * amplified};
   }
 };
 
@@ -91,6 +91,7 @@ class Series {
     if (order < 2 || order > highest_order || order % 2 != 0) return Errc::out_of_domain;
     const auto scaled = Scaled<Scalar>::make(problem, spin, cos_inclination);
     if (!scaled) return scaled.error();
+    if (outweighs_flatness(*scaled)) return Errc::no_convergence;
     Lindstedt<Scalar> terms(*scaled);
     const int needed = std::min(order / 2 + 2, Lindstedt<Scalar>::most);
     while (terms.order() < needed && !terms.spent() && terms.advance()) {
@@ -106,6 +107,7 @@ class Series {
                                      Scalar tolerance, Scalar span) noexcept {
     const auto scaled = Scaled<Scalar>::make(problem, spin, cos_inclination);
     if (!scaled) return scaled.error();
+    if (outweighs_flatness(*scaled)) return Errc::no_convergence;
     Lindstedt<Scalar> terms(*scaled);
     const auto error = [&](int kept) noexcept { return ForcedError<Scalar>::of(terms, kept).at(span); };
     // the last term is a check alone: an error is never estimated from terms that are kept
@@ -188,6 +190,12 @@ class Series {
 
  private:
   static constexpr int width = 8;
+
+  /// The body is so nearly a lamina, whose free nutation keeps pace with the spin, that the torque decides whether it does: terms fall at first, and
+  /// grow behind the last that is known.
+  static bool outweighs_flatness(const Scaled<Scalar>& s) noexcept {
+    return s.flatness != 0 && s.torque() > std::abs(s.flatness);
+  }
 
   Series(const Lindstedt<Scalar>& terms, int kept) noexcept
       : scaled_(terms.scaled()), order_(2 * kept), error_(ForcedError<Scalar>::of(terms, kept)) {
