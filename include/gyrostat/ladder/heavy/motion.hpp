@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -133,6 +134,15 @@ struct Row {
     const auto& [w, d, q] = state;
     for (const S value : {w[0], w[1], w[2], d[0], d[1], d[2], q.x, q.y, q.z, q.w}) *row++ = value;
   }
+
+  /// Two runs have nothing in common any more: where they meet again it is by chance.
+  template <class Numbers>
+  bool has_parted(const Numbers& a, const Numbers& b) const noexcept {
+    S square = 0;
+    for (std::size_t i = 3; i < 6; ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
+    return square > S(0.25L);
+  }
+  static bool lasts(std::size_t) noexcept { return true; }
 };
 
 }  // namespace gyrostat::heavy
