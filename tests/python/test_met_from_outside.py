@@ -696,3 +696,17 @@ def test_a_rotor_that_rounding_takes_from_a_steady_rotation_is_not_met() -> None
     assert not rows.met.any() and np.isinf(rows.lyapunov_error).all()
     # asked in time it is known
     assert gyrostat.solve(scene, times=[1.0]).met
+
+
+@pytest.mark.parametrize("time", [1857.4893578332185, 1850.0, 1700.0])
+def test_runs_of_an_unstable_spin_that_meet_again_are_not_met(time: float) -> None:
+    # 30 000 rad in turned axes: at these times the runs were near by chance, `down` stated to 0.0034 and off by 0.6
+    scene = {"name": "unstable spin", "kind": "heavy", "body": {
+                 "inertia": [[0.9999999999998568, 2.3972036427265745e-07, 0.0], [2.3972036427265745e-07, 0.5989854613236656, 0.0], [0.0, 0.0, 1.0]],
+                 "mass": 1.6335621653732963, "centre_of_mass": [0.0, 0.0, 0.0028572627690836216]},
+             "field": {"gravity": 63.303101375349726}, "initial": {
+                 "angular_velocity": [-0.0053539833768206915, -3.2005294608692775e-09, 15.960916023295509],
+                 "attitude": [0.004743770971871943, 0.5074722788202422, -0.008054778698768448, 0.8616173764531857]},
+             "solve": {"times": [time], "tolerance": 1e-2, "model": "full"}}
+    answer = gyrostat.solve(scene)
+    assert not answer.met and answer.error["down"] > 0.5
