@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How honest the answers to general scenes are: random scenes, a fifth of them with wheels that settle thousands of times, half of the others exactly
+// How honest the answers to general scenes are: random scenes, a tenth of them with wheels that settle thousands of times, a tenth all but at rest in a balance, half of the others exactly
 // instances of a family, or between the times at which something changes, solved at four tolerances, against the
 // equations as they are written, in long double by a Runge-Kutta method. Prints the fraction of answers whose true error is within the
 // stated one in every column, the median of stated over true, and the worst cases.
