@@ -67,7 +67,8 @@ class Scenes {
   }
 
  private:
-  /// Nearly at rest on high or hanging, a third of them as a dipole in a field, mostly with rotors that hold far more than the body turns with.
+  /// At rest or nearly so, on high or hanging, half of them in turned axes, a third as a dipole in a field, mostly with rotors that hold far more than the
+  /// body turns with.
   Made balanced(double& span) {
     auto& random = special_.random();
     const auto any = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
@@ -100,6 +101,12 @@ class Scenes {
       auto& wheel = p.wheels[0];
       wheel.type = kind < 0.5 ? WheelType::held : WheelType::free;
       wheel.axis = axis, wheel.axial_inertia = scale(1e-4, 0.05), wheel.rate = momentum / wheel.axial_inertia;
+    }
+    if (any(0, 1) < 0.5) {
+      const auto turn = [&] { return any(-1, 1); };
+      p.attitude = as_unit(Quat<double>{turn(), turn(), turn(), turn()});
+      for (auto* fixed : {&p.field.down, &p.field.flux_density}) *fixed = rotate<double>(p.attitude, *fixed);
+      if (any(0, 1) < 0.5) p.angular_velocity.setZero();
     }
     span = scale(3, 30) / swing;
     return made;

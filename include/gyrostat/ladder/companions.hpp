@@ -25,10 +25,14 @@ concept GoesOnAlike = Course::goes_on_alike;
 template <class Course>
 concept Kicked = requires(Course course) { course.kick(course.time()); };
 
-/// A writer that tells whether the motions of two rows have diverged for good, and in which columns that lasts: `has_parted(a, b)`, `lasts(column)`.
+/// A writer that tells whether the motions of two rows have diverged for good: `has_parted(a, b)`. That lasts in all columns, or in those that it names:
+/// `lasts(column)`.
 template <class Writer, class Row>
 concept TellsParted = requires(const Writer writer, const Row& row) {
   { writer.has_parted(row, row) } -> std::same_as<bool>;
+};
+template <class Writer>
+concept NamesLasting = requires(const Writer writer) {
   { writer.lasts(std::size_t()) } -> std::same_as<bool>;
 };
 
@@ -164,11 +168,12 @@ class Parting {
     if constexpr (TellsParted<Writer, Row>) parted_ = parted_ || writer_.has_parted(a, b);
   }
   void fade(Kept& kept, typename Writer::Scalar share) const noexcept {
-    const Kept before = kept;
-    kept *= share;
-    if constexpr (TellsParted<Writer, Row>)
-      for (std::size_t i = 0; parted_ && i < std::size(Writer::columns); ++i)
-        if (writer_.lasts(i)) kept[i] = before[i];
+    if (!parted_) {
+      kept *= share;
+    } else if constexpr (NamesLasting<Writer>) {
+      for (std::size_t i = 0; i < std::size(Writer::columns); ++i)
+        if (!writer_.lasts(i)) kept[i] *= share;
+    }
   }
 
  private:

@@ -49,6 +49,32 @@ TEST_CASE("a neighbour differs by the amount, in every number that is not zero, 
   }
 }
 
+TEST_CASE("a neighbour lies turned by what vectors round to in turning, and not where they do not", "[general]") {
+  const double amount = 1e-9;
+  const auto turned = [&](const Quat<double>& of, Aside aside) {
+    Problem<double> p;
+    p.inertia = Vec3<double>(3, 2, 4).asDiagonal();
+    p.attitude = of;
+    const Quat<double> by = conjugate(of) * beside(p, amount, aside).attitude;
+    return Vec3<double>(2 * by.x, 2 * by.y, 2 * by.z);
+  };
+  // axes that are exchanged, or none
+  for (const Quat<double>& exact : {Quat<double>{1, 0, 0, 0}, Quat<double>{0, 1, 0, 0}, Quat<double>{0, 0, 0, -1}})
+    CHECK(turned(exact, Aside::first).isZero(0));
+  // about one axis
+  const auto plane = turned({0.8, 0, 0.6, 0}, Aside::first);
+  CHECK(plane[0] == 0);
+  CHECK(plane[1] != 0);
+  CHECK(plane[2] == 0);
+  // by as little as a small turn loses
+  CHECK(turned({1, 1e-7, 0, 0}, Aside::first).norm() < 1e-5 * amount);
+  const Quat<double> any{0.5, -0.1, 0.7, 0.5};
+  const auto one = turned(as_unit(any), Aside::first), other = turned(as_unit(any), Aside::opposite);
+  CHECK(one.cwiseAbs().minCoeff() > amount);
+  CHECK(one.norm() < 8 * amount);
+  CHECK((one + other).norm() < 1e-6 * one.norm());
+}
+
 TEST_CASE("what a symmetry keeps at zero stays there in a neighbour, and a body at rest rests", "[general]") {
   Problem<double> p;
   p.inertia = Vec3<double>(3, 2, 4).asDiagonal();

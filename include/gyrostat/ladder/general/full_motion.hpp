@@ -131,6 +131,13 @@ struct FullRow {
     *row = state.work;
   }
 
+  /// Attitudes more than half a radian apart.
+  template <class Numbers>
+  bool has_parted(const Numbers& a, const Numbers& b) const noexcept {
+    const S half_cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+    return std::abs(half_cosine) < std::cos(S(0.25L));
+  }
+
  private:
   static constexpr S share = S(1e-3L);
 };

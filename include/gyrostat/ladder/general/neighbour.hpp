@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 
@@ -87,6 +88,20 @@ bool keeps_axis(const Problem<Scalar>& of) noexcept {
   return false;
 }
 
+/// An attitude that is turned by what vectors round to that it turns, some times `amount`, about `axis`: where its products are small or zeros, they
+/// lose less or nothing.
+template <Real Scalar>
+Quat<Scalar> attitude_beside(const Quat<Scalar>& of, Scalar amount, const Vec3<Scalar>& axis) noexcept {
+  const Quat<Scalar> q = as_unit(of);
+  const Vec3<Scalar> v{q.x, q.y, q.z};
+  Vec3<Scalar> half;
+  for (int i = 0; i < 3; ++i) {
+    const Scalar products = std::abs(q.w * v[i]) + std::abs(v[(i + 1) % 3] * v[(i + 2) % 3]);
+    half[i] = 2 * amount * axis[i] * std::min(Scalar(1), 8 * products);
+  }
+  return half.isZero(0) ? of : q * Quat<Scalar>{1, half[0], half[1], half[2]};
+}
+
 /// A problem that differs from the given one by about `amount`: by what rounding makes of data and arithmetic. What is exactly zero of a
 /// wheel or torque stays so, and so do a body at rest and zeros that a symmetry keeps.
 template <Real Scalar>
@@ -140,6 +155,7 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, Aside aside) no
     scale(near.orbit->radius), scale(near.orbit->mu), scale(near.orbit->true_anomaly);
     if (Scalar e = of.orbit->eccentricity; scale(e), e < 1) near.orbit->eccentricity = e;
   }
+  near.attitude = attitude_beside(of.attitude, amount, shift.vector());
   if (of.clock != 0) {
     // what went on before by rates that are known to rounding
     const auto late = [&]() noexcept { return amount / 2 * shift() * of.clock; };

@@ -141,7 +141,6 @@ struct Row {
     for (std::size_t i = 3; i < 6; ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
     return square > S(0.25L);
   }
-  static bool lasts(std::size_t) noexcept { return true; }
 };
 
 }  // namespace gyrostat::heavy
