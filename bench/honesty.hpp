@@ -31,6 +31,7 @@ struct Case {
 struct Tally {
   int answered = 0, honest = 0, met = 0, over = 0, refused = 0, outside = 0, unknown = 0;
   int climbed = 0, waste = 0;  ///< answers of the ladder, and those that a cheaper rung would have done for
+  int by_luck = 0;             ///< and those that one would have done for outside its domain
   /// By that rung, the one that answered, and the column in which its stated error was widest.
   std::map<std::string, int> wasted;
   std::map<std::string, int> outcomes;
@@ -120,6 +121,7 @@ struct Tally {
       if (!found || !(column_error(*found, *right) + right->error <= answer.tolerance)) return false;
       if (!(found->error <= most)) most = found->error, which = column.name();
     }
+    if (passed.tried.back().why != nullptr) return ++by_luck, true;
     ++waste;
     ++wasted[std::string(passed.model) + " for " + answer.model + ", " + which];
     return true;
@@ -131,8 +133,10 @@ struct Tally {
     for (const auto& [name, n] : outcomes) std::printf("  %6d %s\n", n, name.c_str());
     std::printf("  true <= stated in %.4f %%; met in %d, of which over the tolerance %d\n",
                 100.0 * honest / std::max(1, answered), met, over);
-    std::printf("  %d of %d answers of the ladder (%.1f %%) could have been a cheaper rung's\n", waste, climbed,
-                100.0 * waste / std::max(1, climbed));
+    std::printf(
+        "  %d of %d answers of the ladder (%.1f %%) could have been a cheaper rung's in its domain, %d of one "
+        "outside\n",
+        waste, climbed, 100.0 * waste / std::max(1, climbed), by_luck);
     for (const auto& [name, n] : wasted) std::printf("  %6d wasted: %s\n", n, name.c_str());
     std::vector<double> all;
     for (auto& [name, values] : ratios) {

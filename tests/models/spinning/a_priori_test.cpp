@@ -129,6 +129,77 @@ TEST_CASE("the estimates have the orders of the errors", "[spinning]") {
   }
 }
 
+TEST_CASE("integrals of modes stay below their bounds, and reach them where one mode stands still", "[spinning]") {
+  using Complex = math::Complex<double>;
+  std::mt19937_64 random(7);
+  const auto u = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  const auto rate = [&] { return u(0, 1) < 0.2 ? 0 : std::pow(10, u(-3, 1)) * (u(0, 1) < 0.5 ? -1 : 1); };
+  std::vector<double> once, twice;
+  for (int trial = 0; trial < 300; ++trial) {
+    const double T = u(1, 40);
+    struct Term {
+      Complex c;
+      double w, u;
+      int kind;  // a mode, its integral turning with u, growth turning with u
+    };
+    std::vector<Term> terms;
+    spinning::detail::ModeIntegral<double> bound(T);
+    for (int i = 0; i < 1 + trial % 4; ++i) {
+      const Term& term = terms.emplace_back(Term{{u(-1, 1), u(-1, 1)}, rate(), rate(), trial % 3 * i % 3});
+      if (term.kind == 0) bound.add(term.c, term.w);
+      if (term.kind == 1) bound.add_integral(term.c, term.w, term.u);
+      if (term.kind == 2) bound.add_growing(magnitude(term.c), term.u);
+    }
+    const int steps = 20'000;
+    const double h = T / steps;
+    Complex one{}, two{};
+    double most = 0, most_twice = 0;
+    for (int k = 0; k < steps; ++k) {
+      const double t = (k + 0.5) * h;
+      Complex sum{};
+      for (const Term& term : terms) {
+        const Complex grown =
+            term.w == 0 ? Complex{t, 0} : -math::turned(math::unit(term.w * t) - Complex{1, 0}) / term.w;
+        sum = sum + term.c * (term.kind == 0   ? math::unit(term.w * t)
+                              : term.kind == 1 ? grown * math::unit(term.u * t)
+                                               : t * math::unit(term.u * t));
+      }
+      one = one + h * sum;
+      two = two + h * one;
+      most = std::max(most, magnitude(one)), most_twice = std::max(most_twice, magnitude(two));
+    }
+    const auto greatest = bound.greatest();
+    CAPTURE(trial, T);
+    CHECK(most <= 1.001 * greatest.once);
+    CHECK(most_twice <= 1.001 * greatest.twice);
+    once.push_back(greatest.once / most), twice.push_back(greatest.twice / most_twice);
+  }
+  std::sort(once.begin(), once.end()), std::sort(twice.begin(), twice.end());
+  CHECK(once[150] < 2.5);
+  CHECK(twice[150] < 3.5);
+}
+
+TEST_CASE("a close look sees at most what a rough one does", "[spinning]") {
+  std::mt19937_64 random(11);
+  std::vector<double> gain;
+  for (int trial = 0; trial < 60; ++trial) {
+    const auto p = body(random, trial, 1e-3);
+    const double T = 500 / std::abs(p.spin());
+    const auto rough = linear_errors(p, T, Look::rough), close = linear_errors(p, T);
+    if (!(rough.momentum < 1e300)) continue;  // grown beyond all sense
+    CHECK(close.attitude == rough.attitude);
+    CHECK(close.rates == rough.rates);
+    CHECK(close.velocity <= rough.velocity);
+    CHECK(close.axial_velocity <= rough.axial_velocity);
+    CHECK(close.position <= rough.position);
+    CHECK(close.momentum <= rough.momentum);
+    if (close.velocity > 0) gain.push_back(rough.velocity / close.velocity);
+  }
+  std::sort(gain.begin(), gain.end());
+  CHECK(gain.size() > 30);
+  CHECK(gain[gain.size() / 2] > 2);
+}
+
 TEST_CASE("the rates of a symmetric body are exact", "[spinning]") {
   Problem<double> p;
   p.inertia = {2, 2, 3};

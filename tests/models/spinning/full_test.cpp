@@ -46,21 +46,6 @@ TEST_CASE("the rates change as torques say", "[spinning]") {
   }
 }
 
-TEST_CASE("the Jacobian is the derivative", "[spinning]") {
-  Spinners random(2);
-  for (int i = 0; i < 20; ++i) {
-    const auto p = cast<long double>(random.body());
-    const Vec3<long double>& w = p.angular_velocity;
-    const auto J = angular_acceleration_jacobian(p, w);
-    for (int j = 0; j < 3; ++j) {
-      const Vec3<long double> e = w.norm() * 1e-3L * Vec3<long double>::Unit(j);  // exact: quadratic
-      const Vec3<long double> column =
-          (angular_acceleration<long double>(p, w + e) - angular_acceleration<long double>(p, w - e)) / (2 * e.norm());
-      CHECK((J.col(j) - column).norm() < 1e-14L * J.norm());
-    }
-  }
-}
-
 TEMPLATE_TEST_CASE("the series solve the equations", "[spinning]", float, double, long double) {
   using S = TestType;
   constexpr int order = 20;

@@ -159,15 +159,22 @@ GYROSTAT_COMPILED_ONCE Track linear_track(const Scene& scene, Monitor* monitor) 
   const Problem<double>& problem = scene.problem();
   if (problem.torque[2] != 0) return detail::axial_track(scene, monitor);
   const auto& times = scene.question().times;
-  auto error = linear_errors(problem, times.back());
-  if (detail::worth_a_closer_look(scene, rung::linear, error) && times.back() > 0)
-    error.attitude = linear_attitude_error<double>(error, second_order_errors(problem, times.back()),
-                                                   TiltOrders<double>(problem, times.back()), times);
+  const double end = times.back();
+  auto error = linear_errors(problem, end, Look::rough);
+  if (detail::worth_a_closer_look(scene, rung::linear, error) && end > 0)
+    error.attitude = linear_attitude_error<double>(error, second_order_errors(problem, end, Look::rough),
+                                                   TiltOrders<double>(problem, end), times);
   if (detail::gives_up(scene, rung::linear, error)) return detail::given_up(error);
   Track track;
   track.states.resize(times.size());
   detail::linear_states(problem, times, track.states);
-  return detail::judged(std::move(track), scene, error, detail::linear_conversion_errors(scene));
+  const auto of_data = detail::linear_conversion_errors(scene);
+  track = detail::judged(std::move(track), scene, error, of_data);
+  const bool suffices = scene.question().rung != rung::linear && scene.goal().excess(track.error) <= 1;
+  if (suffices || track.refusal != nullptr || !track.in_domain || !(end > 0)) return track;
+  auto close = linear_errors(problem, end, Look::close);
+  close.attitude = error.attitude;
+  return detail::judged(std::move(track), scene, close, of_data);
 }
 
 }  // namespace gyrostat::spinning

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/math/complex.hpp"
@@ -14,6 +15,24 @@ namespace gyrostat::spinning {
 
 /// Tilt, rad, up to which errors are estimated by orders of it; beyond it by magnitudes alone, as if nothing oscillated or cancelled.
 inline constexpr double small_tilt = 0.3;
+
+/// Greatest values over [0, T] of what is integrated over time from 0, and of the integral of that.
+template <Real Scalar>
+struct OverTime {
+  Scalar once, twice;
+
+  /// As if what is integrated did not change its sign.
+  static OverTime roughly(Scalar once, Scalar T) noexcept { return {once, once * T / 2}; }
+  friend OverTime operator+(const OverTime& a, const OverTime& b) noexcept {
+    return {a.once + b.once, a.twice + b.twice};
+  }
+  friend OverTime operator*(Scalar a, const OverTime& b) noexcept { return {a * b.once, a * b.twice}; }
+  /// The lesser, passing over what is not a number.
+  void lower(const OverTime& other) noexcept {
+    if (other.once < once) once = other.once;
+    if (other.twice < twice) twice = other.twice;
+  }
+};
 
 /// Estimated greatest errors of the linear motion over [0, T] against the full equations, in units of the quantities; of a pair,
 /// of its norm.
@@ -33,9 +52,9 @@ struct LinearErrors {
   Scalar axial_velocity;    ///< v3
   Scalar position;          ///< (x1, x2)
   Scalar axial_position;    ///< x3
-  Scalar in_space = 0;      ///< greatest integral of the tilt's error as space sees it, rad s
-  Scalar in_body = 0;       ///< and as the body sees it
-  Amplitudes<Scalar> size;  ///< g and P, of which the estimates are made
+  OverTime<Scalar> in_space{0, 0};  ///< of the tilt's error as space sees it, rad s
+  OverTime<Scalar> in_body{0, 0};   ///< and as the body sees it
+  Amplitudes<Scalar> size;          ///< g and P, of which the estimates are made
 };
 
 namespace detail {
@@ -218,70 +237,189 @@ Scalar forced_nutation(const TiltModes<Scalar>& modes, const SpinChange<Scalar>&
   return per_rate * rho.at_nu * modes.rate[0] * T / 2 * std::min(T, 1 / slowest);
 }
 
-/// Greatest integrals over [0, T] of what the linear motion leaves out of the tilt to third order, rad s: of the direction of axis 3 in space, where
-/// the part of the tilt that stands still does so to all orders, and of that of space in the body, where this part lags by what is added to the
-/// spin angle. From the modes; infinite without them. `shift`: of the frequency of nutation, rad/s; `g`: greatest tilt, with its error, where it is `linear.tilt` without.
+template <Real Scalar>
+inline constexpr OverTime<Scalar> never{infinity<Scalar>, infinity<Scalar>};
+
+/// A sum of products of modes, c e^(i w t), integrated over [0, t], and twice, at most for t up to T: what stands still within T and what the integral
+/// begins with add up with their phases, what swings by its size.
+template <Real Scalar>
+class ModeIntegral {
+ public:
+  using Complex = math::Complex<Scalar>;
+  explicit ModeIntegral(Scalar T) noexcept : T_(T) {}
+
+  /// c e^(i w t).
+  void add(Complex c, Scalar w) noexcept {
+    const Scalar size = magnitude_at_most(c), turn = std::abs(w) * T_;
+    if (turn < 1) {
+      still_ = still_ + c;
+      add_swing(size * turn * T_ / 2, size * turn * T_ * T_ / 6);
+    } else {
+      drift_ = drift_ + math::turned(c / w);
+      add_swing(size / std::abs(w), 2 * size / (w * w));
+    }
+  }
+  /// The integral of c e^(i w t), turning with u.
+  void add_integral(Complex c, Scalar w, Scalar u) noexcept {
+    if (std::abs(w) * T_ < 1) return add_growing(magnitude_at_most(c), u);
+    const Complex swing = -math::turned(c / w);
+    add(swing, w + u);
+    add(-swing, u);
+  }
+  /// c t, turning with u.
+  void add_growing(Scalar c, Scalar u) noexcept {
+    const Scalar w = std::abs(u);
+    add_swing(c * std::min(T_ * T_ / 2, 2 * T_ / w), c * T_ * std::min(T_ * T_ / 6, 4 / (w * w)));
+  }
+
+  OverTime<Scalar> greatest() const noexcept {
+    const Scalar still = magnitude(still_), drift = magnitude(drift_);
+    return {still * T_ + drift + swings_.once, (still * T_ / 2 + drift) * T_ + swings_.twice};
+  }
+
+ private:
+  void add_swing(Scalar once, Scalar twice) noexcept {
+    swings_.once += once;
+    swings_.twice += twice;
+  }
+
+  Scalar T_;
+  Complex still_{}, drift_{};
+  OverTime<Scalar> swings_{0, 0};
+};
+
+/// The tilt as space sees it in its four modes, sum tilt_a e^(i turning_a t), the first of which stands still, and how it grows.
+template <Real Scalar>
+struct FourModes {
+  math::Complex<Scalar> tilt[4], growth[4];  ///< rad, rad/s: growth_a = i turning_a tilt_a
+  Scalar turning[4];                         ///< rad/s
+  Scalar phase_rate = 0;                     ///< what nutation adds to the spin angle in the mean, rad/s
+
+  explicit FourModes(const TiltModes<Scalar>& modes) noexcept
+      : tilt{modes.still, modes.tilts[0], modes.tilts[1], modes.tilts[2]},
+        growth{{}, modes.rates[0], modes.rates[1], modes.rates[2]},
+        turning{0, modes.turning[0], modes.turning[1], modes.turning[2]} {
+    for (int k = 1; k < 4; ++k) phase_rate += (growth[k] * conjugate(tilt[k])).im / 2;
+  }
+
+  /// visit(c, w) for what swings of the phase of nutation, as integrals of Im(c e^(i w t)).
+  template <class Visit>
+  void swings_of_phase(Visit&& visit) const noexcept {
+    for (int k = 1; k < 4; ++k)
+      for (int j = 0; j < 4; ++j)
+        if (j != k) visit(growth[k] * conjugate(tilt[j]) / Scalar(2), turning[k] - turning[j]);
+  }
+};
+
+/// Greatest integrals over [0, T] of what the linear motion leaves out to second order, s, but for the change of the spin rate: of the direction
+/// e^(i theta) in which a transverse force acts, and of the cosine of the tilt. From the modes; infinite without them.
+template <Real Scalar>
+struct ThrustLeftOut {
+  OverTime<Scalar> turned = never<Scalar>, cosine = never<Scalar>;
+
+  ThrustLeftOut(const LinearStart<Scalar>& start, const TiltModes<Scalar>& modes, Scalar spin, Scalar T) noexcept {
+    if (!modes.stable) return;
+    const FourModes<Scalar> m(modes);
+    ModeIntegral<Scalar> direct(T), mirrored(T), lost(T);
+    // e^(i theta) (1 - |A|^2/4) and e^(-i theta) A^2/4, theta with the phase of nutation
+    for (int a = 0; a < 4; ++a)
+      for (int b = 0; b < 4; ++b) {
+        const auto product = m.tilt[a] * conjugate(m.tilt[b]) / Scalar(4);
+        direct.add(-product, m.turning[a] - m.turning[b] + spin);
+        lost.add(Scalar(2) * product, m.turning[a] - m.turning[b]);
+        mirrored.add(m.tilt[a] * m.tilt[b] / Scalar(4), m.turning[a] + m.turning[b] - spin);
+      }
+    direct.add({0, start.Gamma.re * start.Gamma.im / 2}, spin);
+    direct.add_growing(std::abs(m.phase_rate), spin);
+    m.swings_of_phase([&](auto c, Scalar w) noexcept {
+      direct.add_integral(c / Scalar(2), w, spin);
+      direct.add_integral(-conjugate(c) / Scalar(2), -w, spin);
+    });
+    turned = direct.greatest() + mirrored.greatest();
+    cosine = lost.greatest();
+  }
+};
+
+/// Greatest integrals over [0, T] of what the linear motion leaves out of the tilt to third order, rad s: of the direction of axis 3 in space, and of
+/// that of space in the body. From the modes; infinite without them. `shift`: of the frequency of nutation, rad/s; `g`: greatest tilt, with its error, where it is `linear.tilt`
+/// without.
 template <Real Scalar>
 struct TiltLeftOut {
-  Scalar space = infinity<Scalar>, body = infinity<Scalar>;
+  OverTime<Scalar> space = never<Scalar>, body = never<Scalar>;
 
   TiltLeftOut(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, const TiltModes<Scalar>& modes,
-              const SpinChange<Scalar>& rho, const Amplitudes<Scalar>& linear, Scalar net, Scalar shift, Scalar g,
+              const SpinChange<Scalar>& rho, const Amplitudes<Scalar>& linear, Scalar shift, Scalar g,
               Scalar T) noexcept {
     if (!modes.stable) return;
+    using math::turned;
+    using Complex = math::Complex<Scalar>;
     const auto single = [T](Scalar w) noexcept { return std::min(T, 2 / std::abs(w)); };
     const Scalar r0 = problem.spin(), nu = std::sqrt(problem.nutation_squared()), once = single(r0);
-    const Scalar wider = g / linear.tilt, swing = third_order_swing(problem, T);
-    Scalar size[] = {magnitude(modes.still), modes.tilt[0], modes.tilt[1], modes.tilt[2]};
-    Scalar rate[] = {modes.rate[0], modes.rate[1], modes.rate[2]};
-    for (Scalar& x : size) x *= wider;
-    for (Scalar& x : rate) x *= wider;
-    const Scalar turning[] = {0, modes.turning[0], modes.turning[1], modes.turning[2]};
+    const FourModes<Scalar> m(modes);
+    ModeIntegral<Scalar> in_space(T), in_body(T);
 
-    // half the integral of |Gamma|^2 Pi: each product of modes is (e^(i w t) - 1)/(i w)
-    Scalar in_space = 0, in_body = 0;
+    // half the integral of |A|^2 A', but for what turns the part that stands still
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j)
         for (int k = 1; k < 4; ++k) {
           if (i == 0 && j == k) continue;
-          const Scalar w = turning[i] - turning[j] + turning[k], product = size[i] * size[j] * rate[k - 1] / 2;
-          in_space += product * std::min(T * T / 2, (T + single(w)) / std::abs(w));
-          in_body += product * std::min(T * T / 2, (single(w - r0) + once) / std::abs(w));
+          const Scalar w = m.turning[i] - m.turning[j] + m.turning[k];
+          const Complex product = m.tilt[i] * conjugate(m.tilt[j]) * m.growth[k] / Scalar(-2);
+          in_space.add_integral(product, w, 0);
+          in_body.add_integral(product, w, -r0);
         }
-    // the angles at the start less the direction, and in the body arcs less sines, of which what the lean shares does not swing
+    // that in the body; in space the phase of nutation turns all, and that part stands still
+    const Scalar phase_rate = std::abs(m.phase_rate);
+    in_body.add_growing(phase_rate * magnitude(m.tilt[0]), r0);
+    for (int a = 0; a < 4; ++a) {
+      if (a > 0) in_space.add_growing(phase_rate * magnitude(m.tilt[a]), m.turning[a]);
+      m.swings_of_phase([&](Complex c, Scalar w) noexcept {
+        in_space.add_integral(c * m.tilt[a] / Scalar(2), w, m.turning[a]);
+        in_space.add_integral(-conjugate(c) * m.tilt[a] / Scalar(2), -w, m.turning[a]);
+      });
+    }
+    // the angles at the start are no directions
     const Scalar psi = start.Gamma.re, phi = start.Gamma.im;
-    const Scalar bent = std::hypot(psi * psi * psi / 6, phi * (psi * psi / 2 + phi * phi / 6));
-    in_space = Scalar(1.25L) * (in_space + bent * T);
-    in_body = Scalar(1.25L) * (in_body + bent * once + g * g * (size[1] * T + g * swing) / 4);
+    const Complex bent{-psi * psi * psi / 6, -phi * (psi * psi / 2 + phi * phi / 6)};
+    in_space.add(bent, 0);
+    in_body.add(bent, -r0);
+    for (int a = 0; a < 4; ++a) in_space.add(turned(psi * phi / 2 * m.tilt[a]), m.turning[a]);
+    const Scalar wider = g / linear.tilt, cubed = wider * wider * wider;
+    space = Scalar(1.25L) * cubed * in_space.greatest();
+    body = Scalar(1.25L) * cubed * in_body.greatest();
+    if (!(rho.rate > 0)) return;
 
     // nutation late by the change of its frequency, and a lean that follows the change of the spin rate
-    const Scalar late = rho.rate > 0 ? std::min(shift * T, shift / rho.rate * rho.angle * wider * wider) : Scalar(0);
+    const Scalar swing = third_order_swing(problem, T);
+    const Scalar late = std::min(shift * T, shift / rho.rate * rho.angle * wider * wider);
     const Scalar soon = std::min(T, 1 / nu), answer = std::min(T, 2 / divisors(problem).least());
-    const Scalar unlike = shift * (rate[0] + rate[1] + rate[2]) * soon * answer;
-    in_space += late * (size[2] * single(turning[2]) + size[3] * single(turning[3])) + unlike * swing;
-    in_body += late * (size[2] + size[3]) * single(nu) + shift * rate[0] * soon * once * T +
-               unlike * std::max(single(nu), once);
-    const Scalar forced =
-        rho.rate > 0 ? wider * wider * wider * forced_nutation(modes, rho, shift / rho.rate, T) : Scalar(0);
-    in_space += forced * swing;
-    in_body += forced * single(nu);
-    // what is added to the spin angle turns all modes but the one that stands still; the change of the spin rate makes that one from others
-    const Scalar added = (net + rho.angle) * wider * wider;
+    const Scalar unlike = wider * shift * (modes.rate[0] + modes.rate[1] + modes.rate[2]) * soon * answer;
+    const Scalar forced = cubed * forced_nutation(modes, rho, shift / rho.rate, T);
+    Scalar more_space = wider * late * (modes.tilt[1] * single(m.turning[2]) + modes.tilt[2] * single(m.turning[3])) +
+                        (unlike + forced) * swing;
+    Scalar more_body =
+        wider * (late * (modes.tilt[1] + modes.tilt[2]) * single(nu) + shift * modes.rate[0] * soon * once * T) +
+        unlike * std::max(single(nu), once) + forced * single(nu);
+    // it turns all modes but the one that stands still, and makes that one from others
     for (int j = 1; j < 4; ++j) {
-      const Scalar made = size[j] * rho.rate * std::min(T, 1 / std::abs(turning[j]));
-      in_space += size[j] * added * single(turning[j]) + made * T / 2;
-      in_body += made * once;
+      const Scalar size = cubed * modes.tilt[j - 1], made = size * rho.rate * std::min(T, 1 / std::abs(m.turning[j]));
+      more_space += size * rho.angle * single(m.turning[j]) + made * T / 2;
+      more_body += made * once;
     }
-    space = in_space;
-    body = in_body + size[0] * added * once;
+    more_body += cubed * magnitude(m.tilt[0]) * rho.angle * once;
+    space = space + OverTime<Scalar>::roughly(more_space, T);
+    body = body + OverTime<Scalar>::roughly(more_body, T);
   }
 };
 
 }  // namespace detail
 
-/// Costs a few dozen operations; no bounds, but generous estimates (docs/spinning.md, section 5.1a). T > 0.
+/// How closely errors are estimated of what is integrated over time: momentum, velocity, position.
+enum class Look : std::uint8_t { rough, close };
+
+/// Costs a microsecond, a close look some two more; no bounds, but generous estimates (docs/spinning.md, section 5.1a). T > 0.
 template <Real Scalar>
-LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noexcept {
+LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T, Look look = Look::close) noexcept {
   const LinearStart<Scalar> start(problem);
   const Amplitudes<Scalar> size = amplitudes(problem, T);
   const detail::SpinChange<Scalar> rho(problem, start, size.rate, T);
@@ -331,23 +469,33 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T) noe
 
   // of the phase of the turning frame; and int e^(i theta) (this error), also by parts
   const Scalar phase = angle + net + g * g / 2;
-  const Scalar turned = std::min(T * phase, (phase + T * (rate + g * P / 2)) / r0) + g * g * T / 2;
+  using Integral = OverTime<Scalar>;
+  Integral turned = Integral::roughly(std::min(T * phase, (phase + T * (rate + g * P / 2)) / r0) + g * g * T / 2, T);
+  Integral cosine = Integral::roughly(g * g * T / 2, T);
+  error.in_space = error.in_body = Integral::roughly(swing * error.tilt + T * g * g * g / 2, T);
+  if (look == Look::close) {
+    const detail::ThrustLeftOut<Scalar> thrust(start, modes, problem.spin(), T);
+    const Scalar fourth = (phase + g * g) * (phase + g * g) * T / 2;
+    turned.lower(more * more * thrust.turned +
+                 Integral::roughly(std::min(T * angle, (angle + T * rate) / r0) + fourth, T));
+    cosine.lower(more * more * thrust.cosine + Integral::roughly(fourth, T));
+    const detail::TiltLeftOut<Scalar> tilt(problem, start, modes, rho, size, error.shift, g, T);
+    error.in_space.lower(tilt.space);
+    error.in_body.lower(tilt.body);
+  }
   const Scalar f = magnitude(start.acceleration), f3 = std::abs(start.axial_acceleration);
   const Scalar M = magnitude(start.torque), e = std::abs(start.charge_momentum);
   error.spin = Scalar(1.25L) * rate;
   error.theta = Scalar(1.25L) * (net + angle) + g * g / 2 + g * g * gross;
   error.attitude = std::hypot(error.theta, error.tilt);
-  const detail::TiltLeftOut<Scalar> tilt(problem, start, modes, rho, size, nutation.net, error.shift, g, T);
-  const Scalar roughly = swing * error.tilt + T * g * g * g / 2;
-  error.in_space = std::min(roughly, tilt.space);
-  error.in_body = std::min(roughly, tilt.body);
   error.momentum =
-      M * turned + e * (error.tilt + g * phase + g * g * g) + Scalar(1.25L) * detail::momentum_left_out(problem);
-  error.axial_momentum = M * error.in_body + e * g * error.tilt;
-  error.velocity = f * turned + f3 * error.in_space;
-  error.axial_velocity = f3 * g * g * T / 2 + f * error.in_body;
-  error.position = T * error.velocity / 2;
-  error.axial_position = T * error.axial_velocity / 2;
+      M * turned.once + e * (error.tilt + g * phase + g * g * g) + Scalar(1.25L) * detail::momentum_left_out(problem);
+  error.axial_momentum = M * error.in_body.once + e * g * error.tilt;
+  const Integral across = f * turned + f3 * error.in_space, along = f3 * cosine + f * error.in_body;
+  error.velocity = across.once;
+  error.axial_velocity = along.once;
+  error.position = across.twice;
+  error.axial_position = along.twice;
   return error;
 }
 

@@ -29,17 +29,6 @@ Vec3<Scalar> angular_acceleration(const Problem<Scalar>& problem, const Vec3<Sca
           (M[1] + omega[0] * ((D3 - D1) * omega[2] + Lambda)) / D2, (M[2] - (D2 - D1) * omega[0] * omega[1]) / D3};
 }
 
-/// The derivative of (p', q', r') by (p, q, r), 1/s.
-template <Real Scalar>
-Mat3<Scalar> angular_acceleration_jacobian(const Problem<Scalar>& problem, const Vec3<Scalar>& omega) noexcept {
-  const auto& [D1, D2, D3] = std::array{problem.inertia[0], problem.inertia[1], problem.inertia[2]};
-  Mat3<Scalar> jacobian;
-  jacobian << 0, -problem.kappa1(omega[2]), -omega[1] * (D3 - D2) / D1,  //
-      problem.kappa2(omega[2]), 0, omega[0] * (D3 - D1) / D2,            //
-      -omega[1] * (D2 - D1) / D3, -omega[0] * (D2 - D1) / D3, 0;
-  return jacobian;
-}
-
 /// R (D1 p, D2 q, D3 r + lambda3), N m s.
 template <Real Scalar>
 Vec3<Scalar> inertial_momentum(const Problem<Scalar>& problem, const Vec3<Scalar>& omega,

@@ -518,8 +518,8 @@ class SecondOrder {
 /// Estimated greatest errors of SecondOrder over [0, T], made as those of the linear motion are, whose errors of the rates they take over.
 /// That of the tilt is a bound for a symmetric body, times 1.25, the others none, but wide. T > 0.
 template <Real Scalar>
-LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar T) noexcept {
-  const LinearErrors<Scalar> first = linear_errors(problem, T);
+LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar T, Look look = Look::close) noexcept {
+  const LinearErrors<Scalar> first = linear_errors(problem, T, look);
   const LinearStart<Scalar> start(problem);
   const auto& D = problem.inertia;
   const Scalar r0 = std::abs(problem.spin());
@@ -556,10 +556,14 @@ LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar 
   const Scalar f = magnitude(start.acceleration), f3 = std::abs(start.axial_acceleration);
   const Scalar M = magnitude(start.torque), e = std::abs(start.charge_momentum);
   error.momentum = M * turned + e * (error.tilt + g * error.theta);
-  error.velocity = f * turned + f3 * first.in_space;
-  error.axial_velocity = f3 * (swing * g * first.tilt + T * g * g * g * g) / 4 + f * first.in_body;
-  error.position = T * error.velocity / 2;
-  error.axial_position = T * error.axial_velocity / 2;
+  using Integral = OverTime<Scalar>;
+  const Integral across = Integral::roughly(f * turned, T) + f3 * first.in_space;
+  const Integral along =
+      Integral::roughly(f3 * (swing * g * first.tilt + T * g * g * g * g) / 4, T) + f * first.in_body;
+  error.velocity = across.once;
+  error.axial_velocity = along.once;
+  error.position = across.twice;
+  error.axial_position = along.twice;
   return error;
 }
 
