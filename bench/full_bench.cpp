@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "gyrostat/ladder/deceleration/full_motion.hpp"
 #include "gyrostat/models/deceleration/full.hpp"

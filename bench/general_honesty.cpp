@@ -6,7 +6,6 @@
 //
 //     general_honesty [SCENES = 500] [SEED = 1] [RUNG = auto]
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 

@@ -4,7 +4,6 @@
 // between the attitudes, rad, against long double; `step` is the time of a step of one trajectory, ns.
 #include <benchmark/benchmark.h>
 
-#include <array>
 #include <cmath>
 #include <vector>
 

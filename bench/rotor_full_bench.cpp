@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/rotor/full_motion.hpp"

@@ -3,9 +3,6 @@
 // time costs. `allocations` counts those of one solution. Beside them the bare models, without error, at two times.
 #include <benchmark/benchmark.h>
 
-#include <memory>
-#include <string>
-
 #include "../tests/allocations.hpp"
 #include "gyrostat/ladder/deceleration/averaged_motion.hpp"
 #include "gyrostat/models/free/motion.hpp"

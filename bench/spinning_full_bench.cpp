@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <vector>
 
 #include "gyrostat/ladder/spinning/full_motion.hpp"
 #include "gyrostat/models/spinning/full.hpp"

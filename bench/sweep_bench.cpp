@@ -4,7 +4,6 @@
 // column at two times (`once`, `fast_top`: one), and of a despin when it stops.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <random>
 #include <span>
 #include <vector>

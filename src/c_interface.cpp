@@ -2,7 +2,6 @@
 // The functions of gyrostat.h.
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <new>
@@ -100,7 +99,11 @@ Outcome answered(const gyrostat_scene& given, gyrostat::Monitor* monitor, std::u
   if (refusal.code == Errc::ok) return {};
   if (refusal.code == Errc::cancelled) return {GYROSTAT_CANCELLED, refusal.why};
   auto why = std::string("model ") + refusal.model + ": " + refusal.why;
-  if (lost_at == lost_at) why += ", at t = " + std::to_string(lost_at) + " s";
+  if (lost_at == lost_at) {
+    char when[40];
+    std::snprintf(when, sizeof when, ", at t = %.9g s", lost_at);
+    why += when;
+  }
   return {GYROSTAT_NO_ANSWER, why};
 }
 

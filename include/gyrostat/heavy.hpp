@@ -3,9 +3,13 @@
 // details: free to read, and to change from one version to the next.
 #pragma once
 
+#include "gyrostat/ladder/heavy/general_orbit.hpp"
 #include "gyrostat/ladder/heavy/inputs.hpp"
+#include "gyrostat/ladder/heavy/nutating_orbit.hpp"
 #include "gyrostat/ladder/heavy/periodic_orbit.hpp"
 #include "gyrostat/ladder/heavy/solve.hpp"
+#include "gyrostat/ladder/heavy/swing_orbit.hpp"
+#include "gyrostat/ladder/heavy/unstable_orbit.hpp"
 #include "gyrostat/models/heavy/balance.hpp"
 #include "gyrostat/models/heavy/collocation.hpp"
 #include "gyrostat/models/heavy/euler_case.hpp"

@@ -11,9 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gyrostat.errors import DomainError
 
-__all__ = ["Float", "Floats", "array", "arrays", "complexes", "finite_rows", "number", "numbers", "record", "rows", "shaped", "whole"]
+__all__ = ["Floats", "array", "arrays", "complexes", "finite_rows", "number", "numbers", "record", "rows", "shaped", "whole"]
 
-Float = np.float64
 Floats = NDArray[np.float64]
 
 

@@ -549,7 +549,3 @@ def _selftest(_: argparse.Namespace) -> int:
         failed += not ok
         say(f"{'ok    ' if ok else 'FAILED'} {label}: {text.removeprefix('FAILED ')}", sys.stdout)
     return INTERNAL if failed else MET
-
-
-if __name__ == "__main__":
-    sys.exit(main())

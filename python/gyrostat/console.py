@@ -58,7 +58,8 @@ def _rich(out: TextIO) -> bool:
 
 def leave(out: TextIO) -> None:
     """Let a stream whose reader went away swallow what else is written."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), out.fileno())
+    with Path(os.devnull).open("w", encoding="utf-8") as nowhere:
+        os.dup2(nowhere.fileno(), out.fileno())
 
 
 def say(text: str, out: TextIO) -> None:

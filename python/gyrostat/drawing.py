@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from gyrostat.answer import Answer
 
 __all__ = ["COLOURS", "MOMENT_NAMES", "Drawing", "Panel", "changes", "check_ending", "components", "curve", "error_text", "finish", "goes_on", "head", "is_coarse", "laid_out",
-           "legend_beside", "legend_row", "map_frame", "map_legend", "map_reach", "mark_stop", "new_figure", "note", "on_map", "principal_axes", "save", "span_text", "split",
+           "legend_beside", "legend_row", "map_frame", "map_legend", "map_reach", "map_sides", "mark_stop", "new_figure", "note", "on_map", "principal_axes", "save", "span_text", "split",
            "stacked", "time_unit", "vector", "wheels_panel"]
 
 COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31")
@@ -209,7 +209,7 @@ def vector(column: str, symbol: str, unit: str, title: str) -> Panel:
 
 
 def wheels_panel(column: str, symbol: str, unit: str, title: str, names: Sequence[str] = ()) -> Panel:
-    """The panel of a column of wheels, in their order or by their names."""
+    """The panel of a column of wheels, in their order or by their names; of a column of numbers with its symbol as the name."""
     def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
         values = answer[column]
         curve(axes, t, values, names or [f"{i + 1}" for i in range(values.shape[1])])
@@ -248,13 +248,19 @@ def principal_axes(inertia: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
     return moments, -axes if np.linalg.det(axes) < 0 else axes
 
 
-def on_map(values: NDArray[Any], centre: NDArray[Any]) -> NDArray[Any]:
-    """Directions (n, 3) in the equal-area map around a unit vector: (n, 2), the opposite point at distance 2."""
+def map_sides(centre: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """The directions that point to the right and upwards at the centre of a map, a unit vector."""
     up = np.eye(3)[int(np.argmin(np.abs(centre)))]
     right = np.cross(up, centre)
     right /= np.linalg.norm(right)
+    return right, np.cross(centre, right)
+
+
+def on_map(values: NDArray[Any], centre: NDArray[Any]) -> NDArray[Any]:
+    """Directions (n, 3) in the equal-area map around a unit vector: (n, 2), the opposite point at distance 2."""
+    right, up = map_sides(centre)
     along = np.clip(values @ centre, -1.0, 1.0)
-    across = np.stack([values @ right, values @ np.cross(centre, right)], -1)
+    across = np.stack([values @ right, values @ up], -1)
     stretch = np.sqrt(2 / np.maximum(1 + along, 1e-12))
     made: NDArray[Any] = across * stretch[:, None]
     return made

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from gyrostat._core import csv_rows, json_numbers
 from gyrostat.answer import Answer
 from gyrostat.facts import FACTS, TIME, UNITS
+from gyrostat.sweep_files import import_xarray
 from gyrostat.writing import write_text, written
 
 if TYPE_CHECKING:
@@ -149,10 +150,6 @@ def _scalar_attributes(answer: Answer) -> Iterator[tuple[str, Any]]:
 
 def to_xarray(answer: Answer) -> "xarray.Dataset":
     """See Answer.to_xarray."""
-    try:
-        import xarray
-    except ImportError as error:
-        raise ImportError("xarray is not installed: pip install 'gyrostat[xarray]'") from error
     variables: dict[str, Any] = {}
     per_wheel, meanings = _per_wheel(answer), _meanings(answer)
     for name, values in answer.columns.items():
@@ -174,7 +171,8 @@ def to_xarray(answer: Answer) -> "xarray.Dataset":
         "warnings": "\n".join(f"{w.code}: {w.message}" for w in answer.warnings),
         **dict(_scalar_attributes(answer)),
     }
-    return xarray.Dataset(variables, coordinates, attributes)
+    made: xarray.Dataset = import_xarray().Dataset(variables, coordinates, attributes)
+    return made
 
 
 def to_netcdf(answer: Answer, file: str | os.PathLike[str]) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from gyrostat._core import Monitor
 from gyrostat.answer import Answer
+from gyrostat.broadcast import array
 from gyrostat.errors import DomainError
 from gyrostat.families import FAMILIES
 from gyrostat.fields import UNSET
@@ -55,7 +56,7 @@ def solve(scene: SceneLike, *, monitor: Monitor | None = None, torque: Any = Non
         overrides, torque = {**overrides, "torque": torque}, None
     checked = scene_of(scene, overrides)
     family = FAMILIES[checked.kind]
-    own = {} if torque is None and len(breakpoints) == 0 else {"torque": torque, "breakpoints": breakpoints}
+    own = {} if torque is None and array("breakpoints", breakpoints).size == 0 else {"torque": torque, "breakpoints": breakpoints}
     if own and family.name != "general":
         raise DomainError(f"torque: a torque of your own is for scenes of the kind general, and this one is of the kind {family.name}")
     if own and data_error:

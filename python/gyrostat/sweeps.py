@@ -382,11 +382,13 @@ def merge(files: "Iterable[str | os.PathLike[str] | xarray.Dataset]") -> "xarray
         raise DomainError(f"{wrong!r:.60}: parts are files, or what sweep returns")
     if not named:
         raise DomainError("there is nothing to merge")
+    if damaged := next((name for name, part in named if "study" not in part.attrs or not part.sizes.get("row")), None):
+        raise DomainError(f"{damaged}: this holds no results of a sweep")
     named.sort(key=lambda item: int(item[1]["row"][0]))
     study = named[0][1].attrs["study"]
     at = 0
     for name, part in named:
-        if part.attrs.get("study") != study:
+        if part.attrs["study"] != study:
             raise DomainError(f"{name}: this belongs to another study than {named[0][0]}")
         first = int(part["row"][0])
         if first != at:

@@ -6,7 +6,6 @@
 #include <pybind11/stl.h>
 
 #include <cstddef>
-#include <iterator>
 #include <string>
 
 #include "gyrostat/models/general/collected.hpp"

@@ -1,10 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/math/periodic.hpp"
 
+#include <array>
+#include <cmath>
+
 #include "catch.hpp"
 #include "gyrostat/math/elliptic.hpp"
 
 using namespace gyrostat::math;
+
+namespace {
+
+template <class Scalar>
+struct PeriodicMean {
+  Scalar value, error;
+  int nodes;
+  bool converged;
+};
+
+/// periodic_means() of one function.
+template <class Scalar, class Function>
+PeriodicMean<Scalar> periodic_mean(const Function& f, Scalar tolerance, int first = 16, int most = 4096) {
+  const auto means =
+      periodic_means<Scalar, 1>([&](Scalar x) { return std::array<Scalar, 1>{f(x)}; }, tolerance, first, most);
+  return {means.value[0], means.error[0], means.nodes, means.converged};
+}
+
+}  // namespace
 
 TEMPLATE_TEST_CASE("a periodic mean converges exponentially", "[math]", float, double, long double) {
   using S = TestType;

@@ -17,6 +17,7 @@ import pytest
 from gyrostat import DomainError, charts, heavy
 from gyrostat.charts import Chart, LeftOut, measured, methods
 from gyrostat.charts.problem import Line, Run, Unanswered
+from gyrostat.charts.problem import true_errors as errors_of_attitude
 from gyrostat.cli import main
 from gyrostat.families.deceleration.chart import true_errors
 from gyrostat.families.general import chart as general_charts
@@ -228,8 +229,8 @@ def test_errors_of_attitude_do_not_know_the_sign_of_a_quaternion() -> None:
     rate = np.array([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0]])
     half = 1e-9
     near = np.array([[math.sin(half), 0.0, 0.0, math.cos(half)], [0.0, -0.6, 0.0, -0.8]])
-    errors = rotor_charts.true_errors({"attitude": near, "angular_velocity": rate + [[0.0, 0.0, 0.0], [0.0, 0.0, 1e-3]]},
-                                      {"attitude": q, "angular_velocity": rate})
+    errors = errors_of_attitude({"attitude": near, "angular_velocity": rate + [[0.0, 0.0, 0.0], [0.0, 0.0, 1e-3]]},
+                                {"attitude": q, "angular_velocity": rate})
     assert errors["attitude"] == pytest.approx(2e-9, rel=1e-6)
     assert errors["angular_velocity"] == pytest.approx(5e-4)
 

@@ -111,6 +111,10 @@ def test_a_scene_takes_it() -> None:
         gyrostat.solve("rotor-paper-example", torque=damping)
     with pytest.raises(gyrostat.DomainError, match="there is none"):
         gyrostat.solve(SCENE, breakpoints=[3.0])
+    with pytest.raises(gyrostat.DomainError, match="there is none"):
+        gyrostat.solve(SCENE, breakpoints=3.0)
+    with pytest.raises(gyrostat.DomainError, match="breakpoints"):
+        gyrostat.solve(SCENE, breakpoints=None)
 
 
 def test_no_scene_file_names_a_function() -> None:

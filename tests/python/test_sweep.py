@@ -479,6 +479,11 @@ def test_what_is_put_together_has_each_row_once(tmp_path: Path) -> None:
         with pytest.raises(DomainError, match="parts are files|no such file"):
             merge(wrong)  # type: ignore[arg-type]
     part = light(shard=(2, 2))
+    nameless = part.copy()
+    nameless.attrs = {}
+    for damaged in (nameless, part.isel(row=0), part.isel(row=[])):
+        with pytest.raises(DomainError, match="a part: this holds no results of a sweep"):
+            merge([damaged])
     for rows in ([0, 1, 1, *range(2, 30)], [0, *range(2, 30)], [1, 0, *range(2, 30)], [*range(14), *range(15, 30), 29]):
         with pytest.raises(DomainError, match="rows are missing in it, or there twice, or out of their order|missing"):
             merge([light(shard=(1, 2)), part.isel(row=rows)])

@@ -97,6 +97,11 @@ inline double size_of(const Column& column) noexcept {
   return size;
 }
 
+/// The error of a column in the unit of its values.
+inline double absolute_error(const Column& column) noexcept {
+  return column.kind->measure == Measure::relative ? column.error * size_of(column) : column.error;
+}
+
 /// The magnitude of a scalar, or of the vector that it is.
 inline double size_of(const Quantity& quantity) noexcept {
   return std::hypot(quantity.values[0], quantity.values[1], quantity.values[2]);

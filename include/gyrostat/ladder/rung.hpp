@@ -215,11 +215,11 @@ class Ascent {
     if (track.failure != Errc::ok) return refused(candidate, track, watch);
     const char* const model = family_.rungs[candidate.rung].name;
     Answer answer = answer_of(family_, model, scene, track, describes_all_);
-    tried_.push_back({model, answer.error, false,  // end() says which was accepted
-                      track.in_domain ? nullptr : "the scene leaves its domain", answer.excess, candidate.cost,
-                      watch.seconds()});
+    tried_.push_back({model, answer.error, false, track.in_domain ? nullptr : "the scene leaves its domain",
+                      answer.excess, candidate.cost, watch.seconds()});
     if (!answered_ || is_better(candidate.rung, answer, track)) {
       rung_ = candidate.rung;
+      accepted_ = tried_.size() - 1;
       best_ = std::move(answer);
       track_ = std::move(track);
     }
@@ -229,8 +229,9 @@ class Ascent {
 
   /// Records a rung that is not asked, and why; not where it stands behind the one that answers.
   void leave_out(std::size_t rung, const char* why, double cost) {
-    if (!best_.met || rung < rung_)
-      tried_.insert(tried_.begin(), {family_.rungs[rung].name, nan<double>, false, why, nan<double>, cost});
+    if (best_.met && rung >= rung_) return;
+    tried_.insert(tried_.begin(), {family_.rungs[rung].name, nan<double>, false, why, nan<double>, cost});
+    ++accepted_;
   }
 
   bool answered() const noexcept { return answered_; }
@@ -244,8 +245,7 @@ class Ascent {
       refusal_ = {Errc::not_applicable, "auto", message(Errc::not_applicable)};
     if (!answered_) return std::move(best_);
     refusal_ = {};  // other rungs have refused, but there is an answer
-    for (Attempt& attempt : best_.tried)
-      attempt.accepted = attempt.model == best_.model && !(attempt.error != best_.error);
+    best_.tried[accepted_].accepted = true;
     if (!describes_all_) describe(best_, scene_, track_);
     keep_asked(best_, scene_.question(), family_);
     return std::move(best_);
@@ -281,6 +281,7 @@ class Ascent {
   Answer best_;
   Track track_;  ///< of the best answer
   std::vector<Attempt> tried_;
+  std::size_t accepted_ = 0;  ///< of them the one that the best answer is from
   bool answered_ = false;
   std::size_t rung_ = 0, refused_rung_ = 0;
 };

@@ -49,10 +49,6 @@ inline Means<Scalar> means_by_nome(Modulus<Scalar> m) noexcept {
   return {K, F, 1 - F, legendre - v};
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// K and E of one modulus without a branch; limits and illegal moduli by selection.
 GYROSTAT_FLATTEN Complete<double> complete_of(Modulus<double> m) noexcept {
   const Associate at = Associate::of(m.kp2);

@@ -64,21 +64,4 @@ template <Real Scalar, std::size_t N, class Function>
   return result;
 }
 
-/// The mean of one function over one period.
-template <Real Scalar>
-struct PeriodicMean {
-  Scalar value, error;
-  int nodes;
-  bool converged;
-};
-
-/// periodic_means() of one function, `f(x)` a Scalar at the phase x in [0, 1).
-template <Real Scalar, class Function>
-[[nodiscard]] inline PeriodicMean<Scalar> periodic_mean(const Function& f, Scalar tolerance, int first = 16,
-                                                        int most = 4096) noexcept {
-  const auto means =
-      periodic_means<Scalar, 1>([&](Scalar x) { return std::array<Scalar, 1>{f(x)}; }, tolerance, first, most);
-  return {means.value[0], means.error[0], means.nodes, means.converged};
-}
-
 }  // namespace gyrostat::math

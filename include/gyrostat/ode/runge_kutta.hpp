@@ -36,7 +36,7 @@ struct StepControl {
   Scalar relative = Scalar(1e-9);
   std::array<Scalar, N> absolute = uniform<Scalar, N>(Scalar(1e-12));
   Scalar first_step = 0;                   ///< 0: chosen from the first two derivatives
-  Scalar longest_step = infinity<Scalar>;  ///< with tolerances out of reach: fixed steps
+  Scalar longest_step = infinity<Scalar>;  ///< no step is longer; all are so long where tolerances are never missed
   std::uint64_t step_cap = 100000;         ///< on accepted and rejected steps together
   /// Whether the right-hand side is smooth within a step. Where it may have kinks, or be singular nearby, the estimate of order 5(3), which is
   /// a product of two, comes out too small: then that of order 5 alone is taken.

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from gyrostat.answer import Answer
 from gyrostat.errors import DomainError
+from gyrostat.rotation import angle_between
 
-__all__ = ["MOST_TURNS", "Errors", "Line", "Measure", "Problem", "Rival", "Run", "Unanswered", "counted", "first_turns", "greatest", "reference", "relative", "tensor"]
+__all__ = ["MOST_TURNS", "TURNING", "Errors", "Line", "Measure", "Problem", "Rival", "Run", "Unanswered", "counted", "first_turns", "greatest", "reference", "relative", "tensor", "true_errors"]
 
 Vectors = NDArray[np.float64]
 # True errors of columns, by the keys of the measures.
@@ -32,6 +33,12 @@ class Measure:
     head: str
     title: str
     axis: str
+
+
+# What `true_errors` tells of a body that turns.
+TURNING: Final = (
+    Measure("attitude", "error of attitude", "the attitude", "greatest true error, angle [rad]"),
+    Measure("angular_velocity", "error of omega", "the angular velocity", "greatest true error, relative to the greatest |ω| [1]"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +147,12 @@ def relative(got: Any, want: Any) -> float:
     """Greatest difference over the greatest wanted; of what is zero throughout 0 where it was met and NaN elsewhere."""
     off, size = greatest(np.asarray(got) - want), greatest(want)
     return off / size if size > 0 else 0.0 if off == 0 else math.nan
+
+
+def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, float]:
+    """Greatest angle between the attitudes, and greatest difference of the angular velocities over the greatest wanted."""
+    return {"attitude": greatest(angle_between(made["attitude"], want["attitude"])),
+            "angular_velocity": relative(made["angular_velocity"], want["angular_velocity"])}
 
 
 def tensor(inertia: Any) -> Vectors:

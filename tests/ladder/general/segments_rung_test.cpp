@@ -190,6 +190,24 @@ TEST_CASE("a segment in which a torque drives the body fast is foreseen to be as
     if (!attempt.accepted) CHECK(attempt.spent == 0);
 }
 
+TEST_CASE("a segment whose closed form refuses is foreseen to be as dear as the full equations that answer it") {
+  // damping in proportion to the inertia, which equal-torque follows in closed form, but not beside a wheel
+  Problem<double> problem = brick();
+  problem.inertia = Vec3<double>(3, 4, 5).asDiagonal();
+  problem.angular_velocity = {0.2, 0.1, 0.3};
+  auto& wheel = problem.wheels.emplace_back();
+  wheel.type = WheelType::held, wheel.axis = {0.6, 0, 0.8}, wheel.axial_inertia = 0.1, wheel.rate = 20;
+  problem.torques.resize(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    problem.torques[i].type = TorqueType::damping;
+    problem.torques[i].matrix = double(i + 1) * 1e-3 * problem.inertia;
+  }
+  problem.torques[0].factor.on = {{0, 150}}, problem.torques[1].factor.on = {{150, 1000}};
+  const Scene scene = posed(problem, question_at({0, 200, 400}, 1e-8));
+  CHECK(cost_of_segments(scene) > cost_of_full(scene));
+  CHECK(std::string_view(solved(scene).model) == "full");
+}
+
 TEST_CASE("segments that would take minutes are refused before they are begun") {
   // a slim body that a torque spins up to 1e7 rad/s: by name they took over a minute
   Problem<double> problem = brick();

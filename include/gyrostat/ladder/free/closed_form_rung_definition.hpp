@@ -106,10 +106,10 @@ GYROSTAT_COMPILED_ONCE void turn_wheels(Track& track, const Scene& scene, const 
 GYROSTAT_COMPILED_ONCE double rate_error(const Scene& scene, std::span<const State<double>> states,
                                          double of_velocity) noexcept {
   double size = scene.scales()[column::rotor_rate], fastest = 0;
-  double freely = 0, greatest = 0;
+  double free_wheels = 0, greatest = 0;
   const auto& reduced = scene.gyrostat();
   for (const auto& wheel : reduced.wheels) {
-    freely += wheel.turns_freely;
+    free_wheels += wheel.turns_freely;
     greatest = std::max(greatest, std::abs(wheel.rate));
   }
   for (const auto& s : states) {
@@ -119,7 +119,7 @@ GYROSTAT_COMPILED_ONCE double rate_error(const Scene& scene, std::span<const Sta
     size = std::max(size, std::sqrt(square));
     fastest = std::max(fastest, s.angular_velocity.norm());
   }
-  const double of_body = freely > 0 ? std::sqrt(freely) * of_velocity * fastest : 0;  // held wheels do not feel it
+  const double of_body = free_wheels > 0 ? std::sqrt(free_wheels) * of_velocity * fastest : 0;  // held wheels do not feel it
   const double off = of_body + 8 * epsilon<double> * (greatest + fastest);
   return relative_to_truth(over(off, size));
 }

@@ -63,10 +63,6 @@ inline double room_beside_wheels(const Assembly<double>& assembly) noexcept {
   return realisability<double>(assembly.body.inertia, known);
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// Place of the principal axis that M surrounds; nothing where it surrounds none.
 inline std::optional<int> surrounded_axis(const Motion<double>& motion) noexcept {
   const Vec3<double>& J = motion.principal_moments();

@@ -306,7 +306,7 @@ class CustomMotion {
   std::span<const Scalar> times_;
   std::span<State<Scalar>> states_;
   const MotionOptions<Scalar>& options_;
-  bool named_;  ///< the times at which the law jumps
+  bool named_;  ///< whether any times are named at which the law jumps
   std::vector<Scalar> cuts_;
   std::array<Scalar, Flow<Scalar>::width> sizes_;
 };

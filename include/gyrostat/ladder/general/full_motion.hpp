@@ -338,8 +338,7 @@ class FullMotion {
     answer.used = Method::integrator;
     answer.step_tolerance = tolerance.end;
     const Scalar span = times_.back();
-    Scalar spare = share_slack<Scalar>;
-    const auto course = std::make_unique<Course>(problem_, span, cuts_, Scalar(1), tolerance, options_.step_cap, spare);
+    const auto course = std::make_unique<Course>(problem_, span, cuts_, Scalar(1), tolerance, options_.step_cap);
     std::ranges::fill(states_, nowhere<Scalar>());
     std::uint64_t trips = 0;
     for (std::size_t i = 0; i < times_.size() && answer.status == ode::Status::reached; ++i) {

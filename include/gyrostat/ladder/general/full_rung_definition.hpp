@@ -100,10 +100,6 @@ inline double settling_steps(const Scene& scene) noexcept {
   return rate * scene.question().times.back() / 8;
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// How many times the cost of a step without them fields make a step cost.
 inline double cost_of_fields(const Problem<double>& problem) noexcept {
   const auto acts = [&](TorqueType type) {

@@ -126,14 +126,14 @@ GYROSTAT_COMPILED_ONCE std::optional<Errc> Propagator::advance_freely(double dt,
   if (doubtful && !(known().at(dt).attitude < 1)) return Errc::undetermined;
   const auto there = motion->at(dt);
   state = {there.attitude, there.angular_velocity, begin.rotor_rate};
-  double freely = 0, fastest = there.angular_velocity.norm();
+  double free_wheels = 0, fastest = there.angular_velocity.norm();
   for (std::size_t i = 0; i < wheels_.count; ++i) {
     const auto& law = wheels_.laws[i];
     fastest = std::max(fastest, std::abs(begin.rotor_rate[i]) + begin.angular_velocity.norm());
     if (law.follows != Follows::constant) continue;
     const Vec3<double> change = begin.angular_velocity - there.angular_velocity;
     state.rotor_rate[i] = begin.rotor_rate[i] + law.axis.dot(change);
-    freely += 1;
+    free_wheels += 1;
   }
   if (error == nullptr) return Errc::ok;
   const auto estimate = known();
@@ -141,7 +141,7 @@ GYROSTAT_COMPILED_ONCE std::optional<Errc> Propagator::advance_freely(double dt,
   error->attitude = bound.attitude;
   error->angular_velocity = bound.angular_velocity * estimate.fastest();
   const double off = error->angular_velocity + 8 * epsilon<double> * fastest;
-  error->rotor_rate = freely > 0 ? std::sqrt(freely) * off : 0.0;
+  error->rotor_rate = free_wheels > 0 ? std::sqrt(free_wheels) * off : 0.0;
   return Errc::ok;
 }
 

@@ -208,24 +208,20 @@ class SegmentedMotion {
 
   /// The errors of an answer, which hold for all its times, as those of the start of the next segment.
   void hand_on(const Answer& answer, double at) noexcept {
-    constexpr std::size_t primitive_of[] = {primitive::attitude, primitive::angular_velocity,
-                                            primitive::angular_momentum};
     // a clock that begins anew tells times to a rounding of the old one
     const double clock = epsilon<double> * at, omega = end_.angular_velocity.norm();
     for (const Column& column : answer.columns) {
-      const bool relative = column.kind->measure == Measure::relative;
-      const double off = relative ? column.error * size_of(column) : column.error;
-      const auto place = std::size_t(column.kind - column_kinds);
+      const double off = absolute_error(column);
       const auto take = [&](std::size_t p, double* start, double rounding) noexcept {
         track_.off[p] = std::isnan(track_.off[p]) ? off : greater(off, track_.off[p]);
         if (start) *start = off + rounding;
       };
-      switch (place) {
-        case column::attitude: take(primitive_of[place], &error_.attitude, clock * omega); break;
+      switch (std::size_t(column.kind - column_kinds)) {
+        case column::attitude: take(primitive::attitude, &error_.attitude, clock * omega); break;
         case column::angular_velocity:
-          take(primitive_of[place], &error_.angular_velocity, clock * omega * omega);
+          take(primitive::angular_velocity, &error_.angular_velocity, clock * omega * omega);
           break;
-        case column::angular_momentum: take(primitive_of[place], nullptr, 0); break;
+        case column::angular_momentum: take(primitive::angular_momentum, nullptr, 0); break;
         case column::rotor_rate: take(primitive::rotor_rate, &error_.rotor_rate, clock * omega * omega); break;
         case column::rotor_angle: take(primitive::rotor_angle, &error_.rotor_angle, clock * size_of(column)); break;
         case column::velocity: take(primitive::velocity, &error_.velocity, 0); break;

@@ -15,7 +15,7 @@ namespace gyrostat::general {
 
 namespace detail {
 
-/// A torque on a segment that holds `inside`; one without type and size where it does not act, nothing where it is not steady there.
+/// A torque on a segment that holds `inside`; an empty one where it does not act, nothing where it is not steady there.
 inline std::optional<std::optional<Torque<double>>> steady_torque(const Problem<double>& of,
                                                                   const Torque<double>& torque, double inside) {
   Factor<double> gate;
@@ -130,14 +130,22 @@ inline void set_turning(Problem<double>& problem, double rate) noexcept {
   if (own < rate) w = own > 0 ? Vec3<double>(rate / own * w) : Vec3<double>(rate * Vec3<double>(0.48, 0.6, 0.64));
 }
 
-/// What rungs cost, in their order, up to the first that surely meets what is asked: a closed form, or the full equations of a family, which torques may
-/// drive as far as those of all.
+/// Whether equal-torque refuses what the segment is as a deceleration, which costs it nothing.
+inline bool refuses_at_once(const Scene& segment, const Candidate& candidate) noexcept {
+  const SpecialRung& asked = special_rungs[candidate.rung];
+  if (asked.special != Special::deceleration || asked.rung != deceleration::rung::equal_torque) return false;
+  const auto& braked = segment.instances().deceleration;
+  return !braked->equal_control() || braked->has_rotor();
+}
+
+/// What rungs cost, in their order, up to the first that surely meets what is asked: a closed form that does not refuse, or the full equations of a family,
+/// which torques may drive as far as those of all.
 inline double cost_of_sure(const Scene& segment, const std::vector<Candidate>& candidates) noexcept {
   double sum = 0;
   for (const Candidate& candidate : candidates) {
     const bool full = candidate.rung >= std::size_t(rung::family_full);
     sum += full ? std::max(candidate.cost, cost_of_full(segment)) : candidate.cost;
-    if (full || candidate.rung < closed_forms) break;
+    if (full || (candidate.rung < closed_forms && !refuses_at_once(segment, candidate))) break;
   }
   return sum;
 }

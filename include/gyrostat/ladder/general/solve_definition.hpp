@@ -151,10 +151,6 @@ constexpr auto models_of(std::index_sequence<Place...>) noexcept {
 }
 inline constexpr auto models = models_of(std::make_index_sequence<std::size_t(rung::segments)>{});
 
-}  // namespace detail
-
-namespace detail {
-
 /// The rung that the question names alone, or the ladder.
 inline Answer climbed(const Scene& scene, Refusal& refusal, Monitor* monitor) {
   return climb<Scene, Track>(tables, models, scene, monitor, refusal);

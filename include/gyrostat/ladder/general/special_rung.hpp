@@ -57,7 +57,7 @@ class Reader {
   void read(std::size_t p, const Take& take) const {
     const Column* column = find(from_.of[p]);
     if (!column) return;
-    track_.off[p] = off(*column);
+    track_.off[p] = absolute_error(*column);
     const auto width = std::size_t(column->row_width());
     for (std::size_t i = 0; i < track_.states.size(); ++i) take(track_.states[i], column->values.data() + i * width);
   }
@@ -66,7 +66,7 @@ class Reader {
     if (!column) return;
     to.values = column->values;
     for (double& value : to.values) value += more;
-    to.off = off(*column) + 4 * epsilon<double> * std::abs(more);
+    to.off = absolute_error(*column) + 4 * epsilon<double> * std::abs(more);
   }
   static Vec3<double> vector(const double* row) noexcept { return {row[0], row[1], row[2]}; }
   static Quat<double> quaternion(const double* row) noexcept { return {row[3], row[0], row[1], row[2]}; }
@@ -75,9 +75,6 @@ class Reader {
   const Column* find(int place) const noexcept {
     const Column* column = place < 0 ? nullptr : answer_.find(family_.columns[std::size_t(place)].name);
     return column && column->values[0] == column->values[0] ? column : nullptr;
-  }
-  static double off(const Column& column) noexcept {
-    return column.kind->measure == Measure::relative ? column.error * size_of(column) : column.error;
   }
 
   const Family& family_;

@@ -74,13 +74,13 @@ GYROSTAT_COMPILED_ONCE void complete_wheels(const Scene& scene, Track& track, in
   const auto& wheels = scene.wheels();
   const auto& times = scene.question().times;
   const double body = track.off[primitive::angular_velocity];
-  double fastest = 0, freely = 0;
+  double fastest = 0, free_wheels = 0;
   for (std::size_t w = 0; w < wheels.count; ++w) {
     if (int(w) == driven) continue;
     const auto& law = wheels.laws[w];
     const bool free = law.follows == Follows::constant;
     const double own = free ? law.momentum / law.axial_inertia : law.rate;
-    freely += free;
+    free_wheels += free;
     fastest = std::max(fastest, std::abs(own));
     for (std::size_t i = 0; i < times.size(); ++i) {
       State<double>& s = track.states[i];
@@ -91,8 +91,8 @@ GYROSTAT_COMPILED_ONCE void complete_wheels(const Scene& scene, Track& track, in
   const double rounding = 4 * epsilon<double> * std::sqrt(double(wheels.count)) * fastest;
   auto &rate = track.off[primitive::rotor_rate], &angle = track.off[primitive::rotor_angle];
   if (driven < 0) rate = angle = 0;
-  rate += rounding + (freely > 0 ? std::sqrt(freely) * body : 0);
-  angle += freely > 0 ? nan<double> : rounding * times.back();
+  rate += rounding + (free_wheels > 0 ? std::sqrt(free_wheels) * body : 0);
+  angle += free_wheels > 0 ? nan<double> : rounding * times.back();
 }
 
 GYROSTAT_COMPILED_ONCE void add_lost_digits(const Scene& scene, Track& track) noexcept {

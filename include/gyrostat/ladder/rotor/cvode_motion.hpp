@@ -83,14 +83,14 @@ class CvodeEquations {
   Numbers start_;
 };
 
-namespace detail {
-
-inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* monitor) {
+/// Rung `full` by CVODE: Adams, or BDF where the motor is stiff. The error is that of cvode_runs().
+inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   const auto& times = scene.question().times;
   const auto& body = scene.gyrostat();
   const auto& start = scene.start();
+  const auto method = is_stiff(body, start) ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams;
   const auto run = [&](std::span<const double> watched, const CvodeTask& task) {
-    std::optional<Neighbour<double>> near;
+    std::optional<detail::Neighbour<double>> near;
     if (task.change > 0) near.emplace(body, start, task.change, task.aside);
     const auto& from = near ? near->start : start;
     CvodeEquations equations(near ? near->gyrostat : body, from, times.back());
@@ -113,19 +113,11 @@ inline Track by_cvode(const Scene& scene, ode::CvodeMethod method, Monitor* moni
   parts[column::angular_velocity] = momentum / body.free_principal()[0];
   parts[column::angular_momentum] = momentum;
   parts[column::rotor_rate] = rate;
-  parts[column::rotor_angle] = size[column::rotor_angle] + rate * scene.question().times.back();
+  parts[column::rotor_angle] = size[column::rotor_angle] + rate * times.back();
   parts[column::lyapunov] = size[column::lyapunov] + momentum * rate;
   const double floor = honesty::cvode_looser[0] * runs.tolerance;
   track.error = runs.asked.relative(runs.error + floor * parts);
   return track;
-}
-
-}  // namespace detail
-
-/// Rung `full` by CVODE: Adams, or BDF where the motor is stiff. The error is that of cvode_runs().
-inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
-  const bool stiff = is_stiff(scene.gyrostat(), scene.start());
-  return detail::by_cvode(scene, stiff ? ode::CvodeMethod::bdf : ode::CvodeMethod::adams, monitor);
 }
 
 }  // namespace gyrostat::rotor

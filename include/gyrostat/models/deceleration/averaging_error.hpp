@@ -61,7 +61,6 @@ class AveragingError {
     const Scalar uneven = most > 0 ? (most - least) / most : Scalar(0);
     const Scalar swing = std::min(Scalar(1), 3 * std::sqrt(tilt * p.axes.near_far / p.axes.near_mid));
     keep(second_.vector, norm * (phase_factor * uneven * change * swing + squeeze_factor * squeeze));
-    keep(change_, change);
     keep(squeeze_, squeeze);
   }
 
@@ -87,7 +86,6 @@ class AveragingError {
             second_.vector + f * second_.norm};
   }
 
-  Scalar greatest_change() const noexcept { return change_; }    ///< relative, in one quarter period
   Scalar greatest_squeeze() const noexcept { return squeeze_; }  ///< k2 oscillation over kp2
 
  private:
@@ -95,7 +93,7 @@ class AveragingError {
     if (!(value <= greatest) && greatest == greatest) greatest = value;  // NaN stays
   }
   SlowError<Scalar> first_{}, second_{};
-  Scalar crossing_ = 0, crossing_norm_ = 0, change_ = 0, squeeze_ = 0;
+  Scalar crossing_ = 0, crossing_norm_ = 0, squeeze_ = 0;
 };
 
 }  // namespace gyrostat::deceleration

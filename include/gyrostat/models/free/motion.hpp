@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
-#include <utility>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/core/result.hpp"

@@ -3,32 +3,21 @@
 
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, counted, first_turns, greatest, reference, relative
+from gyrostat.charts.problem import MOST_TURNS, TURNING, Problem, counted, first_turns, reference, true_errors
 from gyrostat.families.free.functions import integrate, reduced, solve
 from gyrostat.families.free.scene import arguments
-from gyrostat.rotation import angle_between
 
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["problem", "true_errors"]
+__all__ = ["problem"]
 
 Vectors = NDArray[np.float64]
-
-MEASURES: Final = (
-    Measure("attitude", "error of attitude", "the attitude", "greatest true error, angle [rad]"),
-    Measure("angular_velocity", "error of omega", "the angular velocity", "greatest true error, relative to the greatest |ω| [1]"))
-
-
-def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, float]:
-    """Greatest angle between the attitudes, and greatest difference of the angular velocities over the greatest wanted."""
-    return {"attitude": greatest(angle_between(made["attitude"], want["attitude"])),
-            "angular_velocity": relative(made["angular_velocity"], want["angular_velocity"])}
 
 
 def problem(scene: "Scene") -> Problem:
@@ -40,7 +29,7 @@ def problem(scene: "Scene") -> Problem:
     want, source = reference(integrate, physics, "taylor")
     end = float(given["times"][-1])
     title = f"{counted(len(given['times']), 'time')} to {end:.6g} s{cut}\n{rate * end:.3g} turns at most; {source}"
-    return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics), end * 10 * rate)
+    return Problem(title, TURNING, solve, given, integrate, physics, lambda made: true_errors(made, want), Rival(physics), end * 10 * rate)
 
 
 class Rival:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.drawing import (
-    COLOURS, MOMENT_NAMES, Panel, components, error_text, laid_out, map_frame, map_legend, map_reach, note, on_map, principal_axes, vector, wheels_panel)
+    COLOURS, MOMENT_NAMES, Panel, components, error_text, laid_out, map_frame, map_legend, map_reach, map_sides, note, on_map, principal_axes, vector, wheels_panel)
 from gyrostat.errors import DomainError
 from gyrostat.families.free.functions import flips, permanent_rotations, reduced
 from gyrostat.rotation import matrix_from_quaternion
@@ -105,11 +105,9 @@ def _separatrix(axes: "Axes", body: Mapping[str, Any], found: Any, R: float, cen
     x, y = np.meshgrid(side, side)
     r2 = x**2 + y**2
     inside = r2 <= edge**2
-    up = np.eye(3)[int(np.argmin(np.abs(centre)))]
-    right = np.cross(up, centre)
-    right /= np.linalg.norm(right)
+    right, up = map_sides(centre)
     across = np.sqrt(np.maximum(1 - r2 / 4, 0))
-    n = (x * across)[..., None] * right + (y * across)[..., None] * np.cross(centre, right) + (1 - r2 / 2)[..., None] * centre
+    n = (x * across)[..., None] * right + (y * across)[..., None] * up + (1 - r2 / 2)[..., None] * centre
     inertia, l, _ = reduced(body)
     G = R * n - l
     energy = 0.5 * np.einsum("...i,ij,...j", G, np.linalg.inv(inertia), G)

@@ -9,40 +9,29 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from gyrostat.broadcast import Floats
-from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, Unanswered, counted, first_turns, greatest, reference, relative
+from gyrostat.charts.problem import MOST_TURNS, TURNING, Problem, Unanswered, counted, first_turns, reference, true_errors
 from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS
 from gyrostat.families.general.clock import since
 from gyrostat.families.general.functions import QUESTION, integrate, posed, recognise, segments, solve
 from gyrostat.families.general.scene import arguments
-from gyrostat.rotation import angle_between
 
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["problem", "true_errors"]
+__all__ = ["problem"]
 
 Law = Callable[[float], Any]
 
-MEASURES: Final = (
-    Measure("attitude", "error of attitude", "the attitude", "greatest true error, angle [rad]"),
-    Measure("angular_velocity", "error of omega", "the angular velocity", "greatest true error, relative to the greatest |ω| [1]"))
 # Times at which the rates are looked at, to foresee how far the body turns, and to how much.
 LOOKS: Final = 201
 ROUGH: Final = 1e-3
+AT_REST: Final = 1e-300  # rad/s, a rate that divides nothing by nought
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
     """Of numbers, or of formulas, which np.cross takes from numpy 2 on."""
     return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
-
-
-def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, float]:
-    """Greatest angle between the attitudes, and greatest difference of the angular velocities over the greatest wanted."""
-    return {"attitude": greatest(angle_between(made["attitude"], want["attitude"])),
-            "angular_velocity": relative(made["angular_velocity"], want["angular_velocity"])}
-
-AT_REST: Final = 1e-300  # rad/s, a rate that divides nothing by nought
 
 
 def problem(scene: "Scene") -> Problem:
@@ -64,7 +53,7 @@ def problem(scene: "Scene") -> Problem:
     title = f"{counted(len(given['times']), 'time')}{first} to {last:.6g} s{cut}\n{rate * end if rate > AT_REST else 0:.3g} turns at most; {source}{exact}"
     lacks = set() if segments(**physics) else {"segments"}
     rungs = tuple(name for name in FACTS["general"].rungs if name.rpartition(":")[0] in {"", *found} and name not in lacks)
-    return Problem(title, MEASURES, solve, given, integrate, physics, lambda made: true_errors(made, want), rival, end * 10 * rate, rungs=rungs,
+    return Problem(title, TURNING, solve, given, integrate, physics, lambda made: true_errors(made, want), rival, end * 10 * rate, rungs=rungs,
                    cuts=rival.cuts, begin=begin)
 
 

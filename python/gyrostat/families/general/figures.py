@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat.drawing import (
-    COLOURS, MOMENT_NAMES, Panel, changes, components, curve, error_text, is_coarse, laid_out, legend_row, map_frame, map_legend, map_reach, note, on_map,
+    COLOURS, MOMENT_NAMES, Panel, changes, components, error_text, is_coarse, laid_out, map_frame, map_legend, map_reach, note, on_map,
     principal_axes, span_text, vector, wheels_panel)
 from gyrostat.fields import UNSET
 from gyrostat.rotation import matrix_from_quaternion
@@ -183,17 +183,6 @@ def _momentum_in_space(axes: "Axes", M: Vectors, attitude: Vectors, centre: Vect
 # ---- panels over time ----
 
 
-def _single(column: str, symbol: str, unit: str, title: str) -> Panel:
-    def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
-        curve(axes, t, answer[column], [symbol])
-        axes.set_ylabel(f"{symbol} [{unit}]")
-        legend_row(axes)
-        axes.set_title(title, loc="left", fontsize=10)
-        note(axes, error_text(answer, column))
-
-    return draw
-
-
 def _attitude(column: str, title: str) -> Panel:
     """A quaternion, of whose two signs that is taken which goes on from the time before."""
     def draw(axes: "Axes", answer: "Answer", t: NDArray[Any]) -> None:
@@ -234,7 +223,7 @@ def _panels(answer: "Answer", given: Mapping[str, Any]) -> list[Panel]:
     made += [_euler(given["euler"])] if "euler" in answer.columns else []
     made += [wheels_panel(*kind, names) for kind in _WHEELS if kind[0] in answer.columns]
     made += [_torque(kind, _jumps(given)) if kind[0] == "torque" else vector(*kind) for kind in _VECTORS[1:] if kind[0] in answer.columns]
-    return made + [_single(*kind) for kind in _SINGLES if kind[0] in answer.columns]
+    return made + [wheels_panel(*kind, [kind[1]]) for kind in _SINGLES if kind[0] in answer.columns]
 
 
 def _jumps(given: Mapping[str, Any]) -> list[float]:

@@ -8,31 +8,24 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gyrostat.charts.problem import MOST_TURNS, Measure, Problem, counted, first_turns, greatest, reference, relative, tensor
+from gyrostat.charts.problem import MOST_TURNS, TURNING, Measure, Problem, counted, first_turns, reference, tensor, true_errors
 from gyrostat.families.rotor.functions import integrate, solve
 from gyrostat.families.rotor.scene import arguments
-from gyrostat.rotation import angle_between
 
 if TYPE_CHECKING:
     from gyrostat.scenes import Scene
 
-__all__ = ["problem", "true_errors"]
+__all__ = ["problem"]
 
 Vectors = NDArray[np.float64]
 
 MEASURES: Final = (
-    Measure("attitude", "error of attitude", "the attitude", "greatest true error, angle [rad]"),
+    TURNING[0],
     Measure("angular_velocity", "error of Omega", "the angular velocity of the carrier", "greatest true error, relative to the greatest |Ω| [1]"))
 # Where the motor relaxes so often in a turn Radau makes the reference: Taylor steps keep exciting what has relaxed.
 STIFF: Final = 30.0 * 2 * math.pi
 # An explicit step is at most so many relaxation times long.
 STABLE: Final = 6.0
-
-
-def true_errors(made: Mapping[str, Any], want: Mapping[str, Any]) -> dict[str, float]:
-    """Greatest angle between the attitudes, and greatest difference of the angular velocities over the greatest wanted."""
-    return {"attitude": greatest(angle_between(made["attitude"], want["attitude"])),
-            "angular_velocity": relative(made["angular_velocity"], want["angular_velocity"])}
 
 
 def problem(scene: "Scene") -> Problem:
