@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/rung.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string_view>
@@ -115,6 +116,23 @@ TEST_CASE("where no rung knows its error the highest answers, whatever it costs"
   CHECK(Climb(scene, 1e-3).is("fourth"));
   scene.error[1] = 0.5;
   CHECK(Climb(scene, 1e-3).is("second"));
+}
+
+TEST_CASE("one attempt is accepted, the one that the answer is from", "[ladder]") {
+  const auto accepted = [](const Answer& answer) {
+    return std::count_if(answer.tried.begin(), answer.tried.end(), [](const Attempt& a) { return a.accepted; });
+  };
+  constexpr double unknown = gyrostat::nan<double>;
+  const Climb named(Scene{{unknown, unknown, unknown, unknown}}, 1e-3, 2);
+  CHECK(named.is("third"));
+  CHECK(accepted(named.answer) == 1);
+  // rungs that are left out stand before those that were asked
+  Scene scene{{1e-2, 1e-4, 1e-6, 1e-8}};
+  scene.cost = {1, 2, 300, 1};
+  const Climb c(scene, 1e-7);
+  CHECK(c.is("fourth"));
+  CHECK(accepted(c.answer) == 1);
+  CHECK(c.answer.tried.back().accepted);
 }
 
 TEST_CASE("where no rung can answer the highest says why, in whatever order they are asked", "[ladder]") {

@@ -29,6 +29,19 @@ TEMPLATE_TEST_CASE("complex numbers agree with std::complex", "[math]", float, d
   CHECK(complex_cast<double>(a) == Complex<double>{1.5, -0.25});
 }
 
+TEMPLATE_TEST_CASE("the magnitude without a root is no less, and at most 8 % more", "[math]", float, double,
+                   long double) {
+  using S = TestType;
+  for (int i = 0; i <= 720; ++i) {
+    const auto a = S(3) * unit(S(i) * gyrostat::pi<S> / 360);
+    CHECK(magnitude_at_most(a) >= magnitude(a) * (1 - 2 * gyrostat::epsilon<S>));
+    CHECK(magnitude_at_most(a) <= S(1.083L) * magnitude(a));
+  }
+  CHECK(magnitude_at_most(Complex<S>{0, -2}) == 2);
+  CHECK(std::isnan(magnitude_at_most(Complex<S>{gyrostat::nan<S>, 1})));
+  CHECK(std::isnan(magnitude_at_most(Complex<S>{1, gyrostat::nan<S>})));
+}
+
 TEST_CASE("complex numbers near the limits of the range", "[math]") {
   CHECK(magnitude(Complex<double>{3e200, 4e200}) == Approx(5e200));
   const auto small = inverse(Complex<double>{3e200, -4e200});

@@ -204,7 +204,7 @@ TEST_CASE("a segment whose closed form refuses is foreseen to be as dear as the 
   }
   problem.torques[0].factor.on = {{0, 150}}, problem.torques[1].factor.on = {{150, 1000}};
   const Scene scene = posed(problem, question_at({0, 200, 400}, 1e-8));
-  CHECK(cost_of_segments(scene) > cost_of_full(scene));
+  CHECK(cost_of_segments(scene) > 10 * cost_of_full(scene));
   CHECK(std::string_view(solved(scene).model) == "full");
 }
 
