@@ -119,7 +119,8 @@ GYROSTAT_COMPILED_ONCE double rate_error(const Scene& scene, std::span<const Sta
     size = std::max(size, std::sqrt(square));
     fastest = std::max(fastest, s.angular_velocity.norm());
   }
-  const double of_body = free_wheels > 0 ? std::sqrt(free_wheels) * of_velocity * fastest : 0;  // held wheels do not feel it
+  const double of_body =
+      free_wheels > 0 ? std::sqrt(free_wheels) * of_velocity * fastest : 0;  // held wheels do not feel it
   const double off = of_body + 8 * epsilon<double> * (greatest + fastest);
   return relative_to_truth(over(off, size));
 }

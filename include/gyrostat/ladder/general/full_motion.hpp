@@ -131,11 +131,11 @@ struct FullRow {
     *row = state.work;
   }
 
-  /// Attitudes more than half a radian apart.
+  /// Attitudes further apart than honesty::parted_attitude.
   template <class Numbers>
   bool has_parted(const Numbers& a, const Numbers& b) const noexcept {
     const S half_cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-    return std::abs(half_cosine) < std::cos(S(0.25L));
+    return std::abs(half_cosine) < std::cos(S(honesty::parted_attitude) / 2);
   }
 
  private:

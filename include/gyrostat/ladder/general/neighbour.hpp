@@ -97,7 +97,8 @@ Quat<Scalar> attitude_beside(const Quat<Scalar>& of, Scalar amount, const Vec3<S
   Vec3<Scalar> half;
   for (int i = 0; i < 3; ++i) {
     const Scalar products = std::abs(q.w * v[i]) + std::abs(v[(i + 1) % 3] * v[(i + 2) % 3]);
-    half[i] = 2 * amount * axis[i] * std::min(Scalar(1), 8 * products);
+    half[i] = Scalar(honesty::attitude_turn) * amount * axis[i] *
+              std::min(Scalar(1), Scalar(honesty::attitude_products) * products);
   }
   return half.isZero(0) ? of : q * Quat<Scalar>{1, half[0], half[1], half[2]};
 }
