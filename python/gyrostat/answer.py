@@ -243,6 +243,14 @@ class Answer:
 
         return to_json(self, file)
 
+    @staticmethod
+    def from_json(file: str | os.PathLike[str]) -> "Answer":
+        """The answer that `to_json`, or `gyrostat solve -o answer.json`, has written. What was not finite is NaN in columns, infinite as an error and None as
+        a scalar. Raises DomainError where the file holds no answer."""
+        from gyrostat.export import from_json
+
+        return from_json(file)
+
     def to_csv(self, file: str | os.PathLike[str] | None = None) -> str:
         """Comma-separated columns under one header line (vectors as _x, _y, _z, quaternions also _w). Written to `file`, too, where one is named."""
         from gyrostat.export import to_csv

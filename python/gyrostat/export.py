@@ -5,13 +5,15 @@ import json
 import math
 import os
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gyrostat._core import csv_rows, json_numbers
-from gyrostat.answer import Answer
+from gyrostat.answer import Answer, Attempt, DataError, Scalars, Warning_
+from gyrostat.errors import DomainError
 from gyrostat.facts import FACTS, TIME, UNITS
 from gyrostat.sweep_files import import_xarray
 from gyrostat.writing import write_text, written
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-__all__ = ["to_csv", "to_dataframe", "to_dict", "to_json", "to_netcdf", "to_xarray"]
+__all__ = ["from_json", "to_csv", "to_dataframe", "to_dict", "to_json", "to_netcdf", "to_xarray"]
 
 _AXES: Final = ("x", "y", "z", "w")
 
@@ -45,6 +47,7 @@ def _parts(answer: Answer) -> dict[str, Any]:
         "tried": [{"model": a.model, "error": a.error, "accepted": a.accepted, "why": a.why, "predicted": a.predicted, "spent": a.spent}
                   for a in answer.tried],
         "units": _units(answer), "meanings": _meanings(answer), "scale": answer.scale, "tolerances": answer.tolerances,
+        **({"own_torque": True} if answer.own_torque else {}),
         **({} if data is None else {"data_error": {name: {"effect": effect, "mostly": data.mostly[name]} for name, effect in data.effect.items()}}),
     }
 
@@ -94,6 +97,38 @@ def _written(text: str, file: str | os.PathLike[str] | None, end: str = "") -> s
 def to_json(answer: Answer, file: str | os.PathLike[str] | None = None) -> str:
     """See Answer.to_json."""
     return _written("".join(_json(_parts(answer))), file, "\n")
+
+
+def from_json(file: str | os.PathLike[str]) -> Answer:
+    """See Answer.from_json."""
+    try:
+        read = json.loads(Path(file).read_text(encoding="utf-8"))
+        return _answer_of(read)
+    except (ValueError, LookupError, TypeError, AttributeError) as wrong:
+        raise DomainError(f"{os.fspath(file)}: this is no answer that gyrostat has written as JSON ({type(wrong).__name__}: {wrong})") from None
+
+
+def _answer_of(read: dict[str, Any]) -> Answer:
+    def numbers(values: Mapping[str, Any], none: float) -> dict[str, float]:
+        return {name: none if value is None else float(value) for name, value in values.items()}
+
+    def column(values: list[Any]) -> NDArray[Any]:
+        return np.array(values) if values and isinstance(values[0], str) else np.array(values, dtype=float)
+
+    def scalar(value: Any) -> Any:
+        return np.array(value, dtype=float) if isinstance(value, list) and value and not isinstance(value[0], str) else value
+
+    scene, effect = read["scene"], read.get("data_error")
+    return Answer(
+        told=lambda: scene, model=read["model"], tolerance=read["tolerance"], met=read["met"], error=numbers(read["error"], math.inf),
+        warnings=tuple(Warning_(**each) for each in read["warnings"]), t=np.array(read["t"], dtype=float),
+        columns={name: column(values) for name, values in read["columns"].items()},
+        scalars=Scalars({name: scalar(value) for name, value in read["scalars"].items()}),
+        scalar_error=numbers(read["scalar_error"], math.nan), scale=numbers(read["scale"], math.inf), tolerances=numbers(read["tolerances"], math.inf),
+        counts=read["counts"], seconds=read["seconds"], tried=tuple(Attempt(**each) for each in read["tried"]),
+        own_torque=read.get("own_torque", False),
+        data_error=None if effect is None else DataError(numbers({name: each["effect"] for name, each in effect.items()}, math.inf),
+                                                         {name: each["mostly"] for name, each in effect.items()}))
 
 
 def _per_wheel(answer: Answer) -> set[str]:

@@ -160,7 +160,7 @@ inline general::Problem<double> general_problem(const py::dict& given) {
   made.angular_velocity = start.vector("angular_velocity");
   made.velocity = start.vector("velocity");
   made.position = start.vector("position");
-  if (all.has("clock")) made.clock = all.number("clock");
+  if (all.has("clock")) made.clock = all.number("clock"), made.retimed = all.number("retimed");
   return made;
 }
 

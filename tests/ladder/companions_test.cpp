@@ -14,7 +14,13 @@ struct PairWriter {
   using Scalar = double;
   using State = double;
   static constexpr ColumnKind columns[] = {{"x", 1, "m", Frame::none, Measure::relative, ""}};
+  double rate = 0;
+
   void operator()(double x, double* row) const noexcept { *row = x; }
+  template <class Numbers>
+  double turning(const Numbers& row) const noexcept {
+    return rate * std::abs(row[0]);
+  }
 };
 
 constexpr double margin = honesty::side_by_side.margin;
@@ -48,8 +54,8 @@ struct Found {
 Found walked(Run course, Run companion, Run second, std::vector<double> times, double rate = 0,
              const MotionOptions<double>& options = {}) {
   std::vector<double> states(times.size());
-  auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, &second},
-                          {course.at(0), rate, times, states, -1.0}, options, not_noted);
+  auto walk = walk_beside(PairWriter{.rate = rate}, Runs<Run>{course, companion, &second},
+                          {course.at(0), times, states, -1.0}, options, not_noted);
   return {walk, states};
 }
 
@@ -76,6 +82,15 @@ TEST_CASE("a distance between the asked times counts, and fades while the body t
   CHECK(faded.walk.error[0] > 0);
 }
 
+TEST_CASE("a distance fades as the body turns by then, not as it did before", "[ladder]") {
+  const Function slows = [](double t) { return t < 3 ? 1.0 : 0.0; },
+                 starts = [](double t) { return t < 3 ? 0.0 : 1.0; };
+  const Function slow_bump = [](double t) { return t < 3 ? (t > 2 ? 3.0 : 1.0) : 0.0; },
+                 start_bump = [](double t) { return t < 3 ? (t > 2 ? 2.0 : 0.0) : 1.0; };
+  CHECK(walked({slows, 0.5}, {slow_bump, 0.5}, {slows, 1}, {20}, 128).walk.error[0] > 0.5 * margin * 2);
+  CHECK(walked({starts, 0.5}, {start_bump, 0.5}, {starts, 1}, {20}, 128).walk.error[0] < 0.01 * margin * 2);
+}
+
 TEST_CASE("either companion counts, and their own distance", "[ladder]") {
   CHECK(walked({still, 1}, {still, 1}, {farther, 1}, {5}).walk.error[0] == margin * 0.5);
   CHECK(walked({still, 1}, {farther, 1}, {still, 1}, {5}).walk.error[0] == margin * 0.5);
@@ -95,7 +110,7 @@ TEST_CASE("one companion shows truncation alone", "[ladder]") {
   const std::vector<double> times{0, 3, 5};
   std::vector<double> states(3), noted;
   const auto walk =
-      walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, {1.0, 0.0, times, states, -1.0},
+      walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, {1.0, times, states, -1.0},
                   MotionOptions<double>{}, [&](std::size_t, const Errors<1>& error) { noted.push_back(error[0]); });
   CHECK(walk.error[0] == margin * 0.5);
   CHECK(states == std::vector<double>{1, 1, 1});
@@ -119,8 +134,8 @@ TEST_CASE("the first steps of the runs end apart", "[ladder]") {
   Stepped course, companion, second;
   const std::vector<double> times{1};
   std::vector<double> states(1);
-  const auto walk = walk_beside(PairWriter{}, Runs<Stepped>{course, companion, &second},
-                                {1.0, 0.0, times, states, -1.0}, MotionOptions<double>{}, not_noted);
+  const auto walk = walk_beside(PairWriter{}, Runs<Stepped>{course, companion, &second}, {1.0, times, states, -1.0},
+                                MotionOptions<double>{}, not_noted);
   CHECK(walk.error[0] == Approx(margin).epsilon(1e-2));
 }
 
@@ -148,12 +163,11 @@ TEST_CASE("of many times some are looked at, and steps' ends; each hears an erro
     std::vector<double> times, noted(count, -1.0), states(count);
     for (std::size_t i = 1; i <= count; ++i) times.push_back(10 * double(i) / double(count));
     std::size_t next = 0;
-    const auto walk =
-        walk_beside(PairWriter{}, Runs<Counting>{course, companion, nullptr}, {1.0, 0.0, times, states, -1.0},
-                    MotionOptions<double>{}, [&](std::size_t i, const Errors<1>& error) {
-                      CHECK(i == next++);
-                      noted[i] = error[0];
-                    });
+    const auto walk = walk_beside(PairWriter{}, Runs<Counting>{course, companion, nullptr}, {1.0, times, states, -1.0},
+                                  MotionOptions<double>{}, [&](std::size_t i, const Errors<1>& error) {
+                                    CHECK(i == next++);
+                                    noted[i] = error[0];
+                                  });
     CAPTURE(count);
     CHECK(next == count);
     CHECK(states == std::vector<double>(count, 1.0));
@@ -169,7 +183,7 @@ TEST_CASE("what is off at the end of a step and gone in the next is seen, of how
     Run course{swells, 0.7}, companion{still, 0.5};
     std::vector<double> times, states(count);
     for (std::size_t i = 1; i <= count; ++i) times.push_back(10 * double(i) / double(count));
-    const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, {1.0, 0.0, times, states, -1.0},
+    const auto walk = walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, {1.0, times, states, -1.0},
                                   MotionOptions<double>{}, not_noted);
     CAPTURE(count);
     CHECK(walk.error[0] == Approx(margin * 0x1p-20).epsilon(1e-9));
@@ -182,7 +196,7 @@ namespace {
 double error_seen(Run course, Run companion) {
   std::vector<double> times, states(6400);
   for (int i = 1; i <= 6400; ++i) times.push_back(i / 640.0);
-  return walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, {1.0, 0.0, times, states, -1.0},
+  return walk_beside(PairWriter{}, Runs<Run>{course, companion, nullptr}, {1.0, times, states, -1.0},
                      MotionOptions<double>{}, not_noted)
       .error[0];
 }
@@ -209,7 +223,7 @@ TEST_CASE("a companion steps shorter than the answer, whatever its own tolerance
     double of_answer = 0;
     Measured course{{still, 0.7}, &of_answer}, companion{{still, own}, &longest};
     std::vector<double> times{70}, states(1);
-    (void)walk_beside(PairWriter{}, Runs<Measured>{course, companion, nullptr}, {1.0, 0.0, times, states, -1.0},
+    (void)walk_beside(PairWriter{}, Runs<Measured>{course, companion, nullptr}, {1.0, times, states, -1.0},
                       MotionOptions<double>{}, not_noted);
     CHECK(of_answer == Approx(0.7));
     const double most = honesty::companion_stride * 0.7;
@@ -282,8 +296,8 @@ TEST_CASE("steps that would overrun their budget by far, and do not lengthen, ar
     std::vector<double> states(1);
     MotionOptions<double> options;
     options.step_cap = budget;
-    const auto walk = walk_beside(PairWriter{}, Runs<Plodding>{course, companion, nullptr},
-                                  {1.0, 0.0, times, states, -1.0}, options, not_noted);
+    const auto walk = walk_beside(PairWriter{}, Runs<Plodding>{course, companion, nullptr}, {1.0, times, states, -1.0},
+                                  options, not_noted);
     return std::pair{walk.status, companion.steps};
   };
   const auto even = [](double) { return 1.0; };
@@ -317,7 +331,7 @@ TEST_CASE("a companion that runs alone is kicked once, behind half the span", "[
   const auto walked_with = [&](KickedCourse* second, KickedCourse& companion) {
     KickedCourse answer;
     const auto walk = walk_beside(PairWriter{}, Runs<KickedCourse>{answer, companion, second},
-                                  {1.0, 0.0, times, states, -1.0}, MotionOptions<double>{}, not_noted);
+                                  {1.0, times, states, -1.0}, MotionOptions<double>{}, not_noted);
     CHECK(answer.kicks == 0);
     return walk.error[0];
   };
@@ -344,7 +358,7 @@ TEST_CASE(
     MotionOptions<double> options;
     options.tolerance = 1e-3;
     solve_beside(answer, PairWriter{}, Runs<Run>{course, companion, lone ? nullptr : &second},
-                 {1.0, 0.0, times, states, -1.0}, options,
+                 {1.0, times, states, -1.0}, options,
                  [](const Errors<1>& size, double steps) noexcept { return steps * size; });
     return answer;
   };

@@ -156,3 +156,28 @@ TEST_CASE("a start counts more where it is next to an unstable steady rotation")
   CHECK(of(moments, {0, 1e-5, 1}, {0, 0, -0.9}) == 1);
   CHECK(of(moments, {0, 1e-5, 1}, {0, 0, -1.1}) == more);
 }
+
+TEST_CASE("the direction that leaves an unstable rotation is what grows sees of a change of the momentum") {
+  const Vec3<double> moments{1, 2, 3};
+  const Vec3<double> rates[] = {{1e-9, 1, -1e-9}, {0, -1, 0}, {0.48, 0.6, 0.64}, {-0.3, 0.2, 0.9}};
+  for (const Vec3<double>& w : rates) {
+    const Mat3<double> inverse = moments.cwiseInverse().asDiagonal();
+    // rotors that make it a steady rotation, of a momentum that leaves it unstable
+    for (const double along : {0.5, 1.8, 2.0, 2.2, 4.0}) {
+      const Vec3<double> M = along * w;
+      const auto leaving = leaving_direction<double>(M, w, inverse);
+      if (leaving.isZero(0)) continue;
+      CHECK(std::abs(leaving.dot(M)) < 1e-8 * leaving.norm() * M.norm());
+      // dM/dt = M x w, w = inverse (M - l)
+      const auto rate = [&](const Vec3<double>& d) -> Vec3<double> {
+        return cross<double>(d, w) + cross<double>(M, inverse * d);
+      };
+      const Vec3<double> one = cross<double>(leaving, M).normalized(), two = leaving.normalized();
+      const double grows = leaving.dot(rate(two)) / leaving.norm();
+      CHECK(grows > 0);
+      CHECK(std::abs(leaving.dot(rate(one))) < 1e-7 * leaving.norm() * grows);
+    }
+  }
+  CHECK(!leaving_direction<double>({0, 2, 0}, {0, 1, 0}, moments.cwiseInverse().asDiagonal()).isZero(0));
+  CHECK(leaving_direction<double>({0, 0, 3}, {0, 0, 1}, moments.cwiseInverse().asDiagonal()).isZero(0));
+}

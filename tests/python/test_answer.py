@@ -213,6 +213,36 @@ def test_json_reads_back_to_the_same_numbers(full: Answer) -> None:
     assert read["units"]["energy"] == "J" and read["meanings"]["energy"] == "rotational energy of the carrier"
 
 
+@pytest.mark.parametrize("name", ["tiangong-1", "two-attractors", "flat-sail", "lab-gyroscope", "t-handle", "iss-torque-pulse", "envisat-eddy-decay"])
+def test_an_answer_comes_back_from_json(name: str, tmp_path: Path) -> None:
+    file = tmp_path / "answer.json"
+    answer = gyrostat.solve(name, ask="all", data_error=name == "lab-gyroscope")
+    answer.to_json(file)
+    again = Answer.from_json(file)
+    assert again.to_json() == answer.to_json()
+    assert str(again) == str(answer) or math.inf in answer.scalars.values()
+    assert again.error == answer.error
+    for column, values in answer.columns.items():
+        assert again[column].dtype.kind == values.dtype.kind and again[column].shape == values.shape
+        np.testing.assert_array_equal(again[column][values == values], values[values == values])
+    for scalar, value in answer.scalars.items():
+        np.testing.assert_equal(again.scalars[scalar], None if value in (math.inf, -math.inf) else value) if np.ndim(value) == 0 else \
+            np.testing.assert_array_equal(again.scalars[scalar], value)
+
+
+def test_an_answer_from_json_knows_that_a_torque_of_the_callers_own_acted(tmp_path: Path) -> None:
+    gyrostat.solve("iss-torque-pulse", times=[1.0], torque=lambda *_: (0.0, 0.0, 1e-3)).to_json(tmp_path / "own.json")
+    with pytest.raises(gyrostat.DomainError, match="torque of your own"):
+        Answer.from_json(tmp_path / "own.json").view()
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"scene": 1}', "3", '{"scene": {}, "model": "full"}'])
+def test_what_is_no_answer_is_refused(text: str, tmp_path: Path) -> None:
+    (tmp_path / "no.json").write_text(text)
+    with pytest.raises(gyrostat.DomainError, match="no answer"):
+        Answer.from_json(tmp_path / "no.json")
+
+
 def test_json_has_the_error_of_every_scalar() -> None:
     answer = gyrostat.solve(BRAKE, model="averaged")
     read = json.loads(answer.to_json())

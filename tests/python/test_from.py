@@ -488,6 +488,20 @@ def test_a_wave_that_began_long_ago_acts_as_one_that_begins_now() -> None:
         assert late.error[column] > now.error[column]  # what a rounding of the rate has done in so many turns
 
 
+@pytest.mark.parametrize("model", ["auto", "full"])
+@pytest.mark.parametrize("begin", [285120.1, 285120.2, 285120.3])
+def test_a_pulse_by_a_clock_that_began_before_lasts_as_long_as_it_does(begin: float, model: str) -> None:
+    pulse = [864000.3, 864000.312]
+    answer = gyrostat.solve({"name": "late", "kind": "general", "solve": {"times": [864010.0], "tolerance": 1e-9, "model": model, "ask": ["angular_velocity"]},
+                             "body": {"inertia": [1.0, 1.2, 2.0]}, "torque": [{"type": "constant", "torque": [0.0, 0.0, 2.0], "on": [pulse]}],
+                             "initial": {"angular_velocity": [0.0, 0.0, 0.01], "time": begin}})
+    gained = Fraction(0.01) + Fraction(pulse[1]) - Fraction(pulse[0])
+    off = abs(float(Fraction(float(answer["angular_velocity"][0, 2])) / gained - 1))
+    assert off <= answer.error["angular_velocity"]
+    exact = all(Fraction(t) - Fraction(begin) == Fraction(t - begin) for t in pulse)
+    assert answer.met == exact  # what its times lose is stated, and nothing where they lose nothing
+
+
 def test_an_error_of_the_start_is_part_of_the_answer() -> None:
     exact = gyrostat.solve(WHOLE, tolerance=1e-2)
     for size in (1e-7, 1e-4):

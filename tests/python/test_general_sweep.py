@@ -378,3 +378,13 @@ def test_a_resumed_sweep_has_the_types_of_one_that_ran_through(tmp_path: Path) -
         for name, values in whole.variables.items():
             if values.dtype.kind in "if":
                 assert made[name].dtype == values.dtype, name
+
+
+def test_a_row_that_a_family_answers_says_that_it_warns() -> None:
+    scene = gyrostat.scenes.load("iss-torque-pulse", times=[5.0, 20.0], ask="all").replace(**{"torque[0].on[0,0]": 0.0})
+    codes = {warning.code for warning in gyrostat.solve(scene).warnings}
+    assert {"no-spin", "unstable-spin"} <= codes
+    warnings = sweep(scene, {"torque[0].on[0,0]": [0.0]})["warnings"]
+    told = dict(zip(warnings.attrs["flag_meanings"].split(), warnings.attrs["flag_masks"], strict=True))
+    assert warnings.values[0] & told["of-family"]
+    assert bool(warnings.values[0] & told["no-value"]) == ("no-value" in codes)

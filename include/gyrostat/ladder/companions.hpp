@@ -66,7 +66,6 @@ struct Sought {
   using Scalar = typename Writer::Scalar;
   using State = typename Writer::State;
   State start;
-  Scalar rate;  ///< at which the body turns, rad/s: distances fade with its turns
   std::span<const Scalar> times;
   std::span<State> states;
   State nowhere;
@@ -156,18 +155,22 @@ bool is_next_to_end(std::span<const Scalar> times, std::size_t i, Scalar begin, 
   return i + 1 >= times.size() || times[i + 1] > end || i == 0 || times[i - 1] <= begin;
 }
 
-/// Lets distances fade, except those of motions that have diverged for good.
+/// Lets distances fade with the turns of the body, `turning(row)` of the writer, rad/s, except those of motions that have diverged for good.
 template <class Writer>
-class Parting {
+class Fading {
+  using Scalar = typename Writer::Scalar;
   using Row = typename Comparison<Writer>::Row;
   using Kept = typename Comparison<Writer>::ColumnErrors;
 
  public:
-  explicit Parting(const Writer& writer) noexcept : writer_(writer) {}
-  void see(const Row& a, const Row& b) noexcept {
+  explicit Fading(const Writer& writer) noexcept : writer_(writer) {}
+  void see(const Row& answer) noexcept { rate_ = writer_.turning(answer); }
+  void see_apart(const Row& a, const Row& b) noexcept {
     if constexpr (TellsParted<Writer, Row>) parted_ = parted_ || writer_.has_parted(a, b);
   }
-  void fade(Kept& kept, typename Writer::Scalar share) const noexcept {
+  /// `kept` after `time` more, s.
+  void fade(Kept& kept, Scalar time) const noexcept {
+    const Scalar share = 1 / (1 + time * rate_ / Scalar(honesty::fading_angle));
     if (!parted_) {
       kept *= share;
     } else if constexpr (NamesLasting<Writer>) {
@@ -178,6 +181,7 @@ class Parting {
 
  private:
   const Writer& writer_;
+  Scalar rate_ = 0;  ///< when last seen
   bool parted_ = false;
 };
 
@@ -187,8 +191,7 @@ class Parting {
 /// budget (Pace). The first companion leads. All are compared at the ends of its steps and at the asked times: of many at some, and at the first and the
 /// last in each step of the answer.
 /// The first steps have different lengths, else all runs would take the same polynomial and err alike; a lone companion is kicked at half the span.
-/// A distance fades while the body, at turning rate `rate` [rad/s], makes some twenty turns, so that one asked time at which all happen to be near
-/// does not hide it.
+/// A distance fades while the body makes some twenty turns, so that one asked time at which all happen to be near does not hide it.
 /// States behind a failure are `nowhere`. note(i, error) is called at each asked time.
 /// Between two steps the times before told_ have state and error, those before next_ their state, and the last step of every run reaches the
 /// companion's time.
@@ -208,7 +211,7 @@ class SideBySide {
         note_(note),
         last_(sought.times.back()),
         walk_{Status::reached, Rows(writer), {}},
-        parting_(writer),
+        fading_(writer),
         kick_(runs, sought.times.back()) {}
 
   Walk<Writer> walk() noexcept {
@@ -224,6 +227,7 @@ class SideBySide {
   bool is_going_on() const noexcept { return is_well() && next_ < sought_.times.size(); }
 
   void take_start() noexcept {
+    fading_.see(walk_.asked.row(sought_.start));
     for (; next_ < sought_.times.size() && !(sought_.times[next_] > 0); ++next_) {
       const Row row = keep(sought_.start);
       if (!(last_ > 0)) look(row, last_);  // the start alone is asked: no later time shows what conversions lose
@@ -245,7 +249,7 @@ class SideBySide {
     walk_.status = runs_.companion.step(longest_);
     if (!is_well()) return;
     const Scalar now = runs_.companion.time();
-    parting_.fade(kept_, 1 / (1 + (now - before) * sought_.rate / Scalar(honesty::fading_angle)));
+    fading_.fade(kept_, now - before);
     take_times(now);
     if (!is_well() || told_ == sought_.times.size() || !all_reach(now)) return;
     if (told_ < next_ || honesty::is_compared_at_end(trips_)) look(walk_.asked.row(runs_.answer.at(now)), now);
@@ -291,12 +295,13 @@ class SideBySide {
 
   /// Compares the companions at time t with the answer there.
   void look(const Row& answer, Scalar t) noexcept {
+    fading_.see(answer);
     const Row one = walk_.asked.row(runs_.companion.at(t));
     auto away = Rows::apart(answer, one);
-    parting_.see(answer, one);
+    fading_.see_apart(answer, one);
     if (runs_.second == nullptr) return kept_.raise(error_of_distances(away, {}));
     const Row two = walk_.asked.row(runs_.second->at(t));
-    parting_.see(answer, two);
+    fading_.see_apart(answer, two);
     away.raise(Rows::apart(answer, two));
     kept_.raise(error_of_distances(away, Rows::apart(one, two)));
   }
@@ -313,7 +318,7 @@ class SideBySide {
   Scalar last_;
   Walk<Writer> walk_;
   typename Rows::ColumnErrors kept_;  ///< the error by now: it fades
-  Parting<Writer> parting_;
+  Fading<Writer> fading_;
   HalfwayKick<Course, Scalar> kick_;
   Pace<Scalar> pace_;
   std::size_t next_ = 0, told_ = 0;  ///< asked times: the next one, and how many have their error

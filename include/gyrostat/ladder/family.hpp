@@ -73,6 +73,8 @@ struct WarningKind {
   const char* code;
   const char* text;
 };
+/// In a sweep of scenes that may be recognised as those of other families: one of their warnings.
+inline constexpr const char* warning_of_family = "of-family";
 
 /// A set of columns: one bit for the place of each.
 using ColumnSet = std::uint32_t;

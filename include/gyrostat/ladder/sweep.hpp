@@ -119,10 +119,12 @@ inline void store(const SweepTarget& target, std::size_t row, const Answer& answ
   }
 }
 
+/// A bit for each warning, by its place in the table of the family: no_value is behind them, and those of other families have one in common.
 inline std::uint32_t warning_bits(const Answer& answer, const Family& family) noexcept {
   std::uint32_t bits = 0;
   for (const Warning& warning : answer.warnings) {
-    const int place = place_of(family.warnings, warning.code());
+    int place = place_of(family.warnings, warning.code());
+    if (place < 0 && warning.code() != no_value.code) place = place_of(family.warnings, warning_of_family);
     bits |= std::uint32_t{1} << (place < 0 ? family.warnings.size() : std::size_t(place));
   }
   return bits;

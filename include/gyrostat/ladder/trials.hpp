@@ -44,12 +44,13 @@ constexpr Scalar data_change(Scalar step_tolerance, const Condition<Scalar>& con
          Scalar(rounding_rules(step_tolerance, condition) ? honesty::side_by_side.data_change : honesty::alone_change);
 }
 
-/// Factor by which a change of the start counts more, from the total momentum, the rate and the inverse of the tensor in one frame: next to an unstable
-/// steady rotation the motion may linger, and how far off it began decides when it leaves. 1 elsewhere.
+/// What decides when a motion leaves an unstable steady rotation next to which it begins: along this direction a change of the momentum counts, across it not.
+/// Not of unit length; zero elsewhere. From the total momentum, the rate and the inverse of the tensor in one frame.
 template <Real Scalar>
-Scalar start_sensitivity(const Vec3<Scalar>& momentum, const Vec3<Scalar>& rate, const Mat3<Scalar>& inverse) noexcept {
+Vec3<Scalar> leaving_direction(const Vec3<Scalar>& momentum, const Vec3<Scalar>& rate,
+                               const Mat3<Scalar>& inverse) noexcept {
   const Scalar size = momentum.norm(), whole = size * rate.norm(), across = cross<Scalar>(rate, momentum).norm();
-  if (!(across < Scalar(honesty::next_to_unstable) * whole)) return 1;
+  if (!(across < Scalar(honesty::next_to_unstable) * whole)) return {0, 0, 0};
   // the energy over the sphere of the momentum has a saddle there
   const Vec3<Scalar> along = momentum / size;
   int least = 0;
@@ -59,7 +60,21 @@ Scalar start_sensitivity(const Vec3<Scalar>& momentum, const Vec3<Scalar>& rate,
   const Scalar lift = rate.dot(along) / size;
   const Scalar first = one.dot(inverse * one) - lift, second = two.dot(inverse * two) - lift,
                both = one.dot(inverse * two);
-  return first * second < both * both ? Scalar(honesty::unstable_condition) : Scalar(1);
+  if (!(first * second < both * both)) return {0, 0, 0};
+  // of dM/dt = M x w beside it, in these two axes, the left eigenvector of what grows: in that of its two forms which does not cancel
+  const Scalar grows = std::sqrt(both * both - first * second);
+  return both > 0 ? Vec3<Scalar>(first * one + (both + grows) * two)
+                  : Vec3<Scalar>((both - grows) * one + second * two);
+}
+/// Factor by which a change of the start counts more: next to an unstable steady rotation the motion may linger, and how far off it began decides when it
+/// leaves. 1 elsewhere.
+template <Real Scalar>
+Scalar start_sensitivity(const Vec3<Scalar>& leaving) noexcept {
+  return leaving.isZero(0) ? Scalar(1) : Scalar(honesty::unstable_condition);
+}
+template <Real Scalar>
+Scalar start_sensitivity(const Vec3<Scalar>& momentum, const Vec3<Scalar>& rate, const Mat3<Scalar>& inverse) noexcept {
+  return start_sensitivity(leaving_direction(momentum, rate, inverse));
 }
 
 /// How the data of a companion differ: the first one's, a second one's, and a second one's opposite to the first.

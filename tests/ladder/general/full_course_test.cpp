@@ -26,7 +26,7 @@ TEST_CASE("every breakpoint ends a step", "[general]") {
   p.torques[0].factor.on = {{0.7, 1.9}, {2.2, 3.1}};
   const auto cuts = breakpoints(p, 4.);
   REQUIRE(cuts.size() == 4);
-  general::detail::FullCourse<general::detail::Series<double, false>> course(p, 4, cuts, 1, {1e-6, 1e-6}, 1000);
+  general::detail::FullCourse<general::detail::Series<double, false>> course(p, 4, 1, {1e-6, 1e-6}, 1000);
   std::vector<double> ends;
   while (course.time() < 4) {
     REQUIRE(course.step(4) == Status::reached);
@@ -510,7 +510,7 @@ TEST_CASE("a stop that is not gone through says why", "[general]") {
 TEST_CASE("breakpoints, balances and stops of scenes with stiff wheels", "[general]") {
   const auto p = three_wheels(1e5);
   const auto cuts = breakpoints(p, 4.);
-  general::detail::FullCourse<general::detail::Collocation<double, 4>> course(p, 4, cuts, 1, {1e-9, 1e-8}, 10'000);
+  general::detail::FullCourse<general::detail::Collocation<double, 4>> course(p, 4, 1, {1e-9, 1e-8}, 10'000);
   std::vector<double> ends;
   while (course.time() < 4) {
     REQUIRE(course.step(4) == Status::reached);

@@ -49,6 +49,42 @@ TEST_CASE("a neighbour differs by the amount, in every number that is not zero, 
   }
 }
 
+TEST_CASE("times that another clock has moved are moved on, and stay in their order", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 4).asDiagonal();
+  p.torques.resize(2);
+  p.torques[0].vector = {1, 0, 0};
+  p.torques[0].factor.on = {{1, 2}, {2, 3}, {3 + 1e-3, 4}};
+  auto& table = p.torques[1].table;
+  p.torques[1].type = TorqueType::table;
+  table.times = {0, 1, 2, 2 + 1e-3, 3};
+  table.values = {0, 0, 0, 1, 0, 0, 2, 0, 0, 1, 0, 0, 0, 0, 0};
+  p.clock = 1e6, p.retimed = 1e-3;
+  const auto lasts = [](const Problem<double>& of) {
+    double sum = 0;
+    for (const auto& [from, to] : of.torques[0].factor.on) sum += to - from;
+    return sum;
+  };
+  const auto adds = [](const Problem<double>& of) {
+    double sum = 0;
+    const auto& x = of.torques[1].table;
+    for (std::size_t i = 1; i < x.times.size(); ++i)
+      sum += (x.times[i] - x.times[i - 1]) * (x.values[3 * i] + x.values[3 * i - 3]) / 2;
+    return sum;
+  };
+  for (const Aside aside : {Aside::first, Aside::second, Aside::opposite}) {
+    const auto near = beside(p, 1e-16, aside);
+    const double way = aside == Aside::first ? 1 : -1;
+    CHECK(way * (lasts(near) - lasts(p)) > 2e-3);
+    CHECK(way * (adds(near) - adds(p)) > 1e-3);
+    CHECK(!check(near));
+    auto exact = p;
+    exact.retimed = 0;
+    CHECK(beside(exact, 1e-16, aside).torques[0].factor.on == p.torques[0].factor.on);
+    CHECK(beside(exact, 1e-16, aside).torques[1].table.times == table.times);
+  }
+}
+
 TEST_CASE("a neighbour lies turned by what vectors round to in turning, and not where they do not", "[general]") {
   const double amount = 1e-9;
   const auto turned = [&](const Quat<double>& of, Aside aside) {

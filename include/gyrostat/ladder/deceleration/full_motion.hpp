@@ -123,6 +123,13 @@ State<Scalar> state_of(const Problem<Scalar>& problem, const Vec3<Scalar>& M, co
   return state;
 }
 
+/// What decides when a motion leaves an unstable rotation next to which it begins (gyrostat::leaving_direction), in principal axes; zero elsewhere.
+template <Real Scalar>
+Vec3<Scalar> leaving_direction_of(const Problem<Scalar>& of) noexcept {
+  const Vec3<Scalar>&a = of.inverse_inertia, &M = of.momentum;
+  return leaving_direction<Scalar>(M, a.cwiseProduct(M - of.rotor_momentum), a.asDiagonal());
+}
+
 /// A problem that differs from the given one by about `amount`: by what rounding makes of its data. What is zero stays so where the
 /// motion keeps it.
 ///
@@ -149,7 +156,7 @@ struct Neighbour {
       const Scalar first = of.inverse_inertia[0] * (1 + v[0]);
       problem.gaps = moved;
       problem.inverse_inertia = {first, first + moved[0], first + moved[2]};
-      problem.momentum += v.cwiseProduct(parts.cwiseMax(swing(of)));
+      problem.momentum += momentum_shift(of, amount, aside).cwiseProduct(parts.cwiseMax(swing(of)));
       return;
     }
     // with all digits of the differences, so that axes of nearly equal moments turn as far as they must
@@ -172,10 +179,16 @@ struct Neighbour {
     problem.rotor_momentum = back * Vec3<Scalar>(l + l.norm() * v);
     // products of a control that has none would keep the motion beside a weak axis stiff for ever
     if (!of.control.isDiagonal(0)) problem.control = back * problem.control * R;
-    problem.momentum = back * Vec3<Scalar>(of.momentum + of.momentum_terms() * v);
+    problem.momentum = back * Vec3<Scalar>(of.momentum + of.momentum_terms() * momentum_shift(of, amount, aside));
   }
 
  private:
+  /// In the direction of the other data; next to an unstable rotation also so that no part of what brings the motion away cancels another, nor what the
+  /// other data do.
+  static Vec3<Scalar> momentum_shift(const Problem<Scalar>& of, Scalar amount, Aside aside) noexcept {
+    const Scalar by = Scalar(honesty::leaving_shift) * (aside == Aside::first ? amount : -amount);
+    return amount * neighbour_direction<Scalar>(aside) + by * leaving_direction_of(of).cwiseSign();
+  }
   /// How far each component of the momentum moves in one radian of the motion, N m s: 0 where it is zero for ever.
   static Vec3<Scalar> swing(const Problem<Scalar>& of) noexcept {
     const FullCoefficients<Scalar> f(of);
@@ -447,8 +460,8 @@ ColumnErrors<Scalar> rounding_of_columns(const Problem<Scalar>& problem, const C
 /// the start.
 template <Real Scalar>
 Condition<Scalar> condition_of(const Problem<Scalar>& problem) noexcept {
-  const Vec3<Scalar>&a = problem.inverse_inertia, &M = problem.momentum;
-  const Scalar of_start = start_sensitivity<Scalar>(M, a.cwiseProduct(M - problem.rotor_momentum), a.asDiagonal());
+  const Vec3<Scalar>& a = problem.inverse_inertia;
+  const Scalar of_start = start_sensitivity(leaving_direction_of(problem));
   if (problem.exact_moments) return {1, of_start};
   const Vec3<Scalar> gaps = problem.inverse_gaps();
   Scalar of_tensor = a[2] / a[0];
@@ -496,10 +509,8 @@ class FullMotion {
       const State<Scalar> start = state_of(problem_, problem_.momentum, attitude_);
       const State<Scalar> nowhere = state_of(problem_, Vec3<Scalar>(Vec3<Scalar>::Constant(nan<Scalar>)),
                                              Quat<Scalar>{nan<Scalar>, nan<Scalar>, nan<Scalar>, nan<Scalar>});
-      solve_beside(answer, row, runs,
-                   {start, Scalar(honesty::stop_fading_factor) * turning_rate(problem_), times_, states_, nowhere,
-                    progress_from, progress_to},
-                   options_, rounding, note);
+      solve_beside(answer, row, runs, {start, times_, states_, nowhere, progress_from, progress_to}, options_, rounding,
+                   note);
       if (answer.status == ode::Status::reached) add_rounding(row, rounding, answer.counts.steps, !second);
       if (!with_attitude) answer.error[column::attitude] = 0;
       answer.error[column::modulus_squared] = 0;

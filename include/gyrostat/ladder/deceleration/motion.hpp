@@ -8,6 +8,7 @@
 #include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/errors.hpp"
 #include "gyrostat/ladder/family.hpp"
+#include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/models/deceleration/problem.hpp"
 #include "gyrostat/models/deceleration/regime.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
@@ -177,6 +178,11 @@ struct Row {
       *row++ = value;
   }
 
+  /// So many times |angular_velocity| as errors decrease faster than the body turns.
+  template <class Numbers>
+  S turning(const Numbers& row) const noexcept {
+    return S(honesty::stop_fading_factor) * std::hypot(row[3], row[4], row[5]);
+  }
   /// Momenta more than 120 degrees apart: beside a separatrix one has turned over, and the other may yet go the other way. At one late time both may
   /// be near again by chance.
   template <class Numbers>

@@ -64,6 +64,12 @@ struct FullRow {
     for (const S value : {q.x, q.y, q.z, q.w, w[0], w[1], w[2], M[0], M[1], M[2], W[0], W[1], W[2]}) *row++ = value;
   }
 
+  /// |angular_velocity|.
+  template <class Numbers>
+  S turning(const Numbers& row) const noexcept {
+    return std::hypot(row[4], row[5], row[6]);
+  }
+
  private:
   static constexpr S share = S(1e-3L);
 };
@@ -220,7 +226,7 @@ class FullMotion {
     };
     solve_beside(answer, FullRow<Scalar>(problem_),
                  Runs<FullCourse<Scalar>>{course, companion, second ? &*second : nullptr},
-                 {start, turning_, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding);
+                 {start, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding);
     return answer;
   }
 

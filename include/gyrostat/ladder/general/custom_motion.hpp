@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "gyrostat/core/real.hpp"
@@ -115,7 +116,7 @@ class BrakeWatch {
   Scalar greatest_ = 0;
 };
 
-/// One run over all pieces, as FullCourse is by Taylor series. law, of (whose wheels are those of another problem) and cuts must outlive it.
+/// One run over all pieces, as FullCourse is by Taylor series. law and of (whose wheels are those of another problem) must outlive it.
 template <Real Scalar, TorqueLaw<Scalar> Law>
 class CustomCourse {
   using Equations = DrivenFlow<Scalar, Law>;
@@ -125,11 +126,11 @@ class CustomCourse {
  public:
   /// law_share: what the law's torque is multiplied by; share: as of FullCourse; sizes: number_sizes().
   CustomCourse(const Problem<Scalar>& problem, const Law& law, const Vec3<Scalar>& law_share,
-               const typename Equations::Numbers& sizes, Scalar span, std::span<const Scalar> cuts, Scalar share,
+               const typename Equations::Numbers& sizes, Scalar span, std::vector<Scalar> cuts, Scalar share,
                Scalar tolerance, std::uint64_t step_cap) noexcept
       : problem_(problem),
         wheels_(Wheels<Scalar>::of(problem_)),
-        cuts_(cuts),
+        cuts_(std::move(cuts)),
         last_(span),
         share_(share),
         step_cap_(step_cap),
@@ -221,7 +222,7 @@ class CustomCourse {
   static constexpr int most_hops_ = 1000;
   Problem<Scalar> problem_;
   Wheels<Scalar> wheels_;
-  std::span<const Scalar> cuts_;
+  std::vector<Scalar> cuts_;
   Scalar last_, share_;
   std::uint64_t step_cap_;
   std::size_t cut_ = 0;
@@ -253,8 +254,7 @@ class CustomMotion {
         times_(times),
         states_(states),
         options_(options),
-        named_(!named.empty()),
-        cuts_(breakpoints_with(problem, named, times.back())),
+        named_(named),
         sizes_(number_sizes(of)) {}
 
   /// The answer's run and its neighbours' side by side, and their distance.
@@ -272,13 +272,12 @@ class CustomMotion {
     if (may_jump || rounding_rules(tolerance, condition)) second = neighbour(second_aside(condition), 3, tight);
     const FullRow<Scalar> row(of_, !options_.wanted.empty());
     // a step over a jump that is not named may err by its tolerance and show nothing of it
-    const Scalar unseen = may_jump && !named_ ? tolerance / 4 : Scalar(0);
+    const Scalar unseen = may_jump && named_.empty() ? tolerance / 4 : Scalar(0);
     const auto rounding = [&](const FullErrors<Scalar>& size, Scalar steps) noexcept {
       return rounding_of_columns(of_, row, size, 4 * eps + steps + unseen);
     };
     solve_beside(answer, row, Runs<Course>{*course, *companion, second.get()},
-                 {course->at(0), of_.sizes.turning, times_, states_, nowhere<Scalar>(), progress_from, progress_to},
-                 options_, rounding);
+                 {course->at(0), times_, states_, nowhere<Scalar>(), progress_from, progress_to}, options_, rounding);
     for (const Course* each : {course.get(), companion.get(), second.get()})
       if (each != nullptr && each->lost_at() == each->lost_at())
         answer.fault = LawFault::no_value, answer.fault_time = each->lost_at();
@@ -291,8 +290,9 @@ class CustomMotion {
 
   std::unique_ptr<Course> begin(const Problem<Scalar>& problem, const Vec3<Scalar>& law_share, int share,
                                 Scalar tolerance) const noexcept {
-    return std::make_unique<Course>(problem, law_, law_share, sizes_, times_.back(), cuts_, 1 / Scalar(share),
-                                    tolerance, options_.step_cap);
+    return std::make_unique<Course>(problem, law_, law_share, sizes_, times_.back(),
+                                    breakpoints_with(problem, named_, times_.back()), 1 / Scalar(share), tolerance,
+                                    options_.step_cap);
   }
   std::unique_ptr<Course> neighbour(Aside aside, int share, Scalar tolerance) const noexcept {
     constexpr Scalar change = Scalar(honesty::side_by_side.data_change) * epsilon<Scalar>;
@@ -306,8 +306,7 @@ class CustomMotion {
   std::span<const Scalar> times_;
   std::span<State<Scalar>> states_;
   const MotionOptions<Scalar>& options_;
-  bool named_;  ///< whether any times are named at which the law jumps
-  std::vector<Scalar> cuts_;
+  std::span<const Scalar> named_;  ///< times at which the law jumps
   std::array<Scalar, Flow<Scalar>::width> sizes_;
 };
 

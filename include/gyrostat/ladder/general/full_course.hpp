@@ -17,6 +17,7 @@
 #include "gyrostat/ladder/honesty.hpp"
 #include "gyrostat/ladder/pace.hpp"
 #include "gyrostat/ladder/question.hpp"
+#include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/full.hpp"
 #include "gyrostat/models/general/piece.hpp"
 #include "gyrostat/models/general/problem.hpp"
@@ -89,7 +90,7 @@ struct StepTolerance {
   Scalar inside;  ///< between them; of collocation alone
 };
 
-/// One run of the equations over all pieces. cuts: the breakpoints. share: the first step of each piece ends at this share of it at
+/// One run of the equations over all pieces. share: the first step of each piece ends at this share of it at
 /// the latest, for two runs that took it in one step would take the same polynomial, and err alike.
 template <class Method>
 class FullCourse {
@@ -101,16 +102,15 @@ class FullCourse {
   using Scalar = typename System::Scalar;
 
   /// spare: the slack of stop_at().
-  FullCourse(const Problem<Scalar>& problem, Scalar span, std::span<const Scalar> cuts, Scalar share,
-             const StepTolerance<Scalar>& tolerance, std::uint64_t step_cap,
-             Scalar spare = share_slack<Scalar>) noexcept
+  FullCourse(const Problem<Scalar>& problem, Scalar span, Scalar share, const StepTolerance<Scalar>& tolerance,
+             std::uint64_t step_cap, Scalar spare = share_slack<Scalar>) noexcept
       : of_(problem, span),
-        cuts_(cuts),
+        cuts_(breakpoints(problem, span)),
         last_(span),
         share_(share),
         spare_(spare),
         options_(Method::options(tolerance.end, tolerance.inside, share, step_cap)) {
-    piece_ = Piece<Scalar>::first(problem, of_.wheels, of_.torques, cuts.empty() ? span : cuts.front());
+    piece_ = Piece<Scalar>::first(problem, of_.wheels, of_.torques, cuts_.empty() ? span : cuts_.front());
     enter(0, System::first_numbers(of_));
   }
   FullCourse(const FullCourse&) = delete;
@@ -432,7 +432,7 @@ class FullCourse {
   /// Share of its time to which a stop is found; float cannot resolve 1e-13.
   static constexpr Scalar precision_ = Scalar(1e-13L) * std::max(Scalar(1), epsilon<Scalar> / Scalar(1e-15L));
   Prepared<Scalar> of_;
-  std::span<const Scalar> cuts_;
+  std::vector<Scalar> cuts_;
   Scalar last_, share_, spare_, time_ = 0, previous_ = 0;
   Pace<Scalar> pace_;
   bool outgrown_ = false;

@@ -131,7 +131,11 @@ struct FullRow {
     *row = state.work;
   }
 
-  /// Attitudes further apart than honesty::parted_attitude.
+  /// |angular_velocity|.
+  template <class Numbers>
+  S turning(const Numbers& row) const noexcept {
+    return std::hypot(row[4], row[5], row[6]);
+  }  /// Attitudes further apart than honesty::parted_attitude.
   template <class Numbers>
   bool has_parted(const Numbers& a, const Numbers& b) const noexcept {
     const S half_cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
@@ -268,11 +272,7 @@ class FullMotion {
 
   FullMotion(const Problem<Scalar>& problem, std::span<const Scalar> times, std::span<State<Scalar>> states,
              const FullMotionOptions<Scalar>& options) noexcept
-      : problem_(problem),
-        times_(times),
-        states_(states),
-        options_(options),
-        cuts_(breakpoints(problem, times.back())) {}
+      : problem_(problem), times_(times), states_(states), options_(options) {}
 
   /// The answer's run and its neighbours' side by side, and their distance.
   FullMotionAnswer<Scalar> run(const StepTolerance<Scalar>& tolerance, double progress_from,
@@ -285,7 +285,7 @@ class FullMotion {
     Scalar spare = share_slack<Scalar>;
     // courses are large, and live on the heap
     const auto begin = [&](const Problem<Scalar>& problem, int share, const StepTolerance<Scalar>& its) noexcept {
-      return std::make_unique<Course>(problem, span, cuts_, 1 / Scalar(share), its, options_.step_cap, spare);
+      return std::make_unique<Course>(problem, span, 1 / Scalar(share), its, options_.step_cap, spare);
     };
     const auto course = begin(problem_, 1, tolerance);
     const auto& of = course->prepared();
@@ -319,8 +319,8 @@ class FullMotion {
         between.raise(rows.apart(rows.row(companion->inside(times_[i])), rows.row(companion->beside(times_[i]))));
     };
     solve_beside(answer, row, Runs<Course>{*course, *companion, second.get(), stride},
-                 {course->at(0), of.sizes.turning, times_, states_, nowhere<Scalar>(), progress_from, progress_to},
-                 options_, rounding, note);
+                 {course->at(0), times_, states_, nowhere<Scalar>(), progress_from, progress_to}, options_, rounding,
+                 note);
     tell_stops(answer, *course, *companion, second.get());
     if (answer.status == ode::Status::reached && span > 0) {
       const Course& other = second ? *second : *course;
@@ -338,7 +338,7 @@ class FullMotion {
     answer.used = Method::integrator;
     answer.step_tolerance = tolerance.end;
     const Scalar span = times_.back();
-    const auto course = std::make_unique<Course>(problem_, span, cuts_, Scalar(1), tolerance, options_.step_cap);
+    const auto course = std::make_unique<Course>(problem_, span, Scalar(1), tolerance, options_.step_cap);
     std::ranges::fill(states_, nowhere<Scalar>());
     std::uint64_t trips = 0;
     for (std::size_t i = 0; i < times_.size() && answer.status == ode::Status::reached; ++i) {
@@ -406,7 +406,6 @@ class FullMotion {
   std::span<const Scalar> times_;
   std::span<State<Scalar>> states_;
   const FullMotionOptions<Scalar>& options_;
-  std::vector<Scalar> cuts_;
 };
 
 template <class Method, Real Scalar>
@@ -477,12 +476,11 @@ struct BalanceResiduals {
 template <Real Scalar>
 BalanceResiduals<Scalar> balance_residuals(const Problem<Scalar>& problem, Scalar span, Scalar step_tolerance,
                                            std::uint64_t step_cap = step_budget) noexcept {
-  const auto cuts = breakpoints(problem, span);
   const Prepared<Scalar> of(problem, span);
   return detail::by_method(of, Integrator::any, [&](auto method) noexcept -> BalanceResiduals<Scalar> {
     const detail::StepTolerance<Scalar> tolerance{step_tolerance, step_tolerance};
     const auto course =
-        std::make_unique<detail::FullCourse<decltype(method)>>(problem, span, cuts, Scalar(1), tolerance, step_cap);
+        std::make_unique<detail::FullCourse<decltype(method)>>(problem, span, Scalar(1), tolerance, step_cap);
     Balances<Scalar> balances(problem, course->prepared().wheels);
     while (course->time() < span) {
       if (course->step(span) != ode::Status::reached) return {};

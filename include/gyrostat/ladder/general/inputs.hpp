@@ -73,6 +73,7 @@ void visit_numbers(Problem<double>& of, Visit&& visit) {
   const auto start = in("initial");
   start("attitude", of.attitude), start("angular_velocity", of.angular_velocity);
   start("velocity", of.velocity), start("position", of.position);
+  if (of.clock != 0) start("retimed", of.retimed);
 }
 
 /// Appends the numbers of a value of visit_numbers.

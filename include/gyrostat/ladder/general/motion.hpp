@@ -197,6 +197,7 @@ inline constexpr WarningKind warning_kinds[] = {
     {"recognised-with-rounding",
      "the scene is an instance of the family that answers but for roundings, which were dropped; the greatest, in "
      "roundings of 2e-16"},
+    {gyrostat::warning_of_family, "in sweeps: the family that the scene was recognised as warns of something"},
 };
 
 /// A rung of the ladder is one of a family, or the full equations of the family `general`.

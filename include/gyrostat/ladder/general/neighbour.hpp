@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <vector>
 
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/ladder/companions.hpp"
@@ -103,6 +105,32 @@ Quat<Scalar> attitude_beside(const Quat<Scalar>& of, Scalar amount, const Vec3<S
   return half.isZero(0) ? of : q * Quat<Scalar>{1, half[0], half[1], half[2]};
 }
 
+/// Times off by `by`, s, so that what is on is so for longer, or shorter where it is negative.
+template <Real Scalar>
+void retime(std::vector<std::array<Scalar, 2>>& on, Scalar by) noexcept {
+  Scalar before = -infinity<Scalar>;
+  for (auto& [from, to] : on) {
+    from = std::max(before, from - by);
+    before = to = std::max(from, to + by);
+  }
+}
+/// And so that what a table gives adds up to more, or less: its steps and slopes come later where they fall.
+template <Real Scalar>
+void retime(Table<Scalar>& table, Scalar by) noexcept {
+  const std::size_t count = table.times.size(), width = count > 0 ? table.values.size() / count : 0;
+  const auto sum_at = [&](std::size_t i) noexcept {
+    Scalar sum = 0;
+    for (std::size_t j = 0; i < count && j < width; ++j) sum += table.values[i * width + j];
+    return sum;
+  };
+  Scalar before = -infinity<Scalar>;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Scalar last = i > 0 ? sum_at(i - 1) : Scalar(0), next = sum_at(table.between == Between::step ? i : i + 1);
+    const Scalar moved = table.times[i] + (last < next ? -by : by);
+    before = table.times[i] = std::max(std::nextafter(before, infinity<Scalar>), moved);
+  }
+}
+
 /// A problem that differs from the given one by about `amount`: by what rounding makes of data and arithmetic. What is exactly zero of a
 /// wheel or torque stays so, and so do a body at rest and zeros that a symmetry keeps.
 template <Real Scalar>
@@ -161,8 +189,15 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, Aside aside) no
     // what went on before by rates that are known to rounding
     const auto late = [&]() noexcept { return amount / 2 * shift() * of.clock; };
     if (near.orbit) near.orbit = orbit_from(*near.orbit, late());
-    for (auto& torque : near.torques)
+    // a rounding of theirs at least
+    const Scalar by = aside == Aside::first ? 2 * of.retimed : -2 * of.retimed;
+    for (auto& torque : near.torques) {
       if (torque.factor.amplitude != 0) torque.factor.phase += torque.factor.rate * late();
+      if (by != 0) retime(torque.factor.on, by), retime(torque.factor.table, by), retime(torque.table, by);
+    }
+    // where a rate that is held steps the motion jumps, at asked times too
+    for (auto& wheel : near.wheels)
+      if (by != 0 && (wheel.type != WheelType::held || wheel.table.between != Between::step)) retime(wheel.table, by);
     if (near.field.magnetic == MagneticField::rotating)
       near.field.flux_density = field_at<Scalar>(near, late()).flux_density;
   }

@@ -210,6 +210,11 @@ class SegmentedMotion {
   void hand_on(const Answer& answer, double at) noexcept {
     // a clock that begins anew tells times to a rounding of the old one
     const double clock = epsilon<double> * at, omega = end_.angular_velocity.norm();
+    const auto& sizes = scene_.sizes();
+    // where that has moved the times between which torques act, they have acted for longer or shorter
+    const double retimed = 2 * scene_.problem().retimed;
+    const double pushed = retimed * (sizes.torque / sizes.least + sizes.damping * omega);
+    const double driven = retimed > 0 ? retimed * greatest_drive() : 0;
     for (const Column& column : answer.columns) {
       const double off = absolute_error(column);
       const auto take = [&](std::size_t p, double* start, double rounding) noexcept {
@@ -219,15 +224,27 @@ class SegmentedMotion {
       switch (std::size_t(column.kind - column_kinds)) {
         case column::attitude: take(primitive::attitude, &error_.attitude, clock * omega); break;
         case column::angular_velocity:
-          take(primitive::angular_velocity, &error_.angular_velocity, clock * omega * omega);
+          take(primitive::angular_velocity, &error_.angular_velocity, clock * omega * omega + pushed);
           break;
         case column::angular_momentum: take(primitive::angular_momentum, nullptr, 0); break;
-        case column::rotor_rate: take(primitive::rotor_rate, &error_.rotor_rate, clock * omega * omega); break;
+        case column::rotor_rate:
+          take(primitive::rotor_rate, &error_.rotor_rate, clock * omega * omega + pushed + driven);
+          break;
         case column::rotor_angle: take(primitive::rotor_angle, &error_.rotor_angle, clock * size_of(column)); break;
         case column::velocity: take(primitive::velocity, &error_.velocity, 0); break;
         default: take(primitive::position, &error_.position, clock * end_.velocity.norm()); break;
       }
     }
+  }
+
+  /// Of the wheels' own torques over their moments, rad/s^2.
+  double greatest_drive() const noexcept {
+    double most = 0;
+    for (const auto& wheel : scene_.problem().wheels)
+      if (wheel.type == WheelType::torque)
+        for (const double value : wheel.table.values)
+          most = std::max(most, (std::abs(wheel.torque) + std::abs(value)) / wheel.axial_inertia);
+    return most;
   }
 
   const Scene& scene_;

@@ -159,7 +159,7 @@ class FullMotion {
     };
     solve_beside(answer, Row<Scalar>{scales(problem_, start_.angular_velocity.norm())},
                  Runs<Course>{course, companion, second ? &*second : nullptr},
-                 {start_, rate_, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding);
+                 {start_, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding);
     return answer;
   }
 

@@ -134,7 +134,11 @@ struct Row {
     for (const S value : {w[0], w[1], w[2], d[0], d[1], d[2], q.x, q.y, q.z, q.w}) *row++ = value;
   }
 
-  /// Two runs have nothing in common any more: where they meet again it is by chance.
+  /// |angular_velocity|.
+  template <class Numbers>
+  S turning(const Numbers& row) const noexcept {
+    return std::hypot(row[0], row[1], row[2]);
+  }  /// Two runs have nothing in common any more: where they meet again it is by chance.
   template <class Numbers>
   bool has_parted(const Numbers& a, const Numbers& b) const noexcept {
     S square = 0;

@@ -124,7 +124,6 @@ class FullLanes {
     rotor_inverse_[b] = 1 / body.axial_inertia();
     no_load_rate_[b] = body.no_load_rate();
     rotor_weight_[b] = body.axial_inertia() * body.coupling() / 2;
-    fading_[b] = turning_rate(body, lane_[b].task->start) / honesty::fading_angle;
   }
 
   /// A run of the lane's task.
@@ -148,6 +147,7 @@ class FullLanes {
     lane.next = lane.told = 0;
     lane.kick_after = lane.alone ? lane.last / 2 : infinity<double>;
     lane.fresh = true, lane.seen = false;
+    fading_[b] = body.angular_velocity(task.start.momentum, task.start.axial_momentum).norm() / honesty::fading_angle;
     lane.event = std::numeric_limits<double>::min();  // behind the first step
     for (std::size_t i = 0; i < columns; ++i) kept_.of[i][b] = error_.of[i][b] = size_.of[i][b] = 0;
     size_.of[column::attitude][b] = 1;
@@ -443,6 +443,9 @@ class FullLanes {
       apart(b, answer, *two, further);
       apart(b, one, *two, between);
     }
+    const auto made = [&](int i) GYROSTAT_INLINE_LAMBDA { return load_wide(&answer.made[i][b]); };
+    const Pack rate = size_of(made(0), made(1), made(2)) * wide(1 / honesty::fading_angle);
+    store(&fading_[b], choose<double>(yes, rate, load_wide(&fading_[b])));
     for (std::size_t i = 0; i < columns; ++i) {
       Pack told = wide(how.margin) * away[i];
       if (two != nullptr) {

@@ -328,7 +328,7 @@ class FullMotion {
         between.raise(rows.apart(rows.row(companion.at(times_[i])), rows.row(companion.beside(times_[i]))));
     };
     solve_beside(answer, row, Runs<Course<Scalar>>{course, companion, second ? &*second : nullptr},
-                 {start_, turning_, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding, note);
+                 {start_, times_, states_, nowhere(), progress_from, progress_to}, options_, rounding, note);
     forget_parted(answer.error);
     count_departure(answer.error, departure_from_steady<Scalar>(gyrostat_, start_, states_));
     answer.met = answer.met && options_.excess(answer) <= 1;

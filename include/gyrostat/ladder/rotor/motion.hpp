@@ -133,6 +133,12 @@ struct Row {
                           angle, body.lyapunov(H, p)})
       *row++ = value;
   }
+
+  /// |angular_velocity|.
+  template <class Numbers>
+  S turning(const Numbers& row) const noexcept {
+    return std::hypot(row[4], row[5], row[6]);
+  }
 };
 
 }  // namespace gyrostat::rotor

@@ -151,6 +151,10 @@ struct WatchedRow {
     const Vec3<S> axis = rotate<S>(state.attitude, Vec3<S>(0, 0, 1));
     std::copy_n(axis.data(), 3, row + columns[column::angular_velocity].width);
   }
+  template <class Numbers>
+  S turning(const Numbers& row) const noexcept {
+    return Row<S>{}.turning(row);
+  }
 };
 
 template <Real Scalar>
@@ -179,9 +183,9 @@ class FullMotion {
     std::optional<Course<Scalar>> second;
     if (both) second.emplace(two, span, tight, options_.step_cap, false, true);
     const Runs<Course<Scalar>> runs{course, companion, second ? &*second : nullptr};
-    const auto walk = walk_beside(
-        WatchedRow<Scalar>{scales(problem_, span)}, runs,
-        {start_state(problem_), rate_, times_, states_, nowhere(), progress_from, progress_to}, options_, not_noted);
+    const auto walk = walk_beside(WatchedRow<Scalar>{scales(problem_, span)}, runs,
+                                  {start_state(problem_), times_, states_, nowhere(), progress_from, progress_to},
+                                  options_, not_noted);
     answer.status = walk.status;
     answer.counts = runs.counts();
     const std::uint64_t steps = course.counts().steps;

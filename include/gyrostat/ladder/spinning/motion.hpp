@@ -131,6 +131,12 @@ struct Row {
                           G[1], G[2], v[0], v[1], v[2], x[0], x[1], x[2]})
       *row++ = value;
   }
+
+  /// |angular_velocity|.
+  template <class Numbers>
+  S turning(const Numbers& row) const noexcept {
+    return std::hypot(row[0], row[1], row[2]);
+  }
 };
 
 /// The error of euler_312 where the attitude errs by `attitude`, rad. The angles are judged by the attitude that they tell, for near

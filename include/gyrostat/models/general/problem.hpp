@@ -188,6 +188,7 @@ struct Problem {
   Vec3<Scalar> position{0, 0, 0};          ///< of the mass centre, inertial axes, m
   /// Where another clock stands at t = 0, by which the times were told that are asked for, s: what is left of them is rounded.
   Scalar clock = 0;
+  Scalar retimed = 0;  ///< by how much that has moved the times of tables and of what is on, at most, s
 };
 
 /// A motion at one time.

@@ -109,9 +109,11 @@ struct TiltModes {
   Scalar turning[3];               ///< r0, r0 + nu, r0 - nu, rad/s
 
   TiltModes(const Problem<Scalar>& problem, const LinearStart<Scalar>& start) noexcept
-      : stable(problem.nutation_squared() > 0), still(start.Gamma) {
+      : TiltModes(problem, start, problem.nutation_squared()) {}
+  TiltModes(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, Scalar nutation_squared) noexcept
+      : stable(nutation_squared > 0), still(start.Gamma) {
     const math::Complex<Scalar> spin{0, problem.spin()};
-    const RateModes<Scalar> modes(start, problem.nutation_squared());
+    const RateModes<Scalar> modes(start, nutation_squared);
     const math::Complex<Scalar> paces[] = {spin, spin + modes.lambda, spin - modes.lambda};
     const math::Complex<Scalar> amplitudes[] = {modes.constant, modes.up, modes.down};
     for (int j = 0; j < 3; ++j) {

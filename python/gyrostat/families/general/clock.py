@@ -21,9 +21,18 @@ def since(start: float, scene: Data) -> Data:
     """The scene with its tables, waves, fields and orbit told by the time since `start` [s]."""
     if start == 0:
         return scene
+    tables = [each["table"] for each in (*scene["wheels"], *scene["torques"])] + [each["factor_table"] for each in scene["torques"]]
+    told = [table["times"] for table in tables if table is not None] + [each["on"] for each in scene["torques"]]
     return {**scene, "wheels": [{**each, "table": _table(start, each["table"])} for each in scene["wheels"]],
             "torques": [_torque(start, each) for each in scene["torques"]], "orbit": None if scene["orbit"] is None else orbit_since(start, scene["orbit"]),
-            "field": _field(start, scene["field"]), "clock": start}
+            "field": _field(start, scene["field"]), "clock": start, "retimed": max((_greatest_rounding(times, start) for times in told), default=0.0)}
+
+
+def _greatest_rounding(times: Floats, start: float) -> float:
+    """What times - start [s] is off by, at most: exactly (Knuth's two-sum)."""
+    made = times - start
+    part = made - times
+    return float(np.max(np.abs((times - (made - part)) - (start + part)), initial=0.0))
 
 
 def _table(start: float, table: Data | None) -> Data | None:
