@@ -92,7 +92,7 @@ def save(figure: "Figure", file: Path) -> None:
 def head(figure: "Figure", lines: Sequence[str], size: float) -> None:
     """A title of these lines, broken where they are wider than the figure."""
     width = round(122 / size * figure.get_figwidth())
-    figure.suptitle("\n".join(textwrap.fill(line, width) for line in lines), fontsize=size)
+    figure.suptitle("\n".join(textwrap.fill(part, width) for line in lines for part in line.splitlines()), fontsize=size)
 
 
 def finish(figure: "Figure", title: str, seen: Sequence[str]) -> None:

@@ -110,23 +110,35 @@ def spelled(unit: str) -> str:
     return re.sub("[A-Za-z]+", lambda found: found[0] if found[0] in UNITS else _by_word(found[0]) or found[0], unit)
 
 
-def _apart(word: str) -> str:
-    """A word as names of units run together; empty where it is none."""
-    if not word or word in UNITS:
-        return word
-    return next((f"{word[:i]} {rest}" for i in range(len(word) - 1, 0, -1) if word[:i] in UNITS and (rest := _apart(word[i:]))), "")
+def _apart(word: str) -> Iterator[str]:
+    """A word as names of units run together, in all ways: the longest names first."""
+    if word in UNITS:
+        yield word
+    yield from (f"{word[:i]} {rest}" for i in range(len(word) - 1, 0, -1) if word[:i] in UNITS for rest in _apart(word[i:]))
+
+
+def _in_parts(word: str, unit: str, want: str) -> str:
+    """The unit with a word in it as names of units run together, where that is one of the dimension of `want`, or would be were a mass no force; empty
+    where it is none."""
+    if len(word) > 12:
+        return ""
+    made = [unit.replace(word, names) for names in _apart(word.replace("-", ""))]
+    swapped = (found[2] for each in made if (found := _swapped(each, want)))
+    return next((each for each in made if _measures(each, want)), "") or next(swapped, "")
 
 
 def _meant(word: str, power: str, unit: str, want: str) -> str:
     """What to do about a name that is none, which has this power in a unit in whose place one of the dimension of `want` is wanted."""
     if word.lower().endswith("hz"):
         return "it may mean turns or radians: write rev/s or rad/s, for rates without an angle 1/s"
+    if word in ("grad", "gon"):
+        return "a gradian is 0.9 deg: give the number in deg"
     if _by_word(word):
         said = spelled(unit)
         is_rate = re.fullmatch(_PRODUCT, said) and not _measures(said, want) and _measures(f"{said}/s", want)
         return f"write {said}/s" if is_rate else f"write {said}"
-    if len(word) <= 12 and (names := _apart(word.replace("-", ""))):
-        return f"write {names.replace('N ms', 'N m s').replace('kg ms', 'kg m s')}{power}, with blanks between"
+    if meant := _in_parts(word, unit, want):
+        return f"write {meant}, with blanks between"
     if re.search("[A-Za-z]-[A-Za-z]", word):
         return f"write {word.replace('-', ' ')}{power}, with blanks between"
     lower = {name.lower(): name for name in UNITS}

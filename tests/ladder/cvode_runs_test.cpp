@@ -108,3 +108,31 @@ TEST_CASE("where one companion is near by chance the other counts", "[ladder]") 
     CHECK(runs.margin[away] == Approx(honesty::cvode_margin * honesty::cvode_looser[0] / honesty::cvode_looser[away]));
   }
 }
+
+namespace {
+
+/// As Row, of motions that have parted where they are more than 0.5 apart.
+struct PartingRow : Row {
+  template <class Numbers>
+  bool has_parted(const Numbers& a, const Numbers& b) const noexcept {
+    return std::abs(a[0] - b[0]) > 0.5;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("runs that have parted and come back are seen", "[ladder]") {
+  const auto error_of = [](auto row, double bump) {
+    return cvode_runs(row, std::vector<double>{10.0}, 1e-6, 1,
+                      [&](std::span<const double> times, const CvodeTask& task) {
+                        CvodeRun<double> made;
+                        for (const double t : times)
+                          made.states.push_back(1 + (task.change > 0 && t > 3 && t < 4 ? bump : 0));
+                        return made;
+                      })
+        .error[0];
+  };
+  CHECK(error_of(PartingRow{}, 0.6) >= 0.6);
+  CHECK(error_of(PartingRow{}, 0.4) == 0);
+  CHECK(error_of(Row{}, 0.6) == 0);
+}

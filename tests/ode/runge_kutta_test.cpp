@@ -10,12 +10,12 @@
 #include "catch.hpp"
 
 using gyrostat::infinity;
+using gyrostat::pi;
 using gyrostat::Real;
 using gyrostat::ode::RungeKutta;
 using gyrostat::ode::Status;
 using gyrostat::ode::StepControl;
 using gyrostat::ode::uniform;
-using gyrostat::pi;
 
 namespace {
 
@@ -214,6 +214,19 @@ TEST_CASE("a restart goes on from another state with the counts kept") {
   CHECK(solver.advance(1.0) == Status::not_finite);
   solver.restart(0.0, {1, 0});
   CHECK(solver.advance(1.0) == Status::reached);
+}
+
+TEST_CASE("steps that move less than a rounding add up, and go on so") {
+  const auto slow = [](double, const std::array<double, 1>&, std::array<double, 1>& dydt) noexcept { dydt = {1e-17}; };
+  RungeKutta solver(slow, 0.0, std::array<double, 1>{1}, {.longest_step = 1});
+  for (int i = 1; i <= 1000; ++i) {
+    REQUIRE(solver.advance(i) == Status::reached);
+    if (i % 10 == 0) solver.go_on();
+  }
+  CHECK(solver.state()[0] - 1 == Approx(1e-14).epsilon(0.02));
+  solver.restart(0, {1});
+  REQUIRE(solver.advance(1) == Status::reached);
+  CHECK(solver.state()[0] == 1);
 }
 
 TEST_CASE("a problem at rest is crossed in a few steps") {

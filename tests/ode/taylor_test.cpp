@@ -298,6 +298,19 @@ TEST_CASE("a kick moves what is not zero, and leaves the last step as it was") {
   CHECK(std::abs(kicked - 1) > 4e-7);
 }
 
+TEST_CASE("what rounding has lost goes from one integration to the next") {
+  // x = 1 at t = 0 falls by t^2/2 = 1e-17 in each piece, and has begun anew in the meantime
+  ode::Taylor<Oscillator<double>>::State x{1, 0, 0, 0}, lost{};
+  for (int i = 0; i < 1000; ++i) {
+    ode::Taylor<Oscillator<double>> solver({}, 0, {x[0], 0, 0, 0}, watching(1e-16));
+    solver.regain(lost.data());
+    REQUIRE(solver.advance(std::sqrt(2e-17)) == Status::reached);
+    x[0] = solver.state()[0], lost[0] = solver.lost()[0];
+  }
+  CHECK(x[0] + lost[0] == Approx(1 - 1e-14).epsilon(1e-17).margin(2e-16));
+  CHECK((1 - x[0]) - lost[0] == Approx(1e-14).epsilon(1e-6));
+}
+
 TEST_CASE("taylor: what stands still or goes on for ever comes back with a status") {
   using Solver = ode::Taylor<Oscillator<double>>;
   Solver::Options options;

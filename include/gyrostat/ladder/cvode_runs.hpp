@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gyrostat/core/real.hpp"
+#include "gyrostat/ladder/companions.hpp"
 #include "gyrostat/ladder/comparison.hpp"
 #include "gyrostat/ladder/cvode_walk.hpp"
 #include "gyrostat/ladder/honesty.hpp"
@@ -75,15 +76,39 @@ struct CvodeRuns {
   typename Comparison<Writer>::ColumnErrors error;  ///< in units of the columns
 };
 
-/// The asked times, and where these are few some before the last one: what runs differ by may swing, and be small there by chance.
-inline std::vector<double> watched_times(std::span<const double> asked) {
-  std::vector<double> times(asked.begin(), asked.end());
-  if (asked.size() >= honesty::cvode_looks) return times;
-  for (std::size_t i = 1; i < honesty::cvode_looks; ++i)
-    times.push_back(asked.back() * (1 - honesty::cvode_watched * double(i) / honesty::cvode_looks));
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
+/// The asked times and others: where these are few some before the last one, `late`, as what runs differ by may swing, and be small there by chance; and some
+/// over the whole span, at which runs are seen to part that have come back by then.
+struct WatchedTimes {
+  std::vector<double> times;
+  double late;
+
+  explicit WatchedTimes(std::span<const double> asked) : times(asked.begin(), asked.end()), late(infinity<double>) {
+    const double last = asked.back();
+    for (std::size_t i = 1; i < honesty::cvode_parted_looks; ++i)
+      times.push_back(last * double(i) / honesty::cvode_parted_looks);
+    if (asked.size() < honesty::cvode_looks) {
+      late = last * (1 - honesty::cvode_watched);
+      for (std::size_t i = 1; i < honesty::cvode_looks; ++i)
+        times.push_back(last * (1 - honesty::cvode_watched * double(i) / honesty::cvode_looks));
+    }
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+  }
+};
+
+/// What lasts of a distance between motions that have parted (TellsParted); nothing of others.
+template <class Writer>
+typename Comparison<Writer>::ColumnErrors what_lasts(const Writer& writer, const typename Comparison<Writer>::Row& a,
+                                                     const typename Comparison<Writer>::Row& b) noexcept {
+  typename Comparison<Writer>::ColumnErrors lasting{};
+  if constexpr (TellsParted<Writer, typename Comparison<Writer>::Row>) {
+    if (!writer.has_parted(a, b)) return lasting;
+    lasting = Comparison<Writer>::apart(a, b);
+    if constexpr (NamesLasting<Writer>)
+      for (std::size_t i = 0; i < std::size(Writer::columns); ++i)
+        if (!writer.lasts(i)) lasting[i] = 0;
+  }
+  return lasting;
 }
 
 /// run(times, task) gives a CvodeRun: first the answer's, then the companions' in turn. `share`: of the answer's tolerance, what its run is asked for:
@@ -95,7 +120,8 @@ CvodeRuns<Writer> cvode_runs(const Writer& writer, std::span<const double> asked
   const double margin =
       tolerance > honesty::cvode_rounding_below ? honesty::cvode_margin : honesty::cvode_margin_of_rounding;
   CvodeRuns<Writer> runs{{}, Errc::ok, {}, tolerance, {}, Comparison<Writer>(writer), {}};
-  const auto times = watched_times(asked);
+  const WatchedTimes all(asked);
+  const std::vector<double>& times = all.times;
   const std::span<const double> watched = times;
   const auto answer = run(watched, CvodeTask{tolerance, honesty::cvode_longest[0]});
   if (answer.failure != Errc::ok) return runs.failure = answer.failure, runs;
@@ -115,8 +141,11 @@ CvodeRuns<Writer> cvode_runs(const Writer& writer, std::span<const double> asked
     runs.counts += companion.counts;
     runs.margin[c] = margin * honesty::cvode_looser[0] / looser;
     typename Comparison<Writer>::ColumnErrors distance;
-    for (std::size_t i = 0; i < times.size(); ++i)
-      distance.raise(runs.asked.apart(runs.asked.row(answer.states[i]), runs.asked.row(companion.states[i])));
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const auto a = runs.asked.row(answer.states[i]), b = runs.asked.row(companion.states[i]);
+      const bool counts = times[i] >= all.late || std::binary_search(asked.begin(), asked.end(), times[i]);
+      distance.raise(counts ? runs.asked.apart(a, b) : what_lasts(writer, a, b));
+    }
     runs.error.raise(runs.margin[c] * distance);
   }
   return runs;

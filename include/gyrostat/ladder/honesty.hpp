@@ -200,6 +200,8 @@ inline constexpr double mean_steps = 10;
 /// The same of `averaged` without rotors where the local error is below `mean_fine`: so many times the number of its steps. Of 10 000 bodies under equal torques and drag, whose
 /// |M| has a closed form, the greatest was 0.9 times; at looser local errors 5 in all.
 inline constexpr double mean_steps_share = 1.5, mean_fine = 1e-10;
+/// Next to a separatrix the momentum of `averaged-2` is as uncertain as so many roundings over the distance. Of two scenes found from outside, that had stated 1.6 and 24 times too little.
+inline constexpr double lingering_rounding = 2;
 /// To the error of the time at which they stop so many local errors are added. Chosen.
 inline constexpr double mean_stop = 100;
 
@@ -224,6 +226,8 @@ inline constexpr double cvode_rounding_below = 1e-11;
 inline constexpr std::size_t cvode_looks = 16;
 /// These others stand in this part of the span. Chosen.
 inline constexpr double cvode_watched = 1.0 / 8;
+/// At so many times of the whole span its runs are seen to part. Chosen.
+inline constexpr std::size_t cvode_parted_looks = 32;
 /// The tightest tolerance that CVODE is asked for.
 inline constexpr double cvode_tightest = 1e-13;
 

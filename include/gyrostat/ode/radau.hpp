@@ -197,6 +197,12 @@ class Radau {
     return t_end == t_end ? status : Status::not_finite;
   }
 
+  /// As of Taylor.
+  const Scalar* lost() const noexcept { return low_; }
+  void regain(const Scalar* lost) noexcept {
+    for (int i = 0; i < all; ++i) low_[i] = start_low_[i] = lost[i];
+  }
+
   Scalar time() const noexcept { return time_.high; }
   /// y and p.
   const Scalar* state() const noexcept { return state_; }

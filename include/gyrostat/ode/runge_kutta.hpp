@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/ode/dop853.hpp"
 #include "gyrostat/ode/status.hpp"
@@ -65,10 +66,18 @@ class RungeKutta {
   void restart(Scalar t, const State& y, Scalar first_step = 0) noexcept {
     t_ = t_old_ = t;
     y_ = y_old_ = y;
+    lost_ = {};
     h_ = 0;
     next_ = std::abs(first_step);
     evaluate(t_, y_, f_);
     status_ = std::isfinite(t_) && finite(y_) && finite(f_) ? Status::reached : Status::not_finite;
+  }
+
+  /// Begins anew where it is: what rounding has lost of the state so far is kept.
+  void go_on() noexcept {
+    const State lost = lost_;
+    restart(t_, State(y_));
+    lost_ = lost;
   }
 
   /// One accepted step towards `limit`, which may be infinite, and never past it. Status::reached where a step was made or
@@ -101,6 +110,7 @@ class RungeKutta {
       if (error <= 1) {
         t_ = end;
         y_ = trial_;
+        lost_ = trial_lost_;
         f_ = k_[12];
         h_ = h;
         ++counts_.steps;
@@ -235,7 +245,9 @@ class RungeKutta {
     Scalar third = 0;
     for (std::size_t i = 0; i < N; ++i) {
       const Scalar slope = weighted<b>(i);
-      trial_[i] = y_[i] + h * slope;
+      // steps so short that each moves less than a rounding add up
+      const auto sum = add(Sum<Scalar>{y_[i], lost_[i]}, h * slope);
+      trial_[i] = sum.high, trial_lost_[i] = sum.low;
       const Scalar w = weight(i, y_[i], trial_[i]);
       const Scalar e5 = w * weighted<error5>(i);
       const Scalar e3 = w * (slope - weighted<error3>(i));
@@ -310,6 +322,7 @@ class RungeKutta {
   State y_old_{};
   State f_{};
   State trial_{};
+  State lost_{}, trial_lost_{};  ///< what rounding has lost of y_ and trial_
   std::array<State, 16> k_;
   std::array<State, 7> dense_terms_;
   bool dense_ = false;

@@ -101,6 +101,8 @@ class Taylor {
 
   Scalar time() const noexcept { return time_.high; }
   const Scalar* state() const noexcept { return state_; }
+  /// What rounding has lost of the state so far: it is to be added.
+  const Scalar* lost() const noexcept { return low_; }
   const Counts& counts() const noexcept { return counts_; }
 
   /// Begin of the last step; the polynomial holds from here to time().
@@ -130,6 +132,10 @@ class Taylor {
     }
     for (int k = 1; k <= Order; ++k)
       for (int i = 0; i < width; ++i) x_[k][i] = 0;
+  }
+  /// Adds what rounding had lost of the state from which it has just started: steps so short that each moves less than a rounding add up.
+  void regain(const Scalar* lost) noexcept {
+    for (int i = 0; i < width; ++i) low_[i] = start_low_[i] = lost[i];
   }
 
  private:

@@ -233,6 +233,20 @@ TEST_CASE("a law without a value ends the motion where it has none", "[general]"
   CHECK(near.answer.status == Status::reached);
 }
 
+TEST_CASE("DOP853 does not hold a body on an unstable axis", "[general]") {
+  for (int i = 0; i < 20; ++i) {
+    const Mat3<double> R = to_matrix(as_unit(Quat<double>{0.3, 0.005 * i, 0.7, 0.4}));
+    Problem<double> p;
+    const Mat3<double> J = R * Vec3<double>(1, 2, 3).asDiagonal() * R.transpose();
+    p.inertia = (J + J.transpose()) / 2;
+    p.angular_velocity = R * Vec3<double>(0, 1, 0);
+    CAPTURE(i);
+    const auto made = run(p, NoTorque{}, {}, {120}, 1e-4);
+    CHECK(!made.answer.met);
+    CHECK(made.answer.error[full_column::angular_velocity] > 0.1);
+  }
+}
+
 TEST_CASE("a law that is no function is refused", "[general]") {
   int asked = 0;
   const auto law = [&asked](double, const Seen<double>&) noexcept { return Vec3<double>(0.1 * ++asked, 0, 0); };

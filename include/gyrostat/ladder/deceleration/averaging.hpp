@@ -8,6 +8,7 @@
 #include "gyrostat/ladder/deceleration/hand_over.hpp"
 #include "gyrostat/ladder/deceleration/orbit_kind.hpp"
 #include "gyrostat/ladder/honesty.hpp"
+#include "gyrostat/models/deceleration/capture.hpp"
 
 /// What the averaged rungs share, over polhodes (averaged_rung.hpp) and over orbits with rotor momentum (orbit_rung.hpp).
 namespace gyrostat::deceleration {
@@ -79,6 +80,23 @@ inline bool seeks_stop(Track& track, const Scene& scene, double late, double lat
   return false;
 }
 
+/// Distance of the start's energy from the next separatrix at its |M|, over the range of energies there; NaN where there
+/// is none (a sphere, M = 0, a rotor that leaves one component only).
+inline double separatrix_distance(const Scene& scene) noexcept {
+  const auto band = band_of(scene.problem(), level_of(scene.problem(), scene.problem().momentum));
+  return band ? band->separatrix_distance() : nan<double>;
+}
+
+/// What a rounding of the energy makes of the phase of an orbit next to a separatrix, and so of the momentum over its size: an orbit lingers as long as
+/// the logarithm of its distance. 0 where nobody asks.
+inline double rounding_of_lingering(const Scene& scene) noexcept {
+  const auto goal = scene.goal();
+  if (!(std::min(goal.columns[column::angular_momentum], goal.columns[column::angular_velocity]) < infinity<double>))
+    return 0;
+  const double distance = separatrix_distance(scene);
+  return distance == distance ? honesty::lingering_rounding * std::min(epsilon<double> / distance, 1.0) : 0;
+}
+
 inline Track refused(const Halt& halt) { return gyrostat::refused<Track>(halt.code, halt.why); }
 
 }  // namespace detail
@@ -119,7 +137,7 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   detail::state_errors(track, {in_span.norm + local * norm + problem.momentum_error() + lag * oscillating.norm,
                                in_span.energy + own_energy + lag * oscillating.energy,
                                std::min(1.0, in_span.k2 + own_k2 + lag * oscillating.k2), 0});
-  track.know_momentum(problem, in_span.vector + (local + lag) * norm);
+  track.know_momentum(problem, in_span.vector + (local + lag + detail::rounding_of_lingering(scene)) * norm);
 
   // The tail, for the stop time and for the samples beyond the hand-over. Where it leads to no stop the full equations tell more, and
   // nothing is left out to spare them.

@@ -9,7 +9,6 @@
 #include "gyrostat/ladder/deceleration/full_rung.hpp"
 #include "gyrostat/ladder/deceleration/orbit_rung.hpp"
 #include "gyrostat/ladder/deceleration/solve.hpp"
-#include "gyrostat/models/deceleration/capture.hpp"
 
 namespace gyrostat::deceleration {
 
@@ -23,13 +22,6 @@ template <class Elliptic>
 Track averaged_2(const Scene& scene, Monitor* monitor) {
   return needs_orbit(scene) ? orbit_averaged_2_track<Elliptic>(scene, monitor)
                             : averaged_2_track<Elliptic>(scene, monitor);
-}
-
-/// Distance of the start's energy from the next separatrix at its |M|, over the range of energies there; NaN where there
-/// is none (a sphere, M = 0, a rotor that leaves one component only).
-inline double separatrix_distance(const Scene& scene) noexcept {
-  const auto band = band_of(scene.problem(), level_of(scene.problem(), scene.problem().momentum));
-  return band ? band->separatrix_distance() : nan<double>;
 }
 
 }  // namespace detail

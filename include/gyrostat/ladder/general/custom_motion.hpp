@@ -213,7 +213,7 @@ class CustomCourse {
   void pass() noexcept {
     from_ = to_, to_ = end_of(++cut_);
     solver_.rhs().enter(from_, to_);
-    solver_.restart(time(), typename Equations::Numbers(solver_.state()));
+    solver_.go_on();
     pace_.restart(time()), quick_.restart(time());
     passes_ = parted_ = false;
   }

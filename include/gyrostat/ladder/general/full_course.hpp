@@ -280,8 +280,8 @@ class FullCourse {
     return x;
   }
 
-  /// Begins piece_ at t.
-  void enter(Scalar t, const Numbers& numbers) noexcept {
+  /// Begins piece_ at t. lost: of the numbers, by rounding.
+  void enter(Scalar t, const Numbers& numbers, const Numbers& lost = {}) noexcept {
     const bool rested = bool(resting_);
     resting_.reset(), leaving_.reset();
     system_.emplace(of_, piece_, numbers);
@@ -291,8 +291,10 @@ class FullCourse {
     bound_ = torque_of_piece();
     // what a brake opposes is a difference of momenta: below its rounding the body is at rest
     const Scalar nothing = 4 * epsilon<Scalar> * of_.sizes.momentum();
-    if (system_->has_brake() && !(system_->braked(t, numbers.data()) > nothing)) decide_at_stop(t, numbers, rested, t);
-    else begin(t, numbers);
+    if (system_->has_brake() && !(system_->braked(t, numbers.data()) > nothing))
+      return decide_at_stop(t, numbers, rested, t);
+    begin(t, numbers);
+    solver_->regain(lost.data());
   }
   /// A bound of the torques in the piece; infinite where wheels add theirs.
   Scalar torque_of_piece() const noexcept {
@@ -320,11 +322,14 @@ class FullCourse {
   /// Goes on to the next piece.
   void pass() noexcept {
     const Scalar t = time_;
-    const Numbers x = numbers(t);
+    const bool moves = !resting_ && t == solver_->time();
+    const Numbers x = moves ? numbers_now() : numbers(t);
+    Numbers lost{};
+    if (moves) std::copy_n(solver_->lost(), lost.size(), lost.begin());
     piece_ = std::move(*next_);
     next_.reset();
     pace_.restart(t);
-    enter(t, x);
+    enter(t, x, lost);
   }
 
   /// What a brake opposes is zero from t on, at these numbers. rested: it was already. when: exactly, for a body that leaves at once.

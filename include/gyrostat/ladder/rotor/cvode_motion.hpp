@@ -117,6 +117,7 @@ inline Track full_by_cvode(const Scene& scene, Monitor* monitor) {
   parts[column::lyapunov] = size[column::lyapunov] + momentum * rate;
   const double floor = honesty::cvode_looser[0] * runs.tolerance;
   track.error = runs.asked.relative(runs.error + floor * parts);
+  detail::count_departure(track.error, detail::departure_from_steady<double>(body, start, track.states));
   return track;
 }
 

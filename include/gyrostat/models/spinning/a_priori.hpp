@@ -95,36 +95,53 @@ struct SpinChange {
   }
 };
 
-/// The linear tilt as space sees it, e^(i r0 t) Gamma = still + sum tilt_j e^(pace_j t), and the rates that belong to it: modes 0, lambda and
-/// -lambda of the rates, lambda = i nu, or |nu| where the nutation is unstable. Infinite or NaN where nu = 0, or one of them is at rest in space.
+/// The linear tilt as space sees it, e^(i r0 t) Gamma = sum tilt_j e^(pace_j t), and the rates that belong to it: a mode that stands still, and modes 0, lambda
+/// and -lambda of the rates, lambda = i nu, or |nu| where the nutation is unstable. Infinite or NaN where nu = 0, or one of them is at rest in space.
 template <Real Scalar>
 struct TiltModes {
-  bool stable;                     ///< the nutation; else `turning` means nothing
-  math::Complex<Scalar> still;     ///< rad
-  math::Complex<Scalar> rates[3];  ///< of p + i q at t = 0, rad/s
-  math::Complex<Scalar> tilts[3];  ///< at t = 0, rad
-  math::Complex<Scalar> pace[3];   ///< i r0, i r0 + lambda, i r0 - lambda, 1/s
-  Scalar rate[3];                  ///< sizes of `rates`
-  Scalar tilt[3];                  ///< sizes of `tilts`
-  Scalar turning[3];               ///< r0, r0 + nu, r0 - nu, rad/s
+  using Complex = math::Complex<Scalar>;
+  static constexpr int count = 4;
+
+  bool stable;                         ///< the nutation; else turning() means nothing
+  Complex tilt[count];                 ///< at t = 0, rad
+  Complex rate[count];                 ///< of p + i q at t = 0, rad/s: pace times tilt
+  Complex pace[count];                 ///< 0, i r0, i r0 + lambda, i r0 - lambda, 1/s
+  Scalar tilted[count], rated[count];  ///< sizes of tilts and rates
 
   TiltModes(const Problem<Scalar>& problem, const LinearStart<Scalar>& start) noexcept
       : TiltModes(problem, start, problem.nutation_squared()) {}
   TiltModes(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, Scalar nutation_squared) noexcept
-      : stable(nutation_squared > 0), still(start.Gamma) {
-    const math::Complex<Scalar> spin{0, problem.spin()};
+      : stable(nutation_squared > 0) {
+    const Complex spin{0, problem.spin()};
     const RateModes<Scalar> modes(start, nutation_squared);
-    const math::Complex<Scalar> paces[] = {spin, spin + modes.lambda, spin - modes.lambda};
-    const math::Complex<Scalar> amplitudes[] = {modes.constant, modes.up, modes.down};
-    for (int j = 0; j < 3; ++j) {
-      rates[j] = amplitudes[j];
+    const Complex paces[] = {{}, spin, spin + modes.lambda, spin - modes.lambda};
+    const Complex amplitudes[] = {{}, modes.constant, modes.up, modes.down};
+    tilt[0] = start.Gamma;
+    for (int j = 0; j < count; ++j) {
+      rate[j] = amplitudes[j];
       pace[j] = paces[j];
-      tilts[j] = rates[j] * math::inverse(pace[j]);
-      still = still - tilts[j];
-      rate[j] = magnitude(rates[j]);
-      tilt[j] = magnitude(tilts[j]);
-      turning[j] = pace[j].im;
+      rated[j] = magnitude(rate[j]);
+      if (j == 0) continue;
+      tilt[j] = rate[j] * math::inverse(pace[j]);
+      tilted[j] = magnitude(tilt[j]);
+      tilt[0] = tilt[0] - tilt[j];
     }
+    tilted[0] = magnitude(tilt[0]);
+  }
+
+  Scalar turning(int j) const noexcept { return pace[j].im; }
+  /// What nutation adds to the spin angle in the mean, rad/s.
+  Scalar phase_rate() const noexcept {
+    Scalar sum = 0;
+    for (int k = 1; k < count; ++k) sum += (rate[k] * conjugate(tilt[k])).im;
+    return sum / 2;
+  }
+  /// visit(c, w) for what swings of the phase of nutation, as integrals of Im(c e^(i w t)).
+  template <class Visit>
+  void swings_of_phase(Visit&& visit) const noexcept {
+    for (int k = 1; k < count; ++k)
+      for (int j = 0; j < count; ++j)
+        if (j != k) visit(rate[k] * conjugate(tilt[j]) / Scalar(2), turning(k) - turning(j));
   }
 };
 
@@ -137,15 +154,14 @@ struct NutationPhase {
   NutationPhase(const TiltModes<Scalar>& m, const Amplitudes<Scalar>& size, Scalar T) noexcept {
     net = gross = size.tilt * size.rate * T / 2;
     Scalar steady = 0, all = 0, swings = 0;
-    for (int j = 0; j < 3; ++j) {
-      swings += m.rate[j] * magnitude(m.still) * greatest_integral(m.pace[j], T);
-      const int partner = m.stable || j == 0 ? j : 3 - j;  // whose product with it is steady: of growth, decay
-      for (int k = 0; k < 3; ++k)
+    for (int j = 1; j < m.count; ++j) {
+      const int partner = m.stable || j == 1 ? j : 5 - j;  // whose product with it is steady: of growth, decay
+      for (int k = 0; k < m.count; ++k)
         if (k == partner) {
-          steady += (m.rates[j] * conjugate(m.tilts[k])).im;
-          all += m.rate[j] * m.tilt[k];
+          steady += (m.rate[j] * conjugate(m.tilt[k])).im;
+          all += m.rated[j] * m.tilted[k];
         } else {
-          swings += m.rate[j] * m.tilt[k] * greatest_integral(m.pace[j] + conjugate(m.pace[k]), T);
+          swings += m.rated[j] * m.tilted[k] * greatest_integral(m.pace[j] + conjugate(m.pace[k]), T);
         }
     }
     lower(net, (std::abs(steady) * T + swings) / 2);
@@ -158,15 +174,13 @@ struct NutationPhase {
 /// these are not apart.
 template <Real Scalar>
 Scalar third_order_left(const TiltModes<Scalar>& modes, Scalar T) noexcept {
-  const Scalar size[] = {magnitude(modes.still), modes.tilt[0], modes.tilt[1], modes.tilt[2]};
-  const Scalar turning[] = {0, modes.turning[0], modes.turning[1], modes.turning[2]};
   Scalar sum = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      for (int k = 1; k < 4; ++k) {
+  for (int i = 0; i < modes.count; ++i)
+    for (int j = 0; j < modes.count; ++j)
+      for (int k = 1; k < modes.count; ++k) {
         if (i == 0 && j == k) continue;
-        const Scalar w = std::abs(turning[i] - turning[j] + turning[k]);
-        sum += size[i] * size[j] * modes.rate[k - 1] * std::min(T, 2 / w);
+        const Scalar w = std::abs(modes.turning(i) - modes.turning(j) + modes.turning(k));
+        sum += modes.tilted[i] * modes.tilted[j] * modes.rated[k] * std::min(T, 2 / w);
       }
   return sum <= infinity<Scalar> ? sum / 2 : infinity<Scalar>;
 }
@@ -180,11 +194,11 @@ struct StillTilt {
 
   StillTilt(const TiltModes<Scalar>& modes, const Amplitudes<Scalar>& size, Scalar T) noexcept {
     if (!modes.stable) return;
-    for (const Scalar turning : modes.turning)
-      if (!(std::abs(turning) * T >= 1)) return;  // within T that mode cannot be told from what stands still
+    for (int j = 1; j < modes.count; ++j)
+      if (!(std::abs(modes.turning(j)) * T >= 1)) return;  // within T that mode cannot be told from what stands still
     const Scalar rest = third_order_left(modes, T);
     if (!(rest < size.tilt * NutationPhase<Scalar>(modes, size, T).gross)) return;
-    still = modes.still;
+    still = modes.tilt[0];
     left = rest;
   }
 };
@@ -235,8 +249,8 @@ template <Real Scalar>
 Scalar forced_nutation(const TiltModes<Scalar>& modes, const SpinChange<Scalar>& rho, Scalar per_rate,
                        Scalar T) noexcept {
   if (!(modes.stable && rho.at_nu > 0)) return 0;
-  const Scalar slowest = std::min(std::abs(modes.turning[1]), std::abs(modes.turning[2]));
-  return per_rate * rho.at_nu * modes.rate[0] * T / 2 * std::min(T, 1 / slowest);
+  const Scalar slowest = std::min(std::abs(modes.turning(2)), std::abs(modes.turning(3)));
+  return per_rate * rho.at_nu * modes.rated[1] * T / 2 * std::min(T, 1 / slowest);
 }
 
 template <Real Scalar>
@@ -290,49 +304,25 @@ class ModeIntegral {
   OverTime<Scalar> swings_{0, 0};
 };
 
-/// The tilt as space sees it in its four modes, sum tilt_a e^(i turning_a t), the first of which stands still, and how it grows.
-template <Real Scalar>
-struct FourModes {
-  math::Complex<Scalar> tilt[4], growth[4];  ///< rad, rad/s: growth_a = i turning_a tilt_a
-  Scalar turning[4];                         ///< rad/s
-  Scalar phase_rate = 0;                     ///< what nutation adds to the spin angle in the mean, rad/s
-
-  explicit FourModes(const TiltModes<Scalar>& modes) noexcept
-      : tilt{modes.still, modes.tilts[0], modes.tilts[1], modes.tilts[2]},
-        growth{{}, modes.rates[0], modes.rates[1], modes.rates[2]},
-        turning{0, modes.turning[0], modes.turning[1], modes.turning[2]} {
-    for (int k = 1; k < 4; ++k) phase_rate += (growth[k] * conjugate(tilt[k])).im / 2;
-  }
-
-  /// visit(c, w) for what swings of the phase of nutation, as integrals of Im(c e^(i w t)).
-  template <class Visit>
-  void swings_of_phase(Visit&& visit) const noexcept {
-    for (int k = 1; k < 4; ++k)
-      for (int j = 0; j < 4; ++j)
-        if (j != k) visit(growth[k] * conjugate(tilt[j]) / Scalar(2), turning[k] - turning[j]);
-  }
-};
-
 /// Greatest integrals over [0, T] of what the linear motion leaves out to second order, s, but for the change of the spin rate: of the direction
 /// e^(i theta) in which a transverse force acts, and of the cosine of the tilt. From the modes; infinite without them.
 template <Real Scalar>
 struct ThrustLeftOut {
   OverTime<Scalar> turned = never<Scalar>, cosine = never<Scalar>;
 
-  ThrustLeftOut(const LinearStart<Scalar>& start, const TiltModes<Scalar>& modes, Scalar spin, Scalar T) noexcept {
-    if (!modes.stable) return;
-    const FourModes<Scalar> m(modes);
+  ThrustLeftOut(const LinearStart<Scalar>& start, const TiltModes<Scalar>& m, Scalar spin, Scalar T) noexcept {
+    if (!m.stable) return;
     ModeIntegral<Scalar> direct(T), mirrored(T), lost(T);
     // e^(i theta) (1 - |A|^2/4) and e^(-i theta) A^2/4, theta with the phase of nutation
-    for (int a = 0; a < 4; ++a)
-      for (int b = 0; b < 4; ++b) {
+    for (int a = 0; a < m.count; ++a)
+      for (int b = 0; b < m.count; ++b) {
         const auto product = m.tilt[a] * conjugate(m.tilt[b]) / Scalar(4);
-        direct.add(-product, m.turning[a] - m.turning[b] + spin);
-        lost.add(Scalar(2) * product, m.turning[a] - m.turning[b]);
-        mirrored.add(m.tilt[a] * m.tilt[b] / Scalar(4), m.turning[a] + m.turning[b] - spin);
+        direct.add(-product, m.turning(a) - m.turning(b) + spin);
+        lost.add(Scalar(2) * product, m.turning(a) - m.turning(b));
+        mirrored.add(m.tilt[a] * m.tilt[b] / Scalar(4), m.turning(a) + m.turning(b) - spin);
       }
     direct.add({0, start.Gamma.re * start.Gamma.im / 2}, spin);
-    direct.add_growing(std::abs(m.phase_rate), spin);
+    direct.add_growing(std::abs(m.phase_rate()), spin);
     m.swings_of_phase([&](auto c, Scalar w) noexcept {
       direct.add_integral(c / Scalar(2), w, spin);
       direct.add_integral(-conjugate(c) / Scalar(2), -w, spin);
@@ -349,35 +339,34 @@ template <Real Scalar>
 struct TiltLeftOut {
   OverTime<Scalar> space = never<Scalar>, body = never<Scalar>;
 
-  TiltLeftOut(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, const TiltModes<Scalar>& modes,
+  TiltLeftOut(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, const TiltModes<Scalar>& m,
               const SpinChange<Scalar>& rho, const Amplitudes<Scalar>& linear, Scalar shift, Scalar g,
               Scalar T) noexcept {
-    if (!modes.stable) return;
+    if (!m.stable) return;
     using math::turned;
     using Complex = math::Complex<Scalar>;
     const auto single = [T](Scalar w) noexcept { return std::min(T, 2 / std::abs(w)); };
     const Scalar r0 = problem.spin(), nu = std::sqrt(problem.nutation_squared()), once = single(r0);
-    const FourModes<Scalar> m(modes);
     ModeIntegral<Scalar> in_space(T), in_body(T);
 
     // half the integral of |A|^2 A', but for what turns the part that stands still
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j)
-        for (int k = 1; k < 4; ++k) {
+    for (int i = 0; i < m.count; ++i)
+      for (int j = 0; j < m.count; ++j)
+        for (int k = 1; k < m.count; ++k) {
           if (i == 0 && j == k) continue;
-          const Scalar w = m.turning[i] - m.turning[j] + m.turning[k];
-          const Complex product = m.tilt[i] * conjugate(m.tilt[j]) * m.growth[k] / Scalar(-2);
+          const Scalar w = m.turning(i) - m.turning(j) + m.turning(k);
+          const Complex product = m.tilt[i] * conjugate(m.tilt[j]) * m.rate[k] / Scalar(-2);
           in_space.add_integral(product, w, 0);
           in_body.add_integral(product, w, -r0);
         }
     // that in the body; in space the phase of nutation turns all, and that part stands still
-    const Scalar phase_rate = std::abs(m.phase_rate);
-    in_body.add_growing(phase_rate * magnitude(m.tilt[0]), r0);
-    for (int a = 0; a < 4; ++a) {
-      if (a > 0) in_space.add_growing(phase_rate * magnitude(m.tilt[a]), m.turning[a]);
+    const Scalar phase_rate = std::abs(m.phase_rate());
+    in_body.add_growing(phase_rate * m.tilted[0], r0);
+    for (int a = 0; a < m.count; ++a) {
+      if (a > 0) in_space.add_growing(phase_rate * m.tilted[a], m.turning(a));
       m.swings_of_phase([&](Complex c, Scalar w) noexcept {
-        in_space.add_integral(c * m.tilt[a] / Scalar(2), w, m.turning[a]);
-        in_space.add_integral(-conjugate(c) * m.tilt[a] / Scalar(2), -w, m.turning[a]);
+        in_space.add_integral(c * m.tilt[a] / Scalar(2), w, m.turning(a));
+        in_space.add_integral(-conjugate(c) * m.tilt[a] / Scalar(2), -w, m.turning(a));
       });
     }
     // the angles at the start are no directions
@@ -385,7 +374,7 @@ struct TiltLeftOut {
     const Complex bent{-psi * psi * psi / 6, -phi * (psi * psi / 2 + phi * phi / 6)};
     in_space.add(bent, 0);
     in_body.add(bent, -r0);
-    for (int a = 0; a < 4; ++a) in_space.add(turned(psi * phi / 2 * m.tilt[a]), m.turning[a]);
+    for (int a = 0; a < m.count; ++a) in_space.add(turned(psi * phi / 2 * m.tilt[a]), m.turning(a));
     const Scalar wider = g / linear.tilt, cubed = wider * wider * wider;
     space = Scalar(1.25L) * cubed * in_space.greatest();
     body = Scalar(1.25L) * cubed * in_body.greatest();
@@ -395,20 +384,20 @@ struct TiltLeftOut {
     const Scalar swing = third_order_swing(problem, T);
     const Scalar late = std::min(shift * T, shift / rho.rate * rho.angle * wider * wider);
     const Scalar soon = std::min(T, 1 / nu), answer = std::min(T, 2 / divisors(problem).least());
-    const Scalar unlike = wider * shift * (modes.rate[0] + modes.rate[1] + modes.rate[2]) * soon * answer;
-    const Scalar forced = cubed * forced_nutation(modes, rho, shift / rho.rate, T);
-    Scalar more_space = wider * late * (modes.tilt[1] * single(m.turning[2]) + modes.tilt[2] * single(m.turning[3])) +
+    const Scalar unlike = wider * shift * (m.rated[1] + m.rated[2] + m.rated[3]) * soon * answer;
+    const Scalar forced = cubed * forced_nutation(m, rho, shift / rho.rate, T);
+    Scalar more_space = wider * late * (m.tilted[2] * single(m.turning(2)) + m.tilted[3] * single(m.turning(3))) +
                         (unlike + forced) * swing;
     Scalar more_body =
-        wider * (late * (modes.tilt[1] + modes.tilt[2]) * single(nu) + shift * modes.rate[0] * soon * once * T) +
+        wider * (late * (m.tilted[2] + m.tilted[3]) * single(nu) + shift * m.rated[1] * soon * once * T) +
         unlike * std::max(single(nu), once) + forced * single(nu);
     // it turns all modes but the one that stands still, and makes that one from others
-    for (int j = 1; j < 4; ++j) {
-      const Scalar size = cubed * modes.tilt[j - 1], made = size * rho.rate * std::min(T, 1 / std::abs(m.turning[j]));
-      more_space += size * rho.angle * single(m.turning[j]) + made * T / 2;
+    for (int j = 1; j < m.count; ++j) {
+      const Scalar size = cubed * m.tilted[j], made = size * rho.rate * std::min(T, 1 / std::abs(m.turning(j)));
+      more_space += size * rho.angle * single(m.turning(j)) + made * T / 2;
       more_body += made * once;
     }
-    more_body += cubed * magnitude(m.tilt[0]) * rho.angle * once;
+    more_body += cubed * m.tilted[0] * rho.angle * once;
     space = space + OverTime<Scalar>::roughly(more_space, T);
     body = body + OverTime<Scalar>::roughly(more_body, T);
   }
@@ -438,7 +427,7 @@ LinearErrors<Scalar> linear_errors(const Problem<Scalar>& problem, Scalar T, Loo
   error.size = size;
   // what an error of the rates makes of the tilt: where it is one of the phase of nutation, that of the modes
   const detail::TiltModes<Scalar> modes(problem, start);
-  const Scalar nutating = modes.tilt[1] + modes.tilt[2], once = std::min(T, 1 / std::sqrt(steep * flat));
+  const Scalar nutating = modes.tilted[2] + modes.tilted[3], once = std::min(T, 1 / std::sqrt(steep * flat));
   const detail::NutationPhase<Scalar> nutation(modes, size, T);
   Scalar g = size.tilt, P = size.rate, rate = rho.rate, angle = rho.angle, net = nutation.net, gross = nutation.gross;
   const Scalar grown = detail::grown_error(problem, start, zeta, T);

@@ -20,14 +20,14 @@ template <Real Scalar>
 class TiltOrders {
  public:
   TiltOrders(const Problem<Scalar>& problem, Scalar T) noexcept
-      : TiltOrders(problem, LinearStart<Scalar>(problem), amplitudes(problem, T), T) {}
+      : TiltOrders(problem, LinearStart<Scalar>(problem), T) {}
 
   /// What the linear motion leaves out of the spin angle to second order, rad: of SecondOrder nothing is left of it. Where the modes are not apart to 1e-4 of
   /// itself; not finite where they overflow.
   Scalar spin_angle(Scalar t) const noexcept {
     const Turned now(*this, t);
     Complex A = start_;
-    for (int j = 1; j < modes; ++j) A = A + rate_[j] * now.grown[j];
+    for (int j = 1; j < modes; ++j) A = A + modes_.rate[j] * now.grown[j];
     const Complex Gamma = conjugate(math::unit(now.spin)) * A;
     return nutation(now) + change_of_spin(now) - (Gamma.re * Gamma.im - start_.re * start_.im) / 2;
   }
@@ -45,37 +45,35 @@ class TiltOrders {
       for (int i = 0; i < modes; ++i)
         for (int j = 0; j < modes; ++j) {
           const Complex turned = now.turn[i] * conjugate(now.turn[j]) * now.turn[k];
-          sum = sum + rate_[k] * (tilt_[i] * conjugate(tilt_[j])) *
-                          integral(pace_[i] + conjugate(pace_[j]) + pace_[k], now.time, turned);
+          sum = sum + modes_.rate[k] * (modes_.tilt[i] * conjugate(modes_.tilt[j])) *
+                          integral(modes_.pace[i] + conjugate(modes_.pace[j]) + modes_.pace[k], now.time, turned);
         }
-    const Complex turned = nutation(now) * turned_back_ - change_of_spin(now) * (tilt_[0] - turned_back_);
+    const Complex turned = nutation(now) * turned_back_ - change_of_spin(now) * (modes_.tilt[0] - turned_back_);
     return magnitude(sum / Scalar(2) - math::turned(turned));
   }
 
  private:
   using Complex = math::Complex<Scalar>;
-  static constexpr int modes = 4;  ///< what stands still in space, and those of the rates
+  static constexpr int modes = detail::TiltModes<Scalar>::count;
 
-  TiltOrders(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, const Amplitudes<Scalar>& size,
-             Scalar T) noexcept
+  TiltOrders(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, Scalar T) noexcept
       : start_(start.Gamma),
         spin_(problem.spin()),
-        skew_((problem.inertia[0] - problem.inertia[1]) / (2 * problem.inertia[2])) {
-    // a nutation that does not turn has no modes: one that hardly turns within T says the same of the spin angle
-    const Scalar nu2 = problem.nutation_squared(), least = Scalar(9e-6L) / (T * T);
-    const detail::TiltModes<Scalar> found(problem, start, std::abs(nu2) < least ? least : nu2);
+        skew_((problem.inertia[0] - problem.inertia[1]) / (2 * problem.inertia[2])),
+        modes_(problem, start, turning_nutation(problem, T)) {
     constexpr Scalar apart = 100;
-    tilt_[0] = found.still;
-    knows_tilt_ = nu2 >= least && magnitude(found.still) <= apart * size.tilt;
-    for (int j = 1; j < modes; ++j) {
-      rate_[j] = found.rates[j - 1];
-      tilt_[j] = found.tilts[j - 1];
-      pace_[j] = found.pace[j - 1];
-      // where the spin rate changes, it turns what stands still and a mode that all but does, and these cancel
-      knows_tilt_ =
-          knows_tilt_ && found.tilt[j - 1] <= apart * size.tilt && (skew_ == 0 || std::abs(pace_[j].im) * T >= 1);
-    }
-    turned_back_ = detail::StillTilt<Scalar>(found, size, T).still;
+    const Amplitudes<Scalar> size = amplitudes(problem, T);
+    turned_back_ = detail::StillTilt<Scalar>(modes_, size, T).still;
+    knows_tilt_ = modes_.stable && turning_nutation(problem, T) == problem.nutation_squared();
+    for (int j = 0; j < modes; ++j) knows_tilt_ = knows_tilt_ && modes_.tilted[j] <= apart * size.tilt;
+    // where the spin rate changes, it turns what stands still and a mode that all but does, and these cancel
+    for (int j = 1; j < modes && skew_ != 0; ++j) knows_tilt_ = knows_tilt_ && std::abs(modes_.turning(j)) * T >= 1;
+  }
+
+  /// The square of the nutation's frequency; one that does not turn has no modes, but one that hardly turns within T says the same of the spin angle.
+  static Scalar turning_nutation(const Problem<Scalar>& problem, Scalar T) noexcept {
+    const Scalar square = problem.nutation_squared(), least = Scalar(9e-6L) / (T * T);
+    return std::abs(square) < least ? least : square;
   }
 
   /// e^(pace t) of all modes, its integral of those of the rates, and the angle of the spin.
@@ -84,8 +82,8 @@ class TiltOrders {
     Complex turn[modes], grown[modes];
 
     Turned(const TiltOrders& of, Scalar t) noexcept : time(t), spin(of.spin_ * t) {
-      for (int j = 0; j < modes; ++j) turn[j] = math::exponential(t * of.pace_[j]);
-      for (int j = 1; j < modes; ++j) grown[j] = integral(of.pace_[j], t, turn[j]);
+      for (int j = 0; j < modes; ++j) turn[j] = math::exponential(t * of.modes_.pace[j]);
+      for (int j = 1; j < modes; ++j) grown[j] = integral(of.modes_.pace[j], t, turn[j]);
     }
   };
 
@@ -112,7 +110,7 @@ class TiltOrders {
 
   /// int_0^t e^(z s) (int_0^s e^(w r) dr) ds, z and w being the pace of mode k and the conjugate of that of mode j.
   Complex paired(int k, int j, const Turned& now) const noexcept {
-    const Complex z = pace_[k], w = conjugate(pace_[j]);
+    const Complex z = modes_.pace[k], w = conjugate(modes_.pace[j]);
     constexpr Scalar still = Scalar(1e-4L);  // below, to (w t)^2/24
     if (math::magnitude_at_most(now.time * w) > still) {
       const Complex both = integral(z + w, now.time, now.turn[k] * conjugate(now.turn[j]));
@@ -127,8 +125,8 @@ class TiltOrders {
     Scalar sum = 0;
     for (int k = 1; k < modes; ++k) {
       Complex reached = conjugate(start_) * now.grown[k];
-      for (int j = 1; j < modes; ++j) reached = reached + conjugate(rate_[j]) * paired(k, j, now);
-      sum += (rate_[k] * reached).im;
+      for (int j = 1; j < modes; ++j) reached = reached + conjugate(modes_.rate[j]) * paired(k, j, now);
+      sum += (modes_.rate[k] * reached).im;
     }
     return sum / 2;
   }
@@ -139,16 +137,16 @@ class TiltOrders {
     Scalar sum = 0;
     for (int k = 1; k < modes; ++k)
       for (int j = 1; j < modes; ++j)
-        sum += (rate_[k] * rate_[j] *
-                second_integral(pace_[k] + pace_[j] + frame, now.time, now.turn[k] * now.turn[j] * back))
+        sum += (modes_.rate[k] * modes_.rate[j] *
+                second_integral(modes_.pace[k] + modes_.pace[j] + frame, now.time, now.turn[k] * now.turn[j] * back))
                    .im;
     return skew_ * sum;
   }
 
   Complex start_;       ///< Gamma at t = 0, rad
   Scalar spin_, skew_;  ///< r0, rad/s; (D1 - D2)/(2 D3)
+  detail::TiltModes<Scalar> modes_;
   bool knows_tilt_ = false;
-  Complex rate_[modes]{}, tilt_[modes]{}, pace_[modes]{};
   Complex turned_back_{};  ///< the tilt that SecondOrder turns back
 };
 

@@ -99,9 +99,9 @@ def _without_locked(given: Posed) -> Posed:
 
 
 def _physics(given: Posed) -> dict[str, Any]:
-    """What the motion hangs on; of weight and mass where something weighs."""
+    """What the motion hangs on; of weight and mass where something weighs, of the orbit where something acts."""
     made = {"inertia": given["body"]["inertia"], "rotor_momentum": given["body"]["rotor_momentum"], "wheels": given["wheels"], "torques": given["torques"],
-            "orbit": given["orbit"], "angular_velocity": given["initial"]["angular_velocity"]}
+            "orbit": given["orbit"] if given["torques"] else None, "angular_velocity": given["initial"]["angular_velocity"]}
     if given["torques"] and all(_is_constant(each) for each in given["torques"]):
         return made | {"torques": _thrust(given), "mass": given["body"]["mass"], "fixed": given["body"]["fixed"],
                        **{name: given["initial"][name] for name in ("attitude", "velocity", "position")}}
