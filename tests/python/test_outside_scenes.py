@@ -223,3 +223,16 @@ def test_nothing_is_known_behind_an_unstable_rotation_because_all_runs_have_come
         else:
             off = float(np.max(np.linalg.norm(found - truth, axis=-1))) / float(np.max(np.linalg.norm(truth, axis=-1)))
         assert 0.9 * off <= answer.error[column] + 1e-12, (column, off, answer.error[column])
+
+
+@pytest.mark.parametrize("model", ["auto", "averaged-2", "full", "averaged"])
+@pytest.mark.parametrize("early", [1e-6, 1e-9, 1e-12, 1e-14])
+def test_a_rest_that_may_not_be_one_yet_tells_no_modulus(model: str, early: float) -> None:
+    """Equal torques leave the modulus alone, and stop the body at a time that is known exactly."""
+    drag, torque, momentum = 3.924121406639373e-06, 2.1728708289809266e-05, [2.88, 3.2, 3.0]
+    stop = math.log1p(drag * float(np.linalg.norm(momentum)) / torque) / drag
+    despun = {"inertia": [96.0, 80.0, 60.0], "control": [torque] * 3, "drag": drag, "drag_law": "total", "angular_momentum": momentum, "ask": ["modulus_squared"],
+              "tolerance": 0.1}
+    answer = deceleration.solve(**despun, times=[stop * (1 - early)], model=model)
+    start = deceleration.solve(**despun, times=[0.0])
+    assert abs(answer["modulus_squared"][0] - start["modulus_squared"][0]) <= answer.error["modulus_squared"] + 1e-12

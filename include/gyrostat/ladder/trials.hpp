@@ -87,6 +87,14 @@ constexpr Aside second_aside(const Condition<Scalar>& condition) noexcept {
   return condition.start > 1 ? Aside::opposite : Aside::second;
 }
 
+/// By how much the momentum of a companion, of this size, differs beside its other data where the start is next to an unstable rotation, so that nothing of what
+/// brings the motion away cancels. leaving: leaving_direction().
+template <Real Scalar>
+Vec3<Scalar> leaving_shift(const Vec3<Scalar>& leaving, Scalar size, Scalar amount, Aside aside) noexcept {
+  const Scalar by = Scalar(honesty::leaving_shift) * amount * size;
+  return (aside == Aside::first ? by : -by) * leaving.cwiseSign();
+}
+
 /// One row of a table of displacements (honesty.hpp), a number at a time.
 template <Real Scalar, std::size_t count>
 constexpr Scalar displacement(const double (&table)[2][count], Aside aside, std::size_t place) noexcept {

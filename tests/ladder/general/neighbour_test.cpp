@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "../../models/general/scenes.hpp"
@@ -40,7 +41,11 @@ TEST_CASE("a neighbour differs by the amount, in every number that is not zero, 
     const auto near = beside(of, amount, Aside::first);
     // its own, and what the momentum loses beside that of the wheels
     const double lost = Wheels<double>::of(of).inverse.norm() * momenta_of_wheels(of);
-    CHECK((near.angular_velocity - of.angular_velocity).norm() <= 2 * amount * (of.angular_velocity.norm() + lost));
+    // and next to an unstable rotation what brings the motion away
+    const double leaves = 2 * honesty::leaving_shift * Wheels<double>::of(of).inverse.norm() *
+                          (of.inertia.norm() * of.angular_velocity.norm() + momenta_of_wheels(of));
+    CHECK((near.angular_velocity - of.angular_velocity).norm() <=
+          amount * (2 * of.angular_velocity.norm() + 2 * lost + leaves));
     CHECK((near.inertia - of.inertia).norm() <= 4 * amount * of.inertia.norm());
     for (std::size_t k = 0; k < of.wheels.size(); ++k) {
       CHECK(std::abs(near.wheels[k].axial_inertia / of.wheels[k].axial_inertia - 1) <= amount);
@@ -145,6 +150,36 @@ TEST_CASE("a tensor that is all but singular without its wheels magnifies its ro
   wheel.type = WheelType::free, wheel.axis = Vec3<double>(1, 1, 0) / std::sqrt(2.), wheel.axial_inertia = 2.4;
   p.wheels.push_back(wheel);
   CHECK(condition_of(Wheels<double>::of(p)) > 20);
+}
+
+TEST_CASE("a neighbour of an unstable rotation leaves it to one side, and another to the other", "[general]") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const double amount = 1e-12;
+  int seen = 0;
+  for (int i = 0; i < 400; ++i) {
+    Problem<double> p;
+    const auto R = to_matrix(as_unit(Quat<double>{any(random), any(random), any(random), any(random)}));
+    const Mat3<double> J = R * Vec3<double>(1, 2, 2.5).asDiagonal() * R.transpose();
+    p.inertia = (J + J.transpose()) / 2;
+    p.angular_velocity = {any(random), any(random), any(random)};
+    const double ratio = 1 + any(random);
+    p.rotor_momentum = ratio * p.angular_velocity - p.inertia * p.angular_velocity;  // a steady rotation
+    const auto wheels = Wheels<double>::of(p);
+    const Vec3<double> M = ratio * p.angular_velocity;
+    const auto leaving = leaving_direction<double>(M, p.angular_velocity, wheels.inverse);
+    if (leaving.isZero(0)) continue;
+    ++seen;
+    const auto moved = [&](Aside aside) {
+      const Vec3<double> by = wheels.reduced * (beside(p, amount, aside).angular_velocity - p.angular_velocity);
+      return by.dot(leaving) / leaving.norm();
+    };
+    const double size =
+        std::max((p.inertia * p.angular_velocity).cwiseAbs().maxCoeff(), p.rotor_momentum.cwiseAbs().maxCoeff());
+    CHECK(moved(Aside::first) > amount * size / 4);
+    CHECK(moved(Aside::opposite) < -amount * size / 4);
+  }
+  CHECK(seen > 20);
 }
 
 }  // namespace general_neighbour_test

@@ -127,14 +127,15 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   const SlowError<double> in_span = mean.second_order(), oscillating = mean.first_order();
   const double norm = problem.momentum.norm(), energy = problem.energy(problem.momentum);
   const double local = honesty::mean_steps * tolerance, lag = mean.lag(local);
+  const double slow = honesty::mean_steps_of_slow * tolerance;
   // of a body that the rotors hold nearly alone the energy is a difference of numbers of the size of what they hold
   const double own_energy =
-      2 * local * energy + problem.energy_error(problem.momentum) + 3 * epsilon<double> * problem.rotor_energy_scale();
+      2 * slow * energy + problem.energy_error(problem.momentum) + 3 * epsilon<double> * problem.rotor_energy_scale();
   double own_k2 = 0;
   for (const auto& state : track.states)
     own_k2 =
-        std::max(own_k2, k2_uncertainty(problem, state.momentum, {state.regime, state.k2}, local * norm, own_energy));
-  detail::state_errors(track, {in_span.norm + local * norm + problem.momentum_error() + lag * oscillating.norm,
+        std::max(own_k2, k2_uncertainty(problem, state.momentum, {state.regime, state.k2}, slow * norm, own_energy));
+  detail::state_errors(track, {in_span.norm + slow * norm + problem.momentum_error() + lag * oscillating.norm,
                                in_span.energy + own_energy + lag * oscillating.energy,
                                std::min(1.0, in_span.k2 + own_k2 + lag * oscillating.k2), 0});
   track.know_momentum(problem, in_span.vector + (local + lag + detail::rounding_of_lingering(scene)) * norm);
@@ -171,6 +172,8 @@ Track second_order_track(Track track, const Scene& scene, Mean& mean, double flo
   }
   track.counts += mean.counts();
   mean.warn(track);
+  // a rest that may not be one yet
+  detail::doubt_modulus_at_stop(track, problem, times);
   if (stops) withhold_stop(track, scene);
   return track;
 }

@@ -186,8 +186,8 @@ struct Neighbour {
   /// In the direction of the other data; next to an unstable rotation also so that no part of what brings the motion away cancels another, nor what the
   /// other data do.
   static Vec3<Scalar> momentum_shift(const Problem<Scalar>& of, Scalar amount, Aside aside) noexcept {
-    const Scalar by = Scalar(honesty::leaving_shift) * (aside == Aside::first ? amount : -amount);
-    return amount * neighbour_direction<Scalar>(aside) + by * leaving_direction_of(of).cwiseSign();
+    return amount * neighbour_direction<Scalar>(aside) +
+           leaving_shift(leaving_direction_of(of), Scalar(1), amount, aside);
   }
   /// How far each component of the momentum moves in one radian of the motion, N m s: 0 where it is zero for ever.
   static Vec3<Scalar> swing(const Problem<Scalar>& of) noexcept {

@@ -187,6 +187,13 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, Aside aside) no
   near.angular_velocity = moved(of.angular_velocity, -amount);
   near.angular_momentum =
       of.angular_momentum == of.rotor_momentum ? near.rotor_momentum : moved(of.angular_momentum, -amount);
+  if (kept) return near;
+  const Mat3<Scalar> inverse = of.inertia.inverse();
+  const Vec3<Scalar> M = of.momentum(), own = M - of.rotor_momentum;
+  const Vec3<Scalar> leaving = leaving_direction<Scalar>(M, inverse * own, inverse);
+  const Scalar size = std::max(own.cwiseAbs().maxCoeff(), of.rotor_momentum.cwiseAbs().maxCoeff());
+  const Vec3<Scalar> shift = leaving_shift(leaving, size, amount, aside);
+  near.angular_velocity += inverse * shift, near.angular_momentum += shift;
   return near;
 }
 

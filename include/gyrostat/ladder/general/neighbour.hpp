@@ -161,6 +161,14 @@ Problem<Scalar> beside(const Problem<Scalar>& of, Scalar amount, Aside aside) no
     for (int i = 0; i < 3; ++i)
       if (of.angular_velocity[i] != 0 || !kept) near.angular_velocity[i] += lost[i];
   }
+  if (!kept) {
+    const auto wheels = Wheels<Scalar>::of(of);
+    const Vec3<Scalar>& w = of.angular_velocity;
+    const Vec3<Scalar> own = wheels.reduced * w, of_wheels = wheels.momentum_of_wheels();
+    const Vec3<Scalar> leaving = leaving_direction<Scalar>(own + of_wheels, w, wheels.inverse);
+    const Scalar size = std::max(own.cwiseAbs().maxCoeff(), of_wheels.cwiseAbs().maxCoeff());
+    near.angular_velocity += wheels.inverse * leaving_shift(leaving, size, amount, aside);
+  }
   for (auto& wheel : near.wheels) {
     if (!kept) {
       Vec3<Scalar> axis = wheel.axis + amount * cross<Scalar>(shift.vector(), wheel.axis);

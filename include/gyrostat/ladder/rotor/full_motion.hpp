@@ -177,7 +177,10 @@ struct Neighbour {
     const Scalar lambda = of.axial_inertia();
     // what cancels in H, and in the product with the tensor of a slim body; a momentum that is exactly 0 stays so
     const Scalar parts = (of.inertia().cwiseAbs() * Omega.cwiseAbs()).norm() + lambda * std::abs(omega);
-    if (!from.momentum.isZero(0)) start.momentum += parts * shift;
+    if (!from.momentum.isZero(0)) {
+      const auto leaving = leaving_direction<Scalar>(from.momentum, Omega, of.free_inverse());
+      start.momentum += parts * shift + leaving_shift(leaving, parts, amount, aside);
+    }
     start.axial_momentum += by * lambda * (std::abs(omega) + Omega.norm());
   }
 };
