@@ -36,6 +36,13 @@ concept NamesLasting = requires(const Writer writer) {
   { writer.lasts(std::size_t()) } -> std::same_as<bool>;
 };
 
+/// Whether a column keeps the distance of motions that have parted.
+template <class Writer>
+bool lasts_in(const Writer& writer, std::size_t column) noexcept {
+  if constexpr (NamesLasting<Writer>) return writer.lasts(column);
+  else return true;
+}
+
 /// Result of a walk over the asked times: the errors that the distances of the runs show, in units of the columns, and the sizes of the columns.
 template <class Writer>
 struct Walk {
@@ -173,10 +180,10 @@ class Fading {
     const Scalar share = 1 / (1 + time * rate_ / Scalar(honesty::fading_angle));
     if (!parted_) {
       kept *= share;
-    } else if constexpr (NamesLasting<Writer>) {
-      for (std::size_t i = 0; i < std::size(Writer::columns); ++i)
-        if (!writer_.lasts(i)) kept[i] *= share;
+      return;
     }
+    for (std::size_t i = 0; i < std::size(Writer::columns); ++i)
+      if (!lasts_in(writer_, i)) kept[i] *= share;
   }
 
  private:

@@ -104,9 +104,8 @@ typename Comparison<Writer>::ColumnErrors what_lasts(const Writer& writer, const
   if constexpr (TellsParted<Writer, typename Comparison<Writer>::Row>) {
     if (!writer.has_parted(a, b)) return lasting;
     lasting = Comparison<Writer>::apart(a, b);
-    if constexpr (NamesLasting<Writer>)
-      for (std::size_t i = 0; i < std::size(Writer::columns); ++i)
-        if (!writer.lasts(i)) lasting[i] = 0;
+    for (std::size_t i = 0; i < std::size(Writer::columns); ++i)
+      if (!lasts_in(writer, i)) lasting[i] = 0;
   }
   return lasting;
 }

@@ -135,7 +135,8 @@ struct FullRow {
   template <class Numbers>
   S turning(const Numbers& row) const noexcept {
     return std::hypot(row[4], row[5], row[6]);
-  }  /// Attitudes further apart than honesty::parted_attitude.
+  }
+  /// Attitudes further apart than honesty::parted_attitude.
   template <class Numbers>
   bool has_parted(const Numbers& a, const Numbers& b) const noexcept {
     const S half_cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];

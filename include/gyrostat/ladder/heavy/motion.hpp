@@ -138,7 +138,8 @@ struct Row {
   template <class Numbers>
   S turning(const Numbers& row) const noexcept {
     return std::hypot(row[0], row[1], row[2]);
-  }  /// Two runs have nothing in common any more: where they meet again it is by chance.
+  }
+  /// Two runs have nothing in common any more: where they meet again it is by chance.
   template <class Numbers>
   bool has_parted(const Numbers& a, const Numbers& b) const noexcept {
     S square = 0;
