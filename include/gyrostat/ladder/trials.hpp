@@ -90,8 +90,9 @@ constexpr Aside second_aside(const Condition<Scalar>& condition) noexcept {
 /// By how much the momentum of a companion, of this size, differs beside its other data where the start is next to an unstable rotation, so that nothing of what
 /// brings the motion away cancels. leaving: leaving_direction().
 template <Real Scalar>
-Vec3<Scalar> leaving_shift(const Vec3<Scalar>& leaving, Scalar size, Scalar amount, Aside aside) noexcept {
-  const Scalar by = Scalar(honesty::leaving_shift) * amount * size;
+Vec3<Scalar> leaving_shift(const Vec3<Scalar>& leaving, Scalar size, Scalar amount, Aside aside,
+                           double factor = honesty::leaving_shift) noexcept {
+  const Scalar by = Scalar(factor) * amount * size;
   return (aside == Aside::first ? by : -by) * leaving.cwiseSign();
 }
 

@@ -99,3 +99,43 @@ TEST_CASE("heavy: a plane swing is beside a separatrix where its energy is nearl
   // no plane holds the mass centre and the motion
   CHECK_FALSE(is_beside_separatrix<double>(body({0.1, 0.12, 0.15}, {0, 0.1, 0}), {0, 1, 0}, {1, 0, 0}, near));
 }
+
+TEST_CASE("heavy: what decides when a motion leaves an unstable balance grows at its rate, and no other part counts",
+          "[heavy]") {
+  struct Balance {
+    Problem<double> body;
+    Vec3<double> rate, down;
+  };
+  const auto tilted =
+      [] {  // a steady rotation about no principal axis: the torque of the weight takes that of the rate
+        const Vec3<double> I{0.5, 0.7, 1}, d = Vec3<double>(0.3, -0.5, 0.8).normalized(), w = 2 * d;
+        const Vec3<double> torque = cross<double>(w, I.cwiseProduct(w)), centre = cross<double>(d, torque) - d;
+        return Balance{body(I, centre / 9.81), w, d};
+      }();
+  const Balance balances[] = {{body({0.1, 0.12, 0.15}, {0, 0, 0.1}), {0, 0, 0}, {0, 0, -1}},
+                              {body({1, 2, 2.5}, {0, 0, 0}), {0, 3, 0}, {0, -1, 0}},
+                              tilted};
+  for (const auto& [p, w, d] : balances) {
+    REQUIRE(is_steady(p, w, d, 1e-12));
+    const auto leaving = departures(p, w, d);
+    REQUIRE(leaving.growth > 0);
+    const double size = std::hypot(leaving.of_rate.norm(), leaving.of_down.norm());
+    const auto counts = [&](const Vec3<double>& of_rate, const Vec3<double>& of_down) {
+      return (leaving.of_rate.dot(of_rate) / leaving.unit + leaving.of_down.dot(of_down)) / size;
+    };
+    // departures grow by the linear equations, to the square of their size
+    constexpr double small = 1e-6;
+    for (const Vec3<double>& v : {Vec3<double>(1, 2, -1), Vec3<double>(-3, 1, 1), Vec3<double>(1, -1, 4)}) {
+      const Vec3<double> off_rate = small * leaving.unit * v, off_down = small * Vec3<double>(v[1], -v[2], v[0]);
+      const auto change = [&](double side) -> std::pair<Vec3<double>, Vec3<double>> {
+        const Vec3<double> rate = w + side * off_rate, down = d + side * off_down;
+        return {p.torque(rate, down).cwiseQuotient(p.inertia()), cross<double>(down, rate)};
+      };
+      const auto more = change(1), less = change(-1);
+      const double now = counts(off_rate, off_down);
+      const double next = counts((more.first - less.first) / 2, (more.second - less.second) / 2);
+      CHECK(next == Approx(leaving.growth * now).margin(1e-9 * small * leaving.unit));
+    }
+  }
+  CHECK(departures<double>(body({1, 2, 2.5}, {0, 0, 0}), {3, 0, 0}, {1, 0, 0}).of_rate.isZero(0));
+}

@@ -119,3 +119,18 @@ TEST_CASE("lindstedt: no torque, no terms", "[heavy]") {
   CHECK(terms.fall() == 0);
   CHECK(terms.remainder(1).down == 0);
 }
+
+TEST_CASE("lindstedt: means of p and q quicken the turn two orders on", "[heavy]") {
+  // a rod about an axis across it whose moment is nearly that of the other: its second term tilts the mean axis, which its fourth counts
+  const auto rod = Problem<double>::make({0.0003132386702791663, 1.0002819148032513, 1}, 1,
+                                         {4.712690558133405e-05, 0.0002362143049027115, -0.00011162686837168407}, 1, 0);
+  REQUIRE(rod);
+  L terms(scaled(*rod, 2.472098443132122, 0));
+  while (terms.order() < 3) REQUIRE(terms.advance());
+  const double stated = terms.remainder(2).phase;
+  double left = 0;
+  while (terms.order() < 8) REQUIRE(terms.advance());
+  for (int n = 3; n <= terms.order(); ++n) left += terms.rate(n);
+  CHECK(std::abs(left) < stated);
+  CHECK(stated < 10 * std::abs(left));
+}

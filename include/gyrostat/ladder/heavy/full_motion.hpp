@@ -60,8 +60,9 @@ struct Neighbour {
   Mat3<Scalar> turn =
       Mat3<Scalar>::Identity();  ///< the given axes to those of this body, which a conversion may find elsewhere
 
-  Neighbour(const Problem<Scalar>& of, const State<Scalar>& from, Scalar amount, Aside aside,
-            bool converted = false) noexcept
+  /// leaving: what decides when the motion leaves an unstable balance next to which it begins
+  Neighbour(const Problem<Scalar>& of, const State<Scalar>& from, Scalar amount, Aside aside, bool converted = false,
+            const Departures<Scalar>& leaving = {}) noexcept
       : problem(of), start(from) {
     const Vec3<Scalar> v = amount * neighbour_direction<Scalar>(aside);
     const auto changed = [](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c) noexcept {
@@ -83,14 +84,17 @@ struct Neighbour {
     if (made) problem = *made;
     // arithmetic errs by what the greatest component rounds to, in all of them but where a symmetry keeps the zeros
     const bool kept = !converted && keeps_zeros(of, from);
-    const auto moved = [kept](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c, Scalar size) noexcept {
-      const auto one = [kept, size](Scalar component, Scalar part) noexcept {
-        return component == 0 && kept ? component : component + size * part;
-      };
-      return Vec3<Scalar>(one(x[0], a), one(x[1], b), one(x[2], c));
+    const auto moved = [kept](const Vec3<Scalar>& x, const Vec3<Scalar>& by, Scalar size) noexcept {
+      const auto one = [&](int k) noexcept { return x[k] == 0 && kept ? x[k] : x[k] + size * by[k]; };
+      return Vec3<Scalar>(one(0), one(1), one(2));
     };
-    start.angular_velocity = moved(from.angular_velocity, v[1], v[2], v[0], rate_size(of, from));
-    start.down = moved(from.down, v[2], v[0], v[1], from.down.norm());
+    const auto shift = [&](const Vec3<Scalar>& direction) noexcept {
+      return leaving_shift<Scalar>(direction, 1, amount, aside, honesty::heavy_leaving_shift);
+    };
+    const Vec3<Scalar> of_rate = Vec3<Scalar>(v[1], v[2], v[0]) + shift(leaving.of_rate);
+    const Vec3<Scalar> of_down = Vec3<Scalar>(v[2], v[0], v[1]) + shift(leaving.of_down);
+    start.angular_velocity = moved(from.angular_velocity, of_rate, rate_size(of, from));
+    start.down = moved(from.down, of_down, from.down.norm());
     start.down *= from.down.norm() / start.down.norm();
     // the attitude keeps its turn about the vertical but for what brings its down onto the new one
     const Vec3<Scalar> tilt = cross<Scalar>(start.down, from.down) / from.down.squaredNorm();
@@ -146,8 +150,10 @@ class FullMotion {
     answer.step_tolerance = step_tolerance;
     Course course(problem_, start_, step_tolerance, options_.step_cap);
     const Scalar change = data_change(step_tolerance, condition());
+    const auto leaving =
+        is_next_to_steady() ? departures(problem_, start_.angular_velocity, start_.down) : Departures<Scalar>{};
     const auto beside = [&](Aside aside) noexcept {
-      const Neighbour<Scalar> near(problem_, start_, change, aside, options_.converted);
+      const Neighbour<Scalar> near(problem_, start_, change, aside, options_.converted, leaving);
       return Course(near.problem, near.start, companion_step(step_tolerance), options_.step_cap, near.turn);
     };
     Course companion = beside(Aside::first);
@@ -168,8 +174,7 @@ class FullMotion {
     const Vec3<Scalar>&I = problem_.inertia(), &w = start_.angular_velocity;
     Scalar of_start = start_sensitivity<Scalar>(I.cwiseProduct(w), w, I.cwiseInverse().asDiagonal());
     // stable or not, how far off it began may rule for long
-    if (is_steady(problem_, w, start_.down, Scalar(honesty::next_to_balance)) ||
-        is_beside_separatrix(problem_, w, start_.down, Scalar(honesty::next_to_balance)))
+    if (is_next_to_steady() || is_beside_separatrix(problem_, w, start_.down, Scalar(honesty::next_to_balance)))
       of_start = std::max(of_start, Scalar(honesty::unstable_condition));
     return {options_.converted ? I.maxCoeff() / I.minCoeff() : Scalar(1), of_start};
   }
@@ -177,6 +182,10 @@ class FullMotion {
   Scalar phase() const noexcept { return rate_ * times_.back(); }
 
  private:
+  bool is_next_to_steady() const noexcept {
+    return is_steady(problem_, start_.angular_velocity, start_.down, Scalar(honesty::next_to_balance));
+  }
+
   using System = FullSystem<Scalar, turning>;
   using Solver = ode::Taylor<System>;
 

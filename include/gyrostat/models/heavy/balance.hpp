@@ -68,16 +68,25 @@ bool is_beside_separatrix(const Problem<Scalar>& problem, const Vec3<Scalar>& an
   return false;
 }
 
-/// Greatest growth rate, 1/s, of small departures from a steady rotation about the vertical, or a rest; 0 where none grows, but for rounding.
+/// Small departures from a steady rotation about the vertical, or a rest.
+template <Real Scalar>
+struct Departures {
+  Scalar growth = 0;  ///< greatest rate at which one grows, 1/s; 0 where none does, but for rounding
+  /// What decides when a motion leaves: departures of the rate, over `unit`, and of down along these two together. Zero where none grows.
+  Vec3<Scalar> of_rate{0, 0, 0}, of_down{0, 0, 0};
+  Scalar unit = 0;  ///< rad/s
+};
+
 /// Beside two zeros the linear equations of the departures have eigenvalues +-a, +-b; their matrix J has tr J^2 = 2 (a^2 + b^2) and
 /// tr J^4 = 2 (a^4 + b^4).
 template <Real Scalar>
-Scalar growth_rate(const Problem<Scalar>& problem, const Vec3<Scalar>& angular_velocity,
-                   const Vec3<Scalar>& down) noexcept {
+Departures<Scalar> departures(const Problem<Scalar>& problem, const Vec3<Scalar>& angular_velocity,
+                              const Vec3<Scalar>& down) noexcept {
   using Matrix = Eigen::Matrix<Scalar, 6, 6>;
   const Vec3<Scalar>& w = angular_velocity;
-  const Scalar unit = w.norm() + detail::swing_rate(problem);  // in which changes of down are rates, too
-  if (!(unit > 0)) return 0;
+  Departures<Scalar> made;
+  const Scalar unit = made.unit = w.norm() + detail::swing_rate(problem);  // in which changes of down are rates, too
+  if (!(unit > 0)) return made;
   Matrix J;
   const Vec3<Scalar> per_moment = problem.inertia().cwiseInverse();
   for (int k = 0; k < 3; ++k) {
@@ -90,16 +99,34 @@ Scalar growth_rate(const Problem<Scalar>& problem, const Vec3<Scalar>& angular_v
     J.template block<3, 1>(3, k) = unit * cross<Scalar>(down, one);
     J.template block<3, 1>(3, 3 + k) = cross<Scalar>(one, w);
   }
-  const Matrix square = J * J;
+  const Matrix square = J * J, identity = Matrix::Identity();
   const Scalar sum = square.trace() / 2, squares = square.cwiseProduct(square.transpose()).sum() / 2;
   const Scalar apart = 2 * squares - sum * sum;  // (a^2 - b^2)^2
   const Scalar size = J.squaredNorm(), rounding = 64 * epsilon<Scalar>;
+  Matrix left;  // the other eigenvalues' factors: its rows are the left eigenvectors of those that grow fastest
   if (apart < -rounding * size * size) {
     const Scalar product = std::sqrt(std::max((sum * sum - squares) / 2, Scalar(0)));
-    return std::sqrt(std::max((product + sum / 2) / 2, Scalar(0)));
+    made.growth = std::sqrt(std::max((product + sum / 2) / 2, Scalar(0)));
+    left = square * (square + 2 * made.growth * J + product * identity);
+  } else {
+    const Scalar greatest = (sum + std::sqrt(std::max(apart, Scalar(0)))) / 2;
+    if (greatest > rounding * size) made.growth = std::sqrt(greatest);
+    left = J * (J + made.growth * identity) * (square - (sum - greatest) * identity);
   }
-  const Scalar greatest = (sum + std::sqrt(std::max(apart, Scalar(0)))) / 2;
-  return greatest > rounding * size ? std::sqrt(greatest) : Scalar(0);
+  if (made.growth > 0) {
+    int row = 0;
+    left.rowwise().squaredNorm().maxCoeff(&row);
+    made.of_rate = left.template block<1, 3>(row, 0).transpose();
+    made.of_down = left.template block<1, 3>(row, 3).transpose();
+  }
+  return made;
+}
+
+/// Greatest growth rate of departures(), 1/s.
+template <Real Scalar>
+Scalar growth_rate(const Problem<Scalar>& problem, const Vec3<Scalar>& angular_velocity,
+                   const Vec3<Scalar>& down) noexcept {
+  return departures(problem, angular_velocity, down).growth;
 }
 
 }  // namespace gyrostat::heavy
