@@ -176,7 +176,7 @@ inline constexpr double unstable_condition = 1e6;
 inline constexpr double leaving_shift = 2;
 /// The same of heavy bodies next to an unstable steady rotation, in rate and down: of 6000 that an adversary had turned about the vertical three errors had been stated 1.3 to 2.7 times too small, now
 /// none.
-inline constexpr double heavy_leaving_shift = 0.5;
+inline constexpr double heavy_leaving_shift = 0.25;
 
 /// General scenes: a motion whose neighbours part by so many times more than in proportion to the angle turned through has the warning `chaotic`.
 inline constexpr double chaotic_growth = 1e4;
