@@ -3,12 +3,12 @@
 
 import difflib
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, Final
 
 from gyrostat.families import FAMILIES, Family
 from gyrostat.fields import GENERAL, REQUIRED, Choices, Field, Table, table_of
 
-__all__ = ["advice", "advice_anywhere", "bare_names", "kinds_with", "meaning_of", "nearest", "show", "type_of", "wanted", "ways", "ways_of_kind"]
+__all__ = ["advice", "advice_anywhere", "bare_names", "kinds_with", "meaning_of", "nearest", "show", "suggested", "type_of", "wanted", "ways", "ways_of_kind"]
 
 
 def show(value: Any) -> str:
@@ -43,6 +43,27 @@ def type_of(value: Any) -> str:
 def nearest(word: str, words: Iterable[str]) -> str:
     found = difflib.get_close_matches(word, list(words), 1, 0.6)
     return found[0] if found else ""
+
+
+# What others call by another name: what has it here.
+_CALLED: Final = {
+    "inclination": "the orbit lies in the plane of radial and along, in inertial axes: give these two directions",
+    "raan": "the orbit lies in the plane of radial and along, in inertial axes: give these two directions",
+    "argument_of_perigee": "radial is where the orbit begins, true_anomaly how far behind the pericentre: give these two",
+    "semi_major_axis": "give radius, the distance at t = 0: of an ellipse a (1 - e^2)/(1 + e cos true_anomaly), of a circle a",
+    "reaction": 'a reaction wheel has the type "torque" where its torque is given, "held" where its rate is',
+    "reaction_wheel": 'a reaction wheel has the type "torque" where its torque is given, "held" where its rate is',
+    "cmg": "there is no gimbal here: a wheel turns about an axis that is fixed in the body",
+}
+
+
+def suggested(word: str, known: Iterable[str], form: str = "{}") -> str:
+    """What may be meant by a word that is not known, as a sentence; "" where nothing is near."""
+    near = nearest(word, known)
+    other = _CALLED.get(word.lower().replace("-", "_").replace(" ", "_"), "")
+    if other and difflib.SequenceMatcher(None, word, near).ratio() < 0.8:
+        return other
+    return f"did you mean {form.format(near)}?" if near else ""
 
 
 def meaning_of(field: Field) -> str:
@@ -85,8 +106,8 @@ def advice(key: str, table: str, family: Family) -> str:
         home = f"{key} belongs in {' or '.join(f'[{each}]' for each in homes)}"
         kinds = [each.name for each in FAMILIES.values() if any(field.name == key for field in each.keys.get(table, ()))]
         return f"scenes of the kind {' or '.join(kinds)} have {table}.{key}; in this kind {home}" if kinds else home
-    if near := nearest(key, here):
-        return f"did you mean {near}?"
+    if meant := suggested(key, here):
+        return meant
     if not table and (kinds := [family.name for family in FAMILIES.values() if key in family.keys]):
         return f"only scenes of the kind {' or '.join(kinds)} have it"
     if not table and (near := nearest(key, {name for family in FAMILIES.values() for name in family.keys if name})):

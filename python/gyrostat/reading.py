@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gyrostat.advice import meaning_of, nearest, show, type_of
+from gyrostat.advice import meaning_of, nearest, show, suggested, type_of
 from gyrostat.asking import parse_ask
 from gyrostat.errors import Refused
 from gyrostat.families import FAMILIES
@@ -120,7 +120,8 @@ def _count(field: Field, value: Any) -> int:
 
 def _list(value: Any, length: int, example: str) -> list[Any]:
     if not isinstance(value, list):
-        raise Refused(f"this is {type_of(value)}, not an array", f"write {length} numbers, such as {example}")
+        raise Refused(f"this is {type_of(value)}, not an array", f"write {length} numbers, such as {example}" + (
+            f', with a unit as {{ value = {example}, unit = "..." }}' if isinstance(value, str) and value.lstrip().startswith("[") else ""))
     if len(value) != length:
         raise Refused(f"the array has {len(value)} elements", f"write {length} numbers, such as {example}")
     return value
@@ -354,8 +355,7 @@ def _parts(field: Field, value: Mapping[str, Any], where: str, example: str) -> 
     names = [part.name for part in parts]
     for key in value:
         if key not in names:
-            near = nearest(str(key), names)
-            raise Refused(f"{where}unknown key {show(str(key))}", f"did you mean {near}?" if near else f"the keys here are {', '.join(names)}")
+            raise Refused(f"{where}unknown key {show(str(key))}", suggested(str(key), names) or f"the keys here are {', '.join(names)}")
     made: dict[str, Any] = {}
     for part in parts:
         if part.name not in value and part.default is REQUIRED:
@@ -380,8 +380,8 @@ def _no_sort(field: Field, value: Mapping[str, Any], where: str) -> tuple[str, s
         if name not in value and name == field.by[0]:
             return f"{where}the key {name} is missing", f"write {name} = one of {', '.join(known)}"
         if name in value and value[name] not in known:
-            near = nearest(str(value[name]), known)
-            return f"{where}{name} = {show(value[name])} is unknown", (f'did you mean "{near}"? ' if near else "") + f"use one of {', '.join(known)}"
+            meant = suggested(str(value[name]), known, '"{}"')
+            return f"{where}{name} = {show(value[name])} is unknown", (meant + (" " if meant.endswith("?") else "; ") if meant else "") + f"use one of {', '.join(known)}"
     first = field.by[0]
     extra = next(name for name in field.by[1:] if name in value)
     return f'{where}{first} = {show(value[first])} has no key {extra}', f"leave out {extra}"

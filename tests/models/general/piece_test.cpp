@@ -117,4 +117,24 @@ TEST_CASE("the angle of a wheel adds up over many pieces without rounding more t
   CHECK(pieces > 400);
 }
 
+TEST_CASE("the momentum of a driven wheel adds up over many pieces without rounding more than once", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 2.5).asDiagonal();
+  p.wheels.resize(1);
+  auto& wheel = p.wheels[0];
+  wheel.type = WheelType::torque, wheel.axial_inertia = 0.1, wheel.axis = {1, 0, 0}, wheel.torque = 0.0123;
+  auto& torque = p.torques.emplace_back();
+  torque.vector = {1, 0, 0};
+  for (int i = 0; i < 400; ++i) torque.factor.on.push_back({double(i), i + 0.1});
+  int pieces = 0;
+  for_pieces(p, 400., [&](const Piece<double>& piece, const Wheels<double>&) {
+    ++pieces;
+    const long double exact = static_cast<long double>(0.0123) * piece.from;
+    const auto& mine = piece.wheels[0];
+    CHECK(std::abs(double(mine.c[0] - exact)) <= 1.2e-16 * double(exact));
+    CHECK(std::abs(double(mine.c[0] + static_cast<long double>(mine.start_lost) - exact)) <= 1e-18);
+  });
+  CHECK(pieces >= 800);
+}
+
 }  // namespace general_piece_test

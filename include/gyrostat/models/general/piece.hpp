@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/problem.hpp"
@@ -29,8 +30,9 @@ struct Wave {
 template <Real Scalar>
 struct WheelPiece {
   std::array<Scalar, 5> c{};
-  Scalar integral = 0;  ///< of this over I, from t = 0 to the begin of the piece; not used for a T
-  Scalar lost = 0;      ///< what rounding has taken from that in the pieces before
+  Scalar integral = 0;    ///< of this over I, from t = 0 to the begin of the piece; not used for a T
+  Scalar lost = 0;        ///< what rounding has taken from that in the pieces before
+  Scalar start_lost = 0;  ///< and from the p with which the piece begins, where p is an integral
 
   Scalar at(Scalar s) const noexcept { return c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * c[4]))); }
   /// Goes on behind a piece of this length, s, of a wheel of this inertia.
@@ -38,6 +40,13 @@ struct WheelPiece {
     const Scalar was = before.integral, gain = before.gained(length) / inertia;
     integral = was + gain;
     lost = before.lost + (std::abs(was) >= std::abs(gain) ? (was - integral) + gain : (gain - integral) + was);
+  }
+  /// p begins where it was at the end of a piece of this length, s.
+  void go_on(const WheelPiece& before, Scalar length) noexcept {
+    const auto& b = before.c;
+    c[0] = b[0], start_lost = before.start_lost;
+    add_product_to(c[0], start_lost, length, b[1] + length * (b[2] + length * (b[3] + length * b[4])));
+    add_to(c[0], start_lost, Scalar(0));
   }
   /// The integral of it over the piece up to s.
   Scalar gained(Scalar s) const noexcept {
@@ -143,7 +152,8 @@ void Piece<Scalar>::take_wheels(const Problem<Scalar>& problem, const Wheels<Sca
         break;
       case Follows::constant: mine.c[0] = law.momentum; break;
       case Follows::integral:
-        mine.c[0] = before != nullptr ? before->wheels[i].at(length) : law.momentum;
+        mine.c[0] = law.momentum;
+        if (before != nullptr) mine.go_on(before->wheels[i], length);
         table.c[0] += law.torque;
         for (std::size_t k = 0; k < 4; ++k) mine.c[k + 1] = table.c[k] / Scalar(int(k) + 1);
         break;

@@ -287,7 +287,9 @@ def _wheel_mistakes(key: str, wheel: Mapping[str, Any], in_inertia: bool) -> Fou
     if kind == "motor" and (wheel["slope"] is UNSET) == (wheel["stall_torque"] is UNSET):
         yield key, "", f"of slope and stall_torque one is wanted", "give the one you know"
     if kind == "motor" and wheel["stall_torque"] is not UNSET and wheel["stall_torque"] * wheel["no_load_rate"] <= 0:
-        yield key, "", f"stall_torque and no_load_rate differ in sign", "both point the way in which the motor drives"
+        zero = wheel["stall_torque"] * wheel["no_load_rate"] == 0
+        yield (key, "", "stall_torque or no_load_rate is zero" if zero else "stall_torque and no_load_rate differ in sign",
+               "give slope in the place of stall_torque" if zero else "both point the way in which the motor drives")
     for name in ("rate", "torque"):
         if isinstance(wheel.get(name), Mapping):
             yield from _lengths(f"{key}.{name}", wheel[name])
