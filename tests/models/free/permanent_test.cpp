@@ -70,8 +70,26 @@ TEST_CASE("without rotors the permanent rotations are those about the principal 
   CHECK(strong->count == 2);
   for (int k = 0; k < 2; ++k) CHECK(strong->rotation[k].stable());
   CHECK(permanent_rotations(p, 0.).error() == Errc::not_positive);
-  CHECK(permanent_rotations(Problem<double>::from_moments({4, 4, 4}, {9, 0, 0}, {1, 2, 3}), 6.).error() ==
+}
+
+TEST_CASE("permanent: a sphere keeps only M along its rotor momentum", "[free]") {
+  CHECK(permanent_rotations(Problem<double>::from_moments({4, 4, 4}, {0, 0, 0}, {1, 2, 3}), 6.).error() ==
         Errc::not_applicable);
+  const Vec3<double> l{0.6, 0, -0.8};
+  const auto found = permanent_rotations(Problem<double>::from_moments({4, 4, 4}, l, {1, 2, 3}), 6.);
+  REQUIRE(found);
+  REQUIRE(found->count == 2);
+  for (int k = 0; k < 2; ++k) {
+    const auto& r = found->rotation[k];
+    CHECK((r.angular_momentum - (k == 0 ? 6 : -6) * l).norm() < 1e-15);
+    CHECK((4 * r.angular_velocity + l - r.angular_momentum).norm() < 2e-15);
+    CHECK((r.ratio * r.angular_momentum - r.angular_velocity).norm() < 1e-15);
+    CHECK(r.square == Approx(1. / 16));  // dM/dt = -M x l/J
+  }
+  // as of a body that is all but one
+  const auto near = permanent_rotations(Problem<double>::from_moments({4, 4 + 1e-9, 4 + 2e-9}, l, {1, 2, 3}), 6.);
+  REQUIRE(near->count == 2);
+  for (int k = 0; k < 2; ++k) CHECK(near->rotation[k].square == Approx(1. / 16));
 }
 
 }  // namespace free_permanent_test

@@ -69,18 +69,35 @@ struct PermanentSearch {
   }
 };
 
+/// M along l, one way or the other: its path about l is a circle at the rate |l|/J.
+template <Real Scalar>
+Result<PermanentRotations<Scalar>> permanent_of_sphere(const PrincipalProblem<Scalar>& p, Scalar R) noexcept {
+  const Vec3<Scalar> l = p.R_BP * p.l;
+  const Scalar length = l.norm();
+  if (!(length > 0)) return Errc::not_applicable;
+  PermanentRotations<Scalar> found;
+  for (const Scalar sign : {Scalar(1), Scalar(-1)}) {
+    auto& r = found.rotation[found.count++];
+    r.ratio = p.inverse[1] * (1 - sign * length / R);
+    r.angular_momentum = sign * R / length * l;
+    r.angular_velocity = p.inverse[1] * (sign * R - length) / length * l;
+    r.square = (p.inverse[1] * length) * (p.inverse[1] * length);
+  }
+  return found;
+}
+
 }  // namespace detail
 
 /// All permanent rotations of a gyrostat whose angular momentum has the length R > 0, N m s: those whose axes are principal axes without
 /// rotor momentum, and the zeros of the slope of Volterra's secular equation (Volterra 1899). Of a body with two equal moments whose
-/// plane has no rotor momentum a circle of them exists, of which two pairs are given; none of a sphere. Errors: those of
-/// Problem::check(); not_positive: R.
+/// plane has no rotor momentum a circle of them exists, of which two pairs are given. Errors: those of
+/// Problem::check(); not_positive: R; not_applicable: a sphere without rotor momentum, which turns about any axis alike.
 template <Real Scalar>
 Result<PermanentRotations<Scalar>> permanent_rotations(const Problem<Scalar>& problem, Scalar R) noexcept {
   if (const Errc wrong = problem.check(); wrong != Errc::ok) return wrong;
   if (!(R > 0)) return Errc::not_positive;
   const auto p = PrincipalProblem<Scalar>::of(problem);
-  if (p.spherical()) return Errc::not_applicable;
+  if (p.spherical()) return detail::permanent_of_sphere(p, R);
   const Secular<Scalar> q(p.inverse, p.gaps, p.inverse.cwiseProduct(p.l / R), Scalar(1));
   detail::PermanentSearch<Scalar> search{p, q, R, {}};
   search.turning(0, -1, infinity<Scalar>);

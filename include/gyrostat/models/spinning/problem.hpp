@@ -59,10 +59,10 @@ struct Problem {
   Scalar axial_momentum() const noexcept { return inertia[2] * spin() + rotor_momentum; }
   /// X = L3 - e_H, which sets every gyroscopic stiffness, N m s.
   Scalar effective_momentum() const noexcept { return inertia[2] * spin() + gyroscopic(); }
-  /// ((D3 - D2) r + Lambda)/D1 at spin r, 1/s.
-  Scalar kappa1(Scalar r) const noexcept { return ((inertia[2] - inertia[1]) * r + gyroscopic()) / inertia[0]; }
-  /// ((D3 - D1) r + Lambda)/D2 at spin r, 1/s.
-  Scalar kappa2(Scalar r) const noexcept { return ((inertia[2] - inertia[0]) * r + gyroscopic()) / inertia[1]; }
+  /// ((D3 - D2) r + Lambda)/D1 at spin r, 1/s; 0 where a rotor or a charge cancels the stiffness but for rounding.
+  Scalar kappa1(Scalar r) const noexcept { return stiffness((inertia[2] - inertia[1]) * r) / inertia[0]; }
+  /// ((D3 - D1) r + Lambda)/D2 at spin r, 1/s; likewise.
+  Scalar kappa2(Scalar r) const noexcept { return stiffness((inertia[2] - inertia[0]) * r) / inertia[1]; }
   /// The greater of |D3 - D2|/D1 and |D3 - D1|/D2: how much of a change of the spin goes into what turns the transverse rates.
   Scalar greatest_zeta() const noexcept {
     return std::max(std::abs(inertia[2] - inertia[1]) / inertia[0], std::abs(inertia[2] - inertia[0]) / inertia[1]);
@@ -80,6 +80,13 @@ struct Problem {
   }
   /// nu^2 = kappa1 kappa2 at r0, 1/s^2: negative where the spin is unstable.
   Scalar nutation_squared() const noexcept { return kappa1(spin()) * kappa2(spin()); }
+
+ private:
+  Scalar stiffness(Scalar of_spin) const noexcept {
+    const Scalar sum = of_spin + gyroscopic();
+    const Scalar rounding = 2 * epsilon<Scalar> * (std::abs(rotor_momentum) + std::abs(charge_momentum));
+    return std::abs(sum) <= rounding ? Scalar(0) : sum;
+  }
 };
 
 }  // namespace gyrostat::spinning
