@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import gyrostat
-from gyrostat import rotor
+from gyrostat import DomainError, rotor
 from gyrostat.cli import main
 from gyrostat.families.general.instance import as_instance
 from gyrostat.families.general.rewrite import as_general
@@ -48,6 +48,12 @@ def bodies(count: int, seed: int = 1) -> dict[str, Any]:
     inertia = carrier + axial[:, None, None] * (along + 0.5 * (np.eye(3) - along))
     return {"inertia": inertia, "axis": axis, "axial_inertia": axial, "slope": random.uniform(0.01, 3.0, count),
             "no_load_rate": random.normal(size=count) * 3, "momentum": random.uniform(0.5, 10.0, count)}
+
+
+def test_an_axis_of_single_precision_is_named() -> None:
+    with pytest.raises(DomainError, match="row 1: axis has the length 1.00000002"):
+        rotor.steady_rotations(inertia=[3.0, 4.1, 5.2], axis=np.array([[0, 0, 1], [0.6, 0, 0.8]], dtype=np.float32), axial_inertia=0.8, slope=0.4,
+                               no_load_rate=1.3, momentum=8.0)
 
 
 def test_every_row_solves_the_equation_of_steady_rotations() -> None:

@@ -126,6 +126,9 @@ def steady_rotations(*, inertia: ArrayLike, axis: ArrayLike, axial_inertia: Arra
         inertia = np.diag(inertia)
     lead, (theta, e, lam, S, rate, l) = rows([("inertia", inertia, (3, 3)), ("axis", axis, (3,)), ("axial_inertia", axial_inertia, ()),
                                               ("slope", slope, ()), ("no_load_rate", no_load_rate, ()), ("momentum", momentum, ())])
+    lengths = np.linalg.norm(e, axis=-1)
+    if (bent := np.flatnonzero(np.isfinite(lengths) & (np.abs(lengths - 1) > 1e-8))).size:
+        raise DomainError(f"row {bent[0]}: axis has the length {lengths[bent[0]]:.9g}; give a unit vector, to 1e-8")
     made = _core.rotor_steady(inertia=theta, axis=e, axial_inertia=lam, slope=S, no_load_rate=rate, momentum=l)
 
     def words(names: Sequence[str], values: Any, *core: int) -> Any:
