@@ -10,7 +10,7 @@ __all__ = ["ARRAYS", "Choice", "Choices", "Field", "Found", "GENERAL", "LIMIT", 
 
 # An axis is a vector of any length but 0, a turn such a quaternion; a matrix is one number, three along the diagonal, or nine; rows are threes, intervals pairs of numbers.
 Form = Literal["text", "choice", "flag", "number", "count", "vector", "axis", "direction", "quaternion", "turn", "rotation", "sequence", "inertia", "moments",
-               "matrix", "numbers", "rows", "intervals", "times", "record", "records", "text or record", "number or record", "vector or record", "ask", "vary"]
+               "matrix", "numbers", "rows", "intervals", "times", "record", "records", "text or record", "number or record", "vector or record", "ask", "vary", "scene"]
 # Of several numbers, which may stand in { value = [...], unit = "..." }.
 ARRAYS: Final = ("vector", "inertia", "moments", "matrix", "numbers", "rows", "intervals", "times")
 

@@ -405,11 +405,18 @@ def _vary(field: Field, value: Any) -> dict[str, Any]:
     return value
 
 
+def _scene(field: Field, value: Any) -> dict[str, Any]:
+    """It is read where the scene is that begins at its end."""
+    if not isinstance(value, dict):
+        raise Refused(f"this is {type_of(value)}, not a table", "write a scene out, in the layout of a scene file")
+    return value
+
+
 _READERS: Final[dict[str, Callable[[Field, Any], Any]]] = {
     "text": _text, "choice": _choice, "flag": _flag, "number": _number, "count": _count, "vector": _vector, "axis": _axis, "direction": _direction,
     "quaternion": _quaternion, "turn": _turn, "rotation": _rotation, "sequence": _sequence, "inertia": _inertia, "moments": _moments, "matrix": _matrix,
     "numbers": _numbers, "rows": lambda field, value: _table_rows(field, value, 3, "[0.0, 0.1, 0.0]"), "intervals": _intervals, "times": _times,
-    "record": _record, "records": _records, "text or record": _text_or_record, "number or record": _number_or_record, "vector or record": _vector_or_record, "ask": _ask, "vary": _vary,
+    "record": _record, "records": _records, "text or record": _text_or_record, "number or record": _number_or_record, "vector or record": _vector_or_record, "ask": _ask, "vary": _vary, "scene": _scene,
 }
 
 

@@ -119,8 +119,12 @@ class Scene:
     def told(self) -> dict[str, Any]:
         """As to_dict(), for wherever it is read: the file that the motion goes on `from` by its full path, unless it is bundled."""
         made = self.to_dict()
-        if self.before is not None and self.before.path is not None:
-            given = made["from"]
+        if self.before is None:
+            return made
+        given = made["from"]
+        if not isinstance(given, str) and "scene" in given:
+            made["from"] = {**given, "scene": self.before.told()}
+        elif self.before.path is not None:
             name = given if isinstance(given, str) else given["file"]
             if name not in dict(bundled()):
                 full = str(self.before.path.resolve())
@@ -208,7 +212,7 @@ class _Source:
     label: str
     text: str = ""
     path: Path | None = None
-    after: tuple[Path, ...] = ()  # the files of scenes that go on from this one
+    after: tuple[Path | None, ...] = ()  # the files of scenes that go on from this one; None: such a scene was no file
     overridden: frozenset[str] = frozenset()
 
     def where(self, key: str) -> str:
@@ -235,13 +239,29 @@ class _Source:
 
 def _check(data: Mapping[str, Any], source: _Source, overrides: Mapping[str, Any] | None = None) -> Scene:
     """The scene that `data` describes, or SceneError with every mistake found."""
-    tree: dict[str, Any] = {str(key): plain(value) for key, value in data.items()}
+    tree: dict[str, Any] = {str(key): plain(_written_out(value) if key == "from" else value) for key, value in data.items()}
     if overrides:
-        source.overridden = override(tree, source.label, overrides)
+        source.overridden = override(tree, source.label, {key: _written_out(value) if key == "from" else value for key, value in overrides.items()})
     made = _Reading(tree, source).scene()
     if not overrides:  # what varies may hang on keys that were replaced; a sweep looks again
         _check_varied(made, source)
     return made
+
+
+def _written_out(given: Any) -> Any:
+    """What `from` says, a scene or an answer there as plain data."""
+    if isinstance(given, Mapping):
+        return {**given, "scene": _as_data(given["scene"])} if "scene" in given else given
+    data = _as_data(given)
+    return given if data is given else {"scene": data}
+
+
+def _as_data(given: Any) -> Any:
+    if isinstance(given, Scene):
+        return given.told()
+    if getattr(given, "own_torque", False):
+        raise DomainError("from: a torque of your own acted in that answer, which its scene does not hold: give what was at its end as [initial]")
+    return getattr(given, "scene", given)  # of an Answer
 
 
 class _Reading:
@@ -374,15 +394,20 @@ def _before(given: Any, source: _Source) -> Scene:
     def fail(problem: str, remedy: str) -> SceneError:
         return SceneError(Mistake(source.where("from"), "from", "", problem, remedy))
 
-    name = Path(given if isinstance(given, str) else given["file"])
-    here = source.path.parent / name if source.path else name
-    file = find(here if here.exists() else name)
-    known = [each.resolve() for each in (*source.after, source.path) if each]
-    if file.resolve() in known:
-        raise fail(f"{name} goes on from this scene in turn", "begin one of the two with [initial]")
-    if len(known) >= MOST_BEFORE:
+    passed = (*source.after, source.path and source.path.resolve())
+    if len(passed) > MOST_BEFORE:
         raise fail(f"over {MOST_BEFORE} scenes go on from each other", "begin one of them with [initial]")
-    return _load(file, {}, tuple(known))
+    file, written = (given, UNSET) if isinstance(given, str) else (given["file"], given["scene"])
+    if (file is UNSET) == (written is UNSET):
+        raise fail("the key file is missing" if file is UNSET else "file and scene are both given", "name the scene that goes before, or write it out as scene")
+    if written is not UNSET:
+        return _check(written, _Source(f"{source.label}: from.scene", path=source.path, after=passed))
+    name = Path(file)
+    here = source.path.parent / name if source.path else name
+    found = find(here if here.exists() else name)
+    if found.resolve() in passed:
+        raise fail(f"{name} goes on from this scene in turn", "begin one of the two with [initial]")
+    return _load(found, {}, passed)
 
 
 def _check_varied(scene: Scene, source: _Source) -> None:
@@ -412,7 +437,7 @@ def load(path: str | os.PathLike[str], **overrides: Any) -> Scene:
     return _load(path, overrides)
 
 
-def _load(path: str | os.PathLike[str], overrides: Mapping[str, Any], after: tuple[Path, ...] = ()) -> Scene:
+def _load(path: str | os.PathLike[str], overrides: Mapping[str, Any], after: tuple[Path | None, ...] = ()) -> Scene:
     file = find(path)
     label = _printable(str(path))
 

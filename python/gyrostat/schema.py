@@ -108,6 +108,8 @@ def _form(field: Field) -> dict[str, Any]:
             settings = {"n": {"type": "integer", "minimum": 1}, "seed": {"type": "integer", "minimum": 0}, "design": {"enum": list(DESIGNS)},
                         "cases": {"oneOf": [{"type": "string"}, {"type": "object"}]}}
             return {"type": "object", "properties": settings, "additionalProperties": {"oneOf": how}}
+        case "scene":
+            return {"type": "object", "required": ["solve"]}
 
 
 def _property(field: Field) -> dict[str, Any]:
@@ -229,6 +231,8 @@ def _form_text(field: Field) -> str:
             return f"[[{field.name}]] each"
         case "vary":
             return "[vary]"
+        case "scene":
+            return "{ a scene }"
         case _:
             return field.form
 

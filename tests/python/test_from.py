@@ -4,6 +4,7 @@
 import copy
 import math
 import re
+import tomllib
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ from typing import Any
 import gyrostat
 import numpy as np
 import pytest
-from gyrostat import DomainError, SceneError
+from gyrostat import DomainError, SceneError, general
 from gyrostat.families import FAMILIES
 from gyrostat.families.general.before import end_of
 from gyrostat.families.general.clock import PI, orbit_since, phase
@@ -320,6 +321,41 @@ def test_a_scene_without_start_and_without_from_is_told_so() -> None:
         scene_from({"name": "x", "kind": "general", "solve": {"duration": 1.0, "samples": 2}, "body": {"inertia": [3.0, 2.5, 2.0]}})
     with pytest.raises(SceneError, match="angular_velocity or angular_momentum"):
         scene_from({"name": "x", "kind": "general", "solve": {"duration": 1.0, "samples": 2}, "body": {"inertia": [3.0, 2.5, 2.0]}, "initial": {}})
+
+
+FIRST: dict[str, Any] = {"name": "first", "kind": "general", "solve": {"duration": 10.0, "samples": 3, "tolerance": 1e-9}, "body": {"inertia": [3.0, 2.5, 2.0]},
+                         "initial": {"angular_velocity": ["3 deg/s", -0.5, 0.8]}}
+SECOND: dict[str, Any] = {"name": "second", "kind": "general", "solve": {"times": [10.0, 20.0], "tolerance": 1e-8}, "body": {"inertia": [3.0, 2.5, 2.0]}}
+
+
+def test_a_scene_and_an_answer_stand_in_the_place_of_a_file(tmp_path: Path) -> None:
+    answer = gyrostat.solve(FIRST)
+    kept = tmp_path / "answer.json"
+    kept.write_text(answer.to_json())
+    by_file = gyrostat.solve(SECOND | {"from": str(write(tmp_path, "first", FIRST))})
+    for before in (answer, scene_from(FIRST), {"scene": FIRST}, {"scene": answer, "keep": "rates"}, gyrostat.Answer.from_json(kept)):
+        scene = scene_from(SECOND | {"from": before})
+        later = gyrostat.solve(scene)
+        assert np.array_equal(later["attitude"], by_file["attitude"]) and later.error == by_file.error
+        # the chain is one scene, which says all
+        assert scene_from(tomllib.loads(toml_text(scene.to_dict()))) == scene
+        assert np.array_equal(gyrostat.solve(later.scene)["attitude"], by_file["attitude"])
+    assert np.array_equal(gyrostat.solve(scene_from(SECOND | {"from": "iss-drift", "solve": {"duration": 1.0, "samples": 2}}), **{"from": answer, "times": [10.0, 20.0]})["attitude"],
+                          by_file["attitude"])
+
+
+def test_what_is_written_out_in_the_place_of_a_file_is_read_as_one() -> None:
+    for before, message in (({"scene": 3}, "not a table"), ({"scene": FIRST, "file": "iss-drift"}, "both given"), ({"scene": FIRST | {"body": {}}}, "from.scene: body.inertia: the key is missing")):
+        with pytest.raises(SceneError, match=message):
+            scene_from(SECOND | {"from": before})
+    chain = FIRST
+    for _ in range(17):
+        chain = SECOND | {"from": {"scene": chain}}
+    with pytest.raises(SceneError, match="over 16 scenes go on"):
+        scene_from(chain)
+    pushed = general.solve(inertia=[3.0, 2.5, 2.0], angular_velocity=[0.3, -0.5, 0.8], times=[10.0], torque=lambda *_: np.array([0.0, 0.0, 0.1]))
+    with pytest.raises(DomainError, match="a torque of your own"):
+        gyrostat.solve(SECOND | {"from": pushed})
 
 
 def test_circles_and_long_chains_are_refused(tmp_path: Path) -> None:

@@ -124,7 +124,8 @@ APART: Final = ("mass", "position", "equatorial_inertia")
 KEYS: Final[dict[str, Table]] = {
     "": (Field("from", "text or record", "the scene, a file or the name of a bundled one, at whose end this one begins: [initial] holds what is otherwise "
                "then, and the clock goes on", "", UNSET, parts=(
-                   Field("file", "text", "file or name of the scene"),
+                   Field("file", "text", "file or name of the scene", default=UNSET),
+                   Field("scene", "scene", "the scene itself, in the layout of a scene file, instead of a file; in Python also a Scene or an Answer", default=UNSET),
                    Field("keep", "choice", "what a body that has changed keeps: its angular velocity, or its angular momentum", default="rates",
                          choices=("rates", "momentum")))),
          Field("wheel", "records", "wheels on the body, a table [[wheel]] each", default=(), sorts=WHEELS, by=("type",)),
