@@ -184,3 +184,11 @@ def test_a_held_rate_that_steps_makes_the_body_jump_and_leaves_the_momentum() ->
         assert np.allclose(made["angular_momentum"][2], made["angular_momentum"][1], atol=1e-8)
         inertial = np.einsum("nij,nj->ni", matrix_from_quaternion(made["attitude"]), made["angular_momentum"])
         assert np.allclose(inertial, inertial[0], rtol=0, atol=1e-11)
+
+
+def test_segments_say_that_there_are_too_many_of_them() -> None:
+    times = [0.25 * i for i in range(121)]
+    wheel = {"type": "held", "axis": [1.0, 0.0, 0.0], "axial_inertia": 0.01,
+             "rate": {"times": times, "values": [10.0 * (i % 2) for i in range(121)], "interpolation": "step", "extend": "hold"}}
+    with pytest.raises(DomainError, match="at more than 63 times"):
+        gyrostat.solve(scene(wheel=[wheel], solve={"times": [30.0], "model": "segments"}))

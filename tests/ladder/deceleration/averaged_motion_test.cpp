@@ -100,6 +100,20 @@ TEST_CASE("averaged motion: equal torques, drag alone, nothing", "[deceleration]
   CHECK(free.state().norm == Approx(R).epsilon(1e-14));
 }
 
+TEST_CASE("averaged motion: a torque that changes |M| by less than a rounding keeps the phase", "[deceleration]") {
+  const auto phase_of = [](Problem<double> p, double t) {
+    const auto start = polhode_through<double>(p.inverse_inertia, p.momentum);
+    Motion motion{p, start, p.momentum.norm(), 0.3, 1e-10, 1e-8};
+    REQUIRE(motion.advance(t, 0, nobody) == ode::Status::reached);
+    return motion.state().phase;
+  };
+  for (const double torque : {1e-20, 1e-17, 8e-17, 1e-15, 1e-14}) {
+    auto p = standard(0);
+    p.control = (torque * V(0, 1, 0)).asDiagonal();
+    for (const double t : {0.1, 1., 30.}) CHECK(std::abs(phase_of(p, t) - phase_of(standard(0), t)) < 1e-7);
+  }
+}
+
 TEST_CASE("averaged motion: the floor, rest and what lies behind", "[deceleration]") {
   Motion motion = motion_of(standard(1e-3));
   REQUIRE(motion.advance(infinity<double>, .25, nobody) == ode::Status::reached);

@@ -36,4 +36,28 @@ TEST_CASE("the momentum is known where all torque is inertial", "[general]") {
   CHECK_FALSE(known(p, 3));
 }
 
+TEST_CASE("the known momentum adds up over many pieces without rounding more than once", "[general]") {
+  Problem<double> p;
+  p.inertia = Vec3<double>(3, 2, 1.5).asDiagonal();
+  p.angular_velocity = {0.1, 0.2, 0.3};
+  auto& torque = p.torques.emplace_back();
+  torque.axes = Axes::inertial, torque.vector = {0.01, -0.02, 0.0037};
+  for (int i = 0; i < 500; ++i) torque.factor.on.push_back({double(i), i + 0.5});
+  const Prepared<double> of(p, 500);
+  auto cuts = breakpoints(p, 500.);
+  cuts.push_back(500);
+  const auto start = first_numbers<double, false>(of);
+  auto piece = Piece<double>::first(p, of.wheels, of.torques, cuts[0]);
+  KnownMomentum<double> known(piece, start.data());
+  const Vec3<double> first = known.at(0);
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
+    piece = Piece<double>::behind(piece, p, of.wheels, of.torques, cuts[i]);
+    known = KnownMomentum<double>(piece, start.data(), &known);
+  }
+  for (int i = 0; i < 3; ++i) {
+    const long double wanted = static_cast<long double>(first[i]) + 250 * static_cast<long double>(torque.vector[i]);
+    CHECK(double(std::abs(known.at(500)[i] - wanted)) <= 1.2e-16 * double(std::abs(wanted)));
+  }
+}
+
 }  // namespace general_known_momentum_test

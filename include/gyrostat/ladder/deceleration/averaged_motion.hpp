@@ -152,7 +152,8 @@ class AveragedMotion {
     for (int trip = 0; trip < 6 && sigma >= low && sigma <= high; ++trip) {
       const auto [there, slope] = solver_.component(i, sigma);
       const Scalar off = value - there, further = off / slope;
-      const bool there_already = std::abs(off) <= 4 * epsilon<Scalar> * (std::abs(value) + std::abs(rise));
+      // to its own rounding: a torque that is hardly there makes steps of whatever length in time
+      const bool there_already = std::abs(off) <= 4 * epsilon<Scalar> * std::abs(value);
       // a step of Newton's method so short is the last one
       const bool last = std::abs(further) <= Scalar(1e-9L) * (high - low);
       if (!there_already) sigma += further;

@@ -280,11 +280,12 @@ class FullCourse {
     return x;
   }
 
-  /// Begins piece_ at t. lost: of the numbers, by rounding.
-  void enter(Scalar t, const Numbers& numbers, const Numbers& lost = {}) noexcept {
+  /// Begins piece_ at t. lost: of the numbers, by rounding; known: the momentum in the piece before, where the motion goes on from it.
+  void enter(Scalar t, const Numbers& numbers, const Numbers& lost = {},
+             const KnownMomentum<Scalar>* known = nullptr) noexcept {
     const bool rested = bool(resting_);
     resting_.reset(), leaving_.reset();
-    system_.emplace(of_, piece_, numbers);
+    system_.emplace(of_, piece_, numbers, known);
     options_.scale = system_->scale();
     time_ = previous_ = t;
     greatest_ = braked_ = 0;
@@ -326,10 +327,11 @@ class FullCourse {
     const Numbers x = moves ? numbers_now() : numbers(t);
     Numbers lost{};
     if (moves) std::copy_n(solver_->lost(), lost.size(), lost.begin());
+    const KnownMomentum<Scalar> known = system_->known();
     piece_ = std::move(*next_);
     next_.reset();
     pace_.restart(t);
-    enter(t, x, lost);
+    enter(t, x, lost, moves ? &known : nullptr);
   }
 
   /// What a brake opposes is zero from t on, at these numbers. rested: it was already. when: exactly, for a body that leaves at once.

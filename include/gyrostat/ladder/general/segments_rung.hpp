@@ -27,6 +27,9 @@ inline constexpr std::size_t most_segments = 64;
 inline constexpr const char* not_in_segments =
     "not steady between the times at which something changes, or no instance of a family there";
 
+inline constexpr const char* too_many_segments =
+    "something changes at more than 63 times, and each segment carries the error of the one before: ask for full";
+
 /// Segments that are foreseen to take longer, s, are not begun.
 inline constexpr double longest_segments = 30;
 inline constexpr const char* too_long_in_segments =

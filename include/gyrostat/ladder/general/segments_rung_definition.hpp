@@ -179,7 +179,8 @@ GYROSTAT_COMPILED_ONCE double cost_of_segments(const Scene& scene) noexcept {
 
 GYROSTAT_COMPILED_ONCE Track segments_track(const Scene& scene, Monitor* monitor, detail::Solve solve) {
   const double cost = cost_of_segments(scene);
-  if (std::isnan(cost)) return refused<Track>(Errc::not_applicable, not_in_segments);
+  if (std::isnan(cost))
+    return refused<Track>(Errc::not_applicable, scene.breaks() >= most_segments ? too_many_segments : not_in_segments);
   if (cost > longest_segments) return refused<Track>(Errc::step_limit, too_long_in_segments);
   detail::SegmentedMotion motion(scene, detail::segments_of(scene.problem(), scene.question().times.back()), solve);
   if (const Errc wrong = motion.run(monitor); wrong != Errc::ok)

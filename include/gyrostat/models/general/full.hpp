@@ -70,8 +70,9 @@ class FullSystem {
     Row_ push[2][4];  ///< of wheels whose p is a state: T unit
   };
 
-  /// The equations over a piece that begins with these numbers.
-  FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start) noexcept;
+  /// The equations over a piece that begins with these numbers. before: what was known in the piece before, where the motion goes on from it.
+  FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start,
+             const KnownMomentum<Scalar>* before = nullptr) noexcept;
 
   template <int Order>
   void expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept;
@@ -91,6 +92,7 @@ class FullSystem {
     return state_of<Scalar, large>(of_, piece, t, x);
   }
 
+  const KnownMomentum<Scalar>& known() const noexcept { return known_; }
   /// What a brake opposes, N m s, by the numbers at t: the lesser of the two, if both laws are there; infinite without a brake.
   Scalar braked(Scalar t, const Scalar* x) const noexcept;
   bool has_brake() const noexcept { return sees_.total_brake || sees_.carrier_brake; }
@@ -197,9 +199,9 @@ class FullSystem {
 };
 
 template <Real Real_, bool large>
-FullSystem<Real_, large>::FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece,
-                                     const Numbers& start) noexcept
-    : of_(of), piece_(piece), whole_(of.wheels.whole), shape_(of.wheels.whole), known_(piece, start.data()) {
+FullSystem<Real_, large>::FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start,
+                                     const KnownMomentum<Scalar>* before) noexcept
+    : of_(of), piece_(piece), whole_(of.wheels.whole), shape_(of.wheels.whole), known_(piece, start.data(), before) {
   if (of.problem.orbit) normal_ = cross<Scalar>(of.problem.orbit->radial, of.problem.orbit->along);
   take_parts();
   take_wheels();

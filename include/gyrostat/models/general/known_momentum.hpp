@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "gyrostat/core/compensated.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/piece.hpp"
@@ -18,11 +19,13 @@ namespace gyrostat::general {
 template <Real Scalar>
 class KnownMomentum {
  public:
-  /// x: (w, x, y, z | M1, M2, M3) at the begin of the piece.
-  KnownMomentum(const Piece<Scalar>& piece, const Scalar* x) noexcept
+  /// x: (w, x, y, z | M1, M2, M3) at the begin of the piece. before: of the piece before, where the motion goes on from it: what is known adds up over pieces
+  /// without rounding more than once.
+  KnownMomentum(const Piece<Scalar>& piece, const Scalar* x, const KnownMomentum* before = nullptr) noexcept
       : from_(piece.from), is_known_(piece.waves.empty()), is_free_(piece.waves.empty()) {
     by_time_.fill({0, 0, 0});
-    by_time_[0] = rotate_once(Quat<Scalar>{x[0], x[1], x[2], x[3]}, Vec3<Scalar>(x[4], x[5], x[6]));
+    if (before != nullptr && before->is_known_) go_on(*before);
+    else by_time_[0] = rotate_once(Quat<Scalar>{x[0], x[1], x[2], x[3]}, Vec3<Scalar>(x[4], x[5], x[6]));
     for (std::size_t i = 0; i < 4; ++i) {
       Terms<Scalar> left = piece.power[i];
       is_free_ = is_free_ && !left.any_torque();
@@ -46,9 +49,21 @@ class KnownMomentum {
   }
 
  private:
+  void go_on(const KnownMomentum& before) noexcept {
+    const Scalar s = from_ - before.from_;
+    const auto& b = before.by_time_;
+    by_time_[0] = b[0], lost_ = before.lost_;
+    const Vec3<Scalar> rate = b[1] + s * (b[2] + s * (b[3] + s * b[4]));
+    for (int i = 0; i < 3; ++i) {
+      add_product_to(by_time_[0][i], lost_[i], s, rate[i]);
+      add_to(by_time_[0][i], lost_[i], Scalar(0));
+    }
+  }
+
   Scalar from_;
   bool is_known_, is_free_;
   std::array<Vec3<Scalar>, 5> by_time_;
+  Vec3<Scalar> lost_{0, 0, 0};  ///< of the first of them, by rounding
 };
 
 }  // namespace gyrostat::general

@@ -81,8 +81,9 @@ class StiffSystem {
     Vector radial, field, field_rate;        ///< inertial axes
   };
 
-  /// The equations over a piece that begins with these numbers.
-  StiffSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start) noexcept;
+  /// As FullSystem's.
+  StiffSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start,
+              const KnownMomentum<Scalar>* before = nullptr) noexcept;
 
   static Numbers first_numbers(const Prepared<Scalar>& of) noexcept;
   /// W.
@@ -103,6 +104,7 @@ class StiffSystem {
   State<Scalar> state(const Piece<Scalar>& piece, Scalar t, const Scalar* x) const noexcept;
 
   /// As in FullSystem.
+  const KnownMomentum<Scalar>& known() const noexcept { return known_; }
   Scalar braked(Scalar t, const Scalar* x) const noexcept {
     const Scalar total = has_.total_brake ? Vec3<Scalar>(x[4], x[5], x[6]).norm() : infinity<Scalar>;
     if (!has_.carrier_brake) return total;
@@ -160,9 +162,9 @@ class StiffSystem {
 };
 
 template <Real Real_, int most>
-StiffSystem<Real_, most>::StiffSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece,
-                                      const Numbers& start) noexcept
-    : of_(&of), piece_(&piece), known_(piece, start.data()), count_(int(of.settling.count)) {
+StiffSystem<Real_, most>::StiffSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start,
+                                      const KnownMomentum<Scalar>* before) noexcept
+    : of_(&of), piece_(&piece), known_(piece, start.data(), before), count_(int(of.settling.count)) {
   const auto look = [&](const Terms<Scalar>& terms) noexcept {
     has_.moving = has_.moving || terms.any_moving() || !terms.force_body.isZero(0) || !terms.force_inertial.isZero(0);
     for (std::size_t j = 0; j < 3; ++j) {

@@ -289,10 +289,11 @@ class PicardSweeps {
   Columns value_[sweep_cap + 1]{};
 };
 
-/// The errors of an answer by what each sweep moved, from the first on, and by what rounding makes of columns of the sizes `size`.
+/// The errors of an answer by what each sweep moved, from the first on, and by what rounding makes of columns of the sizes `size`, and the motion of that:
+/// what an unstable spin lets grow, `grown` times.
 template <Real Scalar>
 void judge_sweeps(PicardAnswer<Scalar>& answer, std::span<const SweepErrors<Scalar>> moved,
-                  const std::array<Scalar, 6>& size, Scalar rounding) noexcept {
+                  const std::array<Scalar, 6>& size, Scalar rounding, Scalar grown) noexcept {
   const auto combine = [&](Scalar a, const SweepErrors<Scalar>& x, Scalar b, const SweepErrors<Scalar>& y,
                            Scalar c) noexcept {
     const auto first = x.all(), second = y.all();
@@ -308,7 +309,7 @@ void judge_sweeps(PicardAnswer<Scalar>& answer, std::span<const SweepErrors<Scal
     if (moves) ratio = std::max(ratio, now[i] / before[i]);
   }
   answer.linear = combine(1, moved[1], 3, moved[2], rounding);
-  answer.error = combine(std::clamp(128 * ratio, Scalar(1), Scalar(2)), last, 0, last, 4 * rounding);
+  answer.error = combine(std::clamp(128 * ratio, Scalar(1), Scalar(2)), last, 0, last, 4 * rounding * grown);
 }
 
 /// Keeps the state at time t of the last sweep, its size, and what each sweep moved there.
@@ -373,7 +374,8 @@ Result<PicardAnswer<Scalar>> picard_motion(const Problem<Scalar>& problem, std::
   auto size = answer.size.all();
   size[2] += std::abs(problem.angles.theta);
   size[3] += kept + D.maxCoeff() * answer.size.angular_velocity;
-  detail::judge_sweeps<Scalar>(answer, moved, size, rounding);
+  const Scalar grown = std::exp(std::sqrt(std::max(-problem.nutation_squared(), Scalar(0))) * end);
+  detail::judge_sweeps<Scalar>(answer, moved, size, rounding, grown);
   return answer;
 }
 
