@@ -17,8 +17,9 @@ def written(file: str | os.PathLike[str]) -> Iterator[Path]:
     What is no plain file, such as a pipe, or may not be written, is opened itself. An OSError names the file."""
     named = Path(file)
     whole = named.resolve()  # through links
-    there = named.is_file() and os.access(whole, os.W_OK)
-    if _is_stream(named) or (named.exists() and not there) or not os.access(whole.parent, os.W_OK):
+    exists = named.exists()  # looked for once: another may write it in the meantime
+    there = exists and named.is_file() and os.access(whole, os.W_OK)
+    if _is_stream(named) or (exists and not there) or not os.access(whole.parent, os.W_OK):
         yield named
         return
     beside = whole.with_name(f".{whole.stem}.{os.getpid()}-{threading.get_ident()}{whole.suffix}")
