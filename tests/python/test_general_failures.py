@@ -192,3 +192,9 @@ def test_segments_say_that_there_are_too_many_of_them() -> None:
              "rate": {"times": times, "values": [10.0 * (i % 2) for i in range(121)], "interpolation": "step", "extend": "hold"}}
     with pytest.raises(DomainError, match="at more than 63 times"):
         gyrostat.solve(scene(wheel=[wheel], solve={"times": [30.0], "model": "segments"}))
+
+
+def test_a_wave_that_is_asked_where_it_vanishes_has_a_size() -> None:
+    wave = {"type": "constant", "torque": [0.1, 0.0, 0.0], "factor": {"mean": 0.0, "amplitude": 1.0, "rate": math.pi}}
+    made = gyrostat.solve(scene(torque=[wave], solve={"times": [1.0, 10.0], "tolerance": 1e-6, "ask": "all"}))
+    assert made.met and made.scale["torque"] == pytest.approx(1e-7) and np.max(np.abs(made["torque"])) < 1e-15

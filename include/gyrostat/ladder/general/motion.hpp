@@ -67,7 +67,7 @@ inline constexpr ColumnKind column_kinds[] = {
      "attitude, body to the axes of the orbit: x along it, y against its normal, z to the centre; of scenes with an "
      "orbit"},
     {"torque", 3, "N m", Frame::body, Measure::relative, "external torque, body axes",
-     "a thousandth of the sizes of all torques at t = 0"},
+     "a thousandth of the sizes of all torques at t = 0, or a millionth of what they may come to"},
     {"euler", 3, "rad", Frame::body_to_inertial, Measure::absolute,
      "angles of the attitude in the sequence solve.euler, in its order; first and last count turns; of scenes with "
      "that "

@@ -128,6 +128,8 @@ GYROSTAT_COMPILED_ONCE ColumnErrors Scene::scales() const noexcept {
   double torques = torques_at(0) + own_torque_(0, seen_of(flow.state(0, flow.start()))).norm();
   if (torques == 0)
     for (const double t : breakpoints(p, T)) torques = std::max(torques, torques_at(t));
+  // a wave that begins at zero, a gradient on an aligned body: it is there all the same
+  torques = std::max(torques, share * sizes_.external);
   const Vec3<double> g = p.fixed ? Vec3<double>(0, 0, 0) : Vec3<double>(p.field.gravity * p.field.down);
   ColumnErrors scale;
   scale[column::angular_velocity] = omega > 0 ? omega : share * momenta / most;
