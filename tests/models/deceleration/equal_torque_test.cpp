@@ -175,3 +175,16 @@ TEST_CASE("equal torques in other arithmetic", "[deceleration]") {
           1e-13 * braked.norm() / a.unbraked().modulus().kp2);
   }
 }
+
+TEST_CASE("equal torques: the stop under a drag that hardly is one, or beside a torque that hardly is one",
+          "[deceleration]") {
+  const auto stop = [](double b, double drag, double norm) {
+    return EqualTorqueLaw<double>(b, drag, norm).stop_time();
+  };
+  for (const double drag : {0., 1e-300, 1e-308, 1e-310, 3e-315, 5e-324}) {
+    CHECK(stop(0.004, drag, 0.5) == 0.5 / 0.004);
+    CHECK(stop(2e-11, drag, 5e-9) == 5e-9 / 2e-11);
+  }
+  CHECK(stop(1e-310, 1e-3, 1) == Approx(std::log(1e-3 / 1e-310) / 1e-3).epsilon(1e-12));
+  CHECK(stop(0.3, 0.2, 2) == Approx(std::log1p(0.2 * 2 / 0.3) / 0.2).epsilon(1e-15));
+}

@@ -23,7 +23,10 @@ class EqualTorqueLaw {
   /// Time at which M vanishes, s; infinite without control.
   Scalar stop_time() const noexcept {
     if (!(b_ > 0)) return infinity<Scalar>;
-    return drag_ > 0 ? std::log1p(drag_ * norm_ / b_) / drag_ : norm_ / b_;
+    const Scalar undragged = norm_ / b_, x = drag_ * undragged;
+    if (!(x > 0)) return undragged;
+    // the drag itself may be too small to keep its digits in products, and the time without it may be beyond all numbers
+    return x < infinity<Scalar> ? undragged * (std::log1p(x) / x) : std::log1p(drag_ * norm_ / b_) / drag_;
   }
 
   /// |M|, N m s; 0 from the stop on.
