@@ -45,23 +45,26 @@ def nearest(word: str, words: Iterable[str]) -> str:
     return found[0] if found else ""
 
 
-# What others call by another name: what has it here.
+_PLANE: Final = ("radial", "the orbit lies in the plane of radial and along, in inertial axes: give these two directions")
+_DRIVEN: Final = ("held", 'a reaction wheel has the type "torque" where its torque is given, "held" where its rate is')
+# What others call by another name: a word that is known where this may be meant, and what has it there.
 _CALLED: Final = {
-    "inclination": "the orbit lies in the plane of radial and along, in inertial axes: give these two directions",
-    "raan": "the orbit lies in the plane of radial and along, in inertial axes: give these two directions",
-    "argument_of_perigee": "radial is where the orbit begins, true_anomaly how far behind the pericentre: give these two",
-    "semi_major_axis": "give radius, the distance at t = 0: of an ellipse a (1 - e^2)/(1 + e cos true_anomaly), of a circle a",
-    "reaction": 'a reaction wheel has the type "torque" where its torque is given, "held" where its rate is',
-    "reaction_wheel": 'a reaction wheel has the type "torque" where its torque is given, "held" where its rate is',
-    "cmg": "there is no gimbal here: a wheel turns about an axis that is fixed in the body",
+    "inclination": _PLANE,
+    "raan": _PLANE,
+    "argument_of_perigee": ("radial", "radial is where the orbit begins, true_anomaly how far behind the pericentre: give these two"),
+    "semi_major_axis": ("eccentricity", "give radius, the distance at t = 0: of an ellipse a (1 - e^2)/(1 + e cos true_anomaly), of a circle a"),
+    "reaction": _DRIVEN,
+    "reaction_wheel": _DRIVEN,
+    "cmg": ("held", "there is no gimbal here: a wheel turns about an axis that is fixed in the body"),
 }
 
 
 def suggested(word: str, known: Iterable[str], form: str = "{}") -> str:
     """What may be meant by a word that is not known, as a sentence; "" where nothing is near."""
+    known = list(known)
     near = nearest(word, known)
-    other = _CALLED.get(word.lower().replace("-", "_").replace(" ", "_"), "")
-    if other and difflib.SequenceMatcher(None, word, near).ratio() < 0.8:
+    beside, other = _CALLED.get(word.lower().replace("-", "_").replace(" ", "_"), ("", ""))
+    if beside in known and difflib.SequenceMatcher(None, word, near).ratio() < 0.8:
         return other
     return f"did you mean {form.format(near)}?" if near else ""
 

@@ -174,8 +174,7 @@ inline constexpr double unstable_condition = 1e6;
 /// differed in one direction parts of that cancelled: of 3812 bodies with rotors 1 by free and 2 by general scenes had stated up to 3.3 times too little, now none,
 /// and the medians went from 335 to 476 and from 113 to 148 times; of 890 decelerations 3.
 inline constexpr double leaving_shift = 2;
-/// The same of heavy bodies next to an unstable steady rotation, in rate and down: of 6000 that an adversary had turned about the vertical three errors had been stated 1.3 to 2.7 times too small, now
-/// none.
+/// The same of heavy bodies next to an unstable steady rotation, in rate and down: of 3700 that an adversary had turned about the vertical three had stated 1.3 to 2.7 times too little, now none.
 inline constexpr double heavy_leaving_shift = 0.25;
 
 /// General scenes: a motion whose neighbours part by so many times more than in proportion to the angle turned through has the warning `chaotic`.

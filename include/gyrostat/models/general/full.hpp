@@ -92,6 +92,7 @@ class FullSystem {
     return state_of<Scalar, large>(of_, piece, t, x);
   }
 
+  /// R M over the piece, where it is known: for the piece behind.
   const KnownMomentum<Scalar>& known() const noexcept { return known_; }
   /// What a brake opposes, N m s, by the numbers at t: the lesser of the two, if both laws are there; infinite without a brake.
   Scalar braked(Scalar t, const Scalar* x) const noexcept;

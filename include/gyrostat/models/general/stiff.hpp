@@ -103,7 +103,7 @@ class StiffSystem {
   State<Scalar> state(Scalar t, const Scalar* x) const noexcept { return state(*piece_, t, x); }
   State<Scalar> state(const Piece<Scalar>& piece, Scalar t, const Scalar* x) const noexcept;
 
-  /// As in FullSystem.
+  /// As in FullSystem, both.
   const KnownMomentum<Scalar>& known() const noexcept { return known_; }
   Scalar braked(Scalar t, const Scalar* x) const noexcept {
     const Scalar total = has_.total_brake ? Vec3<Scalar>(x[4], x[5], x[6]).norm() : infinity<Scalar>;

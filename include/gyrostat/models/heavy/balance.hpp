@@ -77,7 +77,7 @@ struct Departures {
   Scalar unit = 0;  ///< rad/s
 };
 
-/// Beside two zeros the linear equations of the departures have eigenvalues +-a, +-b; their matrix J has tr J^2 = 2 (a^2 + b^2) and
+/// Those from the rotation, or rest, with this rate and down, which has to be one (is_steady). Beside two zeros their linear equations have eigenvalues +-a, +-b; their matrix J has tr J^2 = 2 (a^2 + b^2) and
 /// tr J^4 = 2 (a^4 + b^4).
 template <Real Scalar>
 Departures<Scalar> departures(const Problem<Scalar>& problem, const Vec3<Scalar>& angular_velocity,

@@ -141,7 +141,7 @@ class Lindstedt {
       const Scalar last = std::fmax(mean(order_), mean(order_ - 1)), ratio = s_.torque() * s_.torque() / divisor;
       const Scalar tail = last == 0 ? Scalar(0) : ratio < 1 ? 4 * last * ratio / (1 - ratio) : infinity<Scalar>;
       for (const auto part : {&Size::rates, &Size::down, &Size::phase, &Size::drift, &Size::swing}) left.*part += tail;
-      // and quicken the turn by half their square, at the sum of their orders
+      // and quicken the turn by half their square, at the sum of their orders: twice that
       for (int n = 1; n <= order_; ++n)
         for (int m = order_ + 1 - n; m <= order_; ++m) left.phase += mean(n) * mean(m);
     }

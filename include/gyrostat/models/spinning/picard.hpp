@@ -374,7 +374,8 @@ Result<PicardAnswer<Scalar>> picard_motion(const Problem<Scalar>& problem, std::
   auto size = answer.size.all();
   size[2] += std::abs(problem.angles.theta);
   size[3] += kept + D.maxCoeff() * answer.size.angular_velocity;
-  const Scalar grown = std::exp(std::sqrt(std::max(-problem.nutation_squared(), Scalar(0))) * end);
+  // at most so much that nothing is known: of what is zero nothing grows
+  const Scalar grown = std::min(std::exp(std::sqrt(std::max(-problem.nutation_squared(), Scalar(0))) * end), 1 / eps);
   detail::judge_sweeps<Scalar>(answer, moved, size, rounding, grown);
   return answer;
 }
