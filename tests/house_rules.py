@@ -14,6 +14,7 @@ inline where the headers are used alone. Needs Python 3.9 and nothing else.
 """
 import argparse
 import ast
+import os
 import pathlib
 import re
 import sys
@@ -177,11 +178,12 @@ def check_headers(root):
 
 
 def our_files(root):
-    for path in sorted(root.rglob("*")):
-        parts = path.relative_to(root).parts
-        hidden = any(part.startswith(".") and part != ".ci" for part in parts[:-1])
-        if path.is_file() and not hidden and not NOT_OURS & set(parts[:-1]):
-            yield path
+    for folder, folders, names in os.walk(root):
+        folders[:] = sorted(name for name in folders if name not in NOT_OURS and (name == ".ci" or not name.startswith(".")))
+        for name in sorted(names):
+            path = pathlib.Path(folder, name)
+            if path.is_file():
+                yield path
 
 
 def check_spdx(root):
