@@ -109,3 +109,17 @@ TEST_CASE("a law without a value ends a run of CVODE, too", "[general]") {
   CHECK(lost >= 4);
   CHECK(lost < 4.1);
 }
+
+TEST_CASE("a pulse of some roundings of its time is not lost by CVODE", "[general]") {
+  const double at = 12.3, length = 20 * (std::nextafter(at, 13.0) - at);
+  Problem<double> problem;
+  problem.inertia = Mat3<double>::Identity();
+  auto& pulse = problem.torques.emplace_back();
+  pulse.vector = {0, 0, 1e-3};
+  pulse.factor.on = {{at, at + length}};
+  Scene scene = posed(problem, question_at({100}, 1e-8, rung::full));
+  scene.full_equations = &full_by_cvode;
+  const Column& rate = *solved(scene).find("angular_velocity");
+  CHECK(std::abs(rate.values[2] / (1e-3 * length) - 1) <= rate.error);
+  CHECK(rate.values[2] == Approx(1e-3 * length));
+}

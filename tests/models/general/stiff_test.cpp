@@ -58,7 +58,7 @@ TEST_CASE("the relaxing form is the equations as they are written, for every tor
     }
     Flow<double>::Numbers wanted;
     flow(t, plain, wanted);
-    if (const KnownMomentum<double> known(piece, x.data()); known && !known.is_free()) {
+    if (const KnownMomentum<double> known(piece, x.data(), System::Numbers{}.data()); known && !known.is_free()) {
       // the state holds the momentum of its time, the numbers that of the start
       for (std::size_t k = 0; k < of.wheels.count; ++k) {
         if (of.wheels.laws[k].follows == Follows::state || !of.wheels.laws[k].turns_by_itself()) continue;

@@ -33,8 +33,11 @@ class CvodeEquations {
     for (std::size_t i = 0; i < width; ++i) y[i] /= sizes_[i];
     return y;
   }
-  /// The piece that is integrated.
-  void enter(double from, double to) noexcept { equations_.enter(from, to); }
+  /// The piece that is integrated. Time counts from its begin: short pieces would lose digits of theirs.
+  void enter(double from, double to) noexcept {
+    equations_.enter(from, to);
+    from_ = from;
+  }
   State<double> state(double t, const Numbers& y) const noexcept { return equations_.state(t, raw(y.data())); }
   double lost_at() const noexcept { return equations_.lost_at(); }
   double inside() const noexcept { return equations_.inside(); }
@@ -42,7 +45,7 @@ class CvodeEquations {
   /// One step by Euler, for a time so short that it is right to rounding; false where the equations have no value.
   bool step(double from, double to, Numbers& y) noexcept {
     Numbers slope{};
-    if (!rate(from, y.data(), slope.data(), this)) return false;
+    if (!rate(0, y.data(), slope.data(), this)) return false;
     for (std::size_t i = 0; i < width; ++i) y[i] += (to - from) * slope[i];
     return true;
   }
@@ -62,16 +65,17 @@ class CvodeEquations {
     for (std::size_t i = 0; i < width; ++i) made[i] = y[i] * sizes_[i];
     return made;
   }
-  static bool rate(double t, const double* y, double* out, void* user) {
+  static bool rate(double since, const double* y, double* out, void* user) {
     auto& self = *static_cast<CvodeEquations*>(user);
     Numbers made{};
-    self.equations_(t, self.raw(y), made);
+    self.equations_(self.from_ + since, self.raw(y), made);
     for (std::size_t i = 0; i < width; ++i) out[i] = made[i] / self.sizes_[i];
     return std::all_of(out, out + width, [](double x) { return std::isfinite(x); });
   }
 
   Equations equations_;
   Numbers sizes_;
+  double from_ = 0;
 };
 
 namespace detail {
@@ -115,35 +119,38 @@ inline CvodeRun<State<double>> run_pieces(const Problem<double>& problem, const 
       from = to;
       continue;
     }
-    auto made = ode::Cvode::create(equations.system(), from, y, options);
+    auto made = ode::Cvode::create(equations.system(), 0, y, options);
     if (!made) return run.failure = made.error(), run;
     auto cvode = std::move(made).value();
     ode::Status status = ode::Status::reached;
     Pace<double> pace;
-    pace.restart(from);
-    while (cvode.time() < to && status == ode::Status::reached) {
+    pace.restart(0);
+    const double length = to - from;
+    while (cvode.time() < length && status == ode::Status::reached) {
       const double before = cvode.time();
-      status = cvode.step(to);
+      status = cvode.step(length);
+      const double since = cvode.time(), now = from + since;
       // CVODE goes up to where the law has no value in ever shorter steps
-      const bool stuck = equations.lost_at() >= cvode.time() && !(cvode.time() - before > 1e-10 * cvode.time());
+      const bool stuck = equations.lost_at() >= now && !(since - before > 1e-10 * now);
       if (status == ode::Status::reached && stuck) status = ode::Status::not_finite;
-      if (status == ode::Status::reached && pace.is_hopeless(cvode.counts().steps, cvode.time(), to, options.step_cap))
+      if (status == ode::Status::reached && pace.is_hopeless(cvode.counts().steps, since, length, options.step_cap))
         status = ode::Status::step_limit;
       for (std::size_t i; status == ode::Status::reached && (i = run.states.size()) < times.size() &&
-                          (times[i] < to || last) && times[i] <= cvode.time();) {
-        if (!cvode.at(times[i], y)) return run.failure = Errc::no_convergence, run;
+                          (times[i] < to || last) && times[i] - from <= since;) {
+        if (!cvode.at(times[i] - from, y)) return run.failure = Errc::no_convergence, run;
         run.states.push_back(equations.state(times[i], y));
       }
       if (status == ode::Status::reached &&
-          brakes.stopped(problem, equations.state(cvode.time(), numbers(cvode)), equations.inside()))
+          brakes.stopped(problem, equations.state(now, numbers(cvode)), equations.inside()))
         return end.stopped = true, run.failure = Errc::not_applicable, run;
       if (monitor == nullptr) continue;
       if (monitor->cancelled()) status = ode::Status::cancelled;
-      monitor->fraction.store(cvode.time() / span, std::memory_order_relaxed);
+      monitor->fraction.store(now / span, std::memory_order_relaxed);
     }
     run.counts += cvode.counts();
     if (status != ode::Status::reached) {
-      if (status != ode::Status::cancelled && equations.lost_at() >= cvode.time()) end.lost = equations.lost_at();
+      if (status != ode::Status::cancelled && equations.lost_at() >= from + cvode.time())
+        end.lost = equations.lost_at();
       return run.failure = failure_of(status), run;
     }
     y = numbers(cvode);

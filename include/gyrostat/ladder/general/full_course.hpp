@@ -285,7 +285,7 @@ class FullCourse {
              const KnownMomentum<Scalar>* known = nullptr) noexcept {
     const bool rested = bool(resting_);
     resting_.reset(), leaving_.reset();
-    system_.emplace(of_, piece_, numbers, known);
+    system_.emplace(of_, piece_, numbers, lost, known);
     options_.scale = system_->scale();
     time_ = previous_ = t;
     greatest_ = braked_ = 0;

@@ -70,8 +70,9 @@ class FullSystem {
     Row_ push[2][4];  ///< of wheels whose p is a state: T unit
   };
 
-  /// The equations over a piece that begins with these numbers. before: what was known in the piece before, where the motion goes on from it.
-  FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start,
+  /// The equations over a piece that begins with these numbers. lost: of them, by rounding; before: what was known in the piece before; both where the
+  /// motion goes on from it.
+  FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start, const Numbers& lost = {},
              const KnownMomentum<Scalar>* before = nullptr) noexcept;
 
   template <int Order>
@@ -201,8 +202,12 @@ class FullSystem {
 
 template <Real Real_, bool large>
 FullSystem<Real_, large>::FullSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start,
-                                     const KnownMomentum<Scalar>* before) noexcept
-    : of_(of), piece_(piece), whole_(of.wheels.whole), shape_(of.wheels.whole), known_(piece, start.data(), before) {
+                                     const Numbers& lost, const KnownMomentum<Scalar>* before) noexcept
+    : of_(of),
+      piece_(piece),
+      whole_(of.wheels.whole),
+      shape_(of.wheels.whole),
+      known_(piece, start.data(), lost.data(), before) {
   if (of.problem.orbit) normal_ = cross<Scalar>(of.problem.orbit->radial, of.problem.orbit->along);
   take_parts();
   take_wheels();
@@ -276,17 +281,16 @@ void FullSystem<Real_, large>::project(Scalar t, Scalar* x, Scalar* low) const n
   const Quat<Scalar> q{x[0], x[1], x[2], x[3]};
   Quat<Scalar> more{stretch * q.w, stretch * q.x, stretch * q.y, stretch * q.z};
   if (known_) {
-    const Vec3<Scalar> M(x[4], x[5], x[6]), wanted = rotate<Scalar>(conjugate(q), known_.at(t));
+    const Vec3<Scalar> M(x[4], x[5], x[6]);
     if (const Scalar size = M.norm(); known_.is_free() && size > 0) {
       // the turn d of the body with d x M = R^T L - M
+      const Vec3<Scalar> wanted = rotate<Scalar>(conjugate(q), known_.at(t));
       const Vec3<Scalar> d = cross<Scalar>(M / size, Vec3<Scalar>(wanted - M) / size);
       const Quat<Scalar> tilt = q * Quat<Scalar>{0, d[0] / 2, d[1] / 2, d[2] / 2};
       more = {more.w + tilt.w, more.x + tilt.x, more.y + tilt.y, more.z + tilt.z};
     } else if (!known_.is_free()) {
-      for (int i = 0; i < 3; ++i) {
-        x[4 + i] = wanted[i];
-        low[4 + i] = 0;
-      }
+      const Vec3<Scalar> missing = known_.missing(t, x, low);
+      for (int i = 0; i < 3; ++i) add_to(x[4 + i], low[4 + i], missing[i]);
     }
   }
   add_to(x[0], low[0], more.w);

@@ -9,23 +9,24 @@
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/piece.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
-#include "gyrostat/rotation/rotate_once.hpp"
 #include "gyrostat/rotation/vector.hpp"
+#include "gyrostat/rotation/vector_double_double.hpp"
 
 namespace gyrostat::general {
 
 /// R M, the momentum in inertial axes, over a piece in which all torque is constant in these axes, or a polynomial in time: known in closed
-/// form.
+/// form. With what rounding leaves of it, as the numbers have it that a run carries on: over many short pieces it adds up.
 template <Real Scalar>
 class KnownMomentum {
  public:
-  /// x: (w, x, y, z | M1, M2, M3) at the begin of the piece. before: of the piece before, where the motion goes on from it: what is known adds up over pieces
-  /// without rounding more than once.
-  KnownMomentum(const Piece<Scalar>& piece, const Scalar* x, const KnownMomentum* before = nullptr) noexcept
+  /// x: (w, x, y, z | M1, M2, M3) at the begin of the piece, lost: what rounding has lost of them. before: of the piece before, where the motion goes on
+  /// from it.
+  KnownMomentum(const Piece<Scalar>& piece, const Scalar* x, const Scalar* lost,
+                const KnownMomentum* before = nullptr) noexcept
       : from_(piece.from), is_known_(piece.waves.empty()), is_free_(piece.waves.empty()) {
     by_time_.fill({0, 0, 0});
     if (before != nullptr && before->is_known_) go_on(*before);
-    else by_time_[0] = rotate_once(Quat<Scalar>{x[0], x[1], x[2], x[3]}, Vec3<Scalar>(x[4], x[5], x[6]));
+    else begin(rotate<Wide>(attitude(x, lost), momentum(x, lost)));
     for (std::size_t i = 0; i < 4; ++i) {
       Terms<Scalar> left = piece.power[i];
       is_free_ = is_free_ && !left.any_torque();
@@ -43,12 +44,33 @@ class KnownMomentum {
   bool is_free() const noexcept { return is_free_; }
 
   /// At t in the piece, N m s.
-  Vec3<Scalar> at(Scalar t) const noexcept {
-    const Scalar s = t - from_;
-    return by_time_[0] + s * (by_time_[1] + s * (by_time_[2] + s * (by_time_[3] + s * by_time_[4])));
+  Vec3<Scalar> at(Scalar t) const noexcept { return by_time_[0] + since(t - from_); }
+  /// What M + lost at t lacks of it, in body axes, N m s.
+  Vec3<Scalar> missing(Scalar t, const Scalar* x, const Scalar* lost) const noexcept {
+    const Vec3<Wide> known = vector_cast<Wide>(by_time_[0]) + vector_cast<Wide>(Vec3<Scalar>(lost_ + since(t - from_)));
+    return vector_cast<Scalar>(Vec3<Wide>(rotate<Wide>(conjugate(attitude(x, lost)), known) - momentum(x, lost)));
   }
 
  private:
+  using Wide = Wider<Scalar>;
+
+  static Quat<Wide> attitude(const Scalar* x, const Scalar* lost) noexcept {
+    const auto whole = [&](int i) noexcept { return Wide(x[i]) + Wide(lost[i]); };
+    return normalised(Quat<Wide>{whole(0), whole(1), whole(2), whole(3)});
+  }
+  static Vec3<Wide> momentum(const Scalar* x, const Scalar* lost) noexcept {
+    return vector_cast<Wide>(Vec3<Scalar>(x[4], x[5], x[6])) +
+           vector_cast<Wide>(Vec3<Scalar>(lost[4], lost[5], lost[6]));
+  }
+  void begin(const Vec3<Wide>& L) noexcept {
+    by_time_[0] = vector_cast<Scalar>(L);
+    lost_ = vector_cast<Scalar>(Vec3<Wide>(L - vector_cast<Wide>(by_time_[0])));
+  }
+  /// Its change within s.
+  Vec3<Scalar> since(Scalar s) const noexcept {
+    return s * (by_time_[1] + s * (by_time_[2] + s * (by_time_[3] + s * by_time_[4])));
+  }
+
   void go_on(const KnownMomentum& before) noexcept {
     const Scalar s = from_ - before.from_;
     const auto& b = before.by_time_;

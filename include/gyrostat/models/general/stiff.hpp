@@ -82,7 +82,7 @@ class StiffSystem {
   };
 
   /// As FullSystem's.
-  StiffSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start,
+  StiffSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start, const Numbers& lost = {},
               const KnownMomentum<Scalar>* before = nullptr) noexcept;
 
   static Numbers first_numbers(const Prepared<Scalar>& of) noexcept;
@@ -163,8 +163,8 @@ class StiffSystem {
 
 template <Real Real_, int most>
 StiffSystem<Real_, most>::StiffSystem(const Prepared<Scalar>& of, const Piece<Scalar>& piece, const Numbers& start,
-                                      const KnownMomentum<Scalar>* before) noexcept
-    : of_(&of), piece_(&piece), known_(piece, start.data(), before), count_(int(of.settling.count)) {
+                                      const Numbers& lost, const KnownMomentum<Scalar>* before) noexcept
+    : of_(&of), piece_(&piece), known_(piece, start.data(), lost.data(), before), count_(int(of.settling.count)) {
   const auto look = [&](const Terms<Scalar>& terms) noexcept {
     has_.moving = has_.moving || terms.any_moving() || !terms.force_body.isZero(0) || !terms.force_inertial.isZero(0);
     for (std::size_t j = 0; j < 3; ++j) {
@@ -418,11 +418,9 @@ void StiffSystem<Real_, most>::project(Scalar t, Scalar* x, Scalar* low) const n
   const Scalar stretch = missing / 2 - along;
   for (int i = 0; i < 4; ++i) add_to(x[i], low[i], stretch * x[i]);
   if (!known_) return;
-  const Vec3<Scalar> M = rotate(Quat<Scalar>{x[0], -x[1], -x[2], -x[3]}, known_.at(t));
-  for (int i = 0; i < 3; ++i) {
-    x[momentum + i] = M[i];
-    low[momentum + i] = 0;
-  }
+  static_assert(momentum == 4);
+  const Vec3<Scalar> lacks = known_.missing(t, x, low);
+  for (int i = 0; i < 3; ++i) add_to(x[momentum + i], low[momentum + i], lacks[i]);
 }
 
 template <Real Real_, int most>
