@@ -134,9 +134,9 @@ def open_results(file: str | os.PathLike[str]) -> "xarray.Dataset":
             found = reader.load_dataset(path, engine="scipy")
         else:
             raise DomainError(f"{file}: results are read from .nc and .zarr")
-    except (OSError, TypeError, ValueError, KeyError) as error:
-        if isinstance(error, DomainError):
-            raise
+    except DomainError:
+        raise
+    except Exception as error:  # of a damaged file the readers raise what they will
         raise DomainError(f"{file}: this cannot be read ({str(error).splitlines()[0] if str(error) else type(error).__name__})") from None
     if "model" in found.attrs and "row" not in found.dims:
         raise DomainError(f"{file}: this holds the answer of one scene, not the rows of a sweep: xarray.open_dataset reads it")

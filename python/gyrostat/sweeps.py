@@ -376,10 +376,12 @@ def _joined(parts: "list[xarray.Dataset]") -> "xarray.Dataset":
 def merge(files: "Iterable[str | os.PathLike[str] | xarray.Dataset]") -> "xarray.Dataset":
     """The parts of one study, from files (.nc, .zarr) or as they are, put together. Raises DomainError where they are of several studies,
     overlap or leave rows out."""
+    if not isinstance(files, Iterable):
+        raise DomainError(f"{files!r:.60}: parts are files, or what sweep returns")
     given = [files] if isinstance(files, str | os.PathLike) else list(files)
     named = [(str(file), open_results(file)) if isinstance(file, str | os.PathLike) else ("a part", file) for file in given]
-    if wrong := next((part for _, part in named if not isinstance(part, import_xarray().Dataset)), None):
-        raise DomainError(f"{wrong!r:.60}: parts are files, or what sweep returns")
+    if wrong := [part for _, part in named if not isinstance(part, import_xarray().Dataset)]:
+        raise DomainError(f"{wrong[0]!r:.60}: parts are files, or what sweep returns")
     if not named:
         raise DomainError("there is nothing to merge")
     if damaged := next((name for name, part in named if "study" not in part.attrs or not part.sizes.get("row")), None):

@@ -115,15 +115,16 @@ Data series_rows(const HeavyBodies& bodies, const Array& spin, const Array& cosi
   return made;
 }
 
-/// Of a top: how its axis nods, least and greatest down along it, and its mean turn about the vertical, rad/s. NaN of what is none.
-std::array<double, 3> nutation_of(const Exact<double>& motion) {
-  const auto of = [](const auto& top) {
-    return std::array<double, 3>{top.least(), top.greatest(), top.mean_precession()};
-  };
-  if (const auto* top = motion.top()) return of(*top);
-  if (const auto* top = motion.top_in_gradient()) return of(*top);
+/// The period, s; of a top how its axis nods, least and greatest down along it, and its mean turn about the vertical, rad/s. NaN of what is none, or
+/// is not resolved.
+std::array<double, 4> periodic_numbers(const Exact<double>& motion) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return {none, none, none};
+  if (const auto* top = motion.top()) return {motion.period(), top->least(), top->greatest(), top->mean_precession()};
+  if (const auto* top = motion.top_in_gradient()) {
+    const bool resolved = top->resolves_period();
+    return {resolved ? motion.period() : none, top->least(), top->greatest(), resolved ? top->mean_precession() : none};
+  }
+  return {motion.period(), none, none, none};
 }
 
 /// Bounds of the errors of an exact motion, with what rounding makes of a start whose down was an attitude. times: to compare at, s, the span last.
@@ -169,8 +170,8 @@ Data exact_rows(const HeavyBodies& bodies, const Array& angular_velocity, const 
     const Exact<double> motion(bodies.rows()[row], *start);
     which.push_back(symbol(motion.which()));
     const auto e = error_of_exact(bodies, row, motion, *start, !down, times);
-    const auto [least, greatest, precession] = nutation_of(motion);
-    numbers.push_back({motion.period(), e.angular_velocity, e.down, e.attitude, least, greatest, precession});
+    const auto [period, least, greatest, precession] = periodic_numbers(motion);
+    numbers.push_back({period, e.angular_velocity, e.down, e.attitude, least, greatest, precession});
     if (!motion.applies()) continue;
     for (std::size_t i = 0; i < t.size(); ++i) motions.put(row, i, motion.at(t[i]));
   }

@@ -168,6 +168,7 @@ def test_principal_axes_are_found_and_named_as_solve_names_them() -> None:
     # a quarter turn of axes, and a hand that eigenvectors need not have
     moments, axes = heavy.principal_axes([[2.0, 1e-3, 0.0], [1e-3, 1.5, 0.0], [0.0, 0.0, 3.0]])
     assert np.linalg.det(axes) == pytest.approx(1) and moments == pytest.approx([2.0, 1.5, 3.0], rel=1e-5)
+    assert np.all(np.isfinite(heavy.principal_axes(np.diag([1.0, 0.9, 0.8]) * 1.7e308)[0]))
     for wrong in ([1.0, 2.0, 2.5], [[1.0, 0.1, 0], [0.2, 1.0, 0], [0, 0, 1.0]], [[math.nan, 0, 0], [0, 1.0, 0], [0, 0, 1.0]]):
         with pytest.raises(DomainError, match="inertia"):
             heavy.principal_axes(wrong)
@@ -319,6 +320,17 @@ def test_exact_motions_of_many() -> None:
     for wrong in ({}, {"down": [0, 0, 1], "attitude": ATTITUDE}, {"down": [0, 0, 0]}):
         with pytest.raises(DomainError):
             heavy.exact(**TOP, angular_velocity=[0, 0, 1], t=t, **wrong)
+
+
+def test_a_period_that_is_not_resolved_is_not_told() -> None:
+    # nearly upright, and so beside the motion that takes for ever to get there; a gradient so small moves the period by far less than any of this
+    angle = np.array([0.5, 1e-2, 1e-4])
+    down = np.stack([np.sin(angle), 0 * angle, -np.cos(angle)], axis=-1)
+    top = {"inertia": [1.0, 1.0, 1.01], "mass": 1.0, "centre_of_mass": [0.0, 0.0, 1e-3], "gravity": 9.81, "angular_velocity": [1e-7, 2e-7, 1e-6]}
+    plain, pulled = (heavy.exact(**top, down=down, t=[0.0, 1.0], gravity_gradient=gradient) for gradient in (0.0, 1e-10))
+    assert np.isnan(pulled.period).tolist() == np.isnan(pulled.precession_rate).tolist() == [False, True, True]
+    assert pulled.period[0] == pytest.approx(plain.period[0], rel=1e-9)
+    assert pulled.precession_rate[0] == pytest.approx(plain.precession_rate[0], rel=1e-9)
 
 
 def test_down_of_an_attitude_is_known_to_rounding() -> None:

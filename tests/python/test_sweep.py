@@ -441,7 +441,7 @@ def test_a_sweep_that_is_interrupted_goes_on_where_it_was(tmp_path: Path) -> Non
         light(seed=9, parts=tmp_path)
 
 
-@pytest.mark.parametrize("harm", ["empty", "cut", "nought", "renamed", "another's", "fewer", "a bit"])
+@pytest.mark.parametrize("harm", ["empty", "cut", "stump", "nought", "renamed", "another's", "fewer", "a bit"])
 def test_parts_that_are_damaged_are_done_again(tmp_path: Path, harm: str) -> None:
     light(chunk=10, parts=tmp_path)
     parts = sorted(tmp_path.glob("*.nc"))
@@ -451,6 +451,8 @@ def test_parts_that_are_damaged_are_done_again(tmp_path: Path, harm: str) -> Non
             parts[2].write_bytes(b"")
         case "cut":
             parts[2].write_bytes(whole[:len(whole) // 2])
+        case "stump":
+            parts[2].write_bytes(whole[:200])
         case "nought":
             parts[2].write_bytes(bytes(len(whole)))
         case "renamed":
@@ -475,7 +477,7 @@ def test_what_a_killed_sweep_left_half_written_goes_with_its_parts(tmp_path: Pat
 
 
 def test_what_is_put_together_has_each_row_once(tmp_path: Path) -> None:
-    for wrong in ([3], "none.nc"):
+    for wrong in ([3], [None], 3, "none.nc"):
         with pytest.raises(DomainError, match="parts are files|no such file"):
             merge(wrong)  # type: ignore[arg-type]
     part = light(shard=(2, 2))

@@ -127,6 +127,8 @@ class LagrangeGradient {
   }
   /// Greatest part of the series that is left out, relative.
   Scalar truncation() const noexcept { return tail_; }
+  /// Whether the period and the mean precession are right to some thousand roundings: not beside a separatrix, where more harmonics are needed than there are.
+  bool resolves_period() const noexcept { return tail_ <= 4096 * epsilon<Scalar>; }
 
  private:
   static constexpr Scalar rounding = 64 * epsilon<Scalar>, stated = 4 * epsilon<Scalar>;

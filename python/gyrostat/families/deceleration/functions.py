@@ -90,7 +90,7 @@ class Averaged:
     energy: Floats  # (..., n) of the carrier, J
     modulus_squared: Floats  # (..., n)
     regime: NDArray[np.str_]  # (..., n)
-    stop_time: Floats  # (...) s; infinite: never
+    stop_time: Floats  # (...) s; infinite: never; NaN: not found
     error: dict[str, Floats]  # name -> (...)
 
 

@@ -62,7 +62,7 @@ def principal_axes(inertia: ArrayLike) -> tuple[Floats, Floats]:
     size = np.max(np.abs(tensor), axis=(-1, -2), keepdims=True)
     if np.any(np.abs(tensor - flipped) > 8 * np.finfo(float).eps * size):
         raise DomainError("inertia: a tensor is not symmetric")
-    values, vectors = np.linalg.eigh((tensor + flipped) / 2)
+    values, vectors = np.linalg.eigh(tensor / 2 + flipped / 2)
     orders = np.array(list(itertools.permutations(range(3))))
     near = np.stack([sum(np.abs(vectors[..., i, order[i]]) for i in range(3)) for order in orders], axis=-1)
     best = orders[np.argmax(near, axis=-1)]
@@ -180,7 +180,8 @@ class Exact:
     angular_velocity: Floats  # (..., n, 3) rad/s
     down: Floats  # (..., n, 3)
     attitude: Floats  # (..., n, 4)
-    period: Floats  # (...) of what repeats itself: the rates (euler, pendulum), the nutation (lagrange), s
+    period: Floats  # (...) of what repeats itself: the rates (euler, pendulum), the nutation (lagrange), s; NaN where gravity_gradient is not 0
+    # and a top moves so near a separatrix that it is not resolved, as is precession_rate
     nutation: Floats  # (..., 2) of a top: least and greatest down along its axis of symmetry, 1 where it hangs; NaN of others
     precession_rate: Floats  # (...) of a top: mean turn of its axis about down, right-handed, rad/s; NaN of others
     error: dict[str, Floats]  # bounds until the farthest time: angular_velocity [rad/s], down, attitude [rad] -> (...)

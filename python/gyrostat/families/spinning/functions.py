@@ -136,7 +136,7 @@ def linear(*, inertia: ArrayLike, torque: ArrayLike, force: ArrayLike, angular_v
     Leading axes broadcast. Exact at resonances, for a sphere, without spin and where the spin is unstable; NaN where a number overflows, as
     of an unstable spin at a late time.
     error : rates (p, q), spin r, tilt (psi, phi), theta, attitude (the angle), momentum (G1, G2), axial_momentum G3, velocity (v1, v2),
-    axial_velocity v3, position (x1, x2), axial_position x3: wide estimates, no bounds (section 5.1).
+    axial_velocity v3, position (x1, x2), axial_position x3: wide estimates of what it leaves out, no bounds (section 5.1), and without rounding.
     Raises DomainError for what is not physical and for a torque about axis 3, naming the row.
     """
     lead, many = problems({"inertia": inertia, "mass": mass, "rotor_momentum": rotor_momentum, "charge_momentum": charge_momentum,
