@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/spinning/neighbour.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "catch.hpp"
 
 namespace neighbour_test {
@@ -51,6 +54,24 @@ TEST_CASE("what was turned into the axes of the spin errs as its greatest compon
     CHECK((near.torque[2] != 0) == converted);
     CHECK(std::abs(near.torque[0] - 1) < change);
   }
+}
+
+TEST_CASE("next to an unstable axis nothing of what brings a neighbour of a spinner away cancels", "[spinning]") {
+  Problem p;
+  p.inertia = {0.9, 0.8, 1.5};
+  double least = 1;
+  for (const Aside aside : {Aside::first, Aside::second, Aside::opposite})
+    for (int k = 0; k < 100; ++k) {
+      const double turn = 0.0628 * k;
+      p.angular_velocity = {27, 4e-5 * std::cos(turn), 4e-5 * std::sin(turn)};
+      const Vec3<double> M = p.inertia.cwiseProduct(p.angular_velocity), inverse = p.inertia.cwiseInverse();
+      const Vec3<double> leaving = leaving_direction<double>(M, p.angular_velocity, inverse.asDiagonal());
+      REQUIRE(leaving.norm() > 0);
+      const auto near = neighbour<double>(p, 27, 1e-12, aside);
+      const Vec3<double> moved = near.inertia.cwiseProduct(near.angular_velocity) - M;
+      least = std::min(least, std::abs(moved.dot(leaving)) / (leaving.norm() * 1e-12 * M.norm()));
+    }
+  CHECK(least > 0.5);
 }
 
 }  // namespace neighbour_test

@@ -28,12 +28,9 @@ inline bool gives_up(const Scene& scene, int rung, const LinearErrors<double>& e
   return scene.question().rung != rung && !(holds(error) && error.attitude <= scene.goal().columns[column::attitude]);
 }
 
-/// At so few times the attitude's error is taken from the modes at each, where the a-priori one does not do: half a microsecond a time.
-inline constexpr std::size_t few_times = 16;
-
+/// Whether the attitude's error is to be taken from the modes, as the a-priori one does not do: half a microsecond a time.
 inline bool worth_a_closer_look(const Scene& scene, int rung, const LinearErrors<double>& error) noexcept {
-  return scene.question().times.size() <= few_times && holds(error) &&
-         (scene.question().rung == rung || gives_up(scene, rung, error));
+  return holds(error) && (scene.question().rung == rung || gives_up(scene, rung, error));
 }
 
 GYROSTAT_COMPILED_ONCE Track given_up(const LinearErrors<double>& error);

@@ -43,6 +43,14 @@ Problem<Scalar> neighbour(const Problem<Scalar>& of, Scalar rate, Scalar amount,
     Scalar& w = near.angular_velocity[i];
     if (w != 0 || !kept) w += std::copysign(rate * amount / 4, aside == Aside::first ? w : -w);
   }
+  if (!kept) {
+    Vec3<Scalar> own = of.inertia.cwiseProduct(of.angular_velocity), M = own;
+    M[2] += of.gyroscopic();
+    const Vec3<Scalar> inverse = of.inertia.cwiseInverse();
+    const Vec3<Scalar> leaving = leaving_direction<Scalar>(M, of.angular_velocity, inverse.asDiagonal());
+    const Scalar size = std::max(own.cwiseAbs().maxCoeff(), std::abs(of.gyroscopic()));
+    near.angular_velocity += inverse.cwiseProduct(leaving_shift(leaving, size, amount, aside));
+  }
   // the axes whose third is the force's are known to a rounding: what they leave along the spin axis pushes on
   const bool oblique = of.force[0] != 0 || of.force[1] != 0;
   if (oblique) near.force += of.force.norm() * Vec3<Scalar>(v[1], v[2], v[0]);

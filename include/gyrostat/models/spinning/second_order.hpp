@@ -515,24 +515,41 @@ class SecondOrder {
   Complex heading_, plain_heading_;  ///< e^(i (theta0 + psi0 phi0/2)), e^(i theta0)
 };
 
-/// Estimated greatest errors of SecondOrder over [0, T], made as those of the linear motion are, whose errors of the rates they take over.
-/// That of the tilt is a bound for a symmetric body, times 1.25, the others none, but wide. T > 0.
+/// What is known of the orders that are left out, rad, the greatest over [0, T]: the third of the tilt, of the direction of axis 3 in space and of that of space
+/// in the body by the linear motion, and of the angles by SecondOrder, but for what the change of the spin rate makes of the nutation; and the
+/// second of the spin angle beside its mean growth.
 template <Real Scalar>
-LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar T, Look look = Look::close) noexcept {
-  const LinearErrors<Scalar> first = linear_errors(problem, T, look);
+struct KnownOrders {
+  Scalar in_space = infinity<Scalar>, in_body = infinity<Scalar>, second = infinity<Scalar>;
+  Scalar phase = infinity<Scalar>;
+  Scalar turning = infinity<
+      Scalar>;  ///< of the spin angle, eight times the fourth order: the integral of |Pi| times the third order of the tilt and |Gamma|^3
+};
+
+/// Estimated greatest errors of SecondOrder over [0, T], made as those of the linear motion are, whose errors of the rates they take over.
+/// That of the tilt is a bound for a symmetric body, or what is known of it, times 1.25, the others none, but wide. T > 0.
+template <Real Scalar>
+LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar T, Look look = Look::close,
+                                         const KnownOrders<Scalar>& known = {}) noexcept {
+  LinearErrors<Scalar> first = linear_errors(problem, T, look);
   const LinearStart<Scalar> start(problem);
   const auto& D = problem.inertia;
   const Scalar r0 = std::abs(problem.spin());
   const Scalar g = first.size.tilt + first.tilt, P = first.size.rate + first.rates;
   const detail::SpinChange<Scalar> rho(problem, start, first.size.rate, T);
 
-  LinearErrors<Scalar> error = first;
   const Scalar swing = g <= Scalar(small_tilt) ? detail::third_order_swing(problem, T) : T;
   const detail::TiltModes<Scalar> modes(problem, start);
   const detail::StillTilt<Scalar> turned_back(modes, first.size, T);
   const Scalar wider = g / first.size.tilt;
-  const Scalar apart = Scalar(1.25L) * turned_back.left * wider * wider * wider + g * rho.rate * swing;
-  error.of_spin_rate = first.of_rates + g * rho.rate * swing;
+  const Scalar third = Scalar(1.25L) * std::min(turned_back.left * wider * wider * wider, known.second);
+  const Scalar apart = third + g * rho.rate * swing;
+  const Scalar of_spin_rate = first.of_rates + g * rho.rate * swing;
+  first.in_space.lower(OverTime<Scalar>::roughly(T * (Scalar(1.25L) * known.in_space + of_spin_rate), T));
+  first.in_body.lower(OverTime<Scalar>::roughly(T * (Scalar(1.25L) * known.in_body + of_spin_rate), T));
+
+  LinearErrors<Scalar> error = first;
+  error.of_spin_rate = of_spin_rate;
   detail::lower(error.tilt, apart + first.of_rates);
   const Scalar skewness = std::abs(D[0] - D[1]) / D[2];
   error.spin = skewness * P * first.rates * T;
@@ -544,18 +561,22 @@ LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar 
     detail::lower(error.spin, 2 * skewness * P * first.rates * once);
     detail::lower(turning, P * (apart + first.shift * (P * once + g) * answer) + g * P * first.shift * once);
   }
-  error.theta = (error.spin * T / 2 + (turning + g * g * g * P) * T / 2 + g * first.tilt + g * g * g * g) / 4;
+  const Scalar fourth = std::min((turning + g * g * g * P) * T, Scalar(1.25L) * known.turning + P * T * of_spin_rate);
+  const Scalar bent = std::min(first.tilt, Scalar(1.25L) * known.in_body + of_spin_rate);
+  error.theta = (error.spin * T / 2 + fourth / 2 + g * bent + g * g * g * g) / 4;
   error.tilt += g * error.theta;
   error.attitude = std::hypot(error.theta, error.tilt);
 
   // the phase of the turning frame: its error, and what its square leaves
   const detail::NutationPhase<Scalar> nutation(modes, first.size, T);
-  const Scalar phase = rho.angle + nutation.net, left = error.theta + (phase * phase + g * g * phase) / 2;
+  const Scalar phase = std::min(rho.angle + nutation.net, Scalar(1.25L) * known.phase),
+               left = error.theta + (phase * phase + g * g * phase) / 2;
   const Scalar rate = error.spin + (P * first.tilt + g * first.rates) / 2 + (phase + g * g) * (rho.rate + g * P / 2);
   const Scalar turned = std::min(T * left, (left + swing * rate) / r0) + g * g * g * g * T / 8;
   const Scalar f = magnitude(start.acceleration), f3 = std::abs(start.axial_acceleration);
   const Scalar M = magnitude(start.torque), e = std::abs(start.charge_momentum);
   error.momentum = M * turned + e * (error.tilt + g * error.theta);
+  error.axial_momentum = M * first.in_body.once + e * g * error.tilt;
   using Integral = OverTime<Scalar>;
   const Integral across = Integral::roughly(f * turned, T) + f3 * first.in_space;
   const Integral along =

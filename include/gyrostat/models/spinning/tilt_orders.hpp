@@ -25,65 +25,107 @@ class TiltOrders {
   /// What the linear motion leaves out of the spin angle to second order, rad: of SecondOrder nothing is left of it. Where the modes are not apart to 1e-4 of
   /// itself; not finite where they overflow.
   Scalar spin_angle(Scalar t) const noexcept {
-    const Turned now(*this, t);
+    const Turned now(modes_, spin_, t);
     Complex A = start_;
-    for (int j = 1; j < modes; ++j) A = A + modes_.rate[j] * now.grown[j];
+    for (int j = 1; j < count; ++j) A = A + modes_.rate[j] * now.grown[j];
     const Complex Gamma = conjugate(math::unit(now.spin)) * A;
     return nutation(now) + change_of_spin(now) - (Gamma.re * Gamma.im - start_.re * start_.im) / 2;
   }
 
-  /// Whether tilt() says it: the nutation is stable and the modes are apart, of none is the tilt more than a hundred times what it is of all, and of
-  /// an asymmetric body all turn through a radian.
+  /// Whether at() says it: the nutation is stable, or there is hardly any within T, and of no mode is the tilt so many times what it is of all
+  /// that rounding would count; and of an asymmetric body all turn through a radian.
   bool knows_tilt() const noexcept { return knows_tilt_; }
 
-  /// What SecondOrder leaves out of the tilt to third order, rad, but for what the change of the spin rate makes of the nutation: half the integral of
-  /// |A|^2 A' less the turn of the part that stands still.
-  Scalar tilt(Scalar t) const noexcept {
-    const Turned now(*this, t);
-    Complex sum{};
-    for (int k = 1; k < modes; ++k)
-      for (int i = 0; i < modes; ++i)
-        for (int j = 0; j < modes; ++j) {
+  /// What is left out at one time: of the phase all of it, of the turning the rate.
+  KnownOrders<Scalar> at(Scalar t) const noexcept {
+    const Turned now(apart_, spin_, t);
+    // the direction of axis 3, its rate, and half the integral of |A|^2 A'
+    Complex A = apart_.tilt[0], rate{}, shortened{};
+    for (int k = 1; k < count; ++k) {
+      A = A + apart_.tilt[k] * now.turn[k];
+      rate = rate + apart_.rate[k] * now.turn[k];
+      for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) {
           const Complex turned = now.turn[i] * conjugate(now.turn[j]) * now.turn[k];
-          sum = sum + modes_.rate[k] * (modes_.tilt[i] * conjugate(modes_.tilt[j])) *
-                          integral(modes_.pace[i] + conjugate(modes_.pace[j]) + modes_.pace[k], now.time, turned);
+          shortened =
+              shortened + apart_.rate[k] * (apart_.tilt[i] * conjugate(apart_.tilt[j])) / Scalar(2) *
+                              integral(apart_.pace[i] + conjugate(apart_.pace[j]) + apart_.pace[k], now.time, turned);
         }
-    const Complex turned = nutation(now) * turned_back_ - change_of_spin(now) * (modes_.tilt[0] - turned_back_);
-    return magnitude(sum / Scalar(2) - math::turned(turned));
+    }
+    const Scalar phase = nutation(now), change = change_of_spin(now), tilted = magnitude(A);
+    const Complex body = shortened + math::turned(change * apart_.tilt[0]);
+    const Complex space =
+        shortened - math::turned((phase + start_.re * start_.im / 2) * A + change * (A - apart_.tilt[0]));
+    const Scalar second = magnitude(body - math::turned((phase + change) * turned_back_));
+    return {magnitude(space), magnitude(body), second, phase + change,
+            magnitude(rate) * (Scalar(1.25L) * second + tilted * tilted * tilted)};
+  }
+
+  /// Of some times, which fall in step with no period and are the denser the later, as what grows; times what may be missed between them. Nothing
+  /// where it is more than is of use, rad: half a microsecond then, else some fifteen.
+  KnownOrders<Scalar> greatest(Scalar of_use = infinity<Scalar>) const noexcept {
+    if (!knows_tilt_) return {};
+    constexpr int samples = 24;
+    constexpr Scalar missed = Scalar(1.6L), golden = Scalar(0.6180339887498948482L);
+    const Scalar bent = std::pow(magnitude(start_), 3) / 2;  // at the start the angles are no direction
+    const KnownOrders<Scalar> last = at(span_);
+    const Scalar drift = last.phase / span_;
+    KnownOrders<Scalar> most{last.in_space, last.in_body, last.second, 0, 0};
+    for (int i = 1; i <= samples; ++i) {
+      if (!(most.second <= of_use)) return {};
+      const Scalar share = std::sqrt(i * golden - std::floor(i * golden)), t = span_ * share;
+      const KnownOrders<Scalar> now = at(t);
+      most = {std::max(most.in_space, now.in_space), std::max(most.in_body, now.in_body),
+              std::max(most.second, now.second), std::max(most.phase, std::abs(now.phase - drift * t)),
+              most.turning + now.turning * span_ / (2 * share * samples)};
+    }
+    return {missed * most.in_space + bent, missed * most.in_body + bent, missed * most.second, missed * most.phase,
+            missed * most.turning};
   }
 
  private:
   using Complex = math::Complex<Scalar>;
-  static constexpr int modes = detail::TiltModes<Scalar>::count;
+  using Modes = detail::TiltModes<Scalar>;
+  static constexpr int count = Modes::count;
 
   TiltOrders(const Problem<Scalar>& problem, const LinearStart<Scalar>& start, Scalar T) noexcept
       : start_(start.Gamma),
         spin_(problem.spin()),
         skew_((problem.inertia[0] - problem.inertia[1]) / (2 * problem.inertia[2])),
-        modes_(problem, start, turning_nutation(problem, T)) {
-    constexpr Scalar apart = 100;
+        span_(T),
+        modes_(problem, start, turning_nutation(problem, T)),
+        apart_(problem, start, nutation_apart(problem, T)) {
+    constexpr Scalar greatest = 3000;
     const Amplitudes<Scalar> size = amplitudes(problem, T);
-    turned_back_ = detail::StillTilt<Scalar>(modes_, size, T).still;
-    knows_tilt_ = modes_.stable && turning_nutation(problem, T) == problem.nutation_squared();
-    for (int j = 0; j < modes; ++j) knows_tilt_ = knows_tilt_ && modes_.tilted[j] <= apart * size.tilt;
+    turned_back_ = detail::StillTilt<Scalar>(Modes(problem, start), size, T).still;
+    knows_tilt_ = apart_.stable && (skew_ == 0 || nutation_apart(problem, T) == problem.nutation_squared());
+    for (int j = 0; j < count; ++j) knows_tilt_ = knows_tilt_ && apart_.tilted[j] <= greatest * size.tilt;
     // where the spin rate changes, it turns what stands still and a mode that all but does, and these cancel
-    for (int j = 1; j < modes && skew_ != 0; ++j) knows_tilt_ = knows_tilt_ && std::abs(modes_.turning(j)) * T >= 1;
+    for (int j = 1; j < count && skew_ != 0; ++j) knows_tilt_ = knows_tilt_ && std::abs(apart_.turning(j)) * T >= 1;
   }
 
+  static constexpr Scalar least_turn = Scalar(3e-3L);  ///< within T, rad
   /// The square of the nutation's frequency; one that does not turn has no modes, but one that hardly turns within T says the same of the spin angle.
   static Scalar turning_nutation(const Problem<Scalar>& problem, Scalar T) noexcept {
-    const Scalar square = problem.nutation_squared(), least = Scalar(9e-6L) / (T * T);
+    const Scalar square = problem.nutation_squared(), least = least_turn * least_turn / (T * T);
     return std::abs(square) < least ? least : square;
+  }
+  /// The same, so far from the spin rate that no mode stands still: of the tilt it says as much to a share least_turn.
+  static Scalar nutation_apart(const Problem<Scalar>& problem, Scalar T) noexcept {
+    const Scalar square = turning_nutation(problem, T), spin = std::abs(problem.spin()), least = least_turn / T;
+    if (!(square > 0) || !(std::abs(std::sqrt(square) - spin) < least)) return square;
+    return (spin + least) * (spin + least);
   }
 
   /// e^(pace t) of all modes, its integral of those of the rates, and the angle of the spin.
   struct Turned {
+    const Modes& modes;
     Scalar time, spin;
-    Complex turn[modes], grown[modes];
+    Complex turn[count], grown[count];
 
-    Turned(const TiltOrders& of, Scalar t) noexcept : time(t), spin(of.spin_ * t) {
-      for (int j = 0; j < modes; ++j) turn[j] = math::exponential(t * of.modes_.pace[j]);
-      for (int j = 1; j < modes; ++j) grown[j] = integral(of.modes_.pace[j], t, turn[j]);
+    Turned(const Modes& of, Scalar rate, Scalar t) noexcept : modes(of), time(t), spin(rate * t) {
+      for (int j = 0; j < count; ++j) turn[j] = math::exponential(t * of.pace[j]);
+      for (int j = 1; j < count; ++j) grown[j] = integral(of.pace[j], t, turn[j]);
     }
   };
 
@@ -110,7 +152,7 @@ class TiltOrders {
 
   /// int_0^t e^(z s) (int_0^s e^(w r) dr) ds, z and w being the pace of mode k and the conjugate of that of mode j.
   Complex paired(int k, int j, const Turned& now) const noexcept {
-    const Complex z = modes_.pace[k], w = conjugate(modes_.pace[j]);
+    const Complex z = now.modes.pace[k], w = conjugate(now.modes.pace[j]);
     constexpr Scalar still = Scalar(1e-4L);  // below, to (w t)^2/24
     if (math::magnitude_at_most(now.time * w) > still) {
       const Complex both = integral(z + w, now.time, now.turn[k] * conjugate(now.turn[j]));
@@ -123,10 +165,10 @@ class TiltOrders {
   /// Half the integral of Im(Pi Gamma~).
   Scalar nutation(const Turned& now) const noexcept {
     Scalar sum = 0;
-    for (int k = 1; k < modes; ++k) {
+    for (int k = 1; k < count; ++k) {
       Complex reached = conjugate(start_) * now.grown[k];
-      for (int j = 1; j < modes; ++j) reached = reached + conjugate(modes_.rate[j]) * paired(k, j, now);
-      sum += (modes_.rate[k] * reached).im;
+      for (int j = 1; j < count; ++j) reached = reached + conjugate(now.modes.rate[j]) * paired(k, j, now);
+      sum += (now.modes.rate[k] * reached).im;
     }
     return sum / 2;
   }
@@ -135,17 +177,19 @@ class TiltOrders {
     if (skew_ == 0) return 0;
     const Complex back = math::unit(-2 * now.spin), frame{0, -2 * spin_};
     Scalar sum = 0;
-    for (int k = 1; k < modes; ++k)
-      for (int j = 1; j < modes; ++j)
-        sum += (modes_.rate[k] * modes_.rate[j] *
-                second_integral(modes_.pace[k] + modes_.pace[j] + frame, now.time, now.turn[k] * now.turn[j] * back))
-                   .im;
+    for (int k = 1; k < count; ++k)
+      for (int j = 1; j < count; ++j)
+        sum +=
+            (now.modes.rate[k] * now.modes.rate[j] *
+             second_integral(now.modes.pace[k] + now.modes.pace[j] + frame, now.time, now.turn[k] * now.turn[j] * back))
+                .im;
     return skew_ * sum;
   }
 
   Complex start_;       ///< Gamma at t = 0, rad
   Scalar spin_, skew_;  ///< r0, rad/s; (D1 - D2)/(2 D3)
-  detail::TiltModes<Scalar> modes_;
+  Scalar span_;
+  Modes modes_, apart_;
   bool knows_tilt_ = false;
   Complex turned_back_{};  ///< the tilt that SecondOrder turns back
 };
@@ -155,13 +199,16 @@ class TiltOrders {
 template <Real Scalar>
 Scalar linear_attitude_error(const LinearErrors<Scalar>& error, const LinearErrors<Scalar>& left,
                              const TiltOrders<Scalar>& orders, std::span<const Scalar> times) noexcept {
+  constexpr std::size_t looks = 32;  // at more times at so many others, where the greatest may be missed
+  const bool each = times.size() <= looks;
   Scalar most = 0;
-  for (const Scalar t : times) {
-    const Scalar angle = std::abs(orders.spin_angle(t));
+  for (std::size_t i = 0; i < std::min(looks, times.size()); ++i) {
+    const Scalar angle = std::abs(orders.spin_angle(each ? times[i] : times.back() * Scalar(i + 1) / Scalar(looks)));
     if (!(angle < infinity<Scalar>)) return error.attitude;
     most = std::max(most, angle);
   }
-  return std::min(error.attitude, std::hypot(Scalar(1.1L) * most + left.theta, error.tilt));
+  const Scalar wider = each ? Scalar(1.1L) : Scalar(1.5L);
+  return std::min(error.attitude, std::hypot(wider * most + left.theta, error.tilt));
 }
 
 /// The same of SecondOrder, whose errors are `error`: the third order of the tilt, times 1.25, and what the change of the spin rate makes of it.
@@ -170,7 +217,7 @@ Scalar second_order_attitude_error(const LinearErrors<Scalar>& error, const Tilt
                                    std::span<const Scalar> times) noexcept {
   if (!orders.knows_tilt()) return error.attitude;
   Scalar most = 0;
-  for (const Scalar t : times) most = std::max(most, orders.tilt(t));
+  for (const Scalar t : times) most = std::max(most, orders.at(t).second);
   const Scalar tilt = Scalar(1.25L) * most + error.of_spin_rate + error.size.tilt * error.theta;
   return std::min(error.attitude, std::hypot(error.theta, tilt));
 }
