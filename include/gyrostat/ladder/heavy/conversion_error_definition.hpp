@@ -26,7 +26,7 @@ GYROSTAT_COMPILED_ONCE Problem<double> off_body(const Problem<double>& of, int w
 GYROSTAT_COMPILED_ONCE bool axes_undecided(const Problem<double>& of) noexcept {
   const Vec3<double>& I = of.inertia();
   const double gap = std::min({std::abs(I[0] - I[1]), std::abs(I[1] - I[2]), std::abs(I[2] - I[0])});
-  return gap < 1e6 * conversion * I.maxCoeff();
+  return gap < 4e6 * conversion * I.maxCoeff();
 }
 
 GYROSTAT_COMPILED_ONCE State<double> off_start(const State<double>& of, int which, int k, double by) noexcept {
