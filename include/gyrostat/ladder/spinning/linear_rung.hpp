@@ -28,7 +28,10 @@ inline bool gives_up(const Scene& scene, int rung, const LinearErrors<double>& e
   return scene.question().rung != rung && !(holds(error) && error.attitude <= scene.goal().columns[column::attitude]);
 }
 
-/// Whether the attitude's error is to be taken from the modes, as the a-priori one does not do: half a microsecond a time.
+/// At so few times the attitude's error is taken from the modes at each: half a microsecond a time.
+inline constexpr std::size_t few_times = 32;
+
+/// Whether the a-priori error of the attitude does not do.
 inline bool worth_a_closer_look(const Scene& scene, int rung, const LinearErrors<double>& error) noexcept {
   return holds(error) && (scene.question().rung == rung || gives_up(scene, rung, error));
 }

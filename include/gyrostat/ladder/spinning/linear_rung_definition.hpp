@@ -161,7 +161,7 @@ GYROSTAT_COMPILED_ONCE Track linear_track(const Scene& scene, Monitor* monitor) 
   const auto& times = scene.question().times;
   const double end = times.back();
   auto error = linear_errors(problem, end, Look::rough);
-  if (detail::worth_a_closer_look(scene, rung::linear, error) && end > 0)
+  if (times.size() <= detail::few_times && detail::worth_a_closer_look(scene, rung::linear, error) && end > 0)
     error.attitude = linear_attitude_error<double>(error, second_order_errors(problem, end, Look::rough),
                                                    TiltOrders<double>(problem, end), times);
   if (detail::gives_up(scene, rung::linear, error)) return detail::given_up(error);

@@ -18,12 +18,11 @@ GYROSTAT_COMPILED_ONCE Track second_order_track(const Scene& scene, Monitor*) {
   auto error = second_order_errors(problem, end);
   if (detail::worth_a_closer_look(scene, rung::second_order, error) && end > 0) {
     const TiltOrders<double> orders(problem, end);
-    const double of_use =
-        scene.question().rung == rung::second_order ? infinity<double> : scene.goal().columns[column::attitude];
-    if (const auto known = orders.greatest(of_use); known.second <= of_use)
-      error = second_order_errors(problem, end, Look::close, known);
-    constexpr std::size_t few = 16;  // at each of them
-    if (times.size() <= few) error.attitude = second_order_attitude_error<double>(error, orders, times);
+    const bool named = scene.question().rung == rung::second_order;
+    const double of_use = named ? infinity<double> : scene.goal().columns[column::attitude];
+    if (orders.knows_tilt() && orders.tilt(end) <= of_use)
+      error = second_order_errors(problem, end, Look::close, orders.third_order());
+    if (times.size() <= detail::few_times) error.attitude = second_order_attitude_error<double>(error, orders, times);
   }
   if (detail::gives_up(scene, rung::second_order, error)) return detail::given_up(error);
   const SecondOrder<double> motion(problem, end > 0 ? end : 1e-6);  // of the start alone any span will do

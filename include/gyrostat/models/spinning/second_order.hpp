@@ -515,22 +515,18 @@ class SecondOrder {
   Complex heading_, plain_heading_;  ///< e^(i (theta0 + psi0 phi0/2)), e^(i theta0)
 };
 
-/// What is known of the orders that are left out, rad, the greatest over [0, T]: the third of the tilt, of the direction of axis 3 in space and of that of space
-/// in the body by the linear motion, and of the angles by SecondOrder, but for what the change of the spin rate makes of the nutation; and the
-/// second of the spin angle beside its mean growth.
+/// The third order of the tilt, rad, where it is known: bounds over [0, T] of what the linear motion leaves out of the direction of axis 3 in space and of
+/// that of space in the body, and of what SecondOrder leaves out of the angles, but for what the change of the spin rate makes of the nutation.
 template <Real Scalar>
-struct KnownOrders {
+struct ThirdOrder {
   Scalar in_space = infinity<Scalar>, in_body = infinity<Scalar>, second = infinity<Scalar>;
-  Scalar phase = infinity<Scalar>;
-  Scalar turning = infinity<
-      Scalar>;  ///< of the spin angle, eight times the fourth order: the integral of |Pi| times the third order of the tilt and |Gamma|^3
 };
 
 /// Estimated greatest errors of SecondOrder over [0, T], made as those of the linear motion are, whose errors of the rates they take over.
 /// That of the tilt is a bound for a symmetric body, or what is known of it, times 1.25, the others none, but wide. T > 0.
 template <Real Scalar>
 LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar T, Look look = Look::close,
-                                         const KnownOrders<Scalar>& known = {}) noexcept {
+                                         const ThirdOrder<Scalar>& known = {}) noexcept {
   LinearErrors<Scalar> first = linear_errors(problem, T, look);
   const LinearStart<Scalar> start(problem);
   const auto& D = problem.inertia;
@@ -561,18 +557,20 @@ LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar 
     detail::lower(error.spin, 2 * skewness * P * first.rates * once);
     detail::lower(turning, P * (apart + first.shift * (P * once + g) * answer) + g * P * first.shift * once);
   }
-  const Scalar fourth = std::min((turning + g * g * g * P) * T, Scalar(1.25L) * known.turning + P * T * of_spin_rate);
   const Scalar bent = std::min(first.tilt, Scalar(1.25L) * known.in_body + of_spin_rate);
-  error.theta = (error.spin * T / 2 + fourth / 2 + g * bent + g * g * g * g) / 4;
+  error.theta = (error.spin * T / 2 + (turning + g * g * g * P) * T / 2 + g * bent + g * g * g * g) / 4;
   error.tilt += g * error.theta;
   error.attitude = std::hypot(error.theta, error.tilt);
 
   // the phase of the turning frame: its error, and what its square leaves
   const detail::NutationPhase<Scalar> nutation(modes, first.size, T);
-  const Scalar phase = std::min(rho.angle + nutation.net, Scalar(1.25L) * known.phase),
-               left = error.theta + (phase * phase + g * g * phase) / 2;
+  const Scalar phase = rho.angle + nutation.net, left = error.theta + (phase * phase + g * g * phase) / 2;
   const Scalar rate = error.spin + (P * first.tilt + g * first.rates) / 2 + (phase + g * g) * (rho.rate + g * P / 2);
-  const Scalar turned = std::min(T * left, (left + swing * rate) / r0) + g * g * g * g * T / 8;
+  // by parts, but for the product of the constant mode and what stands still: that adds up, and its phase with the square of the time
+  Scalar still = g * g;
+  detail::lower(still, modes.tilted[0] * modes.tilted[1]);
+  const Scalar adds_up = Scalar(0.375L) * still * phase * T;
+  const Scalar turned = std::min(T * left, (left + swing * rate) / r0 + adds_up) + g * g * g * g * T / 8;
   const Scalar f = magnitude(start.acceleration), f3 = std::abs(start.axial_acceleration);
   const Scalar M = magnitude(start.torque), e = std::abs(start.charge_momentum);
   error.momentum = M * turned + e * (error.tilt + g * error.theta);

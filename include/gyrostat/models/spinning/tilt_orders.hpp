@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
 
 #include "gyrostat/core/real.hpp"
@@ -13,6 +15,73 @@
 #include "gyrostat/models/spinning/second_order.hpp"
 
 namespace gyrostat::spinning {
+
+namespace detail {
+
+/// A sum of c int_0^t e^(i w s) ds: how large it may be within [0, T]. Terms whose frequencies agree so well that they hardly part within T are added with their
+/// phases, as the large ones of modes that all but agree cancel; the rest by their sizes.
+template <Real Scalar, std::size_t most>
+class ModeSum {
+ public:
+  using Complex = math::Complex<Scalar>;
+
+  void add(Complex c, Scalar w) noexcept { terms_[count_++] = {c, w}; }
+
+  Scalar greatest(Scalar T) noexcept {
+    std::sort(terms_.begin(), terms_.begin() + std::ptrdiff_t(count_),
+              [](const Term& a, const Term& b) noexcept { return a.w < b.w; });
+    Scalar sum = 0;
+    for (std::size_t first = 0, last = 0; first < count_; first = last) {
+      ++last;
+      while (last < count_ && (terms_[last].w - terms_[first].w) * T <= 1) ++last;
+      const std::span<const Term> cluster(&terms_[first], last - first);
+      const Scalar middle = (terms_[first].w + terms_[last - 1].w) / 2;
+      sum += std::abs(middle) * T <= 2 ? still(cluster, T) : swinging(cluster, middle, T);
+    }
+    return sum;
+  }
+
+ private:
+  struct Term {
+    Complex c;
+    Scalar w;
+  };
+  static constexpr int looks = 8;  // what is slower than a radian in T is smooth
+
+  static Scalar still(std::span<const Term> cluster, Scalar T) noexcept {
+    Scalar greatest = 0;
+    for (int i = 1; i <= looks; ++i) {
+      const Scalar t = T * Scalar(i) / looks;
+      Complex sum{};
+      // t times what is smooth at w = 0: the sine and cosine of half the angle
+      for (const auto& [c, w] : cluster) {
+        const Scalar half = w * t / 2;
+        sum = sum + (t * (half == 0 ? Scalar(1) : std::sin(half) / half)) * (c * math::unit(half));
+      }
+      greatest = std::max(greatest, magnitude(sum));
+    }
+    return greatest;
+  }
+  static Scalar swinging(std::span<const Term> cluster, Scalar middle, Scalar T) noexcept {
+    std::array<Complex, looks + 1> sum{};
+    for (const auto& [c, w] : cluster) {
+      const Complex step = math::unit((w - middle) * T / looks);
+      Complex now = (1 / w) * c;
+      for (Complex& at : sum) {
+        at = at + now;
+        now = now * step;
+      }
+    }
+    Scalar greatest = 0;
+    for (const Complex& at : sum) greatest = std::max(greatest, magnitude(at));
+    return magnitude(sum[0]) + greatest;
+  }
+
+  std::array<Term, most> terms_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace detail
 
 /// What the linear motion and SecondOrder leave out of the attitude at one time, in the lowest order, without a torque about axis 3: sums over the
 /// modes of the linear motion (docs/spinning.md, section 6.1). Half a microsecond a time. Over [0, T], T > 0.
@@ -32,55 +101,51 @@ class TiltOrders {
     return nutation(now) + change_of_spin(now) - (Gamma.re * Gamma.im - start_.re * start_.im) / 2;
   }
 
-  /// Whether at() says it: the nutation is stable, or there is hardly any within T, and of no mode is the tilt so many times what it is of all
+  /// Whether tilt() and third_order() say it: the nutation is stable, or there is hardly any within T, and of no mode is the tilt so many times what it is of all
   /// that rounding would count; and of an asymmetric body all turn through a radian.
   bool knows_tilt() const noexcept { return knows_tilt_; }
 
-  /// What is left out at one time: of the phase all of it, of the turning the rate.
-  KnownOrders<Scalar> at(Scalar t) const noexcept {
+  /// What SecondOrder leaves out of the tilt to third order, rad, but for what the change of the spin rate makes of the nutation: half the integral of
+  /// |A|^2 A' less the turn of the part that stands still.
+  Scalar tilt(Scalar t) const noexcept {
     const Turned now(apart_, spin_, t);
-    // the direction of axis 3, its rate, and half the integral of |A|^2 A'
-    Complex A = apart_.tilt[0], rate{}, shortened{};
-    for (int k = 1; k < count; ++k) {
-      A = A + apart_.tilt[k] * now.turn[k];
-      rate = rate + apart_.rate[k] * now.turn[k];
+    Complex sum{};
+    for (int k = 1; k < count; ++k)
       for (int i = 0; i < count; ++i)
         for (int j = 0; j < count; ++j) {
           const Complex turned = now.turn[i] * conjugate(now.turn[j]) * now.turn[k];
-          shortened =
-              shortened + apart_.rate[k] * (apart_.tilt[i] * conjugate(apart_.tilt[j])) / Scalar(2) *
-                              integral(apart_.pace[i] + conjugate(apart_.pace[j]) + apart_.pace[k], now.time, turned);
+          sum = sum + product(i, j, k) *
+                          integral(apart_.pace[i] + conjugate(apart_.pace[j]) + apart_.pace[k], now.time, turned);
         }
-    }
-    const Scalar phase = nutation(now), change = change_of_spin(now), tilted = magnitude(A);
-    const Complex body = shortened + math::turned(change * apart_.tilt[0]);
-    const Complex space =
-        shortened - math::turned((phase + start_.re * start_.im / 2) * A + change * (A - apart_.tilt[0]));
-    const Scalar second = magnitude(body - math::turned((phase + change) * turned_back_));
-    return {magnitude(space), magnitude(body), second, phase + change,
-            magnitude(rate) * (Scalar(1.25L) * second + tilted * tilted * tilted)};
+    const Scalar change = change_of_spin(now);
+    return magnitude(sum + math::turned(change * apart_.tilt[0] - (nutation(now) + change) * turned_back_));
   }
 
-  /// Of some times, which fall in step with no period and are the denser the later, as what grows; times what may be missed between them. Nothing
-  /// where it is more than is of use, rad: half a microsecond then, else some fifteen.
-  KnownOrders<Scalar> greatest(Scalar of_use = infinity<Scalar>) const noexcept {
+  /// Bounds over [0, T], where knows_tilt(). Some ten microseconds.
+  ThirdOrder<Scalar> third_order() const noexcept {
     if (!knows_tilt_) return {};
-    constexpr int samples = 24;
-    constexpr Scalar missed = Scalar(1.6L), golden = Scalar(0.6180339887498948482L);
+    detail::ModeSum<Scalar, 12> phase;
+    detail::ModeSum<Scalar, 48> body;
+    detail::ModeSum<Scalar, 72> second;
+    for (int k = 1; k < count; ++k)
+      for (int j = 0; j < count; ++j) {
+        const Scalar w = apart_.turning(k) - apart_.turning(j);
+        const Complex c = apart_.rate[k] * conjugate(apart_.tilt[j]) / Scalar(2);
+        phase.add(c, w);
+        second.add(-(turned_back_ * c) / Scalar(2), w);
+        second.add(turned_back_ * conjugate(c) / Scalar(2), -w);
+        for (int i = 0; i < count; ++i) {
+          body.add(product(i, j, k), w + apart_.turning(i));
+          second.add(product(i, j, k), w + apart_.turning(i));
+        }
+      }
     const Scalar bent = std::pow(magnitude(start_), 3) / 2;  // at the start the angles are no direction
-    const KnownOrders<Scalar> last = at(span_);
-    const Scalar drift = last.phase / span_;
-    KnownOrders<Scalar> most{last.in_space, last.in_body, last.second, 0, 0};
-    for (int i = 1; i <= samples; ++i) {
-      if (!(most.second <= of_use)) return {};
-      const Scalar share = std::sqrt(i * golden - std::floor(i * golden)), t = span_ * share;
-      const KnownOrders<Scalar> now = at(t);
-      most = {std::max(most.in_space, now.in_space), std::max(most.in_body, now.in_body),
-              std::max(most.second, now.second), std::max(most.phase, std::abs(now.phase - drift * t)),
-              most.turning + now.turning * span_ / (2 * share * samples)};
-    }
-    return {missed * most.in_space + bent, missed * most.in_body + bent, missed * most.second, missed * most.phase,
-            missed * most.turning};
+    const Scalar whole = phase.greatest(span_) + std::abs(start_.re * start_.im) / 2;
+    ThirdOrder<Scalar> most;
+    most.in_body = body.greatest(span_) + change_ * apart_.tilted[0] + bent;
+    most.in_space = most.in_body + (whole + change_) * size_.tilt;
+    most.second = second.greatest(span_) + change_ * (apart_.tilted[0] + magnitude(turned_back_));
+    return most;
   }
 
  private:
@@ -94,10 +159,12 @@ class TiltOrders {
         skew_((problem.inertia[0] - problem.inertia[1]) / (2 * problem.inertia[2])),
         span_(T),
         modes_(problem, start, turning_nutation(problem, T)),
-        apart_(problem, start, nutation_apart(problem, T)) {
+        apart_(problem, start, nutation_apart(problem, T)),
+        size_(amplitudes(problem, T)) {
     constexpr Scalar greatest = 3000;
-    const Amplitudes<Scalar> size = amplitudes(problem, T);
+    const auto& size = size_;
     turned_back_ = detail::StillTilt<Scalar>(Modes(problem, start), size, T).still;
+    if (skew_ != 0) change_ = detail::SpinChange<Scalar>(problem, start, size.rate, T).angle;
     knows_tilt_ = apart_.stable && (skew_ == 0 || nutation_apart(problem, T) == problem.nutation_squared());
     for (int j = 0; j < count; ++j) knows_tilt_ = knows_tilt_ && apart_.tilted[j] <= greatest * size.tilt;
     // where the spin rate changes, it turns what stands still and a mode that all but does, and these cancel
@@ -162,6 +229,11 @@ class TiltOrders {
     return now.time * integral(middle, now.time, turned) - second_integral(middle, now.time, turned);
   }
 
+  /// Of half the integral of |A|^2 A'.
+  Complex product(int i, int j, int k) const noexcept {
+    return apart_.rate[k] * (apart_.tilt[i] * conjugate(apart_.tilt[j])) / Scalar(2);
+  }
+
   /// Half the integral of Im(Pi Gamma~).
   Scalar nutation(const Turned& now) const noexcept {
     Scalar sum = 0;
@@ -190,6 +262,8 @@ class TiltOrders {
   Scalar spin_, skew_;  ///< r0, rad/s; (D1 - D2)/(2 D3)
   Scalar span_;
   Modes modes_, apart_;
+  Amplitudes<Scalar> size_;
+  Scalar change_ = 0;  ///< of the spin angle by that of the spin rate, at most, rad
   bool knows_tilt_ = false;
   Complex turned_back_{};  ///< the tilt that SecondOrder turns back
 };
@@ -199,16 +273,13 @@ class TiltOrders {
 template <Real Scalar>
 Scalar linear_attitude_error(const LinearErrors<Scalar>& error, const LinearErrors<Scalar>& left,
                              const TiltOrders<Scalar>& orders, std::span<const Scalar> times) noexcept {
-  constexpr std::size_t looks = 32;  // at more times at so many others, where the greatest may be missed
-  const bool each = times.size() <= looks;
   Scalar most = 0;
-  for (std::size_t i = 0; i < std::min(looks, times.size()); ++i) {
-    const Scalar angle = std::abs(orders.spin_angle(each ? times[i] : times.back() * Scalar(i + 1) / Scalar(looks)));
+  for (const Scalar t : times) {
+    const Scalar angle = std::abs(orders.spin_angle(t));
     if (!(angle < infinity<Scalar>)) return error.attitude;
     most = std::max(most, angle);
   }
-  const Scalar wider = each ? Scalar(1.1L) : Scalar(1.5L);
-  return std::min(error.attitude, std::hypot(wider * most + left.theta, error.tilt));
+  return std::min(error.attitude, std::hypot(Scalar(1.1L) * most + left.theta, error.tilt));
 }
 
 /// The same of SecondOrder, whose errors are `error`: the third order of the tilt, times 1.25, and what the change of the spin rate makes of it.
@@ -217,7 +288,7 @@ Scalar second_order_attitude_error(const LinearErrors<Scalar>& error, const Tilt
                                    std::span<const Scalar> times) noexcept {
   if (!orders.knows_tilt()) return error.attitude;
   Scalar most = 0;
-  for (const Scalar t : times) most = std::max(most, orders.at(t).second);
+  for (const Scalar t : times) most = std::max(most, orders.tilt(t));
   const Scalar tilt = Scalar(1.25L) * most + error.of_spin_rate + error.size.tilt * error.theta;
   return std::min(error.attitude, std::hypot(error.theta, tilt));
 }
