@@ -86,7 +86,7 @@ struct CvodeEnd {
   bool stopped = false;       ///< by a brake
 };
 
-/// Times so near each other, relative to them, are one to CVODE, which makes no step between them.
+/// Pieces so short, relative to their times, take a single step: laws that are asked at times between do not tell these apart.
 inline constexpr double shortest_piece = 4 * epsilon<double>;
 
 /// One run over all pieces.

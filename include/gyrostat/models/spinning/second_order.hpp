@@ -566,7 +566,8 @@ LinearErrors<Scalar> second_order_errors(const Problem<Scalar>& problem, Scalar 
   const detail::NutationPhase<Scalar> nutation(modes, first.size, T);
   const Scalar phase = rho.angle + nutation.net, left = error.theta + (phase * phase + g * g * phase) / 2;
   const Scalar rate = error.spin + (P * first.tilt + g * first.rates) / 2 + (phase + g * g) * (rho.rate + g * P / 2);
-  // by parts, but for the product of the constant mode and what stands still: that adds up, and its phase with the square of the time
+  // by parts, but for the product of the constant mode and what stands still: that adds up (1/4 of it, and 1/2 mirrored),
+  // and what its phase has grown to counts half in the mean
   Scalar still = g * g;
   detail::lower(still, modes.tilted[0] * modes.tilted[1]);
   const Scalar adds_up = Scalar(0.375L) * still * phase * T;

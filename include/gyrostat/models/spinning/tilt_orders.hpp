@@ -162,11 +162,10 @@ class TiltOrders {
         apart_(problem, start, nutation_apart(problem, T)),
         size_(amplitudes(problem, T)) {
     constexpr Scalar greatest = 3000;
-    const auto& size = size_;
-    turned_back_ = detail::StillTilt<Scalar>(Modes(problem, start), size, T).still;
-    if (skew_ != 0) change_ = detail::SpinChange<Scalar>(problem, start, size.rate, T).angle;
+    turned_back_ = detail::StillTilt<Scalar>(Modes(problem, start), size_, T).still;
+    if (skew_ != 0) change_ = detail::SpinChange<Scalar>(problem, start, size_.rate, T).angle;
     knows_tilt_ = apart_.stable && (skew_ == 0 || nutation_apart(problem, T) == problem.nutation_squared());
-    for (int j = 0; j < count; ++j) knows_tilt_ = knows_tilt_ && apart_.tilted[j] <= greatest * size.tilt;
+    for (int j = 0; j < count; ++j) knows_tilt_ = knows_tilt_ && apart_.tilted[j] <= greatest * size_.tilt;
     // where the spin rate changes, it turns what stands still and a mode that all but does, and these cancel
     for (int j = 1; j < count && skew_ != 0; ++j) knows_tilt_ = knows_tilt_ && std::abs(apart_.turning(j)) * T >= 1;
   }
@@ -260,7 +259,7 @@ class TiltOrders {
 
   Complex start_;       ///< Gamma at t = 0, rad
   Scalar spin_, skew_;  ///< r0, rad/s; (D1 - D2)/(2 D3)
-  Scalar span_;
+  Scalar span_;         ///< T, s
   Modes modes_, apart_;
   Amplitudes<Scalar> size_;
   Scalar change_ = 0;  ///< of the spin angle by that of the spin rate, at most, rad
