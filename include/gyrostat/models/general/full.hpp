@@ -182,7 +182,8 @@ class FullSystem {
 
   const Prepared<Scalar>& of_;
   const Piece<Scalar>& piece_;
-  Columns<Scalar> whole_;  ///< J
+  Columns<Scalar> whole_, inertia_inverse_;  ///< J; the inverse of it without the wheels that turn by themselves
+  Row known_wheels_[5];  ///< momentum of the wheels with one that is known, by powers of the time since the piece began
   ShapeTorque<Scalar> shape_;
   Directions<Scalar> directions_;
   Sees sees_;
@@ -194,8 +195,8 @@ class FullSystem {
   std::vector<Source> sources_;
   bool has_rest_ = false, drives_ = false, polynomial_ = false, moves_centre_ = false;
   int wheel_count_ = 0, halves_ = 0;
-  std::array<int, most_wheels> wheel_{};  ///< those whose p is a state
-  Vec3<Scalar> by_wheel_[most_wheels];    ///< what w changes by with its momentum
+  std::array<int, most_wheels> wheel_{};                 ///< those whose p is a state
+  Row by_wheel_[most_wheels], wheel_axis_[most_wheels];  ///< what w changes by with its momentum; its axis
   Row axes_[2][3], inverse_[2], friction_[2];
   KnownMomentum<Scalar> known_;
 };
@@ -206,6 +207,7 @@ FullSystem<Real_, large>::FullSystem(const Prepared<Scalar>& of, const Piece<Sca
     : of_(of),
       piece_(piece),
       whole_(of.wheels.whole),
+      inertia_inverse_(of.wheels.inverse),
       shape_(of.wheels.whole),
       known_(piece, start.data(), lost.data(), before) {
   if (of.problem.orbit) normal_ = cross<Scalar>(of.problem.orbit->radial, of.problem.orbit->along);
@@ -253,13 +255,17 @@ void FullSystem<Real_, large>::take_wheels() noexcept {
     for (Row& axis : axes_[half]) axis = zero;
     inverse_[half] = friction_[half] = zero;
   }
-  for (std::size_t k = 1; k < 5; ++k) polynomial_ = polynomial_ || !piece_.momentum[k].isZero(0);
+  for (std::size_t k = 0; k < 5; ++k) {
+    known_wheels_[k] = row<Scalar>(piece_.momentum[k]);
+    polynomial_ = polynomial_ || (k > 0 && !piece_.momentum[k].isZero(0));
+  }
   if constexpr (large) {
     Scalar axes[3][8] = {}, inverse[8] = {}, friction[8] = {};
     for (std::size_t i = 0; i < of_.wheels.count; ++i) {
       const auto& law = of_.wheels.laws[i];
       if (law.follows != Follows::state) continue;
-      by_wheel_[wheel_count_] = -(of_.wheels.inverse * law.axis);
+      by_wheel_[wheel_count_] = row<Scalar>(-(of_.wheels.inverse * law.axis));
+      wheel_axis_[wheel_count_] = row<Scalar>(law.axis);
       wheel_[std::size_t(wheel_count_++)] = int(i);
       halves_ = i < 4 ? 1 : 2;
       for (int j = 0; j < 3; ++j) axes[j][i] = law.axis[j];

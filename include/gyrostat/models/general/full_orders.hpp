@@ -106,39 +106,40 @@ template <Real Real_, bool large>
 template <int Order>
 void FullSystem<Real_, large>::expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width],
                                       Work<Order>& work) const noexcept {
-  const Vec3<Scalar> M(x[0][4], x[0][5], x[0][6]);
-  Vec3<Scalar> G = M - piece_.momentum_at(t);
-  if constexpr (large)
-    for (int i = 0; i < wheel_count_; ++i) {
-      const auto wheel = std::size_t(wheel_[std::size_t(i)]);
-      G -= x[0][At::wheel(wheel)] * of_.wheels.laws[wheel].axis;
-    }
-  const Mat3<Scalar> inverse = unit * of_.wheels.inverse;
-  const Vec3<Scalar> w = inverse * G;
-  const Terms<Scalar>& terms = piece_.power[0];
+  const Row time = lanes(unit);
   Constants c;
   c.unit = unit;
-  c.rate = Columns<Scalar>(inverse);
-  c.first_momentum = row(M);
-  Mat3<Scalar> jacobian = cross_matrix<Scalar>(M) * inverse - cross_matrix<Scalar>(w);
-  if (steady_.has_rate) jacobian -= terms.by_rate * inverse;
-  if (steady_.has_momentum) jacobian -= unit * terms.by_momentum;
-  c.jacobian = Columns<Scalar>(jacobian);
+  c.first_momentum = load(&x[0][At::momentum]);
   c.damping = steady_.by_rate;
-  for (int i = 0; i < directions_.count; ++i)
-    for (int j = 0; j < 3; ++j) c.direction[i].of[j] = lanes(unit) * steady_.direction[i].of[j];
-  for (int i = 0; i < wheel_count_; ++i) {
-    c.wheel_rate[i] = lanes(unit) * row(by_wheel_[i]);
-    c.wheel_torque[i] = c.torque_by(c.wheel_rate[i]);
+  Row carried = known_wheels_[0];
+  if (polynomial_) {
+    const Row s = lanes(t - piece_.from);
+    carried = known_wheels_[4];
+    for (int k = 3; k >= 0; --k) carried = multiply_add(s, carried, known_wheels_[k]);
   }
+  Row body = c.first_momentum - carried;
+  for (int i = 0; i < wheel_count_; ++i) {
+    c.wheel_rate[i] = time * by_wheel_[i];
+    c.wheel_torque[i] = c.torque_by(c.wheel_rate[i]);
+    if constexpr (large)
+      body = multiply_add(lanes(-x[0][At::wheel(std::size_t(wheel_[std::size_t(i)]))]), wheel_axis_[i], body);
+  }
+  for (int j = 0; j < 3; ++j) c.rate.of[j] = time * inertia_inverse_.of[j];
+  const Row rate = c.rate * body;
+  for (int j = 0; j < 3; ++j) {
+    const Row unit_axis = lanes(Scalar(j == 0), Scalar(j == 1), Scalar(j == 2), Scalar(0));
+    c.jacobian.of[j] = c.torque_by(c.rate.of[j]) - cross_rows(rate, unit_axis);
+    if (steady_.has_momentum) c.jacobian.of[j] = c.jacobian.of[j] - time * steady_.by_momentum.of[j];
+  }
+  for (int i = 0; i < directions_.count; ++i)
+    for (int j = 0; j < 3; ++j) c.direction[i].of[j] = time * steady_.direction[i].of[j];
 
-  const Row rate = row(w);
   work.rate.set(0, rate);
   work.momentum_turned[0] = shuffle<1, 2, 0, 3>(c.first_momentum);
   store(&x[1][0], lanes(Scalar(0.5L)) * work.turn.begin(x, 0, rate));
   store(&x[1][At::turned], rate);
   begin(t, x, work, c);
-  Row newest = c.torque_by(rate) + lanes(unit) * (steady_.body - steady_.by_momentum * c.first_momentum);
+  Row newest = c.torque_by(rate) + time * (steady_.body - steady_.by_momentum * c.first_momentum);
   if (drives_) newest = newest + work.drive[0];
   if (sees_.orbit_gradient) newest = newest + orbit_gradient_torque(std::integral_constant<int, 0>{}, x, work, c);
   for (int i = 0; i < directions_.count; ++i) {

@@ -153,12 +153,19 @@ struct NumberSeries {
   void set(const Cubic<Scalar>& cubic, Scalar unit, Scalar rate, Scalar phase) noexcept {
     const Scalar turn = rate * unit;
     const auto first = clock_angle(rate, cubic.origin, phase);
-    Scalar s[Order + 1];
-    s[0] = first.sine, s[1] = turn * first.cosine;
-    for (int k = 2; k <= Order; ++k) s[k] = -turn * turn * one_over<Scalar>(k * (k - 1)) * s[k - 2];
+    const auto wave = [&](Scalar(&s)[Order + 1], Scalar size) noexcept {
+      s[0] = size * first.sine, s[1] = size * (turn * first.cosine);
+      for (int k = 2; k <= Order; ++k) s[k] = -turn * turn * one_over<Scalar>(k * (k - 1)) * s[k - 2];
+    };
     NumberSeries factor;
     factor.set(cubic, unit);
-    for (int k = 0; k <= Order; ++k) c[k] = factor.times(s, k);
+    if (factor.last == 0) {
+      wave(c, factor.c[0]);
+    } else {
+      Scalar s[Order + 1];
+      wave(s, 1);
+      for (int k = 0; k <= Order; ++k) c[k] = factor.times(s, k);
+    }
     last = Order;
   }
   /// Coefficient k of this times the series a of numbers or rows.
