@@ -5,7 +5,8 @@
 
 heyoka's integrator is compiled once for a scene; only propagate_until is timed. Both in thread CPU time, least of the repeats. The true error is
 the angle of the attitude at the end to Taylor series of order 30 in long double. For each run of heyoka the cost of ours at the same error is read
-off between our runs, on logarithmic scales; of each scene the least and the median of the ratios heyoka/ours are printed.
+off between our runs, on logarithmic scales; of each scene the least and the median of the ratios heyoka/ours are printed, of the runs of heyoka
+that are off by less than a radian: the boom tumbles so that at loose tolerances nothing is left of its attitude.
 """
 
 from __future__ import annotations
@@ -116,7 +117,7 @@ def main() -> None:
             print(f"  ours    {steps:6d} steps {seconds * 1e6:9.1f} us  error {error:.2e}")
         falling = sorted((math.log(error), math.log(seconds)) for error, seconds, _ in points if error > 0)
         ratios = []
-        for exponent in range(6, 16, 2):
+        for exponent in range(6, 16):
             equations, start = system(scene)
             integrator = hy.taylor_adaptive(equations, start, tol=10.0**-exponent)
             seconds = []
@@ -128,10 +129,13 @@ def main() -> None:
                 seconds.append(time.thread_time() - began)
             w, x, y, z = integrator.state[:4]
             error = float(angle_between(np.array([x, y, z, w]), truth))
-            same = math.exp(np.interp(math.log(error), [e for e, _ in falling], [s for _, s in falling]))
-            ratios.append(min(seconds) / same)
-            print(f"  heyoka  {steps:6d} steps {min(seconds) * 1e6:9.1f} us  error {error:.2e}  order {integrator.order}  over ours {ratios[-1]:.2f}")
-        print(f"  heyoka over ours: least {min(ratios):.2f}, median {statistics.median(ratios):.2f}")
+            told = f"  heyoka  {steps:6d} steps {min(seconds) * 1e6:9.1f} us  error {error:.2e}  order {integrator.order}"
+            if error < 1:
+                same = math.exp(np.interp(math.log(error), [e for e, _ in falling], [s for _, s in falling]))
+                ratios.append(min(seconds) / same)
+                told += f"  over ours {ratios[-1]:.2f}"
+            print(told)
+        print(f"  heyoka over ours: least {min(ratios):.2f}, median {statistics.median(ratios):.2f}, most {max(ratios):.2f}")
 
 
 if __name__ == "__main__":
