@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/ladder/general/solve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include "answered.hpp"
+#include "special_scenes.hpp"
 
 using namespace general_scenes;
 
@@ -23,6 +25,23 @@ TEST_CASE("the ladder of a general scene asks the families first, and says what 
   CHECK(std::string_view(full.model) == "full");
   CHECK(full.quantity("recognised")->values[0] == 0);
   REQUIRE(full.tried.size() == 1);  // families that it is none of are not worth a line
+}
+
+TEST_CASE("the full equations do not stand before those of a family that was found", "[general]") {
+  SpecialScenes scenes(23);
+  for (int i = 0; i < 300; ++i) {
+    const auto family = Special(i % int(specials));
+    const auto made = scenes.of(family, i % 4 == 0 ? 3 : 100);
+    Question question = question_at({made.span}, i % 3 == 0 ? 1e-2 : i % 3 == 1 ? 1e-6 : 1e-9);
+    question.asked = {{column::angular_velocity}};
+    const Answer answer = solved(posed(made.problem, question));
+    CAPTURE(i, special_words[std::size_t(family)], answer.model);
+    if (std::string_view(answer.model) != "full") continue;
+    // where the full equations of the family have been asked in vain
+    CHECK(std::any_of(answer.tried.begin(), answer.tried.end(), [](const Attempt& each) {
+      return std::string_view(each.model).ends_with(":full") && each.spent > 0;
+    }));
+  }
 }
 
 TEST_CASE("by default attitude, rates and wheels are asked for", "[general]") {

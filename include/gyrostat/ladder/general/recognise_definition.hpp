@@ -116,13 +116,14 @@ inline const char* as_heavy(const Given& given, std::optional<HeavyInstance>& in
   double mass = problem.mass, gravity = problem.field.gravity;
   Vec3<double> centre = problem.centre_of_mass;
   const bool own = vanishes(mass * gravity * centre - loads.moment, loads.moment.cwiseAbs());
-  auto body = heavy::Body::make(wheels.reduced, mass, centre, gravity, loads.gradient);
-  if (!own || !body) {
+  const auto make = [&] { return heavy::Body::make(wheels.reduced, mass, centre, gravity, loads.gradient); };
+  Result<heavy::Body> body = own ? make() : Errc::not_applicable;
+  if (!body) {
     const double moment = loads.moment.norm();
     mass = 1e-9 * wheels.reduced.trace();
     gravity = moment / mass;
     centre = moment > 0 ? Vec3<double>(loads.moment / moment) : Vec3<double>(0, 0, 0);
-    body = heavy::Body::make(wheels.reduced, mass, centre, gravity, loads.gradient);
+    body = make();
   }
   if (!body) return message(body.error());
   made.q_HI = to_heavy_axes(loads.direction);

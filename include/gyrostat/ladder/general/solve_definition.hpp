@@ -143,11 +143,23 @@ inline Track in_segments(const Scene& scene, Monitor* monitor) {
                         [](const Scene& one, Refusal& refusal, Monitor* its) { return solve(one, refusal, its); });
 }
 
+/// The full equations do not stand before those of a family that the scene is an instance of, which are the same with less in them.
+template <std::size_t... Full>
+double cost_behind(const Scene& scene, std::index_sequence<Full...>) noexcept {
+  double cost = cost_of_full(scene);
+  const auto put_behind = [&](double familys) { cost = familys > cost && familys < infinity<double> ? familys : cost; };
+  (put_behind(cost_of_special<std::size_t(rung::family_full) + Full>(scene)), ...);
+  return cost;
+}
+inline double cost_behind_families(const Scene& scene) noexcept {
+  return cost_behind(scene, std::make_index_sequence<std::size_t(rung::segments - rung::family_full)>{});
+}
+
 template <std::size_t... Place>
 constexpr auto models_of(std::index_sequence<Place...>) noexcept {
   return std::array<Rung<Scene, Track>, std::size(rung_kinds)>{{{&special_track<Place>, &cost_of_special<Place>}...,
                                                                 {&in_segments, &cost_of_segments},
-                                                                {&full_by_any, &cost_of_full}}};
+                                                                {&full_by_any, &cost_behind_families}}};
 }
 inline constexpr auto models = models_of(std::make_index_sequence<std::size_t(rung::segments)>{});
 

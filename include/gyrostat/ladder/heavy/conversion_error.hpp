@@ -33,6 +33,13 @@ inline constexpr const char* undecided_axes =
 GYROSTAT_COMPILED_ONCE State<double> off_start(const State<double>& of, int which, int k,
                                                double by = conversion) noexcept;
 
+/// By how much a conversion takes a top off its symmetry, relative; of other bodies nothing.
+inline double unevenness(const Problem<double>& problem, const Exact<double>& exact) noexcept {
+  if (exact.which() != ExactCase::lagrange) return 0;
+  const auto top = SymmetricTop<double>::of(problem);
+  return top ? conversion * problem.inertia().maxCoeff() / top->along : 0;
+}
+
 /// Times, s, in order, some twice, at which motions that should agree up to the last of the asked ones are compared: evenly, and of the asked ones in each of 32 parts of
 /// them that at which the body turns fastest: what is late shows there. states: those at the asked times, of which there is one at least.
 GYROSTAT_COMPILED_ONCE std::vector<double> times_to_compare(std::span<const double> times,
@@ -54,7 +61,8 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
                                     std::span<const double> times, const StartOf& start_of) {
   constexpr double open = infinity<double>;
   const double end = times.back();
-  ExactError<double> worst = exact.error(end);
+  const double uneven = converted ? unevenness(problem, exact) : 0;
+  ExactError<double> worst = exact.error(end, uneven);
   const std::vector<State<double>> seen = states_at(exact, times);
   Comparison apart(Row<double>{});
   for (const int which : {0, 1}) {
@@ -63,7 +71,7 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
     if (!start) return {open, open, open};
     const Exact<double> other(body, *start);
     if (other.which() != exact.which()) return {open, open, open};
-    worst = worst.most(other.error(end));
+    worst = worst.most(other.error(end, uneven));
     for (std::size_t i = 0; i < times.size(); ++i) apart.add(seen[i], other.at(times[i]));
   }
   const auto& off = apart.difference();
@@ -71,25 +79,23 @@ ExactError<double> conversion_error(const Problem<double>& problem, bool convert
   worst += {margin * off[column::attitude], margin * off[column::down], margin * off[column::angular_velocity]};
   if (const auto* pendulum = exact.pendulum(); pendulum && (converted || !pendulum->in_plane()))
     worst += pendulum->error(end, conversion);
-  if (converted && exact.which() == ExactCase::lagrange) {
-    const auto start = exact.at(0);
-    const double rate = start.angular_velocity.norm() + rate_size(problem, start), angle = rate * end;
-    const double skew = conversion * problem.inertia().maxCoeff() / SymmetricTop<double>::of(problem)->along;
-    const double turned = skew * angle * (1 + angle);
-    worst += ExactError<double>::of(turned, turned * rate);
-  }
   return worst.or_infinite();
 }
 
-/// A body and a start of which every number is off by about two roundings, zeros and equal moments kept; of a converted start (an attitude, into down) all
-/// components by as much of the greatest. which: 0 to 3.
+/// What a scene's conversions have made anew: the body (principal axes of a tensor), the start (down from an attitude, or turned axes).
+struct Converted {
+  bool body = false, start = false;
+};
+
+/// A body and a start of which every number is off by about two roundings, zeros and equal moments kept; of what is converted all components by as much of
+/// the greatest, and moments that agree but for rounding alike. which: 0 to 3.
 GYROSTAT_COMPILED_ONCE Exact<double> rounded_otherwise(const Problem<double>& problem, const State<double>& start,
-                                                       bool converted, int axis, int which) noexcept;
+                                                       Converted converted, int axis, int which) noexcept;
 
 /// What rounding of the data and of the arithmetic makes of an exact motion at these times, s, by the motions of four such neighbours: sharper than its
-/// bound, which takes all roundings to add up. Of bodies that nothing converted. axis: that of a pendulum, else -1.
+/// bound, which takes all roundings to add up; and what a top's lack of symmetry does, which no neighbour shows. axis: that of a pendulum, else -1.
 GYROSTAT_COMPILED_ONCE ExactError<double> error_by_neighbours(const Problem<double>& problem,
-                                                              const State<double>& start, bool converted, int axis,
+                                                              const State<double>& start, Converted converted, int axis,
                                                               const Exact<double>& exact,
                                                               std::span<const double> times);
 

@@ -64,19 +64,24 @@ GYROSTAT_COMPILED_ONCE std::vector<double> times_to_compare(std::span<const doub
 }
 
 GYROSTAT_COMPILED_ONCE Exact<double> rounded_otherwise(const Problem<double>& problem, const State<double>& start,
-                                                       bool converted, int axis, int which) noexcept {
+                                                       Converted converted, int axis, int which) noexcept {
   constexpr double shares[] = {0.9, -0.6, 0.7, -0.8, 0.5, -0.7, 0.8, -0.9, 0.6, -0.5, 1.0};
   int place = 3 * which;
   const auto off = [&](double x) noexcept { return x * (1 + 2 * epsilon<double> * shares[place++ % 11]); };
   const auto moved = [&](const Vec3<double>& v) noexcept { return Vec3<double>(off(v[0]), off(v[1]), off(v[2])); };
-  Vec3<double> inertia = moved(problem.inertia());
+  const Vec3<double>& I = problem.inertia();
+  const double greatest = I.maxCoeff();
+  Vec3<double> change = moved(I) - I;
+  if (converted.body)
+    for (int i = 0; i < 3; ++i) change[i] = conversion * greatest * shares[(3 * which + i) % 11];
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < i; ++j)
-      if (problem.inertia()[i] == problem.inertia()[j]) inertia[i] = inertia[j];
+      if (std::abs(I[i] - I[j]) <= SymmetricTop<double>::greatest_defect * greatest) change[i] = change[j];
+  const Vec3<double> inertia = I + change;
   const auto made = Problem<double>::make(inertia, off(problem.mass()), moved(problem.centre_of_mass()),
                                           off(problem.gravity()), off(problem.gradient()));
   State<double> from = start;
-  if (converted) {
+  if (converted.start) {
     from = off_start(start, which, axis, (which < 2 ? 2 : -2) * epsilon<double>);
   } else {
     from.angular_velocity = moved(start.angular_velocity);
@@ -86,7 +91,7 @@ GYROSTAT_COMPILED_ONCE Exact<double> rounded_otherwise(const Problem<double>& pr
 }
 
 GYROSTAT_COMPILED_ONCE ExactError<double> error_by_neighbours(const Problem<double>& problem,
-                                                              const State<double>& start, bool converted, int axis,
+                                                              const State<double>& start, Converted converted, int axis,
                                                               const Exact<double>& exact,
                                                               std::span<const double> times) {
   constexpr double open = infinity<double>;
@@ -105,8 +110,10 @@ GYROSTAT_COMPILED_ONCE ExactError<double> error_by_neighbours(const Problem<doub
   for (const State<double>& each : seen) fastest = std::max(fastest, each.angular_velocity.norm());
   const auto stated = [&](std::size_t k) noexcept { return honesty::exact_margin * std::sqrt(squares[k]); };
   constexpr double shared = 8 * epsilon<double>;
-  return {stated(column::attitude) + shared, stated(column::down) + shared,
-          stated(column::angular_velocity) + shared * fastest};
+  ExactError<double> error = exact.uneven_error(times.back(), converted.body ? unevenness(problem, exact) : 0);
+  error += {stated(column::attitude) + shared, stated(column::down) + shared,
+            stated(column::angular_velocity) + shared * fastest};
+  return error;
 }
 
 }  // namespace gyrostat::heavy

@@ -92,11 +92,13 @@ GYROSTAT_COMPILED_ONCE Track exact_track(const Scene& scene, Monitor*) {
   track.error = stated();
   const Vec3<double>& I = scene.problem().inertia();
   const bool slim = I.minCoeff() < honesty::exact_slim * I.maxCoeff();
-  // neighbours leave out what the motion itself does
-  const bool tells_all = !of_tensor && !scene.converts_body() && exact.defect() == 0;
+  // neighbours leave out what the motion itself does, but of a top that is known
+  const bool tells_all =
+      !of_tensor && (exact.which() == ExactCase::lagrange || (!scene.converts_body() && exact.defect() == 0));
   if (tells_all && !scene.periodic() && !slim && bound.attitude < infinity<double> &&
       !(scene.goal().excess(track.error) <= 1)) {
-    const auto finer = error_by_neighbours(scene.problem(), start, scene.converts_start(), axis, exact, looks());
+    const auto finer = error_by_neighbours(scene.problem(), start, {scene.converts_body(), scene.converts_start()},
+                                           axis, exact, looks());
     bound = bound.least(finer.most(bound.over(honesty::exact_trust)));
     track.error = stated();
   }

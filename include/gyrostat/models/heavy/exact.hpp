@@ -56,10 +56,24 @@ class Exact {
     return visited([&](const auto& m) { return m.at(t); },
                    State<Scalar>{none(), none(), {unknown, unknown, unknown, unknown}});
   }
-  /// Bound of the error of at() up to time |t|; infinite where none applies.
-  ExactError<Scalar> error(Scalar t) const noexcept {
+  /// Bound of the error of at() up to time |t|; infinite where none applies. uneven: by how much more than it shows a top is off its symmetry, relative.
+  ExactError<Scalar> error(Scalar t, Scalar uneven = 0) const noexcept {
     constexpr Scalar open = infinity<Scalar>;
-    return visited([&](const auto& m) { return m.error(t); }, ExactError<Scalar>{open, open, open});
+    return visited(
+        [&](const auto& m) {
+          if constexpr (requires { m.lasting(); }) return m.error(t, uneven);
+          else return m.error(t);
+        },
+        ExactError<Scalar>{open, open, open});
+  }
+  /// What of it a top's lack of symmetry makes alone; of other motions nothing.
+  ExactError<Scalar> uneven_error(Scalar t, Scalar uneven) const noexcept {
+    return visited(
+        [&](const auto& m) {
+          if constexpr (requires { m.lasting(); }) return m.uneven_error(t, uneven);
+          else return ExactError<Scalar>{};
+        },
+        ExactError<Scalar>{});
   }
   /// What rounding has put the data off symmetry or plane, and the motion leaves out; relative.
   Scalar defect() const noexcept {

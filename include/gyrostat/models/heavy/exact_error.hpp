@@ -64,4 +64,14 @@ Scalar pushed_off(Scalar push, Scalar square, Scalar t) noexcept {
   return push * t * t / 2 * growth * growth;
 }
 
+/// For how long, s, what turns with the body can add up: the torques by which a body is off its symmetry have the same shape in every nutation, of this
+/// period, but turn on by `turn`, rad, once or twice. Their sum over any number of nutations is at most one over the sine of half of that. Infinite
+/// where they do not turn.
+template <Real Scalar>
+Scalar lasting(Scalar period, Scalar turn) noexcept {
+  const Scalar least = std::min(std::abs(std::sin(turn / 2)), std::abs(std::sin(turn)));
+  const Scalar time = period * (1 + 1 / least);
+  return time < infinity<Scalar> ? time : infinity<Scalar>;
+}
+
 }  // namespace gyrostat::heavy

@@ -92,19 +92,10 @@ class LagrangeGradient {
 
   State<Scalar> at(Scalar t) const noexcept { return attitude_.at(unit_ * t, axis(unit_ * t)); }
 
-  /// Bound of the error of at() up to time |t|.
-  ExactError<Scalar> error(Scalar t) const noexcept {
-    t = std::abs(unit_ * t);
-    const Scalar rate = std::sqrt(most_) / 2, K = rate * period_ / 2;
-    const Scalar relative = stated * (size_ + parts_) / least_;
-    const Scalar late = still_ ? Scalar(0) : time_error(relative, relative, K, rate, t) + 64 * tail_ * (t + period_);
-    const Scalar fast = fastest_ + std::sqrt(std::abs(most_)), skew = defect_ * t;
-    const Scalar off = still_ ? pushed_off(defect_ * (swing_ * swing_ + parts_), growth_, t) : Scalar(0);
-    const Scalar angle = stated * (1 + (still_ ? Scalar(0) : pole_)) * (1 + fast * t) +
-                         skew * (fastest_ + (fastest_ * fastest_ + gradient_) * t) + fastest_ * late + off;
-    return ExactError<Scalar>::of(
-        angle, unit_ * (across_ * angle + swing_ * (swing_ * late + off) + stated * (fastest_ + parts_ * t)));
-  }
+  /// See LagrangeTop.
+  ExactError<Scalar> error(Scalar t, Scalar uneven = 0) const noexcept { return error_by(stated, t, uneven); }
+  ExactError<Scalar> uneven_error(Scalar t, Scalar uneven) const noexcept { return error_by(0, t, uneven); }
+  Scalar lasting() const noexcept { return lasting_ / unit_; }  ///< see LagrangeTop
 
   Scalar least() const noexcept { return u_b_ < u_o_ ? u_b_ : u_o_; }  ///< down along the axis of symmetry
   Scalar greatest() const noexcept { return u_b_ < u_o_ ? u_o_ : u_b_; }
@@ -117,7 +108,8 @@ class LagrangeGradient {
   Scalar precession_per_nutation() const noexcept {
     if (planar_) return 0;
     if (still_) return mean_precession() * nutation_period();
-    return pi<Scalar> * (side_above_ + side_below_) + 2 * pi<Scalar> * (mean_[1] + mean_[2]);
+    const auto [above, below] = phases_per_nutation();
+    return above + below;
   }
   /// Their signs tell on which side the axis passes the upper and the lower pole: what is left of momenta that cancel there, over their size.
   std::array<Scalar, 2> sides() const noexcept { return {c_above_ / fastest_, c_below_ / fastest_}; }
@@ -135,6 +127,12 @@ class LagrangeGradient {
   static constexpr Scalar floor = epsilon<Scalar> * epsilon<Scalar> * epsilon<Scalar>;
   using Three = std::array<Scalar, 3>;  // of time and of the phases above and below
 
+  /// What the phases of TopAttitude gain in one nutation, rad, of the poles u = 1 and u = -1.
+  std::array<Scalar, 2> phases_per_nutation() const noexcept {
+    if (still_) return {c_above_ / above_b_ / 2 * period_, c_below_ / below_b_ / 2 * period_};
+    return {pi<Scalar> * (side_above_ + 2 * mean_[1]), pi<Scalar> * (side_below_ + 2 * mean_[2])};
+  }
+  ExactError<Scalar> error_by(Scalar rounded, Scalar t, Scalar uneven) const noexcept;
   void build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept;
   std::array<Scalar, 2> turning_points(Scalar x, Scalar b, Scalar a, Scalar k, Scalar gradient) const noexcept;
   static Scalar greatest_speed(const TopStart<Scalar>& o, Scalar pull, Scalar y1, Scalar y2) noexcept;
@@ -178,11 +176,37 @@ class LagrangeGradient {
   int used_ = 0;
   bool still_ = false, planar_ = false, in_plane_ = false;
   Scalar tail_ = 0, most_ = 1, least_ = 1, size_ = 1, pole_ = 0, fastest_ = 0, across_ = 0, swing_ = 0, defect_ = 0;
-  Scalar growth_ = 0;    // see LagrangeTop
-  Scalar gradient_ = 0;  // of itself; it turns an uneven body about its axis
-  Scalar parts_ = 0;     // of the gradient, which may cancel: C and A are rounded
+  Scalar carried_ = 0, thin_ = 1;                   // see LagrangeTop
+  Scalar lasting_ = infinity<Scalar>, growth_ = 0;  // see LagrangeTop
+  Scalar gradient_ = 0;                             // of itself; it turns an uneven body about its axis
+  Scalar parts_ = 0;                                // of the gradient, which may cancel: C and A are rounded
   TopAttitude<Scalar> attitude_;
 };
+
+template <Real Scalar>
+ExactError<Scalar> LagrangeGradient<Scalar>::error_by(Scalar rounded, Scalar t, Scalar uneven) const noexcept {
+  t = std::abs(unit_ * t);
+  const Scalar rate = std::sqrt(most_) / 2, K = rate * period_ / 2, share = (size_ + parts_) / least_;
+  const Scalar defect = defect_ + uneven, pull = swing_ * swing_ + gradient_;
+  const Scalar fast = fastest_ + std::sqrt(std::abs(most_));
+  const Scalar off = still_ ? pushed_off(defect * (swing_ * swing_ + parts_), growth_, t) : Scalar(0);
+  const Scalar left_out = rounded > 0 ? 64 * tail_ * (t + period_) : Scalar(0);
+  // see LagrangeTop
+  const Scalar plain = defect * thin_, turning = defect * (across_ * across_ / 2 + 2 * pull);
+  const Scalar moving = plain * (across_ * fastest_ + pull);
+  const auto up_to = [&](Scalar lasting, Scalar more, Scalar turned) noexcept {
+    const Scalar relative = (rounded + more) * share;
+    const Scalar late = still_ ? Scalar(0) : time_error(relative, relative, K, rate, t) + left_out;
+    const Scalar angle = rounded * (1 + (still_ ? Scalar(0) : pole_)) * (1 + fast * t) + carried_ * late + turned + off;
+    return ExactError<Scalar>::of(angle, unit_ * (across_ * angle + swing_ * (swing_ * late + off) +
+                                                  rounded * (fastest_ + parts_ * t) + (turning + moving) * lasting));
+  };
+  const ExactError<Scalar> always = up_to(t, 0, defect * t * (fastest_ + (fastest_ * fastest_ + gradient_) * t));
+  if (!(lasting_ < t)) return always;
+  const Scalar spin = turning * lasting_;
+  return always.least(up_to(lasting_, plain + 2 * thin_ * spin / carried_,
+                            (plain * fastest_ + spin) * t + moving * lasting_ * std::min(t, period_)));
+}
 
 /// {y1, y2}: where x^2 + b y - a y^2 - k y^3 + gradient y^4 has its roots next to the start, on either side.
 template <Real Scalar>
@@ -228,6 +252,7 @@ template <Real Scalar>
 void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept {
   unit_ = o.unit;
   defect_ = top.asymmetry_error();
+  thin_ = std::min(Scalar(1), top.along / top.across);
   planar_ = o.planar();
   in_plane_ = o.planar(0);
   const Scalar u = o.u, x = o.swing;
@@ -270,7 +295,8 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
   u_o_ = below_o_ < above_o_ ? below_o_ - 1 : 1 - above_o_;
 
   across_ = greatest_speed(o, pull, y1, y2);
-  fastest_ = across_ + std::abs(o.spin) + std::abs(o.rho);
+  carried_ = across_ + std::abs(o.rho);
+  fastest_ = carried_ + std::abs(o.spin);
   growth_ = o.ground == 0 ? -h0_ / 4 : -h0_;
   if (still_) {
     period_ = 2 * pi<Scalar> / std::sqrt(h0_);
@@ -281,6 +307,8 @@ void LagrangeGradient<Scalar>::build(const SymmetricTop<Scalar>& top, const TopS
     const Scalar at = 2 * up * std::atan2(std::sqrt(std::abs(y_b_)), std::sqrt(std::abs(y_o)));
     start_ = mean_[0] * at + periodic(at)[0];
   }
+  const auto [above, below] = phases_per_nutation();
+  lasting_ = heavy::lasting(period_, below - above + (o.spin - o.rho) * period_);
   attitude_ = TopAttitude<Scalar>(top, o, c_above_, c_below_, axis(0), fastest_);
 }
 

@@ -55,16 +55,12 @@ class LagrangeTop {
 
   State<Scalar> at(Scalar t) const noexcept { return attitude_.at(unit_ * t, axis(unit_ * t)); }
 
-  /// Bound of the error of at() up to time |t|.
-  ExactError<Scalar> error(Scalar t) const noexcept {
-    t = std::abs(unit_ * t);
-    const Scalar late = time_error((stated + defect_) * share_, stated * shift_ + skew_shift_, K_, lam_, t);
-    const Scalar skew = defect_ * fastest_ * t;
-    const Scalar off = standing_ ? pushed_off(defect_ * swing_ * swing_, growth_, t) : Scalar(0);
-    const Scalar angle = set_up + stated * fastest_ * t + fastest_ * late + skew * (1 + fastest_ * t) + off;
-    return ExactError<Scalar>::of(angle,
-                                  unit_ * (across_ * angle + swing_ * (swing_ * late + off) + stated * fastest_));
-  }
+  /// Bound of the error of at() up to time |t|. uneven: by how much more than it shows the body is off its symmetry, relative.
+  ExactError<Scalar> error(Scalar t, Scalar uneven = 0) const noexcept { return error_by(stated, t, uneven); }
+  /// What of it the lacking symmetry makes alone.
+  ExactError<Scalar> uneven_error(Scalar t, Scalar uneven) const noexcept { return error_by(0, t, uneven); }
+  /// For how long what the body is off its symmetry by adds up, s; infinite where it always does.
+  Scalar lasting() const noexcept { return lasting_ / unit_; }
 
   AxisMotion motion() const noexcept { return motion_; }
   math::Modulus<Scalar> modulus() const noexcept { return modulus_; }
@@ -87,10 +83,8 @@ class LagrangeTop {
   /// the axis passes through the vertical, half a turn more or less is the same.
   Scalar precession_per_nutation() const noexcept {
     if (planar_) return 0;
-    const Scalar T = unit_ * nutation_period();
-    return (c_below_ * (T + plus_factor_ * 2 * plus_.complete()) / below2_ +
-            c_above_ * (T + minus_factor_ * 2 * minus_.complete()) / above1_) /
-           2;
+    const auto [below, above] = phases_per_nutation();
+    return below + above;
   }
   /// Their signs tell on which side the axis passes the upper and the lower pole: what is left of momenta that cancel there, over their size.
   std::array<Scalar, 2> sides() const noexcept { return {c_above_ / fastest_, c_below_ / fastest_}; }
@@ -108,6 +102,13 @@ class LagrangeTop {
   // of where the motion starts: the greatest of 60 000 random starts was 9.4 eps
   static constexpr Scalar set_up = 12 * epsilon<Scalar>;
 
+  /// What the phases of TopAttitude gain in one nutation, rad, of the poles w = -1 and w = 1.
+  std::array<Scalar, 2> phases_per_nutation() const noexcept {
+    const Scalar T = unit_ * nutation_period();
+    return {c_below_ / 2 * (T + plus_factor_ * 2 * plus_.complete()) / below2_,
+            c_above_ / 2 * (T + minus_factor_ * 2 * minus_.complete()) / above1_};
+  }
+  ExactError<Scalar> error_by(Scalar rounded, Scalar t, Scalar uneven) const noexcept;
   void build(const SymmetricTop<Scalar>& top, const TopStart<Scalar>& o) noexcept;
   void roots(const TopStart<Scalar>& o, Scalar kappa) noexcept;
   AxisPoint<Scalar> axis(Scalar t) const noexcept;
@@ -127,12 +128,36 @@ class LagrangeTop {
   math::JacobiAt<Scalar> functions_{math::Modulus<Scalar>{}};
   math::ThirdKind<Scalar> plus_, minus_;       // of the poles -1 (from w2) and +1 (from w1)
   Scalar plus_factor_ = 0, minus_factor_ = 0;  // before them, s
-  Scalar fastest_ = 0, across_ = 0, swing_ = 0, share_ = 1, shift_ = 0, skew_shift_ = 0, defect_ = 0;
+  Scalar fastest_ = 0, across_ = 0, carried_ = 0, thin_ = 1, swing_ = 0, share_ = 1, shift_ = 0, defect_ = 0;
   AxisMotion motion_ = AxisMotion::nutation;
   bool planar_ = false, in_plane_ = false, standing_ = false;
+  Scalar lasting_ = infinity<Scalar>;
   Scalar growth_ = 0;  // of what is off an axis that stands: square of its rate, of its tilt beside a pole
   TopAttitude<Scalar> attitude_;
 };
+
+template <Real Scalar>
+ExactError<Scalar> LagrangeTop<Scalar>::error_by(Scalar rounded, Scalar t, Scalar uneven) const noexcept {
+  t = std::abs(unit_ * t);
+  const Scalar defect = defect_ + uneven, pull = swing_ * swing_;
+  const Scalar skew_shift = 4 * defect * (pull + fastest_ * fastest_) / h2_;  // an uneven body keeps no spin
+  const Scalar off = standing_ ? pushed_off(defect * pull, growth_, t) : Scalar(0);
+  // The spin changes by (I1 - I2) w1 w2/C and by the weight beside the axis, and the axis is moved to and fro.
+  const Scalar plain = defect * thin_, turning = defect * (across_ * across_ / 2 + 2 * pull);
+  const Scalar moving = plain * (across_ * fastest_ + pull), nutation = std::min(t, unit_ * nutation_period());
+  const auto up_to = [&](Scalar lasting, Scalar relative, Scalar shift, Scalar turned) noexcept {
+    const Scalar late = time_error((rounded + relative) * share_, rounded * shift_ + shift, K_, lam_, t);
+    // what is late carries the axis along, but not the spin
+    const Scalar angle = (rounded > 0 ? set_up : Scalar(0)) + rounded * fastest_ * t + carried_ * late + turned + off;
+    return ExactError<Scalar>::of(angle, unit_ * (across_ * angle + swing_ * (swing_ * late + off) +
+                                                  rounded * fastest_ + (turning + moving) * lasting));
+  };
+  const ExactError<Scalar> always = up_to(t, defect, skew_shift, defect * fastest_ * t * (1 + fastest_ * t));
+  if (!(lasting_ < t)) return always;
+  const Scalar spin = turning * lasting_;  // no more, but it has the axis out of time
+  return always.least(up_to(lasting_, plain + 2 * thin_ * spin / carried_, skew_shift * (1 + lam_ * lasting_),
+                            (plain * fastest_ + spin) * t + moving * lasting_ * nutation));
+}
 
 /// The roots of f(z) = x^2 + b z - a z^2 + kappa z^3, z = w - w0, around the start z = 0, and what hangs on them.
 template <Real Scalar>
@@ -200,6 +225,7 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   s_ = top.weight > 0 ? -1 : 1;
   rho_ = o.rho;
   defect_ = top.asymmetry_error();
+  thin_ = std::min(Scalar(1), top.along / top.across);
   planar_ = o.planar();
   in_plane_ = o.planar(0);
   const Scalar kappa = std::abs(o.pull);
@@ -210,7 +236,8 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   lam_ = std::sqrt(h1_) / 2;
   const Scalar greatest = o.square - kappa * z1_;
   across_ = std::sqrt(greatest);
-  fastest_ = across_ + std::abs(o.spin) + std::abs(o.rho);
+  carried_ = across_ + std::abs(o.rho);
+  fastest_ = carried_ + std::abs(o.spin);
   swing_ = std::sqrt(kappa);
   share_ = h1_ > 0 ? (greatest + o.rho * o.rho + 4 * kappa) / h1_ : Scalar(0);
   if (share_ * rounding >= 1) lam_ = 0;  // at rest in a place it may leave
@@ -220,7 +247,6 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   // the vertical is known to rounding, and the tilt from it no better
   const Scalar tilt = std::sqrt(2 * (s_ > 0 ? o.above : o.below));
   shift_ = (shift_ + 2 * kappa * (tilt + stated + defect_)) / h2_;
-  skew_shift_ = 4 * defect_ * (kappa + fastest_ * fastest_) / h2_;  // an uneven body keeps no spin
   functions_ = math::JacobiAt<Scalar>(modulus_);
   K_ = functions_.quarter_period();
   if (width_ > 0) {
@@ -239,6 +265,11 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   if (motion_ == AxisMotion::nutation || motion_ == AxisMotion::separatrix) {
     c_below_ = consistent(c_below_, below1_ * below2_ * h_minus_);
     c_above_ = consistent(c_above_, above1_ * above2_ * h_plus_);
+  }
+  if (motion_ == AxisMotion::nutation || motion_ == AxisMotion::regular) {
+    const auto [below, above] = phases_per_nutation();
+    lasting_ =
+        heavy::lasting(unit_ * nutation_period(), s_ * (below - above) + (o.spin - o.rho) * unit_ * nutation_period());
   }
   attitude_ = s_ > 0 ? TopAttitude<Scalar>(top, o, c_above_, c_below_, axis(0), fastest_)
                      : TopAttitude<Scalar>(top, o, c_below_, c_above_, axis(0), fastest_);
