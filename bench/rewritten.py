@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random scenes of the families, rewritten as general ones: the full equations of the family against those of general scenes.
 
-    rewritten.py [--count 2000] [--seed 1] [FAMILY ...]
+    rewritten.py [--count 2000] [--seed 1] [--cost] [FAMILY ...]
 
 Both are solved by `full`, the general scene without looking for a family in it, and every column that both have is compared at all times: the two answers may differ by the sum
 of their stated errors. What the general scene is recognised as must be the family. Prints, a family, how many answers were compared, the greatest and the median difference
-over what is allowed, those over it, refusals by reason, and how often the family was not found again.
+over what is allowed, those over it, refusals by reason, and how often the family was not found again. With --cost: what the full equations of general scenes cost, rates and
+attitude (or down) asked for, over the family's, each the least of five; the same of the family's full equations reached through the general scene.
 """
 from __future__ import annotations
 
@@ -152,11 +153,26 @@ def share(name: str, answers: tuple[gyrostat.Answer, gyrostat.Answer]) -> float:
     return apart / allowed if allowed > 0 else (0.0 if apart == 0 else np.inf)
 
 
+def spent(scene: gyrostat.Scene, ask: list[str], model: str) -> float:
+    """The least of five solutions, s in the compiled part."""
+    answers = [gyrostat.solve(scene, model=model, ask=ask) for _ in range(5)]
+    return min(each.spent for answer in answers for each in answer.tried if each.accepted)
+
+
+def costs(own: gyrostat.Scene, general: gyrostat.Scene, kind: str) -> tuple[float, float]:
+    """Of the full equations of the general scene, and of the family's by way of it, over those of the family."""
+    oriented = kind != "heavy" or "down" not in own.tables["initial"]
+    ask = ["angular_velocity", "attitude" if oriented else "down"]
+    family = spent(own, ask, "full")
+    return spent(general.replace(recognise=False), ask, "full") / family, spent(general, ask, f"{kind}:full") / family
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("families", nargs="*", default=list(FAMILIES), metavar="FAMILY")
     parser.add_argument("--count", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--cost", action="store_true")
     given = parser.parse_args()
     bad = 0
     for kind in given.families:
@@ -164,6 +180,7 @@ def main() -> None:
         shares: list[float] = []
         refused: collections.Counter[str] = collections.Counter()
         over, lost = [], 0
+        ratios: list[tuple[float, float]] = []
         for i in range(given.count):
             tables = FAMILIES[kind](random)
             tables["solve"]["tolerance"] = float(10.0 ** random.choice([-4, -6, -8, -10]))
@@ -175,6 +192,8 @@ def main() -> None:
                 refused[str(why)[:80]] += 1
                 continue
             lost += bool(recognised(general)[kind])
+            if given.cost and not recognised(general)[kind]:
+                ratios.append(costs(own, general, kind))
             both = [name for name in SHARED if all(name in answer and np.all(np.isfinite(answer[name])) for answer in answers)]
             worst = max(share(name, answers) for name in both)
             shares.append(worst)
@@ -183,6 +202,8 @@ def main() -> None:
         bad += len(over)
         print(f"{kind}: {len(shares)} compared, difference over the sum of the stated errors: greatest {max(shares, default=0):.2f}, median {np.median(shares or [0]):.2f}; over it {len(over)}"
               f"{' ' + str(over[:8]) if over else ''}; not found again {lost}; refused {sum(refused.values())} {dict(refused.most_common(4))}", flush=True)
+        for name, most, of in zip(("the general full equations", "the family's, by way of the general scene"), (4, 1.5), np.array(ratios).T):
+            print(f"  {name} cost {np.median(of):.2f} times the family's own in the median, {np.percentile(of, 90):.2f} in nine tenths, {of.max():.1f} at most; over {most} in {(of > most).mean():.1%}", flush=True)
     sys.exit(bad > 0)
 
 

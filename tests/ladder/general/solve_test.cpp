@@ -149,6 +149,23 @@ TEST_CASE("a held wheel that stands still where the table of its rate ends", "[g
   CHECK(!warns(2.5));
 }
 
+TEST_CASE("a torque that opposes the whole momentum leaves the body turning against its wheels", "[general]") {
+  auto p = brick();
+  Torque<double> damping;
+  damping.type = TorqueType::damping;
+  damping.matrix = 0.01 * Mat3<double>::Identity();
+  damping.opposed = Opposed::momentum;
+  p.torques = {damping};
+  const Question question = question_at({0, 10}, 1e-6);
+  CHECK_FALSE(solved(posed(p, question)).warns("brakes-wheels"));
+  p.wheels = {wheel(WheelType::held, {0, 0, 1})};
+  p.wheels[0].rate = 50;
+  const Answer answer = solved(posed(p, question));
+  CHECK(answer.warns("brakes-wheels"));
+  p.torques[0].opposed = Opposed::angular_velocity;
+  CHECK_FALSE(solved(posed(p, question)).warns("brakes-wheels"));
+}
+
 TEST_CASE("motions that part are told as chaotic, those that drift are not", "[general]") {
   auto p = brick();
   p.inertia = Vec3<double>(0.6, 0.5, 0.3).asDiagonal();

@@ -149,6 +149,7 @@ enum : std::size_t {
   wide_in_orbit,
   torque_outruns,
   held_table_ends,
+  brakes_wheels,
   chaotic,
   with_rounding
 };
@@ -190,6 +191,10 @@ inline constexpr WarningKind warning_kinds[] = {
     {"held-table-ends",
      "the table of the rate at which a wheel is held ends before the last time: the wheel stands still after it, and "
      "the body takes up its momentum at once; first so long after the start, s"},
+    {"brakes-wheels",
+     "a torque opposes the whole angular momentum, that of wheels and rotor in it: where that is gone the body turns "
+     "on "
+     "against them, at so many rad/s as they run at the start"},
     {"chaotic",
      "motions that start closer than any data part far faster than in proportion to the time: the motion is chaotic, "
      "or "

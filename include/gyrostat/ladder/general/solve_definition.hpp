@@ -60,6 +60,21 @@ inline double held_end(const Scene& scene) noexcept {
   return first < scene.question().times.back() ? first : infinity<double>;
 }
 
+/// The rate at which the body turns once a torque that opposes the whole momentum has taken it, rad/s, as rotor and wheels with a rate of their own
+/// have it at the start; 0 where there is no such torque.
+inline double turned_by_stored(const Scene& scene) noexcept {
+  const auto& problem = scene.problem();
+  const bool opposed = std::any_of(problem.torques.begin(), problem.torques.end(), [](const Torque<double>& torque) {
+    const bool opposes = torque.type == TorqueType::damping || torque.type == TorqueType::brake;
+    return opposes && torque.opposed == Opposed::momentum;
+  });
+  if (!opposed) return 0;
+  Vec3<double> stored = problem.rotor_momentum;
+  for (const auto& wheel : problem.wheels)
+    if (wheel.type != WheelType::locked) stored += wheel.axial_inertia * wheel.rate * wheel.axis;
+  return (scene.wheels().inverse * stored).norm();
+}
+
 /// What is odd about orbit and torques, or was dropped on the way to a family.
 template <class Warn>
 void warn_of_scene(const Answer& answer, const Scene& scene, const Track& track, const Warn& warn) {
@@ -80,6 +95,9 @@ void warn_of_scene(const Answer& answer, const Scene& scene, const Track& track,
   }
   if (const double times = outrun(scene, track); times > 1e3) warn(warning::torque_outruns, times);
   if (const double end = held_end(scene); end >= 0 && end < infinity<double>) warn(warning::held_table_ends, end);
+  if (const double rate = turned_by_stored(scene);
+      rate > 0 && !answer.warns("does-not-stop"))  // which a family may have told
+    warn(warning::brakes_wheels, rate);
   if (!track.rests.empty()) warn(warning::rest, track.rests.front()[0]);
   const int rung = place_of(tables.rungs, answer.model);
   const Special by = rung < 0 ? Special::none : special_rungs[std::size_t(rung)].special;
