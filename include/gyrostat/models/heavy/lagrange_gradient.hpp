@@ -186,7 +186,8 @@ class LagrangeGradient {
 template <Real Scalar>
 ExactError<Scalar> LagrangeGradient<Scalar>::error_by(Scalar rounded, Scalar t, Scalar uneven) const noexcept {
   t = std::abs(unit_ * t);
-  const Scalar rate = std::sqrt(most_) / 2, K = rate * period_ / 2, share = (size_ + parts_) / least_;
+  const Scalar rate = std::sqrt(most_) / 2, K = rate * period_ / 2;
+  const Scalar share = (size_ + parts_) / (still_ ? h0_ : least_);
   const Scalar defect = defect_ + uneven, pull = swing_ * swing_ + gradient_;
   const Scalar fast = fastest_ + std::sqrt(std::abs(most_));
   const Scalar off = still_ ? pushed_off(defect * (swing_ * swing_ + parts_), growth_, t) : Scalar(0);
@@ -196,12 +197,14 @@ ExactError<Scalar> LagrangeGradient<Scalar>::error_by(Scalar rounded, Scalar t, 
   const Scalar moving = plain * (across_ * fastest_ + pull);
   const auto up_to = [&](Scalar lasting, Scalar more, Scalar turned) noexcept {
     const Scalar relative = (rounded + more) * share;
-    const Scalar late = still_ ? Scalar(0) : time_error(relative, relative, K, rate, t) + left_out;
+    // a steady precession is not late, but what moves it turns it at another rate; where it is unstable, off tells more
+    const Scalar moved = h0_ > 0 ? more * share * t : Scalar(0);
+    const Scalar late = still_ ? moved : time_error(relative, relative, K, rate, t) + left_out;
     const Scalar angle = rounded * (1 + (still_ ? Scalar(0) : pole_)) * (1 + fast * t) + carried_ * late + turned + off;
     return ExactError<Scalar>::of(angle, unit_ * (across_ * angle + swing_ * (swing_ * late + off) +
                                                   rounded * (fastest_ + parts_ * t) + (turning + moving) * lasting));
   };
-  const ExactError<Scalar> always = up_to(t, 0, defect * t * (fastest_ + (fastest_ * fastest_ + gradient_) * t));
+  const ExactError<Scalar> always = up_to(t, defect, defect * t * (fastest_ + (fastest_ * fastest_ + gradient_) * t));
   if (!(lasting_ < t)) return always;
   const Scalar spin = turning * lasting_;
   return always.least(up_to(lasting_, plain + 2 * thin_ * spin / carried_,
