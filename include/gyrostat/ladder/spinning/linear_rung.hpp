@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "gyrostat/core/linkage.hpp"
 #include "gyrostat/ladder/even_times.hpp"
@@ -28,12 +29,25 @@ inline bool gives_up(const Scene& scene, int rung, const LinearErrors<double>& e
   return scene.question().rung != rung && !(holds(error) && error.attitude <= scene.goal().columns[column::attitude]);
 }
 
-/// At so few times the attitude's error is taken from the modes at each: half a microsecond a time.
-inline constexpr std::size_t few_times = 32;
+/// At so few times the attitude's error is taken from the modes at each: half a microsecond a time. At more, up to `many_times`, where the last one alone
+/// leaves room for what is asked: a motion of higher order takes longer.
+inline constexpr std::size_t few_times = 32, many_times = 1024;
 
 /// Whether the a-priori error of the attitude does not do.
 inline bool worth_a_closer_look(const Scene& scene, int rung, const LinearErrors<double>& error) noexcept {
   return holds(error) && (scene.question().rung == rung || gives_up(scene, rung, error));
+}
+
+/// The error of the attitude by looking at each time, where that is worth it, else as it is. look(times): what it is at these.
+template <class Look>
+double looked_at(const Scene& scene, const LinearErrors<double>& error, Look&& look) noexcept {
+  const std::span<const double> times = scene.question().times;
+  if (times.size() > few_times) {
+    const double wanted = scene.goal().columns[column::attitude];
+    const bool may_do = times.size() <= many_times && error.attitude > wanted && look(times.last(1)) <= wanted;
+    if (!may_do) return error.attitude;
+  }
+  return look(times);
 }
 
 GYROSTAT_COMPILED_ONCE Track given_up(const LinearErrors<double>& error);

@@ -161,9 +161,13 @@ GYROSTAT_COMPILED_ONCE Track linear_track(const Scene& scene, Monitor* monitor) 
   const auto& times = scene.question().times;
   const double end = times.back();
   auto error = linear_errors(problem, end, Look::rough);
-  if (times.size() <= detail::few_times && detail::worth_a_closer_look(scene, rung::linear, error) && end > 0)
-    error.attitude = linear_attitude_error<double>(error, second_order_errors(problem, end, Look::rough),
-                                                   TiltOrders<double>(problem, end), times);
+  if (detail::worth_a_closer_look(scene, rung::linear, error) && times.size() <= detail::many_times && end > 0) {
+    const auto left = second_order_errors(problem, end, Look::rough);
+    const TiltOrders<double> orders(problem, end);
+    error.attitude = detail::looked_at(scene, error, [&](std::span<const double> at) {
+      return linear_attitude_error<double>(error, left, orders, at);
+    });
+  }
   if (detail::gives_up(scene, rung::linear, error)) return detail::given_up(error);
   Track track;
   track.states.resize(times.size());

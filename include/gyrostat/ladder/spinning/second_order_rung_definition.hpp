@@ -22,7 +22,9 @@ GYROSTAT_COMPILED_ONCE Track second_order_track(const Scene& scene, Monitor*) {
     const double of_use = named ? infinity<double> : scene.goal().columns[column::attitude];
     if (orders.knows_tilt() && orders.tilt(end) <= of_use)
       error = second_order_errors(problem, end, Look::close, orders.third_order());
-    if (times.size() <= detail::few_times) error.attitude = second_order_attitude_error<double>(error, orders, times);
+    error.attitude = detail::looked_at(scene, error, [&](std::span<const double> at) {
+      return second_order_attitude_error<double>(error, orders, at);
+    });
   }
   if (detail::gives_up(scene, rung::second_order, error)) return detail::given_up(error);
   const SecondOrder<double> motion(problem, end > 0 ? end : 1e-6);  // of the start alone any span will do

@@ -130,7 +130,8 @@ class LagrangeTop {
   Scalar plus_factor_ = 0, minus_factor_ = 0;  // before them, s
   Scalar fastest_ = 0, across_ = 0, carried_ = 0, thin_ = 1, swing_ = 0, share_ = 1, shift_ = 0, defect_ = 0;
   AxisMotion motion_ = AxisMotion::nutation;
-  bool planar_ = false, in_plane_ = false, standing_ = false;
+  bool planar_ = false, in_plane_ = false, standing_ = false, sphere_ = false;
+  Scalar torn_ = 0;  // the gradient that acts on what the body is off its symmetry
   Scalar lasting_ = infinity<Scalar>;
   Scalar growth_ = 0;  // of what is off an axis that stands: square of its rate, of its tilt beside a pole
   TopAttitude<Scalar> attitude_;
@@ -139,12 +140,13 @@ class LagrangeTop {
 template <Real Scalar>
 ExactError<Scalar> LagrangeTop<Scalar>::error_by(Scalar rounded, Scalar t, Scalar uneven) const noexcept {
   t = std::abs(unit_ * t);
-  const Scalar defect = defect_ + uneven, pull = swing_ * swing_;
+  const Scalar defect = defect_ + uneven, plain = defect * thin_, pull = swing_ * swing_ + torn_;
   const Scalar skew_shift = 4 * defect * (pull + fastest_ * fastest_) / h2_;  // an uneven body keeps no spin
   const Scalar off = standing_ ? pushed_off(defect * pull, growth_, t) : Scalar(0);
-  // The spin changes by (I1 - I2) w1 w2/C and by the weight beside the axis, and the axis is moved to and fro.
-  const Scalar plain = defect * thin_, turning = defect * (across_ * across_ / 2 + 2 * pull);
-  const Scalar moving = plain * (across_ * fastest_ + pull), nutation = std::min(t, unit_ * nutation_period());
+  // The spin changes by (I1 - I2) w1 w2/C and by the weight beside the axis, and the axis is moved to and fro; what a sphere is off has any axes.
+  const Scalar turning = defect * ((sphere_ ? fastest_ * fastest_ : across_ * across_ / 2) + 2 * pull);
+  const Scalar moving = plain * ((sphere_ ? fastest_ : across_) * fastest_ + pull);
+  const Scalar nutation = std::min(t, unit_ * nutation_period());
   const auto up_to = [&](Scalar lasting, Scalar relative, Scalar shift, Scalar turned) noexcept {
     const Scalar late = time_error((rounded + relative) * share_, rounded * shift_ + shift, K_, lam_, t);
     // what is late carries the axis along, but not the spin
@@ -152,7 +154,8 @@ ExactError<Scalar> LagrangeTop<Scalar>::error_by(Scalar rounded, Scalar t, Scala
     return ExactError<Scalar>::of(angle, unit_ * (across_ * angle + swing_ * (swing_ * late + off) +
                                                   rounded * fastest_ + (turning + moving) * lasting));
   };
-  const ExactError<Scalar> always = up_to(t, defect, skew_shift, defect * fastest_ * t * (1 + fastest_ * t));
+  const ExactError<Scalar> always =
+      up_to(t, defect, skew_shift, defect * t * (fastest_ + (fastest_ * fastest_ + torn_) * t));
   if (!(lasting_ < t)) return always;
   const Scalar spin = turning * lasting_;  // no more, but it has the axis out of time
   return always.least(up_to(lasting_, plain + 2 * thin_ * spin / carried_, skew_shift * (1 + lam_ * lasting_),
@@ -225,6 +228,8 @@ void LagrangeTop<Scalar>::build(const SymmetricTop<Scalar>& top, const TopStart<
   s_ = top.weight > 0 ? -1 : 1;
   rho_ = o.rho;
   defect_ = top.asymmetry_error();
+  sphere_ = top.sphere;
+  torn_ = std::abs(top.field) / (unit_ * unit_);
   thin_ = std::min(Scalar(1), top.along / top.across);
   planar_ = o.planar();
   in_plane_ = o.planar(0);

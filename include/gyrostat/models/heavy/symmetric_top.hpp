@@ -24,7 +24,9 @@ struct SymmetricTop {
 
   Scalar across = 1, along = 1;  ///< A, C, kg m^2
   Scalar weight = 0;    ///< W = M g z0, N m; positive where the mass centre hangs below O as the axis points down
-  Scalar gradient = 0;  ///< N, 1/s^2
+  Scalar gradient = 0;  ///< N, 1/s^2; 0 of a sphere
+  Scalar field = 0;     ///< N, which acts on what a body is off its symmetry, of a sphere too
+  bool sphere = false;  ///< to rounding; its principal axes are none
   Scalar defect = 0;    ///< relative, at most greatest_defect
   Mat3<Scalar> axes = Mat3<Scalar>::Identity();  ///< columns: the axes of the frame in those of the body
   Quat<Scalar> turn;                             ///< the same as a quaternion, frame to body
@@ -42,7 +44,8 @@ struct SymmetricTop {
       const Scalar off = size > 0 ? std::hypot(m[i], m[j]) / size : Scalar(0);
       const Scalar defect = std::abs(I[i] - I[j]) / most + off;
       if (!(defect < best.defect)) continue;
-      best = {(I[i] + I[j]) / 2, I[k], m[k], problem.gradient(), defect, Mat3<Scalar>::Zero(), {}};
+      const Scalar N = problem.gradient();
+      best = {(I[i] + I[j]) / 2, I[k], m[k], N, N, false, defect, Mat3<Scalar>::Zero(), {}};
       best.axes(i, 0) = best.axes(j, 1) = best.axes(k, 2) = 1;
       constexpr Scalar h = Scalar(0.5);
       if (k == 0) best.turn = {h, h, h, h};
@@ -55,7 +58,7 @@ struct SymmetricTop {
     const Vec3<Scalar> n = sign / size * m;
     const Quat<Scalar> turn = normalised(Quat<Scalar>{1 + n[2], -n[1], n[0], 0});
     const Scalar off = 2 * epsilon<Scalar>;  // of the mass centre from the axis, by the rounding of the turn
-    best = {I.sum() / 3, I.sum() / 3, sign * size, 0, uneven + off, to_matrix(turn), turn};
+    best = {I.sum() / 3, I.sum() / 3, sign * size, 0, problem.gradient(), true, uneven + off, to_matrix(turn), turn};
     return best;
   }
 
