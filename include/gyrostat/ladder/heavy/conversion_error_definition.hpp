@@ -109,9 +109,10 @@ GYROSTAT_COMPILED_ONCE ExactError<double> error_by_neighbours(const Problem<doub
   double fastest = 0;
   for (const State<double>& each : seen) fastest = std::max(fastest, each.angular_velocity.norm());
   const auto stated = [&](std::size_t k) noexcept { return honesty::exact_margin * std::sqrt(squares[k]); };
-  constexpr double shared = 8 * epsilon<double>;
+  // of the attitude more: next to a pole its turn about the vertical is off by what no neighbour shows (39 roundings, found by climbing)
+  constexpr double shared = 8 * epsilon<double>, turned = 48 * epsilon<double>;
   ExactError<double> error = exact.uneven_error(times.back(), converted.body ? unevenness(problem, exact) : 0);
-  error += {stated(column::attitude) + shared, stated(column::down) + shared,
+  error += {stated(column::attitude) + turned, stated(column::down) + shared,
             stated(column::angular_velocity) + shared * fastest};
   return error;
 }
