@@ -193,8 +193,7 @@ inline constexpr WarningKind warning_kinds[] = {
      "the body takes up its momentum at once; first so long after the start, s"},
     {"brakes-wheels",
      "a torque opposes the whole angular momentum, that of wheels and rotor in it: where that is gone the body turns "
-     "on "
-     "against them, at so many rad/s as they run at the start"},
+     "on against them, at so many rad/s as they run at the start"},
     {"chaotic",
      "motions that start closer than any data part far faster than in proportion to the time: the motion is chaotic, "
      "or "
