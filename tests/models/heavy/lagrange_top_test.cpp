@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gyrostat/models/heavy/lagrange_top.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "allocations.hpp"
@@ -254,4 +256,20 @@ TEST_CASE("lagrange top: what is refused", "[heavy]") {
   CHECK(exact.at(1).down.norm() == Approx(1));
   CHECK(allocations() == before);
   CHECK(std::isnan(exact.at(gyrostat::nan<double>).down[0]));
+}
+
+TEST_CASE("what a top is off its symmetry by turns on in each nutation as down does in the body", "[heavy]") {
+  const V inertia(1.2, 1.2, 0.7);
+  const auto problem = Problem<double>::make(inertia, 1, V(0, 0, 0.4), 9.8, 0);
+  REQUIRE(problem);
+  State<double> start;
+  start.angular_velocity = V(0.7, -1.1, 3.1);
+  start.down = V(0.3, 0.5, -0.6).normalized();
+  const auto top = LagrangeTop<double>::make(*problem, start);
+  REQUIRE(top);
+  const double period = top->nutation_period();
+  const V first = top->at(0.3).down, later = top->at(0.3 + period).down;
+  const double turn = std::atan2(later[1], later[0]) - std::atan2(first[1], first[0]);
+  const double least = std::min(std::abs(std::sin(turn / 2)), std::abs(std::sin(turn)));
+  CHECK(std::abs(top->lasting() / (period * (1 + 1 / least)) - 1) < 1e-10);
 }
