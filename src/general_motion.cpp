@@ -13,8 +13,7 @@ template void FullSystem<double, false>::expand<20>(double, double, double (&)[2
 template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
                                                               std::span<State<double>>,
                                                               const FullMotionOptions<double>&) noexcept;
-template BalanceResiduals<double> balance_residuals<double>(const Problem<double>&, double, double,
-                                                            std::uint64_t) noexcept;
+template BalanceAnswer<double> balance<double>(const Problem<double>&, double, double, bool, std::uint64_t) noexcept;
 
 }  // namespace gyrostat::general
 

@@ -367,6 +367,13 @@ def test_momentum_and_energy_follow_from_torques_and_motors() -> None:
     assert E[-1] - E[0] == pytest.approx(integral(power), abs=1e-9)
 
 
+def test_works_are_told_where_they_are_asked_for() -> None:
+    answer = gyrostat.solve("momentum-dump", ask=["energy", "work_torques", "work_motors"])
+    assert answer.met and answer.scalar_error["work_motors"] < 1e-6
+    gain = answer["energy"][-1] - answer["energy"][0]
+    assert answer.scalars["work_torques"] + answer.scalars["work_motors"] == pytest.approx(gain, rel=1e-8)
+
+
 @pytest.mark.parametrize("name", ["iss-torque-pulse", "gravity-gradient-boom", "rolling-gyroscope", "momentum-dump", "wheels-run-down", "tumbling-brick-in-air"])
 def test_balances_close_where_they_are_asked_for(name: str) -> None:
     answer = gyrostat.solve(name, ask=["attitude", "energy_balance", "momentum_balance"])

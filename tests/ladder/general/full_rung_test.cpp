@@ -88,6 +88,83 @@ TEST_CASE("energy and momentum balance with work and impulse", "[general]") {
   CHECK(answer.quantity("recognised")->values[0] == 0);
 }
 
+TEST_CASE("works of torques and motors about one axis are those of the closed form", "[general]") {
+  using namespace general_scenes;
+  const double J = 2, I = 0.1, T = 0.3, c = -0.4, rate = 5, w0 = 0.7, end = 3;
+  Problem<double> p;
+  p.inertia = Vec3<double>(1.5, 1.6, J).asDiagonal();
+  p.angular_velocity = {0, 0, w0};
+  p.wheels = {wheel(WheelType::torque, {0, 0, 1})};
+  p.wheels[0].axial_inertia = I, p.wheels[0].rate = rate, p.wheels[0].torque = T;
+  p.torques = {torque(TorqueType::constant, {0, 0, c})};
+  const auto works = [&](double tolerance) {
+    Question question = question_at({1, end}, tolerance);
+    question.asked = {{scalar::work_torques, true}, {scalar::work_motors, true}};
+    const Answer answer = solved(posed(p, question));
+    CHECK(answer.met);
+    return std::array{*answer.quantity("work_torques"), *answer.quantity("work_motors")};
+  };
+  const auto check = [](const Quantity& work, double truth, double most) {
+    CAPTURE(work.values[0], truth, work.error);
+    CHECK(std::abs(work.values[0] - truth) <= work.error * std::abs(truth));
+    CHECK(work.error < most);
+  };
+  const auto integral = [&](double first, double slope) { return first * end + slope * end * end / 2; };
+  const double body = (c - T) / (J - I);  // its acceleration
+  for (const double tolerance : {1e-6, 1e-12}) {
+    const auto both = works(tolerance);
+    check(both[0], c * integral(w0, body), tolerance);
+    check(both[1], T * integral(rate, T / I - body), tolerance);
+  }
+  // what is held does no work, and what is not there
+  p.wheels[0].type = WheelType::held, p.wheels[0].torque = 0;
+  CHECK(works(1e-9)[1].values[0] == 0);
+  CHECK(works(1e-9)[1].error == 0);
+  // a rate that steps: the energy of body and locked wheel steps with it
+  p.wheels[0].table.times = {0, 2, 2 * end}, p.wheels[0].table.values = {rate, -rate, -rate};
+  p.wheels[0].table.between = Between::step;
+  const double before = w0 + c / J * 2, after = before + 2 * rate * I / J;
+  check(works(1e-9)[1], J / 2 * (after * after - before * before), 1e-12);
+  p.torques.clear();
+  CHECK(works(1e-9)[0].values[0] == 0);
+}
+
+TEST_CASE("the works of random scenes are what their energies change by", "[general]") {
+  using namespace general_scenes;
+  Scenes scenes(47);
+  int answered = 0, sharp = 0;
+  for (int i = 0; i < 30; ++i) {
+    const auto made = scenes.next(2);
+    for (const double tolerance : {1e-4, 1e-10}) {
+      Question question = question_at({made.span}, tolerance, rung::full);
+      question.asked = {{scalar::work_torques, true}, {scalar::work_motors, true}};
+      const auto scene = Scene::make(made.problem, question);
+      REQUIRE(scene);
+      gyrostat::Refusal refusal;
+      const Answer answer = general::solve(*scene, refusal);
+      if (refusal.code != Errc::ok) continue;
+      const auto true_states = general_truth::motion<long double>(
+          general_truth::cast<long double>(made.problem), std::vector<long double>{0, made.span}, 1e-17L, 60'000);
+      if (true_states.size() != 2) continue;
+      const auto at = [&](std::size_t k) {
+        return energy(scene->wheels(), general_truth::cast<double>(true_states[k]));
+      };
+      const double gain = at(1) - at(0), size = at(1) + at(0);
+      double sum = 0, off = 4 * epsilon<double> * size;
+      for (const char* name : {"work_torques", "work_motors"}) {
+        const auto* work = answer.quantity(name);
+        REQUIRE(work);
+        sum += work->values[0], off += work->error * std::abs(work->values[0]);
+      }
+      CAPTURE(i, made.kind, tolerance, sum, gain, size, off);
+      CHECK(std::abs(sum - gain) <= off);
+      ++answered, sharp += off < tolerance * size;
+    }
+  }
+  CHECK(answered > 40);
+  CHECK(sharp > answered * 3 / 4);
+}
+
 TEST_CASE("a brake that holds the body tells when it stopped, and that no torque is left", "[general]") {
   using namespace general_scenes;
   Problem<double> p = brick();

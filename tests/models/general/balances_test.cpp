@@ -32,7 +32,7 @@ TEST_CASE("the power is the derivative of the energy", "[general]") {
     };
     const auto here = flow.state(0, y);
     const Pose<double> pose{here.attitude, here.angular_velocity, here.angular_momentum};
-    const double gain = power(p, wheels, here, load_at(p, pose, 0., 0.).torque, 0., 0.), E = beside(0);
+    const double gain = power(p, wheels, here, load_at(p, pose, 0., 0.).torque, 0., 0.).whole(), E = beside(0);
     // what a central difference loses
     const double slope = (beside(h) - beside(-h)) / (2 * h);
     CAPTURE(i, made.kind);
@@ -56,6 +56,8 @@ TEST_CASE("a body under a constant torque balances, and one with a wrong torque 
       return state;
     });
     if (error == 0) {
+      CHECK(balances.work().torques == Approx(2 * 2 * (9 - 1)).epsilon(1e-15));
+      CHECK(balances.work().motors == 0);
       CHECK(balances.energy() < 1e-15);
       CHECK(balances.momentum() < 1e-15);
     } else {

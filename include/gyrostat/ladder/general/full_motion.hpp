@@ -467,27 +467,51 @@ Result<FullMotionAnswer<Scalar>> full_motion(const Problem<Scalar>& problem, std
   });
 }
 
-/// How well energy and momentum of a motion up to `span` agree with what torques and motors have done.
+/// What torques and motors do to a motion, and how well energy and momentum agree with it; NaN where it cannot be followed.
 template <Real Scalar>
-struct BalanceResiduals {
-  Scalar energy = nan<Scalar>, momentum = nan<Scalar>;  ///< as of Balances; NaN where the motion cannot be followed
+struct BalanceAnswer {
+  Scalar energy = nan<Scalar>, momentum = nan<Scalar>;            ///< residuals, as of Balances
+  Power<Scalar> work{nan<Scalar>, nan<Scalar>}, work_off = work;  ///< J, and by how much it may be off
+  Scalar size = nan<Scalar>;                                      ///< of all work and energy, J
 };
 
-/// The balances of a motion in steps of a tolerance; of a problem that check() finds right.
+/// The balances of a motion up to `span` in steps of a tolerance; of a problem that check() finds right. with_errors: of the works, too, by two
+/// neighbours in looser steps.
 template <Real Scalar>
-BalanceResiduals<Scalar> balance_residuals(const Problem<Scalar>& problem, Scalar span, Scalar step_tolerance,
-                                           std::uint64_t step_cap = step_budget) noexcept {
+BalanceAnswer<Scalar> balance(const Problem<Scalar>& problem, Scalar span, Scalar step_tolerance, bool with_errors,
+                              std::uint64_t step_cap = step_budget) noexcept {
   const Prepared<Scalar> of(problem, span);
-  return detail::by_method(of, Integrator::any, [&](auto method) noexcept -> BalanceResiduals<Scalar> {
-    const detail::StepTolerance<Scalar> tolerance{step_tolerance, step_tolerance};
-    const auto course =
-        std::make_unique<detail::FullCourse<decltype(method)>>(problem, span, Scalar(1), tolerance, step_cap);
-    Balances<Scalar> balances(problem, course->prepared().wheels);
-    while (course->time() < span) {
-      if (course->step(span) != ode::Status::reached) return {};
-      balances.add(course->previous_time(), course->time(), [&](Scalar t) noexcept { return course->inside(t); });
-    }
-    return {balances.energy(), balances.momentum()};
+  return detail::by_method(of, Integrator::any, [&](auto method) noexcept -> BalanceAnswer<Scalar> {
+    using Course = detail::FullCourse<decltype(method)>;
+    const auto run = [&](const Problem<Scalar>& its, int share, Scalar steps) noexcept {
+      BalanceAnswer<Scalar> made;
+      Course course(its, span, 1 / Scalar(share), {steps, steps}, step_cap);
+      Balances<Scalar> sum(its, course.prepared().wheels);
+      while (course.time() < span) {
+        if (course.step(span) != ode::Status::reached) return made;
+        sum.add(course.previous_time(), course.time(), [&](Scalar t) noexcept { return course.inside(t); });
+      }
+      made.energy = sum.energy(), made.momentum = sum.momentum(), made.work = sum.work(), made.size = sum.size();
+      // rounding, and their part of what their sum is off by
+      const auto off = [&](Scalar all) noexcept {
+        return all > 0 ? all * (4 * epsilon<Scalar> + sum.energy() * sum.size() / sum.all_work().whole()) : Scalar(0);
+      };
+      made.work_off = {off(sum.all_work().torques), off(sum.all_work().motors)};
+      return made;
+    };
+    BalanceAnswer<Scalar> made = run(problem, 1, companion_step(step_tolerance));
+    if (!with_errors || !(made.energy < infinity<Scalar>)) return made;
+    const auto condition = detail::condition_of(of, Course(problem, span, Scalar(1), {}, step_cap).at(0));
+    const Scalar change = data_change(step_tolerance, condition);
+    const auto one = run(detail::beside(problem, change, Aside::first), 2, step_tolerance);
+    const auto two = run(detail::beside(problem, change, second_aside(condition)), 3, step_tolerance);
+    const auto raise = [](Scalar& off, Scalar a, Scalar b, Scalar c) noexcept {
+      using std::abs;
+      off = std::max(off, error_of_distances(std::max(abs(a - b), abs(a - c)), abs(b - c)));
+    };
+    raise(made.work_off.torques, made.work.torques, one.work.torques, two.work.torques);
+    raise(made.work_off.motors, made.work.motors, one.work.motors, two.work.motors);
+    return made;
   });
 }
 
@@ -495,8 +519,8 @@ BalanceResiduals<Scalar> balance_residuals(const Problem<Scalar>& problem, Scala
 extern template Result<FullMotionAnswer<double>> full_motion<double>(const Problem<double>&, std::span<const double>,
                                                                      std::span<State<double>>,
                                                                      const FullMotionOptions<double>&) noexcept;
-extern template BalanceResiduals<double> balance_residuals<double>(const Problem<double>&, double, double,
-                                                                   std::uint64_t) noexcept;
+extern template BalanceAnswer<double> balance<double>(const Problem<double>&, double, double, bool,
+                                                      std::uint64_t) noexcept;
 #endif
 
 }  // namespace gyrostat::general

@@ -79,7 +79,7 @@ GYROSTAT_COMPILED_ONCE std::array<double, primitive::count> off_of(const Track& 
                                                                    const Scene& scene) noexcept;
 
 /// Where it is asked for: how well energy and momentum at the last time agree with all power and torque on the way, by a run of its own.
-GYROSTAT_COMPILED_ONCE void balance(Track& track, const Scene& scene, double step_tolerance) noexcept;
+GYROSTAT_COMPILED_ONCE void add_balance(Track& track, const Scene& scene, double step_tolerance) noexcept;
 
 }  // namespace detail
 

@@ -78,14 +78,22 @@ struct RunReader {
   }
 };
 
-GYROSTAT_COMPILED_ONCE void balance(Track& track, const Scene& scene, double step_tolerance) noexcept {
+GYROSTAT_COMPILED_ONCE void add_balance(Track& track, const Scene& scene, double step_tolerance) noexcept {
   const Question& question = scene.question();
-  if (!aim_of(question, tables, true, scalar::energy_balance) &&
-      !aim_of(question, tables, true, scalar::momentum_balance))
-    return;
-  const auto residuals = balance_residuals<double>(scene.problem(), question.times.back(), step_tolerance);
-  track.energy_balance = residuals.energy;
-  track.momentum_balance = residuals.momentum;
+  const auto asks = [&](std::size_t which) { return aim_of(question, tables, true, which).has_value(); };
+  constexpr double share_of_size = 1e-3;  // works may cancel
+  const bool works = asks(scalar::work_torques) || asks(scalar::work_motors);
+  if (!works && !asks(scalar::energy_balance) && !asks(scalar::momentum_balance)) return;
+  const auto found = balance<double>(scene.problem(), question.times.back(), companion_step(step_tolerance), works);
+  track.energy_balance = found.energy;
+  track.momentum_balance = found.momentum;
+  if (!works) return;
+  const auto error = [&](double work, double off) noexcept {
+    return relative_to_truth(over(off, std::max(std::abs(work), share_of_size * found.size)));
+  };
+  track.work = found.work;
+  track.work_error = {error(found.work.torques, found.work_off.torques),
+                      error(found.work.motors, found.work_off.motors)};
 }
 
 /// Whether the scene is integrated by Radau: where wheels are stiff, or as the question names it.
@@ -171,7 +179,7 @@ inline Track track_of(const Scene& scene, Monitor* monitor, bool alone) {
   }
   track.counts = answer->counts;
   if (alone) RunReader::judge(&reader, *answer);
-  else balance(track, scene, companion_step(answer->step_tolerance));
+  else add_balance(track, scene, answer->step_tolerance);
   return track;
 }
 

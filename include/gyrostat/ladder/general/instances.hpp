@@ -34,6 +34,7 @@ struct HeavyInstance {
   heavy::Scene scene;
   Quat<double> q_HI;           ///< inertial axes to those of the family, 3 up
   Vec3<double> turn{0, 0, 0};  ///< l/C, rad/s, body axes
+  bool down_alone = false;     ///< of what the attitude makes down alone is asked for, and is that of the family
 };
 
 /// A scene of the family `rotor`, and the way back: rates of its rotor are greater by `shift`.
@@ -164,8 +165,23 @@ struct Spinners {
   }
 };
 
-/// Whether a column is asked for that is made of the attitude.
-GYROSTAT_COMPILED_ONCE bool wants_attitude(const Question& question) noexcept;
+/// Whether a column is asked for that is made of the attitude, another than this one.
+GYROSTAT_COMPILED_ONCE bool wants_attitude(const Question& question,
+                                           std::size_t but = std::size(column_kinds)) noexcept;
+
+/// A rotation that takes the unit vector d to -e3; the identity where it is that.
+inline Quat<double> to_heavy_axes(const Vec3<double>& d) noexcept {
+  if (d[0] == 0 && d[1] == 0 && d[2] < 0) return {};
+  // half way between d and -e3, or any axis across where they are opposite
+  const Vec3<double> target(0, 0, -1);
+  const double cosine = d.dot(target);
+  if (cosine < -0.5) {
+    const Quat<double> flip{0, 1, 0, 0};
+    return to_heavy_axes(rotate<double>(flip, d)) * flip;
+  }
+  const Vec3<double> axis = cross<double>(d, target);
+  return normalised(Quat<double>{1 + cosine, axis[0], axis[1], axis[2]});
+}
 
 /// What all families are asked first, until a rung is asked: the times and whether the attitude matters.
 GYROSTAT_COMPILED_ONCE Question plain(const Question& question);

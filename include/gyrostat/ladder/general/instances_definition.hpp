@@ -92,9 +92,9 @@ GYROSTAT_COMPILED_ONCE Loads Loads::of(const Problem<double>& problem, const Col
   return made;
 }
 
-GYROSTAT_COMPILED_ONCE bool wants_attitude(const Question& question) noexcept {
+GYROSTAT_COMPILED_ONCE bool wants_attitude(const Question& question, std::size_t but) noexcept {
   for (std::size_t c = 0; c < std::size(column_kinds); ++c)
-    if (has(made_of[c], primitive::attitude) && aim_of(question, tables, false, c)) return true;
+    if (c != but && has(made_of[c], primitive::attitude) && aim_of(question, tables, false, c)) return true;
   return false;
 }
 

@@ -109,7 +109,7 @@ static_assert(std::size(made_of) == std::size(column_kinds));
 
 /// Places in scalar_kinds.
 namespace scalar {
-enum : std::size_t { recognised, stop_time, energy_balance, momentum_balance };
+enum : std::size_t { recognised, stop_time, energy_balance, momentum_balance, work_torques, work_motors };
 }
 
 /// Families that a scene may be found to be an instance of, in the order in which they are looked for.
@@ -129,6 +129,13 @@ inline constexpr ScalarKind scalar_kinds[] = {
      "size"},
     {"momentum_balance", 1, "1", Frame::none, Measure::none,
      "of the full equations: the same of momentum, inertial axes, and torque"},
+    {"work_torques", 1, "J", Frame::none, Measure::relative,
+     "of the full equations: work of the external torques up to the last time; its error, as that of work_motors, is "
+     "relative to it or to a thousandth of all energy and work, whichever is greater"},
+    {"work_motors", 1, "J", Frame::none, Measure::relative,
+     "of the full equations: work of motors and bearings up to the last time, that of a motor which changes a held "
+     "rate "
+     "among it, not what one takes to hold it"},
 };
 
 /// Places in warning_kinds.

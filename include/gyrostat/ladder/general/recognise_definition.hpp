@@ -81,21 +81,9 @@ inline const char* as_deceleration(const Given& given, std::optional<deceleratio
   return nullptr;
 }
 
-/// A rotation that takes the unit vector d to -e3; the identity where it is that.
-inline Quat<double> to_heavy_axes(const Vec3<double>& d) noexcept {
-  if (d[0] == 0 && d[1] == 0 && d[2] < 0) return {};
-  // half way between d and -e3, or any axis across where they are opposite
-  const Vec3<double> target(0, 0, -1);
-  const double cosine = d.dot(target);
-  if (cosine < -0.5) {
-    const Quat<double> flip{0, 1, 0, 0};
-    return to_heavy_axes(rotate<double>(flip, d)) * flip;
-  }
-  const Vec3<double> axis = cross<double>(d, target);
-  return normalised(Quat<double>{1 + cosine, axis[0], axis[1], axis[2]});
-}
-
-inline const char* as_heavy(const Given& given, std::optional<HeavyInstance>& instance, double* dropped) {
+/// down_alone: of what the attitude makes nothing else is asked for.
+inline const char* as_heavy(const Given& given, bool down_alone, std::optional<HeavyInstance>& instance,
+                            double* dropped) {
   const auto& [problem, wheels, loads, spinners, question] = given;
   if (loads.other) return loads.other;
   if (!loads.weighs) return "no weight, gradient or dipole in a field that stands still";
@@ -131,7 +119,10 @@ inline const char* as_heavy(const Given& given, std::optional<HeavyInstance>& in
   start.state.angular_velocity = problem.angular_velocity + made.turn;
   start.state.attitude = made.q_HI * problem.attitude;
   start.oriented = true;
-  const auto scene = heavy::Scene::make(*body, start, question);
+  Question asked = question;
+  made.down_alone = down_alone && loads.direction == problem.field.down;
+  if (made.down_alone) asked.wants_attitude = false;
+  const auto scene = heavy::Scene::make(*body, start, asked);
   if (!scene) return message(scene.error());
   made.scene = *scene;
   instance = made;
@@ -241,7 +232,8 @@ GYROSTAT_COMPILED_ONCE Instances recognise(const Problem<double>& problem, const
   const auto dropped = [&](Special special) { return &found.dropped[std::size_t(special)]; };
   why(Special::free) = detail::as_free(given, found.free);
   why(Special::deceleration) = detail::as_deceleration(given, found.deceleration, dropped(Special::deceleration));
-  why(Special::heavy) = detail::as_heavy(given, found.heavy, dropped(Special::heavy));
+  why(Special::heavy) =
+      detail::as_heavy(given, !detail::wants_attitude(question, column::down), found.heavy, dropped(Special::heavy));
   why(Special::rotor) = detail::as_rotor(given, found.rotor, dropped(Special::rotor));
   why(Special::spinning) = detail::as_spinning(given, found.spinning, dropped(Special::spinning));
   return found;

@@ -123,6 +123,10 @@ inline void describe(Answer& answer, const Scene& scene, const Track& track) {
   if (!std::isnan(track.stop_time)) tell(scalar::stop_time, track.stop_time, track.stop_error);
   if (!std::isnan(track.energy_balance)) tell(scalar::energy_balance, track.energy_balance);
   if (!std::isnan(track.momentum_balance)) tell(scalar::momentum_balance, track.momentum_balance);
+  if (!std::isnan(track.work.whole())) {
+    tell(scalar::work_torques, track.work.torques, track.work_error.torques);
+    tell(scalar::work_motors, track.work.motors, track.work_error.motors);
+  }
   const auto& problem = scene.problem();
   const double room = realisability(problem);
   if (room < -8 * epsilon<double> * problem.inertia.trace() &&

@@ -55,7 +55,12 @@ class Reader {
   /// take(state, row) for each time where the family gives the primitive, and how far it is off.
   template <class Take>
   void read(std::size_t p, const Take& take) const {
-    const Column* column = find(from_.of[p]);
+    read(p, from_.of[p], take);
+  }
+  /// The same by another column of the family.
+  template <class Take>
+  void read(std::size_t p, int place, const Take& take) const {
+    const Column* column = find(place);
     if (!column) return;
     track_.off[p] = absolute_error(*column);
     const auto width = std::size_t(column->row_width());

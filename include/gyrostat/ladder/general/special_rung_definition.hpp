@@ -31,6 +31,7 @@ GYROSTAT_COMPILED_ONCE Question question_for(const Scene& scene, Special special
     made.asked.push_back({std::size_t(place), false, tolerance, absolute, aim.needed});
   };
   const bool all = question.asked.empty() && question.rung != any_rung;
+  const bool down_alone = special == Special::heavy && scene.instances().heavy->down_alone;
   for (std::size_t c = 0; c < std::size(column_kinds); ++c) {
     auto aim = aim_of(question, tables, false, c);
     if (all) aim = Aim{question.tolerance, false, false};
@@ -41,6 +42,10 @@ GYROSTAT_COMPILED_ONCE Question question_for(const Scene& scene, Special special
     }
     if (c == column::energy && from.energy >= 0) {
       want(from.energy, *aim, true);
+      continue;
+    }
+    if (c == column::down && down_alone) {
+      want(heavy::column::down, *aim, true);
       continue;
     }
     for (std::size_t p = 0; p < primitive::count; ++p) {
@@ -183,7 +188,14 @@ GYROSTAT_COMPILED_ONCE void map_back(const Scene& scene, const HeavyInstance& he
   const double n = heavy.turn.norm();
   const Quat<double> back = conjugate(heavy.q_HI);
   const bool turned = n > 0, oriented = !(heavy.q_HI == Quat<double>{});
-  from.read(primitive::attitude, take_attitude);
+  if (heavy.down_alone) {
+    // one attitude of those with this down
+    from.read(primitive::attitude, heavy::column::down,
+              [](State<double>& s, const double* row) { s.attitude = to_heavy_axes(Reader::vector(row)); });
+    track.off[primitive::attitude] += 4 * epsilon<double>;
+  } else {
+    from.read(primitive::attitude, take_attitude);
+  }
   from.read(primitive::angular_velocity, take_rate);
   if (!turned && !oriented) return;
   for (std::size_t i = 0; i < times.size(); ++i) {

@@ -40,7 +40,9 @@ struct Track : Outcome {
   /// From when to when a brake holds the body, s, and how well each begin is known: there all torque is that of rest.
   std::vector<std::array<double, 2>> rests;
   double rest_off = 0;
+  /// Of torques and motors, where that is asked for.
   double energy_balance = nan<double>, momentum_balance = nan<double>;
+  Power<double> work{nan<double>, nan<double>}, work_error = work;  ///< J; relative
 
   Track() { off.fill(nan<double>); }
 };
