@@ -194,6 +194,7 @@
 #include "gyrostat/models/general/full.hpp"
 #include "gyrostat/models/general/full_orders.hpp"
 #include "gyrostat/models/general/holding.hpp"
+#include "gyrostat/models/general/invariants.hpp"
 #include "gyrostat/models/general/known_momentum.hpp"
 #include "gyrostat/models/general/outward.hpp"
 #include "gyrostat/models/general/parts.hpp"

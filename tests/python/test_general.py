@@ -144,7 +144,7 @@ def test_what_is_an_instance_and_what_just_is_not(changes: dict[str, Any], famil
 
 # Of two numbers of roundings the first is within the rule and the second is not: 8 of the greatest of what was summed or compared.
 BORDERS: list[tuple[str, int, int, Any]] = [
-    ("deceleration", 11, 13, lambda r: {"torque": [damping(against="momentum", coefficient=[0.01, 0.01, 0.01 * (1 + r * EPS)])]}),  # 2/3 of r
+    ("deceleration", 8, 9, lambda r: {"torque": [damping(against="momentum", coefficient=[0.01, 0.01, 0.01 * (1 + r * EPS)])]}),
     # of 0.001 and 0.001; so weak that what is left does no more than a rounding of the momentum
     ("free", 7, 9, lambda r: {"torque": [{**CONSTANT, "torque": [0.0005, 0.001, -0.0005]},
                                          {**CONSTANT, "torque": [-0.0005, -0.001, 0.0005 + 0.002 * r * EPS]}]}),
@@ -185,6 +185,10 @@ def rewritten() -> list[str]:
     return [name for name in names if load(name).tables["initial"].get("periodic") is None]
 
 
+# Whose map into a general scene rounds: an axis that is not of unit length to all digits, a start by Euler angles, by the momentum, or by down alone.
+ROUNDED = {"flat-spin-recovery-study", "stiff-wheel", "two-attractors", "gyrostat-kick", "near-separatrix", "slow-pendulum"}
+
+
 @pytest.mark.parametrize("name", rewritten())
 def test_every_scene_of_the_families_is_found_again_as_a_general_one(name: str) -> None:
     own = load(name).replace(times=[float(t) for t in load(name).times[[0, len(load(name).times) // 2]]])
@@ -196,6 +200,8 @@ def test_every_scene_of_the_families_is_found_again_as_a_general_one(name: str) 
     one, other = (gyrostat.solve(each, ask=shared) for each in (own, general))
     assert other.met == one.met
     agree(one, other, *shared)
+    if name not in ROUNDED:
+        assert all(np.array_equal(one[each], other[each]) for each in shared)
 
 
 @pytest.mark.parametrize("model", ["auto", "spinning:linear", "spinning:full"])

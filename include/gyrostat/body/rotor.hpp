@@ -26,7 +26,7 @@ class Rotor {
     if (!(std::abs(length - 1) <= Scalar(1e-8) + 4 * epsilon<Scalar>)) return Errc::out_of_domain;
     if (!(axial_inertia > 0)) return Errc::not_positive;
     Rotor rotor;
-    rotor.axis_ = axis_B / length;
+    rotor.axis_ = std::abs(length - 1) <= 4 * epsilon<Scalar> ? axis_B : Vec3<Scalar>(axis_B / length);
     rotor.axial_inertia_ = axial_inertia;
     return rotor;
   }

@@ -76,12 +76,15 @@ GYROSTAT_COMPILED_ONCE Loads Loads::of(const Problem<double>& problem, const Col
   made.brake_total = sum.brake_total;
   made.brake_carrier = sum.brake_carrier;
   if (!one_direction(sum, size, made)) outside("torques are constant along more than one direction of space");
+  const Vec3<double>& down = problem.field.down;
+  if (made.direction.dot(down) < 0) made.direction *= -1, made.moment *= -1;
+  // that of weight alone is known without rounding
+  if ((made.direction - down).cwiseAbs().maxCoeff() <= slack) made.direction = down;
   if (sum.gradient != 0) {
-    if (made.weighs && !parallel(made.direction, problem.field.down, dropped))
+    if (made.weighs && !parallel(made.direction, down, dropped))
       outside("weight and gravity gradient have different directions");
     made.gradient = sum.gradient;
-    if (!made.weighs) made.direction = problem.field.down;
-    else if (made.direction.dot(problem.field.down) < 0) made.direction *= -1, made.moment *= -1;
+    if (!made.weighs) made.direction = down;
     made.weighs = true;
   }
   const auto drops_force = [&](const Vec3<double>& residue, const Vec3<double>& of) noexcept {

@@ -39,7 +39,9 @@ inline const char* as_free(const Given& given, std::optional<free::Scene>& scene
 /// matters.
 inline double multiple_of(const Mat3<double>& m, const Mat3<double>& of, const Mat3<double>& size, const Loads& loads,
                           double per, double* dropped) noexcept {
-  const double factor = m.trace() / of.trace();
+  int i = 0;
+  of.diagonal().cwiseAbs().maxCoeff(&i);
+  const double factor = m(i, i) / of(i, i);
   return loads.drop(m - factor * of, size, per, dropped) ? factor : nan<double>;
 }
 
@@ -142,11 +144,13 @@ inline const char* as_rotor(const Given& given, std::optional<RotorInstance>& in
   const Vec3<double> rest = spinners.kept - loads.charge;
   if (!parallel(rest, law.axis, dropped)) return "other momentum is not along the driven wheel";
   made.shift = rest.dot(law.axis) / law.axial_inertia;
-  const double no_load = law.torque / law.friction;
+  // without friction the rate that the motor was given by
+  const auto& wheel = problem.wheels[made.driven];
+  const double no_load = law.friction == wheel.slope ? wheel.no_load_rate : law.torque / law.friction;
   if (!(std::abs(no_load) <= 1e8)) return "the motor hardly feels its rate";
   const Mat3<double> J = wheels.reduced + law.axial_inertia * law.axis * law.axis.transpose();
   const bool alone = !spinners.free;  // then J is that of the whole, as it was given
-  const auto body = rotor::Gyrostat<double>::make(alone ? wheels.whole : J, law.axis, law.axial_inertia, law.friction,
+  const auto body = rotor::Gyrostat<double>::make(alone ? wheels.whole : J, wheel.axis, law.axial_inertia, law.friction,
                                                   no_load + made.shift);
   if (!body) return message(body.error());
   const auto scene =

@@ -68,12 +68,13 @@ struct Neighbour {
     const auto changed = [](const Vec3<Scalar>& x, Scalar a, Scalar b, Scalar c) noexcept {
       return Vec3<Scalar>(x[0] * (1 + a), x[1] * (1 + b), x[2] * (1 + c));
     };
-    Vec3<Scalar> centre = changed(of.centre_of_mass(), v[2], v[0], v[1]);
+    // not as down is moved: in a balance both would turn alike
+    Vec3<Scalar> centre = changed(of.centre_of_mass(), -v[2], -v[0], -v[1]);
     Vec3<Scalar> inertia = changed(of.inertia(), v[0], v[1], v[2]);
     if (converted) {
       inertia = of.inertia() + of.inertia().maxCoeff() * v;
       turn = misaligned(of.inertia(), v);
-      centre = turn * of.centre_of_mass() + of.centre_of_mass().norm() * Vec3<Scalar>(v[2], v[0], v[1]);
+      centre = turn * of.centre_of_mass() - of.centre_of_mass().norm() * Vec3<Scalar>(v[2], v[0], v[1]);
     }
     auto made =
         Problem<Scalar>::make(inertia, of.mass(), centre, of.gravity() * (1 + v[0]), of.gradient() * (1 + v[1]));

@@ -11,6 +11,7 @@
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
 #include "gyrostat/models/general/collected.hpp"
+#include "gyrostat/models/general/invariants.hpp"
 #include "gyrostat/models/general/known_momentum.hpp"
 #include "gyrostat/models/general/outward.hpp"
 #include "gyrostat/models/general/parts.hpp"
@@ -79,7 +80,7 @@ class FullSystem {
   void expand(Scalar t, Scalar unit, Scalar (&x)[Order + 1][width], Work<Order>& work) const noexcept;
 
   /// Moves a state onto the laws it obeys exactly: |q| = 1; R M = L, constant without a torque (then the body is turned), or with a known
-  /// integral where all torque is inertial (then M gives way).
+  /// integral where all torque is inertial (then M gives way); else energy and momentum, where they are kept.
   void project(Scalar t, Scalar* x, Scalar* low) const noexcept;
 
   /// W, the integral of the angular velocity, rad.
@@ -199,6 +200,7 @@ class FullSystem {
   Row by_wheel_[most_wheels], wheel_axis_[most_wheels];  ///< what w changes by with its momentum; its axis
   Row axes_[2][3], inverse_[2], friction_[2];
   KnownMomentum<Scalar> known_;
+  Invariants<Scalar> invariants_;
 };
 
 template <Real Real_, bool large>
@@ -209,7 +211,8 @@ FullSystem<Real_, large>::FullSystem(const Prepared<Scalar>& of, const Piece<Sca
       whole_(of.wheels.whole),
       inertia_inverse_(of.wheels.inverse),
       shape_(of.wheels.whole),
-      known_(piece, start.data(), lost.data(), before) {
+      known_(piece, start.data(), lost.data(), before),
+      invariants_(of, piece, start.data(), lost.data()) {
   if (of.problem.orbit) normal_ = cross<Scalar>(of.problem.orbit->radial, of.problem.orbit->along);
   take_parts();
   take_wheels();
@@ -286,19 +289,24 @@ void FullSystem<Real_, large>::project(Scalar t, Scalar* x, Scalar* low) const n
   const Scalar stretch = -excess / 2 - stretched;
   const Quat<Scalar> q{x[0], x[1], x[2], x[3]};
   Quat<Scalar> more{stretch * q.w, stretch * q.x, stretch * q.y, stretch * q.z};
-  if (known_) {
-    const Vec3<Scalar> M(x[4], x[5], x[6]);
-    if (const Scalar size = M.norm(); known_.is_free() && size > 0) {
-      // the turn d of the body with d x M = R^T L - M
-      const Vec3<Scalar> wanted = rotate<Scalar>(conjugate(q), known_.at(t));
-      const Vec3<Scalar> d = cross<Scalar>(M / size, Vec3<Scalar>(wanted - M) / size);
-      const Quat<Scalar> tilt = q * Quat<Scalar>{0, d[0] / 2, d[1] / 2, d[2] / 2};
-      more = {more.w + tilt.w, more.x + tilt.x, more.y + tilt.y, more.z + tilt.z};
-    } else if (!known_.is_free()) {
-      const Vec3<Scalar> missing = known_.missing(t, x, low);
-      for (int i = 0; i < 3; ++i) add_to(x[4 + i], low[4 + i], missing[i]);
-    }
+  Vec3<Scalar> turn(0, 0, 0);
+  if (known_ && !known_.is_free()) {
+    const Vec3<Scalar> missing = known_.missing(t, x, low);
+    for (int i = 0; i < 3; ++i) add_to(x[4 + i], low[4 + i], missing[i]);
+  } else if (invariants_) {
+    const Quat<Scalar> unit{q.w + more.w, q.x + more.x, q.y + more.y, q.z + more.z};
+    const auto missing = invariants_.missing(t, unit, x, low);
+    for (int i = 0; i < 3; ++i) add_to(x[4 + i], low[4 + i], missing.momentum[i]);
+    turn = missing.turn;
   }
+  const Vec3<Scalar> M(x[4], x[5], x[6]);
+  if (const Scalar size = M.norm(); known_ && known_.is_free() && size > 0) {
+    // that with turn x M = R^T L - M
+    const Vec3<Scalar> wanted = rotate<Scalar>(conjugate(q), known_.at(t));
+    turn = cross<Scalar>(M / size, Vec3<Scalar>(wanted - M) / size);
+  }
+  const Quat<Scalar> tilt = q * Quat<Scalar>{0, turn[0] / 2, turn[1] / 2, turn[2] / 2};
+  more = {more.w + tilt.w, more.x + tilt.x, more.y + tilt.y, more.z + tilt.z};
   add_to(x[0], low[0], more.w);
   add_to(x[1], low[1], more.x);
   add_to(x[2], low[2], more.y);
