@@ -144,6 +144,7 @@
 #include "gyrostat/math/exp_difference.hpp"
 #include "gyrostat/math/incomplete.hpp"
 #include "gyrostat/math/jacobi.hpp"
+#include "gyrostat/math/least_change.hpp"
 #include "gyrostat/math/least_squares.hpp"
 #include "gyrostat/math/linear_solve.hpp"
 #include "gyrostat/math/many.hpp"

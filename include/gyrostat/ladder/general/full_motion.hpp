@@ -497,6 +497,9 @@ BalanceAnswer<Scalar> balance(const Problem<Scalar>& problem, Scalar span, Scala
         return all > 0 ? all * (4 * epsilon<Scalar> + sum.energy() * sum.size() / sum.all_work().whole()) : Scalar(0);
       };
       made.work_off = {off(sum.all_work().torques), off(sum.all_work().motors)};
+      // an energy that is kept is known to a rounding of what is in it, a potential among it
+      if (made.work_off.torques > 0)
+        made.work_off.torques += 4 * epsilon<Scalar> * (of.sizes.external + of.sizes.forcing * of.sizes.momentum());
       return made;
     };
     BalanceAnswer<Scalar> made = run(problem, 1, companion_step(step_tolerance));

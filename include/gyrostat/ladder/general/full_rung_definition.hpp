@@ -81,19 +81,19 @@ struct RunReader {
 GYROSTAT_COMPILED_ONCE void add_balance(Track& track, const Scene& scene, double step_tolerance) noexcept {
   const Question& question = scene.question();
   const auto asks = [&](std::size_t which) { return aim_of(question, tables, true, which).has_value(); };
-  constexpr double share_of_size = 1e-3;  // works may cancel
   const bool works = asks(scalar::work_torques) || asks(scalar::work_motors);
   if (!works && !asks(scalar::energy_balance) && !asks(scalar::momentum_balance)) return;
   const auto found = balance<double>(scene.problem(), question.times.back(), companion_step(step_tolerance), works);
   track.energy_balance = found.energy;
   track.momentum_balance = found.momentum;
   if (!works) return;
-  const auto error = [&](double work, double off) noexcept {
-    return relative_to_truth(over(off, std::max(std::abs(work), share_of_size * found.size)));
+  // both together are what the energy has changed by, whose error all of the way has shown
+  const auto error = [&](double off) noexcept {
+    if (off > 0) off = std::max(off, std::isnan(track.compared.energy) ? 0 : track.compared.energy);
+    return relative_to_truth(over(off, found.size));
   };
   track.work = found.work;
-  track.work_error = {error(found.work.torques, found.work_off.torques),
-                      error(found.work.motors, found.work_off.motors)};
+  track.work_error = {error(found.work_off.torques), error(found.work_off.motors)};
 }
 
 /// Whether the scene is integrated by Radau: where wheels are stiff, or as the question names it.

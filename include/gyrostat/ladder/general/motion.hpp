@@ -131,7 +131,7 @@ inline constexpr ScalarKind scalar_kinds[] = {
      "of the full equations: the same of momentum, inertial axes, and torque"},
     {"work_torques", 1, "J", Frame::none, Measure::relative,
      "of the full equations: work of the external torques up to the last time; its error, as that of work_motors, is "
-     "relative to it or to a thousandth of all energy and work, whichever is greater"},
+     "relative to all energy and work, for works may cancel"},
     {"work_motors", 1, "J", Frame::none, Measure::relative,
      "of the full equations: work of motors and bearings up to the last time, that of a motor which changes a held "
      "rate "

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "gyrostat/core/real.hpp"
+#include "gyrostat/math/least_change.hpp"
 #include "gyrostat/models/general/collected.hpp"
 #include "gyrostat/models/general/parts.hpp"
 #include "gyrostat/models/general/piece.hpp"
@@ -21,7 +22,7 @@
 namespace gyrostat::general {
 
 /// Over a piece, as far as all that acts in it spares them (docs/general.md, section 1.7):
-///     energy    H = G.J*^-1 G/2 - sum m.v + (N/2) d.J d + (N/2) rh.J rh - n hh.M,  G = M - l: on a circular orbit Jacobi's integral;
+///     energy    H = G.J*^-1 G/2 - sum m.v + (N/2) d.J d + (N/2) rh.J rh - n hh.(M - e_H),  G = M - l: on a circular orbit Jacobi's integral;
 ///     momentum  K = (M - e_H).v, where one direction v of space is all that torques know; without any |M|^2/2.
 template <Real Scalar>
 class Invariants {
@@ -98,10 +99,10 @@ class Invariants {
     if (orbit_ != nullptr) energy += orbit_gradient_ * form(whole_, seen.outward);
     energy = energy / 2;
     for (int i = 0; i < directions_.count; ++i) energy -= seen.directions[i].dot(vector_cast<Number>(moments_[i]));
-    if (orbit_ != nullptr) energy -= orbit_rate_ * seen.normal.dot(M);
+    const Vec3<Number> own = M - vector_cast<Number>(charge_);
+    if (orbit_ != nullptr) energy -= orbit_rate_ * seen.normal.dot(own);
     if (!keeps_momentum_) return {energy, Number(0)};
-    const Number momentum =
-        is_free_ ? M.squaredNorm() / 2 : seen.directions[0].dot(Vec3<Number>(M - vector_cast<Number>(charge_)));
+    const Number momentum = is_free_ ? M.squaredNorm() / 2 : seen.directions[0].dot(own);
     return {energy, momentum};
   }
 
@@ -195,6 +196,7 @@ auto Invariants<Scalar>::missing(Scalar t, const Quat<Scalar>& q, const Scalar* 
   const auto now = values<Scalar>(seen, M);
 
   // derivatives by M and by a turn of the body
+  const Vec3<Scalar> own = M - charge_;
   const Vec3<Scalar> w = inverse_ * Vec3<Scalar>(M - wheels_),
                      n = orbit_ != nullptr ? Vec3<Scalar>(orbit_rate_ * seen.normal) : Vec3<Scalar>(0, 0, 0);
   Vec3<Scalar> torque(0, 0, 0);
@@ -202,8 +204,7 @@ auto Invariants<Scalar>::missing(Scalar t, const Quat<Scalar>& q, const Scalar* 
   if (gradient_ != 0) torque += gradient_ * cross<Scalar>(seen.down, Vec3<Scalar>(whole_ * seen.down));
   if (orbit_ != nullptr) torque += orbit_gradient_ * cross<Scalar>(seen.outward, Vec3<Scalar>(whole_ * seen.outward));
   const Vec3<Scalar> energy_by_M = loose_inverse_ * Vec3<Scalar>(M - wheels_) - n,
-                     energy_by_turn = -torque - cross<Scalar>(M, n);
-  const Vec3<Scalar> own = M - charge_;
+                     energy_by_turn = -torque - cross<Scalar>(own, n);
   const Vec3<Scalar> momentum_by_M = is_free_ ? M : seen.directions[0];
   const Vec3<Scalar> momentum_by_turn = is_free_ ? Vec3<Scalar>(0, 0, 0) : cross<Scalar>(own, seen.directions[0]);
 
@@ -231,17 +232,7 @@ auto Invariants<Scalar>::missing(Scalar t, const Quat<Scalar>& q, const Scalar* 
                        size);
   }
   if (keeps_energy_ && keeps_momentum_) es = product(energy_by_M, energy_by_turn, momentum_by_M, momentum_by_turn);
-  // both, or one alone where they are not independent
-  const Scalar determinant = ee * ss - es * es;
-  Scalar by_energy = 0, by_momentum = 0;
-  if (64 * determinant > ee * ss) {
-    by_energy = (lacking_energy * ss - lacking_momentum * es) / determinant;
-    by_momentum = (lacking_momentum * ee - lacking_energy * es) / determinant;
-  } else if (ee > 0) {
-    by_energy = lacking_energy / ee;
-  } else if (ss > 0) {
-    by_momentum = lacking_momentum / ss;
-  }
+  const auto [by_energy, by_momentum] = math::least_change(lacking_energy, lacking_momentum, ee, es, ss);
   return {per_whole_ * (by_energy * energy_by_turn + by_momentum * momentum_by_turn),
           give * Vec3<Scalar>(loose_ * (by_energy * energy_by_M + by_momentum * momentum_by_M))};
 }

@@ -10,6 +10,7 @@
 #include "gyrostat/core/lane_pair.hpp"
 #include "gyrostat/core/lanes.hpp"
 #include "gyrostat/core/real.hpp"
+#include "gyrostat/math/least_change.hpp"
 #include "gyrostat/models/heavy/problem.hpp"
 #include "gyrostat/rotation/kinematics.hpp"
 #include "gyrostat/rotation/quaternion.hpp"
@@ -255,14 +256,7 @@ void EulerPoisson<Scalar>::project(Scalar* x, Scalar* low) const noexcept {
   const Scalar momentum = Iw.norm() * d.norm();
   Scalar ss = ss_of_all;
   if (std::abs(lacking_momentum) <= 64 * epsilon<Scalar> * momentum) ss += per_whole_ * momentum * momentum;
-  const Scalar determinant = ee * ss - es * es;
-  Scalar by_energy = 0, by_momentum = 0;
-  if (64 * determinant > ee * ss) {
-    by_energy = (lacking_energy * ss - lacking_momentum * es) / determinant;
-    by_momentum = (lacking_momentum * ee - lacking_energy * es) / determinant;
-  } else if (ee > 0) {
-    by_energy = lacking_energy / ee;
-  }
+  const auto [by_energy, by_momentum] = math::least_change(lacking_energy, lacking_momentum, ee, es, ss);
   const Vec3<Scalar> w_change = give * (by_energy * w_free + by_momentum * d_free);
   d_change += per_whole_ * (by_energy * e + by_momentum * s);
   for (int i = 0; i < 3; ++i) {
