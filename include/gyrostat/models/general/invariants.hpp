@@ -40,25 +40,8 @@ class Invariants {
   /// Of x + lost at t; q: the quaternion in x brought to unit length.
   Change missing(Scalar t, const Quat<Scalar>& q, const Scalar* x, const Scalar* lost) const noexcept;
 
-  /// Whether the torques of a sum that does not change with time leave the energy.
-  static bool are_conservative(const Terms<Scalar>& sum, const Problem<Scalar>& problem) noexcept {
-    Terms<Scalar> left = sum;
-    for (auto& A : left.inertial)
-      if (A == -A.transpose()) A.setZero();
-    if (left.by_rate == -left.by_rate.transpose()) left.by_rate.setZero();
-    left.gradient = 0;
-    if (problem.orbit && problem.orbit->eccentricity == 0 && still(sum)) left.orbit_gradient = 0;
-    return !left.any_torque();
-  }
-
  private:
   using Wide = Wider<Scalar>;
-
-  /// No direction of space has a torque, which an orbit would turn against.
-  static bool still(const Terms<Scalar>& sum) noexcept {
-    return sum.gradient == 0 &&
-           std::all_of(sum.inertial.begin(), sum.inertial.end(), [](const auto& A) noexcept { return A.isZero(0); });
-  }
 
   template <class Number>
   struct Values {
@@ -138,7 +121,6 @@ Invariants<Scalar>::Invariants(const Prepared<Scalar>& of, const Piece<Scalar>& 
       of.settling.count == 0 && std::all_of(piece.momentum.begin() + 1, piece.momentum.end(),
                                             [](const auto& rate) noexcept { return rate.isZero(0); });
   is_free_ = !sum.any_torque();
-  keeps_energy_ = steady_wheels && are_conservative(sum, problem);
 
   down_ = problem.field.down;
   add_directions(directions_, sum, normal_);
@@ -155,6 +137,9 @@ Invariants<Scalar>::Invariants(const Prepared<Scalar>& of, const Piece<Scalar>& 
   if (left.by_rate == -left.by_rate.transpose()) left.by_rate.setZero();
   left.gradient = 0;
   keeps_momentum_ = is_free_ || (directions_.count == 1 && !left.any_torque());
+  // an orbit turns against all directions of space that have a torque
+  if (problem.orbit && problem.orbit->eccentricity == 0 && directions_.count == 0) left.orbit_gradient = 0;
+  keeps_energy_ = steady_wheels && !left.any_torque();
   if (!*this) return;
 
   charge_ = {sum.by_rate(2, 1), sum.by_rate(0, 2), sum.by_rate(1, 0)};
